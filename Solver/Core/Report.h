@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** What a solve did and needed. The same in C++, on the command line and in VTK field data. */
+struct Report
+{
+  struct Level
+  {
+    std::int64_t nodes = 0;    ///< unknowns of the level
+    std::int64_t nonzeros = 0; ///< entries of its matrix, the diagonal included
+  };
+  struct Seconds
+  {
+    double convert = 0, build = 0, solve = 0, coarse = 0, io_wait = 0, total = 0;
+  };
+
+  std::int64_t vertices = 0, cells = 0;
+  std::vector<Level> levels;
+  int passes = 0, cycles = 0;
+  /** ||b - A x_k|| / ||b - A x_0|| after cycle k = 1, 2, ...; x_0 the initial values. */
+  std::vector<double> residuals;
+  bool converged = false;
+  std::int64_t peak_nodes = 0; ///< most nodes of all levels in memory at once
+  std::int64_t pool_bytes_peak = 0, rss_bytes_peak = 0;
+  std::int64_t bytes_read = 0, bytes_written = 0;
+  Seconds seconds;
+  double cpu_seconds = 0;
+  int threads = 1;
+  std::int64_t prescribed = 0;       ///< constrained vertices
+  std::int64_t held = 0;             ///< vertices without a weighted cell: they keep their value
+  std::int64_t degenerate_cells = 0; ///< cells without weight
+  std::int64_t clamped_weights = 0;  ///< edges whose weight was raised to the floor
+  /** Connected components, and how many of them have no constrained vertex. */
+  std::int64_t components = 0, free_components = 0;
+  /** What a user should know: how free components were treated, why it did not converge ... */
+  std::vector<std::string> notes;
+
+  /** As a JSON object with the names above. */
+  std::string json(int indent = 2) const;
+};
+
+} // namespace smg

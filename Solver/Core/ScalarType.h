@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+namespace smg
+{
+
+/** The scalar types a column may have. The values are part of the file format. */
+enum class ScalarType : std::uint8_t
+{
+  Int8 = 0,
+  UInt8 = 1,
+  Int16 = 2,
+  UInt16 = 3,
+  Int32 = 4,
+  UInt32 = 5,
+  Int64 = 6,
+  UInt64 = 7,
+  Float32 = 8,
+  Float64 = 9
+};
+
+/** Bytes of one scalar. */
+constexpr std::size_t sizeOf(ScalarType type)
+{
+  constexpr std::size_t sizes[] = { 1, 1, 2, 2, 4, 4, 8, 8, 4, 8 };
+  return sizes[static_cast<int>(type)];
+}
+
+/** "int8" ... "float64". */
+constexpr std::string_view nameOf(ScalarType type)
+{
+  constexpr std::string_view names[] = { "int8", "uint8", "int16", "uint16", "int32", "uint32",
+    "int64", "uint64", "float32", "float64" };
+  return names[static_cast<int>(type)];
+}
+
+/** The ScalarType of a C++ arithmetic type. */
+template <class T>
+constexpr ScalarType scalarTypeOf()
+{
+  static_assert(std::is_arithmetic_v<T> && sizeof(T) <= 8);
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    return sizeof(T) == 4 ? ScalarType::Float32 : ScalarType::Float64;
+  }
+  else
+  {
+    constexpr int log2 = sizeof(T) == 1 ? 0 : sizeof(T) == 2 ? 1 : sizeof(T) == 4 ? 2 : 3;
+    return static_cast<ScalarType>(2 * log2 + (std::is_unsigned_v<T> ? 1 : 0));
+  }
+}
+
+/** Calls f with a value-initialised scalar of the C++ type that `type` names. */
+template <class F>
+decltype(auto) dispatch(ScalarType type, F&& f)
+{
+  switch (type)
+  {
+    case ScalarType::Int8:
+      return f(std::int8_t{});
+    case ScalarType::UInt8:
+      return f(std::uint8_t{});
+    case ScalarType::Int16:
+      return f(std::int16_t{});
+    case ScalarType::UInt16:
+      return f(std::uint16_t{});
+    case ScalarType::Int32:
+      return f(std::int32_t{});
+    case ScalarType::UInt32:
+      return f(std::uint32_t{});
+    case ScalarType::Int64:
+      return f(std::int64_t{});
+    case ScalarType::UInt64:
+      return f(std::uint64_t{});
+    case ScalarType::Float32:
+      return f(float{});
+    default:
+      return f(double{});
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Stream/Column.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** How the columns of a block file are compressed. The values are part of the file format. */
+enum class Codec : std::uint8_t
+{
+  None = 0,
+  Lz4 = 1,
+  Zstd = 2
+};
+
+/** Totals of the traffic of any number of block files. */
+struct IoStatistics
+{
+  std::atomic<std::int64_t> bytesRead{ 0 };
+  std::atomic<std::int64_t> bytesWritten{ 0 };
+  /** Nanoseconds that a caller stood waiting for the disk. */
+  std::atomic<std::int64_t> waitNanoseconds{ 0 };
+};
+
+/** A table of a block file: rows that all have the same columns. */
+struct TableSpec
+{
+  std::string name;
+  /** A column of 0 components is opaque: any number of bytes a block, not tied to the rows. */
+  std::vector<ColumnSpec> columns;
+  bool operator==(const TableSpec&) const = default;
+};
+
+/**
+ * Writes a block file: a container of tables, each cut into blocks of rows, each block's columns
+ * compressed and checksummed (XXH3, 64 bits) one by one. A header in JSON, the table layout and an
+ * index of all blocks make any block readable by itself.
+ *
+ * The file is written under a temporary name beside `path` and renamed by finish(); without
+ * finish() the destructor removes it. Writing is done behind the caller on a thread of the writer;
+ * at most `WriteBehindBytes` wait in memory. A failed write (disk full) is thrown as Error, with the
+ * path, by the next append() or by finish().
+ */
+class BlockFileWriter
+{
+public:
+  static constexpr std::size_t WriteBehindBytes = std::size_t(1) << 20;
+
+  BlockFileWriter(std::filesystem::path path, std::vector<TableSpec> tables, Codec codec,
+    IoStatistics* statistics = nullptr);
+  ~BlockFileWriter();
+  BlockFileWriter(const BlockFileWriter&) = delete;
+  BlockFileWriter& operator=(const BlockFileWriter&) = delete;
+
+  /** Appends `rows` rows to table `table`; one span of bytes a column, copied. */
+  void append(int table, std::int64_t rows, std::span<const std::span<const std::byte>> columns);
+
+  /** Writes index and header, closes, renames. */
+  void finish(const nlohmann::json& header);
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> Self;
+};
+
+/**
+ * Reads a block file. Opening checks magic, version, the layout's and the index's checksums and that
+ * the file's length is exactly what the index says; reading a block checks its checksums. Every
+ * failure is an Error that names the file, the table and the block.
+ */
+class BlockFileReader
+{
+public:
+  explicit BlockFileReader(std::filesystem::path path, IoStatistics* statistics = nullptr);
+  ~BlockFileReader();
+  BlockFileReader(const BlockFileReader&) = delete;
+  BlockFileReader& operator=(const BlockFileReader&) = delete;
+
+  const nlohmann::json& header() const;
+  const std::vector<TableSpec>& tables() const;
+  Codec codec() const;
+
+  std::int64_t rows(int table) const;
+  std::int64_t blocks(int table) const;
+  std::int64_t firstRow(int table, std::int64_t block) const;
+  std::int64_t blockRows(int table, std::int64_t block) const;
+  /** The block that holds row `row`. */
+  std::int64_t blockOf(int table, std::int64_t row) const;
+  /** Bytes of a column of a block, uncompressed. */
+  std::size_t columnBytes(int table, std::int64_t block, int column) const;
+
+  /** Reads a column of a block into `bytes`, which must have exactly columnBytes(...) bytes. */
+  void read(int table, std::int64_t block, int column, std::span<std::byte> bytes);
+
+  /**
+   * Starts reading all columns of a block on the reader's own thread, so that a later read() of it
+   * does not wait. A hint: any block may be read without it; a few prefetched blocks are kept.
+   */
+  void prefetch(int table, std::int64_t block);
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> Self;
+};
+
+/** Whether the file begins like a block file. */
+bool isBlockFile(const std::filesystem::path& path);
+
+} // namespace smg
