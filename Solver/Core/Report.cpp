@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Core/Report.h"
+
+#include <nlohmann/json.hpp>
+
+namespace smg
+{
+
+std::string Report::json(int indent) const
+{
+  nlohmann::ordered_json out;
+  out["vertices"] = this->vertices;
+  out["cells"] = this->cells;
+  out["levels"] = nlohmann::ordered_json::array();
+  for (const Level& level : this->levels)
+  {
+    out["levels"].push_back({ { "nodes", level.nodes }, { "nonzeros", level.nonzeros } });
+  }
+  out["passes"] = this->passes;
+  out["cycles"] = this->cycles;
+  out["residuals"] = this->residuals;
+  out["converged"] = this->converged;
+  out["peak_nodes"] = this->peak_nodes;
+  out["pool_bytes_peak"] = this->pool_bytes_peak;
+  out["rss_bytes_peak"] = this->rss_bytes_peak;
+  out["bytes_read"] = this->bytes_read;
+  out["bytes_written"] = this->bytes_written;
+  out["seconds"] = { { "convert", this->seconds.convert }, { "build", this->seconds.build },
+    { "solve", this->seconds.solve }, { "coarse", this->seconds.coarse },
+    { "io_wait", this->seconds.io_wait }, { "total", this->seconds.total } };
+  out["cpu_seconds"] = this->cpu_seconds;
+  out["threads"] = this->threads;
+  out["prescribed"] = this->prescribed;
+  out["held"] = this->held;
+  out["degenerate_cells"] = this->degenerate_cells;
+  out["clamped_weights"] = this->clamped_weights;
+  out["components"] = this->components;
+  out["free_components"] = this->free_components;
+  out["notes"] = this->notes;
+  return out.dump(indent);
+}
+
+} // namespace smg

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Cycle/LevelWindow.h"
+
+#include <memory>
+
+namespace smg
+{
+
+/**
+ * The direct solve on the coarsest level: CHOLMOD's simplicial LDL^T, factorised once. One node of
+ * each connected component whose row sums vanish (no constraint reaches it) is held at zero: there
+ * the correction is determined up to a constant, and any will do.
+ */
+class CoarsestSolver
+{
+public:
+  CoarsestSolver();
+  ~CoarsestSolver();
+
+  /** Throws Error if the matrix is not positive definite. */
+  void factorize(LevelWindow<float>& level);
+  /** x = A^-1 b on the level that was factorised. */
+  void solve(LevelWindow<float>& level) const;
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> Self;
+};
+
+} // namespace smg

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Cycle/LevelCursors.h"
+#include "Solver/Cycle/LevelWindow.h"
+#include "Solver/Cycle/Transfer.h"
+
+#include <cstdint>
+
+namespace smg
+{
+
+/**
+ * A level in a pass: its window and its stages. Real is double on the finest level, float on the
+ * others, which only precondition. A stage may advance over a group of nodes when the stage before
+ * it has passed the largest index that the group needs; so the arithmetic is that of the in-core
+ * method, in the same order, whatever the window.
+ */
+template <class Real, class Relaxation>
+class Level
+{
+public:
+  using CoarseLevel = Level<float, Relaxation>;
+
+  Level(Pool& pool, ResidentNodes& resident, int index, int columns, int sweeps)
+    : Window(pool, resident, index, columns)
+    , At(sweeps)
+    , Squares(static_cast<std::size_t>(strideOf(columns)))
+  {
+  }
+
+  LevelWindow<Real>& window() { return this->Window; }
+  const LevelCursors& cursors() const { return this->At; }
+  void setCoarse(CoarseLevel* coarse) { this->Coarse = coarse; }
+  void setFine(const LevelCursors* fine) { this->Fine = fine; }
+  /** A core level does not take part in the passes: the core cycle treats it between them. */
+  void setCore() { this->Core = true; }
+  bool core() const { return this->Core; }
+
+  void startPass(bool first)
+  {
+    this->First = first;
+    this->At.rewind();
+    std::fill(this->Squares.begin(), this->Squares.end(), Real{});
+    this->Window.startPass(first);
+    if (this->Core)
+    {
+      this->Window.zeroB(0, this->Window.nodes());
+    }
+  }
+
+  void endPass() { this->Window.endPass(); }
+
+  /** Takes the next block of rows while the hierarchy is being built. */
+  void append(RowBlock block) { this->Window.append(std::move(block)); }
+
+  /** Way up: finishes the V-cycle on nodes 0 .. node. */
+  void pull(std::int64_t node)
+  {
+    if (!this->Core && node >= 0)
+    {
+      this->pull(static_cast<int>(this->At.postSweep.size()), node);
+    }
+  }
+
+  /** Way down: advances every stage, here and on the coarser levels, as far as it can. */
+  void advanceDown()
+  {
+    this->preSweep();
+    this->restrictDown();
+    this->At.written = this->Window.write(this->At.preSweep.back());
+    this->At.released = this->Window.release(this->At.restricted);
+    if (!this->Coarse->core())
+    {
+      this->Coarse->advanceDown();
+    }
+  }
+
+  bool finished() const { return this->At.restricted == this->Window.nodes(); }
+
+  /**
+   * Makes b of nodes 0 .. node ready for restriction: zero, once the V-cycle before needs neither
+   * their b nor their x. Answers whether that could be done yet.
+   */
+  bool prepare(std::int64_t node)
+  {
+    if (this->First)
+    {
+      this->Window.extendState(node + 1);
+    }
+    if (this->First || this->Core)
+    {
+      return true;
+    }
+    while (this->At.reset <= node)
+    {
+      const RowBlock::Header& h = this->Window.header(this->At.reset);
+      const auto g = LevelWindow<Real>::groupIn(h, this->At.reset);
+      if (this->At.postSweep.back() <= h.neighbourReach[g] || this->Fine->prolonged <= h.childReach[g])
+      {
+        return false;
+      }
+      const std::int64_t end = LevelWindow<Real>::groupEnd(h, this->At.reset);
+      this->Window.zeroB(this->At.reset, end);
+      this->At.reset = end;
+    }
+    return true;
+  }
+
+  /** ||b - A x||^2 of each column, as the last pass's restriction found it. */
+  const std::vector<Real>& squares() const { return this->Squares; }
+
+  // The whole of a core level at once, with the same kernels.
+
+  void relaxDown()
+  {
+    const std::int64_t nodes = this->Window.nodes();
+    this->sweep<true>(0, nodes);
+    for (std::size_t s = 1; s < this->At.preSweep.size(); ++s)
+    {
+      this->sweep<false>(0, nodes);
+    }
+  }
+  void relaxUp()
+  {
+    for (std::size_t s = 0; s < this->At.postSweep.size(); ++s)
+    {
+      this->sweep<false>(0, this->Window.nodes());
+    }
+  }
+  void restrictAll() { this->restrictTo(this->Window.nodes()); }
+  void prolongAll() { this->prolongTo(0, this->Window.nodes()); }
+
+private:
+  using One = Lanes<Real, 1>;
+  using Four = Lanes<Real, 4>;
+
+  void pull(int stage, std::int64_t node)
+  {
+    std::int64_t& cursor = stage == 0 ? this->At.prolonged : this->At.postSweep[static_cast<std::size_t>(stage - 1)];
+    if (cursor > node)
+    {
+      return;
+    }
+    this->At.loaded = this->Window.load(node);
+    const RowBlock::Header& h = this->Window.header(node);
+    const auto g = LevelWindow<Real>::groupIn(h, node);
+    const std::int64_t end = LevelWindow<Real>::groupEnd(h, node);
+    if (stage == 0)
+    {
+      this->Coarse->pull(h.parentReach[g]);
+      this->prolongTo(cursor, end);
+    }
+    else
+    {
+      this->pull(stage - 1, h.neighbourReach[g]);
+      this->sweep<false>(cursor, end);
+    }
+    cursor = end;
+  }
+
+  void preSweep()
+  {
+    std::vector<std::int64_t>& sweep = this->At.preSweep;
+    const std::int64_t first = this->firstPreSweepEnd();
+    if (this->Fine)
+    {
+      this->sweep<true>(sweep[0], first);
+    }
+    else
+    {
+      this->sweep<false>(sweep[0], first);
+    }
+    sweep[0] = first;
+    for (std::size_t s = 1; s < sweep.size(); ++s)
+    {
+      const std::int64_t end = this->Window.reachable(sweep[s], sweep[s - 1]);
+      this->sweep<false>(sweep[s], end);
+      sweep[s] = end;
+    }
+  }
+
+  /** How far the first sweep of the way down may go. */
+  std::int64_t firstPreSweepEnd()
+  {
+    this->At.loaded = this->Window.loaded();
+    std::int64_t end = this->At.preSweep[0];
+    if (!this->Fine)
+    {
+      return this->First ? this->At.loaded : this->Window.reachable(end, this->At.postSweep.back());
+    }
+    // b must be complete; the upper neighbours are zero, so they need not have come.
+    while (end < this->At.loaded)
+    {
+      const RowBlock::Header& h = this->Window.header(end);
+      if (this->Fine->restricted <= h.childReach[LevelWindow<Real>::groupIn(h, end)])
+      {
+        break;
+      }
+      end = LevelWindow<Real>::groupEnd(h, end);
+    }
+    return end;
+  }
+
+  void restrictDown()
+  {
+    const std::int64_t limit = this->Window.reachable(this->At.restricted, this->At.preSweep.back());
+    std::int64_t end = this->At.restricted;
+    while (end < limit)
+    {
+      const RowBlock::Header& h = this->Window.header(end);
+      if (!this->Coarse->prepare(h.parentReach[LevelWindow<Real>::groupIn(h, end)]))
+      {
+        break;
+      }
+      end = LevelWindow<Real>::groupEnd(h, end);
+    }
+    this->restrictTo(end);
+    this->At.restricted = end;
+  }
+
+  template <bool LowerOnly>
+  void sweep(std::int64_t begin, std::int64_t end)
+  {
+    const int stride = this->Window.stride();
+    this->Window.forRange(begin, end,
+      [stride](const auto& h, const auto& a, BlockRange nodes, Real* x, Real* b)
+      {
+        if (stride == 1)
+        {
+          Relaxation::template sweep<LowerOnly, One>(h, a, nodes, 1, x, b);
+        }
+        for (int lane = 0; lane + 3 < stride; lane += 4)
+        {
+          Relaxation::template sweep<LowerOnly, Four>(h, a, nodes, stride, x + lane, b + lane);
+        }
+      });
+  }
+
+  void prolongTo(std::int64_t begin, std::int64_t end)
+  {
+    const int stride = this->Window.stride();
+    this->Window.forRange(begin, end,
+      [&](const auto& h, const auto& a, BlockRange nodes, Real* x, Real*)
+      {
+        const float* coarse = this->Coarse->window().x().at(h.parentBase);
+        if (stride == 1)
+        {
+          prolong<One, Lanes<float, 1>>(h, a, nodes, 1, x, coarse);
+        }
+        for (int lane = 0; lane + 3 < stride; lane += 4)
+        {
+          prolong<Four, Lanes<float, 4>>(h, a, nodes, stride, x + lane, coarse + lane);
+        }
+      });
+  }
+
+  void restrictTo(std::int64_t end)
+  {
+    const int stride = this->Window.stride();
+    this->Window.forRange(this->Core ? 0 : this->At.restricted, end,
+      [&](const auto& h, const auto& a, BlockRange nodes, Real* x, Real* b)
+      {
+        float* coarse = this->Coarse->window().b().at(h.parentBase);
+        Real* squares = this->Squares.data();
+        if (stride == 1)
+        {
+          restrictResidual<One, Lanes<float, 1>>(h, a, nodes, 1, x, b, coarse, squares);
+        }
+        for (int lane = 0; lane + 3 < stride; lane += 4)
+        {
+          restrictResidual<Four, Lanes<float, 4>>(
+            h, a, nodes, stride, x + lane, b + lane, coarse + lane, squares + lane);
+        }
+      });
+  }
+
+  LevelWindow<Real> Window;
+  LevelCursors At;
+  std::vector<Real> Squares;
+  CoarseLevel* Coarse = nullptr;
+  const LevelCursors* Fine = nullptr;
+  bool First = true;
+  bool Core = false;
+};
+
+} // namespace smg

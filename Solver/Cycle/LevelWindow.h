@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Cycle/Lanes.h"
+#include "Solver/Cycle/LevelCursors.h"
+#include "Solver/Cycle/RowBlock.h"
+#include "Solver/Cycle/Transfer.h"
+#include "Solver/Storage/Ring.h"
+#include "Solver/Storage/ScratchStream.h"
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * What of a level is in memory: blocks of rows, and the state x and b, `stride` values a node. With
+ * scratch files, blocks and state come from them and go to them as the pass proceeds; without, all
+ * of the level stays in memory and loading, writing and releasing cost nothing.
+ */
+template <class Real>
+class LevelWindow
+{
+public:
+  LevelWindow(Pool& pool, ResidentNodes& resident, int index, int columns)
+    : Owner(&pool)
+    , Resident(&resident)
+    , Index(index)
+    , Columns(columns)
+    , Stride(strideOf(columns))
+    , X(pool, this->Stride)
+    , B(pool, this->Stride)
+  {
+  }
+
+  /** Keeps the level in scratch files in `folder`. */
+  void useScratch(const std::filesystem::path& folder, IoStatistics& statistics);
+
+  int stride() const { return this->Stride; }
+  Ring<Real>& x() { return this->X; }
+  Ring<Real>& b() { return this->B; }
+  /** Nodes of the level; while it is being built, those that have come. */
+  std::int64_t nodes() const { return this->Nodes; }
+  std::int64_t loaded() const { return this->Loaded; }
+
+  /** The header of the block of node `node`, which is loaded. */
+  const RowBlock::Header& header(std::int64_t node) const { return this->block(node).header(); }
+  static std::size_t groupIn(const RowBlock::Header& h, std::int64_t node)
+  {
+    return static_cast<std::size_t>((node - h.first) / RowBlock::Group);
+  }
+  static std::int64_t groupEnd(const RowBlock::Header& h, std::int64_t node)
+  {
+    const std::int64_t group = (node - h.first) / RowBlock::Group;
+    return h.first + std::min<std::int64_t>(h.nodes, (group + 1) * RowBlock::Group);
+  }
+  /** From `cursor` on, how far all neighbours are below `done`. */
+  std::int64_t reachable(std::int64_t cursor, std::int64_t done) const
+  {
+    while (cursor < done)
+    {
+      const RowBlock::Header& h = this->header(cursor);
+      if (h.neighbourReach[groupIn(h, cursor)] >= done)
+      {
+        break;
+      }
+      cursor = groupEnd(h, cursor);
+    }
+    return cursor;
+  }
+
+  void startPass(bool first);
+  void endPass();
+
+  /** First pass: state of nodes below `end`, zero. */
+  void extendState(std::int64_t end)
+  {
+    const std::int64_t before = this->X.end();
+    if (end > before)
+    {
+      this->X.extend(end);
+      this->B.extend(end);
+      this->Resident->add(end - before);
+    }
+  }
+  /** First pass: takes the next block of rows. */
+  void append(RowBlock block);
+
+  /** Loads up to node `node`; answers how many nodes are loaded. */
+  std::int64_t load(std::int64_t node);
+  /** Writes the state of the blocks that lie below `done`; answers how far it is written. */
+  std::int64_t write(std::int64_t done);
+  /** Lets go of blocks that are written and that no node from `done` on needs; answers the first
+   * node left. */
+  std::int64_t release(std::int64_t done);
+
+  void zeroB(std::int64_t begin, std::int64_t end)
+  {
+    std::fill(this->B.at(begin), this->B.at(end), Real{});
+  }
+
+  /** Calls f(header, arrays, nodes, x, b) for the part of [begin, end) in each block; x and b point
+   * to the block's node 0. */
+  template <class F>
+  void forRange(std::int64_t begin, std::int64_t end, F&& f)
+  {
+    while (begin < end)
+    {
+      const RowBlock& block = this->block(begin);
+      const RowBlock::Header& h = block.header();
+      const std::int64_t stop = std::min(end, block.end());
+      const BlockRange nodes{ begin - h.first, stop - h.first };
+      Real* x = this->X.at(h.first);
+      Real* b = this->B.at(h.first);
+      if (h.wide)
+      {
+        f(h, block.arrays<std::int32_t>(), nodes, x, b);
+      }
+      else
+      {
+        f(h, block.arrays<std::int16_t>(), nodes, x, b);
+      }
+      begin = stop;
+    }
+  }
+
+  /** Between passes, after the first one: calls f(block, b) for the b of every block of
+   * RowBlock::Nodes nodes, without padding, and keeps what it makes of it. */
+  template <class F>
+  void rewriteB(F&& f);
+
+  /** Between passes: loads the whole level, which stays in memory from here on. */
+  void moveToMemory();
+
+  /** Lets go of all but x, for readX(). */
+  void keepSolution();
+
+  /** Reads x of nodes [first, first + count), without padding, from memory or scratch. */
+  void readX(std::int64_t first, std::int64_t count, Real* values);
+
+private:
+  const RowBlock& block(std::int64_t node) const
+  {
+    return this->Blocks[static_cast<std::size_t>(node / RowBlock::Nodes - this->FirstBlock)];
+  }
+  bool finest() const { return this->Index == 0; }
+  void loadBlock();
+  Buffer buffer(std::size_t bytes);
+  void pack(const Ring<Real>& state, std::int64_t begin, std::int64_t end, Real* packed) const;
+  void unpack(Ring<Real>& state, std::int64_t begin, std::int64_t end, const Real* packed);
+
+  Pool* Owner;
+  ResidentNodes* Resident;
+  int Index;
+  int Columns;
+  int Stride;
+  Ring<Real> X, B;
+  std::deque<RowBlock> Blocks;
+  std::int64_t FirstBlock = 0; // number of Blocks.front() among all blocks of the level
+  std::int64_t Nodes = 0;
+  std::int64_t Loaded = 0;
+  std::int64_t Written = 0;
+  bool First = true;
+
+  // Scratch: rows are written once, x in every pass; b in the first pass (finest) or with x.
+  std::optional<ScratchStream> Rows, RightSide, State;
+  std::vector<Real> Packed;
+  std::vector<Buffer> Spare;
+  std::int64_t CachedBlock = -1; // of readX
+};
+
+template <class Real>
+template <class F>
+void LevelWindow<Real>::rewriteB(F&& f)
+{
+  if (this->RightSide)
+  {
+    this->RightSide->startPass(true);
+  }
+  for (std::int64_t first = 0; first < this->Nodes; first += RowBlock::Nodes)
+  {
+    const std::int64_t end = std::min(this->Nodes, first + RowBlock::Nodes);
+    this->Packed.resize(static_cast<std::size_t>((end - first) * this->Columns));
+    const std::span<Real> b(this->Packed);
+    if (this->RightSide)
+    {
+      this->RightSide->read(std::as_writable_bytes(b));
+      f(first / RowBlock::Nodes, b);
+      this->RightSide->append(std::as_bytes(b));
+    }
+    else
+    {
+      this->pack(this->B, first, end, b.data());
+      f(first / RowBlock::Nodes, b);
+      this->unpack(this->B, first, end, b.data());
+    }
+  }
+  if (this->RightSide)
+  {
+    this->RightSide->endPass();
+  }
+}
+
+extern template class LevelWindow<double>;
+extern template class LevelWindow<float>;
+
+} // namespace smg

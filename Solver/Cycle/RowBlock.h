@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Storage/Buffer.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace smg
+{
+
+/**
+ * The rows and the interpolation of up to `Nodes` consecutive nodes of a level, as they are on disk:
+ * used in place, without decoding. Columns are distances, of 16 bits ("narrow") or, where a distance
+ * or a count does not fit, 32 bits ("wide"). Each group of `Group` nodes has the largest indices that
+ * the cursors need.
+ */
+class RowBlock
+{
+public:
+  static constexpr std::int64_t Nodes = 1024;
+  static constexpr std::int64_t Group = 64;
+  static constexpr std::int64_t Groups = Nodes / Group;
+
+  struct Header
+  {
+    std::int64_t first = 0;      ///< index of the first node
+    std::int64_t parentBase = 0; ///< coarse index that parents are relative to
+    std::int32_t nodes = 0;
+    std::int32_t entries = 0; ///< off-diagonals of all rows
+    std::int32_t parents = 0; ///< entries of all rows of P
+    std::int32_t wide = 0;
+    /** Largest node in rows 0 .. end of the group; the same of children and of parents. */
+    std::array<std::int64_t, Groups> neighbourReach{}, childReach{}, parentReach{};
+    /** Where the entries and the parents of the group begin. */
+    std::array<std::int32_t, Groups> entryStart{}, parentStart{};
+  };
+
+  /** The arrays of a block, Index being std::int16_t (narrow) or std::int32_t (wide). */
+  template <class Index>
+  struct Arrays
+  {
+    using Count = std::make_unsigned_t<Index>;
+    const double* diagonal;            // a node
+    const float* weight;               // an entry
+    const Index* delta;                // an entry
+    const Index* parent;               // a parent, relative to parentBase
+    const Count* entryEnd;             // a node: end of its entries, from the group's start
+    const Count* parentEnd;            // a node: end of its parents, from the group's start
+    const std::uint8_t* parentQuanta;  // a parent
+  };
+
+  RowBlock() = default;
+  /** Takes the bytes of a block that layout() or a file has filled. */
+  explicit RowBlock(Buffer buffer)
+    : Bytes(std::move(buffer))
+  {
+  }
+
+  const Header& header() const { return *reinterpret_cast<const Header*>(this->Bytes.data()); }
+  std::int64_t first() const { return this->header().first; }
+  std::int64_t end() const { return this->header().first + this->header().nodes; }
+
+  template <class Index>
+  Arrays<Index> arrays() const
+  {
+    const Header& h = this->header();
+    Arrays<Index> a{};
+    const std::byte* at = this->Bytes.data() + sizeof(Header);
+    take(at, a.diagonal, h.nodes);
+    take(at, a.weight, h.entries);
+    take(at, a.delta, h.entries);
+    take(at, a.parent, h.parents);
+    take(at, a.entryEnd, h.nodes);
+    take(at, a.parentEnd, h.nodes);
+    take(at, a.parentQuanta, h.parents);
+    return a;
+  }
+
+  /** Bytes of a block with this header. */
+  static std::size_t bytes(const Header& h)
+  {
+    const std::size_t index = h.wide ? 4 : 2;
+    const auto nodes = static_cast<std::size_t>(h.nodes);
+    const auto entries = static_cast<std::size_t>(h.entries);
+    const auto parents = static_cast<std::size_t>(h.parents);
+    return sizeof(Header) + nodes * 8 + aligned(entries * 4) + aligned(entries * index) +
+      aligned(parents * index) + 2 * aligned(nodes * index) + aligned(parents);
+  }
+
+  const Buffer& buffer() const { return this->Bytes; }
+  Buffer takeBuffer() { return std::move(this->Bytes); }
+
+private:
+  static std::size_t aligned(std::size_t bytes) { return (bytes + 7) / 8 * 8; }
+
+  template <class T>
+  static void take(const std::byte*& at, const T*& array, std::int32_t count)
+  {
+    array = reinterpret_cast<const T*>(at);
+    at += aligned(static_cast<std::size_t>(count) * sizeof(T));
+  }
+
+  Buffer Bytes;
+};
+
+} // namespace smg

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Cycle/RowBlock.h"
+#include "Solver/Hierarchy/CoarseningData.h"
+
+namespace smg
+{
+
+/**
+ * Copies the rows [first, first + nodes) of a level, and its interpolation if `coarsening` is not
+ * null, to a block.
+ */
+RowBlock packRows(Pool& pool, const LevelRows& rows, const CoarseningData* coarsening,
+  std::int64_t first, std::int64_t nodes);
+
+} // namespace smg

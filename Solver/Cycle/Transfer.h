@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Cycle/GaussSeidel.h"
+#include "Solver/Hierarchy/CoarseningData.h"
+
+namespace smg
+{
+
+/** Prolongation of a block's nodes: x += P x_coarse. coarseX points to coarse node parentBase. */
+template <class Vectors, class CoarseVectors, class Real, class Index>
+void prolong(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, BlockRange nodes,
+  int stride, Real* x, const float* coarseX)
+{
+  for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
+  {
+    const BlockRange row = parentsOf(h, a, k);
+    auto sum = Vectors::load(x + k * stride);
+    for (std::int64_t e = row.begin; e < row.end; ++e)
+    {
+      const auto value = CoarseVectors::load(coarseX + a.parent[e] * stride);
+      const float weight = static_cast<float>(a.parentQuanta[e]) * Quantum;
+      sum += static_cast<Real>(weight) * __builtin_convertvector(value, typename Vectors::Vector);
+    }
+    Vectors::store(x + k * stride, sum);
+  }
+}
+
+/**
+ * Residual and restriction of a block's nodes: r = b - A x, b_coarse += P^T r. Adds the squares of r
+ * to `squares` (`stride` values), in node order. coarseB points to coarse node parentBase.
+ */
+template <class Vectors, class CoarseVectors, class Real, class Index>
+void restrictResidual(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, BlockRange nodes,
+  int stride, const Real* x, const Real* b, float* coarseB, Real* squares)
+{
+  auto total = Vectors::load(squares);
+  for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
+  {
+    const BlockRange row = entriesOf(h, a, k);
+    const Real* xk = x + k * stride;
+    auto even = Vectors::load(b + k * stride) - static_cast<Real>(a.diagonal[k]) * Vectors::load(xk);
+    typename Vectors::Vector odd{};
+    std::int64_t e = row.begin;
+    for (; e + 1 < row.end; e += 2)
+    {
+      even += static_cast<Real>(a.weight[e]) * Vectors::load(xk + a.delta[e] * stride);
+      odd += static_cast<Real>(a.weight[e + 1]) * Vectors::load(xk + a.delta[e + 1] * stride);
+    }
+    if (e < row.end)
+    {
+      even += static_cast<Real>(a.weight[e]) * Vectors::load(xk + a.delta[e] * stride);
+    }
+    const auto residual = even + odd;
+    total += residual * residual;
+    const auto coarse = __builtin_convertvector(residual, typename CoarseVectors::Vector);
+    const BlockRange parents = parentsOf(h, a, k);
+    for (std::int64_t p = parents.begin; p < parents.end; ++p)
+    {
+      float* target = coarseB + a.parent[p] * stride;
+      const float weight = static_cast<float>(a.parentQuanta[p]) * Quantum;
+      CoarseVectors::store(target, CoarseVectors::load(target) + weight * coarse);
+    }
+  }
+  Vectors::store(squares, total);
+}
+
+} // namespace smg

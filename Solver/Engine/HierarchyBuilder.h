@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Report.h"
+#include "Solver/Cycle/Level.h"
+#include "Solver/Cycle/RowBlockPacker.h"
+#include "Solver/Hierarchy/Coarsening.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace smg
+{
+
+/** The levels of a multigrid: the finest one in double, the others in single precision. */
+template <class Relaxation>
+struct Levels
+{
+  std::unique_ptr<Level<double, Relaxation>> finest;
+  std::vector<std::unique_ptr<Level<float, Relaxation>>> coarse; ///< level 1, 2, ...
+  std::vector<Report::Level> sizes;
+};
+
+/**
+ * Builds the hierarchy while the finest level's rows come. Levels below `firstCore` are built in the
+ * same sweep, window by window; those from `firstCore` on, which live in memory, when it is over.
+ */
+template <OperatorSet Operators>
+class HierarchyBuilder
+{
+public:
+  using Relaxation = typename Operators::Relaxation;
+  /** Coarsening ends at a level of at most this many nodes, which is factorised directly. */
+  static constexpr std::int64_t CoarsestNodes = 1000;
+
+  HierarchyBuilder(Pool& pool, Operators operators, Levels<Relaxation>& levels, int firstCore)
+    : Owner(pool)
+    , Set(std::move(operators))
+    , Built(levels)
+    , FirstCore(firstCore)
+  {
+    this->Rows.push_back(std::make_unique<LevelRows>(pool));
+    for (int l = 0; l < firstCore; ++l)
+    {
+      this->addStep();
+    }
+  }
+
+  /** The finest level's rows, to be appended to. */
+  LevelRows& finestRows() { return *this->Rows.front(); }
+
+  /** Advances all stages of the streamed levels as far as they can. */
+  void advance()
+  {
+    for (int l = 0; l < this->FirstCore; ++l)
+    {
+      this->Steps[static_cast<std::size_t>(l)]->advance();
+      this->pack(l, true);
+    }
+  }
+
+  /**
+   * Builds the core levels when the streamed ones are complete; `addLevel(l)` makes level l, called
+   * for those beyond firstCore. Answers the coarsest level. It may be a streamed one, if that turned
+   * out small enough; the levels beyond it are not to be used.
+   */
+  template <class AddLevel>
+  int finish(AddLevel&& addLevel)
+  {
+    int l = 1;
+    for (; this->nodes(l) > CoarsestNodes; ++l)
+    {
+      if (l >= this->FirstCore)
+      {
+        this->addStep();
+        this->Steps.back()->advance();
+        this->pack(l, true);
+        addLevel(l + 1);
+      }
+    }
+    if (l >= this->FirstCore)
+    {
+      this->pack(l, false);
+    }
+    for (int k = 0; k <= l; ++k)
+    {
+      this->Built.sizes.push_back({ this->nodes(k), this->Rows[static_cast<std::size_t>(k)]->nonzeros() });
+    }
+    return l;
+  }
+
+private:
+  std::int64_t nodes(int l) const { return this->Rows[static_cast<std::size_t>(l)]->end(); }
+
+  void addStep()
+  {
+    this->Rows.push_back(std::make_unique<LevelRows>(this->Owner));
+    this->Packed.push_back(0);
+    this->Steps.push_back(std::make_unique<Coarsening<Operators>>(
+      this->Owner, this->Set, *this->Rows[this->Rows.size() - 2], *this->Rows.back()));
+  }
+
+  void append(int l, RowBlock block)
+  {
+    if (l == 0)
+    {
+      this->Built.finest->append(std::move(block));
+    }
+    else
+    {
+      this->Built.coarse[static_cast<std::size_t>(l - 1)]->append(std::move(block));
+    }
+  }
+
+  /** Packs the blocks of level l that are final, with or without interpolation. */
+  void pack(int l, bool interpolated)
+  {
+    const LevelRows& rows = *this->Rows[static_cast<std::size_t>(l)];
+    Coarsening<Operators>* step = interpolated ? this->Steps[static_cast<std::size_t>(l)].get() : nullptr;
+    const std::int64_t final = step ? step->interpolated() : rows.end();
+    const bool ended = rows.Ended && final == rows.end();
+    std::int64_t begin = step ? this->Packed[static_cast<std::size_t>(l)] : 0;
+    while (begin + RowBlock::Nodes <= final || (ended && begin < final))
+    {
+      const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
+      this->append(l, packRows(this->Owner, rows, step ? &step->data() : nullptr, begin, nodes));
+      begin += nodes;
+      if (step)
+      {
+        step->packed(begin);
+        step->release();
+        this->Packed[static_cast<std::size_t>(l)] = begin;
+      }
+    }
+  }
+
+  Pool& Owner;
+  Operators Set;
+  Levels<Relaxation>& Built;
+  int FirstCore;
+  std::vector<std::unique_ptr<LevelRows>> Rows;
+  std::vector<std::unique_ptr<Coarsening<Operators>>> Steps;
+  std::vector<std::int64_t> Packed;
+};
+
+} // namespace smg

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Solve.h"
+
+#include <cstdint>
+
+namespace smg
+{
+
+/**
+ * Bytes of the pool that a solve will need at least, from the stream's statistics: the windows hold
+ * a number of nodes proportional to the stream's span, and the core levels are bounded by
+ * `coreNodes`. 0 when the span is not known.
+ */
+std::int64_t estimateMemory(const StreamInfo& info, int columns, const SolveOptions& options);
+
+} // namespace smg

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Hierarchy/CoarseningData.h"
+#include "Solver/Hierarchy/OperatorSet.h"
+
+#include <cmath>
+#include <cstdint>
+
+namespace smg
+{
+
+/**
+ * Builds a level from the one below it, as far as that one's rows have come. Every stage has a
+ * cursor, the next node it will treat; it may treat a node when the stages it depends on have passed
+ * the largest index that the node needs. What no stage needs any more is let go.
+ */
+template <OperatorSet Operators>
+class Coarsening
+{
+public:
+  Coarsening(Pool& pool, Operators operators, LevelRows& fine, LevelRows& coarse)
+    : Set(std::move(operators))
+    , Data(pool, fine, coarse)
+  {
+  }
+
+  const CoarseningData& data() const { return this->Data; }
+  std::int64_t coarseNodes() const { return this->Data.coarseNodes; }
+  /** Rows of P that are final. */
+  std::int64_t interpolated() const { return this->Interpolated; }
+  /** Says that the rows and the interpolation of nodes below `end` have been copied. */
+  void packed(std::int64_t end) { this->Packed = end; }
+
+  /** Advances every stage as far as it can. */
+  void advance()
+  {
+    this->lift();
+    this->interpolate();
+    this->multiply();
+    this->gather();
+    this->finish();
+    this->release();
+  }
+
+  /** Lets go of what no stage needs any more. */
+  void release()
+  {
+    CoarseningData& d = this->Data;
+    const LevelRows& rows = d.fine;
+    this->LiftedDone = rows.unreached(this->LiftedDone, this->Initial);
+    this->InitialDone = rows.unreached(this->InitialDone, this->Interpolated);
+    this->ReachDone = rows.unreached(this->ReachDone, this->Multiplied);
+    d.lifted.release(this->LiftedDone);
+    d.initial.release(this->InitialDone);
+    while (this->ProductDone < this->Multiplied && d.parentReach[this->ProductDone] < this->Gathered)
+    {
+      ++this->ProductDone;
+    }
+    d.product.release(this->ProductDone);
+    d.productSum.release(this->ProductDone);
+    const std::int64_t interpolationDone =
+      std::min({ this->ReachDone, this->ProductDone, this->Packed });
+    d.interpolation.release(interpolationDone);
+    d.rowQuanta.release(interpolationDone);
+    d.parentReach.release(std::min(interpolationDone, this->Interpolated - 1));
+    const std::int64_t nextFine =
+      this->Gathered < d.coarseNodes ? d.liftedFrom[this->Gathered] : this->Lifted;
+    d.fine.release(std::min(this->Multiplied, this->Packed),
+      std::min({ this->LiftedDone, this->InitialDone, this->ReachDone, nextFine }));
+    d.liftedFrom.release(this->Gathered);
+    d.firstChild.release(this->Gathered);
+    d.lastChild.release(this->Gathered);
+    d.raw.release(this->Finished);
+    d.rawAlpha.release(this->Finished);
+    d.rawStrongest.release(this->Finished);
+    d.rawReach.release(this->Finished);
+    d.childReach.release(this->Finished);
+    d.rawLower.release(this->Finished);
+    d.rawFilled.release(this->Finished);
+    d.slots.release(this->Finished);
+  }
+
+private:
+  void lift()
+  {
+    CoarseningData& d = this->Data;
+    const std::int64_t rows = d.fine.end();
+    d.lifted.extend(rows);
+    for (std::int64_t& i = this->Lifted; i < rows; ++i)
+    {
+      const bool lifted = this->Set.lift(d, i);
+      d.lifted[i] = lifted ? d.coarseNodes : -1;
+      if (lifted)
+      {
+        d.liftedFrom.extendRaw(d.coarseNodes + 1);
+        d.liftedFrom[d.coarseNodes] = i;
+        ++d.coarseNodes;
+      }
+    }
+    const std::int64_t before = d.firstChild.end();
+    d.firstChild.extendRaw(d.coarseNodes);
+    d.lastChild.extendRaw(d.coarseNodes);
+    for (std::int64_t c = before; c < d.coarseNodes; ++c)
+    {
+      d.firstChild[c] = d.lastChild[c] = -1;
+    }
+    d.slots.extend(d.coarseNodes);
+  }
+
+  void interpolate()
+  {
+    CoarseningData& d = this->Data;
+    const std::int64_t rows = d.fine.end();
+    for (std::int64_t& i = this->Initial; i < rows && d.fine.reach(i) < this->Lifted; ++i)
+    {
+      this->Set.interpolateInitial(d, i);
+    }
+    d.rowQuanta.extendRaw(rows);
+    d.parentReach.extendRaw(rows);
+    for (std::int64_t& i = this->Interpolated; i < rows && d.fine.reach(i) < this->Initial; ++i)
+    {
+      this->Set.interpolate(d, i);
+    }
+  }
+
+  void multiply()
+  {
+    CoarseningData& d = this->Data;
+    const std::int64_t rows = d.fine.end();
+    d.productSum.extendRaw(rows);
+    for (std::int64_t& i = this->Multiplied; i < rows && d.fine.reach(i) < this->Interpolated; ++i)
+    {
+      this->Set.multiply(d, i);
+    }
+  }
+
+  /** Whether all children of c, which lie within two rings of it, and their products are there. */
+  bool canGather(std::int64_t c) const
+  {
+    const CoarseningData& d = this->Data;
+    const std::int64_t ring = d.fine.reach(d.liftedFrom[c]);
+    if (ring >= d.fine.end() || d.fine.reach(ring) >= this->Interpolated)
+    {
+      return false;
+    }
+    const std::int64_t near = d.liftedFrom[c];
+    const std::uint32_t last = d.interpolation.entry(d.lastChild[c]).fine;
+    return near + static_cast<std::int32_t>(last - static_cast<std::uint32_t>(near)) < this->Multiplied;
+  }
+
+  void gather()
+  {
+    CoarseningData& d = this->Data;
+    for (auto* ring : { &d.rawReach, &d.childReach })
+    {
+      ring->extendRaw(d.coarseNodes);
+    }
+    d.rawAlpha.extendRaw(d.coarseNodes);
+    d.rawStrongest.extendRaw(d.coarseNodes);
+    d.rawLower.extendRaw(d.coarseNodes);
+    d.rawFilled.extendRaw(d.coarseNodes);
+    for (std::int64_t& c = this->Gathered; c < d.coarseNodes && this->canGather(c); ++c)
+    {
+      this->Set.gather(d, c);
+    }
+    for (std::int64_t& c = this->Sparsified; c < this->Gathered && d.rawReach[c] < this->Gathered; ++c)
+    {
+      this->Set.sparsify(d, c);
+    }
+  }
+
+  /** A coarse row is final when the pairs of all its neighbours have been treated. */
+  void finish()
+  {
+    CoarseningData& d = this->Data;
+    for (std::int64_t& c = this->Finished; c < this->Sparsified && d.rawReach[c] < this->Sparsified; ++c)
+    {
+      const std::int64_t size = d.raw.size(c);
+      const RowEntry* raw = d.raw.row(c);
+      RowEntry* out = d.coarse.open(size);
+      std::int64_t kept = 0;
+      for (std::int64_t e = 0; e < size; ++e)
+      {
+        if (!std::isnan(raw[e].weight))
+        {
+          out[kept++] = raw[e];
+        }
+      }
+      d.coarse.close(kept, d.rawAlpha[c], d.childReach[c]);
+    }
+    d.coarse.Ended = d.fine.Ended && this->Lifted == d.fine.end() && this->Finished == d.coarseNodes;
+  }
+
+  Operators Set;
+  CoarseningData Data;
+
+  std::int64_t Lifted = 0, Initial = 0, Interpolated = 0, Multiplied = 0; // by fine node
+  std::int64_t Gathered = 0, Sparsified = 0, Finished = 0;                // by coarse node
+  std::int64_t Packed = 0;
+  std::int64_t LiftedDone = 0, InitialDone = 0, ReachDone = 0, ProductDone = 0;
+};
+
+} // namespace smg

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Hierarchy/ExtendedInterpolation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smg
+{
+
+void ExtendedInterpolation::initial(CoarseningData& data, std::int64_t i) const
+{
+  const std::int64_t* lifted = data.lifted.at(i);
+  if (*lifted >= 0)
+  {
+    *data.initial.open(1) = { static_cast<CoarseIndex>(*lifted), 1.0F };
+    data.initial.close(1);
+    return;
+  }
+  const auto row = data.fine.row(i);
+  const float strong = this->lifting.threshold(data, i);
+  InitialEntry* out = data.initial.open(static_cast<std::int64_t>(row.size()));
+  std::int64_t size = 0;
+  auto sum = static_cast<float>(std::max(0.0, data.fine.alpha(i)));
+  for (const RowEntry& entry : row)
+  {
+    const std::int64_t coarse = lifted[entry.delta];
+    if (coarse >= 0 && entry.weight >= strong)
+    {
+      out[size++] = { static_cast<CoarseIndex>(coarse), entry.weight };
+      sum += entry.weight;
+    }
+  }
+  for (std::int64_t e = 0; e < size; ++e)
+  {
+    out[e].weight /= sum;
+  }
+  data.initial.close(size);
+}
+
+void ExtendedInterpolation::gather(CoarseningData& data, std::int64_t i)
+{
+  const std::int64_t near = data.coarseNodes;
+  CoarseningData::Slot* slots = data.slots.at(near);
+  const std::uint32_t mark = data.freshMark();
+  this->Candidates.clear();
+  for (const RowEntry& entry : data.fine.row(i))
+  {
+    const std::int64_t j = i + entry.delta;
+    const InitialEntry* initial = data.initial.row(j);
+    const InitialEntry* end = initial + data.initial.size(j);
+    for (; initial != end; ++initial)
+    {
+      CoarseningData::Slot& slot = slots[offset(initial->coarse, near)];
+      const float value = entry.weight * initial->weight;
+      if (slot.mark != mark)
+      {
+        slot.mark = mark;
+        slot.value = value;
+        this->Candidates.push_back({ initial->coarse, 0.0F });
+      }
+      else
+      {
+        slot.value += value;
+      }
+    }
+  }
+  const auto inverse = static_cast<float>(1.0 / data.fine.diagonal(i));
+  for (Candidate& candidate : this->Candidates)
+  {
+    candidate.weight = slots[offset(candidate.coarse, near)].value * inverse;
+  }
+}
+
+void ExtendedInterpolation::truncate()
+{
+  auto& list = this->Candidates;
+  float sum = 0.0F;
+  for (const Candidate& candidate : list)
+  {
+    sum += candidate.weight;
+  }
+  const auto kept = std::min(list.size(), static_cast<std::size_t>(this->entries));
+  float keptSum = 0.0F;
+  for (std::size_t k = 0; k < kept; ++k)
+  {
+    std::size_t largest = k;
+    for (std::size_t e = k + 1; e < list.size(); ++e)
+    {
+      largest = list[e].weight > list[largest].weight ? e : largest;
+    }
+    std::swap(list[k], list[largest]);
+    keptSum += list[k].weight;
+  }
+  list.resize(kept);
+
+  // Rounding to quanta: the first entry, the largest, takes the rest.
+  const float scale = keptSum > 0.0F ? sum / keptSum * Quanta : 0.0F;
+  const int wanted = std::clamp(static_cast<int>(std::floor(sum * Quanta + 0.5F)), 0, Quanta);
+  this->Rounded.resize(kept);
+  int total = 0;
+  for (std::size_t k = kept; k-- > 0;)
+  {
+    const int quanta = std::clamp(static_cast<int>(std::floor(list[k].weight * scale + 0.5F)), 0, Quanta);
+    this->Rounded[k] = static_cast<std::uint32_t>(k > 0 ? quanta : std::max(0, wanted - total));
+    total += quanta;
+  }
+}
+
+void ExtendedInterpolation::operator()(CoarseningData& data, std::int64_t i)
+{
+  const std::int64_t coarse = data.lifted[i];
+  if (coarse >= 0)
+  {
+    this->Candidates.assign(1, { static_cast<CoarseIndex>(coarse), 1.0F });
+    this->Rounded.assign(1, Quanta);
+  }
+  else
+  {
+    this->gather(data, i);
+    this->truncate();
+  }
+  this->append(data, i);
+}
+
+void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i)
+{
+  const std::int64_t near = data.coarseNodes;
+  InterpolationEntry* out =
+    data.interpolation.open(static_cast<std::int64_t>(this->Candidates.size()));
+  const std::int64_t start = data.interpolation.start(i);
+  std::int64_t size = 0;
+  std::int64_t reach = i > 0 ? data.parentReach[i - 1] : -1;
+  std::int32_t sum = 0;
+  for (std::size_t k = 0; k < this->Candidates.size(); ++k)
+  {
+    const std::uint32_t quanta = this->Rounded[k];
+    if (quanta == 0)
+    {
+      continue;
+    }
+    const CoarseIndex low = this->Candidates[k].coarse;
+    const std::int64_t coarse = near + offset(low, near);
+    const std::int64_t place = start + size;
+    std::int64_t& last = data.lastChild[coarse];
+    if (last < 0)
+    {
+      data.firstChild[coarse] = place;
+    }
+    else
+    {
+      data.interpolation.entry(last).next = static_cast<std::uint32_t>(place - last);
+    }
+    last = place;
+    out[size++] = { low, static_cast<std::uint32_t>(i), 0, quanta };
+    reach = std::max(reach, coarse);
+    sum += static_cast<std::int32_t>(quanta);
+  }
+  data.interpolation.close(size);
+  data.rowQuanta[i] = sum;
+  data.parentReach[i] = reach;
+}
+
+} // namespace smg

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Storage/Ring.h"
+
+#include <cstdint>
+#include <span>
+
+namespace smg
+{
+
+/** An off-diagonal entry of row i of a level's matrix: A_ij = -weight, j = i + delta. */
+struct RowEntry
+{
+  std::int32_t delta;
+  float weight;
+};
+
+/**
+ * The rows of a level's matrix while the level is being built, in node order: entries by ascending
+ * column, A_ii = diagonal = alpha + sum of the weights, so alpha is the row sum.
+ */
+class LevelRows
+{
+public:
+  explicit LevelRows(Pool& pool)
+    : Entries(pool)
+    , Diagonal(pool)
+    , Alpha(pool)
+    , Strongest(pool)
+    , Reach(pool)
+    , ChildReach(pool)
+  {
+  }
+
+  /** Rows appended so far; all of them are final. */
+  std::int64_t end() const { return this->Entries.end(); }
+  /** Whether no row follows. */
+  bool Ended = false;
+
+  std::span<const RowEntry> row(std::int64_t i) const
+  {
+    return { this->Entries.row(i), static_cast<std::size_t>(this->Entries.size(i)) };
+  }
+  double diagonal(std::int64_t i) const { return this->Diagonal[i]; }
+  double alpha(std::int64_t i) const { return this->Alpha[i]; }
+  /** The largest weight of row i, 0 if there is none. */
+  float strongest(std::int64_t i) const { return this->Strongest[i]; }
+  /** The largest node index that occurs in rows 0 .. i, at least i. */
+  std::int64_t reach(std::int64_t i) const { return this->Reach[i]; }
+  /** The last node of the finer level that interpolates from a node 0 .. i; -1 on level 0. */
+  std::int64_t childReach(std::int64_t i) const { return this->ChildReach[i]; }
+  /** Entries of all rows so far, diagonals included. */
+  std::int64_t nonzeros() const { return this->Nonzeros; }
+
+  /** Room for at most `size` entries of the next row. */
+  RowEntry* open(std::int64_t size) { return this->Entries.open(size); }
+
+  /** Ends the row that open() began. `childReach` is that of this node alone. */
+  void close(std::int64_t size, double alpha, std::int64_t childReach)
+  {
+    const std::int64_t i = this->end();
+    const RowEntry* entry = this->Entries.open(0);
+    double sum = alpha;
+    float strongest = 0.0F;
+    for (std::int64_t e = 0; e < size; ++e)
+    {
+      sum += entry[e].weight;
+      strongest = std::max(strongest, entry[e].weight);
+    }
+    const std::int64_t last = size > 0 ? i + std::max(0, entry[size - 1].delta) : i;
+    this->Entries.close(size);
+    for (auto* ring : { &this->Diagonal, &this->Alpha })
+    {
+      ring->extendRaw(i + 1);
+    }
+    this->Strongest.extendRaw(i + 1);
+    this->Reach.extendRaw(i + 1);
+    this->ChildReach.extendRaw(i + 1);
+    this->Diagonal[i] = sum;
+    this->Alpha[i] = alpha;
+    this->Strongest[i] = strongest;
+    this->LastReach = std::max(this->LastReach, last);
+    this->LastChildReach = std::max(this->LastChildReach, childReach);
+    this->Reach[i] = this->LastReach;
+    this->ChildReach[i] = this->LastChildReach;
+    this->Nonzeros += size + 1;
+  }
+
+  /** The largest i (at most end()) such that the nodes below i occur in rows below `done` only. */
+  std::int64_t unreached(std::int64_t from, std::int64_t done) const
+  {
+    std::int64_t i = from;
+    while (i < this->end() && this->Reach[i] < done)
+    {
+      ++i;
+    }
+    return i;
+  }
+
+  /** Lets go of rows below `row`, and of reach() below `reach`. */
+  void release(std::int64_t row, std::int64_t reach)
+  {
+    this->Entries.release(row);
+    this->Diagonal.release(row);
+    this->Alpha.release(row);
+    this->Strongest.release(row);
+    this->ChildReach.release(row);
+    this->Reach.release(std::min(row, reach));
+  }
+
+private:
+  RaggedRing<RowEntry> Entries;
+  Ring<double> Diagonal, Alpha;
+  Ring<float> Strongest;
+  Ring<std::int64_t> Reach, ChildReach;
+  std::int64_t LastReach = 0;
+  std::int64_t LastChildReach = -1;
+  std::int64_t Nonzeros = 0;
+};
+
+} // namespace smg

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Hierarchy/CoarseningData.h"
+
+#include <algorithm>
+#include <cfloat>
+
+namespace smg
+{
+
+/**
+ * The lifting rule of the paper on strong edges: a greedy maximal independent set in stream order.
+ * Node i is lifted iff none of the lower nodes that it strongly depends on is. A node without edges
+ * is never lifted: relaxation solves it exactly.
+ */
+struct IndependentSetLifting
+{
+  /** An edge of row i is strong when w_ij >= strength * max_k w_ik; in [0, 1). */
+  float strength = 0.1F;
+
+  float threshold(const CoarseningData& data, std::int64_t i) const
+  {
+    return std::max(this->strength * data.fine.strongest(i), FLT_MIN);
+  }
+
+  /** Whether node i is lifted; the nodes below i are decided. */
+  bool operator()(const CoarseningData& data, std::int64_t i) const
+  {
+    const auto row = data.fine.row(i);
+    const float strong = this->threshold(data, i);
+    const std::int64_t* lifted = data.lifted.at(i);
+    for (const RowEntry& entry : row)
+    {
+      if (entry.delta > 0)
+      {
+        break;
+      }
+      if (entry.weight >= strong && lifted[entry.delta] >= 0)
+      {
+        return false;
+      }
+    }
+    return !row.empty();
+  }
+};
+
+} // namespace smg

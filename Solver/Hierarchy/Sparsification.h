@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Hierarchy/CoarseningData.h"
+
+#include <cstdint>
+
+namespace smg
+{
+
+/**
+ * Removes small entries of a coarse operator without changing its row sums: an edge (c,k) with
+ * |w| < tolerance * min(strongest_c, strongest_k) is dropped if w is negative; if positive its weight
+ * moves to the two edges (c,m) and (m,k) of the strongest common neighbour m, or it stays if there
+ * is none. Plain dropping weakens the operator and diverges on bad triangles.
+ */
+struct Sparsification
+{
+  /** 0 (nothing is removed) to 0.1; above that cycles diverge. */
+  float tolerance = 0.1F;
+
+  /** Treats the pairs (c,k), k > c. The raw rows up to rawReach(c) are there. */
+  void operator()(CoarseningData& data, std::int64_t c) const;
+};
+
+} // namespace smg

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Problem/Assembly.h"
+
+#include "Solver/Core/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace smg
+{
+namespace
+{
+
+/** Rows are made final in batches of this many, to ask for edge targets in one call. */
+constexpr std::int64_t BatchRows = 256;
+
+bool allFinite(const std::vector<double>& values)
+{
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+/** Neighbours that an open vertex has room for without the table aside. */
+int usualNeighbours(CellType type)
+{
+  return type == CellType::Triangle ? 12 : 24;
+}
+
+} // namespace
+
+Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, LevelRows& rows,
+  LevelWindow<double>& level, Components& components)
+  : Type(info.cellType)
+  , Given(problem)
+  , Columns(problem.columns())
+  , Kind(problem.weights())
+  , Screening(problem.screening())
+  , Rows(rows)
+  , Level(level)
+  , Parts(components)
+  , Points(pool, 3)
+  , Values(pool, problem.columns())
+  , Sources(pool, problem.columns())
+  , Mass(pool)
+  , Prescribed(pool)
+  , Labels(pool)
+  , Reach(pool)
+  , Edges(pool, usualNeighbours(info.cellType))
+{
+}
+
+void Assembly::add(const MeshBlock& block, const LabelSink& labels)
+{
+  this->addVertices(block);
+  this->addCells(block);
+  if (block.finalized > this->Vertices)
+  {
+    throw Error("the mesh stream is not valid: a block declares " + std::to_string(block.finalized) +
+      " vertices final but only " + std::to_string(this->Vertices) + " have come");
+  }
+  this->finalize(block.finalized, labels);
+}
+
+void Assembly::finish(const LabelSink& labels)
+{
+  this->finalize(this->Vertices, labels);
+  this->Rows.Ended = true;
+}
+
+void Assembly::addVertices(const MeshBlock& block)
+{
+  const std::int64_t count = block.vertices();
+  if (count == 0)
+  {
+    return;
+  }
+  if (block.firstVertex != this->Vertices)
+  {
+    throw Error("the mesh stream is not valid: a block begins with vertex " +
+      std::to_string(block.firstVertex) + ", expected " + std::to_string(this->Vertices));
+  }
+  VertexConditions& given = this->Conditions;
+  const auto values = static_cast<std::size_t>(count * this->Columns);
+  given.prescribed.assign(static_cast<std::size_t>(count), 0);
+  given.value.assign(values, 0.0);
+  given.source.assign(values, 0.0);
+  this->Given.conditions(block, given);
+  if (!allFinite(block.positions) || !allFinite(given.value) || !allFinite(given.source))
+  {
+    throw Error("a position, value or source of a vertex between " + std::to_string(this->Vertices) +
+      " and " + std::to_string(this->Vertices + count - 1) + " is not a finite number");
+  }
+
+  const std::int64_t end = this->Vertices + count;
+  this->Points.extendRaw(end);
+  this->Values.extendRaw(end);
+  this->Sources.extendRaw(end);
+  this->Prescribed.extendRaw(end);
+  this->Mass.extend(end);
+  this->Labels.extendRaw(end);
+  this->Edges.extend(end);
+  std::copy(block.positions.begin(), block.positions.end(), this->Points.at(this->Vertices));
+  std::copy(given.value.begin(), given.value.end(), this->Values.at(this->Vertices));
+  std::copy(given.source.begin(), given.source.end(), this->Sources.at(this->Vertices));
+  std::copy(given.prescribed.begin(), given.prescribed.end(), this->Prescribed.at(this->Vertices));
+  std::fill(this->Labels.at(this->Vertices), this->Labels.at(end), -1);
+  this->Vertices = end;
+}
+
+void Assembly::addCells(const MeshBlock& block)
+{
+  const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
+  const auto cells = block.corners.size() / corners;
+  const Column* flags = nullptr;
+  for (const Column& column : block.cellColumns)
+  {
+    flags = column.spec.name == CellFlagsName ? &column : flags;
+  }
+  for (std::size_t c = 0; c < cells; ++c)
+  {
+    const std::int64_t* cell = block.corners.data() + c * corners;
+    for (std::size_t k = 0; k < corners; ++k)
+    {
+      if (cell[k] < this->Final || cell[k] >= this->Vertices)
+      {
+        throw Error("the mesh stream is not valid: cell " +
+          std::to_string(block.firstCell + static_cast<std::int64_t>(c)) + " uses vertex " +
+          std::to_string(cell[k]) + ", which " +
+          (cell[k] >= this->Vertices ? "has not come yet" : "was declared final"));
+      }
+    }
+    if (flags && flags->value(c) != 0.0)
+    {
+      ++this->Degenerate;
+      continue;
+    }
+    this->addCell(cell);
+  }
+  this->Cells += static_cast<std::int64_t>(cells);
+}
+
+void Assembly::addCell(const std::int64_t* corners)
+{
+  const bool triangle = this->Type == CellType::Triangle;
+  const double* point[4];
+  for (int k = 0; k < cornersOf(this->Type); ++k)
+  {
+    point[k] = this->Points.at(corners[k]);
+  }
+  const CellWeights cell = triangle
+    ? triangleWeights(point[0], point[1], point[2])
+    : tetrahedronWeights(point[0], point[1], point[2], point[3]);
+  if (cell.measure == 0.0)
+  {
+    ++this->Degenerate;
+    return;
+  }
+
+  std::int32_t label = -1;
+  for (int k = 0; k < cornersOf(this->Type); ++k)
+  {
+    const std::int32_t other = this->Labels[corners[k]];
+    label = label < 0 ? other : other < 0 || other == label ? label : this->Parts.join(label, other);
+  }
+  label = label < 0 ? this->Parts.add() : label;
+  const double mass = cell.measure / cornersOf(this->Type);
+  for (int k = 0; k < cornersOf(this->Type); ++k)
+  {
+    this->Labels[corners[k]] = label;
+    this->Mass[corners[k]] += mass;
+  }
+
+  const int edges = triangle ? 3 : 6;
+  for (int e = 0; e < edges; ++e)
+  {
+    const int* ends = triangle ? TriangleEdges[e] : TetrahedronEdges[e];
+    const std::int64_t a = corners[ends[0]];
+    const std::int64_t b = corners[ends[1]];
+    OpenEdge& forth = this->Edges.edge(a, b);
+    const double weight = this->Kind == Weights::Uniform ? 1.0 : forth.weight + cell.weight[e];
+    forth.weight = weight;
+    this->Edges.edge(b, a).weight = weight;
+  }
+}
+
+void Assembly::finalize(std::int64_t end, const LabelSink& labels)
+{
+  this->Level.extendState(std::max(end, this->Level.x().end()));
+  this->Reach.extendRaw(std::max(end, this->Reach.end()));
+  const bool targets = this->Given.hasEdgeTargets();
+  while (this->Final < end)
+  {
+    const std::int64_t begin = this->Final;
+    const std::int64_t stop = std::min(end, begin + BatchRows);
+    this->Neighbours.clear();
+    this->RowEnds.clear();
+    for (std::int64_t i = begin; i < stop; ++i)
+    {
+      this->collectRow(i);
+    }
+    if (targets)
+    {
+      this->applyEdgeTargets(begin);
+    }
+    this->LabelBatch.clear();
+    std::size_t first = 0;
+    for (std::int64_t i = begin; i < stop; ++i)
+    {
+      const std::size_t last = this->RowEnds[static_cast<std::size_t>(i - begin)];
+      const double* target =
+        targets ? this->Targets.data() + first * static_cast<std::size_t>(this->Columns) : nullptr;
+      this->closeRow(i, this->Neighbours.data() + first, last - first, target);
+      first = last;
+    }
+    labels(begin, this->LabelBatch);
+    this->Final = stop;
+  }
+  while (this->Done < this->Final && this->Reach[this->Done] < this->Final)
+  {
+    ++this->Done;
+  }
+  this->Points.release(this->Done);
+  this->Values.release(this->Done);
+  this->Prescribed.release(this->Done);
+  this->Reach.release(this->Done);
+  this->Sources.release(this->Final);
+  this->Mass.release(this->Final);
+  this->Labels.release(this->Final);
+  this->Edges.release(this->Final);
+}
+
+/** Appends the neighbours of vertex i, with the weights as they are stored, to the batch. */
+void Assembly::collectRow(std::int64_t i)
+{
+  this->Edges.take(i, this->Row);
+  for (const OpenEdge& edge : this->Row)
+  {
+    double weight = edge.weight;
+    if (this->Kind == Weights::Cotangent)
+    {
+      const double floor = cotangentFloor(this->Type, this->Points.at(i), this->Points.at(edge.to));
+      this->Clamped += weight < floor ? 1 : 0;
+      weight = std::max(weight, floor);
+    }
+    this->Neighbours.push_back({ edge.to, static_cast<float>(weight) });
+  }
+  this->RowEnds.push_back(this->Neighbours.size());
+  const std::int64_t last = this->Row.empty() ? i : std::max(i, this->Row.back().to);
+  this->LastReach = std::max(this->LastReach, last);
+  this->Reach[i] = this->LastReach;
+}
+
+void Assembly::applyEdgeTargets(std::int64_t begin)
+{
+  const std::size_t edges = this->Neighbours.size();
+  this->From.resize(edges);
+  this->To.resize(edges);
+  this->FromPoints.resize(3 * edges);
+  this->ToPoints.resize(3 * edges);
+  this->Targets.assign(edges * static_cast<std::size_t>(this->Columns), 0.0);
+  std::int64_t i = begin;
+  for (std::size_t e = 0; e < edges; ++e)
+  {
+    while (e >= this->RowEnds[static_cast<std::size_t>(i - begin)])
+    {
+      ++i;
+    }
+    this->From[e] = i;
+    this->To[e] = this->Neighbours[e].to;
+    std::copy_n(this->Points.at(i), 3, this->FromPoints.data() + 3 * e);
+    std::copy_n(this->Points.at(this->To[e]), 3, this->ToPoints.data() + 3 * e);
+  }
+  EdgeBatch batch{ this->From, this->To, this->FromPoints, this->ToPoints, this->Targets };
+  this->Given.edgeTargets(batch);
+  if (!allFinite(this->Targets))
+  {
+    throw Error("an edge target near vertex " + std::to_string(begin) + " is not a finite number");
+  }
+}
+
+/** Row, right-hand side and initial value of vertex i; target: `Columns` values a neighbour. */
+void Assembly::closeRow(
+  std::int64_t i, const Neighbour* neighbours, std::size_t count, const double* target)
+{
+  double* x = this->Level.x().at(i);
+  double* b = this->Level.b().at(i);
+  const double* value = this->Values.at(i);
+  std::copy_n(value, this->Columns, x);
+  const std::int32_t label = this->Labels[i] < 0 ? -1 : this->Parts.root(this->Labels[i]);
+  this->LabelBatch.push_back(label);
+
+  const bool prescribed = this->Prescribed[i] != 0;
+  const bool held = !prescribed && count == 0 && this->Screening * this->Mass[i] == 0.0;
+  if (prescribed || held)
+  {
+    this->PrescribedCount += prescribed ? 1 : 0;
+    this->Held += held ? 1 : 0;
+    if (label >= 0)
+    {
+      this->Parts.anchor(label);
+    }
+    std::copy_n(value, this->Columns, b);
+    this->Rows.open(0);
+    this->Rows.close(0, 1.0, -1);
+    return;
+  }
+
+  double alpha = this->Screening * this->Mass[i];
+  for (int k = 0; k < this->Columns; ++k)
+  {
+    b[k] = this->Mass[i] * this->Sources.at(i)[k];
+  }
+  RowEntry* row = this->Rows.open(static_cast<std::int64_t>(count));
+  std::int64_t size = 0;
+  double squares[2] = { 0.0, 0.0 };
+  for (std::size_t e = 0; e < count; ++e)
+  {
+    const Neighbour& neighbour = neighbours[e];
+    const double weight = neighbour.weight;
+    const bool known = this->Prescribed[neighbour.to] != 0;
+    const double* other = this->Values.at(neighbour.to);
+    for (int k = 0; k < this->Columns; ++k)
+    {
+      b[k] += weight * ((known ? other[k] : 0.0) + (target ? target[e * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)] : 0.0));
+    }
+    alpha += known ? weight : 0.0;
+    if (!known)
+    {
+      const std::int64_t delta = neighbour.to - i;
+      if (delta != static_cast<std::int32_t>(delta))
+      {
+        throw Error("vertices " + std::to_string(i) + " and " + std::to_string(neighbour.to) +
+          " share an edge but lie too far apart in the stream: convert the mesh with the order bfs");
+      }
+      row[size++] = { static_cast<std::int32_t>(delta), neighbour.weight };
+    }
+  }
+  this->Rows.close(size, alpha, -1);
+
+  const double diagonal = this->Rows.diagonal(i);
+  for (int k = 0; k < this->Columns; ++k)
+  {
+    double sum = b[k] - diagonal * x[k];
+    for (std::int64_t e = 0; e < size; ++e)
+    {
+      sum += static_cast<double>(row[e].weight) * this->Values.at(i + row[e].delta)[k];
+    }
+    squares[0] += sum * sum;
+    squares[1] += b[k] * b[k] + diagonal * diagonal * x[k] * x[k];
+  }
+  this->InitialSquares += squares[0];
+  this->TermSquares += squares[1];
+  if (this->Screening > 0.0)
+  {
+    this->Parts.anchor(label);
+  }
+  this->Parts.count(label, b, x);
+}
+
+} // namespace smg

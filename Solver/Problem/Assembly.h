@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Cycle/LevelWindow.h"
+#include "Solver/Hierarchy/LevelRows.h"
+#include "Solver/Problem/CellWeights.h"
+#include "Solver/Problem/Components.h"
+#include "Solver/Problem/OpenEdges.h"
+#include "Solver/Problem/Problem.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Turns the mesh stream into the rows of the finest level: weights are summed per edge while cells
+ * come; when a vertex is final its row, right-hand side and initial value go to the level.
+ * Constrained vertices are nodes with an empty row; their neighbours carry them in alpha and b.
+ */
+class Assembly
+{
+public:
+  /** Called with the labels of the vertices [first, first + labels.size()). */
+  using LabelSink = std::function<void(std::int64_t first, std::span<const std::int32_t> labels)>;
+
+  Assembly(Pool& pool, const StreamInfo& info, Problem& problem, LevelRows& rows,
+    LevelWindow<double>& level, Components& components);
+
+  /** Takes a block; makes the rows final that it finalises. Throws Error on a bad block. */
+  void add(const MeshBlock& block, const LabelSink& labels);
+  /** Makes the rest final. */
+  void finish(const LabelSink& labels);
+
+  std::int64_t vertices() const { return this->Vertices; }
+  std::int64_t openVertices() const { return this->Vertices - this->Final; }
+  std::int64_t cells() const { return this->Cells; }
+  std::int64_t prescribed() const { return this->PrescribedCount; }
+  std::int64_t held() const { return this->Held; }
+  std::int64_t degenerateCells() const { return this->Degenerate; }
+  std::int64_t clampedWeights() const { return this->Clamped / 2; }
+  /** ||b - A x_0||^2, and the same of the terms that it is the difference of. */
+  double initialSquares() const { return this->InitialSquares; }
+  double termSquares() const { return this->TermSquares; }
+
+private:
+  struct Neighbour
+  {
+    std::int64_t to;
+    float weight;
+  };
+
+  void addVertices(const MeshBlock& block);
+  void addCells(const MeshBlock& block);
+  void addCell(const std::int64_t* corners);
+  void finalize(std::int64_t end, const LabelSink& labels);
+  void collectRow(std::int64_t i);
+  void applyEdgeTargets(std::int64_t begin);
+  void closeRow(std::int64_t i, const Neighbour* neighbours, std::size_t count, const double* target);
+
+  CellType Type;
+  Problem& Given;
+  int Columns;
+  Weights Kind;
+  double Screening;
+  LevelRows& Rows;
+  LevelWindow<double>& Level;
+  Components& Parts;
+
+  // By open vertex.
+  Ring<double> Points, Values, Sources, Mass;
+  Ring<std::uint8_t> Prescribed;
+  Ring<std::int32_t> Labels;
+  Ring<std::int64_t> Reach; // largest neighbour of vertices 0 .. i, of final rows
+  OpenEdges Edges;
+  VertexConditions Conditions;
+
+  // The rows of the current batch.
+  std::vector<OpenEdge> Row;
+  std::vector<Neighbour> Neighbours;
+  std::vector<std::size_t> RowEnds;
+  std::vector<double> Targets, FromPoints, ToPoints;
+  std::vector<std::int64_t> From, To;
+  std::vector<std::int32_t> LabelBatch;
+
+  std::int64_t Vertices = 0, Cells = 0, Final = 0, Done = 0;
+  std::int64_t PrescribedCount = 0, Held = 0, Degenerate = 0, Clamped = 0;
+  std::int64_t LastReach = 0;
+  double InitialSquares = 0.0, TermSquares = 0.0;
+};
+
+} // namespace smg

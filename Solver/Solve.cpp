@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Solve.h"
+
+#include "Solver/Core/Error.h"
+#include "Solver/Engine/Engine.txx"
+#include "Solver/Hierarchy/Extended.h"
+
+#include <string>
+#include <thread>
+
+namespace smg
+{
+namespace
+{
+
+void require(bool holds, const std::string& sentence)
+{
+  if (!holds)
+  {
+    throw Error(sentence);
+  }
+}
+
+SolveOptions checked(const SolveOptions& given, const Problem& problem)
+{
+  SolveOptions options = given;
+  require(options.operators == Extended::name,
+    "there is no operator set '" + options.operators + "': use " + Extended::name);
+  require(options.sweeps >= 1 && options.sweeps <= 20, "the number of sweeps must be from 1 to 20");
+  require(options.tolerance > 0.0 && options.tolerance < 1.0,
+    "the tolerance must lie between 0 and 1, both excluded");
+  require(options.maxCycles >= 1, "at least one V-cycle must be allowed");
+  require(options.memoryLimit > 0, "the memory limit must be positive");
+  require(options.threads >= 0, "the number of threads must not be negative");
+  require(options.blockNodes >= 1, "a stage must advance by at least one node");
+  require(options.coreNodes >= 0, "the number of nodes of a core level must not be negative");
+  require(problem.columns() >= 1, "a problem needs at least one column");
+  require(problem.screening() >= 0.0 && std::isfinite(problem.screening()),
+    "the screening must be a finite number that is not negative");
+  if (options.threads == 0)
+  {
+    options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  }
+  return options;
+}
+
+} // namespace
+
+std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveOptions& options)
+{
+  return std::make_unique<Engine<Extended>>(mesh, problem, checked(options, problem));
+}
+
+} // namespace smg

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Storage/BlockFile.h"
+
+#include "Solver/Core/Error.h"
+#include "Solver/Storage/BlockFileLayout.h"
+#include "Solver/Storage/Checksum.h"
+#include "Solver/Storage/Codec.h"
+#include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Storage/WriteBehind.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstring>
+#include <utility>
+
+namespace smg
+{
+
+struct BlockFileWriter::Implementation
+{
+  Implementation(std::filesystem::path path, std::vector<TableSpec> tables, Codec codec,
+    IoStatistics* statistics)
+    : Path(std::move(path))
+    , Statistics(statistics)
+    , Coder(codec)
+    , File(FileDescriptor::createBeside(this->Path))
+    , Behind(std::make_unique<WriteBehind>(this->File, BlockFileHeaderBytes, WriteBehindBytes))
+  {
+    this->Index.codec = codec;
+    this->Index.blocks.resize(tables.size());
+    this->Index.tables = std::move(tables);
+  }
+
+  ~Implementation()
+  {
+    this->Behind.reset();
+    if (this->File.isOpen())
+    {
+      this->File.remove();
+    }
+  }
+
+  void put(std::span<const std::byte> bytes)
+  {
+    const std::int64_t waited = this->Behind->waitNanoseconds();
+    this->Behind->put(bytes);
+    this->count(static_cast<std::int64_t>(bytes.size()), this->Behind->waitNanoseconds() - waited);
+  }
+
+  void count(std::int64_t bytes, std::int64_t waited)
+  {
+    if (this->Statistics)
+    {
+      this->Statistics->bytesWritten += bytes;
+      this->Statistics->waitNanoseconds += waited;
+    }
+  }
+
+  void checkWritten()
+  {
+    if (const int error = this->Behind->failed(); error != 0)
+    {
+      FileDescriptor::throwWriteError(this->Path, error);
+    }
+  }
+
+  std::string place(int table) const
+  {
+    return this->Path.string() + ": table '" + this->Index.tables[table].name + "', block " +
+           std::to_string(this->Index.blocks[table].blocks());
+  }
+
+  void checkColumns(
+    int table, std::int64_t rows, std::span<const std::span<const std::byte>> columns) const
+  {
+    if (table < 0 || table >= static_cast<int>(this->Index.tables.size()))
+    {
+      throw Error(this->Path.string() + ": there is no table " + std::to_string(table) + ".");
+    }
+    const TableSpec& spec = this->Index.tables[table];
+    if (rows < 0 || columns.size() != spec.columns.size())
+    {
+      throw Error(this->place(table) + ": " + std::to_string(rows) + " rows of " +
+                  std::to_string(columns.size()) + " columns cannot be written to a table of " +
+                  std::to_string(spec.columns.size()) + " columns.");
+    }
+    for (std::size_t c = 0; c < columns.size(); c++)
+    {
+      const std::size_t tuple = spec.columns[c].tupleBytes();
+      const std::size_t size = columns[c].size();
+      if (size > MaxColumnBytes ||
+          (tuple > 0 && (size % tuple != 0 || size / tuple != std::size_t(rows))))
+      {
+        throw Error(this->place(table) + ": column '" + spec.columns[c].name + "' has " +
+                    std::to_string(size) + " bytes, which do not go with " + std::to_string(rows) +
+                    " rows of " + std::to_string(tuple) +
+                    " bytes, or are more than a block may have.");
+      }
+    }
+  }
+
+  void writeFront(const std::string& header, std::span<const std::byte> tail, std::int64_t offset)
+  {
+    BlockFileFront front{};
+    std::memcpy(front.magic, BlockFileMagic.data(), sizeof(front.magic));
+    front.version = BlockFileVersion;
+    front.order = BlockFileFront::OrderMark;
+    front.tailOffset = offset;
+    front.tailBytes = static_cast<std::int64_t>(tail.size());
+    front.tailChecksum = checksum(tail);
+    front.headerBytes = static_cast<std::int64_t>(header.size());
+    front.headerChecksum = checksum(std::as_bytes(std::span(header)));
+    const auto bytes = std::as_bytes(std::span(&front, 1));
+    front.frontChecksum = checksum(bytes.first(offsetof(BlockFileFront, frontChecksum)));
+    std::vector<std::byte> region(BlockFileHeaderBytes);
+    std::memcpy(region.data(), &front, sizeof(front));
+    std::memcpy(region.data() + sizeof(front), header.data(), header.size());
+    this->File.write(0, region);
+    this->count(BlockFileHeaderBytes, 0);
+  }
+
+  std::filesystem::path Path;
+  IoStatistics* Statistics;
+  ColumnCodec Coder;
+  BlockFileIndex Index;
+  FileDescriptor File;
+  std::unique_ptr<WriteBehind> Behind;
+};
+
+BlockFileWriter::BlockFileWriter(
+  std::filesystem::path path, std::vector<TableSpec> tables, Codec codec, IoStatistics* statistics)
+  : Self(std::make_unique<Implementation>(std::move(path), std::move(tables), codec, statistics))
+{
+}
+
+BlockFileWriter::~BlockFileWriter() = default;
+
+void BlockFileWriter::append(
+  int table, std::int64_t rows, std::span<const std::span<const std::byte>> columns)
+{
+  Implementation& self = *this->Self;
+  self.checkColumns(table, rows, columns);
+  self.checkWritten();
+  TableIndex& index = self.Index.blocks[table];
+  index.offset.push_back(self.Behind->offset());
+  index.firstRow.push_back(index.firstRow.back() + rows);
+  for (std::size_t c = 0; c < columns.size(); c++)
+  {
+    const std::size_t tuple = self.Index.tables[table].columns[c].tupleBytes();
+    const std::span stored = self.Coder.compress(columns[c], tuple);
+    index.entries.push_back({ static_cast<std::uint32_t>(stored.size()),
+      static_cast<std::uint32_t>(columns[c].size()), checksum(stored) });
+    self.put(stored);
+  }
+}
+
+void BlockFileWriter::finish(const nlohmann::json& header)
+{
+  Implementation& self = *this->Self;
+  const std::string text = header.dump();
+  constexpr std::size_t most = BlockFileHeaderBytes - sizeof(BlockFileFront);
+  if (text.size() > most)
+  {
+    throw Error(self.Path.string() + ": the header has " + std::to_string(text.size()) +
+                " bytes, but a block file has room for " + std::to_string(most) + ".");
+  }
+  const std::int64_t tailOffset = self.Behind->offset();
+  const std::vector<std::byte> tail = self.Index.serialize();
+  self.put(tail);
+  const std::int64_t waited = self.Behind->waitNanoseconds();
+  self.Behind->flush();
+  self.count(0, self.Behind->waitNanoseconds() - waited);
+  self.checkWritten();
+  self.writeFront(text, tail, tailOffset);
+  self.Behind.reset();
+  try
+  {
+    self.File.renameTo(self.Path);
+  }
+  catch (const Error&)
+  {
+    self.File.remove();
+    throw;
+  }
+}
+
+} // namespace smg

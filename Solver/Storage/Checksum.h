@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace smg
+{
+
+/** The checksum of all our files: XXH3, 64 bits. */
+std::uint64_t checksum(std::span<const std::byte> bytes) noexcept;
+
+} // namespace smg

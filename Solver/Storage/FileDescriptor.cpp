@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Storage/FileDescriptor.h"
+
+#include "Solver/Core/Error.h"
+
+#include <atomic>
+#include <cerrno>
+#include <fcntl.h>
+#include <string>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+std::string reason(int errorNumber)
+{
+  return std::generic_category().message(errorNumber);
+}
+
+/** A name that no other file of this or another process has, unless a process left it behind. */
+std::filesystem::path temporaryName(const std::filesystem::path& path)
+{
+  static std::atomic<unsigned> count{ 0 };
+  return path.string() + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
+}
+
+int openNew(const std::filesystem::path& path)
+{
+  return ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+}
+
+} // namespace
+
+FileDescriptor::~FileDescriptor()
+{
+  if (this->isOpen())
+  {
+    ::close(this->Number);
+  }
+}
+
+FileDescriptor::FileDescriptor(FileDescriptor&& other) noexcept
+  : Number(std::exchange(other.Number, -1))
+  , Path(std::move(other.Path))
+{
+}
+
+FileDescriptor& FileDescriptor::operator=(FileDescriptor&& other) noexcept
+{
+  std::swap(this->Number, other.Number);
+  std::swap(this->Path, other.Path);
+  return *this;
+}
+
+FileDescriptor FileDescriptor::openForReading(const std::filesystem::path& path)
+{
+  FileDescriptor file;
+  file.Path = path;
+  file.Number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (!file.isOpen())
+  {
+    throw Error(path.string() + ": cannot be opened: " + reason(errno) + ".");
+  }
+  struct stat status = {};
+  if (::fstat(file.Number, &status) != 0 || !S_ISREG(status.st_mode))
+  {
+    throw Error(path.string() + ": is not a regular file.");
+  }
+  return file;
+}
+
+FileDescriptor FileDescriptor::createBeside(const std::filesystem::path& path)
+{
+  FileDescriptor file;
+  do
+  {
+    file.Path = temporaryName(path);
+    file.Number = openNew(file.Path);
+  } while (!file.isOpen() && errno == EEXIST);
+  if (!file.isOpen())
+  {
+    throw Error(path.string() + ": cannot be created: " + reason(errno) + ".");
+  }
+  return file;
+}
+
+FileDescriptor FileDescriptor::createNameless(const std::filesystem::path& folder)
+{
+  const std::filesystem::path place = folder.empty() ? std::filesystem::path(".") : folder;
+  FileDescriptor file;
+  file.Path = place / "scratch file";
+  file.Number = ::open(place.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (!file.isOpen())
+  {
+    // Not every file system has files without a name.
+    file = createBeside(place / "smg-scratch");
+    ::unlink(file.Path.c_str());
+  }
+  return file;
+}
+
+std::int64_t FileDescriptor::size() const
+{
+  struct stat status = {};
+  if (::fstat(this->Number, &status) != 0)
+  {
+    throwReadError(this->Path, errno);
+  }
+  return status.st_size;
+}
+
+std::size_t FileDescriptor::readSome(std::int64_t offset, std::span<std::byte> bytes) const
+{
+  std::size_t done = 0;
+  while (done < bytes.size())
+  {
+    const ssize_t n =
+      ::pread(this->Number, bytes.data() + done, bytes.size() - done, offset + std::int64_t(done));
+    if (n == 0)
+    {
+      break;
+    }
+    if (n > 0)
+    {
+      done += n;
+    }
+    else if (errno != EINTR)
+    {
+      throwReadError(this->Path, errno);
+    }
+  }
+  return done;
+}
+
+int FileDescriptor::tryRead(std::int64_t offset, std::span<std::byte> bytes) const noexcept
+{
+  while (!bytes.empty())
+  {
+    const ssize_t n = ::pread(this->Number, bytes.data(), bytes.size(), offset);
+    if (n == 0)
+    {
+      return -1;
+    }
+    if (n > 0)
+    {
+      bytes = bytes.subspan(n);
+      offset += n;
+    }
+    else if (errno != EINTR)
+    {
+      return errno;
+    }
+  }
+  return 0;
+}
+
+int FileDescriptor::tryWrite(std::int64_t offset, std::span<const std::byte> bytes) const noexcept
+{
+  while (!bytes.empty())
+  {
+    const ssize_t n = ::pwrite(this->Number, bytes.data(), bytes.size(), offset);
+    if (n >= 0)
+    {
+      bytes = bytes.subspan(n);
+      offset += n;
+    }
+    else if (errno != EINTR)
+    {
+      return errno;
+    }
+  }
+  return 0;
+}
+
+void FileDescriptor::read(std::int64_t offset, std::span<std::byte> bytes) const
+{
+  if (const int error = this->tryRead(offset, bytes); error != 0)
+  {
+    throwReadError(this->Path, error);
+  }
+}
+
+void FileDescriptor::write(std::int64_t offset, std::span<const std::byte> bytes) const
+{
+  if (const int error = this->tryWrite(offset, bytes); error != 0)
+  {
+    throwWriteError(this->Path, error);
+  }
+}
+
+void FileDescriptor::close()
+{
+  if (this->isOpen() && ::close(std::exchange(this->Number, -1)) != 0 && errno != EINTR)
+  {
+    throwWriteError(this->Path, errno);
+  }
+}
+
+void FileDescriptor::renameTo(const std::filesystem::path& path)
+{
+  this->close();
+  if (::rename(this->Path.c_str(), path.c_str()) != 0)
+  {
+    throwWriteError(path, errno);
+  }
+  this->Path = path;
+}
+
+void FileDescriptor::remove() noexcept
+{
+  if (this->isOpen())
+  {
+    ::close(std::exchange(this->Number, -1));
+  }
+  ::unlink(this->Path.c_str());
+}
+
+void FileDescriptor::throwWriteError(const std::filesystem::path& path, int errorNumber)
+{
+  throw Error(path.string() + ": cannot be written: " + reason(errorNumber) + ".");
+}
+
+void FileDescriptor::throwReadError(const std::filesystem::path& path, int errorNumber)
+{
+  throw Error(path.string() + ": cannot be read: " +
+              (errorNumber < 0 ? "it is shorter than it should be" : reason(errorNumber)) + ".");
+}
+
+} // namespace smg

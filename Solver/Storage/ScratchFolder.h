@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+namespace smg
+{
+
+/** A folder of its own for scratch files, removed with all it holds by the destructor. */
+class ScratchFolder
+{
+public:
+  /** Makes it in `parent`; empty: in the system's temporary folder. Throws Error. */
+  explicit ScratchFolder(const std::filesystem::path& parent);
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  const std::filesystem::path& path() const { return this->Path; }
+
+private:
+  std::filesystem::path Path;
+};
+
+} // namespace smg

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Storage/IoThread.h"
+
+#include <array>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Writes bytes to a file one after the other, on a thread of its own. The bytes are copied into a
+ * few chunks of memory, and whoever brings them waits only when all chunks are on their way.
+ */
+class WriteBehind
+{
+public:
+  /** Writes from `offset` on with chunks of `bytes` bytes in all. The file must outlive it. */
+  WriteBehind(const FileDescriptor& file, std::int64_t offset, std::size_t bytes);
+  /** Ends the thread; what was not flushed is not written. */
+  ~WriteBehind();
+
+  /** Where the next byte goes in the file. */
+  std::int64_t offset() const { return this->Offset; }
+  /** Nanoseconds that put() and flush() stood waiting, in all. */
+  std::int64_t waitNanoseconds() const { return this->Waited; }
+
+  /** Brings bytes. A failed write is not thrown: failed() tells. */
+  void put(std::span<const std::byte> bytes);
+  /** Waits until all is written. */
+  void flush();
+  /** The error number of the first write that failed, or 0. */
+  int failed();
+
+private:
+  static constexpr int Chunks = 4;
+  struct Chunk
+  {
+    std::vector<std::byte> bytes;
+    std::size_t used = 0;
+    std::int64_t offset = 0;
+  };
+
+  void run();
+  void handOver();
+  template <class Condition>
+  void waitUntil(std::unique_lock<std::mutex>& lock, Condition condition);
+
+  const FileDescriptor& File;
+  std::int64_t Offset;
+  std::int64_t Waited = 0;
+  std::array<Chunk, Chunks> Ring;
+  int Current = 0; ///< the chunk that is being filled, no business of the thread
+
+  std::mutex Mutex;
+  std::condition_variable Changed;
+  int Full = 0; ///< chunks that wait to be written, the ones before Current
+  int FirstError = 0;
+  bool Stop = false;
+
+  IoThread Thread;
+};
+
+} // namespace smg
