@@ -25,6 +25,7 @@ public:
   Level(Pool& pool, ResidentNodes& resident, int index, int columns, int sweeps)
     : Window(pool, resident, index, columns)
     , At(sweeps)
+    , Planned(sweeps)
     , Squares(static_cast<std::size_t>(strideOf(columns)))
   {
   }
@@ -54,12 +55,24 @@ public:
   /** Takes the next block of rows while the hierarchy is being built. */
   void append(RowBlock block) { this->Window.append(std::move(block)); }
 
-  /** Way up: finishes the V-cycle on nodes 0 .. node. */
-  void pull(std::int64_t node)
+  /** Loads, here and on the coarser levels, all that the way up to `node` needs. */
+  void load(std::int64_t node)
   {
-    if (!this->Core && node >= 0)
+    this->Planned = this->At;
+    this->load(static_cast<int>(this->At.postSweep.size()), node);
+  }
+
+  /** Way up: finishes the V-cycle on nodes 0 .. node, which is loaded. */
+  void pull(std::int64_t node) { this->pull(static_cast<int>(this->At.postSweep.size()), node); }
+
+  /** Tells the way down, here and on the coarser levels, how far the way up has come. */
+  void showProgress()
+  {
+    this->At.seenProlonged = this->At.prolonged;
+    this->At.seenPostSwept = this->At.postSweep.back();
+    if (!this->Coarse->core())
     {
-      this->pull(static_cast<int>(this->At.postSweep.size()), node);
+      this->Coarse->showProgress();
     }
   }
 
@@ -68,11 +81,20 @@ public:
   {
     this->preSweep();
     this->restrictDown();
-    this->At.written = this->Window.write(this->At.preSweep.back());
-    this->At.released = this->Window.release(this->At.restricted);
     if (!this->Coarse->core())
     {
       this->Coarse->advanceDown();
+    }
+  }
+
+  /** Writes what the way down has finished and lets go of what is not needed any more. */
+  void settle()
+  {
+    this->Window.write(this->At.preSweep.back());
+    this->Window.release(this->At.restricted);
+    if (!this->Coarse->core())
+    {
+      this->Coarse->settle();
     }
   }
 
@@ -96,7 +118,7 @@ public:
     {
       const RowBlock::Header& h = this->Window.header(this->At.reset);
       const auto g = LevelWindow<Real>::groupIn(h, this->At.reset);
-      if (this->At.postSweep.back() <= h.neighbourReach[g] || this->Fine->prolonged <= h.childReach[g])
+      if (this->At.seenPostSwept <= h.neighbourReach[g] || this->Fine->seenProlonged <= h.childReach[g])
       {
         return false;
       }
@@ -135,14 +157,39 @@ private:
   using One = Lanes<Real, 1>;
   using Four = Lanes<Real, 4>;
 
-  void pull(int stage, std::int64_t node)
+  static std::int64_t& upCursor(LevelCursors& cursors, int stage)
   {
-    std::int64_t& cursor = stage == 0 ? this->At.prolonged : this->At.postSweep[static_cast<std::size_t>(stage - 1)];
-    if (cursor > node)
+    return stage == 0 ? cursors.prolonged : cursors.postSweep[static_cast<std::size_t>(stage - 1)];
+  }
+
+  /** Walks the way up to stage `stage` of node `node` as pull() will, loading. */
+  void load(int stage, std::int64_t node)
+  {
+    if (this->Core || node < 0 || upCursor(this->Planned, stage) > node)
     {
       return;
     }
     this->At.loaded = this->Window.load(node);
+    const RowBlock::Header& h = this->Window.header(node);
+    const auto g = LevelWindow<Real>::groupIn(h, node);
+    upCursor(this->Planned, stage) = LevelWindow<Real>::groupEnd(h, node);
+    if (stage == 0)
+    {
+      this->Coarse->load(h.parentReach[g]);
+    }
+    else
+    {
+      this->load(stage - 1, h.neighbourReach[g]);
+    }
+  }
+
+  void pull(int stage, std::int64_t node)
+  {
+    std::int64_t& cursor = upCursor(this->At, stage);
+    if (this->Core || cursor > node)
+    {
+      return;
+    }
     const RowBlock::Header& h = this->Window.header(node);
     const auto g = LevelWindow<Real>::groupIn(h, node);
     const std::int64_t end = LevelWindow<Real>::groupEnd(h, node);
@@ -187,7 +234,7 @@ private:
     std::int64_t end = this->At.preSweep[0];
     if (!this->Fine)
     {
-      return this->First ? this->At.loaded : this->Window.reachable(end, this->At.postSweep.back());
+      return this->First ? this->At.loaded : this->Window.reachable(end, this->At.seenPostSwept);
     }
     // b must be complete; the upper neighbours are zero, so they need not have come.
     while (end < this->At.loaded)
@@ -277,6 +324,7 @@ private:
 
   LevelWindow<Real> Window;
   LevelCursors At;
+  LevelCursors Planned; // those of the way up, as load() foresees them
   std::vector<Real> Squares;
   CoarseLevel* Coarse = nullptr;
   const LevelCursors* Fine = nullptr;

@@ -34,8 +34,9 @@ struct LevelCursors
   std::int64_t reset = 0;             ///< b set to zero for the next V-cycle (coarse levels)
   std::vector<std::int64_t> preSweep; ///< sweeps before restriction
   std::int64_t restricted = 0;        ///< residual and restriction
-  std::int64_t written = 0;           ///< state written
-  std::int64_t released = 0;          ///< let go
+
+  /** Of the way up, what the way down knows: the two may run on two threads. */
+  std::int64_t seenProlonged = 0, seenPostSwept = 0;
 
   explicit LevelCursors(int sweeps)
     : postSweep(static_cast<std::size_t>(sweeps))

@@ -11,6 +11,8 @@
 #include "Solver/Solve.h"
 #include "Solver/Storage/ScratchFolder.h"
 
+#include <tbb/task_arena.h>
+
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -63,6 +65,7 @@ private:
   Levels<Relaxation> Hierarchy;
   int FirstCore;
   CoreCycle<Relaxation> Core;
+  tbb::task_arena Threads;
   double InitialNorm = 0.0;
   double RoundingNorm = 0.0;
   std::vector<double> MeanShifts;

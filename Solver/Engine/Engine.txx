@@ -3,6 +3,8 @@
 
 #include "Solver/Engine/Engine.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <numeric>
 #include <string>
@@ -18,6 +20,7 @@ Engine<Operators>::Engine(MeshSource& mesh, Problem& problem, const SolveOptions
   , Memory(options.memoryLimit)
   , Parts(problem.columns())
   , FirstCore(this->firstCoreLevel(mesh.info().vertices))
+  , Threads(options.threads)
 {
   const Timer wall;
   const double cpu = processSeconds();
@@ -152,6 +155,7 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem)
     assembly.add(block, keepLabels);
     builder.advance();
     finest.advanceDown();
+    finest.settle();
     this->Resident.add(assembly.openVertices() - open);
     open = assembly.openVertices();
     this->Progress.update(0, static_cast<double>(assembly.vertices()) / expected);
@@ -161,6 +165,7 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem)
   this->Resident.add(-open);
   builder.advance();
   finest.advanceDown();
+  finest.settle();
   const int coarsest = builder.finish([this](int l) { this->addCoarseLevel(l, true); });
   this->endPass();
   if (coarsest < this->FirstCore)
@@ -208,12 +213,19 @@ void Engine<Operators>::laterPass()
   const std::int64_t nodes = finest.window().nodes();
   for (std::int64_t begin = 0; begin < nodes; begin += this->Options.blockNodes)
   {
-    const std::int64_t end = std::min(nodes, begin + this->Options.blockNodes);
-    finest.pull(end - 1);
-    finest.advanceDown();
+    const std::int64_t last = std::min(nodes, begin + this->Options.blockNodes) - 1;
+    finest.load(last);
+    // The way down works on what the way up left behind a step ago: no node is touched by both.
+    finest.showProgress();
+    this->Threads.execute(
+      [&] { tbb::parallel_invoke([&] { finest.pull(last); }, [&] { finest.advanceDown(); }); });
+    finest.settle();
     this->Progress.update(
-      this->Result.cycles + 1, static_cast<double>(end) / static_cast<double>(nodes));
+      this->Result.cycles + 1, static_cast<double>(last) / static_cast<double>(nodes));
   }
+  finest.showProgress();
+  finest.advanceDown();
+  finest.settle();
   this->endPass();
 }
 

@@ -68,30 +68,54 @@ public:
   template <class AddLevel>
   int finish(AddLevel&& addLevel)
   {
+    for (int k = 0; k < this->FirstCore; ++k)
+    {
+      this->close(k);
+    }
     int l = 1;
     for (; this->nodes(l) > CoarsestNodes; ++l)
     {
-      if (l >= this->FirstCore)
+      if (l < this->FirstCore)
       {
-        this->addStep();
-        this->Steps.back()->advance();
-        this->pack(l, true);
-        addLevel(l + 1);
+        continue;
       }
+      this->addStep();
+      for (std::int64_t end = RowBlock::Nodes; this->Packed.back() < this->nodes(l); end += RowBlock::Nodes)
+      {
+        this->Steps.back()->advance(end);
+        this->pack(l, true);
+      }
+      this->close(l);
+      addLevel(l + 1);
     }
     if (l >= this->FirstCore)
     {
       this->pack(l, false);
+      this->close(l);
     }
-    for (int k = 0; k <= l; ++k)
-    {
-      this->Built.sizes.push_back({ this->nodes(k), this->Rows[static_cast<std::size_t>(k)]->nonzeros() });
-    }
+    this->Built.sizes.resize(static_cast<std::size_t>(l + 1));
     return l;
   }
 
 private:
-  std::int64_t nodes(int l) const { return this->Rows[static_cast<std::size_t>(l)]->end(); }
+  /** Nodes of a level whose rows are complete. */
+  std::int64_t nodes(int l) const
+  {
+    const auto k = static_cast<std::size_t>(l);
+    return k < this->Built.sizes.size() ? this->Built.sizes[k].nodes : this->Rows[k]->end();
+  }
+
+  /** Notes the size of level l and lets go of its rows, which have been packed. */
+  void close(int l)
+  {
+    const auto k = static_cast<std::size_t>(l);
+    this->Built.sizes.push_back({ this->Rows[k]->end(), this->Rows[k]->nonzeros() });
+    if (k < this->Steps.size())
+    {
+      this->Steps[k].reset();
+    }
+    this->Rows[k].reset();
+  }
 
   void addStep()
   {

@@ -9,9 +9,9 @@ namespace smg
 {
 
 /**
- * Bytes of the pool that a solve will need at least, from the stream's statistics: the windows hold
- * a number of nodes proportional to the stream's span, and the core levels are bounded by
- * `coreNodes`. 0 when the span is not known.
+ * Bytes of the pool that a solve will need at least, from the stream's statistics: out of core the
+ * windows of all levels hold a number of nodes proportional to the stream's span; in core everything
+ * stays. 0 when the span is not known.
  */
 std::int64_t estimateMemory(const StreamInfo& info, int columns, const SolveOptions& options);
 

@@ -4,8 +4,10 @@
 #include "Solver/Hierarchy/CoarseningData.h"
 #include "Solver/Hierarchy/OperatorSet.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace smg
 {
@@ -32,9 +34,10 @@ public:
   /** Says that the rows and the interpolation of nodes below `end` have been copied. */
   void packed(std::int64_t end) { this->Packed = end; }
 
-  /** Advances every stage as far as it can. */
-  void advance()
+  /** Advances every stage as far as it can on the rows that have come, or on those below `rows`. */
+  void advance(std::int64_t rows = std::numeric_limits<std::int64_t>::max())
   {
+    this->Rows = std::min(rows, this->Data.fine.end());
     this->lift();
     this->interpolate();
     this->multiply();
@@ -85,9 +88,8 @@ private:
   void lift()
   {
     CoarseningData& d = this->Data;
-    const std::int64_t rows = d.fine.end();
-    d.lifted.extend(rows);
-    for (std::int64_t& i = this->Lifted; i < rows; ++i)
+    d.lifted.extend(this->Rows);
+    for (std::int64_t& i = this->Lifted; i < this->Rows; ++i)
     {
       const bool lifted = this->Set.lift(d, i);
       d.lifted[i] = lifted ? d.coarseNodes : -1;
@@ -111,7 +113,7 @@ private:
   void interpolate()
   {
     CoarseningData& d = this->Data;
-    const std::int64_t rows = d.fine.end();
+    const std::int64_t rows = this->Rows;
     for (std::int64_t& i = this->Initial; i < rows && d.fine.reach(i) < this->Lifted; ++i)
     {
       this->Set.interpolateInitial(d, i);
@@ -127,7 +129,7 @@ private:
   void multiply()
   {
     CoarseningData& d = this->Data;
-    const std::int64_t rows = d.fine.end();
+    const std::int64_t rows = this->Rows;
     d.productSum.extendRaw(rows);
     for (std::int64_t& i = this->Multiplied; i < rows && d.fine.reach(i) < this->Interpolated; ++i)
     {
@@ -140,7 +142,7 @@ private:
   {
     const CoarseningData& d = this->Data;
     const std::int64_t ring = d.fine.reach(d.liftedFrom[c]);
-    if (ring >= d.fine.end() || d.fine.reach(ring) >= this->Interpolated)
+    if (ring >= this->Rows || d.fine.reach(ring) >= this->Interpolated)
     {
       return false;
     }
@@ -195,6 +197,7 @@ private:
   Operators Set;
   CoarseningData Data;
 
+  std::int64_t Rows = 0; // of the fine level, that stages may look at
   std::int64_t Lifted = 0, Initial = 0, Interpolated = 0, Multiplied = 0; // by fine node
   std::int64_t Gathered = 0, Sparsified = 0, Finished = 0;                // by coarse node
   std::int64_t Packed = 0;

@@ -27,7 +27,7 @@ public:
   {
     Extended set;
     const bool surface = type == CellType::Triangle;
-    set.Interpolation.lifting.strength = surface ? 0.1F : 0.0F;
+    set.Interpolation.lifting.strength = surface ? 0.1F : 0.05F;
     set.Interpolation.entries = surface ? 4 : 5;
     return set;
   }

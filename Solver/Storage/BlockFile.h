@@ -46,12 +46,12 @@ struct TableSpec
 /**
  * Writes a block file: a container of tables, each cut into blocks of rows, each block's columns
  * compressed and checksummed (XXH3, 64 bits) one by one. A header in JSON, the table layout and an
- * index of all blocks make any block readable by itself.
+ * index of all blocks make any block readable by itself. BlockFileLayout.h has the format.
  *
  * The file is written under a temporary name beside `path` and renamed by finish(); without
  * finish() the destructor removes it. Writing is done behind the caller on a thread of the writer;
- * at most `WriteBehindBytes` wait in memory. A failed write (disk full) is thrown as Error, with the
- * path, by the next append() or by finish().
+ * at most `WriteBehindBytes` wait in memory. A failed write (disk full) is thrown as Error, with
+ * the path, by the next append() or by finish().
  */
 class BlockFileWriter
 {
@@ -67,7 +67,7 @@ public:
   /** Appends `rows` rows to table `table`; one span of bytes a column, copied. */
   void append(int table, std::int64_t rows, std::span<const std::span<const std::byte>> columns);
 
-  /** Writes index and header, closes, renames. */
+  /** Writes index and header (at most about 16,000 bytes of JSON), closes, renames. */
   void finish(const nlohmann::json& header);
 
 private:
@@ -76,9 +76,9 @@ private:
 };
 
 /**
- * Reads a block file. Opening checks magic, version, the layout's and the index's checksums and that
- * the file's length is exactly what the index says; reading a block checks its checksums. Every
- * failure is an Error that names the file, the table and the block.
+ * Reads a block file. Opening checks magic, version, the checksums of the header and the index, and
+ * that the file's length is exactly what the index says; reading a block checks its checksums.
+ * Every failure is an Error that names the file, the table and the block. One thread at a time.
  */
 class BlockFileReader
 {
@@ -106,7 +106,8 @@ public:
 
   /**
    * Starts reading all columns of a block on the reader's own thread, so that a later read() of it
-   * does not wait. A hint: any block may be read without it; a few prefetched blocks are kept.
+   * does not wait. A hint: any block may be read without it. Eight prefetched blocks are kept, each
+   * until its last column is read or it is the oldest.
    */
   void prefetch(int table, std::int64_t block);
 

@@ -14,7 +14,7 @@ namespace smg
 namespace
 {
 
-constexpr std::size_t StackBytes = std::size_t(256) << 10;
+constexpr std::size_t StackBytes = std::size_t(512) << 10;
 
 /** Signals are for the program's own threads: a new thread takes over the mask of its maker. */
 class BlockedSignals

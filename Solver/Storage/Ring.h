@@ -90,7 +90,7 @@ public:
   {
     if (items > this->Capacity)
     {
-      this->grow(std::max(items, this->Capacity + this->Capacity / 4));
+      this->grow(std::max(items, this->Capacity + this->Capacity / 8));
     }
   }
 
