@@ -62,6 +62,7 @@ public:
  * limit is below the need (at once, with both figures), or a scratch file fails; Cancelled when the
  * progress callback says so. No scratch file is left behind by a throw or by ~Solution.
  */
-std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveOptions& options = {});
+std::unique_ptr<Solution> solve(
+  MeshSource& mesh, Problem& problem, const SolveOptions& options = {});
 
 } // namespace smg

@@ -118,7 +118,7 @@ void CoarsestSolver::factorize(LevelWindow<float>& level)
   for (const auto& t : rows.triplets)
   {
     const bool pinned = this->Self->pinned[static_cast<std::size_t>(t.row())] ||
-      this->Self->pinned[static_cast<std::size_t>(t.col())];
+                        this->Self->pinned[static_cast<std::size_t>(t.col())];
     if (t.row() > t.col() && !pinned)
     {
       triplets.push_back(t);
@@ -133,8 +133,9 @@ void CoarsestSolver::factorize(LevelWindow<float>& level)
   this->Self->factor.compute(matrix);
   if (this->Self->factor.info() != Eigen::Success)
   {
-    throw Error("the coarsest level's matrix could not be factorised: the weights of the mesh span too "
-                "many orders of magnitude; use uniform weights");
+    throw Error(
+      "the coarsest level's matrix could not be factorised: the weights of the mesh span too "
+      "many orders of magnitude; use uniform weights");
   }
 }
 

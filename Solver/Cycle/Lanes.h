@@ -19,7 +19,10 @@ struct Lanes
     std::memcpy(&v, p, sizeof(v));
     return v;
   }
-  [[gnu::always_inline]] static inline void store(Real* p, Vector v) { std::memcpy(p, &v, sizeof(v)); }
+  [[gnu::always_inline]] static inline void store(Real* p, Vector v)
+  {
+    std::memcpy(p, &v, sizeof(v));
+  }
 };
 
 /** Values a node for `columns` right-hand sides: 1, or as many groups of four as they need. */

@@ -118,7 +118,8 @@ public:
     {
       const RowBlock::Header& h = this->Window.header(this->At.reset);
       const auto g = LevelWindow<Real>::groupIn(h, this->At.reset);
-      if (this->At.seenPostSwept <= h.neighbourReach[g] || this->Fine->seenProlonged <= h.childReach[g])
+      if (this->At.seenPostSwept <= h.neighbourReach[g] ||
+          this->Fine->seenProlonged <= h.childReach[g])
       {
         return false;
       }
@@ -251,7 +252,8 @@ private:
 
   void restrictDown()
   {
-    const std::int64_t limit = this->Window.reachable(this->At.restricted, this->At.preSweep.back());
+    const std::int64_t limit =
+      this->Window.reachable(this->At.restricted, this->At.preSweep.back());
     std::int64_t end = this->At.restricted;
     while (end < limit)
     {

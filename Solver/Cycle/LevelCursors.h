@@ -28,12 +28,12 @@ struct ResidentNodes
  */
 struct LevelCursors
 {
-  std::int64_t loaded = 0;            ///< nodes whose rows have come
-  std::int64_t prolonged = 0;         ///< x += P x_coarse
+  std::int64_t loaded = 0;             ///< nodes whose rows have come
+  std::int64_t prolonged = 0;          ///< x += P x_coarse
   std::vector<std::int64_t> postSweep; ///< sweeps after prolongation
-  std::int64_t reset = 0;             ///< b set to zero for the next V-cycle (coarse levels)
-  std::vector<std::int64_t> preSweep; ///< sweeps before restriction
-  std::int64_t restricted = 0;        ///< residual and restriction
+  std::int64_t reset = 0;              ///< b set to zero for the next V-cycle (coarse levels)
+  std::vector<std::int64_t> preSweep;  ///< sweeps before restriction
+  std::int64_t restricted = 0;         ///< residual and restriction
 
   /** Of the way up, what the way down knows: the two may run on two threads. */
   std::int64_t seenProlonged = 0, seenPostSwept = 0;

@@ -257,8 +257,8 @@ void LevelWindow<Real>::readX(std::int64_t first, std::int64_t count, Real* valu
       this->CachedBlock = block;
     }
     const std::int64_t end = std::min(first + count, begin + RowBlock::Nodes);
-    values = std::copy_n(this->Packed.data() + (first - begin) * this->Columns,
-      (end - first) * this->Columns, values);
+    values = std::copy_n(
+      this->Packed.data() + (first - begin) * this->Columns, (end - first) * this->Columns, values);
     count -= end - first;
     first = end;
   }

@@ -12,10 +12,10 @@ namespace smg
 {
 
 /**
- * The rows and the interpolation of up to `Nodes` consecutive nodes of a level, as they are on disk:
- * used in place, without decoding. Columns are distances, of 16 bits ("narrow") or, where a distance
- * or a count does not fit, 32 bits ("wide"). Each group of `Group` nodes has the largest indices that
- * the cursors need.
+ * The rows and the interpolation of up to `Nodes` consecutive nodes of a level, as they are on
+ * disk: used in place, without decoding. Columns are distances, of 16 bits ("narrow") or, where a
+ * distance or a count does not fit, 32 bits ("wide"). Each group of `Group` nodes has the largest
+ * indices that the cursors need.
  */
 class RowBlock
 {
@@ -43,13 +43,13 @@ public:
   struct Arrays
   {
     using Count = std::make_unsigned_t<Index>;
-    const double* diagonal;            // a node
-    const float* weight;               // an entry
-    const Index* delta;                // an entry
-    const Index* parent;               // a parent, relative to parentBase
-    const Count* entryEnd;             // a node: end of its entries, from the group's start
-    const Count* parentEnd;            // a node: end of its parents, from the group's start
-    const std::uint8_t* parentQuanta;  // a parent
+    const double* diagonal;           // a node
+    const float* weight;              // an entry
+    const Index* delta;               // an entry
+    const Index* parent;              // a parent, relative to parentBase
+    const Count* entryEnd;            // a node: end of its entries, from the group's start
+    const Count* parentEnd;           // a node: end of its parents, from the group's start
+    const std::uint8_t* parentQuanta; // a parent
   };
 
   RowBlock() = default;
@@ -87,7 +87,7 @@ public:
     const auto entries = static_cast<std::size_t>(h.entries);
     const auto parents = static_cast<std::size_t>(h.parents);
     return sizeof(Header) + nodes * 8 + aligned(entries * 4) + aligned(entries * index) +
-      aligned(parents * index) + 2 * aligned(nodes * index) + aligned(parents);
+           aligned(parents * index) + 2 * aligned(nodes * index) + aligned(parents);
   }
 
   const Buffer& buffer() const { return this->Bytes; }

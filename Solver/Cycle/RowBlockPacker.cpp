@@ -50,7 +50,8 @@ Header measure(
       }
       for (std::int64_t e = 0; e < count; ++e)
       {
-        largestParent = std::max<std::int64_t>(largestParent, std::abs(offset(p[e].coarse, h.parentBase)));
+        largestParent =
+          std::max<std::int64_t>(largestParent, std::abs(offset(p[e].coarse, h.parentBase)));
       }
       h.parents += static_cast<std::int32_t>(count);
       h.parentReach[group] = coarsening->parentReach[i];

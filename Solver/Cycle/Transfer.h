@@ -27,8 +27,8 @@ void prolong(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, BlockR
 }
 
 /**
- * Residual and restriction of a block's nodes: r = b - A x, b_coarse += P^T r. Adds the squares of r
- * to `squares` (`stride` values), in node order. coarseB points to coarse node parentBase.
+ * Residual and restriction of a block's nodes: r = b - A x, b_coarse += P^T r. Adds the squares of
+ * r to `squares` (`stride` values), in node order. coarseB points to coarse node parentBase.
  */
 template <class Vectors, class CoarseVectors, class Real, class Index>
 void restrictResidual(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, BlockRange nodes,
@@ -39,7 +39,8 @@ void restrictResidual(const RowBlock::Header& h, const RowBlock::Arrays<Index>& 
   {
     const BlockRange row = entriesOf(h, a, k);
     const Real* xk = x + k * stride;
-    auto even = Vectors::load(b + k * stride) - static_cast<Real>(a.diagonal[k]) * Vectors::load(xk);
+    auto even =
+      Vectors::load(b + k * stride) - static_cast<Real>(a.diagonal[k]) * Vectors::load(xk);
     typename Vectors::Vector odd{};
     std::int64_t e = row.begin;
     for (; e + 1 < row.end; e += 2)

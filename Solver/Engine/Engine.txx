@@ -83,8 +83,8 @@ int Engine<Operators>::firstCoreLevel(std::int64_t vertices) const
 template <OperatorSet Operators>
 void Engine<Operators>::addCoarseLevel(int l, bool core)
 {
-  auto level =
-    std::make_unique<CoarseLevel>(this->Memory, this->Resident, l, this->Columns, this->Options.sweeps);
+  auto level = std::make_unique<CoarseLevel>(
+    this->Memory, this->Resident, l, this->Columns, this->Options.sweeps);
   if (core)
   {
     level->setCore();
@@ -142,7 +142,8 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem)
   FineLevel& finest = *this->Hierarchy.finest;
   HierarchyBuilder<Operators> builder(
     this->Memory, Operators::forCells(mesh.info().cellType), this->Hierarchy, this->FirstCore);
-  Assembly assembly(this->Memory, mesh.info(), problem, builder.finestRows(), finest.window(), this->Parts);
+  Assembly assembly(
+    this->Memory, mesh.info(), problem, builder.finestRows(), finest.window(), this->Parts);
   const auto keepLabels = [this](std::int64_t, std::span<const std::int32_t> labels)
   { this->Labels.append(labels); };
 
@@ -178,7 +179,8 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem)
 
   const Timer factorizing;
   std::vector<CoarseLevel*> core;
-  for (std::size_t l = static_cast<std::size_t>(this->FirstCore); l <= this->Hierarchy.coarse.size(); ++l)
+  for (std::size_t l = static_cast<std::size_t>(this->FirstCore);
+       l <= this->Hierarchy.coarse.size(); ++l)
   {
     core.push_back(this->Hierarchy.coarse[l - 1].get());
   }
@@ -202,6 +204,11 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem)
   this->RoundingNorm = Rounding * std::sqrt(assembly.termSquares());
   this->InitialNorm =
     std::sqrt(std::max(0.0, assembly.initialSquares() - this->Parts.incompatibleSquares()));
+  if (!std::isfinite(assembly.termSquares()))
+  {
+    throw Error(
+      "the squares of the values overflow: scale the mesh, the prescribed values or the sources");
+  }
   this->projectRightSide();
 }
 
@@ -232,12 +239,13 @@ void Engine<Operators>::laterPass()
 template <OperatorSet Operators>
 void Engine<Operators>::iterate()
 {
-  // A V-cycle that makes the residual this much larger than it was at first will not recover.
+  // A residual that is this much larger than it was at first will not recover.
   constexpr double Diverged = 1e4;
   const double goal = std::max(this->Options.tolerance * this->InitialNorm, this->RoundingNorm);
+  const double reference = std::max(this->InitialNorm, this->RoundingNorm);
   double norm = this->residualNorm();
-  this->Result.converged =
-    norm <= goal && this->Parts.incompatibleSquares() == 0.0;
+  const double firstNorm = std::max(reference, norm);
+  this->Result.converged = norm <= goal && this->Parts.incompatibleSquares() == 0.0;
   while (!this->Result.converged && this->Result.cycles < this->Options.maxCycles)
   {
     const Timer coarse;
@@ -246,22 +254,22 @@ void Engine<Operators>::iterate()
     this->laterPass();
     ++this->Result.cycles;
     norm = this->residualNorm();
-    const double relative = this->InitialNorm > 0.0 ? norm / this->InitialNorm : 0.0;
+    const double relative = reference > 0.0 ? norm / reference : 0.0;
     this->Result.residuals.push_back(relative);
     this->Progress.endCycle(this->Result.cycles, relative);
     this->Result.converged = norm <= goal;
-    if (!std::isfinite(norm) || (norm > Diverged * this->InitialNorm && !this->Result.converged))
+    if (!std::isfinite(norm) || (norm > Diverged * firstNorm && !this->Result.converged))
     {
       throw Error("the solve diverges (relative residual " + std::to_string(relative) + " after " +
-        std::to_string(this->Result.cycles) +
-        " V-cycles): the mesh has very bad cells; use uniform weights or more sweeps");
+                  std::to_string(this->Result.cycles) +
+                  " V-cycles): the mesh has very bad cells; use uniform weights or more sweeps");
     }
   }
   if (!this->Result.converged)
   {
-    this->Result.notes.push_back("not converged: the relative residual is " +
-      std::to_string(this->Result.residuals.back()) + " after " + std::to_string(this->Result.cycles) +
-      " V-cycles, the most allowed");
+    this->Result.notes.push_back(
+      "not converged: the relative residual is " + std::to_string(this->Result.residuals.back()) +
+      " after " + std::to_string(this->Result.cycles) + " V-cycles, the most allowed");
   }
 }
 
@@ -294,8 +302,9 @@ void Engine<Operators>::projectRightSide()
         }
       }
     });
-  this->Result.notes.push_back("the right-hand side of a component without prescribed value does not "
-                               "sum to zero: its mean was taken from it");
+  this->Result.notes.push_back(
+    "the right-hand side of a component without prescribed value does not "
+    "sum to zero: its mean was taken from it");
 }
 
 /** Gives the components without constraint the mean of their initial values. */
@@ -311,8 +320,10 @@ void Engine<Operators>::fixMeans()
   for (std::int64_t first = 0; first < this->Result.vertices;
        first += static_cast<std::int64_t>(ComponentLabels::Block))
   {
-    const auto labels = this->Labels.block(first / static_cast<std::int64_t>(ComponentLabels::Block));
-    this->Hierarchy.finest->window().readX(first, static_cast<std::int64_t>(labels.size()), values.data());
+    const auto labels =
+      this->Labels.block(first / static_cast<std::int64_t>(ComponentLabels::Block));
+    this->Hierarchy.finest->window().readX(
+      first, static_cast<std::int64_t>(labels.size()), values.data());
     for (std::size_t i = 0; i < labels.size(); ++i)
     {
       for (int k = 0; labels[i] >= 0 && k < this->Columns; ++k)
@@ -323,19 +334,20 @@ void Engine<Operators>::fixMeans()
     }
   }
   this->MeanShifts = this->Parts.meanShifts(sums);
-  this->Result.notes.push_back(std::to_string(this->Result.free_components) +
-    " of " + std::to_string(this->Result.components) +
+  this->Result.notes.push_back(
+    std::to_string(this->Result.free_components) + " of " +
+    std::to_string(this->Result.components) +
     " components have no prescribed value: they keep the mean of their initial values");
 }
 
 template <OperatorSet Operators>
 void Engine<Operators>::read(std::int64_t first, std::int64_t count, std::span<double> values)
 {
-  if (first < 0 || count < 0 || first + count > this->Result.vertices ||
-    values.size() < static_cast<std::size_t>(count * this->Columns))
+  if (first < 0 || count < 0 || first > this->Result.vertices - count ||
+      values.size() < static_cast<std::size_t>(count * this->Columns))
   {
     throw Error("vertices " + std::to_string(first) + " to " + std::to_string(first + count - 1) +
-      " were asked of a solution of " + std::to_string(this->Result.vertices));
+                " were asked of a solution of " + std::to_string(this->Result.vertices));
   }
   this->Hierarchy.finest->window().readX(first, count, values.data());
   if (this->MeanShifts.empty())
@@ -360,8 +372,8 @@ void Engine<Operators>::fillReport(double wallSeconds, double cpuSeconds)
 {
   Report& r = this->Result;
   r.levels = this->Hierarchy.sizes;
-  r.levels.front().nodes -= r.prescribed;
-  r.levels.front().nonzeros -= r.prescribed;
+  r.levels.front().nodes -= r.prescribed + r.held;
+  r.levels.front().nonzeros -= r.prescribed + r.held;
   r.peak_nodes = this->Resident.peak;
   r.pool_bytes_peak = this->Memory.peak();
   r.rss_bytes_peak = peakResidentBytes();

@@ -23,8 +23,9 @@ struct Levels
 };
 
 /**
- * Builds the hierarchy while the finest level's rows come. Levels below `firstCore` are built in the
- * same sweep, window by window; those from `firstCore` on, which live in memory, when it is over.
+ * Builds the hierarchy while the finest level's rows come. Levels below `firstCore` are built in
+ * the same sweep, window by window; those from `firstCore` on, which live in memory, when it is
+ * over.
  */
 template <OperatorSet Operators>
 class HierarchyBuilder
@@ -62,8 +63,8 @@ public:
 
   /**
    * Builds the core levels when the streamed ones are complete; `addLevel(l)` makes level l, called
-   * for those beyond firstCore. Answers the coarsest level. It may be a streamed one, if that turned
-   * out small enough; the levels beyond it are not to be used.
+   * for those beyond firstCore. Answers the coarsest level. It may be a streamed one, if that
+   * turned out small enough; the levels beyond it are not to be used.
    */
   template <class AddLevel>
   int finish(AddLevel&& addLevel)
@@ -80,7 +81,8 @@ public:
         continue;
       }
       this->addStep();
-      for (std::int64_t end = RowBlock::Nodes; this->Packed.back() < this->nodes(l); end += RowBlock::Nodes)
+      for (std::int64_t end = RowBlock::Nodes; this->Packed.back() < this->nodes(l);
+           end += RowBlock::Nodes)
       {
         this->Steps.back()->advance(end);
         this->pack(l, true);
@@ -141,7 +143,8 @@ private:
   void pack(int l, bool interpolated)
   {
     const LevelRows& rows = *this->Rows[static_cast<std::size_t>(l)];
-    Coarsening<Operators>* step = interpolated ? this->Steps[static_cast<std::size_t>(l)].get() : nullptr;
+    Coarsening<Operators>* step =
+      interpolated ? this->Steps[static_cast<std::size_t>(l)].get() : nullptr;
     const std::int64_t final = step ? step->interpolated() : rows.end();
     const bool ended = rows.Ended && final == rows.end();
     std::int64_t begin = step ? this->Packed[static_cast<std::size_t>(l)] : 0;

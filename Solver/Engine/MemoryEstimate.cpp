@@ -31,7 +31,8 @@ std::int64_t estimateMemory(const StreamInfo& info, int columns, const SolveOpti
   const std::int64_t stride = strideOf(columns);
   if (options.inCore)
   {
-    return info.vertices * ((surface ? TriangleCoreBytes : TetrahedronCoreBytes) + ValueCoreBytes * stride);
+    return info.vertices *
+           ((surface ? TriangleCoreBytes : TetrahedronCoreBytes) + ValueCoreBytes * stride);
   }
   if (info.span < 0)
   {

@@ -10,8 +10,8 @@ namespace smg
 
 /**
  * Bytes of the pool that a solve will need at least, from the stream's statistics: out of core the
- * windows of all levels hold a number of nodes proportional to the stream's span; in core everything
- * stays. 0 when the span is not known.
+ * windows of all levels hold a number of nodes proportional to the stream's span; in core
+ * everything stays. 0 when the span is not known.
  */
 std::int64_t estimateMemory(const StreamInfo& info, int columns, const SolveOptions& options);
 

@@ -25,9 +25,10 @@ public:
   /** Share `done` (0 to 1) of the pass of V-cycle `cycle`; 0: the first pass. */
   void update(int cycle, double done)
   {
-    this->Overall.update(cycle == 0
-        ? FirstPass * done
-        : FirstPass + (1.0 - FirstPass) * (this->Reached + (this->Expected - this->Reached) * done));
+    this->Overall.update(
+      cycle == 0 ? FirstPass * done
+                 : FirstPass +
+                     (1.0 - FirstPass) * (this->Reached + (this->Expected - this->Reached) * done));
   }
 
   /** V-cycle `cycle` has ended with this relative residual. */

@@ -14,8 +14,8 @@ namespace smg
 
 /**
  * Builds a level from the one below it, as far as that one's rows have come. Every stage has a
- * cursor, the next node it will treat; it may treat a node when the stages it depends on have passed
- * the largest index that the node needs. What no stage needs any more is let go.
+ * cursor, the next node it will treat; it may treat a node when the stages it depends on have
+ * passed the largest index that the node needs. What no stage needs any more is let go.
  */
 template <OperatorSet Operators>
 class Coarsening
@@ -56,7 +56,8 @@ public:
     this->ReachDone = rows.unreached(this->ReachDone, this->Multiplied);
     d.lifted.release(this->LiftedDone);
     d.initial.release(this->InitialDone);
-    while (this->ProductDone < this->Multiplied && d.parentReach[this->ProductDone] < this->Gathered)
+    while (
+      this->ProductDone < this->Multiplied && d.parentReach[this->ProductDone] < this->Gathered)
     {
       ++this->ProductDone;
     }
@@ -148,7 +149,8 @@ private:
     }
     const std::int64_t near = d.liftedFrom[c];
     const std::uint32_t last = d.interpolation.entry(d.lastChild[c]).fine;
-    return near + static_cast<std::int32_t>(last - static_cast<std::uint32_t>(near)) < this->Multiplied;
+    return near + static_cast<std::int32_t>(last - static_cast<std::uint32_t>(near)) <
+           this->Multiplied;
   }
 
   void gather()
@@ -166,7 +168,8 @@ private:
     {
       this->Set.gather(d, c);
     }
-    for (std::int64_t& c = this->Sparsified; c < this->Gathered && d.rawReach[c] < this->Gathered; ++c)
+    for (std::int64_t& c = this->Sparsified; c < this->Gathered && d.rawReach[c] < this->Gathered;
+         ++c)
     {
       this->Set.sparsify(d, c);
     }
@@ -176,7 +179,8 @@ private:
   void finish()
   {
     CoarseningData& d = this->Data;
-    for (std::int64_t& c = this->Finished; c < this->Sparsified && d.rawReach[c] < this->Sparsified; ++c)
+    for (std::int64_t& c = this->Finished; c < this->Sparsified && d.rawReach[c] < this->Sparsified;
+         ++c)
     {
       const std::int64_t size = d.raw.size(c);
       const RowEntry* raw = d.raw.row(c);
@@ -191,7 +195,8 @@ private:
       }
       d.coarse.close(kept, d.rawAlpha[c], d.childReach[c]);
     }
-    d.coarse.Ended = d.fine.Ended && this->Lifted == d.fine.end() && this->Finished == d.coarseNodes;
+    d.coarse.Ended =
+      d.fine.Ended && this->Lifted == d.fine.end() && this->Finished == d.coarseNodes;
   }
 
   Operators Set;

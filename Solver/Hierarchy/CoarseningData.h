@@ -51,8 +51,8 @@ struct ProductEntry
 };
 
 /**
- * Everything that the step from a level (fine) to the next one (coarse) keeps in memory, as windows.
- * The stages that fill it are those of the operator set; Coarsening drives them.
+ * Everything that the step from a level (fine) to the next one (coarse) keeps in memory, as
+ * windows. The stages that fill it are those of the operator set; Coarsening drives them.
  */
 struct CoarseningData
 {
@@ -93,15 +93,15 @@ struct CoarseningData
   Ring<double> productSum; ///< sum of the row of A P
 
   // By coarse node.
-  Ring<std::int64_t> liftedFrom; ///< its fine node
+  Ring<std::int64_t> liftedFrom;            ///< its fine node
   Ring<std::int64_t> firstChild, lastChild; ///< places in `interpolation` of its column, or -1
-  RaggedRing<RowEntry> raw; ///< rows of P^T A P, before and during sparsification
+  RaggedRing<RowEntry> raw;                 ///< rows of P^T A P, before and during sparsification
   Ring<double> rawAlpha;
   Ring<float> rawStrongest;
   Ring<std::int64_t> childReach; ///< the last of its children
-  Ring<std::int64_t> rawReach; ///< largest column of the row, at least the row itself
-  Ring<std::int32_t> rawLower; ///< columns below the row
-  Ring<std::int32_t> rawFilled; ///< columns above the row that have been mirrored
+  Ring<std::int64_t> rawReach;   ///< largest column of the row, at least the row itself
+  Ring<std::int32_t> rawLower;   ///< columns below the row
+  Ring<std::int32_t> rawFilled;  ///< columns above the row that have been mirrored
 
   /** Scratch of the stages: a mark and a value for each coarse node. */
   struct Slot

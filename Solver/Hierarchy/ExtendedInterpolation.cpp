@@ -100,7 +100,8 @@ void ExtendedInterpolation::truncate()
   int total = 0;
   for (std::size_t k = kept; k-- > 0;)
   {
-    const int quanta = std::clamp(static_cast<int>(std::floor(list[k].weight * scale + 0.5F)), 0, Quanta);
+    const int quanta =
+      std::clamp(static_cast<int>(std::floor(list[k].weight * scale + 0.5F)), 0, Quanta);
     this->Rounded[k] = static_cast<std::uint32_t>(k > 0 ? quanta : std::max(0, wanted - total));
     total += quanta;
   }

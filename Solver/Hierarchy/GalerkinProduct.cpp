@@ -102,8 +102,7 @@ void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
   for (std::int64_t place = data.firstChild[c]; place >= 0;)
   {
     const InterpolationEntry& child = data.interpolation.entry(place);
-    fine = nearFine +
-      static_cast<std::int32_t>(child.fine - static_cast<std::uint32_t>(nearFine));
+    fine = nearFine + static_cast<std::int32_t>(child.fine - static_cast<std::uint32_t>(nearFine));
     const float weight = child.weight();
     alpha += static_cast<double>(child.quanta) / Quanta * data.productSum[fine];
     const ProductEntry* entry = data.product.row(fine);

@@ -68,8 +68,8 @@ public:
       sum += entry[e].weight;
       strongest = std::max(strongest, entry[e].weight);
     }
-    // A node that is all that is left of a component without constraint: any correction will do, and
-    // this diagonal makes it nought.
+    // A node that is all that is left of a component without constraint: any correction will do,
+    // and this diagonal makes it nought.
     constexpr double Isolated = 1e20;
     sum = size == 0 && sum == 0.0 ? Isolated : sum;
     const std::int64_t last = size > 0 ? i + std::max(0, entry[size - 1].delta) : i;

@@ -29,9 +29,15 @@ template <class O>
 concept OperatorSet = std::default_initializable<O> &&
   requires(O o, CoarseningData& data, std::int64_t i, CellType type)
 {
-  { O::name } -> std::convertible_to<const char*>;
-  { O::forCells(type) } -> std::same_as<O>;
-  { o.lift(data, i) } -> std::same_as<bool>;
+  {
+    O::name
+    } -> std::convertible_to<const char*>;
+  {
+    O::forCells(type)
+    } -> std::same_as<O>;
+  {
+    o.lift(data, i)
+    } -> std::same_as<bool>;
   o.interpolateInitial(data, i);
   o.interpolate(data, i);
   o.multiply(data, i);

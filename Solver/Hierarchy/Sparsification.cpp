@@ -30,8 +30,9 @@ RowEntry& find(std::span<RowEntry> row, std::int64_t delta)
 void Sparsification::operator()(CoarseningData& data, std::int64_t c) const
 {
   const float limit = this->tolerance * data.rawStrongest[c];
-  const auto isSmall = [&](float weight, float rowLimit, std::int64_t column)
-  { return !(std::fabs(weight) >= std::min(rowLimit, this->tolerance * data.rawStrongest[column])); };
+  const auto isSmall = [&](float weight, float rowLimit, std::int64_t column) {
+    return !(std::fabs(weight) >= std::min(rowLimit, this->tolerance * data.rawStrongest[column]));
+  };
 
   const std::span<RowEntry> row = rawRow(data, c);
   CoarseningData::Slot* slots = data.slots.at(c);

@@ -10,9 +10,9 @@ namespace smg
 
 /**
  * Removes small entries of a coarse operator without changing its row sums: an edge (c,k) with
- * |w| < tolerance * min(strongest_c, strongest_k) is dropped if w is negative; if positive its weight
- * moves to the two edges (c,m) and (m,k) of the strongest common neighbour m, or it stays if there
- * is none. Plain dropping weakens the operator and diverges on bad triangles.
+ * |w| < tolerance * min(strongest_c, strongest_k) is dropped if w is negative; if positive its
+ * weight moves to the two edges (c,m) and (m,k) of the strongest common neighbour m, or it stays if
+ * there is none. Plain dropping weakens the operator and diverges on bad triangles.
  */
 struct Sparsification
 {

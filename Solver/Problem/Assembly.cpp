@@ -51,12 +51,20 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, LevelRo
 
 void Assembly::add(const MeshBlock& block, const LabelSink& labels)
 {
+  if (block.positions.size() % 3 != 0 ||
+      block.corners.size() % static_cast<std::size_t>(cornersOf(this->Type)) != 0)
+  {
+    throw Error("the mesh stream is not valid: the block that begins with vertex " +
+                std::to_string(block.firstVertex) +
+                " ends in the middle of a position or of a cell");
+  }
   this->addVertices(block);
   this->addCells(block);
   if (block.finalized > this->Vertices)
   {
-    throw Error("the mesh stream is not valid: a block declares " + std::to_string(block.finalized) +
-      " vertices final but only " + std::to_string(this->Vertices) + " have come");
+    throw Error("the mesh stream is not valid: a block declares " +
+                std::to_string(block.finalized) + " vertices final but only " +
+                std::to_string(this->Vertices) + " have come");
   }
   this->finalize(block.finalized, labels);
 }
@@ -70,14 +78,16 @@ void Assembly::finish(const LabelSink& labels)
 void Assembly::addVertices(const MeshBlock& block)
 {
   const std::int64_t count = block.vertices();
+  if (block.firstVertex != this->Vertices || block.firstCell != this->Cells)
+  {
+    throw Error("the mesh stream is not valid: a block begins with vertex " +
+                std::to_string(block.firstVertex) + " and cell " + std::to_string(block.firstCell) +
+                ", expected " + std::to_string(this->Vertices) + " and " +
+                std::to_string(this->Cells));
+  }
   if (count == 0)
   {
     return;
-  }
-  if (block.firstVertex != this->Vertices)
-  {
-    throw Error("the mesh stream is not valid: a block begins with vertex " +
-      std::to_string(block.firstVertex) + ", expected " + std::to_string(this->Vertices));
   }
   VertexConditions& given = this->Conditions;
   const auto values = static_cast<std::size_t>(count * this->Columns);
@@ -87,8 +97,9 @@ void Assembly::addVertices(const MeshBlock& block)
   this->Given.conditions(block, given);
   if (!allFinite(block.positions) || !allFinite(given.value) || !allFinite(given.source))
   {
-    throw Error("a position, value or source of a vertex between " + std::to_string(this->Vertices) +
-      " and " + std::to_string(this->Vertices + count - 1) + " is not a finite number");
+    throw Error("a position, value or source of a vertex between " +
+                std::to_string(this->Vertices) + " and " +
+                std::to_string(this->Vertices + count - 1) + " is not a finite number");
   }
 
   const std::int64_t end = this->Vertices + count;
@@ -124,9 +135,9 @@ void Assembly::addCells(const MeshBlock& block)
       if (cell[k] < this->Final || cell[k] >= this->Vertices)
       {
         throw Error("the mesh stream is not valid: cell " +
-          std::to_string(block.firstCell + static_cast<std::int64_t>(c)) + " uses vertex " +
-          std::to_string(cell[k]) + ", which " +
-          (cell[k] >= this->Vertices ? "has not come yet" : "was declared final"));
+                    std::to_string(block.firstCell + static_cast<std::int64_t>(c)) +
+                    " uses vertex " + std::to_string(cell[k]) + ", which " +
+                    (cell[k] >= this->Vertices ? "has not come yet" : "was declared final"));
       }
     }
     if (flags && flags->value(c) != 0.0)
@@ -147,9 +158,8 @@ void Assembly::addCell(const std::int64_t* corners)
   {
     point[k] = this->Points.at(corners[k]);
   }
-  const CellWeights cell = triangle
-    ? triangleWeights(point[0], point[1], point[2])
-    : tetrahedronWeights(point[0], point[1], point[2], point[3]);
+  const CellWeights cell = triangle ? triangleWeights(point[0], point[1], point[2])
+                                    : tetrahedronWeights(point[0], point[1], point[2], point[3]);
   if (cell.measure == 0.0)
   {
     ++this->Degenerate;
@@ -160,7 +170,9 @@ void Assembly::addCell(const std::int64_t* corners)
   for (int k = 0; k < cornersOf(this->Type); ++k)
   {
     const std::int32_t other = this->Labels[corners[k]];
-    label = label < 0 ? other : other < 0 || other == label ? label : this->Parts.join(label, other);
+    label = label < 0                     ? other
+            : other < 0 || other == label ? label
+                                          : this->Parts.join(label, other);
   }
   label = label < 0 ? this->Parts.add() : label;
   const double mass = cell.measure / cornersOf(this->Type);
@@ -321,7 +333,12 @@ void Assembly::closeRow(
     const double* other = this->Values.at(neighbour.to);
     for (int k = 0; k < this->Columns; ++k)
     {
-      b[k] += weight * ((known ? other[k] : 0.0) + (target ? target[e * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)] : 0.0));
+      b[k] +=
+        weight *
+        ((known ? other[k] : 0.0) +
+          (target
+              ? target[e * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)]
+              : 0.0));
     }
     alpha += known ? weight : 0.0;
     if (!known)
@@ -330,7 +347,8 @@ void Assembly::closeRow(
       if (delta != static_cast<std::int32_t>(delta))
       {
         throw Error("vertices " + std::to_string(i) + " and " + std::to_string(neighbour.to) +
-          " share an edge but lie too far apart in the stream: convert the mesh with the order bfs");
+                    " share an edge but lie too far apart in the stream: convert the mesh with the "
+                    "order bfs");
       }
       row[size++] = { static_cast<std::int32_t>(delta), neighbour.weight };
     }

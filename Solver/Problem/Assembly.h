@@ -58,7 +58,8 @@ private:
   void finalize(std::int64_t end, const LabelSink& labels);
   void collectRow(std::int64_t i);
   void applyEdgeTargets(std::int64_t begin);
-  void closeRow(std::int64_t i, const Neighbour* neighbours, std::size_t count, const double* target);
+  void closeRow(
+    std::int64_t i, const Neighbour* neighbours, std::size_t count, const double* target);
 
   CellType Type;
   Problem& Given;

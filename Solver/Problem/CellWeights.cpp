@@ -57,7 +57,8 @@ CellWeights tetrahedronWeights(const double* a, const double* b, const double* c
   const Vector nb = cross(ac, ad);
   const Vector nc = cross(ad, ab);
   const Vector nd = cross(ab, ac);
-  const Vector na = { -(nb[0] + nc[0] + nd[0]), -(nb[1] + nc[1] + nd[1]), -(nb[2] + nc[2] + nd[2]) };
+  const Vector na = { -(nb[0] + nc[0] + nd[0]), -(nb[1] + nc[1] + nd[1]),
+    -(nb[2] + nc[2] + nd[2]) };
   const double sixVolume = std::fabs(dot(ab, nb));
   CellWeights cell;
   if (!(sixVolume > 0.0) || !std::isfinite(1.0 / sixVolume))

@@ -23,9 +23,11 @@ void ComponentLabels::append(std::span<const std::int32_t> labels)
   std::size_t done = 0;
   for (; this->Labels.size() - done >= Block; done += Block)
   {
-    this->Scratch->append(std::as_bytes(std::span<const std::int32_t>(this->Labels).subspan(done, Block)));
+    this->Scratch->append(
+      std::as_bytes(std::span<const std::int32_t>(this->Labels).subspan(done, Block)));
   }
-  this->Labels.erase(this->Labels.begin(), this->Labels.begin() + static_cast<std::ptrdiff_t>(done));
+  this->Labels.erase(
+    this->Labels.begin(), this->Labels.begin() + static_cast<std::ptrdiff_t>(done));
 }
 
 void ComponentLabels::finish()

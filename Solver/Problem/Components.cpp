@@ -33,7 +33,8 @@ std::int32_t Components::join(std::int32_t a, std::int32_t b)
     return a;
   }
   // The smaller component goes into the larger one, which keeps the paths to the roots short.
-  if (this->Of[static_cast<std::size_t>(a)].unknowns < this->Of[static_cast<std::size_t>(b)].unknowns)
+  if (this->Of[static_cast<std::size_t>(a)].unknowns <
+      this->Of[static_cast<std::size_t>(b)].unknowns)
   {
     std::swap(a, b);
   }
@@ -124,9 +125,8 @@ std::vector<double> Components::meanShifts(std::span<const double> sums) const
     const std::size_t label = k / static_cast<std::size_t>(this->Columns);
     if (this->isRoot(label) && !this->Of[label].anchored)
     {
-      const double initial =
-        this->sums(static_cast<std::int32_t>(label))[2 * this->Columns +
-          static_cast<int>(k % static_cast<std::size_t>(this->Columns))];
+      const double initial = this->sums(static_cast<std::int32_t>(
+        label))[2 * this->Columns + static_cast<int>(k % static_cast<std::size_t>(this->Columns))];
       shifts[k] = (sums[k] - initial) / static_cast<double>(this->Of[label].unknowns);
     }
   }

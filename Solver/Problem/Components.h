@@ -45,7 +45,10 @@ public:
    * given the sums of the values (label-major). */
   std::vector<double> meanShifts(std::span<const double> sums) const;
   int labels() const { return static_cast<int>(this->Of.size()); }
-  bool isFree(std::int32_t root) const { return !this->Of[static_cast<std::size_t>(root)].anchored; }
+  bool isFree(std::int32_t root) const
+  {
+    return !this->Of[static_cast<std::size_t>(root)].anchored;
+  }
 
 private:
   struct Component
@@ -55,12 +58,18 @@ private:
     std::int64_t unknowns;
   };
 
-  double* sums(std::int32_t label) { return this->Sums.data() + 3 * this->Columns * static_cast<std::ptrdiff_t>(label); }
+  double* sums(std::int32_t label)
+  {
+    return this->Sums.data() + 3 * this->Columns * static_cast<std::ptrdiff_t>(label);
+  }
   const double* sums(std::int32_t label) const
   {
     return this->Sums.data() + 3 * this->Columns * static_cast<std::ptrdiff_t>(label);
   }
-  bool isRoot(std::size_t label) const { return this->Of[label].parent == static_cast<std::int32_t>(label); }
+  bool isRoot(std::size_t label) const
+  {
+    return this->Of[label].parent == static_cast<std::int32_t>(label);
+  }
 
   int Columns;
   std::vector<Component> Of;

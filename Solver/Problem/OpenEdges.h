@@ -3,6 +3,7 @@
 
 #include "Solver/Storage/Ring.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -59,15 +60,7 @@ public:
       list[count] = { to, 0.0 };
       return list[count++];
     }
-    std::vector<OpenEdge>& more = this->More[from];
-    for (OpenEdge& edge : more)
-    {
-      if (edge.to == to)
-      {
-        return edge;
-      }
-    }
-    return more.emplace_back(OpenEdge{ to, 0.0 });
+    return this->More[from].try_emplace(to, OpenEdge{ to, 0.0 }).first->second;
   }
 
   /** Moves the edges of `from` to `edges`, by ascending neighbour. */
@@ -80,7 +73,10 @@ public:
     {
       if (const auto more = this->More.find(from); more != this->More.end())
       {
-        edges.insert(edges.end(), more->second.begin(), more->second.end());
+        for (const auto& [to, edge] : more->second)
+        {
+          edges.push_back(edge);
+        }
         this->More.erase(more);
       }
     }
@@ -105,7 +101,7 @@ public:
 private:
   Ring<OpenEdge> Edges;
   Ring<std::int32_t> Counts;
-  std::unordered_map<std::int64_t, std::vector<OpenEdge>> More;
+  std::unordered_map<std::int64_t, std::unordered_map<std::int64_t, OpenEdge>> More;
 };
 
 } // namespace smg

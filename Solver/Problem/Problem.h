@@ -34,9 +34,9 @@ struct VertexConditions
  */
 struct EdgeBatch
 {
-  std::span<const std::int64_t> from, to;      ///< stream indices i and j
-  std::span<const double> fromPoint, toPoint;  ///< positions p_i and p_j, 3 an edge
-  std::span<double> target;                    ///< out: d_ij, `columns` an edge; zero on entry
+  std::span<const std::int64_t> from, to;     ///< stream indices i and j
+  std::span<const double> fromPoint, toPoint; ///< positions p_i and p_j, 3 an edge
+  std::span<double> target;                   ///< out: d_ij, `columns` an edge; zero on entry
 };
 
 /**

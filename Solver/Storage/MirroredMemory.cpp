@@ -19,7 +19,7 @@ namespace
 [[noreturn]] void fail(const char* what)
 {
   throw Error(std::string("no memory for a window: ") + what + ": " + std::strerror(errno) +
-    "; lower the memory limit or raise that of the system (ulimit -v)");
+              "; lower the memory limit or raise that of the system (ulimit -v)");
 }
 
 } // namespace
@@ -71,7 +71,8 @@ void MirroredMemory::grow(std::size_t bytes)
 
 void MirroredMemory::map(std::size_t bytes)
 {
-  void* both = ::mmap(nullptr, 2 * bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  void* both =
+    ::mmap(nullptr, 2 * bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (both == MAP_FAILED)
   {
     fail("reserving address space");
@@ -79,7 +80,8 @@ void MirroredMemory::map(std::size_t bytes)
   auto* first = static_cast<std::byte*>(both);
   for (std::byte* image : { first, first + bytes })
   {
-    if (::mmap(image, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, this->Descriptor, 0) == MAP_FAILED)
+    if (::mmap(image, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, this->Descriptor, 0) ==
+        MAP_FAILED)
     {
       ::munmap(both, 2 * bytes);
       fail("mapping");

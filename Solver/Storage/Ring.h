@@ -13,9 +13,9 @@ namespace smg
 {
 
 /**
- * The part [first, end) of an endless array of items that is in memory, an item being `lanes` values
- * of T. Items are addressed by their index in the endless array; items next to each other in it are
- * next to each other in memory (MirroredMemory), so `&ring[i] + lanes * d` is item i + d.
+ * The part [first, end) of an endless array of items that is in memory, an item being `lanes`
+ * values of T. Items are addressed by their index in the endless array; items next to each other in
+ * it are next to each other in memory (MirroredMemory), so `&ring[i] + lanes * d` is item i + d.
  */
 template <class T>
 class Ring

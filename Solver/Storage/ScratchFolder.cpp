@@ -14,12 +14,13 @@ namespace smg
 ScratchFolder::ScratchFolder(const std::filesystem::path& parent)
 {
   std::error_code failed;
-  const std::filesystem::path base = parent.empty() ? std::filesystem::temp_directory_path(failed) : parent;
+  const std::filesystem::path base =
+    parent.empty() ? std::filesystem::temp_directory_path(failed) : parent;
   std::string name = (base / "smg-XXXXXX").string();
   if (!::mkdtemp(name.data()))
   {
     throw Error("cannot make a scratch folder in " + base.string() + ": " + std::strerror(errno) +
-      "; name another one");
+                "; name another one");
   }
   this->Path = name;
 }

@@ -32,8 +32,8 @@ void ScratchStream::startPass(bool rewrite)
   if (rewrite)
   {
     const TableSpec table{ "blocks", { ColumnSpec{ "block", ScalarType::UInt8, 0 } } };
-    this->Writer = std::make_unique<BlockFileWriter>(
-      this->generationPath(this->Generation + 1), std::vector{ table }, Codec::None, this->Statistics);
+    this->Writer = std::make_unique<BlockFileWriter>(this->generationPath(this->Generation + 1),
+      std::vector{ table }, Codec::None, this->Statistics);
   }
 }
 

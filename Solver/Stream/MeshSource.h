@@ -25,7 +25,8 @@ constexpr int cornersOf(CellType type)
 /** Name of the optional uint8 cell column that says which cells carry no weight (see CellFlag). */
 inline constexpr const char* CellFlagsName = "CellFlags";
 
-/** Bits of the `CellFlags` column. A cell with any bit set is part of the mesh but has no weight. */
+/** Bits of the `CellFlags` column. A cell with any bit set is part of the mesh but has no weight.
+ */
 enum CellFlag : std::uint8_t
 {
   DegenerateCell = 1, ///< repeated corners, or zero area or volume
@@ -63,12 +64,12 @@ struct StreamInfo
  */
 struct MeshBlock
 {
-  std::int64_t firstVertex = 0; ///< stream index of the block's first vertex
-  std::int64_t firstCell = 0;   ///< stream index of the block's first cell
-  std::vector<double> positions;       ///< x, y, z of each vertex of the block
-  std::vector<std::int64_t> corners;   ///< stream indices, cornersOf(cellType) a cell
-  std::vector<Column> vertexColumns;   ///< as StreamInfo::vertexColumns, a tuple a vertex
-  std::vector<Column> cellColumns;     ///< as StreamInfo::cellColumns, a tuple a cell
+  std::int64_t firstVertex = 0;      ///< stream index of the block's first vertex
+  std::int64_t firstCell = 0;        ///< stream index of the block's first cell
+  std::vector<double> positions;     ///< x, y, z of each vertex of the block
+  std::vector<std::int64_t> corners; ///< stream indices, cornersOf(cellType) a cell
+  std::vector<Column> vertexColumns; ///< as StreamInfo::vertexColumns, a tuple a vertex
+  std::vector<Column> cellColumns;   ///< as StreamInfo::cellColumns, a tuple a cell
   /** No cell after this block uses a vertex with a stream index below this one. */
   std::int64_t finalized = 0;
 

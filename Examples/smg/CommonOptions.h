@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+/** The options that every command has. */
+struct CommonOptions
+{
+  std::filesystem::path report;  ///< JSON file for the report; empty: none
+  std::int64_t memory = 0;       ///< MiB; 0: the default of the operation
+  int threads = 0;               ///< 0: one a core
+  std::filesystem::path scratch; ///< empty: the system's temporary folder
+  bool quiet = false;
+
+  /** Adds the options to a command. */
+  void addTo(CLI::App& command);
+
+  /** The memory limit in bytes, or `fallback` if none was given. */
+  std::int64_t memoryBytes(std::int64_t fallback) const
+  {
+    return this->memory > 0 ? this->memory << 20 : fallback;
+  }
+
+  /** Writes the report if one was asked for. Throws smg::Error. */
+  void writeReport(const std::string& json) const;
+};
+
+/** Checks that the value of an option is one of these; the error says which there are. */
+std::function<std::string(const std::string&)> oneOf(std::vector<std::string> values);
+
+/** Runs the command that was chosen on the command line; set by the commands. */
+using Action = std::function<void()>;
+
+/** Add the commands to the program; each sets `action` when it is chosen. */
+void addInfoCommand(CLI::App& program, Action& action);
+void addConvertCommand(CLI::App& program, Action& action);
+void addSolveCommand(CLI::App& program, Action& action);

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "CommonOptions.h"
+#include "ProgressBar.h"
+#include "VtkBridge.h"
+
+#include "IO/Conversion/OpenMesh.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+
+namespace
+{
+
+const char* nameOfCodec(smg::Codec codec)
+{
+  constexpr const char* names[] = { "none", "lz4", "zstd" };
+  return names[static_cast<int>(codec)];
+}
+
+nlohmann::ordered_json describe(const std::vector<smg::ColumnSpec>& specs)
+{
+  nlohmann::ordered_json columns = nlohmann::ordered_json::array();
+  for (const smg::ColumnSpec& spec : specs)
+  {
+    columns.push_back({ { "name", spec.name }, { "type", std::string(nameOf(spec.type)) },
+      { "components", spec.components } });
+  }
+  return columns;
+}
+
+nlohmann::ordered_json describe(const std::filesystem::path& file, smg::OpenedMesh& mesh)
+{
+  const smg::VsmReader& reader = mesh.reader();
+  const smg::StreamInfo& info = reader.info();
+  nlohmann::ordered_json json;
+  json["file"] = file.string();
+  json["cell_type"] = info.cellType == smg::CellType::Triangle ? "triangle" : "tetrahedron";
+  json["vertices"] = info.vertices;
+  json["cells"] = info.cells;
+  json["bounds"] = info.bounds;
+  json["positions"] = info.doublePositions ? "float64" : "float32";
+  json["width"] = info.width;
+  json["span"] = info.span;
+  json["mean_width"] = reader.meanWidth();
+  json["columns"] = { { "vertices", describe(info.vertexColumns) },
+    { "cells", describe(info.cellColumns) } };
+  if (!mesh.conversion())
+  {
+    json["blocks"] = { { "vertices", reader.vertexBlocks() }, { "cells", reader.cellBlocks() } };
+    json["codec"] = nameOfCodec(reader.codec());
+    json["bytes"] = reader.storedBytes();
+    json["plain_bytes"] = reader.plainBytes();
+    json["compression"] =
+      static_cast<double>(reader.plainBytes()) / static_cast<double>(reader.storedBytes());
+  }
+  return json;
+}
+
+void printColumns(const char* of, const std::vector<smg::ColumnSpec>& specs)
+{
+  for (const smg::ColumnSpec& spec : specs)
+  {
+    std::printf(
+      "  %s %s (%s x %d)\n", of, spec.name.c_str(), nameOf(spec.type).data(), spec.components);
+  }
+}
+
+void print(const std::filesystem::path& file, smg::OpenedMesh& mesh)
+{
+  const smg::VsmReader& reader = mesh.reader();
+  const smg::StreamInfo& info = reader.info();
+  const auto vertices = static_cast<double>(info.vertices);
+  std::printf("%s\n", file.c_str());
+  std::printf("  vertices    %lld (%s)\n", static_cast<long long>(info.vertices),
+    info.doublePositions ? "float64" : "float32");
+  std::printf("  cells       %lld %s\n", static_cast<long long>(info.cells),
+    info.cellType == smg::CellType::Triangle ? "triangles" : "tetrahedra");
+  std::printf("  bounds      [%g, %g] x [%g, %g] x [%g, %g]\n", info.bounds[0], info.bounds[1],
+    info.bounds[2], info.bounds[3], info.bounds[4], info.bounds[5]);
+  std::printf("  width       %lld (%.3f %%), mean %.1f\n", static_cast<long long>(info.width),
+    100.0 * static_cast<double>(info.width) / vertices, reader.meanWidth());
+  std::printf("  span        %lld (%.3f %%)\n", static_cast<long long>(info.span),
+    100.0 * static_cast<double>(info.span) / vertices);
+  printColumns("vertex data", info.vertexColumns);
+  printColumns("cell data  ", info.cellColumns);
+  if (!mesh.conversion())
+  {
+    std::printf("  blocks      %lld of vertices, %lld of cells\n",
+      static_cast<long long>(reader.vertexBlocks()), static_cast<long long>(reader.cellBlocks()));
+    std::printf("  compression %s, %lld of %lld bytes (%.2f : 1)\n", nameOfCodec(reader.codec()),
+      static_cast<long long>(reader.storedBytes()), static_cast<long long>(reader.plainBytes()),
+      static_cast<double>(reader.plainBytes()) / static_cast<double>(reader.storedBytes()));
+  }
+}
+
+struct InfoOptions : CommonOptions
+{
+  std::filesystem::path file;
+
+  void run() const
+  {
+    ProgressBar bar("reading", this->quiet);
+    loadVtkFor(this->file);
+    smg::ConversionOptions options;
+    // The order of the file itself is what the figures are about.
+    options.order = smg::StreamOrder::Keep;
+    options.memoryLimit = this->memoryBytes(0);
+    options.codec = smg::Codec::Lz4;
+    options.scratch = this->scratch;
+    options.progress = bar.function();
+    const std::unique_ptr<smg::OpenedMesh> mesh = smg::openMesh(this->file, options);
+    this->writeReport(describe(this->file, *mesh)
+                        .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    if (!this->quiet)
+    {
+      print(this->file, *mesh);
+    }
+  }
+};
+
+} // namespace
+
+void addInfoCommand(CLI::App& program, Action& action)
+{
+  auto options = std::make_shared<InfoOptions>();
+  CLI::App* command = program.add_subcommand("info", "Say what a mesh file holds");
+  command->add_option("FILE", options->file, "The mesh")->required();
+  options->addTo(*command);
+  command->callback([options, &action] { action = [options] { options->run(); }; });
+}

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/**
+ * Makes SIGINT and SIGTERM ask the running operation to stop and clean up, instead of ending the
+ * program at once. A second signal ends it.
+ */
+void catchInterrupts();
+
+/** Whether such a signal has come. */
+bool interrupted();

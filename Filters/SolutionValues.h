@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Solve.h"
+
+#include <cstdint>
+#include <span>
+
+namespace smg
+{
+
+/**
+ * Reads the values of the vertices `ids`, in any order, to `values` (solution.columns() each), in
+ * few calls that go forward through the solution. Throws Error if an id is not one of its vertices.
+ */
+void readValues(Solution& solution, std::span<const std::int64_t> ids, std::span<double> values);
+
+} // namespace smg

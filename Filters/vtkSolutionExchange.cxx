@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkSolutionExchange.h"
+
+#include "Filters/SolutionValues.h"
+#include "Solver/Core/Error.h"
+
+#include "vtkMultiProcessController.h"
+
+#include <algorithm>
+
+namespace smg
+{
+namespace
+{
+
+/** Message tags, any numbers that VTK's own messages do not use. */
+enum Tag
+{
+  CountTag = 735101,
+  IdsTag,
+  StatusTag,
+  ValuesTag
+};
+
+/** Most vertices in a message, so that neither side needs much memory for it. */
+constexpr std::size_t MessageIds = 65536;
+
+} // namespace
+
+SolutionExchange::SolutionExchange(vtkMultiProcessController* controller)
+  : Controller(controller)
+{
+  if (controller)
+  {
+    this->Processes = controller->GetNumberOfProcesses();
+    this->Rank = controller->GetLocalProcessId();
+  }
+}
+
+void SolutionExchange::shareText(std::string& text)
+{
+  vtkIdType length = static_cast<vtkIdType>(text.size());
+  this->Controller->Broadcast(&length, 1, 0);
+  text.resize(length);
+  if (length > 0)
+  {
+    this->Controller->Broadcast(text.data(), length, 0);
+  }
+}
+
+void SolutionExchange::share(SolveSummary& summary)
+{
+  if (!this->isParallel())
+  {
+    return;
+  }
+  this->shareText(summary.error);
+  this->shareText(summary.report);
+  double numbers[] = { double(summary.columns), summary.residual, double(summary.cycles),
+    double(summary.passes), double(summary.converged), double(summary.peakMemory) };
+  this->Controller->Broadcast(numbers, 6, 0);
+  summary.columns = static_cast<int>(numbers[0]);
+  summary.residual = numbers[1];
+  summary.cycles = static_cast<int>(numbers[2]);
+  summary.passes = static_cast<int>(numbers[3]);
+  summary.converged = numbers[4] != 0.0;
+  summary.peakMemory = static_cast<std::int64_t>(numbers[5]);
+}
+
+std::vector<double> SolutionExchange::values(
+  const std::vector<std::int64_t>& ids, int columns, Solution* solution)
+{
+  std::vector<double> values(ids.size() * columns);
+  if (!this->isServer())
+  {
+    this->ask(ids, columns, values);
+    return values;
+  }
+  for (int process = 1; process < this->Processes; ++process)
+  {
+    this->serve(*solution, process);
+  }
+  readValues(*solution, ids, values);
+  return values;
+}
+
+void SolutionExchange::ask(
+  const std::vector<std::int64_t>& ids, int columns, std::vector<double>& values)
+{
+  bool isComplete = true;
+  std::vector<vtkIdType> message;
+  for (std::size_t begin = 0;; begin += MessageIds)
+  {
+    const std::size_t end = std::min(begin + MessageIds, ids.size());
+    vtkIdType count = begin < end ? static_cast<vtkIdType>(end - begin) : 0;
+    this->Controller->Send(&count, 1, 0, CountTag);
+    if (count == 0)
+    {
+      break;
+    }
+    message.assign(ids.begin() + begin, ids.begin() + end);
+    this->Controller->Send(message.data(), count, 0, IdsTag);
+    int status = 0;
+    this->Controller->Receive(&status, 1, 0, StatusTag);
+    if (status)
+    {
+      this->Controller->Receive(values.data() + begin * columns, count * columns, 0, ValuesTag);
+    }
+    isComplete = isComplete && status;
+  }
+  if (!isComplete)
+  {
+    throw Error("Process 0 could not read the solution for the points of process " +
+                std::to_string(this->Rank) +
+                ": look at its GlobalIds and at the scratch folder of process 0.");
+  }
+}
+
+void SolutionExchange::serve(Solution& solution, int process)
+{
+  std::vector<vtkIdType> message;
+  std::vector<std::int64_t> ids;
+  std::vector<double> values;
+  for (;;)
+  {
+    vtkIdType count = 0;
+    this->Controller->Receive(&count, 1, process, CountTag);
+    if (count <= 0)
+    {
+      return;
+    }
+    message.resize(count);
+    this->Controller->Receive(message.data(), count, process, IdsTag);
+    ids.assign(message.begin(), message.end());
+    values.resize(count * solution.columns());
+    int status = 1;
+    try
+    {
+      readValues(solution, ids, values);
+    }
+    catch (const std::exception&)
+    {
+      // The process that asked says so; the others must be served nevertheless.
+      status = 0;
+    }
+    this->Controller->Send(&status, 1, process, StatusTag);
+    if (status)
+    {
+      this->Controller->Send(
+        values.data(), static_cast<vtkIdType>(values.size()), process, ValuesTag);
+    }
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Storage/FileDescriptor.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * An endless row of pages of bytes, zero at first, of which a few are in memory and the others in a
+ * scratch file that has no name. The file is made when the memory does not last, not before.
+ */
+class PageFile
+{
+public:
+  static constexpr std::size_t PageBytes = std::size_t(16) << 10;
+
+  /** Keeps at most `memory` bytes of pages in memory, at least 4 pages. */
+  PageFile(std::filesystem::path folder, std::int64_t memory);
+
+  /**
+   * The bytes of page `page`, valid until the next call. `change`: whether they will be changed.
+   * Throws Error if the scratch file fails.
+   */
+  std::byte* page(std::int64_t page, bool change);
+
+  /** Forgets the pages below `page`, which must not be asked for any more. */
+  void discardBelow(std::int64_t page);
+
+private:
+  enum : std::int32_t
+  {
+    Untouched = -1,
+    OnDisk = -2,
+    Discarded = -3
+  };
+  struct Slot
+  {
+    std::unique_ptr<std::byte[]> bytes;
+    std::int64_t page = -1;
+    bool changed = false;
+    bool used = false; ///< since the hand came by
+  };
+
+  std::int32_t makeRoom();
+
+  std::filesystem::path Folder;
+  FileDescriptor File;
+  std::size_t MaxSlots;
+  std::vector<Slot> Slots;
+  std::vector<std::int32_t> Vacant;
+  std::vector<std::int32_t> SlotOfPage; ///< or one of the above
+  std::size_t Hand = 0;
+  std::int64_t FirstKept = 0;
+};
+
+} // namespace smg

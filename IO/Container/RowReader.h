@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Storage/BlockFile.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Reads rows of a column of a block file, whatever the blocks. The block read last is kept, so that
+ * rows in ascending order cost each block once.
+ */
+class RowReader
+{
+public:
+  RowReader(BlockFileReader& file, int table, int column);
+
+  std::size_t tupleBytes() const { return this->TupleBytes; }
+
+  /** Reads the rows [first, first + count). */
+  void read(std::int64_t first, std::int64_t count, std::byte* values);
+  /** Reads the rows `rows`, which ascend. */
+  void gather(std::span<const std::int64_t> rows, std::byte* values);
+
+private:
+  void load(std::int64_t block);
+
+  BlockFileReader* File;
+  int Table, Column;
+  std::size_t TupleBytes;
+  std::int64_t Block = -1;
+  std::vector<std::byte> Bytes; ///< of that block
+};
+
+} // namespace smg

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace smg
+{
+
+/**
+ * A .vsm file ("VTK streaming mesh") is a block file (BlockFile.h) of four tables:
+ *
+ * - vertices: `Position`, three float32 or float64, then the attribute columns; blocks of
+ *   BlockRows rows.
+ * - last: `LastCell`, the last cell that uses a vertex; blocks like those of the vertices. Packed
+ *   (PackedIntegers.h) as differences from the vertex before, in zigzag form, the first from 0.
+ * - cells: `Corners`, then the attribute columns; blocks of BlockRows rows. Packed, a corner is
+ *   its distance back from the number of vertices introduced so far: 0 introduces the next one.
+ * - blocks: a row for each block of the cells. `FirstVertex` is the number of vertices introduced
+ *   before the block; no cell after the block uses a vertex below `Finalized`.
+ *
+ * The header says kind, cell ("triangle" or "tetrahedron"), precision ("float32" or "float64"),
+ * vertices, cells, bounds (xmin, xmax, ymin ...), width, span and mean_width.
+ */
+struct VsmFormat
+{
+  static constexpr const char* Kind = "mesh stream";
+  enum Table
+  {
+    Vertices,
+    Last,
+    Cells,
+    Blocks
+  };
+  /** Rows of a block of vertices or cells, but for the last one. */
+  static constexpr std::int64_t BlockRows = 8192;
+};
+
+} // namespace smg

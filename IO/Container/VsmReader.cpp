@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Container/VsmReader.h"
+
+#include "IO/Container/PieceReader.h"
+#include "IO/Container/VertexReader.h"
+#include "IO/Container/VsmFile.h"
+#include "IO/Container/VsmSource.h"
+
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+std::vector<std::string> namesOf(const std::vector<ColumnSpec>& columns)
+{
+  std::vector<std::string> names;
+  for (const ColumnSpec& column : columns)
+  {
+    names.push_back(column.name);
+  }
+  return names;
+}
+
+} // namespace
+
+struct VsmReader::Implementation
+{
+  Implementation(std::filesystem::path path, IoStatistics* statistics)
+    : Path(std::move(path))
+    , Statistics(statistics)
+    , File(this->Path, statistics)
+    , LastCells(this->File)
+  {
+  }
+
+  void checkVertices(std::int64_t first, std::int64_t count) const
+  {
+    if (first < 0 || count < 0 || first > this->File.Info.vertices - count)
+    {
+      this->File.fail("has no " + std::to_string(count) + " vertices from " +
+                      std::to_string(first) + " on, but " +
+                      std::to_string(this->File.Info.vertices) + " in all.");
+    }
+  }
+
+  std::filesystem::path Path;
+  IoStatistics* Statistics;
+  VsmFile File;
+  LastCellReader LastCells;
+  std::unique_ptr<PieceReader> Pieces; ///< made when the columns are chosen or a piece is read
+};
+
+VsmReader::VsmReader(std::filesystem::path path, IoStatistics* statistics)
+  : Self(std::make_unique<Implementation>(std::move(path), statistics))
+{
+}
+
+VsmReader::~VsmReader() = default;
+
+const std::filesystem::path& VsmReader::path() const
+{
+  return this->Self->Path;
+}
+
+const StreamInfo& VsmReader::info() const
+{
+  return this->Self->File.Info;
+}
+
+double VsmReader::meanWidth() const
+{
+  return this->Self->File.MeanWidth;
+}
+
+const nlohmann::json& VsmReader::header() const
+{
+  return this->Self->File.Blocks.header();
+}
+
+Codec VsmReader::codec() const
+{
+  return this->Self->File.Blocks.codec();
+}
+
+std::int64_t VsmReader::vertexBlocks() const
+{
+  return this->Self->File.Blocks.blocks(VsmFormat::Vertices);
+}
+
+std::int64_t VsmReader::cellBlocks() const
+{
+  return this->Self->File.cellBlocks();
+}
+
+std::int64_t VsmReader::storedBytes() const
+{
+  return static_cast<std::int64_t>(std::filesystem::file_size(this->Self->Path));
+}
+
+std::int64_t VsmReader::plainBytes() const
+{
+  const BlockFileReader& blocks = this->Self->File.Blocks;
+  std::int64_t bytes = 0;
+  for (int table = 0; table < static_cast<int>(blocks.tables().size()); table++)
+  {
+    const int columns = static_cast<int>(blocks.tables()[table].columns.size());
+    for (std::int64_t block = 0; block < blocks.blocks(table); block++)
+    {
+      for (int column = 0; column < columns; column++)
+      {
+        bytes += static_cast<std::int64_t>(blocks.columnBytes(table, block, column));
+      }
+    }
+  }
+  return bytes;
+}
+
+std::unique_ptr<MeshSource> VsmReader::source() const
+{
+  const StreamInfo& info = this->info();
+  return this->source(namesOf(info.vertexColumns), namesOf(info.cellColumns));
+}
+
+std::unique_ptr<MeshSource> VsmReader::source(
+  std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const
+{
+  return std::make_unique<VsmSource>(
+    this->Self->Path, vertexColumns, cellColumns, this->Self->Statistics);
+}
+
+void VsmReader::selectColumns(
+  const std::vector<std::string>& vertexColumns, const std::vector<std::string>& cellColumns)
+{
+  this->Self->Pieces = std::make_unique<PieceReader>(this->Self->File, vertexColumns, cellColumns);
+}
+
+void VsmReader::readPiece(std::int64_t firstCell, std::int64_t endCell, MeshPiece& piece)
+{
+  Implementation& self = *this->Self;
+  if (!self.Pieces)
+  {
+    this->selectColumns(namesOf(self.File.Info.vertexColumns), namesOf(self.File.Info.cellColumns));
+  }
+  self.Pieces->read(firstCell, endCell, piece);
+}
+
+void VsmReader::readVertexColumn(
+  const std::string& name, std::int64_t first, std::int64_t count, Column& column)
+{
+  Implementation& self = *this->Self;
+  const int number = self.File.vertexColumn(name);
+  self.checkVertices(first, count);
+  column.spec = self.File.Info.vertexColumns[number - 1];
+  column.resize(count);
+  RowReader(self.File.Blocks, VsmFormat::Vertices, number).read(first, count, column.bytes.data());
+}
+
+void VsmReader::readLastCells(std::int64_t first, std::span<std::int64_t> cells)
+{
+  this->Self->checkVertices(first, static_cast<std::int64_t>(cells.size()));
+  this->Self->LastCells.read(first, cells);
+}
+
+} // namespace smg

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Stream/MeshSource.h"
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Finds the degenerate and the duplicate cells of a mesh stream block by block. In memory are only
+ * the vertices that are not final, and the cells among them.
+ */
+class CellFlagger
+{
+public:
+  explicit CellFlagger(CellType cellType)
+    : Corners(static_cast<std::size_t>(cornersOf(cellType)))
+  {
+  }
+
+  /** The CellFlag bits of the cells of the stream's next block. */
+  const std::vector<std::uint8_t>& flags(const MeshBlock& block);
+
+  std::int64_t degenerateCells() const { return this->Degenerate; }
+  std::int64_t duplicateCells() const { return this->Duplicates; }
+
+  /** Bytes that a vertex of the window takes, with its cells. */
+  static constexpr std::int64_t BytesPerVertex = 256;
+
+private:
+  /** The cells so far that have a vertex as the largest of their corners. */
+  using CellsOfVertex = std::vector<std::array<std::int64_t, 4>>;
+
+  std::uint8_t flag(const std::int64_t* corners);
+
+  std::size_t Corners;
+  std::int64_t First = 0; ///< stream index of the first vertex of the window
+  std::deque<std::array<double, 3>> Points;
+  std::deque<CellsOfVertex> Cells;
+  std::vector<std::uint8_t> Flags;
+  std::int64_t Degenerate = 0;
+  std::int64_t Duplicates = 0;
+};
+
+} // namespace smg

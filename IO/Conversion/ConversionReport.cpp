@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Conversion/ConversionReport.h"
+
+#include <nlohmann/json.hpp>
+
+namespace smg
+{
+
+std::string ConversionReport::json(int indent) const
+{
+  nlohmann::ordered_json json;
+  json["order"] = this->order;
+  json["vertices"] = this->vertices;
+  json["cells"] = this->cells;
+  json["isolated_vertices"] = this->isolated_vertices;
+  json["degenerate_cells"] = this->degenerate_cells;
+  json["duplicate_cells"] = this->duplicate_cells;
+  json["dropped_cells"] = this->dropped_cells;
+  json["triangulated_polygons"] = this->triangulated_polygons;
+  json["components"] = this->components;
+  json["boundary_edges"] = this->boundary_edges;
+  json["nonmanifold_edges"] = this->nonmanifold_edges;
+  json["width"] = this->width;
+  json["span"] = this->span;
+  json["mean_width"] = this->mean_width;
+  json["seconds"] = { { "import", this->seconds.import }, { "order", this->seconds.order },
+    { "write", this->seconds.write }, { "total", this->seconds.total } };
+  json["notes"] = this->notes;
+  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+} // namespace smg

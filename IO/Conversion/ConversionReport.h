@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** What a conversion did. Counts that a conversion without reordering does not know are -1. */
+struct ConversionReport
+{
+  struct Seconds
+  {
+    double import = 0, order = 0, write = 0, total = 0;
+  };
+
+  std::string order;
+  std::int64_t vertices = 0, cells = 0;
+  std::int64_t isolated_vertices = 0;     ///< vertices of no cell: left out
+  std::int64_t degenerate_cells = 0;      ///< cells without area or volume: flagged
+  std::int64_t duplicate_cells = 0;       ///< cells with the corners of an earlier one: flagged
+  std::int64_t dropped_cells = 0;         ///< points, lines, faces beside tetrahedra: left out
+  std::int64_t triangulated_polygons = 0; ///< polygons and strips that became several triangles
+  std::int64_t components = -1;           ///< connected by edges
+  std::int64_t boundary_edges = -1;       ///< of one triangle
+  std::int64_t nonmanifold_edges = -1;    ///< of more than two triangles
+  std::int64_t width = -1;                ///< most vertices alive at once
+  std::int64_t span = -1;                 ///< largest index distance between vertices of a cell
+  double mean_width = 0;
+  Seconds seconds;
+  /** What a user should know. */
+  std::vector<std::string> notes;
+
+  /** As a JSON object with the names above. */
+  std::string json(int indent = 2) const;
+};
+
+} // namespace smg

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Progress.h"
+#include "Solver/Stream/MeshSource.h"
+
+#include <filesystem>
+
+namespace smg
+{
+
+/**
+ * Writes a mesh stream, which says its numbers of vertices and cells, as one VTK XML file: .vtp for
+ * triangles, .vtu for triangles or tetrahedra, with all columns as point and cell data, points in
+ * stream order. The data are raw, appended and 64-bit; they are written as they come, in the memory
+ * of a block.
+ * @throws Error if the suffix does not go with the cells or the file cannot be written; Cancelled.
+ * Nothing is left of the file then.
+ */
+void writeVtkXml(
+  MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress = {});
+
+/** Throws Error unless `path` ends with .vtu, or with .vtp and the cells are triangles. */
+void checkVtkXmlPath(const std::filesystem::path& path, CellType cellType);
+
+} // namespace smg

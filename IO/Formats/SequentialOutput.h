@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Storage/WriteBehind.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string_view>
+
+namespace smg
+{
+
+/** Writes a file from begin to end. It gets its name by finish(); without it nothing is left. */
+class SequentialOutput
+{
+public:
+  explicit SequentialOutput(std::filesystem::path path);
+  ~SequentialOutput();
+  SequentialOutput(const SequentialOutput&) = delete;
+  SequentialOutput& operator=(const SequentialOutput&) = delete;
+
+  const std::filesystem::path& path() const { return this->Path; }
+  /** Writes bytes. A failure is thrown at once or by a later call. */
+  void put(std::span<const std::byte> bytes);
+  void put(std::string_view text) { this->put(std::as_bytes(std::span(text))); }
+  void finish();
+
+private:
+  void check();
+
+  std::filesystem::path Path;
+  FileDescriptor File;
+  std::unique_ptr<WriteBehind> Behind;
+};
+
+} // namespace smg

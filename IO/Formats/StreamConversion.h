@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Progress.h"
+#include "Solver/Storage/BlockFile.h"
+#include "Solver/Stream/MeshSource.h"
+
+#include <cstdint>
+#include <filesystem>
+
+namespace smg
+{
+
+/** Names of the columns that a conversion adds: places in the original file, from 0, int64. */
+inline constexpr const char* OriginalIdName = "OriginalId";
+inline constexpr const char* OriginalCellIdName = "OriginalCellId";
+
+struct StreamToVsmOptions
+{
+  Codec codec = Codec::Zstd;
+  /** Folder for scratch files; empty: the folder of the output. */
+  std::filesystem::path scratch;
+  /** Bytes of memory for the vertices and cells that wait; at least 8 MiB are used. */
+  std::int64_t memory = std::int64_t(64) << 20;
+  ProgressFunction progress;
+};
+
+struct StreamToVsmResult
+{
+  StreamInfo info;
+  double meanWidth = 0;
+  std::int64_t isolatedVertices = 0; ///< vertices of no cell: left out
+  bool postOrder = false;            ///< the file had the vertices after their cells
+  bool finalized = false;            ///< the file said when each vertex is final
+};
+
+/**
+ * Makes a .vsm file of a streaming mesh file (SMA, SMB, SVA, SVB; see StreamFile.h), keeping the
+ * order of its cells. Vertices are renumbered by first use; the columns OriginalId and
+ * OriginalCellId keep their places in the file. The memory needed does not depend on the mesh nor
+ * on the quality of its order: what waits for longer than the memory lasts goes to a scratch file.
+ * Throws Error; Cancelled if the progress callback says so. Then no output and no scratch is left.
+ */
+StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesystem::path& out,
+  const StreamToVsmOptions& options = {});
+
+/**
+ * Writes a .vsm file as SMA, SMB, SVA or SVB, by the suffix of `out`: pre-order, compact, vertices
+ * final by their last cell, little-endian, counts and bounds in the header, no comments. Positions
+ * become single precision; columns are left out, but for the scalar of SVA and SVB (see
+ * StreamFile.h). Throws Error if the suffix does not go with the cells or there are more than 2^31
+ * - 1 of anything.
+ */
+void vsmToStream(const std::filesystem::path& in, const std::filesystem::path& out,
+  const ProgressFunction& progress = {});
+
+} // namespace smg

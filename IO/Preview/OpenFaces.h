@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <unordered_map>
+
+namespace smg
+{
+
+/**
+ * Finds the outer surface of a stream of tetrahedra: the faces that only one tetrahedron has. A
+ * face waits for its partner as long as all of its vertices may still be used, so the memory is
+ * bounded by the window of the stream.
+ */
+class OpenFaces
+{
+public:
+  using Face = std::array<std::int64_t, 3>;
+
+  /** Adds the four faces of a tetrahedron, by the stream indices of its corners. */
+  void add(std::span<const std::int64_t, 4> corners);
+
+  /** Hands out, and forgets, each open face with a vertex below `finalized`, oriented outwards. */
+  void closeBelow(std::int64_t finalized, const std::function<void(const Face&)>& outer);
+
+  std::size_t size() const { return this->Open.size(); }
+
+private:
+  struct Hash
+  {
+    std::size_t operator()(const Face& face) const;
+  };
+  /** From the sorted corners to the corners in outward order. */
+  std::unordered_map<Face, Face, Hash> Open;
+};
+
+} // namespace smg

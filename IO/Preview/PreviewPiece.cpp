@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Preview/PreviewPiece.h"
+
+#include <cstring>
+
+namespace smg
+{
+namespace
+{
+
+/** The values of a column at the vertices `ids`, ascending, read in stretches that hold several. */
+Column gather(VsmReader& mesh, const ColumnSpec& spec, const std::vector<std::int64_t>& ids)
+{
+  constexpr std::int64_t stretch = 16384;
+  const std::size_t size = spec.tupleBytes();
+  Column gathered{ spec, {} };
+  gathered.resize(ids.size());
+  Column rows;
+  for (std::size_t begin = 0; begin < ids.size();)
+  {
+    const std::int64_t first = ids[begin];
+    std::size_t end = begin;
+    while (end < ids.size() && ids[end] < first + stretch)
+    {
+      ++end;
+    }
+    mesh.readVertexColumn(spec.name, first, ids[end - 1] + 1 - first, rows);
+    for (; begin < end; ++begin)
+    {
+      std::memcpy(gathered.bytes.data() + begin * size,
+        rows.bytes.data() + (ids[begin] - first) * size, size);
+    }
+  }
+  return gathered;
+}
+
+} // namespace
+
+MeshPiece makePreviewPiece(
+  VsmReader& mesh, std::int64_t maximumPoints, const ProgressFunction& progress)
+{
+  const auto source = mesh.source({}, {});
+  StreamPreview preview = makePreview(*source, maximumPoints, progress);
+  MeshPiece piece;
+  piece.ids = std::move(preview.ids);
+  piece.positions = std::move(preview.positions);
+  piece.corners = std::move(preview.triangles);
+  piece.ghost.assign(piece.ids.size(), 0);
+  piece.finalized.assign(piece.ids.size(), 1);
+  for (const ColumnSpec& spec : mesh.info().vertexColumns)
+  {
+    piece.vertexColumns.push_back(gather(mesh, spec, piece.ids));
+  }
+  return piece;
+}
+
+} // namespace smg

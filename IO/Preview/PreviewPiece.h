@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Container/MeshPiece.h"
+#include "IO/Container/VsmReader.h"
+#include "IO/Preview/StreamPreview.h"
+
+namespace smg
+{
+
+/**
+ * Makes the preview of a mesh (see makePreview()) as a piece of triangles, with all vertex columns
+ * and no cell columns. Its vertices are neither ghosts nor used by another piece. Costs one pass
+ * over the mesh and one over its vertex columns. Throws Error and Cancelled.
+ */
+MeshPiece makePreviewPiece(VsmReader& mesh, std::int64_t maximumPoints = DefaultPreviewPoints,
+  const ProgressFunction& progress = {});
+
+} // namespace smg

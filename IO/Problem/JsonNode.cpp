@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Problem/JsonNode.h"
+
+#include "Solver/Core/Error.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+namespace smg
+{
+
+void JsonNode::requireObject(std::initializer_list<const char*> keys) const
+{
+  if (!this->Value->is_object())
+  {
+    this->fail("must be an object");
+  }
+  for (const auto& item : this->Value->items())
+  {
+    const bool known =
+      std::any_of(keys.begin(), keys.end(), [&item](const char* key) { return item.key() == key; });
+    if (!known)
+    {
+      std::string names;
+      for (const char* key : keys)
+      {
+        names += names.empty() ? key : std::string(", ") + key;
+      }
+      this->child(item.value(), item.key()).fail("is not known here; the keys are " + names);
+    }
+  }
+}
+
+JsonNode JsonNode::member(const char* key) const
+{
+  const auto found = this->Value->find(key);
+  if (found == this->Value->end())
+  {
+    this->fail(std::string("has no '") + key + '\'');
+  }
+  return this->child(*found, key);
+}
+
+std::vector<JsonNode> JsonNode::elements() const
+{
+  if (!this->Value->is_array())
+  {
+    this->fail("must be an array");
+  }
+  std::vector<JsonNode> nodes;
+  for (std::size_t i = 0; i < this->Value->size(); ++i)
+  {
+    nodes.push_back(this->child((*this->Value)[i], '[' + std::to_string(i) + ']'));
+  }
+  return nodes;
+}
+
+std::string JsonNode::string() const
+{
+  if (!this->Value->is_string())
+  {
+    this->fail("must be a string");
+  }
+  return this->Value->get<std::string>();
+}
+
+double JsonNode::number() const
+{
+  if (!this->Value->is_number() || !std::isfinite(this->Value->get<double>()))
+  {
+    this->fail("must be a finite number");
+  }
+  return this->Value->get<double>();
+}
+
+std::int64_t JsonNode::integer(std::int64_t least, std::int64_t most) const
+{
+  const bool fits = this->Value->is_number_unsigned()
+                      ? this->Value->get<std::uint64_t>() <= static_cast<std::uint64_t>(most)
+                      : this->Value->is_number_integer();
+  if (!fits || this->Value->get<std::int64_t>() < least || this->Value->get<std::int64_t>() > most)
+  {
+    this->fail("must be an integer from " + std::to_string(least) + " to " + std::to_string(most));
+  }
+  return this->Value->get<std::int64_t>();
+}
+
+std::vector<double> JsonNode::numbers(std::size_t count) const
+{
+  if (!this->Value->is_array() || this->Value->size() != count)
+  {
+    this->fail(
+      "must be an array of " + std::to_string(count) + (count == 1 ? " number" : " numbers"));
+  }
+  std::vector<double> numbers;
+  for (const JsonNode& node : this->elements())
+  {
+    numbers.push_back(node.number());
+  }
+  return numbers;
+}
+
+void JsonNode::fail(const std::string& sentence) const
+{
+  const std::string place = this->Place.empty() ? "the problem" : this->Place;
+  throw Error(this->File + ": " + place + ": " + sentence + '.');
+}
+
+JsonNode JsonNode::child(const nlohmann::json& value, const std::string& step) const
+{
+  JsonNode node(value, this->File);
+  const bool dot = !this->Place.empty() && step[0] != '[';
+  node.Place = this->Place + (dot ? "." : "") + step;
+  return node;
+}
+
+nlohmann::json readJsonFile(const std::string& path)
+{
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream)
+  {
+    throw Error(path + ": cannot be opened: " + std::strerror(errno) + '.');
+  }
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (stream.bad() || text.empty())
+  {
+    throw Error(path + (text.empty() ? ": the file is empty or cannot be read."
+                                     : ": the file cannot be read."));
+  }
+  try
+  {
+    return nlohmann::json::parse(text);
+  }
+  catch (const nlohmann::json::parse_error& error)
+  {
+    const std::size_t byte = std::min(error.byte, text.size());
+    const auto line =
+      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), '\n');
+    throw Error(path + ", line " + std::to_string(line) + ", byte " + std::to_string(error.byte) +
+                ": this is not valid JSON.");
+  }
+  catch (const nlohmann::json::exception&)
+  {
+    throw Error(path + ": a number in the file is out of range.");
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * A value of a JSON file that knows where it stands, so that every complaint names the file and the
+ * place, as in `problem.json: dirichlet[1].box: must be 6 numbers.`
+ */
+class JsonNode
+{
+public:
+  /** The whole file's value, which must live as long as the nodes. */
+  JsonNode(const nlohmann::json& value, std::string file)
+    : Value(&value)
+    , File(std::move(file))
+  {
+  }
+
+  const nlohmann::json& value() const { return *this->Value; }
+  /** The place in the file, as `dirichlet[1].box`; empty for the whole. */
+  const std::string& place() const { return this->Place; }
+
+  /** Throws Error unless the value is an object with no other keys than these. */
+  void requireObject(std::initializer_list<const char*> keys) const;
+  bool has(const char* key) const { return this->Value->contains(key); }
+  /** The member of an object; throws Error if there is none. */
+  JsonNode member(const char* key) const;
+  /** The elements of an array; throws Error if the value is none. */
+  std::vector<JsonNode> elements() const;
+
+  bool isString() const { return this->Value->is_string(); }
+  std::string string() const;
+  /** A finite number. */
+  double number() const;
+  /** An integer in [least, most]. */
+  std::int64_t integer(std::int64_t least, std::int64_t most) const;
+  /** An array of `count` finite numbers. */
+  std::vector<double> numbers(std::size_t count) const;
+
+  /** Throws Error: "FILE: PLACE: SENTENCE". */
+  [[noreturn]] void fail(const std::string& sentence) const;
+
+private:
+  JsonNode child(const nlohmann::json& value, const std::string& step) const;
+
+  const nlohmann::json* Value;
+  std::string File;
+  std::string Place;
+};
+
+/** Reads a JSON file; throws Error naming file, line and column if it is none. */
+nlohmann::json readJsonFile(const std::string& path);
+
+} // namespace smg

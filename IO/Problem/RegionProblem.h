@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Problem/Region.h"
+#include "Solver/Problem/Problem.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** Values that are prescribed in a region. */
+struct DirichletRegion
+{
+  Region region;
+  /** The value, one number a column; not used if `position`. */
+  std::vector<double> value;
+  /** The value is the vertex's own coordinates; there are three columns then. */
+  bool position = false;
+  /** What errors call it, as `dirichlet[1]`. */
+  std::string name;
+};
+
+/** What a RegionProblem consists of. */
+struct RegionProblemData
+{
+  Weights weights = Weights::Cotangent;
+  int columns = 1;
+  double screening = 0.0;
+  /** A density for each column; empty: none. */
+  std::vector<double> source;
+  /** Where regions overlap, the later one holds. */
+  std::vector<DirichletRegion> dirichlet;
+};
+
+/**
+ * A Poisson problem with the values prescribed in regions and a constant source.
+ *
+ * Vertices are named by the column OriginalId, or by their stream index if the mesh has no such
+ * column. The initial guess is the vertex's coordinates if a region prescribes these, else 0.
+ */
+class RegionProblem : public Problem
+{
+public:
+  /** `mesh` is the mesh the problem is for. `file` is what errors call the problem. */
+  RegionProblem(RegionProblemData data, const StreamInfo& mesh, std::string file = "problem");
+
+  int columns() const override { return this->Data.columns; }
+  Weights weights() const override { return this->Data.weights; }
+  double screening() const override { return this->Data.screening; }
+  void conditions(const MeshBlock& block, VertexConditions& conditions) override;
+
+  /** The vertex columns that the mesh source must deliver. */
+  std::vector<std::string> vertexColumns() const;
+
+  /**
+   * Reads the stream once, without solving, and throws Error naming the region if a region selects
+   * no vertex, or names a vertex that the mesh does not have.
+   */
+  void check(MeshSource& mesh) const;
+
+private:
+  /** The original number of vertex `i` of the block. */
+  std::int64_t idOf(const MeshBlock& block, const Column* ids, std::size_t i) const;
+  const Column* idColumn(const MeshBlock& block) const;
+
+  RegionProblemData Data;
+  std::string File;
+  bool HasIds = false;
+  bool AnyPosition = false;
+};
+
+/**
+ * Reads a problem file:
+ *
+ *     { "weights": "cotangent" | "uniform", "columns": 3,
+ *       "dirichlet": [ { "halfspace": [nx, ny, nz, d], "value": [..] },
+ *                      { "box": [x0, y0, z0, x1, y1, z1], "value": [..] },
+ *                      { "sphere": [x, y, z, r], "value": "position" },
+ *                      { "vertices": [original numbers], "value": [..] } ],
+ *       "source": [..], "screening": 0.0 }
+ *
+ * Every key may be left out: cotangent weights, one column, nothing prescribed, no source and no
+ * screening. A value or source has as many numbers as there are columns (1 to 64).
+ * @throws Error naming the file and the place in it
+ */
+std::unique_ptr<RegionProblem> readProblemFile(
+  const std::filesystem::path& path, const StreamInfo& mesh);
+
+} // namespace smg

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/vtkMeshPieceData.h"
+
+#include "IO/vtkPieceCells.h"
+#include "IO/vtkPieceColumns.h"
+#include "IO/vtkPieceNames.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+
+namespace smg
+{
+namespace
+{
+
+/** An array of `Array` with the values, each converted by `convert`. */
+template <class Array, class T, class Convert>
+vtkSmartPointer<Array> arrayOf(
+  const char* name, int components, const std::vector<T>& values, Convert convert)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
+  std::transform(values.begin(), values.end(), array->GetPointer(0), convert);
+  return array;
+}
+
+vtkSmartPointer<vtkPoints> makePoints(const std::vector<double>& positions, bool isDouble)
+{
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  if (isDouble)
+  {
+    points->SetData(
+      arrayOf<vtkDoubleArray>("Points", 3, positions, [](double value) { return value; }));
+  }
+  else
+  {
+    points->SetData(arrayOf<vtkFloatArray>(
+      "Points", 3, positions, [](double value) { return static_cast<float>(value); }));
+  }
+  return points;
+}
+
+void addCount(vtkFieldData& field, const char* name, std::int64_t count)
+{
+  vtkNew<vtkIdTypeArray> array;
+  array->SetName(name);
+  array->InsertNextValue(count);
+  field.AddArray(array);
+}
+
+} // namespace
+
+void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
+{
+  mesh.SetPoints(makePoints(piece.positions, info.doublePositions));
+  setCells(mesh, piece.corners, cornersOf(info.cellType));
+  vtkPointData& points = *mesh.GetPointData();
+  points.SetGlobalIds(arrayOf<vtkIdTypeArray>(
+    GlobalIdsName, 1, piece.ids, [](std::int64_t id) { return static_cast<vtkIdType>(id); }));
+  points.AddArray(arrayOf<vtkUnsignedCharArray>(GhostTypeName, 1, piece.ghost,
+    [](std::uint8_t isGhost) -> unsigned char
+    { return isGhost ? vtkDataSetAttributes::DUPLICATEPOINT : 0; }));
+  points.AddArray(arrayOf<vtkUnsignedCharArray>(
+    StreamFinalizedName, 1, piece.finalized, [](std::uint8_t isFinal) { return isFinal; }));
+  for (const Column& column : piece.vertexColumns)
+  {
+    points.AddArray(makeArray(column));
+  }
+  for (const Column& column : piece.cellColumns)
+  {
+    mesh.GetCellData()->AddArray(makeArray(column));
+  }
+}
+
+void markAsPreview(vtkPointSet& mesh, const StreamInfo& full)
+{
+  vtkNew<vtkIntArray> mark;
+  mark->SetName(PreviewName);
+  mark->InsertNextValue(1);
+  mesh.GetFieldData()->AddArray(mark);
+  addCount(*mesh.GetFieldData(), FullNumberOfPointsName, full.vertices);
+  addCount(*mesh.GetFieldData(), FullNumberOfCellsName, full.cells);
+}
+
+} // namespace smg

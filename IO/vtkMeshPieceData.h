@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Container/MeshPiece.h"
+#include "Solver/Stream/MeshSource.h"
+
+class vtkPointSet;
+
+namespace smg
+{
+
+/** Gives the points, cells, arrays and contract arrays of a piece to an empty VTK mesh. */
+void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info);
+
+/** Says in the field data that the mesh is a preview of another. */
+void markAsPreview(vtkPointSet& mesh, const StreamInfo& full);
+
+} // namespace smg

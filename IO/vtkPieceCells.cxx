@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/vtkPieceCells.h"
+
+#include "Solver/Core/Error.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellType.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace smg
+{
+namespace
+{
+
+[[noreturn]] void refuse(const std::string& where)
+{
+  throw Error(
+    where + " has cells that are neither all triangles nor all tetrahedra: triangulate it first.");
+}
+
+/** The cells of the piece; their number of corners is checked by the caller. */
+vtkCellArray* cellsOf(vtkPointSet& piece, const std::string& where)
+{
+  if (auto* surface = vtkPolyData::SafeDownCast(&piece))
+  {
+    if (surface->GetNumberOfVerts() + surface->GetNumberOfLines() + surface->GetNumberOfStrips())
+    {
+      refuse(where);
+    }
+    return surface->GetPolys();
+  }
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(&piece))
+  {
+    return grid->GetCells();
+  }
+  throw Error(
+    where + " is a " + piece.GetClassName() + ": a vtkPolyData or vtkUnstructuredGrid is needed.");
+}
+
+/** Tetrahedra and quadrilaterals have as many corners. */
+bool areAllOf(vtkPointSet& piece, int vtkType)
+{
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(&piece);
+  if (!grid || grid->GetNumberOfCells() == 0)
+  {
+    return vtkType == VTK_TRIANGLE;
+  }
+  vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+  const unsigned char* first = types->GetPointer(0);
+  return std::all_of(first, first + types->GetNumberOfValues(),
+    [vtkType](unsigned char type) { return type == vtkType; });
+}
+
+} // namespace
+
+CellType cellTypeOf(vtkPointSet& piece, const std::string& where)
+{
+  vtkCellArray* cells = cellsOf(piece, where);
+  const vtkIdType corners = cells ? cells->IsHomogeneous() : 0;
+  if (corners == 3 && areAllOf(piece, VTK_TRIANGLE))
+  {
+    return CellType::Triangle;
+  }
+  if (corners != 4 || !areAllOf(piece, VTK_TETRA))
+  {
+    refuse(where);
+  }
+  return CellType::Tetrahedron;
+}
+
+std::vector<std::int64_t> cellCorners(vtkPointSet& piece, CellType type, const std::string& where)
+{
+  vtkCellArray* cells = cellsOf(piece, where);
+  if (!cells || cells->GetNumberOfCells() == 0)
+  {
+    return {};
+  }
+  if (cellTypeOf(piece, where) != type)
+  {
+    throw Error(where + " has cells of another kind than the pieces before.");
+  }
+  std::vector<std::int64_t> corners(cells->GetNumberOfConnectivityIds());
+  if (cells->IsStorage64Bit())
+  {
+    std::copy_n(cells->GetConnectivityArray64()->GetPointer(0), corners.size(), corners.begin());
+  }
+  else
+  {
+    std::copy_n(cells->GetConnectivityArray32()->GetPointer(0), corners.size(), corners.begin());
+  }
+  return corners;
+}
+
+vtkSmartPointer<vtkCellArray> makeCells(std::span<const std::int64_t> corners, int cornersOfCell)
+{
+  const auto cells = static_cast<vtkIdType>(corners.size()) / cornersOfCell;
+  auto offsets = vtkSmartPointer<vtkTypeInt64Array>::New();
+  offsets->SetNumberOfValues(cells + 1);
+  for (vtkIdType cell = 0; cell <= cells; ++cell)
+  {
+    offsets->SetValue(cell, cell * cornersOfCell);
+  }
+  auto connectivity = vtkSmartPointer<vtkTypeInt64Array>::New();
+  connectivity->SetNumberOfValues(static_cast<vtkIdType>(corners.size()));
+  std::copy(corners.begin(), corners.end(), connectivity->GetPointer(0));
+  auto array = vtkSmartPointer<vtkCellArray>::New();
+  array->SetData(offsets, connectivity);
+  return array;
+}
+
+void setCells(vtkPointSet& mesh, std::span<const std::int64_t> corners, int cornersOfCell)
+{
+  const vtkSmartPointer<vtkCellArray> cells = makeCells(corners, cornersOfCell);
+  if (auto* surface = vtkPolyData::SafeDownCast(&mesh))
+  {
+    surface->SetPolys(cells);
+  }
+  else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(&mesh))
+  {
+    grid->SetCells(cornersOfCell == 3 ? VTK_TRIANGLE : VTK_TETRA, cells);
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Stream/MeshSource.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+class vtkCellArray;
+class vtkPointSet;
+template <class T>
+class vtkSmartPointer;
+
+namespace smg
+{
+
+/**
+ * The kind of the cells of a vtkPolyData or vtkUnstructuredGrid that has some. Throws Error, which
+ * begins with `where`, if they are anything but triangles, or tetrahedra.
+ */
+CellType cellTypeOf(vtkPointSet& piece, const std::string& where);
+
+/** The corners of all cells, as point numbers. Throws Error if they are not of the type `type`. */
+std::vector<std::int64_t> cellCorners(vtkPointSet& piece, CellType type, const std::string& where);
+
+/** The cells with the given corners, `cornersOfCell` each. */
+vtkSmartPointer<vtkCellArray> makeCells(std::span<const std::int64_t> corners, int cornersOfCell);
+
+/** Gives the cells, `cornersOfCell` corners each, to a vtkPolyData or a vtkUnstructuredGrid. */
+void setCells(vtkPointSet& mesh, std::span<const std::int64_t> corners, int cornersOfCell);
+
+} // namespace smg

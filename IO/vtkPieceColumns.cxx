@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/vtkPieceColumns.h"
+
+#include "IO/vtkPieceNames.h"
+#include "Solver/Core/Error.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkSmartPointer.h"
+
+#include <cstring>
+
+namespace smg
+{
+namespace
+{
+
+int vtkTypeOf(ScalarType type)
+{
+  constexpr int types[] = { VTK_TYPE_INT8, VTK_TYPE_UINT8, VTK_TYPE_INT16, VTK_TYPE_UINT16,
+    VTK_TYPE_INT32, VTK_TYPE_UINT32, VTK_TYPE_INT64, VTK_TYPE_UINT64, VTK_FLOAT, VTK_DOUBLE };
+  return types[static_cast<int>(type)];
+}
+
+} // namespace
+
+std::optional<ScalarType> scalarTypeOf(vtkDataArray& array)
+{
+  switch (array.GetDataType())
+  {
+    vtkTemplateMacro(return scalarTypeOf<VTK_TT>());
+    default:
+      return std::nullopt;
+  }
+}
+
+vtkSmartPointer<vtkDataArray> makeArray(const Column& column)
+{
+  auto array =
+    vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(vtkTypeOf(column.spec.type)));
+  array->SetName(column.spec.name.c_str());
+  array->SetNumberOfComponents(column.spec.components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(column.tuples()));
+  if (!column.bytes.empty())
+  {
+    std::memcpy(array->GetVoidPointer(0), column.bytes.data(), column.bytes.size());
+  }
+  return array;
+}
+
+std::vector<ColumnSpec> columnSpecs(vtkDataSetAttributes& arrays)
+{
+  std::vector<ColumnSpec> specs;
+  for (int i = 0; i < arrays.GetNumberOfArrays(); ++i)
+  {
+    vtkDataArray* array = arrays.GetArray(i);
+    const char* name = array ? array->GetName() : nullptr;
+    if (!name || !*name || isContractArray(name) || array == arrays.GetGlobalIds())
+    {
+      continue;
+    }
+    if (const auto type = scalarTypeOf(*array))
+    {
+      specs.push_back({ name, *type, array->GetNumberOfComponents() });
+    }
+  }
+  return specs;
+}
+
+void copyColumn(vtkDataSetAttributes& arrays, std::span<const std::int64_t> rows,
+  const std::string& where, Column& column)
+{
+  vtkDataArray* array = arrays.GetArray(column.spec.name.c_str());
+  if (!array || scalarTypeOf(*array) != column.spec.type ||
+      array->GetNumberOfComponents() != column.spec.components)
+  {
+    throw Error(where + (array ? " has another kind of array " : " has no array ") +
+                column.spec.name +
+                ", unlike the first piece: every piece must have the same arrays.");
+  }
+  column.resize(rows.size());
+  const std::size_t size = column.spec.tupleBytes();
+  const auto* from = static_cast<const std::byte*>(array->GetVoidPointer(0));
+  std::byte* to = column.bytes.data();
+  for (const std::int64_t row : rows)
+  {
+    std::memcpy(to, from + row * size, size);
+    to += size;
+  }
+}
+
+} // namespace smg

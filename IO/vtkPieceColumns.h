@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Stream/Column.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkDataSetAttributes;
+template <class T>
+class vtkSmartPointer;
+
+namespace smg
+{
+
+/** The scalar type of a VTK array; none for bits, strings and the like. */
+std::optional<ScalarType> scalarTypeOf(vtkDataArray& array);
+
+/** Makes a named VTK array of the column's type with its values. */
+vtkSmartPointer<vtkDataArray> makeArray(const Column& column);
+
+/** What columns the numeric, named arrays make, without those that the piece contract makes. */
+std::vector<ColumnSpec> columnSpecs(vtkDataSetAttributes& arrays);
+
+/** The tuples `rows` of the array `column.spec.name`. Throws Error if it is absent or differs. */
+void copyColumn(vtkDataSetAttributes& arrays, std::span<const std::int64_t> rows,
+  const std::string& where, Column& column);
+
+} // namespace smg

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/vtkPieceFiles.h"
+
+#include "IO/vtkPieceColumns.h"
+#include "IO/vtkPieceNames.h"
+#include "Solver/Core/Error.h"
+#include "Solver/Storage/ScratchFolder.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkXMLPolyDataWriter.h"
+#include "vtkXMLUnstructuredGridWriter.h"
+
+#include <bit>
+#include <cctype>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
+
+namespace smg
+{
+namespace
+{
+
+std::string escaped(const std::string& text)
+{
+  std::string result;
+  for (const char c : text)
+  {
+    switch (c)
+    {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+/** "Int8" ... "Float64": the names of scalar types in VTK's files. */
+std::string fileTypeOf(ScalarType type)
+{
+  std::string name(nameOf(type));
+  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+  if (name.starts_with("Ui"))
+  {
+    name[1] = 'I';
+  }
+  return name;
+}
+
+void describe(std::ostream& out, vtkDataArray& array)
+{
+  const auto type = scalarTypeOf(array);
+  if (!type || !array.GetName())
+  {
+    return;
+  }
+  out << "      <PDataArray type=\"" << fileTypeOf(*type) << "\" Name=\""
+      << escaped(array.GetName()) << "\" NumberOfComponents=\"" << array.GetNumberOfComponents()
+      << "\"/>\n";
+}
+
+void describe(std::ostream& out, const char* element, vtkDataSetAttributes& arrays)
+{
+  vtkDataArray* ids = arrays.GetGlobalIds();
+  out << "    <" << element;
+  if (ids && ids->GetName())
+  {
+    out << " GlobalIds=\"" << escaped(ids->GetName()) << "\"";
+  }
+  out << ">\n";
+  for (int i = 0; i < arrays.GetNumberOfArrays(); ++i)
+  {
+    if (vtkDataArray* array = arrays.GetArray(i))
+    {
+      describe(out, *array);
+    }
+  }
+  out << "    </" << element << ">\n";
+}
+
+/** The part of the index that describes the arrays: that of any piece that has points. */
+std::string describe(vtkPointSet& piece)
+{
+  std::ostringstream out;
+  describe(out, "PPointData", *piece.GetPointData());
+  describe(out, "PCellData", *piece.GetCellData());
+  out << "    <PPoints>\n";
+  describe(out, *piece.GetPoints()->GetData());
+  out << "    </PPoints>\n";
+  return out.str();
+}
+
+bool isSurfaceIndex(const std::filesystem::path& index)
+{
+  const std::string suffix = index.extension().string();
+  return std::tolower(static_cast<unsigned char>(suffix.back())) == 'p';
+}
+
+std::string pieceName(const std::filesystem::path& index, int piece)
+{
+  const std::string suffix = isSurfaceIndex(index) ? ".vtp" : ".vtu";
+  return index.stem().string() + "_" + std::to_string(piece) + suffix;
+}
+
+std::string indexText(
+  const std::filesystem::path& index, int pieces, const std::string& description)
+{
+  const std::string type = isSurfaceIndex(index) ? "PPolyData" : "PUnstructuredGrid";
+  std::ostringstream out;
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"" << type << "\" version=\"1.0\" byte_order=\""
+      << (std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")
+      << "\" header_type=\"UInt64\">\n  <" << type << " GhostLevel=\"0\">\n"
+      << description;
+  for (int piece = 0; piece < pieces; ++piece)
+  {
+    out << "    <Piece Source=\"" << escaped(index.stem().string()) << "/"
+        << escaped(pieceName(index, piece)) << "\"/>\n";
+  }
+  out << "  </" << type << ">\n</VTKFile>\n";
+  return out.str();
+}
+
+void writePiece(vtkXMLWriter& writer, vtkPointSet& piece, const std::filesystem::path& path)
+{
+  writer.SetInputData(&piece);
+  writer.SetFileName(path.c_str());
+  writer.SetHeaderTypeToUInt64();
+  writer.SetDataModeToAppended();
+  writer.EncodeAppendedDataOff();
+  const int done = writer.Write();
+  writer.SetInputData(nullptr);
+  if (!done)
+  {
+    throw Error(path.string() + " cannot be written: see VTK's error and free disk space.");
+  }
+}
+
+void writeText(const std::filesystem::path& path, const std::string& text)
+{
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file)
+  {
+    throw Error(path.string() + " cannot be written: free disk space.");
+  }
+}
+
+/** Moves the finished files from the scratch folder to their places, the index last. */
+void install(const ScratchFolder& scratch, const std::filesystem::path& index, int pieces)
+{
+  const std::filesystem::path folder = index.parent_path() / index.stem();
+  std::filesystem::remove(index);
+  std::filesystem::create_directories(folder);
+  // Piece files of an earlier index of the same name, which may have had more pieces.
+  for (int piece = pieces; std::filesystem::remove(folder / pieceName(index, piece)); ++piece)
+  {
+  }
+  for (int piece = 0; piece < pieces; ++piece)
+  {
+    const std::string name = pieceName(index, piece);
+    std::filesystem::rename(scratch.path() / name, folder / name);
+  }
+  std::filesystem::rename(scratch.path() / index.filename(), index);
+}
+
+} // namespace
+
+void writePieceFiles(
+  PieceInput& input, int pieces, const std::filesystem::path& path, Progress& progress)
+{
+  const std::filesystem::path index = std::filesystem::absolute(path);
+  const ScratchFolder scratch(index.parent_path());
+  const bool isSurface = isSurfaceIndex(index);
+  std::string description;
+  for (int p = 0; p < pieces; ++p)
+  {
+    vtkDataObject* data = input.update(p, pieces, true);
+    auto* piece = vtkPointSet::SafeDownCast(data);
+    if (!piece || !piece->IsA(isSurface ? "vtkPolyData" : "vtkUnstructuredGrid"))
+    {
+      throw Error(path.string() + " cannot hold a " + data->GetClassName() +
+                  ": use .pvtp for vtkPolyData and .pvtu for vtkUnstructuredGrid.");
+    }
+    if (piece->GetNumberOfPoints() > 0 && !piece->GetPointData()->GetGlobalIds())
+    {
+      throw Error("Piece " + std::to_string(p) +
+                  " of the input has no point GlobalIds, so it is "
+                  "no piece of a mesh stream: read the mesh with the StreamingMeshReader.");
+    }
+    if (description.empty() && piece->GetNumberOfPoints() > 0)
+    {
+      description = describe(*piece);
+    }
+    if (isSurface)
+    {
+      writePiece(*vtkNew<vtkXMLPolyDataWriter>(), *piece, scratch.path() / pieceName(index, p));
+    }
+    else
+    {
+      writePiece(
+        *vtkNew<vtkXMLUnstructuredGridWriter>(), *piece, scratch.path() / pieceName(index, p));
+    }
+    input.release();
+    progress.update((p + 1.0) / pieces);
+  }
+  if (description.empty())
+  {
+    throw Error("The input has no points, so " + path.string() + " is not written.");
+  }
+  writeText(scratch.path() / index.filename(), indexText(index, pieces, description));
+  install(scratch, index, pieces);
+}
+
+} // namespace smg

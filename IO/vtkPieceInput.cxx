@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/vtkPieceInput.h"
+
+#include "IO/vtkStreamingMeshKeys.h"
+#include "Solver/Core/Error.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkDataObject.h"
+#include "vtkInformation.h"
+#include "vtkInformationIntegerRequestKey.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+namespace smg
+{
+
+PieceInput::PieceInput(vtkAlgorithm& consumer, int port)
+{
+  if (consumer.GetNumberOfInputConnections(port) < 1)
+  {
+    throw Error(std::string(consumer.GetClassName()) + " has no input: connect a mesh to it.");
+  }
+  this->Producer = consumer.GetInputAlgorithm(port, 0, this->ProducerPort);
+  this->Executive = vtkStreamingDemandDrivenPipeline::SafeDownCast(this->Producer->GetExecutive());
+  if (!this->Executive)
+  {
+    throw Error(std::string("The executive of the input ") + this->Producer->GetClassName() +
+                " cannot deliver pieces: use a vtkStreamingDemandDrivenPipeline.");
+  }
+}
+
+vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed)
+{
+  vtkNew<vtkInformationVector> requests;
+  requests->SetNumberOfInformationObjects(this->Producer->GetNumberOfOutputPorts());
+  vtkInformation* request = requests->GetInformationObject(this->ProducerPort);
+  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), piece);
+  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), pieces);
+  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  request->Set(vtkStreamingMeshKeys::STREAMED(), streamed ? pieces : 0);
+  vtkDataObject* data = nullptr;
+  if (this->Executive->Update(this->ProducerPort, requests))
+  {
+    data = this->Producer->GetOutputDataObject(this->ProducerPort);
+  }
+  if (!data)
+  {
+    throw Error("Piece " + std::to_string(piece) + " of " + std::to_string(pieces) +
+                " of the input could not be made: see the error that " +
+                this->Producer->GetClassName() + " or the pipeline before it reported.");
+  }
+  return data;
+}
+
+void PieceInput::release()
+{
+  if (vtkDataObject* data = this->Producer->GetOutputDataObject(this->ProducerPort))
+  {
+    data->ReleaseData();
+  }
+}
+
+void PieceInput::endStreaming()
+{
+  this->Executive->GetOutputInformation(this->ProducerPort)
+    ->Set(vtkStreamingMeshKeys::STREAMED(), 0);
+  this->Executive->PropagateUpdateExtent(this->ProducerPort);
+}
+
+unsigned long long PieceInput::modifiedTime()
+{
+  return this->Executive->GetPipelineMTime();
+}
+
+void PieceInput::updateInformation()
+{
+  if (!this->Executive->UpdateInformation())
+  {
+    throw Error(std::string("The input cannot be read: see the error that ") +
+                this->Producer->GetClassName() + " or the pipeline before it reported.");
+  }
+}
+
+} // namespace smg

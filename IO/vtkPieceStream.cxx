@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/vtkPieceStream.h"
+
+#include "IO/Container/VsmWriter.h"
+#include "IO/vtkPieceCells.h"
+#include "IO/vtkPieceColumns.h"
+#include "IO/vtkPieceNames.h"
+#include "Solver/Core/Error.h"
+
+#include "vtkAlgorithm.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace smg
+{
+namespace
+{
+
+bool isPreview(vtkPointSet& piece)
+{
+  vtkDataArray* mark = piece.GetFieldData()->GetArray(PreviewName);
+  return mark && mark->GetNumberOfTuples() > 0 && mark->GetComponent(0, 0) != 0.0;
+}
+
+bool isDuplicate(vtkUnsignedCharArray* ghosts, vtkIdType i)
+{
+  return ghosts && (ghosts->GetValue(i) & vtkDataSetAttributes::DUPLICATEPOINT);
+}
+
+std::vector<ColumnSpec> named(vtkDataSetAttributes& arrays, const std::vector<std::string>& names)
+{
+  std::vector<ColumnSpec> specs;
+  for (const ColumnSpec& spec : columnSpecs(arrays))
+  {
+    if (std::find(names.begin(), names.end(), spec.name) != names.end())
+    {
+      specs.push_back(spec);
+    }
+  }
+  return specs;
+}
+
+std::vector<Column> emptyColumns(const std::vector<ColumnSpec>& specs)
+{
+  std::vector<Column> columns;
+  for (const ColumnSpec& spec : specs)
+  {
+    columns.push_back({ spec, {} });
+  }
+  return columns;
+}
+
+} // namespace
+
+PieceStream::PieceStream(PieceInput& input, int pieces, PieceColumns columns)
+  : Input(input)
+  , Pieces(pieces)
+  , Columns(std::move(columns))
+{
+  this->First = this->pull();
+  if (!this->First)
+  {
+    throw Error(std::string("The input has no cells: look at what ") +
+                this->Input.producer().GetClassName() + " delivers.");
+  }
+  this->learn(*this->First);
+}
+
+std::string PieceStream::where() const
+{
+  return "Piece " + std::to_string(this->NextPiece - 1) + " of " + std::to_string(this->Pieces) +
+         " of the input";
+}
+
+vtkPointSet* PieceStream::pull()
+{
+  while (this->NextPiece < this->Pieces)
+  {
+    vtkDataObject* data = this->Input.update(this->NextPiece++, this->Pieces, true);
+    vtkPointSet* piece = vtkPointSet::SafeDownCast(data);
+    if (!piece)
+    {
+      throw Error(this->where() + " is a " + data->GetClassName() +
+                  ": a vtkPolyData or vtkUnstructuredGrid is needed.");
+    }
+    if (isPreview(*piece))
+    {
+      throw Error(this->where() + " is a preview of the mesh: a filter between the reader and this "
+                                  "one does not pass streaming requests on; take it away.");
+    }
+    if (piece->GetNumberOfPoints() > 0 || piece->GetNumberOfCells() > 0)
+    {
+      return piece;
+    }
+    this->Input.release();
+  }
+  return nullptr;
+}
+
+void PieceStream::learn(vtkPointSet& piece)
+{
+  this->Info.cellType = cellTypeOf(piece, this->where());
+  this->Info.doublePositions = piece.GetPoints() && piece.GetPoints()->GetDataType() != VTK_FLOAT;
+  if (this->Columns.all)
+  {
+    this->Info.vertexColumns = columnSpecs(*piece.GetPointData());
+    this->Info.cellColumns = columnSpecs(*piece.GetCellData());
+    return;
+  }
+  this->Info.vertexColumns = named(*piece.GetPointData(), this->Columns.points);
+  this->Info.cellColumns = named(*piece.GetCellData(), this->Columns.cells);
+  for (const std::string& name : this->Columns.points)
+  {
+    if (std::none_of(this->Info.vertexColumns.begin(), this->Info.vertexColumns.end(),
+          [&name](const ColumnSpec& spec) { return spec.name == name; }))
+    {
+      throw Error("The input has no numeric point array " + name + ": choose one that it has.");
+    }
+  }
+}
+
+bool PieceStream::next(MeshBlock& block)
+{
+  vtkPointSet* piece = this->First ? this->First : this->pull();
+  this->First = nullptr;
+  if (!piece)
+  {
+    return false;
+  }
+  this->convert(*piece, block);
+  this->Input.release();
+  return true;
+}
+
+void PieceStream::convert(vtkPointSet& piece, MeshBlock& block)
+{
+  const std::vector<std::int64_t> ids = globalIdsOf(piece, this->where());
+  const std::vector<std::int64_t> own = this->ownPoints(piece, ids);
+  block.firstVertex = this->Vertices;
+  block.firstCell = this->Cells;
+  this->copyPoints(piece, own, block);
+  this->Vertices += static_cast<std::int64_t>(own.size());
+  this->copyCells(piece, ids, block);
+  this->Cells += static_cast<std::int64_t>(block.corners.size() / cornersOf(this->Info.cellType));
+  this->noteFinalized(piece, ids);
+  block.finalized = this->NextPiece == this->Pieces ? this->Vertices : this->Finalized;
+}
+
+std::vector<std::int64_t> PieceStream::ownPoints(
+  vtkPointSet& piece, const std::vector<std::int64_t>& ids) const
+{
+  vtkUnsignedCharArray* ghosts = piece.GetPointGhostArray();
+  std::vector<std::int64_t> own;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    if (!isDuplicate(ghosts, static_cast<vtkIdType>(i)))
+    {
+      own.push_back(static_cast<std::int64_t>(i));
+    }
+  }
+  std::sort(
+    own.begin(), own.end(), [&ids](std::int64_t a, std::int64_t b) { return ids[a] < ids[b]; });
+  for (std::size_t k = 0; k < own.size(); ++k)
+  {
+    const std::int64_t expected = this->Vertices + static_cast<std::int64_t>(k);
+    const std::int64_t id = ids[own[k]];
+    if (id < expected && id >= 0)
+    {
+      throw Error(
+        this->where() + " owns the point with GlobalId " + std::to_string(id) +
+        " once more: the input gives the same data for every piece (then set Number Of Pieces to "
+        "1) or does not mark points that an earlier piece owns in vtkGhostType.");
+    }
+    if (id != expected)
+    {
+      throw Error(this->where() + " has the GlobalId " + std::to_string(id) + " where " +
+                  std::to_string(expected) +
+                  " comes next: GlobalIds must number the points in the order of their first use.");
+    }
+  }
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    const std::int64_t end = this->Vertices + static_cast<std::int64_t>(own.size());
+    if (ids[i] < 0 || ids[i] >= end)
+    {
+      throw Error(this->where() + " marks the point with GlobalId " + std::to_string(ids[i]) +
+                  " as a duplicate, but no earlier piece owns it.");
+    }
+  }
+  return own;
+}
+
+void PieceStream::copyPoints(
+  vtkPointSet& piece, const std::vector<std::int64_t>& own, MeshBlock& block) const
+{
+  block.positions.resize(3 * own.size());
+  for (std::size_t k = 0; k < own.size(); ++k)
+  {
+    double* point = block.positions.data() + 3 * k;
+    piece.GetPoint(own[k], point);
+    if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
+    {
+      throw Error(this->where() + " has a coordinate that is not a finite number at the GlobalId " +
+                  std::to_string(this->Vertices + static_cast<std::int64_t>(k)) + ".");
+    }
+  }
+  block.vertexColumns = emptyColumns(this->Info.vertexColumns);
+  for (Column& column : block.vertexColumns)
+  {
+    copyColumn(*piece.GetPointData(), own, this->where(), column);
+  }
+}
+
+void PieceStream::copyCells(
+  vtkPointSet& piece, const std::vector<std::int64_t>& ids, MeshBlock& block) const
+{
+  block.corners = cellCorners(piece, this->Info.cellType, this->where());
+  for (std::int64_t& corner : block.corners)
+  {
+    if (corner < 0 || corner >= static_cast<std::int64_t>(ids.size()))
+    {
+      throw Error(this->where() + " has a cell with the point " + std::to_string(corner) +
+                  ", which does not exist.");
+    }
+    corner = ids[corner];
+  }
+  const std::size_t corners = cornersOf(this->Info.cellType);
+  std::vector<std::int64_t> kept(block.corners.size() / corners);
+  std::iota(kept.begin(), kept.end(), 0);
+  if (vtkUnsignedCharArray* ghosts = piece.GetCellGhostArray())
+  {
+    std::erase_if(kept, [ghosts](std::int64_t cell)
+      { return (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0; });
+    for (std::size_t k = 0; k < kept.size(); ++k)
+    {
+      std::copy_n(
+        block.corners.begin() + kept[k] * corners, corners, block.corners.begin() + k * corners);
+    }
+    block.corners.resize(kept.size() * corners);
+  }
+  block.cellColumns = emptyColumns(this->Info.cellColumns);
+  for (Column& column : block.cellColumns)
+  {
+    copyColumn(*piece.GetCellData(), kept, this->where(), column);
+  }
+}
+
+void PieceStream::noteFinalized(vtkPointSet& piece, const std::vector<std::int64_t>& ids)
+{
+  this->IsFinal.resize(this->Vertices - this->Finalized, 0);
+  // Without the array no vertex is known to be final before the end, which is legal.
+  if (vtkDataArray* finalized = piece.GetPointData()->GetArray(StreamFinalizedName))
+  {
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      if (ids[i] >= this->Finalized && finalized->GetTuple1(static_cast<vtkIdType>(i)) != 0.0)
+      {
+        this->IsFinal[ids[i] - this->Finalized] = 1;
+      }
+    }
+  }
+  while (!this->IsFinal.empty() && this->IsFinal.front())
+  {
+    this->IsFinal.pop_front();
+    ++this->Finalized;
+  }
+}
+
+std::vector<std::int64_t> globalIdsOf(vtkPointSet& piece, const std::string& where)
+{
+  vtkDataArray* array = piece.GetPointData()->GetGlobalIds();
+  if (!array)
+  {
+    array = piece.GetPointData()->GetArray(GlobalIdsName);
+  }
+  if (!array || array->GetNumberOfComponents() != 1)
+  {
+    throw Error(
+      where + " has no point GlobalIds, so it is no piece of a mesh stream: read the mesh with the "
+              "StreamingMeshReader, which makes them, and keep them in the filters between.");
+  }
+  std::vector<std::int64_t> ids(array->GetNumberOfTuples());
+  for (std::size_t i = 0; i < ids.size(); ++i)
+  {
+    ids[i] = static_cast<std::int64_t>(array->GetTuple1(static_cast<vtkIdType>(i)));
+  }
+  return ids;
+}
+
+StreamInfo writeContainer(
+  PieceStream& stream, const std::filesystem::path& path, bool forScratch, Progress& progress)
+{
+  VsmWriter writer(path, stream.info(), forScratch ? Codec::Lz4 : Codec::Zstd);
+  MeshBlock block;
+  while (stream.next(block))
+  {
+    writer.append(block);
+    progress.update(stream.fraction());
+  }
+  return writer.finish();
+}
+
+} // namespace smg

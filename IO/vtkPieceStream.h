@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/vtkPieceInput.h"
+#include "Solver/Core/Progress.h"
+#include "Solver/Stream/MeshSource.h"
+
+#include "vtkStreamingMultigridIOModule.h" // For export macro
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+class vtkPointSet;
+
+namespace smg
+{
+
+/** Which arrays of the pieces become columns of the mesh stream. */
+struct PieceColumns
+{
+  bool all = false;                ///< every numeric array that has a name
+  std::vector<std::string> points; ///< else these point arrays; each must exist
+  std::vector<std::string> cells;  ///< else these cell arrays, as far as they exist
+};
+
+/**
+ * Pulls the pieces 0, 1, ... of an input once, in order, as the blocks of a mesh stream, and checks
+ * that they keep the piece contract: point GlobalIds are stream indices; the points that are not
+ * marked as duplicates in vtkGhostType continue the range [0, n) of the pieces before without a
+ * gap; cells are triangles or tetrahedra. Cells that are duplicates are left out. A block is a
+ * piece; blocks without points and cells are left out.
+ *
+ * The counts are known at the end only: of info(), cellType, doublePositions and the columns are
+ * valid.
+ */
+class VTKSTREAMINGMULTIGRIDIO_EXPORT PieceStream
+{
+public:
+  /** Pulls up to the first piece that is not empty. Throws Error. */
+  PieceStream(PieceInput& input, int pieces, PieceColumns columns);
+
+  const StreamInfo& info() const { return this->Info; }
+
+  /** Fills `block` with the next piece; false at the end. Throws Error. */
+  bool next(MeshBlock& block);
+
+  /** How many of the pieces have been pulled, 0 to 1. */
+  double fraction() const { return double(this->NextPiece) / this->Pieces; }
+
+private:
+  vtkPointSet* pull();
+  void learn(vtkPointSet& piece);
+  void convert(vtkPointSet& piece, MeshBlock& block);
+  std::vector<std::int64_t> ownPoints(
+    vtkPointSet& piece, const std::vector<std::int64_t>& ids) const;
+  void copyPoints(vtkPointSet& piece, const std::vector<std::int64_t>& own, MeshBlock& block) const;
+  void copyCells(vtkPointSet& piece, const std::vector<std::int64_t>& ids, MeshBlock& block) const;
+  void noteFinalized(vtkPointSet& piece, const std::vector<std::int64_t>& ids);
+  std::string where() const;
+
+  PieceInput& Input;
+  int Pieces;
+  int NextPiece = 0;
+  PieceColumns Columns;
+  StreamInfo Info;
+  vtkPointSet* First = nullptr; ///< pulled by the constructor
+  std::int64_t Vertices = 0, Cells = 0;
+  std::deque<char> IsFinal; ///< from the first vertex on that is not final
+  std::int64_t Finalized = 0;
+};
+
+/**
+ * The GlobalIds of the points of a piece. Throws Error, which begins with `where`, if it has none.
+ */
+VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<std::int64_t> globalIdsOf(
+  vtkPointSet& piece, const std::string& where);
+
+/**
+ * Pulls the whole stream into the container `path` (see VsmWriter); `forScratch` compresses
+ * lightly. Throws Error and Cancelled; then no file is left.
+ */
+VTKSTREAMINGMULTIGRIDIO_EXPORT StreamInfo writeContainer(
+  PieceStream& stream, const std::filesystem::path& path, bool forScratch, Progress& progress);
+
+} // namespace smg

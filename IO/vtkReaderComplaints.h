@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkReaderComplaints_h
+#define vtkReaderComplaints_h
+
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkSmartPointer.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+namespace smg
+{
+
+/**
+ * Collects what VTK's readers complain of, as long as it lives, instead of having it printed. Some
+ * complaints come as events, some only as texts for VTK's output window, which is replaced for so
+ * long.
+ */
+class vtkReaderComplaints
+{
+public:
+  vtkReaderComplaints()
+    : Before(vtkOutputWindow::GetInstance())
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void* text)
+      { static_cast<vtkReaderComplaints*>(self)->note(static_cast<const char*>(text)); });
+    vtkNew<Window> window;
+    window->Complaints = this;
+    vtkOutputWindow::SetInstance(window);
+  }
+  ~vtkReaderComplaints() { vtkOutputWindow::SetInstance(this->Before); }
+  vtkReaderComplaints(const vtkReaderComplaints&) = delete;
+  vtkReaderComplaints& operator=(const vtkReaderComplaints&) = delete;
+
+  /** An observer for ErrorEvent. */
+  vtkCommand* command() { return this->Command; }
+  /** The first complaint, in a line; empty if there is none. */
+  const std::string& text() const { return this->Text; }
+
+private:
+  class Window : public vtkOutputWindow
+  {
+  public:
+    static Window* New() { VTK_STANDARD_NEW_BODY(Window); }
+    vtkTypeMacro(Window, vtkOutputWindow);
+    void DisplayText(const char*) override {}
+    void DisplayErrorText(const char* text) override { this->Complaints->note(text); }
+    void DisplayWarningText(const char* text) override { this->noteMissing(text); }
+    void DisplayGenericWarningText(const char* text) override { this->noteMissing(text); }
+
+    vtkReaderComplaints* Complaints = nullptr;
+
+  private:
+    /** That numbers are missing, the readers of the legacy format only warn of. */
+    void noteMissing(const char* text)
+    {
+      if (text && std::strstr(text, "Error reading"))
+      {
+        this->Complaints->note(text);
+      }
+    }
+  };
+
+  /** VTK's text is "ERROR: In FILE, line N\nCLASS (ADDRESS): SENTENCE\n ...". */
+  void note(const char* text)
+  {
+    if (!text || !this->Text.empty())
+    {
+      return;
+    }
+    this->Text = text;
+    const std::size_t colon = this->Text.find("): ");
+    const std::size_t line = this->Text.find('\n');
+    this->Text.erase(0, colon != std::string::npos  ? colon + 3
+                        : line != std::string::npos ? line + 1
+                                                    : 0);
+    this->Text.erase(std::min(this->Text.find('\n'), this->Text.size()));
+    this->Text.erase(this->Text.find_last_not_of(" .:") + 1);
+    this->Text = this->Text.empty() ? "unknown error" : this->Text;
+  }
+
+  vtkSmartPointer<vtkOutputWindow> Before;
+  vtkNew<vtkCallbackCommand> Command;
+  std::string Text;
+};
+
+} // namespace smg
+
+#endif

@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/vtkStreamingMeshReader.h"
+
+#include "IO/Container/VsmReader.h"
+#include "IO/Conversion/MeshFile.h"
+#include "IO/Conversion/OpenMesh.h"
+#include "IO/Preview/PreviewPiece.h"
+#include "IO/vtkMeshImport.h"
+#include "IO/vtkMeshPieceData.h"
+#include "IO/vtkStreamingMeshKeys.h"
+#include "Solver/Core/Error.h"
+
+#include "vtkDataArraySelection.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+using vtkSDDP = vtkStreamingDemandDrivenPipeline;
+
+vtkStandardNewMacro(vtkStreamingMeshReader);
+
+struct vtkStreamingMeshReader::Internals
+{
+  vtkNew<vtkDataArraySelection> PointArrays;
+  vtkNew<vtkDataArraySelection> CellArrays;
+  std::string Name, Scratch;
+  std::filesystem::file_time_type FileTime;
+  std::unique_ptr<smg::OpenedMesh> Mesh;
+  std::optional<smg::MeshPiece> Preview;
+  int PreviewPoints = 0;
+  /** What could not be opened, so that a pipeline that asks again does not look, or report, again.
+   */
+  std::string FailedName;
+  std::filesystem::file_time_type FailedFileTime;
+  vtkMTimeType FailedTime = 0;
+
+  static std::filesystem::file_time_type timeOf(const char* name)
+  {
+    std::error_code absent;
+    return std::filesystem::last_write_time(name ? name : "", absent);
+  }
+
+  bool hasFailed(const char* name, vtkMTimeType time) const
+  {
+    return this->FailedTime == time && this->FailedName == (name ? name : "") &&
+           this->FailedFileTime == timeOf(name);
+  }
+
+  void noteFailure(const char* name, vtkMTimeType time)
+  {
+    this->close();
+    this->FailedName = name ? name : "";
+    this->FailedFileTime = timeOf(name);
+    this->FailedTime = time;
+  }
+
+  /** Opens the file if it is not open, or not as it was. */
+  smg::VsmReader& open(const char* name, const char* scratch, const smg::ProgressFunction& progress)
+  {
+    if (!name || !*name)
+    {
+      throw smg::Error("No file is named: set FileName.");
+    }
+    const std::string folder = scratch ? scratch : "";
+    const auto time = timeOf(name);
+    if (!this->Mesh || this->Name != name || this->Scratch != folder || this->FileTime != time)
+    {
+      this->close();
+      smg::ConversionOptions options;
+      options.scratch = folder;
+      options.progress = progress;
+      smg::registerVtkImporter();
+      this->Mesh = smg::openMesh(name, options);
+      if (this->Name != name && !this->Name.empty())
+      {
+        this->PointArrays->RemoveAllArrays();
+        this->CellArrays->RemoveAllArrays();
+      }
+      this->Name = name;
+      this->Scratch = folder;
+      this->FileTime = time;
+    }
+    return this->Mesh->reader();
+  }
+
+  void close()
+  {
+    this->Mesh.reset();
+    this->Preview.reset();
+  }
+
+  const smg::MeshPiece& preview(int points, const smg::ProgressFunction& progress)
+  {
+    if (!this->Preview || this->PreviewPoints != points)
+    {
+      this->Preview = smg::makePreviewPiece(this->Mesh->reader(), points, progress);
+      this->PreviewPoints = points;
+    }
+    return *this->Preview;
+  }
+
+  static void offer(vtkDataArraySelection& selection, const std::vector<smg::ColumnSpec>& columns)
+  {
+    for (const smg::ColumnSpec& column : columns)
+    {
+      if (!selection.ArrayExists(column.name.c_str()))
+      {
+        selection.AddArray(column.name.c_str());
+      }
+    }
+  }
+
+  static std::vector<std::string> chosen(
+    vtkDataArraySelection& selection, const std::vector<smg::ColumnSpec>& columns)
+  {
+    std::vector<std::string> names;
+    for (const smg::ColumnSpec& column : columns)
+    {
+      if (selection.ArrayIsEnabled(column.name.c_str()))
+      {
+        names.push_back(column.name);
+      }
+    }
+    return names;
+  }
+
+  /** The real piece, with the arrays that are selected. */
+  void readPiece(vtkPointSet& output, int part, int parts)
+  {
+    smg::VsmReader& reader = this->Mesh->reader();
+    const smg::StreamInfo& info = reader.info();
+    const auto firstCell = [&info, parts](int p)
+    { return static_cast<std::int64_t>(static_cast<__int128>(info.cells) * p / parts); };
+    reader.selectColumns(
+      chosen(*this->PointArrays, info.vertexColumns), chosen(*this->CellArrays, info.cellColumns));
+    smg::MeshPiece piece;
+    reader.readPiece(firstCell(part), firstCell(part + 1), piece);
+    smg::setPiece(output, piece, info);
+  }
+
+  /** The preview, all of it in the first piece. */
+  void readPreview(vtkPointSet& output, int part, int points, const smg::ProgressFunction& progress)
+  {
+    const smg::StreamInfo& full = this->Mesh->reader().info();
+    smg::MeshPiece piece;
+    if (part == 0)
+    {
+      piece = this->preview(points, progress);
+    }
+    else
+    {
+      for (const smg::ColumnSpec& spec : full.vertexColumns)
+      {
+        piece.vertexColumns.push_back({ spec, {} });
+      }
+    }
+    std::erase_if(piece.vertexColumns, [this](const smg::Column& column)
+      { return !this->PointArrays->ArrayIsEnabled(column.spec.name.c_str()); });
+    smg::StreamInfo info = full;
+    info.cellType = smg::CellType::Triangle;
+    smg::setPiece(output, piece, info);
+    smg::markAsPreview(output, full);
+  }
+};
+
+vtkStreamingMeshReader::vtkStreamingMeshReader()
+  : Internal(new Internals)
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+vtkStreamingMeshReader::~vtkStreamingMeshReader()
+{
+  this->SetFileName(nullptr);
+  this->SetScratchDirectory(nullptr);
+}
+
+vtkDataArraySelection* vtkStreamingMeshReader::GetPointDataArraySelection()
+{
+  return this->Internal->PointArrays;
+}
+
+vtkDataArraySelection* vtkStreamingMeshReader::GetCellDataArraySelection()
+{
+  return this->Internal->CellArrays;
+}
+
+vtkIdType vtkStreamingMeshReader::GetFullNumberOfPoints()
+{
+  return this->Internal->Mesh ? this->Internal->Mesh->reader().info().vertices : -1;
+}
+
+vtkIdType vtkStreamingMeshReader::GetFullNumberOfCells()
+{
+  return this->Internal->Mesh ? this->Internal->Mesh->reader().info().cells : -1;
+}
+
+vtkIdType vtkStreamingMeshReader::GetWidth()
+{
+  return this->Internal->Mesh ? this->Internal->Mesh->reader().info().width : -1;
+}
+
+vtkMTimeType vtkStreamingMeshReader::GetMTime()
+{
+  return std::max({ this->Superclass::GetMTime(), this->Internal->PointArrays->GetMTime(),
+    this->Internal->CellArrays->GetMTime() });
+}
+
+int vtkStreamingMeshReader::CanReadFile(const char* name)
+{
+  try
+  {
+    return name && smg::kindOfInput(name) != smg::MeshFileKind::Unknown ? 1 : 0;
+  }
+  catch (const std::exception&)
+  {
+    return 0;
+  }
+}
+
+int vtkStreamingMeshReader::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
+  return 1;
+}
+
+int vtkStreamingMeshReader::RequestDataObject(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  if (this->Internal->hasFailed(this->FileName, this->GetMTime()))
+  {
+    return 0;
+  }
+  try
+  {
+    const smg::VsmReader& reader = this->Internal->open(this->FileName, this->ScratchDirectory,
+      [this](double done)
+      {
+        this->UpdateProgress(done);
+        return !this->GetAbortExecute();
+      });
+    vtkInformation* info = outputVector->GetInformationObject(0);
+    const bool isSurface = reader.info().cellType == smg::CellType::Triangle;
+    const char* type = isSurface ? "vtkPolyData" : "vtkUnstructuredGrid";
+    vtkDataObject* present = vtkDataObject::GetData(info);
+    if (!present || !present->IsA(type))
+    {
+      vtkSmartPointer<vtkPointSet> output;
+      if (isSurface)
+      {
+        output = vtkSmartPointer<vtkPolyData>::New();
+      }
+      else
+      {
+        output = vtkSmartPointer<vtkUnstructuredGrid>::New();
+      }
+      info->Set(vtkDataObject::DATA_OBJECT(), output);
+    }
+    return 1;
+  }
+  catch (const smg::Cancelled&)
+  {
+    return 0;
+  }
+  catch (const std::exception& error)
+  {
+    this->Internal->noteFailure(this->FileName, this->GetMTime());
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+}
+
+int vtkStreamingMeshReader::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  if (!this->Internal->Mesh)
+  {
+    return 0;
+  }
+  const smg::StreamInfo& info = this->Internal->Mesh->reader().info();
+  Internals::offer(*this->Internal->PointArrays, info.vertexColumns);
+  Internals::offer(*this->Internal->CellArrays, info.cellColumns);
+  outputVector->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
+  return 1;
+}
+
+int vtkStreamingMeshReader::RequestData(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkInformation* request = outputVector->GetInformationObject(0);
+  const int part = request->Get(vtkSDDP::UPDATE_PIECE_NUMBER());
+  const int parts = std::max(1, request->Get(vtkSDDP::UPDATE_NUMBER_OF_PIECES()));
+  vtkPointSet* output = vtkPointSet::GetData(request);
+  try
+  {
+    const smg::ProgressFunction progress = [this](double done)
+    {
+      this->UpdateProgress(done);
+      return !this->GetAbortExecute();
+    };
+    const smg::StreamInfo& info =
+      this->Internal->open(this->FileName, this->ScratchDirectory, progress).info();
+    if (part < 0 || part >= parts)
+    {
+      return 1;
+    }
+    if (!vtkStreamingMeshKeys::IsStreamed(request) &&
+        info.vertices / parts > this->MaximumPointsInMemory)
+    {
+      this->Internal->readPreview(*output, part, this->PreviewPoints, progress);
+    }
+    else
+    {
+      this->Internal->readPiece(*output, part, parts);
+    }
+    return 1;
+  }
+  catch (const smg::Cancelled&)
+  {
+    return 0;
+  }
+  catch (const std::exception& error)
+  {
+    vtkErrorMacro(<< error.what());
+    return 0;
+  }
+}
+
+void vtkStreamingMeshReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent
+     << "ScratchDirectory: " << (this->ScratchDirectory ? this->ScratchDirectory : "(none)")
+     << "\n";
+  os << indent << "MaximumPointsInMemory: " << this->MaximumPointsInMemory << "\n";
+  os << indent << "PreviewPoints: " << this->PreviewPoints << "\n";
+  os << indent << "FullNumberOfPoints: " << this->GetFullNumberOfPoints() << "\n";
+  os << indent << "FullNumberOfCells: " << this->GetFullNumberOfCells() << "\n";
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Problem/Problem.h"
+
+namespace smg::benchmark
+{
+
+/**
+ * The measured problem: three columns, cotangent weights; vertices within 2 % of the mesh's height
+ * from its lowest or highest z keep their positions, which are the initial values of the others.
+ */
+class FixedEndsProblem : public Problem
+{
+public:
+  explicit FixedEndsProblem(const StreamInfo& info);
+
+  int columns() const override { return 3; }
+  void conditions(const MeshBlock& block, VertexConditions& conditions) override;
+
+private:
+  double Low;
+  double High;
+};
+
+} // namespace smg::benchmark

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+namespace smg::benchmark
+{
+
+/** What every peer is given. */
+struct Task
+{
+  std::filesystem::path mesh;     ///< a .vsm file
+  std::filesystem::path solution; ///< where the values go: 3 doubles a vertex, in stream order
+  double tolerance = 1e-6;        ///< of the relative residual
+  int threads = 1;                ///< of smg; the peers use one
+};
+
+/**
+ * Each solves the task in this process and writes the solution. The answer holds `cpu_assemble`,
+ * `cpu_setup`, `cpu_solve` in seconds, as far as they can be told apart, `cpu_total`, `peak_bytes`,
+ * `iterations` (hypre's: of the three columns together). For hypre and CHOLMOD the peak is counted
+ * from the assembled matrix on, without what the assembly needed.
+ */
+nlohmann::json runStreaming(const Task& task);
+nlohmann::json runInCore(const Task& task);
+nlohmann::json runHypre(const Task& task);
+nlohmann::json runCholmod(const Task& task);
+
+/** Reads the solution back: `{"relative_residual": r}` by the independently assembled system. */
+nlohmann::json checkSolution(const Task& task);
+
+} // namespace smg::benchmark

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// benchmark_peers MESH.vsm : solves one Poisson problem (FixedEndsProblem.h) with the streaming
+// solver, with the same code in core, with hypre's BoomerAMG-preconditioned conjugate gradients and
+// with CHOLMOD, each in a process of its own, and compares CPU time and memory.
+//
+//   benchmark_peers bunny.vsm --json bunny.json
+//
+// prints a Markdown table and writes the numbers. Everything runs on one thread unless --threads
+// says otherwise for smg.
+
+#include "IO/Container/VsmReader.h"
+#include "Solver/Core/Error.h"
+#include "Testing/Benchmarks/ChildProcess.h"
+#include "Testing/Benchmarks/Peers.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using nlohmann::json;
+using smg::benchmark::Task;
+
+const std::map<std::string, json (*)(const Task&)> Peers = {
+  { "smg", smg::benchmark::runStreaming },
+  { "smg-in-core", smg::benchmark::runInCore },
+  { "hypre", smg::benchmark::runHypre },
+  { "cholmod", smg::benchmark::runCholmod },
+};
+
+/** One peer's numbers, its solution checked by an independent assembly. */
+json measure(const std::string& peer, const Task& task)
+{
+  json result = smg::benchmark::runInChild([&] { return Peers.at(peer)(task); });
+  if (!result.contains("failed"))
+  {
+    result.update(smg::benchmark::runInChild([&] { return smg::benchmark::checkSolution(task); }));
+  }
+  std::filesystem::remove(task.solution);
+  return result;
+}
+
+/** CPU microseconds a vertex, or a dash where the peer does not tell. */
+std::string microseconds(const json& result, const char* key, std::int64_t vertices)
+{
+  if (!result.contains(key))
+  {
+    return "-";
+  }
+  char text[32];
+  std::snprintf(
+    text, sizeof(text), "%.2f", 1e6 * result[key].get<double>() / static_cast<double>(vertices));
+  return text;
+}
+
+void printTable(const std::vector<std::string>& peers, const json& results, std::int64_t vertices)
+{
+  std::cout << "| solver | CPU us/vertex: assemble | set up | solve | total | peak bytes/vertex | "
+               "iterations | relative residual |\n"
+            << "|---|---|---|---|---|---|---|---|\n";
+  for (const std::string& peer : peers)
+  {
+    const json& result = results[peer];
+    if (result.contains("failed"))
+    {
+      std::cout << "| " << peer << " | failed: " << result["failed"].get<std::string>()
+                << " | | | | | | |\n";
+      continue;
+    }
+    std::cout << "| " << peer;
+    for (const char* key : { "cpu_assemble", "cpu_setup", "cpu_solve", "cpu_total" })
+    {
+      std::cout << " | " << microseconds(result, key, vertices);
+    }
+    std::cout << " | " << result["peak_bytes"].get<std::int64_t>() / vertices << " | "
+              << result["iterations"] << " | " << result["relative_residual"].get<double>()
+              << " |\n";
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+try
+{
+  CLI::App app("Compares the solver with hypre and CHOLMOD on one mesh.");
+  Task task;
+  std::vector<std::string> names = { "smg", "smg-in-core", "hypre", "cholmod" };
+  std::string jsonFile;
+  app.add_option("MESH", task.mesh, "A .vsm file")->required()->check(CLI::ExistingFile);
+  app.add_option("--tolerance", task.tolerance, "Of the relative residual")->capture_default_str();
+  app.add_option("--threads", task.threads, "Of smg")->capture_default_str();
+  app.add_option("--peers", names, "Which ones, separated by commas")
+    ->delimiter(',')
+    ->check(CLI::IsMember(Peers))
+    ->capture_default_str();
+  app.add_option("--json", jsonFile, "Where to write the numbers");
+  CLI11_PARSE(app, argc, argv);
+
+  const smg::testing::TemporaryFolder folder;
+  task.solution = folder / "solution";
+  const smg::StreamInfo info = smg::VsmReader(task.mesh).info();
+  json results = json::object();
+  for (const std::string& name : names)
+  {
+    std::cerr << name << " ...\n";
+    results[name] = measure(name, task);
+  }
+  std::cout << task.mesh.filename().string() << ": " << info.vertices << " vertices, " << info.cells
+            << " cells, 3 columns, relative residual " << task.tolerance << "\n\n";
+  printTable(names, results, info.vertices);
+  if (!jsonFile.empty())
+  {
+    const json all = { { "mesh", task.mesh.string() }, { "vertices", info.vertices },
+      { "cells", info.cells }, { "tolerance", task.tolerance }, { "threads", task.threads },
+      { "results", results } };
+    if (!(std::ofstream(jsonFile) << all.dump(2) << '\n'))
+    {
+      throw smg::Error(jsonFile + ": cannot be written.");
+    }
+  }
+  return 0;
+}
+catch (const std::exception& error)
+{
+  std::cerr << "benchmark_peers: " << error.what() << '\n';
+  return 1;
+}

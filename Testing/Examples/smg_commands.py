@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The program smg from outside: its commands, reports, exit codes and what it leaves behind."""
+
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+
+SMG = os.environ["SMG_PROGRAM"]
+
+
+def run(*arguments, code=0):
+    done = subprocess.run([SMG, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+    assert done.returncode == code, (arguments, done.returncode, done.stdout, done.stderr)
+    if code != 0:
+        assert done.stdout == "", (arguments, done.stdout)
+        assert done.stderr.count("\n") == 1 and done.stderr.startswith("smg: "), done.stderr
+    return done
+
+
+def load(name):
+    with open(name, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def write_torus(name, nu, nv):
+    points = []
+    for i in range(nu):
+        for k in range(nv):
+            u, v = 2 * math.pi * i / nu, 2 * math.pi * k / nv
+            r = 2 + math.cos(v)
+            points.append((r * math.cos(u), r * math.sin(u), math.sin(v)))
+    with open(name, "w", encoding="utf-8") as file:
+        for point in points:
+            file.write("v %.9g %.9g %.9g\n" % point)
+        for i in range(nu):
+            for k in range(nv):
+                i1, k1 = (i + 1) % nu, (k + 1) % nv
+                file.write("f %d %d %d %d\n" % tuple(
+                    a * nv + b + 1 for a, b in ((i, k), (i1, k), (i1, k1), (i, k1))))
+
+
+def test_convert_and_info():
+    write_torus("torus.obj", 120, 60)
+    done = run("convert", "torus.obj", "torus.vsm", "--report", "convert.json")
+    assert "7200 vertices" in done.stdout and done.stderr == ""
+    report = load("convert.json")
+    assert report["vertices"] == 7200 and report["cells"] == 14400
+    assert report["triangulated_polygons"] == 7200 and report["components"] == 1
+    assert report["boundary_edges"] == 0 and 0 < report["width"] <= 400
+    assert run("info", "torus.vsm", "--report", "info.json", "--quiet").stdout == ""
+    info = load("info.json")
+    assert info["vertices"] == 7200 and info["cells"] == 14400
+    assert info["width"] == report["width"] and info["span"] == report["span"]
+    assert all(abs(a - b) < 1e-6 for a, b in zip(info["bounds"], (-3, 3, -3, 3, -1, 1)))
+    assert "OriginalId" in [column["name"] for column in info["columns"]["vertices"]]
+    assert "width" in run("info", "torus.obj").stdout
+    for name in ("torus.smb", "torus.sma", "torus.vtp", "torus.vtu"):
+        run("convert", "torus.vsm", name, "--order", "keep", "--quiet")
+    assert "14400" in run("info", "torus.smb").stdout
+
+
+def problem(**members):
+    with open("problem.json", "w", encoding="utf-8") as file:
+        json.dump(members, file)
+    return "problem.json"
+
+
+def test_solve():
+    ends = [{"halfspace": [1, 0, 0, 2.8], "value": "position"},
+            {"halfspace": [-1, 0, 0, 2.8], "value": [0, 0, 1]}]
+    name = problem(weights="cotangent", columns=3, dirichlet=ends)
+    run("solve", "torus.vsm", "solved.vsm", "--problem", name, "--report", "solve.json")
+    report = load("solve.json")
+    assert report["converged"] and report["residuals"][-1] <= 1e-6
+    assert report["passes"] == report["cycles"] + 1 and report["vertices"] == 7200
+    run("info", "solved.vsm", "--report", "info.json")
+    columns = {c["name"]: c for c in load("info.json")["columns"]["vertices"]}
+    assert columns["Solution"]["type"] == "float64" and columns["Solution"]["components"] == 3
+    assert "OriginalId" in columns
+    run("solve", "torus.obj", "solved.vtp", "--problem", name, "--quiet", "--report", "solve.json")
+    assert load("solve.json")["seconds"]["convert"] > 0
+    run("solve", "solved.vsm", "again.vsm", "--problem", name, "--in-core", "--threads", 1,
+        "--block-nodes", 333, "--core-nodes", 100, "--quiet")
+    with open("solved.vsm", "rb") as streamed, open("again.vsm", "rb") as core:
+        assert streamed.read() == core.read(), "streaming and in-core results differ"
+    done = run("solve", "torus.vsm", "o.vsm", "--problem", name, "--max-cycles", 1, "--quiet",
+               "--report", "solve.json")
+    assert "not converged" in done.stderr and not load("solve.json")["converged"]
+
+
+def test_errors():
+    run(code=2)
+    run("solve", "torus.vsm", "o.vsm", code=2)
+    run("convert", "torus.obj", "o2.vsm", "--order", "random", code=2)
+    run("convert", "torus.obj", "o2.vsm", "--order", "spectral", code=1)
+    run("convert", "missing.ply", "o2.vsm", code=1)
+    run("convert", "torus.obj", "o2.xyz", code=1)
+    run("convert", "torus.obj", "o2.svb", code=1)
+    run("convert", "torus.obj", "o2.vsm", "--memory", 1, code=1)
+    open("empty.vsm", "wb").close()
+    run("info", "empty.vsm", code=1)
+    for members, place in (({"sweeps": 1}, "sweeps"), ({"columns": 0}, "columns"),
+                           ({"dirichlet": [{"box": [1], "value": [0]}]}, "dirichlet[0].box"),
+                           ({"dirichlet": [{"sphere": [9, 9, 9, 1], "value": [0]}]},
+                            "dirichlet[0]"),
+                           ({"dirichlet": [{"vertices": [7200], "value": [0]}]}, "7200")):
+        done = run("solve", "torus.vsm", "o2.vsm", "--problem", problem(**members), code=1)
+        assert place in done.stderr, done.stderr
+    name = problem(dirichlet=[{"sphere": [0, 0, 0, 1.5], "value": [0]}])
+    done = run("solve", "torus.vsm", "o2.vsm", "--problem", name, "--memory", 1, code=1)
+    assert "1 MiB" in done.stderr, done.stderr
+    assert not any(file.startswith("o2") for file in os.listdir("."))
+
+
+def test_interrupt_cleans_up():
+    os.makedirs("scratch", exist_ok=True)
+    write_torus("large.obj", 900, 500)
+    before = sorted(os.listdir("."))
+    for kind, delay in ((signal.SIGINT, 0.1), (signal.SIGTERM, 0.3), (signal.SIGTERM, 0.6)):
+        process = subprocess.Popen(
+            [SMG, "convert", "large.obj", "large.smb", "--scratch", "scratch"],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        time.sleep(delay)
+        process.send_signal(kind)
+        _, error = process.communicate(timeout=60)
+        if process.returncode == 0:
+            # It was quicker than the signal.
+            os.remove("large.smb")
+        else:
+            assert process.returncode in (1, -kind), process.returncode
+            assert process.returncode != 1 or error == "smg: cancelled\n", error
+        assert sorted(os.listdir(".")) == before and os.listdir("scratch") == []
+
+
+for each in (test_convert_and_info, test_solve, test_errors, test_interrupt_cleans_up):
+    each()
+    print("passed", each.__name__)
+sys.exit(0)

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Error.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace smg::testing
+{
+
+/** What the Error of `action` says; empty if there is none. */
+std::string messageOf(const auto& action)
+{
+  try
+  {
+    action();
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+  return "";
+}
+
+/** Expects `action` to throw an Error that says, among other things, `part`. */
+void expectError(const auto& action, const std::string& part)
+{
+  const std::string message = messageOf(action);
+  EXPECT_NE(message.find(part), std::string::npos) << "got: '" << message << "'";
+}
+
+} // namespace smg::testing

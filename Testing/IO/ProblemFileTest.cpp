@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Problem/RegionProblem.h"
+
+#include "IO/Formats/StreamConversion.h"
+#include "Solver/Core/Error.h"
+#include "Testing/IO/MeshText.h"
+#include "Testing/Support/MemorySource.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+using namespace smg;
+using namespace smg::testing;
+
+namespace
+{
+
+class ProblemFile : public ::testing::Test
+{
+protected:
+  /** A lattice of 5 x 5 vertices whose original numbers are 1000 and more, backwards. */
+  ProblemFile()
+    : Source(lattice(), 7)
+  {
+  }
+
+  static StreamMesh lattice()
+  {
+    StreamMesh mesh = toStream(grid(5, 5));
+    std::vector<std::int64_t> ids;
+    for (std::int64_t i = 0; i < mesh.vertices(); ++i)
+    {
+      ids.push_back(1000 + mesh.vertices() - 1 - i);
+    }
+    mesh.vertexColumns.push_back(makeColumn<std::int64_t>(OriginalIdName, ids));
+    return mesh;
+  }
+
+  std::unique_ptr<RegionProblem> parse(const std::string& json)
+  {
+    writeBytes(this->Folder / "p.json", json);
+    return readProblemFile(this->Folder / "p.json", this->Source.info());
+  }
+
+  std::string errorOf(const std::string& json)
+  {
+    try
+    {
+      const auto problem = this->parse(json);
+      this->Source.rewind(7);
+      problem->check(this->Source);
+    }
+    catch (const Error& error)
+    {
+      return error.what();
+    }
+    return "no error";
+  }
+
+  /** What the problem says of all vertices. */
+  VertexConditions ask(RegionProblem& problem)
+  {
+    VertexConditions all;
+    this->Source.rewind(7);
+    for (MeshBlock block; this->Source.next(block);)
+    {
+      VertexConditions some;
+      const auto vertices = static_cast<std::size_t>(block.vertices());
+      const auto columns = static_cast<std::size_t>(problem.columns());
+      some.prescribed.assign(vertices, 0);
+      some.value.assign(vertices * columns, 0.0);
+      some.source.assign(vertices * columns, 0.0);
+      problem.conditions(block, some);
+      all.prescribed.insert(all.prescribed.end(), some.prescribed.begin(), some.prescribed.end());
+      all.value.insert(all.value.end(), some.value.begin(), some.value.end());
+      all.source.insert(all.source.end(), some.source.begin(), some.source.end());
+    }
+    return all;
+  }
+
+  TemporaryFolder Folder;
+  MemorySource Source;
+};
+
+#define EXPECT_CONTAINS(text, part) EXPECT_PRED_FORMAT2(::testing::IsSubstring, part, text)
+
+} // namespace
+
+TEST_F(ProblemFile, DefaultsAndValues)
+{
+  const auto empty = this->parse("{}");
+  EXPECT_EQ(empty->columns(), 1);
+  EXPECT_EQ(empty->weights(), Weights::Cotangent);
+  EXPECT_EQ(empty->screening(), 0.0);
+  const auto full =
+    this->parse(R"({"weights": "uniform", "columns": 2, "source": [1, -2.5], "screening": 0.25})");
+  EXPECT_EQ(full->columns(), 2);
+  EXPECT_EQ(full->weights(), Weights::Uniform);
+  EXPECT_EQ(full->screening(), 0.25);
+  const VertexConditions conditions = this->ask(*full);
+  EXPECT_EQ(conditions.source[0], 1.0);
+  EXPECT_EQ(conditions.source[49], -2.5);
+  EXPECT_EQ(conditions.prescribed[3], 0);
+}
+
+TEST_F(ProblemFile, LaterRegionsWin)
+{
+  const auto problem = this->parse(R"({"columns": 1, "dirichlet": [
+    {"halfspace": [1, 0, 0, 2], "value": [1]},
+    {"box": [2, 0, 0, 2.6, 9, 0], "value": [2]},
+    {"sphere": [0, 0, 0, 0.5], "value": [3]},
+    {"vertices": [1003, 1003], "value": [4]}]})");
+  const VertexConditions conditions = this->ask(*problem);
+  const StreamMesh& mesh = this->Source.mesh();
+  for (std::size_t i = 0; i < 25; ++i)
+  {
+    const double x = mesh.positions[3 * i];
+    const double y = mesh.positions[3 * i + 1];
+    double expected = x >= 2 ? 1 : 0;
+    expected = x >= 2 && x <= 2.6 ? 2 : expected;
+    expected = x * x + y * y <= 0.25 ? 3 : expected;
+    expected = i == 21 ? 4 : expected;
+    EXPECT_EQ(conditions.prescribed[i], expected > 0);
+    EXPECT_EQ(conditions.value[i], expected);
+  }
+}
+
+TEST_F(ProblemFile, PositionIsValueAndGuess)
+{
+  const auto problem = this->parse(R"({"columns": 3, "dirichlet": [
+    {"vertices": [1000], "value": "position"}, {"vertices": [1024], "value": [7, 8, 9]}]})");
+  const VertexConditions conditions = this->ask(*problem);
+  EXPECT_EQ(conditions.prescribed[24], 1);
+  EXPECT_EQ(conditions.prescribed[0], 1);
+  EXPECT_EQ(conditions.value[1], 8.0);
+  for (std::size_t i = 3; i < 75; ++i)
+  {
+    EXPECT_EQ(conditions.value[i], this->Source.mesh().positions[i]);
+  }
+}
+
+TEST_F(ProblemFile, ErrorsNameThePlace)
+{
+  EXPECT_CONTAINS(this->errorOf(R"({"weight": "uniform"})"), "weight: is not known");
+  EXPECT_CONTAINS(this->errorOf(R"({"weights": "heat"})"), "weights: must be");
+  EXPECT_CONTAINS(this->errorOf(R"({"columns": 0})"), "columns: must be");
+  EXPECT_CONTAINS(this->errorOf(R"({"columns": 1.5})"), "columns: must be");
+  EXPECT_CONTAINS(this->errorOf(R"({"screening": -1})"), "screening: must not");
+  EXPECT_CONTAINS(this->errorOf(R"({"screening": "1"})"), "screening: must be");
+  EXPECT_CONTAINS(this->errorOf(R"({"source": 1})"), "source: must be an array of 1 number");
+  EXPECT_CONTAINS(this->errorOf(R"({"source": [1e999]})"), "out of range");
+  EXPECT_CONTAINS(this->errorOf(R"({"dirichlet": {}})"), "dirichlet: must be an array");
+  EXPECT_CONTAINS(this->errorOf(R"({"dirichlet": [{"value": [0]}]})"), "exactly one of");
+  EXPECT_CONTAINS(this->errorOf(R"({"dirichlet": [{"sphere": [0, 0, 0, 9]}]})"), "has no 'value'");
+  EXPECT_CONTAINS(
+    this->errorOf(R"({"dirichlet": [{"sphere": [0, 0, 0, -1], "value": [0]}]})"), "radius");
+  EXPECT_CONTAINS(
+    this->errorOf(R"({"dirichlet": [{"sphere": [0, 0, 0, 1], "value": "position"}]})"),
+    "only if there are 3 columns");
+  const std::string sound = R"({"sphere": [0, 0, 0, 1], "value": [0]})";
+  EXPECT_CONTAINS(
+    this->errorOf(R"({"dirichlet": [)" + sound + R"(, {"box": [1, 2, 3], "value": [0]}]})"),
+    "dirichlet[1].box: must be an array of 6 numbers");
+  EXPECT_CONTAINS(
+    this->errorOf(R"({"dirichlet": [{"box": [1, 0, 0, 0, 1, 1], "value": [0]}]})"), "x0 <= x1");
+  EXPECT_CONTAINS(
+    this->errorOf(R"({"dirichlet": [{"vertices": [-1], "value": [0]}]})"), "vertices[0]");
+  EXPECT_CONTAINS(
+    this->errorOf(R"({"dirichlet": [{"vertices": [18446744073709551615], "value": [0]}]})"),
+    "vertices[0]");
+  EXPECT_CONTAINS(this->errorOf("{\n\"columns\": }"), "p.json, line 2");
+  EXPECT_CONTAINS(this->errorOf(""), "empty");
+  EXPECT_CONTAINS(this->errorOf("[]"), "must be an object");
+}
+
+TEST_F(ProblemFile, CheckFindsWhatSelectsNothing)
+{
+  EXPECT_EQ(
+    this->errorOf(R"({"dirichlet": [{"vertices": [1000, 1024], "value": [0]}]})"), "no error");
+  EXPECT_CONTAINS(
+    this->errorOf(R"({"dirichlet": [{"vertices": [1000, 1025], "value": [0]}]})"), "number 1025");
+  EXPECT_CONTAINS(this->errorOf(R"({"dirichlet": [{"sphere": [0, 0, 50, 1], "value": [0]}]})"),
+    "dirichlet[0]: no vertex");
+}
+
+TEST_F(ProblemFile, WithoutOriginalNumbersTheStreamCounts)
+{
+  MemorySource plain(toStream(grid(4, 4)), 3);
+  writeBytes(this->Folder / "p.json", R"({"dirichlet": [{"vertices": [15], "value": [1]}]})");
+  const auto problem = readProblemFile(this->Folder / "p.json", plain.info());
+  EXPECT_TRUE(problem->vertexColumns().empty());
+  EXPECT_NO_THROW(problem->check(plain));
+}

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Preview/StreamPreview.h"
+#include "Testing/Support/MemorySource.h"
+#include "Testing/Support/TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+namespace smg::testing
+{
+namespace
+{
+
+void expectVerticesOf(const StreamMesh& mesh, const StreamPreview& preview)
+{
+  ASSERT_EQ(preview.positions.size(), 3 * preview.ids.size());
+  EXPECT_TRUE(std::is_sorted(preview.ids.begin(), preview.ids.end()));
+  for (std::size_t i = 0; i < preview.ids.size(); ++i)
+  {
+    ASSERT_LT(preview.ids[i], mesh.vertices());
+    for (int k = 0; k < 3; ++k)
+    {
+      ASSERT_EQ(preview.positions[3 * i + k], mesh.positions[3 * preview.ids[i] + k]);
+    }
+  }
+}
+
+/** All points are used, and no three points make two triangles. */
+void expectProperTriangles(const StreamPreview& preview)
+{
+  std::set<std::array<std::int64_t, 3>> known;
+  std::set<std::int64_t> used;
+  for (std::size_t i = 0; i < preview.triangles.size(); i += 3)
+  {
+    std::array<std::int64_t, 3> triangle{ preview.triangles[i], preview.triangles[i + 1],
+      preview.triangles[i + 2] };
+    used.insert(triangle.begin(), triangle.end());
+    std::sort(triangle.begin(), triangle.end());
+    EXPECT_LT(triangle[0], triangle[1]);
+    EXPECT_LT(triangle[1], triangle[2]);
+    EXPECT_TRUE(known.insert(triangle).second);
+  }
+  EXPECT_EQ(used.size(), preview.ids.size());
+}
+
+TEST(StreamPreview, IsBoundedAndMadeOfVertices)
+{
+  for (const std::int64_t limit : { 8, 100, 1000, 5000 })
+  {
+    MemorySource source(toStream(torus(150, 100, 0.2)));
+    const StreamPreview preview = makePreview(source, limit);
+    EXPECT_LE(std::int64_t(preview.ids.size()), limit);
+    EXPECT_GE(std::int64_t(preview.ids.size()), limit < 100 ? 0 : limit / 6);
+    expectVerticesOf(source.mesh(), preview);
+    expectProperTriangles(preview);
+  }
+}
+
+TEST(StreamPreview, SmallMeshStaysAsItIs)
+{
+  MemorySource source(toStream(sphere(2)));
+  const StreamPreview preview = makePreview(source, 1000);
+  EXPECT_EQ(std::int64_t(preview.ids.size()), source.mesh().vertices());
+  EXPECT_EQ(std::int64_t(preview.triangles.size() / 3), source.mesh().cells());
+}
+
+TEST(StreamPreview, BlocksDoNotMatter)
+{
+  MemorySource one(toStream(tetBox(12, 12, 12, 0.1)), 1000000);
+  MemorySource many(toStream(tetBox(12, 12, 12, 0.1)), 7);
+  const StreamPreview a = makePreview(one, 10000);
+  const StreamPreview b = makePreview(many, 10000);
+  EXPECT_EQ(a.ids, b.ids);
+  EXPECT_EQ(a.triangles.size(), b.triangles.size());
+}
+
+TEST(StreamPreview, OfAVolumeIsItsClosedSurface)
+{
+  MemorySource source(toStream(tetBox(15, 14, 13, 0.1)), 50);
+  const StreamPreview preview = makePreview(source, 100000);
+  EXPECT_EQ(preview.triangles.size() / 3, 4U * (14 * 13 + 13 * 12 + 14 * 12));
+  expectVerticesOf(source.mesh(), preview);
+  // Outward orientation: every edge is used once in each direction.
+  std::map<std::pair<std::int64_t, std::int64_t>, int> edges;
+  for (std::size_t i = 0; i < preview.triangles.size(); i += 3)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      ++edges[{ preview.triangles[i + k], preview.triangles[i + (k + 1) % 3] }];
+    }
+  }
+  for (const auto& [edge, count] : edges)
+  {
+    EXPECT_EQ(count, 1);
+    EXPECT_EQ(edges.count({ edge.second, edge.first }), 1U);
+  }
+}
+
+TEST(StreamPreview, OnePointMeshesDoNotFail)
+{
+  IndexedTestMesh mesh;
+  mesh.positions.assign(9, 1.0);
+  mesh.corners = { 0, 1, 2 };
+  MemorySource source(toStream(mesh));
+  EXPECT_TRUE(makePreview(source, 100).triangles.empty());
+}
+
+TEST(StreamPreview, CanBeCancelled)
+{
+  MemorySource source(toStream(torus(50, 40)), 10);
+  EXPECT_THROW(makePreview(source, 100, [](double done) { return done < 0.5; }), Cancelled);
+}
+
+} // namespace
+} // namespace smg::testing

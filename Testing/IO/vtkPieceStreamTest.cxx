@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/vtkPieceStream.h"
+#include "IO/Container/VsmReader.h"
+#include "IO/vtkStreamingMeshReader.h"
+#include "Solver/Core/Error.h"
+#include "Testing/IO/vtkPieceTesting.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkElevationFilter.h"
+#include "vtkIdList.h"
+#include "vtkPolyData.h"
+#include "vtkSphereSource.h"
+
+#include <limits>
+
+namespace smg::testing
+{
+namespace
+{
+
+/** A sink without any work of its own, whose input is pulled. */
+class VtkPieceStream : public ::testing::Test
+{
+protected:
+  VtkPieceStream()
+  {
+    this->Mesh = writeVsm(this->Folder / "mesh.vsm", torus(60, 30, 0.2));
+    this->Reader->SetFileName((this->Folder / "mesh.vsm").c_str());
+    this->Reader->SetMaximumPointsInMemory(10);
+    this->Filter->SetInputConnection(this->Reader->GetOutputPort());
+    this->Sink->SetInputConnection(this->Filter->GetOutputPort());
+  }
+
+  /** Pulls everything; the sentence of the error, or none. */
+  std::string pull(int pieces)
+  {
+    Errors silent(this->Filter);
+    Errors silentReader(this->Reader);
+    try
+    {
+      PieceInput input(*this->Sink, 0);
+      PieceStream stream(input, pieces, { .all = true, .points = {}, .cells = {} });
+      Progress progress;
+      this->Info = writeContainer(stream, this->Folder / "out.vsm", true, progress);
+      input.endStreaming();
+      return {};
+    }
+    catch (const Error& error)
+    {
+      return error.what();
+    }
+  }
+
+  void expectSameMesh()
+  {
+    VsmReader reader(this->Folder / "out.vsm");
+    const StreamMesh copy = collect(*reader.source());
+    EXPECT_EQ(copy.positions, this->Mesh.positions);
+    EXPECT_EQ(copy.corners, this->Mesh.corners);
+  }
+
+  TemporaryFolder Folder;
+  StreamMesh Mesh;
+  StreamInfo Info;
+  vtkNew<vtkStreamingMeshReader> Reader;
+  vtkNew<vtkFaultyFilter> Filter;
+  vtkNew<vtkFaultyFilter> Sink;
+};
+
+TEST_F(VtkPieceStream, AnyNumberOfPiecesGivesTheMesh)
+{
+  for (const int pieces : { 1, 2, 7, 64, 5000 })
+  {
+    EXPECT_EQ(this->pull(pieces), "");
+    this->expectSameMesh();
+    EXPECT_EQ(this->Info.vertexColumns.size(), 2U);
+    EXPECT_EQ(this->Info.cellColumns.size(), 1U);
+  }
+}
+
+TEST_F(VtkPieceStream, PullsEachPieceOnceAndInOrder)
+{
+  EXPECT_EQ(this->pull(5), "");
+  EXPECT_EQ(
+    this->Filter->Requests, (std::vector<std::string>{ "0/5", "1/5", "2/5", "3/5", "4/5" }));
+}
+
+TEST_F(VtkPieceStream, EndOfStreamingBringsThePreviewBack)
+{
+  EXPECT_EQ(this->pull(1), "");
+  ASSERT_TRUE(updatePiece(this->Filter, 0, 1));
+  EXPECT_TRUE(this->Filter->GetOutputDataObject(0)->GetFieldData()->GetArray("Preview"));
+}
+
+TEST_F(VtkPieceStream, MeshWithoutFinalisationIsLegal)
+{
+  this->Filter->RemoveArray = "StreamFinalized";
+  EXPECT_EQ(this->pull(7), "");
+  this->expectSameMesh();
+}
+
+TEST_F(VtkPieceStream, MissingArraysAreNamed)
+{
+  this->Filter->RemoveArray = "GlobalIds";
+  EXPECT_NE(this->pull(7).find("has no point GlobalIds"), std::string::npos);
+  this->Filter->RemoveArray = "vtkGhostType";
+  this->Filter->Modified();
+  EXPECT_NE(this->pull(7).find("once more"), std::string::npos) << this->pull(7);
+}
+
+TEST_F(VtkPieceStream, FailureOfAPieceIsAnError)
+{
+  this->Filter->FailAtPiece = 3;
+  EXPECT_NE(this->pull(7).find("Piece 3 of 7"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(this->Folder / "out.vsm"));
+  this->Filter->FailAtPiece = -1;
+  this->Filter->Modified();
+  EXPECT_EQ(this->pull(7), "");
+}
+
+TEST_F(VtkPieceStream, SpoiledPiecesAreErrors)
+{
+  this->Filter->Spoil = [](vtkPointSet* mesh, int piece)
+  {
+    if (piece == 2)
+    {
+      vtkNew<vtkPoints> points;
+      points->DeepCopy(mesh->GetPoints());
+      points->SetPoint(points->GetNumberOfPoints() - 1, 0.0, 0.0, std::nan(""));
+      mesh->SetPoints(points);
+    }
+  };
+  EXPECT_NE(this->pull(7).find("not a finite number"), std::string::npos);
+
+  this->Filter->Spoil = [](vtkPointSet* mesh, int piece)
+  {
+    if (piece == 2)
+    {
+      vtkNew<vtkIdTypeArray> ids;
+      ids->DeepCopy(mesh->GetPointData()->GetGlobalIds());
+      ids->SetValue(ids->GetNumberOfTuples() - 1, VTK_ID_MAX / 2);
+      mesh->GetPointData()->SetGlobalIds(ids);
+    }
+  };
+  this->Filter->Modified();
+  EXPECT_NE(this->pull(7).find("comes next"), std::string::npos);
+
+  this->Filter->Spoil = [](vtkPointSet* mesh, int piece)
+  {
+    if (piece == 1)
+    {
+      vtkNew<vtkCellArray> quads;
+      const vtkIdType corners[] = { 0, 1, 2, 3 };
+      quads->InsertNextCell(4, corners);
+      static_cast<vtkPolyData*>(mesh)->SetPolys(quads);
+    }
+  };
+  this->Filter->Modified();
+  EXPECT_NE(this->pull(7).find("neither all triangles"), std::string::npos);
+
+  this->Filter->Spoil = [](vtkPointSet* mesh, int piece)
+  {
+    if (piece == 1)
+    {
+      vtkNew<vtkCellArray> cells;
+      const vtkIdType corners[] = { 0, 1, VTK_ID_MAX - 5 };
+      cells->InsertNextCell(3, corners);
+      static_cast<vtkPolyData*>(mesh)->SetPolys(cells);
+    }
+  };
+  this->Filter->Modified();
+  EXPECT_NE(this->pull(7).find("does not exist"), std::string::npos);
+
+  this->Filter->Spoil = [](vtkPointSet* mesh, int piece)
+  {
+    if (piece == 4)
+    {
+      mesh->GetPointData()->RemoveArray("Colours");
+    }
+  };
+  this->Filter->Modified();
+  EXPECT_NE(this->pull(7).find("no array Colours"), std::string::npos);
+}
+
+TEST_F(VtkPieceStream, TheSameDataForEveryPieceIsRefused)
+{
+  this->Filter->SetInputConnection(this->Reader->GetOutputPort());
+  this->Reader->SetMaximumPointsInMemory(1000000);
+  ASSERT_TRUE(updatePiece(this->Reader, 0, 1));
+  vtkNew<vtkPolyData> whole;
+  whole->DeepCopy(this->Reader->GetOutputDataObject(0));
+  this->Filter->SetInputDataObject(whole);
+  EXPECT_NE(this->pull(7).find("same data for every piece"), std::string::npos);
+  EXPECT_EQ(this->pull(1), "");
+  this->expectSameMesh();
+}
+
+TEST_F(VtkPieceStream, PreviewsAreRefused)
+{
+  ASSERT_TRUE(updatePiece(this->Reader, 0, 1));
+  vtkNew<vtkPolyData> preview;
+  preview->DeepCopy(this->Reader->GetOutputDataObject(0));
+  this->Filter->SetInputDataObject(preview);
+  EXPECT_NE(this->pull(1).find("is a preview"), std::string::npos);
+}
+
+TEST_F(VtkPieceStream, OrdinarySourcesAreRefused)
+{
+  vtkNew<vtkSphereSource> source;
+  this->Filter->SetInputConnection(source->GetOutputPort());
+  EXPECT_NE(this->pull(4).find("GlobalIds"), std::string::npos);
+}
+
+TEST_F(VtkPieceStream, ArraysOfFiltersBetweenBecomeColumns)
+{
+  vtkNew<vtkElevationFilter> elevation;
+  elevation->SetInputConnection(this->Reader->GetOutputPort());
+  this->Filter->SetInputConnection(elevation->GetOutputPort());
+  EXPECT_EQ(this->pull(7), "");
+  this->expectSameMesh();
+  EXPECT_EQ(this->Info.vertexColumns.back().name, "Elevation");
+}
+
+} // namespace
+} // namespace smg::testing

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/vtkStreamingMeshWriter.h"
+#include "IO/Container/VsmReader.h"
+#include "IO/Conversion/OpenMesh.h"
+#include "IO/vtkStreamingMeshReader.h"
+#include "Testing/IO/vtkPieceTesting.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include "vtkXMLPPolyDataReader.h"
+#include "vtkXMLPUnstructuredGridReader.h"
+
+#include <fstream>
+
+namespace smg::testing
+{
+namespace
+{
+
+class VtkStreamingMeshWriter : public ::testing::Test
+{
+protected:
+  void start(const IndexedTestMesh& mesh)
+  {
+    this->Mesh = writeVsm(this->Folder / "mesh.vsm", mesh);
+    this->Reader->SetFileName((this->Folder / "mesh.vsm").c_str());
+    this->Reader->SetMaximumPointsInMemory(10);
+    this->Writer->SetInputConnection(this->Reader->GetOutputPort());
+    this->Writer->SetNumberOfStreamedPieces(7);
+  }
+
+  int write(const std::string& name)
+  {
+    this->Writer->SetFileName((this->Folder / name).c_str());
+    return this->Writer->Write();
+  }
+
+  void expectMesh(const std::string& name)
+  {
+    VsmReader reader(this->Folder / name);
+    const StreamMesh copy = collect(*reader.source());
+    EXPECT_EQ(copy.positions, this->Mesh.positions);
+    EXPECT_EQ(copy.corners, this->Mesh.corners);
+    ASSERT_EQ(copy.vertexColumns.size(), this->Mesh.vertexColumns.size());
+    for (std::size_t i = 0; i < copy.vertexColumns.size(); ++i)
+    {
+      EXPECT_EQ(copy.vertexColumns[i].spec, this->Mesh.vertexColumns[i].spec);
+      EXPECT_EQ(copy.vertexColumns[i].bytes, this->Mesh.vertexColumns[i].bytes);
+    }
+    ASSERT_EQ(copy.cellColumns.size(), this->Mesh.cellColumns.size());
+    EXPECT_EQ(copy.cellColumns[0].bytes, this->Mesh.cellColumns[0].bytes);
+  }
+
+  /** Reads an index of piece files back by pieces and streams it to a container again. */
+  template <class IndexReader>
+  void expectReadable(const std::string& index)
+  {
+    vtkNew<IndexReader> reader;
+    reader->SetFileName((this->Folder / index).c_str());
+    for (const int pieces : { 1, 2, 3, 7, 20 })
+    {
+      vtkNew<vtkStreamingMeshWriter> again;
+      again->SetInputConnection(reader->GetOutputPort());
+      again->SetNumberOfStreamedPieces(pieces);
+      again->SetFileName((this->Folder / "again.vsm").c_str());
+      ASSERT_TRUE(again->Write()) << pieces;
+      this->expectMesh("again.vsm");
+    }
+  }
+
+  TemporaryFolder Folder;
+  StreamMesh Mesh;
+  vtkNew<vtkStreamingMeshReader> Reader;
+  vtkNew<vtkStreamingMeshWriter> Writer;
+};
+
+TEST_F(VtkStreamingMeshWriter, ContainerOfASurface)
+{
+  this->start(torus(60, 30, 0.2));
+  ASSERT_TRUE(this->write("out.vsm"));
+  this->expectMesh("out.vsm");
+  this->Writer->SetNumberOfStreamedPieces(0);
+  ASSERT_TRUE(this->write("auto.vsm"));
+  this->expectMesh("auto.vsm");
+  EXPECT_EQ(this->Folder.entries(), 3);
+}
+
+TEST_F(VtkStreamingMeshWriter, ContainerOfAVolume)
+{
+  this->start(tetBox(9, 8, 7, 0.1));
+  ASSERT_TRUE(this->write("out.vsm"));
+  this->expectMesh("out.vsm");
+}
+
+TEST_F(VtkStreamingMeshWriter, UpdateWritesToo)
+{
+  this->start(torus(20, 10));
+  this->Writer->SetFileName((this->Folder / "out.vsm").c_str());
+  this->Writer->Update();
+  this->expectMesh("out.vsm");
+}
+
+TEST_F(VtkStreamingMeshWriter, StreamingFormats)
+{
+  this->start(torus(60, 30, 0.2));
+  for (const char* name : { "out.sma", "out.smb" })
+  {
+    ASSERT_TRUE(this->write(name));
+    const auto back = openMesh(this->Folder / name);
+    EXPECT_EQ(back->reader().info().vertices, this->Mesh.vertices());
+    EXPECT_EQ(collect(*back->reader().source()).corners, this->Mesh.corners);
+  }
+  Errors errors(this->Writer);
+  EXPECT_FALSE(this->write("out.svb"));
+  EXPECT_TRUE(errors.contain("out.svb")) << errors.text();
+  EXPECT_EQ(this->Folder.entries(), 3);
+}
+
+TEST_F(VtkStreamingMeshWriter, PieceFilesOfASurfaceAreLegalInput)
+{
+  this->start(torus(60, 30, 0.2));
+  ASSERT_TRUE(this->write("out.pvtp"));
+  EXPECT_EQ(this->Folder.entries(), 3);
+  this->expectReadable<vtkXMLPPolyDataReader>("out.pvtp");
+}
+
+TEST_F(VtkStreamingMeshWriter, PieceFilesOfAVolumeAreLegalInput)
+{
+  this->start(tetBox(9, 8, 7, 0.1));
+  ASSERT_TRUE(this->write("out.pvtu"));
+  this->expectReadable<vtkXMLPUnstructuredGridReader>("out.pvtu");
+}
+
+TEST_F(VtkStreamingMeshWriter, FewerPieceFilesReplaceMore)
+{
+  this->start(torus(20, 10));
+  ASSERT_TRUE(this->write("out.pvtp"));
+  this->Writer->SetNumberOfStreamedPieces(3);
+  ASSERT_TRUE(this->write("out.pvtp"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(this->Folder / "out"), {}), 3);
+  this->expectReadable<vtkXMLPPolyDataReader>("out.pvtp");
+}
+
+TEST_F(VtkStreamingMeshWriter, ErrorsLeaveNothing)
+{
+  this->start(torus(20, 10));
+  Errors errors(this->Writer);
+  EXPECT_FALSE(this->write("out.abc"));
+  EXPECT_TRUE(errors.contain("out.abc")) << errors.text();
+  EXPECT_FALSE(this->write("no/such/folder/out.vsm"));
+  EXPECT_FALSE(this->write("out.pvtu"));
+  vtkNew<vtkFaultyFilter> filter;
+  filter->SetInputConnection(this->Reader->GetOutputPort());
+  filter->FailAtPiece = 4;
+  Errors silent(filter);
+  this->Writer->SetInputConnection(filter->GetOutputPort());
+  for (const char* name : { "out.vsm", "out.sma", "out.pvtp" })
+  {
+    errors.clear();
+    EXPECT_FALSE(this->write(name));
+    EXPECT_TRUE(errors.contain("Piece 4 of 7")) << errors.text();
+  }
+  EXPECT_EQ(this->Folder.entries(), 1);
+}
+
+TEST_F(VtkStreamingMeshWriter, AbortLeavesNothing)
+{
+  this->start(torus(60, 30));
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback(
+    [](vtkObject* writer, unsigned long, void*, void* done)
+    {
+      if (*static_cast<double*>(done) > 0.4)
+      {
+        static_cast<vtkAlgorithm*>(writer)->SetAbortExecute(1);
+      }
+    });
+  const unsigned long observer = this->Writer->AddObserver(vtkCommand::ProgressEvent, abort);
+  for (const char* name : { "out.vsm", "out.smb", "out.pvtp" })
+  {
+    EXPECT_FALSE(this->write(name));
+  }
+  EXPECT_EQ(this->Folder.entries(), 1);
+  this->Writer->RemoveObserver(observer);
+  EXPECT_TRUE(this->write("out.vsm"));
+}
+
+} // namespace
+} // namespace smg::testing

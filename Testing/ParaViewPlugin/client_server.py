@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A pvpython client with a pvserver that has the plugin, too."""
+
+import os
+import shutil
+import subprocess
+import sys
+
+import smg_testing as t
+from paraview.simple import *
+
+port = 11000 + os.getpid() % 20000
+folder = t.make_folder()
+server = subprocess.Popen([sys.argv[2], f"--server-port={port}"], stdout=subprocess.PIPE, text=True,
+                          env={**os.environ, "TMPDIR": folder})
+try:
+    for line in server.stdout:
+        if "Accepting connection" in line:
+            break
+    Connect("localhost", port)
+    LoadPlugin(sys.argv[1], remote=True, ns=globals())
+    LoadPlugin(sys.argv[1], remote=False, ns=globals())
+    t.StreamingPoisson = StreamingPoisson
+
+    reader = OpenDataFile(t.BUNNY)
+    poisson = t.make_poisson(t.make_problem(reader))
+    poisson.UpdatePipeline()
+    poisson.UpdatePropertyInformation()
+    assert poisson.GetPropertyValue("Converged") == 1
+    assert poisson.GetPropertyValue("Residual") < 1e-6
+    assert poisson.GetPropertyValue("Report").startswith("{")
+    assert poisson.GetDataInformation().GetNumberOfCells() == t.BUNNY_CELLS
+    assert poisson.PointData["Solution"].GetNumberOfComponents() == 3
+
+    view = CreateRenderView()
+    representation = Show(poisson, view)
+    ColorBy(representation, ("POINTS", "Solution"))
+    Render(view)
+    path = os.path.join(folder, "solved.vsm")
+    SaveData(path, proxy=poisson)
+    assert os.path.getsize(path) > 500000
+    print("passed", flush=True)
+finally:
+    server.kill()
+shutil.rmtree(folder, ignore_errors=True)
+# At exit ParaView would say goodbye to the server, which is gone.
+os._exit(0)

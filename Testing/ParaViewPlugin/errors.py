@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is wrong is said in one sentence, and does not crash."""
+
+import os
+import sys
+
+import smg_testing as t
+from paraview.simple import *
+from paraview.vtk import vtkObject, vtkStringOutputWindow, vtkOutputWindow
+
+LoadPlugin(sys.argv[1], ns=globals())
+t.StreamingPoisson = StreamingPoisson
+
+messages = vtkStringOutputWindow()
+vtkOutputWindow.SetInstance(messages)
+
+
+def said():
+    text = messages.GetOutput()
+    fresh = vtkStringOutputWindow()
+    vtkOutputWindow.SetInstance(fresh)
+    globals()["messages"] = fresh
+    return text
+
+
+folder = t.make_folder()
+with open(t.BUNNY, "rb") as file:
+    data = file.read()
+for name, content in {"cut.smb": data[:600000], "empty.smb": b"", "noise.smb": data[::-1][:5000],
+                      "empty.vsm": b"", "noise.vsm": data[1000:9000]}.items():
+    path = os.path.join(folder, name)
+    with open(path, "wb") as file:
+        file.write(content)
+    reader = StreamingMeshReader(FileName=path)
+    try:
+        reader.UpdatePipeline()
+    except RuntimeError:
+        pass
+    text = said()
+    assert name in text, (name, text)
+    Delete(reader)
+
+# A source that is no mesh stream.
+sphere = Sphere()
+poisson = t.make_poisson(t.make_problem(sphere))
+poisson.UpdatePipeline()
+assert "GlobalIds" in said()
+
+# Too little memory is told before the work, with both figures.
+reader = OpenDataFile(t.BUNNY)
+poisson = t.make_poisson(t.make_problem(reader))
+poisson.MemoryLimit = 1
+poisson.UpdatePipeline()
+assert "memory" in said().lower()
+poisson.MemoryLimit = 1024
+poisson.UpdatePipeline()
+text = said()
+assert "Solution" in poisson.PointData.keys(), text
+# What Python prints would go to the window that collects the messages.
+os.write(1, b"passed\n")

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Several processes: each has its own piece of the one solution."""
+
+import json
+import os
+import sys
+import tempfile
+
+import numpy
+import smg_testing as t
+from paraview.simple import *
+from paraview.vtk import vtkMultiProcessController
+from streamingmultigrid import vtkStreamingMultigridFilters, vtkStreamingMultigridIO
+
+LoadPlugin(sys.argv[1], ns=globals())
+t.StreamingPoisson = StreamingPoisson
+
+controller = vtkMultiProcessController.GetGlobalController()
+rank, ranks = controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
+assert ranks > 1
+
+reader = OpenDataFile(t.BUNNY)
+poisson = t.make_poisson(t.make_problem(reader))
+poisson.UpdatePipeline()
+data = t.client_object(poisson).GetOutputDataObject(0)
+first, last = t.BUNNY_CELLS * rank // ranks, t.BUNNY_CELLS * (rank + 1) // ranks
+assert data.GetNumberOfCells() == last - first, (rank, data.GetNumberOfCells())
+ids = t.vtk_to_numpy(data.GetPointData().GetGlobalIds())
+values = t.vtk_to_numpy(data.GetPointData().GetArray("Solution"))
+own = t.vtk_to_numpy(data.GetPointData().GetArray("vtkGhostType")) == 0
+report = json.loads(data.GetFieldData().GetAbstractArray("Report").GetValue(0))
+assert report["converged"] and report["vertices"] == t.BUNNY_POINTS
+
+# The same problem by this process alone.
+alone = vtkStreamingMultigridIO.vtkStreamingMeshReader()
+alone.SetFileName(t.BUNNY)
+algorithms = [alone]
+for proxy in (poisson.Input.Input, poisson.Input):
+    calculator = t.client_object(proxy).NewInstance()
+    calculator.SetInputConnection(algorithms[-1].GetOutputPort())
+    calculator.SetFunction(proxy.Function)
+    calculator.SetResultArrayName(proxy.ResultArrayName)
+    for axis, name in enumerate(("coordsX", "coordsY", "coordsZ")):
+        calculator.AddCoordinateScalarVariable(name, axis)
+    calculator.AddCoordinateVectorVariable("coords", 0, 1, 2)
+    algorithms.append(calculator)
+solver = vtkStreamingMultigridFilters.vtkStreamingPoisson()
+solver.SetController(None)
+solver.SetInputConnection(algorithms[-1].GetOutputPort())
+for index, name in ((0, "Mask"), (1, "Values"), (3, "Values")):
+    solver.SetInputArrayToProcess(index, 0, 0, 0, name)
+solver.Update()
+whole = t.vtk_to_numpy(solver.GetOutputDataObject(0).GetPointData().GetArray("Solution"))
+assert whole.shape == (t.BUNNY_POINTS, 3)
+assert (values == whole[ids]).all()
+
+# A second request does not solve again; a change does, in all processes.
+poisson.UpdatePipeline()
+poisson.Weights = "Uniform"
+poisson.UpdatePipeline()
+data = t.client_object(poisson).GetOutputDataObject(0)
+assert (t.vtk_to_numpy(data.GetPointData().GetArray("Solution")) != values).any()
+
+# The writer streams in process 0 while the others wait.
+path = os.path.join(tempfile.gettempdir(), f"smg-parallel-{os.getppid()}.vsm")
+SaveData(path, proxy=poisson)
+written = OpenDataFile(path)
+written.UpdatePipeline()
+written.UpdatePropertyInformation()
+assert written.GetPropertyValue("FullNumberOfPoints") == t.BUNNY_POINTS
+controller.Barrier()
+if rank == 0:
+    os.remove(path)
+print("passed in process", rank)

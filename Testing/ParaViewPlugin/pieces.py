@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The pieces of the solution: their union is the mesh; the numbers are those of the program smg."""
+
+import json
+import os
+import sys
+
+import numpy
+import smg_testing as t
+from paraview.simple import *
+
+LoadPlugin(sys.argv[1], ns=globals())
+t.StreamingPoisson = StreamingPoisson
+
+folder = t.make_folder()
+container = os.path.join(folder, "bunny.vsm")
+solved = os.path.join(folder, "solved.vsm")
+problem = os.path.join(folder, "problem.json")
+t.run_smg("convert", t.BUNNY, container, "--order", "keep")
+with open(problem, "w", encoding="utf-8") as file:
+    json.dump({"weights": "cotangent", "columns": 3, "dirichlet": [
+        {"halfspace": [0, -1, 0, -t.FEET], "value": "position"},
+        {"halfspace": [0, 1, 0, t.EARS], "value": "position"}]}, file)
+t.run_smg("solve", container, solved, "--problem", problem)
+
+reader = OpenDataFile(container)
+poisson = t.make_poisson(t.make_problem(reader))
+poisson.UpdatePipeline()
+algorithm = t.client_object(poisson)
+expected = OpenDataFile(solved)
+expected.UpdatePipeline()
+whole = t.pull(t.client_object(expected), 1, "Solution")[0]
+
+for pieces in (1, 2, 7, 64):
+    parts = t.pull(algorithm, pieces, "Solution")
+    ids = numpy.concatenate([p[0][p[1]] for p in parts])
+    assert (numpy.sort(ids) == numpy.arange(t.BUNNY_POINTS)).all(), pieces
+    order = numpy.argsort(ids)
+    for k in (2, 3):
+        united = numpy.concatenate([p[k][p[1]] for p in parts])[order]
+        assert (united == whole[k]).all(), (pieces, k, abs(united - whole[k]).max())
+    assert (numpy.concatenate([p[4] for p in parts]) == whole[4]).all(), pieces
+
+# One solve was enough for all of them.
+poisson.UpdatePropertyInformation()
+report = json.loads(poisson.GetPropertyValue("Report"))
+assert report["vertices"] == t.BUNNY_POINTS and report["cells"] == t.BUNNY_CELLS
+assert report["converged"] and poisson.GetPropertyValue("Converged") == 1
+assert report["passes"] == report["cycles"] + 1 == poisson.GetPropertyValue("Passes")
+
+# With the guard, the whole mesh is a preview with the true solution; a change solves again.
+reader.MaximumPointsInMemory = 1000
+poisson.UpdatePipeline()
+preview = t.servermanager.Fetch(poisson)
+assert preview.GetFieldData().GetArray("Preview").GetValue(0) == 1
+assert preview.GetFieldData().GetArray("FullNumberOfPoints").GetValue(0) == t.BUNNY_POINTS
+ids = t.vtk_to_numpy(preview.GetPointData().GetGlobalIds())
+assert 100 < len(ids) <= 20000
+values = t.vtk_to_numpy(preview.GetPointData().GetArray("Solution"))
+assert (values == whole[3][ids]).all()
+print("passed")

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The proxies: names, labels, defaults, categories, readers and writers by extension."""
+
+import re
+import sys
+
+import smg_testing as t
+from paraview.simple import *
+from paraview import servermanager as sm
+
+LoadPlugin(sys.argv[1], ns=globals())
+t.StreamingPoisson = StreamingPoisson
+
+reader = OpenDataFile(t.BUNNY)
+assert reader.SMProxy.GetXMLName() == "StreamingMeshReader"
+assert reader.MaximumPointsInMemory == 2000000
+assert reader.PointArrayStatus == ["OriginalId"], reader.PointArrayStatus
+poisson = StreamingPoisson(Input=reader)
+defaults = {"Weights": "Cotangent", "Operators": "extended", "Sweeps": 2, "Tolerance": 1e-6,
+            "MaximumCycles": 50, "MemoryLimit": 1024, "ScratchDirectory": "", "NumberOfPieces": 64,
+            "NumberOfThreads": 0, "Screening": 0.0, "InCore": 0, "ResultArrayName": "Solution",
+            "DirichletMask": ["POINTS", "None"], "Source": ["POINTS", "None"]}
+for name, value in defaults.items():
+    found = poisson.GetPropertyValue(name)
+    found = list(found) if isinstance(value, list) else found
+    assert found == value, (name, found)
+for name in ("Residual", "Cycles", "Passes", "PeakMemory", "Converged", "Report"):
+    assert poisson.SMProxy.GetProperty(name).GetInformationOnly(), name
+
+# A label is the name with spaces, so that the Python name is the name.
+for proxy in (reader, poisson):
+    iterator = proxy.SMProxy.NewPropertyIterator()
+    iterator.Begin()
+    while not iterator.IsAtEnd():
+        name, label = iterator.GetKey(), iterator.GetProperty().GetXMLLabel()
+        assert re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name) == label or label == name, (name, label)
+        assert iterator.GetProperty().GetDocumentation() or name in ("PointArrayInfo", "CellArrayInfo"), name
+        iterator.Next()
+
+hints = poisson.SMProxy.GetHints().FindNestedElementByName("ShowInMenu")
+assert hints.GetAttribute("category") == "Streaming Multigrid"
+writers = sm.vtkSMProxyManager.GetProxyManager().GetWriterFactory()
+names = writers.GetSupportedFileTypes(reader.SMProxy, 0)
+for extension in ("vsm", "sma", "smb", "sva", "svb"):
+    assert "*." + extension in names, names
+print("passed")

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of the plugin share."""
+
+import atexit
+import os
+import shutil
+import subprocess
+import tempfile
+
+from paraview import servermanager
+from paraview.simple import *
+from paraview.vtk.util.numpy_support import vtk_to_numpy
+
+BUNNY = os.path.join(os.environ["SMG_SOURCE_DIR"], "Examples", "Data", "bunny.smb")
+BUNNY_POINTS, BUNNY_CELLS = 34834, 69451
+
+# The ends of the bunny, held at their own positions, with a constant source.
+FEET, EARS, SOURCE = 0.04, 0.17, 2.0
+
+
+def skip(reason):
+    print("SKIPPED:", reason)
+    raise SystemExit(0)
+
+
+def make_folder():
+    """A temporary folder that goes with the test."""
+    folder = tempfile.mkdtemp(prefix="smg-test-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
+
+
+def make_problem(reader):
+    """Calculators that make the arrays Mask and Values (three components)."""
+    mask = Calculator(Input=reader)
+    mask.ResultArrayName = "Mask"
+    mask.Function = f"(coordsY <= {FEET}) | (coordsY >= {EARS})"
+    values = Calculator(Input=mask)
+    values.ResultArrayName = "Values"
+    values.Function = "coords"
+    return values
+
+
+def make_poisson(source):
+    poisson = StreamingPoisson(Input=source)
+    poisson.DirichletMask = ["POINTS", "Mask"]
+    poisson.DirichletValues = ["POINTS", "Values"]
+    poisson.InitialGuess = ["POINTS", "Values"]
+    return poisson
+
+
+def client_object(proxy):
+    return proxy.SMProxy.GetClientSideObject()
+
+
+def pull(algorithm, pieces, array=None):
+    """Asks a VTK algorithm for all pieces: for each, ids, own points, positions, values, cells."""
+    result = []
+    for piece in range(pieces):
+        algorithm.UpdatePiece(piece, pieces, 0)
+        data = algorithm.GetOutputDataObject(0)
+        points = data.GetPointData()
+        ids = vtk_to_numpy(points.GetGlobalIds()).copy()
+        own = vtk_to_numpy(points.GetArray("vtkGhostType")).copy() == 0
+        positions = vtk_to_numpy(data.GetPoints().GetData()).copy()
+        values = vtk_to_numpy(points.GetArray(array)).copy() if array else None
+        cells = data.GetPolys() if data.IsA("vtkPolyData") else data.GetCells()
+        corners = ids[vtk_to_numpy(cells.GetConnectivityArray())]
+        result.append((ids, own, positions, values, corners))
+    return result
+
+
+def run_smg(*arguments):
+    program = os.environ.get("SMG_PROGRAM")
+    if not program:
+        skip("the program smg is not built")
+    subprocess.run([program, *map(str, arguments)], check=True, timeout=500)

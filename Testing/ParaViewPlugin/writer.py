@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The writer: by extension, streamed past the guard, byte for byte."""
+
+import filecmp
+import os
+import sys
+
+import smg_testing as t
+from paraview.simple import *
+
+LoadPlugin(sys.argv[1], ns=globals())
+t.StreamingPoisson = StreamingPoisson
+
+folder = t.make_folder()
+reader = OpenDataFile(t.BUNNY)
+reader.MaximumPointsInMemory = 1000
+stream = os.path.join(folder, "again.smb")
+SaveData(stream, proxy=reader, NumberOfPieces=9)
+assert filecmp.cmp(stream, t.BUNNY, shallow=False)
+
+poisson = t.make_poisson(t.make_problem(reader))
+container = os.path.join(folder, "solved.vsm")
+SaveData(container, proxy=poisson)
+solved = OpenDataFile(container)
+solved.UpdatePipeline()
+assert solved.GetDataInformation().GetNumberOfPoints() == t.BUNNY_POINTS
+assert solved.GetDataInformation().GetNumberOfCells() == t.BUNNY_CELLS
+assert solved.PointData["Solution"].GetNumberOfComponents() == 3
+assert "Solution" in solved.PointArrayStatus
+assert sorted(os.listdir(folder)) == ["again.smb", "solved.vsm"]
+print("passed")

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Cycle/CoreCycle.h"
+#include "Solver/Cycle/RowBlockPacker.h"
+#include "Testing/Solver/HierarchyTesting.h"
+
+#include <memory>
+#include <vector>
+
+namespace smg::testing
+{
+
+/** A copy of a narrow block with wide indices. */
+inline RowBlock widened(Pool& pool, const RowBlock& narrow)
+{
+  RowBlock::Header h = narrow.header();
+  const auto from = narrow.arrays<std::int16_t>();
+  h.wide = 1;
+  Buffer buffer(pool, RowBlock::bytes(h));
+  *reinterpret_cast<RowBlock::Header*>(buffer.data()) = h;
+  RowBlock wide(std::move(buffer));
+  const auto to = wide.arrays<std::int32_t>();
+  const auto copy = [](const auto* source, std::int32_t count, const auto* target)
+  {
+    std::copy_n(source, count,
+      const_cast<std::remove_const_t<std::remove_pointer_t<decltype(target)>>*>(target));
+  };
+  copy(from.diagonal, h.nodes, to.diagonal);
+  copy(from.weight, h.entries, to.weight);
+  copy(from.delta, h.entries, to.delta);
+  copy(from.parent, h.parents, to.parent);
+  copy(from.entryEnd, h.nodes, to.entryEnd);
+  copy(from.parentEnd, h.nodes, to.parentEnd);
+  copy(from.parentQuanta, h.parents, to.parentQuanta);
+  return wide;
+}
+
+/**
+ * A hierarchy of levels in memory, as the core cycle uses it, with dense copies of its operators.
+ */
+template <class Real = float>
+class DenseHierarchy
+{
+public:
+  using TestedLevel = Level<Real, GaussSeidel>;
+  using CoarserLevel = Level<float, GaussSeidel>;
+
+  DenseHierarchy(const TestLevel& finest, int levels, int columns, int sweeps, bool wide = false)
+    : Memory(std::int64_t(1) << 32)
+  {
+    std::vector<std::unique_ptr<LevelRows>> rows;
+    std::vector<std::unique_ptr<Coarsening<RecordingOperators>>> steps;
+    rows.push_back(std::make_unique<LevelRows>(this->Memory));
+    finest.append(*rows[0], 0, finest.nodes());
+    rows[0]->Ended = true;
+    for (int l = 0; l + 1 < levels; ++l)
+    {
+      RecordingOperators operators;
+      rows.push_back(std::make_unique<LevelRows>(this->Memory));
+      steps.push_back(std::make_unique<Coarsening<RecordingOperators>>(
+        this->Memory, operators, *rows[l], *rows[l + 1]));
+      steps.back()->advance();
+      this->Records.push_back(operators.record);
+    }
+    for (int l = 0; l < levels; ++l)
+    {
+      this->Matrices.push_back(levelOf(*rows[l]).dense());
+      if (l > 0)
+      {
+        this->Coarse.push_back(
+          std::make_unique<CoarserLevel>(this->Memory, this->Resident, l, columns, sweeps));
+        this->Coarse.back()->setCore();
+      }
+    }
+    this->Finest = std::make_unique<TestedLevel>(this->Memory, this->Resident, 0, columns, sweeps);
+    this->Finest->setCore();
+    const auto fill = [&](auto& level, int l)
+    {
+      const CoarseningData* data = l + 1 < levels ? &steps[l]->data() : nullptr;
+      for (std::int64_t begin = 0; begin < rows[l]->end(); begin += RowBlock::Nodes)
+      {
+        const std::int64_t nodes = std::min(RowBlock::Nodes, rows[l]->end() - begin);
+        RowBlock block = packRows(this->Memory, *rows[l], data, begin, nodes);
+        level.append(wide ? widened(this->Memory, block) : std::move(block));
+      }
+      if (data)
+      {
+        level.setCoarse(this->Coarse[l].get());
+      }
+    };
+    fill(*this->Finest, 0);
+    for (int l = 1; l < levels; ++l)
+    {
+      fill(*this->Coarse[l - 1], l);
+    }
+  }
+
+  TestedLevel& finest() { return *this->Finest; }
+  CoarserLevel& coarse(int l) { return *this->Coarse[l - 1]; }
+  const Eigen::MatrixXd& matrix(int l) const { return this->Matrices[l]; }
+  Eigen::MatrixXd interpolation(int l) const { return this->Records[l]->interpolation(); }
+
+private:
+  Pool Memory;
+  ResidentNodes Resident;
+  std::vector<Eigen::MatrixXd> Matrices;
+  std::vector<std::shared_ptr<CoarseningRecord>> Records;
+  std::unique_ptr<TestedLevel> Finest;
+  std::vector<std::unique_ptr<CoarserLevel>> Coarse;
+};
+
+/** State of a level as a matrix, a row a node, and back. */
+template <class Real>
+Eigen::MatrixXd stateOf(const Ring<Real>& state, int columns)
+{
+  Eigen::MatrixXd values(state.end(), columns);
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
+  {
+    for (int k = 0; k < columns; ++k)
+    {
+      values(i, k) = state.at(i)[k];
+    }
+  }
+  return values;
+}
+
+template <class Real>
+void setState(Ring<Real>& state, const Eigen::MatrixXd& values)
+{
+  std::fill(state.at(0), state.at(state.end()), Real{});
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
+  {
+    for (Eigen::Index k = 0; k < values.cols(); ++k)
+    {
+      state.at(i)[k] = static_cast<Real>(values(i, k));
+    }
+  }
+}
+
+/** One forward Gauss-Seidel sweep. */
+inline void denseSweep(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& x)
+{
+  for (Eigen::Index i = 0; i < a.rows(); ++i)
+  {
+    x.row(i) += (b.row(i) - a.row(i) * x) / a(i, i);
+  }
+}
+
+inline Eigen::MatrixXd randomMatrix(Eigen::Index rows, Eigen::Index columns, std::uint64_t seed)
+{
+  Random random(seed);
+  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return random.uniform(-1.0, 1.0); });
+}
+
+} // namespace smg::testing

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Cycle/GaussSeidel.h"
+#include "Solver/Hierarchy/Coarsening.h"
+#include "Solver/Hierarchy/ExtendedInterpolation.h"
+#include "Solver/Hierarchy/GalerkinProduct.h"
+#include "Solver/Hierarchy/Sparsification.h"
+#include "Testing/Support/EdgeWeights.h"
+#include "Testing/Support/MemorySource.h"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace smg::testing
+{
+
+/** The rows of a level, all of them. */
+struct TestLevel
+{
+  std::vector<std::vector<RowEntry>> rows;
+  std::vector<double> alpha;
+
+  std::int64_t nodes() const { return static_cast<std::int64_t>(this->rows.size()); }
+
+  float strongest(std::int64_t i) const
+  {
+    float largest = 0.0F;
+    for (const RowEntry& entry : this->rows[i])
+    {
+      largest = std::max(largest, entry.weight);
+    }
+    return largest;
+  }
+
+  Eigen::MatrixXd dense() const
+  {
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(this->nodes(), this->nodes());
+    for (std::int64_t i = 0; i < this->nodes(); ++i)
+    {
+      a(i, i) = this->alpha[i];
+      for (const RowEntry& entry : this->rows[i])
+      {
+        a(i, i) += entry.weight;
+        a(i, i + entry.delta) = -static_cast<double>(entry.weight);
+      }
+    }
+    return a;
+  }
+
+  /** Appends rows [begin, end) to the level's window. */
+  void append(LevelRows& to, std::int64_t begin, std::int64_t end) const
+  {
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      const auto size = static_cast<std::int64_t>(this->rows[i].size());
+      std::copy(this->rows[i].begin(), this->rows[i].end(), to.open(size));
+      to.close(size, this->alpha[i], -1);
+    }
+  }
+};
+
+inline TestLevel levelOf(const LevelRows& rows)
+{
+  TestLevel level;
+  for (std::int64_t i = 0; i < rows.end(); ++i)
+  {
+    const auto row = rows.row(i);
+    level.rows.emplace_back(row.begin(), row.end());
+    level.alpha.push_back(rows.alpha(i));
+  }
+  return level;
+}
+
+/**
+ * The finest level of a mesh. Every `every`-th vertex is constrained: it has an empty row, and its
+ * neighbours have its weight in alpha; 0: none is.
+ */
+inline TestLevel finestLevel(const StreamMesh& mesh, Weights weights, std::int64_t every = 0)
+{
+  MemorySource source(mesh);
+  EdgeWeights edges(source.info(), weights);
+  MeshBlock block;
+  while (source.next(block))
+  {
+    edges.add(block, mesh.positions);
+  }
+  edges.finish(mesh.positions);
+  TestLevel level;
+  level.rows.resize(mesh.vertices());
+  level.alpha.resize(mesh.vertices());
+  const auto isFixed = [&](std::int64_t v) { return every > 0 && v % every == every / 2; };
+  const auto add = [&](std::int64_t i, std::int64_t j, double weight)
+  {
+    if (isFixed(i))
+    {
+      level.alpha[i] = 1.0;
+    }
+    else if (isFixed(j))
+    {
+      level.alpha[i] += static_cast<float>(weight);
+    }
+    else
+    {
+      level.rows[i].push_back({ static_cast<std::int32_t>(j - i), static_cast<float>(weight) });
+    }
+  };
+  for (const EdgeWeight& edge : edges.edges())
+  {
+    add(edge.from, edge.to, edge.weight);
+    add(edge.to, edge.from, edge.weight);
+  }
+  for (auto& row : level.rows)
+  {
+    std::sort(row.begin(), row.end(),
+      [](const RowEntry& a, const RowEntry& b) { return a.delta < b.delta; });
+  }
+  return level;
+}
+
+/** What a coarsening did, to look at when its windows have moved on. */
+struct CoarseningRecord
+{
+  struct Parent
+  {
+    std::int64_t coarse;
+    std::uint32_t quanta;
+    bool operator==(const Parent&) const = default;
+  };
+  std::vector<std::int64_t> lifted; ///< of each fine node: its coarse node, or -1
+  std::vector<std::vector<Parent>> parents;
+  TestLevel raw; ///< P^T A P before sparsification
+
+  std::int64_t coarseNodes() const { return this->raw.nodes(); }
+  Eigen::MatrixXd interpolation() const
+  {
+    Eigen::MatrixXd p = Eigen::MatrixXd::Zero(this->parents.size(), this->coarseNodes());
+    for (std::size_t i = 0; i < this->parents.size(); ++i)
+    {
+      for (const Parent& parent : this->parents[i])
+      {
+        p(i, parent.coarse) += parent.quanta / 255.0;
+      }
+    }
+    return p;
+  }
+};
+
+/** An operator set from the parts of the default one, with chosen parameters, that keeps a record.
+ */
+class RecordingOperators
+{
+public:
+  static constexpr const char* name = "recording";
+  using Relaxation = GaussSeidel;
+  static RecordingOperators forCells(CellType) { return {}; }
+
+  float strength = 0.1F;
+  int entries = 4;
+  float tolerance = 0.1F; ///< of sparsification; 0: the raw product
+  std::shared_ptr<CoarseningRecord> record = std::make_shared<CoarseningRecord>();
+
+  bool lift(const CoarseningData& data, std::int64_t i)
+  {
+    this->Interpolation.lifting.strength = this->strength;
+    this->Interpolation.entries = this->entries;
+    const bool lifted = this->Interpolation.lifting(data, i);
+    this->record->lifted.push_back(lifted ? data.coarseNodes : -1);
+    return lifted;
+  }
+  void interpolateInitial(CoarseningData& data, std::int64_t i)
+  {
+    this->Interpolation.initial(data, i);
+  }
+  void interpolate(CoarseningData& data, std::int64_t i)
+  {
+    this->Interpolation(data, i);
+    auto& parents = this->record->parents.emplace_back();
+    const InterpolationEntry* entry = data.interpolation.row(i);
+    for (std::int64_t e = 0; e < data.interpolation.size(i); ++e)
+    {
+      const std::int64_t near = data.coarseNodes;
+      parents.push_back({ near + offset(entry[e].coarse, near), entry[e].quanta });
+    }
+  }
+  void multiply(CoarseningData& data, std::int64_t i) { this->Product.multiply(data, i); }
+  void gather(CoarseningData& data, std::int64_t c)
+  {
+    this->Product.gather(data, c);
+    const RowEntry* row = data.raw.row(c);
+    this->record->raw.rows.emplace_back(row, row + data.raw.size(c));
+    this->record->raw.alpha.push_back(data.rawAlpha[c]);
+  }
+  void sparsify(CoarseningData& data, std::int64_t c) const
+  {
+    Sparsification{ this->tolerance }(data, c);
+  }
+
+private:
+  ExtendedInterpolation Interpolation;
+  GalerkinProduct Product;
+};
+
+static_assert(OperatorSet<RecordingOperators>);
+
+/** A level, what became of it, and the next level. */
+struct CoarsenedLevel
+{
+  TestLevel fine;
+  CoarseningRecord record;
+  TestLevel coarse;
+};
+
+/** Coarsens a level whose rows come `batch` at a time; their copies are kept as a solve does. */
+inline CoarsenedLevel coarsen(const TestLevel& fine, RecordingOperators operators,
+  std::int64_t batch = std::numeric_limits<std::int64_t>::max())
+{
+  operators.record = std::make_shared<CoarseningRecord>();
+  Pool pool(std::int64_t(1) << 32);
+  LevelRows fineRows(pool);
+  LevelRows coarseRows(pool);
+  Coarsening<RecordingOperators> step(pool, operators, fineRows, coarseRows);
+  for (std::int64_t begin = 0; begin < fine.nodes();)
+  {
+    const std::int64_t end = begin + std::min(batch, fine.nodes() - begin);
+    fine.append(fineRows, begin, end);
+    fineRows.Ended = end == fine.nodes();
+    step.advance();
+    step.packed(step.interpolated());
+    step.release();
+    begin = end;
+  }
+  EXPECT_TRUE(coarseRows.Ended);
+  return { fine, *operators.record, levelOf(coarseRows) };
+}
+
+} // namespace smg::testing

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Cycle/Level.h"
+#include "Testing/Solver/CycleTesting.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace smg::testing
+{
+namespace
+{
+
+TestLevel surfaceLevel()
+{
+  return finestLevel(toStream(shuffled(torus(50, 24, 0.4))), Weights::Cotangent, 37);
+}
+
+TestLevel solidLevel()
+{
+  return finestLevel(toStream(shuffled(tetBox(9, 8, 8, 0.15))), Weights::Cotangent, 23);
+}
+
+template <class Real>
+bool sameState(const Ring<Real>& a, const Ring<Real>& b)
+{
+  return a.end() == b.end() && std::memcmp(a.at(0), b.at(0),
+                                 sizeof(Real) * a.lanes() * static_cast<std::size_t>(a.end())) == 0;
+}
+
+} // namespace
+
+TEST(Level, relaxationIsForwardGaussSeidel)
+{
+  for (const TestLevel& level : { surfaceLevel(), solidLevel() })
+  {
+    for (const int columns : { 1, 2, 3, 5, 8 })
+    {
+      DenseHierarchy<double> h(level, 2, columns, 3);
+      const Eigen::MatrixXd b = randomMatrix(level.nodes(), columns, 1);
+      setState(h.finest().window().b(), b);
+      h.finest().relaxDown();
+      Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(level.nodes(), columns);
+      for (int sweep = 0; sweep < 3; ++sweep)
+      {
+        denseSweep(h.matrix(0), b, expected);
+      }
+      EXPECT_LT(
+        (stateOf(h.finest().window().x(), columns) - expected).cwiseAbs().maxCoeff(), 1e-12);
+
+      setState(h.finest().window().x(), expected = randomMatrix(level.nodes(), columns, 2));
+      h.finest().relaxUp();
+      for (int sweep = 0; sweep < 3; ++sweep)
+      {
+        denseSweep(h.matrix(0), b, expected);
+      }
+      EXPECT_LT(
+        (stateOf(h.finest().window().x(), columns) - expected).cwiseAbs().maxCoeff(), 1e-12);
+    }
+  }
+}
+
+TEST(Level, restrictionIsTheTransposeOfProlongation)
+{
+  for (const TestLevel& level : { surfaceLevel(), solidLevel() })
+  {
+    DenseHierarchy<double> h(level, 2, 1, 1);
+    Ring<double>& x = h.finest().window().x();
+    Ring<double>& b = h.finest().window().b();
+    Ring<float>& coarseX = h.coarse(1).window().x();
+    Ring<float>& coarseB = h.coarse(1).window().b();
+    const Eigen::Index nodes = level.nodes();
+    const Eigen::Index parents = h.matrix(1).rows();
+    Eigen::MatrixXd prolongation(nodes, parents);
+    for (Eigen::Index c = 0; c < parents; ++c)
+    {
+      setState(x, Eigen::VectorXd::Zero(nodes));
+      setState(coarseX, Eigen::VectorXd::Unit(parents, c));
+      h.finest().prolongAll();
+      prolongation.col(c) = stateOf(x, 1);
+    }
+    EXPECT_LT((prolongation - h.interpolation(0)).cwiseAbs().maxCoeff(), 1e-7);
+
+    Eigen::MatrixXd restriction(parents, nodes);
+    setState(x, Eigen::VectorXd::Zero(nodes));
+    for (Eigen::Index i = 0; i < nodes; ++i)
+    {
+      setState(b, Eigen::VectorXd::Unit(nodes, i));
+      setState(coarseB, Eigen::VectorXd::Zero(parents));
+      h.finest().restrictAll();
+      restriction.col(i) = stateOf(coarseB, 1);
+    }
+    EXPECT_EQ(restriction, prolongation.transpose());
+  }
+}
+
+TEST(Level, restrictsTheResidualAndMeasuresIt)
+{
+  for (const TestLevel& level : { surfaceLevel(), solidLevel() })
+  {
+    for (const int columns : { 1, 3, 5 })
+    {
+      DenseHierarchy<double> h(level, 2, columns, 1);
+      const Eigen::MatrixXd x = randomMatrix(level.nodes(), columns, 3);
+      const Eigen::MatrixXd b = randomMatrix(level.nodes(), columns, 4);
+      setState(h.finest().window().x(), x);
+      setState(h.finest().window().b(), b);
+      h.finest().restrictAll();
+      const Eigen::MatrixXd residual = b - h.matrix(0) * x;
+      const Eigen::MatrixXd expected = h.interpolation(0).transpose() * residual;
+      EXPECT_LT((stateOf(h.coarse(1).window().b(), columns) - expected).cwiseAbs().maxCoeff(),
+        1e-5 * expected.cwiseAbs().maxCoeff());
+      for (int k = 0; k < columns; ++k)
+      {
+        const double squares = residual.col(k).squaredNorm();
+        EXPECT_NEAR(h.finest().squares()[k], squares, 1e-12 * squares);
+      }
+    }
+  }
+}
+
+TEST(Level, narrowAndWideBlocksGiveTheSameBits)
+{
+  for (const TestLevel& level : { surfaceLevel(), solidLevel() })
+  {
+    for (const int columns : { 1, 5 })
+    {
+      DenseHierarchy<double> narrow(level, 2, columns, 2);
+      DenseHierarchy<double> wide(level, 2, columns, 2, true);
+      EXPECT_EQ(narrow.finest().window().header(0).wide, 0);
+      EXPECT_EQ(wide.finest().window().header(0).wide, 1);
+      const Eigen::MatrixXd correction = randomMatrix(narrow.matrix(1).rows(), columns, 6);
+      for (auto* h : { &narrow, &wide })
+      {
+        setState(h->finest().window().b(), randomMatrix(level.nodes(), columns, 5));
+        h->finest().relaxDown();
+        h->finest().restrictAll();
+        setState(h->coarse(1).window().x(), correction);
+        h->finest().prolongAll();
+        h->finest().relaxUp();
+      }
+      EXPECT_TRUE(sameState(narrow.finest().window().x(), wide.finest().window().x()));
+      EXPECT_TRUE(sameState(narrow.coarse(1).window().b(), wide.coarse(1).window().b()));
+      EXPECT_EQ(narrow.finest().squares(), wide.finest().squares());
+    }
+  }
+}
+
+TEST(RowBlockPacker, turnsWideWhereADistanceOrACountDoesNotFit)
+{
+  Pool pool(1 << 28);
+  const auto isWide = [&](std::int32_t distance, std::int64_t entries)
+  {
+    LevelRows rows(pool);
+    RowEntry* row = rows.open(entries);
+    for (std::int64_t e = 0; e < entries; ++e)
+    {
+      row[e] = { static_cast<std::int32_t>(distance - entries + 1 + e), 1.0F };
+    }
+    rows.close(entries, 0.0, -1);
+    return packRows(pool, rows, nullptr, 0, 1).header().wide != 0;
+  };
+  EXPECT_FALSE(isWide(32767, 1));
+  EXPECT_TRUE(isWide(32768, 1));
+  EXPECT_FALSE(isWide(32767, 32767));
+  EXPECT_TRUE(isWide(70000, 70000));
+}
+
+TEST(RowBlockPacker, keepsRowsAndReaches)
+{
+  const TestLevel level = finestLevel(toStream(shuffled(grid(60, 40, 0.1))), Weights::Cotangent);
+  Pool pool(1 << 28);
+  LevelRows rows(pool);
+  level.append(rows, 0, level.nodes());
+  for (std::int64_t first = 0; first < level.nodes(); first += RowBlock::Nodes)
+  {
+    const std::int64_t nodes = std::min(RowBlock::Nodes, level.nodes() - first);
+    const RowBlock block = packRows(pool, rows, nullptr, first, nodes);
+    const RowBlock::Header& h = block.header();
+    const auto a = block.arrays<std::int16_t>();
+    EXPECT_EQ(block.buffer().size(), RowBlock::bytes(h));
+    EXPECT_EQ(block.end(), first + nodes);
+    for (std::int64_t k = 0; k < nodes; ++k)
+    {
+      const BlockRange row = entriesOf(h, a, k);
+      const auto& expected = level.rows[first + k];
+      ASSERT_EQ(row.end - row.begin, static_cast<std::int64_t>(expected.size()));
+      for (std::int64_t e = row.begin; e < row.end; ++e)
+      {
+        EXPECT_EQ(a.delta[e], expected[e - row.begin].delta);
+        EXPECT_EQ(a.weight[e], expected[e - row.begin].weight);
+        EXPECT_LE(first + k + a.delta[e], h.neighbourReach[k / RowBlock::Group]);
+      }
+      EXPECT_EQ(a.diagonal[k], rows.diagonal(first + k));
+    }
+  }
+}
+
+} // namespace smg::testing

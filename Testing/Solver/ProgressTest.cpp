@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Core/Progress.h"
+#include "Testing/Solver/SolveTesting.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+namespace smg::testing
+{
+namespace
+{
+
+StreamMesh testMesh()
+{
+  return toStream(torus(120, 60, 0.3));
+}
+
+} // namespace
+
+TEST(Progress, neverDecreasesAndStopsWhenRefused)
+{
+  std::vector<double> seen;
+  Progress progress(
+    [&](double fraction)
+    {
+      seen.push_back(fraction);
+      return seen.size() < 4;
+    });
+  progress.update(0.5);
+  progress.update(0.2);
+  progress.update(3.0);
+  EXPECT_THROW(progress.update(1.0), Cancelled);
+  EXPECT_EQ(seen, (std::vector<double>{ 0.5, 0.5, 1.0, 1.0 }));
+  EXPECT_NO_THROW(Progress().update(0.5));
+}
+
+TEST(Progress, ofASolveRisesFromNearZeroToOne)
+{
+  const StreamMesh mesh = testMesh();
+  ArrayProblem problem = fixedEnds(mesh);
+  for (const bool core : { false, true })
+  {
+    for (const int maxCycles : { 1, 2, 50 })
+    {
+      std::vector<double> seen;
+      SolveOptions options;
+      options.inCore = core;
+      options.maxCycles = maxCycles;
+      options.blockNodes = 500;
+      options.coreNodes = 500;
+      options.progress = [&](double fraction)
+      {
+        seen.push_back(fraction);
+        return true;
+      };
+      solveMesh(mesh, problem, options, 200);
+      ASSERT_GT(seen.size(), 50U);
+      EXPECT_LT(seen.front(), 0.1);
+      EXPECT_GE(seen.front(), 0.0);
+      EXPECT_EQ(seen.back(), 1.0);
+      EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+      // It is not all in one jump.
+      double jump = 0.0;
+      for (std::size_t k = 1; k < seen.size(); ++k)
+      {
+        jump = std::max(jump, seen[k] - seen[k - 1]);
+      }
+      EXPECT_LT(jump, maxCycles == 50 ? 0.3 : 0.7);
+    }
+  }
+}
+
+TEST(Progress, cancellingAnywhereLeavesNoScratchFile)
+{
+  const TemporaryFolder folder;
+  const StreamMesh mesh = testMesh();
+  ArrayProblem problem = fixedEnds(mesh);
+  for (const double limit : { 0.0, 0.05, 0.15, 0.3, 0.39, 0.45, 0.55, 0.7, 0.9, 1.0 })
+  {
+    SolveOptions options = accurate();
+    options.scratch = folder.path();
+    options.coreNodes = 500;
+    bool refused = false;
+    options.progress = [&](double fraction)
+    {
+      EXPECT_FALSE(refused);
+      refused = fraction >= limit;
+      return !refused;
+    };
+    EXPECT_THROW(solveMesh(mesh, problem, options, 200), Cancelled) << "at " << limit;
+    EXPECT_TRUE(refused);
+    EXPECT_EQ(folder.entries(), 0) << "cancelled at " << limit;
+  }
+}
+
+TEST(Progress, anExceptionOfTheCallbackPassesThrough)
+{
+  const TemporaryFolder folder;
+  const StreamMesh mesh = testMesh();
+  ArrayProblem problem = fixedEnds(mesh);
+  SolveOptions options;
+  options.scratch = folder.path();
+  options.progress = [](double fraction) -> bool
+  { return fraction < 0.5 ? true : throw std::runtime_error("the caller's own"); };
+  EXPECT_THROW(solveMesh(mesh, problem, options), std::runtime_error);
+  EXPECT_EQ(folder.entries(), 0);
+}
+
+} // namespace smg::testing

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Storage/Ring.h"
+#include "Solver/Core/Error.h"
+#include "Testing/Support/TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace smg::testing
+{
+
+TEST(Ring, itemsKeepTheirValuesWhileTheWindowMovesAndGrows)
+{
+  Pool pool(1 << 30);
+  for (const int lanes : { 1, 3, 4, 12 })
+  {
+    Ring<double> ring(pool, lanes);
+    Random random(lanes);
+    const auto value = [](std::int64_t i, int k) { return 1000.0 * static_cast<double>(i) + k; };
+    for (std::int64_t first = 0, end = 0; end < 60000;)
+    {
+      const std::int64_t next = end + 1 + random.below(random.below(20) == 0 ? 4000 : 300);
+      ring.extend(next);
+      for (; end < next; ++end)
+      {
+        for (int k = 0; k < lanes; ++k)
+        {
+          ASSERT_EQ(ring.at(end)[k], 0.0);
+          ring.at(end)[k] = value(end, k);
+        }
+      }
+      for (std::int64_t i = first; i < end; i += 7)
+      {
+        ASSERT_EQ(ring.at(i)[lanes - 1], value(i, lanes - 1));
+      }
+      // The same from any item, over the end of the memory.
+      ASSERT_EQ(ring.at(first)[lanes * (end - 1 - first)], value(end - 1, 0));
+      first += random.below(end - first + 1);
+      ring.release(first);
+      ASSERT_EQ(ring.first(), first);
+      ASSERT_EQ(ring.end(), end);
+    }
+  }
+}
+
+TEST(Ring, needsMemoryForTheWindowOnly)
+{
+  Pool pool(1 << 30);
+  Ring<std::int32_t> ring(pool);
+  for (std::int64_t i = 0; i < 1000000; ++i)
+  {
+    ring.extendRaw(i + 1);
+    ring[i] = static_cast<std::int32_t>(i);
+    ring.release(i - 1000);
+  }
+  EXPECT_LE(pool.peak(), 4 * 4096);
+  ring.clear();
+  EXPECT_EQ(pool.used(), 0);
+  EXPECT_EQ(ring.end(), 0);
+}
+
+TEST(Ring, startsAgainAnywhere)
+{
+  Pool pool(1 << 20);
+  Ring<std::int64_t> ring(pool, 2);
+  ring.extend(5000);
+  ring.restart(123456789);
+  EXPECT_EQ(ring.first(), 123456789);
+  ring.extend(123456789 + 3000);
+  ring[123456789] = 1;
+  ring[123456789 + 2999] = 2;
+  ring.extend(123456789 + 30000);
+  EXPECT_EQ(ring[123456789], 1);
+  EXPECT_EQ(ring[123456789 + 2999], 2);
+}
+
+TEST(Ring, aRefusedGrowthLeavesItWhole)
+{
+  Pool pool(1 << 16);
+  Ring<std::int64_t> ring(pool);
+  ring.extend(1000);
+  ring[999] = 7;
+  EXPECT_THROW(ring.extend(1000000), Error);
+  EXPECT_EQ(ring.end(), 1000);
+  EXPECT_EQ(ring[999], 7);
+  ring.extend(1500);
+  EXPECT_EQ(ring[999], 7);
+}
+
+TEST(RaggedRing, rowsKeepTheirEntries)
+{
+  Pool pool(1 << 30);
+  RaggedRing<std::int32_t> rows(pool);
+  Random random(5);
+  std::vector<std::vector<std::int32_t>> expected;
+  std::int64_t first = 0;
+  for (std::int64_t row = 0; row < 20000; ++row)
+  {
+    const std::int64_t room = random.below(random.below(100) == 0 ? 3000 : 20);
+    std::int32_t* entries = rows.open(room);
+    const std::int64_t size = random.below(room + 1);
+    expected.emplace_back();
+    for (std::int64_t e = 0; e < size; ++e)
+    {
+      entries[e] = static_cast<std::int32_t>(random.bits());
+      expected.back().push_back(entries[e]);
+    }
+    rows.close(size);
+    ASSERT_EQ(rows.end(), row + 1);
+    if (random.below(50) == 0)
+    {
+      for (std::int64_t r = first; r <= row; ++r)
+      {
+        ASSERT_EQ(std::vector(rows.row(r), rows.row(r) + rows.size(r)), expected[r]);
+      }
+      first += random.below(row - first + 2);
+      rows.release(first);
+    }
+  }
+}
+
+} // namespace smg::testing

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Storage/ScratchStream.h"
+#include "Solver/Core/Error.h"
+#include "Solver/Storage/ScratchFolder.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace smg::testing
+{
+namespace
+{
+
+/** Block `index` of generation `generation`: 0 to 2000 numbers that tell both. */
+std::vector<std::int32_t> blockOf(int generation, int index)
+{
+  return std::vector<std::int32_t>((index * 37 + generation) % 2000, 1000 * generation + index);
+}
+
+void append(ScratchStream& stream, int generation, int index)
+{
+  stream.append(std::as_bytes(std::span<const std::int32_t>(blockOf(generation, index))));
+}
+
+std::vector<std::int32_t> readNext(ScratchStream& stream)
+{
+  std::vector<std::int32_t> block(stream.nextBytes() / 4);
+  stream.read(std::as_writable_bytes(std::span(block)));
+  return block;
+}
+
+} // namespace
+
+TEST(ScratchStream, aPassReadsWhatTheLastRewritingPassWrote)
+{
+  constexpr int Blocks = 50;
+  const TemporaryFolder folder;
+  IoStatistics statistics;
+  {
+    ScratchStream stream(folder / "stream", statistics);
+    stream.startPass(true);
+    for (int i = 0; i < Blocks; ++i)
+    {
+      append(stream, 0, i);
+    }
+    stream.endPass();
+    int generation = 0;
+    for (const bool rewrite : { false, true, true, false, true, false })
+    {
+      stream.startPass(rewrite);
+      for (int i = 0; i < Blocks; ++i)
+      {
+        EXPECT_EQ(readNext(stream), blockOf(generation, i));
+        // Written a little behind, as windows do.
+        if (rewrite && i >= 3)
+        {
+          append(stream, generation + 1, i - 3);
+        }
+      }
+      for (int i = Blocks - 3; rewrite && i < Blocks; ++i)
+      {
+        append(stream, generation + 1, i);
+      }
+      stream.endPass();
+      generation += rewrite ? 1 : 0;
+      EXPECT_EQ(folder.entries(), 1);
+    }
+    EXPECT_GT(statistics.bytesRead, 0);
+    EXPECT_GT(statistics.bytesWritten, 0);
+  }
+  EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(ScratchStream, anyBlockCanBeReadBetweenPasses)
+{
+  const TemporaryFolder folder;
+  IoStatistics statistics;
+  ScratchStream stream(folder / "stream", statistics);
+  stream.startPass(true);
+  for (int i = 0; i < 20; ++i)
+  {
+    append(stream, 5, i);
+  }
+  stream.endPass();
+  for (const int i : { 13, 2, 19, 0, 13 })
+  {
+    std::vector<std::int32_t> block(stream.bytes(i) / 4);
+    stream.read(i, std::as_writable_bytes(std::span(block)));
+    EXPECT_EQ(block, blockOf(5, i));
+  }
+}
+
+TEST(ScratchStream, anAbandonedPassLeavesNoFile)
+{
+  const TemporaryFolder folder;
+  IoStatistics statistics;
+  {
+    ScratchStream stream(folder / "stream", statistics);
+    stream.startPass(true);
+    append(stream, 0, 7);
+  }
+  EXPECT_EQ(folder.entries(), 0);
+  {
+    ScratchStream stream(folder / "stream", statistics);
+    stream.startPass(true);
+    append(stream, 0, 7);
+    stream.endPass();
+    stream.startPass(true);
+    append(stream, 1, 7);
+  }
+  EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(ScratchFolder, isRemovedWithAllItHolds)
+{
+  const TemporaryFolder folder;
+  {
+    const ScratchFolder a(folder.path());
+    const ScratchFolder b(folder.path());
+    EXPECT_NE(a.path(), b.path());
+    EXPECT_EQ(folder.entries(), 2);
+    std::filesystem::create_directories(a.path() / "x" / "y");
+  }
+  EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(ScratchFolder, inAPlaceThatDoesNotExistIsAnErrorThatNamesIt)
+{
+  const TemporaryFolder folder;
+  try
+  {
+    const ScratchFolder scratch(folder / "nowhere");
+    FAIL();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find((folder / "nowhere").string()), std::string::npos);
+  }
+}
+
+} // namespace smg::testing

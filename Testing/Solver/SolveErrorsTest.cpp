@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Solver/SolveTesting.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+// What is wrong ends in one sentence, and no scratch file is left.
+
+namespace smg::testing
+{
+namespace
+{
+
+constexpr double NotANumber = std::numeric_limits<double>::quiet_NaN();
+constexpr double Infinite = std::numeric_limits<double>::infinity();
+
+/** The sentence of the Error that solving ends with. */
+std::string errorOfSolve(MeshSource& source, Problem& problem, SolveOptions options = {})
+{
+  const TemporaryFolder folder;
+  options.scratch = folder.path();
+  const std::string sentence = errorOf([&] { solve(source, problem, options); });
+  EXPECT_EQ(folder.entries(), 0);
+  EXPECT_EQ(sentence.find('\n'), std::string::npos);
+  return sentence;
+}
+
+std::string errorOfSolve(const StreamMesh& mesh, Problem& problem, const SolveOptions& options = {})
+{
+  MemorySource source(mesh, 100);
+  return errorOfSolve(source, problem, options);
+}
+
+/** Two triangles in two blocks. */
+std::vector<MeshBlock> twoBlocks()
+{
+  MeshBlock first;
+  first.positions = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+  first.corners = { 0, 1, 2 };
+  MeshBlock second;
+  second.firstVertex = 3;
+  second.firstCell = 1;
+  second.positions = { 1, 1, 0 };
+  second.corners = { 1, 3, 2 };
+  second.finalized = 4;
+  return { first, second };
+}
+
+std::string errorOfBlocks(std::vector<MeshBlock> blocks)
+{
+  BlockSource source(CellType::Triangle, std::move(blocks));
+  ArrayProblem problem;
+  return errorOfSolve(source, problem);
+}
+
+bool contains(const std::string& sentence, const std::string& part)
+{
+  return sentence.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST(SolveErrors, numbersThatAreNotFinite)
+{
+  const StreamMesh mesh = toStream(torus(30, 20));
+  for (const double bad : { NotANumber, Infinite, -Infinite })
+  {
+    for (const std::int64_t vertex : { std::int64_t(0), std::int64_t(333), mesh.vertices() - 1 })
+    {
+      StreamMesh broken = mesh;
+      broken.positions[3 * vertex + 1] = bad;
+      ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+      EXPECT_TRUE(contains(errorOfSolve(broken, problem), "finite")) << vertex;
+      ArrayProblem value = problem;
+      value.Value[vertex] = bad;
+      EXPECT_TRUE(contains(errorOfSolve(mesh, value), "finite"));
+      ArrayProblem source = problem;
+      source.Source.resize(mesh.vertices());
+      source.Source[vertex] = bad;
+      EXPECT_TRUE(contains(errorOfSolve(mesh, source), "finite"));
+    }
+    ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+    problem.Target = [bad](const double* p, const double*, double* d)
+    { d[0] = p[0] > 2 ? bad : 0.0; };
+    EXPECT_TRUE(contains(errorOfSolve(mesh, problem), "finite"));
+    problem.Target = {};
+    problem.Screening = bad;
+    EXPECT_TRUE(contains(errorOfSolve(mesh, problem), "screening"));
+  }
+}
+
+TEST(SolveErrors, valuesWhoseSquaresOverflow)
+{
+  const StreamMesh mesh = toStream(torus(30, 20));
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+  for (double& value : problem.Value)
+  {
+    value *= 1e300;
+  }
+  EXPECT_NE(errorOfSolve(mesh, problem), "");
+}
+
+TEST(SolveErrors, validBlocksAreNone)
+{
+  EXPECT_EQ(errorOfBlocks(twoBlocks()), "");
+}
+
+TEST(SolveErrors, aVertexUsedAfterItWasFinal)
+{
+  auto blocks = twoBlocks();
+  blocks[0].finalized = 2;
+  const std::string sentence = errorOfBlocks(blocks);
+  EXPECT_TRUE(contains(sentence, "cell 1")) << sentence;
+  EXPECT_TRUE(contains(sentence, "vertex 1")) << sentence;
+  EXPECT_TRUE(contains(sentence, "final")) << sentence;
+}
+
+TEST(SolveErrors, aCornerOutOfRange)
+{
+  for (const std::int64_t corner : { std::int64_t(4), std::int64_t(-1), INT64_MAX, INT64_MIN })
+  {
+    auto blocks = twoBlocks();
+    blocks[1].corners[2] = corner;
+    const std::string sentence = errorOfBlocks(blocks);
+    EXPECT_TRUE(contains(sentence, "cell 1")) << sentence;
+    EXPECT_TRUE(contains(sentence, std::to_string(corner))) << sentence;
+  }
+  auto blocks = twoBlocks();
+  blocks[0].corners[2] = 3;
+  EXPECT_TRUE(contains(errorOfBlocks(blocks), "vertex 3"));
+}
+
+TEST(SolveErrors, blocksThatDoNotFollowEachOther)
+{
+  auto blocks = twoBlocks();
+  blocks[1].firstVertex = 5;
+  EXPECT_TRUE(contains(errorOfBlocks(blocks), "5"));
+  blocks = twoBlocks();
+  blocks[1].finalized = 9;
+  EXPECT_TRUE(contains(errorOfBlocks(blocks), "9"));
+  blocks = twoBlocks();
+  blocks[1].corners.pop_back();
+  EXPECT_NE(errorOfBlocks(blocks), "");
+  blocks = twoBlocks();
+  blocks[1].positions.pop_back();
+  EXPECT_NE(errorOfBlocks(blocks), "");
+}
+
+TEST(SolveErrors, finalVerticesThatBecomeFewer)
+{
+  auto blocks = twoBlocks();
+  blocks[0].finalized = 1;
+  blocks[1].finalized = 0;
+  EXPECT_EQ(errorOfBlocks(blocks), "");
+}
+
+TEST(SolveErrors, ofTheSourcePassThrough)
+{
+  /** A file that ends too early. */
+  class Truncated : public MemorySource
+  {
+  public:
+    using MemorySource::MemorySource;
+    bool next(MeshBlock& block) override
+    {
+      return ++this->Calls <= 20 ? MemorySource::next(block) : throw Error("the file is truncated");
+    }
+
+  private:
+    int Calls = 0;
+  };
+  const StreamMesh mesh = toStream(torus(60, 40));
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+  Truncated source(mesh, 100);
+  EXPECT_EQ(errorOfSolve(source, problem), "the file is truncated");
+}
+
+TEST(SolveErrors, aMeshWithoutVertices)
+{
+  EXPECT_TRUE(contains(errorOfBlocks({}), "no vertices"));
+}
+
+TEST(SolveErrors, optionsOutOfRange)
+{
+  const StreamMesh mesh = toStream(torus(10, 10));
+  const std::vector<std::function<void(SolveOptions&)>> faults{
+    [](SolveOptions& o) { o.operators = "none"; },
+    [](SolveOptions& o) { o.sweeps = 0; },
+    [](SolveOptions& o) { o.sweeps = 21; },
+    [](SolveOptions& o) { o.tolerance = 0.0; },
+    [](SolveOptions& o) { o.tolerance = 1.0; },
+    [](SolveOptions& o) { o.tolerance = -1e-6; },
+    [](SolveOptions& o) { o.tolerance = NotANumber; },
+    [](SolveOptions& o) { o.maxCycles = 0; },
+    [](SolveOptions& o) { o.memoryLimit = 0; },
+    [](SolveOptions& o) { o.memoryLimit = -5; },
+    [](SolveOptions& o) { o.threads = -1; },
+    [](SolveOptions& o) { o.blockNodes = 0; },
+    [](SolveOptions& o) { o.coreNodes = -1; },
+  };
+  for (std::size_t k = 0; k < faults.size(); ++k)
+  {
+    ArrayProblem problem = heldEnds(mesh, 1, Weights::Uniform);
+    SolveOptions options;
+    faults[k](options);
+    EXPECT_NE(errorOfSolve(mesh, problem, options), "") << "fault " << k;
+  }
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Uniform);
+  problem.Columns = 0;
+  EXPECT_NE(errorOfSolve(mesh, problem), "");
+  problem.Columns = 1;
+  problem.Screening = -1.0;
+  EXPECT_NE(errorOfSolve(mesh, problem), "");
+}
+
+TEST(SolveErrors, aScratchFolderThatDoesNotExist)
+{
+  const StreamMesh mesh = toStream(torus(10, 10));
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Uniform);
+  SolveOptions options;
+  options.scratch = "/nowhere/at/all";
+  EXPECT_TRUE(contains(errorOf([&] { solveMesh(mesh, problem, options); }), "/nowhere/at/all"));
+}
+
+TEST(SolveErrors, aMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
+{
+  const StreamMesh mesh = toStream(torus(300, 150, 0.3));
+  ArrayProblem problem = heldEnds(mesh, 3, Weights::Cotangent);
+  SolveOptions options;
+  options.coreNodes = 1000;
+  options.maxCycles = 1;
+  const std::int64_t need = solveMesh(mesh, problem, options).report.pool_bytes_peak;
+  options.memoryLimit = need / 4;
+  const TemporaryFolder folder;
+  options.scratch = folder.path();
+  MemorySource source(mesh);
+  const std::string sentence = errorOf([&] { solve(source, problem, options); });
+  EXPECT_TRUE(contains(sentence, std::to_string(options.memoryLimit) + " bytes")) << sentence;
+  EXPECT_TRUE(contains(sentence, "at least")) << sentence;
+  EXPECT_EQ(folder.entries(), 0);
+  MeshBlock block;
+  EXPECT_TRUE(source.next(block) && block.firstCell == 0) << "the mesh was read before the error";
+}
+
+TEST(SolveErrors, theMemoryLimitIsKept)
+{
+  const StreamMesh mesh = toStream(torus(200, 100, 0.3));
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+  int solved = 0;
+  for (std::int64_t limit = 1 << 18; limit <= 1 << 26; limit *= 2)
+  {
+    SolveOptions options;
+    options.memoryLimit = limit;
+    options.maxCycles = 2;
+    Report report;
+    if (errorOf([&] { report = solveMesh(mesh, problem, options).report; }).empty())
+    {
+      ++solved;
+      EXPECT_LE(report.pool_bytes_peak, limit);
+    }
+    else
+    {
+      EXPECT_EQ(solved, 0) << "more memory is enough, too";
+    }
+  }
+  EXPECT_GE(solved, 2);
+  EXPECT_LE(solved, 8);
+}
+
+} // namespace smg::testing

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Solver/SolveTesting.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <thread>
+
+// Streaming gives the bits of the in-core method, whatever the windows.
+
+namespace smg::testing
+{
+namespace
+{
+
+/** Uniform and cotangent surfaces and solids, in a good order and in none at all. */
+std::vector<std::pair<StreamMesh, ArrayProblem>> tasks()
+{
+  std::vector<std::pair<StreamMesh, ArrayProblem>> list;
+  const IndexedTestMesh surface = shuffled(torus(110, 60, 0.4));
+  const IndexedTestMesh solid = shuffled(tetBox(16, 15, 17, 0.15));
+  const auto add = [&](const IndexedTestMesh& mesh, TestOrder order, int columns, Weights weights)
+  {
+    StreamMesh stream = toStream(mesh, order);
+    ArrayProblem problem = heldEnds(stream, columns, weights);
+    list.emplace_back(std::move(stream), std::move(problem));
+  };
+  add(surface, TestOrder::BreadthFirst, 3, Weights::Cotangent);
+  add(surface, TestOrder::Keep, 1, Weights::Uniform);
+  add(solid, TestOrder::BreadthFirst, 1, Weights::Cotangent);
+  add(solid, TestOrder::Keep, 3, Weights::Uniform);
+  add(grid(5000, 2), TestOrder::BreadthFirst, 5, Weights::Uniform);
+  return list;
+}
+
+SolveOptions shortSolve()
+{
+  SolveOptions options;
+  options.tolerance = 1e-12;
+  options.maxCycles = 3;
+  return options;
+}
+
+Solved inCore(const StreamMesh& mesh, ArrayProblem problem)
+{
+  SolveOptions options = shortSolve();
+  options.inCore = true;
+  return solveMesh(mesh, problem, options);
+}
+
+} // namespace
+
+TEST(Streaming, equalsInCoreBitForBit)
+{
+  for (auto& [mesh, problem] : tasks())
+  {
+    const Solved expected = inCore(mesh, problem);
+    for (const std::int64_t coreNodes : { 0, 500, 50000 })
+    {
+      for (const std::int64_t blockNodes : { 64, 1000, 4096, 1 << 20 })
+      {
+        SolveOptions options = shortSolve();
+        options.coreNodes = coreNodes;
+        options.blockNodes = blockNodes;
+        const Solved solved = solveMesh(mesh, problem, options);
+        EXPECT_TRUE(sameBits(solved.values, expected.values))
+          << coreNodes << " core nodes, blocks of " << blockNodes;
+        EXPECT_EQ(solved.report.residuals, expected.report.residuals);
+        EXPECT_GT(solved.report.bytes_written, 0);
+      }
+    }
+    EXPECT_EQ(expected.report.bytes_written, 0);
+  }
+}
+
+TEST(Streaming, doesNotDependOnHowTheMeshComesInBlocks)
+{
+  for (auto& [mesh, problem] : tasks())
+  {
+    const Solved expected = inCore(mesh, problem);
+    for (const std::int64_t blockCells : { 1, 17, 5000, 1 << 20 })
+    {
+      SolveOptions options = shortSolve();
+      options.coreNodes = 500;
+      EXPECT_TRUE(sameBits(solveMesh(mesh, problem, options, blockCells).values, expected.values))
+        << "blocks of " << blockCells << " cells";
+    }
+  }
+}
+
+TEST(Streaming, doesNotDependOnTheNumberOfThreads)
+{
+  for (auto& [mesh, problem] : tasks())
+  {
+    const Solved expected = inCore(mesh, problem);
+    for (const int threads : { 1, 2, 3, 8 })
+    {
+      for (const bool core : { false, true })
+      {
+        SolveOptions options = shortSolve();
+        options.coreNodes = 500;
+        options.threads = threads;
+        options.inCore = core;
+        const Solved solved = solveMesh(mesh, problem, options);
+        EXPECT_TRUE(sameBits(solved.values, expected.values)) << threads << " threads";
+        EXPECT_EQ(solved.report.threads, threads);
+      }
+    }
+  }
+}
+
+TEST(Streaming, equalsInCoreForEveryNumberOfSweeps)
+{
+  auto [mesh, problem] = tasks()[0];
+  for (const int sweeps : { 1, 3, 7 })
+  {
+    SolveOptions options = shortSolve();
+    options.sweeps = sweeps;
+    options.coreNodes = 500;
+    const Solved streaming = solveMesh(mesh, problem, options);
+    options.inCore = true;
+    EXPECT_TRUE(sameBits(streaming.values, solveMesh(mesh, problem, options).values));
+  }
+}
+
+TEST(Streaming, equalsInCoreWithSourcesTargetsScreeningAndFreeComponents)
+{
+  const IndexedTestMesh one = torus(90, 40, 0.3);
+  const StreamMesh mesh = toStream(shuffled(disjointUnion(one, sphere(4), { 0, 0, 8 })));
+  ArrayProblem problem = heldEnds(mesh, 2, Weights::Cotangent);
+  problem.Source.resize(2 * mesh.vertices());
+  Random random(3);
+  for (double& source : problem.Source)
+  {
+    source = random.uniform(-1, 1);
+  }
+  problem.Target = [](const double* p, const double* q, double* d)
+  {
+    d[0] = p[0] * q[1] - p[1] * q[0];
+    d[1] = p[2] - q[2];
+  };
+  for (const double screening : { 0.0, 0.5 })
+  {
+    problem.Screening = screening;
+    const Solved expected = inCore(mesh, problem);
+    EXPECT_EQ(expected.report.free_components, screening == 0.0 ? 1 : 0);
+    SolveOptions options = shortSolve();
+    options.coreNodes = 0;
+    options.blockNodes = 500;
+    EXPECT_TRUE(sameBits(solveMesh(mesh, problem, options).values, expected.values));
+  }
+}
+
+TEST(Streaming, doesKCyclesInKPlusOnePasses)
+{
+  auto [mesh, problem] = tasks()[0];
+  for (const int cycles : { 1, 2, 5 })
+  {
+    for (const bool core : { false, true })
+    {
+      SolveOptions options = shortSolve();
+      options.maxCycles = cycles;
+      options.inCore = core;
+      options.coreNodes = 500;
+      const Report report = solveMesh(mesh, problem, options).report;
+      EXPECT_EQ(report.cycles, cycles);
+      EXPECT_EQ(report.passes, cycles + 1);
+      EXPECT_EQ(report.residuals.size(), static_cast<std::size_t>(cycles));
+    }
+  }
+}
+
+TEST(Streaming, doesNotDependOnTheCountsThatTheSourceClaims)
+{
+  /** A mesh whose source says that it has another number of vertices. */
+  class Claiming : public MemorySource
+  {
+  public:
+    Claiming(const StreamMesh& mesh, std::int64_t vertices)
+      : MemorySource(mesh)
+      , Claimed(MemorySource::info())
+    {
+      this->Claimed.vertices = vertices;
+      this->Claimed.width = this->Claimed.span = -1;
+    }
+    const StreamInfo& info() const override { return this->Claimed; }
+
+  private:
+    StreamInfo Claimed;
+  };
+  auto [mesh, problem] = tasks()[0];
+  const Solved expected = inCore(mesh, problem);
+  for (const std::int64_t vertices : { std::int64_t(-1), std::int64_t(10), std::int64_t(1) << 40 })
+  {
+    SolveOptions options = shortSolve();
+    options.coreNodes = 500;
+    Claiming source(mesh, vertices);
+    const std::unique_ptr<Solution> solution = solve(source, problem, options);
+    EXPECT_TRUE(sameBits(valuesOf(*solution), expected.values)) << vertices << " claimed";
+  }
+}
+
+TEST(Streaming, takesBlocksOfVerticesOrOfCellsOnly)
+{
+  const auto [mesh, given] = tasks()[2];
+  ArrayProblem problem = given;
+  MemorySource source(mesh, 50);
+  std::vector<MeshBlock> blocks;
+  MeshBlock block;
+  while (source.next(block))
+  {
+    MeshBlock vertices = block;
+    vertices.corners.clear();
+    vertices.finalized = blocks.empty() ? 0 : blocks.back().finalized;
+    MeshBlock cells = block;
+    cells.firstVertex += cells.vertices();
+    cells.positions.clear();
+    blocks.push_back(vertices);
+    blocks.push_back(cells);
+  }
+  BlockSource split(mesh.cellType, blocks);
+  const std::unique_ptr<Solution> solution = solve(split, problem, shortSolve());
+  EXPECT_TRUE(sameBits(valuesOf(*solution), inCore(mesh, problem).values));
+}
+
+TEST(Streaming, twoSolvesAtOnceDoNotDisturbEachOther)
+{
+  const auto list = tasks();
+  std::vector<Solved> results(2);
+  std::vector<std::thread> threads;
+  for (const int k : { 0, 1 })
+  {
+    threads.emplace_back(
+      [&, k]
+      {
+        ArrayProblem problem = list[k].second;
+        SolveOptions options = shortSolve();
+        options.coreNodes = 500;
+        results[k] = solveMesh(list[k].first, problem, options);
+      });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  for (const int k : { 0, 1 })
+  {
+    EXPECT_TRUE(sameBits(results[k].values, inCore(list[k].first, list[k].second).values));
+  }
+}
+
+TEST(Streaming, leavesNoScratchFileBehind)
+{
+  const TemporaryFolder folder;
+  auto [mesh, problem] = tasks()[0];
+  SolveOptions options = shortSolve();
+  options.scratch = folder.path();
+  options.coreNodes = 500;
+  {
+    MemorySource source(mesh);
+    const std::unique_ptr<Solution> solution = solve(source, problem, options);
+    EXPECT_GT(folder.entries(), 0);
+  }
+  EXPECT_EQ(folder.entries(), 0);
+  options.inCore = true;
+  MemorySource source(mesh);
+  const std::unique_ptr<Solution> solution = solve(source, problem, options);
+  EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(Solution, rangesInAnyOrderAreTheWhole)
+{
+  for (auto& [mesh, problem] : tasks())
+  {
+    for (const bool core : { false, true })
+    {
+      SolveOptions options = shortSolve();
+      options.inCore = core;
+      MemorySource source(mesh);
+      const std::unique_ptr<Solution> solution = solve(source, problem, options);
+      const Eigen::MatrixXd whole = valuesOf(*solution);
+      const int columns = solution->columns();
+      EXPECT_EQ(columns, problem.Columns);
+      Random random(9);
+      for (int trial = 0; trial < 200; ++trial)
+      {
+        const std::int64_t first = random.below(solution->vertices() + 1);
+        const std::int64_t rest = solution->vertices() - first;
+        const std::int64_t count =
+          random.below(std::min<std::int64_t>(rest, trial % 2 ? 5 : 5000) + 1);
+        std::vector<double> part(columns * count + 1, -77.0);
+        solution->read(first, count, part);
+        for (std::int64_t i = 0; i < count * columns; ++i)
+        {
+          ASSERT_EQ(part[i], whole(first + i / columns, i % columns));
+        }
+        EXPECT_EQ(part.back(), -77.0);
+      }
+    }
+  }
+}
+
+TEST(Solution, aRangeOutsideIsAnError)
+{
+  auto [mesh, problem] = tasks()[0];
+  MemorySource source(mesh);
+  const std::unique_ptr<Solution> solution = solve(source, problem, shortSolve());
+  std::vector<double> values(3 * solution->vertices() + 3);
+  EXPECT_THROW(solution->read(-1, 2, values), Error);
+  EXPECT_THROW(solution->read(0, -1, values), Error);
+  EXPECT_THROW(solution->read(0, solution->vertices() + 1, values), Error);
+  EXPECT_THROW(solution->read(solution->vertices(), 1, values), Error);
+  EXPECT_THROW(solution->read(INT64_MAX - 1, 5, values), Error);
+  EXPECT_THROW(solution->read(0, 10, std::span(values).first(29)), Error);
+}
+
+} // namespace smg::testing

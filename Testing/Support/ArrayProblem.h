@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Problem/Problem.h"
+#include "Testing/Support/StreamMesh.h"
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace smg::testing
+{
+
+/** A problem from arrays in stream order. Empty arrays stand for zeros. */
+class ArrayProblem : public Problem
+{
+public:
+  /** d_ij of the edge from point p to point q, `columns` numbers; must be antisymmetric. */
+  using EdgeTarget = std::function<void(const double* p, const double* q, double* target)>;
+
+  int Columns = 1;
+  Weights EdgeWeights = Weights::Cotangent;
+  double Screening = 0.0;
+  std::vector<std::uint8_t> Prescribed; ///< one a vertex
+  std::vector<double> Value;            ///< `Columns` a vertex
+  std::vector<double> Source;           ///< `Columns` a vertex
+  EdgeTarget Target;
+
+  int columns() const override { return this->Columns; }
+  Weights weights() const override { return this->EdgeWeights; }
+  double screening() const override { return this->Screening; }
+  void conditions(const MeshBlock& block, VertexConditions& conditions) override;
+  bool hasEdgeTargets() const override { return static_cast<bool>(this->Target); }
+  void edgeTargets(EdgeBatch& batch) override;
+};
+
+/**
+ * Three columns that are the vertices' positions, prescribed where z is within `fraction` of the
+ * mesh's height from its lowest or highest point; zero elsewhere unless `start` is true: then the
+ * positions are the initial values.
+ */
+ArrayProblem fixedEnds(const StreamMesh& mesh, double fraction = 0.02, bool start = false);
+
+} // namespace smg::testing

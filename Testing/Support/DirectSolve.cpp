@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Support/DirectSolve.h"
+
+#include "Solver/Core/Error.h"
+
+#include <Eigen/CholmodSupport>
+
+namespace smg::testing
+{
+namespace
+{
+
+/** The mean over each component, a row a component. */
+Eigen::MatrixXd means(const DirectSystem& system, const Eigen::MatrixXd& x)
+{
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(system.isFloating.size(), x.cols());
+  Eigen::VectorXd count = Eigen::VectorXd::Zero(system.isFloating.size());
+  for (Eigen::Index i = 0; i < x.rows(); ++i)
+  {
+    sum.row(system.component[i]) += x.row(i);
+    count[system.component[i]] += 1;
+  }
+  return count.cwiseMax(1.0).cwiseInverse().asDiagonal() * sum;
+}
+
+/** Adds row c of `shift` to the unknowns of each floating component c. */
+void shiftFloating(const DirectSystem& system, const Eigen::MatrixXd& shift, Eigen::MatrixXd& x)
+{
+  for (Eigen::Index i = 0; i < x.rows(); ++i)
+  {
+    if (system.isFloating[system.component[i]])
+    {
+      x.row(i) += shift.row(system.component[i]);
+    }
+  }
+}
+
+} // namespace
+
+Eigen::MatrixXd solveDirect(const DirectSystem& system)
+{
+  Eigen::SparseMatrix<double> matrix = system.matrix;
+  Eigen::MatrixXd b = system.rightSide;
+  shiftFloating(system, -means(system, b), b);
+
+  // One more on the diagonal holds the first vertex of a floating component at 0: the rows of the
+  // component sum to zero, and so does b, hence that vertex's value.
+  std::vector<std::uint8_t> done(system.isFloating.size(), 0);
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+  {
+    const int component = system.component[i];
+    if (system.isFloating[component] && !done[component])
+    {
+      matrix.coeffRef(i, i) *= 2;
+      done[component] = 1;
+    }
+  }
+
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(b.rows(), b.cols());
+  if (b.rows() > 0)
+  {
+    const Eigen::CholmodSimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
+    if (factor.info() != Eigen::Success)
+    {
+      throw Error("CHOLMOD could not factorise the system: it is not positive definite.");
+    }
+    x = factor.solve(b);
+  }
+  shiftFloating(system, means(system, system.initial()) - means(system, x), x);
+  return system.scatter(x);
+}
+
+double relativeError(const Eigen::MatrixXd& values, const Eigen::MatrixXd& expected)
+{
+  const double range = expected.maxCoeff() - expected.minCoeff();
+  return (values - expected).cwiseAbs().maxCoeff() / (range > 0 ? range : 1.0);
+}
+
+} // namespace smg::testing

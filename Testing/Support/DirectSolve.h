@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Testing/Support/DirectSystem.h"
+
+namespace smg::testing
+{
+
+/**
+ * Solves the system by CHOLMOD's simplicial LDL^T; the result is given at all vertices. In a
+ * component that floats, the part of b that no x can answer (its mean) is left out, and the
+ * solution's mean over the component's vertices is that of the initial values.
+ */
+Eigen::MatrixXd solveDirect(const DirectSystem& system);
+
+/** The largest difference over all entries, divided by max(expected) - min(expected). */
+double relativeError(const Eigen::MatrixXd& values, const Eigen::MatrixXd& expected);
+
+} // namespace smg::testing

@@ -1,0 +1,92 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# check.sh RULE : looks whether the files of the tree keep a rule; prints the ones that do not.
+#   layers   VTK only in files named vtk*, dependencies from Filters to IO to Solver only
+#   format   C++ is formatted as .clang-format says (skipped without clang-format 14)
+#   licence  every source file begins with its SPDX line
+#   sizes    no file above 2 MB, no source file above 450 lines
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+# The tree's own files, without build folders; a copy that is no git checkout is searched instead.
+files() {
+  if git rev-parse --is-inside-work-tree > /dev/null 2>&1; then
+    git ls-files --cached --others --exclude-standard -- "$@" |
+      while read -r file; do [ -f "$file" ] && echo "$file"; done
+  else
+    find . -path './build*' -prune -o -type f -print | sed 's,^\./,,' |
+      while read -r file; do
+        for pattern in "${@:-*}"; do [[ $file == $pattern ]] && echo "$file" && break; done
+      done
+  fi
+}
+
+fail() {
+  echo "$1"
+  exit 1
+}
+
+# Lines `file:number:#include ...` in files of stdin whose included name matches the expression.
+includes() { xargs -r grep -nHE "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"]($1)"; }
+
+layers() {
+  local found
+  found=$(files 'Solver/*' 'IO/*' 'Filters/*' | grep -E '\.(h|cpp|cxx)$' |
+    grep -vE '(^|/)vtk[^/]*$' | includes '([^<>"]*/)?vtk[^/"<>]*[">]')
+  [ -z "$found" ] || fail "VTK headers in files whose name does not begin with vtk:
+$found"
+  found=$({
+    files 'Solver/*' | includes '(IO|Filters|ParaViewPlugin|Examples|Testing)/'
+    files 'IO/*' | includes '(Filters|ParaViewPlugin|Examples|Testing)/'
+    files 'Filters/*' 'Examples/*' | includes '(ParaViewPlugin|Testing)/'
+  })
+  [ -z "$found" ] || fail "includes against the direction of the layers:
+$found"
+}
+
+format() {
+  local program
+  for program in clang-format-14 clang-format; do
+    "$program" --version 2> /dev/null | grep -q 'version 14\.' && break
+    program=
+  done
+  if [ -z "$program" ]; then
+    echo "SKIPPED: clang-format 14 is not installed"
+    exit 77
+  fi
+  files '*.h' '*.cpp' '*.cxx' | xargs -r "$program" --dry-run -Werror ||
+    fail "not formatted: run $program -i on the files above"
+}
+
+licence() {
+  local found
+  found=$(files '*.h' '*.cpp' '*.cxx' '*.py' '*.sh' '*.cmake' '*.in' '*CMakeLists.txt' '.ci/run' |
+    while read -r file; do
+      head -n 3 "$file" | grep -q 'SPDX-License-Identifier: BSD-3-Clause' || echo "$file"
+    done)
+  [ -z "$found" ] || fail "no SPDX-License-Identifier: BSD-3-Clause in the first three lines of:
+$found"
+}
+
+sizes() {
+  local found
+  found=$(files | while read -r file; do
+    [ "$(stat -c %s "$file")" -le 2000000 ] || echo "$file"
+  done)
+  [ -z "$found" ] || fail "files above 2 MB:
+$found"
+  found=$(files '*.h' '*.cpp' '*.cxx' | while read -r file; do
+    lines=$(wc -l < "$file")
+    [ "$lines" -le 450 ] || echo "$file: $lines lines"
+  done)
+  [ -z "$found" ] || fail "source files above 450 lines:
+$found"
+}
+
+case "${1:-}" in
+  layers | format | licence | sizes) "$1" ;;
+  *)
+    sed -n '3,7s/^# //p' "$0" >&2
+    exit 2
+    ;;
+esac

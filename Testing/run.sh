@@ -1,0 +1,45 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Builds and tests everything on a Debian 12 machine (as root, or as a user with sudo):
+#   main        build/             ParaView 5.11's VTK, plugin, Python; all tests but the long ones
+#   vtk91       build-vtk91/       Debian's standalone VTK 9.1; the C++ tests
+#   asan-ubsan  build-asan-ubsan/  Solver, IO and smg without VTK, under two sanitizers
+# Stops at the first configuration that fails, with ctest's summary as its last lines.
+#
+# Environment:
+#   SMG_TEST_DATA_DIR   the unpacked archive of test meshes; without it tests that need it are skipped
+#   SMG_CONFIGURATIONS  which of the above, "main vtk91 asan-ubsan" unless set
+#   SMG_JOBS            parallel compilations and tests, one a core unless set
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source cmake/packages.sh
+
+jobs=${SMG_JOBS:-$(nproc)}
+data=${SMG_TEST_DATA_DIR:-}
+[ -z "$data" ] || data=$(realpath "$data")
+
+# configure_build_test PRESET
+configure_build_test() {
+  echo "== $1: configure, build, test ($(date +%T))"
+  local launcher=()
+  ! command -v ccache > /dev/null || launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  cmake --preset "$1" "${launcher[@]}" -DSMG_TEST_DATA_DIR="$data"
+  cmake --build --preset "$1" --parallel "$jobs"
+  ctest --preset "$1" --parallel "$jobs"
+}
+
+smg_install "${smg_build_packages[@]}" "${smg_paraview_packages[@]}" "${smg_test_packages[@]}"
+for configuration in ${SMG_CONFIGURATIONS:-main vtk91 asan-ubsan}; do
+  case $configuration in
+    main) configure_build_test release ;;
+    vtk91)
+      bash cmake/vtk91-prefix.sh build-vtk91/vtk
+      configure_build_test vtk91
+      ;;
+    asan-ubsan) configure_build_test asan-ubsan ;;
+    *)
+      echo "SMG_CONFIGURATIONS: no configuration is called $configuration" >&2
+      exit 2
+      ;;
+  esac
+done

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The libraries of Solver and IO, and VTK: ParaView's own unless VTK_DIR names another.
+
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.3 REQUIRED NO_MODULE)
+find_package(CHOLMOD REQUIRED)
+find_package(TBB REQUIRED CONFIG)
+find_package(nlohmann_json REQUIRED)
+find_package(FastFloat REQUIRED CONFIG)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(SMG_COMPRESSION REQUIRED IMPORTED_TARGET libzstd liblz4 libxxhash)
+
+if (NOT SMG_BUILD_VTK)
+  set(SMG_BUILD_PARAVIEW_PLUGIN OFF)
+  set(SMG_BUILD_PYTHON OFF)
+  return()
+endif ()
+
+set(smg_vtk_components
+  CommonCore CommonDataModel CommonExecutionModel CommonMisc CommonSystem
+  FiltersCore FiltersGeneral FiltersSources IOCore IOLegacy IOXML ParallelCore)
+if (SMG_BUILD_PYTHON)
+  list(APPEND smg_vtk_components Python WrappingPythonCore)
+endif ()
+if (SMG_BUILD_PARAVIEW_PLUGIN)
+  find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore)
+endif ()
+find_package(VTK 9.1 REQUIRED COMPONENTS ${smg_vtk_components}
+  HINTS "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/paraview-5.11/vtk")
+message(STATUS "StreamingMultigrid: VTK ${VTK_VERSION} in ${VTK_DIR}")

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Headers and the CMake package StreamingMultigrid, for the installed and for the build tree.
+include(CMakePackageConfigHelpers)
+
+set(smg_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/StreamingMultigrid")
+install(DIRECTORY Solver IO
+  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid"
+  FILES_MATCHING PATTERN "*.h" PATTERN "vtk*" EXCLUDE)
+
+configure_package_config_file(cmake/StreamingMultigridConfig.cmake.in
+  "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridConfig.cmake"
+  INSTALL_DESTINATION "${smg_package_dir}")
+write_basic_package_version_file(
+  "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridConfig.cmake"
+  "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridConfigVersion.cmake"
+  DESTINATION "${smg_package_dir}")
+
+export(EXPORT StreamingMultigrid NAMESPACE StreamingMultigrid::
+  FILE "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridTargets.cmake")
+install(EXPORT StreamingMultigrid NAMESPACE StreamingMultigrid::
+  DESTINATION "${smg_package_dir}" FILE StreamingMultigridTargets.cmake)

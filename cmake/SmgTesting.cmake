@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# How tests are made. Labels:
+#   unit, vtk, paraview, tree, install   what the test needs or looks at
+#   data                                 needs SMG_TEST_DATA_DIR; skips itself where it is empty
+#   long                                 takes minutes: left out by `ctest -LE long`
+
+# The folder that holds the meshes of the archive itself, whichever level was named.
+set(smg_test_data "${SMG_TEST_DATA_DIR}")
+if (smg_test_data AND EXISTS "${smg_test_data}/meshes")
+  set(smg_test_data "${smg_test_data}/meshes")
+endif ()
+
+# smg_add_gtest(<name> LABELS <label>... SOURCES <file>... LIBRARIES <target>...)
+# One GoogleTest program. Suites whose name ends in Data get the label data and more time, those
+# whose name ends in Long the label long.
+function (smg_add_gtest name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LABELS;SOURCES;LIBRARIES")
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} smgTesting GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE
+    SMG_TEST_DATA_DIR="${smg_test_data}"
+    SMG_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    $<$<TARGET_EXISTS:smg>:SMG_PROGRAM="$<TARGET_FILE:smg>">)
+  smg_discover(${name} "-*Data.*:*Long.*" 120 "${arg_LABELS}")
+  smg_discover(${name} "*Data.*" 300 "${arg_LABELS};data")
+  smg_discover(${name} "*Long.*" 3600 "${arg_LABELS};data;long")
+endfunction ()
+
+function (smg_discover name filter timeout labels)
+  gtest_discover_tests(${name}
+    TEST_PREFIX "${name}."
+    TEST_FILTER "${filter}"
+    DISCOVERY_MODE PRE_TEST
+    DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS "${labels}" TIMEOUT ${timeout})
+endfunction ()
+
+# Finds pvpython, pvbatch and xvfb-run once: without an X server ParaView's rendering crashes.
+function (smg_find_paraview_programs)
+  find_program(SMG_PVPYTHON pvpython REQUIRED)
+  find_program(SMG_PVBATCH pvbatch REQUIRED)
+  find_program(SMG_PVSERVER pvserver REQUIRED)
+  find_program(SMG_XVFB_RUN xvfb-run REQUIRED)
+  find_program(SMG_MPIRUN NAMES mpirun mpiexec REQUIRED)
+endfunction ()
+
+# smg_add_paraview_test(<name> COMMAND <command>... [TIMEOUT <seconds>] [LABELS <label>...])
+# A test under an X server of its own that fails on a Python traceback or a VTK error, too, with the
+# plugin and the wrapped classes on the paths.
+function (smg_add_paraview_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "COMMAND;LABELS")
+  if (NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 240)
+  endif ()
+  add_test(NAME ${name} COMMAND ${SMG_XVFB_RUN} -a ${arg_COMMAND})
+  set_tests_properties(${name} PROPERTIES
+    TIMEOUT ${arg_TIMEOUT}
+    LABELS "paraview;${arg_LABELS}"
+    SKIP_REGULAR_EXPRESSION "SKIPPED:"
+    FAIL_REGULAR_EXPRESSION "Traceback;ERR\\|;FATL\\|;Segmentation"
+    ENVIRONMENT "SMG_TEST_DATA_DIR=${smg_test_data};SMG_SOURCE_DIR=${PROJECT_SOURCE_DIR};SMG_PROGRAM=$<$<TARGET_EXISTS:smg>:$<TARGET_FILE:smg>>;PYTHONPATH=${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}/python3/dist-packages;OMPI_MCA_rmaps_base_oversubscribe=1")
+endfunction ()
+
+# smg_add_pvpython_test(<name> <script> [ARGS <argument>...] [TIMEOUT <seconds>] [LABELS <label>...])
+function (smg_add_pvpython_test name script)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "TIMEOUT" "ARGS;LABELS")
+  smg_add_paraview_test(${name} TIMEOUT "${arg_TIMEOUT}" LABELS ${arg_LABELS}
+    COMMAND ${SMG_PVPYTHON} "${CMAKE_CURRENT_SOURCE_DIR}/${script}" ${arg_ARGS})
+endfunction ()
+
+# smg_add_pvbatch_test(<name> <script> RANKS <n> [ARGS ...] [TIMEOUT <seconds>] [LABELS ...])
+# The script runs on every rank (--sym).
+function (smg_add_pvbatch_test name script)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "TIMEOUT;RANKS" "ARGS;LABELS")
+  smg_add_paraview_test(${name} TIMEOUT "${arg_TIMEOUT}" LABELS ${arg_LABELS}
+    COMMAND ${SMG_MPIRUN} -np ${arg_RANKS} --allow-run-as-root --oversubscribe
+      ${SMG_PVBATCH} --sym "${CMAKE_CURRENT_SOURCE_DIR}/${script}" ${arg_ARGS})
+  set_tests_properties(${name} PROPERTIES PROCESSORS ${arg_RANKS})
+endfunction ()

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The VTK modules StreamingMultigrid::IO and ::Filters, and their Python package.
+
+vtk_module_scan(
+  MODULE_FILES
+    "${CMAKE_CURRENT_SOURCE_DIR}/IO/vtk.module"
+    "${CMAKE_CURRENT_SOURCE_DIR}/Filters/vtk.module"
+  REQUEST_MODULES StreamingMultigrid::IO StreamingMultigrid::Filters
+  PROVIDES_MODULES smg_vtk_modules
+  WANT_BY_DEFAULT ON
+  ENABLE_TESTS OFF)
+
+# The modules come as a package of their own, so that StreamingMultigrid::Solver and ::IOCore can be
+# found without VTK. Their headers lie flat beside the folder Solver, as VTK's own do.
+vtk_module_build(
+  MODULES ${smg_vtk_modules}
+  PACKAGE StreamingMultigridVTK
+  INSTALL_EXPORT StreamingMultigridVTK
+  INSTALL_HEADERS ON
+  ENABLE_WRAPPING ON
+  HEADERS_DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid"
+  CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/StreamingMultigrid"
+  VERSION "${PROJECT_VERSION}"
+  SOVERSION "${PROJECT_VERSION_MAJOR}")
+
+if (SMG_BUILD_PYTHON)
+  vtk_module_wrap_python(
+    MODULES ${smg_vtk_modules}
+    TARGET StreamingMultigrid::wrapped_python
+    PYTHON_PACKAGE streamingmultigrid
+    MODULE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages"
+    CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/StreamingMultigrid"
+    BUILD_STATIC OFF
+    INSTALL_HEADERS OFF)
+endif ()

@@ -1,0 +1,37 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# vtk91-prefix.sh PREFIX : makes a private development prefix of Debian's standalone VTK 9.1.
+# Its runtime libraries come from apt; the development packages cannot be installed beside
+# ParaView's, so they are unpacked in PREFIX. Does nothing when PREFIX is complete.
+set -euo pipefail
+prefix=$(realpath -m "${1:?usage: vtk91-prefix.sh PREFIX}")
+source "$(dirname "${BASH_SOURCE[0]}")/packages.sh"
+
+smg_install libvtk9.1 libtbb-dev libopenmpi-dev
+if [ -e "$prefix/complete" ]; then
+  exit 0
+fi
+
+downloads=$(mktemp -d)
+trap 'rm -rf "$downloads"' EXIT
+cd "$downloads"
+options=()
+[ "$(id -u)" != 0 ] || options=(-o APT::Sandbox::User=root)
+packages=(libvtk9-dev vtk9 python3-vtk9)
+apt-get "${options[@]}" download "${packages[@]}" || {
+  smg_as_root apt-get update
+  apt-get "${options[@]}" download "${packages[@]}"
+}
+mkdir -p "$prefix"
+for package in ./*.deb; do
+  dpkg -x "$package" "$prefix"
+done
+
+# The development links and the class hierarchies refer to the runtime package's files.
+machine=$(gcc -print-multiarch)
+for library in /usr/lib/"$machine"/libvtk*-9.1.so.1 /usr/lib/"$machine"/libvtk*-9.1.so.9.1.0; do
+  ln -sf "$library" "$prefix/usr/lib/$machine/"
+done
+ln -sfn "/usr/lib/$machine/vtk" "$prefix/usr/lib/$machine/vtk"
+touch "$prefix/complete"
+echo "VTK 9.1: -DVTK_DIR=$prefix/usr/lib/$machine/cmake/vtk-9.1"
