@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkPieceFiles.h"
 
+#include "IO/Formats/VtkXml.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceNames.h"
 #include "Solver/Core/Error.h"
@@ -27,44 +28,6 @@ namespace smg
 namespace
 {
 
-std::string escaped(const std::string& text)
-{
-  std::string result;
-  for (const char c : text)
-  {
-    switch (c)
-    {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
-/** "Int8" ... "Float64": the names of scalar types in VTK's files. */
-std::string fileTypeOf(ScalarType type)
-{
-  std::string name(nameOf(type));
-  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
-  if (name.starts_with("Ui"))
-  {
-    name[1] = 'I';
-  }
-  return name;
-}
-
 void describe(std::ostream& out, vtkDataArray& array)
 {
   const auto type = scalarTypeOf(array);
@@ -72,8 +35,8 @@ void describe(std::ostream& out, vtkDataArray& array)
   {
     return;
   }
-  out << "      <PDataArray type=\"" << fileTypeOf(*type) << "\" Name=\""
-      << escaped(array.GetName()) << "\" NumberOfComponents=\"" << array.GetNumberOfComponents()
+  out << "      <PDataArray type=\"" << vtkXmlTypeName(*type) << "\" Name=\""
+      << xmlEscaped(array.GetName()) << "\" NumberOfComponents=\"" << array.GetNumberOfComponents()
       << "\"/>\n";
 }
 
@@ -83,7 +46,7 @@ void describe(std::ostream& out, const char* element, vtkDataSetAttributes& arra
   out << "    <" << element;
   if (ids && ids->GetName())
   {
-    out << " GlobalIds=\"" << escaped(ids->GetName()) << "\"";
+    out << " GlobalIds=\"" << xmlEscaped(ids->GetName()) << "\"";
   }
   out << ">\n";
   for (int i = 0; i < arrays.GetNumberOfArrays(); ++i)
@@ -131,8 +94,8 @@ std::string indexText(
       << description;
   for (int piece = 0; piece < pieces; ++piece)
   {
-    out << "    <Piece Source=\"" << escaped(index.stem().string()) << "/"
-        << escaped(pieceName(index, piece)) << "\"/>\n";
+    out << "    <Piece Source=\"" << xmlEscaped(index.stem().string()) << "/"
+        << xmlEscaped(pieceName(index, piece)) << "\"/>\n";
   }
   out << "  </" << type << ">\n</VTKFile>\n";
   return out.str();

@@ -2,6 +2,7 @@
 #include "IO/Conversion/WriteVtkXml.h"
 
 #include "IO/Conversion/PositionedFile.h"
+#include "IO/Formats/VtkXml.h"
 #include "Solver/Core/Error.h"
 
 #include <algorithm>
@@ -31,39 +32,6 @@ std::string lowerSuffix(const std::filesystem::path& path)
   return suffix;
 }
 
-std::string vtkTypeName(ScalarType type)
-{
-  std::string name(nameOf(type));
-  name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
-  return name[0] == 'U' ? "UI" + name.substr(2) : name;
-}
-
-std::string escaped(const std::string& text)
-{
-  std::string result;
-  for (const char c : text)
-  {
-    switch (c)
-    {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 /** An array of the file: where its data go. */
 class AppendedArray
 {
@@ -81,8 +49,8 @@ public:
   void describe(std::ostream& xml, std::int64_t offset)
   {
     this->Offset = offset;
-    xml << "<DataArray type=\"" << vtkTypeName(this->Spec.type) << "\" Name=\""
-        << escaped(this->Spec.name) << "\" NumberOfComponents=\"" << this->Spec.components
+    xml << "<DataArray type=\"" << vtkXmlTypeName(this->Spec.type) << "\" Name=\""
+        << xmlEscaped(this->Spec.name) << "\" NumberOfComponents=\"" << this->Spec.components
         << "\" format=\"appended\" offset=\"" << offset << "\"/>\n";
   }
 

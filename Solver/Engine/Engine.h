@@ -41,6 +41,9 @@ private:
   using FineLevel = Level<double, Relaxation>;
   using CoarseLevel = Level<float, Relaxation>;
 
+  /** Way up and way down. */
+  static constexpr int ParallelStages = 2;
+
   int firstCoreLevel(std::int64_t vertices) const;
   void addCoarseLevel(int l, bool core);
   void firstPass(MeshSource& mesh, Problem& problem);

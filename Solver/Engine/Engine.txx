@@ -3,6 +3,7 @@
 
 #include "Solver/Engine/Engine.h"
 
+#include <tbb/info.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ Engine<Operators>::Engine(MeshSource& mesh, Problem& problem, const SolveOptions
   , Memory(options.memoryLimit)
   , Parts(problem.columns())
   , FirstCore(this->firstCoreLevel(mesh.info().vertices))
-  , Threads(options.threads)
+  , Threads(std::min({ options.threads, ParallelStages, tbb::info::default_concurrency() }))
 {
   const Timer wall;
   const double cpu = processSeconds();
@@ -346,8 +347,9 @@ void Engine<Operators>::read(std::int64_t first, std::int64_t count, std::span<d
   if (first < 0 || count < 0 || first > this->Result.vertices - count ||
       values.size() < static_cast<std::size_t>(count * this->Columns))
   {
-    throw Error("vertices " + std::to_string(first) + " to " + std::to_string(first + count - 1) +
-                " were asked of a solution of " + std::to_string(this->Result.vertices));
+    throw Error(std::to_string(count) + " vertices from " + std::to_string(first) +
+                " on were asked of a solution of " + std::to_string(this->Result.vertices) +
+                ", or there is no room for their values");
   }
   this->Hierarchy.finest->window().readX(first, count, values.data());
   if (this->MeanShifts.empty())

@@ -22,4 +22,10 @@ private:
   std::filesystem::path Path;
 };
 
+/** The path of a file in a scratch folder. */
+inline std::filesystem::path operator/(const ScratchFolder& folder, const char* name)
+{
+  return folder.path() / name;
+}
+
 } // namespace smg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Container/VsmReader.h"
 #include "Testing/IO/ContainerMeshes.h"
-#include "Testing/IO/ErrorMessage.h"
+#include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "IO/Container/VsmReader.h"
 #include "IO/Container/VsmWriter.h"
 #include "Testing/IO/ContainerMeshes.h"
-#include "Testing/IO/ErrorMessage.h"
+#include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>

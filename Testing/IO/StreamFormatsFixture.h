@@ -3,7 +3,7 @@
 
 #include "IO/Container/VsmReader.h"
 #include "IO/Formats/StreamConversion.h"
-#include "Testing/IO/ErrorMessage.h"
+#include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
 

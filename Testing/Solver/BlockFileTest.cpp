@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/BlockFile.h"
 #include "Solver/Core/Error.h"
+#include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
 
@@ -126,25 +127,6 @@ void readAll(const std::filesystem::path& path)
       }
     }
   }
-}
-
-std::string messageOf(const auto& action)
-{
-  try
-  {
-    action();
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return "";
-}
-
-void expectError(const auto& action, const std::string& part)
-{
-  const std::string message = messageOf(action);
-  EXPECT_NE(message.find(part), std::string::npos) << "got: '" << message << "'";
 }
 
 class BlockFileCodecs : public ::testing::TestWithParam<Codec>

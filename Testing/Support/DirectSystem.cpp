@@ -155,7 +155,10 @@ void Assembly::fillMatrix()
       matrix.insert(j, i) = -edge.weight;
     }
   }
-  matrix.makeCompressed();
+  if (matrix.rows() > 0)
+  {
+    matrix.makeCompressed();
+  }
 }
 
 Eigen::VectorXd Assembly::edgeTarget(const EdgeWeight& edge, bool forward)
