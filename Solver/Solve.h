@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 
 namespace smg
 {
@@ -34,7 +35,8 @@ struct SolveOptions
   bool inCore = false;
   /** Nodes a stage advances by before the next stage follows. Does not change the result. */
   std::int64_t blockNodes = 4096;
-  /** Levels with at most this many nodes live in memory. Does not change the result. */
+  /** Levels that are expected to have at most this many nodes live in memory. Does not change the
+   * result. */
   std::int64_t coreNodes = 50000;
   ProgressFunction progress;
 };

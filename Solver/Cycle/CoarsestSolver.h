@@ -11,15 +11,18 @@ namespace smg
 /**
  * The direct solve on the coarsest level: CHOLMOD's simplicial LDL^T, factorised once. One node of
  * each connected component whose row sums vanish (no constraint reaches it) is held at zero: there
- * the correction is determined up to a constant, and any will do.
+ * the correction is determined up to a constant, and any will do. What such a component cannot
+ * answer of b, its mean, is left out.
  */
 class CoarsestSolver
 {
 public:
   CoarsestSolver();
   ~CoarsestSolver();
+  CoarsestSolver(CoarsestSolver&& other) noexcept;
+  CoarsestSolver& operator=(CoarsestSolver&& other) noexcept;
 
-  /** Throws Error if the matrix is not positive definite. */
+  /** Throws Error if the factorisation meets a zero pivot. */
   void factorize(LevelWindow<float>& level);
   /** x = A^-1 b on the level that was factorised. */
   void solve(LevelWindow<float>& level) const;

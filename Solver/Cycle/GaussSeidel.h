@@ -42,7 +42,7 @@ struct GaussSeidel
   /** LowerOnly: the nodes above are zero (first sweep on a coarse level) and are not looked at. */
   template <bool LowerOnly, class Vectors, class Real, class Index>
   static void sweep(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, BlockRange nodes,
-    int stride, Real* x, const Real* b)
+    std::int64_t stride, Real* x, const Real* b)
   {
     for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
     {

@@ -25,7 +25,6 @@ public:
   Level(Pool& pool, ResidentNodes& resident, int index, int columns, int sweeps)
     : Window(pool, resident, index, columns)
     , At(sweeps)
-    , Planned(sweeps)
     , Squares(static_cast<std::size_t>(strideOf(columns)))
   {
   }
@@ -52,15 +51,22 @@ public:
 
   void endPass() { this->Window.endPass(); }
 
+  /**
+   * Restriction of the next pass multiplies by `scale`, a power of two, and its prolongation undoes
+   * the scale before: so what single precision sees does not depend on units, nor on how small the
+   * residual has become.
+   */
+  void setScale(Real scale)
+  {
+    this->Unscale = 1 / this->Scale;
+    this->Scale = scale;
+  }
+
   /** Takes the next block of rows while the hierarchy is being built. */
   void append(RowBlock block) { this->Window.append(std::move(block)); }
 
   /** Loads, here and on the coarser levels, all that the way up to `node` needs. */
-  void load(std::int64_t node)
-  {
-    this->Planned = this->At;
-    this->load(static_cast<int>(this->At.postSweep.size()), node);
-  }
+  void load(std::int64_t node) { this->load(static_cast<int>(this->At.postSweep.size()), node); }
 
   /** Way up: finishes the V-cycle on nodes 0 .. node, which is loaded. */
   void pull(std::int64_t node) { this->pull(static_cast<int>(this->At.postSweep.size()), node); }
@@ -98,6 +104,7 @@ public:
     }
   }
 
+  /** Whether every node has gone through all stages of the pass. */
   bool finished() const { return this->At.restricted == this->Window.nodes(); }
 
   /**
@@ -166,14 +173,13 @@ private:
   /** Walks the way up to stage `stage` of node `node` as pull() will, loading. */
   void load(int stage, std::int64_t node)
   {
-    if (this->Core || node < 0 || upCursor(this->Planned, stage) > node)
+    if (this->Core || node < 0 || upCursor(this->At, stage) > node)
     {
       return;
     }
-    this->At.loaded = this->Window.load(node);
+    this->Window.load(node);
     const RowBlock::Header& h = this->Window.header(node);
     const auto g = LevelWindow<Real>::groupIn(h, node);
-    upCursor(this->Planned, stage) = LevelWindow<Real>::groupEnd(h, node);
     if (stage == 0)
     {
       this->Coarse->load(h.parentReach[g]);
@@ -231,14 +237,14 @@ private:
   /** How far the first sweep of the way down may go. */
   std::int64_t firstPreSweepEnd()
   {
-    this->At.loaded = this->Window.loaded();
     std::int64_t end = this->At.preSweep[0];
     if (!this->Fine)
     {
-      return this->First ? this->At.loaded : this->Window.reachable(end, this->At.seenPostSwept);
+      return this->First ? this->Window.loaded()
+                         : this->Window.reachable(end, this->At.seenPostSwept);
     }
     // b must be complete; the upper neighbours are zero, so they need not have come.
-    while (end < this->At.loaded)
+    while (end < this->Window.loaded())
     {
       const RowBlock::Header& h = this->Window.header(end);
       if (this->Fine->restricted <= h.childReach[LevelWindow<Real>::groupIn(h, end)])
@@ -295,11 +301,12 @@ private:
         const float* coarse = this->Coarse->window().x().at(h.parentBase);
         if (stride == 1)
         {
-          prolong<One, Lanes<float, 1>>(h, a, nodes, 1, x, coarse);
+          prolong<One, Lanes<float, 1>>(h, a, nodes, 1, x, coarse, this->Unscale);
         }
         for (int lane = 0; lane + 3 < stride; lane += 4)
         {
-          prolong<Four, Lanes<float, 4>>(h, a, nodes, stride, x + lane, coarse + lane);
+          prolong<Four, Lanes<float, 4>>(
+            h, a, nodes, stride, x + lane, coarse + lane, this->Unscale);
         }
       });
   }
@@ -314,22 +321,24 @@ private:
         Real* squares = this->Squares.data();
         if (stride == 1)
         {
-          restrictResidual<One, Lanes<float, 1>>(h, a, nodes, 1, x, b, coarse, squares);
+          restrictResidual<One, Lanes<float, 1>>(
+            h, a, nodes, 1, x, b, coarse, this->Scale, squares);
         }
         for (int lane = 0; lane + 3 < stride; lane += 4)
         {
           restrictResidual<Four, Lanes<float, 4>>(
-            h, a, nodes, stride, x + lane, b + lane, coarse + lane, squares + lane);
+            h, a, nodes, stride, x + lane, b + lane, coarse + lane, this->Scale, squares + lane);
         }
       });
   }
 
   LevelWindow<Real> Window;
   LevelCursors At;
-  LevelCursors Planned; // those of the way up, as load() foresees them
   std::vector<Real> Squares;
   CoarseLevel* Coarse = nullptr;
   const LevelCursors* Fine = nullptr;
+  Real Scale = 1;
+  Real Unscale = 1;
   bool First = true;
   bool Core = false;
 };

@@ -28,7 +28,6 @@ struct ResidentNodes
  */
 struct LevelCursors
 {
-  std::int64_t loaded = 0;             ///< nodes whose rows have come
   std::int64_t prolonged = 0;          ///< x += P x_coarse
   std::vector<std::int64_t> postSweep; ///< sweeps after prolongation
   std::int64_t reset = 0;              ///< b set to zero for the next V-cycle (coarse levels)

@@ -53,7 +53,7 @@ public:
   };
 
   RowBlock() = default;
-  /** Takes the bytes of a block that layout() or a file has filled. */
+  /** Takes the bytes of a block, as packRows() or a file has filled them. */
   explicit RowBlock(Buffer buffer)
     : Bytes(std::move(buffer))
   {

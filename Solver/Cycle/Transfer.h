@@ -7,10 +7,11 @@
 namespace smg
 {
 
-/** Prolongation of a block's nodes: x += P x_coarse. coarseX points to coarse node parentBase. */
+/** Prolongation of a block's nodes: x += scale P x_coarse. coarseX points to coarse node
+ * parentBase. */
 template <class Vectors, class CoarseVectors, class Real, class Index>
 void prolong(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, BlockRange nodes,
-  int stride, Real* x, const float* coarseX)
+  std::int64_t stride, Real* x, const float* coarseX, Real scale)
 {
   for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
   {
@@ -20,7 +21,8 @@ void prolong(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, BlockR
     {
       const auto value = CoarseVectors::load(coarseX + a.parent[e] * stride);
       const float weight = static_cast<float>(a.parentQuanta[e]) * Quantum;
-      sum += static_cast<Real>(weight) * __builtin_convertvector(value, typename Vectors::Vector);
+      sum += (static_cast<Real>(weight) * scale) *
+             __builtin_convertvector(value, typename Vectors::Vector);
     }
     Vectors::store(x + k * stride, sum);
   }
@@ -32,7 +34,7 @@ void prolong(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, BlockR
  */
 template <class Vectors, class CoarseVectors, class Real, class Index>
 void restrictResidual(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, BlockRange nodes,
-  int stride, const Real* x, const Real* b, float* coarseB, Real* squares)
+  std::int64_t stride, const Real* x, const Real* b, float* coarseB, Real scale, Real* squares)
 {
   auto total = Vectors::load(squares);
   for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
@@ -54,7 +56,7 @@ void restrictResidual(const RowBlock::Header& h, const RowBlock::Arrays<Index>& 
     }
     const auto residual = even + odd;
     total += residual * residual;
-    const auto coarse = __builtin_convertvector(residual, typename CoarseVectors::Vector);
+    const auto coarse = __builtin_convertvector(residual * scale, typename CoarseVectors::Vector);
     const BlockRange parents = parentsOf(h, a, k);
     for (std::int64_t p = parents.begin; p < parents.end; ++p)
     {

@@ -47,7 +47,8 @@ private:
   int firstCoreLevel(std::int64_t vertices) const;
   void addCoarseLevel(int l, bool core);
   void firstPass(MeshSource& mesh, Problem& problem);
-  void laterPass();
+  /** `norm`: of the residual that the pass before left. */
+  void laterPass(double norm);
   void startPass();
   void endPass();
   void iterate();

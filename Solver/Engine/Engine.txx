@@ -7,11 +7,21 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <cfloat>
+#include <cstdio>
 #include <numeric>
 #include <string>
 
 namespace smg
 {
+
+/** "1.23e-07" */
+inline std::string scientific(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2e", value);
+  return text;
+}
 
 template <OperatorSet Operators>
 Engine<Operators>::Engine(MeshSource& mesh, Problem& problem, const SolveOptions& options)
@@ -53,6 +63,7 @@ Engine<Operators>::Engine(MeshSource& mesh, Problem& problem, const SolveOptions
   this->fixMeans();
   this->Result.seconds.solve = solving.seconds();
   this->fillReport(wall.seconds(), processSeconds() - cpu);
+  this->Core = {};
   this->Hierarchy.coarse.clear();
   this->Hierarchy.finest->window().keepSolution();
   this->Progress.finish();
@@ -122,6 +133,10 @@ void Engine<Operators>::startPass()
 template <OperatorSet Operators>
 void Engine<Operators>::endPass()
 {
+  if (!this->Hierarchy.finest->finished())
+  {
+    throw Error("a pass ended before all nodes were done: this is a fault of the program");
+  }
   this->Hierarchy.finest->endPass();
   for (auto& level : this->Hierarchy.coarse)
   {
@@ -214,11 +229,13 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem)
 }
 
 template <OperatorSet Operators>
-void Engine<Operators>::laterPass()
+void Engine<Operators>::laterPass(double norm)
 {
   FineLevel& finest = *this->Hierarchy.finest;
   this->startPass();
   const std::int64_t nodes = finest.window().nodes();
+  const double typical = norm / std::sqrt(static_cast<double>(nodes));
+  finest.setScale(typical > DBL_MIN ? std::exp2(-std::ilogb(typical)) : 1.0);
   for (std::int64_t begin = 0; begin < nodes; begin += this->Options.blockNodes)
   {
     const std::int64_t last = std::min(nodes, begin + this->Options.blockNodes) - 1;
@@ -242,35 +259,57 @@ void Engine<Operators>::iterate()
 {
   // A residual that is this much larger than it was at first will not recover.
   constexpr double Diverged = 1e4;
-  const double goal = std::max(this->Options.tolerance * this->InitialNorm, this->RoundingNorm);
-  const double reference = std::max(this->InitialNorm, this->RoundingNorm);
+  // A residual that has not lost this share in so many V-cycles will not do much better; where it
+  // is of the size of its terms' rounding, fewer tell.
+  constexpr double Stagnating = 0.9;
+  constexpr int Patience = 6, RoundingPatience = 2;
+  constexpr double NearRounding = 10.0;
+  // Initial values that solve the problem up to rounding cannot be improved by a tolerance.
+  const bool exact = this->InitialNorm <= this->RoundingNorm;
+  const double reference = exact ? this->RoundingNorm : this->InitialNorm;
+  const double goal = exact ? reference : this->Options.tolerance * reference;
+  Report& r = this->Result;
   double norm = this->residualNorm();
   const double firstNorm = std::max(reference, norm);
-  this->Result.converged = norm <= goal && this->Parts.incompatibleSquares() == 0.0;
-  while (!this->Result.converged && this->Result.cycles < this->Options.maxCycles)
+  r.converged = norm <= goal && this->Parts.incompatibleSquares() == 0.0;
+  while (!r.converged && r.cycles < this->Options.maxCycles)
   {
     const Timer coarse;
     this->Core.run();
-    this->Result.seconds.coarse += coarse.seconds();
-    this->laterPass();
-    ++this->Result.cycles;
+    r.seconds.coarse += coarse.seconds();
+    this->laterPass(norm);
+    ++r.cycles;
     norm = this->residualNorm();
     const double relative = reference > 0.0 ? norm / reference : 0.0;
-    this->Result.residuals.push_back(relative);
-    this->Progress.endCycle(this->Result.cycles, relative);
-    this->Result.converged = norm <= goal;
-    if (!std::isfinite(norm) || (norm > Diverged * firstNorm && !this->Result.converged))
+    r.residuals.push_back(relative);
+    this->Progress.endCycle(r.cycles, relative);
+    r.converged = norm <= goal;
+    if (!std::isfinite(norm) || (norm > Diverged * firstNorm && !r.converged))
     {
-      throw Error("the solve diverges (relative residual " + std::to_string(relative) + " after " +
-                  std::to_string(this->Result.cycles) +
+      throw Error("the solve diverges (relative residual " + scientific(relative) + " after " +
+                  std::to_string(r.cycles) +
                   " V-cycles): the mesh has very bad cells; use uniform weights or more sweeps");
     }
+    const bool rounding = norm <= NearRounding * this->RoundingNorm;
+    const int patience = rounding ? RoundingPatience : Patience;
+    const double before = r.cycles > patience
+                            ? r.residuals[static_cast<std::size_t>(r.cycles - patience - 1)]
+                            : firstNorm / reference;
+    if (!r.converged && r.cycles >= patience && relative > Stagnating * before)
+    {
+      r.converged = rounding;
+      r.notes.push_back(
+        rounding
+          ? "converged as far as the rounding of the numbers allows: the relative residual is " +
+              scientific(relative)
+          : "not converged: the relative residual stagnates at " + scientific(relative));
+      return;
+    }
   }
-  if (!this->Result.converged)
+  if (!r.converged)
   {
-    this->Result.notes.push_back(
-      "not converged: the relative residual is " + std::to_string(this->Result.residuals.back()) +
-      " after " + std::to_string(this->Result.cycles) + " V-cycles, the most allowed");
+    r.notes.push_back("not converged: the relative residual is " + scientific(r.residuals.back()) +
+                      " after " + std::to_string(r.cycles) + " V-cycles, the most allowed");
   }
 }
 
@@ -292,8 +331,8 @@ void Engine<Operators>::projectRightSide()
       const auto labels = this->Labels.block(block);
       for (std::size_t i = 0; i < labels.size(); ++i)
       {
-        const std::int32_t root = labels[i] < 0 ? -1 : this->Parts.root(labels[i]);
-        if (root >= 0 && this->Parts.isFree(root))
+        const std::int64_t root = labels[i] < 0 ? -1 : this->Parts.root(labels[i]);
+        if (root >= 0 && this->Parts.isFree(static_cast<std::int32_t>(root)))
         {
           for (int k = 0; k < this->Columns; ++k)
           {
@@ -327,9 +366,10 @@ void Engine<Operators>::fixMeans()
       first, static_cast<std::int64_t>(labels.size()), values.data());
     for (std::size_t i = 0; i < labels.size(); ++i)
     {
-      for (int k = 0; labels[i] >= 0 && k < this->Columns; ++k)
+      const std::int64_t root = labels[i] < 0 ? -1 : this->Parts.root(labels[i]);
+      for (int k = 0; root >= 0 && k < this->Columns; ++k)
       {
-        sums[static_cast<std::size_t>(this->Parts.root(labels[i]) * this->Columns + k)] +=
+        sums[static_cast<std::size_t>(root * this->Columns + k)] +=
           values[i * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)];
       }
     }
@@ -361,10 +401,11 @@ void Engine<Operators>::read(std::int64_t first, std::int64_t count, std::span<d
   {
     const std::int32_t label =
       this->Labels.block((first + i) / Block)[static_cast<std::size_t>((first + i) % Block)];
-    for (int k = 0; label >= 0 && k < this->Columns; ++k)
+    const std::int64_t root = label < 0 ? -1 : this->Parts.root(label);
+    for (int k = 0; root >= 0 && k < this->Columns; ++k)
     {
       values[static_cast<std::size_t>(i * this->Columns + k)] -=
-        this->MeanShifts[static_cast<std::size_t>(this->Parts.root(label) * this->Columns + k)];
+        this->MeanShifts[static_cast<std::size_t>(root * this->Columns + k)];
     }
   }
 }
@@ -384,7 +425,7 @@ void Engine<Operators>::fillReport(double wallSeconds, double cpuSeconds)
   r.seconds.io_wait = 1e-9 * static_cast<double>(this->Traffic.waitNanoseconds);
   r.seconds.total = wallSeconds;
   r.cpu_seconds = cpuSeconds;
-  r.threads = this->Options.threads;
+  r.threads = this->Threads.max_concurrency();
 }
 
 } // namespace smg

@@ -32,8 +32,11 @@ class HierarchyBuilder
 {
 public:
   using Relaxation = typename Operators::Relaxation;
-  /** Coarsening ends at a level of at most this many nodes, which is factorised directly. */
+  /** Coarsening ends at a level of at most this many nodes, which is factorised directly ... */
   static constexpr std::int64_t CoarsestNodes = 1000;
+  /** ... or that has more than this share of the nodes of the level before: it has no strong edges.
+   */
+  static constexpr double StalledShare = 0.8;
 
   HierarchyBuilder(Pool& pool, Operators operators, Levels<Relaxation>& levels, int firstCore)
     : Owner(pool)
@@ -74,7 +77,7 @@ public:
       this->close(k);
     }
     int l = 1;
-    for (; this->nodes(l) > CoarsestNodes; ++l)
+    for (; this->nodes(l) > CoarsestNodes && !this->stalled(l); ++l)
     {
       if (l < this->FirstCore)
       {
@@ -105,6 +108,12 @@ private:
   {
     const auto k = static_cast<std::size_t>(l);
     return k < this->Built.sizes.size() ? this->Built.sizes[k].nodes : this->Rows[k]->end();
+  }
+
+  bool stalled(int l) const
+  {
+    return static_cast<double>(this->nodes(l)) >
+           StalledShare * static_cast<double>(this->nodes(l - 1));
   }
 
   /** Notes the size of level l and lets go of its rows, which have been packed. */

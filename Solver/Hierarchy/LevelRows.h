@@ -69,9 +69,9 @@ public:
       strongest = std::max(strongest, entry[e].weight);
     }
     // A node that is all that is left of a component without constraint: any correction will do,
-    // and this diagonal makes it nought.
+    // and this diagonal makes it zero.
     constexpr double Isolated = 1e20;
-    sum = size == 0 && sum == 0.0 ? Isolated : sum;
+    sum = sum > 0.0 ? sum : Isolated;
     const std::int64_t last = size > 0 ? i + std::max(0, entry[size - 1].delta) : i;
     this->Entries.close(size);
     for (auto* ring : { &this->Diagonal, &this->Alpha })

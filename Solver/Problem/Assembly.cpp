@@ -20,6 +20,18 @@ bool allFinite(const std::vector<double>& values)
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
+bool hasRepeatedCorner(const std::int64_t* corners, int count)
+{
+  for (int a = 1; a < count; ++a)
+  {
+    if (std::find(corners, corners + a, corners[a]) != corners + a)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 /** Neighbours that an open vertex has room for without the table aside. */
 int usualNeighbours(CellType type)
 {
@@ -158,8 +170,10 @@ void Assembly::addCell(const std::int64_t* corners)
   {
     point[k] = this->Points.at(corners[k]);
   }
-  const CellWeights cell = triangle ? triangleWeights(point[0], point[1], point[2])
-                                    : tetrahedronWeights(point[0], point[1], point[2], point[3]);
+  const bool repeated = hasRepeatedCorner(corners, cornersOf(this->Type));
+  const CellWeights cell = repeated   ? CellWeights{}
+                           : triangle ? triangleWeights(point[0], point[1], point[2])
+                                      : tetrahedronWeights(point[0], point[1], point[2], point[3]);
   if (cell.measure == 0.0)
   {
     ++this->Degenerate;
@@ -253,6 +267,12 @@ void Assembly::collectRow(std::int64_t i)
       const double floor = cotangentFloor(this->Type, this->Points.at(i), this->Points.at(edge.to));
       this->Clamped += weight < floor ? 1 : 0;
       weight = std::max(weight, floor);
+    }
+    if (!std::isfinite(static_cast<float>(weight)))
+    {
+      throw Error("the weight of the edge between vertices " + std::to_string(i) + " and " +
+                  std::to_string(edge.to) +
+                  " is too large: the cells there are almost flat; use uniform weights");
     }
     this->Neighbours.push_back({ edge.to, static_cast<float>(weight) });
   }

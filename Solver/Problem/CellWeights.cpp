@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/CellWeights.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -10,6 +11,9 @@ namespace
 {
 
 using Vector = std::array<double, 3>;
+
+/** A cell is degenerate if its measure is below this share of what its edges allow: rounding. */
+constexpr double Flat = 1e-14;
 
 Vector difference(const double* a, const double* b)
 {
@@ -36,7 +40,8 @@ CellWeights triangleWeights(const double* a, const double* b, const double* c)
   const Vector normal = cross(ab, ac);
   const double twiceArea = std::sqrt(dot(normal, normal));
   CellWeights cell;
-  if (!(twiceArea > 0.0) || !std::isfinite(1.0 / twiceArea))
+  const double scale = std::max({ dot(ab, ab), dot(ac, ac), dot(bc, bc) });
+  if (!(twiceArea > Flat * scale) || !std::isfinite(1.0 / twiceArea))
   {
     return cell;
   }
@@ -61,16 +66,18 @@ CellWeights tetrahedronWeights(const double* a, const double* b, const double* c
     -(nb[2] + nc[2] + nd[2]) };
   const double sixVolume = std::fabs(dot(ab, nb));
   CellWeights cell;
-  if (!(sixVolume > 0.0) || !std::isfinite(1.0 / sixVolume))
+  const double longest = std::sqrt(std::max({ dot(ab, ab), dot(ac, ac), dot(ad, ad) }));
+  const double scale = longest * longest * longest;
+  if (!(sixVolume > Flat * scale) || !std::isfinite(1.0 / sixVolume))
   {
     return cell;
   }
   cell.measure = sixVolume / 6.0;
-  const double scale = -1.0 / (6.0 * sixVolume);
+  const double stiffness = -1.0 / (6.0 * sixVolume);
   const Vector* n[4] = { &na, &nb, &nc, &nd };
   for (int e = 0; e < 6; ++e)
   {
-    cell.weight[e] = scale * dot(*n[TetrahedronEdges[e][0]], *n[TetrahedronEdges[e][1]]);
+    cell.weight[e] = stiffness * dot(*n[TetrahedronEdges[e][0]], *n[TetrahedronEdges[e][1]]);
   }
   return cell;
 }

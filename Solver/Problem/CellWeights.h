@@ -11,7 +11,7 @@ namespace smg
 /** Measure and stiffness weights of a cell. */
 struct CellWeights
 {
-  /** Area or volume; 0: the cell is degenerate and has no weight. */
+  /** Area or volume; 0: the cell is degenerate, flat up to rounding, and has no weight. */
   double measure = 0.0;
   /** Weight of the edges (0,1), (0,2), (1,2) of a triangle or (0,1), (0,2), (0,3), (1,2), (1,3),
    * (2,3) of a tetrahedron. */

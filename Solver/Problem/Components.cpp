@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/Components.h"
 
+#include "Solver/Core/Error.h"
+
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace smg
@@ -9,8 +12,12 @@ namespace smg
 
 std::int32_t Components::add()
 {
+  if (this->Of.size() >= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+  {
+    throw Error("the mesh falls into too many parts: convert it with the order bfs");
+  }
   const auto label = static_cast<std::int32_t>(this->Of.size());
-  this->Of.push_back({ label, false, 0 });
+  this->Of.push_back({ label, false, 1, 0 });
   this->Sums.resize(this->Sums.size() + 3 * static_cast<std::size_t>(this->Columns));
   return label;
 }
@@ -33,8 +40,7 @@ std::int32_t Components::join(std::int32_t a, std::int32_t b)
     return a;
   }
   // The smaller component goes into the larger one, which keeps the paths to the roots short.
-  if (this->Of[static_cast<std::size_t>(a)].unknowns <
-      this->Of[static_cast<std::size_t>(b)].unknowns)
+  if (this->Of[static_cast<std::size_t>(a)].labels < this->Of[static_cast<std::size_t>(b)].labels)
   {
     std::swap(a, b);
   }
@@ -42,6 +48,7 @@ std::int32_t Components::join(std::int32_t a, std::int32_t b)
   Component& part = this->Of[static_cast<std::size_t>(b)];
   part.parent = a;
   whole.anchored = whole.anchored || part.anchored;
+  whole.labels += part.labels;
   whole.unknowns += part.unknowns;
   for (int k = 0; k < 3 * this->Columns; ++k)
   {

@@ -44,7 +44,7 @@ public:
   /** Per column and free component: the mean of the values less the mean of the initial values,
    * given the sums of the values (label-major). */
   std::vector<double> meanShifts(std::span<const double> sums) const;
-  int labels() const { return static_cast<int>(this->Of.size()); }
+  std::int64_t labels() const { return static_cast<std::int64_t>(this->Of.size()); }
   bool isFree(std::int32_t root) const
   {
     return !this->Of[static_cast<std::size_t>(root)].anchored;
@@ -55,6 +55,7 @@ private:
   {
     std::int32_t parent;
     bool anchored;
+    std::int64_t labels; ///< labels joined in it
     std::int64_t unknowns;
   };
 

@@ -10,7 +10,7 @@
 namespace smg
 {
 
-/** Which weight w_ij an edge of the mesh carries. See Solver/Problem/Weights.h. */
+/** Which weight w_ij an edge of the mesh carries. See Solver/Problem/CellWeights.h. */
 enum class Weights
 {
   Uniform,  ///< 1 on every edge

@@ -204,10 +204,20 @@ void FileDescriptor::close()
 
 void FileDescriptor::renameTo(const std::filesystem::path& path)
 {
-  this->close();
+  try
+  {
+    this->close();
+  }
+  catch (...)
+  {
+    this->remove();
+    throw;
+  }
   if (::rename(this->Path.c_str(), path.c_str()) != 0)
   {
-    throwWriteError(path, errno);
+    const int error = errno;
+    this->remove();
+    throwWriteError(path, error);
   }
   this->Path = path;
 }

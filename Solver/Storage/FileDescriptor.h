@@ -49,7 +49,10 @@ public:
 
   /** Closes the file; some systems tell only now that a write failed. */
   void close();
-  /** Closes the file and gives it the name `path`, in one step, in place of what has that name. */
+  /**
+   * Closes the file and gives it the name `path`, in one step, in place of what has that name.
+   * If that fails, the file is removed: Error.
+   */
   void renameTo(const std::filesystem::path& path);
   /** Closes and removes the file. */
   void remove() noexcept;

@@ -11,7 +11,7 @@ namespace smg
  * Accounts for all block memory of a solve and keeps the promise of its limit: a request above it
  * is an Error that names the bytes needed, the bytes allowed and what to change.
  *
- * The pool counts; the memory itself comes from Ring and BlockBuffer. Not thread safe: windows grow
+ * The pool counts; the memory itself comes from Ring and Buffer. Not thread safe: windows grow
  * on the thread that drives the stages.
  */
 class Pool

@@ -14,8 +14,12 @@ namespace smg
 ScratchFolder::ScratchFolder(const std::filesystem::path& parent)
 {
   std::error_code failed;
-  const std::filesystem::path base =
-    parent.empty() ? std::filesystem::temp_directory_path(failed) : parent;
+  const std::filesystem::path base = std::filesystem::absolute(
+    parent.empty() ? std::filesystem::temp_directory_path(failed) : parent);
+  if (failed)
+  {
+    throw Error("there is no temporary folder (" + failed.message() + "): name a scratch folder");
+  }
   std::string name = (base / "smg-XXXXXX").string();
   if (!::mkdtemp(name.data()))
   {

@@ -80,7 +80,8 @@ void ScratchStream::endPass()
   this->Reader.reset();
   if (hadReader)
   {
-    std::filesystem::remove(old);
+    std::error_code ignored;
+    std::filesystem::remove(old, ignored);
   }
   ++this->Generation;
   this->Reader =

@@ -104,7 +104,8 @@ TEST(Streaming, doesNotDependOnTheNumberOfThreads)
         options.inCore = core;
         const Solved solved = solveMesh(mesh, problem, options);
         EXPECT_TRUE(sameBits(solved.values, expected.values)) << threads << " threads";
-        EXPECT_EQ(solved.report.threads, threads);
+        EXPECT_GE(solved.report.threads, 1);
+        EXPECT_LE(solved.report.threads, threads);
       }
     }
   }
