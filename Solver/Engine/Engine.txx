@@ -29,13 +29,13 @@ Engine<Operators>::Engine(MeshSource& mesh, Problem& problem, const SolveOptions
   , Options(options)
   , Progress(options.progress, options.tolerance, options.maxCycles)
   , Memory(options.memoryLimit)
-  , Parts(problem.columns())
+  , Parts(problem.columns(), &this->Memory)
   , FirstCore(this->firstCoreLevel(mesh.info().vertices))
   , Threads(std::min({ options.threads, ParallelStages, tbb::info::default_concurrency() }))
 {
   const Timer wall;
   const double cpu = processSeconds();
-  if (const std::int64_t need = estimateMemory(mesh.info(), this->Columns, options);
+  if (const std::int64_t need = estimateMemory(mesh.info(), problem, options);
       need > options.memoryLimit)
   {
     throw Error(memoryLimitSentence(need, options.memoryLimit));

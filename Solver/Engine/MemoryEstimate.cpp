@@ -11,11 +11,16 @@ namespace
 {
 
 // Measured on surfaces and tetrahedral meshes of 40 thousand to 3 million vertices, rounded down to
-// the least need seen (uniform weights, two sweeps), so that a solve that fits is not refused.
+// the least need seen, so that a solve that fits is not refused.
 
-/** Bytes of all windows of the first pass for one node of the stream's span, and for each value of
- * its state. */
+/** Bytes of all windows for one node of the stream's span, and for each value of its state: in the
+ * first pass with two sweeps, for a sweep more, and in a later pass for each sweep. */
 constexpr std::int64_t TriangleBytes = 6300, TetrahedronBytes = 6500, ValueBytes = 300;
+constexpr std::int64_t FurtherSweepBytes = 250;
+constexpr std::int64_t LaterSweepBytes = 400, LaterSweepValueBytes = 75;
+
+/** Cotangent weights lift more nodes than uniform ones: percent of the bytes above. */
+constexpr std::int64_t CotangentPercent = 120;
 
 /** The windows hold at least this many spans' worth of nodes, unless the mesh has fewer. */
 constexpr std::int64_t WindowSpans = 30;
@@ -25,10 +30,11 @@ constexpr std::int64_t TriangleCoreBytes = 100, TetrahedronCoreBytes = 180, Valu
 
 } // namespace
 
-std::int64_t estimateMemory(const StreamInfo& info, int columns, const SolveOptions& options)
+std::int64_t estimateMemory(
+  const StreamInfo& info, const Problem& problem, const SolveOptions& options)
 {
   const bool surface = info.cellType == CellType::Triangle;
-  const std::int64_t stride = strideOf(columns);
+  const std::int64_t stride = strideOf(problem.columns());
   if (options.inCore)
   {
     return info.vertices *
@@ -39,7 +45,11 @@ std::int64_t estimateMemory(const StreamInfo& info, int columns, const SolveOpti
     return 0;
   }
   const std::int64_t nodes = std::min(info.span, info.vertices / WindowSpans);
-  return nodes * ((surface ? TriangleBytes : TetrahedronBytes) + ValueBytes * stride);
+  const std::int64_t first = (surface ? TriangleBytes : TetrahedronBytes) + ValueBytes * stride +
+                             FurtherSweepBytes * std::max(0, options.sweeps - 2);
+  const std::int64_t later = options.sweeps * (LaterSweepBytes + LaterSweepValueBytes * stride);
+  const std::int64_t percent = problem.weights() == Weights::Cotangent ? CotangentPercent : 100;
+  return nodes * std::max(first, later) * percent / 100;
 }
 
 } // namespace smg

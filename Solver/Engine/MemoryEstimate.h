@@ -13,6 +13,7 @@ namespace smg
  * windows of all levels hold a number of nodes proportional to the stream's span; in core
  * everything stays. 0 when the span is not known.
  */
-std::int64_t estimateMemory(const StreamInfo& info, int columns, const SolveOptions& options);
+std::int64_t estimateMemory(
+  const StreamInfo& info, const Problem& problem, const SolveOptions& options);
 
 } // namespace smg

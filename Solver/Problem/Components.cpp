@@ -16,6 +16,11 @@ std::int32_t Components::add()
   {
     throw Error("the mesh falls into too many parts: convert it with the order bfs");
   }
+  if (this->Account)
+  {
+    this->Account->acquire(static_cast<std::int64_t>(sizeof(Component)) +
+                           3 * this->Columns * static_cast<std::int64_t>(sizeof(double)));
+  }
   const auto label = static_cast<std::int32_t>(this->Of.size());
   this->Of.push_back({ label, false, 1, 0 });
   this->Sums.resize(this->Sums.size() + 3 * static_cast<std::size_t>(this->Columns));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Storage/Pool.h"
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,8 +19,10 @@ namespace smg
 class Components
 {
 public:
-  explicit Components(int columns)
+  /** `pool`, if given, accounts for the memory. */
+  explicit Components(int columns, Pool* pool = nullptr)
     : Columns(columns)
+    , Account(pool)
   {
   }
 
@@ -73,6 +77,7 @@ private:
   }
 
   int Columns;
+  Pool* Account;
   std::vector<Component> Of;
   std::vector<double> Sums; // a label: sums of b, |b| and x0, a column each
 };
