@@ -12,11 +12,18 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 files() {
   if git rev-parse --is-inside-work-tree > /dev/null 2>&1; then
     git ls-files --cached --others --exclude-standard -- "$@" |
-      while read -r file; do [ -f "$file" ] && echo "$file"; done
+      while read -r file; do
+        if [ -f "$file" ]; then echo "$file"; fi
+      done
   else
     find . -path './build*' -prune -o -type f -print | sed 's,^\./,,' |
       while read -r file; do
-        for pattern in "${@:-*}"; do [[ $file == $pattern ]] && echo "$file" && break; done
+        for pattern in "${@:-*}"; do
+          if [[ $file == $pattern ]]; then
+            echo "$file"
+            break
+          fi
+        done
       done
   fi
 }
