@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set(smg_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/StreamingMultigrid")
 install(DIRECTORY Solver IO
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid"
-  FILES_MATCHING PATTERN "*.h" PATTERN "vtk*" EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" PATTERN "*.txx" PATTERN "vtk*" EXCLUDE)
 
 configure_package_config_file(cmake/StreamingMultigridConfig.cmake.in
   "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridConfig.cmake"

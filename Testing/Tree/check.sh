@@ -38,7 +38,7 @@ includes() { xargs -r grep -nHE "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<
 
 layers() {
   local found
-  found=$(files 'Solver/*' 'IO/*' 'Filters/*' | grep -E '\.(h|cpp|cxx)$' |
+  found=$(files 'Solver/*' 'IO/*' 'Filters/*' | grep -E '\.(h|cpp|cxx|txx)$' |
     grep -vE '(^|/)vtk[^/]*$' | includes '([^<>"]*/)?vtk[^/"<>]*[">]')
   [ -z "$found" ] || fail "VTK headers in files whose name does not begin with vtk:
 $found"
@@ -61,13 +61,13 @@ format() {
     echo "SKIPPED: clang-format 14 is not installed"
     exit 77
   fi
-  files '*.h' '*.cpp' '*.cxx' | xargs -r "$program" --dry-run -Werror ||
+  files '*.h' '*.cpp' '*.cxx' '*.txx' | xargs -r "$program" --dry-run -Werror ||
     fail "not formatted: run $program -i on the files above"
 }
 
 licence() {
   local found
-  found=$(files '*.h' '*.cpp' '*.cxx' '*.py' '*.sh' '*.cmake' '*.in' '*CMakeLists.txt' '.ci/run' |
+  found=$(files '*.h' '*.cpp' '*.cxx' '*.txx' '*.py' '*.sh' '*.cmake' '*.in' '*CMakeLists.txt' '.ci/run' |
     while read -r file; do
       head -n 3 "$file" | grep -q 'SPDX-License-Identifier: BSD-3-Clause' || echo "$file"
     done)
