@@ -37,14 +37,10 @@ ColumnProblem::ColumnProblem(
   , WeightsOfEdges(weights)
   , Screening(screening)
 {
+  check(names);
   if (this->Mask >= 0 && info.vertexColumns[this->Mask].components != 1)
   {
     throw Error("The Dirichlet mask " + names.mask + " has several components: it must have one.");
-  }
-  if ((this->Mask >= 0) != (this->Values >= 0))
-  {
-    throw Error("A Dirichlet mask and Dirichlet values belong together: choose both arrays, or "
-                "neither.");
   }
   for (const int column : { this->Values, this->Source, this->Guess })
   {
@@ -61,7 +57,16 @@ ColumnProblem::ColumnProblem(
     }
     this->Columns = spec.components;
   }
-  if (this->Columns == 0)
+}
+
+void ColumnProblem::check(const ColumnProblemNames& names)
+{
+  if (names.mask.empty() != names.values.empty())
+  {
+    throw Error("A Dirichlet mask and Dirichlet values belong together: choose both arrays, or "
+                "neither.");
+  }
+  if (names.values.empty() && names.source.empty() && names.guess.empty())
   {
     throw Error("No array says what to solve: choose a Dirichlet mask with values, or a source.");
   }
@@ -93,7 +98,6 @@ void ColumnProblem::conditions(const MeshBlock& block, VertexConditions& conditi
   {
     const bool isConstrained = mask && this->finite(*mask, block, vertex, 0) != 0.0;
     conditions.prescribed[vertex] = isConstrained ? 1 : 0;
-    this->Constrained += isConstrained ? 1 : 0;
     // Values at free vertices are no one's business: they may be anything, also NaN.
     const Column* value = isConstrained ? values : guess;
     for (int k = 0; k < this->Columns; ++k)

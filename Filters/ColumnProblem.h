@@ -30,13 +30,13 @@ public:
   ColumnProblem(
     const StreamInfo& info, const ColumnProblemNames& names, Weights weights, double screening);
 
+  /** Throws Error if no mesh can make a problem of these names. */
+  static void check(const ColumnProblemNames& names);
+
   int columns() const override { return this->Columns; }
   Weights weights() const override { return this->WeightsOfEdges; }
   double screening() const override { return this->Screening; }
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
-
-  /** Vertices constrained so far. */
-  std::int64_t constrained() const { return this->Constrained; }
 
 private:
   double finite(
@@ -46,7 +46,6 @@ private:
   int Columns = 0;
   Weights WeightsOfEdges;
   double Screening;
-  std::int64_t Constrained = 0;
 };
 
 } // namespace smg

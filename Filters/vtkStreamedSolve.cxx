@@ -2,11 +2,14 @@
 #include "Filters/vtkStreamedSolve.h"
 
 #include "IO/Container/VsmReader.h"
+#include "IO/Conversion/PartialProgress.h"
 #include "IO/vtkPieceStream.h"
+#include "Solver/Core/Error.h"
 #include "Solver/Storage/ScratchFolder.h"
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace smg
 {
@@ -32,15 +35,15 @@ PieceColumns columnsOf(const ColumnProblemNames& names)
   return columns;
 }
 
-/** A progress that counts for the part [begin, end] of another. */
-Progress partOf(Progress& whole, double begin, double end)
+/** Throws Error about what is wrong whatever the input is, so that it is not pulled in vain. */
+void check(const StreamedSolveSettings& settings)
 {
-  return Progress(
-    [&whole, begin, end](double done)
-    {
-      whole.update(begin + (end - begin) * done);
-      return true;
-    });
+  ColumnProblem::check(settings.arrays);
+  checkOptions(settings.options);
+  if (!std::isfinite(settings.screening))
+  {
+    throw Error("The screening is not a finite number: use one that is at least 0.");
+  }
 }
 
 } // namespace
@@ -69,10 +72,16 @@ void StreamedSolve::fail(const std::string& sentence)
 void StreamedSolve::pullAndSolve(
   PieceInput& input, const StreamedSolveSettings& settings, Progress& progress)
 {
+  check(settings);
   const auto start = std::chrono::steady_clock::now();
   const ScratchFolder scratch(settings.options.scratch);
   const std::filesystem::path container = scratch.path() / "mesh.vsm";
-  Progress pulling = partOf(progress, 0.0, PullShare);
+  const ProgressFunction whole = [&progress](double done)
+  {
+    progress.update(done);
+    return true;
+  };
+  Progress pulling(partOf(whole, 0.0, PullShare));
   {
     PieceStream stream(input, settings.pieces, columnsOf(settings.arrays));
     writeContainer(stream, container, true, pulling);
@@ -82,11 +91,7 @@ void StreamedSolve::pullAndSolve(
   const VsmReader reader(container);
   ColumnProblem problem(reader.info(), settings.arrays, settings.weights, settings.screening);
   SolveOptions options = settings.options;
-  options.progress = [solving = partOf(progress, PullShare, 1.0)](double done) mutable
-  {
-    solving.update(done);
-    return true;
-  };
+  options.progress = partOf(whole, PullShare, 1.0);
   this->Result = smg::solve(*reader.source(), problem, options);
   this->summarize(pulled.count());
 }

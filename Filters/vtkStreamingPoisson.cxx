@@ -250,28 +250,12 @@ int vtkStreamingPoisson::RequestInformation(
 int vtkStreamingPoisson::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  vtkInformation* inputInfo = inputVector[0]->GetInformationObject(0);
+  // Not the first piece to solve on: were the executive to ask for that, nobody would take the
+  // streamed request back if the input failed.
   const PieceRequest request(outputVector->GetInformationObject(0));
-  try
-  {
-    smg::PieceInput input(*this, 0);
-    if (smg::SolutionExchange(this->Controller).isServer() &&
-        !this->Internal->Solve.isFor(this->Internal->stamp(input, inputInfo)))
-    {
-      // The executive brings the input to this piece, so that the first pull finds it there.
-      setRequest(inputInfo, 0, this->NumberOfPieces, true);
-    }
-    else
-    {
-      setRequest(inputInfo, request.Piece, request.Pieces, request.IsStreamed);
-    }
-    return 1;
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+  setRequest(
+    inputVector[0]->GetInformationObject(0), request.Piece, request.Pieces, request.IsStreamed);
+  return 1;
 }
 
 int vtkStreamingPoisson::RequestData(

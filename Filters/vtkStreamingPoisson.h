@@ -26,8 +26,10 @@
  * With more than one process, process 0 solves and sends the others the values of their points.
  * Requests that are streamed (see vtkStreamingMeshKeys) are answered by process 0 alone.
  *
- * @warning Filters in between must pass point GlobalIds, vtkGhostType and StreamFinalized, and
- * handle piece requests; a source that gives the same data for every piece is refused.
+ * @warning The input must keep the piece contract described at vtkStreamingMeshReader: filters in
+ * between must pass point GlobalIds, vtkGhostType and StreamFinalized, and handle piece requests; a
+ * source that gives the same data for every piece, has points that no cell uses, or does not number
+ * its points by first use is refused.
  * @sa vtkStreamingMeshReader vtkStreamingMeshWriter
  */
 #ifndef vtkStreamingPoisson_h

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkMeshImport.h"
 
+#include "IO/Container/ReservedNames.h"
 #include "IO/Import/CellCollector.h"
 #include "IO/Import/VtkSizes.h"
+#include "IO/vtkPieceColumns.h"
 #include "IO/vtkReaderComplaints.h"
 #include "Solver/Core/Error.h"
 
@@ -39,8 +41,18 @@ namespace smg
 namespace
 {
 
+/** What to do where Expat, which parses XML for VTK, no longer lets it skip appended data. */
+std::string advice(const std::string& complaint, bool appendedData)
+{
+  return appendedData && complaint.find("not well-formed") != std::string::npos
+           ? "; unless the file is damaged, this VTK cannot read <AppendedData> with the installed "
+             "version of Expat (libexpat1): save the file elsewhere with binary or ascii instead "
+             "of appended data, for example with a ParaView of paraview.org"
+           : "";
+}
+
 template <class Reader>
-vtkSmartPointer<vtkPointSet> run(const std::filesystem::path& path)
+vtkSmartPointer<vtkPointSet> run(const std::filesystem::path& path, bool appendedData)
 {
   vtkNew<Reader> reader;
   vtkReaderComplaints complaints;
@@ -75,39 +87,31 @@ vtkSmartPointer<vtkPointSet> run(const std::filesystem::path& path)
   if (!complaints.text().empty() || reader->GetErrorCode() != 0)
   {
     throw Error(path.string() + ": VTK cannot read the file: " +
-                (complaints.text().empty() ? "unknown error" : complaints.text()) + '.');
+                (complaints.text().empty() ? "unknown error" : complaints.text()) +
+                advice(complaints.text(), appendedData) + '.');
   }
   return reader->GetOutput();
 }
 
 vtkSmartPointer<vtkPointSet> read(
-  const std::filesystem::path& path, MeshFormat format, VtkDataKind kind)
+  const std::filesystem::path& path, MeshFormat format, const VtkSizes& sizes)
 {
-  if (kind == VtkDataKind::Other)
+  if (sizes.kind == VtkDataKind::Other)
   {
     throw Error(
       path.string() +
       ": the file is neither polygonal data nor an unstructured grid of VTK, which are the kinds "
       "that hold meshes.");
   }
-  const bool poly = kind == VtkDataKind::PolyData;
+  const bool poly = sizes.kind == VtkDataKind::PolyData;
+  const bool appended = sizes.appendedData;
   if (format == MeshFormat::VtkXml)
   {
-    return poly ? run<vtkXMLPolyDataReader>(path) : run<vtkXMLUnstructuredGridReader>(path);
+    return poly ? run<vtkXMLPolyDataReader>(path, appended)
+                : run<vtkXMLUnstructuredGridReader>(path, appended);
   }
-  return poly ? run<vtkPolyDataReader>(path) : run<vtkUnstructuredGridReader>(path);
-}
-
-std::optional<ScalarType> scalarTypeOf(int vtkType)
-{
-  std::optional<ScalarType> type;
-  switch (vtkType)
-  {
-    vtkTemplateMacro(type = smg::scalarTypeOf<VTK_TT>());
-    default:
-      break;
-  }
-  return type;
+  return poly ? run<vtkPolyDataReader>(path, appended)
+              : run<vtkUnstructuredGridReader>(path, appended);
 }
 
 /** The numeric arrays, but for those that VTK keeps for itself. */
@@ -117,10 +121,9 @@ std::vector<Column> columnsOf(vtkFieldData* data, std::int64_t tuples)
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = data->GetArray(i);
-    const std::optional<ScalarType> type =
-      array ? scalarTypeOf(array->GetDataType()) : std::nullopt;
+    const std::optional<ScalarType> type = array ? scalarTypeOf(*array) : std::nullopt;
     const std::string name = array && array->GetName() ? array->GetName() : "";
-    if (!type || name.empty() || name == "vtkGhostType" || array->GetNumberOfTuples() != tuples ||
+    if (!type || name.empty() || name == GhostTypeName || array->GetNumberOfTuples() != tuples ||
         array->GetNumberOfComponents() < 1)
     {
       continue;
@@ -295,7 +298,6 @@ private:
         this->Cells.tetrahedron(
           this->Corners[0], this->Corners[1], this->Corners[2], this->Corners[3]);
         break;
-      case VTK_EMPTY_CELL:
       case VTK_VERTEX:
       case VTK_POLY_VERTEX:
       case VTK_LINE:
@@ -338,7 +340,7 @@ IndexedMesh importVtkMesh(
   options.budget.check(path, sizes.mesh);
   Progress progress(options.progress);
   progress.update(0.0);
-  const vtkSmartPointer<vtkPointSet> data = read(path, format, sizes.kind);
+  const vtkSmartPointer<vtkPointSet> data = read(path, format, sizes);
   progress.update(0.6);
   return Translator(path, data).translate();
 }

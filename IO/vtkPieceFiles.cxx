@@ -3,7 +3,7 @@
 
 #include "IO/Formats/VtkXml.h"
 #include "IO/vtkPieceColumns.h"
-#include "IO/vtkPieceNames.h"
+#include "IO/vtkPieceStream.h"
 #include "Solver/Core/Error.h"
 #include "Solver/Storage/ScratchFolder.h"
 
@@ -106,8 +106,8 @@ void writePiece(vtkXMLWriter& writer, vtkPointSet& piece, const std::filesystem:
   writer.SetInputData(&piece);
   writer.SetFileName(path.c_str());
   writer.SetHeaderTypeToUInt64();
-  writer.SetDataModeToAppended();
-  writer.EncodeAppendedDataOff();
+  // With recent versions of Expat many of VTK's readers refuse appended data.
+  writer.SetDataModeToBinary();
   const int done = writer.Write();
   writer.SetInputData(nullptr);
   if (!done)
@@ -154,43 +154,34 @@ void writePieceFiles(
   const ScratchFolder scratch(index.parent_path());
   const bool isSurface = isSurfaceIndex(index);
   std::string description;
-  for (int p = 0; p < pieces; ++p)
+  int files = 0;
+  // The stream checks the pieces; what it makes of them is not needed here.
+  PieceStream stream(input, pieces, {});
+  MeshBlock block;
+  while (vtkPointSet* piece = stream.nextPiece(block))
   {
-    vtkDataObject* data = input.update(p, pieces, true);
-    auto* piece = vtkPointSet::SafeDownCast(data);
-    if (!piece || !piece->IsA(isSurface ? "vtkPolyData" : "vtkUnstructuredGrid"))
+    if (!piece->IsA(isSurface ? "vtkPolyData" : "vtkUnstructuredGrid"))
     {
-      throw Error(path.string() + " cannot hold a " + data->GetClassName() +
+      throw Error(path.string() + " cannot hold a " + piece->GetClassName() +
                   ": use .pvtp for vtkPolyData and .pvtu for vtkUnstructuredGrid.");
     }
-    if (piece->GetNumberOfPoints() > 0 && !piece->GetPointData()->GetGlobalIds())
-    {
-      throw Error("Piece " + std::to_string(p) +
-                  " of the input has no point GlobalIds, so it is "
-                  "no piece of a mesh stream: read the mesh with the StreamingMeshReader.");
-    }
-    if (description.empty() && piece->GetNumberOfPoints() > 0)
+    if (files == 0)
     {
       description = describe(*piece);
     }
+    const std::filesystem::path file = scratch.path() / pieceName(index, files++);
     if (isSurface)
     {
-      writePiece(*vtkNew<vtkXMLPolyDataWriter>(), *piece, scratch.path() / pieceName(index, p));
+      writePiece(*vtkNew<vtkXMLPolyDataWriter>(), *piece, file);
     }
     else
     {
-      writePiece(
-        *vtkNew<vtkXMLUnstructuredGridWriter>(), *piece, scratch.path() / pieceName(index, p));
+      writePiece(*vtkNew<vtkXMLUnstructuredGridWriter>(), *piece, file);
     }
-    input.release();
-    progress.update((p + 1.0) / pieces);
+    progress.update(stream.fraction());
   }
-  if (description.empty())
-  {
-    throw Error("The input has no points, so " + path.string() + " is not written.");
-  }
-  writeText(scratch.path() / index.filename(), indexText(index, pieces, description));
-  install(scratch, index, pieces);
+  writeText(scratch.path() / index.filename(), indexText(index, files, description));
+  install(scratch, index, files);
 }
 
 } // namespace smg

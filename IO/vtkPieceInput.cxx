@@ -30,6 +30,16 @@ PieceInput::PieceInput(vtkAlgorithm& consumer, int port)
   }
 }
 
+PieceInput::~PieceInput()
+{
+  if (this->IsStreaming)
+  {
+    this->Executive->GetOutputInformation(this->ProducerPort)
+      ->Set(vtkStreamingMeshKeys::STREAMED(), 0);
+    this->Executive->PropagateUpdateExtent(this->ProducerPort);
+  }
+}
+
 vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed)
 {
   vtkNew<vtkInformationVector> requests;
@@ -39,6 +49,7 @@ vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed)
   request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), pieces);
   request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
   request->Set(vtkStreamingMeshKeys::STREAMED(), streamed ? pieces : 0);
+  this->IsStreaming = streamed;
   vtkDataObject* data = nullptr;
   if (this->Executive->Update(this->ProducerPort, requests))
   {
@@ -55,31 +66,24 @@ vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed)
 
 void PieceInput::release()
 {
+  if (this->isData())
+  {
+    return;
+  }
   if (vtkDataObject* data = this->Producer->GetOutputDataObject(this->ProducerPort))
   {
     data->ReleaseData();
   }
 }
 
-void PieceInput::endStreaming()
+bool PieceInput::isData() const
 {
-  this->Executive->GetOutputInformation(this->ProducerPort)
-    ->Set(vtkStreamingMeshKeys::STREAMED(), 0);
-  this->Executive->PropagateUpdateExtent(this->ProducerPort);
+  return this->Producer->IsA("vtkTrivialProducer");
 }
 
 unsigned long long PieceInput::modifiedTime()
 {
   return this->Executive->GetPipelineMTime();
-}
-
-void PieceInput::updateInformation()
-{
-  if (!this->Executive->UpdateInformation())
-  {
-    throw Error(std::string("The input cannot be read: see the error that ") +
-                this->Producer->GetClassName() + " or the pipeline before it reported.");
-  }
 }
 
 } // namespace smg

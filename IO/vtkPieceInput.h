@@ -21,28 +21,35 @@ public:
   PieceInput(vtkAlgorithm& consumer, int port);
 
   /**
+   * Tells the pipeline, after a streamed request, that those to come are not streamed until they
+   * say so again: else the last one would pass the guard of the reader on to a view.
+   */
+  ~PieceInput();
+
+  PieceInput(const PieceInput&) = delete;
+  PieceInput& operator=(const PieceInput&) = delete;
+
+  /**
    * Brings the input to piece `piece` of `pieces`; `streamed` demands the real piece whatever its
    * size (see vtkStreamingMeshKeys), else it may be a preview. Throws Error if that fails.
    */
   vtkDataObject* update(int piece, int pieces, bool streamed);
 
-  /** Frees the data of the last piece. */
+  /** Frees the data of the last piece, unless the producer has no way to make it again. */
   void release();
-
-  /** Tells the pipeline that the requests to come are not streamed until they say so again. */
-  void endStreaming();
 
   /** The time at which something upstream was last modified, as far as the pipeline knows. */
   unsigned long long modifiedTime();
 
-  /** Brings the pipeline information, and so modifiedTime(), up to date. Throws Error. */
-  void updateInformation();
-
   vtkAlgorithm& producer() const { return *this->Producer; }
+
+  /** Whether the input is somebody's mesh set as data: it is the same for every piece. */
+  bool isData() const;
 
 private:
   vtkAlgorithm* Producer;
   int ProducerPort = 0;
+  bool IsStreaming = false; ///< whether the last request was streamed
   vtkStreamingDemandDrivenPipeline* Executive;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkPieceStream.h"
 
+#include "IO/Container/Columns.h"
 #include "IO/Container/VsmWriter.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
@@ -47,16 +48,6 @@ std::vector<ColumnSpec> named(vtkDataSetAttributes& arrays, const std::vector<st
     }
   }
   return specs;
-}
-
-std::vector<Column> emptyColumns(const std::vector<ColumnSpec>& specs)
-{
-  std::vector<Column> columns;
-  for (const ColumnSpec& spec : specs)
-  {
-    columns.push_back({ spec, {} });
-  }
-  return columns;
 }
 
 } // namespace
@@ -130,15 +121,33 @@ void PieceStream::learn(vtkPointSet& piece)
 
 bool PieceStream::next(MeshBlock& block)
 {
-  vtkPointSet* piece = this->First ? this->First : this->pull();
-  this->First = nullptr;
-  if (!piece)
+  if (!this->nextPiece(block))
   {
     return false;
   }
-  this->convert(*piece, block);
   this->Input.release();
+  this->IsHeld = false;
   return true;
+}
+
+vtkPointSet* PieceStream::nextPiece(MeshBlock& block)
+{
+  if (this->IsHeld)
+  {
+    this->Input.release();
+  }
+  vtkPointSet* piece = this->First ? this->First : this->pull();
+  this->First = nullptr;
+  this->IsHeld = piece != nullptr;
+  if (piece)
+  {
+    this->convert(*piece, block);
+  }
+  if (this->NextPiece == this->Pieces)
+  {
+    this->checkEnd();
+  }
+  return piece;
 }
 
 void PieceStream::convert(vtkPointSet& piece, MeshBlock& block)
@@ -150,6 +159,7 @@ void PieceStream::convert(vtkPointSet& piece, MeshBlock& block)
   this->copyPoints(piece, own, block);
   this->Vertices += static_cast<std::int64_t>(own.size());
   this->copyCells(piece, ids, block);
+  this->useCorners(block.corners);
   this->Cells += static_cast<std::int64_t>(block.corners.size() / cornersOf(this->Info.cellType));
   this->noteFinalized(piece, ids);
   block.finalized = this->NextPiece == this->Pieces ? this->Vertices : this->Finalized;
@@ -254,6 +264,39 @@ void PieceStream::copyCells(
   }
 }
 
+void PieceStream::useCorners(const std::vector<std::int64_t>& corners)
+{
+  for (const std::int64_t corner : corners)
+  {
+    if (corner > this->Used)
+    {
+      throw Error(this->where() + " has a cell that uses the point with GlobalId " +
+                  std::to_string(corner) + " before any cell uses that with GlobalId " +
+                  std::to_string(this->Used) +
+                  ": number the points in the order in which cells use them first, or write the "
+                  "mesh to a file and read that with the StreamingMeshReader.");
+    }
+    if (corner < this->Finalized)
+    {
+      throw Error(this->where() + " has a cell that uses the point with GlobalId " +
+                  std::to_string(corner) +
+                  ", which an earlier piece calls final in StreamFinalized: correct or take away "
+                  "that array.");
+    }
+    this->Used = std::max(this->Used, corner + 1);
+  }
+}
+
+void PieceStream::checkEnd() const
+{
+  if (this->Used < this->Vertices)
+  {
+    throw Error("The point with GlobalId " + std::to_string(this->Used) +
+                " of the input belongs to no cell: take such points away, or write the mesh to a "
+                "file and read that with the StreamingMeshReader.");
+  }
+}
+
 void PieceStream::noteFinalized(vtkPointSet& piece, const std::vector<std::int64_t>& ids)
 {
   this->IsFinal.resize(this->Vertices - this->Finalized, 0);
@@ -268,7 +311,7 @@ void PieceStream::noteFinalized(vtkPointSet& piece, const std::vector<std::int64
       }
     }
   }
-  while (!this->IsFinal.empty() && this->IsFinal.front())
+  while (this->Finalized < this->Used && this->IsFinal.front())
   {
     this->IsFinal.pop_front();
     ++this->Finalized;

@@ -30,7 +30,8 @@ struct PieceColumns
  * Pulls the pieces 0, 1, ... of an input once, in order, as the blocks of a mesh stream, and checks
  * that they keep the piece contract: point GlobalIds are stream indices; the points that are not
  * marked as duplicates in vtkGhostType continue the range [0, n) of the pieces before without a
- * gap; cells are triangles or tetrahedra. Cells that are duplicates are left out. A block is a
+ * gap; the cells, which are triangles or tetrahedra, use every point, and the points are numbered
+ * in the order in which they do so first. Cells that are duplicates are left out. A block is a
  * piece; blocks without points and cells are left out.
  *
  * The counts are known at the end only: of info(), cellType, doublePositions and the columns are
@@ -47,6 +48,11 @@ public:
   /** Fills `block` with the next piece; false at the end. Throws Error. */
   bool next(MeshBlock& block);
 
+  /**
+   * The same, and gives the piece, which keeps its data until the next call; nullptr at the end.
+   */
+  vtkPointSet* nextPiece(MeshBlock& block);
+
   /** How many of the pieces have been pulled, 0 to 1. */
   double fraction() const { return double(this->NextPiece) / this->Pieces; }
 
@@ -58,7 +64,9 @@ private:
     vtkPointSet& piece, const std::vector<std::int64_t>& ids) const;
   void copyPoints(vtkPointSet& piece, const std::vector<std::int64_t>& own, MeshBlock& block) const;
   void copyCells(vtkPointSet& piece, const std::vector<std::int64_t>& ids, MeshBlock& block) const;
+  void useCorners(const std::vector<std::int64_t>& corners);
   void noteFinalized(vtkPointSet& piece, const std::vector<std::int64_t>& ids);
+  void checkEnd() const;
   std::string where() const;
 
   PieceInput& Input;
@@ -67,7 +75,9 @@ private:
   PieceColumns Columns;
   StreamInfo Info;
   vtkPointSet* First = nullptr; ///< pulled by the constructor
+  bool IsHeld = false;          ///< whether the input holds the data of the last piece
   std::int64_t Vertices = 0, Cells = 0;
+  std::int64_t Used = 0;    ///< vertices that cells have used
   std::deque<char> IsFinal; ///< from the first vertex on that is not final
   std::int64_t Finalized = 0;
 };

@@ -81,7 +81,7 @@ private:
                         : line != std::string::npos ? line + 1
                                                     : 0);
     this->Text.erase(std::min(this->Text.find('\n'), this->Text.size()));
-    this->Text.erase(this->Text.find_last_not_of(" .:") + 1);
+    this->Text.erase(this->Text.find_last_not_of(" .:!") + 1);
     this->Text = this->Text.empty() ? "unknown error" : this->Text;
   }
 

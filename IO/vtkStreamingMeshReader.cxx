@@ -4,11 +4,15 @@
 #include "IO/Container/VsmReader.h"
 #include "IO/Conversion/MeshFile.h"
 #include "IO/Conversion/OpenMesh.h"
+#include "IO/Formats/StreamFile.h"
+#include "IO/Import/Importer.h"
 #include "IO/Preview/PreviewPiece.h"
 #include "IO/vtkMeshImport.h"
 #include "IO/vtkMeshPieceData.h"
+#include "IO/vtkPieceNames.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Core/Error.h"
+#include "Solver/Storage/BlockFile.h"
 
 #include "vtkDataArraySelection.h"
 #include "vtkInformation.h"
@@ -20,6 +24,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -36,6 +41,8 @@ struct vtkStreamingMeshReader::Internals
   std::string Name, Scratch;
   std::filesystem::file_time_type FileTime;
   std::unique_ptr<smg::OpenedMesh> Mesh;
+  /** The columns that the file's pieces are read with; none before the first piece. */
+  std::optional<std::array<std::vector<std::string>, 2>> Columns;
   std::optional<smg::MeshPiece> Preview;
   int PreviewPoints = 0;
   /** What could not be opened, so that a pipeline that asks again does not look, or report, again.
@@ -96,6 +103,7 @@ struct vtkStreamingMeshReader::Internals
   void close()
   {
     this->Mesh.reset();
+    this->Columns.reset();
     this->Preview.reset();
   }
 
@@ -109,11 +117,17 @@ struct vtkStreamingMeshReader::Internals
     return *this->Preview;
   }
 
+  /** The marks of cells that do not count come with every piece, and its own arrays, too. */
+  static bool isSelectable(const smg::ColumnSpec& column)
+  {
+    return column.name != smg::CellFlagsName && !smg::isContractArray(column.name);
+  }
+
   static void offer(vtkDataArraySelection& selection, const std::vector<smg::ColumnSpec>& columns)
   {
     for (const smg::ColumnSpec& column : columns)
     {
-      if (!selection.ArrayExists(column.name.c_str()))
+      if (isSelectable(column) && !selection.ArrayExists(column.name.c_str()))
       {
         selection.AddArray(column.name.c_str());
       }
@@ -126,7 +140,8 @@ struct vtkStreamingMeshReader::Internals
     std::vector<std::string> names;
     for (const smg::ColumnSpec& column : columns)
     {
-      if (selection.ArrayIsEnabled(column.name.c_str()))
+      if (column.name == smg::CellFlagsName ||
+          (isSelectable(column) && selection.ArrayIsEnabled(column.name.c_str())))
       {
         names.push_back(column.name);
       }
@@ -141,8 +156,15 @@ struct vtkStreamingMeshReader::Internals
     const smg::StreamInfo& info = reader.info();
     const auto firstCell = [&info, parts](int p)
     { return static_cast<std::int64_t>(static_cast<__int128>(info.cells) * p / parts); };
-    reader.selectColumns(
-      chosen(*this->PointArrays, info.vertexColumns), chosen(*this->CellArrays, info.cellColumns));
+    const std::array<std::vector<std::string>, 2> columns = {
+      chosen(*this->PointArrays, info.vertexColumns), chosen(*this->CellArrays, info.cellColumns)
+    };
+    // To select columns makes the file's reader forget the vertices that are alive.
+    if (this->Columns != columns)
+    {
+      reader.selectColumns(columns[0], columns[1]);
+      this->Columns = columns;
+    }
     smg::MeshPiece piece;
     reader.readPiece(firstCell(part), firstCell(part + 1), piece);
     smg::setPiece(output, piece, info);
@@ -164,8 +186,9 @@ struct vtkStreamingMeshReader::Internals
         piece.vertexColumns.push_back({ spec, {} });
       }
     }
-    std::erase_if(piece.vertexColumns, [this](const smg::Column& column)
-      { return !this->PointArrays->ArrayIsEnabled(column.spec.name.c_str()); });
+    const std::vector<std::string> names = chosen(*this->PointArrays, full.vertexColumns);
+    std::erase_if(piece.vertexColumns, [&names](const smg::Column& column)
+      { return std::find(names.begin(), names.end(), column.spec.name) == names.end(); });
     smg::StreamInfo info = full;
     info.cellType = smg::CellType::Triangle;
     smg::setPiece(output, piece, info);
@@ -220,7 +243,22 @@ int vtkStreamingMeshReader::CanReadFile(const char* name)
 {
   try
   {
-    return name && smg::kindOfInput(name) != smg::MeshFileKind::Unknown ? 1 : 0;
+    if (!name || !std::filesystem::is_regular_file(name))
+    {
+      return 0;
+    }
+    switch (smg::kindOfInput(name))
+    {
+      case smg::MeshFileKind::Vsm:
+        return smg::isBlockFile(name) ? 1 : 0;
+      case smg::MeshFileKind::Stream:
+        smg::detectStreamFormat(name);
+        return 1;
+      case smg::MeshFileKind::Indexed:
+        return smg::meshFormat(name) != smg::MeshFormat::Unknown ? 1 : 0;
+      default:
+        return 0;
+    }
   }
   catch (const std::exception&)
   {
@@ -347,4 +385,9 @@ void vtkStreamingMeshReader::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PreviewPoints: " << this->PreviewPoints << "\n";
   os << indent << "FullNumberOfPoints: " << this->GetFullNumberOfPoints() << "\n";
   os << indent << "FullNumberOfCells: " << this->GetFullNumberOfCells() << "\n";
+  os << indent << "Width: " << this->GetWidth() << "\n";
+  os << indent << "PointDataArraySelection:\n";
+  this->Internal->PointArrays->PrintSelf(os, indent.GetNextIndent());
+  os << indent << "CellDataArraySelection:\n";
+  this->Internal->CellArrays->PrintSelf(os, indent.GetNextIndent());
 }

@@ -13,7 +13,9 @@
  * - point GlobalIds: the stream index of each point;
  * - point array `vtkGhostType`: DUPLICATEPOINT on points that an earlier piece owns;
  * - point array `StreamFinalized`: 1 where no later piece uses the point;
- * - the file's point and cell columns as arrays, as far as they are selected.
+ * - the file's point and cell columns as arrays, as far as they are selected; the cell column
+ *   `CellFlags`, which marks duplicate and degenerate cells, always; columns named as the arrays
+ *   above never.
  * The parts that are not ghosts make up the mesh, exactly, for every N. Pieces asked for in order
  * cost the piece alone, others cost the blocks of the file that hold them. Ghost levels are
  * ignored.
@@ -22,8 +24,13 @@
  * unless it comes from a filter that streams (see vtkStreamingMeshKeys): at most PreviewPoints
  * points of the mesh with their GlobalIds and point arrays, joined by triangles by vertex
  * clustering, the surface only of tetrahedra, all of it in piece 0. Then the field data has the
- * arrays `Preview` (1), `FullNumberOfPoints` and `FullNumberOfCells`. The preview costs one pass
- * over the file and is kept.
+ * arrays `Preview` (int, 1), `FullNumberOfPoints` and `FullNumberOfCells` (vtkIdType: the counts of
+ * the mesh); the field data of a real piece has none of them. The preview costs one pass over the
+ * file and is kept.
+ *
+ * Another source is a legal input of the streaming filters if it keeps this contract: every point
+ * belongs to a cell, and the GlobalIds number the points in the order in which the cells, piece
+ * after piece, use them first.
  *
  * @sa vtkStreamingMeshWriter vtkStreamingPoisson vtkStreamingMeshKeys
  */
@@ -89,7 +96,7 @@ public:
   /** Most vertices alive at once in the stream, after UpdateInformation(); -1 before. */
   vtkIdType GetWidth();
 
-  /** Whether the file is of a format that can be read, by its content or its suffix. */
+  /** 1 if the file is of a format that can be read, by its content or its suffix; else 0. */
   static int CanReadFile(const char* name);
 
   /** Also the time of the array selections. */

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkStreamingMeshWriter.h"
 
+#include "IO/Conversion/PartialProgress.h"
 #include "IO/Formats/StreamConversion.h"
 #include "IO/Formats/StreamFile.h"
+#include "IO/Formats/Suffix.h"
 #include "IO/vtkPieceFiles.h"
 #include "IO/vtkPieceStream.h"
 #include "Solver/Core/Error.h"
@@ -16,7 +18,6 @@
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 
 vtkStandardNewMacro(vtkStreamingMeshWriter);
@@ -26,17 +27,13 @@ namespace
 
 constexpr int CellsOfPiece = 65536;
 
-std::string suffixOf(const std::filesystem::path& path)
-{
-  std::string suffix = path.extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return suffix;
-}
-
 /** A number of pieces that gives each about CellsOfPiece cells, from the size of a trial piece. */
 int chooseNumberOfPieces(smg::PieceInput& input)
 {
+  if (input.isData())
+  {
+    return 1;
+  }
   constexpr int trial = 64;
   const auto* piece = vtkDataSet::SafeDownCast(input.update(0, trial, true));
   const vtkIdType cells = piece ? const_cast<vtkDataSet*>(piece)->GetNumberOfCells() : 0;
@@ -58,19 +55,14 @@ void writeStreamFile(
   const smg::ScratchFolder scratch(std::filesystem::absolute(path).parent_path());
   const std::filesystem::path container = scratch.path() / "mesh.vsm";
   smg::PieceStream stream(input, pieces, { .all = true, .points = {}, .cells = {} });
-  smg::Progress half(
-    [&progress](double done)
-    {
-      progress.update(done / 2.0);
-      return true;
-    });
+  const smg::ProgressFunction whole = [&progress](double done)
+  {
+    progress.update(done);
+    return true;
+  };
+  smg::Progress half(smg::partOf(whole, 0.0, 0.5));
   smg::writeContainer(stream, container, true, half);
-  smg::vsmToStream(container, path,
-    [&progress](double done)
-    {
-      progress.update(0.5 + done / 2.0);
-      return true;
-    });
+  smg::vsmToStream(container, path, smg::partOf(whole, 0.5, 1.0));
 }
 
 } // namespace
@@ -96,7 +88,7 @@ bool vtkStreamingMeshWriter::WriteFile()
       throw smg::Error("No file is named: set FileName.");
     }
     const std::filesystem::path path = this->FileName;
-    const std::string suffix = suffixOf(path);
+    const std::string suffix = smg::lowerSuffix(path);
     const bool isIndex = suffix == ".pvtp" || suffix == ".pvtu";
     if (suffix != ".vsm" && !isIndex && !smg::streamFormatOfName(path))
     {
@@ -117,7 +109,6 @@ bool vtkStreamingMeshWriter::WriteFile()
                        : isIndex        ? smg::writePieceFiles
                                         : writeStreamFile;
     write(input, pieces, path, progress);
-    input.endStreaming();
     return true;
   }
   catch (const smg::Cancelled&)

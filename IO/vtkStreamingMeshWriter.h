@@ -9,8 +9,9 @@
  * - .pvtp, .pvtu: an index and a folder of that name with one file a piece, with the GlobalIds and
  *   ghost arrays that make them legal input of all streaming filters again.
  * Never more than a piece is in memory. The input must keep the piece contract described at
- * vtkStreamingMeshReader; it is always asked for its real pieces, not for previews. The file gets
- * its name when it is complete; after an error or an abort nothing new is left.
+ * vtkStreamingMeshReader, also for piece files: points that no cell uses, or that are not numbered
+ * by first use, are refused. It is always asked for its real pieces, not for previews. The file
+ * gets its name when it is complete; after an error or an abort nothing new is left.
  *
  * With more than one process, process 0 writes and the others wait for it.
  *

@@ -5,6 +5,8 @@
 #include "Solver/Engine/Engine.txx"
 #include "Solver/Hierarchy/Extended.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <thread>
 
@@ -21,9 +23,10 @@ void require(bool holds, const std::string& sentence)
   }
 }
 
-SolveOptions checked(const SolveOptions& given, const Problem& problem)
+} // namespace
+
+void checkOptions(const SolveOptions& options)
 {
-  SolveOptions options = given;
   require(options.operators == Extended::name,
     "there is no operator set '" + options.operators + "': use " + Extended::name);
   require(options.sweeps >= 1 && options.sweeps <= 20, "the number of sweeps must be from 1 to 20");
@@ -34,21 +37,20 @@ SolveOptions checked(const SolveOptions& given, const Problem& problem)
   require(options.threads >= 0, "the number of threads must not be negative");
   require(options.blockNodes >= 1, "a stage must advance by at least one node");
   require(options.coreNodes >= 0, "the number of nodes of a core level must not be negative");
+}
+
+std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveOptions& given)
+{
+  checkOptions(given);
   require(problem.columns() >= 1, "a problem needs at least one column");
   require(problem.screening() >= 0.0 && std::isfinite(problem.screening()),
     "the screening must be a finite number that is not negative");
+  SolveOptions options = given;
   if (options.threads == 0)
   {
     options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   }
-  return options;
-}
-
-} // namespace
-
-std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveOptions& options)
-{
-  return std::make_unique<Engine<Extended>>(mesh, problem, checked(options, problem));
+  return std::make_unique<Engine<Extended>>(mesh, problem, options);
 }
 
 } // namespace smg

@@ -41,6 +41,9 @@ struct SolveOptions
   ProgressFunction progress;
 };
 
+/** Throws Error if an option is out of range; solve() does so, too. */
+void checkOptions(const SolveOptions& options);
+
 /** The solution of a solve: `columns` values a vertex, in stream order, on disk or in memory. */
 class Solution
 {

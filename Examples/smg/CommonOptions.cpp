@@ -27,14 +27,47 @@ void CommonOptions::addTo(CLI::App& command)
   command.add_flag("--quiet", this->quiet, "No progress bar and no summary");
 }
 
+namespace
+{
+
+/** Where the report is written; it is renamed, so that a reader never sees half a report. */
+std::filesystem::path temporaryOf(const std::filesystem::path& report)
+{
+  return report.string() + ".part";
+}
+
+[[noreturn]] void failReport(const std::filesystem::path& report, const std::string& reason)
+{
+  throw smg::Error(report.string() + ": the report cannot be written: " + reason + '.');
+}
+
+} // namespace
+
+void CommonOptions::checkReport() const
+{
+  if (this->report.empty())
+  {
+    return;
+  }
+  if (std::filesystem::is_directory(this->report))
+  {
+    failReport(this->report, std::strerror(EISDIR));
+  }
+  const std::filesystem::path part = temporaryOf(this->report);
+  if (!std::ofstream(part))
+  {
+    failReport(this->report, std::strerror(errno));
+  }
+  std::remove(part.c_str());
+}
+
 void CommonOptions::writeReport(const std::string& json) const
 {
   if (this->report.empty())
   {
     return;
   }
-  // Written beside it and renamed, so that a reader never sees half a report.
-  const std::filesystem::path part = this->report.string() + ".part";
+  const std::filesystem::path part = temporaryOf(this->report);
   std::ofstream stream(part);
   stream << json << '\n';
   stream.close();
@@ -42,7 +75,7 @@ void CommonOptions::writeReport(const std::string& json) const
   {
     const std::string reason = std::strerror(errno);
     std::remove(part.c_str());
-    throw smg::Error(this->report.string() + ": the report cannot be written: " + reason + '.');
+    failReport(this->report, reason);
   }
 }
 

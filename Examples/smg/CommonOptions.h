@@ -27,6 +27,8 @@ struct CommonOptions
     return this->memory > 0 ? this->memory << 20 : fallback;
   }
 
+  /** Throws smg::Error if the report that was asked for cannot be written, before the work. */
+  void checkReport() const;
   /** Writes the report if one was asked for. Throws smg::Error. */
   void writeReport(const std::string& json) const;
 };

@@ -44,6 +44,7 @@ struct ConvertOptions : CommonOptions
 
   void run() const
   {
+    this->checkReport();
     smg::ConversionReport report;
     {
       ProgressBar bar("converting", this->quiet);

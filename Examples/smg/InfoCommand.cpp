@@ -100,6 +100,7 @@ struct InfoOptions : CommonOptions
 
   void run() const
   {
+    this->checkReport();
     ProgressBar bar("reading", this->quiet);
     loadVtkFor(this->file);
     smg::ConversionOptions options;

@@ -13,9 +13,9 @@
 #include "Solver/Core/Error.h"
 #include "Solver/Solve.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 
 namespace
 {
@@ -91,10 +91,7 @@ std::unique_ptr<smg::Solution> SolveCommandOptions::solveOn(
   const std::unique_ptr<smg::RegionProblem> problem = smg::readProblemFile(this->problem, info);
   problem->check(*reader.source(problem->vertexColumns(), {}));
 
-  const bool flagged = std::any_of(info.cellColumns.begin(), info.cellColumns.end(),
-    [](const smg::ColumnSpec& spec) { return spec.name == smg::CellFlagsName; });
-  const std::unique_ptr<smg::MeshSource> source = reader.source(problem->vertexColumns(),
-    flagged ? std::vector<std::string>{ smg::CellFlagsName } : std::vector<std::string>{});
+  const std::unique_ptr<smg::MeshSource> source = reader.source(problem->vertexColumns(), {});
   smg::SolveOptions options = this->solve;
   options.memoryLimit = this->memoryBytes(options.memoryLimit);
   options.threads = this->threads;
@@ -157,6 +154,7 @@ void SolveCommandOptions::run() const
   const auto secondsSince = [](std::chrono::steady_clock::time_point then)
   { return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count(); };
   this->checkOutput();
+  this->checkReport();
   smg::Report report;
   {
     ProgressBar bar("solving", this->quiet);
@@ -174,6 +172,17 @@ void SolveCommandOptions::run() const
   this->print(report);
 }
 
+/** CLI::Range includes its ends and takes nan. */
+std::string checkTolerance(const std::string& text)
+{
+  char* end = nullptr;
+  const double tolerance = std::strtod(text.c_str(), &end);
+  const bool isNumber = !text.empty() && *end == '\0';
+  return isNumber && tolerance > 0.0 && tolerance < 1.0
+           ? std::string()
+           : '\'' + text + "' is no number between 0 and 1, both excluded";
+}
+
 } // namespace
 
 void addSolveCommand(CLI::App& program, Action& action)
@@ -187,13 +196,15 @@ void addSolveCommand(CLI::App& program, Action& action)
   command->add_option("--problem", options->problem, "The problem, a JSON file")
     ->required()
     ->type_name("FILE");
-  command->add_option("--operators", solve.operators, "Operator set")->capture_default_str();
+  command->add_option("--operators", solve.operators, "Operator set")
+    ->check(oneOf({ "extended" }))
+    ->capture_default_str();
   command->add_option("--sweeps", solve.sweeps, "Gauss-Seidel sweeps before and after a correction")
     ->check(CLI::Range(1, 20))
     ->capture_default_str();
   command
     ->add_option("--tolerance", solve.tolerance, "Relative residual to stop at, between 0 and 1")
-    ->check(CLI::Range(0.0, 1.0))
+    ->check(checkTolerance)
     ->capture_default_str();
   command->add_option("--max-cycles", solve.maxCycles, "Most V-cycles")
     ->check(CLI::Range(1, 1000000))

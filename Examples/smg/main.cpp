@@ -17,16 +17,21 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 namespace
 {
 
-/** An error is one line, whatever the library or the system put into it. */
+/**
+ * An error is one line, whatever the library or the system put into it, and sends nothing to the
+ * terminal that it would act on.
+ */
 int fail(std::string sentence)
 {
   for (char& c : sentence)
   {
-    c = c == '\n' || c == '\r' ? ' ' : c;
+    const auto code = static_cast<unsigned char>(c);
+    c = c == '\n' || c == '\r' ? ' ' : code < 32 || code == 127 ? '?' : c;
   }
   std::fprintf(stderr, "smg: %s\n", sentence.c_str());
   return 1;
@@ -54,7 +59,10 @@ int main(int argc, char** argv)
     {
       return program.exit(error);
     }
-    fail(std::string(error.what()) + " (smg --help says how it is called)");
+    const std::vector<std::string> rest = program.remaining();
+    const bool unknown = program.get_subcommands().empty() && !rest.empty();
+    fail((unknown ? '\'' + rest.front() + "' is not a command of smg" : error.what()) +
+         std::string(" (smg --help says how it is called)"));
     return 2;
   }
 

@@ -93,6 +93,15 @@ void VsmFile::readTables()
       this->fail("has a column without components; make it anew.");
     }
   }
+  if (std::any_of(this->Info.cellColumns.begin(), this->Info.cellColumns.end(),
+        [](const ColumnSpec& column)
+        {
+          return column.name == CellFlagsName &&
+                 column != ColumnSpec{ CellFlagsName, ScalarType::UInt8, 1 };
+        }))
+  {
+    this->fail("has a column CellFlags that is not of one uint8 a cell; make it anew.");
+  }
 }
 
 void VsmFile::readBlockTable()

@@ -6,6 +6,7 @@
 #include "IO/Container/VsmFile.h"
 #include "IO/Container/VsmSource.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace smg
@@ -22,6 +23,20 @@ std::vector<std::string> namesOf(const std::vector<ColumnSpec>& columns)
     names.push_back(column.name);
   }
   return names;
+}
+
+/** The chosen columns of the cells, and their flags, without which no cell is what it is. */
+std::vector<std::string> withFlags(
+  std::vector<std::string> chosen, const std::vector<ColumnSpec>& columns)
+{
+  const bool given = std::find(chosen.begin(), chosen.end(), CellFlagsName) != chosen.end();
+  const bool there = std::any_of(columns.begin(), columns.end(),
+    [](const ColumnSpec& column) { return column.name == CellFlagsName; });
+  if (there && !given)
+  {
+    chosen.emplace_back(CellFlagsName);
+  }
+  return chosen;
 }
 
 } // namespace
@@ -127,14 +142,15 @@ std::unique_ptr<MeshSource> VsmReader::source() const
 std::unique_ptr<MeshSource> VsmReader::source(
   std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const
 {
-  return std::make_unique<VsmSource>(
-    this->Self->Path, vertexColumns, cellColumns, this->Self->Statistics);
+  return std::make_unique<VsmSource>(this->Self->Path, vertexColumns,
+    withFlags(std::move(cellColumns), this->info().cellColumns), this->Self->Statistics);
 }
 
 void VsmReader::selectColumns(
   const std::vector<std::string>& vertexColumns, const std::vector<std::string>& cellColumns)
 {
-  this->Self->Pieces = std::make_unique<PieceReader>(this->Self->File, vertexColumns, cellColumns);
+  this->Self->Pieces = std::make_unique<PieceReader>(
+    this->Self->File, vertexColumns, withFlags(cellColumns, this->info().cellColumns));
 }
 
 void VsmReader::readPiece(std::int64_t firstCell, std::int64_t endCell, MeshPiece& piece)

@@ -48,13 +48,16 @@ public:
    * block. The source opens the file for itself and may outlive the reader.
    */
   std::unique_ptr<MeshSource> source() const;
-  /** The same with only the named columns, in this order. Throws Error if one does not exist. */
+  /**
+   * The same with only the named columns, in this order, and CellFlags if the file has it: without
+   * it, cells would count that are to have no weight. Throws Error if a column does not exist.
+   */
   std::unique_ptr<MeshSource> source(
     std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const;
 
   /**
-   * Says which columns readPiece delivers, and in which order; at first, all. Throws Error if one
-   * does not exist.
+   * Says which columns readPiece delivers, and in which order, beside CellFlags as above; at first,
+   * all. Throws Error if one does not exist.
    */
   void selectColumns(
     const std::vector<std::string>& vertexColumns, const std::vector<std::string>& cellColumns);

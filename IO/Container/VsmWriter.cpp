@@ -3,6 +3,7 @@
 
 #include "IO/Container/PackedIntegers.h"
 #include "IO/Container/PagedArray.h"
+#include "IO/Container/ReservedNames.h"
 #include "IO/Container/RowBuffer.h"
 #include "IO/Container/StreamStatistics.h"
 #include "IO/Container/VsmFormat.h"
@@ -41,6 +42,16 @@ void checkColumns(const std::vector<ColumnSpec>& columns, const std::string& fil
     {
       throw Error(file + ": column '" + column.name +
                   "' cannot be written: it needs a name of its own and at least one component.");
+    }
+    if (isReservedColumn(column.name))
+    {
+      throw Error(file + ": a column cannot have the name '" + column.name +
+                  "', which is reserved: give it another name or leave it out.");
+    }
+    if (column.name == CellFlagsName && column != ColumnSpec{ CellFlagsName, ScalarType::UInt8, 1 })
+    {
+      throw Error(file + ": the column '" + column.name +
+                  "' must be of one uint8 a cell: give it another name or leave it out.");
     }
   }
 }

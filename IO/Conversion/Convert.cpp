@@ -9,6 +9,7 @@
 #include "IO/Conversion/PartialProgress.h"
 #include "IO/Conversion/WriteVsm.h"
 #include "IO/Conversion/WriteVtkXml.h"
+#include "IO/Formats/InQuotes.h"
 #include "IO/Formats/StreamConversion.h"
 #include "IO/Formats/StreamFile.h"
 #include "IO/Import/Importer.h"
@@ -43,18 +44,10 @@ private:
   std::chrono::steady_clock::time_point Last = std::chrono::steady_clock::now();
 };
 
-/** The names of the columns but for CellFlags. */
-std::vector<std::string> namesWithoutFlags(const std::vector<ColumnSpec>& specs)
+bool hasFlags(const StreamInfo& info)
 {
-  std::vector<std::string> names;
-  for (const ColumnSpec& spec : specs)
-  {
-    if (spec.name != CellFlagsName)
-    {
-      names.push_back(spec.name);
-    }
-  }
-  return names;
+  return std::any_of(info.cellColumns.begin(), info.cellColumns.end(),
+    [](const ColumnSpec& spec) { return spec.name == CellFlagsName; });
 }
 
 /** One conversion. */
@@ -94,10 +87,7 @@ public:
 private:
   void checkOutput() const
   {
-    if (this->Options.order == StreamOrder::Spectral)
-    {
-      throw Error("The spectral order is not available: choose bfs, axis or keep.");
-    }
+    requireAvailable(this->Options.order);
     if (this->To == MeshFileKind::Unknown)
     {
       throw Error(
@@ -158,7 +148,7 @@ private:
 
   IndexedMesh importInput()
   {
-    if (this->From == MeshFileKind::Indexed)
+    if (this->From == MeshFileKind::Indexed || this->From == MeshFileKind::Unknown)
     {
       return importMesh(this->In, { this->Budget, this->part(0.0, 0.35) });
     }
@@ -182,6 +172,11 @@ private:
     this->Report.duplicate_cells = layout.duplicateCells;
     this->Report.dropped_cells = mesh.droppedCells;
     this->Report.triangulated_polygons = mesh.triangulatedPolygons;
+    for (const std::string& name : mesh.droppedColumns)
+    {
+      this->Report.notes.push_back(
+        "The column " + inQuotes(name) + " was left out, since its name is reserved.");
+    }
     this->Report.components = layout.components;
     this->Report.boundary_edges = layout.boundaryEdges;
     this->Report.nonmanifold_edges = layout.nonManifoldEdges;
@@ -198,14 +193,12 @@ private:
     const StreamInfo& info = reader.info();
     this->checkCells(info.cellType);
     this->Report.seconds.import = this->Watch.lap();
-    const bool searched = this->findFlags(reader);
+    const bool flagged = hasFlags(info);
+    flagged ? this->countFlags(reader) : this->findFlags(reader);
     this->Report.seconds.order = this->Watch.lap();
 
-    std::unique_ptr<MeshSource> source =
-      searched
-        ? reader.source(namesWithoutFlags(info.vertexColumns), namesWithoutFlags(info.cellColumns))
-        : reader.source();
-    if (this->Report.degenerate_cells > 0 || this->Report.duplicate_cells > 0)
+    std::unique_ptr<MeshSource> source = reader.source();
+    if (!flagged && (this->Report.degenerate_cells > 0 || this->Report.duplicate_cells > 0))
     {
       source = std::make_unique<AddedColumn>(std::move(source), AddedColumn::Cells,
         ColumnSpec{ CellFlagsName, ScalarType::UInt8, 1 },
@@ -215,8 +208,25 @@ private:
     this->write(*source, 0.6);
   }
 
-  /** Counts the degenerate and duplicate cells of the stream; false if that takes too much. */
-  bool findFlags(const VsmReader& reader)
+  /** Counts the flags that the cells of the stream have. */
+  void countFlags(const VsmReader& reader)
+  {
+    Progress reported(this->part(0.4, 0.6));
+    const std::unique_ptr<MeshSource> source = reader.source({}, { CellFlagsName });
+    for (MeshBlock block; source->next(block);)
+    {
+      reported.update(
+        static_cast<double>(block.firstCell) / static_cast<double>(reader.info().cells));
+      for (const std::uint8_t flags : block.cellColumns[0].as<std::uint8_t>())
+      {
+        this->Report.degenerate_cells += (flags & DegenerateCell) != 0 ? 1 : 0;
+        this->Report.duplicate_cells += (flags & DuplicateCell) != 0 ? 1 : 0;
+      }
+    }
+  }
+
+  /** Counts the degenerate and duplicate cells of the stream, unless that takes too much. */
+  void findFlags(const VsmReader& reader)
   {
     const StreamInfo& info = reader.info();
     if (info.span > this->Budget.limit() / CellFlagger::BytesPerVertex)
@@ -224,7 +234,7 @@ private:
       this->Report.notes.push_back(
         "The order of the stream is too poor (span " + std::to_string(info.span) +
         ") to look for degenerate and duplicate cells within the memory limit.");
-      return false;
+      return;
     }
     Progress reported(this->part(0.4, 0.6));
     CellFlagger flagger(info.cellType);
@@ -236,7 +246,6 @@ private:
     }
     this->Report.degenerate_cells = flagger.degenerateCells();
     this->Report.duplicate_cells = flagger.duplicateCells();
-    return true;
   }
 
   /** Writes the stream in the format of the output. */
@@ -254,7 +263,13 @@ private:
     this->Report.mean_width = written.meanWidth;
     if (this->To == MeshFileKind::Stream)
     {
-      vsmToStream(path, this->Out, this->part(end, 1.0));
+      const std::int64_t rounded = vsmToStream(path, this->Out, this->part(end, 1.0));
+      if (rounded > 0)
+      {
+        this->Report.notes.push_back("The positions of " + std::to_string(rounded) +
+                                     " vertices were rounded to single precision, which is all "
+                                     "that the format has.");
+      }
     }
     else if (this->To == MeshFileKind::VtkXml)
     {

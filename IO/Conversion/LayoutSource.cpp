@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/LayoutSource.h"
 
+#include "IO/Container/Columns.h"
 #include "IO/Formats/StreamConversion.h"
 
 #include <algorithm>
@@ -30,18 +31,6 @@ bool isKept(const ColumnSpec& spec)
   const bool numbers = spec.name == OriginalIdName || spec.name == OriginalCellIdName;
   return spec.name != CellFlagsName &&
          (!numbers || (spec.type == ScalarType::Int64 && spec.components == 1));
-}
-
-/** The column's tuples of the rows, in the rows' order. */
-void gather(const Column& from, std::span<const std::uint32_t> rows, Column& to)
-{
-  const std::size_t bytes = from.spec.tupleBytes();
-  to.spec = from.spec;
-  to.resize(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i)
-  {
-    std::memcpy(to.bytes.data() + i * bytes, from.bytes.data() + rows[i] * bytes, bytes);
-  }
 }
 
 /** The original numbers of the rows: from `numbers`, or the rows themselves if there are none. */
@@ -130,7 +119,7 @@ void LayoutSource::fillVertices(MeshBlock& block, std::size_t end)
   {
     if (isKept(column.spec))
     {
-      gather(column, rows, block.vertexColumns[next++]);
+      gatherTuples(column, rows, block.vertexColumns[next++]);
     }
   }
   if (this->AddIds)
@@ -159,7 +148,7 @@ void LayoutSource::fillCells(MeshBlock& block, std::size_t end)
   {
     if (isKept(column.spec))
     {
-      gather(column, rows, block.cellColumns[next++]);
+      gatherTuples(column, rows, block.cellColumns[next++]);
     }
   }
   if (this->AddCellIds)

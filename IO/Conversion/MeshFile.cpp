@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/MeshFile.h"
 
+#include "IO/Container/Columns.h"
 #include "IO/Container/VsmReader.h"
 #include "IO/Formats/StreamFile.h"
+#include "IO/Formats/Suffix.h"
+#include "IO/Import/Importer.h"
+#include "Solver/Core/Error.h"
 #include "Solver/Storage/BlockFile.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 
 namespace smg
@@ -14,14 +17,6 @@ namespace smg
 
 namespace
 {
-
-std::string lowerSuffix(const std::filesystem::path& path)
-{
-  std::string suffix = path.extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return suffix;
-}
 
 std::int64_t bytesOf(const std::vector<ColumnSpec>& specs)
 {
@@ -33,15 +28,18 @@ std::int64_t bytesOf(const std::vector<ColumnSpec>& specs)
   return static_cast<std::int64_t>(bytes);
 }
 
-std::vector<Column> emptyColumns(const std::vector<ColumnSpec>& specs, std::int64_t tuples)
+/** Whether the content of a file is that of a streaming format, whatever its name. */
+bool looksLikeStream(const std::filesystem::path& path)
 {
-  std::vector<Column> columns;
-  for (const ColumnSpec& spec : specs)
+  try
   {
-    columns.push_back({ spec, {} });
-    columns.back().bytes.reserve(spec.tupleBytes() * static_cast<std::size_t>(tuples));
+    detectStreamFormat(path);
+    return true;
   }
-  return columns;
+  catch (const Error&)
+  {
+    return false;
+  }
 }
 
 void append(const std::vector<Column>& from, std::vector<Column>& to)
@@ -56,19 +54,25 @@ void append(const std::vector<Column>& from, std::vector<Column>& to)
 
 MeshFileKind kindOfInput(const std::filesystem::path& path)
 {
-  if (std::filesystem::is_regular_file(path) && isBlockFile(path))
+  const std::string suffix = lowerSuffix(path);
+  const bool isFile = std::filesystem::is_regular_file(path);
+  if (suffix == ".vsm" || (isFile && isBlockFile(path)))
   {
     return MeshFileKind::Vsm;
   }
-  const std::string suffix = lowerSuffix(path);
-  if (suffix == ".vsm")
+  if (isFile && meshFormatOfContent(path) != MeshFormat::Unknown)
   {
-    return MeshFileKind::Vsm;
+    return MeshFileKind::Indexed;
   }
   constexpr std::string_view streams[] = { ".sma", ".smb", ".smc", ".smd", ".sva", ".svb", ".svc" };
-  return std::find(std::begin(streams), std::end(streams), suffix) != std::end(streams)
-           ? MeshFileKind::Stream
-           : MeshFileKind::Indexed;
+  // A binary STL file begins with anything, and an OBJ file may look like a streaming one.
+  const bool saysNothing = suffix == ".stl" || suffix == ".obj";
+  if (std::find(std::begin(streams), std::end(streams), suffix) != std::end(streams) ||
+      (isFile && !saysNothing && looksLikeStream(path)))
+  {
+    return MeshFileKind::Stream;
+  }
+  return meshFormat(path) == MeshFormat::Unknown ? MeshFileKind::Unknown : MeshFileKind::Indexed;
 }
 
 MeshFileKind kindOfOutput(const std::filesystem::path& path)
@@ -103,8 +107,8 @@ IndexedMesh loadVsm(
   mesh.doublePositions = info.doublePositions;
   mesh.positions.reserve(static_cast<std::size_t>(info.vertices) * 3);
   mesh.corners.reserve(static_cast<std::size_t>(info.cells * sizes.corners));
-  mesh.vertexColumns = emptyColumns(info.vertexColumns, info.vertices);
-  mesh.cellColumns = emptyColumns(info.cellColumns, info.cells);
+  mesh.vertexColumns = emptyColumns(info.vertexColumns, static_cast<std::size_t>(info.vertices));
+  mesh.cellColumns = emptyColumns(info.cellColumns, static_cast<std::size_t>(info.cells));
   Progress reported(progress);
   const std::unique_ptr<MeshSource> source = reader.source();
   for (MeshBlock block; source->next(block);)

@@ -17,10 +17,13 @@ enum class MeshFileKind
   Stream,  ///< SMA, SMB, SVA, SVB
   Indexed, ///< everything that importMesh() reads
   VtkXml,  ///< .vtp and .vtu, as output
-  Unknown
+  Unknown  ///< none of these
 };
 
-/** The kind of an input file, by content where that says it, else by suffix. */
+/**
+ * The kind of an input file, by content where that says it, else by suffix: Vsm, Stream, Indexed,
+ * or Unknown if neither says anything. The file may be damaged all the same, or not exist.
+ */
 MeshFileKind kindOfInput(const std::filesystem::path& path);
 
 /** The kind of an output file, by suffix: Vsm, Stream, VtkXml or Unknown. */

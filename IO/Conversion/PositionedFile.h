@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Storage/FileDescriptor.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -27,11 +29,8 @@ public:
   void finish();
 
 private:
-  [[noreturn]] void fail(const char* what) const;
-
   std::filesystem::path Path;
-  std::filesystem::path Temporary;
-  int Descriptor = -1;
+  FileDescriptor File;
 };
 
 } // namespace smg

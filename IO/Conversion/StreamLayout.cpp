@@ -140,10 +140,7 @@ void flagCells(const IndexedMesh& mesh, StreamLayout& layout)
 
 StreamLayout layOut(const IndexedMesh& mesh, StreamOrder order, const ProgressFunction& progress)
 {
-  if (order == StreamOrder::Spectral)
-  {
-    throw Error("The spectral order is not available: choose bfs, axis or keep.");
-  }
+  requireAvailable(order);
   if (mesh.vertices() >= None || mesh.cells() >= None)
   {
     throw Error(

@@ -19,6 +19,14 @@ StreamOrder streamOrder(std::string_view name)
   throw Error("There is no order '" + std::string(name) + "': choose bfs, axis or keep.");
 }
 
+void requireAvailable(StreamOrder order)
+{
+  if (order == StreamOrder::Spectral)
+  {
+    throw Error("The spectral order is not available: choose bfs, axis or keep.");
+  }
+}
+
 std::string_view nameOf(StreamOrder order)
 {
   constexpr std::string_view names[] = { "bfs", "axis", "keep", "spectral" };

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/WriteVtkXml.h"
 
+#include "IO/Conversion/InlineArray.h"
 #include "IO/Conversion/PositionedFile.h"
-#include "IO/Formats/VtkXml.h"
+#include "IO/Formats/Suffix.h"
 #include "Solver/Core/Error.h"
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <span>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,58 +22,6 @@ namespace
 /** Cell types of VTK. */
 constexpr std::uint8_t VtkTriangle = 5;
 constexpr std::uint8_t VtkTetra = 10;
-
-std::string lowerSuffix(const std::filesystem::path& path)
-{
-  std::string suffix = path.extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return suffix;
-}
-
-/** An array of the file: where its data go. */
-class AppendedArray
-{
-public:
-  AppendedArray(ColumnSpec spec, std::int64_t tuples)
-    : Spec(std::move(spec))
-    , Bytes(tuples * static_cast<std::int64_t>(this->Spec.tupleBytes()))
-  {
-  }
-
-  /** Bytes of the array and of their number before it. */
-  std::int64_t size() const { return this->Bytes + std::int64_t(sizeof(std::uint64_t)); }
-
-  /** The array's element of the XML, its data at `offset` of the appended data. */
-  void describe(std::ostream& xml, std::int64_t offset)
-  {
-    this->Offset = offset;
-    xml << "<DataArray type=\"" << vtkXmlTypeName(this->Spec.type) << "\" Name=\""
-        << xmlEscaped(this->Spec.name) << "\" NumberOfComponents=\"" << this->Spec.components
-        << "\" format=\"appended\" offset=\"" << offset << "\"/>\n";
-  }
-
-  /** Writes the number of bytes; the appended data begin at `base` of the file. */
-  void begin(PositionedFile& file, std::int64_t base)
-  {
-    const auto bytes = static_cast<std::uint64_t>(this->Bytes);
-    this->At = base + this->Offset + std::int64_t(sizeof(bytes));
-    file.write(base + this->Offset, std::as_bytes(std::span(&bytes, 1)));
-  }
-
-  /** Writes the next tuples. */
-  void append(PositionedFile& file, std::span<const std::byte> bytes)
-  {
-    file.write(this->At, bytes);
-    this->At += static_cast<std::int64_t>(bytes.size());
-  }
-
-private:
-  ColumnSpec Spec;
-  std::int64_t Bytes;
-  std::int64_t Offset = 0;
-  std::int64_t At = 0;
-};
 
 /** Writes the stream; every array of the file has its place from the start. */
 class VtkXmlWriter
@@ -98,7 +45,7 @@ public:
     {
       this->CellData.emplace_back(spec, info.cells);
     }
-    this->writeHeader();
+    this->writeFrame();
   }
 
   void append(const MeshBlock& block)
@@ -121,60 +68,61 @@ public:
 
   void finish()
   {
-    static constexpr std::string_view Tail = "\n</AppendedData>\n</VTKFile>\n";
-    this->File.write(this->End, std::as_bytes(std::span(Tail)));
+    for (InlineArray* array : this->Arrays)
+    {
+      array->finish(this->File);
+    }
     this->File.finish();
   }
 
 private:
-  void writeHeader()
+  /** Writes all but the tuples, for which it leaves space. */
+  void writeFrame()
   {
-    std::ostringstream xml;
-    const char* type = this->PolyData ? "PolyData" : "UnstructuredGrid";
+    const std::string type = this->PolyData ? "PolyData" : "UnstructuredGrid";
     const bool little = std::endian::native == std::endian::little;
-    xml << "<?xml version=\"1.0\"?>\n<VTKFile type=\"" << type << "\" version=\"1.0\" byte_order=\""
-        << (little ? "Little" : "Big") << "Endian\" header_type=\"UInt64\">\n<" << type
-        << ">\n<Piece NumberOfPoints=\"" << this->Info.vertices << '"';
-    if (this->PolyData)
+    this->writeText("<?xml version=\"1.0\"?>\n<VTKFile type=\"" + type +
+                    "\" version=\"1.0\" byte_order=\"" + (little ? "Little" : "Big") +
+                    "Endian\" header_type=\"UInt64\">\n<" + type + ">\n<Piece NumberOfPoints=\"" +
+                    std::to_string(this->Info.vertices) +
+                    (this->PolyData ? "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
+                                      "NumberOfStrips=\"0\" NumberOfPolys=\""
+                                    : "\" NumberOfCells=\"") +
+                    std::to_string(this->Info.cells) + "\">\n<PointData>\n");
+    for (InlineArray& array : this->PointData)
     {
-      xml << " NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"";
+      this->place(array);
     }
-    else
+    this->writeText("</PointData>\n<CellData>\n");
+    for (InlineArray& array : this->CellData)
     {
-      xml << " NumberOfCells=\"";
+      this->place(array);
     }
-    xml << this->Info.cells << "\">\n";
-    std::vector<AppendedArray*> arrays;
-    std::int64_t offset = 0;
-    const auto describe = [&](AppendedArray& array)
-    {
-      array.describe(xml, offset);
-      offset += array.size();
-      arrays.push_back(&array);
-    };
-    xml << "<PointData>\n";
-    std::for_each(this->PointData.begin(), this->PointData.end(), describe);
-    xml << "</PointData>\n<CellData>\n";
-    std::for_each(this->CellData.begin(), this->CellData.end(), describe);
-    xml << "</CellData>\n<Points>\n";
-    describe(this->Points);
-    xml << "</Points>\n" << (this->PolyData ? "<Polys>\n" : "<Cells>\n");
-    describe(this->Corners);
-    describe(this->Ends);
+    this->writeText("</CellData>\n<Points>\n");
+    this->place(this->Points);
+    this->writeText(this->PolyData ? "</Points>\n<Polys>\n" : "</Points>\n<Cells>\n");
+    this->place(this->Corners);
+    this->place(this->Ends);
     if (!this->PolyData)
     {
-      describe(this->Types);
+      this->place(this->Types);
     }
-    xml << (this->PolyData ? "</Polys>\n" : "</Cells>\n") << "</Piece>\n</" << type
-        << ">\n<AppendedData encoding=\"raw\">\n_";
-    const std::string text = xml.str();
-    this->File.write(0, std::as_bytes(std::span(text)));
-    const auto base = static_cast<std::int64_t>(text.size());
-    for (AppendedArray* array : arrays)
-    {
-      array->begin(this->File, base);
-    }
-    this->End = base + offset;
+    this->writeText(
+      (this->PolyData ? "</Polys>\n" : "</Cells>\n") + ("</Piece>\n</" + type) + ">\n</VTKFile>\n");
+  }
+
+  void writeText(std::string_view text)
+  {
+    this->File.write(this->End, std::as_bytes(std::span(text)));
+    this->End += static_cast<std::int64_t>(text.size());
+  }
+
+  void place(InlineArray& array)
+  {
+    this->writeText(array.tag());
+    this->End = array.begin(this->File, this->End);
+    this->writeText("\n</DataArray>\n");
+    this->Arrays.push_back(&array);
   }
 
   void appendCells(const MeshBlock& block)
@@ -203,9 +151,10 @@ private:
   const StreamInfo& Info;
   const bool PolyData;
   PositionedFile File;
-  AppendedArray Points, Corners, Ends, Types;
-  std::vector<AppendedArray> PointData, CellData;
-  std::int64_t End = 0;
+  InlineArray Points, Corners, Ends, Types;
+  std::vector<InlineArray> PointData, CellData;
+  std::vector<InlineArray*> Arrays; ///< those of the file
+  std::int64_t End = 0;             ///< where the next text of the frame goes
   std::vector<float> Single;
   std::vector<std::int64_t> CellEnds;
   std::vector<std::uint8_t> CellTypes;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/StreamAssembler.h"
 
+#include "IO/Container/Columns.h"
 #include "IO/Formats/StreamConversion.h"
 #include "Solver/Core/Error.h"
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
 
 namespace smg
 {
@@ -24,16 +24,6 @@ void push(Column& column, T value)
   column.bytes.insert(column.bytes.end(), bytes, bytes + sizeof(T));
 }
 
-std::vector<Column> columnsOf(const std::vector<ColumnSpec>& specs)
-{
-  std::vector<Column> columns;
-  for (const ColumnSpec& spec : specs)
-  {
-    columns.push_back({ spec, {} });
-  }
-  return columns;
-}
-
 } // namespace
 
 StreamAssembler::StreamAssembler(const StreamFileReader& reader, VsmWriter& writer,
@@ -49,8 +39,8 @@ StreamAssembler::StreamAssembler(const StreamFileReader& reader, VsmWriter& writ
   , Until(scratch, memory / 8)
 {
   const StreamInfo info = infoOf(this->Header);
-  this->Block.vertexColumns = columnsOf(info.vertexColumns);
-  this->Block.cellColumns = columnsOf(info.cellColumns);
+  this->Block.vertexColumns = emptyColumns(info.vertexColumns);
+  this->Block.cellColumns = emptyColumns(info.cellColumns);
 }
 
 StreamInfo StreamAssembler::infoOf(const StreamFileHeader& header)
@@ -149,7 +139,6 @@ void StreamAssembler::finalize(std::int64_t vertex)
   }
   Vertex& values = this->FileVertices.at(vertex);
   values.until = std::min(values.until, this->Cells);
-  this->Finalizations++;
   if (values.number > 0)
   {
     this->Until.at(values.number - 1) = values.until;

@@ -38,8 +38,6 @@ public:
   void finish();
 
   std::int64_t isolatedVertices() const { return this->Vertices - this->Used; }
-  /** Whether the file said of any vertex that it is final. */
-  bool sawFinalization() const { return this->Finalizations > 0; }
 
 private:
   static constexpr std::int64_t Never = std::numeric_limits<std::int64_t>::max();
@@ -71,11 +69,10 @@ private:
   VsmWriter& Writer;
   int Corners;
 
-  std::int64_t Vertices = 0;      ///< that have come
-  std::int64_t Cells = 0;         ///< that have come
-  std::int64_t Delivered = 0;     ///< cells delivered
-  std::int64_t Used = 0;          ///< vertices delivered
-  std::int64_t Finalizations = 0; ///< said by the file
+  std::int64_t Vertices = 0;  ///< that have come
+  std::int64_t Cells = 0;     ///< that have come
+  std::int64_t Delivered = 0; ///< cells delivered
+  std::int64_t Used = 0;      ///< vertices delivered
 
   PagedArray<Vertex> FileVertices;               ///< by place in the file
   PagedArray<std::int32_t> Values;               ///< further values of these, bits of floats too

@@ -9,8 +9,10 @@
 #include "Solver/Core/Error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <string>
 
 namespace smg
 {
@@ -64,8 +66,10 @@ void describeScalar(VsmReader& reader, StreamFileHeader& header)
 class ElementWriter
 {
 public:
-  ElementWriter(VsmReader& reader, StreamFileWriter& writer, const StreamFileHeader& header)
+  ElementWriter(VsmReader& reader, const std::filesystem::path& out, StreamFileWriter& writer,
+    const StreamFileHeader& header)
     : Reader(reader)
+    , Out(out)
     , Writer(writer)
     , Header(header)
     , Corners(cornersOf(reader.info().cellType))
@@ -106,11 +110,13 @@ public:
     this->LastCell.discardBelow(block.finalized);
   }
 
+  /** Vertices so far whose position is not that of the mesh to the last digit. */
+  std::int64_t roundedVertices() const { return this->RoundedVertices; }
+
 private:
   void writeVertex(const MeshBlock& block, std::int64_t v)
   {
-    std::array<float, 3> position{};
-    std::copy_n(block.positions.begin() + 3 * v, 3, position.begin());
+    const std::array<float, 3> position = this->rounded(block, v);
     std::span<const float> floats;
     std::span<const std::int32_t> ints;
     if (this->Header.vertexFloats > 0)
@@ -124,10 +130,34 @@ private:
     this->Writer.vertex(position, floats, ints);
   }
 
+  /** The position of a vertex in single precision, which is all that the formats have. */
+  std::array<float, 3> rounded(const MeshBlock& block, std::int64_t v)
+  {
+    std::array<float, 3> position{};
+    bool isRounded = false;
+    for (std::size_t axis = 0; axis < 3; axis++)
+    {
+      const double x = block.positions[3 * v + std::int64_t(axis)];
+      position[axis] = static_cast<float>(x);
+      if (!std::isfinite(position[axis]))
+      {
+        throw Error(this->Out.string() + ": coordinate " + std::to_string(axis) + " of vertex " +
+                    std::to_string(block.firstVertex + v) +
+                    " is too large for the single precision of the format " +
+                    std::string(nameOf(this->Header.format)) + ": write a .vsm file.");
+      }
+      isRounded = isRounded || static_cast<double>(position[axis]) != x;
+    }
+    this->RoundedVertices += isRounded ? 1 : 0;
+    return position;
+  }
+
   VsmReader& Reader;
+  const std::filesystem::path& Out;
   StreamFileWriter& Writer;
   const StreamFileHeader& Header;
   int Corners;
+  std::int64_t RoundedVertices = 0;
   PagedArray<std::int64_t> LastCell;
 };
 
@@ -155,15 +185,12 @@ StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesy
   assembler.finish();
   StreamToVsmResult result;
   result.info = writer.finish();
-  result.meanWidth = writer.meanWidth();
   result.isolatedVertices = assembler.isolatedVertices();
-  result.postOrder = reader->header().postOrder;
-  result.finalized = result.postOrder || assembler.sawFinalization();
   progress.update(1.0);
   return result;
 }
 
-void vsmToStream(const std::filesystem::path& in, const std::filesystem::path& out,
+std::int64_t vsmToStream(const std::filesystem::path& in, const std::filesystem::path& out,
   const ProgressFunction& progressFunction)
 {
   Progress progress(progressFunction);
@@ -193,7 +220,7 @@ void vsmToStream(const std::filesystem::path& in, const std::filesystem::path& o
     columns.emplace_back(header.vertexFloats > 0 ? StreamScalarName : StreamIntegerName);
   }
   const std::unique_ptr<MeshSource> source = reader.source(columns, {});
-  ElementWriter elements(reader, *writer, header);
+  ElementWriter elements(reader, out, *writer, header);
   MeshBlock block;
   while (source->next(block))
   {
@@ -202,6 +229,7 @@ void vsmToStream(const std::filesystem::path& in, const std::filesystem::path& o
   }
   writer->finish();
   progress.update(1.0);
+  return elements.roundedVertices();
 }
 
 } // namespace smg

@@ -28,10 +28,7 @@ struct StreamToVsmOptions
 struct StreamToVsmResult
 {
   StreamInfo info;
-  double meanWidth = 0;
   std::int64_t isolatedVertices = 0; ///< vertices of no cell: left out
-  bool postOrder = false;            ///< the file had the vertices after their cells
-  bool finalized = false;            ///< the file said when each vertex is final
 };
 
 /**
@@ -48,10 +45,11 @@ StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesy
  * Writes a .vsm file as SMA, SMB, SVA or SVB, by the suffix of `out`: pre-order, compact, vertices
  * final by their last cell, little-endian, counts and bounds in the header, no comments. Positions
  * become single precision; columns are left out, but for the scalar of SVA and SVB (see
- * StreamFile.h). Throws Error if the suffix does not go with the cells or there are more than 2^31
- * - 1 of anything.
+ * StreamFile.h). Answers the number of vertices whose position was rounded. Throws Error if the
+ * suffix does not go with the cells, there are more than 2^31 - 1 of anything, or a coordinate is
+ * too large for single precision.
  */
-void vsmToStream(const std::filesystem::path& in, const std::filesystem::path& out,
+std::int64_t vsmToStream(const std::filesystem::path& in, const std::filesystem::path& out,
   const ProgressFunction& progress = {});
 
 } // namespace smg

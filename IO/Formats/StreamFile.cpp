@@ -4,6 +4,7 @@
 #include "IO/Formats/BinaryStreamHeader.h"
 #include "IO/Formats/BinaryStreamReader.h"
 #include "IO/Formats/SequentialInput.h"
+#include "IO/Formats/Suffix.h"
 #include "IO/Formats/TextStreamReader.h"
 #include "IO/Formats/Tokens.h"
 #include "Solver/Core/Error.h"
@@ -19,14 +20,6 @@ namespace
 
 /** More lines than this are not looked at to tell the text formats from each other. */
 constexpr int LinesLookedAt = 10000;
-
-std::string suffixOf(const std::filesystem::path& path)
-{
-  std::string suffix = path.extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return suffix;
-}
 
 /** Which of the text formats it is, by the first line that only one of them can have. */
 std::optional<StreamFormat> detectText(SequentialInput& input)
@@ -56,7 +49,7 @@ std::optional<StreamFormat> detectText(SequentialInput& input)
 
 std::optional<StreamFormat> streamFormatOfName(const std::filesystem::path& path)
 {
-  const std::string suffix = suffixOf(path);
+  const std::string suffix = lowerSuffix(path);
   for (const StreamFormat format :
     { StreamFormat::Sma, StreamFormat::Smb, StreamFormat::Sva, StreamFormat::Svb })
   {
@@ -81,7 +74,7 @@ StreamFormat detectStreamFormat(const std::filesystem::path& path)
   }
   const auto refuse = [&path](const std::string& what)
   { throw Error(path.string() + ": " + what); };
-  const std::string suffix = suffixOf(path);
+  const std::string suffix = lowerSuffix(path);
   const auto first = std::to_integer<unsigned>(bytes[0]);
   const bool isCompressed = first == 1 || first == 2 || first == 3;
   if (first == 0x1f && bytes.size() > 1 && bytes[1] == std::byte{ 0x8b })

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/TextStreamReader.h"
 
+#include "IO/Formats/InQuotes.h"
 #include "Solver/Core/Error.h"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ void TextStreamReader::readHeader()
     else if (!key.empty())
     {
       this->fail("a line of a " + std::string(nameOf(this->Header.format)) +
-                 " file cannot begin with '" + std::string(key.substr(0, 20)) + "'.");
+                 " file cannot begin with " + inQuotes(key) + '.');
     }
   }
   if (this->HasLower && this->HasUpper)
@@ -104,8 +105,7 @@ void TextStreamReader::readComment(Tokens& tokens)
   {
     if (const std::string_view type = tokens.word(); type != "tet")
     {
-      this->fail("cells of type '" + std::string(type.substr(0, 20)) +
-                 "' are not known; the only type is tet.");
+      this->fail("cells of type " + inQuotes(type) + " are not known; the only type is tet.");
     }
   }
   else if (tets && key == "v_pnum_f")
@@ -209,7 +209,7 @@ void TextStreamReader::next(StreamEvent& event)
   else
   {
     this->fail("a line of a " + std::string(nameOf(this->Header.format)) +
-               " file cannot begin with '" + std::string(key.substr(0, 20)) + "'.");
+               " file cannot begin with " + inQuotes(key) + '.');
   }
   if (!restIsIgnored && !tokens.word().empty())
   {

@@ -1,30 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Import/CellCollector.h"
 
+#include "IO/Container/Columns.h"
+
 #include <algorithm>
-#include <cstring>
 #include <numeric>
+#include <utility>
 
 namespace smg
 {
-
-namespace
-{
-
-/** One tuple of the column for each entry of `tuples`. */
-Column gather(const Column& column, const std::vector<std::int64_t>& tuples)
-{
-  Column result{ column.spec, {} };
-  result.resize(tuples.size());
-  const std::size_t bytes = column.spec.tupleBytes();
-  for (std::size_t i = 0; i < tuples.size(); ++i)
-  {
-    std::memcpy(result.bytes.data() + i * bytes, column.bytes.data() + tuples[i] * bytes, bytes);
-  }
-  return result;
-}
-
-} // namespace
 
 void CellCollector::reserve(std::int64_t triangles, std::int64_t tetrahedra)
 {
@@ -107,7 +91,9 @@ void CellCollector::finish(IndexedMesh& mesh, std::vector<Column> columns)
   {
     for (Column& column : columns)
     {
-      column = gather(column, mesh.originalCells);
+      Column kept;
+      gatherTuples(column, mesh.originalCells, kept);
+      column = std::move(kept);
     }
   }
   mesh.cellColumns = std::move(columns);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Import/Importer.h"
 
+#include "IO/Container/ReservedNames.h"
+#include "IO/Formats/Suffix.h"
 #include "IO/Import/Formats.h"
 #include "Solver/Core/Error.h"
 
@@ -10,6 +12,7 @@
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace smg
 {
@@ -38,9 +41,7 @@ bool isOff(std::string_view bytes)
 
 MeshFormat formatOfSuffix(const std::filesystem::path& path)
 {
-  std::string suffix = path.extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string suffix = lowerSuffix(path);
   constexpr std::pair<std::string_view, MeshFormat> suffixes[] = { { ".ply", MeshFormat::Ply },
     { ".obj", MeshFormat::Obj }, { ".off", MeshFormat::Off }, { ".stl", MeshFormat::Stl },
     { ".mesh", MeshFormat::Medit }, { ".msh", MeshFormat::Gmsh }, { ".vtk", MeshFormat::VtkLegacy },
@@ -68,6 +69,21 @@ IndexedMesh importVtk(
   return importer(path, format, options);
 }
 
+/** Takes out the columns whose names mean something else in a stream. */
+void dropReserved(std::vector<Column>& columns, std::vector<std::string>& dropped)
+{
+  std::erase_if(columns,
+    [&dropped](const Column& column)
+    {
+      const bool reserved = isReservedColumn(column.spec.name);
+      if (reserved)
+      {
+        dropped.push_back(column.spec.name);
+      }
+      return reserved;
+    });
+}
+
 } // namespace
 
 void setVtkImporter(VtkImporter importer)
@@ -75,7 +91,7 @@ void setVtkImporter(VtkImporter importer)
   TheVtkImporter = importer;
 }
 
-MeshFormat meshFormat(const std::filesystem::path& path)
+MeshFormat meshFormatOfContent(const std::filesystem::path& path)
 {
   const std::string bytes = firstBytes(path);
   const auto begins = [&bytes](std::string_view text) { return bytes.starts_with(text); };
@@ -99,7 +115,13 @@ MeshFormat meshFormat(const std::filesystem::path& path)
   {
     return MeshFormat::Medit;
   }
-  return isOff(bytes) ? MeshFormat::Off : formatOfSuffix(path);
+  return isOff(bytes) ? MeshFormat::Off : MeshFormat::Unknown;
+}
+
+MeshFormat meshFormat(const std::filesystem::path& path)
+{
+  const MeshFormat format = meshFormatOfContent(path);
+  return format != MeshFormat::Unknown ? format : formatOfSuffix(path);
 }
 
 IndexedMesh importMesh(const std::filesystem::path& path, const ImportOptions& options)
@@ -137,6 +159,8 @@ IndexedMesh importMesh(const std::filesystem::path& path, const ImportOptions& o
   {
     throw Error(path.string() + ": the file has no triangles and no tetrahedra.");
   }
+  dropReserved(mesh.vertexColumns, mesh.droppedColumns);
+  dropReserved(mesh.cellColumns, mesh.droppedColumns);
   return mesh;
 }
 

@@ -31,6 +31,9 @@ enum class MeshFormat
   VtkXml
 };
 
+/** The format by the file's first bytes; Unknown where these say nothing, as for STL and OBJ. */
+MeshFormat meshFormatOfContent(const std::filesystem::path& path);
+
 /** The format by the file's first bytes, or by its suffix where these say nothing. */
 MeshFormat meshFormat(const std::filesystem::path& path);
 
@@ -46,7 +49,8 @@ void setVtkImporter(VtkImporter importer);
 
 /**
  * Reads a mesh from a PLY, OBJ, OFF, STL, Medit or Gmsh file, or from a VTK file (see
- * setVtkImporter). The mesh has at least one cell.
+ * setVtkImporter). The mesh has at least one cell, and no column with a reserved name
+ * (ReservedNames.h): such columns are left out and named.
  * @throws Error naming the file and the line, record or byte: the format is not known, the file is
  * empty, truncated or contradicts itself, a coordinate is not finite, a corner is no vertex, there
  * are no cells, or the conversion would exceed the memory budget; Cancelled.

@@ -5,6 +5,7 @@
 #include "Solver/Stream/MeshSource.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace smg
@@ -26,6 +27,8 @@ struct IndexedMesh
   std::int64_t triangulatedPolygons = 0;
   /** Points, lines, and surface cells beside tetrahedra, that were left out. */
   std::int64_t droppedCells = 0;
+  /** Names of columns that were left out, since their names are reserved. */
+  std::vector<std::string> droppedColumns;
 
   std::int64_t vertices() const { return static_cast<std::int64_t>(this->positions.size() / 3); }
   std::int64_t cells() const

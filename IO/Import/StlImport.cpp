@@ -41,6 +41,15 @@ struct PointHash
 class Welder
 {
 public:
+  /** `sizes`: what is expected; when more vertices come, the budget is asked again. */
+  Welder(const std::filesystem::path& path, const MemoryBudget& budget, const MeshSizes& sizes)
+    : Path(path)
+    , Budget(budget)
+    , Sizes(sizes)
+  {
+    budget.check(path, sizes);
+  }
+
   std::int64_t vertex(Point point)
   {
     for (float& coordinate : point)
@@ -51,6 +60,11 @@ public:
       this->Vertices.try_emplace(point, static_cast<std::int64_t>(this->Vertices.size()));
     if (fresh)
     {
+      if (entry->second >= this->Sizes.vertices)
+      {
+        this->Sizes.vertices *= 2;
+        this->Budget.check(this->Path, this->Sizes);
+      }
       this->Positions.insert(this->Positions.end(), point.begin(), point.end());
     }
     return entry->second;
@@ -59,6 +73,9 @@ public:
   std::vector<double> positions() { return std::move(this->Positions); }
 
 private:
+  const std::filesystem::path& Path;
+  const MemoryBudget& Budget;
+  MeshSizes Sizes;
   std::unordered_map<Point, std::int64_t, PointHash> Vertices;
   std::vector<double> Positions;
 };
@@ -169,14 +186,14 @@ IndexedMesh importStl(InputFile& file, const ImportOptions& options)
   {
     throw Error(file.path().string() + ": the file is too short for an STL file.");
   }
-  // A triangle's text takes some 200 bytes. The table of the welded corners counts as attributes.
+  // A triangle's text takes some 200 bytes, and a closed mesh has half as many vertices as
+  // triangles; the welder looks after meshes that have more. The table of the welded corners counts
+  // as attributes.
   MeshSizes sizes;
   sizes.cells = static_cast<std::int64_t>(file.size() / (binary ? BinaryTriangle : 200));
   sizes.vertices = sizes.cells / 2 + 2;
   sizes.vertexColumnBytes = 56;
-  options.budget.check(file.path(), sizes);
-
-  Welder welder;
+  Welder welder(file.path(), options.budget, sizes);
   CellCollector cells;
   binary ? readBinary(file, welder, cells) : readText(file, welder, cells);
   IndexedMesh mesh;

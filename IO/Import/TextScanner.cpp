@@ -159,15 +159,4 @@ void TextScanner::failAt(std::int64_t line, const std::string& sentence) const
   throw Error(this->File.path().string() + ", line " + std::to_string(line) + ": " + sentence);
 }
 
-std::string inQuotes(std::string_view text)
-{
-  constexpr std::size_t Most = 32;
-  std::string result = "'";
-  for (const char c : text.substr(0, Most))
-  {
-    result += c >= 32 && c < 127 ? c : '?';
-  }
-  return result + (text.size() > Most ? "...'" : "'");
-}
-
 } // namespace smg

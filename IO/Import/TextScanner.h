@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Formats/InQuotes.h"
 #include "IO/Import/InputFile.h"
 
 #include <cstdint>
@@ -64,8 +65,5 @@ private:
   std::int64_t Line;
   char Comment;
 };
-
-/** `text`, shortened and with unprintable characters replaced, in quotes: for errors. */
-std::string inQuotes(std::string_view text);
 
 } // namespace smg

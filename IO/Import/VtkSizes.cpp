@@ -4,6 +4,7 @@
 #include "IO/Import/InputFile.h"
 #include "IO/Import/LegacyVtkCells.h"
 #include "IO/Import/TextScanner.h"
+#include "IO/Import/VtkXmlArrays.h"
 
 #include <algorithm>
 #include <charconv>
@@ -44,7 +45,7 @@ std::int64_t sumOfCounts(
     if (count < 0 || static_cast<std::uint64_t>(count) > most)
     {
       file.fail(
-        at, "the number after " + inQuotes(keyword) +
+        at, "the number after " + inQuotes(keyword.substr(keyword.find_first_not_of("\n "))) +
               " is missing, negative, or more than the file can hold: it is truncated or wrong");
     }
     sum += count;
@@ -77,11 +78,26 @@ VtkSizes legacySizes(const InputFile& file)
   return sizes;
 }
 
+/** What is cut off need not be missed by VTK: it takes missing appended data for an end. */
+void requireXmlEnd(const InputFile& file)
+{
+  constexpr std::size_t Most = 256;
+  const std::string_view text = file.text();
+  const std::string_view tail = text.substr(text.size() - std::min(text.size(), Most));
+  if (tail.find("</VTKFile>") == std::string_view::npos)
+  {
+    file.fail(text.size(), "the file does not end with </VTKFile>: it is truncated");
+  }
+}
+
 VtkSizes xmlSizes(const InputFile& file)
 {
+  requireXmlEnd(file);
   VtkSizes sizes;
   // What is behind the beginning of the appended data is no XML.
-  const std::string_view text = file.text().substr(0, file.text().find("<AppendedData"));
+  const std::size_t appended = file.text().find("<AppendedData");
+  const std::string_view text = file.text().substr(0, appended);
+  sizes.appendedData = appended != std::string_view::npos;
   const std::string_view root = text.substr(std::min(text.find("<VTKFile"), text.size()), 512);
   const std::string_view tag = root.substr(0, root.find('>'));
   sizes.kind = tag.find("\"PolyData\"") != std::string_view::npos ? VtkDataKind::PolyData
@@ -94,6 +110,11 @@ VtkSizes xmlSizes(const InputFile& file)
   {
     sizes.mesh.cells += sumOfCounts(file, text, keyword, most);
   }
+  sumOfCounts(file, text, " offset=", file.size());
+  const VtkXmlArrays arrays = vtkXmlArrays(file, text, most);
+  // VTK has the arrays once and the mesh has them once more.
+  sizes.mesh.vertexColumnBytes = 2 * arrays.pointBytes;
+  sizes.mesh.cellColumnBytes = 2 * arrays.cellBytes;
   return sizes;
 }
 
@@ -105,8 +126,8 @@ VtkSizes vtkSizes(const std::filesystem::path& path, MeshFormat format)
   VtkSizes sizes = format == MeshFormat::VtkLegacy ? legacySizes(file) : xmlSizes(file);
   sizes.mesh.corners = sizes.kind == VtkDataKind::UnstructuredGrid ? 4 : 3;
   // What VTK holds of the mesh while it is taken over.
-  sizes.mesh.vertexColumnBytes = 24;
-  sizes.mesh.cellColumnBytes = 8 * (sizes.mesh.corners + 1);
+  sizes.mesh.vertexColumnBytes += 24;
+  sizes.mesh.cellColumnBytes += 8 * (sizes.mesh.corners + 1);
   return sizes;
 }
 

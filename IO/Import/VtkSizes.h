@@ -21,6 +21,8 @@ struct VtkSizes
   VtkDataKind kind = VtkDataKind::Other;
   /** Counts over all pieces, with what VTK's own data set takes counted as attributes. */
   MeshSizes mesh;
+  /** Whether the file has <AppendedData>, which not every version of VTK and Expat reads. */
+  bool appendedData = false;
 };
 
 /**

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Problem/JsonNode.h"
 
+#include "IO/Formats/InQuotes.h"
 #include "Solver/Core/Error.h"
 
 #include <algorithm>
@@ -9,6 +10,8 @@
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <set>
+#include <utility>
 
 namespace smg
 {
@@ -118,6 +121,44 @@ JsonNode JsonNode::child(const nlohmann::json& value, const std::string& step) c
   return node;
 }
 
+namespace
+{
+
+/** Watches a parser: of two members with the same name, it would silently take the last one. */
+class UniqueKeys
+{
+public:
+  explicit UniqueKeys(std::string file)
+    : File(std::move(file))
+  {
+  }
+
+  bool operator()(int, nlohmann::json::parse_event_t event, const nlohmann::json& parsed)
+  {
+    if (event == nlohmann::json::parse_event_t::object_start)
+    {
+      this->Objects.emplace_back();
+    }
+    else if (event == nlohmann::json::parse_event_t::object_end)
+    {
+      this->Objects.pop_back();
+    }
+    else if (event == nlohmann::json::parse_event_t::key &&
+             !this->Objects.back().insert(parsed.get<std::string>()).second)
+    {
+      throw Error(this->File + ": the key " + inQuotes(parsed.get<std::string>()) +
+                  " stands twice in the same object: leave one out.");
+    }
+    return true;
+  }
+
+private:
+  std::string File;
+  std::vector<std::set<std::string>> Objects; ///< the keys of those that have begun
+};
+
+} // namespace
+
 nlohmann::json readJsonFile(const std::string& path)
 {
   std::ifstream stream(path, std::ios::binary);
@@ -133,7 +174,7 @@ nlohmann::json readJsonFile(const std::string& path)
   }
   try
   {
-    return nlohmann::json::parse(text);
+    return nlohmann::json::parse(text, UniqueKeys(path));
   }
   catch (const nlohmann::json::parse_error& error)
   {

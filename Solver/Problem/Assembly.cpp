@@ -165,7 +165,7 @@ void Assembly::addCells(const MeshBlock& block)
 void Assembly::addCell(const std::int64_t* corners)
 {
   const bool triangle = this->Type == CellType::Triangle;
-  const double* point[4];
+  const double* point[4] = {};
   for (int k = 0; k < cornersOf(this->Type); ++k)
   {
     point[k] = this->Points.at(corners[k]);

@@ -2,15 +2,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The program smg from outside: its commands, reports, exit codes and what it leaves behind."""
 
+import base64
 import json
 import math
 import os
 import signal
+import struct
 import subprocess
 import sys
 import time
+import xml.etree.ElementTree as xml
 
 SMG = os.environ["SMG_PROGRAM"]
+READS_VTK = os.environ["SMG_READS_VTK"] == "1"
 
 
 def run(*arguments, code=0):
@@ -25,6 +29,23 @@ def run(*arguments, code=0):
 def load(name):
     with open(name, encoding="utf-8") as file:
         return json.load(file)
+
+
+def read_vtk_xml(name):
+    """The arrays of a .vtp or .vtu file, by name, as tuples."""
+    codes = {"Float32": "f", "Float64": "d", "Int64": "q", "UInt8": "B"}
+    arrays = {}
+    for array in xml.parse(name).getroot().iter("DataArray"):
+        assert array.get("format") == "binary"
+        # The number of bytes is a unit of base64 of its own.
+        text = array.text.strip()
+        size, = struct.unpack("=Q", base64.b64decode(text[:12], validate=True))
+        data = base64.b64decode(text[12:], validate=True)
+        assert len(data) == size, (name, array.attrib, size, len(data))
+        components = array.get("NumberOfComponents")
+        arrays[array.get("Name")] = list(struct.iter_unpack(
+            "=" + components + codes[array.get("type")], data))
+    return arrays
 
 
 def write_torus(name, nu, nv):
@@ -64,6 +85,21 @@ def test_convert_and_info():
     assert "14400" in run("info", "torus.smb").stdout
 
 
+def test_vtk_xml():
+    """What is written is the mesh, and VTK's readers find the same in it."""
+    with open("torus.obj", encoding="utf-8") as file:
+        points = [tuple(map(float, line.split()[1:])) for line in file if line.startswith("v ")]
+    surface, grid = read_vtk_xml("torus.vtp"), read_vtk_xml("torus.vtu")
+    assert grid.pop("types") == [(5,)] * 14400
+    assert surface == grid
+    assert surface["offsets"] == [(3 * i + 3,) for i in range(14400)]
+    assert surface["Points"] == [points[id] for id, in surface["OriginalId"]]
+    for name in ("torus.vtp", "torus.vtu") if READS_VTK else ():
+        run("convert", name, "back.vsm", "--order", "keep", "--quiet")
+        run("convert", "back.vsm", "back.vtp", "--order", "keep", "--quiet")
+        assert read_vtk_xml("back.vtp") == surface, name
+
+
 def problem(**members):
     with open("problem.json", "w", encoding="utf-8") as file:
         json.dump(members, file)
@@ -84,6 +120,8 @@ def test_solve():
     assert "OriginalId" in columns
     run("solve", "torus.obj", "solved.vtp", "--problem", name, "--quiet", "--report", "solve.json")
     assert load("solve.json")["seconds"]["convert"] > 0
+    run("convert", "solved.vsm", "streamed.vtp", "--order", "keep", "--quiet")
+    assert read_vtk_xml("solved.vtp") == read_vtk_xml("streamed.vtp")
     run("solve", "solved.vsm", "again.vsm", "--problem", name, "--in-core", "--threads", 1,
         "--block-nodes", 333, "--core-nodes", 100, "--quiet")
     with open("solved.vsm", "rb") as streamed, open("again.vsm", "rb") as core:
@@ -95,7 +133,15 @@ def test_solve():
 
 def test_errors():
     run(code=2)
+    assert "foo" in run("foo", code=2).stderr
     run("solve", "torus.vsm", "o.vsm", code=2)
+    for wrong in (("--operators", "foo"), ("--tolerance", 0), ("--tolerance", 1),
+                  ("--tolerance", "nan"), ("--tolerance", "small")):
+        run("solve", "torus.vsm", "o.vsm", "--problem", "problem.json", *wrong, code=2)
+    for report in (".", os.path.join("nowhere", "r.json")):
+        for command in (("info", "torus.vsm"), ("convert", "torus.obj", "o2.vsm"),
+                        ("solve", "torus.vsm", "o2.vsm", "--problem", "problem.json")):
+            run(*command, "--report", report, code=1)
     run("convert", "torus.obj", "o2.vsm", "--order", "random", code=2)
     run("convert", "torus.obj", "o2.vsm", "--order", "spectral", code=1)
     run("convert", "missing.ply", "o2.vsm", code=1)
@@ -137,7 +183,7 @@ def test_interrupt_cleans_up():
         assert sorted(os.listdir(".")) == before and os.listdir("scratch") == []
 
 
-for each in (test_convert_and_info, test_solve, test_errors, test_interrupt_cleans_up):
+for each in (test_convert_and_info, test_vtk_xml, test_solve, test_errors, test_interrupt_cleans_up):
     each()
     print("passed", each.__name__)
 sys.exit(0)

@@ -9,6 +9,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkElevationFilter.h"
 #include "vtkFieldData.h"
+#include "vtkPolyData.h"
 #include "vtkStringArray.h"
 
 #include <cmath>
@@ -18,7 +19,7 @@ namespace smg::testing
 namespace
 {
 
-/** Makes the point arrays Mask and Values: both ends of the x axis are held at their positions. */
+/** Makes the point arrays Mask and Values: both ends in x are held at their positions. */
 class vtkEndsFilter : public vtkPassInputTypeAlgorithm
 {
 public:
@@ -26,6 +27,12 @@ public:
   vtkTypeMacro(vtkEndsFilter, vtkPassInputTypeAlgorithm);
   int Executions = 0;
   double Bad = 0.0;
+  double Left = -2.5, Right = 2.5;
+
+  bool isHeld(const double* point) const
+  {
+    return point[0] <= this->Left || point[0] >= this->Right;
+  }
 
 protected:
   int RequestData(vtkInformation*, vtkInformationVector** inputVector,
@@ -42,7 +49,7 @@ protected:
     for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
     {
       const double* point = output->GetPoint(i);
-      mask->InsertNextValue(std::abs(point[0]) > 2.5 ? 1 : 0);
+      mask->InsertNextValue(this->isHeld(point) ? 1 : 0);
       values->InsertNextTuple3(point[0] + this->Bad, point[1], point[2]);
     }
     output->GetPointData()->AddArray(mask);
@@ -56,10 +63,15 @@ class VtkStreamingPoisson : public ::testing::Test
 protected:
   VtkStreamingPoisson()
   {
-    this->Mesh = writeVsm(this->Folder / "mesh.vsm", torus(60, 30, 0.2));
-    this->Reader->SetFileName((this->Folder / "mesh.vsm").c_str());
+    this->open(torus(60, 30, 0.2));
     this->Ends->SetInputConnection(this->Reader->GetOutputPort());
     this->prepare(this->Poisson);
+  }
+
+  void open(const IndexedTestMesh& mesh)
+  {
+    this->Mesh = writeVsm(this->Folder / "mesh.vsm", mesh);
+    this->Reader->SetFileName((this->Folder / "mesh.vsm").c_str());
   }
 
   void prepare(vtkStreamingPoisson* poisson)
@@ -100,7 +112,8 @@ TEST_F(VtkStreamingPoisson, ServesAnyPieceOfTheSameSolution)
   ASSERT_EQ(whole.values.size(), std::size_t(this->Mesh.vertices()));
   EXPECT_EQ(this->Poisson->GetConverged(), 1);
   const int executions = this->Ends->Executions;
-  EXPECT_EQ(executions, 6);
+  // The piece that is asked for before and after the five to solve on.
+  EXPECT_EQ(executions, 7);
   for (const int pieces : { 2, 7, 64 })
   {
     const PieceUnion parts = this->collectPieces(pieces);
@@ -112,7 +125,7 @@ TEST_F(VtkStreamingPoisson, ServesAnyPieceOfTheSameSolution)
   for (const auto& [id, value] : whole.values)
   {
     const double* point = &this->Mesh.positions[3 * id];
-    if (std::abs(point[0]) > 2.5)
+    if (this->Ends->isHeld(point))
     {
       EXPECT_EQ(value, std::vector<double>(point, point + 3));
     }
@@ -152,15 +165,16 @@ TEST_F(VtkStreamingPoisson, PreviewCarriesTheTrueSolution)
 TEST_F(VtkStreamingPoisson, SolvesAgainOnlyAfterAChange)
 {
   ASSERT_TRUE(updatePiece(this->Poisson, 0, 2));
-  EXPECT_EQ(this->Ends->Executions, 6);
+  EXPECT_EQ(this->Ends->Executions, 7);
   ASSERT_TRUE(updatePiece(this->Poisson, 0, 2));
-  EXPECT_EQ(this->Ends->Executions, 6);
+  EXPECT_EQ(this->Ends->Executions, 7);
   this->Ends->Modified();
   ASSERT_TRUE(updatePiece(this->Poisson, 0, 2));
-  EXPECT_EQ(this->Ends->Executions, 12);
+  EXPECT_EQ(this->Ends->Executions, 14);
   this->Poisson->SetWeights(vtkStreamingPoisson::UNIFORM);
   ASSERT_TRUE(updatePiece(this->Poisson, 0, 2));
-  EXPECT_EQ(this->Ends->Executions, 18);
+  // The input still has the piece that is asked for.
+  EXPECT_EQ(this->Ends->Executions, 20);
 }
 
 TEST_F(VtkStreamingPoisson, ReportStandsInTheFieldData)
@@ -243,6 +257,140 @@ TEST_F(VtkStreamingPoisson, FailureOfAPieceIsAnError)
   faulty->FailAtPiece = -1;
   faulty->Modified();
   EXPECT_TRUE(updatePiece(this->Poisson, 0, 1));
+}
+
+TEST_F(VtkStreamingPoisson, FailureEndsStreaming)
+{
+  this->Reader->SetMaximumPointsInMemory(10);
+  vtkNew<vtkFaultyFilter> faulty;
+  faulty->SetInputConnection(this->Reader->GetOutputPort());
+  this->Ends->SetInputConnection(faulty->GetOutputPort());
+  Errors errors(this->Poisson);
+  errors.watch(faulty);
+  const auto expectPreview = [this]
+  {
+    ASSERT_TRUE(updatePiece(this->Reader, 0, 1));
+    EXPECT_TRUE(this->Reader->GetOutputDataObject(0)->GetFieldData()->HasArray("Preview"));
+  };
+  // The input fails, what it gives is refused, and the solve fails.
+  this->Poisson->SetNumberOfPieces(1);
+  faulty->FailAtPiece = 0;
+  EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));
+  expectPreview();
+  faulty->FailAtPiece = -1;
+  faulty->RemoveArray = "GlobalIds";
+  faulty->Modified();
+  EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));
+  expectPreview();
+  faulty->RemoveArray.clear();
+  faulty->Modified();
+  this->Poisson->SetScratchDirectory("/no/such/folder");
+  EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));
+  expectPreview();
+  this->Poisson->SetScratchDirectory(this->Folder.path().c_str());
+  EXPECT_TRUE(updatePiece(this->Poisson, 0, 1));
+  expectPreview();
+
+  // The same when the filter is itself streamed from.
+  faulty->FailAtPiece = 0;
+  faulty->Modified();
+  vtkNew<vtkStreamingMeshWriter> writer;
+  writer->SetInputConnection(this->Poisson->GetOutputPort());
+  writer->SetFileName((this->Folder / "out.vsm").c_str());
+  writer->SetNumberOfStreamedPieces(1);
+  errors.watch(writer);
+  EXPECT_FALSE(writer->Write());
+  expectPreview();
+  faulty->FailAtPiece = -1;
+  faulty->Modified();
+  EXPECT_TRUE(writer->Write());
+  expectPreview();
+}
+
+TEST_F(VtkStreamingPoisson, WhatIsWrongFromTheStartIsToldBeforePulling)
+{
+  vtkNew<vtkFaultyFilter> passing;
+  passing->SetInputConnection(this->Ends->GetOutputPort());
+  this->Poisson->SetInputConnection(passing->GetOutputPort());
+  Errors errors(this->Poisson);
+  const auto expectError = [&](const std::string& words)
+  {
+    errors.clear();
+    passing->Requests.clear();
+    EXPECT_FALSE(updatePiece(this->Poisson, 0, 3));
+    EXPECT_TRUE(errors.contain(words)) << errors.text();
+    EXPECT_LE(passing->Requests.size(), 1U);
+  };
+  this->Poisson->SetOperators("nonsense");
+  expectError("no operator set 'nonsense'");
+  this->Poisson->SetOperators("extended");
+  for (const double tolerance : { 0.0, 1.0, std::nan("") })
+  {
+    this->Poisson->SetTolerance(tolerance);
+    expectError("between 0 and 1");
+  }
+  this->Poisson->SetTolerance(1e-6);
+  const int points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  this->Poisson->SetInputArrayToProcess(1, 0, 0, points, "");
+  expectError("belong together");
+  this->Poisson->SetInputArrayToProcess(0, 0, 0, points, "");
+  expectError("No array says what to solve");
+}
+
+TEST_F(VtkStreamingPoisson, SolvesOnTetrahedra)
+{
+  this->open(tetBox(12, 7, 6, 0.1));
+  this->Ends->Left = 0.5;
+  this->Ends->Right = 10.5;
+  const PieceUnion whole = this->collectPieces(1);
+  whole.expectEqual(this->Mesh);
+  EXPECT_TRUE(this->output()->IsA("vtkUnstructuredGrid"));
+  EXPECT_EQ(this->Poisson->GetConverged(), 1);
+  for (const int pieces : { 2, 7, 64 })
+  {
+    const PieceUnion parts = this->collectPieces(pieces);
+    parts.expectEqual(this->Mesh);
+    EXPECT_EQ(parts.values, whole.values);
+  }
+  for (const auto& [id, value] : whole.values)
+  {
+    const double* point = &this->Mesh.positions[3 * id];
+    if (this->Ends->isHeld(point))
+    {
+      EXPECT_EQ(value, std::vector<double>(point, point + 3));
+    }
+  }
+}
+
+TEST_F(VtkStreamingPoisson, MeshGivenDirectlyStaysWhole)
+{
+  ASSERT_TRUE(updatePiece(this->Ends, 0, 1));
+  vtkNew<vtkPolyData> mesh;
+  mesh->ShallowCopy(this->Ends->GetOutputDataObject(0));
+  const PieceUnion solved = this->collectPieces(1);
+  this->Poisson->SetInputDataObject(mesh);
+  Errors errors(this->Poisson);
+  this->Poisson->SetNumberOfPieces(4);
+  EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));
+  EXPECT_TRUE(errors.contain("same data for every piece")) << errors.text();
+  EXPECT_EQ(mesh->GetNumberOfPoints(), this->Mesh.vertices());
+  this->Poisson->SetNumberOfPieces(1);
+  EXPECT_EQ(this->collectPieces(1).values, solved.values);
+  EXPECT_EQ(mesh->GetNumberOfPoints(), this->Mesh.vertices());
+  EXPECT_EQ(mesh->GetNumberOfCells(), this->Mesh.cells());
+}
+
+TEST_F(VtkStreamingPoisson, EveryPointHeldIsNoWork)
+{
+  this->Ends->Left = this->Ends->Right = 0.0;
+  const PieceUnion whole = this->collectPieces(1);
+  for (const auto& [id, value] : whole.values)
+  {
+    const double* point = &this->Mesh.positions[3 * id];
+    EXPECT_EQ(value, std::vector<double>(point, point + 3));
+  }
+  EXPECT_EQ(this->Poisson->GetCycles(), 0);
+  EXPECT_NE(this->Poisson->GetReport(), std::string());
 }
 
 TEST_F(VtkStreamingPoisson, NotConvergingIsAWarning)

@@ -4,9 +4,11 @@
 
 #include "IO/Container/VsmReader.h"
 #include "IO/Conversion/CellFlagger.h"
+#include "IO/Conversion/MeshFile.h"
 #include "IO/Formats/StreamConversion.h"
 #include "Solver/Core/Error.h"
 #include "Testing/IO/MeshText.h"
+#include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
 
@@ -199,6 +201,13 @@ TEST_F(Conversion, OddCellsAreCountedAndFlagged)
       {
         EXPECT_EQ(flags->value(c), expected[static_cast<std::size_t>(ids[c])]);
       }
+      // The flags stay what they are.
+      const ConversionReport again = convert(
+        this->Folder / "out.vsm", this->Folder / "again.vsm", this->options(StreamOrder::Keep));
+      EXPECT_EQ(again.degenerate_cells, 2);
+      EXPECT_EQ(again.duplicate_cells, 1);
+      const StreamMesh kept = this->load(this->Folder / "again.vsm");
+      EXPECT_EQ(findColumn(kept.cellColumns, CellFlagsName)->bytes, flags->bytes);
     }
   }
 }
@@ -257,12 +266,16 @@ TEST_F(Conversion, VtkXmlHasTheMeshAndItsColumns)
   EXPECT_NE(text.find("NumberOfPoints=\"42\""), std::string::npos);
   EXPECT_NE(text.find("NumberOfPolys=\"80\""), std::string::npos);
   EXPECT_NE(text.find("Name=\"OriginalId\""), std::string::npos);
-  const std::size_t data = text.find("encoding=\"raw\">\n_");
-  const std::string tail = "\n</AppendedData>\n</VTKFile>\n";
-  // Ids, points, corners and offsets, each with its number of bytes before it.
-  const std::size_t bytes = 42 * 8 + 80 * 8 + 42 * 24 + 80 * 24 + 80 * 8 + 5 * 8;
-  EXPECT_EQ(text.size(), data + 17 + bytes + tail.size());
-  EXPECT_TRUE(text.ends_with(tail));
+  EXPECT_TRUE(text.ends_with("</DataArray>\n</Polys>\n</Piece>\n</PolyData>\n</VTKFile>\n"));
+  EXPECT_EQ(text.find('\0'), std::string::npos);
+  // The numbers of bytes and the characters of the ids, points, corners and offsets.
+  const std::array<std::size_t, 5> arrays{ 42 * 8, 80 * 8, 42 * 24, 80 * 24, 80 * 8 };
+  std::size_t at = 0;
+  for (const std::size_t bytes : arrays)
+  {
+    at = text.find("format=\"binary\">\n", at) + 17;
+    EXPECT_EQ(text.find("\n</DataArray>", at), at + 12 + (bytes + 2) / 3 * 4) << bytes;
+  }
 }
 
 TEST_F(Conversion, SinglePrecisionStaysSingle)
@@ -273,6 +286,64 @@ TEST_F(Conversion, SinglePrecisionStaysSingle)
     "0\n3 0 1 2\n");
   convert(this->Folder / "a.ply", this->Folder / "a.vsm");
   EXPECT_FALSE(VsmReader(this->Folder / "a.vsm").info().doublePositions);
+}
+
+TEST_F(Conversion, PositionsAreRoundedWithANoteOrRefused)
+{
+  const std::string faces = "f 1 2 3\n";
+  writeBytes(this->Folder / "round.obj", "v 0.1 0 0\nv 1 0 0\nv 0 1 0\n" + faces);
+  writeBytes(this->Folder / "exact.obj", "v 0.5 0 0\nv 1 0 0\nv 0 1 0\n" + faces);
+  writeBytes(this->Folder / "large.obj", "v 0 1e39 0\nv 1 0 0\nv 0 1 0\n" + faces);
+  for (const char* out : { "out.sma", "out.smb" })
+  {
+    const ConversionReport rounded = convert(this->Folder / "round.obj", this->Folder / out);
+    ASSERT_EQ(rounded.notes.size(), 1u);
+    EXPECT_NE(rounded.notes[0].find("1 vertices were rounded"), std::string::npos);
+    EXPECT_TRUE(convert(this->Folder / "exact.obj", this->Folder / out).notes.empty());
+    std::filesystem::remove(this->Folder / out);
+    const std::string message =
+      messageOf([&] { convert(this->Folder / "large.obj", this->Folder / out); });
+    EXPECT_NE(message.find("too large for the single precision"), std::string::npos) << message;
+    EXPECT_FALSE(std::filesystem::exists(this->Folder / out));
+  }
+  EXPECT_TRUE(convert(this->Folder / "large.obj", this->Folder / "out.vsm").notes.empty());
+}
+
+TEST_F(Conversion, AFolderInTheWayLeavesNothing)
+{
+  const std::filesystem::path in = this->write(sphere(1));
+  for (const char* out : { "out.vsm", "out.smb", "out.sma", "out.vtp", "out.vtu" })
+  {
+    std::filesystem::create_directory(this->Folder / out);
+    EXPECT_THROW(convert(in, this->Folder / out), Error) << out;
+  }
+  EXPECT_EQ(this->Folder.entries(), 6);
+}
+
+TEST_F(Conversion, KindsOfInputGoByContent)
+{
+  const std::filesystem::path in = this->write(sphere(1));
+  convert(in, this->Folder / "a.smb");
+  convert(in, this->Folder / "a.vsm");
+  const auto kindAs = [this](const std::filesystem::path& from, const char* name)
+  {
+    std::filesystem::copy_file(from, this->Folder / name);
+    return kindOfInput(this->Folder / name);
+  };
+  EXPECT_EQ(kindAs(this->Folder / "a.smb", "smb.ply"), MeshFileKind::Stream);
+  EXPECT_EQ(kindAs(this->Folder / "a.smb", "smb"), MeshFileKind::Stream);
+  EXPECT_EQ(kindAs(this->Folder / "a.vsm", "vsm.smb"), MeshFileKind::Vsm);
+  EXPECT_EQ(kindAs(in, "off.smb"), MeshFileKind::Indexed);
+  EXPECT_EQ(kindAs(in, "off"), MeshFileKind::Indexed);
+  writeBytes(this->Folder / "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(kindOfInput(this->Folder / "a.obj"), MeshFileKind::Indexed);
+  EXPECT_EQ(kindAs(this->Folder / "a.obj", "b.sma"), MeshFileKind::Stream);
+  writeBytes(this->Folder / "a.txt", "nothing of the kind\n");
+  EXPECT_EQ(kindOfInput(this->Folder / "a.txt"), MeshFileKind::Unknown);
+  EXPECT_EQ(kindOfInput(this->Folder / "missing.smb"), MeshFileKind::Stream);
+  EXPECT_EQ(kindOfInput(this->Folder / "missing"), MeshFileKind::Unknown);
+  EXPECT_EQ(openMesh(this->Folder / "smb.ply")->reader().info().vertices, 42);
+  EXPECT_THROW(openMesh(this->Folder / "a.txt"), Error);
 }
 
 TEST_F(Conversion, ErrorsAndCancelLeaveNothing)

@@ -288,6 +288,31 @@ TEST_F(Import, MemoryIsCheckedBeforeTheMeshIsRead)
   }
 }
 
+TEST_F(Import, StlThatIsNoClosedMeshNeedsMore)
+{
+  // Triangles that share no vertex: six times as many vertices as a closed mesh has.
+  constexpr std::uint32_t Triangles = 200000;
+  std::string bytes(80, ' ');
+  put(bytes, Triangles);
+  for (std::uint32_t i = 0; i < Triangles; ++i)
+  {
+    for (int k = 0; k < 12; ++k)
+    {
+      put(bytes, k < 3 ? 0.0f : static_cast<float>(i) + 0.01f * static_cast<float>(k * k));
+    }
+    bytes += std::string(2, '\0');
+  }
+  writeBytes(this->Folder / "soup.stl", bytes);
+  MeshSizes sizes;
+  sizes.cells = Triangles;
+  sizes.vertices = Triangles;
+  sizes.vertexColumnBytes = 56;
+  ImportOptions options;
+  options.budget = MemoryBudget(MemoryBudget::bytesFor(sizes));
+  EXPECT_THROW(importMesh(this->Folder / "soup.stl", options), Error);
+  EXPECT_EQ(importMesh(this->Folder / "soup.stl").vertices(), 3 * std::int64_t(Triangles));
+}
+
 TEST_F(Import, CancelEndsIt)
 {
   writeBytes(this->Folder / "a.off", meshText(grid(20, 20)));

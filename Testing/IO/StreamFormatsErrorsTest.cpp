@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
 #include <utility>
 
@@ -84,6 +85,16 @@ TEST_F(StreamFormatsErrors, RefusesWrongLines)
   this->expectRefusal("a.sva", "# v_pnum_f 2\n", "line 1: v_pnum_f");
   this->expectRefusal("a.sva", "# v_pnum_i 1000000000000\n", "line 1: v_pnum_i");
   this->expectRefusal("a.sva", "# v_pnum_f 4\nv 0 0 0\n", "line 2: the vertex has not the 4");
+}
+
+TEST_F(StreamFormatsErrors, ShowNoUnprintableBytes)
+{
+  for (const char* wrong : { "\x1b]0;x\x07 1\n", "v 0 0 0\n\x1b[2J\n" })
+  {
+    const std::string message = this->refusal("a.sma", wrong);
+    EXPECT_FALSE(message.empty());
+    EXPECT_TRUE(std::ranges::all_of(message, [](unsigned char c) { return c >= 32 && c < 127; }));
+  }
 }
 
 TEST_F(StreamFormatsErrors, RefusesWrongElements)

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkMeshImport.h"
 
+#include "IO/Import/VtkSizes.h"
 #include "Solver/Core/Error.h"
 #include "Testing/IO/MeshText.h"
+#include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <vtkCellType.h>
+#include <vtkDoubleArray.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataWriter.h>
@@ -19,10 +23,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 using namespace smg;
@@ -44,6 +50,10 @@ protected:
     vtkNew<Writer> writer;
     writer->SetInputData(data);
     writer->SetFileName(this->path(name).c_str());
+    if constexpr (std::is_base_of_v<vtkXMLWriter, Writer>)
+    {
+      writer->SetDataModeToBinary();
+    }
     EXPECT_EQ(writer->Write(), 1);
     return this->path(name);
   }
@@ -152,4 +162,92 @@ TEST_F(VtkMeshImport, TruncatedFilesAreRefused)
       EXPECT_THROW(importMesh(cut), Error) << cut << ' ' << part;
     }
   }
+}
+
+TEST_F(VtkMeshImport, TruncatedGridsOfEveryDataModeAreRefused)
+{
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = mixedGrid();
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writer->SetInputData(grid);
+  writer->SetFileName(this->path("a.vtu").c_str());
+  for (const int mode : { vtkXMLWriter::Ascii, vtkXMLWriter::Binary, vtkXMLWriter::Appended })
+  {
+    for (const bool encoded : { false, true })
+    {
+      writer->SetDataMode(mode);
+      writer->SetEncodeAppendedData(encoded);
+      ASSERT_EQ(writer->Write(), 1);
+      std::ifstream stream(this->path("a.vtu"), std::ios::binary);
+      const std::string bytes(std::istreambuf_iterator<char>(stream), {});
+      for (std::size_t cut = 2; cut < bytes.size(); cut += 7)
+      {
+        writeBytes(this->Folder / "cut.vtu", bytes.substr(0, bytes.size() - cut));
+        EXPECT_THROW(importMesh(this->path("cut.vtu")), Error) << mode << ' ' << cut;
+      }
+    }
+  }
+}
+
+TEST_F(VtkMeshImport, EmptyCellsAreRefused)
+{
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = mixedGrid();
+  grid->InsertNextCell(VTK_EMPTY_CELL, 0, static_cast<const vtkIdType*>(nullptr));
+  EXPECT_THROW(importMesh(this->write<vtkXMLUnstructuredGridWriter>("a.vtu", grid.Get())), Error);
+}
+
+TEST_F(VtkMeshImport, ArraysCountForTheMemory)
+{
+  vtkNew<vtkSphereSource> source;
+  source->SetThetaResolution(100);
+  source->SetPhiResolution(100);
+  source->Update();
+  vtkPolyData* sphere = source->GetOutput();
+  const std::int64_t points = sphere->GetNumberOfPoints();
+  const auto sizes = [&] { return vtkSizes(this->path("a.vtp"), MeshFormat::VtkXml).mesh; };
+  this->write<vtkXMLPolyDataWriter>("a.vtp", sphere);
+  const std::int64_t before = sizes().vertexColumnBytes;
+  vtkNew<vtkDoubleArray> array;
+  array->SetName("nine");
+  array->SetNumberOfComponents(9);
+  array->SetNumberOfTuples(points);
+  array->Fill(1.0);
+  sphere->GetPointData()->AddArray(array);
+  this->write<vtkXMLPolyDataWriter>("a.vtp", sphere);
+  EXPECT_EQ(sizes().vertices, points);
+  EXPECT_EQ(sizes().vertexColumnBytes, before + 2 * 72);
+}
+
+TEST_F(VtkMeshImport, AppendedDataAreReadOrRefusedWithAdvice)
+{
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputConnection(sphere->GetOutputPort());
+  writer->SetFileName(this->path("a.vtp").c_str());
+  writer->SetDataModeToAppended();
+  ASSERT_EQ(writer->Write(), 1);
+  try
+  {
+    const IndexedMesh mesh = importMesh(this->path("a.vtp"));
+    EXPECT_EQ(mesh.cells(), sphere->GetOutput()->GetNumberOfPolys());
+  }
+  catch (const Error& error)
+  {
+    // VTK's parser and the version of Expat do not go together.
+    EXPECT_NE(std::string(error.what()).find("binary or ascii"), std::string::npos) << error.what();
+  }
+}
+
+TEST_F(VtkMeshImport, AdviceOnAppendedDataIsForFilesThatHaveThem)
+{
+  const std::string head = "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"1\" "
+                           "NumberOfPolys=\"1\"><&></Piece></PolyData>";
+  writeBytes(this->Folder / "a.vtp", head + "<AppendedData>_</AppendedData></VTKFile>");
+  writeBytes(this->Folder / "b.vtp", head + "</VTKFile>");
+  const std::string appended = messageOf([this] { importMesh(this->path("a.vtp")); });
+  EXPECT_NE(appended.find("not well-formed"), std::string::npos) << appended;
+  EXPECT_NE(appended.find("binary or ascii"), std::string::npos) << appended;
+  EXPECT_EQ(std::count(appended.begin(), appended.end(), '\n'), 0) << appended;
+  const std::string other = messageOf([this] { importMesh(this->path("b.vtp")); });
+  EXPECT_NE(other.find("not well-formed"), std::string::npos) << other;
+  EXPECT_EQ(other.find("binary or ascii"), std::string::npos) << other;
 }

@@ -43,7 +43,6 @@ protected:
       PieceStream stream(input, pieces, { .all = true, .points = {}, .cells = {} });
       Progress progress;
       this->Info = writeContainer(stream, this->Folder / "out.vsm", true, progress);
-      input.endStreaming();
       return {};
     }
     catch (const Error& error)
@@ -91,6 +90,14 @@ TEST_F(VtkPieceStream, EndOfStreamingBringsThePreviewBack)
   EXPECT_EQ(this->pull(1), "");
   ASSERT_TRUE(updatePiece(this->Filter, 0, 1));
   EXPECT_TRUE(this->Filter->GetOutputDataObject(0)->GetFieldData()->GetArray("Preview"));
+}
+
+TEST_F(VtkPieceStream, FailureEndsStreamingToo)
+{
+  this->Filter->FailAtPiece = 0;
+  EXPECT_NE(this->pull(1), "");
+  ASSERT_TRUE(updatePiece(this->Reader, 0, 1));
+  EXPECT_TRUE(this->Reader->GetOutputDataObject(0)->GetFieldData()->GetArray("Preview"));
 }
 
 TEST_F(VtkPieceStream, MeshWithoutFinalisationIsLegal)
@@ -194,6 +201,76 @@ TEST_F(VtkPieceStream, TheSameDataForEveryPieceIsRefused)
   EXPECT_NE(this->pull(7).find("same data for every piece"), std::string::npos);
   EXPECT_EQ(this->pull(1), "");
   this->expectSameMesh();
+}
+
+TEST_F(VtkPieceStream, MeshGivenDirectlyStaysWhole)
+{
+  this->Reader->SetMaximumPointsInMemory(1000000);
+  ASSERT_TRUE(updatePiece(this->Reader, 0, 1));
+  vtkNew<vtkPolyData> whole;
+  whole->DeepCopy(this->Reader->GetOutputDataObject(0));
+  this->Sink->SetInputDataObject(whole);
+  EXPECT_NE(this->pull(4).find("same data for every piece"), std::string::npos);
+  EXPECT_EQ(whole->GetNumberOfPoints(), this->Mesh.vertices());
+  EXPECT_EQ(this->pull(1), "");
+  EXPECT_EQ(whole->GetNumberOfPoints(), this->Mesh.vertices());
+  EXPECT_EQ(whole->GetNumberOfCells(), this->Mesh.cells());
+  EXPECT_EQ(whole->GetPointData()->GetNumberOfArrays(), 5);
+  this->expectSameMesh();
+}
+
+TEST_F(VtkPieceStream, PointsNotInTheOrderOfFirstUseAreRefused)
+{
+  vtkNew<vtkSphereSource> source;
+  source->Update();
+  vtkNew<vtkPolyData> sphere;
+  sphere->ShallowCopy(source->GetOutput());
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("GlobalIds");
+  for (vtkIdType i = 0; i < sphere->GetNumberOfPoints(); ++i)
+  {
+    ids->InsertNextValue(i);
+  }
+  sphere->GetPointData()->SetGlobalIds(ids);
+  this->Sink->SetInputDataObject(sphere);
+  const std::string error = this->pull(1);
+  EXPECT_NE(error.find("Piece 0 of 1 of the input has a cell that uses the point with GlobalId"),
+    std::string::npos)
+    << error;
+  EXPECT_NE(error.find("number the points in the order"), std::string::npos) << error;
+}
+
+TEST_F(VtkPieceStream, PointsWithoutCellsAreRefused)
+{
+  this->Filter->Spoil = [](vtkPointSet* mesh, int piece)
+  {
+    if (piece == 6)
+    {
+      auto* surface = static_cast<vtkPolyData*>(mesh);
+      vtkNew<vtkCellArray> cells;
+      const vtkIdType corners[] = { 0, 1, 2 };
+      cells->InsertNextCell(3, corners);
+      surface->SetPolys(cells);
+      surface->GetCellData()->GetArray(0)->SetNumberOfTuples(1);
+    }
+  };
+  EXPECT_NE(this->pull(7).find("belongs to no cell"), std::string::npos) << this->pull(7);
+}
+
+TEST_F(VtkPieceStream, FinalPointsThatAreUsedAgainAreRefused)
+{
+  this->Filter->Spoil = [](vtkPointSet* mesh, int piece)
+  {
+    if (piece < 3)
+    {
+      vtkNew<vtkUnsignedCharArray> all;
+      all->SetName("StreamFinalized");
+      all->SetNumberOfValues(mesh->GetNumberOfPoints());
+      all->FillValue(1);
+      mesh->GetPointData()->AddArray(all);
+    }
+  };
+  EXPECT_NE(this->pull(7).find("StreamFinalized"), std::string::npos) << this->pull(7);
 }
 
 TEST_F(VtkPieceStream, PreviewsAreRefused)

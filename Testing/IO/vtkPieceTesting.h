@@ -53,12 +53,10 @@ inline void addColumns(StreamMesh& mesh)
   mesh.cellColumns = { makeColumn<std::int64_t>("OriginalCellId", cells) };
 }
 
-/** Writes the mesh, in breadth-first order with columns, as a .vsm file. */
-inline StreamMesh writeVsm(const std::filesystem::path& path, const IndexedTestMesh& mesh)
+/** Writes the mesh as it is as a .vsm file. */
+inline void writeMesh(const std::filesystem::path& path, const StreamMesh& mesh)
 {
-  StreamMesh stream = toStream(mesh);
-  addColumns(stream);
-  MemorySource source(stream, 500);
+  MemorySource source(mesh, 500);
   VsmWriter writer(path, source.info());
   MeshBlock block;
   while (source.next(block))
@@ -66,6 +64,14 @@ inline StreamMesh writeVsm(const std::filesystem::path& path, const IndexedTestM
     writer.append(block);
   }
   writer.finish();
+}
+
+/** Writes the mesh, in breadth-first order with columns, as a .vsm file. */
+inline StreamMesh writeVsm(const std::filesystem::path& path, const IndexedTestMesh& mesh)
+{
+  StreamMesh stream = toStream(mesh);
+  addColumns(stream);
+  writeMesh(path, stream);
   return stream;
 }
 

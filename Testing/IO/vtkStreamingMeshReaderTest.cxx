@@ -11,6 +11,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <fstream>
+#include <sstream>
 
 namespace smg::testing
 {
@@ -193,6 +194,84 @@ TEST_F(VtkStreamingMeshReader, ReadsStreamingFormats)
   EXPECT_EQ(this->Reader->GetFullNumberOfPoints(), 4);
   EXPECT_EQ(this->Reader->GetFullNumberOfCells(), 2);
   EXPECT_EQ(this->output()->GetPoints()->GetDataType(), VTK_FLOAT);
+}
+
+TEST_F(VtkStreamingMeshReader, KnowsFilesByTheirContent)
+{
+  this->open(torus(12, 9));
+  const auto canRead = [this](const std::string& name, const std::string& content)
+  {
+    const std::filesystem::path path = this->Folder / name;
+    std::ofstream(path, std::ios::binary) << content;
+    return vtkStreamingMeshReader::CanReadFile(path.c_str()) == 1;
+  };
+  std::filesystem::copy_file(this->Folder / "mesh.vsm", this->Folder / "other.name");
+  EXPECT_EQ(vtkStreamingMeshReader::CanReadFile((this->Folder / "other.name").c_str()), 1);
+  EXPECT_EQ(vtkStreamingMeshReader::CanReadFile((this->Folder / "absent.vsm").c_str()), 0);
+  EXPECT_EQ(vtkStreamingMeshReader::CanReadFile(nullptr), 0);
+  EXPECT_FALSE(canRead("noise.vsm", "This is no container."));
+  EXPECT_FALSE(canRead("empty.smb", ""));
+  EXPECT_FALSE(canRead("compressed.smb", "\x1f\x8b\x08 and so on"));
+  EXPECT_FALSE(canRead("letter.txt", "Dear reader"));
+  EXPECT_TRUE(canRead("mesh.obj", "v 0 0 0\n"));
+  EXPECT_TRUE(canRead("mesh.sma", "v 0 0 0\n"));
+}
+
+/** Bytes that this process has asked the system for so far. */
+std::int64_t bytesRead()
+{
+  std::ifstream io("/proc/self/io");
+  std::string name;
+  std::int64_t bytes = -1;
+  io >> name >> bytes;
+  return bytes;
+}
+
+TEST_F(VtkStreamingMeshReader, PiecesInOrderReadTheFileOnce)
+{
+  this->open(torus(600, 400, 0.2));
+  const auto size =
+    static_cast<std::int64_t>(std::filesystem::file_size(this->Folder / "mesh.vsm"));
+  this->Reader->Update();
+  const std::int64_t before = bytesRead();
+  if (before < 0)
+  {
+    GTEST_SKIP() << "the system does not count what is read";
+  }
+  for (int piece = 0; piece < 256; ++piece)
+  {
+    ASSERT_TRUE(updatePiece(this->Reader, piece, 256));
+  }
+  EXPECT_LT(bytesRead() - before, size + size / 4);
+}
+
+TEST_F(VtkStreamingMeshReader, CellFlagsCannotBeLeftOut)
+{
+  StreamMesh mesh = toStream(torus(12, 9));
+  addColumns(mesh);
+  mesh.cellColumns.push_back(
+    makeColumn<std::uint8_t>(CellFlagsName, std::vector<std::uint8_t>(mesh.cells(), 0)));
+  const std::filesystem::path path = this->Folder / "flags.vsm";
+  writeMesh(path, mesh);
+  this->Reader->SetFileName(path.c_str());
+  this->Reader->UpdateInformation();
+  EXPECT_FALSE(this->Reader->GetCellDataArraySelection()->ArrayExists(CellFlagsName));
+  this->Reader->GetCellDataArraySelection()->DisableAllArrays();
+  ASSERT_TRUE(updatePiece(this->Reader, 0, 1));
+  EXPECT_TRUE(this->output()->GetCellData()->HasArray(CellFlagsName));
+  EXPECT_FALSE(this->output()->GetCellData()->HasArray("OriginalCellId"));
+}
+
+TEST_F(VtkStreamingMeshReader, PrintsItsProperties)
+{
+  this->open(torus(12, 9));
+  this->Reader->Update();
+  std::ostringstream text;
+  this->Reader->Print(text);
+  for (const char* name : { "FullNumberOfPoints: 108", "Width: ", "Colours", "OriginalCellId" })
+  {
+    EXPECT_NE(text.str().find(name), std::string::npos) << name;
+  }
 }
 
 TEST_F(VtkStreamingMeshReader, DamagedAndAbsentFilesAreErrors)

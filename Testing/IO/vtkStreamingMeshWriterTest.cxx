@@ -6,10 +6,13 @@
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/TemporaryFolder.h"
 
+#include "vtkFieldData.h"
+#include "vtkPolyData.h"
 #include "vtkXMLPPolyDataReader.h"
 #include "vtkXMLPUnstructuredGridReader.h"
 
 #include <fstream>
+#include <iterator>
 
 namespace smg::testing
 {
@@ -48,6 +51,18 @@ protected:
     }
     ASSERT_EQ(copy.cellColumns.size(), this->Mesh.cellColumns.size());
     EXPECT_EQ(copy.cellColumns[0].bytes, this->Mesh.cellColumns[0].bytes);
+  }
+
+  /** Expects the arrays within their elements: appended ones, not every reader of VTK reads. */
+  void expectInlineArrays(const std::string& folder)
+  {
+    for (const auto& entry : std::filesystem::directory_iterator(this->Folder / folder))
+    {
+      std::ifstream stream(entry.path(), std::ios::binary);
+      const std::string text(std::istreambuf_iterator<char>(stream), {});
+      EXPECT_NE(text.find("format=\"binary\""), std::string::npos) << entry.path();
+      EXPECT_EQ(text.find("AppendedData"), std::string::npos) << entry.path();
+    }
   }
 
   /** Reads an index of piece files back by pieces and streams it to a container again. */
@@ -120,6 +135,7 @@ TEST_F(VtkStreamingMeshWriter, PieceFilesOfASurfaceAreLegalInput)
   this->start(torus(60, 30, 0.2));
   ASSERT_TRUE(this->write("out.pvtp"));
   EXPECT_EQ(this->Folder.entries(), 3);
+  this->expectInlineArrays("out");
   this->expectReadable<vtkXMLPPolyDataReader>("out.pvtp");
 }
 
@@ -127,6 +143,7 @@ TEST_F(VtkStreamingMeshWriter, PieceFilesOfAVolumeAreLegalInput)
 {
   this->start(tetBox(9, 8, 7, 0.1));
   ASSERT_TRUE(this->write("out.pvtu"));
+  this->expectInlineArrays("out");
   this->expectReadable<vtkXMLPUnstructuredGridReader>("out.pvtu");
 }
 
@@ -137,6 +154,80 @@ TEST_F(VtkStreamingMeshWriter, FewerPieceFilesReplaceMore)
   this->Writer->SetNumberOfStreamedPieces(3);
   ASSERT_TRUE(this->write("out.pvtp"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(this->Folder / "out"), {}), 3);
+  this->expectReadable<vtkXMLPPolyDataReader>("out.pvtp");
+}
+
+TEST_F(VtkStreamingMeshWriter, MeshGivenDirectlyStaysWhole)
+{
+  this->start(torus(60, 30));
+  this->Reader->SetMaximumPointsInMemory(1000000);
+  this->Reader->Update();
+  vtkNew<vtkPolyData> mesh;
+  mesh->ShallowCopy(this->Reader->GetOutputDataObject(0));
+  this->Writer->SetInputData(mesh);
+  Errors errors(this->Writer);
+  for (const char* name : { "out.vsm", "out.sma", "out.pvtp" })
+  {
+    errors.clear();
+    this->Writer->SetNumberOfStreamedPieces(4);
+    EXPECT_FALSE(this->write(name));
+    EXPECT_TRUE(errors.contain("same data for every piece")) << errors.text();
+    EXPECT_EQ(this->Folder.entries(), 1);
+    for (const int pieces : { 0, 1 })
+    {
+      this->Writer->SetNumberOfStreamedPieces(pieces);
+      EXPECT_TRUE(this->write(name)) << errors.text();
+      EXPECT_EQ(mesh->GetNumberOfPoints(), 1800);
+      EXPECT_EQ(mesh->GetNumberOfCells(), 3600);
+    }
+    std::filesystem::remove(this->Folder / name);
+    std::filesystem::remove_all(this->Folder / "out");
+  }
+}
+
+TEST_F(VtkStreamingMeshWriter, PreviewsAreRefused)
+{
+  this->start(torus(60, 30));
+  this->Reader->Update();
+  vtkNew<vtkPolyData> preview;
+  preview->ShallowCopy(this->Reader->GetOutputDataObject(0));
+  ASSERT_TRUE(preview->GetFieldData()->HasArray("Preview"));
+  this->Writer->SetInputData(preview);
+  this->Writer->SetNumberOfStreamedPieces(1);
+  Errors errors(this->Writer);
+  for (const char* name : { "out.vsm", "out.sma", "out.pvtp" })
+  {
+    errors.clear();
+    EXPECT_FALSE(this->write(name));
+    EXPECT_TRUE(errors.contain("is a preview")) << errors.text();
+  }
+  EXPECT_EQ(this->Folder.entries(), 1);
+}
+
+TEST_F(VtkStreamingMeshWriter, FailureEndsStreaming)
+{
+  this->start(torus(20, 10));
+  vtkNew<vtkFaultyFilter> filter;
+  filter->SetInputConnection(this->Reader->GetOutputPort());
+  filter->FailAtPiece = 0;
+  this->Writer->SetInputConnection(filter->GetOutputPort());
+  this->Writer->SetNumberOfStreamedPieces(1);
+  Errors silent(this->Writer);
+  silent.watch(filter);
+  for (const char* name : { "out.vsm", "out.sma", "out.pvtp" })
+  {
+    EXPECT_FALSE(this->write(name));
+    ASSERT_TRUE(updatePiece(this->Reader, 0, 1));
+    EXPECT_TRUE(this->Reader->GetOutputDataObject(0)->GetFieldData()->HasArray("Preview"));
+  }
+}
+
+TEST_F(VtkStreamingMeshWriter, EmptyPiecesHaveNoFiles)
+{
+  this->start(grid(2, 3));
+  this->Writer->SetNumberOfStreamedPieces(50);
+  ASSERT_TRUE(this->write("out.pvtp"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(this->Folder / "out"), {}), 4);
   this->expectReadable<vtkXMLPPolyDataReader>("out.pvtp");
 }
 

@@ -17,7 +17,7 @@ try:
     for line in server.stdout:
         if "Accepting connection" in line:
             break
-    Connect("localhost", port)
+    Connect("127.0.0.1", port)
     LoadPlugin(sys.argv[1], remote=True, ns=globals())
     LoadPlugin(sys.argv[1], remote=False, ns=globals())
     t.StreamingPoisson = StreamingPoisson

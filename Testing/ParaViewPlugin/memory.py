@@ -31,13 +31,7 @@ reader.UpdatePipelineInformation()
 reader.UpdatePipeline()
 bounds = reader.GetDataInformation().GetBounds()
 margin = 0.02 * (bounds[5] - bounds[4])
-mask = Calculator(Input=reader)
-mask.ResultArrayName = "Mask"
-mask.Function = f"(coordsZ < {bounds[4] + margin}) | (coordsZ > {bounds[5] - margin})"
-values = Calculator(Input=mask)
-values.ResultArrayName = "Values"
-values.Function = "coords"
-poisson = t.make_poisson(values)
+poisson = t.make_poisson(t.make_problem(reader, "Z", bounds[4] + margin, bounds[5] - margin))
 poisson.MemoryLimit = 128
 poisson.UpdatePipeline()
 poisson.UpdatePropertyInformation()

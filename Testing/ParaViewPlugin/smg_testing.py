@@ -30,11 +30,12 @@ def make_folder():
     return folder
 
 
-def make_problem(reader):
-    """Calculators that make the arrays Mask and Values (three components)."""
+def make_problem(reader, axis="Y", low=FEET, high=EARS):
+    """Calculators that make the arrays Mask and Values (three components): the points up to `low`
+    and from `high` on along the axis are held at their positions."""
     mask = Calculator(Input=reader)
     mask.ResultArrayName = "Mask"
-    mask.Function = f"(coordsY <= {FEET}) | (coordsY >= {EARS})"
+    mask.Function = f"(coords{axis} <= {low}) | (coords{axis} >= {high})"
     values = Calculator(Input=mask)
     values.ResultArrayName = "Values"
     values.Function = "coords"

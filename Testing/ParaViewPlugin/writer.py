@@ -28,4 +28,18 @@ assert solved.GetDataInformation().GetNumberOfCells() == t.BUNNY_CELLS
 assert solved.PointData["Solution"].GetNumberOfComponents() == 3
 assert "Solution" in solved.PointArrayStatus
 assert sorted(os.listdir(folder)) == ["again.smb", "solved.vsm"]
+
+# Scripts write piece files past the guard, too; Save Data leaves them to ParaView's own writer.
+pieces = os.path.join(folder, "pieces.pvtp")
+writer = servermanager.writers.StreamingMeshWriter(Input=poisson, FileName=pieces, NumberOfPieces=5)
+writer.UpdatePipeline()
+assert len(os.listdir(os.path.join(folder, "pieces"))) == 5
+reread = OpenDataFile(pieces)
+reread.UpdatePipeline()
+assert reread.GetDataInformation().GetNumberOfCells() == t.BUNNY_CELLS
+ball = os.path.join(folder, "ball.pvtp")
+SaveData(ball, proxy=Sphere())
+ball = OpenDataFile(ball)
+ball.UpdatePipeline()
+assert ball.GetDataInformation().GetNumberOfCells() == 96
 print("passed")

@@ -8,8 +8,7 @@ the weighted mean of its neighbours. The program writes the field's isolines as 
 What this lesson shows:
  1. vtkStreamingMeshReader delivers any piece of a mesh stream; ordinary filters work on pieces.
  2. The problem is stated with point arrays: a mask of the points that are held, and values there.
-    Calculators can make them, since they pass GlobalIds and the other arrays that tell pieces
-apart.
+    Calculators can make them, since they pass on GlobalIds and the other arrays of a piece.
  3. vtkStreamingPoisson pulls the mesh in pieces, solves on scratch files, and serves the solution
     with any piece. The isolines are extracted piece by piece, so never is the whole mesh in memory.
 
@@ -80,8 +79,9 @@ int main(int argc, char** argv)
   for (int piece = 0; piece < pieces; ++piece)
   {
     contour->UpdatePiece(piece, pieces, 0);
-    if (poisson->GetCycles() == 0)
+    if (!*poisson->GetReport())
     {
+      // The filter has said why it could not solve.
       return 1;
     }
     vtkNew<vtkPolyData> lines;
@@ -96,6 +96,8 @@ int main(int argc, char** argv)
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputConnection(isolines->GetOutputPort());
   writer->SetFileName(argv[2]);
+  // With recent versions of Expat many of VTK's readers refuse appended data, the default.
+  writer->SetDataModeToBinary();
   if (!writer->Write())
   {
     return 1;

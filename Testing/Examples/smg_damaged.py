@@ -1,0 +1,250 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Damaged files of every format: the program smg answers 1 with one line and leaves nothing."""
+
+import base64
+import math
+import os
+import random
+import struct
+import subprocess
+import sys
+
+SMG = os.environ["SMG_PROGRAM"]
+READS_VTK = os.environ["SMG_READS_VTK"] == "1"
+# A coordinate that stands in the meshes once, to be made NaN.
+MARK = 1234.5
+
+
+def torus(nu=24, nv=12):
+    points = []
+    for i in range(nu):
+        for k in range(nv):
+            u, v = 2 * math.pi * i / nu, 2 * math.pi * k / nv
+            r = 2 + math.cos(v)
+            points.append((r * math.cos(u), r * math.sin(u), math.sin(v)))
+    points[5] = (MARK, points[5][1], points[5][2])
+    cells = []
+    for i in range(nu):
+        for k in range(nv):
+            a, b, c, d = (p * nv + q for p, q in (
+                (i, k), ((i + 1) % nu, k), ((i + 1) % nu, (k + 1) % nv), (i, (k + 1) % nv)))
+            cells += [(a, b, c), (a, c, d)]
+    return points, cells
+
+
+def tetrahedra(n=4):
+    points = [(x, y, z) for x in range(n) for y in range(n) for z in range(n)]
+    points[5] = (MARK,) + points[5][1:]
+    cells = []
+    for x in range(n - 1):
+        for y in range(n - 1):
+            for z in range(n - 1):
+                corner = [((x + (i >> 2)) * n + y + (i >> 1 & 1)) * n + z + (i & 1)
+                          for i in range(8)]
+                cells += [tuple(corner[i] for i in tet) for tet in (
+                    (0, 1, 3, 7), (0, 3, 2, 7), (0, 2, 6, 7),
+                    (0, 6, 4, 7), (0, 4, 5, 7), (0, 5, 1, 7))]
+    return points, cells
+
+
+def rows(tuples, offset=0, head=""):
+    return "".join(head + " ".join(str(v + offset) for v in t) + "\n" for t in tuples)
+
+
+def ply(points, cells):
+    return ("ply\nformat ascii 1.0\nelement vertex %d\nproperty float x\nproperty float y\n"
+            "property float z\nelement face %d\nproperty list uchar int vertex_indices\n"
+            "end_header\n" % (len(points), len(cells))
+            + rows(points) + rows(cells, head="3 ")).encode()
+
+
+def binary_ply(points, cells):
+    head = ply(points, cells).split(b"end_header\n")[0].replace(b"ascii", b"binary_little_endian")
+    return (head + b"end_header\n" + b"".join(struct.pack("<3f", *p) for p in points)
+            + b"".join(struct.pack("<B3i", 3, *c) for c in cells))
+
+
+def obj(points, cells):
+    return (rows(points, head="v ") + rows(cells, 1, "f ")).encode()
+
+
+def off(points, cells):
+    return ("OFF\n%d %d 0\n" % (len(points), len(cells)) + rows(points)
+            + rows(cells, head="3 ")).encode()
+
+
+def stl(points, cells):
+    loops = ("facet normal 0 0 0\nouter loop\n" + rows([points[i] for i in c], head="vertex ")
+             + "endloop\nendfacet\n" for c in cells)
+    return ("solid x\n" + "".join(loops) + "endsolid x\n").encode()
+
+
+def binary_stl(points, cells):
+    return (b"\0" * 80 + struct.pack("<I", len(cells)) + b"".join(
+        struct.pack("<12fH", 0, 0, 0, *(x for i in c for x in points[i]), 0) for c in cells))
+
+
+def legacy(points, cells):
+    return ("# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS %d double\n%sPOLYGONS "
+            "%d %d\n" % (len(points), rows(points), len(cells), 4 * len(cells))
+            + rows(cells, head="3 ")).encode()
+
+
+def vtu(points, cells):
+    count = len(cells[0])
+    arrays = (("connectivity", "Int64", rows(cells)),
+              ("offsets", "Int64", rows((count * (i + 1),) for i in range(len(cells)))),
+              ("types", "UInt8", ("10 " if count == 4 else "5 ") * len(cells)))
+    return ('<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" '
+            'header_type="UInt64"><UnstructuredGrid><Piece NumberOfPoints="%d" NumberOfCells="%d">'
+            '<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">%s'
+            '</DataArray></Points><Cells>' % (len(points), len(cells), rows(points))
+            + "".join('<DataArray type="%s" Name="%s" format="ascii">%s</DataArray>'
+                      % (kind, name, text) for name, kind, text in arrays)
+            + "</Cells></Piece></UnstructuredGrid></VTKFile>\n").encode()
+
+
+def medit(points, cells):
+    return ("MeshVersionFormatted 2\nDimension 3\nVertices\n%d\n" % len(points)
+            + "".join("%s %s %s 0\n" % p for p in points) + "Tetrahedra\n%d\n" % len(cells)
+            + "".join("%d %d %d %d 0\n" % tuple(i + 1 for i in c) for c in cells)
+            + "End\n").encode()
+
+
+def gmsh(points, cells):
+    return ("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n%d\n" % len(points)
+            + "".join("%d %s %s %s\n" % ((i + 1,) + p) for i, p in enumerate(points))
+            + "$EndNodes\n$Elements\n%d\n" % len(cells)
+            + "".join("%d 4 0 %d %d %d %d\n" % ((i + 1,) + tuple(v + 1 for v in c))
+                      for i, c in enumerate(cells)) + "$EndElements\n").encode()
+
+
+def convert(name, out, *options):
+    return subprocess.run([SMG, "convert", name, out, "--quiet", *options], capture_output=True,
+                          text=True, errors="replace", timeout=120)
+
+
+def samples():
+    """A sound file of each format: (suffix, bytes)."""
+    surface, solid = torus(), tetrahedra()
+    files = [(".ply", ply(*surface)), (".ply", binary_ply(*surface)), (".obj", obj(*surface)),
+             (".off", off(*surface)), (".stl", stl(*surface)), (".stl", binary_stl(*surface)),
+             (".vtk", legacy(*surface)), (".vtu", vtu(*surface)), (".vtu", vtu(*solid)),
+             (".mesh", medit(*solid)), (".msh", gmsh(*solid))]
+    for name, data, suffixes in (("s.obj", obj(*surface), (".vsm", ".sma", ".smb", ".vtp", ".vtu")),
+                                 ("s.mesh", medit(*solid), (".vsm", ".sva", ".svb", ".vtu"))):
+        with open(name, "wb") as file:
+            file.write(data)
+        for suffix in suffixes:
+            done = convert(name, "s" + suffix)
+            assert done.returncode == 0, done.stderr
+            with open("s" + suffix, "rb") as file:
+                files.append((suffix, file.read()))
+            os.remove("s" + suffix)
+        os.remove(name)
+    return files
+
+
+def check(suffix, data, refused, what):
+    """Expects one line and code 1, or, unless it must be refused, success."""
+    name = "damaged" + suffix
+    with open(name, "wb") as file:
+        file.write(data)
+    before = sorted(os.listdir("."))
+    done = convert(name, "out.vsm", "--scratch", ".")
+    label = (suffix, what, done.returncode, done.stderr[:300])
+    if done.returncode == 0:
+        assert not refused and done.stderr == "", label
+        os.remove("out.vsm")
+    else:
+        assert done.returncode == 1 and done.stdout == "", label
+        assert done.stderr.count("\n") == 1 and done.stderr.startswith("smg: "), label
+        assert done.stderr.isprintable() or done.stderr[:-1].isprintable(), label
+    assert sorted(os.listdir(".")) == before, label
+    os.remove(name)
+
+
+def replace_last(data, old, new):
+    """The bounds, which come first, may have the same number."""
+    before, _, after = data.rpartition(old)
+    return before + new + after
+
+
+def not_a_number(suffix, data):
+    """The file with the marked coordinate made NaN."""
+    nan = float("nan")
+    for text in (b"1234.5", b"1.2345e+03", b"1234.500000"):
+        if data.count(text) > 0:
+            return replace_last(data, text, b"nan")
+    for code in ("<f", "<d"):
+        if struct.pack(code, MARK) in data:
+            return replace_last(data, struct.pack(code, MARK), struct.pack(code, nan))
+    # Inline binary data: the number begins at one of the three places of a group.
+    for code in ("<f", "<d"):
+        size = struct.calcsize(code)
+        for start in data.split(b"<DataArray")[1:]:
+            body = start[start.find(b">") + 1:start.find(b"</DataArray")]
+            units = body.strip()
+            try:
+                raw = base64.b64decode(units[12:], validate=True)
+            except ValueError:
+                continue
+            at = raw.find(struct.pack(code, MARK))
+            if at >= 0 and at % size == 0:
+                wrong = raw[:at] + struct.pack(code, nan) + raw[at + size:]
+                return data.replace(units[12:], base64.b64encode(wrong), 1)
+    assert suffix == ".vsm", "the marked coordinate is not in the sample " + suffix
+    return None
+
+
+def test_damage():
+    chance = random.Random(1)
+    for suffix, data in samples():
+        if READS_VTK or suffix not in (".vtk", ".vtp", ".vtu"):
+            with open("sound" + suffix, "wb") as file:
+                file.write(data)
+            done = convert("sound" + suffix, "out.vsm")
+            assert done.returncode == 0 and done.stderr == "", (suffix, done.stderr)
+            os.remove("out.vsm")
+            os.remove("sound" + suffix)
+        check(suffix, b"", True, "empty")
+        check(suffix, b"\0" * 3000, True, "zeros")
+        check(suffix, chance.randbytes(3000), True, "noise")
+        for part in (0.001, 0.1, 0.5, 0.9, 0.98):
+            check(suffix, data[:int(len(data) * part)], suffix != ".obj", "cut at %g" % part)
+        wrong = not_a_number(suffix, data)
+        if wrong:
+            check(suffix, wrong, True, "nan")
+        for length in (1, 3, 10):
+            flipped = bytearray(data)
+            for _ in range(length):
+                flipped[chance.randrange(len(data))] = chance.randrange(256)
+            check(suffix, bytes(flipped), False, "flipped %d" % length)
+        head = bytearray(data)
+        for _ in range(4):
+            head[chance.randrange(min(300, len(data)))] = chance.randrange(256)
+        check(suffix, bytes(head), False, "flipped at the beginning")
+
+
+def test_terminal_gets_no_escapes():
+    check(".sma", b"v 0 0 0\n\x1b]0;x\x07 1\n", True, "escape sequence")
+
+
+def test_crash_and_loop_of_the_reader():
+    """Counts that make VTK's readers crash or loop."""
+    data = vtu(*torus())
+    for count in (b"9223372036854775807", b"4611686018427387904", b"0", b"-1"):
+        check(".vtu", data.replace(b'NumberOfComponents="3"', b'NumberOfComponents="' + count + b'"'),
+              True, "components " + count.decode())
+    data = legacy(*torus())
+    for field in (b"POINT_DATA 288\nFIELD f 1\na 9223372036854775807 288 float\n1 2 3\n",
+                  b"POINT_DATA 288\nFIELD f 4294967295\na 1 288 float\n1 2 3\n",
+                  b"POINT_DATA 288\nSCALARS s float -1\nLOOKUP_TABLE default\n1 2 3\n"):
+        check(".vtk", data + field, False, field[:40].decode())
+
+
+for each in (test_damage, test_terminal_gets_no_escapes, test_crash_and_loop_of_the_reader):
+    each()
+    print("passed", each.__name__)
+sys.exit(0)
