@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds the ParaView plugin on a Debian 12 machine (as root, or as a user with sudo) and lets
+# Builds libraries, ParaView plugin and the program smg on a Debian 12 machine (as root, or as a user
+# with sudo) and lets
 # pvpython compute and draw a harmonic field on the Stanford bunny, out of core. Leaves
 # bunny-harmonic.png and the solver's report, bunny-harmonic.json, in Examples/output.
 set -euo pipefail
@@ -14,7 +15,7 @@ if [ ! -e build/build.ninja ]; then
   ! command -v ccache > /dev/null || launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   cmake --preset examples "${launcher[@]}"
 fi
-cmake --build build --target StreamingMultigrid
+cmake --build build
 
 mkdir -p Examples/output
 plugin=$(find "$PWD/build" -name StreamingMultigrid.so | head -n 1)

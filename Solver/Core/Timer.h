@@ -3,9 +3,11 @@
 
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <ctime>
-
-#include <sys/resource.h>
+#include <fstream>
+#include <string>
+#include <string_view>
 
 namespace smg
 {
@@ -31,12 +33,22 @@ inline double processSeconds()
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/** Most bytes of the process that have been in memory at once. */
+/**
+ * Most bytes of the process that have been in memory at once; 0 if the system does not tell. Not
+ * getrusage's figure, which a program inherits from the one that started it.
+ */
 inline std::int64_t peakResidentBytes()
 {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+  {
+    constexpr std::string_view key = "VmHWM:";
+    if (line.starts_with(key))
+    {
+      return std::strtoll(line.c_str() + key.size(), nullptr, 10) * 1024;
+    }
+  }
+  return 0;
 }
 
 } // namespace smg

@@ -69,13 +69,12 @@ void LevelWindow<Real>::append(RowBlock block)
 }
 
 template <class Real>
-std::int64_t LevelWindow<Real>::load(std::int64_t node)
+void LevelWindow<Real>::load(std::int64_t node)
 {
   while (this->Loaded <= node && this->Loaded < this->Nodes)
   {
     this->loadBlock();
   }
-  return this->Loaded;
 }
 
 template <class Real>
@@ -126,11 +125,11 @@ void LevelWindow<Real>::loadBlock()
 }
 
 template <class Real>
-std::int64_t LevelWindow<Real>::write(std::int64_t done)
+void LevelWindow<Real>::write(std::int64_t done)
 {
   if (!this->Rows)
   {
-    return done;
+    return;
   }
   while (this->Written < done)
   {
@@ -152,15 +151,14 @@ std::int64_t LevelWindow<Real>::write(std::int64_t done)
     }
     this->Written = end;
   }
-  return this->Written;
 }
 
 template <class Real>
-std::int64_t LevelWindow<Real>::release(std::int64_t done)
+void LevelWindow<Real>::release(std::int64_t done)
 {
   if (!this->Rows)
   {
-    return 0;
+    return;
   }
   while (!this->Blocks.empty())
   {
@@ -180,7 +178,6 @@ std::int64_t LevelWindow<Real>::release(std::int64_t done)
     this->Blocks.pop_front();
     ++this->FirstBlock;
   }
-  return this->X.first();
 }
 
 template <class Real>

@@ -91,13 +91,12 @@ public:
   /** First pass: takes the next block of rows. */
   void append(RowBlock block);
 
-  /** Loads up to node `node`; answers how many nodes are loaded. */
-  std::int64_t load(std::int64_t node);
-  /** Writes the state of the blocks that lie below `done`; answers how far it is written. */
-  std::int64_t write(std::int64_t done);
-  /** Lets go of blocks that are written and that no node from `done` on needs; answers the first
-   * node left. */
-  std::int64_t release(std::int64_t done);
+  /** Loads up to node `node`. */
+  void load(std::int64_t node);
+  /** Writes the state of the blocks that lie below `done`. */
+  void write(std::int64_t done);
+  /** Lets go of blocks that are written and that no node from `done` on needs. */
+  void release(std::int64_t done);
 
   void zeroB(std::int64_t begin, std::int64_t end)
   {

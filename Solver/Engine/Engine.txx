@@ -414,6 +414,13 @@ template <OperatorSet Operators>
 void Engine<Operators>::fillReport(double wallSeconds, double cpuSeconds)
 {
   Report& r = this->Result;
+  if (r.clamped_weights > 0)
+  {
+    r.notes.push_back(std::to_string(r.clamped_weights) +
+                      " cotangent weights were below the floor and were raised to it: there the "
+                      "operator is not that "
+                      "of finite elements");
+  }
   r.levels = this->Hierarchy.sizes;
   r.levels.front().nodes -= r.prescribed + r.held;
   r.levels.front().nonzeros -= r.prescribed + r.held;

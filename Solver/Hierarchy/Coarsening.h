@@ -28,7 +28,6 @@ public:
   }
 
   const CoarseningData& data() const { return this->Data; }
-  std::int64_t coarseNodes() const { return this->Data.coarseNodes; }
   /** Rows of P that are final. */
   std::int64_t interpolated() const { return this->Interpolated; }
   /** Says that the rows and the interpolation of nodes below `end` have been copied. */
