@@ -1,9 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds libraries, ParaView plugin and the program smg on a Debian 12 machine (as root, or as a user
-# with sudo) and lets
-# pvpython compute and draw a harmonic field on the Stanford bunny, out of core. Leaves
-# bunny-harmonic.png and the solver's report, bunny-harmonic.json, in Examples/output.
+# with sudo) and lets pvpython compute and draw a harmonic field on the Stanford bunny, out of core.
+# Leaves bunny-harmonic.png and the solver's report, bunny-harmonic.json, in Examples/output.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source cmake/packages.sh
