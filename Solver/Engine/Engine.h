@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/RunBoth.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Cycle/CoreCycle.h"
 #include "Solver/Engine/HierarchyBuilder.h"
@@ -10,8 +11,6 @@
 #include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Solve.h"
 #include "Solver/Storage/ScratchFolder.h"
-
-#include <tbb/task_arena.h>
 
 #include <cmath>
 #include <memory>

@@ -4,7 +4,6 @@
 #include "Solver/Engine/Engine.h"
 
 #include <tbb/info.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cfloat>
@@ -242,8 +241,8 @@ void Engine<Operators>::laterPass(double norm)
     finest.load(last);
     // The way down works on what the way up left behind a step ago: no node is touched by both.
     finest.showProgress();
-    this->Threads.execute(
-      [&] { tbb::parallel_invoke([&] { finest.pull(last); }, [&] { finest.advanceDown(); }); });
+    runBoth(
+      this->Threads, [&] { finest.pull(last); }, [&] { finest.advanceDown(); });
     finest.settle();
     this->Progress.update(
       this->Result.cycles + 1, static_cast<double>(last) / static_cast<double>(nodes));
