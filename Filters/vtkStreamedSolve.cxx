@@ -104,7 +104,7 @@ void StreamedSolve::summarize(double secondsPulled)
   this->Summary = {};
   this->Summary.report = report.json();
   this->Summary.columns = this->Result->columns();
-  this->Summary.residual = report.residuals.empty() ? 0.0 : report.residuals.back();
+  this->Summary.residual = report.residual();
   this->Summary.cycles = report.cycles;
   this->Summary.passes = report.passes;
   this->Summary.converged = report.converged;

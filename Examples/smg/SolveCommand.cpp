@@ -122,7 +122,7 @@ void SolveCommandOptions::write(const smg::VsmReader& reader, smg::Solution& sol
 
 void SolveCommandOptions::print(const smg::Report& report) const
 {
-  const double residual = report.residuals.empty() ? 0.0 : report.residuals.back();
+  const double residual = report.residual();
   if (!report.converged)
   {
     std::fprintf(stderr,

@@ -42,6 +42,9 @@ struct Report
   /** What a user should know: how free components were treated, why it did not converge ... */
   std::vector<std::string> notes;
 
+  /** The last of the residuals; 0 if no V-cycle was needed. */
+  double residual() const { return this->residuals.empty() ? 0.0 : this->residuals.back(); }
+
   /** As a JSON object with the names above. */
   std::string json(int indent = 2) const;
 };

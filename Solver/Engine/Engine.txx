@@ -157,18 +157,15 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem)
   FineLevel& finest = *this->Hierarchy.finest;
   HierarchyBuilder<Operators> builder(
     this->Memory, Operators::forCells(mesh.info().cellType), this->Hierarchy, this->FirstCore);
-  Assembly assembly(
-    this->Memory, mesh.info(), problem, builder.finestRows(), finest.window(), this->Parts);
-  const auto keepLabels = [this](std::int64_t, std::span<const std::int32_t> labels)
-  { this->Labels.append(labels); };
-
+  Assembly assembly(this->Memory, mesh.info(), problem, builder.finestRows(), finest.window(),
+    this->Parts, this->Labels);
   this->startPass();
   MeshBlock block;
   std::int64_t open = 0;
   const auto expected = static_cast<double>(std::max<std::int64_t>(1, mesh.info().vertices));
   while (mesh.next(block))
   {
-    assembly.add(block, keepLabels);
+    assembly.add(block);
     builder.advance();
     finest.advanceDown();
     finest.settle();
@@ -176,7 +173,11 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem)
     open = assembly.openVertices();
     this->Progress.update(0, static_cast<double>(assembly.vertices()) / expected);
   }
-  assembly.finish(keepLabels);
+  if (assembly.vertices() == 0)
+  {
+    throw Error("the mesh has no vertices");
+  }
+  assembly.finish();
   this->Labels.finish();
   this->Resident.add(-open);
   builder.advance();
@@ -202,10 +203,6 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem)
   this->Core.setLevels(std::move(core));
   this->Result.seconds.coarse = factorizing.seconds();
 
-  if (assembly.vertices() == 0)
-  {
-    throw Error("the mesh has no vertices");
-  }
   this->Result.vertices = assembly.vertices();
   this->Result.cells = assembly.cells();
   this->Result.prescribed = assembly.prescribed();

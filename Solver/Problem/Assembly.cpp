@@ -41,7 +41,7 @@ int usualNeighbours(CellType type)
 } // namespace
 
 Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, LevelRows& rows,
-  LevelWindow<double>& level, Components& components)
+  LevelWindow<double>& level, Components& components, ComponentLabels& labels)
   : Type(info.cellType)
   , Given(problem)
   , Columns(problem.columns())
@@ -50,6 +50,7 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, LevelRo
   , Rows(rows)
   , Level(level)
   , Parts(components)
+  , PartLabels(labels)
   , Points(pool, 3)
   , Values(pool, problem.columns())
   , Sources(pool, problem.columns())
@@ -61,7 +62,7 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, LevelRo
 {
 }
 
-void Assembly::add(const MeshBlock& block, const LabelSink& labels)
+void Assembly::add(const MeshBlock& block)
 {
   if (block.positions.size() % 3 != 0 ||
       block.corners.size() % static_cast<std::size_t>(cornersOf(this->Type)) != 0)
@@ -78,12 +79,12 @@ void Assembly::add(const MeshBlock& block, const LabelSink& labels)
                 std::to_string(block.finalized) + " vertices final but only " +
                 std::to_string(this->Vertices) + " have come");
   }
-  this->finalize(block.finalized, labels);
+  this->finalize(block.finalized);
 }
 
-void Assembly::finish(const LabelSink& labels)
+void Assembly::finish()
 {
-  this->finalize(this->Vertices, labels);
+  this->finalize(this->Vertices);
   this->Rows.Ended = true;
 }
 
@@ -209,7 +210,7 @@ void Assembly::addCell(const std::int64_t* corners)
   }
 }
 
-void Assembly::finalize(std::int64_t end, const LabelSink& labels)
+void Assembly::finalize(std::int64_t end)
 {
   this->Level.extendState(std::max(end, this->Level.x().end()));
   this->Reach.extendRaw(std::max(end, this->Reach.end()));
@@ -238,7 +239,7 @@ void Assembly::finalize(std::int64_t end, const LabelSink& labels)
       this->closeRow(i, this->Neighbours.data() + first, last - first, target);
       first = last;
     }
-    labels(begin, this->LabelBatch);
+    this->PartLabels.append(this->LabelBatch);
     this->Final = stop;
   }
   while (this->Done < this->Final && this->Reach[this->Done] < this->Final)

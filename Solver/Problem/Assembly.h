@@ -4,12 +4,12 @@
 #include "Solver/Cycle/LevelWindow.h"
 #include "Solver/Hierarchy/LevelRows.h"
 #include "Solver/Problem/CellWeights.h"
+#include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Problem/Components.h"
 #include "Solver/Problem/OpenEdges.h"
 #include "Solver/Problem/Problem.h"
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 namespace smg
@@ -23,16 +23,13 @@ namespace smg
 class Assembly
 {
 public:
-  /** Called with the labels of the vertices [first, first + labels.size()). */
-  using LabelSink = std::function<void(std::int64_t first, std::span<const std::int32_t> labels)>;
-
   Assembly(Pool& pool, const StreamInfo& info, Problem& problem, LevelRows& rows,
-    LevelWindow<double>& level, Components& components);
+    LevelWindow<double>& level, Components& components, ComponentLabels& labels);
 
   /** Takes a block; makes the rows final that it finalises. Throws Error on a bad block. */
-  void add(const MeshBlock& block, const LabelSink& labels);
+  void add(const MeshBlock& block);
   /** Makes the rest final. */
-  void finish(const LabelSink& labels);
+  void finish();
 
   std::int64_t vertices() const { return this->Vertices; }
   std::int64_t openVertices() const { return this->Vertices - this->Final; }
@@ -55,7 +52,7 @@ private:
   void addVertices(const MeshBlock& block);
   void addCells(const MeshBlock& block);
   void addCell(const std::int64_t* corners);
-  void finalize(std::int64_t end, const LabelSink& labels);
+  void finalize(std::int64_t end);
   void collectRow(std::int64_t i);
   void applyEdgeTargets(std::int64_t begin);
   void closeRow(
@@ -69,6 +66,7 @@ private:
   LevelRows& Rows;
   LevelWindow<double>& Level;
   Components& Parts;
+  ComponentLabels& PartLabels;
 
   // By open vertex.
   Ring<double> Points, Values, Sources, Mass;

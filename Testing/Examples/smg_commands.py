@@ -4,7 +4,6 @@
 
 import base64
 import json
-import math
 import os
 import signal
 import struct
@@ -12,6 +11,8 @@ import subprocess
 import sys
 import time
 import xml.etree.ElementTree as xml
+
+from torus import torus
 
 SMG = os.environ["SMG_PROGRAM"]
 READS_VTK = os.environ["SMG_READS_VTK"] == "1"
@@ -49,20 +50,12 @@ def read_vtk_xml(name):
 
 
 def write_torus(name, nu, nv):
-    points = []
-    for i in range(nu):
-        for k in range(nv):
-            u, v = 2 * math.pi * i / nu, 2 * math.pi * k / nv
-            r = 2 + math.cos(v)
-            points.append((r * math.cos(u), r * math.sin(u), math.sin(v)))
+    points, quadrangles = torus(nu, nv)
     with open(name, "w", encoding="utf-8") as file:
         for point in points:
             file.write("v %.9g %.9g %.9g\n" % point)
-        for i in range(nu):
-            for k in range(nv):
-                i1, k1 = (i + 1) % nu, (k + 1) % nv
-                file.write("f %d %d %d %d\n" % tuple(
-                    a * nv + b + 1 for a, b in ((i, k), (i1, k), (i1, k1), (i, k1))))
+        for quadrangle in quadrangles:
+            file.write("f %d %d %d %d\n" % tuple(corner + 1 for corner in quadrangle))
 
 
 def test_convert_and_info():

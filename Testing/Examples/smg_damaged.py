@@ -3,12 +3,13 @@
 """Damaged files of every format: the program smg answers 1 with one line and leaves nothing."""
 
 import base64
-import math
 import os
 import random
 import struct
 import subprocess
 import sys
+
+from torus import torus
 
 SMG = os.environ["SMG_PROGRAM"]
 READS_VTK = os.environ["SMG_READS_VTK"] == "1"
@@ -16,20 +17,12 @@ READS_VTK = os.environ["SMG_READS_VTK"] == "1"
 MARK = 1234.5
 
 
-def torus(nu=24, nv=12):
-    points = []
-    for i in range(nu):
-        for k in range(nv):
-            u, v = 2 * math.pi * i / nu, 2 * math.pi * k / nv
-            r = 2 + math.cos(v)
-            points.append((r * math.cos(u), r * math.sin(u), math.sin(v)))
+def marked_torus(nu=24, nv=12):
+    points, quadrangles = torus(nu, nv)
     points[5] = (MARK, points[5][1], points[5][2])
     cells = []
-    for i in range(nu):
-        for k in range(nv):
-            a, b, c, d = (p * nv + q for p, q in (
-                (i, k), ((i + 1) % nu, k), ((i + 1) % nu, (k + 1) % nv), (i, (k + 1) % nv)))
-            cells += [(a, b, c), (a, c, d)]
+    for a, b, c, d in quadrangles:
+        cells += [(a, b, c), (a, c, d)]
     return points, cells
 
 
@@ -127,7 +120,7 @@ def convert(name, out, *options):
 
 def samples():
     """A sound file of each format: (suffix, bytes)."""
-    surface, solid = torus(), tetrahedra()
+    surface, solid = marked_torus(), tetrahedra()
     files = [(".ply", ply(*surface)), (".ply", binary_ply(*surface)), (".obj", obj(*surface)),
              (".off", off(*surface)), (".stl", stl(*surface)), (".stl", binary_stl(*surface)),
              (".vtk", legacy(*surface)), (".vtu", vtu(*surface)), (".vtu", vtu(*solid)),
@@ -233,11 +226,11 @@ def test_terminal_gets_no_escapes():
 
 def test_crash_and_loop_of_the_reader():
     """Counts that make VTK's readers crash or loop."""
-    data = vtu(*torus())
+    data = vtu(*marked_torus())
     for count in (b"9223372036854775807", b"4611686018427387904", b"0", b"-1"):
         check(".vtu", data.replace(b'NumberOfComponents="3"', b'NumberOfComponents="' + count + b'"'),
               True, "components " + count.decode())
-    data = legacy(*torus())
+    data = legacy(*marked_torus())
     for field in (b"POINT_DATA 288\nFIELD f 1\na 9223372036854775807 288 float\n1 2 3\n",
                   b"POINT_DATA 288\nFIELD f 4294967295\na 1 288 float\n1 2 3\n",
                   b"POINT_DATA 288\nSCALARS s float -1\nLOOKUP_TABLE default\n1 2 3\n"):

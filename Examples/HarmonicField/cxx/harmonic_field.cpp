@@ -151,7 +151,7 @@ int main(int argc, char** argv)
     const auto solution = smg::solve(*mesh->reader().source({}, {}), problem, options);
     const smg::Report& report = solution->report();
     // Without a cycle, where every vertex is held, there is no residual.
-    const double residual = report.residuals.empty() ? 0.0 : report.residuals.back();
+    const double residual = report.residual();
     std::cout << report.vertices << " vertices, " << report.cells
               << " cells: " << (report.converged ? "converged" : "not converged") << " after "
               << report.cycles << " cycles, relative residual " << residual << "\n";
