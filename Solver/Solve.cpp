@@ -5,10 +5,8 @@
 #include "Solver/Engine/Engine.txx"
 #include "Solver/Hierarchy/Extended.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
-#include <thread>
 
 namespace smg
 {
@@ -45,12 +43,9 @@ std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveO
   require(problem.columns() >= 1, "a problem needs at least one column");
   require(problem.screening() >= 0.0 && std::isfinite(problem.screening()),
     "the screening must be a finite number that is not negative");
-  SolveOptions options = given;
-  if (options.threads == 0)
-  {
-    options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  }
-  return std::make_unique<Engine<Extended>>(mesh, problem, options);
+  auto engine = std::make_unique<Engine<Extended>>(problem.columns(), given);
+  engine->solve(mesh, problem);
+  return engine;
 }
 
 } // namespace smg

@@ -20,6 +20,11 @@ std::string Report::json(int indent) const
   out["cycles"] = this->cycles;
   out["residuals"] = this->residuals;
   out["converged"] = this->converged;
+  for (const Step& step : this->steps)
+  {
+    out["steps"].push_back({ { "name", step.name }, { "cycles", step.cycles },
+      { "residual", step.residual }, { "converged", step.converged } });
+  }
   out["peak_nodes"] = this->peak_nodes;
   out["pool_bytes_peak"] = this->pool_bytes_peak;
   out["rss_bytes_peak"] = this->rss_bytes_peak;
@@ -31,6 +36,10 @@ std::string Report::json(int indent) const
   out["cpu_seconds"] = this->cpu_seconds;
   out["threads"] = this->threads;
   out["prescribed"] = this->prescribed;
+  if (!this->steps.empty())
+  {
+    out["shared"] = this->shared;
+  }
   out["held"] = this->held;
   out["degenerate_cells"] = this->degenerate_cells;
   out["clamped_weights"] = this->clamped_weights;

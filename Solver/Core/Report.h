@@ -21,12 +21,27 @@ struct Report
     double convert = 0, build = 0, solve = 0, coarse = 0, io_wait = 0, total = 0;
   };
 
+  /** One of the problems of a solve that has several, one after the other. */
+  struct Step
+  {
+    std::string name;
+    int cycles = 0;
+    /** Of the last V-cycle: ||b - A x|| / ||b - A x_0||, of this step's b. */
+    double residual = 0;
+    bool converged = false;
+  };
+
   std::int64_t vertices = 0, cells = 0;
   std::vector<Level> levels;
   int passes = 0, cycles = 0;
-  /** ||b - A x_k|| / ||b - A x_0|| after cycle k = 1, 2, ...; x_0 the initial values. */
+  /**
+   * ||b - A x_k|| / ||b - A x_0|| after cycle k = 1, 2, ...; x_0 the initial values. Of a solve
+   * with several steps, those of all steps in order.
+   */
   std::vector<double> residuals;
-  bool converged = false;
+  /** The steps of a deformation: rotation and position. Empty for a solve of one problem. */
+  std::vector<Step> steps;
+  bool converged = false;      ///< of a solve with several steps: all of them
   std::int64_t peak_nodes = 0; ///< most nodes of all levels in memory at once
   std::int64_t pool_bytes_peak = 0, rss_bytes_peak = 0;
   std::int64_t bytes_read = 0, bytes_written = 0;
@@ -34,6 +49,7 @@ struct Report
   double cpu_seconds = 0;
   int threads = 1;
   std::int64_t prescribed = 0;       ///< constrained vertices
+  std::int64_t shared = 0;           ///< vertices that more than one handle holds
   std::int64_t held = 0;             ///< vertices without a weighted cell: they keep their value
   std::int64_t degenerate_cells = 0; ///< cells without weight
   std::int64_t clamped_weights = 0;  ///< edges whose weight was raised to the floor

@@ -32,7 +32,7 @@ Assembled assemble(LevelWindow<float>& level)
   result.diagonal.resize(nodes);
   result.rowSum.resize(nodes);
   result.terms.resize(nodes);
-  level.forRange(0, level.nodes(),
+  level.forRange(0, level.nodes(), level.up(),
     [&](const auto& h, const auto& a, BlockRange range, float*, float*)
     {
       for (std::int64_t k = range.begin; k < range.end; ++k)

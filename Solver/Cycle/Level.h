@@ -40,6 +40,7 @@ public:
   void startPass(bool first)
   {
     this->First = first;
+    this->Renewing = false;
     this->At.rewind();
     std::fill(this->Squares.begin(), this->Squares.end(), Real{});
     this->Window.startPass(first);
@@ -61,6 +62,19 @@ public:
     this->Unscale = 1 / this->Scale;
     this->Scale = scale;
   }
+
+  /**
+   * In a pass that renews (see LevelWindow::renew), on the finest level: the state of the way down
+   * is ready for nodes below `end`.
+   */
+  void setRenewed(std::int64_t end)
+  {
+    this->Renewing = true;
+    this->Renewed = end;
+  }
+
+  /** How far the way up has come, as the way down knows it. */
+  std::int64_t finishedUp() const { return this->At.seenPostSwept; }
 
   /** Takes the next block of rows while the hierarchy is being built. */
   void append(RowBlock block) { this->Window.append(std::move(block)); }
@@ -145,17 +159,17 @@ public:
   void relaxDown()
   {
     const std::int64_t nodes = this->Window.nodes();
-    this->sweep<true>(0, nodes);
+    this->sweep<true>(0, nodes, this->Window.down());
     for (std::size_t s = 1; s < this->At.preSweep.size(); ++s)
     {
-      this->sweep<false>(0, nodes);
+      this->sweep<false>(0, nodes, this->Window.down());
     }
   }
   void relaxUp()
   {
     for (std::size_t s = 0; s < this->At.postSweep.size(); ++s)
     {
-      this->sweep<false>(0, this->Window.nodes());
+      this->sweep<false>(0, this->Window.nodes(), this->Window.up());
     }
   }
   void restrictAll() { this->restrictTo(this->Window.nodes()); }
@@ -208,7 +222,7 @@ private:
     else
     {
       this->pull(stage - 1, h.neighbourReach[g]);
-      this->sweep<false>(cursor, end);
+      this->sweep<false>(cursor, end, this->Window.up());
     }
     cursor = end;
   }
@@ -219,17 +233,17 @@ private:
     const std::int64_t first = this->firstPreSweepEnd();
     if (this->Fine)
     {
-      this->sweep<true>(sweep[0], first);
+      this->sweep<true>(sweep[0], first, this->Window.down());
     }
     else
     {
-      this->sweep<false>(sweep[0], first);
+      this->sweep<false>(sweep[0], first, this->Window.down());
     }
     sweep[0] = first;
     for (std::size_t s = 1; s < sweep.size(); ++s)
     {
       const std::int64_t end = this->Window.reachable(sweep[s], sweep[s - 1]);
-      this->sweep<false>(sweep[s], end);
+      this->sweep<false>(sweep[s], end, this->Window.down());
       sweep[s] = end;
     }
   }
@@ -240,8 +254,9 @@ private:
     std::int64_t end = this->At.preSweep[0];
     if (!this->Fine)
     {
-      return this->First ? this->Window.loaded()
-                         : this->Window.reachable(end, this->At.seenPostSwept);
+      return this->First      ? this->Window.loaded()
+             : this->Renewing ? this->Renewed
+                              : this->Window.reachable(end, this->At.seenPostSwept);
     }
     // b must be complete; the upper neighbours are zero, so they need not have come.
     while (end < this->Window.loaded())
@@ -275,10 +290,10 @@ private:
   }
 
   template <bool LowerOnly>
-  void sweep(std::int64_t begin, std::int64_t end)
+  void sweep(std::int64_t begin, std::int64_t end, typename LevelWindow<Real>::State& state)
   {
     const int stride = this->Window.stride();
-    this->Window.forRange(begin, end,
+    this->Window.forRange(begin, end, state,
       [stride](const auto& h, const auto& a, BlockRange nodes, Real* x, Real* b)
       {
         if (stride == 1)
@@ -295,7 +310,7 @@ private:
   void prolongTo(std::int64_t begin, std::int64_t end)
   {
     const int stride = this->Window.stride();
-    this->Window.forRange(begin, end,
+    this->Window.forRange(begin, end, this->Window.up(),
       [&](const auto& h, const auto& a, BlockRange nodes, Real* x, Real*)
       {
         const float* coarse = this->Coarse->window().x().at(h.parentBase);
@@ -314,7 +329,7 @@ private:
   void restrictTo(std::int64_t end)
   {
     const int stride = this->Window.stride();
-    this->Window.forRange(this->Core ? 0 : this->At.restricted, end,
+    this->Window.forRange(this->Core ? 0 : this->At.restricted, end, this->Window.down(),
       [&](const auto& h, const auto& a, BlockRange nodes, Real* x, Real* b)
       {
         float* coarse = this->Coarse->window().b().at(h.parentBase);
@@ -341,6 +356,8 @@ private:
   Real Unscale = 1;
   bool First = true;
   bool Core = false;
+  bool Renewing = false;
+  std::int64_t Renewed = 0;
 };
 
 } // namespace smg

@@ -12,7 +12,7 @@ void LevelWindow<Real>::useScratch(const std::filesystem::path& folder, IoStatis
 {
   const std::string level = "level" + std::to_string(this->Index);
   this->Rows.emplace(folder / (level + ".rows"), statistics);
-  this->State.emplace(folder / (level + ".state"), statistics);
+  this->Values.emplace(folder / (level + ".state"), statistics);
   if (this->finest())
   {
     this->RightSide.emplace(folder / (level + ".b"), statistics);
@@ -26,29 +26,51 @@ void LevelWindow<Real>::startPass(bool first)
   this->Written = 0;
   if (!this->Rows)
   {
+    if (this->Next)
+    {
+      this->Next->x.extendRaw(this->Nodes);
+      this->Next->b.extendRaw(this->Nodes);
+    }
     return;
   }
   this->Loaded = 0;
   this->FirstBlock = 0;
-  this->X.restart();
-  this->B.restart();
+  this->Now.x.restart();
+  this->Now.b.restart();
   this->Rows->startPass(first);
-  this->State->startPass(true);
+  this->Values->startPass(true);
   if (this->RightSide)
   {
-    this->RightSide->startPass(first);
+    this->RightSide->startPass(first || this->Next);
+  }
+}
+
+template <class Real>
+void LevelWindow<Real>::renew(int columns, bool apart)
+{
+  this->WrittenColumns = columns;
+  if (apart)
+  {
+    this->Next.emplace(*this->Owner, this->Stride);
   }
 }
 
 template <class Real>
 void LevelWindow<Real>::endPass()
 {
+  this->Columns = this->WrittenColumns;
   if (!this->Rows)
   {
+    if (this->Next)
+    {
+      std::swap(this->Now, *this->Next);
+      this->Next.reset();
+    }
     return;
   }
+  this->Next.reset();
   this->Rows->endPass();
-  this->State->endPass();
+  this->Values->endPass();
   if (this->RightSide)
   {
     this->RightSide->endPass();
@@ -101,8 +123,11 @@ void LevelWindow<Real>::loadBlock()
   RowBlock block(std::move(rows));
   const std::int64_t begin = block.first();
   const std::int64_t end = block.end();
-  this->X.extendRaw(end);
-  this->B.extendRaw(end);
+  for (State* state : { &this->up(), &this->down() })
+  {
+    state->x.extendRaw(end);
+    state->b.extendRaw(end);
+  }
   this->Resident->add(end - begin);
 
   const auto values = static_cast<std::size_t>((end - begin) * this->Columns);
@@ -111,15 +136,15 @@ void LevelWindow<Real>::loadBlock()
   const std::span<Real> b(this->Packed.data() + values, values);
   if (this->RightSide)
   {
-    this->State->read(std::as_writable_bytes(x));
+    this->Values->read(std::as_writable_bytes(x));
     this->RightSide->read(std::as_writable_bytes(b));
   }
   else
   {
-    this->State->read(std::as_writable_bytes(std::span<Real>(this->Packed)));
+    this->Values->read(std::as_writable_bytes(std::span<Real>(this->Packed)));
   }
-  this->unpack(this->X, begin, end, x.data());
-  this->unpack(this->B, begin, end, b.data());
+  this->unpack(this->Now.x, begin, end, x.data());
+  this->unpack(this->Now.b, begin, end, b.data());
   this->Blocks.push_back(std::move(block));
   this->Loaded = end;
 }
@@ -139,13 +164,14 @@ void LevelWindow<Real>::write(std::int64_t done)
     {
       break;
     }
-    const auto values = static_cast<std::size_t>((end - begin) * this->Columns);
+    const auto values = static_cast<std::size_t>((end - begin) * this->WrittenColumns);
     this->Packed.resize(2 * values);
-    this->pack(this->X, begin, end, this->Packed.data());
-    this->pack(this->B, begin, end, this->Packed.data() + values);
+    const State& state = this->down();
+    this->pack(state.x, this->WrittenColumns, begin, end, this->Packed.data());
+    this->pack(state.b, this->WrittenColumns, begin, end, this->Packed.data() + values);
     const auto packed = std::as_bytes(std::span<const Real>(this->Packed));
-    this->State->append(this->RightSide ? packed.first(packed.size() / 2) : packed);
-    if (this->RightSide && this->First)
+    this->Values->append(this->RightSide ? packed.first(packed.size() / 2) : packed);
+    if (this->RightSide && (this->First || this->Next))
     {
       this->RightSide->append(packed.last(packed.size() / 2));
     }
@@ -169,8 +195,11 @@ void LevelWindow<Real>::release(std::int64_t done)
       break;
     }
     this->Resident->add(-h.nodes);
-    this->X.release(front.end());
-    this->B.release(front.end());
+    for (State* state : { &this->up(), &this->down() })
+    {
+      state->x.release(front.end());
+      state->b.release(front.end());
+    }
     if (this->Spare.size() < 2)
     {
       this->Spare.push_back(this->Blocks.front().takeBuffer());
@@ -182,12 +211,12 @@ void LevelWindow<Real>::release(std::int64_t done)
 
 template <class Real>
 void LevelWindow<Real>::pack(
-  const Ring<Real>& state, std::int64_t begin, std::int64_t end, Real* packed) const
+  const Ring<Real>& state, int columns, std::int64_t begin, std::int64_t end, Real* packed) const
 {
   const Real* node = state.at(begin);
-  for (std::int64_t i = begin; i < end; ++i, node += this->Stride, packed += this->Columns)
+  for (std::int64_t i = begin; i < end; ++i, node += this->Stride, packed += columns)
   {
-    std::copy_n(node, this->Columns, packed);
+    std::copy_n(node, columns, packed);
   }
 }
 
@@ -211,13 +240,13 @@ void LevelWindow<Real>::moveToMemory()
     return;
   }
   this->Loaded = this->FirstBlock = 0;
-  this->X.restart();
-  this->B.restart();
+  this->Now.x.restart();
+  this->Now.b.restart();
   this->Rows->startPass(false);
-  this->State->startPass(false);
+  this->Values->startPass(false);
   this->load(this->Nodes - 1);
   this->Rows.reset();
-  this->State.reset();
+  this->Values.reset();
   this->RightSide.reset();
 }
 
@@ -226,10 +255,10 @@ void LevelWindow<Real>::keepSolution()
 {
   this->Spare.clear();
   this->Blocks.clear();
-  this->B.clear();
+  this->Now.b.clear();
   if (this->Rows)
   {
-    this->X.clear();
+    this->Now.x.clear();
     this->Rows.reset();
     this->RightSide.reset();
   }
@@ -238,9 +267,9 @@ void LevelWindow<Real>::keepSolution()
 template <class Real>
 void LevelWindow<Real>::readX(std::int64_t first, std::int64_t count, Real* values)
 {
-  if (!this->State)
+  if (!this->Values)
   {
-    this->pack(this->X, first, first + count, values);
+    this->pack(this->Now.x, this->Columns, first, first + count, values);
     return;
   }
   while (count > 0)
@@ -249,8 +278,8 @@ void LevelWindow<Real>::readX(std::int64_t first, std::int64_t count, Real* valu
     const std::int64_t begin = block * RowBlock::Nodes;
     if (block != this->CachedBlock)
     {
-      this->Packed.resize(this->State->bytes(block) / sizeof(Real));
-      this->State->read(block, std::as_writable_bytes(std::span<Real>(this->Packed)));
+      this->Packed.resize(this->Values->bytes(block) / sizeof(Real));
+      this->Values->read(block, std::as_writable_bytes(std::span<Real>(this->Packed)));
       this->CachedBlock = block;
     }
     const std::int64_t end = std::min(first + count, begin + RowBlock::Nodes);

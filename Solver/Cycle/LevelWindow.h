@@ -27,14 +27,25 @@ template <class Real>
 class LevelWindow
 {
 public:
+  /** The unknowns and the right-hand side of the nodes in memory. */
+  struct State
+  {
+    State(Pool& pool, int stride)
+      : x(pool, stride)
+      , b(pool, stride)
+    {
+    }
+    Ring<Real> x, b;
+  };
+
   LevelWindow(Pool& pool, ResidentNodes& resident, int index, int columns)
     : Owner(&pool)
     , Resident(&resident)
     , Index(index)
     , Columns(columns)
+    , WrittenColumns(columns)
     , Stride(strideOf(columns))
-    , X(pool, this->Stride)
-    , B(pool, this->Stride)
+    , Now(pool, this->Stride)
   {
   }
 
@@ -42,8 +53,11 @@ public:
   void useScratch(const std::filesystem::path& folder, IoStatistics& statistics);
 
   int stride() const { return this->Stride; }
-  Ring<Real>& x() { return this->X; }
-  Ring<Real>& b() { return this->B; }
+  Ring<Real>& x() { return this->Now.x; }
+  Ring<Real>& b() { return this->Now.b; }
+  /** What the way up and the way down of a pass work on: the same, but in a pass that renews. */
+  State& up() { return this->Now; }
+  State& down() { return this->Next ? *this->Next : this->Now; }
   /** Nodes of the level; while it is being built, those that have come. */
   std::int64_t nodes() const { return this->Nodes; }
   std::int64_t loaded() const { return this->Loaded; }
@@ -77,14 +91,25 @@ public:
   void startPass(bool first);
   void endPass();
 
+  /**
+   * The next pass is the last of one problem and the first of another one with `columns` columns,
+   * of the same stride. With `apart` (finest level) the way down has a state of its own, which
+   * another stage has to fill.
+   */
+  void renew(int columns, bool apart);
+  /** Without scratch files: forgets a pass that was broken off. */
+  void abandon() { this->Next.reset(); }
+  /** Without scratch files, between passes: the state is that of a problem with so many columns. */
+  void setColumns(int columns) { this->Columns = this->WrittenColumns = columns; }
+
   /** First pass: state of nodes below `end`, zero. */
   void extendState(std::int64_t end)
   {
-    const std::int64_t before = this->X.end();
+    const std::int64_t before = this->Now.x.end();
     if (end > before)
     {
-      this->X.extend(end);
-      this->B.extend(end);
+      this->Now.x.extend(end);
+      this->Now.b.extend(end);
       this->Resident->add(end - before);
     }
   }
@@ -100,13 +125,13 @@ public:
 
   void zeroB(std::int64_t begin, std::int64_t end)
   {
-    std::fill(this->B.at(begin), this->B.at(end), Real{});
+    std::fill(this->Now.b.at(begin), this->Now.b.at(end), Real{});
   }
 
-  /** Calls f(header, arrays, nodes, x, b) for the part of [begin, end) in each block; x and b point
-   * to the block's node 0. */
+  /** Calls f(header, arrays, nodes, x, b) for the part of [begin, end) in each block; x and b of
+   * `state` point to the block's node 0. */
   template <class F>
-  void forRange(std::int64_t begin, std::int64_t end, F&& f)
+  void forRange(std::int64_t begin, std::int64_t end, State& state, F&& f)
   {
     while (begin < end)
     {
@@ -114,8 +139,8 @@ public:
       const RowBlock::Header& h = block.header();
       const std::int64_t stop = std::min(end, block.end());
       const BlockRange nodes{ begin - h.first, stop - h.first };
-      Real* x = this->X.at(h.first);
-      Real* b = this->B.at(h.first);
+      Real* x = state.x.at(h.first);
+      Real* b = state.b.at(h.first);
       if (h.wide)
       {
         f(h, block.arrays<std::int32_t>(), nodes, x, b);
@@ -150,15 +175,18 @@ private:
   bool finest() const { return this->Index == 0; }
   void loadBlock();
   Buffer buffer(std::size_t bytes);
-  void pack(const Ring<Real>& state, std::int64_t begin, std::int64_t end, Real* packed) const;
+  void pack(
+    const Ring<Real>& state, int columns, std::int64_t begin, std::int64_t end, Real* packed) const;
   void unpack(Ring<Real>& state, std::int64_t begin, std::int64_t end, const Real* packed);
 
   Pool* Owner;
   ResidentNodes* Resident;
   int Index;
-  int Columns;
+  int Columns;        // of the state that is read ...
+  int WrittenColumns; // ... and of what is written
   int Stride;
-  Ring<Real> X, B;
+  State Now;
+  std::optional<State> Next; // of the way down, in a pass that renews
   std::deque<RowBlock> Blocks;
   std::int64_t FirstBlock = 0; // number of Blocks.front() among all blocks of the level
   std::int64_t Nodes = 0;
@@ -167,7 +195,7 @@ private:
   bool First = true;
 
   // Scratch: rows are written once, x in every pass; b in the first pass (finest) or with x.
-  std::optional<ScratchStream> Rows, RightSide, State;
+  std::optional<ScratchStream> Rows, RightSide, Values;
   std::vector<Real> Packed;
   std::vector<Buffer> Spare;
   std::int64_t CachedBlock = -1; // of readX
@@ -194,9 +222,9 @@ void LevelWindow<Real>::rewriteB(F&& f)
     }
     else
     {
-      this->pack(this->B, first, end, b.data());
+      this->pack(this->Now.b, this->Columns, first, end, b.data());
       f(first / RowBlock::Nodes, b);
-      this->unpack(this->B, first, end, b.data());
+      this->unpack(this->Now.b, first, end, b.data());
     }
   }
   if (this->RightSide)

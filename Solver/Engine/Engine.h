@@ -4,11 +4,12 @@
 #include "Solver/Core/RunBoth.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Cycle/CoreCycle.h"
+#include "Solver/Engine/Convergence.h"
+#include "Solver/Engine/FreeComponents.h"
 #include "Solver/Engine/HierarchyBuilder.h"
 #include "Solver/Engine/MemoryEstimate.h"
 #include "Solver/Engine/SolveProgress.h"
 #include "Solver/Problem/Assembly.h"
-#include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Solve.h"
 #include "Solver/Storage/ScratchFolder.h"
 
@@ -28,33 +29,46 @@ template <OperatorSet Operators>
 class Engine : public Solution
 {
 public:
-  Engine(MeshSource& mesh, Problem& problem, const SolveOptions& options);
+  /** Makes ready for problems of `columns` columns. Nothing is read yet. */
+  Engine(int columns, const SolveOptions& options);
+
+  /** Solves one problem. */
+  void solve(MeshSource& mesh, Problem& problem);
 
   std::int64_t vertices() const override { return this->Result.vertices; }
   int columns() const override { return this->Columns; }
   void read(std::int64_t first, std::int64_t count, std::span<double> values) override;
   const Report& report() const override { return this->Result; }
 
-private:
+protected:
   using Relaxation = typename Operators::Relaxation;
   using FineLevel = Level<double, Relaxation>;
   using CoarseLevel = Level<float, Relaxation>;
 
-  /** Way up and way down. */
-  static constexpr int ParallelStages = 2;
-
-  int firstCoreLevel(std::int64_t vertices) const;
-  void addCoarseLevel(int l, bool core);
-  void firstPass(MeshSource& mesh, Problem& problem);
-  /** `norm`: of the residual that the pass before left. */
-  void laterPass(double norm);
-  void startPass();
+  /** The first pass, and the factor of the coarsest level; `listener`: see Assembly;
+   * `furtherCoreBytes`: a vertex, that the caller will need in core. */
+  void build(MeshSource& mesh, Problem& problem, RowListener* listener = nullptr,
+    std::int64_t furtherCoreBytes = 0);
+  /** V-cycles until `convergence` is done or only the last one of those allowed is left. */
+  void iterate(Convergence& convergence, bool spareLast);
+  /** The core levels' part of a V-cycle. */
+  void runCore();
+  /**
+   * A pass that finishes a V-cycle and begins the next one. `scale` is about the size of the
+   * residuals that it will meet. `loaded()` follows the loading of the finest level, `beforeDown()`
+   * comes in each step before the way down, on its thread.
+   */
+  template <class Loaded, class BeforeDown>
+  void pass(double scale, Loaded&& loaded, BeforeDown&& beforeDown);
+  void startPass(bool first);
   void endPass();
-  void iterate();
-  void projectRightSide();
-  void fixMeans();
-  void fillReport(double wallSeconds, double cpuSeconds);
   double residualNorm() const;
+  /** Throws Error unless the vertices exist and there is room for their values. */
+  void checkRange(std::int64_t first, std::int64_t count, std::size_t room) const;
+  /** Lets go of all but the solution. */
+  void keepSolution();
+  void beginReport();
+  void finishReport();
 
   int Columns;
   SolveOptions Options;
@@ -65,14 +79,25 @@ private:
   IoStatistics Traffic;
   Components Parts;
   ComponentLabels Labels;
+  FreeComponents Free;
   Levels<Relaxation> Hierarchy;
-  int FirstCore;
+  int FirstCore = 0;
   CoreCycle<Relaxation> Core;
   tbb::task_arena Threads;
   double InitialNorm = 0.0;
   double RoundingNorm = 0.0;
-  std::vector<double> MeanShifts;
+  Timer Wall;
+  double CpuAtStart = 0.0;
   Report Result;
+
+private:
+  int firstCoreLevel(std::int64_t vertices) const;
+  void addLevels(std::int64_t vertices);
+  void addCoarseLevel(int l, bool core);
+  void firstPass(MeshSource& mesh, Problem& problem, RowListener* listener);
+  void readStream(MeshSource& mesh, Assembly& assembly, HierarchyBuilder<Operators>& builder);
+  void noteAssembly(const Assembly& assembly);
+  void factorize();
 };
 
 } // namespace smg

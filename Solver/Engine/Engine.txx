@@ -7,45 +7,93 @@
 
 #include <algorithm>
 #include <cfloat>
-#include <cstdio>
 #include <numeric>
 #include <string>
 
 namespace smg
 {
 
-/** "1.23e-07" */
-inline std::string scientific(double value)
+/** Compute threads where `wanted` are asked for; 0: one a core. */
+inline int computeThreads(int wanted)
 {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2e", value);
-  return text;
+  constexpr int ParallelStages = 2; // way up and way down
+  const int most = std::min(ParallelStages, tbb::info::default_concurrency());
+  return wanted > 0 ? std::min(wanted, most) : most;
 }
 
 template <OperatorSet Operators>
-Engine<Operators>::Engine(MeshSource& mesh, Problem& problem, const SolveOptions& options)
-  : Columns(problem.columns())
+Engine<Operators>::Engine(int columns, const SolveOptions& options)
+  : Columns(columns)
   , Options(options)
-  , Progress(options.progress, options.tolerance, options.maxCycles)
+  , Progress(options.progress)
   , Memory(options.memoryLimit)
-  , Parts(problem.columns(), &this->Memory)
-  , FirstCore(this->firstCoreLevel(mesh.info().vertices))
-  , Threads(std::min({ options.threads, ParallelStages, tbb::info::default_concurrency() }))
+  , Parts(columns, &this->Memory)
+  , Free(this->Parts, this->Labels, columns)
+  , Threads(computeThreads(options.threads))
 {
-  const Timer wall;
-  const double cpu = processSeconds();
-  if (const std::int64_t need = estimateMemory(mesh.info(), problem, options);
-      need > options.memoryLimit)
-  {
-    throw Error(memoryLimitSentence(need, options.memoryLimit));
-  }
   if (!options.inCore)
   {
     this->Scratch.emplace(options.scratch);
+  }
+}
+
+template <OperatorSet Operators>
+void Engine<Operators>::solve(MeshSource& mesh, Problem& problem)
+{
+  this->beginReport();
+  const Stopping stopping{ this->Options.tolerance, this->Options.maxCycles };
+  this->Progress.begin(stopping, 0.0, 1.0, true);
+  this->build(mesh, problem);
+  const Timer solving;
+  Convergence convergence(stopping, this->InitialNorm, this->RoundingNorm);
+  convergence.begin(this->residualNorm(), this->Parts.incompatibleSquares() == 0.0);
+  this->iterate(convergence, false);
+  this->Result.cycles = convergence.cycles();
+  this->Result.residuals = convergence.residuals();
+  this->Result.converged = convergence.converged();
+  convergence.addNotes(this->Result.notes, "");
+  this->Free.fixMeans(this->Hierarchy.finest->window(), this->Result.notes);
+  this->Result.seconds.solve = solving.seconds();
+  this->finishReport();
+  this->keepSolution();
+}
+
+template <OperatorSet Operators>
+void Engine<Operators>::build(
+  MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes)
+{
+  const Timer building;
+  if (const std::int64_t need =
+        estimateMemory(mesh.info(), problem, this->Options, furtherCoreBytes);
+      need > this->Options.memoryLimit)
+  {
+    throw Error(memoryLimitSentence(need, this->Options.memoryLimit));
+  }
+  if (!this->Options.inCore)
+  {
     this->Labels.useScratch(this->Scratch->path(), this->Traffic);
   }
-  this->Hierarchy.finest =
-    std::make_unique<FineLevel>(this->Memory, this->Resident, 0, this->Columns, options.sweeps);
+  this->addLevels(mesh.info().vertices);
+  this->firstPass(mesh, problem, listener);
+  this->Free.projectRightSide(this->Hierarchy.finest->window(), this->Result.notes);
+  this->Result.seconds.build = building.seconds();
+}
+
+template <OperatorSet Operators>
+void Engine<Operators>::keepSolution()
+{
+  this->Core = {};
+  this->Hierarchy.coarse.clear();
+  this->Hierarchy.finest->window().keepSolution();
+  this->Progress.finish();
+}
+
+template <OperatorSet Operators>
+void Engine<Operators>::addLevels(std::int64_t vertices)
+{
+  this->FirstCore = this->firstCoreLevel(vertices);
+  this->Hierarchy.finest = std::make_unique<FineLevel>(
+    this->Memory, this->Resident, 0, this->Columns, this->Options.sweeps);
   if (this->Scratch)
   {
     this->Hierarchy.finest->window().useScratch(this->Scratch->path(), this->Traffic);
@@ -54,26 +102,14 @@ Engine<Operators>::Engine(MeshSource& mesh, Problem& problem, const SolveOptions
   {
     this->addCoarseLevel(l, l == this->FirstCore);
   }
-
-  this->firstPass(mesh, problem);
-  this->Result.seconds.build = wall.seconds();
-  const Timer solving;
-  this->iterate();
-  this->fixMeans();
-  this->Result.seconds.solve = solving.seconds();
-  this->fillReport(wall.seconds(), processSeconds() - cpu);
-  this->Core = {};
-  this->Hierarchy.coarse.clear();
-  this->Hierarchy.finest->window().keepSolution();
-  this->Progress.finish();
 }
 
 /** The finest level that lives in memory, by the sizes that levels usually have. */
 template <OperatorSet Operators>
 int Engine<Operators>::firstCoreLevel(std::int64_t vertices) const
 {
-  // Lifted share of the nodes, from above: 0.26 to 0.34 on the finest level, 0.15 to 0.25 beyond.
-  constexpr double FirstShare = 0.34, FurtherShare = 0.25;
+  // Lifted share of the nodes, from above: 0.24 to 0.43 on the finest level, 0.14 to 0.31 beyond.
+  constexpr double FirstShare = 0.43, FurtherShare = 0.31;
   constexpr std::int64_t BytesPerCoreNode = 400;
   constexpr int UnknownSize = 4;
   if (vertices <= 0)
@@ -119,9 +155,8 @@ void Engine<Operators>::addCoarseLevel(int l, bool core)
 }
 
 template <OperatorSet Operators>
-void Engine<Operators>::startPass()
+void Engine<Operators>::startPass(bool first)
 {
-  const bool first = this->Result.passes == 0;
   this->Hierarchy.finest->startPass(first);
   for (auto& level : this->Hierarchy.coarse)
   {
@@ -152,14 +187,32 @@ double Engine<Operators>::residualNorm() const
 }
 
 template <OperatorSet Operators>
-void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem)
+void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem, RowListener* listener)
 {
-  FineLevel& finest = *this->Hierarchy.finest;
   HierarchyBuilder<Operators> builder(
     this->Memory, Operators::forCells(mesh.info().cellType), this->Hierarchy, this->FirstCore);
-  Assembly assembly(this->Memory, mesh.info(), problem, builder.finestRows(), finest.window(),
-    this->Parts, this->Labels);
-  this->startPass();
+  Assembly assembly(this->Memory, mesh.info(), problem, builder.finestRows(),
+    this->Hierarchy.finest->window(), this->Parts, this->Labels, listener);
+  this->startPass(true);
+  this->readStream(mesh, assembly, builder);
+  const int coarsest = builder.finish([this](int l) { this->addCoarseLevel(l, true); });
+  this->endPass();
+  if (coarsest < this->FirstCore)
+  {
+    this->FirstCore = coarsest;
+    this->Hierarchy.coarse.resize(static_cast<std::size_t>(coarsest));
+    this->Hierarchy.coarse.back()->setCore();
+    this->Hierarchy.coarse.back()->window().moveToMemory();
+  }
+  this->factorize();
+  this->noteAssembly(assembly);
+}
+
+template <OperatorSet Operators>
+void Engine<Operators>::readStream(
+  MeshSource& mesh, Assembly& assembly, HierarchyBuilder<Operators>& builder)
+{
+  FineLevel& finest = *this->Hierarchy.finest;
   MeshBlock block;
   std::int64_t open = 0;
   const auto expected = static_cast<double>(std::max<std::int64_t>(1, mesh.info().vertices));
@@ -171,7 +224,7 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem)
     finest.settle();
     this->Resident.add(assembly.openVertices() - open);
     open = assembly.openVertices();
-    this->Progress.update(0, static_cast<double>(assembly.vertices()) / expected);
+    this->Progress.updateFirst(static_cast<double>(assembly.vertices()) / expected);
   }
   if (assembly.vertices() == 0)
   {
@@ -183,16 +236,11 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem)
   builder.advance();
   finest.advanceDown();
   finest.settle();
-  const int coarsest = builder.finish([this](int l) { this->addCoarseLevel(l, true); });
-  this->endPass();
-  if (coarsest < this->FirstCore)
-  {
-    this->FirstCore = coarsest;
-    this->Hierarchy.coarse.resize(static_cast<std::size_t>(coarsest));
-    this->Hierarchy.coarse.back()->setCore();
-    this->Hierarchy.coarse.back()->window().moveToMemory();
-  }
+}
 
+template <OperatorSet Operators>
+void Engine<Operators>::factorize()
+{
   const Timer factorizing;
   std::vector<CoarseLevel*> core;
   for (std::size_t l = static_cast<std::size_t>(this->FirstCore);
@@ -201,221 +249,125 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem)
     core.push_back(this->Hierarchy.coarse[l - 1].get());
   }
   this->Core.setLevels(std::move(core));
-  this->Result.seconds.coarse = factorizing.seconds();
+  this->Result.seconds.coarse += factorizing.seconds();
+}
 
-  this->Result.vertices = assembly.vertices();
-  this->Result.cells = assembly.cells();
-  this->Result.prescribed = assembly.prescribed();
-  this->Result.held = assembly.held();
-  this->Result.degenerate_cells = assembly.degenerateCells();
-  this->Result.clamped_weights = assembly.clampedWeights();
-  this->Result.components = this->Parts.components();
-  this->Result.free_components = this->Parts.freeComponents();
-  // Below this the residual is the rounding of its own terms.
-  constexpr double Rounding = 4e-16;
-  this->RoundingNorm = Rounding * std::sqrt(assembly.termSquares());
-  this->InitialNorm =
-    std::sqrt(std::max(0.0, assembly.initialSquares() - this->Parts.incompatibleSquares()));
+template <OperatorSet Operators>
+void Engine<Operators>::noteAssembly(const Assembly& assembly)
+{
+  Report& r = this->Result;
+  r.vertices = assembly.vertices();
+  r.cells = assembly.cells();
+  r.prescribed = assembly.prescribed();
+  r.held = assembly.held();
+  r.degenerate_cells = assembly.degenerateCells();
+  r.clamped_weights = assembly.clampedWeights();
+  r.components = this->Parts.components();
+  r.free_components = this->Parts.freeComponents();
   if (!std::isfinite(assembly.termSquares()))
   {
     throw Error(
       "the squares of the values overflow: scale the mesh, the prescribed values or the sources");
   }
-  this->projectRightSide();
+  this->RoundingNorm = roundingOf(assembly.termSquares());
+  this->InitialNorm =
+    std::sqrt(std::max(0.0, assembly.initialSquares() - this->Parts.incompatibleSquares()));
 }
 
 template <OperatorSet Operators>
-void Engine<Operators>::laterPass(double norm)
+template <class Loaded, class BeforeDown>
+void Engine<Operators>::pass(double scale, Loaded&& loaded, BeforeDown&& beforeDown)
 {
   FineLevel& finest = *this->Hierarchy.finest;
-  this->startPass();
+  this->startPass(false);
   const std::int64_t nodes = finest.window().nodes();
-  const double typical = norm / std::sqrt(static_cast<double>(nodes));
-  finest.setScale(typical > DBL_MIN ? std::exp2(-std::ilogb(typical)) : 1.0);
+  const double typical = scale / std::sqrt(static_cast<double>(nodes));
+  finest.setScale(typical > DBL_MIN && typical < DBL_MAX ? std::exp2(-std::ilogb(typical)) : 1.0);
+  const auto down = [&]
+  {
+    beforeDown();
+    finest.advanceDown();
+  };
   for (std::int64_t begin = 0; begin < nodes; begin += this->Options.blockNodes)
   {
     const std::int64_t last = std::min(nodes, begin + this->Options.blockNodes) - 1;
     finest.load(last);
+    loaded();
     // The way down works on what the way up left behind a step ago: no node is touched by both.
     finest.showProgress();
     runBoth(
-      this->Threads, [&] { finest.pull(last); }, [&] { finest.advanceDown(); });
+      this->Threads, [&] { finest.pull(last); }, down);
     finest.settle();
-    this->Progress.update(
-      this->Result.cycles + 1, static_cast<double>(last) / static_cast<double>(nodes));
+    this->Progress.update(static_cast<double>(last) / static_cast<double>(nodes));
   }
   finest.showProgress();
-  finest.advanceDown();
+  down();
   finest.settle();
   this->endPass();
 }
 
 template <OperatorSet Operators>
-void Engine<Operators>::iterate()
+void Engine<Operators>::runCore()
 {
-  // A residual that is this much larger than it was at first will not recover.
-  constexpr double Diverged = 1e4;
-  // A residual that has not lost this share in so many V-cycles will not do much better; where it
-  // is of the size of its terms' rounding, fewer tell.
-  constexpr double Stagnating = 0.9;
-  constexpr int Patience = 6, RoundingPatience = 2;
-  constexpr double NearRounding = 10.0;
-  // Initial values that solve the problem up to rounding cannot be improved by a tolerance.
-  const bool exact = this->InitialNorm <= this->RoundingNorm;
-  const double reference = exact ? this->RoundingNorm : this->InitialNorm;
-  const double goal = exact ? reference : this->Options.tolerance * reference;
-  Report& r = this->Result;
-  double norm = this->residualNorm();
-  const double firstNorm = std::max(reference, norm);
-  r.converged = norm <= goal && this->Parts.incompatibleSquares() == 0.0;
-  while (!r.converged && r.cycles < this->Options.maxCycles)
-  {
-    const Timer coarse;
-    this->Core.run();
-    r.seconds.coarse += coarse.seconds();
-    this->laterPass(norm);
-    ++r.cycles;
-    norm = this->residualNorm();
-    const double relative = reference > 0.0 ? norm / reference : 0.0;
-    r.residuals.push_back(relative);
-    this->Progress.endCycle(r.cycles, relative);
-    r.converged = norm <= goal;
-    if (!std::isfinite(norm) || (norm > Diverged * firstNorm && !r.converged))
-    {
-      throw Error("the solve diverges (relative residual " + scientific(relative) + " after " +
-                  std::to_string(r.cycles) +
-                  " V-cycles): the mesh has very bad cells; use uniform weights or more sweeps");
-    }
-    const bool rounding = norm <= NearRounding * this->RoundingNorm;
-    const int patience = rounding ? RoundingPatience : Patience;
-    const double before = r.cycles > patience
-                            ? r.residuals[static_cast<std::size_t>(r.cycles - patience - 1)]
-                            : firstNorm / reference;
-    if (!r.converged && r.cycles >= patience && relative > Stagnating * before)
-    {
-      r.converged = rounding;
-      r.notes.push_back(
-        rounding
-          ? "converged as far as the rounding of the numbers allows: the relative residual is " +
-              scientific(relative)
-          : "not converged: the relative residual stagnates at " + scientific(relative));
-      return;
-    }
-  }
-  if (!r.converged)
-  {
-    r.notes.push_back("not converged: the relative residual is " + scientific(r.residuals.back()) +
-                      " after " + std::to_string(r.cycles) + " V-cycles, the most allowed");
-  }
-}
-
-/**
- * A component without constraint has a solution only if its right-hand side sums to zero: takes the
- * mean from it where it does not.
- */
-template <OperatorSet Operators>
-void Engine<Operators>::projectRightSide()
-{
-  if (this->Parts.incompatibleSquares() == 0.0)
-  {
-    return;
-  }
-  const std::vector<double> shifts = this->Parts.rightSideShifts();
-  this->Hierarchy.finest->window().rewriteB(
-    [&](std::int64_t block, std::span<double> b)
-    {
-      const auto labels = this->Labels.block(block);
-      for (std::size_t i = 0; i < labels.size(); ++i)
-      {
-        const std::int64_t root = labels[i] < 0 ? -1 : this->Parts.root(labels[i]);
-        if (root >= 0 && this->Parts.isFree(static_cast<std::int32_t>(root)))
-        {
-          for (int k = 0; k < this->Columns; ++k)
-          {
-            b[i * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)] -=
-              shifts[static_cast<std::size_t>(root * this->Columns + k)];
-          }
-        }
-      }
-    });
-  this->Result.notes.push_back(
-    "the right-hand side of a component without prescribed value does not "
-    "sum to zero: its mean was taken from it");
-}
-
-/** Gives the components without constraint the mean of their initial values. */
-template <OperatorSet Operators>
-void Engine<Operators>::fixMeans()
-{
-  if (this->Result.free_components == 0)
-  {
-    return;
-  }
-  std::vector<double> sums(static_cast<std::size_t>(this->Parts.labels() * this->Columns));
-  std::vector<double> values(ComponentLabels::Block * static_cast<std::size_t>(this->Columns));
-  for (std::int64_t first = 0; first < this->Result.vertices;
-       first += static_cast<std::int64_t>(ComponentLabels::Block))
-  {
-    const auto labels =
-      this->Labels.block(first / static_cast<std::int64_t>(ComponentLabels::Block));
-    this->Hierarchy.finest->window().readX(
-      first, static_cast<std::int64_t>(labels.size()), values.data());
-    for (std::size_t i = 0; i < labels.size(); ++i)
-    {
-      const std::int64_t root = labels[i] < 0 ? -1 : this->Parts.root(labels[i]);
-      for (int k = 0; root >= 0 && k < this->Columns; ++k)
-      {
-        sums[static_cast<std::size_t>(root * this->Columns + k)] +=
-          values[i * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)];
-      }
-    }
-  }
-  this->MeanShifts = this->Parts.meanShifts(sums);
-  this->Result.notes.push_back(
-    std::to_string(this->Result.free_components) + " of " +
-    std::to_string(this->Result.components) +
-    " components have no prescribed value: they keep the mean of their initial values");
+  const Timer coarse;
+  this->Core.run();
+  this->Result.seconds.coarse += coarse.seconds();
 }
 
 template <OperatorSet Operators>
-void Engine<Operators>::read(std::int64_t first, std::int64_t count, std::span<double> values)
+void Engine<Operators>::iterate(Convergence& convergence, bool spareLast)
+{
+  while (!convergence.done() && !(spareLast && convergence.isLast()))
+  {
+    this->runCore();
+    this->pass(
+      convergence.norm(), [] {}, [] {});
+    convergence.add(this->residualNorm());
+    this->Progress.endCycle(convergence.cycles(), convergence.residuals().back());
+  }
+}
+
+template <OperatorSet Operators>
+void Engine<Operators>::checkRange(std::int64_t first, std::int64_t count, std::size_t room) const
 {
   if (first < 0 || count < 0 || first > this->Result.vertices - count ||
-      values.size() < static_cast<std::size_t>(count * this->Columns))
+      room < static_cast<std::size_t>(count))
   {
     throw Error(std::to_string(count) + " vertices from " + std::to_string(first) +
                 " on were asked of a solution of " + std::to_string(this->Result.vertices) +
                 ", or there is no room for their values");
   }
-  this->Hierarchy.finest->window().readX(first, count, values.data());
-  if (this->MeanShifts.empty())
-  {
-    return;
-  }
-  constexpr auto Block = static_cast<std::int64_t>(ComponentLabels::Block);
-  for (std::int64_t i = 0; i < count; ++i)
-  {
-    const std::int32_t label =
-      this->Labels.block((first + i) / Block)[static_cast<std::size_t>((first + i) % Block)];
-    const std::int64_t root = label < 0 ? -1 : this->Parts.root(label);
-    for (int k = 0; root >= 0 && k < this->Columns; ++k)
-    {
-      values[static_cast<std::size_t>(i * this->Columns + k)] -=
-        this->MeanShifts[static_cast<std::size_t>(root * this->Columns + k)];
-    }
-  }
 }
 
 template <OperatorSet Operators>
-void Engine<Operators>::fillReport(double wallSeconds, double cpuSeconds)
+void Engine<Operators>::read(std::int64_t first, std::int64_t count, std::span<double> values)
+{
+  this->checkRange(first, count, values.size() / static_cast<std::size_t>(this->Columns));
+  this->Hierarchy.finest->window().readX(first, count, values.data());
+  this->Free.shift(first, count, values);
+}
+
+template <OperatorSet Operators>
+void Engine<Operators>::beginReport()
+{
+  this->Wall = {};
+  this->CpuAtStart = processSeconds();
+}
+
+template <OperatorSet Operators>
+void Engine<Operators>::finishReport()
 {
   Report& r = this->Result;
   if (r.clamped_weights > 0)
   {
     r.notes.push_back(std::to_string(r.clamped_weights) +
                       " cotangent weights were below the floor and were raised to it: there the "
-                      "operator is not that "
-                      "of finite elements");
+                      "operator is not that of finite elements");
+  }
+  if (r.held > 0)
+  {
+    r.notes.push_back(std::to_string(r.held) +
+                      " vertices belong to no cell that has a weight: they stay as they are");
   }
   r.levels = this->Hierarchy.sizes;
   r.levels.front().nodes -= r.prescribed + r.held;
@@ -426,8 +378,8 @@ void Engine<Operators>::fillReport(double wallSeconds, double cpuSeconds)
   r.bytes_read = this->Traffic.bytesRead;
   r.bytes_written = this->Traffic.bytesWritten;
   r.seconds.io_wait = 1e-9 * static_cast<double>(this->Traffic.waitNanoseconds);
-  r.seconds.total = wallSeconds;
-  r.cpu_seconds = cpuSeconds;
+  r.seconds.total = this->Wall.seconds();
+  r.cpu_seconds = processSeconds() - this->CpuAtStart;
   r.threads = this->Threads.max_concurrency();
 }
 

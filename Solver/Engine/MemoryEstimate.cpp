@@ -15,7 +15,7 @@ namespace
 
 /** Bytes of all windows for one node of the stream's span, and for each value of its state: in the
  * first pass with two sweeps, for a sweep more, and in a later pass for each sweep. */
-constexpr std::int64_t TriangleBytes = 6300, TetrahedronBytes = 6500, ValueBytes = 300;
+constexpr std::int64_t TriangleBytes = 6700, TetrahedronBytes = 6500, ValueBytes = 300;
 constexpr std::int64_t FurtherSweepBytes = 250;
 constexpr std::int64_t LaterSweepBytes = 400, LaterSweepValueBytes = 75;
 
@@ -26,19 +26,19 @@ constexpr std::int64_t CotangentPercent = 120;
 constexpr std::int64_t WindowSpans = 30;
 
 /** Bytes a vertex in core. */
-constexpr std::int64_t TriangleCoreBytes = 100, TetrahedronCoreBytes = 180, ValueCoreBytes = 20;
+constexpr std::int64_t TriangleCoreBytes = 120, TetrahedronCoreBytes = 280, ValueCoreBytes = 20;
 
 } // namespace
 
-std::int64_t estimateMemory(
-  const StreamInfo& info, const Problem& problem, const SolveOptions& options)
+std::int64_t estimateMemory(const StreamInfo& info, const Problem& problem,
+  const SolveOptions& options, std::int64_t furtherCoreBytes)
 {
   const bool surface = info.cellType == CellType::Triangle;
   const std::int64_t stride = strideOf(problem.columns());
   if (options.inCore)
   {
-    return info.vertices *
-           ((surface ? TriangleCoreBytes : TetrahedronCoreBytes) + ValueCoreBytes * stride);
+    return info.vertices * ((surface ? TriangleCoreBytes : TetrahedronCoreBytes) +
+                             ValueCoreBytes * stride + furtherCoreBytes);
   }
   if (info.span < 0)
   {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Core/Progress.h"
+#include "Solver/Engine/Convergence.h"
 
 #include <cmath>
 
@@ -10,32 +11,54 @@ namespace smg
 
 /**
  * The progress of a solve, whose number of passes is not known before: the first pass counts for
- * a fixed share, the rest by how far the residual has come on the way to the tolerance.
+ * a fixed share, the rest by how far the residual has come on the way to the tolerance, or by the
+ * V-cycles, if their number is fixed.
  */
 class SolveProgress
 {
 public:
-  SolveProgress(ProgressFunction function, double tolerance, int maxCycles)
-    : Overall(std::move(function))
-    , LogTolerance(std::log(tolerance))
-    , MaxCycles(maxCycles)
+  explicit SolveProgress(ProgressFunction function)
+    : Function(std::move(function))
   {
   }
 
-  /** Share `done` (0 to 1) of the pass of V-cycle `cycle`; 0: the first pass. */
-  void update(int cycle, double done)
+  /** A problem begins that counts from `from` to `to`, anew from 0; `builds`: with the first pass.
+   */
+  void begin(const Stopping& stopping, double from, double to, bool builds)
   {
-    this->Overall.update(
-      cycle == 0 ? FirstPass * done
-                 : FirstPass +
-                     (1.0 - FirstPass) * (this->Reached + (this->Expected - this->Reached) * done));
+    const double first = builds ? FirstPass : 0.0;
+    if (from == 0.0)
+    {
+      this->Overall = Progress(this->Function);
+    }
+    this->From = from;
+    this->Start = from + first * (to - from);
+    this->To = to;
+    this->LogTolerance = stopping.cycles > 0 ? 0.0 : std::log(stopping.tolerance);
+    this->MaxCycles = stopping.cycles > 0 ? stopping.cycles : stopping.maxCycles;
+    this->Reached = 0.0;
+    this->Expected = 0.1;
+  }
+
+  /** Share `done` (0 to 1) of the first pass. */
+  void updateFirst(double done)
+  {
+    this->Overall.update(this->From + (this->Start - this->From) * done);
+  }
+  /** Share `done` (0 to 1) of the pass of a V-cycle. */
+  void update(double done)
+  {
+    const double reached = this->Reached + (this->Expected - this->Reached) * done;
+    this->Overall.update(this->Start + (this->To - this->Start) * reached);
   }
 
   /** V-cycle `cycle` has ended with this relative residual. */
   void endCycle(int cycle, double residual)
   {
     const double before = this->Reached;
-    const double byResidual = residual > 0.0 ? std::log(residual) / this->LogTolerance : 1.0;
+    const double byResidual = this->LogTolerance == 0.0 ? 0.0
+                              : residual > 0.0          ? std::log(residual) / this->LogTolerance
+                                                        : 1.0;
     const double byCycles = static_cast<double>(cycle) / this->MaxCycles;
     this->Reached = std::clamp(std::max(byResidual, byCycles), before, 1.0);
     const double gain = std::max(this->Reached / (cycle + 1), 1.0 / this->MaxCycles);
@@ -47,9 +70,11 @@ public:
 private:
   static constexpr double FirstPass = 0.4;
 
+  ProgressFunction Function;
   Progress Overall;
-  double LogTolerance;
-  int MaxCycles;
+  double From = 0.0, Start = 0.0, To = 1.0;
+  double LogTolerance = 0.0;
+  int MaxCycles = 1;
   double Reached = 0.0;
   double Expected = 0.1;
 };

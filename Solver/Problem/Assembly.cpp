@@ -41,16 +41,20 @@ int usualNeighbours(CellType type)
 } // namespace
 
 Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, LevelRows& rows,
-  LevelWindow<double>& level, Components& components, ComponentLabels& labels)
+  LevelWindow<double>& level, Components& components, ComponentLabels& labels,
+  RowListener* listener)
   : Type(info.cellType)
+  , Check(info.cellType)
   , Given(problem)
   , Columns(problem.columns())
   , Kind(problem.weights())
   , Screening(problem.screening())
+  , ConnectsFlat(problem.connectsFlatCells())
   , Rows(rows)
   , Level(level)
   , Parts(components)
   , PartLabels(labels)
+  , Listener(listener)
   , Points(pool, 3)
   , Values(pool, problem.columns())
   , Sources(pool, problem.columns())
@@ -64,21 +68,9 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, LevelRo
 
 void Assembly::add(const MeshBlock& block)
 {
-  if (block.positions.size() % 3 != 0 ||
-      block.corners.size() % static_cast<std::size_t>(cornersOf(this->Type)) != 0)
-  {
-    throw Error("the mesh stream is not valid: the block that begins with vertex " +
-                std::to_string(block.firstVertex) +
-                " ends in the middle of a position or of a cell");
-  }
+  this->Check.add(block);
   this->addVertices(block);
   this->addCells(block);
-  if (block.finalized > this->Vertices)
-  {
-    throw Error("the mesh stream is not valid: a block declares " +
-                std::to_string(block.finalized) + " vertices final but only " +
-                std::to_string(this->Vertices) + " have come");
-  }
   this->finalize(block.finalized);
 }
 
@@ -91,13 +83,6 @@ void Assembly::finish()
 void Assembly::addVertices(const MeshBlock& block)
 {
   const std::int64_t count = block.vertices();
-  if (block.firstVertex != this->Vertices || block.firstCell != this->Cells)
-  {
-    throw Error("the mesh stream is not valid: a block begins with vertex " +
-                std::to_string(block.firstVertex) + " and cell " + std::to_string(block.firstCell) +
-                ", expected " + std::to_string(this->Vertices) + " and " +
-                std::to_string(this->Cells));
-  }
   if (count == 0)
   {
     return;
@@ -108,11 +93,10 @@ void Assembly::addVertices(const MeshBlock& block)
   given.value.assign(values, 0.0);
   given.source.assign(values, 0.0);
   this->Given.conditions(block, given);
-  if (!allFinite(block.positions) || !allFinite(given.value) || !allFinite(given.source))
+  if (!allFinite(given.value) || !allFinite(given.source))
   {
-    throw Error("a position, value or source of a vertex between " +
-                std::to_string(this->Vertices) + " and " +
-                std::to_string(this->Vertices + count - 1) + " is not a finite number");
+    throw Error("a value or source of a vertex between " + std::to_string(this->Vertices) +
+                " and " + std::to_string(this->Vertices + count - 1) + " is not a finite number");
   }
 
   const std::int64_t end = this->Vertices + count;
@@ -143,27 +127,12 @@ void Assembly::addCells(const MeshBlock& block)
   for (std::size_t c = 0; c < cells; ++c)
   {
     const std::int64_t* cell = block.corners.data() + c * corners;
-    for (std::size_t k = 0; k < corners; ++k)
-    {
-      if (cell[k] < this->Final || cell[k] >= this->Vertices)
-      {
-        throw Error("the mesh stream is not valid: cell " +
-                    std::to_string(block.firstCell + static_cast<std::int64_t>(c)) +
-                    " uses vertex " + std::to_string(cell[k]) + ", which " +
-                    (cell[k] >= this->Vertices ? "has not come yet" : "was declared final"));
-      }
-    }
-    if (flags && flags->value(c) != 0.0)
-    {
-      ++this->Degenerate;
-      continue;
-    }
-    this->addCell(cell);
+    this->addCell(cell, flags ? static_cast<unsigned>(flags->value(c)) : 0U);
   }
   this->Cells += static_cast<std::int64_t>(cells);
 }
 
-void Assembly::addCell(const std::int64_t* corners)
+void Assembly::addCell(const std::int64_t* corners, unsigned flags)
 {
   const bool triangle = this->Type == CellType::Triangle;
   const double* point[4] = {};
@@ -172,15 +141,21 @@ void Assembly::addCell(const std::int64_t* corners)
     point[k] = this->Points.at(corners[k]);
   }
   const bool repeated = hasRepeatedCorner(corners, cornersOf(this->Type));
-  const CellWeights cell = repeated   ? CellWeights{}
-                           : triangle ? triangleWeights(point[0], point[1], point[2])
+  const CellWeights cell = repeated || flags != 0 ? CellWeights{}
+                           : triangle             ? triangleWeights(point[0], point[1], point[2])
                                       : tetrahedronWeights(point[0], point[1], point[2], point[3]);
-  if (cell.measure == 0.0)
+  const bool degenerate = cell.measure == 0.0;
+  this->Degenerate += degenerate ? 1 : 0;
+  if (!degenerate || (this->ConnectsFlat && !repeated && (flags & DuplicateCell) == 0))
   {
-    ++this->Degenerate;
-    return;
+    this->connect(corners, cell);
   }
+}
 
+/** The corners belong together, with these weights of the edges, which are 0 if the cell is flat.
+ */
+void Assembly::connect(const std::int64_t* corners, const CellWeights& cell)
+{
   std::int32_t label = -1;
   for (int k = 0; k < cornersOf(this->Type); ++k)
   {
@@ -197,17 +172,29 @@ void Assembly::addCell(const std::int64_t* corners)
     this->Mass[corners[k]] += mass;
   }
 
+  const bool triangle = this->Type == CellType::Triangle;
   const int edges = triangle ? 3 : 6;
   for (int e = 0; e < edges; ++e)
   {
     const int* ends = triangle ? TriangleEdges[e] : TetrahedronEdges[e];
     const std::int64_t a = corners[ends[0]];
     const std::int64_t b = corners[ends[1]];
+    if (cell.measure == 0.0 && !this->hasLength(a, b))
+    {
+      continue;
+    }
     OpenEdge& forth = this->Edges.edge(a, b);
     const double weight = this->Kind == Weights::Uniform ? 1.0 : forth.weight + cell.weight[e];
     forth.weight = weight;
     this->Edges.edge(b, a).weight = weight;
   }
+}
+
+/** Whether an edge has a weight even in a cell without one. */
+bool Assembly::hasLength(std::int64_t a, std::int64_t b) const
+{
+  return this->Kind == Weights::Uniform ||
+         static_cast<float>(cotangentFloor(this->Type, this->Points.at(a), this->Points.at(b))) > 0;
 }
 
 void Assembly::finalize(std::int64_t end)
@@ -237,6 +224,10 @@ void Assembly::finalize(std::int64_t end)
       const double* target =
         targets ? this->Targets.data() + first * static_cast<std::size_t>(this->Columns) : nullptr;
       this->closeRow(i, this->Neighbours.data() + first, last - first, target);
+      if (this->Listener)
+      {
+        this->Listener->close(this->Points.at(i), this->Reach[i]);
+      }
       first = last;
     }
     this->PartLabels.append(this->LabelBatch);
@@ -361,17 +352,22 @@ void Assembly::closeRow(
               ? target[e * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)]
               : 0.0));
     }
-    alpha += known ? weight : 0.0;
+    const std::int64_t delta = neighbour.to - i;
+    if (delta != static_cast<std::int32_t>(delta))
+    {
+      throw Error("vertices " + std::to_string(i) + " and " + std::to_string(neighbour.to) +
+                  " share an edge but lie too far apart in the stream: convert the mesh with the "
+                  "order bfs");
+    }
     if (!known)
     {
-      const std::int64_t delta = neighbour.to - i;
-      if (delta != static_cast<std::int32_t>(delta))
-      {
-        throw Error("vertices " + std::to_string(i) + " and " + std::to_string(neighbour.to) +
-                    " share an edge but lie too far apart in the stream: convert the mesh with the "
-                    "order bfs");
-      }
       row[size++] = { static_cast<std::int32_t>(delta), neighbour.weight };
+      continue;
+    }
+    alpha += weight;
+    if (this->Listener)
+    {
+      this->Listener->link(static_cast<std::int32_t>(delta), neighbour.weight);
     }
   }
   this->Rows.close(size, alpha, -1);

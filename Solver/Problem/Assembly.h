@@ -8,6 +8,8 @@
 #include "Solver/Problem/Components.h"
 #include "Solver/Problem/OpenEdges.h"
 #include "Solver/Problem/Problem.h"
+#include "Solver/Problem/RowListener.h"
+#include "Solver/Stream/StreamCheck.h"
 
 #include <cstdint>
 #include <vector>
@@ -23,8 +25,10 @@ namespace smg
 class Assembly
 {
 public:
+  /** `listener`, if given, is told what the rows do not keep. */
   Assembly(Pool& pool, const StreamInfo& info, Problem& problem, LevelRows& rows,
-    LevelWindow<double>& level, Components& components, ComponentLabels& labels);
+    LevelWindow<double>& level, Components& components, ComponentLabels& labels,
+    RowListener* listener = nullptr);
 
   /** Takes a block; makes the rows final that it finalises. Throws Error on a bad block. */
   void add(const MeshBlock& block);
@@ -51,7 +55,9 @@ private:
 
   void addVertices(const MeshBlock& block);
   void addCells(const MeshBlock& block);
-  void addCell(const std::int64_t* corners);
+  void addCell(const std::int64_t* corners, unsigned flags);
+  void connect(const std::int64_t* corners, const CellWeights& cell);
+  bool hasLength(std::int64_t a, std::int64_t b) const;
   void finalize(std::int64_t end);
   void collectRow(std::int64_t i);
   void applyEdgeTargets(std::int64_t begin);
@@ -59,14 +65,17 @@ private:
     std::int64_t i, const Neighbour* neighbours, std::size_t count, const double* target);
 
   CellType Type;
+  StreamCheck Check;
   Problem& Given;
   int Columns;
   Weights Kind;
   double Screening;
+  bool ConnectsFlat;
   LevelRows& Rows;
   LevelWindow<double>& Level;
   Components& Parts;
   ComponentLabels& PartLabels;
+  RowListener* Listener;
 
   // By open vertex.
   Ring<double> Points, Values, Sources, Mass;

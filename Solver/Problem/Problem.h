@@ -57,6 +57,12 @@ public:
   /** The screening s, at least 0. */
   virtual double screening() const { return 0.0; }
 
+  /**
+   * Whether the edges of cells without area or volume that have distinct corners connect these,
+   * with the least weight that an edge can have; else such cells carry no weight.
+   */
+  virtual bool connectsFlatCells() const { return false; }
+
   /** Says what holds at the vertices of the block. Values that are not finite are an error. */
   virtual void conditions(const MeshBlock& block, VertexConditions& conditions) = 0;
 

@@ -3,13 +3,60 @@
 
 #include "Solver/Core/Error.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <string>
 
 namespace smg
 {
+namespace
+{
+
+constexpr const char* Prefix = "smg-scratch-";
+/** A file that only scratch folders have: nothing else is ever removed. */
+constexpr const char* Marker = ".smg-scratch";
+
+/** A descriptor of the folder that holds its lock; -1 if somebody else has it, or it has no locks.
+ */
+int lockFolder(const std::filesystem::path& folder)
+{
+  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (lock >= 0 && ::flock(lock, LOCK_EX | LOCK_NB) != 0)
+  {
+    ::close(lock);
+    return -1;
+  }
+  return lock;
+}
+
+/** Removes the scratch folders in `base` whose programs have died. */
+void removeAbandoned(const std::filesystem::path& base)
+{
+  std::error_code ignored;
+  for (std::filesystem::directory_iterator entry(base, ignored), end; entry != end;
+       entry.increment(ignored))
+  {
+    const std::filesystem::path& folder = entry->path();
+    if (!folder.filename().string().starts_with(Prefix) ||
+        !std::filesystem::exists(folder / Marker, ignored))
+    {
+      continue;
+    }
+    if (const int lock = lockFolder(folder); lock >= 0)
+    {
+      std::filesystem::remove_all(folder, ignored);
+      ::close(lock);
+    }
+  }
+}
+
+} // namespace
 
 ScratchFolder::ScratchFolder(const std::filesystem::path& parent)
 {
@@ -20,19 +67,32 @@ ScratchFolder::ScratchFolder(const std::filesystem::path& parent)
   {
     throw Error("there is no temporary folder (" + failed.message() + "): name a scratch folder");
   }
-  std::string name = (base / "smg-XXXXXX").string();
-  if (!::mkdtemp(name.data()))
+  removeAbandoned(base);
+  // It gets the name by which others look for abandoned ones when it is locked.
+  std::string made = (base / (std::string(".") + Prefix + "XXXXXX")).string();
+  if (!::mkdtemp(made.data()))
   {
     throw Error("cannot make a scratch folder in " + base.string() + ": " + std::strerror(errno) +
                 "; name another one");
   }
-  this->Path = name;
+  this->Path = made;
+  this->Lock = lockFolder(this->Path);
+  std::ofstream(this->Path / Marker).flush();
+  const std::filesystem::path name = base / this->Path.filename().string().substr(1);
+  if (this->Lock >= 0 && ::rename(this->Path.c_str(), name.c_str()) == 0)
+  {
+    this->Path = name;
+  }
 }
 
 ScratchFolder::~ScratchFolder()
 {
   std::error_code ignored;
   std::filesystem::remove_all(this->Path, ignored);
+  if (this->Lock >= 0)
+  {
+    ::close(this->Lock);
+  }
 }
 
 } // namespace smg

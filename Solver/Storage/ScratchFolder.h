@@ -6,7 +6,11 @@
 namespace smg
 {
 
-/** A folder of its own for scratch files, removed with all it holds by the destructor. */
+/**
+ * A folder of its own for scratch files, removed with all it holds by the destructor. What a
+ * program that was killed has left behind is removed by the next ScratchFolder in the same place: a
+ * folder is locked as long as its program lives.
+ */
 class ScratchFolder
 {
 public:
@@ -20,6 +24,7 @@ public:
 
 private:
   std::filesystem::path Path;
+  int Lock = -1; // of the folder itself
 };
 
 /** The path of a file in a scratch folder. */

@@ -3,6 +3,7 @@
 
 #include "Solver/Core/ScalarType.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <span>
@@ -55,5 +56,17 @@ struct Column
       [p]<class T>(T) { return static_cast<double>(*reinterpret_cast<const T*>(p)); });
   }
 };
+
+/** The place of the first column that is `spec`; -1: there is none. */
+inline std::ptrdiff_t findColumn(const std::vector<ColumnSpec>& specs, const ColumnSpec& spec)
+{
+  const auto found = std::ranges::find(specs, spec);
+  return found == specs.end() ? -1 : found - specs.begin();
+}
+inline std::ptrdiff_t findColumn(const std::vector<Column>& columns, const ColumnSpec& spec)
+{
+  const auto found = std::ranges::find(columns, spec, &Column::spec);
+  return found == columns.end() ? -1 : found - columns.begin();
+}
 
 } // namespace smg

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Deform.h"
+
+#include "Solver/Core/Error.h"
+#include "Solver/Deformation/InteractiveDeformation.h"
+#include "Solver/Deformation/InteractiveEngine.h"
+#include "Solver/Hierarchy/Extended.h"
+
+namespace smg
+{
+
+void checkOptions(const DeformOptions& options)
+{
+  checkOptions(static_cast<const SolveOptions&>(options));
+  if (options.cycles < 0)
+  {
+    throw Error("the number of V-cycles a step must not be negative");
+  }
+}
+
+std::unique_ptr<Solution> deform(MeshSource& mesh, Handles& handles, const DeformOptions& options)
+{
+  checkOptions(options);
+  auto engine = std::make_unique<DeformationEngine<Extended>>(options, mesh.info().cellType);
+  engine->deform(mesh, handles);
+  engine->keepSolution();
+  return engine;
+}
+
+struct InteractiveDeformation::Implementation
+{
+  InteractiveEngine<Extended> engine;
+};
+
+namespace
+{
+
+DeformOptions inCore(DeformOptions options)
+{
+  checkOptions(options);
+  options.inCore = true;
+  return options;
+}
+
+} // namespace
+
+InteractiveDeformation::InteractiveDeformation(
+  MeshSource& mesh, Handles& handles, const DeformOptions& options)
+  : Self(new Implementation{ { inCore(options), mesh.info().cellType } })
+{
+  this->Self->engine.deform(mesh, handles);
+}
+
+InteractiveDeformation::~InteractiveDeformation() = default;
+
+bool InteractiveDeformation::update(const VertexHandles& handles)
+{
+  return this->Self->engine.deformAgain(handles);
+}
+
+std::int64_t InteractiveDeformation::vertices() const
+{
+  return this->Self->engine.vertices();
+}
+
+void InteractiveDeformation::read(std::int64_t first, std::int64_t count, std::span<double> values)
+{
+  this->Self->engine.read(first, count, values);
+}
+
+const Report& InteractiveDeformation::report() const
+{
+  return this->Self->engine.report();
+}
+
+} // namespace smg

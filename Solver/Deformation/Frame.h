@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+namespace smg
+{
+
+/** How the mesh turns and grows at a vertex, as what that adds to an edge: s R - I, row by row. */
+struct Frame
+{
+  double m[9];
+};
+
+/**
+ * s R - I of a rotation vector (unit axis times angle in radians) and the logarithm of s:
+ * R - I = sin(a)/a K + (1 - cos(a))/a^2 K^2 (Rodrigues), K the cross product with the vector.
+ * As accurate for small angles and scales near 1 as for others; zero for four zeros.
+ */
+inline Frame frameOf(const double* rotationAndLogScale)
+{
+  const double x = rotationAndLogScale[0];
+  const double y = rotationAndLogScale[1];
+  const double z = rotationAndLogScale[2];
+  const double growth = std::expm1(rotationAndLogScale[3]);
+  const double square = x * x + y * y + z * z;
+  const double angle = std::sqrt(square);
+  // Below this angle the series' second terms are less than the rounding of the first.
+  constexpr double Small = 1e-8;
+  const double half = std::sin(0.5 * angle);
+  const double s = (1.0 + growth) * (angle < Small ? 1.0 : std::sin(angle) / angle);
+  const double c = (1.0 + growth) * (angle < Small ? 0.5 : 2.0 * half * half / square);
+  return { { growth - c * (y * y + z * z), c * x * y - s * z, c * x * z + s * y, c * x * y + s * z,
+    growth - c * (x * x + z * z), c * y * z - s * x, c * x * z - s * y, c * y * z + s * x,
+    growth - c * (x * x + y * y) } };
+}
+
+} // namespace smg

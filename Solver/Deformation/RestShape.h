@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Cycle/RowBlock.h"
+#include "Solver/Problem/RowListener.h"
+#include "Solver/Storage/ScratchStream.h"
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * What the deformation needs of up to RowBlock::Nodes consecutive vertices besides their rows: the
+ * positions at rest, the targets of held vertices, and the edges to held neighbours, which the rows
+ * leave out.
+ */
+class RestBlock
+{
+public:
+  struct Header
+  {
+    std::int64_t first = 0;
+    std::int32_t nodes = 0;
+    std::int32_t held = 0, links = 0;
+    /** Largest mesh neighbour, held ones included, of nodes 0 .. end of the group. */
+    std::array<std::int64_t, RowBlock::Groups> reach{};
+  };
+  struct Held
+  {
+    std::array<double, 3> target;
+    std::int64_t node; ///< from the block's first
+  };
+  /** An edge from a free node to a held neighbour. */
+  struct Link
+  {
+    std::int32_t node; ///< from the block's first
+    std::int32_t delta;
+    float weight;
+  };
+
+  explicit RestBlock(Buffer buffer)
+    : Bytes(std::move(buffer))
+    , Data(this->Bytes.data())
+  {
+  }
+  /** The same bytes, which the block itself keeps. */
+  RestBlock view() const { return RestBlock(this->Data); }
+
+  static std::size_t bytes(const Header& h)
+  {
+    return sizeof(Header) + static_cast<std::size_t>(h.nodes) * 3 * sizeof(double) +
+           static_cast<std::size_t>(h.held) * sizeof(Held) +
+           static_cast<std::size_t>(h.links) * sizeof(Link);
+  }
+
+  Header& header() { return *reinterpret_cast<Header*>(this->Data); }
+  const Header& header() const { return *reinterpret_cast<const Header*>(this->Data); }
+  std::int64_t first() const { return this->header().first; }
+  std::int64_t end() const { return this->header().first + this->header().nodes; }
+  /** x, y, z of each node. */
+  std::span<double> points() const
+  {
+    return { reinterpret_cast<double*>(this->Data + sizeof(Header)),
+      static_cast<std::size_t>(this->header().nodes) * 3 };
+  }
+  /** By ascending node. */
+  std::span<Held> held() const
+  {
+    return { reinterpret_cast<Held*>(this->points().data() + this->points().size()),
+      static_cast<std::size_t>(this->header().held) };
+  }
+  /** By ascending node and neighbour. */
+  std::span<Link> links() const
+  {
+    return { reinterpret_cast<Link*>(this->held().data() + this->held().size()),
+      static_cast<std::size_t>(this->header().links) };
+  }
+
+private:
+  explicit RestBlock(std::byte* data)
+    : Data(data)
+  {
+  }
+
+  Buffer Bytes;
+  std::byte* Data;
+};
+
+/** The mesh at rest and its targets, in blocks: written in the first pass, in scratch or in memory.
+ */
+class RestShape : public RowListener
+{
+public:
+  explicit RestShape(Pool& pool)
+    : Owner(pool)
+  {
+    this->Low.fill(std::numeric_limits<double>::max());
+    this->High.fill(std::numeric_limits<double>::lowest());
+  }
+
+  /** Keeps the blocks in a scratch file in `folder`; else they stay in memory. */
+  void useScratch(const std::filesystem::path& folder, IoStatistics& statistics);
+
+  // While the mesh streams by.
+
+  /** Vertex `i` is held; called by ascending i, before close() of that vertex. */
+  void hold(std::int64_t i, const double* target);
+  void link(std::int32_t delta, float weight) override;
+  void close(const double* point, std::int64_t reach) override;
+  void finish();
+
+  // Later.
+
+  /** Diagonal of the bounding box of the positions at rest and the targets. */
+  double extent() const;
+  /** Goes back to the first block, for next(). */
+  void startPass();
+  /** The next block of a pass. */
+  RestBlock next();
+  void endPass();
+  /**
+   * Where displacements begin, of vertices [first, first + count), any range: at rest, and held
+   * ones at their targets.
+   */
+  void readStart(std::int64_t first, std::int64_t count, double* points);
+  /** The blocks, without scratch. */
+  std::deque<RestBlock>& blocks() { return this->Blocks; }
+
+private:
+  void enclose(const double* point);
+  void pack();
+  void cacheStart(std::int64_t number);
+
+  Pool& Owner;
+  std::optional<ScratchStream> Scratch;
+  std::deque<RestBlock> Blocks;
+  std::deque<RestBlock::Held> Waiting; // held vertices that are not closed; node: the index
+  RestBlock::Header Open;
+  std::vector<double> Points;
+  std::vector<RestBlock::Held> Held;
+  std::vector<RestBlock::Link> Links;
+  std::int64_t Vertices = 0;
+  std::array<double, 3> Low, High;
+  std::size_t NextBlock = 0;
+  std::int64_t Cached = -1; // block of readStart()
+  std::vector<double> CachedPoints;
+};
+
+} // namespace smg

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Engine/Convergence.h"
+
+#include "Solver/Core/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace smg
+{
+namespace
+{
+
+/** A residual that is this much larger than it was at first will not recover. */
+constexpr double Diverged = 1e4;
+/** A residual that has not lost this share in so many V-cycles will not do much better; where it is
+ * of the size of its terms' rounding, fewer tell. */
+constexpr double Stagnating = 0.9;
+constexpr int Patience = 6, RoundingPatience = 2;
+constexpr double NearRounding = 10.0;
+
+} // namespace
+
+double roundingOf(double termSquares)
+{
+  constexpr double Rounding = 4e-16;
+  return Rounding * std::sqrt(termSquares);
+}
+
+std::string scientific(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.2e", value);
+  return text;
+}
+
+Convergence::Convergence(const Stopping& stopping, double initial, double rounding)
+  : Fixed(stopping.cycles > 0)
+  , Limit(this->Fixed ? stopping.cycles : stopping.maxCycles)
+  , Rounding(rounding)
+  , Reference(std::max(initial, rounding))
+  , Goal(initial <= rounding ? rounding : stopping.tolerance * initial)
+{
+}
+
+void Convergence::begin(double norm, bool mayEnd)
+{
+  this->Norm = norm;
+  this->FirstNorm = std::max(this->Reference, norm);
+  this->Done = this->Converged = mayEnd && !this->Fixed && norm <= this->Goal;
+}
+
+void Convergence::add(double norm)
+{
+  const double relative = this->Reference > 0.0 ? norm / this->Reference : 0.0;
+  this->Norm = norm;
+  this->Residuals.push_back(relative);
+  this->Converged = norm <= this->Goal;
+  if (!std::isfinite(norm) || (norm > Diverged * this->FirstNorm && !this->Converged))
+  {
+    throw Error("the solve diverges (relative residual " + scientific(relative) + " after " +
+                std::to_string(this->cycles()) +
+                " V-cycles): the mesh has very bad cells; use uniform weights or more sweeps");
+  }
+  if (this->Fixed)
+  {
+    this->Done = this->Converged = this->cycles() >= this->Limit;
+    return;
+  }
+  this->Note.clear();
+  if (!this->Converged)
+  {
+    this->watch(relative);
+  }
+  this->Done = this->Done || this->Converged;
+}
+
+void Convergence::watch(double relative)
+{
+  const bool rounding = this->Norm <= NearRounding * this->Rounding;
+  const int patience = rounding ? RoundingPatience : Patience;
+  const int n = this->cycles();
+  const double before = n > patience ? this->Residuals[static_cast<std::size_t>(n - patience - 1)]
+                                     : this->FirstNorm / this->Reference;
+  if (n >= patience && relative > Stagnating * before)
+  {
+    this->Done = true;
+    this->Converged = rounding;
+    this->Note =
+      rounding
+        ? "converged as far as the rounding of the numbers allows: the relative residual is " +
+            scientific(relative)
+        : "not converged: the relative residual stagnates at " + scientific(relative);
+  }
+  else if (n >= this->Limit)
+  {
+    this->Done = true;
+    this->Note = "not converged: the relative residual is " + scientific(relative) + " after " +
+                 std::to_string(n) + " V-cycles, the most allowed";
+  }
+}
+
+void Convergence::addNotes(std::vector<std::string>& notes, const std::string& what) const
+{
+  if (!this->Note.empty())
+  {
+    notes.push_back(what + this->Note);
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Report.h"
+
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** When the V-cycles of a problem end. */
+struct Stopping
+{
+  double tolerance = 1e-6; ///< of the residual, relative to the initial one
+  int maxCycles = 50;
+  /** Exactly so many V-cycles, whatever the residual; 0: until the tolerance is reached. */
+  int cycles = 0;
+};
+
+/** Watches the residual of a problem from V-cycle to V-cycle and decides when to stop. */
+class Convergence
+{
+public:
+  /**
+   * `initial`: ||b - A x_0||; `rounding`: what of it is the rounding of its own terms. Initial
+   * values that solve the problem up to rounding cannot be improved by a tolerance.
+   */
+  Convergence(const Stopping& stopping, double initial, double rounding);
+
+  /**
+   * Before the first V-cycle: the norm after the first sweeps. It may end the solve already, unless
+   * the right-hand side has been changed since.
+   */
+  void begin(double norm, bool mayEnd = true);
+  /** After a V-cycle. Throws Error if the residual grows beyond recovery. */
+  void add(double norm);
+
+  bool done() const { return this->Done; }
+  bool converged() const { return this->Converged; }
+  int cycles() const { return static_cast<int>(this->Residuals.size()); }
+  /** Whether the next V-cycle is the last one that is allowed. */
+  bool isLast() const { return this->cycles() + 1 >= this->Limit; }
+  /** ||b - A x|| as last seen, and relative to the initial one after each V-cycle. */
+  double norm() const { return this->Norm; }
+  const std::vector<double>& residuals() const { return this->Residuals; }
+  /** Adds what a user should know, beginning with `what`. */
+  void addNotes(std::vector<std::string>& notes, const std::string& what) const;
+
+private:
+  void watch(double relative);
+
+  bool Fixed;
+  int Limit;
+  double Rounding, Reference, Goal;
+  double FirstNorm = 0.0, Norm = 0.0;
+  std::vector<double> Residuals;
+  std::string Note;
+  bool Done = false, Converged = false;
+};
+
+/** The norm that the rounding of the terms of b - A x has, given the sum of their squares. */
+double roundingOf(double termSquares);
+
+/** "1.23e-07" */
+std::string scientific(double value);
+
+} // namespace smg

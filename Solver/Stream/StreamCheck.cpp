@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Stream/StreamCheck.h"
+
+#include "Solver/Core/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace smg
+{
+
+void StreamCheck::add(const MeshBlock& block)
+{
+  if (block.positions.size() % 3 != 0 ||
+      block.corners.size() % static_cast<std::size_t>(cornersOf(this->Type)) != 0)
+  {
+    throw Error("the mesh stream is not valid: the block that begins with vertex " +
+                std::to_string(block.firstVertex) +
+                " ends in the middle of a position or of a cell");
+  }
+  if (block.firstVertex != this->Vertices || block.firstCell != this->Cells)
+  {
+    throw Error("the mesh stream is not valid: a block begins with vertex " +
+                std::to_string(block.firstVertex) + " and cell " + std::to_string(block.firstCell) +
+                ", expected " + std::to_string(this->Vertices) + " and " +
+                std::to_string(this->Cells));
+  }
+  this->addVertices(block);
+  this->addCells(block);
+  if (block.finalized > this->Vertices)
+  {
+    throw Error("the mesh stream is not valid: a block declares " +
+                std::to_string(block.finalized) + " vertices final but only " +
+                std::to_string(this->Vertices) + " have come");
+  }
+  this->Final = std::max(this->Final, block.finalized);
+}
+
+void StreamCheck::addVertices(const MeshBlock& block)
+{
+  const auto bad = std::find_if(block.positions.begin(), block.positions.end(),
+    [](double coordinate) { return !std::isfinite(coordinate); });
+  if (bad != block.positions.end())
+  {
+    throw Error("the position of vertex " +
+                std::to_string(this->Vertices + (bad - block.positions.begin()) / 3) +
+                " is not a finite number");
+  }
+  this->Vertices += block.vertices();
+}
+
+void StreamCheck::addCells(const MeshBlock& block)
+{
+  const auto bad = std::find_if(block.corners.begin(), block.corners.end(),
+    [this](std::int64_t corner) { return corner < this->Final || corner >= this->Vertices; });
+  const auto corners = static_cast<std::int64_t>(cornersOf(this->Type));
+  if (bad != block.corners.end())
+  {
+    throw Error("the mesh stream is not valid: cell " +
+                std::to_string(this->Cells + (bad - block.corners.begin()) / corners) +
+                " uses vertex " + std::to_string(*bad) + ", which " +
+                (*bad >= this->Vertices ? "has not come yet" : "was declared final"));
+  }
+  this->Cells += static_cast<std::int64_t>(block.corners.size()) / corners;
+}
+
+} // namespace smg
