@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkMeshImport.h"
 
+#include "IO/Container/NormalsColumn.h"
 #include "IO/Container/ReservedNames.h"
 #include "IO/Import/CellCollector.h"
 #include "IO/Import/VtkSizes.h"
@@ -13,6 +14,7 @@
 #include <vtkCellType.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkExecutive.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -114,15 +116,23 @@ vtkSmartPointer<vtkPointSet> read(
               : run<vtkUnstructuredGridReader>(path, appended);
 }
 
+/** The name of an array: the normals that are active have that of normals, unless it is taken. */
+std::string nameOf(vtkDataSetAttributes& data, vtkDataArray& array)
+{
+  const std::string name = array.GetName() ? array.GetName() : "";
+  const bool areNormals = &array == data.GetNormals() && array.GetNumberOfComponents() == 3;
+  return areNormals && !data.HasArray(NormalsName) ? NormalsName : name;
+}
+
 /** The numeric arrays, but for those that VTK keeps for itself. */
-std::vector<Column> columnsOf(vtkFieldData* data, std::int64_t tuples)
+std::vector<Column> columnsOf(vtkDataSetAttributes* data, std::int64_t tuples)
 {
   std::vector<Column> columns;
   for (int i = 0; i < data->GetNumberOfArrays(); ++i)
   {
     vtkDataArray* array = data->GetArray(i);
     const std::optional<ScalarType> type = array ? scalarTypeOf(*array) : std::nullopt;
-    const std::string name = array && array->GetName() ? array->GetName() : "";
+    const std::string name = array ? nameOf(*data, *array) : "";
     if (!type || name.empty() || name == GhostTypeName || array->GetNumberOfTuples() != tuples ||
         array->GetNumberOfComponents() < 1)
     {

@@ -96,4 +96,10 @@ void markAsPreview(vtkPointSet& mesh, const StreamInfo& full)
   addCount(*mesh.GetFieldData(), FullNumberOfCellsName, full.cells);
 }
 
+bool isPreview(vtkPointSet& mesh)
+{
+  vtkDataArray* mark = mesh.GetFieldData()->GetArray(PreviewName);
+  return mark && mark->GetNumberOfTuples() > 0 && mark->GetComponent(0, 0) != 0.0;
+}
+
 } // namespace smg

@@ -15,4 +15,7 @@ void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
 /** Says in the field data that the mesh is a preview of another. */
 void markAsPreview(vtkPointSet& mesh, const StreamInfo& full);
 
+/** Whether the field data say that the mesh is a preview. */
+bool isPreview(vtkPointSet& mesh);
+
 } // namespace smg

@@ -5,6 +5,7 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
+#include "vtkDataSetAttributes.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkTypeInt64Array.h"
@@ -12,7 +13,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <cstring>
+#include <numeric>
 
 namespace smg
 {
@@ -96,6 +97,25 @@ std::vector<std::int64_t> cellCorners(vtkPointSet& piece, CellType type, const s
     std::copy_n(cells->GetConnectivityArray32()->GetPointer(0), corners.size(), corners.begin());
   }
   return corners;
+}
+
+std::vector<std::int64_t> keepOwnCells(
+  vtkPointSet& piece, int cornersOfCell, std::vector<std::int64_t>& corners)
+{
+  std::vector<std::int64_t> kept(corners.size() / cornersOfCell);
+  std::iota(kept.begin(), kept.end(), 0);
+  if (vtkUnsignedCharArray* ghosts = piece.GetCellGhostArray())
+  {
+    std::erase_if(kept, [ghosts](std::int64_t cell)
+      { return (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0; });
+    for (std::size_t k = 0; k < kept.size(); ++k)
+    {
+      std::copy_n(corners.begin() + kept[k] * cornersOfCell, cornersOfCell,
+        corners.begin() + static_cast<std::int64_t>(k) * cornersOfCell);
+    }
+    corners.resize(kept.size() * cornersOfCell);
+  }
+  return kept;
 }
 
 vtkSmartPointer<vtkCellArray> makeCells(std::span<const std::int64_t> corners, int cornersOfCell)

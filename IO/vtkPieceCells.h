@@ -25,6 +25,13 @@ CellType cellTypeOf(vtkPointSet& piece, const std::string& where);
 /** The corners of all cells, as point numbers. Throws Error if they are not of the type `type`. */
 std::vector<std::int64_t> cellCorners(vtkPointSet& piece, CellType type, const std::string& where);
 
+/**
+ * Takes the cells that are marked as duplicates out of `corners`, which are those of all cells of
+ * the piece, `cornersOfCell` each. Answers the numbers of the others.
+ */
+std::vector<std::int64_t> keepOwnCells(
+  vtkPointSet& piece, int cornersOfCell, std::vector<std::int64_t>& corners);
+
 /** The cells with the given corners, `cornersOfCell` each. */
 vtkSmartPointer<vtkCellArray> makeCells(std::span<const std::int64_t> corners, int cornersOfCell);
 

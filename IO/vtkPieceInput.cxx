@@ -5,6 +5,7 @@
 #include "Solver/Core/Error.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerRequestKey.h"
@@ -27,6 +28,12 @@ PieceInput::PieceInput(vtkAlgorithm& consumer, int port)
   {
     throw Error(std::string("The executive of the input ") + this->Producer->GetClassName() +
                 " cannot deliver pieces: use a vtkStreamingDemandDrivenPipeline.");
+  }
+  if (vtkCompositeDataSet::SafeDownCast(this->Producer->GetOutputDataObject(this->ProducerPort)))
+  {
+    throw Error(std::string(consumer.GetClassName()) +
+                " has an input of several blocks: take one with Extract Block, or make them one "
+                "mesh with Merge Blocks.");
   }
 }
 

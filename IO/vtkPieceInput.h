@@ -17,7 +17,7 @@ namespace smg
 class VTKSTREAMINGMULTIGRIDIO_EXPORT PieceInput
 {
 public:
-  /** Throws Error if nothing is connected. */
+  /** Throws Error if nothing is connected, or a data set of several blocks. */
   PieceInput(vtkAlgorithm& consumer, int port);
 
   /**

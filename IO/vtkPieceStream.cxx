@@ -3,6 +3,7 @@
 
 #include "IO/Container/Columns.h"
 #include "IO/Container/VsmWriter.h"
+#include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceNames.h"
@@ -11,7 +12,6 @@
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
-#include "vtkFieldData.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
@@ -19,18 +19,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace smg
 {
 namespace
 {
-
-bool isPreview(vtkPointSet& piece)
-{
-  vtkDataArray* mark = piece.GetFieldData()->GetArray(PreviewName);
-  return mark && mark->GetNumberOfTuples() > 0 && mark->GetComponent(0, 0) != 0.0;
-}
 
 bool isDuplicate(vtkUnsignedCharArray* ghosts, vtkIdType i)
 {
@@ -85,8 +78,9 @@ vtkPointSet* PieceStream::pull()
     }
     if (isPreview(*piece))
     {
-      throw Error(this->where() + " is a preview of the mesh: a filter between the reader and this "
-                                  "one does not pass streaming requests on; take it away.");
+      throw Error(this->where() + " is a preview of the mesh, not the mesh itself: take away the "
+                                  "Streaming Mesh Preview, or whatever else does not pass "
+                                  "streaming requests on, between the reader and this filter.");
     }
     if (piece->GetNumberOfPoints() > 0 || piece->GetNumberOfCells() > 0)
     {
@@ -243,20 +237,8 @@ void PieceStream::copyCells(
     }
     corner = ids[corner];
   }
-  const std::size_t corners = cornersOf(this->Info.cellType);
-  std::vector<std::int64_t> kept(block.corners.size() / corners);
-  std::iota(kept.begin(), kept.end(), 0);
-  if (vtkUnsignedCharArray* ghosts = piece.GetCellGhostArray())
-  {
-    std::erase_if(kept, [ghosts](std::int64_t cell)
-      { return (ghosts->GetValue(cell) & vtkDataSetAttributes::DUPLICATECELL) != 0; });
-    for (std::size_t k = 0; k < kept.size(); ++k)
-    {
-      std::copy_n(
-        block.corners.begin() + kept[k] * corners, corners, block.corners.begin() + k * corners);
-    }
-    block.corners.resize(kept.size() * corners);
-  }
+  const std::vector<std::int64_t> kept =
+    keepOwnCells(piece, cornersOf(this->Info.cellType), block.corners);
   block.cellColumns = emptyColumns(this->Info.cellColumns);
   for (Column& column : block.cellColumns)
   {

@@ -7,6 +7,7 @@
 #include "IO/Formats/StreamFile.h"
 #include "IO/Import/Importer.h"
 #include "IO/Preview/PreviewPiece.h"
+#include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshImport.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceNames.h"
@@ -36,56 +37,56 @@ vtkStandardNewMacro(vtkStreamingMeshReader);
 
 struct vtkStreamingMeshReader::Internals
 {
+  /** All that what is delivered depends on. */
+  struct Stamp
+  {
+    vtkMTimeType Properties = 0;
+    std::filesystem::file_time_type File, Container;
+    bool operator==(const Stamp&) const = default;
+  };
+
   vtkNew<vtkDataArraySelection> PointArrays;
   vtkNew<vtkDataArraySelection> CellArrays;
   std::string Name, Scratch;
   std::filesystem::file_time_type FileTime;
   std::unique_ptr<smg::OpenedMesh> Mesh;
+  Stamp Opened; ///< with which the mesh was opened
+  /** With which it could not be: a pipeline that asks again does not look, or report, again. */
+  Stamp Failed;
   /** The columns that the file's pieces are read with; none before the first piece. */
   std::optional<std::array<std::vector<std::string>, 2>> Columns;
   std::optional<smg::MeshPiece> Preview;
   int PreviewPoints = 0;
-  /** What could not be opened, so that a pipeline that asks again does not look, or report, again.
-   */
-  std::string FailedName;
-  std::filesystem::file_time_type FailedFileTime;
-  vtkMTimeType FailedTime = 0;
 
-  static std::filesystem::file_time_type timeOf(const char* name)
+  static std::filesystem::file_time_type timeOf(const std::string& name)
   {
     std::error_code absent;
-    return std::filesystem::last_write_time(name ? name : "", absent);
+    return std::filesystem::last_write_time(name, absent);
   }
 
-  bool hasFailed(const char* name, vtkMTimeType time) const
+  static Stamp stampOf(vtkStreamingMeshReader& self)
   {
-    return this->FailedTime == time && this->FailedName == (name ? name : "") &&
-           this->FailedFileTime == timeOf(name);
+    return { self.GetMTime(), timeOf(self.FileName ? self.FileName : ""),
+      timeOf(self.GetContainerName()) };
   }
 
-  void noteFailure(const char* name, vtkMTimeType time)
+  /** Opens the container if it is not open, or not as it was. */
+  smg::VsmReader& open(vtkStreamingMeshReader& self)
   {
-    this->close();
-    this->FailedName = name ? name : "";
-    this->FailedFileTime = timeOf(name);
-    this->FailedTime = time;
-  }
-
-  /** Opens the file if it is not open, or not as it was. */
-  smg::VsmReader& open(const char* name, const char* scratch, const smg::ProgressFunction& progress)
-  {
-    if (!name || !*name)
+    if (this->Mesh && this->Opened == stampOf(self))
     {
-      throw smg::Error("No file is named: set FileName.");
+      return this->Mesh->reader();
     }
-    const std::string folder = scratch ? scratch : "";
+    self.UpdateContainer();
+    const std::string name = self.GetContainerName();
+    const std::string folder = self.ScratchDirectory ? self.ScratchDirectory : "";
     const auto time = timeOf(name);
     if (!this->Mesh || this->Name != name || this->Scratch != folder || this->FileTime != time)
     {
       this->close();
       smg::ConversionOptions options;
       options.scratch = folder;
-      options.progress = progress;
+      options.progress = smg::progressOf(self);
       smg::registerVtkImporter();
       this->Mesh = smg::openMesh(name, options);
       if (this->Name != name && !this->Name.empty())
@@ -97,7 +98,14 @@ struct vtkStreamingMeshReader::Internals
       this->Scratch = folder;
       this->FileTime = time;
     }
+    this->Opened = stampOf(self);
     return this->Mesh->reader();
+  }
+
+  void noteFailure(vtkStreamingMeshReader& self)
+  {
+    this->close();
+    this->Failed = stampOf(self);
   }
 
   void close()
@@ -121,6 +129,26 @@ struct vtkStreamingMeshReader::Internals
   static bool isSelectable(const smg::ColumnSpec& column)
   {
     return column.name != smg::CellFlagsName && !smg::isContractArray(column.name);
+  }
+
+  /** Makes the output what the cells ask for. */
+  static void setOutput(vtkInformation& info, bool isSurface)
+  {
+    const char* type = isSurface ? "vtkPolyData" : "vtkUnstructuredGrid";
+    vtkDataObject* present = vtkDataObject::GetData(&info);
+    if (!present || !present->IsA(type))
+    {
+      vtkSmartPointer<vtkPointSet> output;
+      if (isSurface)
+      {
+        output = vtkSmartPointer<vtkPolyData>::New();
+      }
+      else
+      {
+        output = vtkSmartPointer<vtkUnstructuredGrid>::New();
+      }
+      info.Set(vtkDataObject::DATA_OBJECT(), output);
+    }
   }
 
   static void offer(vtkDataArraySelection& selection, const std::vector<smg::ColumnSpec>& columns)
@@ -155,7 +183,10 @@ struct vtkStreamingMeshReader::Internals
     smg::VsmReader& reader = this->Mesh->reader();
     const smg::StreamInfo& info = reader.info();
     const auto firstCell = [&info, parts](int p)
-    { return static_cast<std::int64_t>(static_cast<__int128>(info.cells) * p / parts); };
+    {
+      return static_cast<std::int64_t>(
+        static_cast<__int128>(info.cells) * std::min(p, parts) / parts);
+    };
     const std::array<std::vector<std::string>, 2> columns = {
       chosen(*this->PointArrays, info.vertexColumns), chosen(*this->CellArrays, info.cellColumns)
     };
@@ -206,6 +237,30 @@ vtkStreamingMeshReader::~vtkStreamingMeshReader()
 {
   this->SetFileName(nullptr);
   this->SetScratchDirectory(nullptr);
+}
+
+std::string vtkStreamingMeshReader::GetContainerName()
+{
+  return this->FileName ? this->FileName : "";
+}
+
+void vtkStreamingMeshReader::UpdateContainer()
+{
+  if (this->GetContainerName().empty())
+  {
+    throw smg::Error("No file is named: set FileName.");
+  }
+}
+
+void vtkStreamingMeshReader::SetPreviewPoints(int points)
+{
+  const int possible = static_cast<int>(
+    std::clamp<std::int64_t>(points, smg::LeastPreviewPoints, smg::MostPreviewPoints));
+  if (possible != this->PreviewPoints)
+  {
+    this->PreviewPoints = possible;
+    this->Modified();
+  }
 }
 
 vtkDataArraySelection* vtkStreamingMeshReader::GetPointDataArraySelection()
@@ -275,35 +330,22 @@ int vtkStreamingMeshReader::FillOutputPortInformation(int, vtkInformation* info)
 int vtkStreamingMeshReader::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  if (this->Internal->hasFailed(this->FileName, this->GetMTime()))
+  vtkInformation& info = *outputVector->GetInformationObject(0);
+  // Applications ask for the type of the output before a user could name a file.
+  if (this->GetContainerName().empty())
+  {
+    this->Internal->close();
+    Internals::setOutput(info, true);
+    return 1;
+  }
+  if (this->Internal->Failed == Internals::stampOf(*this))
   {
     return 0;
   }
   try
   {
-    const smg::VsmReader& reader = this->Internal->open(this->FileName, this->ScratchDirectory,
-      [this](double done)
-      {
-        this->UpdateProgress(done);
-        return !this->GetAbortExecute();
-      });
-    vtkInformation* info = outputVector->GetInformationObject(0);
-    const bool isSurface = reader.info().cellType == smg::CellType::Triangle;
-    const char* type = isSurface ? "vtkPolyData" : "vtkUnstructuredGrid";
-    vtkDataObject* present = vtkDataObject::GetData(info);
-    if (!present || !present->IsA(type))
-    {
-      vtkSmartPointer<vtkPointSet> output;
-      if (isSurface)
-      {
-        output = vtkSmartPointer<vtkPolyData>::New();
-      }
-      else
-      {
-        output = vtkSmartPointer<vtkUnstructuredGrid>::New();
-      }
-      info->Set(vtkDataObject::DATA_OBJECT(), output);
-    }
+    const smg::VsmReader& reader = this->Internal->open(*this);
+    Internals::setOutput(info, reader.info().cellType == smg::CellType::Triangle);
     return 1;
   }
   catch (const smg::Cancelled&)
@@ -312,7 +354,7 @@ int vtkStreamingMeshReader::RequestDataObject(
   }
   catch (const std::exception& error)
   {
-    this->Internal->noteFailure(this->FileName, this->GetMTime());
+    this->Internal->noteFailure(*this);
     vtkErrorMacro(<< error.what());
     return 0;
   }
@@ -323,55 +365,37 @@ int vtkStreamingMeshReader::RequestInformation(
 {
   if (!this->Internal->Mesh)
   {
-    return 0;
+    return this->GetContainerName().empty() ? 1 : 0;
   }
   const smg::StreamInfo& info = this->Internal->Mesh->reader().info();
   Internals::offer(*this->Internal->PointArrays, info.vertexColumns);
   Internals::offer(*this->Internal->CellArrays, info.cellColumns);
-  outputVector->GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
-  return 1;
+  return smg::offerPieces(*outputVector);
 }
 
 int vtkStreamingMeshReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  vtkInformation* request = outputVector->GetInformationObject(0);
-  const int part = request->Get(vtkSDDP::UPDATE_PIECE_NUMBER());
-  const int parts = std::max(1, request->Get(vtkSDDP::UPDATE_NUMBER_OF_PIECES()));
-  vtkPointSet* output = vtkPointSet::GetData(request);
-  try
-  {
-    const smg::ProgressFunction progress = [this](double done)
+  return smg::answer(*this, *outputVector,
+    [&]
     {
-      this->UpdateProgress(done);
-      return !this->GetAbortExecute();
-    };
-    const smg::StreamInfo& info =
-      this->Internal->open(this->FileName, this->ScratchDirectory, progress).info();
-    if (part < 0 || part >= parts)
-    {
-      return 1;
-    }
-    if (!vtkStreamingMeshKeys::IsStreamed(request) &&
-        info.vertices / parts > this->MaximumPointsInMemory)
-    {
-      this->Internal->readPreview(*output, part, this->PreviewPoints, progress);
-    }
-    else
-    {
-      this->Internal->readPiece(*output, part, parts);
-    }
-    return 1;
-  }
-  catch (const smg::Cancelled&)
-  {
-    return 0;
-  }
-  catch (const std::exception& error)
-  {
-    vtkErrorMacro(<< error.what());
-    return 0;
-  }
+      vtkInformation* request = outputVector->GetInformationObject(0);
+      const int parts = std::max(1, request->Get(vtkSDDP::UPDATE_NUMBER_OF_PIECES()));
+      // A piece that there is not is empty: the one after the last.
+      const int piece = request->Get(vtkSDDP::UPDATE_PIECE_NUMBER());
+      const int part = piece < 0 ? parts : std::min(piece, parts);
+      vtkPointSet* output = vtkPointSet::GetData(request);
+      const smg::StreamInfo& info = this->Internal->open(*this).info();
+      if (!vtkStreamingMeshKeys::IsStreamed(request) &&
+          info.vertices / parts > this->MaximumPointsInMemory)
+      {
+        this->Internal->readPreview(*output, part, this->PreviewPoints, smg::progressOf(*this));
+      }
+      else
+      {
+        this->Internal->readPiece(*output, part, parts);
+      }
+    });
 }
 
 void vtkStreamingMeshReader::PrintSelf(ostream& os, vtkIndent indent)

@@ -41,6 +41,7 @@
 #include "vtkStreamingMultigridIOModule.h" // For export macro
 
 #include <memory> // For std::unique_ptr
+#include <string> // For std::string
 
 class vtkDataArraySelection;
 
@@ -76,8 +77,8 @@ public:
   ///@}
 
   ///@{
-  /** The most points that the preview may have, 8 to 1,000,000. Default: 20,000. */
-  vtkSetClampMacro(PreviewPoints, int, 8, 1000000);
+  /** The most points that the preview may have, 8 to 1,000,000. Default: 10,000. */
+  void SetPreviewPoints(int points);
   vtkGetMacro(PreviewPoints, int);
   ///@}
 
@@ -114,6 +115,14 @@ protected:
     vtkInformationVector* outputVector) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
 
+  /** The file whose pieces are delivered: FileName. Empty as long as none is named. */
+  virtual std::string GetContainerName();
+  /**
+   * Brings that file up to date: called before it is opened, and again when the properties,
+   * FileName's file or that file have changed. Throws smg::Error if none is named, smg::Cancelled.
+   */
+  virtual void UpdateContainer();
+
 private:
   vtkStreamingMeshReader(const vtkStreamingMeshReader&) = delete;
   void operator=(const vtkStreamingMeshReader&) = delete;
@@ -121,7 +130,7 @@ private:
   char* FileName = nullptr;
   char* ScratchDirectory = nullptr;
   vtkIdType MaximumPointsInMemory = 2000000;
-  int PreviewPoints = 20000;
+  int PreviewPoints = 10000;
 
   struct Internals;
   std::unique_ptr<Internals> Internal;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkStreamingMeshWriter.h"
 
+#include "IO/Conversion/MeshFile.h"
 #include "IO/Conversion/PartialProgress.h"
-#include "IO/Formats/StreamConversion.h"
-#include "IO/Formats/StreamFile.h"
 #include "IO/Formats/Suffix.h"
+#include "IO/Output/WriteMesh.h"
+#include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkPieceFiles.h"
 #include "IO/vtkPieceStream.h"
 #include "Solver/Core/Error.h"
@@ -19,6 +20,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 vtkStandardNewMacro(vtkStreamingMeshWriter);
 
@@ -41,20 +43,25 @@ int chooseNumberOfPieces(smg::PieceInput& input)
   return static_cast<int>(std::clamp<vtkIdType>(pieces, 1, 1000000));
 }
 
-void writeContainerFile(
+/** What a user should know of what was written. */
+using Notes = std::vector<std::string>;
+
+Notes writeContainerFile(
   smg::PieceInput& input, int pieces, const std::filesystem::path& path, smg::Progress& progress)
 {
   smg::PieceStream stream(input, pieces, { .all = true, .points = {}, .cells = {} });
   smg::writeContainer(stream, path, false, progress);
+  return {};
 }
 
-/** The formats need counts and last uses first, so the pieces go through a container. */
-void writeStreamFile(
+/** For formats that need counts, or last uses, first: the pieces go through a container. */
+Notes writeThroughContainer(
   smg::PieceInput& input, int pieces, const std::filesystem::path& path, smg::Progress& progress)
 {
   const smg::ScratchFolder scratch(std::filesystem::absolute(path).parent_path());
   const std::filesystem::path container = scratch.path() / "mesh.vsm";
   smg::PieceStream stream(input, pieces, { .all = true, .points = {}, .cells = {} });
+  smg::checkOutput(path, stream.info().cellType);
   const smg::ProgressFunction whole = [&progress](double done)
   {
     progress.update(done);
@@ -62,7 +69,38 @@ void writeStreamFile(
   };
   smg::Progress half(smg::partOf(whole, 0.0, 0.5));
   smg::writeContainer(stream, container, true, half);
-  smg::vsmToStream(container, path, smg::partOf(whole, 0.5, 1.0));
+  return smg::writeFromVsm(container, path, smg::partOf(whole, 0.5, 1.0));
+}
+
+Notes writeIndexedPieces(
+  smg::PieceInput& input, int pieces, const std::filesystem::path& path, smg::Progress& progress)
+{
+  smg::writePieceFiles(input, pieces, path, progress);
+  return {};
+}
+
+using WriteFunction = Notes (*)(
+  smg::PieceInput&, int pieces, const std::filesystem::path&, smg::Progress&);
+
+/** Who writes a file of that name. Throws Error if nobody does. */
+WriteFunction writerOf(const std::filesystem::path& path)
+{
+  const std::string suffix = smg::lowerSuffix(path);
+  if (suffix == ".pvtp" || suffix == ".pvtu")
+  {
+    return writeIndexedPieces;
+  }
+  switch (smg::kindOfOutput(path))
+  {
+    case smg::MeshFileKind::Vsm:
+      return writeContainerFile;
+    case smg::MeshFileKind::Unknown:
+      throw smg::Error(path.string() +
+                       " has a suffix that cannot be written: use .vsm, .ply, .sma, "
+                       ".smb, .sva, .svb, .vtp, .vtu, .pvtp or .pvtu.");
+    default:
+      return writeThroughContainer;
+  }
 }
 
 } // namespace
@@ -74,8 +112,7 @@ vtkStreamingMeshWriter::~vtkStreamingMeshWriter()
 
 int vtkStreamingMeshWriter::FillInputPortInformation(int, vtkInformation* info)
 {
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
-  info->Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkUnstructuredGrid");
+  smg::acceptMeshes(*info);
   return 1;
 }
 
@@ -88,27 +125,15 @@ bool vtkStreamingMeshWriter::WriteFile()
       throw smg::Error("No file is named: set FileName.");
     }
     const std::filesystem::path path = this->FileName;
-    const std::string suffix = smg::lowerSuffix(path);
-    const bool isIndex = suffix == ".pvtp" || suffix == ".pvtu";
-    if (suffix != ".vsm" && !isIndex && !smg::streamFormatOfName(path))
-    {
-      throw smg::Error(
-        path.string() +
-        " has a suffix that cannot be written: use .vsm, .sma, .smb, .sva, .svb, .pvtp or .pvtu.");
-    }
-    smg::Progress progress(
-      [this](double done)
-      {
-        this->UpdateProgress(done);
-        return !this->GetAbortExecute();
-      });
+    const WriteFunction write = writerOf(path);
+    smg::Progress progress(smg::progressOf(*this));
     smg::PieceInput input(*this, 0);
     const int pieces =
       this->NumberOfStreamedPieces ? this->NumberOfStreamedPieces : chooseNumberOfPieces(input);
-    const auto write = suffix == ".vsm" ? writeContainerFile
-                       : isIndex        ? smg::writePieceFiles
-                                        : writeStreamFile;
-    write(input, pieces, path, progress);
+    for (const std::string& note : write(input, pieces, path, progress))
+    {
+      vtkWarningMacro(<< path.string() << ": " << note);
+    }
     return true;
   }
   catch (const smg::Cancelled&)

@@ -5,13 +5,16 @@
  *
  * Pulls the pieces of its input one after the other, each once, and writes them to one of
  * - .vsm: all point and cell arrays become columns;
+ * - .ply, .vtp (triangles), .vtu: one file with all point and cell arrays; how they are called in
+ *   PLY, smg::writePly tells;
  * - .sma, .smb (triangles), .sva, .svb (tetrahedra): positions in single precision and cells;
  * - .pvtp, .pvtu: an index and a folder of that name with one file a piece, with the GlobalIds and
  *   ghost arrays that make them legal input of all streaming filters again.
- * Never more than a piece is in memory. The input must keep the piece contract described at
- * vtkStreamingMeshReader, also for piece files: points that no cell uses, or that are not numbered
- * by first use, are refused. It is always asked for its real pieces, not for previews. The file
- * gets its name when it is complete; after an error or an abort nothing new is left.
+ * What the format does not hold is left out or rounded with a warning. Never more than a piece is
+ * in memory. The input must keep the piece contract described at vtkStreamingMeshReader, also for
+ * piece files: points that no cell uses, or that are not numbered by first use, are refused. It is
+ * always asked for its real pieces, not for previews. The file gets its name when it is complete;
+ * after an error or an abort nothing new is left.
  *
  * With more than one process, process 0 writes and the others wait for it.
  *

@@ -19,7 +19,8 @@ namespace smg
  *   before the block; no cell after the block uses a vertex below `Finalized`.
  *
  * The header says kind, cell ("triangle" or "tetrahedron"), precision ("float32" or "float64"),
- * vertices, cells, bounds (xmin, xmax, ymin ...), width, span and mean_width.
+ * vertices, cells, bounds (xmin, xmax, ymin ...), width, span and mean_width, and may have
+ * `origin`, a text of the program that made the file.
  */
 struct VsmFormat
 {

@@ -342,7 +342,7 @@ void VsmWriter::Implementation::writeBlockTable()
   this->File.append(VsmFormat::Blocks, std::int64_t(this->FirstVertex.size()), columns);
 }
 
-StreamInfo VsmWriter::finish()
+StreamInfo VsmWriter::finish(const std::string& origin)
 {
   Implementation& self = *this->Self;
   StreamInfo& info = self.Info;
@@ -369,11 +369,16 @@ StreamInfo VsmWriter::finish()
   const StreamStatistics::Result alive = self.Statistics.count(info.cells);
   info.width = alive.width;
   self.MeanWidth = alive.mean;
-  self.File.finish({ { "kind", VsmFormat::Kind },
+  nlohmann::json header = { { "kind", VsmFormat::Kind },
     { "cell", info.cellType == CellType::Triangle ? "triangle" : "tetrahedron" },
     { "precision", info.doublePositions ? "float64" : "float32" }, { "vertices", info.vertices },
     { "cells", info.cells }, { "bounds", info.bounds }, { "width", info.width },
-    { "span", info.span }, { "mean_width", alive.mean } });
+    { "span", info.span }, { "mean_width", alive.mean } };
+  if (!origin.empty())
+  {
+    header["origin"] = origin;
+  }
+  self.File.finish(header);
   return info;
 }
 

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 
 namespace smg
 {
@@ -43,8 +44,9 @@ public:
   /**
    * Completes the file and gives it its name. Answers counts, bounds, width and span. Throws Error
    * if the stream has no cells or a vertex that belongs to no cell.
+   * @param origin what the header says of where the mesh comes from, in UTF-8; empty: nothing
    */
-  StreamInfo finish();
+  StreamInfo finish(const std::string& origin = {});
 
   /** After finish(): the mean over the cells of the number of vertices alive. */
   double meanWidth() const;

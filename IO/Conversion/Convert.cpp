@@ -3,16 +3,16 @@
 
 #include "IO/Container/VsmReader.h"
 #include "IO/Conversion/AddedColumn.h"
-#include "IO/Conversion/CellFlagger.h"
-#include "IO/Conversion/LayoutSource.h"
 #include "IO/Conversion/MeshFile.h"
 #include "IO/Conversion/PartialProgress.h"
-#include "IO/Conversion/WriteVsm.h"
-#include "IO/Conversion/WriteVtkXml.h"
 #include "IO/Formats/InQuotes.h"
 #include "IO/Formats/StreamConversion.h"
 #include "IO/Formats/StreamFile.h"
 #include "IO/Import/Importer.h"
+#include "IO/Order/CellFlagger.h"
+#include "IO/Order/LayoutSource.h"
+#include "IO/Output/WriteMesh.h"
+#include "IO/Output/WriteVsm.h"
 #include "Solver/Core/Error.h"
 #include "Solver/Storage/ScratchFolder.h"
 
@@ -44,11 +44,7 @@ private:
   std::chrono::steady_clock::time_point Last = std::chrono::steady_clock::now();
 };
 
-bool hasFlags(const StreamInfo& info)
-{
-  return std::any_of(info.cellColumns.begin(), info.cellColumns.end(),
-    [](const ColumnSpec& spec) { return spec.name == CellFlagsName; });
-}
+const ColumnSpec FlagsSpec{ CellFlagsName, ScalarType::UInt8, 1 };
 
 /** One conversion. */
 class Conversion
@@ -63,7 +59,8 @@ public:
     , From(kindOfInput(in))
     , To(kindOfOutput(out))
   {
-    this->checkOutput();
+    requireAvailable(options.order);
+    checkOutput(out);
     this->Report.order = nameOf(options.order);
   }
 
@@ -85,40 +82,6 @@ public:
   }
 
 private:
-  void checkOutput() const
-  {
-    requireAvailable(this->Options.order);
-    if (this->To == MeshFileKind::Unknown)
-    {
-      throw Error(
-        this->Out.string() +
-        ": meshes are written as .vsm, .sma, .smb, .sva, .svb, .vtp or .vtu: choose a name that "
-        "ends so.");
-    }
-    const std::filesystem::path folder = this->Out.parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-    {
-      throw Error(this->Out.string() + ": there is no folder " + folder.string() + '.');
-    }
-  }
-
-  /** Refuses an output format that does not hold these cells. */
-  void checkCells(CellType cellType) const
-  {
-    if (this->To == MeshFileKind::VtkXml)
-    {
-      checkVtkXmlPath(this->Out, cellType);
-    }
-    if (this->To == MeshFileKind::Stream && cellTypeOf(*streamFormatOfName(this->Out)) != cellType)
-    {
-      throw Error(
-        this->Out.string() +
-        (cellType == CellType::Triangle
-            ? ": this format holds tetrahedra, the mesh has triangles: choose .sma or .smb."
-            : ": this format holds triangles, the mesh has tetrahedra: choose .sva or .svb."));
-    }
-  }
-
   std::filesystem::path scratch(const char* name)
   {
     if (!this->Scratch)
@@ -159,12 +122,42 @@ private:
     return loadVsm(this->importStream(0.25), this->Budget, this->part(0.25, 0.35));
   }
 
+  /**
+   * A column that has the name of the original numbers, but is not of their type, as in the formats
+   * that have no such integers, is one of the mesh's own: gives it a free name.
+   */
+  void renameNumbers(std::vector<Column>& columns, const char* name)
+  {
+    const auto isNamed = [&columns](const std::string& candidate)
+    {
+      return std::ranges::any_of(
+        columns, [&candidate](const Column& column) { return column.spec.name == candidate; });
+    };
+    for (Column& column : columns)
+    {
+      if (column.spec.name == name && column.spec != ColumnSpec{ name, ScalarType::Int64, 1 })
+      {
+        int number = 1;
+        while (isNamed(name + ('_' + std::to_string(number))))
+        {
+          ++number;
+        }
+        column.spec.name += '_' + std::to_string(number);
+        this->Report.notes.push_back("The column " + inQuotes(name) + " of the input is called " +
+                                     inQuotes(column.spec.name) + ", since " + inQuotes(name) +
+                                     " says the places in the input itself.");
+      }
+    }
+  }
+
   /** Through memory, into a new order. */
   void convertMesh()
   {
-    const IndexedMesh mesh = this->importInput();
-    this->checkCells(mesh.cellType);
+    IndexedMesh mesh = this->importInput();
+    checkOutput(this->Out, mesh.cellType);
     this->Report.seconds.import = this->Watch.lap();
+    this->renameNumbers(mesh.vertexColumns, OriginalIdName);
+    this->renameNumbers(mesh.cellColumns, OriginalCellIdName);
     const StreamLayout layout = layOut(mesh, this->Options.order, this->part(0.35, 0.65));
     this->Report.seconds.order = this->Watch.lap();
     this->Report.isolated_vertices += layout.isolatedVertices;
@@ -191,17 +184,16 @@ private:
       this->From == MeshFileKind::Vsm ? this->In : this->importStream(0.4);
     const VsmReader reader(path);
     const StreamInfo& info = reader.info();
-    this->checkCells(info.cellType);
+    checkOutput(this->Out, info.cellType);
     this->Report.seconds.import = this->Watch.lap();
-    const bool flagged = hasFlags(info);
+    const bool flagged = findColumn(info.cellColumns, FlagsSpec) >= 0;
     flagged ? this->countFlags(reader) : this->findFlags(reader);
     this->Report.seconds.order = this->Watch.lap();
 
     std::unique_ptr<MeshSource> source = reader.source();
     if (!flagged && (this->Report.degenerate_cells > 0 || this->Report.duplicate_cells > 0))
     {
-      source = std::make_unique<AddedColumn>(std::move(source), AddedColumn::Cells,
-        ColumnSpec{ CellFlagsName, ScalarType::UInt8, 1 },
+      source = std::make_unique<AddedColumn>(std::move(source), AddedColumn::Cells, FlagsSpec,
         [flagger = CellFlagger(info.cellType)](const MeshBlock& block, Column& column) mutable
         { std::memcpy(column.bytes.data(), flagger.flags(block).data(), column.bytes.size()); });
     }
@@ -254,26 +246,19 @@ private:
     const bool direct = this->To == MeshFileKind::Vsm;
     const double end = direct ? 1.0 : 0.85;
     const std::filesystem::path path = direct ? this->Out : this->scratch("mesh.vsm");
-    const WrittenVsm written =
-      writeVsm(source, path, direct ? this->Options.codec : Codec::Lz4, this->part(begin, end));
+    const WrittenVsm written = writeVsm(source, path, direct ? this->Options.codec : Codec::Lz4,
+      this->part(begin, end), direct ? this->Options.origin : std::string());
     this->Report.vertices = written.info.vertices;
     this->Report.cells = written.info.cells;
     this->Report.width = written.info.width;
     this->Report.span = written.info.span;
     this->Report.mean_width = written.meanWidth;
-    if (this->To == MeshFileKind::Stream)
+    if (!direct)
     {
-      const std::int64_t rounded = vsmToStream(path, this->Out, this->part(end, 1.0));
-      if (rounded > 0)
+      for (std::string& note : writeFromVsm(path, this->Out, this->part(end, 1.0)))
       {
-        this->Report.notes.push_back("The positions of " + std::to_string(rounded) +
-                                     " vertices were rounded to single precision, which is all "
-                                     "that the format has.");
+        this->Report.notes.push_back(std::move(note));
       }
-    }
-    else if (this->To == MeshFileKind::VtkXml)
-    {
-      writeVtkXml(*VsmReader(path).source(), this->Out, this->part(end, 1.0));
     }
     this->Report.seconds.write = this->Watch.lap();
   }

@@ -3,14 +3,21 @@
 
 #include "IO/Container/Columns.h"
 #include "IO/Container/VsmReader.h"
+#include "IO/Formats/StreamConversion.h"
 #include "IO/Formats/StreamFile.h"
 #include "IO/Formats/Suffix.h"
 #include "IO/Import/Importer.h"
+#include "IO/Output/WritePly.h"
+#include "IO/Output/WriteVtkXml.h"
 #include "Solver/Core/Error.h"
 #include "Solver/Storage/BlockFile.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <string>
+
+#include <unistd.h>
 
 namespace smg
 {
@@ -55,7 +62,8 @@ void append(const std::vector<Column>& from, std::vector<Column>& to)
 MeshFileKind kindOfInput(const std::filesystem::path& path)
 {
   const std::string suffix = lowerSuffix(path);
-  const bool isFile = std::filesystem::is_regular_file(path);
+  std::error_code ignored;
+  const bool isFile = std::filesystem::is_regular_file(path, ignored);
   if (suffix == ".vsm" || (isFile && isBlockFile(path)))
   {
     return MeshFileKind::Vsm;
@@ -86,7 +94,56 @@ MeshFileKind kindOfOutput(const std::filesystem::path& path)
   {
     return MeshFileKind::VtkXml;
   }
+  if (suffix == ".ply")
+  {
+    return MeshFileKind::Ply;
+  }
   return streamFormatOfName(path) ? MeshFileKind::Stream : MeshFileKind::Unknown;
+}
+
+void checkOutput(const std::filesystem::path& path)
+{
+  if (kindOfOutput(path) == MeshFileKind::Unknown)
+  {
+    throw Error(path.string() + ": meshes are written as .vsm, .sma, .smb, .sva, .svb, .ply, .vtp "
+                                "or .vtu: choose a name that ends so.");
+  }
+  // A folder that cannot be looked into is told of below.
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+  {
+    throw Error(path.string() + ": this is a folder: choose the name of a file.");
+  }
+  const std::filesystem::path folder =
+    path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  if (!std::filesystem::is_directory(folder, ignored))
+  {
+    throw Error(path.string() + ": there is no folder " + folder.string() + '.');
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+  {
+    throw Error(path.string() + ": no file can be made in the folder " + folder.string() + ": " +
+                std::strerror(errno) + '.');
+  }
+}
+
+void checkOutput(const std::filesystem::path& path, CellType cellType)
+{
+  checkOutput(path);
+  switch (kindOfOutput(path))
+  {
+    case MeshFileKind::VtkXml:
+      checkVtkXmlPath(path, cellType);
+      break;
+    case MeshFileKind::Ply:
+      checkPlyPath(path, cellType);
+      break;
+    case MeshFileKind::Stream:
+      checkStreamPath(path, cellType);
+      break;
+    default:
+      break;
+  }
 }
 
 IndexedMesh loadVsm(

@@ -17,6 +17,7 @@ enum class MeshFileKind
   Stream,  ///< SMA, SMB, SVA, SVB
   Indexed, ///< everything that importMesh() reads
   VtkXml,  ///< .vtp and .vtu, as output
+  Ply,     ///< as output
   Unknown  ///< none of these
 };
 
@@ -26,8 +27,17 @@ enum class MeshFileKind
  */
 MeshFileKind kindOfInput(const std::filesystem::path& path);
 
-/** The kind of an output file, by suffix: Vsm, Stream, VtkXml or Unknown. */
+/** The kind of an output file, by suffix: Vsm, Stream, VtkXml, Ply or Unknown. */
 MeshFileKind kindOfOutput(const std::filesystem::path& path);
+
+/**
+ * Refuses an output file before the work: throws Error if its suffix is that of no kind, its format
+ * does not hold these cells, it is a folder, or its folder does not exist or cannot be written to.
+ */
+void checkOutput(const std::filesystem::path& path, CellType cellType);
+
+/** The same as far as it can be known before the mesh is. */
+void checkOutput(const std::filesystem::path& path);
 
 /**
  * Reads a whole .vsm file into memory. Vertices and cells are numbered as in the stream.

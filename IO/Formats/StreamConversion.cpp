@@ -3,13 +3,13 @@
 
 #include "IO/Container/PagedArray.h"
 #include "IO/Container/VsmReader.h"
+#include "IO/Formats/SinglePrecision.h"
 #include "IO/Formats/StreamAssembler.h"
 #include "IO/Formats/StreamFile.h"
 #include "IO/Formats/StreamFileWriter.h"
 #include "Solver/Core/Error.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -116,7 +116,10 @@ public:
 private:
   void writeVertex(const MeshBlock& block, std::int64_t v)
   {
-    const std::array<float, 3> position = this->rounded(block, v);
+    const std::span position = std::span(block.positions).subspan(3 * v).first<3>();
+    const std::array<float, 3> rounded =
+      singlePrecision(position, block.firstVertex + v, this->Out.string());
+    this->RoundedVertices += std::equal(rounded.begin(), rounded.end(), position.begin()) ? 0 : 1;
     std::span<const float> floats;
     std::span<const std::int32_t> ints;
     if (this->Header.vertexFloats > 0)
@@ -127,29 +130,7 @@ private:
     {
       ints = block.vertexColumns[0].as<std::int32_t>().subspan(v, 1);
     }
-    this->Writer.vertex(position, floats, ints);
-  }
-
-  /** The position of a vertex in single precision, which is all that the formats have. */
-  std::array<float, 3> rounded(const MeshBlock& block, std::int64_t v)
-  {
-    std::array<float, 3> position{};
-    bool isRounded = false;
-    for (std::size_t axis = 0; axis < 3; axis++)
-    {
-      const double x = block.positions[3 * v + std::int64_t(axis)];
-      position[axis] = static_cast<float>(x);
-      if (!std::isfinite(position[axis]))
-      {
-        throw Error(this->Out.string() + ": coordinate " + std::to_string(axis) + " of vertex " +
-                    std::to_string(block.firstVertex + v) +
-                    " is too large for the single precision of the format " +
-                    std::string(nameOf(this->Header.format)) + ": write a .vsm file.");
-      }
-      isRounded = isRounded || static_cast<double>(position[axis]) != x;
-    }
-    this->RoundedVertices += isRounded ? 1 : 0;
-    return position;
+    this->Writer.vertex(rounded, floats, ints);
   }
 
   VsmReader& Reader;
@@ -190,22 +171,27 @@ StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesy
   return result;
 }
 
+void checkStreamPath(const std::filesystem::path& path, CellType cellType)
+{
+  const std::optional<StreamFormat> format = streamFormatOfName(path);
+  if (!format || cellTypeOf(*format) != cellType)
+  {
+    throw Error(path.string() + ": " +
+                (cellType == CellType::Triangle ? "triangles are written as .sma or .smb"
+                                                : "tetrahedra are written as .sva or .svb") +
+                ", so give the file such a suffix.");
+  }
+}
+
 std::int64_t vsmToStream(const std::filesystem::path& in, const std::filesystem::path& out,
   const ProgressFunction& progressFunction)
 {
   Progress progress(progressFunction);
   VsmReader reader(in);
   const StreamInfo& info = reader.info();
-  const std::optional<StreamFormat> format = streamFormatOfName(out);
-  if (!format || cellTypeOf(*format) != info.cellType)
-  {
-    throw Error(out.string() + ": " +
-                (info.cellType == CellType::Triangle ? "triangles are written as .sma or .smb"
-                                                     : "tetrahedra are written as .sva or .svb") +
-                ", so give the file such a suffix.");
-  }
+  checkStreamPath(out, info.cellType);
   StreamFileHeader header;
-  header.format = *format;
+  header.format = *streamFormatOfName(out);
   header.vertices = info.vertices;
   header.cells = info.cells;
   header.bounds = info.bounds;

@@ -52,4 +52,7 @@ StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesy
 std::int64_t vsmToStream(const std::filesystem::path& in, const std::filesystem::path& out,
   const ProgressFunction& progress = {});
 
+/** Throws Error unless `path` has the suffix of a streaming format for these cells. */
+void checkStreamPath(const std::filesystem::path& path, CellType cellType);
+
 } // namespace smg

@@ -45,6 +45,11 @@ public:
    */
   virtual void cell(std::span<const std::int64_t> corners, unsigned finalMask = 0,
     std::span<const std::int32_t> ints = {}) = 0;
+  /**
+   * Says that no later cell uses the vertex, where a cell cannot say it: in text formats in
+   * pre-order. In the others there is no room for it, and nothing is written.
+   */
+  virtual void finalization(std::int64_t vertex) = 0;
   /** Completes the file. Throws Error if the counts are not those of the header. */
   virtual void finish() = 0;
 };

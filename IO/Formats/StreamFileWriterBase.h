@@ -17,6 +17,7 @@ public:
   StreamFileWriterBase(
     std::filesystem::path path, const StreamFileHeader& header, const StreamFileStyle& style);
 
+  void finalization(std::int64_t) override {}
   void finish() override;
 
 protected:

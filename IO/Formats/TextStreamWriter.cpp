@@ -128,18 +128,31 @@ void TextStreamWriter::cell(
     this->add(std::int64_t(value));
   }
   this->endLine();
-  if (this->Style.finalization == StreamFileStyle::Explicit && !this->Header.postOrder)
+  if (this->Style.finalization == StreamFileStyle::Explicit)
   {
     for (std::size_t k = 0; k < corners.size(); k++)
     {
       if ((finalMask >> k & 1U) != 0)
       {
-        this->Line.assign(1, 'x');
-        this->add(corners[k] - this->Vertices);
-        this->endLine();
+        this->finalization(corners[k]);
       }
     }
   }
+}
+
+void TextStreamWriter::finalization(std::int64_t vertex)
+{
+  if (this->Header.postOrder)
+  {
+    return;
+  }
+  if (vertex < 0 || vertex >= this->Vertices)
+  {
+    this->fail("vertex " + std::to_string(vertex) + " cannot be final, since it has not come.");
+  }
+  this->Line.assign(1, 'x');
+  this->add(vertex - this->Vertices);
+  this->endLine();
 }
 
 } // namespace smg

@@ -19,6 +19,7 @@ public:
     std::span<const std::int32_t> ints) override;
   void cell(std::span<const std::int64_t> corners, unsigned finalMask,
     std::span<const std::int32_t> ints) override;
+  void finalization(std::int64_t vertex) override;
 
 private:
   void writeHeader();

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "IO/Import/InputFile.h"
+#include "IO/Import/PlyHeader.h"
 #include "IO/Import/TextScanner.h"
 #include "Solver/Core/ScalarType.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -160,5 +162,21 @@ private:
   const std::string* Element = nullptr;
   std::int64_t Record = 0;
 };
+
+/** Calls f with a cursor at the beginning of the body. */
+template <class F>
+decltype(auto) withPlyBody(InputFile& file, const PlyHeader& header, F&& f)
+{
+  constexpr bool bigEndianMachine = std::endian::native == std::endian::big;
+  if (header.encoding == PlyEncoding::Ascii)
+  {
+    return f(PlyTextCursor(file, header.bodyOffset, header.bodyLine));
+  }
+  if ((header.encoding == PlyEncoding::BigEndian) == bigEndianMachine)
+  {
+    return f(PlyBinaryCursor<false>(file, header.bodyOffset));
+  }
+  return f(PlyBinaryCursor<true>(file, header.bodyOffset));
+}
 
 } // namespace smg

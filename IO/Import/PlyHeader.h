@@ -6,10 +6,19 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace smg
 {
+
+/** The name that a PLY file gives a type; PLY has no 64-bit integers. */
+constexpr std::string_view plyTypeName(ScalarType type)
+{
+  constexpr std::string_view names[] = { "char", "uchar", "short", "ushort", "int", "uint", "", "",
+    "float", "double" };
+  return names[static_cast<int>(type)];
+}
 
 /** A property of a PLY element: a number, or a list with its length before it. */
 struct PlyProperty

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Container/NormalsColumn.h"
 #include "IO/Import/CellCollector.h"
 #include "IO/Import/Formats.h"
 #include "IO/Import/PlyCursor.h"
@@ -7,7 +8,6 @@
 #include "Solver/Core/Error.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -17,8 +17,6 @@ namespace smg
 
 namespace
 {
-
-constexpr bool BigEndianMachine = std::endian::native == std::endian::big;
 
 /** Where the values of a property go. */
 struct Target
@@ -57,7 +55,7 @@ std::optional<std::pair<ColumnSpec, int>> group(
     std::array<const char*, 4> names;
     int least;
   };
-  constexpr Group groups[] = { { "Normals", { "nx", "ny", "nz", "" }, 3 },
+  constexpr Group groups[] = { { NormalsName, { "nx", "ny", "nz", "" }, 3 },
     { "Colors", { "red", "green", "blue", "alpha" }, 3 } };
   for (const Group& candidate : groups)
   {
@@ -383,15 +381,8 @@ IndexedMesh importPly(InputFile& file, const ImportOptions& options)
   const PlyHeader header = readPlyHeader(file);
   checkLength(file, header);
   options.budget.check(file.path(), sizesOf(header));
-  if (header.encoding == PlyEncoding::Ascii)
-  {
-    return BodyReader(header, PlyTextCursor(file, header.bodyOffset, header.bodyLine)).read();
-  }
-  if ((header.encoding == PlyEncoding::BigEndian) == BigEndianMachine)
-  {
-    return BodyReader(header, PlyBinaryCursor<false>(file, header.bodyOffset)).read();
-  }
-  return BodyReader(header, PlyBinaryCursor<true>(file, header.bodyOffset)).read();
+  return withPlyBody(
+    file, header, [&header](auto cursor) { return BodyReader(header, std::move(cursor)).read(); });
 }
 
 } // namespace smg

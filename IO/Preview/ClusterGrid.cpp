@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 namespace smg
 {
@@ -11,6 +12,9 @@ namespace
 
 /** Clusters are numbered in this many bits, so that three of them make a key. */
 constexpr int ClusterBits = 21;
+
+/** Three more may come before the grid becomes coarser. */
+constexpr std::size_t MostClusters = (std::size_t(1) << ClusterBits) - 3;
 
 std::uint64_t keyOfTriple(int a, int b, int c)
 {
@@ -21,34 +25,58 @@ std::uint64_t keyOfTriple(int a, int b, int c)
 
 } // namespace
 
-ClusterGrid::ClusterGrid(const std::array<double, 6>& bounds, std::int64_t maximumClusters)
+ClusterGrid::ClusterGrid(
+  const std::array<double, 6>& bounds, std::int64_t maximumClusters, bool mayGrow)
   : MaximumClusters(std::clamp<std::int64_t>(maximumClusters, 8, std::int64_t(1) << 20))
+  , Capacity(std::min(4 * this->MaximumClusters, MostClusters))
+  , MayGrow(mayGrow)
 {
+  // A surface has about n^2 clusters where there are n cells along an axis; it may be curled up.
+  const double cells = 16.0 * std::sqrt(static_cast<double>(this->Capacity));
+  this->FinestCells = std::exp2(std::max(10.0, std::ceil(std::log2(cells))));
   double longest = 0.0;
   for (int axis = 0; axis < 3; ++axis)
   {
     this->Origin[axis] = bounds[2 * axis];
     longest = std::max(longest, bounds[2 * axis + 1] - bounds[2 * axis]);
   }
-  this->FinestSize = longest > 0.0 ? longest / (1 << FinestBits) : 1.0;
+  this->FinestSize = longest > 0.0 ? longest / this->FinestCells : 1.0;
 }
 
-std::uint64_t ClusterGrid::keyOf(const std::array<double, 3>& point) const
+double ClusterGrid::place(const std::array<double, 3>& point, int axis, double side) const
+{
+  const double cell = (point[axis] - this->Origin[axis]) / this->FinestSize;
+  return std::floor((this->MayGrow ? cell : std::clamp(cell, 0.0, this->FinestCells - 1.0)) / side);
+}
+
+bool ClusterGrid::isWithin(const std::array<double, 3>& point) const
+{
+  constexpr double reach = 1 << (PlaceBits - 1);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double place = this->place(point, axis, this->Side);
+    if (place < -reach || place >= reach)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::uint64_t ClusterGrid::keyOf(const std::array<double, 3>& point, double side) const
 {
   std::uint64_t key = 0;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double cell = (point[axis] - this->Origin[axis]) / this->FinestSize;
-    const auto finest =
-      static_cast<std::uint64_t>(std::clamp(cell, 0.0, double((1 << FinestBits) - 1)));
-    key = (key << FinestBits) | (finest >> this->Level);
+    const auto place = static_cast<std::int64_t>(this->place(point, axis, side));
+    key = (key << PlaceBits) | static_cast<std::uint64_t>(place + (1 << (PlaceBits - 1)));
   }
   return key;
 }
 
 double ClusterGrid::distanceToCentre(const std::array<double, 3>& point) const
 {
-  const double size = std::ldexp(this->FinestSize, this->Level);
+  const double size = this->FinestSize * this->Side;
   double sum = 0.0;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -61,8 +89,8 @@ double ClusterGrid::distanceToCentre(const std::array<double, 3>& point) const
 
 int ClusterGrid::find(const Representative& candidate)
 {
-  const auto [entry, isNew] =
-    this->Index.try_emplace(this->keyOf(candidate.point), static_cast<int>(this->Clusters.size()));
+  const auto [entry, isNew] = this->Index.try_emplace(
+    this->keyOf(candidate.point, this->Side), static_cast<int>(this->Clusters.size()));
   if (isNew)
   {
     this->Clusters.push_back(candidate);
@@ -77,6 +105,10 @@ int ClusterGrid::find(const Representative& candidate)
 
 int ClusterGrid::cluster(std::int64_t id, const std::array<double, 3>& point)
 {
+  while (this->MayGrow && !this->isWithin(point))
+  {
+    this->coarsen(2.0 * this->Side);
+  }
   return this->find({ id, point });
 }
 
@@ -92,14 +124,78 @@ void ClusterGrid::addTriangle(int a, int b, int c)
 {
   this->keep(a, b, c);
   // A surface has about two triangles a vertex; a soup that has many more must stay bounded, too.
-  while (this->Level + 1 < FinestBits && (this->Clusters.size() > this->MaximumClusters ||
-                                           this->Triangles.size() > 8 * this->MaximumClusters))
+  while (this->canGrow() &&
+         (this->Clusters.size() > this->Capacity || this->Triangles.size() > 4 * this->Capacity))
   {
-    this->coarsen();
+    this->coarsen(2.0 * this->Side);
   }
 }
 
-void ClusterGrid::coarsen()
+bool ClusterGrid::canGrow() const
+{
+  return this->MayGrow || 2.0 * this->Side < this->FinestCells;
+}
+
+void ClusterGrid::finish()
+{
+  if (this->Clusters.size() > this->MaximumClusters)
+  {
+    this->coarsen(this->fittingSide());
+  }
+  while (this->canGrow() && this->Triangles.size() > 8 * this->MaximumClusters)
+  {
+    this->coarsen(1.25 * this->Side);
+  }
+}
+
+std::size_t ClusterGrid::countIn(double side) const
+{
+  std::unordered_set<std::uint64_t> cells;
+  cells.reserve(this->MaximumClusters);
+  for (const Representative& cluster : this->Clusters)
+  {
+    cells.insert(this->keyOf(cluster.point, side));
+  }
+  return cells.size();
+}
+
+/** A side for which there are not many fewer clusters than wanted, and no more. */
+double ClusterGrid::fittingSide() const
+{
+  const auto most = static_cast<double>(this->MaximumClusters);
+  double tooSmall = this->Side;
+  double fitting = 0.0;
+  double fittingCount = 0.0;
+  double side = this->Side;
+  auto count = static_cast<double>(this->Clusters.size());
+  for (int trial = 0; trial < 12 && fittingCount < 0.93 * most; ++trial)
+  {
+    // The clusters of a surface go with the square of the side.
+    side *= std::sqrt(count / (0.97 * most));
+    if (fitting != 0.0 && (side <= tooSmall || side >= fitting))
+    {
+      side = std::sqrt(tooSmall * fitting);
+    }
+    count = static_cast<double>(this->countIn(side));
+    if (count > most)
+    {
+      tooSmall = side;
+    }
+    else
+    {
+      fitting = side;
+      fittingCount = count;
+    }
+  }
+  while (fitting == 0.0)
+  {
+    side *= 1.25;
+    fitting = this->countIn(side) <= this->MaximumClusters ? side : 0.0;
+  }
+  return fitting;
+}
+
+void ClusterGrid::coarsen(double side)
 {
   const std::vector<Representative> clusters = std::move(this->Clusters);
   const std::vector<std::array<int, 3>> triangles = std::move(this->Triangles);
@@ -107,7 +203,8 @@ void ClusterGrid::coarsen()
   this->Triangles.clear();
   this->Known.clear();
   this->Index.clear();
-  ++this->Level;
+  this->Side = side;
+  ++this->Generation;
   std::vector<int> coarse;
   coarse.reserve(clusters.size());
   for (const Representative& cluster : clusters)

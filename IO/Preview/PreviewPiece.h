@@ -8,6 +8,10 @@
 namespace smg
 {
 
+/** The preview as a piece of triangles. Its vertices are neither ghosts nor used by another piece.
+ */
+MeshPiece pieceOf(StreamPreview preview);
+
 /**
  * Makes the preview of a mesh (see makePreview()) as a piece of triangles, with all vertex columns
  * and no cell columns. Its vertices are neither ghosts nor used by another piece. Costs one pass

@@ -2,10 +2,12 @@
 #include "IO/Preview/StreamPreview.h"
 
 #include "IO/Preview/ClusterGrid.h"
+#include "IO/Preview/KeptRows.h"
 #include "IO/Preview/OpenFaces.h"
 
 #include <algorithm>
 #include <deque>
+#include <unordered_set>
 
 namespace smg
 {
@@ -16,14 +18,16 @@ namespace
 class PreviewBuilder
 {
 public:
-  PreviewBuilder(const StreamInfo& info, std::int64_t maximumPoints)
+  PreviewBuilder(const StreamInfo& info, ClusterGrid grid)
     : Type(info.cellType)
-    , Grid(info.bounds, maximumPoints)
+    , Grid(std::move(grid))
+    , Rows(info.vertexColumns)
   {
   }
 
   void add(const MeshBlock& block)
   {
+    this->Rows.take(block);
     for (std::size_t i = 0; i < block.positions.size(); i += 3)
     {
       this->Window.push_back(
@@ -51,6 +55,7 @@ public:
   StreamPreview finish()
   {
     this->forgetBelow(this->First + static_cast<std::int64_t>(this->Window.size()));
+    this->Grid.finish();
     return this->collect();
   }
 
@@ -69,16 +74,44 @@ private:
     {
       vertex.cluster = this->Grid.cluster(id, vertex.point);
       vertex.generation = this->Grid.generation();
+      if (this->Grid.clusters()[vertex.cluster].id == id)
+      {
+        this->Rows.keep(id);
+        this->thinRows();
+      }
     }
     return vertex.cluster;
   }
 
   void triangle(const OpenFaces::Face& face)
   {
-    const int a = this->clusterOf(face[0]);
-    const int b = this->clusterOf(face[1]);
-    const int c = this->clusterOf(face[2]);
-    this->Grid.addTriangle(a, b, c);
+    // A corner that makes the grid grow makes the clusters of the others void.
+    std::array<int, 3> clusters{};
+    for (int generation = -1; generation != this->Grid.generation();)
+    {
+      generation = this->Grid.generation();
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        clusters[k] = this->clusterOf(face[k]);
+      }
+    }
+    this->Grid.addTriangle(clusters[0], clusters[1], clusters[2]);
+  }
+
+  /** Forgets the rows of vertices that represent their cluster no longer, once they are many. */
+  void thinRows()
+  {
+    const auto& clusters = this->Grid.clusters();
+    if (this->Rows.size() < 2 * clusters.size() + 1000)
+    {
+      return;
+    }
+    std::unordered_set<std::int64_t> present;
+    for (const ClusterGrid::Representative& cluster : clusters)
+    {
+      present.insert(cluster.id);
+    }
+    this->Rows.thin([&present](std::int64_t id) { return present.count(id) > 0; });
   }
 
   void forgetBelow(std::int64_t finalized)
@@ -90,6 +123,7 @@ private:
       finalized - this->First, 0, static_cast<std::int64_t>(this->Window.size()));
     this->Window.erase(this->Window.begin(), this->Window.begin() + forgotten);
     this->First += forgotten;
+    this->Rows.forgetBelow(this->First);
   }
 
   /** The clusters that triangles use, by ascending stream index. */
@@ -127,16 +161,35 @@ private:
     {
       preview.triangles.insert(preview.triangles.end(), { number[a], number[b], number[c] });
     }
+    preview.vertexColumns = this->Rows.gather(preview.ids);
     return preview;
   }
 
   CellType Type;
   ClusterGrid Grid;
+  KeptRows Rows;
   OpenFaces Faces;
   std::size_t FacesKept = 0;
   std::deque<Vertex> Window;
   std::int64_t First = 0; ///< stream index of the window's first vertex
 };
+
+/** The box of the block's vertices. */
+std::array<double, 6> boundsOf(const MeshBlock& block)
+{
+  std::array<double, 6> bounds{};
+  for (std::size_t axis = 0; axis < 3 && !block.positions.empty(); ++axis)
+  {
+    double& low = bounds[2 * axis] = block.positions[axis];
+    double& high = bounds[2 * axis + 1] = block.positions[axis];
+    for (std::size_t i = axis; i < block.positions.size(); i += 3)
+    {
+      low = std::min(low, block.positions[i]);
+      high = std::max(high, block.positions[i]);
+    }
+  }
+  return bounds;
+}
 
 } // namespace
 
@@ -144,18 +197,30 @@ StreamPreview makePreview(
   MeshSource& mesh, std::int64_t maximumPoints, const ProgressFunction& progress)
 {
   Progress done(progress);
-  PreviewBuilder builder(mesh.info(), maximumPoints);
-  const double cells = static_cast<double>(std::max<std::int64_t>(mesh.info().cells, 1));
-  const int corners = cornersOf(mesh.info().cellType);
+  const StreamInfo& info = mesh.info();
   MeshBlock block;
-  while (mesh.next(block))
+  bool isBlock = mesh.next(block);
+  const bool isKnown = info.bounds != std::array<double, 6>{};
+  PreviewBuilder builder(
+    info, ClusterGrid(isKnown ? info.bounds : boundsOf(block), maximumPoints, !isKnown));
+  for (; isBlock; isBlock = mesh.next(block))
   {
     builder.add(block);
-    const double cell = static_cast<double>(block.firstCell) + block.corners.size() / corners;
-    done.update(cell / cells);
+    if (info.cells > 0)
+    {
+      const double cell =
+        static_cast<double>(block.firstCell) + block.corners.size() / cornersOf(info.cellType);
+      done.update(cell / static_cast<double>(info.cells));
+    }
   }
   done.update(1.0);
   return builder.finish();
+}
+
+std::string emptyPreview(std::int64_t maximumPoints)
+{
+  return "a preview of at most " + std::to_string(maximumPoints) +
+         " points shows nothing of this mesh: every triangle shrinks to an edge or a point.";
 }
 
 } // namespace smg

@@ -2,12 +2,14 @@
 #include "IO/Problem/JsonNode.h"
 
 #include "IO/Formats/InQuotes.h"
+#include "IO/Problem/JsonComplaint.h"
 #include "Solver/Core/Error.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -50,14 +52,11 @@ JsonNode JsonNode::member(const char* key) const
 
 std::vector<JsonNode> JsonNode::elements() const
 {
-  if (!this->Value->is_array())
-  {
-    this->fail("must be an array");
-  }
+  this->requireArray();
   std::vector<JsonNode> nodes;
   for (std::size_t i = 0; i < this->Value->size(); ++i)
   {
-    nodes.push_back(this->child((*this->Value)[i], '[' + std::to_string(i) + ']'));
+    nodes.push_back(this->element(i));
   }
   return nodes;
 }
@@ -80,16 +79,41 @@ double JsonNode::number() const
   return this->Value->get<double>();
 }
 
+namespace
+{
+
+bool isIntegerIn(const nlohmann::json& value, std::int64_t least, std::int64_t most)
+{
+  const bool fits = value.is_number_unsigned()
+                      ? value.get<std::uint64_t>() <= static_cast<std::uint64_t>(most)
+                      : value.is_number_integer();
+  return fits && value.get<std::int64_t>() >= least && value.get<std::int64_t>() <= most;
+}
+
+} // namespace
+
 std::int64_t JsonNode::integer(std::int64_t least, std::int64_t most) const
 {
-  const bool fits = this->Value->is_number_unsigned()
-                      ? this->Value->get<std::uint64_t>() <= static_cast<std::uint64_t>(most)
-                      : this->Value->is_number_integer();
-  if (!fits || this->Value->get<std::int64_t>() < least || this->Value->get<std::int64_t>() > most)
+  if (!isIntegerIn(*this->Value, least, most))
   {
     this->fail("must be an integer from " + std::to_string(least) + " to " + std::to_string(most));
   }
   return this->Value->get<std::int64_t>();
+}
+
+std::vector<std::int64_t> JsonNode::integers(std::int64_t least, std::int64_t most) const
+{
+  this->requireArray();
+  std::vector<std::int64_t> integers;
+  integers.reserve(this->Value->size());
+  for (const nlohmann::json& value : *this->Value)
+  {
+    // A node says its place, which costs more than the number.
+    integers.push_back(isIntegerIn(value, least, most)
+                         ? value.get<std::int64_t>()
+                         : this->element(integers.size()).integer(least, most));
+  }
+  return integers;
 }
 
 std::vector<double> JsonNode::numbers(std::size_t count) const
@@ -109,8 +133,20 @@ std::vector<double> JsonNode::numbers(std::size_t count) const
 
 void JsonNode::fail(const std::string& sentence) const
 {
-  const std::string place = this->Place.empty() ? "the problem" : this->Place;
-  throw Error(this->File + ": " + place + ": " + sentence + '.');
+  throw Error(this->File + ": " + (this->Place.empty() ? "" : this->Place + ": ") + sentence + '.');
+}
+
+void JsonNode::requireArray() const
+{
+  if (!this->Value->is_array())
+  {
+    this->fail("must be an array");
+  }
+}
+
+JsonNode JsonNode::element(std::size_t i) const
+{
+  return this->child((*this->Value)[i], '[' + std::to_string(i) + ']');
 }
 
 JsonNode JsonNode::child(const nlohmann::json& value, const std::string& step) const
@@ -161,6 +197,11 @@ private:
 
 nlohmann::json readJsonFile(const std::string& path)
 {
+  std::error_code absent;
+  if (std::filesystem::is_directory(path, absent))
+  {
+    throw Error(path + ": this is a folder: name a JSON file.");
+  }
   std::ifstream stream(path, std::ios::binary);
   if (!stream)
   {
@@ -176,17 +217,9 @@ nlohmann::json readJsonFile(const std::string& path)
   {
     return nlohmann::json::parse(text, UniqueKeys(path));
   }
-  catch (const nlohmann::json::parse_error& error)
-  {
-    const std::size_t byte = std::min(error.byte, text.size());
-    const auto line =
-      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), '\n');
-    throw Error(path + ", line " + std::to_string(line) + ", byte " + std::to_string(error.byte) +
-                ": this is not valid JSON.");
-  }
   catch (const nlohmann::json::exception&)
   {
-    throw Error(path + ": a number in the file is out of range.");
+    throw Error(path + ", " + jsonComplaint(text) + '.');
   }
 }
 

@@ -38,20 +38,25 @@ public:
   /** The elements of an array; throws Error if the value is none. */
   std::vector<JsonNode> elements() const;
 
+  bool isTrue() const { return this->Value->is_boolean() && this->Value->get<bool>(); }
   bool isString() const { return this->Value->is_string(); }
   std::string string() const;
   /** A finite number. */
   double number() const;
   /** An integer in [least, most]. */
   std::int64_t integer(std::int64_t least, std::int64_t most) const;
+  /** An array of integers in [least, most], of which there may be very many. */
+  std::vector<std::int64_t> integers(std::int64_t least, std::int64_t most) const;
   /** An array of `count` finite numbers. */
   std::vector<double> numbers(std::size_t count) const;
 
-  /** Throws Error: "FILE: PLACE: SENTENCE". */
+  /** Throws Error: "FILE: PLACE: SENTENCE.", or "FILE: SENTENCE." for the whole. */
   [[noreturn]] void fail(const std::string& sentence) const;
 
 private:
   JsonNode child(const nlohmann::json& value, const std::string& step) const;
+  JsonNode element(std::size_t i) const;
+  void requireArray() const;
 
   const nlohmann::json* Value;
   std::string File;

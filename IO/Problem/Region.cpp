@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace smg
 {
@@ -42,11 +43,7 @@ Region parseSphere(const JsonNode& node)
 
 Region parseVertices(const JsonNode& node)
 {
-  Region::Vertices vertices;
-  for (const JsonNode& element : node.elements())
-  {
-    vertices.ids.push_back(element.integer(0, std::numeric_limits<std::int64_t>::max()));
-  }
+  Region::Vertices vertices{ node.integers(0, std::numeric_limits<std::int64_t>::max()) };
   if (vertices.ids.empty())
   {
     node.fail("must name at least one vertex");
@@ -97,6 +94,24 @@ bool Region::contains(std::span<const double, 3> p, std::int64_t id) const
   }
   const std::vector<std::int64_t>& ids = std::get<Vertices>(this->What).ids;
   return std::binary_search(ids.begin(), ids.end(), id);
+}
+
+std::optional<std::array<double, 3>> Region::center() const
+{
+  if (const auto* sphere = std::get_if<Sphere>(&this->What))
+  {
+    return sphere->center;
+  }
+  if (const auto* box = std::get_if<Box>(&this->What))
+  {
+    std::array<double, 3> center{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      center[axis] = std::midpoint(box->low[axis], box->high[axis]);
+    }
+    return center;
+  }
+  return std::nullopt;
 }
 
 } // namespace smg

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
@@ -56,6 +57,9 @@ public:
 
   /** Whether the vertex at `point` (x, y, z) with this original number is selected. */
   bool contains(std::span<const double, 3> point, std::int64_t id) const;
+
+  /** The middle of a sphere or a box; none of the others. */
+  std::optional<std::array<double, 3>> center() const;
 
   /** The vertices, if the region is a set of these, else null. */
   const Vertices* vertices() const { return std::get_if<Vertices>(&this->What); }

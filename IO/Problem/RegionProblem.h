@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Problem/Region.h"
+#include "IO/Problem/RegionList.h"
 #include "Solver/Problem/Problem.h"
 
 #include <cstdint>
@@ -13,16 +13,13 @@
 namespace smg
 {
 
-/** Values that are prescribed in a region. */
-struct DirichletRegion
+/** The values that are prescribed in a region. */
+struct RegionValue
 {
-  Region region;
-  /** The value, one number a column; not used if `position`. */
+  /** One number a column; not used if `position`. */
   std::vector<double> value;
   /** The value is the vertex's own coordinates; there are three columns then. */
   bool position = false;
-  /** What errors call it, as `dirichlet[1]`. */
-  std::string name;
 };
 
 /** What a RegionProblem consists of. */
@@ -33,8 +30,10 @@ struct RegionProblemData
   double screening = 0.0;
   /** A density for each column; empty: none. */
   std::vector<double> source;
-  /** Where regions overlap, the later one holds. */
-  std::vector<DirichletRegion> dirichlet;
+  /** Where values are prescribed. Where regions overlap, the later one holds. */
+  std::vector<NamedRegion> regions;
+  /** The values of each of the regions. */
+  std::vector<RegionValue> values;
 };
 
 /**
@@ -55,22 +54,17 @@ public:
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
 
   /** The vertex columns that the mesh source must deliver. */
-  std::vector<std::string> vertexColumns() const;
+  std::vector<std::string> vertexColumns() const { return this->Regions.vertexColumns(); }
 
   /**
    * Reads the stream once, without solving, and throws Error naming the region if a region selects
    * no vertex, or names a vertex that the mesh does not have.
    */
-  void check(MeshSource& mesh) const;
+  void check(MeshSource& mesh) const { this->Regions.check(mesh); }
 
 private:
-  /** The original number of vertex `i` of the block. */
-  std::int64_t idOf(const MeshBlock& block, const Column* ids, std::size_t i) const;
-  const Column* idColumn(const MeshBlock& block) const;
-
-  RegionProblemData Data;
-  std::string File;
-  bool HasIds = false;
+  RegionList Regions;     ///< those of the data
+  RegionProblemData Data; ///< all but the regions
   bool AnyPosition = false;
 };
 
@@ -88,6 +82,9 @@ private:
  * screening. A value or source has as many numbers as there are columns (1 to 64).
  * @throws Error naming the file and the place in it
  */
+RegionProblemData readProblemFileData(const std::filesystem::path& path);
+
+/** The same for a mesh. */
 std::unique_ptr<RegionProblem> readProblemFile(
   const std::filesystem::path& path, const StreamInfo& mesh);
 

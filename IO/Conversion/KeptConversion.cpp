@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Conversion/KeptConversion.h"
+
+#include "IO/Container/VsmReader.h"
+#include "IO/Formats/Suffix.h"
+#include "Solver/Core/Error.h"
+#include "Solver/Core/Progress.h"
+
+#include <nlohmann/json.hpp>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <string>
+#include <thread>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Lets one process at a time convert a file, where the file system can lock it. */
+class InputLock
+{
+public:
+  explicit InputLock(const std::filesystem::path& path)
+    : File(::open(path.c_str(), O_RDONLY | O_CLOEXEC))
+  {
+  }
+  ~InputLock()
+  {
+    if (this->File >= 0)
+    {
+      ::close(this->File);
+    }
+  }
+  InputLock(const InputLock&) = delete;
+  InputLock& operator=(const InputLock&) = delete;
+
+  /** Waits as long as another process has the lock. Throws Cancelled. */
+  void wait(const ProgressFunction& progress) const
+  {
+    Progress waiting(progress);
+    while (this->File >= 0 && ::flock(this->File, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    {
+      waiting.update(0.0);
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+
+private:
+  int File;
+};
+
+/** The full path of a file as printable ASCII: a file name need not be UTF-8. */
+std::string plainPath(const std::filesystem::path& path)
+{
+  static constexpr char Digits[] = "0123456789abcdef";
+  std::string name;
+  for (const char c : std::filesystem::canonical(path).string())
+  {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte > 0x20 && byte < 0x7f && byte != '%')
+    {
+      name += c;
+    }
+    else
+    {
+      name += { '%', Digits[byte >> 4], Digits[byte & 15] };
+    }
+  }
+  return name;
+}
+
+/** What the conversion of the file as it is now says of its origin. */
+std::string originOf(const std::filesystem::path& in, StreamOrder order)
+{
+  return plainPath(in) + ' ' + std::to_string(std::filesystem::file_size(in)) + " bytes of " +
+         std::to_string(std::filesystem::last_write_time(in).time_since_epoch().count()) +
+         " in order " + std::string(nameOf(order));
+}
+
+/** The origin that a file tells; empty if it tells none or is not a whole .vsm file. */
+std::string toldOrigin(const std::filesystem::path& path)
+{
+  try
+  {
+    return VsmReader(path).header().value("origin", std::string());
+  }
+  catch (const std::exception&)
+  {
+    return {};
+  }
+}
+
+} // namespace
+
+std::optional<ConversionReport> convertToKeep(const std::filesystem::path& in,
+  const std::filesystem::path& out, const ConversionOptions& options, bool overwrite)
+{
+  if (lowerSuffix(out) != ".vsm")
+  {
+    throw Error(out.string() + ": a conversion that is kept is a .vsm file: choose a name that "
+                               "ends so.");
+  }
+  std::error_code absent;
+  if (!std::filesystem::is_regular_file(in, absent))
+  {
+    throw Error(in.string() + ": there is no such file to convert.");
+  }
+  if (std::filesystem::equivalent(in, out, absent))
+  {
+    throw Error(out.string() + " is the mesh itself: choose another name for its conversion.");
+  }
+  const InputLock lock(in);
+  lock.wait(options.progress);
+  ConversionOptions conversion = options;
+  conversion.origin = originOf(in, options.order);
+  if (std::filesystem::exists(out))
+  {
+    const std::string told = toldOrigin(out);
+    if (told == conversion.origin)
+    {
+      return std::nullopt;
+    }
+    if (!overwrite && !told.starts_with(plainPath(in) + ' '))
+    {
+      throw Error(out.string() + " is there already and was not made from " +
+                  in.filename().string() +
+                  " by this converter: choose another name, or set Overwrite.");
+    }
+  }
+  return convert(in, out, conversion);
+}
+
+} // namespace smg

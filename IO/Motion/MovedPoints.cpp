@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Motion/MovedPoints.h"
+
+#include "IO/Formats/SinglePrecision.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace smg
+{
+
+MovedPoints::MovedPoints(std::unique_ptr<MeshSource> source, Solution& positions)
+  : Source(std::move(source))
+  , Info(this->Source->info())
+  , Positions(positions)
+{
+  this->Info.bounds = {};
+}
+
+bool MovedPoints::next(MeshBlock& block)
+{
+  if (!this->Source->next(block))
+  {
+    return false;
+  }
+  if (block.vertices() > 0)
+  {
+    this->Positions.read(block.firstVertex, block.vertices(), block.positions);
+  }
+  for (std::int64_t v = 0; v < block.vertices() && !this->Info.doublePositions; ++v)
+  {
+    const std::span<double, 3> position(block.positions.data() + 3 * v, 3);
+    std::ranges::copy(
+      singlePrecision(position, block.firstVertex + v, "The moved mesh"), position.begin());
+  }
+  return true;
+}
+
+} // namespace smg

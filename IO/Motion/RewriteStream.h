@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Motion/MovedVertices.h"
+#include "Solver/Core/Progress.h"
+
+#include <filesystem>
+
+namespace smg
+{
+
+/**
+ * Writes the streaming mesh file `in` again as `out`, another or the same of the four formats, with
+ * its vertices moved; see rewriteMesh(). Comments are kept in text. Throws Error; Cancelled.
+ */
+void rewriteStream(const std::filesystem::path& in, const std::filesystem::path& out,
+  MovedVertices& moved, const ProgressFunction& progress = {});
+
+} // namespace smg

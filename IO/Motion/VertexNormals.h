@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Container/NormalsColumn.h"
+#include "Solver/Core/Progress.h"
+#include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Stream/MeshSource.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace smg
+{
+
+/** How normals are computed. */
+struct NormalsOptions
+{
+  /** Folder for the scratch file; empty: the system's temporary folder. */
+  std::filesystem::path scratch;
+  /** Bytes of memory for the vertices that are not final; what exceeds it goes to scratch files. */
+  std::int64_t memory = std::int64_t(64) << 20;
+  ProgressFunction progress;
+};
+
+/**
+ * The unit normals at the vertices of a mesh stream of triangles, on disk: the normals of a
+ * vertex's triangles, weighted by their angles at the vertex. Triangles without area, and those
+ * that CellFlags calls degenerate or duplicate, count for nothing; a vertex without any other has
+ * the normal (0, 0, 0).
+ *
+ * They are computed in one pass; a vertex is let go as soon as it is final. The result does not
+ * depend on the blocks of the stream.
+ */
+class VertexNormals
+{
+public:
+  /**
+   * Reads the stream, which has at least its CellFlags if there are any, to its end.
+   * @throws Error if the cells are no triangles or a scratch file fails; Cancelled
+   */
+  explicit VertexNormals(MeshSource& mesh, const NormalsOptions& options = {});
+
+  std::int64_t vertices() const { return this->Vertices; }
+  /**
+   * Writes the normals of the vertices [first, first + count) to `normals`, 3 floats a vertex. Any
+   * range in any order. Throws Error.
+   */
+  void read(std::int64_t first, std::int64_t count, std::span<float> normals) const;
+
+private:
+  FileDescriptor File;
+  std::int64_t Vertices = 0;
+};
+
+} // namespace smg

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/CellShape.h"
+
+#include "Solver/Problem/CellWeights.h"
+
+namespace smg
+{
+
+bool isDegenerate(
+  std::span<const std::int64_t> corners, std::span<const std::array<double, 3>> points)
+{
+  for (std::size_t i = 0; i < corners.size(); ++i)
+  {
+    for (std::size_t k = i + 1; k < corners.size(); ++k)
+    {
+      if (corners[i] == corners[k])
+      {
+        return true;
+      }
+    }
+  }
+  const CellWeights weights =
+    corners.size() == 3
+      ? triangleWeights(points[0].data(), points[1].data(), points[2].data())
+      : tetrahedronWeights(points[0].data(), points[1].data(), points[2].data(), points[3].data());
+  return weights.measure == 0.0;
+}
+
+} // namespace smg

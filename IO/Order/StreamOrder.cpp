@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/StreamOrder.h"
+
+#include "Solver/Core/Error.h"
+
+namespace smg
+{
+
+StreamOrder streamOrder(std::string_view name)
+{
+  for (const StreamOrder order :
+    { StreamOrder::BreadthFirst, StreamOrder::Axis, StreamOrder::Keep, StreamOrder::Spectral })
+  {
+    if (name == nameOf(order))
+    {
+      return order;
+    }
+  }
+  throw Error("There is no order '" + std::string(name) + "': choose bfs, axis or keep.");
+}
+
+void requireAvailable(StreamOrder order)
+{
+  if (order == StreamOrder::Spectral)
+  {
+    throw Error("The spectral order is not available: choose bfs, axis or keep.");
+  }
+}
+
+std::string_view nameOf(StreamOrder order)
+{
+  constexpr std::string_view names[] = { "bfs", "axis", "keep", "spectral" };
+  return names[static_cast<int>(order)];
+}
+
+} // namespace smg

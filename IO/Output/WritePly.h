@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Progress.h"
+#include "Solver/Stream/MeshSource.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** What became of the columns of a mesh that was written as PLY. */
+struct WrittenPly
+{
+  /** Columns for whose name there is no property of their own: left out. */
+  std::vector<std::string> droppedColumns;
+  /** Columns of 64-bit integers with values beyond 2^53, which were rounded. */
+  std::vector<std::string> roundedColumns;
+};
+
+/**
+ * Writes a mesh stream of triangles, which says its numbers of vertices and cells, as one binary
+ * PLY file: the vertices in stream order with coordinates in the precision of the stream, then the
+ * faces, as `list uchar int vertex_indices`. Data are written as they come, in the memory of a few
+ * blocks.
+ *
+ * Columns become properties of the vertices or faces, named so that importMesh() gives the same
+ * columns: `Normals` of 3 components nx, ny, nz; `Colors` of 3 or 4 red, green, blue, alpha; a
+ * column of one component its own name, and one of several NAME_0, NAME_1 ..., which come back as
+ * columns of their own. What is no visible ASCII character in a name becomes an underscore. PLY has
+ * no 64-bit integers: they are written, and come back, as double, which is exact up to 2^53. So
+ * convert() takes the `OriginalId` of a PLY file for an attribute (see there): its own are the
+ * places in the PLY file.
+ * @throws Error if checkPlyPath() does, there are more than 2^31 - 1 vertices, the stream has not
+ * the counts that it says, or the file cannot be written; Cancelled. Nothing is left of the file
+ * then.
+ */
+WrittenPly writePly(
+  MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress = {});
+
+/** What a user should know of it, a sentence a column. */
+std::vector<std::string> notesOn(const WrittenPly& written);
+
+/** Throws Error unless `path` ends with .ply and the cells are triangles. */
+void checkPlyPath(const std::filesystem::path& path, CellType cellType);
+
+} // namespace smg

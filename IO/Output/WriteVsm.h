@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Progress.h"
+#include "Solver/Storage/BlockFile.h"
+#include "Solver/Stream/MeshSource.h"
+
+#include <filesystem>
+#include <string>
+
+namespace smg
+{
+
+struct WrittenVsm
+{
+  StreamInfo info;
+  double meanWidth = 0; ///< mean over the cells of the number of vertices alive
+};
+
+/**
+ * Writes a mesh stream, which says its number of cells, to a .vsm file.
+ * @param origin see VsmWriter::finish()
+ * @throws Error if the stream is not valid or the file cannot be written; Cancelled. Nothing is
+ * left of the file then.
+ */
+WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path,
+  Codec codec = Codec::Zstd, const ProgressFunction& progress = {}, const std::string& origin = {});
+
+} // namespace smg

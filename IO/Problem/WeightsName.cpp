@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Problem/WeightsName.h"
+
+namespace smg
+{
+
+std::optional<Weights> weightsOfName(std::string_view name)
+{
+  if (name == "cotangent")
+  {
+    return Weights::Cotangent;
+  }
+  return name == "uniform" ? std::optional(Weights::Uniform) : std::nullopt;
+}
+
+std::optional<Weights> parseWeights(const JsonNode& object)
+{
+  if (!object.has("weights"))
+  {
+    return std::nullopt;
+  }
+  const JsonNode node = object.member("weights");
+  const std::optional<Weights> weights = weightsOfName(node.string());
+  if (!weights)
+  {
+    node.fail("must be \"cotangent\" or \"uniform\"");
+  }
+  return weights;
+}
+
+} // namespace smg

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Problem/JsonNode.h"
+#include "Solver/Problem/Problem.h"
+
+#include <optional>
+#include <string_view>
+
+namespace smg
+{
+
+/** The weights that users call `cotangent` and `uniform`; none for any other name. */
+std::optional<Weights> weightsOfName(std::string_view name);
+
+/** The member `weights` of an object of a file; none if it has none. Throws Error. */
+std::optional<Weights> parseWeights(const JsonNode& object);
+
+} // namespace smg

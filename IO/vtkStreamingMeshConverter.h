@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkStreamingMeshConverter
+ * @brief   Converts a mesh file to a stream, keeps it, and delivers its pieces
+ *
+ * Brings a mesh file of any format that can be read (PLY, OBJ, OFF, STL, Medit, Gmsh, legacy VTK,
+ * .vtp, .vtu, SMA, SMB, SVA, SVB, .vsm) into a stream order and writes it to the container
+ * OutputFileName, which stays. FileName is the mesh file; otherwise this is a
+ * vtkStreamingMeshReader of that container: see there for its pieces, its arrays, and the preview
+ * that it shows of a mesh that is too large. ScratchDirectory is for the scratch files of the
+ * conversion.
+ *
+ * vtkStreamingMeshReader itself reads such files, too, but converts them to a temporary container,
+ * again for every reader. Use this class where a mesh is to be opened more than once.
+ *
+ * The conversion takes place when the pipeline first asks for anything. It is not repeated as long
+ * as FileName and Order stay what they are, and FileName as it is: the container says what it was
+ * made from, so that it is used again in later sessions, too. When something of that changes, the
+ * container is made anew. A file of the name OutputFileName that is no conversion of FileName is
+ * left alone, which is an error, unless Overwrite is on. With several processes one converts, the
+ * others wait; FileName and OutputFileName must then be seen by all.
+ *
+ * The conversion holds the mesh in memory, but for streams (SMA, SMB, SVA, SVB, .vsm) whose Order
+ * is KEEP.
+ *
+ * @sa vtkStreamingMeshReader vtkStreamingMeshWriter
+ */
+#ifndef vtkStreamingMeshConverter_h
+#define vtkStreamingMeshConverter_h
+
+#include "vtkStreamingMeshReader.h"
+#include "vtkStreamingMultigridIOModule.h" // For export macro
+
+#include <string> // For std::string
+
+class VTKSTREAMINGMULTIGRIDIO_EXPORT vtkStreamingMeshConverter : public vtkStreamingMeshReader
+{
+public:
+  static vtkStreamingMeshConverter* New();
+  vtkTypeMacro(vtkStreamingMeshConverter, vtkStreamingMeshReader);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** The orders that a mesh can be brought into. */
+  enum OrderTypes
+  {
+    BREADTH_FIRST = 0, ///< from a vertex at the rim, component after component
+    AXIS = 1,          ///< along the longest side of the bounds
+    KEEP = 2           ///< the order of the cells in the file
+  };
+
+  ///@{
+  /** The container to write, a name that ends in .vsm. Default: none; it must be said. */
+  vtkSetFilePathMacro(OutputFileName);
+  vtkGetFilePathMacro(OutputFileName);
+  ///@}
+
+  ///@{
+  /** The order of the stream. Default: BREADTH_FIRST, which suits nearly every mesh. */
+  vtkSetClampMacro(Order, int, BREADTH_FIRST, KEEP);
+  vtkGetMacro(Order, int);
+  ///@}
+
+  ///@{
+  /** Whether OutputFileName may replace a file that is no conversion of FileName. Default: off. */
+  vtkSetMacro(Overwrite, bool);
+  vtkGetMacro(Overwrite, bool);
+  vtkBooleanMacro(Overwrite, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Memory that the conversion may use, in MiB. A mesh that needs more is refused at once. Default:
+   * 0, which is half of the machine's memory.
+   */
+  vtkSetClampMacro(MemoryLimit, int, 0, VTK_INT_MAX);
+  vtkGetMacro(MemoryLimit, int);
+  ///@}
+
+  /**
+   * The report of the conversion to OutputFileName, as JSON. Empty if this object has made none,
+   * since the container was up to date.
+   */
+  const char* GetReport();
+
+protected:
+  vtkStreamingMeshConverter();
+  ~vtkStreamingMeshConverter() override;
+
+  std::string GetContainerName() override;
+  void UpdateContainer() override;
+
+private:
+  vtkStreamingMeshConverter(const vtkStreamingMeshConverter&) = delete;
+  void operator=(const vtkStreamingMeshConverter&) = delete;
+
+  char* OutputFileName = nullptr;
+  int Order = BREADTH_FIRST;
+  bool Overwrite = false;
+  int MemoryLimit = 0;
+  std::string Report;
+  std::string ReportedName; ///< of the container that the report is about
+};
+
+#endif
