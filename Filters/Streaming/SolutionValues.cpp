@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/SolutionValues.h"
+#include "Filters/Streaming/SolutionValues.h"
 
 #include "Solver/Core/Error.h"
 

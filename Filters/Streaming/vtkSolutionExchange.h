@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Filters/Streaming/SolveSummary.h"
 #include "Solver/Solve.h"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,18 +13,6 @@ class vtkMultiProcessController;
 
 namespace smg
 {
-
-/** What every process knows of a solve. */
-struct SolveSummary
-{
-  std::string error; ///< empty: the solve succeeded
-  std::string report;
-  int columns = 0;
-  double residual = 0.0;
-  int cycles = 0, passes = 0;
-  bool converged = false;
-  std::int64_t peakMemory = 0;
-};
 
 /**
  * Lets all processes use a solution that process 0 has. All methods are collective. With one
@@ -36,6 +26,12 @@ public:
   bool isParallel() const { return this->Processes > 1; }
   /** Whether this process has the solution. */
   bool isServer() const { return this->Rank == 0; }
+
+  /** Does something that may fail in some of the processes; then Error is thrown in all. */
+  void together(const std::function<void()>& work);
+
+  /** What process 0 says; the others' answers do not count. */
+  bool decide(bool answer);
 
   /** Makes the summary of process 0 known to all. */
   void share(SolveSummary& summary);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/vtkSolutionExchange.h"
+#include "Filters/Streaming/vtkSolutionExchange.h"
 
-#include "Filters/SolutionValues.h"
+#include "Filters/Streaming/SolutionValues.h"
 #include "Solver/Core/Error.h"
 
+#include "vtkCommunicator.h"
 #include "vtkMultiProcessController.h"
 
 #include <algorithm>
+#include <exception>
 
 namespace smg
 {
@@ -48,6 +50,43 @@ void SolutionExchange::shareText(std::string& text)
   }
 }
 
+void SolutionExchange::together(const std::function<void()>& work)
+{
+  std::exception_ptr failure;
+  try
+  {
+    work();
+  }
+  catch (const std::exception&)
+  {
+    failure = std::current_exception();
+  }
+  const int hasFailed = failure ? 1 : 0;
+  int hasAnyFailed = hasFailed;
+  if (this->isParallel())
+  {
+    this->Controller->AllReduce(&hasFailed, &hasAnyFailed, 1, vtkCommunicator::MAX_OP);
+  }
+  if (failure)
+  {
+    std::rethrow_exception(failure);
+  }
+  if (hasAnyFailed)
+  {
+    throw Error("Another process failed, and with it this one: see the error that it reported.");
+  }
+}
+
+bool SolutionExchange::decide(bool answer)
+{
+  int word = answer ? 1 : 0;
+  if (this->isParallel())
+  {
+    this->Controller->Broadcast(&word, 1, 0);
+  }
+  return word != 0;
+}
+
 void SolutionExchange::share(SolveSummary& summary)
 {
   if (!this->isParallel())
@@ -57,14 +96,16 @@ void SolutionExchange::share(SolveSummary& summary)
   this->shareText(summary.error);
   this->shareText(summary.report);
   double numbers[] = { double(summary.columns), summary.residual, double(summary.cycles),
-    double(summary.passes), double(summary.converged), double(summary.peakMemory) };
-  this->Controller->Broadcast(numbers, 6, 0);
+    double(summary.passes), double(summary.converged), double(summary.peakMemory),
+    double(summary.isCancelled) };
+  this->Controller->Broadcast(numbers, 7, 0);
   summary.columns = static_cast<int>(numbers[0]);
   summary.residual = numbers[1];
   summary.cycles = static_cast<int>(numbers[2]);
   summary.passes = static_cast<int>(numbers[3]);
   summary.converged = numbers[4] != 0.0;
   summary.peakMemory = static_cast<std::int64_t>(numbers[5]);
+  summary.isCancelled = numbers[6] != 0.0;
 }
 
 std::vector<double> SolutionExchange::values(

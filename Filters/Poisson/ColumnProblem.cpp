@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/ColumnProblem.h"
+#include "Filters/Poisson/ColumnProblem.h"
 
+#include "Filters/Streaming/ColumnPlace.h"
 #include "Solver/Core/Error.h"
 
 #include <cmath>
@@ -16,14 +17,12 @@ int find(const StreamInfo& info, const std::string& name)
   {
     return -1;
   }
-  for (std::size_t i = 0; i < info.vertexColumns.size(); ++i)
+  const int place = placeOfColumn(info.vertexColumns, name);
+  if (place < 0)
   {
-    if (info.vertexColumns[i].name == name)
-    {
-      return static_cast<int>(i);
-    }
+    throw Error("The mesh has no point array " + name + ": choose one that it has.");
   }
-  throw Error("The mesh has no point array " + name + ": choose one that it has.");
+  return place;
 }
 
 } // namespace

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Motion/VertexNormals.h"
+#include "Solver/Solve.h"
+
+#include <memory>
+#include <optional>
+
+namespace smg
+{
+
+/** The vertices of a deformed mesh: their positions and, if wanted, their normals beside these. */
+class DeformedVertices : public Solution
+{
+public:
+  static constexpr int WithNormals = 6; ///< columns of positions and normals
+
+  explicit DeformedVertices(std::unique_ptr<Solution> positions)
+    : Positions(std::move(positions))
+  {
+  }
+
+  /** Computes the normals of `mesh` with its vertices moved. Throws Error and Cancelled. */
+  void addNormals(std::unique_ptr<MeshSource> mesh, const NormalsOptions& options);
+
+  std::int64_t vertices() const override { return this->Positions->vertices(); }
+  int columns() const override { return this->Normals ? WithNormals : 3; }
+  void read(std::int64_t first, std::int64_t count, std::span<double> values) override;
+  const Report& report() const override { return this->Positions->report(); }
+
+private:
+  std::unique_ptr<Solution> Positions;
+  std::optional<VertexNormals> Normals;
+};
+
+} // namespace smg

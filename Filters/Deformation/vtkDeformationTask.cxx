@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Deformation/vtkDeformationTask.h"
+
+#include "Filters/Deformation/ColumnHandles.h"
+#include "Filters/Deformation/DeformedVertices.h"
+#include "IO/Conversion/PartialProgress.h"
+
+#include <algorithm>
+
+namespace smg
+{
+namespace
+{
+
+/** The share of the progress that solving has; normals have the rest. */
+constexpr double SolveShare = 0.9;
+
+} // namespace
+
+void DeformationTask::check() const
+{
+  checkOptions(this->options);
+}
+
+PieceColumns DeformationTask::columns() const
+{
+  const auto& names = ColumnHandles::names();
+  return { .all = false, .points = { names.begin(), names.end() }, .cells = { CellFlagsName } };
+}
+
+std::unique_ptr<Solution> DeformationTask::solve(
+  const VsmReader& mesh, const ProgressFunction& progress) const
+{
+  const bool hasNormals = this->needsNormals && mesh.info().cellType == CellType::Triangle;
+  ColumnHandles handles(mesh.info().vertexColumns);
+  DeformOptions options = this->options;
+  options.progress = partOf(progress, 0.0, hasNormals ? SolveShare : 1.0);
+  auto moved = std::make_unique<DeformedVertices>(deform(*mesh.source(), handles, options));
+  if (hasNormals)
+  {
+    NormalsOptions normals;
+    normals.scratch = options.scratch;
+    normals.memory = std::min(normals.memory, options.memoryLimit / 4);
+    normals.progress = partOf(progress, SolveShare, 1.0);
+    moved->addNormals(mesh.source({}, {}), normals);
+  }
+  return moved;
+}
+
+} // namespace smg

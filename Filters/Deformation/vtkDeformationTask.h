@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Filters/Streaming/vtkStreamedTask.h"
+#include "Solver/Deform.h"
+
+namespace smg
+{
+
+/** A deformation by the handles in the arrays of the pieces. Its values: see DeformedVertices. */
+class DeformationTask : public StreamedTask
+{
+public:
+  DeformOptions options;     ///< but for the progress
+  bool needsNormals = false; ///< of the vertices; tetrahedra have none
+
+  void check() const override;
+  PieceColumns columns() const override;
+  std::unique_ptr<Solution> solve(
+    const VsmReader& mesh, const ProgressFunction& progress) const override;
+};
+
+} // namespace smg

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/vtkStreamingMeshKeys.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationIntegerRequestKey.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+
+namespace smg
+{
+
+/** A request for a piece, in the pipeline information of an output or of an input. */
+struct PieceRequest
+{
+  explicit PieceRequest(vtkInformation* info)
+    : Piece(info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER()))
+    , Pieces(std::max(1, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES())))
+    , IsStreamed(vtkStreamingMeshKeys::IsStreamed(info))
+  {
+  }
+
+  /** Asks the input for a piece that has nothing: the one after the last. */
+  void forwardEmptyTo(vtkInformation* input) const
+  {
+    PieceRequest empty = *this;
+    empty.Piece = this->Pieces;
+    empty.IsStreamed = false;
+    empty.forwardTo(input);
+  }
+
+  /** Asks the input for the same. */
+  void forwardTo(vtkInformation* input) const
+  {
+    using vtkSDDP = vtkStreamingDemandDrivenPipeline;
+    input->Set(vtkSDDP::UPDATE_PIECE_NUMBER(), this->Piece);
+    input->Set(vtkSDDP::UPDATE_NUMBER_OF_PIECES(), this->Pieces);
+    input->Set(vtkSDDP::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+    input->Set(vtkStreamingMeshKeys::STREAMED(), this->IsStreamed ? this->Pieces : 0);
+  }
+
+  int Piece;
+  int Pieces;
+  bool IsStreamed; ///< the real piece is wanted, whatever its size
+};
+
+} // namespace smg

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Streaming/vtkStreamedSolve.h"
+
+#include "IO/Conversion/PartialProgress.h"
+#include "Solver/Core/Error.h"
+#include "Solver/Storage/ScratchFolder.h"
+
+#include <chrono>
+
+namespace smg
+{
+namespace
+{
+
+/** The share of the progress that pulling the input has; solving has the rest. */
+constexpr double PullShare = 0.25;
+
+} // namespace
+
+void StreamedSolve::solve(
+  PieceInput& input, const StreamedTask& task, const Pulling& pulling, Progress& progress)
+{
+  try
+  {
+    this->Result.reset();
+    this->pullAndSolve(input, task, pulling, progress);
+  }
+  catch (const std::exception& error)
+  {
+    this->fail(error.what());
+  }
+}
+
+void StreamedSolve::fail(const std::string& sentence)
+{
+  this->Result.reset();
+  this->Summary = SolveSummary::failed(sentence);
+}
+
+void StreamedSolve::pullAndSolve(
+  PieceInput& input, const StreamedTask& task, const Pulling& pulling, Progress& progress)
+{
+  task.check();
+  const auto start = std::chrono::steady_clock::now();
+  const ScratchFolder scratch(pulling.scratch);
+  const std::filesystem::path container = scratch / "mesh.vsm";
+  const ProgressFunction whole = [&progress](double done)
+  {
+    progress.update(done);
+    return true;
+  };
+  Progress pullProgress(partOf(whole, 0.0, PullShare));
+  {
+    PieceStream stream(input, pulling.pieces, task.columns());
+    writeContainer(stream, container, true, pullProgress);
+  }
+  const std::chrono::duration<double> pulled = std::chrono::steady_clock::now() - start;
+
+  this->Result = task.solve(VsmReader(container), partOf(whole, PullShare, 1.0));
+  Report report = this->Result->report();
+  report.seconds.convert = pulled.count();
+  report.seconds.total += pulled.count();
+  this->Summary = SolveSummary::of(report, this->Result->columns());
+}
+
+} // namespace smg

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkStreamingMeshDeformation.h"
+
+#include "Filters/Deformation/ColumnHandles.h"
+#include "Filters/Deformation/vtkDeformationTask.h"
+#include "Filters/Deformation/vtkInteractiveMesh.h"
+#include "Filters/Deformation/vtkMovedPiece.h"
+#include "Filters/Streaming/SolveSummary.h"
+#include "IO/vtkMeshPieceData.h"
+#include "IO/vtkPieceColumns.h"
+
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+
+vtkStandardNewMacro(vtkStreamingMeshDeformation);
+
+struct vtkStreamingMeshDeformation::Internals
+{
+  explicit Internals(vtkStreamingMeshDeformation& self)
+    : Self(self)
+  {
+  }
+
+  smg::DeformOptions options() const
+  {
+    smg::DeformOptions options;
+    this->Self.FillOptions(options);
+    options.weights =
+      this->Self.GetWeights() == UNIFORM ? smg::Weights::Uniform : smg::Weights::Cotangent;
+    options.cycles = this->Self.Cycles;
+    return options;
+  }
+
+  bool needsNormals(vtkPointSet& input) const
+  {
+    return this->Self.Normals == RECOMPUTE && smg::findNormals(*input.GetPointData());
+  }
+
+  vtkStreamingMeshDeformation& Self;
+  smg::InteractiveMesh Interactive;
+};
+
+vtkStreamingMeshDeformation::vtkStreamingMeshDeformation()
+  : Internal(new Internals(*this))
+{
+}
+
+vtkStreamingMeshDeformation::~vtkStreamingMeshDeformation() = default;
+
+int vtkStreamingMeshDeformation::GetNumberOfBuilds()
+{
+  return this->Internal->Interactive.builds();
+}
+
+std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeTask(vtkPointSet& input)
+{
+  if (input.GetNumberOfPoints() > 0)
+  {
+    smg::ColumnHandles{ smg::columnSpecs(*input.GetPointData()) };
+  }
+  auto task = std::make_unique<smg::DeformationTask>();
+  task->options = this->Internal->options();
+  task->needsNormals = this->Internal->needsNormals(input);
+  return task;
+}
+
+bool vtkStreamingMeshDeformation::IsForMemory(vtkPointSet& input, bool isWhole)
+{
+  const bool isForMemory =
+    smg::isPreview(input) || (isWhole && input.GetNumberOfPoints() <= this->InteractivePoints);
+  if (!isForMemory)
+  {
+    this->Internal->Interactive.forget();
+  }
+  return isForMemory;
+}
+
+smg::SolveSummary vtkStreamingMeshDeformation::SolveInMemory(
+  vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values)
+{
+  if (smg::isPreview(input) && input.GetNumberOfPoints() == 0)
+  {
+    // A piece other than the first: nothing of what is known changes.
+    smg::SolveSummary summary = this->GetSummary();
+    summary.error.clear();
+    summary.columns = 3;
+    summary.converged = summary.converged || summary.report.empty();
+    return summary;
+  }
+  smg::DeformOptions options = this->Internal->options();
+  options.progress = progress;
+  smg::InteractiveMesh& interactive = this->Internal->Interactive;
+  values = interactive.deform(input, options, this->Internal->needsNormals(input));
+  return smg::SolveSummary::of(interactive.report(), interactive.columns());
+}
+
+void vtkStreamingMeshDeformation::Deliver(
+  vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output)
+{
+  smg::movePiece(piece,
+    { .values = values,
+      .columns = this->GetSummary().columns,
+      .needsCellNormals = this->Normals == RECOMPUTE },
+    output);
+  if (!this->KeepHandleArrays)
+  {
+    for (const std::string& name : smg::ColumnHandles::names())
+    {
+      output.GetPointData()->RemoveArray(name.c_str());
+    }
+  }
+}
+
+void vtkStreamingMeshDeformation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Cycles: " << this->Cycles << "\n";
+  os << indent << "Normals: " << (this->Normals == RECOMPUTE ? "recompute" : "drop") << "\n";
+  os << indent << "KeepHandleArrays: " << this->KeepHandleArrays << "\n";
+  os << indent << "InteractivePoints: " << this->InteractivePoints << "\n";
+  os << indent << "NumberOfBuilds: " << this->GetNumberOfBuilds() << "\n";
+}

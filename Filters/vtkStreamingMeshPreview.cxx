@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkStreamingMeshPreview.h"
+
+#include "Filters/Streaming/vtkInputStamp.h"
+#include "Filters/Streaming/vtkPieceRequest.h"
+#include "IO/Preview/PreviewPiece.h"
+#include "IO/vtkAlgorithmGlue.h"
+#include "IO/vtkMeshPieceData.h"
+#include "IO/vtkPieceColumns.h"
+#include "IO/vtkPieceInput.h"
+#include "IO/vtkPieceStream.h"
+#include "Solver/Core/Error.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <optional>
+
+vtkStandardNewMacro(vtkStreamingMeshPreview);
+
+namespace
+{
+
+/** The pieces of an input as a mesh stream, which counts itself. */
+class PulledMesh : public smg::MeshSource
+{
+public:
+  PulledMesh(smg::PieceInput& input, int pieces, const smg::ProgressFunction& progress)
+    : Stream(input, pieces, { .all = true, .points = {}, .cells = {} })
+    , Done(progress)
+  {
+  }
+
+  const smg::StreamInfo& info() const override { return this->Stream.info(); }
+
+  bool next(smg::MeshBlock& block) override
+  {
+    this->Done.update(this->Stream.fraction());
+    if (!this->Stream.next(block))
+    {
+      return false;
+    }
+    this->Vertices += block.vertices();
+    this->Cells +=
+      static_cast<std::int64_t>(block.corners.size()) / cornersOf(this->info().cellType);
+    return true;
+  }
+
+  /** What is known after the last block. */
+  smg::StreamInfo counted() const
+  {
+    smg::StreamInfo info = this->info();
+    info.vertices = this->Vertices;
+    info.cells = this->Cells;
+    return info;
+  }
+
+private:
+  smg::PieceStream Stream;
+  smg::Progress Done;
+  std::int64_t Vertices = 0, Cells = 0;
+};
+
+} // namespace
+
+struct vtkStreamingMeshPreview::Internals
+{
+  explicit Internals(vtkStreamingMeshPreview& self)
+    : Self(self)
+  {
+  }
+
+  /** Makes the preview unless that has been done for this input, which is left as it was found. */
+  void make(smg::PieceInput& input, const smg::PieceRequest& request, vtkInformation* inputInfo)
+  {
+    if (this->Preview && this->MadeFor == smg::stampOf(this->Self, input, inputInfo))
+    {
+      return;
+    }
+    this->Preview.reset();
+    PulledMesh mesh(input, this->Self.NumberOfPieces, smg::progressOf(this->Self));
+    smg::MeshPiece preview = smg::pieceOf(smg::makePreview(mesh, this->Self.PreviewPoints));
+    this->Full = mesh.counted();
+    if (preview.corners.empty() && this->Full.cells > 0)
+    {
+      vtkWarningWithObjectMacro(&this->Self, << smg::emptyPreview(this->Self.PreviewPoints));
+    }
+    this->Preview = std::move(preview);
+    input.update(request.Piece, request.Pieces, false);
+    // Pulling may have let the pipeline learn of modifications of its own making.
+    this->MadeFor = smg::stampOf(this->Self, input, inputInfo);
+  }
+
+  void deliver(vtkPointSet& output) const { this->deliver(*this->Preview, output); }
+
+  /** A piece without points, but with all arrays. */
+  void deliverNothing(vtkPointSet& input, vtkPointSet& output) const
+  {
+    smg::MeshPiece empty;
+    for (const smg::ColumnSpec& spec : smg::columnSpecs(*input.GetPointData()))
+    {
+      empty.vertexColumns.push_back({ spec, {} });
+    }
+    this->deliver(empty, output);
+  }
+
+  void deliver(const smg::MeshPiece& piece, vtkPointSet& output) const
+  {
+    smg::StreamInfo info = this->Full;
+    info.cellType = smg::CellType::Triangle;
+    smg::setPiece(output, piece, info);
+    smg::markAsPreview(output, this->Full);
+  }
+
+  vtkStreamingMeshPreview& Self;
+  std::optional<smg::MeshPiece> Preview;
+  smg::StreamInfo Full; ///< of the mesh that the preview shows
+  smg::InputStamp MadeFor;
+};
+
+vtkStreamingMeshPreview::vtkStreamingMeshPreview()
+  : Internal(new Internals(*this))
+{
+}
+
+vtkStreamingMeshPreview::~vtkStreamingMeshPreview() = default;
+
+void vtkStreamingMeshPreview::SetPreviewPoints(int points)
+{
+  const int possible = static_cast<int>(
+    std::clamp<std::int64_t>(points, smg::LeastPreviewPoints, smg::MostPreviewPoints));
+  if (possible != this->PreviewPoints)
+  {
+    this->PreviewPoints = possible;
+    this->Modified();
+  }
+}
+
+vtkIdType vtkStreamingMeshPreview::GetFullNumberOfPoints()
+{
+  return this->Internal->Full.vertices;
+}
+
+vtkIdType vtkStreamingMeshPreview::GetFullNumberOfCells()
+{
+  return this->Internal->Full.cells;
+}
+
+int vtkStreamingMeshPreview::FillInputPortInformation(int, vtkInformation* info)
+{
+  smg::acceptMeshes(*info);
+  return 1;
+}
+
+int vtkStreamingMeshPreview::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  return smg::offerPieces(*outputVector);
+}
+
+int vtkStreamingMeshPreview::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  // The pieces are pulled with the key; what is asked for here is what the input shows anyway.
+  smg::PieceRequest request(outputVector->GetInformationObject(0));
+  request.IsStreamed = false;
+  request.forwardTo(inputVector[0]->GetInformationObject(0));
+  return 1;
+}
+
+int vtkStreamingMeshPreview::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  return smg::answer(*this, *outputVector,
+    [&]
+    {
+      vtkInformation* inputInfo = inputVector[0]->GetInformationObject(0);
+      const smg::PieceRequest request(outputVector->GetInformationObject(0));
+      smg::PieceInput input(*this, 0);
+      if (request.Piece == 0)
+      {
+        this->Internal->make(input, request, inputInfo);
+        this->Internal->deliver(*vtkPolyData::GetData(outputVector));
+      }
+      else
+      {
+        this->Internal->deliverNothing(
+          *vtkPointSet::GetData(inputInfo), *vtkPolyData::GetData(outputVector));
+      }
+    });
+}
+
+void vtkStreamingMeshPreview::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "PreviewPoints: " << this->PreviewPoints << "\n";
+  os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
+  os << indent << "FullNumberOfPoints: " << this->GetFullNumberOfPoints() << "\n";
+  os << indent << "FullNumberOfCells: " << this->GetFullNumberOfCells() << "\n";
+}

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkStreamingSolver.h"
+
+#include "Filters/Streaming/vtkInputStamp.h"
+#include "Filters/Streaming/vtkPieceRequest.h"
+#include "Filters/Streaming/vtkSolutionExchange.h"
+#include "Filters/Streaming/vtkStreamedSolve.h"
+#include "IO/vtkAlgorithmGlue.h"
+#include "IO/vtkPieceInput.h"
+#include "IO/vtkPieceStream.h"
+#include "Solver/Core/Error.h"
+
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
+
+#include <exception>
+#include <optional>
+
+vtkCxxSetObjectMacro(vtkStreamingSolver, Controller, vtkMultiProcessController);
+
+struct vtkStreamingSolver::Internals
+{
+  explicit Internals(vtkStreamingSolver& self)
+    : Self(self)
+  {
+  }
+
+  /**
+   * Answers a request, with several processes together with the others. Throws Error in all of them
+   * if something fails in one.
+   */
+  void answer(
+    const smg::PieceRequest& request, vtkInformation* inputInfo, vtkInformation* outputInfo)
+  {
+    smg::PieceInput input(this->Self, 0);
+    smg::SolutionExchange exchange(this->partners(request, input, inputInfo));
+    vtkSmartPointer<vtkPointSet> present;
+    exchange.together([&] { present = bring(input, request, exchange); });
+    const bool isForMemory = exchange.decide(
+      !request.IsStreamed && exchange.isServer() &&
+      this->Self.IsForMemory(*present, request.Pieces == 1 && !exchange.isParallel()));
+    std::vector<double> values;
+    if (exchange.isServer())
+    {
+      this->solve(input, inputInfo, *present, isForMemory ? &values : nullptr);
+      this->Summary.isCancelled = !this->Summary.error.empty() && this->Self.GetAbortExecute();
+    }
+    exchange.share(this->Summary);
+    this->check();
+    if (!isForMemory)
+    {
+      this->fetch(input, request, exchange, present, values);
+    }
+    exchange.together(
+      [&]
+      {
+        if (isForMemory && !exchange.isServer() && present->GetNumberOfPoints() > 0)
+        {
+          throw smg::Error("The input is a preview in process 0 and has points in another process, "
+                           "too: all of a preview must be in process 0.");
+        }
+        this->deliver(*present, values, *vtkPointSet::GetData(outputInfo));
+      });
+    if (!request.IsStreamed)
+    {
+      const smg::InputStamp stamp = smg::stampOf(this->Self, input, inputInfo);
+      this->Shared = Answered{ stamp, request.Piece, request.Pieces };
+    }
+  }
+
+  /** Who answers the request together with this process: nullptr: nobody. */
+  vtkMultiProcessController* partners(
+    const smg::PieceRequest& request, smg::PieceInput& input, vtkInformation* inputInfo)
+  {
+    const bool isServer = smg::SolutionExchange(this->Self.Controller).isServer();
+    if (request.IsStreamed)
+    {
+      // Only process 0 streams: the others are not there to answer.
+      if (!isServer)
+      {
+        throw smg::Error("A streamed request reached a process other than 0, which has no "
+                         "solution: stream in process 0.");
+      }
+      this->HasStreamed = true;
+      return nullptr;
+    }
+    const Answered now{ smg::stampOf(this->Self, input, inputInfo), request.Piece, request.Pieces };
+    if (isServer && this->HasStreamed && this->Shared == now)
+    {
+      return nullptr;
+    }
+    this->HasStreamed = false;
+    this->Shared.reset();
+    return this->Self.Controller;
+  }
+
+  static vtkSmartPointer<vtkPointSet> bring(
+    smg::PieceInput& input, const smg::PieceRequest& request, const smg::SolutionExchange& exchange)
+  {
+    vtkSmartPointer<vtkPointSet> piece =
+      vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, request.IsStreamed));
+    if (!exchange.isParallel())
+    {
+      return piece;
+    }
+    // Process 0 is going to pull other pieces, and to ask for this one again may need all
+    // processes.
+    const auto copy = vtkSmartPointer<vtkPointSet>::Take(piece->NewInstance());
+    copy->ShallowCopy(piece);
+    return copy;
+  }
+
+  /** Solves in memory, if there are values to be filled, else out of core. */
+  void solve(smg::PieceInput& input, vtkInformation* inputInfo, vtkPointSet& present,
+    std::vector<double>* values)
+  {
+    if (values)
+    {
+      this->Streamed.keepOnlyFor(smg::stampOf(this->Self, input, inputInfo));
+      this->Summary = this->solveInMemory(present, *values);
+      return;
+    }
+    this->solveOutOfCore(input, inputInfo, present);
+    this->Summary = this->Streamed.summary();
+  }
+
+  /** Solves out of core unless that has been done for this input. */
+  void solveOutOfCore(smg::PieceInput& input, vtkInformation* inputInfo, vtkPointSet& present)
+  {
+    if (this->Streamed.isFor(smg::stampOf(this->Self, input, inputInfo)))
+    {
+      return;
+    }
+    try
+    {
+      smg::StreamedSolve::Pulling pulling;
+      pulling.pieces = this->Self.NumberOfPieces;
+      pulling.scratch = this->Self.ScratchDirectory ? this->Self.ScratchDirectory : "";
+      smg::Progress progress(smg::progressOf(this->Self));
+      this->Streamed.solve(input, *this->Self.MakeTask(present), pulling, progress);
+    }
+    catch (const std::exception& error)
+    {
+      this->Streamed.fail(error.what());
+    }
+    // Pulling may have let the pipeline learn of modifications of its own making.
+    this->Streamed.setStamp(smg::stampOf(this->Self, input, inputInfo));
+    this->warn(this->Streamed.summary());
+  }
+
+  smg::SolveSummary solveInMemory(vtkPointSet& input, std::vector<double>& values) const
+  {
+    try
+    {
+      const smg::SolveSummary summary =
+        this->Self.SolveInMemory(input, smg::progressOf(this->Self), values);
+      this->warn(summary);
+      return summary;
+    }
+    catch (const std::exception& error)
+    {
+      return smg::SolveSummary::failed(error.what());
+    }
+  }
+
+  /** Throws Error if there is no solution. */
+  void check() const
+  {
+    if (this->Summary.error.empty())
+    {
+      return;
+    }
+    if (this->Summary.isCancelled)
+    {
+      throw smg::Cancelled();
+    }
+    throw smg::Error(this->Summary.error);
+  }
+
+  void warn(const smg::SolveSummary& summary) const
+  {
+    if (summary.error.empty() && !summary.converged && this->Self.IsToConverge())
+    {
+      vtkWarningWithObjectMacro(
+        &this->Self, << "The solve did not converge: after " << summary.cycles
+                     << " cycles the relative residual is " << summary.residual
+                     << "; raise MaximumCycles or Tolerance.");
+    }
+  }
+
+  /** Gets the values of the points of the piece asked for, which `present` is then again. */
+  void fetch(smg::PieceInput& input, const smg::PieceRequest& request,
+    smg::SolutionExchange& exchange, vtkSmartPointer<vtkPointSet>& present,
+    std::vector<double>& values) const
+  {
+    std::vector<std::int64_t> ids;
+    exchange.together(
+      [&]
+      {
+        if (!exchange.isParallel())
+        {
+          present = bring(input, request, exchange);
+        }
+        if (present->GetNumberOfPoints() > 0)
+        {
+          ids = smg::globalIdsOf(*present, "The input");
+        }
+      });
+    exchange.together(
+      [&] { values = exchange.values(ids, this->Summary.columns, this->Streamed.solution()); });
+  }
+
+  void deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) const
+  {
+    this->Self.Deliver(piece, values, output);
+    vtkNew<vtkStringArray> report;
+    report->SetName("Report");
+    report->InsertNextValue(this->Summary.report);
+    output.GetFieldData()->AddArray(report);
+  }
+
+  /** A request, with what its answer depends on. */
+  struct Answered
+  {
+    smg::InputStamp stamp;
+    int piece = 0, pieces = 0;
+    bool operator==(const Answered&) const = default;
+  };
+
+  vtkStreamingSolver& Self;
+  smg::StreamedSolve Streamed;
+  smg::SolveSummary Summary; ///< of the last answer
+  /** The last request that all processes answered together. */
+  std::optional<Answered> Shared;
+  /**
+   * Whether requests have been streamed since then. They put other pieces in its place in process 0
+   * only, which may be asked for the same once more, alone.
+   */
+  bool HasStreamed = false;
+};
+
+vtkStreamingSolver::vtkStreamingSolver()
+  : Internal(new Internals(*this))
+{
+  this->SetOperators("extended");
+  this->SetController(vtkMultiProcessController::GetGlobalController());
+}
+
+vtkStreamingSolver::~vtkStreamingSolver()
+{
+  this->SetOperators(nullptr);
+  this->SetScratchDirectory(nullptr);
+  this->SetController(nullptr);
+}
+
+const smg::SolveSummary& vtkStreamingSolver::GetSummary() const
+{
+  return this->Internal->Summary;
+}
+
+double vtkStreamingSolver::GetResidual()
+{
+  return this->GetSummary().residual;
+}
+
+int vtkStreamingSolver::GetPasses()
+{
+  return this->GetSummary().passes;
+}
+
+vtkIdType vtkStreamingSolver::GetPeakMemory()
+{
+  return static_cast<vtkIdType>(this->GetSummary().peakMemory);
+}
+
+int vtkStreamingSolver::GetConverged()
+{
+  return this->GetSummary().converged ? 1 : 0;
+}
+
+const char* vtkStreamingSolver::GetReport()
+{
+  return this->GetSummary().report.c_str();
+}
+
+void vtkStreamingSolver::FillOptions(smg::SolveOptions& options) const
+{
+  options.operators = this->Operators ? this->Operators : "";
+  options.sweeps = this->Sweeps;
+  options.tolerance = this->Tolerance;
+  options.maxCycles = this->MaximumCycles;
+  options.memoryLimit = std::int64_t(this->MemoryLimit) << 20;
+  options.threads = this->NumberOfThreads;
+  options.scratch = this->ScratchDirectory ? this->ScratchDirectory : "";
+}
+
+bool vtkStreamingSolver::IsForMemory(vtkPointSet&, bool)
+{
+  return false;
+}
+
+smg::SolveSummary vtkStreamingSolver::SolveInMemory(
+  vtkPointSet&, const std::function<bool(double)>&, std::vector<double>&)
+{
+  throw smg::Error(std::string(this->GetClassName()) + " does not solve in memory.");
+}
+
+int vtkStreamingSolver::FillInputPortInformation(int, vtkInformation* info)
+{
+  smg::acceptMeshes(*info);
+  return 1;
+}
+
+int vtkStreamingSolver::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  return smg::offerPieces(*outputVector);
+}
+
+int vtkStreamingSolver::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  // Not the first piece to solve on: were the executive to ask for that, nobody would take the
+  // streamed request back if the input failed.
+  const smg::PieceRequest request(outputVector->GetInformationObject(0));
+  vtkInformation* input = inputVector[0]->GetInformationObject(0);
+  if (!request.IsStreamed && smg::SolutionExchange(this->Controller).isParallel())
+  {
+    // Were the input to fail in one process now, that would not join the others in RequestData().
+    request.forwardEmptyTo(input);
+  }
+  else
+  {
+    request.forwardTo(input);
+  }
+  return 1;
+}
+
+int vtkStreamingSolver::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  return smg::answer(*this, *outputVector,
+    [&]
+    {
+      vtkInformation* info = outputVector->GetInformationObject(0);
+      this->Internal->answer(
+        smg::PieceRequest(info), inputVector[0]->GetInformationObject(0), info);
+    });
+}
+
+void vtkStreamingSolver::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Weights: " << (this->Weights == UNIFORM ? "uniform" : "cotangent") << "\n";
+  os << indent << "Operators: " << (this->Operators ? this->Operators : "(none)") << "\n";
+  os << indent << "Sweeps: " << this->Sweeps << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "MaximumCycles: " << this->MaximumCycles << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
+  os << indent
+     << "ScratchDirectory: " << (this->ScratchDirectory ? this->ScratchDirectory : "(none)")
+     << "\n";
+  os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "Controller: " << this->Controller << "\n";
+  os << indent << "Residual: " << this->GetResidual() << "\n";
+  os << indent << "Passes: " << this->GetPasses() << "\n";
+  os << indent << "PeakMemory: " << this->GetPeakMemory() << "\n";
+  os << indent << "Converged: " << this->GetConverged() << "\n";
+}
