@@ -1,8 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds libraries, ParaView plugin and the program smg on a Debian 12 machine (as root, or as a user
-# with sudo) and lets pvpython compute and draw a harmonic field on the Stanford bunny, out of core.
-# Leaves bunny-harmonic.png and the solver's report, bunny-harmonic.json, in Examples/output.
+# with sudo) and lets pvpython deform the Stanford bunny, out of core. Leaves in Examples/output:
+# bunny-deformed.png (before and after), .vsm and .ply (the deformed mesh), .json (the report).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source cmake/packages.sh
@@ -18,7 +18,8 @@ cmake --build build
 
 mkdir -p Examples/output
 plugin=$(find "$PWD/build" -name StreamingMultigrid.so | head -n 1)
-xvfb-run -a pvpython Examples/HarmonicField/pvpython/harmonic_field.py \
+xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython Examples/Deformation/pvpython/deformation.py \
   --plugin "$plugin" --output Examples/output
-echo "The picture: $PWD/Examples/output/bunny-harmonic.png"
-echo "The report:  $PWD/Examples/output/bunny-harmonic.json"
+echo "The picture: $PWD/Examples/output/bunny-deformed.png"
+echo "The mesh:    $PWD/Examples/output/bunny-deformed.vsm and .ply"
+echo "The report:  $PWD/Examples/output/bunny-deformed.json"

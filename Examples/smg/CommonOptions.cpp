@@ -10,21 +10,28 @@
 #include <fstream>
 #include <utility>
 
-void CommonOptions::addTo(CLI::App& command)
+void CommonOptions::addTo(CLI::App& command, const std::string& memoryDefault)
 {
   constexpr std::int64_t MostMemory = std::int64_t(1) << 30;
   command.add_option("--report", this->report, "Write the report to this JSON file")
     ->type_name("FILE");
   command.add_option("--memory", this->memory, "Memory limit in MiB")
     ->check(CLI::Range(std::int64_t(1), MostMemory))
+    ->default_str(memoryDefault)
     ->type_name("MiB");
-  command.add_option("--threads", this->threads, "Compute threads; 0: one a core")
-    ->check(CLI::Range(0, 1024))
-    ->type_name("N");
   command.add_option("--scratch", this->scratch, "Folder for scratch files")
     ->check(CLI::ExistingDirectory)
+    ->default_str("$TMPDIR or /tmp")
     ->type_name("DIR");
   command.add_flag("--quiet", this->quiet, "No progress bar and no summary");
+}
+
+void CommonOptions::addThreadsTo(CLI::App& command)
+{
+  command.add_option("--threads", this->threads, "Compute threads; 0: one a core")
+    ->check(CLI::Range(0, 1024))
+    ->capture_default_str()
+    ->type_name("N");
 }
 
 namespace

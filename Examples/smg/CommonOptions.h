@@ -18,8 +18,13 @@ struct CommonOptions
   std::filesystem::path scratch; ///< empty: the system's temporary folder
   bool quiet = false;
 
-  /** Adds the options to a command. */
-  void addTo(CLI::App& command);
+  /**
+   * Adds the options to a command, all but --threads. `memoryDefault` says what holds without
+   * --memory.
+   */
+  void addTo(CLI::App& command, const std::string& memoryDefault = "half of the machine's memory");
+  /** Adds --threads. */
+  void addThreadsTo(CLI::App& command);
 
   /** The memory limit in bytes, or `fallback` if none was given. */
   std::int64_t memoryBytes(std::int64_t fallback) const
@@ -43,3 +48,5 @@ using Action = std::function<void()>;
 void addInfoCommand(CLI::App& program, Action& action);
 void addConvertCommand(CLI::App& program, Action& action);
 void addSolveCommand(CLI::App& program, Action& action);
+void addDeformCommand(CLI::App& program, Action& action);
+void addPreviewCommand(CLI::App& program, Action& action);

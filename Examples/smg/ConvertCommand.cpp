@@ -76,7 +76,8 @@ void addConvertCommand(CLI::App& program, Action& action)
     program.add_subcommand("convert", "Bring a mesh into a stream order and write it");
   command->add_option("IN", options->in, "The mesh")->required();
   command
-    ->add_option("OUT", options->out, "The stream: .vsm, .sma, .smb, .sva or .svb; or .vtp, .vtu")
+    ->add_option(
+      "OUT", options->out, "The stream: .vsm, .sma, .smb, .sva or .svb; or .ply, .vtp, .vtu")
     ->required();
   command
     ->add_option("--order", options->order,
@@ -87,5 +88,6 @@ void addConvertCommand(CLI::App& program, Action& action)
     ->check(oneOf({ "zstd", "lz4", "none" }))
     ->capture_default_str();
   options->addTo(*command);
+  options->addThreadsTo(*command);
   command->callback([options, &action] { action = [options] { options->run(); }; });
 }

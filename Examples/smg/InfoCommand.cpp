@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "CommonOptions.h"
+#include "OpenInput.h"
 #include "ProgressBar.h"
-#include "VtkBridge.h"
-
-#include "IO/Conversion/OpenMesh.h"
 
 #include <nlohmann/json.hpp>
 
@@ -102,15 +99,9 @@ struct InfoOptions : CommonOptions
   {
     this->checkReport();
     ProgressBar bar("reading", this->quiet);
-    loadVtkFor(this->file);
-    smg::ConversionOptions options;
     // The order of the file itself is what the figures are about.
-    options.order = smg::StreamOrder::Keep;
-    options.memoryLimit = this->memoryBytes(0);
-    options.codec = smg::Codec::Lz4;
-    options.scratch = this->scratch;
-    options.progress = bar.function();
-    const std::unique_ptr<smg::OpenedMesh> mesh = smg::openMesh(this->file, options);
+    const std::unique_ptr<smg::OpenedMesh> mesh =
+      openInput(this->file, *this, bar.function(), smg::StreamOrder::Keep);
     this->writeReport(describe(this->file, *mesh)
                         .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     if (!this->quiet)
@@ -128,5 +119,6 @@ void addInfoCommand(CLI::App& program, Action& action)
   CLI::App* command = program.add_subcommand("info", "Say what a mesh file holds");
   command->add_option("FILE", options->file, "The mesh")->required();
   options->addTo(*command);
+  options->addThreadsTo(*command);
   command->callback([options, &action] { action = [options] { options->run(); }; });
 }

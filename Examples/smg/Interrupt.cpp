@@ -23,6 +23,13 @@ void catchInterrupts()
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  // A terminal that closes must not stop what nohup has started.
+  struct sigaction before = {};
+  sigaction(SIGHUP, nullptr, &before);
+  if (before.sa_handler != SIG_IGN)
+  {
+    sigaction(SIGHUP, &action, nullptr);
+  }
 }
 
 bool interrupted()

@@ -2,8 +2,8 @@
 #pragma once
 
 /**
- * Makes SIGINT and SIGTERM ask the running operation to stop and clean up, instead of ending the
- * program at once. A second signal ends it.
+ * Makes SIGINT, SIGTERM and SIGHUP (unless that is ignored) ask the running operation to stop and
+ * clean up, instead of ending the program at once. A second signal ends it.
  */
 void catchInterrupts();
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// smg: Poisson problems on meshes of any size.
+// smg: Poisson problems and deformations on meshes of any size.
 //
 //   smg info bunny.ply
 //   smg convert bunny.ply bunny.vsm
 //   smg solve bunny.vsm harmonic.vtp --problem harmonic.json --report report.json
+//   smg deform bunny.vsm bent.ply --handles handles.json --memory 128
+//   smg preview bunny.vsm preview.vtp --points 5000
 //
 // Answers 0, or 1 with one line on standard error, or 2 if it was called wrongly.
 
@@ -41,13 +43,16 @@ int fail(std::string sentence)
 
 int main(int argc, char** argv)
 {
-  CLI::App program("Streaming multigrid for Poisson problems on meshes of any size", "smg");
+  CLI::App program(
+    "Streaming multigrid for Poisson problems and deformations on meshes of any size", "smg");
   program.set_version_flag("--version", SMG_VERSION);
   program.require_subcommand(1);
   Action action;
   addInfoCommand(program, action);
   addConvertCommand(program, action);
   addSolveCommand(program, action);
+  addDeformCommand(program, action);
+  addPreviewCommand(program, action);
   try
   {
     program.parse(argc, argv);
@@ -60,9 +65,11 @@ int main(int argc, char** argv)
       return program.exit(error);
     }
     const std::vector<std::string> rest = program.remaining();
-    const bool unknown = program.get_subcommands().empty() && !rest.empty();
-    fail((unknown ? '\'' + rest.front() + "' is not a command of smg" : error.what()) +
-         std::string(" (smg --help says how it is called)"));
+    const std::vector<CLI::App*> commands = program.get_subcommands();
+    const bool unknown = commands.empty() && !rest.empty();
+    const std::string called = commands.empty() ? "smg" : "smg " + commands.front()->get_name();
+    fail((unknown ? '\'' + rest.front() + "' is not a command of smg" : error.what()) + " (" +
+         called + " --help says how it is called)");
     return 2;
   }
 

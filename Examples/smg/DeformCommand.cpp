@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SolvingCommand.h"
+
+#include "IO/Conversion/MeshFile.h"
+#include "IO/Conversion/PartialProgress.h"
+#include "IO/Motion/MovedMesh.h"
+#include "IO/Motion/RewriteMesh.h"
+#include "IO/Output/WriteMesh.h"
+#include "IO/Problem/HandleFile.h"
+#include "IO/Problem/WeightsName.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace
+{
+
+class DeformCommand : public SolvingCommand
+{
+public:
+  DeformCommand()
+    : SolvingCommand("deforming")
+  {
+  }
+
+  void addOptions(CLI::App& command)
+  {
+    this->addSolverOptions(command,
+      "The deformed mesh: .vsm, .ply, .vtp or .vtu with all columns of IN; or .sma, .smb, .sva, "
+      ".svb. The order of IN is kept from .vsm to any of these, from a streaming format to a "
+      "streaming format, and from PLY to PLY; else the vertices come in stream order",
+      this->Deform);
+    command.get_option("--max-cycles")->description("Most V-cycles of each of the two steps");
+    command.add_option("--handles", this->File, "The handles, a JSON file")
+      ->required()
+      ->type_name("FILE");
+    command
+      .add_option("--weights", this->Weights,
+        "Weights of the edges, rather than the file's: cotangent or uniform")
+      ->check(oneOf({ "cotangent", "uniform" }));
+    CLI::Option* tolerance = addTolerance(command, this->Tolerance);
+    command
+      .add_option(
+        "--cycles", this->Cycles, "V-cycles of each of the two steps, rather than a tolerance")
+      ->check(CLI::Range(1, 1000000))
+      ->excludes(tolerance);
+    command
+      .add_option("--normals", this->Normals,
+        "Columns Normals of IN: recompute (left out of tetrahedra) or drop")
+      ->check(oneOf({ "recompute", "drop" }))
+      ->capture_default_str();
+    command.footer("Keys of a handle file: handles [region {sphere | box | halfspace | vertices}, "
+                   "fixed | translate, rotate {axis, degrees, center}, scale, center], weights, "
+                   "cycles | tolerance");
+  }
+
+protected:
+  void checkOutputName() const override { smg::checkOutput(this->Out); }
+
+  void readTask() override { this->Data = smg::readHandleFileData(this->File); }
+
+  std::unique_ptr<smg::Solution> solveOn(
+    const smg::VsmReader& mesh, smg::ProgressFunction progress) override
+  {
+    smg::checkOutput(this->Out, mesh.info().cellType);
+    smg::HandleFile handles(std::move(this->Data), mesh.info(), this->File.string());
+    this->Notes = handles.check(*mesh.source(handles.vertexColumns(), {}));
+    this->applyTo(this->Deform, std::move(progress));
+    handles.applyTo(this->Deform);
+    this->applyCommandLine();
+    return smg::deform(*mesh.source(handles.vertexColumns(), {}), handles, this->Deform);
+  }
+
+  bool rewritesInput() const override { return smg::canRewrite(this->In, this->Out); }
+
+  std::vector<std::string> write(const smg::VsmReader& mesh, smg::Solution& positions,
+    const smg::ProgressFunction& progress) const override
+  {
+    smg::NormalsOptions normals;
+    normals.scratch = this->scratch;
+    normals.memory = this->writerMemory();
+    normals.progress = smg::partOf(progress, 0.0, 0.3);
+    const smg::MovedMesh moved(mesh, positions,
+      this->Normals == "drop" ? smg::MovedNormals::Drop : smg::MovedNormals::Recompute, normals);
+    const std::unique_ptr<smg::MeshSource> source = moved.source();
+    // What came in the order of a file goes out in the same order.
+    if (this->rewritesInput())
+    {
+      smg::RewriteOptions options;
+      options.scratch = this->scratch;
+      options.memory = this->writerMemory();
+      options.progress = smg::partOf(progress, 0.3, 1.0);
+      smg::rewriteMesh(this->In, this->Out, *source, options);
+      return this->Notes;
+    }
+    smg::WriteMeshOptions options;
+    options.scratch = this->scratch;
+    options.progress = smg::partOf(progress, 0.3, 1.0);
+    std::vector<std::string> notes = this->Notes;
+    const std::vector<std::string> more = smg::writeMesh(*source, this->Out, options);
+    notes.insert(notes.end(), more.begin(), more.end());
+    return notes;
+  }
+
+  const smg::SolveOptions& solveOptions() const override { return this->Deform; }
+
+private:
+  /** What the command line says counts more than what the file says. */
+  void applyCommandLine()
+  {
+    if (!this->Weights.empty())
+    {
+      this->Deform.weights = *smg::weightsOfName(this->Weights);
+    }
+    if (this->Cycles)
+    {
+      this->Deform.cycles = *this->Cycles;
+    }
+    if (this->Tolerance)
+    {
+      this->Deform.cycles = 0;
+      this->Deform.tolerance = *this->Tolerance;
+    }
+  }
+
+  /** Bytes for what waits while the output is written. */
+  std::int64_t writerMemory() const
+  {
+    return std::min(this->Deform.memoryLimit / 4, smg::NormalsOptions().memory);
+  }
+
+  std::filesystem::path File;
+  smg::HandleFileData Data; ///< what the file says
+  std::string Weights;      ///< empty: those of the file
+  std::optional<int> Cycles;
+  std::optional<double> Tolerance;
+  std::string Normals = "recompute";
+  std::vector<std::string> Notes; ///< on the handles
+  smg::DeformOptions Deform;
+};
+
+} // namespace
+
+void addDeformCommand(CLI::App& program, Action& action)
+{
+  auto deform = std::make_shared<DeformCommand>();
+  CLI::App* command =
+    program.add_subcommand("deform", "Deform a mesh by handles, keeping its details");
+  deform->addOptions(*command);
+  command->callback([deform, &action] { action = [deform] { deform->run(); }; });
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OpenInput.h"
+
+#include "VtkBridge.h"
+
+#include <utility>
+
+std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
+  const CommonOptions& common, smg::ProgressFunction progress, smg::StreamOrder order)
+{
+  loadVtkFor(path);
+  smg::ConversionOptions options;
+  options.order = order;
+  options.memoryLimit = common.memoryBytes(0);
+  options.codec = smg::Codec::Lz4;
+  options.scratch = common.scratch;
+  options.progress = std::move(progress);
+  return smg::openMesh(path, options);
+}

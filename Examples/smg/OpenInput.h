@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CommonOptions.h"
+
+#include "IO/Conversion/OpenMesh.h"
+
+/**
+ * Opens a mesh file of any kind. What is no stream is converted on the way, into `order`, within
+ * the memory limit of the options. Throws smg::Error.
+ */
+std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
+  const CommonOptions& common, smg::ProgressFunction progress,
+  smg::StreamOrder order = smg::StreamOrder::BreadthFirst);

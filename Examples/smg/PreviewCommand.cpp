@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OpenInput.h"
+#include "ProgressBar.h"
+
+#include "IO/Conversion/MeshFile.h"
+#include "IO/Conversion/PartialProgress.h"
+#include "IO/Output/WriteMesh.h"
+#include "IO/Preview/PreviewSource.h"
+#include "Solver/Core/Error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <cstdio>
+
+namespace
+{
+
+struct PreviewOptions : CommonOptions
+{
+  std::filesystem::path in, out;
+  std::int64_t points = smg::DefaultPreviewPoints;
+
+  void run() const;
+
+private:
+  void checkOutputName() const;
+};
+
+/** A preview without the map to the mesh would be of no use. */
+void PreviewOptions::checkOutputName() const
+{
+  if (smg::kindOfOutput(this->out) == smg::MeshFileKind::Stream)
+  {
+    throw smg::Error(this->out.string() +
+                     ": this format has no room for what a preview says of its points: write it as "
+                     ".vsm, .ply, .vtp or .vtu.");
+  }
+  smg::checkOutput(this->out, smg::CellType::Triangle);
+}
+
+void PreviewOptions::run() const
+{
+  const auto start = std::chrono::steady_clock::now();
+  this->checkOutputName();
+  this->checkReport();
+  nlohmann::ordered_json report;
+  std::vector<std::string> notes;
+  {
+    ProgressBar bar("reading", this->quiet);
+    const std::unique_ptr<smg::OpenedMesh> mesh =
+      openInput(this->in, *this, smg::partOf(bar.function(), 0.0, 0.5));
+    const double begin = mesh->conversion() ? 0.5 : 0.0;
+    smg::PreviewSource preview(
+      mesh->reader(), this->points, smg::partOf(bar.function(), begin, 0.95), this->in.string());
+    smg::WriteMeshOptions options;
+    options.scratch = this->scratch;
+    options.progress = smg::partOf(bar.function(), 0.95, 1.0);
+    notes = smg::writeMesh(preview, this->out, options);
+    report["vertices"] = mesh->reader().info().vertices;
+    report["cells"] = mesh->reader().info().cells;
+    report["points"] = preview.info().vertices;
+    report["triangles"] = preview.info().cells;
+  }
+  const double seconds =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report["seconds"] = { { "total", seconds } };
+  report["notes"] = notes;
+  this->writeReport(report.dump(2));
+  if (!this->quiet)
+  {
+    std::printf("%lld points and %lld triangles of %lld vertices, %.2f s\n",
+      report["points"].get<long long>(), report["triangles"].get<long long>(),
+      report["vertices"].get<long long>(), seconds);
+    for (const std::string& note : notes)
+    {
+      std::printf("  %s\n", note.c_str());
+    }
+  }
+}
+
+} // namespace
+
+void addPreviewCommand(CLI::App& program, Action& action)
+{
+  auto options = std::make_shared<PreviewOptions>();
+  CLI::App* command = program.add_subcommand(
+    "preview", "Make a coarse surface of a mesh that says which vertex each of its points is");
+  command->add_option("IN", options->in, "The mesh")->required();
+  command
+    ->add_option("OUT", options->out,
+      "The preview: .vsm, .ply, .vtp or .vtu, with the columns of the vertices of IN; StreamIndex "
+      "and OriginalId number them in the stream and in the original file")
+    ->required();
+  command->add_option("--points", options->points, "Most points of the preview")
+    ->check(CLI::Range(smg::LeastPreviewPoints, smg::MostPreviewPoints))
+    ->capture_default_str()
+    ->type_name("N");
+  options->addTo(*command);
+  command->get_option("--memory")
+    ->description("Memory limit in MiB for converting IN; a .vsm file is not converted");
+  command->callback([options, &action] { action = [options] { options->run(); }; });
+}

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SolvingCommand.h"
+
+#include "OpenInput.h"
+#include "ProgressBar.h"
+
+#include "IO/Conversion/MeshFile.h"
+#include "IO/Conversion/PartialProgress.h"
+#include "IO/Formats/StreamConversion.h"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+std::string SolvingCommand::checkTolerance(const std::string& text)
+{
+  char* end = nullptr;
+  const double tolerance = std::strtod(text.c_str(), &end);
+  const bool isNumber = !text.empty() && *end == '\0';
+  return isNumber && tolerance > 0.0 && tolerance < 1.0
+           ? std::string()
+           : '\'' + text + "' is no number between 0 and 1, both excluded";
+}
+
+void SolvingCommand::addSolverOptions(
+  CLI::App& command, const std::string& result, smg::SolveOptions& options)
+{
+  command.add_option("IN", this->In, "The mesh, best as a .vsm file")->required();
+  command.add_option("OUT", this->Out, result)->required();
+  command.add_option("--operators", options.operators, "Operator set")
+    ->check(oneOf({ "extended" }))
+    ->capture_default_str();
+  command
+    .add_option("--sweeps", options.sweeps, "Gauss-Seidel sweeps before and after a correction")
+    ->check(CLI::Range(1, 20))
+    ->capture_default_str();
+  command.add_option("--max-cycles", options.maxCycles, "Most V-cycles")
+    ->check(CLI::Range(1, 1000000))
+    ->capture_default_str();
+  command.add_flag(
+    "--in-core", options.inCore, "Keep everything in memory and use no scratch files");
+  // For experiments and tests: they change the speed, not the result.
+  command.add_option("--block-nodes", options.blockNodes)->group("");
+  command.add_option("--core-nodes", options.coreNodes)->group("");
+  this->addTo(command, std::to_string(options.memoryLimit >> 20));
+  command.get_option("--memory")
+    ->description("Memory limit in MiB; unless given, half of the machine's memory to convert IN");
+  this->addThreadsTo(command);
+}
+
+void SolvingCommand::applyTo(smg::SolveOptions& options, smg::ProgressFunction progress) const
+{
+  options.memoryLimit = this->memoryBytes(options.memoryLimit);
+  options.threads = this->threads;
+  options.scratch = this->scratch;
+  options.progress = std::move(progress);
+}
+
+void SolvingCommand::run()
+{
+  const auto start = std::chrono::steady_clock::now();
+  const auto secondsSince = [](std::chrono::steady_clock::time_point then)
+  { return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count(); };
+  this->checkOutputName();
+  this->checkReport();
+  this->readTask();
+  smg::Report report;
+  {
+    ProgressBar bar(this->Title, this->quiet);
+    const std::unique_ptr<smg::OpenedMesh> mesh =
+      openInput(this->In, *this, smg::partOf(bar.function(), 0.0, 0.2));
+    const double convertSeconds = mesh->conversion() ? secondsSince(start) : 0.0;
+    const double begin = mesh->conversion() ? 0.2 : 0.0;
+    const std::unique_ptr<smg::Solution> solution =
+      this->solveOn(mesh->reader(), smg::partOf(bar.function(), begin, 0.9));
+    const std::vector<std::string> notes =
+      this->write(mesh->reader(), *solution, smg::partOf(bar.function(), 0.9, 1.0));
+    report = solution->report();
+    report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+    if (mesh->conversion())
+    {
+      const std::vector<std::string> more = this->notesOn(*mesh->conversion());
+      report.notes.insert(report.notes.end(), more.begin(), more.end());
+    }
+    report.seconds.convert = convertSeconds;
+    report.seconds.total = secondsSince(start);
+  }
+  this->writeReport(report.json());
+  this->warn(report);
+  if (!this->quiet)
+  {
+    this->print(report);
+  }
+}
+
+std::vector<std::string> SolvingCommand::notesOn(const smg::ConversionReport& conversion) const
+{
+  const bool rewritten = this->rewritesInput();
+  std::vector<std::string> notes;
+  if (const std::int64_t isolated = conversion.isolated_vertices; isolated > 0)
+  {
+    notes.push_back(
+      std::to_string(isolated) +
+      (isolated == 1 ? " vertex belongs to no cell: it " : " vertices belong to no cell: they ") +
+      (rewritten        ? isolated == 1 ? "stays where it is." : "stay where they are."
+        : isolated == 1 ? "is left out."
+                        : "are left out."));
+  }
+  if (rewritten)
+  {
+    return notes;
+  }
+  notes.insert(notes.end(), conversion.notes.begin(), conversion.notes.end());
+  if (smg::kindOfInput(this->In) == smg::MeshFileKind::Indexed)
+  {
+    const bool hasIds = smg::kindOfOutput(this->Out) != smg::MeshFileKind::Stream;
+    notes.push_back(hasIds
+                      ? std::string("The vertices are in stream order; ") + smg::OriginalIdName +
+                          " names their places in " + this->In.string() + '.'
+                      : "The vertices are in stream order.");
+  }
+  return notes;
+}
+
+void SolvingCommand::warn(const smg::Report& report) const
+{
+  const auto warning = [this](const std::string& what, double residual, int cycles)
+  {
+    std::fprintf(stderr,
+      "smg: warning: %snot converged: the relative residual is %.3g after %d V-cycles, the "
+      "tolerance %.3g\n",
+      what.c_str(), residual, cycles, this->solveOptions().tolerance);
+  };
+  for (const smg::Report::Step& step : report.steps)
+  {
+    if (!step.converged)
+    {
+      warning(step.name + ": ", step.residual, step.cycles);
+    }
+  }
+  if (report.steps.empty() && !report.converged)
+  {
+    warning("", report.residual(), report.cycles);
+  }
+}
+
+void SolvingCommand::print(const smg::Report& report) const
+{
+  std::printf("%lld vertices, %lld cells, %zu levels, %d V-cycles in %d passes, relative residual "
+              "%.3g\n",
+    static_cast<long long>(report.vertices), static_cast<long long>(report.cells),
+    report.levels.size(), report.cycles, report.passes, report.residual());
+  for (const smg::Report::Step& step : report.steps)
+  {
+    std::printf(
+      "  %s: %d V-cycles, relative residual %.3g\n", step.name.c_str(), step.cycles, step.residual);
+  }
+  std::printf("%.2f s (%.2f s of CPU), %.1f MiB of accounted memory, %.1f MiB resident\n",
+    report.seconds.total, report.cpu_seconds,
+    static_cast<double>(report.pool_bytes_peak) / (1 << 20),
+    static_cast<double>(report.rss_bytes_peak) / (1 << 20));
+  for (const std::string& note : report.notes)
+  {
+    std::printf("%s\n", note.c_str());
+  }
+}

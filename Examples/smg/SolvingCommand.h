@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CommonOptions.h"
+
+#include "IO/Container/VsmReader.h"
+#include "IO/Conversion/ConversionReport.h"
+#include "Solver/Solve.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+/**
+ * What `solve` and `deform` have in common: open the mesh, solve on it, write it with the result,
+ * report.
+ */
+class SolvingCommand : public CommonOptions
+{
+public:
+  virtual ~SolvingCommand() = default;
+
+  /** Runs the command. Throws smg::Error. */
+  void run();
+
+protected:
+  /** What the progress bar calls the work. */
+  explicit SolvingCommand(std::string title)
+    : Title(std::move(title))
+  {
+  }
+
+  /**
+   * Adds IN, OUT and the options of the solver, all but the tolerance. `result` says what OUT is.
+   */
+  void addSolverOptions(CLI::App& command, const std::string& result, smg::SolveOptions& options);
+  /** Adds the option --tolerance. */
+  template <class Number>
+  static CLI::Option* addTolerance(CLI::App& command, Number& tolerance)
+  {
+    return command
+      .add_option("--tolerance", tolerance, "Relative residual to stop at, between 0 and 1")
+      ->check(checkTolerance);
+  }
+
+  /** Fills in what the common options say. */
+  void applyTo(smg::SolveOptions& options, smg::ProgressFunction progress) const;
+
+  /** Refuses an output, before the work, as far as its name says. */
+  virtual void checkOutputName() const = 0;
+  /** Reads the file that says what to do, before the mesh is read. */
+  virtual void readTask() = 0;
+  /** Solves; what can be known to fail is refused first. */
+  virtual std::unique_ptr<smg::Solution> solveOn(
+    const smg::VsmReader& mesh, smg::ProgressFunction progress) = 0;
+  /** Whether write() makes OUT of the file IN, in the order of that. */
+  virtual bool rewritesInput() const { return false; }
+  /** Writes the output; answers what a user should know of it. */
+  virtual std::vector<std::string> write(const smg::VsmReader& mesh, smg::Solution& solution,
+    const smg::ProgressFunction& progress) const = 0;
+  /** Those that solveOn() used last. */
+  virtual const smg::SolveOptions& solveOptions() const = 0;
+
+  std::filesystem::path In, Out;
+
+private:
+  /** CLI::Range includes its ends and takes nan. */
+  static std::string checkTolerance(const std::string& text);
+  /** What a user should know of the mesh that was made of IN. */
+  std::vector<std::string> notesOn(const smg::ConversionReport& conversion) const;
+  /** Says what did not converge. */
+  void warn(const smg::Report& report) const;
+  void print(const smg::Report& report) const;
+
+  std::string Title;
+};
