@@ -18,8 +18,8 @@ if (NOT SMG_BUILD_VTK)
 endif ()
 
 set(smg_vtk_components
-  CommonCore CommonDataModel CommonExecutionModel CommonMisc CommonSystem
-  FiltersCore FiltersGeneral FiltersSources IOCore IOLegacy IOXML ParallelCore)
+  CommonCore CommonDataModel CommonExecutionModel CommonMisc CommonSystem CommonTransforms
+  FiltersCore FiltersExtraction FiltersGeneral FiltersSources IOCore IOLegacy IOXML ParallelCore)
 if (SMG_BUILD_PYTHON)
   list(APPEND smg_vtk_components Python WrappingPythonCore)
 endif ()

@@ -27,12 +27,21 @@ function (smg_add_gtest name)
 endfunction ()
 
 function (smg_discover name filter timeout labels)
+  string(MAKE_C_IDENTIFIER "${name}_${labels}" list)
   gtest_discover_tests(${name}
     TEST_PREFIX "${name}."
     TEST_FILTER "${filter}"
+    TEST_LIST ${list}
     DISCOVERY_MODE PRE_TEST
     DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${labels}" TIMEOUT ${timeout})
+    PROPERTIES TIMEOUT ${timeout})
+  # gtest_discover_tests takes a list of labels apart: they are set where ctest knows the tests.
+  set(file "${CMAKE_CURRENT_BINARY_DIR}/${list}.cmake")
+  file(WRITE "${file}" "foreach (test IN LISTS ${list})
+  set_tests_properties(\"\${test}\" PROPERTIES LABELS \"${labels}\")
+endforeach ()
+")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${file}")
 endfunction ()
 
 # Finds pvpython, pvbatch and xvfb-run once: without an X server ParaView's rendering crashes.
@@ -41,6 +50,8 @@ function (smg_find_paraview_programs)
   find_program(SMG_PVBATCH pvbatch REQUIRED)
   find_program(SMG_PVSERVER pvserver REQUIRED)
   find_program(SMG_XVFB_RUN xvfb-run REQUIRED)
+  # Without -noreset the server begins anew when a first client goes, and may refuse a second one.
+  set(smg_on_screen ${SMG_XVFB_RUN} -a -s "-screen 0 1280x1024x24 -noreset" PARENT_SCOPE)
   find_program(SMG_MPIRUN NAMES mpirun mpiexec REQUIRED)
 endfunction ()
 
@@ -52,7 +63,7 @@ function (smg_add_paraview_test name)
   if (NOT arg_TIMEOUT)
     set(arg_TIMEOUT 240)
   endif ()
-  add_test(NAME ${name} COMMAND ${SMG_XVFB_RUN} -a ${arg_COMMAND})
+  add_test(NAME ${name} COMMAND ${smg_on_screen} ${arg_COMMAND})
   set_tests_properties(${name} PROPERTIES
     TIMEOUT ${arg_TIMEOUT}
     LABELS "paraview;${arg_LABELS}"

@@ -12,7 +12,7 @@ smg_build_packages=(
 smg_paraview_packages=(
   paraview paraview-dev python3-paraview libopenmpi-dev xvfb xauth libqt5svg5)
 smg_test_packages=(libgtest-dev clang-format openmpi-bin xz-utils)
-smg_benchmark_packages=(libhypre-dev libopenmpi-dev python3)
+smg_benchmark_packages=(libbenchmark-dev libhypre-dev libopenmpi-dev python3)
 
 # As root: directly, or through sudo.
 smg_as_root() {

@@ -2,60 +2,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The program smg from outside: its commands, reports, exit codes and what it leaves behind."""
 
-import base64
 import json
 import os
 import signal
-import struct
 import subprocess
 import sys
 import time
-import xml.etree.ElementTree as xml
 
-from torus import torus
-
-SMG = os.environ["SMG_PROGRAM"]
-READS_VTK = os.environ["SMG_READS_VTK"] == "1"
-
-
-def run(*arguments, code=0):
-    done = subprocess.run([SMG, *map(str, arguments)], capture_output=True, text=True, timeout=120)
-    assert done.returncode == code, (arguments, done.returncode, done.stdout, done.stderr)
-    if code != 0:
-        assert done.stdout == "", (arguments, done.stdout)
-        assert done.stderr.count("\n") == 1 and done.stderr.startswith("smg: "), done.stderr
-    return done
-
-
-def load(name):
-    with open(name, encoding="utf-8") as file:
-        return json.load(file)
-
-
-def read_vtk_xml(name):
-    """The arrays of a .vtp or .vtu file, by name, as tuples."""
-    codes = {"Float32": "f", "Float64": "d", "Int64": "q", "UInt8": "B"}
-    arrays = {}
-    for array in xml.parse(name).getroot().iter("DataArray"):
-        assert array.get("format") == "binary"
-        # The number of bytes is a unit of base64 of its own.
-        text = array.text.strip()
-        size, = struct.unpack("=Q", base64.b64decode(text[:12], validate=True))
-        data = base64.b64decode(text[12:], validate=True)
-        assert len(data) == size, (name, array.attrib, size, len(data))
-        components = array.get("NumberOfComponents")
-        arrays[array.get("Name")] = list(struct.iter_unpack(
-            "=" + components + codes[array.get("type")], data))
-    return arrays
-
-
-def write_torus(name, nu, nv):
-    points, quadrangles = torus(nu, nv)
-    with open(name, "w", encoding="utf-8") as file:
-        for point in points:
-            file.write("v %.9g %.9g %.9g\n" % point)
-        for quadrangle in quadrangles:
-            file.write("f %d %d %d %d\n" % tuple(corner + 1 for corner in quadrangle))
+from program import READS_VTK, SMG, load, read_vtk_xml, run, write_torus
 
 
 def test_convert_and_info():
@@ -115,6 +69,10 @@ def test_solve():
     assert load("solve.json")["seconds"]["convert"] > 0
     run("convert", "solved.vsm", "streamed.vtp", "--order", "keep", "--quiet")
     assert read_vtk_xml("solved.vtp") == read_vtk_xml("streamed.vtp")
+    done = run("solve", "torus.obj", "solved.ply", "--problem", name)
+    assert "OriginalId names their places in torus.obj" in done.stdout, done.stdout
+    run("info", "solved.ply", "--report", "info.json", "--quiet")
+    assert "Solution_2" in [c["name"] for c in load("info.json")["columns"]["vertices"]]
     run("solve", "solved.vsm", "again.vsm", "--problem", name, "--in-core", "--threads", 1,
         "--block-nodes", 333, "--core-nodes", 100, "--quiet")
     with open("solved.vsm", "rb") as streamed, open("again.vsm", "rb") as core:
@@ -153,6 +111,13 @@ def test_errors():
     name = problem(dirichlet=[{"sphere": [0, 0, 0, 1.5], "value": [0]}])
     done = run("solve", "torus.vsm", "o2.vsm", "--problem", name, "--memory", 1, code=1)
     assert "1 MiB" in done.stderr, done.stderr
+    assert "no room for a solution" in run(
+        "solve", "torus.vsm", "o2.smb", "--problem", name, code=1).stderr
+    # The problem is read before the mesh.
+    for file in ("missing.json", "scratch"):
+        os.makedirs("scratch", exist_ok=True)
+        done = run("solve", "missing.obj", "o2.vsm", "--problem", file, code=1)
+        assert file in done.stderr, done.stderr
     assert not any(file.startswith("o2") for file in os.listdir("."))
 
 
@@ -160,7 +125,8 @@ def test_interrupt_cleans_up():
     os.makedirs("scratch", exist_ok=True)
     write_torus("large.obj", 900, 500)
     before = sorted(os.listdir("."))
-    for kind, delay in ((signal.SIGINT, 0.1), (signal.SIGTERM, 0.3), (signal.SIGTERM, 0.6)):
+    for kind, delay in ((signal.SIGINT, 0.1), (signal.SIGTERM, 0.3), (signal.SIGTERM, 0.6),
+                        (signal.SIGHUP, 0.3)):
         process = subprocess.Popen(
             [SMG, "convert", "large.obj", "large.smb", "--scratch", "scratch"],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)

@@ -9,6 +9,7 @@ import struct
 import subprocess
 import sys
 
+from tetrahedra import tetrahedra
 from torus import torus
 
 SMG = os.environ["SMG_PROGRAM"]
@@ -26,18 +27,9 @@ def marked_torus(nu=24, nv=12):
     return points, cells
 
 
-def tetrahedra(n=4):
-    points = [(x, y, z) for x in range(n) for y in range(n) for z in range(n)]
+def marked_tetrahedra():
+    points, cells = tetrahedra(4)
     points[5] = (MARK,) + points[5][1:]
-    cells = []
-    for x in range(n - 1):
-        for y in range(n - 1):
-            for z in range(n - 1):
-                corner = [((x + (i >> 2)) * n + y + (i >> 1 & 1)) * n + z + (i & 1)
-                          for i in range(8)]
-                cells += [tuple(corner[i] for i in tet) for tet in (
-                    (0, 1, 3, 7), (0, 3, 2, 7), (0, 2, 6, 7),
-                    (0, 6, 4, 7), (0, 4, 5, 7), (0, 5, 1, 7))]
     return points, cells
 
 
@@ -120,7 +112,7 @@ def convert(name, out, *options):
 
 def samples():
     """A sound file of each format: (suffix, bytes)."""
-    surface, solid = marked_torus(), tetrahedra()
+    surface, solid = marked_torus(), marked_tetrahedra()
     files = [(".ply", ply(*surface)), (".ply", binary_ply(*surface)), (".obj", obj(*surface)),
              (".off", off(*surface)), (".stl", stl(*surface)), (".stl", binary_stl(*surface)),
              (".vtk", legacy(*surface)), (".vtu", vtu(*surface)), (".vtu", vtu(*solid)),

@@ -419,7 +419,14 @@ TEST_F(VtkStreamingPoisson, CanBeAborted)
   EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));
   EXPECT_EQ(this->Folder.entries(), 1);
   this->Poisson->RemoveObserver(observer);
+  // Only a change makes it try again.
+  this->Ends->Executions = 0;
+  updatePiece(this->Poisson, 0, 1);
+  EXPECT_EQ(this->Ends->Executions, 0);
+  // The observer was also told of the end.
+  this->Poisson->SetAbortExecute(0);
   EXPECT_TRUE(updatePiece(this->Poisson, 0, 1));
+  EXPECT_EQ(this->output()->GetNumberOfPoints(), this->Mesh.vertices());
 }
 
 TEST_F(VtkStreamingPoisson, PrintsItsProperties)

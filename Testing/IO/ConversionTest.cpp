@@ -3,9 +3,9 @@
 #include "IO/Conversion/OpenMesh.h"
 
 #include "IO/Container/VsmReader.h"
-#include "IO/Conversion/CellFlagger.h"
 #include "IO/Conversion/MeshFile.h"
 #include "IO/Formats/StreamConversion.h"
+#include "IO/Order/CellFlagger.h"
 #include "Solver/Core/Error.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
@@ -312,12 +312,12 @@ TEST_F(Conversion, PositionsAreRoundedWithANoteOrRefused)
 TEST_F(Conversion, AFolderInTheWayLeavesNothing)
 {
   const std::filesystem::path in = this->write(sphere(1));
-  for (const char* out : { "out.vsm", "out.smb", "out.sma", "out.vtp", "out.vtu" })
+  for (const char* out : { "out.vsm", "out.smb", "out.sma", "out.ply", "out.vtp", "out.vtu" })
   {
     std::filesystem::create_directory(this->Folder / out);
     EXPECT_THROW(convert(in, this->Folder / out), Error) << out;
   }
-  EXPECT_EQ(this->Folder.entries(), 6);
+  EXPECT_EQ(this->Folder.entries(), 7);
 }
 
 TEST_F(Conversion, KindsOfInputGoByContent)

@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Problem/RegionProblem.h"
 
-#include "IO/Formats/StreamConversion.h"
-#include "Solver/Core/Error.h"
-#include "Testing/IO/MeshText.h"
-#include "Testing/Support/MemorySource.h"
-#include "Testing/Support/TemporaryFolder.h"
-
-#include <gtest/gtest.h>
-
-#include <memory>
-#include <string>
-#include <vector>
+#include "Testing/IO/RegionFileFixture.h"
 
 using namespace smg;
 using namespace smg::testing;
@@ -19,46 +9,17 @@ using namespace smg::testing;
 namespace
 {
 
-class ProblemFile : public ::testing::Test
+class ProblemFile : public RegionFile
 {
 protected:
-  /** A lattice of 5 x 5 vertices whose original numbers are 1000 and more, backwards. */
-  ProblemFile()
-    : Source(lattice(), 7)
-  {
-  }
-
-  static StreamMesh lattice()
-  {
-    StreamMesh mesh = toStream(grid(5, 5));
-    std::vector<std::int64_t> ids;
-    for (std::int64_t i = 0; i < mesh.vertices(); ++i)
-    {
-      ids.push_back(1000 + mesh.vertices() - 1 - i);
-    }
-    mesh.vertexColumns.push_back(makeColumn<std::int64_t>(OriginalIdName, ids));
-    return mesh;
-  }
-
   std::unique_ptr<RegionProblem> parse(const std::string& json)
   {
-    writeBytes(this->Folder / "p.json", json);
-    return readProblemFile(this->Folder / "p.json", this->Source.info());
+    return readProblemFile(this->file(json), this->Source.info());
   }
 
   std::string errorOf(const std::string& json)
   {
-    try
-    {
-      const auto problem = this->parse(json);
-      this->Source.rewind(7);
-      problem->check(this->Source);
-    }
-    catch (const Error& error)
-    {
-      return error.what();
-    }
-    return "no error";
+    return RegionFile::errorOf(readProblemFile, json);
   }
 
   /** What the problem says of all vertices. */
@@ -81,12 +42,7 @@ protected:
     }
     return all;
   }
-
-  TemporaryFolder Folder;
-  MemorySource Source;
 };
-
-#define EXPECT_CONTAINS(text, part) EXPECT_PRED_FORMAT2(::testing::IsSubstring, part, text)
 
 } // namespace
 

@@ -54,9 +54,25 @@ TEST(StreamPreview, IsBoundedAndMadeOfVertices)
     MemorySource source(toStream(torus(150, 100, 0.2)));
     const StreamPreview preview = makePreview(source, limit);
     EXPECT_LE(std::int64_t(preview.ids.size()), limit);
-    EXPECT_GE(std::int64_t(preview.ids.size()), limit < 100 ? 0 : limit / 6);
+    EXPECT_GE(std::int64_t(preview.ids.size()), limit < 100 ? 4 : limit * 7 / 10);
     expectVerticesOf(source.mesh(), preview);
     expectProperTriangles(preview);
+  }
+}
+
+TEST(StreamPreview, HasNearlyAsManyPointsAsAreAskedFor)
+{
+  const StreamMesh mesh = toStream(torus(300, 200, 0.1));
+  for (std::int64_t limit = 500; limit < 40000; limit = limit * 5 / 4)
+  {
+    MemorySource source(mesh);
+    const StreamPreview preview = makePreview(source, limit);
+    EXPECT_LE(std::int64_t(preview.ids.size()), limit);
+    EXPECT_GE(std::int64_t(preview.ids.size()), limit * 7 / 10) << limit;
+    expectProperTriangles(preview);
+    // A closed surface has two triangles a point: few are lost where it folds.
+    const auto points = static_cast<double>(preview.ids.size());
+    EXPECT_NEAR(static_cast<double>(preview.triangles.size()) / 3.0, 2.0 * points, 0.1 * points);
   }
 }
 
@@ -107,6 +123,71 @@ TEST(StreamPreview, OnePointMeshesDoNotFail)
   mesh.corners = { 0, 1, 2 };
   MemorySource source(toStream(mesh));
   EXPECT_TRUE(makePreview(source, 100).triangles.empty());
+}
+
+/** The mesh in blocks, of which nothing is known before they come. */
+class UnknownSource : public MeshSource
+{
+public:
+  UnknownSource(const StreamMesh& mesh, std::int64_t blockCells)
+    : Source(mesh, blockCells)
+    , Info(this->Source.info())
+  {
+    this->Info.bounds = {};
+    this->Info.vertices = this->Info.cells = 0;
+  }
+
+  const StreamInfo& info() const override { return this->Info; }
+  bool next(MeshBlock& block) override { return this->Source.next(block); }
+
+private:
+  MemorySource Source;
+  StreamInfo Info;
+};
+
+TEST(StreamPreview, BoundsNeedNotBeKnown)
+{
+  const StreamMesh mesh = toStream(torus(150, 100, 0.2));
+  for (const std::int64_t limit : { 8, 100, 1000, 5000 })
+  {
+    for (const std::int64_t blockCells : { 1, 1000, 1000000 })
+    {
+      UnknownSource source(mesh, blockCells);
+      const StreamPreview preview = makePreview(source, limit);
+      EXPECT_LE(std::int64_t(preview.ids.size()), limit);
+      EXPECT_GE(std::int64_t(preview.ids.size()), limit < 100 ? 0 : limit * 7 / 10);
+      expectVerticesOf(mesh, preview);
+      expectProperTriangles(preview);
+    }
+  }
+  UnknownSource source(toStream(sphere(2)), 3);
+  EXPECT_EQ(makePreview(source, 1000).ids.size(), 162U);
+}
+
+TEST(StreamPreview, HasTheColumnsOfItsVertices)
+{
+  StreamMesh mesh = toStream(torus(150, 100, 0.2));
+  std::vector<float> values;
+  std::vector<std::int64_t> ids;
+  for (std::int64_t i = 0; i < mesh.vertices(); ++i)
+  {
+    ids.push_back(7 * i);
+    values.insert(values.end(), { float(i), 0.5F * float(i) });
+  }
+  mesh.vertexColumns = { makeColumn<float>("Values", values, 2),
+    makeColumn<std::int64_t>("Ids", ids) };
+  for (const std::int64_t limit : { 100, 3000, 100000 })
+  {
+    MemorySource source(mesh, 70);
+    const StreamPreview preview = makePreview(source, limit);
+    ASSERT_EQ(preview.vertexColumns.size(), 2U);
+    EXPECT_EQ(preview.vertexColumns[0].spec, mesh.vertexColumns[0].spec);
+    for (std::size_t i = 0; i < preview.ids.size(); ++i)
+    {
+      ASSERT_EQ(preview.vertexColumns[0].value(i, 1), 0.5 * double(preview.ids[i]));
+      ASSERT_EQ(preview.vertexColumns[1].value(i), 7.0 * double(preview.ids[i]));
+    }
+  }
 }
 
 TEST(StreamPreview, CanBeCancelled)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkMeshImport.h"
 
+#include "IO/Container/NormalsColumn.h"
 #include "IO/Import/VtkSizes.h"
 #include "Solver/Core/Error.h"
 #include "Testing/IO/MeshText.h"
@@ -9,6 +10,7 @@
 
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -97,6 +99,33 @@ TEST_F(VtkMeshImport, PolyDataOfBothFormats)
     EXPECT_FALSE(mesh.doublePositions);
     ASSERT_EQ(mesh.vertexColumns.size(), 1u);
     EXPECT_EQ(mesh.vertexColumns[0].spec, (ColumnSpec{ "Normals", ScalarType::Float32, 3 }));
+  }
+}
+
+TEST_F(VtkMeshImport, ActiveNormalsAreNormalsByWhateverName)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->Update();
+  vtkPolyData* data = sphere->GetOutput();
+  data->GetPointData()->GetNormals()->SetName("Outwards");
+  for (const bool taken : { false, true })
+  {
+    if (taken)
+    {
+      vtkNew<vtkFloatArray> other;
+      other->SetName(NormalsName);
+      other->SetNumberOfTuples(data->GetNumberOfPoints());
+      other->Fill(0.0);
+      data->GetPointData()->AddArray(other);
+    }
+    for (const std::string& file : { this->write<vtkPolyDataWriter>("a.vtk", data),
+           this->write<vtkXMLPolyDataWriter>("a.vtp", data) })
+    {
+      const IndexedMesh mesh = importMesh(file);
+      const ColumnSpec spec{ taken ? "Outwards" : NormalsName, ScalarType::Float32, 3 };
+      EXPECT_GE(findColumn(mesh.vertexColumns, spec), 0) << file;
+      EXPECT_EQ(mesh.vertexColumns.size(), taken ? 2u : 1u);
+    }
   }
 }
 

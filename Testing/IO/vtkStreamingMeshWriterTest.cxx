@@ -2,6 +2,7 @@
 #include "IO/vtkStreamingMeshWriter.h"
 #include "IO/Container/VsmReader.h"
 #include "IO/Conversion/OpenMesh.h"
+#include "IO/Import/Importer.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -10,6 +11,7 @@
 #include "vtkPolyData.h"
 #include "vtkXMLPPolyDataReader.h"
 #include "vtkXMLPUnstructuredGridReader.h"
+#include "vtkXMLPolyDataReader.h"
 
 #include <fstream>
 #include <iterator>
@@ -130,6 +132,42 @@ TEST_F(VtkStreamingMeshWriter, StreamingFormats)
   EXPECT_EQ(this->Folder.entries(), 3);
 }
 
+TEST_F(VtkStreamingMeshWriter, PlyHasTheMeshAndItsColumns)
+{
+  this->start(torus(60, 30, 0.2));
+  ASSERT_TRUE(this->write("out.ply"));
+  const IndexedMesh back = importMesh(this->Folder / "out.ply");
+  EXPECT_EQ(back.positions, this->Mesh.positions);
+  EXPECT_EQ(back.corners, this->Mesh.corners);
+  std::size_t properties = 0;
+  for (const Column& column : this->Mesh.vertexColumns)
+  {
+    properties += static_cast<std::size_t>(column.spec.components);
+  }
+  EXPECT_EQ(back.vertexColumns.size(), properties);
+  EXPECT_EQ(this->Folder.entries(), 2);
+}
+
+TEST_F(VtkStreamingMeshWriter, PlyHasNoTetrahedra)
+{
+  this->start(tetBox(9, 8, 7, 0.1));
+  Errors errors(this->Writer);
+  EXPECT_FALSE(this->write("out.ply"));
+  EXPECT_TRUE(errors.contain("PLY holds no tetrahedra")) << errors.text();
+  EXPECT_EQ(this->Folder.entries(), 1);
+}
+
+TEST_F(VtkStreamingMeshWriter, OneFileOfVtk)
+{
+  this->start(torus(60, 30, 0.2));
+  ASSERT_TRUE(this->write("out.vtp"));
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName((this->Folder / "out.vtp").c_str());
+  reader->Update();
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfPoints(), this->Mesh.vertices());
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfCells(), this->Mesh.cells());
+}
+
 TEST_F(VtkStreamingMeshWriter, PieceFilesOfASurfaceAreLegalInput)
 {
   this->start(torus(60, 30, 0.2));
@@ -166,7 +204,7 @@ TEST_F(VtkStreamingMeshWriter, MeshGivenDirectlyStaysWhole)
   mesh->ShallowCopy(this->Reader->GetOutputDataObject(0));
   this->Writer->SetInputData(mesh);
   Errors errors(this->Writer);
-  for (const char* name : { "out.vsm", "out.sma", "out.pvtp" })
+  for (const char* name : { "out.vsm", "out.sma", "out.ply", "out.pvtp" })
   {
     errors.clear();
     this->Writer->SetNumberOfStreamedPieces(4);
@@ -195,7 +233,7 @@ TEST_F(VtkStreamingMeshWriter, PreviewsAreRefused)
   this->Writer->SetInputData(preview);
   this->Writer->SetNumberOfStreamedPieces(1);
   Errors errors(this->Writer);
-  for (const char* name : { "out.vsm", "out.sma", "out.pvtp" })
+  for (const char* name : { "out.vsm", "out.sma", "out.ply", "out.pvtp" })
   {
     errors.clear();
     EXPECT_FALSE(this->write(name));
@@ -214,7 +252,7 @@ TEST_F(VtkStreamingMeshWriter, FailureEndsStreaming)
   this->Writer->SetNumberOfStreamedPieces(1);
   Errors silent(this->Writer);
   silent.watch(filter);
-  for (const char* name : { "out.vsm", "out.sma", "out.pvtp" })
+  for (const char* name : { "out.vsm", "out.sma", "out.ply", "out.pvtp" })
   {
     EXPECT_FALSE(this->write(name));
     ASSERT_TRUE(updatePiece(this->Reader, 0, 1));
@@ -244,7 +282,7 @@ TEST_F(VtkStreamingMeshWriter, ErrorsLeaveNothing)
   filter->FailAtPiece = 4;
   Errors silent(filter);
   this->Writer->SetInputConnection(filter->GetOutputPort());
-  for (const char* name : { "out.vsm", "out.sma", "out.pvtp" })
+  for (const char* name : { "out.vsm", "out.sma", "out.ply", "out.pvtp" })
   {
     errors.clear();
     EXPECT_FALSE(this->write(name));
@@ -266,7 +304,7 @@ TEST_F(VtkStreamingMeshWriter, AbortLeavesNothing)
       }
     });
   const unsigned long observer = this->Writer->AddObserver(vtkCommand::ProgressEvent, abort);
-  for (const char* name : { "out.vsm", "out.smb", "out.pvtp" })
+  for (const char* name : { "out.vsm", "out.smb", "out.ply", "out.pvtp" })
   {
     EXPECT_FALSE(this->write(name));
   }

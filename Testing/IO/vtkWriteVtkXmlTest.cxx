@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Conversion/WriteVtkXml.h"
+#include "IO/Output/WriteVtkXml.h"
 
-#include "Testing/Support/MemorySource.h"
+#include "Testing/Support/PrecisionSource.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <vtkCellArray.h>
@@ -27,25 +27,6 @@ using namespace smg::testing;
 
 namespace
 {
-
-/** A source that calls its positions single or double precision numbers. */
-class PrecisionSource : public MeshSource
-{
-public:
-  PrecisionSource(const StreamMesh& mesh, std::int64_t blockCells, bool doublePositions)
-    : Source(mesh, blockCells)
-    , Info(this->Source.info())
-  {
-    this->Info.doublePositions = doublePositions;
-  }
-
-  const StreamInfo& info() const override { return this->Info; }
-  bool next(MeshBlock& block) override { return this->Source.next(block); }
-
-private:
-  MemorySource Source;
-  StreamInfo Info;
-};
 
 /** A column of T with arbitrary bits. */
 template <class T>

@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 
+import deformation_testing as d
 import smg_testing as t
 from paraview.simple import *
 
@@ -39,6 +40,24 @@ try:
     path = os.path.join(folder, "solved.vsm")
     SaveData(path, proxy=poisson)
     assert os.path.getsize(path) > 500000
+
+    # Handles and a deformation of the preview, which is the whole mesh where it is saved.
+    reader.MaximumPointsInMemory = 1000
+    handles = d.make_handles(reader, MeshHandle)
+    deformation = StreamingMeshDeformation(Input=handles)
+    deformation.UpdatePipeline()
+    assert 500 < deformation.GetDataInformation().GetNumberOfPoints() < t.BUNNY_POINTS
+    before = deformation.GetDataInformation().GetBounds()
+    handles.RotationAngle = 10.0
+    deformation.UpdatePipeline()
+    assert deformation.GetDataInformation().GetBounds() != before
+    deformation.UpdatePropertyInformation()
+    assert deformation.GetPropertyValue("NumberOfBuilds") == 1
+    path = os.path.join(folder, "deformed.vsm")
+    SaveData(path, proxy=deformation)
+    deformed = StreamingMeshReader(FileName=path)
+    deformed.UpdatePipeline()
+    assert deformed.GetDataInformation().GetNumberOfPoints() == t.BUNNY_POINTS
     print("passed", flush=True)
 finally:
     server.kill()

@@ -46,6 +46,21 @@ poisson = t.make_poisson(t.make_problem(sphere))
 poisson.UpdatePipeline()
 assert "GlobalIds" in said()
 
+# A data set of several blocks.
+blocks = GroupDatasets(Input=[Sphere(), Sphere()])
+for make in (MeshHandle, StreamingMeshDeformation, StreamingMeshPreview, StreamingPoisson):
+    refused = make(Input=blocks)
+    refused.UpdatePipeline()
+    text = said()
+    assert "Merge Blocks" in text, (make, text)
+    Delete(refused)
+
+# A sphere that was not fitted to the data, since these were not read yet.
+handle = MeshHandle(Input=StreamingMeshReader(FileName=t.BUNNY))
+handle.UpdatePipeline()
+text = said()
+assert "update the input first" in text or handle.RegionFunction.Radius > 0.0, text
+
 # Too little memory is told before the work, with both figures.
 reader = OpenDataFile(t.BUNNY)
 poisson = t.make_poisson(t.make_problem(reader))

@@ -4,7 +4,6 @@
 import json
 import os
 import sys
-import tempfile
 
 import numpy
 import smg_testing as t
@@ -62,13 +61,11 @@ data = t.client_object(poisson).GetOutputDataObject(0)
 assert (t.vtk_to_numpy(data.GetPointData().GetArray("Solution")) != values).any()
 
 # The writer streams in process 0 while the others wait.
-path = os.path.join(tempfile.gettempdir(), f"smg-parallel-{os.getppid()}.vsm")
+path = os.path.join(t.make_shared_folder(), "parallel.vsm")
 SaveData(path, proxy=poisson)
 written = OpenDataFile(path)
 written.UpdatePipeline()
 written.UpdatePropertyInformation()
 assert written.GetPropertyValue("FullNumberOfPoints") == t.BUNNY_POINTS
 controller.Barrier()
-if rank == 0:
-    os.remove(path)
 print("passed in process", rank)

@@ -28,7 +28,7 @@ for name in ("Residual", "Cycles", "Passes", "PeakMemory", "Converged", "Report"
     assert poisson.SMProxy.GetProperty(name).GetInformationOnly(), name
 
 # A label is the name with spaces, so that the Python name is the name.
-for proxy in (reader, poisson):
+for proxy in (reader, poisson, MeshHandle(Input=reader)):
     iterator = proxy.SMProxy.NewPropertyIterator()
     iterator.Begin()
     while not iterator.IsAtEnd():

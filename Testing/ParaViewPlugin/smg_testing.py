@@ -30,6 +30,18 @@ def make_folder():
     return folder
 
 
+def make_shared_folder():
+    """The same for the processes of a parallel test: one folder, which goes with process 0."""
+    from paraview.vtk import vtkMultiProcessController, vtkUnsignedCharArray
+
+    controller = vtkMultiProcessController.GetGlobalController()
+    name = vtkUnsignedCharArray()
+    for byte in make_folder().encode() if controller.GetLocalProcessId() == 0 else b"":
+        name.InsertNextValue(byte)
+    controller.Broadcast(name, 0)
+    return bytes(name.GetValue(i) for i in range(name.GetNumberOfTuples())).decode()
+
+
 def make_problem(reader, axis="Y", low=FEET, high=EARS):
     """Calculators that make the arrays Mask and Values (three components): the points up to `low`
     and from `high` on along the axis are held at their positions."""

@@ -38,7 +38,7 @@ reread = OpenDataFile(pieces)
 reread.UpdatePipeline()
 assert reread.GetDataInformation().GetNumberOfCells() == t.BUNNY_CELLS
 ball = os.path.join(folder, "ball.pvtp")
-SaveData(ball, proxy=Sphere())
+SaveData(ball, proxy=Sphere(), DataMode="Binary")
 ball = OpenDataFile(ball)
 ball.UpdatePipeline()
 assert ball.GetDataInformation().GetNumberOfCells() == 96

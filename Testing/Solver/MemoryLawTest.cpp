@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Solver/MemoryGrowth.h"
 #include "Testing/Solver/SolveTesting.h"
 
 #include <gtest/gtest.h>
@@ -20,31 +21,11 @@ Report twoPasses(const StreamMesh& mesh)
   return solveMesh(mesh, problem, options).report;
 }
 
-/** Checks that memory grows by at most `nodes` and `bytes` from each mesh to the next. */
-void expectGrowth(const std::vector<StreamMesh>& meshes, double nodes, double bytes)
-{
-  Report before;
-  for (const StreamMesh& mesh : meshes)
-  {
-    const Report report = twoPasses(mesh);
-    if (before.vertices > 0)
-    {
-      EXPECT_LE(
-        static_cast<double>(report.peak_nodes), nodes * static_cast<double>(before.peak_nodes))
-        << mesh.vertices() << " vertices";
-      EXPECT_LE(static_cast<double>(report.pool_bytes_peak),
-        bytes * static_cast<double>(before.pool_bytes_peak))
-        << mesh.vertices() << " vertices";
-    }
-    before = report;
-  }
-}
-
 } // namespace
 
 TEST(MemoryLaw, ofASurfaceIsTheSquareRoot)
 {
-  expectGrowth(
+  expectGrowth(twoPasses,
     { toStream(torus(316, 158)), toStream(torus(632, 316)), toStream(torus(1264, 632)) }, 2.2, 2.4);
 }
 
@@ -53,19 +34,19 @@ TEST(MemoryLaw, ofASolidIsThePowerTwoThirds)
   // Plane after plane. Coarse rows become longer with the number of levels, hence more bytes a
   // node.
   const auto planes = [](int n) { return toStream(tetBox(n, n, n), TestOrder::Keep); };
-  expectGrowth({ planes(32), planes(64) }, 4.4, 6.5);
+  expectGrowth(twoPasses, { planes(32), planes(64) }, 4.4, 6.5);
 }
 
 TEST(MemoryLaw, ofASolidInBreadthFirstOrderIsSublinear)
 {
   // Its fronts are wide: in the smaller box most of the mesh is in memory at once.
-  expectGrowth({ toStream(tetBox(32, 32, 32)), toStream(tetBox(64, 64, 64)) }, 5.5, 6.5);
+  expectGrowth(twoPasses, { toStream(tetBox(32, 32, 32)), toStream(tetBox(64, 64, 64)) }, 5.5, 6.5);
 }
 
 TEST(MemoryLaw, ofAStripIsItsWidth)
 {
   // Whatever the length; but every level more keeps some blocks.
-  expectGrowth({ toStream(grid(2000, 40)), toStream(grid(8000, 40)) }, 1.2, 1.25);
+  expectGrowth(twoPasses, { toStream(grid(2000, 40)), toStream(grid(8000, 40)) }, 1.2, 1.25);
 }
 
 } // namespace smg::testing

@@ -25,7 +25,7 @@ TEST(Pool, refusesWhatIsAboveItsLimitAndNamesBothFigures)
 {
   Pool pool(3000000);
   pool.acquire(1000000);
-  const std::string sentence = errorOf([&] { pool.acquire(2500000); });
+  const std::string sentence = messageOf([&] { pool.acquire(2500000); });
   EXPECT_NE(sentence.find("3500000 bytes"), std::string::npos) << sentence;
   EXPECT_NE(sentence.find("3000000 bytes"), std::string::npos) << sentence;
   EXPECT_EQ(pool.used(), 1000000);

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/ScratchStream.h"
-#include "Solver/Core/Error.h"
-#include "Solver/Storage/ScratchFolder.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -112,33 +110,6 @@ TEST(ScratchStream, anAbandonedPassLeavesNoFile)
     append(stream, 1, 7);
   }
   EXPECT_EQ(folder.entries(), 0);
-}
-
-TEST(ScratchFolder, isRemovedWithAllItHolds)
-{
-  const TemporaryFolder folder;
-  {
-    const ScratchFolder a(folder.path());
-    const ScratchFolder b(folder.path());
-    EXPECT_NE(a.path(), b.path());
-    EXPECT_EQ(folder.entries(), 2);
-    std::filesystem::create_directories(a.path() / "x" / "y");
-  }
-  EXPECT_EQ(folder.entries(), 0);
-}
-
-TEST(ScratchFolder, inAPlaceThatDoesNotExistIsAnErrorThatNamesIt)
-{
-  const TemporaryFolder folder;
-  try
-  {
-    const ScratchFolder scratch(folder / "nowhere");
-    FAIL();
-  }
-  catch (const Error& error)
-  {
-    EXPECT_NE(std::string(error.what()).find((folder / "nowhere").string()), std::string::npos);
-  }
 }
 
 } // namespace smg::testing

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Solver/MemoryLimits.h"
 #include "Testing/Solver/SolveTesting.h"
-#include "Testing/Support/TemporaryFolder.h"
+#include "Testing/Support/ScratchError.h"
 
 #include <gtest/gtest.h>
 
@@ -18,35 +19,16 @@ constexpr double NotANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double Infinite = std::numeric_limits<double>::infinity();
 
 /** The sentence of the Error that solving ends with. */
-std::string errorOfSolve(MeshSource& source, Problem& problem, SolveOptions options = {})
+std::string errorOfSolve(MeshSource& source, Problem& problem, const SolveOptions& options = {})
 {
-  const TemporaryFolder folder;
-  options.scratch = folder.path();
-  const std::string sentence = errorOf([&] { solve(source, problem, options); });
-  EXPECT_EQ(folder.entries(), 0);
-  EXPECT_EQ(sentence.find('\n'), std::string::npos);
-  return sentence;
+  return scratchErrorOf(
+    options, [&](const SolveOptions& scratch) { solve(source, problem, scratch); });
 }
 
 std::string errorOfSolve(const StreamMesh& mesh, Problem& problem, const SolveOptions& options = {})
 {
   MemorySource source(mesh, 100);
   return errorOfSolve(source, problem, options);
-}
-
-/** Two triangles in two blocks. */
-std::vector<MeshBlock> twoBlocks()
-{
-  MeshBlock first;
-  first.positions = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
-  first.corners = { 0, 1, 2 };
-  MeshBlock second;
-  second.firstVertex = 3;
-  second.firstCell = 1;
-  second.positions = { 1, 1, 0 };
-  second.corners = { 1, 3, 2 };
-  second.finalized = 4;
-  return { first, second };
 }
 
 std::string errorOfBlocks(std::vector<MeshBlock> blocks)
@@ -222,7 +204,7 @@ TEST(SolveErrors, aScratchFolderThatDoesNotExist)
   ArrayProblem problem = heldEnds(mesh, 1, Weights::Uniform);
   SolveOptions options;
   options.scratch = "/nowhere/at/all";
-  EXPECT_TRUE(contains(errorOf([&] { solveMesh(mesh, problem, options); }), "/nowhere/at/all"));
+  EXPECT_TRUE(contains(messageOf([&] { solveMesh(mesh, problem, options); }), "/nowhere/at/all"));
 }
 
 TEST(SolveErrors, aMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
@@ -234,40 +216,18 @@ TEST(SolveErrors, aMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
   options.maxCycles = 1;
   const std::int64_t need = solveMesh(mesh, problem, options).report.pool_bytes_peak;
   options.memoryLimit = need / 4;
-  const TemporaryFolder folder;
-  options.scratch = folder.path();
-  MemorySource source(mesh);
-  const std::string sentence = errorOf([&] { solve(source, problem, options); });
-  EXPECT_TRUE(contains(sentence, std::to_string(options.memoryLimit) + " bytes")) << sentence;
-  EXPECT_TRUE(contains(sentence, "at least")) << sentence;
-  EXPECT_EQ(folder.entries(), 0);
-  MeshBlock block;
-  EXPECT_TRUE(source.next(block) && block.firstCell == 0) << "the mesh was read before the error";
+  expectLimitRefused(mesh, options,
+    [&](MeshSource& source, const SolveOptions& limited) { solve(source, problem, limited); });
 }
 
 TEST(SolveErrors, theMemoryLimitIsKept)
 {
   const StreamMesh mesh = toStream(torus(200, 100, 0.3));
   ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
-  int solved = 0;
-  for (std::int64_t limit = 1 << 18; limit <= 1 << 26; limit *= 2)
-  {
-    SolveOptions options;
-    options.memoryLimit = limit;
-    options.maxCycles = 2;
-    Report report;
-    if (errorOf([&] { report = solveMesh(mesh, problem, options).report; }).empty())
-    {
-      ++solved;
-      EXPECT_LE(report.pool_bytes_peak, limit);
-    }
-    else
-    {
-      EXPECT_EQ(solved, 0) << "more memory is enough, too";
-    }
-  }
-  EXPECT_GE(solved, 2);
-  EXPECT_LE(solved, 8);
+  SolveOptions options;
+  options.maxCycles = 2;
+  expectLimitsKept(options, 1 << 26,
+    [&](const SolveOptions& limited) { return solveMesh(mesh, problem, limited).report; });
 }
 
 } // namespace smg::testing

@@ -1,47 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Error.h"
-#include "Solver/Solve.h"
 #include "Testing/Support/ArrayProblem.h"
 #include "Testing/Support/DirectSolve.h"
-#include "Testing/Support/MemorySource.h"
+#include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/SolveMesh.h"
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace smg::testing
 {
-
-/** The solution at all vertices, a row each, and what the solve did. */
-struct Solved
-{
-  Eigen::MatrixXd values;
-  Report report;
-};
-
-/** All values of a solution, read in one call. */
-inline Eigen::MatrixXd valuesOf(Solution& solution)
-{
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  RowMajor values(solution.vertices(), solution.columns());
-  solution.read(0, solution.vertices(), { values.data(), static_cast<std::size_t>(values.size()) });
-  return values;
-}
-
-/** Solves on a mesh that comes in blocks of `blockCells` cells. */
-inline Solved solveMesh(const StreamMesh& mesh, Problem& problem, const SolveOptions& options = {},
-  std::int64_t blockCells = 1000)
-{
-  MemorySource source(mesh, blockCells);
-  const std::unique_ptr<Solution> solution = solve(source, problem, options);
-  return { valuesOf(*solution), solution->report() };
-}
 
 /** The same system, assembled in another way and solved directly. */
 inline Eigen::MatrixXd solveDirectly(const StreamMesh& mesh, Problem& problem)
@@ -56,28 +29,6 @@ inline SolveOptions accurate(double tolerance = 1e-10)
   SolveOptions options;
   options.tolerance = tolerance;
   return options;
-}
-
-/** Whether two matrices are the same to the last bit. */
-inline bool sameBits(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
-{
-  return a.rows() == b.rows() && a.cols() == b.cols() &&
-         std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
-}
-
-/** The sentence of the Error that `f` throws; empty if it throws none. */
-template <class F>
-std::string errorOf(F&& f)
-{
-  try
-  {
-    f();
-  }
-  catch (const Error& error)
-  {
-    return error.what();
-  }
-  return {};
 }
 
 /** Whether one of the report's notes contains `text`. */
@@ -165,5 +116,20 @@ private:
   std::vector<MeshBlock> Blocks;
   std::size_t Next = 0;
 };
+
+/** Two triangles in two blocks. */
+inline std::vector<MeshBlock> twoBlocks()
+{
+  MeshBlock first;
+  first.positions = { 0, 0, 0, 1, 0, 0, 0, 1, 0 };
+  first.corners = { 0, 1, 2 };
+  MeshBlock second;
+  second.firstVertex = 3;
+  second.firstCell = 1;
+  second.positions = { 1, 1, 0 };
+  second.corners = { 1, 3, 2 };
+  second.finalized = 4;
+  return { first, second };
+}
 
 } // namespace smg::testing

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Solver/SolveTesting.h"
+#include "Testing/Support/AtOnce.h"
+#include "Testing/Support/SolutionRanges.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <thread>
 
 // Streaming gives the bits of the in-core method, whatever the windows.
 
@@ -229,22 +230,14 @@ TEST(Streaming, twoSolvesAtOnceDoNotDisturbEachOther)
 {
   const auto list = tasks();
   std::vector<Solved> results(2);
-  std::vector<std::thread> threads;
-  for (const int k : { 0, 1 })
-  {
-    threads.emplace_back(
-      [&, k]
-      {
-        ArrayProblem problem = list[k].second;
-        SolveOptions options = shortSolve();
-        options.coreNodes = 500;
-        results[k] = solveMesh(list[k].first, problem, options);
-      });
-  }
-  for (std::thread& thread : threads)
-  {
-    thread.join();
-  }
+  runAtOnce(2,
+    [&](int k)
+    {
+      ArrayProblem problem = list[k].second;
+      SolveOptions options = shortSolve();
+      options.coreNodes = 500;
+      results[k] = solveMesh(list[k].first, problem, options);
+    });
   for (const int k : { 0, 1 })
   {
     EXPECT_TRUE(sameBits(results[k].values, inCore(list[k].first, list[k].second).values));
@@ -280,24 +273,8 @@ TEST(Solution, rangesInAnyOrderAreTheWhole)
       options.inCore = core;
       MemorySource source(mesh);
       const std::unique_ptr<Solution> solution = solve(source, problem, options);
-      const Eigen::MatrixXd whole = valuesOf(*solution);
-      const int columns = solution->columns();
-      EXPECT_EQ(columns, problem.Columns);
-      Random random(9);
-      for (int trial = 0; trial < 200; ++trial)
-      {
-        const std::int64_t first = random.below(solution->vertices() + 1);
-        const std::int64_t rest = solution->vertices() - first;
-        const std::int64_t count =
-          random.below(std::min<std::int64_t>(rest, trial % 2 ? 5 : 5000) + 1);
-        std::vector<double> part(columns * count + 1, -77.0);
-        solution->read(first, count, part);
-        for (std::int64_t i = 0; i < count * columns; ++i)
-        {
-          ASSERT_EQ(part[i], whole(first + i / columns, i % columns));
-        }
-        EXPECT_EQ(part.back(), -77.0);
-      }
+      EXPECT_EQ(solution->columns(), problem.Columns);
+      expectRangesOfTheWhole(*solution);
     }
   }
 }

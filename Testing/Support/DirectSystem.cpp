@@ -21,7 +21,7 @@ public:
     , Asked(problem)
     , Columns(problem.columns())
     , Vertices(mesh.info().vertices)
-    , Edges(mesh.info(), problem.weights())
+    , Edges(mesh.info(), problem.weights(), problem.connectsFlatCells())
   {
     this->System.values = Eigen::MatrixXd::Zero(this->Vertices, this->Columns);
     this->Source = Eigen::MatrixXd::Zero(this->Vertices, this->Columns);

@@ -19,8 +19,8 @@ namespace smg::testing
  * Weights: cotangent, for triangles the sum of cot(angle)/2 over the cells of an edge, at least
  * 5e-4; for tetrahedra the negated off-diagonal entry of the linear finite-element stiffness
  * matrix, at least 1e-4 |p_i - p_j|; uniform: 1. Cells with repeated corners, without area or
- * volume, or with CellFlags carry no weight. A vertex that no weighted cell uses is held: its
- * value stays what it is, it is no unknown.
+ * volume, or with CellFlags carry no weight (but see Problem::connectsFlatCells). A vertex that no
+ * weighted cell uses is held: its value stays what it is, it is no unknown.
  */
 struct DirectSystem
 {

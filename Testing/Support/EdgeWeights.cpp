@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -28,9 +29,10 @@ double floorOf(CellType type, const double* p, const double* q)
 
 } // namespace
 
-EdgeWeights::EdgeWeights(const StreamInfo& info, Weights kind)
+EdgeWeights::EdgeWeights(const StreamInfo& info, Weights kind, bool connectsFlat)
   : Type(info.cellType)
   , Kind(kind)
+  , ConnectsFlat(connectsFlat)
 {
   if (info.vertices > std::numeric_limits<std::int32_t>::max())
   {
@@ -55,12 +57,17 @@ void EdgeWeights::add(const MeshBlock& block, const std::vector<double>& positio
     {
       points[k] = &positions[3 * corners[k]];
     }
-    const CellWeights cell = cellWeights(this->Type, points);
-    const bool flagged = flags != block.cellColumns.end() && flags->value(c) != 0;
-    if (cell.size == 0.0 || flagged)
+    CellWeights cell = cellWeights(this->Type, points);
+    const auto flag = static_cast<unsigned>(flags != block.cellColumns.end() ? flags->value(c) : 0);
+    if (cell.size == 0.0 || flag != 0)
     {
       ++this->DegenerateCells;
-      continue;
+      if (!this->ConnectsFlat || (flag & DuplicateCell) != 0 ||
+          std::set<std::int64_t>(corners, corners + size).size() < std::size_t(size))
+      {
+        continue;
+      }
+      cell = {};
     }
     for (int k = 0; k < size; ++k)
     {
@@ -69,6 +76,11 @@ void EdgeWeights::add(const MeshBlock& block, const std::vector<double>& positio
     for (int pair = 0; pair < pairCount; ++pair)
     {
       const auto [from, to] = std::minmax(corners[pairs[pair][0]], corners[pairs[pair][1]]);
+      if (cell.size == 0.0 && this->Kind == Weights::Cotangent &&
+          static_cast<float>(floorOf(this->Type, &positions[3 * from], &positions[3 * to])) == 0)
+      {
+        continue;
+      }
       this->Edges.push_back(
         { static_cast<std::int32_t>(from), static_cast<std::int32_t>(to), cell.weight[pair] });
     }

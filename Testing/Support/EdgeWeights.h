@@ -23,8 +23,8 @@ struct EdgeWeight
 class EdgeWeights
 {
 public:
-  /** Throws Error for 2^31 vertices and more. */
-  EdgeWeights(const StreamInfo& info, Weights kind);
+  /** `connectsFlat`: see Problem::connectsFlatCells. Throws Error for 2^31 vertices and more. */
+  EdgeWeights(const StreamInfo& info, Weights kind, bool connectsFlat = false);
 
   /** Adds the cells of the stream's next block, given the positions of all vertices so far. */
   void add(const MeshBlock& block, const std::vector<double>& positions);
@@ -41,6 +41,7 @@ public:
 private:
   CellType Type;
   Weights Kind;
+  bool ConnectsFlat;
   std::vector<EdgeWeight> Edges;
   Eigen::VectorXd Mass;
   std::int64_t DegenerateCells = 0;

@@ -44,7 +44,7 @@ MemorySource::MemorySource(StreamMesh mesh, std::int64_t blockCells)
 
 void MemorySource::measure()
 {
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 3 && this->Info.vertices > 0; ++k)
   {
     auto [low, high] = std::pair(this->Mesh.positions[k], this->Mesh.positions[k]);
     for (std::int64_t v = 0; v < this->Info.vertices; ++v)
@@ -96,18 +96,21 @@ void MemorySource::rewind(std::int64_t blockCells)
 {
   this->BlockCells = blockCells;
   this->NextCell = 0;
+  this->NextVertex = 0;
 }
 
 bool MemorySource::next(MeshBlock& block)
 {
-  if (this->NextCell == this->Info.cells)
+  if (this->NextCell == this->Info.cells && this->NextVertex == this->Info.vertices)
   {
     return false;
   }
   const std::int64_t first = this->NextCell;
   const std::int64_t end = std::min(first + this->BlockCells, this->Info.cells);
-  const std::int64_t firstVertex = first > 0 ? this->NewVertices[first - 1] : 0;
-  const std::int64_t endVertex = this->NewVertices[end - 1];
+  // Vertices that no cell uses come at the end.
+  const bool isLast = end == this->Info.cells;
+  const std::int64_t firstVertex = this->NextVertex;
+  const std::int64_t endVertex = isLast ? this->Info.vertices : this->NewVertices[end - 1];
   const int size = cornersOf(this->Info.cellType);
   block.firstVertex = firstVertex;
   block.firstCell = first;
@@ -117,8 +120,9 @@ bool MemorySource::next(MeshBlock& block)
     this->Mesh.corners.begin() + size * first, this->Mesh.corners.begin() + size * end);
   sliceColumns(this->Mesh.vertexColumns, firstVertex, endVertex, block.vertexColumns);
   sliceColumns(this->Mesh.cellColumns, first, end, block.cellColumns);
-  block.finalized = this->Finalized[end - 1];
+  block.finalized = isLast ? this->Info.vertices : this->Finalized[end - 1];
   this->NextCell = end;
+  this->NextVertex = endVertex;
   return true;
 }
 

@@ -10,7 +10,10 @@
 namespace smg::testing
 {
 
-/** Delivers a StreamMesh in blocks of a given number of cells. */
+/**
+ * Delivers a StreamMesh in blocks of a given number of cells. Vertices that no cell uses, which
+ * streams do not have else, may follow the others.
+ */
 class MemorySource : public MeshSource
 {
 public:
@@ -33,6 +36,7 @@ private:
   std::vector<std::int64_t> NewVertices; ///< of each cell: vertices introduced up to its end
   std::vector<std::int64_t> Finalized;   ///< of each cell: MeshBlock::finalized after it
   std::int64_t NextCell = 0;
+  std::int64_t NextVertex = 0;
 };
 
 } // namespace smg::testing

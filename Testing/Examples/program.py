@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs the program smg and reads what it writes, for the scripts of this folder."""
+
+import base64
+import json
+import os
+import struct
+import subprocess
+import xml.etree.ElementTree as xml
+
+from torus import torus
+
+SMG = os.environ["SMG_PROGRAM"]
+READS_VTK = os.environ["SMG_READS_VTK"] == "1"
+
+
+def run(*arguments, code=0):
+    """Runs smg and expects this exit code; an error is one line and nothing else."""
+    done = subprocess.run([SMG, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+    assert done.returncode == code, (arguments, done.returncode, done.stdout, done.stderr)
+    if code != 0:
+        assert done.stdout == "", (arguments, done.stdout)
+        assert done.stderr.count("\n") == 1 and done.stderr.startswith("smg: "), done.stderr
+    return done
+
+
+def load(name):
+    """The contents of a JSON file."""
+    with open(name, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def read_vtk_xml(name):
+    """The arrays of a .vtp or .vtu file, by name, as tuples."""
+    codes = {"Float32": "f", "Float64": "d", "Int64": "q", "UInt8": "B"}
+    arrays = {}
+    for array in xml.parse(name).getroot().iter("DataArray"):
+        assert array.get("format") == "binary"
+        # The number of bytes is a unit of base64 of its own.
+        text = array.text.strip()
+        size, = struct.unpack("=Q", base64.b64decode(text[:12], validate=True))
+        data = base64.b64decode(text[12:], validate=True)
+        assert len(data) == size, (name, array.attrib, size, len(data))
+        components = array.get("NumberOfComponents")
+        arrays[array.get("Name")] = list(struct.iter_unpack(
+            "=" + components + codes[array.get("type")], data))
+    return arrays
+
+
+def write_torus(name, nu, nv):
+    """The torus as an OBJ file."""
+    points, quadrangles = torus(nu, nv)
+    with open(name, "w", encoding="utf-8") as file:
+        for point in points:
+            file.write("v %.9g %.9g %.9g\n" % point)
+        for quadrangle in quadrangles:
+            file.write("f %d %d %d %d\n" % tuple(corner + 1 for corner in quadrangle))

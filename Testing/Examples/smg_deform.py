@@ -1,0 +1,373 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""smg deform and smg preview from outside: results, formats, reports, errors and exit codes."""
+
+import json
+import math
+import os
+import sys
+
+from program import load, read_vtk_xml, run, write_torus
+from tetrahedra import tetrahedra
+from torus import torus
+
+DIAGONAL = math.sqrt(6 * 6 + 6 * 6 + 2 * 2)
+RIGHT = {"halfspace": [1, 0, 0, 2.8]}
+LEFT = {"halfspace": [-1, 0, 0, 2.8]}
+
+
+def handles(*each, **members):
+    """The name of a handle file."""
+    with open("handles.json", "w", encoding="utf-8") as file:
+        json.dump({"handles": each, **members}, file)
+    return "handles.json"
+
+
+def deform(mesh, out, *arguments, **options):
+    return run("deform", mesh, out, "--handles", "handles.json", *arguments, **options)
+
+
+def arrays(name):
+    """The arrays of a mesh file of any format but VTK's."""
+    run("convert", name, "arrays.vtu", "--order", "keep", "--quiet")
+    return read_vtk_xml("arrays.vtu")
+
+
+def columns(name):
+    run("info", name, "--quiet", "--report", "columns.json")
+    return {column["name"]: column for column in load("columns.json")["columns"]["vertices"]}
+
+
+def distance(points, expected):
+    assert len(points) == len(expected)
+    return max(math.dist(a, b) for a, b in zip(points, expected)) / DIAGONAL
+
+
+def surface_file(name, normal=False):
+    """A torus as PLY in single precision; its normals, if it has them, are wrong."""
+    points, quadrangles = torus(60, 30)
+    with open(name, "w", encoding="utf-8") as file:
+        file.write("ply\nformat ascii 1.0\nelement vertex %d\n" % len(points))
+        for axis in ("x", "y", "z") + (("nx", "ny", "nz") if normal else ()):
+            file.write("property float %s\n" % axis)
+        file.write("element face %d\nproperty list uchar int vertex_indices\nend_header\n"
+                   % len(quadrangles))
+        for point in points:
+            file.write("%.9g %.9g %.9g" % point + (" 0 0 -1\n" if normal else "\n"))
+        for quadrangle in quadrangles:
+            file.write("4 %d %d %d %d\n" % quadrangle)
+
+
+def solid_file(name, n=6):
+    points, cells = tetrahedra(n)
+    with open(name, "w", encoding="utf-8") as file:
+        file.write("MeshVersionFormatted 2\nDimension 3\nVertices\n%d\n" % len(points))
+        file.writelines("%g %g %g 0\n" % point for point in points)
+        file.write("Tetrahedra\n%d\n" % len(cells))
+        file.writelines("%d %d %d %d 0\n" % tuple(i + 1 for i in cell) for cell in cells)
+        file.write("End\n")
+
+
+def test_rigid_motions():
+    """Where all handles move alike, the mesh moves like them."""
+    write_torus("torus.obj", 120, 60)
+    run("convert", "torus.obj", "torus.vsm", "--quiet")
+    rest = arrays("torus.vsm")
+    fixed = {"fixed": True}
+    moved = {"translate": [1, -2, 0.5]}
+    turned = {"rotate": {"axis": [0, 0, -2], "degrees": 200, "center": [1, 0, 0]}, "scale": 2,
+              "translate": [0, 0, 3]}
+    cos, sin = math.cos(math.radians(-200)), math.sin(math.radians(-200))
+    for motion, where in (
+            (fixed, lambda x, y, z: (x, y, z)),
+            (moved, lambda x, y, z: (x + 1, y - 2, z + 0.5)),
+            (turned, lambda x, y, z: (1 + 2 * (cos * (x - 1) - sin * y),
+                                      2 * (sin * (x - 1) + cos * y), 2 * z + 3))):
+        for weights in ("uniform", "cotangent"):
+            handles({"region": RIGHT, **motion}, {"region": LEFT, **motion}, weights=weights,
+                    tolerance=1e-9)
+            done = deform("torus.vsm", "out.vsm", "--report", "report.json")
+            report = load("report.json")
+            assert report["converged"] and done.stderr == "", done.stderr
+            result = arrays("out.vsm")
+            error = distance(result.pop("Points"), [where(*point) for point in rest["Points"]])
+            assert error < (1e-9 if motion is fixed else 1e-7), (motion, weights, error)
+            assert result == {name: rest[name] for name in rest if name != "Points"}
+
+
+def test_report_and_options():
+    """The command line counts more than the file; k cycles a step take 2 k + 1 passes."""
+    handles({"region": RIGHT, "translate": [0, 0, 1]},
+            {"region": LEFT, "rotate": {"axis": [1, 0, 0], "degrees": 60, "center": [-3, 0, 0]}},
+            {"region": {"sphere": [3, 0, 0, 0.5]}, "fixed": True}, cycles=3, weights="uniform")
+    done = deform("torus.vsm", "three.vsm", "--report", "report.json")
+    report = load("report.json")
+    assert report["passes"] == 7 and [step["cycles"] for step in report["steps"]] == [3, 3]
+    assert [step["name"] for step in report["steps"]] == ["rotation", "position"]
+    assert report["shared"] > 0 and report["seconds"]["convert"] == 0 and done.stderr == ""
+    assert "rotation: 3 V-cycles" in done.stdout and "position: 3 V-cycles" in done.stdout
+    assert "held by more than one handle" in done.stdout
+    deform("torus.vsm", "five.vsm", "--cycles", 5, "--quiet", "--report", "report.json")
+    assert load("report.json")["passes"] == 11
+    deform("torus.vsm", "tight.vsm", "--tolerance", 1e-8, "--quiet", "--report", "report.json")
+    report = load("report.json")
+    assert report["converged"] and all(step["residual"] <= 1e-8 for step in report["steps"])
+    done = deform("torus.vsm", "one.vsm", "--tolerance", 1e-8, "--max-cycles", 1, "--quiet",
+                  "--report", "report.json")
+    assert "not converged" in done.stderr and not load("report.json")["converged"]
+    deform("torus.vsm", "cotangent.vsm", "--tolerance", 1e-8, "--weights", "cotangent", "--quiet")
+    tight = arrays("tight.vsm")["Points"]
+    assert distance(arrays("cotangent.vsm")["Points"], tight) > 1e-4
+    assert distance(arrays("five.vsm")["Points"], tight) < distance(
+        arrays("three.vsm")["Points"], tight) < 1e-2
+    deform("torus.vsm", "core.vsm", "--in-core", "--threads", 1, "--block-nodes", 333,
+           "--core-nodes", 100, "--sweeps", 2, "--quiet")
+    deform("torus.vsm", "streamed.vsm", "--memory", 64, "--core-nodes", 0, "--quiet",
+           "--report", "report.json")
+    assert load("report.json")["pool_bytes_peak"] <= 64 << 20
+    with open("core.vsm", "rb") as core, open("streamed.vsm", "rb") as streamed:
+        assert core.read() == streamed.read(), "streaming and in-core results differ"
+    deform("torus.obj", "converted.vsm", "--quiet", "--report", "report.json")
+    assert load("report.json")["seconds"]["convert"] > 0
+    assert arrays("converted.vsm")["Points"] == arrays("three.vsm")["Points"]
+
+
+def test_formats():
+    """Every format gets the same points, in the order and the precision of the input."""
+    surface_file("surface.ply")
+    run("convert", "surface.ply", "surface.vsm", "--quiet")
+    handles({"region": RIGHT, "translate": [0, 0.25, 1]}, {"region": LEFT, "fixed": True})
+    deform("surface.vsm", "out.vsm", "--quiet")
+    expected = arrays("out.vsm")
+    assert max(z for _, _, z in expected["Points"]) > 1.5
+    for name in ("out.vtp", "out.vtu"):
+        deform("surface.vsm", name, "--quiet")
+        result = read_vtk_xml(name)
+        result["types"] = expected["types"]
+        assert result == expected, name
+    run("convert", "out.vsm", "plain.smb", "--order", "keep", "--quiet")
+    for name in ("out.ply", "out.sma", "out.smb"):
+        deform("surface.vsm", name, "--quiet")
+        result = arrays(name)
+        assert result["Points"] == expected["Points"], name
+        assert result["connectivity"] == expected["connectivity"], name
+    with open("out.smb", "rb") as out, open("plain.smb", "rb") as plain:
+        assert out.read() == plain.read()
+    run("info", "out.ply", "--quiet", "--report", "info.json")
+    assert load("info.json")["positions"] == "float32"
+
+
+def test_order_of_files():
+    """A stream or a PLY file comes out in the order in which it went in."""
+    handles({"region": RIGHT, "translate": [0, 0, 1]}, {"region": LEFT, "fixed": True},
+            tolerance=1e-9)
+    run("convert", "surface.ply", "in.smb", "--order", "axis", "--quiet")
+    for source, name in (("in.smb", "moved.sma"), ("surface.ply", "moved.ply")):
+        deform(source, name, "--quiet")
+        rest, result = arrays(source), arrays(name)
+        assert result["connectivity"] == rest["connectivity"], name
+        assert result["OriginalId"] == rest["OriginalId"], name
+        held = [(a, b) for a, b in zip(rest["Points"], result["Points"]) if abs(a[0]) > 2.801]
+        assert len(held) > 20
+        assert all(math.dist((a[0], a[1], a[2] + (a[0] > 0)), b) < 1e-6 for a, b in held), name
+
+
+def test_notes_on_the_order():
+    """What does not come in the order of its file says so, and what becomes of loose vertices."""
+    with open("surface.ply", encoding="utf-8") as file:
+        lines = file.read().split("end_header\n")
+    count = len(torus(60, 30)[0])
+    with open("loose.ply", "w", encoding="utf-8") as file:
+        file.write(lines[0].replace("vertex %d" % count, "vertex %d" % (count + 2)))
+        file.write("end_header\n9 9 9\n8 8 8\n")
+        points, quadrangles = torus(60, 30)
+        file.writelines("%.9g %.9g %.9g\n" % point for point in points)
+        file.writelines("4 %d %d %d %d\n" % tuple(i + 2 for i in face) for face in quadrangles)
+    handles({"region": RIGHT, "translate": [0, 0, 1]}, {"region": LEFT, "fixed": True})
+    loose = "2 vertices belong to no cell: they "
+    done = deform("loose.ply", "moved.ply")
+    assert loose + "stay where they are." in done.stdout, done.stdout
+    assert "stream order" not in done.stdout
+    done = deform("loose.ply", "moved.vtp")
+    assert loose + "are left out." in done.stdout, done.stdout
+    assert "stream order; OriginalId names their places in loose.ply." in done.stdout
+    done = deform("loose.ply", "moved.smb", "--report", "report.json")
+    assert "The vertices are in stream order." in load("report.json")["notes"]
+    done = deform("surface.vsm", "moved.vtp")
+    assert "stream order" not in done.stdout and "no cell" not in done.stdout
+    assert "from PLY to PLY" in " ".join(run("deform", "--help").stdout.split())
+
+
+def test_solids():
+    solid_file("solid.mesh")
+    handles({"region": {"halfspace": [0, 0, -1, 0]}, "fixed": True},
+            {"region": {"halfspace": [0, 0, 1, 5]}, "scale": 2, "center": [2.5, 2.5, 0],
+             "rotate": {"axis": [0, 0, 1], "degrees": 90}})
+    deform("solid.mesh", "solid.svb", "--quiet")
+    deform("solid.mesh", "solid.vtu", "--quiet", "--report", "report.json")
+    assert load("report.json")["converged"]
+    result = read_vtk_xml("solid.vtu")
+    places = dict(zip((id for id, in result["OriginalId"]), result["Points"]))
+    for id, (x, y, z) in enumerate(tetrahedra(6)[0]):
+        if z in (0, 5):
+            expected = (x, y, z) if z == 0 else (2.5 - 2 * (y - 2.5), 2.5 + 2 * (x - 2.5), 10)
+            assert math.dist(places[id], expected) < 1e-12
+    for name in ("solid.smb", "solid.ply", "solid.vtp"):
+        deform("solid.mesh", "new-" + name, "--quiet", code=1)
+        assert not os.path.exists("new-" + name)
+
+
+def test_normals():
+    """No normals are stale: they are those of the deformed mesh, or gone."""
+    surface_file("normals.ply", normal=True)
+    run("convert", "normals.ply", "normals.vsm", "--quiet")
+    turned = {"rotate": {"axis": [0, 1, 0], "degrees": 90, "center": [0, 0, 0]}}
+    handles({"region": RIGHT, **turned}, {"region": LEFT, **turned}, tolerance=1e-8)
+    deform("normals.vsm", "normals.vtp", "--quiet")
+    result = read_vtk_xml("normals.vtp")
+    for (x, y, z), normal in zip(result["Points"], result["Normals"]):
+        # The rest position is (-z, y, x); the normal leads away from the circle in the middle.
+        ring = math.hypot(z, y)
+        assert math.dist(normal, (x, y * (1 - 2 / ring), z * (1 - 2 / ring))) < 0.1
+    deform("normals.vsm", "dropped.vsm", "--normals", "drop", "--quiet")
+    assert "Normals" not in columns("dropped.vsm") and "Normals" in columns("normals.vsm")
+    deform("normals.vsm", "dropped.vsm", "--normals", "keep", code=2)
+
+
+def test_bad_handles():
+    sound = {"region": LEFT, "fixed": True}
+    cases = [
+        ({"region": {"sphere": [9, 9, 9, 1]}, "fixed": True}, "handles[1].region: no vertex"),
+        ({"region": {"vertices": [7200]}, "fixed": True}, "number 7200"),
+        ({"region": {"vertices": [-1]}, "fixed": True}, "handles[1].region.vertices[0]"),
+        ({"region": {"cone": [1]}, "fixed": True}, "handles[1].region.cone"),
+        ({"region": RIGHT, "translate": [0, math.nan, 0]}, "line 1"),
+        ({"region": RIGHT, "translate": [0, None, 0]}, "handles[1].translate[1]"),
+        ({"region": RIGHT, "scale": 0, "center": [0, 0, 0]}, "handles[1].scale"),
+        ({"region": RIGHT, "scale": -2, "center": [0, 0, 0]}, "handles[1].scale"),
+        ({"region": RIGHT, "scale": 2}, "add \"center\""),
+        ({"region": RIGHT, "rotate": {"axis": [0, 0, 0], "degrees": 9}}, "handles[1].rotate.axis"),
+        ({"region": RIGHT, "twist": 3}, "handles[1].twist"),
+        ({"region": RIGHT}, "handles[1]: must be fixed"),
+        ({"region": RIGHT, "fixed": True, "scale": 2}, "handles[1].fixed")]
+    for handle, place in cases:
+        handles(sound, handle)
+        done = deform("torus.vsm", "bad.vsm", code=1)
+        assert "handles.json" in done.stderr and place in done.stderr, (handle, done.stderr)
+    for members, place in (({"sweeps": 1}, "sweeps"), ({"cycles": 0}, "cycles"),
+                           ({"cycles": 2, "tolerance": 0.1}, "tolerance")):
+        handles(sound, **members)
+        assert place in deform("torus.vsm", "bad.vsm", code=1).stderr
+    handles()
+    assert "at least one handle" in deform("torus.vsm", "bad.vsm", code=1).stderr
+    run("deform", "torus.vsm", "bad.vsm", "--handles", "missing.json", code=1)
+    # The handles are read before the mesh.
+    os.makedirs("folder.json", exist_ok=True)
+    done = run("deform", "missing.ply", "bad.vsm", "--handles", "folder.json", code=1)
+    assert "folder.json: this is a folder" in done.stderr, done.stderr
+    assert not any(name.startswith("bad") for name in os.listdir("."))
+
+
+def test_notes_on_handles():
+    """What a handle does not do is said, and nothing where all do something."""
+    everywhere = {"halfspace": [1, 0, 0, -9]}
+    for out in ("out.vsm", "out.ply"):
+        handles({"region": RIGHT, "translate": [0, 0, 1]}, {"region": everywhere, "fixed": True})
+        done = deform("surface.ply", out, "--report", "report.json")
+        notes = load("report.json")["notes"]
+        assert "handles[0] holds nothing that a later handle does not hold." in notes, notes
+        assert "No handle moves anything: OUT is IN." in notes, notes
+        assert "OUT is IN" in done.stdout, done.stdout
+    handles({"region": LEFT, "fixed": True}, {"region": RIGHT, "translate": [0, 0, 1]})
+    deform("surface.ply", "out.ply", "--quiet", "--report", "report.json")
+    assert not any("handle" in note for note in load("report.json")["notes"])
+
+
+def test_help():
+    shown = run("deform", "--help").stdout
+    assert all(key in shown.strip().splitlines()[-1]
+               for key in ("handles", "region", "halfspace", "degrees", "tolerance")), shown
+    for command in ("deform", "solve"):
+        assert "=1024" in run(command, "--help").stdout
+    for command in ("convert", "info", "preview"):
+        assert "half of the machine" in run(command, "--help").stdout
+
+
+def test_errors():
+    handles({"region": LEFT, "fixed": True})
+    done = run("deform", "torus.vsm", "bad.vsm", code=2)
+    assert "smg deform --help" in done.stderr, done.stderr
+    assert "smg --help" in run(code=2).stderr
+    for wrong in (("--cycles", 0), ("--cycles", 2, "--tolerance", 0.1), ("--tolerance", 1),
+                  ("--weights", "heat"), ("--sweeps", 99), ("--max-cycles", 0)):
+        deform("torus.vsm", "bad.vsm", *wrong, code=2)
+    for name, part in (("bad.xyz", ".vsm"), ("bad.obj", ".vsm"), ("bad", ".vsm"),
+                       ("bad.svb", "tri"), (os.path.join("nowhere", "bad.vsm"), "nowhere")):
+        done = deform("torus.vsm", name, code=1)
+        assert name in done.stderr and part in done.stderr, done.stderr
+    deform("missing.vsm", "bad.vsm", code=1)
+    done = deform("torus.vsm", "bad.vsm", "--memory", 1, code=1)
+    assert "1 MiB" in done.stderr, done.stderr
+    deform("torus.vsm", "bad.vsm", "--report", ".", code=1)
+    assert not any(name.startswith("bad") for name in os.listdir("."))
+
+
+def test_preview():
+    """Every point of a preview is a vertex of the mesh, and says which."""
+    run("convert", "torus.obj", "shuffled.vsm", "--order", "axis", "--quiet")
+    points = arrays("shuffled.vsm")["Points"]
+    originals = torus(120, 60)[0]
+    done = run("preview", "shuffled.vsm", "preview.vtp", "--points", 1000, "--report", "report.json")
+    preview, report = read_vtk_xml("preview.vtp"), load("report.json")
+    assert report["points"] == len(preview["Points"]) and 700 <= report["points"] <= 1000
+    assert report["triangles"] == len(preview["offsets"]) and report["vertices"] == 7200
+    assert str(report["points"]) + " points" in done.stdout
+    assert preview["Points"] == [points[id] for id, in preview["StreamIndex"]]
+    assert all(math.dist(point, originals[id]) < 1e-8
+               for point, (id,) in zip(preview["Points"], preview["OriginalId"]))
+    assert {i for i, in preview["connectivity"]} == set(range(report["points"]))
+    run("preview", "shuffled.vsm", "preview.vtu", "--points", 1000, "--quiet")
+    grid = read_vtk_xml("preview.vtu")
+    assert grid.pop("types") == [(5,)] * report["triangles"] and grid == preview
+    for name in ("preview.vsm", "preview.ply"):
+        run("preview", "shuffled.vsm", name, "--points", 1000, "--quiet")
+        result = arrays(name)
+        assert [tuple(map(int, id)) for id in result["StreamIndex"]] == preview["StreamIndex"]
+        assert result["Points"] == preview["Points"]
+        assert result["connectivity"] == preview["connectivity"]
+    assert set(columns("preview.vsm")) == {"OriginalId", "StreamIndex"}
+    run("preview", "torus.obj", "whole.vsm", "--quiet", "--report", "report.json")
+    assert load("report.json")["points"] <= 10000
+    run("preview", "preview.vsm", "again.vsm", "--points", 100, "--quiet")
+    again = arrays("again.vsm")
+    assert again["Points"] == [arrays("preview.vsm")["Points"][id] for id, in again["StreamIndex"]]
+
+
+def test_preview_of_solids():
+    run("preview", "solid.mesh", "shell.vtp", "--points", 100000, "--quiet")
+    shell = read_vtk_xml("shell.vtp")
+    assert len(shell["Points"]) == 6 ** 3 - 4 ** 3 and len(shell["offsets"]) == 6 * 2 * 5 ** 2
+    assert all(0 in point or 5 in point for point in shell["Points"])
+
+
+def test_preview_errors():
+    for name in ("p.smb", "p.xyz", os.path.join("nowhere", "p.vsm")):
+        assert name in run("preview", "torus.vsm", name, code=1).stderr
+    run("preview", "torus.vsm", code=2)
+    run("preview", "torus.vsm", "p.vsm", "--points", 7, code=2)
+    run("preview", "torus.vsm", "p.vsm", "--points", 1000001, code=2)
+    run("preview", "torus.vsm", "p.vsm", "--threads", 1, code=2)
+    with open("point.obj", "w", encoding="utf-8") as file:
+        file.write("v 1 1 1\n" * 3 + "f 1 2 3\n")
+    assert "point.obj: a preview" in run("preview", "point.obj", "p.vsm", code=1).stderr
+    run("preview", "missing.ply", "p.vsm", code=1)
+    assert not any(name.startswith("p.") for name in os.listdir("."))
+
+
+for each in (test_rigid_motions, test_report_and_options, test_formats, test_order_of_files,
+             test_notes_on_the_order, test_solids, test_normals, test_bad_handles, test_notes_on_handles,
+             test_help, test_errors,
+             test_preview, test_preview_of_solids, test_preview_errors):
+    each()
+    print("passed", each.__name__)
+sys.exit(0)

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Conversion/MeshFile.h"
+
+#include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include <cstdlib>
+
+#include <unistd.h>
+
+using namespace smg;
+using namespace smg::testing;
+
+namespace
+{
+
+void expectRefused(const std::filesystem::path& out, const std::string& part)
+{
+  expectError([&] { checkOutput(out); }, out.filename().string() + part);
+}
+
+/** Expects it of a process that may not write everywhere. */
+void expectRefusedForStranger(const std::filesystem::path& out)
+{
+  if (::geteuid() == 0 && ::setuid(65534) != 0)
+  {
+    std::exit(1);
+  }
+  expectRefused(out, ": no file can be made in the folder");
+  std::exit(::testing::Test::HasFailure() ? 1 : 0);
+}
+
+} // namespace
+
+TEST(MeshFile, OutputsThatCannotBeWrittenAreRefused)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "folder.vsm");
+  EXPECT_NO_THROW(checkOutput(folder / "out.vsm"));
+  EXPECT_NO_THROW(checkOutput("out.vsm"));
+  expectRefused(folder / "out.xyz", ": meshes are written as");
+  expectRefused(folder / "folder.vsm", ": this is a folder");
+  expectRefused(folder / "absent" / "out.vsm", ": there is no folder");
+}
+
+TEST(MeshFile, FoldersThatCannotBeWrittenToAreRefused)
+{
+  using std::filesystem::perms;
+  const TemporaryFolder folder;
+  for (const perms others : { perms::none, perms::others_exec, perms::others_read })
+  {
+    std::filesystem::permissions(folder.path(), perms::owner_read | perms::owner_exec | others);
+    EXPECT_EXIT(expectRefusedForStranger(folder / "out.vsm"), ::testing::ExitedWithCode(0), "");
+  }
+  std::filesystem::permissions(folder.path(), perms::owner_all);
+}

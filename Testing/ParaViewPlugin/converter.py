@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The converter: a PLY becomes a container once, which is then streamed past the guard."""
+
+import json
+import os
+import sys
+
+import smg_testing as t
+from paraview.simple import *
+
+LoadPlugin(sys.argv[1], ns=globals())
+t.StreamingPoisson = StreamingPoisson
+
+folder = t.make_folder()
+ply, container = os.path.join(folder, "bunny.ply"), os.path.join(folder, "bunny.vsm")
+SaveData(ply, proxy=OpenDataFile(t.BUNNY))
+
+# A fresh proxy, as the Sources menu makes it, has nothing to complain of.
+converter = StreamingMeshConverter()
+converter.UpdatePipelineInformation()
+assert not os.path.exists(container)
+assert converter.Order == "Breadth First" and not converter.Overwrite
+assert converter.MaximumPointsInMemory == 2000000
+
+converter.FileName = ply
+converter.OutputFileName = container
+converter.MaximumPointsInMemory = 1000
+converter.PreviewPoints = 2000
+converter.UpdatePipeline()
+converter.UpdatePropertyInformation()
+report = json.loads(converter.GetPropertyValue("Report"))
+assert report["vertices"] == t.BUNNY_POINTS and report["order"] == "bfs", report
+assert converter.GetPropertyValue("FullNumberOfCells") == t.BUNNY_CELLS
+assert 200 < converter.GetDataInformation().GetNumberOfPoints() <= 2000
+assert "OriginalId" in converter.GetPropertyValue("PointArrayInfo")
+assert "OriginalId" in converter.PointData.keys()
+
+# Filters get the real mesh; the container is used again.
+solved = os.path.join(folder, "solved.vsm")
+SaveData(solved, proxy=t.make_poisson(t.make_problem(converter)))
+reader = OpenDataFile(solved)
+reader.UpdatePipeline()
+assert reader.GetDataInformation().GetNumberOfPoints() == t.BUNNY_POINTS
+written = os.stat(container).st_mtime_ns
+again = StreamingMeshConverter(FileName=ply, OutputFileName=container)
+again.UpdatePipeline()
+assert again.GetDataInformation().GetNumberOfPoints() == t.BUNNY_POINTS
+assert os.stat(container).st_mtime_ns == written
+
+# File > Reload Files converts a file that has changed again, and only then.
+ReloadFiles(converter)
+converter.UpdatePipeline()
+assert os.stat(container).st_mtime_ns == written
+converter.MaximumPointsInMemory = 2000000
+with open(ply, "w", encoding="utf-8") as file:
+    file.write("ply\nformat ascii 1.0\nelement vertex 3\n"
+               "property float x\nproperty float y\nproperty float z\n"
+               "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+               "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+ReloadFiles(converter)
+converter.UpdatePipeline()
+assert converter.GetDataInformation().GetNumberOfPoints() == 3
+
+hints = converter.SMProxy.GetHints().FindNestedElementByName("ShowInMenu")
+assert hints.GetAttribute("category") == "Streaming Multigrid"
+print("passed")

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Deformation/InteractiveDeformation.h"
+#include "Testing/Solver/DeformationTesting.h"
+#include "Testing/Support/ErrorMessage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+// Meshes without vertices, without cells, and with vertices that belong to none.
+
+namespace smg::testing
+{
+namespace
+{
+
+/** Vertices in a row, of which the first three make a triangle if `hasCell`. */
+StreamMesh rowOf(int vertices, bool hasCell)
+{
+  StreamMesh mesh;
+  mesh.positions.resize(3 * static_cast<std::size_t>(vertices));
+  for (int v = 0; v < vertices; ++v)
+  {
+    mesh.positions[3 * v] = v;
+    mesh.positions[3 * v + 1] = 0.5 * v * v;
+  }
+  if (hasCell)
+  {
+    mesh.corners = { 0, 1, 2 };
+  }
+  return mesh;
+}
+
+/** Holds the given vertices by a motion. */
+ArrayHandles holding(
+  const StreamMesh& mesh, const std::vector<std::int64_t>& held, const Motion& motion)
+{
+  ArrayHandles handles(mesh.vertices());
+  std::int64_t v = 0;
+  handles.hold(
+    mesh,
+    [&](const Eigen::Vector3d&) { return std::find(held.begin(), held.end(), v++) != held.end(); },
+    motion);
+  return handles;
+}
+
+/** By tolerance and with a fixed number of cycles, both out of core and in core. */
+std::vector<DeformOptions> deformWays()
+{
+  std::vector<DeformOptions> ways;
+  for (const int cycles : { 0, 1, 2 })
+  {
+    for (const bool core : { false, true })
+    {
+      ways.push_back(withCycles(cycles));
+      ways.back().inCore = core;
+    }
+  }
+  return ways;
+}
+
+/** Checks where the vertices come to, in every way, within `slack` of `expected`. */
+void expectDeformed(
+  const StreamMesh& mesh, ArrayHandles& handles, const Eigen::MatrixXd& expected, double slack)
+{
+  for (const DeformOptions& options : deformWays())
+  {
+    SCOPED_TRACE(std::to_string(options.cycles) + (options.inCore ? " cycles in core" : " cycles"));
+    const Solved solved = deformMesh(mesh, handles, options);
+    ASSERT_EQ(solved.values.rows(), mesh.vertices());
+    EXPECT_LE((solved.values - expected).cwiseAbs().maxCoeff(), slack);
+    EXPECT_TRUE(solved.report.converged);
+    MemorySource source(mesh);
+    InteractiveDeformation interactive(source, handles, options);
+    EXPECT_TRUE(sameBits(valuesOf(interactive), solved.values));
+    EXPECT_TRUE(interactive.update(handles.Values));
+    EXPECT_TRUE(sameBits(valuesOf(interactive), solved.values));
+  }
+}
+
+Motion quarterTurn()
+{
+  Motion motion = turn(90.0, { 0, 0, 1 });
+  motion.translation = { 1, 2, 3 };
+  return motion;
+}
+
+} // namespace
+
+TEST(EmptyMeshes, withoutVerticesAreAnError)
+{
+  const StreamMesh mesh = rowOf(0, false);
+  ArrayProblem problem;
+  ArrayHandles handles(0);
+  for (const bool core : { false, true })
+  {
+    SolveOptions solving;
+    solving.inCore = core;
+    expectError([&] { solveMesh(mesh, problem, solving); }, "no vertices");
+    DeformOptions deforming = withCycles(2);
+    deforming.inCore = core;
+    expectError([&] { deformMesh(mesh, handles, deforming); }, "no vertices");
+  }
+  MemorySource source(mesh);
+  expectError([&] { InteractiveDeformation(source, handles, withCycles(2)); }, "no vertices");
+}
+
+TEST(EmptyMeshes, verticesWithoutCellsKeepTheirValues)
+{
+  for (const bool hasCell : { false, true })
+  {
+    for (const int vertices : { 1, 5 })
+    {
+      if (hasCell && vertices < 3)
+      {
+        continue;
+      }
+      const StreamMesh mesh = rowOf(vertices, hasCell);
+      ArrayProblem problem;
+      problem.Value.resize(vertices);
+      problem.Prescribed.assign(vertices, 0);
+      for (int v = 0; v < vertices; ++v)
+      {
+        problem.Value[v] = 7.0 + v;
+      }
+      // Of the triangle one vertex is prescribed, so that the others take its value.
+      problem.Prescribed[0] = 1;
+      for (const bool core : { false, true })
+      {
+        SolveOptions options = accurate();
+        options.inCore = core;
+        const Solved solved = solveMesh(mesh, problem, options);
+        ASSERT_EQ(solved.values.rows(), vertices);
+        for (int v = 0; v < vertices; ++v)
+        {
+          EXPECT_NEAR(solved.values(v, 0), hasCell && v < 3 ? 7.0 : 7.0 + v, 1e-9);
+        }
+        EXPECT_TRUE(solved.report.converged);
+        EXPECT_EQ(solved.report.prescribed, 1);
+        EXPECT_EQ(solved.report.held, hasCell ? vertices - 3 : vertices - 1);
+      }
+    }
+  }
+}
+
+TEST(EmptyMeshes, aSingleVertexGoesWhereItsHandleSays)
+{
+  const StreamMesh mesh = rowOf(1, false);
+  ArrayHandles held = holding(mesh, { 0 }, quarterTurn());
+  expectDeformed(mesh, held, moved(mesh, quarterTurn()), 0.0);
+  ArrayHandles free(1);
+  expectError([&] { deformMesh(mesh, free); }, "nothing to deform");
+}
+
+TEST(EmptyMeshes, verticesWithoutCellsStayUnlessTheyAreHeld)
+{
+  for (const bool hasCell : { false, true })
+  {
+    const StreamMesh mesh = rowOf(6, hasCell);
+    const Eigen::MatrixXd turned = moved(mesh, quarterTurn());
+    // The last vertex alone: a triangle that no handle reaches stays, too.
+    ArrayHandles last = holding(mesh, { 5 }, quarterTurn());
+    Eigen::MatrixXd expected = positionsOf(mesh);
+    expected.row(5) = turned.row(5);
+    expectDeformed(mesh, last, expected, 0.0);
+    // One of the triangle moves all of it.
+    ArrayHandles two = holding(mesh, { 1, 4 }, quarterTurn());
+    expected = positionsOf(mesh);
+    expected.row(4) = turned.row(4);
+    expected.row(1) = turned.row(1);
+    if (hasCell)
+    {
+      expected.topRows(3) = turned.topRows(3);
+    }
+    expectDeformed(mesh, two, expected, 1e-9);
+    ArrayHandles all = holding(mesh, { 0, 1, 2, 3, 4, 5 }, quarterTurn());
+    expectDeformed(mesh, all, turned, 0.0);
+  }
+}
+
+} // namespace smg::testing

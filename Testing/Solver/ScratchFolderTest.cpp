@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Storage/ScratchFolder.h"
+
+#include "Solver/Core/Error.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <string>
+
+namespace smg::testing
+{
+
+TEST(ScratchFolder, isRemovedWithAllItHolds)
+{
+  const TemporaryFolder folder;
+  {
+    const ScratchFolder a(folder.path());
+    const ScratchFolder b(folder.path());
+    EXPECT_NE(a.path(), b.path());
+    EXPECT_EQ(folder.entries(), 2);
+    std::filesystem::create_directories(a.path() / "x" / "y");
+  }
+  EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(ScratchFolder, inAPlaceThatDoesNotExistIsAnErrorThatNamesIt)
+{
+  const TemporaryFolder folder;
+  try
+  {
+    const ScratchFolder scratch(folder / "nowhere");
+    FAIL();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find((folder / "nowhere").string()), std::string::npos);
+  }
+}
+
+TEST(ScratchFolder, whatAKilledProgramLeftIsRemovedByTheNextAndNothingElse)
+{
+  const TemporaryFolder folder;
+  const ScratchFolder living(folder.path());
+  std::ofstream(living.path() / "data") << "in use";
+  // Somebody's own folders, whatever their names.
+  for (const char* name : { "smg-scratch-abcdef", "smg-scratch-", "smg-mesh01" })
+  {
+    std::filesystem::create_directory(folder / name);
+    std::ofstream(folder / name / "data") << "precious";
+  }
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0)
+  {
+    const ScratchFolder abandoned(folder.path());
+    std::filesystem::create_directories(abandoned.path() / "x" / "y");
+    kill(getpid(), SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(folder.entries(), 5);
+
+  const ScratchFolder next(folder.path());
+  EXPECT_EQ(folder.entries(), 5) << "the abandoned one has gone, the next one has come";
+  EXPECT_TRUE(std::filesystem::exists(living.path() / "data"));
+  for (const char* name : { "smg-scratch-abcdef", "smg-scratch-", "smg-mesh01" })
+  {
+    EXPECT_TRUE(std::filesystem::exists(folder / name / "data")) << name;
+  }
+}
+
+} // namespace smg::testing

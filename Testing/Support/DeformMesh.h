@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Deform.h"
+#include "Testing/Support/SolveMesh.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace smg::testing
+{
+
+inline constexpr Weights BothWeights[] = { Weights::Uniform, Weights::Cotangent };
+
+/** Deforms a mesh that comes in blocks of `blockCells` cells. */
+inline Solved deformMesh(const StreamMesh& mesh, Handles& handles,
+  const DeformOptions& options = {}, std::int64_t blockCells = 1000)
+{
+  MemorySource source(mesh, blockCells);
+  const std::unique_ptr<Solution> solution = deform(source, handles, options);
+  return { valuesOf(*solution), solution->report() };
+}
+
+/** Options for `cycles` V-cycles a step. */
+inline DeformOptions withCycles(int cycles, Weights weights = Weights::Cotangent)
+{
+  DeformOptions options;
+  options.weights = weights;
+  options.cycles = cycles;
+  return options;
+}
+
+/** Options for steps that converge to a tolerance. */
+inline DeformOptions byTolerance(double tolerance, Weights weights = Weights::Cotangent)
+{
+  DeformOptions options;
+  options.weights = weights;
+  options.tolerance = tolerance;
+  return options;
+}
+
+} // namespace smg::testing
