@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Import/IndexedMesh.h"
-#include "IO/Import/MemoryBudget.h"
+#include "IO/Raw/RawMeshBuilder.h"
 #include "Solver/Core/Progress.h"
 
 #include <filesystem>
@@ -10,10 +9,10 @@
 namespace smg
 {
 
-/** What an importer may use and whom it tells. */
+/** How to read a mesh. */
 struct ImportOptions
 {
-  MemoryBudget budget;
+  CellChoice cells = CellChoice::Only;
   ProgressFunction progress;
 };
 
@@ -27,8 +26,10 @@ enum class MeshFormat
   Stl,
   Medit,
   Gmsh,
+  TetGen,
   VtkLegacy,
-  VtkXml
+  VtkXml,
+  VtkParallelXml
 };
 
 /** The format by the file's first bytes; Unknown where these say nothing, as for STL and OBJ. */
@@ -37,24 +38,30 @@ MeshFormat meshFormatOfContent(const std::filesystem::path& path);
 /** The format by the file's first bytes, or by its suffix where these say nothing. */
 MeshFormat meshFormat(const std::filesystem::path& path);
 
-/** Reads the VTK formats. */
-using VtkImporter = IndexedMesh (*)(
-  const std::filesystem::path& path, MeshFormat format, const ImportOptions& options);
+/**
+ * Reads a VTK file with VTK's own readers, in memory, for what is not parsed as a stream. Gives the
+ * mesh to the builder.
+ */
+using VtkImporter = void (*)(const std::filesystem::path& path, MeshFormat format,
+  RawMeshBuilder& builder, const ProgressFunction& progress);
 
 /**
- * Sets who reads the VTK formats, since this library knows nothing of VTK: IO/vtkMeshImport.h has
- * the function. Until it is set, these formats are refused.
+ * Sets who reads the VTK files that are not parsed as streams (compressed or encoded data), since
+ * this library knows nothing of VTK: IO/vtkMeshImport.h has the function. Until it is set, such
+ * files are refused.
  */
 void setVtkImporter(VtkImporter importer);
+VtkImporter vtkImporter();
 
 /**
- * Reads a mesh from a PLY, OBJ, OFF, STL, Medit or Gmsh file, or from a VTK file (see
- * setVtkImporter). The mesh has at least one cell, and no column with a reserved name
- * (ReservedNames.h): such columns are left out and named.
+ * Parses a mesh file of any format: PLY, OBJ, OFF, STL, Medit, Gmsh, TetGen, legacy VTK, VTK XML,
+ * or one of them compressed by gzip. The format is told by the content, by the suffix only where
+ * the content says nothing.
  * @throws Error naming the file and the line, record or byte: the format is not known, the file is
  * empty, truncated or contradicts itself, a coordinate is not finite, a corner is no vertex, there
- * are no cells, or the conversion would exceed the memory budget; Cancelled.
+ * are no cells, or both triangles and tetrahedra; Cancelled.
  */
-IndexedMesh importMesh(const std::filesystem::path& path, const ImportOptions& options = {});
+RawMesh importMesh(
+  const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options = {});
 
 } // namespace smg

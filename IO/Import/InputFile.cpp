@@ -3,96 +3,48 @@
 
 #include "Solver/Core/Error.h"
 
-#include <cerrno>
+#include <algorithm>
 #include <cstring>
-
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
+#include <utility>
 
 namespace smg
 {
 
-namespace
-{
-constexpr std::size_t StepBytes = std::size_t(8) << 20;
-}
-
-InputFile::InputFile(std::filesystem::path path, ProgressFunction progress)
+InputFile::InputFile(std::filesystem::path path, ProgressFunction progress, std::string name)
   : Path(std::move(path))
+  , Name(name.empty() ? this->Path.string() : std::move(name))
+  , File(FileDescriptor::openForReading(this->Path))
+  , Size(static_cast<std::size_t>(this->File.size()))
   , Reported(std::move(progress))
 {
-  const int descriptor = ::open(this->Path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0)
+  if (this->Size == 0)
   {
-    throw Error(this->Path.string() + ": cannot be opened: " + std::strerror(errno));
-  }
-  struct stat status = {};
-  std::string problem;
-  if (::fstat(descriptor, &status) != 0)
-  {
-    problem = std::string("cannot be read: ") + std::strerror(errno);
-  }
-  else if (!S_ISREG(status.st_mode))
-  {
-    problem = "is not a regular file";
-  }
-  else if (status.st_size == 0)
-  {
-    problem = "is empty";
-  }
-  else
-  {
-    this->Size = static_cast<std::size_t>(status.st_size);
-    void* data = ::mmap(nullptr, this->Size, PROT_READ, MAP_PRIVATE, descriptor, 0);
-    if (data == MAP_FAILED)
-    {
-      problem = std::string("cannot be mapped into memory: ") + std::strerror(errno);
-    }
-    else
-    {
-      this->Data = static_cast<const char*>(data);
-      ::madvise(data, this->Size, MADV_SEQUENTIAL);
-    }
-  }
-  ::close(descriptor);
-  if (!problem.empty())
-  {
-    throw Error(this->Path.string() + ": the file " + problem);
+    throw Error(this->Name + ": the file is empty.");
   }
 }
 
-InputFile::~InputFile()
+std::string_view InputFile::move(std::size_t offset, std::size_t least)
 {
-  if (this->Data)
+  const std::size_t begin = std::min(offset, this->Size);
+  const std::size_t wanted = std::min(std::max(least, WindowBytes), this->Size - begin);
+  this->Window.resize(std::max(this->Window.size(), wanted));
+  std::size_t kept = 0;
+  if (begin >= this->Begin && begin < this->Begin + this->Used)
   {
-    ::munmap(const_cast<char*>(this->Data), this->Size);
+    kept = std::min(this->Begin + this->Used - begin, wanted);
+    std::memmove(this->Window.data(), this->Window.data() + (begin - this->Begin), kept);
   }
-}
-
-void InputFile::step(std::size_t offset)
-{
-  this->Reported.update(static_cast<double>(offset) / static_cast<double>(this->Size));
-  const std::size_t release = offset / StepBytes * StepBytes;
-  if (release > this->Released)
-  {
-    ::madvise(
-      const_cast<char*>(this->Data) + this->Released, release - this->Released, MADV_DONTNEED);
-    this->Released = release;
-  }
-  this->NextStep = release + StepBytes;
-}
-
-void InputFile::rewind()
-{
-  this->Released = 0;
-  this->NextStep = 0;
+  this->File.read(static_cast<std::int64_t>(begin + kept),
+    std::as_writable_bytes(std::span(this->Window).subspan(kept, wanted - kept)));
+  this->Begin = begin;
+  this->Used = wanted;
+  this->Reported.update(static_cast<double>(begin) / static_cast<double>(this->Size));
+  return { this->Window.data(), wanted };
 }
 
 void InputFile::fail(std::size_t offset, const std::string& sentence) const
 {
-  throw Error(this->Path.string() + ", byte " + std::to_string(offset) + ": " + sentence);
+  throw Error(this->Name + ", byte " + std::to_string(offset) + ": " + sentence);
 }
 
 } // namespace smg

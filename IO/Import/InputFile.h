@@ -2,62 +2,66 @@
 #pragma once
 
 #include "Solver/Core/Progress.h"
+#include "Solver/Storage/FileDescriptor.h"
 
 #include <cstddef>
 #include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace smg
 {
 
 /**
- * A file that is read once from front to back, mapped into memory. Pages behind the reader are
- * given back, so that resident memory does not grow with the file.
+ * A file that is parsed: a window of it is in memory, which goes wherever it is asked for. Reading
+ * from front to back is what it is quick at.
  */
 class InputFile
 {
 public:
-  /** Maps the file. Throws Error if it cannot be read, is not a regular file or is empty. */
-  explicit InputFile(std::filesystem::path path, ProgressFunction progress = {});
-  ~InputFile();
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
-
-  const std::filesystem::path& path() const { return this->Path; }
-  std::size_t size() const { return this->Size; }
-  const char* begin() const { return this->Data; }
-  const char* end() const { return this->Data + this->Size; }
-  std::string_view text() const { return { this->Data, this->Size }; }
+  /** Bytes that are read at once. */
+  static constexpr std::size_t WindowBytes = std::size_t(1) << 20;
 
   /**
-   * Says that everything before byte `offset` has been read: reports progress (throws Cancelled)
-   * and gives memory back, every few megabytes.
+   * Opens the file. Throws Error if it cannot be read, is not a regular file or is empty.
+   * @param name what errors call the file; empty: its path
    */
-  void passed(std::size_t offset)
+  explicit InputFile(
+    std::filesystem::path path, ProgressFunction progress = {}, std::string name = {});
+
+  /** What errors call the file. */
+  const std::string& name() const { return this->Name; }
+  const std::filesystem::path& path() const { return this->Path; }
+  std::size_t size() const { return this->Size; }
+
+  /**
+   * The bytes from `offset` on: at least `least`, or all there are up to the end of the file, and
+   * more if they are in memory. Valid until the next call. Tells progress. Throws Error; Cancelled.
+   */
+  std::string_view at(std::size_t offset, std::size_t least = 1)
   {
-    if (offset >= this->NextStep)
+    if (offset >= this->Begin && offset + least <= this->Begin + this->Used)
     {
-      this->step(offset);
+      return { this->Window.data() + (offset - this->Begin), this->Used - (offset - this->Begin) };
     }
+    return this->move(offset, least);
   }
 
-  /** Starts again at byte 0; progress does not go back. */
-  void rewind();
-
-  /** Throws Error: "PATH, byte OFFSET: SENTENCE". */
+  /** Throws Error: "NAME, byte OFFSET: SENTENCE" */
   [[noreturn]] void fail(std::size_t offset, const std::string& sentence) const;
 
 private:
-  void step(std::size_t offset);
+  std::string_view move(std::size_t offset, std::size_t least);
 
   std::filesystem::path Path;
-  Progress Reported;
-  const char* Data = nullptr;
+  std::string Name;
+  FileDescriptor File;
   std::size_t Size = 0;
-  std::size_t Released = 0;
-  std::size_t NextStep = 0;
+  Progress Reported;
+  std::vector<char> Window;
+  std::size_t Begin = 0; ///< place of the window in the file
+  std::size_t Used = 0;  ///< bytes of the window
 };
 
 } // namespace smg

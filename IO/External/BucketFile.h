@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/External/Workspace.h"
+#include "Solver/Storage/Buffer.h"
+#include "Solver/Storage/FileDescriptor.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Rows of bytes, in one scratch file that has no name: bytes are appended to any of a number of
+ * buckets, and each bucket is read from its front to its back, any number of times. Of a bucket
+ * only the last chunk is in memory; no file is made as long as no chunk is full.
+ */
+class BucketFile
+{
+public:
+  static constexpr std::size_t ChunkBytes = std::size_t(256) << 10;
+  /** Chunks are not made smaller than this. */
+  static constexpr std::size_t LeastChunkBytes = std::size_t(4) << 10;
+
+  /** The workspace must outlive the file. The chunks take `memory` bytes, or less. */
+  explicit BucketFile(
+    Workspace& workspace, int buckets = 1, std::int64_t memory = std::int64_t(ChunkBytes));
+  BucketFile(BucketFile&&) noexcept = default;
+  BucketFile& operator=(BucketFile&&) noexcept = default;
+
+  int buckets() const { return static_cast<int>(this->Rows.size()); }
+  std::int64_t bytes(int bucket = 0) const { return this->Rows[std::size_t(bucket)].bytes; }
+
+  /** Appends to a bucket. Throws Error, naming the folder, if the disk is full. */
+  void append(int bucket, std::span<const std::byte> bytes)
+  {
+    Row& row = this->Rows[std::size_t(bucket)];
+    if (row.used + bytes.size() <= this->Chunk && row.chunk.data())
+    {
+      std::memcpy(row.chunk.data() + row.used, bytes.data(), bytes.size());
+      row.used += bytes.size();
+      row.bytes += static_cast<std::int64_t>(bytes.size());
+    }
+    else
+    {
+      this->appendSlowly(row, bytes);
+    }
+  }
+  template <class T>
+  void put(int bucket, const T& value)
+  {
+    this->append(bucket, std::as_bytes(std::span<const T, 1>(&value, 1)));
+  }
+
+  /** Writes the last chunks to the file and gives their memory back: nothing is appended now. */
+  void close();
+
+  /** Reads a bucket from front to back. The file must outlive it and not be appended to. */
+  class Reader
+  {
+  public:
+    explicit Reader(const BucketFile& file, int bucket = 0, std::size_t bufferBytes = ChunkBytes);
+
+    /** The next bytes, at most `most`, a multiple of `unit` (of which the bucket is); empty: end.
+     */
+    std::span<const std::byte> next(std::size_t unit, std::size_t most = SIZE_MAX);
+    /** Reads exactly these bytes; false at the end. */
+    bool read(std::span<std::byte> bytes);
+    template <class T>
+    bool get(T& value)
+    {
+      if (this->End - this->At >= sizeof(T))
+      {
+        std::memcpy(&value, this->Bytes.data() + this->At, sizeof(T));
+        this->At += sizeof(T);
+        return true;
+      }
+      return this->read(std::as_writable_bytes(std::span<T, 1>(&value, 1)));
+    }
+
+  private:
+    bool refill();
+
+    const BucketFile* File;
+    int Bucket;
+    Buffer Bytes;
+    std::size_t At = 0, End = 0;
+    std::int64_t Offset = 0; ///< in the bucket, of what comes after the buffer
+    std::size_t NextRun = 0;
+    std::int64_t RunOffset = 0;
+  };
+
+private:
+  /** Bytes that stand one after the other in the file. */
+  struct Run
+  {
+    std::int64_t offset;
+    std::int64_t bytes;
+  };
+  struct Row
+  {
+    Buffer chunk;
+    std::size_t used = 0;
+    std::int64_t bytes = 0; ///< with those in the chunk
+    std::vector<Run> runs;
+  };
+
+  void appendSlowly(Row& row, std::span<const std::byte> bytes);
+  void flush(Row& row);
+
+  Workspace* Space;
+  std::size_t Chunk;
+  std::vector<Row> Rows;
+  FileDescriptor File;
+  std::int64_t FileEnd = 0;
+};
+
+/** A file of records of one kind, in one row. */
+template <class Record>
+class RecordFile
+{
+  static_assert(std::is_trivially_copyable_v<Record>);
+
+public:
+  explicit RecordFile(Workspace& workspace)
+    : File(workspace)
+  {
+  }
+
+  std::int64_t size() const { return this->File.bytes() / std::int64_t(sizeof(Record)); }
+  void put(const Record& record) { this->File.put(0, record); }
+  void put(std::span<const Record> records) { this->File.append(0, std::as_bytes(records)); }
+  void close() { this->File.close(); }
+
+  /** Reads the records from first to last. */
+  class Reader
+  {
+  public:
+    explicit Reader(const RecordFile& file)
+      : Bytes(file.File)
+    {
+    }
+    /** The next record; false at the end. */
+    bool next(Record& record) { return this->Bytes.get(record); }
+    /** Fills the span; false at the end, then nothing is read. */
+    bool next(std::span<Record> records)
+    {
+      return this->Bytes.read(std::as_writable_bytes(records));
+    }
+
+  private:
+    BucketFile::Reader Bytes;
+  };
+
+private:
+  BucketFile File;
+};
+
+} // namespace smg

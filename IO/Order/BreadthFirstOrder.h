@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Order/OrderedVertices.h"
+#include "IO/Order/PageBuilder.h"
+
+namespace smg
+{
+
+/** How a breadth-first order is planned. */
+struct BreadthFirstOptions
+{
+  /** Vertices that distances are measured from, 2 to 8; 0: each component is begun at its end. */
+  int landmarks = 4;
+  /** Components of fewer vertices are begun at their ends. */
+  std::int64_t leastPlanned = 4096;
+};
+
+/** How often pages were loaded, for a user and for tests. */
+struct PageTraffic
+{
+  std::int64_t pages = 0;
+  std::int64_t loads = 0;      ///< while the order was made
+  std::int64_t probeLoads = 0; ///< while it was planned
+  std::int64_t probes = 0;
+};
+
+/**
+ * Brings paged vertices into a breadth-first order with a small span and width, component after
+ * component: a multi-source search whose sources and start levels are chosen by the distances from
+ * a few landmarks. Sets `components` in the counts.
+ */
+OrderedVertices breadthFirstOrder(PagedMesh& mesh, Workspace& workspace,
+  const BreadthFirstOptions& options = {}, PageTraffic* traffic = nullptr);
+
+} // namespace smg

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/External/BucketFile.h"
+#include "Solver/Stream/Column.h"
+#include "Solver/Stream/MeshSource.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** What happened to a mesh while its file was parsed. */
+struct ImportCounts
+{
+  std::int64_t triangulatedPolygons = 0; ///< polygons and strips that became several triangles
+  std::int64_t splitCells = 0;           ///< hexahedra, wedges, pyramids that became tetrahedra
+  std::int64_t higherOrderCells = 0;     ///< cells of which only the corners were used
+  std::int64_t droppedCells = 0;         ///< points, lines, and cells of the kind not wanted
+  std::int64_t mergedPoints = 0;         ///< points that were merged with another one
+  /** Names of columns that were left out, since their names are reserved. */
+  std::vector<std::string> droppedColumns;
+  /** What a user should know. */
+  std::vector<std::string> notes;
+};
+
+/** An attribute of a raw mesh. */
+struct RawColumn
+{
+  ColumnSpec spec;
+  BucketFile tuples; ///< one after the other
+};
+
+/**
+ * A mesh as its file has it, in scratch files: any vertex order, any cell order, isolated vertices.
+ * At most 2^32 - 2 vertices, cells and elements.
+ *
+ * An *element* is what the file has as a cell, in the file's order and whatever its kind; it became
+ * any number of cells of the mesh, which tell the element they come from.
+ */
+struct RawMesh
+{
+  explicit RawMesh(Workspace& workspace)
+    : positions(workspace)
+    , corners(workspace)
+    , elements(workspace)
+  {
+  }
+
+  CellType cellType = CellType::Triangle;
+  /** Whether the coordinates were double precision numbers in the file. */
+  bool doublePositions = true;
+  std::int64_t vertices = 0;
+  std::int64_t cells = 0;
+  std::int64_t elementCount = 0;
+
+  BucketFile positions;                  ///< x, y, z a vertex: doubles, or else floats; finite
+  RecordFile<std::uint32_t> corners;     ///< cornersOf(cellType) a cell, each below `vertices`
+  RecordFile<std::uint32_t> elements;    ///< the element of each cell; empty: cell c is element c
+  std::vector<RawColumn> vertexColumns;  ///< a tuple a vertex
+  std::vector<RawColumn> elementColumns; ///< a tuple an element
+  ImportCounts counts;
+
+  std::size_t positionBytes() const
+  {
+    return 3 * (this->doublePositions ? sizeof(double) : sizeof(float));
+  }
+};
+
+} // namespace smg
