@@ -72,6 +72,7 @@ void BucketFile::flush(Row& row)
   }
   this->FileEnd += bytes;
   row.used = 0;
+  this->Space->poll();
 }
 
 void BucketFile::close()
@@ -94,6 +95,7 @@ bool BucketFile::Reader::refill()
 {
   const Row& row = this->File->Rows[std::size_t(this->Bucket)];
   const std::size_t kept = this->End - this->At;
+  this->File->Space->poll();
   std::memmove(this->Bytes.data(), this->Bytes.data() + this->At, kept);
   this->At = 0;
   this->End = kept;

@@ -14,4 +14,20 @@ Workspace::Workspace(
 {
 }
 
+void Workspace::beginPart(double end, std::int64_t bytes)
+{
+  this->PartBegin = this->PartEnd;
+  this->PartEnd = end;
+  this->PartTraffic = this->trafficBytes();
+  this->PartBytes = std::max<std::int64_t>(bytes, 1);
+  this->poll();
+}
+
+void Workspace::poll()
+{
+  const double done = static_cast<double>(this->trafficBytes() - this->PartTraffic) /
+                      static_cast<double>(this->PartBytes);
+  this->Reported.update(this->PartBegin + std::min(done, 1.0) * (this->PartEnd - this->PartBegin));
+}
+
 } // namespace smg

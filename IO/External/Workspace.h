@@ -32,14 +32,26 @@ public:
   const std::filesystem::path& folder() const { return this->Folder.path(); }
   IoStatistics& traffic() { return this->Traffic; }
 
-  /** Tells how much of the whole operation is done, 0 to 1. Throws Cancelled. */
-  void progress(double done) { this->Reported.update(done); }
+  /**
+   * Begins the part of the whole operation that ends when the fraction `end` of it is done, and
+   * that has about `bytes` of traffic, by which poll() tells how far it is.
+   */
+  void beginPart(double end, std::int64_t bytes);
+  /** The fraction that is done when the current part ends. */
+  double partEnd() const { return this->PartEnd; }
+  /** Tells progress, now and then while there is traffic. Throws Cancelled. */
+  void poll();
 
 private:
+  std::int64_t trafficBytes() const { return this->Traffic.bytesRead + this->Traffic.bytesWritten; }
+
   ScratchFolder Folder;
   Pool Memory;
   IoStatistics Traffic;
   Progress Reported;
+  double PartBegin = 0, PartEnd = 0;
+  std::int64_t PartTraffic = 0; ///< when the part began
+  std::int64_t PartBytes = 1;
 };
 
 } // namespace smg

@@ -33,4 +33,7 @@ struct PageTraffic
 OrderedVertices breadthFirstOrder(PagedMesh& mesh, Workspace& workspace,
   const BreadthFirstOptions& options = {}, PageTraffic* traffic = nullptr);
 
+/** Connected components of paged vertices, for orders that do not search. */
+std::int64_t countComponents(PagedMesh& mesh, Workspace& workspace);
+
 } // namespace smg

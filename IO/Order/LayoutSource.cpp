@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/LayoutSource.h"
 
-#include "IO/Container/Columns.h"
+#include "IO/Container/ReservedNames.h"
 #include "IO/Formats/StreamConversion.h"
 
 #include <algorithm>
@@ -14,147 +14,168 @@ namespace smg
 namespace
 {
 
-constexpr std::size_t BlockCells = 16384;
-
-/** Original numbers that the mesh may have already; anything else under their name goes. */
 const ColumnSpec IdSpec{ OriginalIdName, ScalarType::Int64, 1 };
 const ColumnSpec CellIdSpec{ OriginalCellIdName, ScalarType::Int64, 1 };
 
-/** Whether a column of the mesh goes into the stream as it is. */
-bool isKept(const ColumnSpec& spec)
+/** Adds the specs of the columns, and the one of the original numbers unless it is among them. */
+bool addSpecs(
+  const std::vector<RawColumn>& columns, const ColumnSpec& numbers, std::vector<ColumnSpec>& specs)
 {
-  const bool numbers = spec.name == IdSpec.name || spec.name == CellIdSpec.name;
-  return spec.name != CellFlagsName && (!numbers || spec == IdSpec || spec == CellIdSpec);
+  for (const RawColumn& column : columns)
+  {
+    specs.push_back(column.spec);
+  }
+  const bool add = findColumn(specs, numbers) < 0;
+  if (add)
+  {
+    specs.push_back(numbers);
+  }
+  return add;
 }
 
-/** The original numbers of the rows: from `numbers`, or the rows themselves if there are none. */
-void number(const ColumnSpec& spec, std::span<const std::uint32_t> rows,
-  const std::vector<std::int64_t>& numbers, Column& to)
+template <class Real>
+std::uint32_t takeVertex(BucketFile::Reader& records, double* position)
 {
-  to.spec = spec;
-  to.resize(rows.size());
-  std::transform(rows.begin(), rows.end(), to.as<std::int64_t>().begin(),
-    [&numbers](std::uint32_t row) { return numbers.empty() ? std::int64_t(row) : numbers[row]; });
+  OrderedVertex<Real> vertex{};
+  records.get(vertex);
+  std::copy_n(vertex.position, 3, position);
+  return vertex.id;
 }
 
 } // namespace
 
-LayoutSource::LayoutSource(const IndexedMesh& mesh, const StreamLayout& layout, CellIds cellIds)
+LayoutSource::LayoutSource(const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace)
   : Mesh(mesh)
   , Layout(layout)
+  , Vertices(layout.vertices)
+  , Corners(layout.corners)
+  , Elements(layout.elements)
+  , Flags(layout.flags)
+  , BlockVertices(layout.blockVertices)
+  , BlockFinalized(layout.blockFinalized)
 {
-  this->AddIds = findColumn(mesh.vertexColumns, IdSpec) < 0;
-  this->AddCellIds = cellIds == WithCellIds && findColumn(mesh.cellColumns, CellIdSpec) < 0;
-  this->AddFlags = layout.degenerateCells > 0 || layout.duplicateCells > 0;
   this->Info.cellType = mesh.cellType;
-  this->Info.vertices = static_cast<std::int64_t>(layout.vertices.size());
-  this->Info.cells = static_cast<std::int64_t>(layout.cells.size());
+  this->Info.vertices = layout.vertexCount;
+  this->Info.cells = layout.cellCount;
   this->Info.doublePositions = mesh.doublePositions;
-  const auto addKept = [](const std::vector<Column>& columns, std::vector<ColumnSpec>& specs)
-  {
-    for (const Column& column : columns)
-    {
-      if (isKept(column.spec))
-      {
-        specs.push_back(column.spec);
-      }
-    }
-  };
-  addKept(mesh.vertexColumns, this->Info.vertexColumns);
-  addKept(mesh.cellColumns, this->Info.cellColumns);
-  if (this->AddIds)
-  {
-    this->Info.vertexColumns.push_back(IdSpec);
-  }
-  if (this->AddCellIds)
-  {
-    this->Info.cellColumns.push_back(CellIdSpec);
-  }
-  if (this->AddFlags)
+  this->AddIds = addSpecs(mesh.vertexColumns, IdSpec, this->Info.vertexColumns);
+  this->AddElements = addSpecs(mesh.elementColumns, CellIdSpec, this->Info.cellColumns);
+  if (layout.flags.size() > 0)
   {
     this->Info.cellColumns.push_back({ CellFlagsName, ScalarType::UInt8, 1 });
+    this->Flags.next(this->NextFlag);
+  }
+  if (!mesh.vertexColumns.empty())
+  {
+    this->VertexJoin.emplace(workspace, mesh.vertexColumns, workspace.available() / 4);
+    BucketFile::Reader vertices(layout.vertices);
+    for (std::int64_t i = 0; i < layout.vertexCount; ++i)
+    {
+      double position[3];
+      this->VertexJoin->put(mesh.doublePositions ? takeVertex<double>(vertices, position)
+                                                 : takeVertex<float>(vertices, position));
+    }
+    this->VertexJoin->join();
+  }
+  if (!mesh.elementColumns.empty())
+  {
+    this->CellJoin.emplace(workspace, mesh.elementColumns, workspace.available() / 4);
+    RecordFile<std::uint32_t>::Reader elements(layout.elements);
+    for (std::uint32_t element = 0; elements.next(element);)
+    {
+      this->CellJoin->put(element);
+    }
+    this->CellJoin->join();
   }
 }
 
 bool LayoutSource::next(MeshBlock& block)
 {
-  const std::size_t endCell = std::min(this->NextCell + BlockCells, this->Layout.cells.size());
-  if (endCell == this->NextCell)
+  std::int64_t endVertex = 0;
+  if (!this->BlockVertices.next(endVertex))
   {
     return false;
   }
-  block.firstVertex = static_cast<std::int64_t>(this->NextVertex);
-  block.firstCell = static_cast<std::int64_t>(this->NextCell);
-  this->fillCells(block, endCell);
-  const std::int64_t largest = *std::max_element(block.corners.begin(), block.corners.end());
-  this->fillVertices(block, std::max(this->NextVertex, static_cast<std::size_t>(largest) + 1));
-  this->NextCell = endCell;
-  while (this->Finalized < this->NextVertex && this->Layout.lastCell[this->Finalized] < endCell)
-  {
-    ++this->Finalized;
-  }
-  block.finalized = static_cast<std::int64_t>(this->Finalized);
+  block.firstVertex = this->NextVertex;
+  block.firstCell = this->NextCell;
+  this->fillVertices(block, endVertex);
+  this->fillCells(
+    block, std::min(this->NextCell + StreamLayout::BlockCells, this->Layout.cellCount));
+  this->BlockFinalized.next(block.finalized);
   return true;
 }
 
-void LayoutSource::fillVertices(MeshBlock& block, std::size_t end)
+void LayoutSource::fillVertices(MeshBlock& block, std::int64_t end)
 {
-  const auto rows =
-    std::span(this->Layout.vertices).subspan(this->NextVertex, end - this->NextVertex);
-  block.positions.resize(rows.size() * 3);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-  {
-    std::copy_n(
-      this->Mesh.positions.data() + std::size_t(rows[i]) * 3, 3, block.positions.data() + i * 3);
-  }
+  const std::int64_t rows = end - this->NextVertex;
+  block.positions.resize(static_cast<std::size_t>(rows) * 3);
   block.vertexColumns.resize(this->Info.vertexColumns.size());
-  std::size_t next = 0;
-  for (const Column& column : this->Mesh.vertexColumns)
-  {
-    if (isKept(column.spec))
-    {
-      gatherTuples(column, rows, block.vertexColumns[next++]);
-    }
-  }
+  std::int64_t* ids = nullptr;
   if (this->AddIds)
   {
-    number(IdSpec, rows, {}, block.vertexColumns[next]);
+    Column& column = block.vertexColumns.back();
+    column.spec = IdSpec;
+    column.resize(static_cast<std::size_t>(rows));
+    ids = column.as<std::int64_t>().data();
+  }
+  for (std::int64_t i = 0; i < rows; ++i)
+  {
+    double* const position = block.positions.data() + 3 * i;
+    const std::uint32_t id = this->Info.doublePositions
+                               ? takeVertex<double>(this->Vertices, position)
+                               : takeVertex<float>(this->Vertices, position);
+    if (ids)
+    {
+      ids[i] = id;
+    }
+  }
+  if (this->VertexJoin)
+  {
+    this->VertexJoin->fill(rows, block.vertexColumns);
   }
   this->NextVertex = end;
 }
 
-void LayoutSource::fillCells(MeshBlock& block, std::size_t end)
+void LayoutSource::fillCells(MeshBlock& block, std::int64_t end)
 {
-  const auto corners = static_cast<std::size_t>(cornersOf(this->Mesh.cellType));
-  const auto rows = std::span(this->Layout.cells).subspan(this->NextCell, end - this->NextCell);
-  block.corners.resize(rows.size() * corners);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-  {
-    for (std::size_t k = 0; k < corners; ++k)
-    {
-      const std::int64_t vertex = this->Mesh.corners[rows[i] * corners + k];
-      block.corners[i * corners + k] = this->Layout.streamIndex[static_cast<std::size_t>(vertex)];
-    }
-  }
+  const std::int64_t rows = end - this->NextCell;
+  this->Numbers.resize(static_cast<std::size_t>(rows * cornersOf(this->Info.cellType)));
+  this->Corners.next(std::span(this->Numbers));
+  block.corners.assign(this->Numbers.begin(), this->Numbers.end());
   block.cellColumns.resize(this->Info.cellColumns.size());
-  std::size_t next = 0;
-  for (const Column& column : this->Mesh.cellColumns)
+  if (this->AddElements)
   {
-    if (isKept(column.spec))
+    Column& column = block.cellColumns[this->Mesh.elementColumns.size()];
+    column.spec = CellIdSpec;
+    column.resize(static_cast<std::size_t>(rows));
+    this->Numbers.resize(static_cast<std::size_t>(rows));
+    this->Elements.next(std::span(this->Numbers));
+    std::copy(this->Numbers.begin(), this->Numbers.end(), column.as<std::int64_t>().begin());
+  }
+  if (this->CellJoin)
+  {
+    this->CellJoin->fill(rows, block.cellColumns);
+  }
+  if (this->Layout.flags.size() > 0)
+  {
+    Column& column = block.cellColumns.back();
+    column.spec = { CellFlagsName, ScalarType::UInt8, 1 };
+    column.bytes.assign(static_cast<std::size_t>(rows), std::byte(0));
+    this->fillFlags(column, end);
+  }
+  this->NextCell = end;
+}
+
+void LayoutSource::fillFlags(Column& column, std::int64_t end)
+{
+  while (this->NextFlag.cell < end)
+  {
+    column.bytes[static_cast<std::size_t>(this->NextFlag.cell - this->NextCell)] =
+      static_cast<std::byte>(this->NextFlag.flags);
+    if (!this->Flags.next(this->NextFlag))
     {
-      gatherTuples(column, rows, block.cellColumns[next++]);
+      this->NextFlag.cell = NoIndex;
     }
-  }
-  if (this->AddCellIds)
-  {
-    number(CellIdSpec, rows, this->Mesh.originalCells, block.cellColumns[next++]);
-  }
-  if (this->AddFlags)
-  {
-    Column& flags = block.cellColumns[next];
-    flags.spec = { CellFlagsName, ScalarType::UInt8, 1 };
-    flags.resize(rows.size());
-    std::memcpy(flags.bytes.data(), this->Layout.flags.data() + this->NextCell, rows.size());
   }
 }
 

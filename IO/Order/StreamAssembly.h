@@ -3,19 +3,62 @@
 
 #include "IO/Order/OrderedVertices.h"
 #include "IO/Raw/RawMesh.h"
-#include "Solver/Stream/MeshSource.h"
 
-#include <memory>
+#include <cstdint>
 
 namespace smg
 {
 
-/** What was counted while a stream was put together. */
-struct AssemblyCounts
+/** How cells follow the order of the vertices. */
+enum class CellSequence
 {
+  Sorted, ///< each as soon as its last vertex is reached
+  AsFiled ///< as the file has them; the order of the vertices must be that of their first use
+};
+
+/** A cell that has flags. */
+struct FlaggedCell
+{
+  std::uint32_t cell; ///< number in the stream
+  std::uint32_t flags;
+};
+
+/** A mesh as a compact stream, in scratch files. */
+struct StreamLayout
+{
+  explicit StreamLayout(Workspace& workspace)
+    : vertices(workspace)
+    , corners(workspace)
+    , elements(workspace)
+    , flags(workspace)
+    , blockVertices(workspace)
+    , blockFinalized(workspace)
+  {
+  }
+
+  /** Cells of a block; the last one may have fewer. */
+  static constexpr std::int64_t BlockCells = 16384;
+
+  std::int64_t vertexCount = 0;
+  std::int64_t cellCount = 0;
+  /** The vertices in stream order: OrderedVertex records, without use for their reach. */
+  BucketFile vertices;
+  RecordFile<std::uint32_t> corners;       ///< stream indices, cornersOf(cellType) a cell
+  RecordFile<std::uint32_t> elements;      ///< of the file, of each cell
+  RecordFile<FlaggedCell> flags;           ///< by ascending cells
+  RecordFile<std::int64_t> blockVertices;  ///< number of vertices used up to the end of each block
+  RecordFile<std::int64_t> blockFinalized; ///< as MeshBlock::finalized
+
   std::int64_t degenerateCells = 0;
   std::int64_t duplicateCells = 0;
-  std::int64_t invertedCells = 0; ///< tetrahedra of negative volume; 0 for triangles
+  std::int64_t invertedCells = 0; ///< tetrahedra of negative volume
 };
+
+/**
+ * Puts the mesh together as a stream in the order: cells by their places, vertices by first use.
+ * Vertices that no cell uses are left out. Throws Error; Cancelled.
+ */
+StreamLayout assembleStream(
+  const RawMesh& mesh, OrderedVertices order, CellSequence sequence, Workspace& workspace);
 
 } // namespace smg

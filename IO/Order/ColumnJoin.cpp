@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/ColumnJoin.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace smg
+{
+
+ColumnJoin::ColumnJoin(
+  Workspace& workspace, const std::vector<RawColumn>& columns, std::int64_t memory)
+  : Columns(columns)
+  , Numbers(workspace, memory)
+  , Space(workspace)
+  , Memory(memory)
+{
+}
+
+void ColumnJoin::join()
+{
+  std::size_t rowBytes = 0;
+  std::vector<BucketFile::Reader> readers;
+  for (const RawColumn& column : this->Columns)
+  {
+    rowBytes += column.spec.tupleBytes();
+    readers.emplace_back(column.tuples, 0, BucketFile::ChunkBytes / 4);
+  }
+  this->Rows.emplace(this->Space, this->NextRow, rowBytes, this->Memory);
+  this->Numbers.sort();
+  std::vector<std::byte> row(rowBytes);
+  std::int64_t read = -1; // the number whose tuples are in `row`
+  for (Pair pair; this->Numbers.next(pair);)
+  {
+    for (; read < pair.number; ++read)
+    {
+      std::size_t at = 0;
+      for (std::size_t c = 0; c < readers.size(); ++c)
+      {
+        const std::size_t bytes = this->Columns[c].spec.tupleBytes();
+        readers[c].read(std::span(row).subspan(at, bytes));
+        at += bytes;
+      }
+    }
+    this->Rows->put(pair.row, row);
+  }
+}
+
+void ColumnJoin::fill(std::int64_t rows, std::vector<Column>& columns)
+{
+  for (std::size_t c = 0; c < this->Columns.size(); ++c)
+  {
+    columns[c].spec = this->Columns[c].spec;
+    columns[c].resize(static_cast<std::size_t>(rows));
+  }
+  for (std::size_t done = 0; done < static_cast<std::size_t>(rows);)
+  {
+    const std::span<const std::byte> bytes =
+      this->Rows->next(rows - static_cast<std::int64_t>(done));
+    const std::size_t count = bytes.size() / this->Rows->rowBytes();
+    std::size_t at = 0;
+    for (std::size_t c = 0; c < this->Columns.size(); ++c)
+    {
+      const std::size_t tuple = this->Columns[c].spec.tupleBytes();
+      std::byte* to = columns[c].bytes.data() + done * tuple;
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        std::memcpy(to + i * tuple, bytes.data() + i * this->Rows->rowBytes() + at, tuple);
+      }
+      at += tuple;
+    }
+    done += count;
+  }
+}
+
+} // namespace smg

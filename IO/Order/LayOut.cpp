@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/LayOut.h"
+
+#include "IO/Order/AxisOrder.h"
+#include "IO/Order/FirstUseOrder.h"
+#include "IO/Order/SpectralOrder.h"
+
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Bytes of traffic a vertex and a corner, measured, by which progress is told. */
+constexpr std::int64_t PagesBytes[] = { 90, 20 };
+constexpr std::int64_t SearchBytes[] = { 120, 20 };
+constexpr std::int64_t AssemblyBytes[] = { 90, 32 };
+
+std::int64_t bytesFor(const RawMesh& mesh, const std::int64_t (&bytes)[2])
+{
+  return mesh.vertices * bytes[0] + mesh.corners.size() * bytes[1];
+}
+
+OrderedVertices orderPages(
+  PagedMesh& paged, StreamOrder order, Workspace& workspace, LayOutCounts& counts)
+{
+  if (order == StreamOrder::BreadthFirst)
+  {
+    OrderedVertices result = breadthFirstOrder(paged, workspace, {}, &counts.pages);
+    counts.mesh = paged.counts;
+    return result;
+  }
+  counts.mesh = paged.counts;
+  counts.mesh.components = countComponents(paged, workspace);
+  return order == StreamOrder::Axis ? axisOrder(paged.pages, workspace)
+                                    : spectralOrder(paged, workspace);
+}
+
+} // namespace
+
+StreamLayout layOut(const RawMesh& mesh, StreamOrder order, Workspace& workspace,
+  LayOutCounts& counts, double progressEnd)
+{
+  const double begin = workspace.partEnd();
+  const auto part = [&](double done) { return begin + (progressEnd - begin) * done; };
+  workspace.beginPart(part(0.4), bytesFor(mesh, PagesBytes));
+  std::optional<OrderedVertices> vertices;
+  {
+    PagedMesh paged = buildPages(mesh, workspace);
+    workspace.beginPart(part(0.7), bytesFor(mesh, SearchBytes));
+    if (order == StreamOrder::Keep)
+    {
+      counts.mesh = paged.counts;
+      counts.mesh.components = countComponents(paged, workspace);
+    }
+    else
+    {
+      vertices.emplace(orderPages(paged, order, workspace, counts));
+    }
+  }
+  const bool keep = order == StreamOrder::Keep;
+  if (keep)
+  {
+    vertices.emplace(firstUseOrder(mesh, workspace));
+  }
+  workspace.beginPart(progressEnd, bytesFor(mesh, AssemblyBytes));
+  return assembleStream(
+    mesh, std::move(*vertices), keep ? CellSequence::AsFiled : CellSequence::Sorted, workspace);
+}
+
+} // namespace smg

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Order/BreadthFirstOrder.h"
+#include "IO/Order/MeshCounts.h"
+#include "IO/Order/StreamAssembly.h"
+#include "IO/Order/StreamOrder.h"
+#include "IO/Raw/RawMesh.h"
+
+namespace smg
+{
+
+/** What is known of a mesh after it was laid out. */
+struct LayOutCounts
+{
+  MeshCounts mesh;
+  PageTraffic pages;
+};
+
+/**
+ * Brings a mesh into an order as a stream, out of core. Throws Error; Cancelled.
+ *
+ * The parts of the workspace's progress go up to `progressEnd`.
+ */
+StreamLayout layOut(const RawMesh& mesh, StreamOrder order, Workspace& workspace,
+  LayOutCounts& counts, double progressEnd = 1.0);
+
+} // namespace smg

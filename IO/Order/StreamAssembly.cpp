@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/StreamAssembly.h"
+
+#include "IO/Order/CellShape.h"
+#include "IO/Order/CellWindow.h"
+#include "IO/Order/PlacedCells.h"
+#include "Solver/Stream/MeshSource.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Six times the volume of a tetrahedron. */
+double volume(std::span<const std::array<double, 3>> p)
+{
+  std::array<double, 3> a{}, b{}, c{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    a[axis] = p[1][axis] - p[0][axis];
+    b[axis] = p[2][axis] - p[0][axis];
+    c[axis] = p[3][axis] - p[0][axis];
+  }
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+         a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/** Writes cells in sequence to the layout. */
+template <int Corners, class Real>
+class Assembler
+{
+public:
+  Assembler(const OrderedVertices& order, StreamLayout& layout, Workspace& workspace)
+    : Layout(layout)
+    , Window(order, layout, workspace)
+  {
+  }
+
+  /** The next cell; `duplicate`: whether an earlier one has the same corners. */
+  void take(const PlacedCell<Corners>& cell, bool duplicate)
+  {
+    std::array<std::uint32_t, Corners> corners;
+    std::array<std::int64_t, Corners> indices;
+    std::array<std::array<double, 3>, Corners> points;
+    const std::array<std::uint32_t, Corners> places = cell.inFile();
+    for (std::size_t k = 0; k < Corners; ++k)
+    {
+      const auto vertex = this->Window.use(places[k]);
+      corners[k] = vertex.index;
+      indices[k] = vertex.index;
+      points[k] = vertex.point;
+    }
+    this->Layout.corners.put(std::span<const std::uint32_t>(corners));
+    this->Layout.elements.put(cell.element);
+    const bool degenerate = isDegenerate(indices, points);
+    if constexpr (Corners == 4)
+    {
+      this->Layout.invertedCells += !degenerate && volume(points) < 0 ? 1 : 0;
+    }
+    this->Layout.degenerateCells += degenerate ? 1 : 0;
+    this->Layout.duplicateCells += duplicate ? 1 : 0;
+    if (degenerate || duplicate)
+    {
+      this->Layout.flags.put({ static_cast<std::uint32_t>(this->Layout.cellCount),
+        std::uint32_t(degenerate) * DegenerateCell | std::uint32_t(duplicate) * DuplicateCell });
+    }
+    if (++this->Layout.cellCount % StreamLayout::BlockCells == 0)
+    {
+      this->endBlock();
+    }
+  }
+
+  void pass(std::uint32_t place) { this->Window.pass(place); }
+
+  void finish()
+  {
+    if (this->Layout.cellCount % StreamLayout::BlockCells != 0)
+    {
+      this->endBlock();
+    }
+    this->Layout.vertices.close();
+    this->Layout.corners.close();
+    this->Layout.elements.close();
+    this->Layout.flags.close();
+    this->Layout.blockVertices.close();
+    this->Layout.blockFinalized.close();
+  }
+
+private:
+  void endBlock()
+  {
+    this->Layout.blockVertices.put(this->Layout.vertexCount);
+    this->Layout.blockFinalized.put(this->Window.finalized());
+  }
+
+  StreamLayout& Layout;
+  CellWindow<Real> Window;
+};
+
+/** The cells, by their places in the file, that have the corners of an earlier one. */
+template <int Corners>
+RecordFile<std::uint32_t> duplicates(const RawMesh& mesh, Workspace& workspace)
+{
+  const std::int64_t memory = workspace.available() / 3;
+  ExternalSort<std::uint32_t> found(workspace, memory);
+  {
+    CellSort<Corners> cells(workspace, memory);
+    RecordFile<std::uint32_t>::Reader corners(mesh.corners);
+    std::array<std::uint32_t, Corners> numbers;
+    for (std::uint32_t cell = 0; corners.next(numbers); ++cell)
+    {
+      cells.put(placedCell<Corners>(numbers.data(), cell));
+    }
+    cells.sort();
+    PlacedCell<Corners> before{}, cell{};
+    for (bool first = true; cells.next(cell); first = false)
+    {
+      if (!first && cell.places == before.places)
+      {
+        found.put(cell.element);
+      }
+      before = cell;
+    }
+  }
+  found.sort();
+  RecordFile<std::uint32_t> result(workspace);
+  for (std::uint32_t cell = 0; found.next(cell);)
+  {
+    result.put(cell);
+  }
+  result.close();
+  return result;
+}
+
+template <int Corners, class Real>
+void assembleSorted(
+  const RawMesh& mesh, const OrderedVertices& order, Workspace& workspace, StreamLayout& layout)
+{
+  CellSort<Corners> cells(workspace, workspace.available() * 2 / 5);
+  placeCells(mesh, order, workspace,
+    [&cells](std::span<const std::uint32_t> places, std::uint32_t element)
+    { cells.put(placedCell<Corners>(places.data(), element)); });
+  cells.sort();
+  Assembler<Corners, Real> assembler(order, layout, workspace);
+  PlacedCell<Corners> before{}, cell{};
+  for (bool first = true; cells.next(cell); first = false)
+  {
+    if (!first && cell.places[0] != before.places[0])
+    {
+      assembler.pass(cell.places[0] - 1);
+    }
+    assembler.take(cell, !first && cell.places == before.places);
+    before = cell;
+  }
+  assembler.finish();
+}
+
+template <int Corners, class Real>
+void assembleAsFiled(
+  const RawMesh& mesh, const OrderedVertices& order, Workspace& workspace, StreamLayout& layout)
+{
+  const RecordFile<std::uint32_t> doubles = duplicates<Corners>(mesh, workspace);
+  RecordFile<std::uint32_t>::Reader duplicate(doubles);
+  std::uint32_t nextDuplicate = NoIndex;
+  duplicate.next(nextDuplicate);
+  // The places of the cells come in chunks while the table for them is in memory.
+  RecordFile<std::uint32_t> placed(workspace);
+  placeCells(mesh, order, workspace,
+    [&placed](std::span<const std::uint32_t> places, std::uint32_t) { placed.put(places); });
+  placed.close();
+  Assembler<Corners, Real> assembler(order, layout, workspace);
+  RecordFile<std::uint32_t>::Reader corners(placed);
+  ElementReader elements(mesh);
+  std::array<std::uint32_t, Corners> places;
+  for (std::uint32_t cell = 0; corners.next(places); ++cell)
+  {
+    const bool isDuplicate = cell == nextDuplicate;
+    if (isDuplicate && !duplicate.next(nextDuplicate))
+    {
+      nextDuplicate = NoIndex;
+    }
+    assembler.take(placedCell<Corners>(places.data(), elements.next()), isDuplicate);
+  }
+  assembler.finish();
+}
+
+} // namespace
+
+StreamLayout assembleStream(
+  const RawMesh& mesh, OrderedVertices order, CellSequence sequence, Workspace& workspace)
+{
+  StreamLayout layout(workspace);
+  const auto assemble = [&]<int Corners, class Real>()
+  {
+    sequence == CellSequence::Sorted
+      ? assembleSorted<Corners, Real>(mesh, order, workspace, layout)
+      : assembleAsFiled<Corners, Real>(mesh, order, workspace, layout);
+  };
+  if (mesh.cellType == CellType::Triangle)
+  {
+    order.doublePositions ? assemble.template operator()<3, double>()
+                          : assemble.template operator()<3, float>();
+  }
+  else
+  {
+    order.doublePositions ? assemble.template operator()<4, double>()
+                          : assemble.template operator()<4, float>();
+  }
+  return layout;
+}
+
+} // namespace smg
