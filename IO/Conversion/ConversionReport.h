@@ -19,16 +19,25 @@ struct ConversionReport
   std::string order;
   std::int64_t vertices = 0, cells = 0;
   std::int64_t isolated_vertices = 0;     ///< vertices of no cell: left out
+  std::int64_t merged_points = 0;         ///< points welded to others
   std::int64_t degenerate_cells = 0;      ///< cells without area or volume: flagged
   std::int64_t duplicate_cells = 0;       ///< cells with the corners of an earlier one: flagged
   std::int64_t dropped_cells = 0;         ///< points, lines, faces beside tetrahedra: left out
   std::int64_t triangulated_polygons = 0; ///< polygons and strips that became several triangles
+  std::int64_t split_cells = 0;           ///< hexahedra, wedges, pyramids made tetrahedra
+  std::int64_t higher_order_cells = 0;    ///< cells of which only the corners were used
+  std::int64_t inverted_cells = -1;       ///< tetrahedra of negative volume
   std::int64_t components = -1;           ///< connected by edges
   std::int64_t boundary_edges = -1;       ///< of one triangle
   std::int64_t nonmanifold_edges = -1;    ///< of more than two triangles
+  std::int64_t nonmanifold_vertices = -1; ///< whose triangles are not one fan or one disc
   std::int64_t width = -1;                ///< most vertices alive at once
   std::int64_t span = -1;                 ///< largest index distance between vertices of a cell
   double mean_width = 0;
+  std::int64_t pool_bytes_peak = 0; ///< accounted memory
+  std::int64_t rss_bytes_peak = 0;  ///< of the process
+  std::int64_t scratch_bytes_read = 0, scratch_bytes_written = 0;
+  double cpu_seconds = 0;
   Seconds seconds;
   /** What a user should know. */
   std::vector<std::string> notes;

@@ -4,22 +4,32 @@
 #include "IO/Container/VsmReader.h"
 #include "IO/Conversion/AddedColumn.h"
 #include "IO/Conversion/MeshFile.h"
+#include "IO/Conversion/NumberNames.h"
 #include "IO/Conversion/PartialProgress.h"
+#include "IO/External/Workspace.h"
 #include "IO/Formats/InQuotes.h"
 #include "IO/Formats/StreamConversion.h"
 #include "IO/Formats/StreamFile.h"
 #include "IO/Import/Importer.h"
 #include "IO/Order/CellFlagger.h"
+#include "IO/Order/IsolatedVertices.h"
+#include "IO/Order/LayOut.h"
 #include "IO/Order/LayoutSource.h"
 #include "IO/Output/WriteMesh.h"
 #include "IO/Output/WriteVsm.h"
+#include "IO/Raw/ReadStream.h"
+#include "IO/Raw/Weld.h"
+#include "IO/Restore/WriteRestored.h"
 #include "Solver/Core/Error.h"
-#include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Core/Timer.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <functional>
+#include <limits>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace smg
@@ -46,6 +56,9 @@ private:
 
 const ColumnSpec FlagsSpec{ CellFlagsName, ScalarType::UInt8, 1 };
 
+/** Memory that vertices wait in while a streaming format is read. */
+constexpr std::int64_t MostStreamMemory = std::int64_t(256) << 20;
+
 /** One conversion. */
 class Conversion
 {
@@ -55,20 +68,28 @@ public:
     : In(in)
     , Out(out)
     , Options(options)
-    , Budget(options.memoryLimit)
+    , Memory(options.memoryLimit > 0 ? options.memoryLimit : ConversionOptions::DefaultMemory)
     , From(kindOfInput(in))
     , To(kindOfOutput(out))
   {
-    requireAvailable(options.order);
-    checkOutput(out);
-    this->Report.order = nameOf(options.order);
+    if (this->Memory < Workspace::LeastMemory)
+    {
+      throw Error("A conversion needs a memory limit of at least " +
+                  std::to_string(Workspace::LeastMemory >> 20) + " MiB.");
+    }
+    options.restoreOrder ? checkRestoredOutput(out) : checkOutput(out);
+    this->Report.order = options.restoreOrder ? "restored" : nameOf(options.order);
   }
 
   ConversionReport run()
   {
-    const auto start = std::chrono::steady_clock::now();
-    const bool isStream = this->From == MeshFileKind::Vsm || this->From == MeshFileKind::Stream;
-    if (isStream && this->Options.order == StreamOrder::Keep)
+    const Timer timer;
+    const double cpu = processSeconds();
+    if (this->Options.restoreOrder)
+    {
+      this->restore();
+    }
+    else if (this->isStream() && this->Options.order == StreamOrder::Keep && !this->Options.weld)
     {
       this->convertStream();
     }
@@ -76,117 +97,139 @@ public:
     {
       this->convertMesh();
     }
-    this->Report.seconds.total =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    this->Report.seconds.total = timer.seconds();
+    this->Report.cpu_seconds = processSeconds() - cpu;
+    this->Report.rss_bytes_peak = peakResidentBytes();
     return this->Report;
   }
 
 private:
-  std::filesystem::path scratch(const char* name)
+  bool isStream() const
   {
-    if (!this->Scratch)
-    {
-      this->Scratch.emplace(this->Options.scratch);
-    }
-    return this->Scratch->path() / name;
+    return this->From == MeshFileKind::Vsm || this->From == MeshFileKind::Stream;
   }
 
-  ProgressFunction part(double begin, double end) const
+  Workspace& workspace()
   {
-    return partOf(this->Options.progress, begin, end);
+    if (!this->Space)
+    {
+      this->Space.emplace(this->Options.scratch, this->Memory, this->Options.progress);
+    }
+    return *this->Space;
+  }
+
+  std::filesystem::path scratch(const char* name) { return this->workspace().folder() / name; }
+
+  /** Progress of the workspace's current part, for what tells fractions. */
+  ProgressFunction toldTo(Workspace& workspace)
+  {
+    return [&workspace](double done)
+    {
+      workspace.tell(done);
+      return true;
+    };
   }
 
   /** Makes a .vsm file of a streaming file; answers its name. */
-  std::filesystem::path importStream(double endOfPart)
+  std::filesystem::path importStream(const ProgressFunction& progress)
   {
     StreamToVsmOptions options;
     options.codec = Codec::Lz4;
-    options.scratch = this->scratch(".");
-    options.memory = std::min<std::int64_t>(this->Budget.limit() / 4, std::int64_t(256) << 20);
-    options.progress = this->part(0.0, endOfPart);
+    options.scratch = this->workspace().folder();
+    options.memory = std::min<std::int64_t>(this->Memory / 4, MostStreamMemory);
+    options.progress = progress;
     const std::filesystem::path path = this->scratch("stream.vsm");
     this->Report.isolated_vertices = streamToVsm(this->In, path, options).isolatedVertices;
     return path;
   }
 
-  IndexedMesh importInput()
+  RawMesh importInput(Workspace& space)
   {
-    if (this->From == MeshFileKind::Indexed || this->From == MeshFileKind::Unknown)
+    space.beginPart(0.15, std::numeric_limits<std::int64_t>::max());
+    if (!this->isStream())
     {
-      return importMesh(this->In, { this->Budget, this->part(0.0, 0.35) });
+      return importMesh(this->In, space, { this->Options.cells, this->toldTo(space) });
     }
-    if (this->From == MeshFileKind::Vsm)
-    {
-      return loadVsm(this->In, this->Budget, this->part(0.0, 0.35));
-    }
-    return loadVsm(this->importStream(0.25), this->Budget, this->part(0.25, 0.35));
+    const bool direct = this->From == MeshFileKind::Vsm;
+    const VsmReader reader(direct ? this->In : this->importStream(this->toldTo(space)));
+    return readStream(*reader.source(), space);
   }
 
-  /**
-   * A column that has the name of the original numbers, but is not of their type, as in the formats
-   * that have no such integers, is one of the mesh's own: gives it a free name.
-   */
-  void renameNumbers(std::vector<Column>& columns, const char* name)
-  {
-    const auto isNamed = [&columns](const std::string& candidate)
-    {
-      return std::ranges::any_of(
-        columns, [&candidate](const Column& column) { return column.spec.name == candidate; });
-    };
-    for (Column& column : columns)
-    {
-      if (column.spec.name == name && column.spec != ColumnSpec{ name, ScalarType::Int64, 1 })
-      {
-        int number = 1;
-        while (isNamed(name + ('_' + std::to_string(number))))
-        {
-          ++number;
-        }
-        column.spec.name += '_' + std::to_string(number);
-        this->Report.notes.push_back("The column " + inQuotes(name) + " of the input is called " +
-                                     inQuotes(column.spec.name) + ", since " + inQuotes(name) +
-                                     " says the places in the input itself.");
-      }
-    }
-  }
-
-  /** Through memory, into a new order. */
+  /** By scratch files, into a new order. */
   void convertMesh()
   {
-    IndexedMesh mesh = this->importInput();
+    Workspace& space = this->workspace();
+    RawMesh mesh = this->importInput(space);
     checkOutput(this->Out, mesh.cellType);
+    if (this->Options.weld)
+    {
+      this->Report.merged_points = weldPoints(mesh, *this->Options.weld, space);
+    }
+    freeNumberNames(mesh, this->Report.notes);
     this->Report.seconds.import = this->Watch.lap();
-    this->renameNumbers(mesh.vertexColumns, OriginalIdName);
-    this->renameNumbers(mesh.cellColumns, OriginalCellIdName);
-    const StreamLayout layout = layOut(mesh, this->Options.order, this->part(0.35, 0.65));
-    this->Report.seconds.order = this->Watch.lap();
-    this->Report.isolated_vertices += layout.isolatedVertices;
+
+    LayOutCounts counts;
+    const StreamLayout layout = layOut(mesh, this->Options.order, space, counts, 0.75);
+    this->note(mesh.counts, counts.mesh);
     this->Report.degenerate_cells = layout.degenerateCells;
     this->Report.duplicate_cells = layout.duplicateCells;
-    this->Report.dropped_cells = mesh.droppedCells;
-    this->Report.triangulated_polygons = mesh.triangulatedPolygons;
-    for (const std::string& name : mesh.droppedColumns)
+    this->Report.inverted_cells =
+      mesh.cellType == CellType::Tetrahedron ? layout.invertedCells : -1;
+    this->Report.seconds.order = this->Watch.lap();
+
+    space.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
+    LayoutSource source(mesh, layout, space);
+    this->write(source, this->toldTo(space),
+      [&](VsmWriter& writer)
+      {
+        takeIsolatedVertices(mesh, layout, space,
+          [&writer](std::span<const std::int64_t> ids, std::span<const double> positions)
+          { writer.isolated(ids, positions); });
+      });
+    this->noteTraffic(space);
+  }
+
+  void note(const ImportCounts& file, const MeshCounts& mesh)
+  {
+    this->Report.isolated_vertices += mesh.isolatedVertices - this->Report.merged_points;
+    this->Report.components = mesh.components;
+    this->Report.boundary_edges = mesh.boundaryEdges;
+    this->Report.nonmanifold_edges = mesh.nonManifoldEdges;
+    this->Report.nonmanifold_vertices = mesh.nonManifoldVertices;
+    this->Report.dropped_cells = file.droppedCells;
+    this->Report.triangulated_polygons = file.triangulatedPolygons;
+    this->Report.split_cells = file.splitCells;
+    this->Report.higher_order_cells = file.higherOrderCells;
+    this->Report.merged_points = file.mergedPoints;
+    for (const std::string& name : file.droppedColumns)
     {
-      this->Report.notes.push_back(
-        "The column " + inQuotes(name) + " was left out, since its name is reserved.");
+      this->Report.notes.push_back("The column " + inQuotes(name) +
+                                   " was left out, since its name is reserved or used twice.");
     }
-    this->Report.components = layout.components;
-    this->Report.boundary_edges = layout.boundaryEdges;
-    this->Report.nonmanifold_edges = layout.nonManifoldEdges;
-    LayoutSource source(mesh, layout);
-    this->write(source, 0.65);
+    this->Report.notes.insert(this->Report.notes.end(), file.notes.begin(), file.notes.end());
+  }
+
+  void noteTraffic(Workspace& space)
+  {
+    this->Report.pool_bytes_peak = space.pool().peak();
+    this->Report.scratch_bytes_read = space.traffic().bytesRead;
+    this->Report.scratch_bytes_written = space.traffic().bytesWritten;
   }
 
   /** From stream to stream, block by block. */
   void convertStream()
   {
+    Workspace& space = this->workspace();
+    constexpr std::int64_t Unknown = std::numeric_limits<std::int64_t>::max();
+    space.beginPart(0.4, Unknown);
     const std::filesystem::path path =
-      this->From == MeshFileKind::Vsm ? this->In : this->importStream(0.4);
+      this->From == MeshFileKind::Vsm ? this->In : this->importStream(this->toldTo(space));
     const VsmReader reader(path);
     const StreamInfo& info = reader.info();
     checkOutput(this->Out, info.cellType);
     this->Report.seconds.import = this->Watch.lap();
     const bool flagged = findColumn(info.cellColumns, FlagsSpec) >= 0;
+    space.beginPart(0.6, Unknown);
     flagged ? this->countFlags(reader) : this->findFlags(reader);
     this->Report.seconds.order = this->Watch.lap();
 
@@ -197,13 +240,32 @@ private:
         [flagger = CellFlagger(info.cellType)](const MeshBlock& block, Column& column) mutable
         { std::memcpy(column.bytes.data(), flagger.flags(block).data(), column.bytes.size()); });
     }
-    this->write(*source, 0.6);
+    space.beginPart(1.0, Unknown);
+    this->write(*source, this->toldTo(space), [](VsmWriter&) {});
+  }
+
+  /** Back into the order of the first file. */
+  void restore()
+  {
+    Workspace& space = this->workspace();
+    space.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
+    if (this->From != MeshFileKind::Vsm)
+    {
+      throw Error(this->In.string() +
+                  ": only a .vsm file knows the order of the file that it was made of: give one.");
+    }
+    const VsmReader reader(this->In);
+    this->Report.vertices = reader.info().vertices;
+    this->Report.cells = reader.info().cells;
+    this->Report.notes = writeRestored(this->In, this->Out, space);
+    this->Report.seconds.write = this->Watch.lap();
+    this->noteTraffic(space);
   }
 
   /** Counts the flags that the cells of the stream have. */
   void countFlags(const VsmReader& reader)
   {
-    Progress reported(this->part(0.4, 0.6));
+    Progress reported(this->toldTo(this->workspace()));
     const std::unique_ptr<MeshSource> source = reader.source({}, { CellFlagsName });
     for (MeshBlock block; source->next(block);)
     {
@@ -221,14 +283,14 @@ private:
   void findFlags(const VsmReader& reader)
   {
     const StreamInfo& info = reader.info();
-    if (info.span > this->Budget.limit() / CellFlagger::BytesPerVertex)
+    if (info.span > this->Memory / CellFlagger::BytesPerVertex)
     {
       this->Report.notes.push_back(
         "The order of the stream is too poor (span " + std::to_string(info.span) +
         ") to look for degenerate and duplicate cells within the memory limit.");
       return;
     }
-    Progress reported(this->part(0.4, 0.6));
+    Progress reported(this->toldTo(this->workspace()));
     CellFlagger flagger(info.cellType);
     const std::unique_ptr<MeshSource> source = reader.source({}, {});
     for (MeshBlock block; source->next(block);)
@@ -240,14 +302,16 @@ private:
     this->Report.duplicate_cells = flagger.duplicateCells();
   }
 
-  /** Writes the stream in the format of the output. */
-  void write(MeshSource& source, double begin)
+  using AddTables = std::function<void(VsmWriter&)>;
+
+  /** Writes the stream in the format of the output; a .vsm file gets what `add` has to add. */
+  void write(MeshSource& source, const ProgressFunction& progress, const AddTables& add)
   {
     const bool direct = this->To == MeshFileKind::Vsm;
-    const double end = direct ? 1.0 : 0.85;
     const std::filesystem::path path = direct ? this->Out : this->scratch("mesh.vsm");
     const WrittenVsm written = writeVsm(source, path, direct ? this->Options.codec : Codec::Lz4,
-      this->part(begin, end), direct ? this->Options.origin : std::string());
+      partOf(progress, 0.0, direct ? 1.0 : 0.6), direct ? this->Options.origin : std::string(),
+      add);
     this->Report.vertices = written.info.vertices;
     this->Report.cells = written.info.cells;
     this->Report.width = written.info.width;
@@ -255,7 +319,7 @@ private:
     this->Report.mean_width = written.meanWidth;
     if (!direct)
     {
-      for (std::string& note : writeFromVsm(path, this->Out, this->part(end, 1.0)))
+      for (std::string& note : writeFromVsm(path, this->Out, partOf(progress, 0.6, 1.0)))
       {
         this->Report.notes.push_back(std::move(note));
       }
@@ -266,9 +330,9 @@ private:
   const std::filesystem::path& In;
   const std::filesystem::path& Out;
   const ConversionOptions& Options;
-  const MemoryBudget Budget;
+  const std::int64_t Memory;
   const MeshFileKind From, To;
-  std::optional<ScratchFolder> Scratch;
+  std::optional<Workspace> Space;
   Stopwatch Watch;
   ConversionReport Report;
 };

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/MeshFile.h"
 
-#include "IO/Container/Columns.h"
-#include "IO/Container/VsmReader.h"
 #include "IO/Formats/StreamConversion.h"
 #include "IO/Formats/StreamFile.h"
 #include "IO/Formats/Suffix.h"
@@ -25,16 +23,6 @@ namespace smg
 namespace
 {
 
-std::int64_t bytesOf(const std::vector<ColumnSpec>& specs)
-{
-  std::size_t bytes = 0;
-  for (const ColumnSpec& spec : specs)
-  {
-    bytes += spec.tupleBytes();
-  }
-  return static_cast<std::int64_t>(bytes);
-}
-
 /** Whether the content of a file is that of a streaming format, whatever its name. */
 bool looksLikeStream(const std::filesystem::path& path)
 {
@@ -46,14 +34,6 @@ bool looksLikeStream(const std::filesystem::path& path)
   catch (const Error&)
   {
     return false;
-  }
-}
-
-void append(const std::vector<Column>& from, std::vector<Column>& to)
-{
-  for (std::size_t i = 0; i < from.size(); ++i)
-  {
-    to[i].bytes.insert(to[i].bytes.end(), from[i].bytes.begin(), from[i].bytes.end());
   }
 }
 
@@ -144,39 +124,6 @@ void checkOutput(const std::filesystem::path& path, CellType cellType)
     default:
       break;
   }
-}
-
-IndexedMesh loadVsm(
-  const std::filesystem::path& path, const MemoryBudget& budget, const ProgressFunction& progress)
-{
-  const VsmReader reader(path);
-  const StreamInfo& info = reader.info();
-  MeshSizes sizes;
-  sizes.vertices = info.vertices;
-  sizes.cells = info.cells;
-  sizes.corners = cornersOf(info.cellType);
-  sizes.vertexColumnBytes = bytesOf(info.vertexColumns);
-  sizes.cellColumnBytes = bytesOf(info.cellColumns);
-  budget.check(path, sizes);
-
-  IndexedMesh mesh;
-  mesh.cellType = info.cellType;
-  mesh.doublePositions = info.doublePositions;
-  mesh.positions.reserve(static_cast<std::size_t>(info.vertices) * 3);
-  mesh.corners.reserve(static_cast<std::size_t>(info.cells * sizes.corners));
-  mesh.vertexColumns = emptyColumns(info.vertexColumns, static_cast<std::size_t>(info.vertices));
-  mesh.cellColumns = emptyColumns(info.cellColumns, static_cast<std::size_t>(info.cells));
-  Progress reported(progress);
-  const std::unique_ptr<MeshSource> source = reader.source();
-  for (MeshBlock block; source->next(block);)
-  {
-    mesh.positions.insert(mesh.positions.end(), block.positions.begin(), block.positions.end());
-    mesh.corners.insert(mesh.corners.end(), block.corners.begin(), block.corners.end());
-    append(block.vertexColumns, mesh.vertexColumns);
-    append(block.cellColumns, mesh.cellColumns);
-    reported.update(static_cast<double>(mesh.cells()) / static_cast<double>(info.cells));
-  }
-  return mesh;
 }
 
 } // namespace smg

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Import/IndexedMesh.h"
-#include "IO/Import/MemoryBudget.h"
-#include "Solver/Core/Progress.h"
+#include "Solver/Stream/MeshSource.h"
 
 #include <filesystem>
 
@@ -38,12 +36,5 @@ void checkOutput(const std::filesystem::path& path, CellType cellType);
 
 /** The same as far as it can be known before the mesh is. */
 void checkOutput(const std::filesystem::path& path);
-
-/**
- * Reads a whole .vsm file into memory. Vertices and cells are numbered as in the stream.
- * @throws Error when converting the mesh would exceed the budget
- */
-IndexedMesh loadVsm(const std::filesystem::path& path, const MemoryBudget& budget,
-  const ProgressFunction& progress = {});
 
 } // namespace smg

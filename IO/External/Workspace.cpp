@@ -23,11 +23,16 @@ void Workspace::beginPart(double end, std::int64_t bytes)
   this->poll();
 }
 
+void Workspace::tell(double done)
+{
+  this->Reported.update(
+    this->PartBegin + std::clamp(done, 0.0, 1.0) * (this->PartEnd - this->PartBegin));
+}
+
 void Workspace::poll()
 {
-  const double done = static_cast<double>(this->trafficBytes() - this->PartTraffic) /
-                      static_cast<double>(this->PartBytes);
-  this->Reported.update(this->PartBegin + std::min(done, 1.0) * (this->PartEnd - this->PartBegin));
+  this->tell(static_cast<double>(this->trafficBytes() - this->PartTraffic) /
+             static_cast<double>(this->PartBytes));
 }
 
 } // namespace smg

@@ -39,6 +39,8 @@ public:
   void beginPart(double end, std::int64_t bytes);
   /** The fraction that is done when the current part ends. */
   double partEnd() const { return this->PartEnd; }
+  /** Tells that the fraction `done` of the part is done. Throws Cancelled. */
+  void tell(double done);
   /** Tells progress, now and then while there is traffic. Throws Cancelled. */
   void poll();
 

@@ -17,15 +17,16 @@ namespace
 const ColumnSpec IdSpec{ OriginalIdName, ScalarType::Int64, 1 };
 const ColumnSpec CellIdSpec{ OriginalCellIdName, ScalarType::Int64, 1 };
 
-/** Adds the specs of the columns, and the one of the original numbers unless it is among them. */
-bool addSpecs(
-  const std::vector<RawColumn>& columns, const ColumnSpec& numbers, std::vector<ColumnSpec>& specs)
+/** Adds the specs of the columns, and the one of the original numbers if it is wanted and not among
+ * them. */
+bool addSpecs(const std::vector<RawColumn>& columns, const ColumnSpec& numbers, bool wanted,
+  std::vector<ColumnSpec>& specs)
 {
   for (const RawColumn& column : columns)
   {
     specs.push_back(column.spec);
   }
-  const bool add = findColumn(specs, numbers) < 0;
+  const bool add = wanted && findColumn(specs, numbers) < 0;
   if (add)
   {
     specs.push_back(numbers);
@@ -44,7 +45,8 @@ std::uint32_t takeVertex(BucketFile::Reader& records, double* position)
 
 } // namespace
 
-LayoutSource::LayoutSource(const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace)
+LayoutSource::LayoutSource(
+  const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace, CellIds cellIds)
   : Mesh(mesh)
   , Layout(layout)
   , Vertices(layout.vertices)
@@ -58,8 +60,9 @@ LayoutSource::LayoutSource(const RawMesh& mesh, const StreamLayout& layout, Work
   this->Info.vertices = layout.vertexCount;
   this->Info.cells = layout.cellCount;
   this->Info.doublePositions = mesh.doublePositions;
-  this->AddIds = addSpecs(mesh.vertexColumns, IdSpec, this->Info.vertexColumns);
-  this->AddElements = addSpecs(mesh.elementColumns, CellIdSpec, this->Info.cellColumns);
+  this->AddIds = addSpecs(mesh.vertexColumns, IdSpec, true, this->Info.vertexColumns);
+  this->AddElements = addSpecs(mesh.elementColumns, CellIdSpec,
+    cellIds == WithCellIds, this->Info.cellColumns);
   if (layout.flags.size() > 0)
   {
     this->Info.cellColumns.push_back({ CellFlagsName, ScalarType::UInt8, 1 });

@@ -20,8 +20,15 @@ namespace smg
 class LayoutSource : public MeshSource
 {
 public:
+  enum CellIds
+  {
+    WithCellIds,
+    WithoutCellIds ///< OriginalCellId is not added: the order of the mesh's cells means nothing
+  };
+
   /** Mesh and layout must live as long as the source. */
-  LayoutSource(const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace);
+  LayoutSource(const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace,
+    CellIds cellIds = WithCellIds);
 
   const StreamInfo& info() const override { return this->Info; }
   bool next(MeshBlock& block) override;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Output/WriteVsm.h"
 
-#include "IO/Container/VsmWriter.h"
 
 namespace smg
 {
 
 WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path, Codec codec,
-  const ProgressFunction& progress, const std::string& origin)
+  const ProgressFunction& progress, const std::string& origin,
+  const std::function<void(VsmWriter&)>& add)
 {
   Progress reported(progress);
   VsmWriter writer(path, source.info(), codec);
@@ -19,6 +19,10 @@ WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path, Codec
     reported.update(
       (static_cast<double>(block.firstCell) + static_cast<double>(block.corners.size() / corners)) /
       cells);
+  }
+  if (add)
+  {
+    add(writer);
   }
   WrittenVsm written{ writer.finish(origin), 0.0 };
   written.meanWidth = writer.meanWidth();

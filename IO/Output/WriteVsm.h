@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Container/VsmWriter.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Storage/BlockFile.h"
 #include "Solver/Stream/MeshSource.h"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace smg
@@ -20,10 +22,12 @@ struct WrittenVsm
 /**
  * Writes a mesh stream, which says its number of cells, to a .vsm file.
  * @param origin see VsmWriter::finish()
+ * @param add adds what a stream does not deliver, before the file is finished; none: nothing
  * @throws Error if the stream is not valid or the file cannot be written; Cancelled. Nothing is
  * left of the file then.
  */
 WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path,
-  Codec codec = Codec::Zstd, const ProgressFunction& progress = {}, const std::string& origin = {});
+  Codec codec = Codec::Zstd, const ProgressFunction& progress = {}, const std::string& origin = {},
+  const std::function<void(VsmWriter&)>& add = {});
 
 } // namespace smg

@@ -3,9 +3,11 @@
 
 #include "IO/Conversion/PartialProgress.h"
 #include "IO/Formats/StreamConversion.h"
+#include "IO/Order/LayOut.h"
+#include "IO/Raw/RawMeshBuilder.h"
 #include "Solver/Core/Error.h"
 
-#include <algorithm>
+#include <span>
 #include <utility>
 
 namespace smg
@@ -14,38 +16,62 @@ namespace smg
 namespace
 {
 
-Column numbers(const char* name, const std::vector<std::int64_t>& values)
+/** Memory for bringing a preview into order: a preview of ten million points takes no more. */
+constexpr std::int64_t OrderMemory = std::int64_t(256) << 20;
+
+const ColumnSpec StreamIndexSpec{ StreamIndexName, ScalarType::Int64, 1 };
+const ColumnSpec OriginalIdSpec{ OriginalIdName, ScalarType::Int64, 1 };
+
+/** The preview as a raw mesh of triangles. */
+RawMesh rawMesh(const MeshPiece& piece, bool doublePositions, Workspace& workspace)
 {
-  Column column{ { name, ScalarType::Int64, 1 }, {} };
-  column.resize(values.size());
-  std::copy(values.begin(), values.end(), column.as<std::int64_t>().begin());
-  return column;
+  RawMeshBuilder builder(workspace, CellChoice::Only);
+  if (!doublePositions)
+  {
+    builder.useSinglePrecision();
+  }
+  for (std::size_t i = 0; i < piece.positions.size(); i += 3)
+  {
+    builder.vertex(piece.positions[i], piece.positions[i + 1], piece.positions[i + 2]);
+  }
+  const auto ids = std::as_bytes(std::span(piece.ids));
+  bool original = false;
+  for (const Column& column : piece.vertexColumns)
+  {
+    // The mesh may be a preview itself: what its points are in another mesh is not asked for.
+    if (column.spec.name != StreamIndexName)
+    {
+      builder.vertexTuples(builder.addVertexColumn(column.spec), column.bytes);
+      original = original || column.spec == OriginalIdSpec;
+    }
+  }
+  builder.vertexTuples(builder.addVertexColumn(StreamIndexSpec), ids);
+  if (!original)
+  {
+    builder.vertexTuples(builder.addVertexColumn(OriginalIdSpec), ids);
+  }
+  for (std::size_t i = 0; i < piece.corners.size(); i += 3)
+  {
+    builder.triangle(piece.corners[i], piece.corners[i + 1], piece.corners[i + 2]);
+  }
+  return builder.finish();
 }
 
 } // namespace
 
 PreviewSource::PreviewSource(VsmReader& mesh, std::int64_t maximumPoints,
-  const ProgressFunction& progress, const std::string& name)
+  const ProgressFunction& progress, const std::string& name, const std::filesystem::path& scratch)
+  : Space(scratch, OrderMemory, partOf(progress, 0.95, 1.0))
 {
-  MeshPiece piece = makePreviewPiece(mesh, maximumPoints, partOf(progress, 0.0, 0.95));
+  const MeshPiece piece = makePreviewPiece(mesh, maximumPoints, partOf(progress, 0.0, 0.95));
   if (piece.corners.empty())
   {
     throw Error((name.empty() ? mesh.path().string() : name) + ": " + emptyPreview(maximumPoints));
   }
-  std::vector<Column>& columns = piece.vertexColumns;
-  // The mesh may be a preview itself: what its points are in another mesh is not asked for.
-  std::erase_if(columns, [](const Column& column) { return column.spec.name == StreamIndexName; });
-  columns.push_back(numbers(StreamIndexName, piece.ids));
-  if (findColumn(columns, { OriginalIdName, ScalarType::Int64, 1 }) < 0)
-  {
-    columns.push_back(numbers(OriginalIdName, piece.ids));
-  }
-  this->Mesh.doublePositions = mesh.info().doublePositions;
-  this->Mesh.positions = std::move(piece.positions);
-  this->Mesh.corners = std::move(piece.corners);
-  this->Mesh.vertexColumns = std::move(columns);
-  this->Layout = layOut(this->Mesh, StreamOrder::BreadthFirst, partOf(progress, 0.95, 1.0));
-  this->Source.emplace(this->Mesh, this->Layout, LayoutSource::WithoutCellIds);
+  this->Mesh.emplace(rawMesh(piece, mesh.info().doublePositions, this->Space));
+  LayOutCounts counts;
+  this->Layout.emplace(layOut(*this->Mesh, StreamOrder::BreadthFirst, this->Space, counts));
+  this->Source.emplace(*this->Mesh, *this->Layout, this->Space, LayoutSource::WithoutCellIds);
 }
 
 } // namespace smg

@@ -26,12 +26,14 @@ class PreviewSource : public MeshSource
 public:
   /**
    * Reads the mesh once, and its vertex columns once. Errors call the mesh `name`, or by its file
-   * if that is empty.
+   * if that is empty. Scratch files, if the preview is so large that it needs any, go to `scratch`;
+   * empty: the system's temporary folder.
    * @throws Error if the preview is empty, since every triangle has its corners in one place;
    * Cancelled
    */
   explicit PreviewSource(VsmReader& mesh, std::int64_t maximumPoints = DefaultPreviewPoints,
-    const ProgressFunction& progress = {}, const std::string& name = {});
+    const ProgressFunction& progress = {}, const std::string& name = {},
+    const std::filesystem::path& scratch = {});
   PreviewSource(const PreviewSource&) = delete;
   PreviewSource& operator=(const PreviewSource&) = delete;
 
@@ -39,8 +41,9 @@ public:
   bool next(MeshBlock& block) override { return this->Source->next(block); }
 
 private:
-  IndexedMesh Mesh;
-  StreamLayout Layout;
+  Workspace Space;
+  std::optional<RawMesh> Mesh;
+  std::optional<StreamLayout> Layout;
   std::optional<LayoutSource> Source;
 };
 
