@@ -31,7 +31,9 @@ std::string vtkStreamingMeshConverter::GetContainerName()
 void vtkStreamingMeshConverter::UpdateContainer()
 {
   static constexpr smg::StreamOrder Orders[] = { smg::StreamOrder::BreadthFirst,
-    smg::StreamOrder::Axis, smg::StreamOrder::Keep };
+    smg::StreamOrder::Axis, smg::StreamOrder::Keep, smg::StreamOrder::Spectral };
+  static constexpr smg::CellChoice Choices[] = { smg::CellChoice::Only,
+    smg::CellChoice::Triangles, smg::CellChoice::Tetrahedra };
   const std::string out = this->GetContainerName();
   if (out.empty())
   {
@@ -40,6 +42,11 @@ void vtkStreamingMeshConverter::UpdateContainer()
   const char* scratch = this->GetScratchDirectory();
   smg::ConversionOptions options;
   options.order = Orders[this->Order];
+  options.cells = Choices[this->Cells];
+  if (this->Weld)
+  {
+    options.weld = this->WeldDistance;
+  }
   options.memoryLimit = std::int64_t(this->MemoryLimit) << 20;
   options.scratch = scratch ? scratch : "";
   options.progress = smg::progressOf(*this);
@@ -58,6 +65,9 @@ void vtkStreamingMeshConverter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "OutputFileName: " << (this->OutputFileName ? this->OutputFileName : "(none)")
      << "\n";
   os << indent << "Order: " << this->Order << "\n";
+  os << indent << "Cells: " << this->Cells << "\n";
+  os << indent << "Weld: " << this->Weld << "\n";
+  os << indent << "WeldDistance: " << this->WeldDistance << "\n";
   os << indent << "Overwrite: " << this->Overwrite << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "Report: " << this->Report << "\n";

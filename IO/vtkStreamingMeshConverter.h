@@ -20,8 +20,8 @@
  * left alone, which is an error, unless Overwrite is on. With several processes one converts, the
  * others wait; FileName and OutputFileName must then be seen by all.
  *
- * The conversion holds the mesh in memory, but for streams (SMA, SMB, SVA, SVB, .vsm) whose Order
- * is KEEP.
+ * The conversion works out of core: it needs no more memory than MemoryLimit, and room for scratch
+ * files in ScratchDirectory of about five times the size of the mesh in memory.
  *
  * @sa vtkStreamingMeshReader vtkStreamingMeshWriter
  */
@@ -45,7 +45,8 @@ public:
   {
     BREADTH_FIRST = 0, ///< from a vertex at the rim, component after component
     AXIS = 1,          ///< along the longest side of the bounds
-    KEEP = 2           ///< the order of the cells in the file
+    KEEP = 2,          ///< the order of the cells in the file
+    SPECTRAL = 3       ///< along the Fiedler vector: the smallest width
   };
 
   ///@{
@@ -56,8 +57,38 @@ public:
 
   ///@{
   /** The order of the stream. Default: BREADTH_FIRST, which suits nearly every mesh. */
-  vtkSetClampMacro(Order, int, BREADTH_FIRST, KEEP);
+  vtkSetClampMacro(Order, int, BREADTH_FIRST, SPECTRAL);
   vtkGetMacro(Order, int);
+  ///@}
+
+  /** The cells of a file that has both surface cells and volume cells. */
+  enum CellTypes
+  {
+    ONLY = 0,       ///< a file that has both is an error
+    TRIANGLES = 1,  ///< volume cells are left out
+    TETRAHEDRA = 2  ///< surface cells are left out
+  };
+
+  ///@{
+  /** Which cells of a file to keep. Default: ONLY. */
+  vtkSetClampMacro(Cells, int, ONLY, TETRAHEDRA);
+  vtkGetMacro(Cells, int);
+  ///@}
+
+  ///@{
+  /** Whether to merge points that lie within WeldDistance of each other. Default: off. */
+  vtkSetMacro(Weld, bool);
+  vtkGetMacro(Weld, bool);
+  vtkBooleanMacro(Weld, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Points are merged within this distance, in units of the coordinates. Default: 0, which merges
+   * points of equal coordinates.
+   */
+  vtkSetClampMacro(WeldDistance, double, 0.0, VTK_DOUBLE_MAX);
+  vtkGetMacro(WeldDistance, double);
   ///@}
 
   ///@{
@@ -69,8 +100,8 @@ public:
 
   ///@{
   /**
-   * Memory that the conversion may use, in MiB. A mesh that needs more is refused at once. Default:
-   * 0, which is half of the machine's memory.
+   * Memory that the conversion may use, in MiB, whatever the size of the mesh. Default: 0, which is
+   * 256.
    */
   vtkSetClampMacro(MemoryLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(MemoryLimit, int);
@@ -95,6 +126,9 @@ private:
 
   char* OutputFileName = nullptr;
   int Order = BREADTH_FIRST;
+  int Cells = ONLY;
+  bool Weld = false;
+  double WeldDistance = 0.0;
   bool Overwrite = false;
   int MemoryLimit = 0;
   std::string Report;

@@ -3,9 +3,11 @@
 #include "ProgressBar.h"
 #include "VtkBridge.h"
 
+#include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/Convert.h"
 
 #include <cstdio>
+#include <optional>
 
 namespace
 {
@@ -26,14 +28,31 @@ void print(const smg::ConversionReport& report)
   line(report.isolated_vertices, "isolated vertices left out");
   line(report.dropped_cells, "cells of other kinds left out");
   line(report.triangulated_polygons, "polygons made triangles");
+  line(report.split_cells, "hexahedra, wedges and pyramids made tetrahedra");
+  line(report.higher_order_cells, "cells of higher order, of which the corners are used");
+  line(report.merged_points, "points merged with others");
   line(report.degenerate_cells, "degenerate cells");
   line(report.duplicate_cells, "duplicate cells");
   line(report.boundary_edges, "boundary edges");
   line(report.nonmanifold_edges, "non-manifold edges");
+  line(report.nonmanifold_vertices, "non-manifold vertices");
+  line(report.inverted_cells, "inverted tetrahedra");
   for (const std::string& note : report.notes)
   {
     std::printf("  %s\n", note.c_str());
   }
+}
+
+void print(const smg::ConversionEstimate& estimate)
+{
+  const auto mebibytes = [](std::int64_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
+  std::printf("%s%lld vertices, %lld cells\n", estimate.counted ? "" : "about ",
+    static_cast<long long>(estimate.vertices), static_cast<long long>(estimate.cells));
+  std::printf("  memory   %.0f MiB\n", mebibytes(estimate.memory_bytes));
+  std::printf("  scratch  about %.0f MiB, %.0f MiB are free\n", mebibytes(estimate.scratch_bytes),
+    mebibytes(estimate.scratch_free));
+  std::printf("  output   about %.0f MiB as .vsm\n", mebibytes(estimate.output_bytes));
+  std::printf("  time     about %.0f s\n", estimate.cpu_seconds);
 }
 
 struct ConvertOptions : CommonOptions
@@ -41,21 +60,43 @@ struct ConvertOptions : CommonOptions
   std::filesystem::path in, out;
   std::string order = "bfs";
   std::string codec = "zstd";
+  std::string cells;
+  std::optional<double> weld;
+  bool restoreOrder = false;
+  bool dryRun = false;
+
+  smg::ConversionOptions conversion() const
+  {
+    smg::ConversionOptions options;
+    options.order = smg::streamOrder(this->order);
+    options.memoryLimit = this->memoryBytes(0);
+    options.codec = this->codec == "zstd"  ? smg::Codec::Zstd
+                    : this->codec == "lz4" ? smg::Codec::Lz4
+                                           : smg::Codec::None;
+    options.cells = this->cells.empty()          ? smg::CellChoice::Only
+                    : this->cells == "triangles" ? smg::CellChoice::Triangles
+                                                 : smg::CellChoice::Tetrahedra;
+    options.weld = this->weld;
+    options.restoreOrder = this->restoreOrder;
+    options.scratch = this->scratch;
+    return options;
+  }
 
   void run() const
   {
     this->checkReport();
+    smg::ConversionOptions options = this->conversion();
+    if (this->dryRun)
+    {
+      const smg::ConversionEstimate estimate = smg::estimateConversion(this->in, options);
+      this->writeReport(estimate.json());
+      print(estimate);
+      return;
+    }
     smg::ConversionReport report;
     {
-      ProgressBar bar("converting", this->quiet);
+      ProgressBar bar("converting", this->quiet, this->in);
       loadVtkFor(this->in);
-      smg::ConversionOptions options;
-      options.order = smg::streamOrder(this->order);
-      options.memoryLimit = this->memoryBytes(0);
-      options.codec = this->codec == "zstd"  ? smg::Codec::Zstd
-                      : this->codec == "lz4" ? smg::Codec::Lz4
-                                             : smg::Codec::None;
-      options.scratch = this->scratch;
       options.progress = bar.function();
       report = smg::convert(this->in, this->out, options);
     }
@@ -81,13 +122,27 @@ void addConvertCommand(CLI::App& program, Action& action)
     ->required();
   command
     ->add_option("--order", options->order,
-      "bfs (breadth-first), axis (along the longest axis) or keep (as it is)")
+      "bfs (breadth-first), spectral (the smallest width), axis (along the longest side) or keep "
+      "(as it is)")
     ->check(oneOf({ "bfs", "axis", "keep", "spectral" }))
     ->capture_default_str();
   command->add_option("--codec", options->codec, "Compression of .vsm files: zstd, lz4 or none")
     ->check(oneOf({ "zstd", "lz4", "none" }))
     ->capture_default_str();
-  options->addTo(*command);
+  command
+    ->add_option("--cells", options->cells,
+      "Which cells to keep of a mesh that has both: triangles or tets")
+    ->check(oneOf({ "triangles", "tets" }));
+  command
+    ->add_option("--weld", options->weld,
+      "Merge points within this distance of each other; 0: equal coordinates")
+    ->check(CLI::NonNegativeNumber)
+    ->type_name("DISTANCE");
+  command->add_flag("--restore-order", options->restoreOrder,
+    "Write vertices and cells in the order of the file that the .vsm file IN was made of");
+  command->add_flag("--dry-run", options->dryRun,
+    "Only say how large the mesh is and what the conversion will take");
+  options->addTo(*command, "256");
   options->addThreadsTo(*command);
   command->callback([options, &action] { action = [options] { options->run(); }; });
 }

@@ -8,10 +8,13 @@
 
 #include <unistd.h>
 
-ProgressBar::ProgressBar(std::string title, bool quiet)
+ProgressBar::ProgressBar(std::string title, bool quiet, const std::filesystem::path& input)
   : Title(std::move(title))
   , Visible(!quiet && ::isatty(STDERR_FILENO))
 {
+  std::error_code unknown;
+  const std::uintmax_t bytes = std::filesystem::file_size(input, unknown);
+  this->Mebibytes = unknown ? 0.0 : static_cast<double>(bytes) / (1 << 20);
 }
 
 ProgressBar::~ProgressBar()
@@ -41,7 +44,28 @@ void ProgressBar::show(double fraction)
   this->Shown = thousandth;
   constexpr int Width = 40;
   const std::string done(static_cast<std::size_t>(thousandth * Width / 1000), '#');
-  std::fprintf(stderr, "\r%s [%-*s] %5.1f %%", this->Title.c_str(), Width, done.c_str(),
-    static_cast<double>(thousandth) / 10.0);
+  std::fprintf(stderr, "\r%s [%-*s] %5.1f %%%s\033[K", this->Title.c_str(), Width, done.c_str(),
+    static_cast<double>(thousandth) / 10.0, this->remaining(fraction).c_str());
   std::fflush(stderr);
+}
+
+std::string ProgressBar::remaining(double fraction) const
+{
+  std::string text;
+  char part[64];
+  if (this->Mebibytes >= 1.0)
+  {
+    std::snprintf(part, sizeof(part), ", %.0f of %.0f MiB", fraction * this->Mebibytes,
+      this->Mebibytes);
+    text += part;
+  }
+  // The first seconds say little of the rest.
+  const double seconds =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
+  if (seconds > 2.0 && fraction > 0.02)
+  {
+    std::snprintf(part, sizeof(part), ", %.0f s left", seconds * (1.0 - fraction) / fraction);
+    text += part;
+  }
+  return text;
 }

@@ -3,14 +3,22 @@
 
 #include "Solver/Core/Progress.h"
 
+#include <chrono>
+#include <filesystem>
 #include <string>
 
-/** A progress bar on standard error, if that is a terminal; stops when the user interrupts. */
+/**
+ * A progress bar with the time that is left, on standard error, if that is a terminal; stops when the
+ * user interrupts.
+ */
 class ProgressBar
 {
 public:
-  /** `quiet`: never show anything. */
-  ProgressBar(std::string title, bool quiet);
+  /**
+   * `quiet`: never show anything. With the `input`, also the bytes of that file that the work done
+   * is worth.
+   */
+  ProgressBar(std::string title, bool quiet, const std::filesystem::path& input = {});
   /** Clears the line. */
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
@@ -21,8 +29,11 @@ public:
 
 private:
   void show(double fraction);
+  std::string remaining(double fraction) const;
 
   std::string Title;
+  double Mebibytes = 0; ///< of the input; 0: not known
+  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
   bool Visible;
   int Shown = -1; ///< the last thousandth drawn
 };

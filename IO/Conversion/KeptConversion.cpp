@@ -77,11 +77,15 @@ std::string plainPath(const std::filesystem::path& path)
 }
 
 /** What the conversion of the file as it is now says of its origin. */
-std::string originOf(const std::filesystem::path& in, StreamOrder order)
+std::string originOf(const std::filesystem::path& in, const ConversionOptions& options)
 {
   return plainPath(in) + ' ' + std::to_string(std::filesystem::file_size(in)) + " bytes of " +
          std::to_string(std::filesystem::last_write_time(in).time_since_epoch().count()) +
-         " in order " + std::string(nameOf(order));
+         " in order " + std::string(nameOf(options.order)) +
+         (options.cells == CellChoice::Only        ? ""
+           : options.cells == CellChoice::Triangles ? ", triangles"
+                                                    : ", tetrahedra") +
+         (options.weld ? ", welded " + std::to_string(*options.weld) : "");
 }
 
 /** The origin that a file tells; empty if it tells none or is not a whole .vsm file. */
@@ -119,7 +123,7 @@ std::optional<ConversionReport> convertToKeep(const std::filesystem::path& in,
   const InputLock lock(in);
   lock.wait(options.progress);
   ConversionOptions conversion = options;
-  conversion.origin = originOf(in, options.order);
+  conversion.origin = originOf(in, options);
   if (std::filesystem::exists(out))
   {
     const std::string told = toldOrigin(out);

@@ -16,15 +16,7 @@ StreamOrder streamOrder(std::string_view name)
       return order;
     }
   }
-  throw Error("There is no order '" + std::string(name) + "': choose bfs, axis or keep.");
-}
-
-void requireAvailable(StreamOrder order)
-{
-  if (order == StreamOrder::Spectral)
-  {
-    throw Error("The spectral order is not available: choose bfs, axis or keep.");
-  }
+  throw Error("There is no order '" + std::string(name) + "': choose bfs, spectral, axis or keep.");
 }
 
 std::string_view nameOf(StreamOrder order)

@@ -19,9 +19,6 @@ enum class StreamOrder
 /** The order with this name. Throws Error naming the orders that there are. */
 StreamOrder streamOrder(std::string_view name);
 
-/** Throws Error if this version cannot make the order. */
-void requireAvailable(StreamOrder order);
-
 /** "bfs", "axis", "keep" or "spectral". */
 std::string_view nameOf(StreamOrder order);
 

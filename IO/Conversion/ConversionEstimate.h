@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Conversion/Convert.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace smg
+{
+
+/** What a conversion will take, known before the mesh is read. */
+struct ConversionEstimate
+{
+  std::int64_t vertices = 0, cells = 0;
+  /** Whether the file says its counts; else they are guessed from its size. */
+  bool counted = false;
+  std::int64_t memory_bytes = 0;  ///< limit of the accounted memory
+  std::int64_t scratch_bytes = 0; ///< most bytes of scratch files at once
+  std::int64_t scratch_free = 0;  ///< room in the folder for scratch files
+  std::int64_t output_bytes = 0;  ///< of a .vsm file
+  double cpu_seconds = 0;         ///< on a machine of 2023
+
+  /** As a JSON object with the names above. */
+  std::string json(int indent = 2) const;
+};
+
+/**
+ * Estimates the conversion of a mesh file from what its beginning says, or from its size. Throws
+ * Error if the file cannot be opened or its format is not known.
+ */
+ConversionEstimate estimateConversion(
+  const std::filesystem::path& in, const ConversionOptions& options = {});
+
+/** Most bytes that the scratch files of a mesh take at once. */
+std::int64_t scratchBytes(
+  std::int64_t vertices, std::int64_t cells, int corners, std::int64_t columnBytes);
+
+/** Throws Error, with both figures, unless `folder` (empty: the temporary folder) has the room. */
+void checkScratchRoom(const std::filesystem::path& folder, std::int64_t bytes);
+
+} // namespace smg

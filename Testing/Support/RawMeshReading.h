@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Raw/RawMesh.h"
+#include "Solver/Stream/Column.h"
+
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace smg::testing
+{
+
+/** A raw mesh in memory. */
+struct ReadMesh
+{
+  CellType cellType = CellType::Triangle;
+  bool doublePositions = true;
+  std::int64_t elementCount = 0;
+  std::vector<double> positions;     ///< x, y, z a vertex
+  std::vector<std::int64_t> corners; ///< cornersOf(cellType) a cell
+  /** The element of each cell, also where the raw mesh leaves them out. */
+  std::vector<std::int64_t> elements;
+  std::vector<Column> vertexColumns, elementColumns;
+  ImportCounts counts;
+
+  std::int64_t vertices() const { return static_cast<std::int64_t>(this->positions.size() / 3); }
+  std::int64_t cells() const
+  {
+    return static_cast<std::int64_t>(this->corners.size()) / cornersOf(this->cellType);
+  }
+};
+
+/** All bytes of a bucket. */
+inline std::vector<std::byte> bytesOf(const BucketFile& file, int bucket = 0)
+{
+  std::vector<std::byte> bytes;
+  BucketFile::Reader reader(file, bucket);
+  for (auto part = reader.next(1); !part.empty(); part = reader.next(1))
+  {
+    bytes.insert(bytes.end(), part.begin(), part.end());
+  }
+  return bytes;
+}
+
+/** All values of type T of a bucket, as values of type U. */
+template <class T, class U>
+std::vector<U> valuesOf(const BucketFile& file)
+{
+  const std::vector<std::byte> bytes = bytesOf(file);
+  std::vector<T> values(bytes.size() / sizeof(T));
+  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+  return { values.begin(), values.end() };
+}
+
+inline std::vector<std::int64_t> numbersOf(const RecordFile<std::uint32_t>& file)
+{
+  std::vector<std::int64_t> numbers;
+  RecordFile<std::uint32_t>::Reader reader(file);
+  for (std::uint32_t number; reader.next(number);)
+  {
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+inline std::vector<Column> columnsOf(const std::vector<RawColumn>& columns)
+{
+  std::vector<Column> read;
+  for (const RawColumn& column : columns)
+  {
+    read.push_back({ column.spec, bytesOf(column.tuples) });
+  }
+  return read;
+}
+
+/** Reads a raw mesh; it can be read again. */
+inline ReadMesh readRaw(const RawMesh& mesh)
+{
+  ReadMesh read;
+  read.cellType = mesh.cellType;
+  read.doublePositions = mesh.doublePositions;
+  read.elementCount = mesh.elementCount;
+  read.positions = mesh.doublePositions ? valuesOf<double, double>(mesh.positions)
+                                        : valuesOf<float, double>(mesh.positions);
+  read.corners = numbersOf(mesh.corners);
+  read.elements = numbersOf(mesh.elements);
+  if (read.elements.empty())
+  {
+    read.elements.resize(static_cast<std::size_t>(mesh.cells));
+    std::iota(read.elements.begin(), read.elements.end(), 0);
+  }
+  read.vertexColumns = columnsOf(mesh.vertexColumns);
+  read.elementColumns = columnsOf(mesh.elementColumns);
+  read.counts = mesh.counts;
+  return read;
+}
+
+} // namespace smg::testing
