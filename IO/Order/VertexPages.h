@@ -2,12 +2,14 @@
 #pragma once
 
 #include "IO/External/Workspace.h"
+#include "IO/Order/GrowingArray.h"
+#include "IO/Order/PageView.h"
+#include "Solver/Storage/Buffer.h"
 #include "Solver/Storage/FileDescriptor.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 namespace smg
 {
@@ -18,11 +20,13 @@ namespace smg
  * its number along the curve; page p has the ranks from p * pageVertices on.
  *
  * A page has an adjacency part, which searches read, and after it the places (32 bits a vertex,
- * NoIndex at first), the numbers in the raw mesh (32 bits a vertex), and the coordinates.
+ * NoIndex at first), the numbers in the raw mesh (32 bits a vertex), and the coordinates: see
+ * PageView.
  */
 class VertexPages
 {
 public:
+  /** The workspace must outlive the pages. */
   VertexPages(Workspace& workspace, int pageVertices, bool doublePositions);
 
   /** What is known of a vertex when its page is made. */
@@ -34,35 +38,50 @@ public:
     std::span<const std::uint32_t> neighbours; ///< ranks
   };
 
-  /** Appends the next page: pageVertices vertices, the last page fewer. */
+  /** Appends the next page: pageVertices vertices, the last page fewer. Throws Error. */
   void append(std::span<const Vertex> vertices);
   /** Ends the appending. */
   void close();
 
-  int pageVertices() const { return this->PageVertices; }
+  int pageVertices() const { return static_cast<int>(this->PageVertices); }
   bool doublePositions() const { return this->DoublePositions; }
+  std::size_t positionBytes() const
+  {
+    return 3 * (this->DoublePositions ? sizeof(double) : sizeof(float));
+  }
   std::int64_t vertices() const { return this->Vertices; }
   std::int64_t pages() const { return static_cast<std::int64_t>(this->Directory.size()); }
+  std::uint32_t pageOf(std::uint32_t rank) const { return rank / this->PageVertices; }
 
   /** Vertices of the page that have no place. */
   std::uint32_t& unplaced(std::int64_t page) { return this->Directory[std::size_t(page)].unplaced; }
   std::uint32_t verticesOf(std::int64_t page) const;
-  /** Bytes of the adjacency part, and of the whole page. */
-  std::size_t adjacencyBytes(std::int64_t page) const;
-  std::size_t bytes(std::int64_t page) const;
+  /** Bytes of the adjacency part, and of the whole page: multiples of 4. */
+  std::size_t adjacencyBytes(std::int64_t page) const
+  {
+    return this->Directory[std::size_t(page)].adjacency;
+  }
+  std::size_t bytes(std::int64_t page) const
+  {
+    return this->adjacencyBytes(page) +
+           this->verticesOf(page) * (2 * sizeof(std::uint32_t) + this->positionBytes());
+  }
+  /** Bytes of the largest page. */
+  std::size_t largestPage() const { return this->LargestPage; }
+  /** Bytes of all pages, and of their adjacency parts. */
+  std::int64_t allBytes() const { return this->FileEnd + std::int64_t(this->Collected); }
+  std::int64_t allAdjacencyBytes() const { return this->AllAdjacencyBytes; }
 
   /** Reads the beginning of a page, as many bytes as the span has. */
   void read(std::int64_t page, std::span<std::byte> bytes);
   /** Writes the places of a page, which stand in the bytes of the whole page. */
   void writePlaces(std::int64_t page, std::span<const std::byte> bytes);
-
-  /** Appends the neighbours (ranks) of a vertex of the page to `ranks`. */
-  void neighbours(std::int64_t page, std::span<const std::byte> bytes, std::uint32_t vertex,
-    std::vector<std::uint32_t>& ranks) const;
-  std::span<std::uint32_t> places(std::int64_t page, std::span<std::byte> bytes) const;
-  std::span<const std::uint32_t> ids(std::int64_t page, std::span<const std::byte> bytes) const;
-  /** Coordinates of the page's vertices, floats or doubles as doublePositions() says. */
-  std::span<const std::byte> positions(std::int64_t page, std::span<const std::byte> bytes) const;
+  /** What the bytes of a page, aligned to 4, or of its adjacency part mean. */
+  PageView view(std::int64_t page, std::byte* bytes) const
+  {
+    return { bytes, static_cast<std::uint32_t>(page) * this->PageVertices, this->verticesOf(page),
+      this->Directory[std::size_t(page)].adjacency };
+  }
 
 private:
   struct Page
@@ -72,13 +91,20 @@ private:
     std::uint32_t unplaced;
   };
 
-  Workspace& Space;
-  int PageVertices;
+  void makeRoom(std::size_t bytes);
+  void flush();
+
+  Workspace* Space;
+  std::uint32_t PageVertices;
   bool DoublePositions;
   std::int64_t Vertices = 0;
+  std::size_t LargestPage = 0;
+  std::int64_t AllAdjacencyBytes = 0;
   FileDescriptor File;
   std::int64_t FileEnd = 0;
-  std::vector<Page> Directory;
+  Buffer Collecting; ///< pages that are not in the file yet
+  std::size_t Collected = 0;
+  GrowingArray<Page> Directory;
 };
 
 } // namespace smg
