@@ -28,12 +28,16 @@ struct PageTraffic
 /**
  * Brings paged vertices into a breadth-first order with a small span and width, component after
  * component: a multi-source search whose sources and start levels are chosen by the distances from
- * a few landmarks. Sets `components` in the counts.
+ * a few landmarks. Sets `components` in the counts. The pages give their places away: a mesh is
+ * ordered once.
+ *
+ * Takes what memory the workspace has available, at least about 2 MiB, a bit a vertex, and a few
+ * of the largest pages. Throws Error.
  */
 OrderedVertices breadthFirstOrder(PagedMesh& mesh, Workspace& workspace,
   const BreadthFirstOptions& options = {}, PageTraffic* traffic = nullptr);
 
-/** Connected components of paged vertices, for orders that do not search. */
+/** Number of components, for orders that do not search. Places are neither read nor given. */
 std::int64_t countComponents(PagedMesh& mesh, Workspace& workspace);
 
 } // namespace smg

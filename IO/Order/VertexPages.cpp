@@ -164,12 +164,6 @@ void VertexPages::close()
   this->Collecting = Buffer();
 }
 
-std::uint32_t VertexPages::verticesOf(std::int64_t page) const
-{
-  return static_cast<std::uint32_t>(std::min<std::int64_t>(
-    this->PageVertices, this->Vertices - page * std::int64_t(this->PageVertices)));
-}
-
 void VertexPages::read(std::int64_t page, std::span<std::byte> bytes)
 {
   assert(bytes.size() <= this->bytes(page) && this->Collected == 0);

@@ -7,6 +7,7 @@
 #include "Solver/Storage/Buffer.h"
 #include "Solver/Storage/FileDescriptor.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -52,10 +53,18 @@ public:
   std::int64_t vertices() const { return this->Vertices; }
   std::int64_t pages() const { return static_cast<std::int64_t>(this->Directory.size()); }
   std::uint32_t pageOf(std::uint32_t rank) const { return rank / this->PageVertices; }
+  std::uint32_t firstRank(std::int64_t page) const
+  {
+    return static_cast<std::uint32_t>(page) * this->PageVertices;
+  }
 
   /** Vertices of the page that have no place. */
   std::uint32_t& unplaced(std::int64_t page) { return this->Directory[std::size_t(page)].unplaced; }
-  std::uint32_t verticesOf(std::int64_t page) const;
+  std::uint32_t verticesOf(std::int64_t page) const
+  {
+    return static_cast<std::uint32_t>(std::min<std::int64_t>(
+      this->PageVertices, this->Vertices - page * std::int64_t(this->PageVertices)));
+  }
   /** Bytes of the adjacency part, and of the whole page: multiples of 4. */
   std::size_t adjacencyBytes(std::int64_t page) const
   {
@@ -79,8 +88,12 @@ public:
   /** What the bytes of a page, aligned to 4, or of its adjacency part mean. */
   PageView view(std::int64_t page, std::byte* bytes) const
   {
-    return { bytes, static_cast<std::uint32_t>(page) * this->PageVertices, this->verticesOf(page),
-      this->Directory[std::size_t(page)].adjacency };
+    return this->view(page, bytes, this->Directory[std::size_t(page)].adjacency);
+  }
+  /** The same for a caller who remembers adjacencyBytes(page). */
+  PageView view(std::int64_t page, std::byte* bytes, std::uint32_t adjacencyBytes) const
+  {
+    return { bytes, this->firstRank(page), this->verticesOf(page), adjacencyBytes };
   }
 
 private:

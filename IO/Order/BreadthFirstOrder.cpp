@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/BreadthFirstOrder.h"
+
+#include "IO/External/Relabelling.h"
+#include "IO/Order/PagedSearch.h"
+#include "IO/Order/SearchPlan.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Components up to this size are searched from any vertex. */
+constexpr std::int64_t Tiny = 64;
+
+/** A search and its cache, with the memory that is available. */
+class Searching
+{
+public:
+  /** `kept`: bytes of memory that are left to others. */
+  Searching(VertexPages& pages, Workspace& workspace, std::int64_t kept)
+    : Cache(pages, workspace, cacheBytes(pages, workspace, kept))
+    , Search(pages, this->Cache, workspace, queueBytes(workspace))
+  {
+  }
+
+  PageCache Cache;
+  PagedSearch Search;
+
+private:
+  static std::size_t queueBytes(Workspace& workspace)
+  {
+    return std::clamp<std::size_t>(
+      std::size_t(workspace.pool().limit()) / 32, std::size_t(64) << 10, std::size_t(4) << 20);
+  }
+  static std::int64_t cacheBytes(const VertexPages& pages, Workspace& workspace, std::int64_t kept)
+  {
+    const std::int64_t rest = workspace.available() - kept -
+                              PagedSearch::memoryFor(pages, queueBytes(workspace)) -
+                              pages.pages() * std::int64_t(sizeof(std::uint32_t)) - 4096;
+    return std::min(rest, PageCache::mostBytes(pages));
+  }
+};
+
+class ComponentOrder
+{
+public:
+  ComponentOrder(PagedMesh& mesh, Workspace& workspace, const BreadthFirstOptions& options)
+    : Mesh(mesh)
+    , Space(workspace)
+    , Options(options)
+    , Searches(mesh.pages, workspace,
+        std::int64_t(BucketFile::ChunkBytes) +
+          (options.landmarks > 0 ? searchPlanMemory(mesh, options.landmarks) : 0))
+    , LeastPlanned(std::max(options.leastPlanned, mesh.pages.vertices() / 200))
+  {
+  }
+
+  /** Orders the component of a vertex without a place. */
+  void order(std::uint32_t rank, OrderedVertices& order)
+  {
+    const std::vector<SearchSource> sources = this->sources(rank);
+    const std::int64_t before = this->Searches.Cache.loads();
+    this->Searches.Search.place(sources, order);
+    this->Traffic.loads += this->Searches.Cache.loads() - before;
+  }
+
+  /** The first vertex of a page, from `vertex` on, that has no place. */
+  std::uint32_t nextUnplaced(std::uint32_t page, std::uint32_t vertex)
+  {
+    const std::span<const std::uint32_t> places = this->Searches.Cache.whole(page).places();
+    return static_cast<std::uint32_t>(
+      std::find(places.begin() + vertex, places.end(), NoIndex) - places.begin());
+  }
+
+  PageTraffic traffic() const
+  {
+    PageTraffic traffic = this->Traffic;
+    traffic.pages = this->Mesh.pages.pages();
+    traffic.probeLoads = this->Searches.Cache.loads() - traffic.loads;
+    traffic.probes = this->Searches.Search.probes();
+    return traffic;
+  }
+
+private:
+  std::vector<SearchSource> sources(std::uint32_t rank)
+  {
+    PagedSearch& search = this->Searches.Search;
+    const std::vector<SearchSource> first = { { 0, rank } };
+    SearchResult result = search.probe(first);
+    if (this->Options.landmarks > 0 && result.vertices >= this->LeastPlanned)
+    {
+      return planSearch(search, this->Mesh, this->Space, this->Options.landmarks, result.last);
+    }
+    if (result.vertices > Tiny)
+    {
+      const std::vector<SearchSource> second = { { 0, result.last } };
+      result = search.probe(second);
+    }
+    return { { 0, result.last } };
+  }
+
+  PagedMesh& Mesh;
+  Workspace& Space;
+  BreadthFirstOptions Options;
+  Searching Searches;
+  std::int64_t LeastPlanned;
+  PageTraffic Traffic;
+};
+
+} // namespace
+
+OrderedVertices breadthFirstOrder(
+  PagedMesh& mesh, Workspace& workspace, const BreadthFirstOptions& options, PageTraffic* traffic)
+{
+  OrderedVertices order(workspace);
+  order.doublePositions = mesh.pages.doublePositions();
+  mesh.counts.components = 0;
+  if (mesh.pages.vertices() > 0)
+  {
+    ComponentOrder components(mesh, workspace, options);
+    for (std::uint32_t page = 0; page < mesh.pages.pages(); ++page)
+    {
+      for (std::uint32_t vertex = 0; mesh.pages.unplaced(page) > 0; ++vertex)
+      {
+        vertex = components.nextUnplaced(page, vertex);
+        components.order(mesh.pages.firstRank(page) + vertex, order);
+        ++mesh.counts.components;
+      }
+    }
+    if (traffic)
+    {
+      *traffic = components.traffic();
+    }
+  }
+  order.records.close();
+  return order;
+}
+
+std::int64_t countComponents(PagedMesh& mesh, Workspace& workspace)
+{
+  return mesh.pages.vertices() > 0 ? Searching(mesh.pages, workspace, 0).Search.components() : 0;
+}
+
+} // namespace smg

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Order/VertexPages.h"
+#include "Solver/Storage/Buffer.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace smg
+{
+
+/**
+ * Pages in a fixed amount of memory, loaded when they are asked for: only their adjacency, which is
+ * what a search reads, or the whole.
+ *
+ * The memory is a ring of frames of any size. A hand goes around it and makes room: a page that was
+ * asked for since the hand came by is spared and moved up to the one before, any other goes, so
+ * that the room is in one piece (CLOCK, without gaps). Of a page that goes, the places are written
+ * to the file if they were changed.
+ */
+class PageCache
+{
+public:
+  /** The pages must be closed, and outlive the cache. Throws Error below leastBytes(). */
+  PageCache(VertexPages& pages, Workspace& workspace, std::int64_t bytes);
+
+  /** What any search takes, however often it loads a page. */
+  static std::int64_t leastBytes(const VertexPages& pages);
+  /** What all pages take. */
+  static std::int64_t mostBytes(const VertexPages& pages);
+
+  /**
+   * A page of which the adjacency can be read. The view is good until another page is asked for.
+   * Throws Error.
+   */
+  PageView adjacency(std::uint32_t page)
+  {
+    const std::uint32_t at = this->table()[page];
+    return this->view(at != None ? this->frame(at) : this->load(page, false));
+  }
+  /** A page of which everything can be read, and the places changed. */
+  PageView whole(std::uint32_t page)
+  {
+    const std::uint32_t at = this->table()[page];
+    return this->view(
+      at != None && this->frame(at).whole ? this->frame(at) : this->load(page, true));
+  }
+  /** Says that the places of a page, of which the view is still good, were changed. */
+  void touch(std::uint32_t page) { this->frame(this->table()[page]).changed = true; }
+  /** Lets the views of this page, which is there, be good until another page is pinned. */
+  void pin(std::uint32_t page) { this->Pinned = page; }
+  void unpin() { this->Pinned = None; }
+
+  /** How often a page was read from the file. */
+  std::int64_t loads() const { return this->Loads; }
+  std::int64_t bytes() const { return std::int64_t(this->Ring.size()); }
+
+private:
+  static constexpr std::uint32_t None = 0xffffffffu;
+
+  /** What stands before the bytes of a page, or at the beginning of a hole. */
+  struct Frame
+  {
+    std::uint32_t page; ///< None: a hole
+    std::uint32_t units;
+    std::uint32_t adjacency; ///< bytes
+    bool whole, changed, wanted;
+  };
+  /** Places in the ring are counted in units. */
+  static constexpr std::size_t Unit = 16;
+  static_assert(sizeof(Frame) == Unit);
+
+  static std::int64_t frameUnits(std::size_t bytes)
+  {
+    return std::int64_t(1 + (bytes + Unit - 1) / Unit);
+  }
+
+  std::uint32_t* table() const { return reinterpret_cast<std::uint32_t*>(this->Table.data()); }
+  Frame& frame(std::uint32_t at) const
+  {
+    return *reinterpret_cast<Frame*>(this->Ring.data() + at * Unit);
+  }
+  PageView view(Frame& frame)
+  {
+    frame.wanted = true;
+    return this->Pages.view(
+      frame.page, reinterpret_cast<std::byte*>(&frame) + Unit, frame.adjacency);
+  }
+
+  Frame& load(std::uint32_t page, bool whole);
+  void makeRoom(std::uint32_t units);
+  void leaveHole();
+  void drop(Frame& frame);
+
+  VertexPages& Pages;
+  Buffer Table; ///< where the frame of each page is; None: nowhere
+  Buffer Ring;
+  std::uint32_t Units;
+  /** The room that the hand has made. Frames and holes follow each other everywhere else. */
+  std::uint32_t RoomBegin = 0, RoomEnd;
+  std::uint32_t Pinned = None;
+  std::int64_t Loads = 0;
+};
+
+} // namespace smg

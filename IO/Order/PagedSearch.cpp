@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/PagedSearch.h"
+
+#include "IO/External/Relabelling.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Tells whether a 32-bit number is a multiple of a fixed one, without a division. */
+class MultipleOf
+{
+public:
+  explicit MultipleOf(std::int64_t divisor)
+    // Lemire: n is a multiple of d if n * ceil(2^64 / d), modulo 2^64, is less than that factor.
+    : Factor(~std::uint64_t(0) / static_cast<std::uint64_t>(divisor) + 1)
+  {
+  }
+  bool operator()(std::uint32_t n) const { return n * this->Factor <= this->Factor - 1; }
+
+private:
+  std::uint64_t Factor;
+};
+
+/** Gives vertices the next places, page by page. */
+class Placing
+{
+public:
+  Placing(VertexPages& pages, PageCache& cache, SearchQueue& queue, std::int64_t firstPlace)
+    : Pages(pages)
+    , Cache(cache)
+    , Queue(queue)
+    , Next(static_cast<std::uint32_t>(firstPlace))
+  {
+  }
+
+  /** The place of a vertex, of which the page is there; it is given one if it has none. */
+  std::uint32_t placeOf(const PageView& view, std::uint32_t page, std::uint32_t rank)
+  {
+    std::uint32_t& place = view.places()[rank - view.firstRank()];
+    if (place == NoIndex)
+    {
+      place = this->Next++;
+      --this->Pages.unplaced(page);
+      this->Cache.touch(page);
+      this->Queue.push(rank);
+    }
+    return place;
+  }
+  std::uint32_t placeOf(std::uint32_t rank)
+  {
+    const std::uint32_t page = this->Pages.pageOf(rank);
+    return this->placeOf(this->Cache.whole(page), page, rank);
+  }
+
+private:
+  VertexPages& Pages;
+  PageCache& Cache;
+  SearchQueue& Queue;
+  std::uint32_t Next;
+};
+
+} // namespace
+
+PagedSearch::PagedSearch(
+  VertexPages& pages, PageCache& cache, Workspace& workspace, std::size_t queueBytes)
+  : Pages(pages)
+  , Cache(cache)
+  , Queue(workspace, queueBytes)
+  , Visited(workspace, pages.vertices())
+{
+}
+
+std::int64_t PagedSearch::memoryFor(const VertexPages& pages, std::size_t queueBytes)
+{
+  return std::int64_t(VisitedBits::bytesFor(pages.vertices()) + queueBytes) + (128 << 10);
+}
+
+template <class Reach, class Take>
+SearchResult PagedSearch::run(std::span<const SearchSource> sources, Reach&& reach, Take&& take)
+{
+  assert(std::ranges::is_sorted(sources, {}, &SearchSource::level) && this->Queue.size() == 0);
+  SearchResult result;
+  std::size_t nextSource = 0;
+  std::int64_t leftOfLevel = 0;
+  double sumOfQueues = 0;
+  while (nextSource < sources.size() || this->Queue.size() > 0)
+  {
+    if (leftOfLevel == 0)
+    {
+      if (this->Queue.size() == 0)
+      {
+        result.levels = std::max(result.levels, sources[nextSource].level);
+      }
+      while (nextSource < sources.size() && sources[nextSource].level <= result.levels)
+      {
+        reach(sources[nextSource++].rank);
+      }
+      leftOfLevel = this->Queue.size();
+      if (leftOfLevel == 0)
+      {
+        continue;
+      }
+    }
+    result.last = this->Queue.pop();
+    take(result.last, result.levels);
+    ++result.vertices;
+    sumOfQueues += static_cast<double>(this->Queue.size());
+    result.peakQueue = std::max(result.peakQueue, this->Queue.size());
+    if (--leftOfLevel == 0)
+    {
+      ++result.levels;
+    }
+  }
+  result.meanQueue = result.vertices > 0 ? sumOfQueues / double(result.vertices) : 0;
+  return result;
+}
+
+template <class Seen>
+SearchResult PagedSearch::visit(std::span<const SearchSource> sources, Seen&& seen)
+{
+  const auto reach = [this](std::uint32_t rank)
+  {
+    if (this->Visited.set(rank))
+    {
+      this->Queue.push(rank);
+    }
+  };
+  // Vertices of a page come in rows. Nothing else asks for pages, so that the view stays good.
+  PageView view(nullptr, 0, 0, 0);
+  return this->run(sources, reach,
+    [&](std::uint32_t rank, std::uint32_t level)
+    {
+      if (rank - view.firstRank() >= view.vertices())
+      {
+        view = this->Cache.adjacency(this->Pages.pageOf(rank));
+      }
+      view.neighbours(rank - view.firstRank(), reach);
+      seen(rank, level);
+    });
+}
+
+SearchResult PagedSearch::probe(
+  std::span<const SearchSource> sources, std::span<std::uint32_t> levels, std::int64_t stride)
+{
+  ++this->Probes;
+  this->Visited.clear();
+  if (levels.empty())
+  {
+    return this->visit(sources, [](std::uint32_t, std::uint32_t) {});
+  }
+  std::ranges::fill(levels, NoIndex);
+  const MultipleOf isSample(stride);
+  return this->visit(sources,
+    [&](std::uint32_t rank, std::uint32_t level)
+    {
+      if (isSample(rank))
+      {
+        levels[rank / std::uint32_t(stride)] = level;
+      }
+    });
+}
+
+std::int64_t PagedSearch::components()
+{
+  this->Visited.clear();
+  std::int64_t count = 0;
+  for (std::int64_t rank = 0; rank < this->Pages.vertices(); ++count)
+  {
+    const SearchSource source = { 0, static_cast<std::uint32_t>(rank) };
+    this->visit({ &source, 1 }, [](std::uint32_t, std::uint32_t) {});
+    rank = this->Visited.firstUnset(rank);
+  }
+  return count;
+}
+
+SearchResult PagedSearch::place(std::span<const SearchSource> sources, OrderedVertices& order)
+{
+  assert(order.doublePositions == this->Pages.doublePositions());
+  return this->Pages.doublePositions() ? this->placeAs<double>(sources, order)
+                                       : this->placeAs<float>(sources, order);
+}
+
+template <class Real>
+SearchResult PagedSearch::placeAs(std::span<const SearchSource> sources, OrderedVertices& order)
+{
+  Placing placing(this->Pages, this->Cache, this->Queue, order.count);
+  const SearchResult result = this->run(
+    sources, [&](std::uint32_t rank) { placing.placeOf(rank); },
+    [&](std::uint32_t rank, std::uint32_t)
+    {
+      const std::uint32_t page = this->Pages.pageOf(rank);
+      const PageView view = this->Cache.whole(page);
+      this->Cache.pin(page);
+      const std::uint32_t vertex = rank - view.firstRank();
+      OrderedVertex<Real> record;
+      record.reach = view.places()[vertex];
+      assert(record.reach == order.count);
+      view.neighbours(vertex,
+        [&](std::uint32_t neighbour)
+        {
+          const bool isHere = neighbour - view.firstRank() < view.vertices();
+          record.reach = std::max(record.reach,
+            isHere ? placing.placeOf(view, page, neighbour) : placing.placeOf(neighbour));
+        });
+      record.id = view.ids()[vertex];
+      std::memcpy(
+        record.position, view.position(vertex, sizeof record.position), sizeof record.position);
+      order.records.put(0, record);
+      ++order.count;
+    });
+  this->Cache.unpin();
+  return result;
+}
+
+} // namespace smg

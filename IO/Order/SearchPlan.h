@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Order/PageBuilder.h"
+#include "IO/Order/PagedSearch.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace smg
+{
+
+/** Bytes of memory that a plan takes. */
+std::int64_t searchPlanMemory(const PagedMesh& mesh, int landmarks);
+
+/**
+ * Plans the search of a large component. Distances are measured from a few landmarks, which are far
+ * from each other, and from the ends of the principal axes; sources, and the levels at which they
+ * begin, are chosen among these such that the search has a small span and width. The plan is tried
+ * out: no single source that distances were measured from has a search of less cost, see
+ * searchCost. Deterministic.
+ * @param search of the pages of the mesh
+ * @param landmarks at least 2
+ * @param end a vertex of the component that is far out, such as the last one of a search
+ * @return sources in ascending order of levels
+ */
+std::vector<SearchSource> planSearch(PagedSearch& search, const PagedMesh& mesh,
+  Workspace& workspace, int landmarks, std::uint32_t end);
+
+} // namespace smg

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/External/Workspace.h"
+#include "Solver/Storage/Buffer.h"
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/** What a breadth-first order costs whoever streams it: the mean and the greatest of its windows.
+ */
+inline double searchCost(double meanQueue, double peakQueue)
+{
+  return (meanQueue + peakQueue) / 2;
+}
+
+/** Distances, in edges, from candidates for sources to the samples of a connected component. */
+class SourceDistances
+{
+public:
+  SourceDistances(Workspace& workspace, std::size_t samples, std::size_t mostCandidates)
+    : Samples(samples)
+    , Memory(workspace.pool(), samples * mostCandidates * sizeof(std::int32_t))
+  {
+  }
+
+  /** Adds a candidate, at most as many as were foreseen; answers where its distances go. */
+  std::int32_t* add()
+  {
+    assert((this->Candidates + 1) * this->Samples * sizeof(std::int32_t) <= this->Memory.size());
+    return this->row(this->Candidates++);
+  }
+
+  std::size_t samples() const { return this->Samples; }
+  std::size_t candidates() const { return this->Candidates; }
+  std::span<const std::int32_t> operator[](std::size_t candidate) const
+  {
+    return { this->row(candidate), this->Samples };
+  }
+
+private:
+  std::int32_t* row(std::size_t candidate) const
+  {
+    return reinterpret_cast<std::int32_t*>(this->Memory.data()) + candidate * this->Samples;
+  }
+
+  std::size_t Samples;
+  std::size_t Candidates = 0;
+  Buffer Memory;
+};
+
+/** A candidate from which a search begins when it has come to a level. */
+struct PlannedSource
+{
+  std::size_t candidate;
+  std::int32_t level;
+};
+
+/** A multi-source search, and what it is expected to cost. */
+struct SourcePlan
+{
+  std::vector<PlannedSource> sources;
+  double cost = 0;
+};
+
+/**
+ * Chooses sources and the levels at which they begin, such that the levels of the search, which
+ * are known at the samples, are small: each of the best single candidates is joined by others as
+ * long as that helps. Deterministic.
+ * @param vertices of the component
+ */
+SourcePlan planSources(
+  const SourceDistances& distances, std::int64_t vertices, Workspace& workspace);
+
+} // namespace smg
