@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Order/GroupPages.h"
+
+#include "Solver/Core/Error.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace smg
+{
+
+namespace
+{
+
+constexpr std::int64_t SampledVertices = 16384;
+/** Bytes of a group's links above which the scattering leaves the processor's cache. */
+constexpr std::int64_t CachedBytes = std::int64_t(4) << 20;
+/** Memory of a group of cells that is collected, at least. */
+constexpr std::int64_t CollectedBytes = std::int64_t(16) << 10;
+/** Memory that is left to readers and to the file of the pages. */
+constexpr std::int64_t Reserve = std::int64_t(1) << 20;
+/** Bytes that VertexPages has for a neighbour, at most, while a page is made. */
+constexpr std::int64_t EncodedBytes = 5;
+
+std::int64_t roundUp(std::int64_t count, std::int64_t unit)
+{
+  return (count + unit - 1) / unit * unit;
+}
+
+float toFloat(double value)
+{
+  constexpr double most = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(value, -most, most));
+}
+
+} // namespace
+
+std::int64_t groupVertices(std::int64_t vertices, std::int64_t cells, std::size_t corners,
+  int pageVertices, std::int64_t memory, std::int64_t collecting)
+{
+  const auto linkBytes = static_cast<std::int64_t>(corners * (corners - 1) * sizeof(std::uint32_t));
+  const std::int64_t vertexBytes = 12 + cells * linkBytes / std::max<std::int64_t>(1, vertices);
+  const std::int64_t most = std::min(memory / 5, CachedBytes) / vertexBytes;
+  const std::int64_t groups = std::max<std::int64_t>(1, collecting / CollectedBytes);
+  return roundUp(std::max({ most, vertices / groups, std::int64_t(pageVertices) }), pageVertices);
+}
+
+template <class Real>
+GroupPages<Real>::GroupPages(const RawMesh& mesh, Workspace& workspace,
+  const RecordFile<RankedVertex<Real>>& vertices, int pageVertices)
+  : Space(workspace)
+  , Corners(static_cast<std::size_t>(cornersOf(mesh.cellType)))
+  , Vertices(vertices)
+  , Result{ VertexPages(workspace, pageVertices, mesh.doublePositions), {}, {}, 1, 0 }
+{
+  this->Result.sampleStride = std::max<std::int64_t>(1, vertices.size() / SampledVertices);
+  MeshCounts& counts = this->Result.counts;
+  counts.isolatedVertices = mesh.vertices - vertices.size();
+  if (mesh.cellType == CellType::Triangle)
+  {
+    counts.boundaryEdges = counts.nonManifoldEdges = counts.nonManifoldVertices = 0;
+  }
+}
+
+/** Ranks in the links of the page that has most of them. */
+template <class Real>
+std::int64_t GroupPages<Real>::largestPage(const VertexLinks& links, RankRange range) const
+{
+  const int pageVertices = this->Result.pages.pageVertices();
+  std::int64_t largest = 0;
+  for (std::int64_t begin = range.begin; begin < range.end; begin += pageVertices)
+  {
+    largest = std::max(largest, links.size({ begin, std::min(begin + pageVertices, range.end) }));
+  }
+  return largest;
+}
+
+template <class Real>
+void GroupPages<Real>::append(const CellGroups& groups, int group)
+{
+  const RankRange range = groups.range(group);
+  const std::int64_t allowed = this->Space.available() - Reserve;
+  std::int64_t parts = 1;
+  {
+    VertexLinks links(this->Space, groups, group, this->Corners);
+    const std::int64_t largest = this->largestPage(links, range);
+    const std::int64_t needed = range.size() * 8 + links.bytes() +
+                                VertexStar::bytes(range.size(), links.largest()) +
+                                largest * (std::int64_t(sizeof(std::uint32_t)) + EncodedBytes);
+    if (needed <= allowed)
+    {
+      links.load(this->Space, groups, group);
+      VertexStar star(this->Space, range, links.largest());
+      Buffer neighbours(
+        this->Space.pool(), static_cast<std::size_t>(largest) * sizeof(std::uint32_t));
+      const int pageVertices = this->Result.pages.pageVertices();
+      for (std::int64_t begin = range.begin; begin < range.end; begin += pageVertices)
+      {
+        this->appendPage({ begin, std::min(begin + pageVertices, range.end) }, links, star,
+          { reinterpret_cast<std::uint32_t*>(neighbours.data()),
+            static_cast<std::size_t>(largest) });
+      }
+      return;
+    }
+    if (range.size() <= this->Result.pages.pageVertices())
+    {
+      const auto mebibytes = [](std::int64_t bytes) { return std::to_string((bytes >> 20) + 1); };
+      throw Error("The mesh needs " + mebibytes(this->Space.pool().limit() - allowed + needed) +
+                  " MiB of memory to be brought into order, since a vertex has " +
+                  std::to_string(links.largest() / (this->Corners - 1)) + " cells, but only " +
+                  mebibytes(this->Space.pool().limit() - 1) +
+                  " MiB are allowed: raise the memory limit.");
+    }
+    parts = 2 + needed / std::max<std::int64_t>(allowed, 1);
+  }
+  this->split(groups, group, parts);
+}
+
+template <class Real>
+void GroupPages<Real>::split(const CellGroups& groups, int group, std::int64_t parts)
+{
+  const RankRange range = groups.range(group);
+  const std::int64_t collecting = this->Space.available() / 4;
+  parts = std::min(parts, std::max<std::int64_t>(2, collecting / CollectedBytes));
+  CellGroups smaller(this->Space, range,
+    roundUp((range.size() + parts - 1) / parts, this->Result.pages.pageVertices()), this->Corners,
+    collecting);
+  groups.forEach(group, [&smaller](std::span<const std::uint32_t> cell) { smaller.put(cell); });
+  smaller.close();
+  for (int part = 0; part < smaller.groups(); ++part)
+  {
+    this->append(smaller, part);
+  }
+}
+
+template <class Real>
+void GroupPages<Real>::appendPage(
+  RankRange page, const VertexLinks& links, VertexStar& star, std::span<std::uint32_t> neighbours)
+{
+  MeshCounts& counts = this->Result.counts;
+  this->Page.clear();
+  for (std::int64_t rank = page.begin; rank < page.end; ++rank)
+  {
+    const auto vertex = static_cast<std::uint32_t>(rank);
+    const std::size_t degree = star.visit(vertex, links.of(vertex), this->Corners, neighbours);
+    const auto around = neighbours.first(degree);
+    neighbours = neighbours.subspan(degree);
+    if (this->Corners == 3)
+    {
+      counts.boundaryEdges += star.boundaryEdges();
+      counts.nonManifoldEdges += star.nonManifoldEdges();
+      counts.nonManifoldVertices += star.fans() > 1;
+    }
+    for (const std::uint32_t other : around)
+    {
+      this->Crossing += other - static_cast<std::uint32_t>(page.begin) >= page.size();
+    }
+    this->Edges += static_cast<std::int64_t>(degree);
+
+    RankedVertex<Real> ranked;
+    this->Vertices.next(ranked);
+    const Real* position = ranked.position;
+    this->Page.push_back({ { position[0], position[1], position[2] }, ranked.id, NoIndex, around });
+    if (rank % this->Result.sampleStride == 0)
+    {
+      this->Result.samples.insert(this->Result.samples.end(),
+        { toFloat(position[0]), toFloat(position[1]), toFloat(position[2]) });
+    }
+  }
+  this->Result.pages.append(this->Page);
+}
+
+template <class Real>
+PagedMesh GroupPages<Real>::finish()
+{
+  this->Result.pages.close();
+  this->Result.crossing = double(this->Crossing) / double(std::max<std::int64_t>(1, this->Edges));
+  return std::move(this->Result);
+}
+
+template class GroupPages<float>;
+template class GroupPages<double>;
+
+} // namespace smg

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Order/CellGroups.h"
+#include "IO/Order/PageBuilder.h"
+#include "IO/Order/RankedVertices.h"
+#include "IO/Order/VertexLinks.h"
+#include "IO/Order/VertexStar.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Vertices of a group of cells: so many that the links of a group fit into a share of `memory`, and
+ * mostly into a processor's cache; as many groups as `collecting` bytes allow. Whole pages.
+ */
+std::int64_t groupVertices(std::int64_t vertices, std::int64_t cells, std::size_t corners,
+  int pageVertices, std::int64_t memory, std::int64_t collecting);
+
+/** Makes the pages of a mesh, group by group, and counts on the way. */
+template <class Real>
+class GroupPages
+{
+public:
+  /** Mesh, workspace and vertices must outlive this. */
+  GroupPages(const RawMesh& mesh, Workspace& workspace,
+    const RecordFile<RankedVertex<Real>>& vertices, int pageVertices);
+
+  /**
+   * Appends the pages of the next group. A group that does not fit into the memory is split; a page
+   * that does not is an Error.
+   */
+  void append(const CellGroups& groups, int group);
+
+  /** Ends the appending. */
+  PagedMesh finish();
+
+private:
+  std::int64_t largestPage(const VertexLinks& links, RankRange range) const;
+  void split(const CellGroups& groups, int group, std::int64_t parts);
+  void appendPage(RankRange page, const VertexLinks& links, VertexStar& star,
+    std::span<std::uint32_t> neighbours);
+
+  Workspace& Space;
+  std::size_t Corners;
+  typename RecordFile<RankedVertex<Real>>::Reader Vertices;
+  std::vector<VertexPages::Vertex> Page;
+  std::int64_t Edges = 0, Crossing = 0; ///< directed
+  PagedMesh Result;
+};
+
+} // namespace smg
