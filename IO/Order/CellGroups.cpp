@@ -12,7 +12,10 @@ CellGroups::CellGroups(Workspace& workspace, RankRange range, std::int64_t group
   , Begin(static_cast<std::uint32_t>(range.begin))
   , Size(static_cast<std::uint32_t>(range.size()))
   , GroupVertices(static_cast<std::uint32_t>(groupVertices))
-  , Cells(workspace, static_cast<int>((range.size() + groupVertices - 1) / groupVertices), memory)
+  , Cells(workspace,
+      static_cast<int>(
+        std::max<std::int64_t>(1, (range.size() + groupVertices - 1) / groupVertices)),
+      memory)
 {
 }
 
