@@ -103,27 +103,22 @@ private:
   {
     // The memory of a run grows with what there is to sort.
     const auto most = static_cast<std::size_t>(this->Memory) / sizeof(Record);
-    if (this->Capacity == most)
-    {
-      this->writeRun();
-      return;
-    }
     const std::size_t wanted = std::max<std::size_t>(1024, this->Capacity * 4);
-    if (wanted * 5 / 4 < most)
+    if (this->Runs.empty() && this->Capacity < most && wanted * 5 / 4 < most)
     {
       Buffer larger(this->Space.pool(), wanted * sizeof(Record));
-      std::memcpy(larger.data(), this->Run.data(), this->Used * sizeof(Record));
+      std::copy_n(this->records(), this->Used, reinterpret_cast<Record*>(larger.data()));
       this->Run = std::move(larger);
       this->Capacity = wanted;
       return;
     }
-    if (this->Used > 0)
+    this->writeRun();
+    if (this->Capacity != most)
     {
-      this->writeRun();
+      this->Run = Buffer();
+      this->Run = Buffer(this->Space.pool(), most * sizeof(Record));
+      this->Capacity = most;
     }
-    this->Run = Buffer();
-    this->Run = Buffer(this->Space.pool(), most * sizeof(Record));
-    this->Capacity = most;
   }
 
   void sortRun() { std::sort(this->records(), this->records() + this->Used, this->IsLess); }
@@ -139,35 +134,55 @@ private:
     this->Runs.back().append(
       0, std::as_bytes(std::span<const Record>(this->records(), this->Used)));
     this->Runs.back().close();
+    this->Ranks.push_back(0);
     this->Used = 0;
+    this->mergeEqualRuns();
   }
 
-  /** Merges runs until there are few enough to be merged at once. */
+  /**
+   * Keeps the number of open files small while runs come: as many runs of a rank become one of the
+   * next rank.
+   */
+  void mergeEqualRuns()
+  {
+    const std::size_t count = std::min<std::size_t>(this->mostRuns(), 32);
+    while (
+      this->Ranks.size() >= count && this->Ranks[this->Ranks.size() - count] == this->Ranks.back())
+    {
+      this->Run = Buffer();
+      this->Capacity = 0;
+      this->mergeLast(count);
+    }
+  }
+
+  /** Merges the last runs into one. */
+  void mergeLast(std::size_t count)
+  {
+    const auto begin = this->Runs.end() - std::ptrdiff_t(count);
+    this->startMerge(std::span(begin, this->Runs.end()));
+    BucketFile longer(this->Space);
+    for (Record record; this->nextMerged(record);)
+    {
+      longer.put(0, record);
+    }
+    longer.close();
+    this->Readers.clear();
+    this->Runs.erase(begin, this->Runs.end());
+    this->Runs.push_back(std::move(longer));
+    this->Ranks.resize(this->Runs.size());
+    ++this->Ranks.back();
+  }
+
+  /** Merges runs, the shortest ones, until there are few enough to be merged at once. */
   void mergeTooMany()
   {
     while (this->Runs.size() > this->mostRuns())
     {
-      std::vector<BucketFile> longer;
-      for (std::size_t begin = 0; begin < this->Runs.size(); begin += this->mostRuns())
-      {
-        const std::size_t end = std::min(begin + this->mostRuns(), this->Runs.size());
-        std::vector<BucketFile> part;
-        std::move(this->Runs.begin() + std::ptrdiff_t(begin),
-          this->Runs.begin() + std::ptrdiff_t(end), std::back_inserter(part));
-        this->startMerge(part);
-        longer.emplace_back(this->Space);
-        for (Record record; this->nextMerged(record);)
-        {
-          longer.back().put(0, record);
-        }
-        longer.back().close();
-        this->Readers.clear();
-      }
-      this->Runs = std::move(longer);
+      this->mergeLast(std::min(this->mostRuns(), this->Runs.size() - this->mostRuns() + 1));
     }
   }
 
-  void startMerge(const std::vector<BucketFile>& runs)
+  void startMerge(std::span<const BucketFile> runs)
   {
     this->Readers.clear();
     this->Heap.clear();
@@ -232,7 +247,8 @@ private:
   std::int64_t Size = 0;
   Buffer Run; ///< records that are collected
   std::size_t Capacity = 0, Used = 0, Delivered = 0;
-  std::vector<BucketFile> Runs;
+  std::vector<BucketFile> Runs; ///< of falling rank
+  std::vector<int> Ranks;       ///< how often the records of a run were merged
   std::vector<BucketFile::Reader> Readers;
   std::vector<Head> Heap;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 namespace smg
 {
@@ -41,6 +42,19 @@ void Relabelling::loadTable(int pass, std::span<std::uint32_t> table)
   }
 }
 
+std::vector<int> Relabelling::neededPasses() const
+{
+  std::vector<int> needed;
+  for (int pass = 0; pass < this->Pairs.buckets(); ++pass)
+  {
+    if (this->Pairs.bytes(pass) > 0)
+    {
+      needed.push_back(pass);
+    }
+  }
+  return needed.empty() ? std::vector<int>{ 0 } : needed;
+}
+
 void Relabelling::applyChunks(
   const RecordFile<std::uint32_t>& file, std::size_t count, const TakeChunk& take)
 {
@@ -50,11 +64,12 @@ void Relabelling::applyChunks(
   // What the passes so far have replaced; NoIndex elsewhere.
   std::optional<RecordFile<std::uint32_t>> done;
   std::vector<std::uint32_t> numbers, replaced;
-  for (int pass = 0; pass < this->passes(); ++pass)
+  const std::vector<int> passes = this->neededPasses();
+  for (const int pass : passes)
   {
     this->loadTable(pass, table);
     const std::uint32_t first = static_cast<std::uint32_t>(pass) * this->Range;
-    const bool last = pass + 1 == this->passes();
+    const bool last = pass == passes.back();
     RecordFile<std::uint32_t>::Reader in(file);
     std::optional<RecordFile<std::uint32_t>::Reader> before;
     if (done)
@@ -79,10 +94,9 @@ void Relabelling::applyChunks(
       }
       for (std::size_t i = 0; i < numbers.size(); ++i)
       {
-        const std::uint32_t place = numbers[i] - first;
-        if (place < this->Range)
+        if (numbers[i] >= first && numbers[i] - first < this->Range)
         {
-          replaced[i] = table[place];
+          replaced[i] = table[numbers[i] - first];
         }
       }
       last ? take(replaced) : next.put(std::span<const std::uint32_t>(replaced));

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <span>
+#include <vector>
 
 namespace smg
 {
@@ -31,8 +32,11 @@ public:
     this->Pairs.append(static_cast<int>(from / this->Range), std::as_bytes(std::span(pair)));
   }
 
-  /** Passes over the file of numbers that apply() will take. */
-  int passes() const { return this->Pairs.buckets(); }
+  /** Gives the memory of the pairs back: nothing is put now. */
+  void close() { this->Pairs.close(); }
+
+  /** Passes over the file of numbers that apply() will take: none for numbers that are not put. */
+  int passes() const { return static_cast<int>(this->neededPasses().size()); }
 
   /**
    * Gives the replaced numbers of `file` to `take`, records of `count` numbers one after the other,
@@ -55,6 +59,8 @@ private:
   using TakeChunk = std::function<void(std::span<const std::uint32_t>)>;
 
   void applyChunks(const RecordFile<std::uint32_t>& file, std::size_t count, const TakeChunk& take);
+  /** The tables that are not empty, or the first one. */
+  std::vector<int> neededPasses() const;
   void loadTable(int pass, std::span<std::uint32_t> table);
 
   Workspace& Space;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Import/CellCollector.h"
 #include "IO/Import/Formats.h"
+#include "IO/Import/GmshElements.h"
+#include "IO/Import/GmshInput.h"
 #include "IO/Import/GmshNodes.h"
-#include "IO/Import/TextScanner.h"
 
 #include <array>
 #include <string>
@@ -13,274 +13,272 @@ namespace smg
 namespace
 {
 
-/** Element types of Gmsh that become cells, by their corners; the rest of their nodes is ignored.
- */
-enum class Shape
-{
-  None,
-  Triangle,
-  Quadrilateral,
-  Tetrahedron,
-  OtherVolume
-};
-
-Shape shapeOf(std::int64_t type)
-{
-  switch (type)
-  {
-    case 2:
-    case 9:
-      return Shape::Triangle;
-    case 3:
-    case 10:
-    case 16:
-      return Shape::Quadrilateral;
-    case 4:
-    case 11:
-      return Shape::Tetrahedron;
-    case 5:
-    case 6:
-    case 7:
-    case 12:
-    case 13:
-    case 14:
-    case 17:
-    case 18:
-    case 19:
-      return Shape::OtherVolume;
-    default:
-      return Shape::None;
-  }
-}
-
 /** Reads the sections of a Gmsh file. */
 class GmshReader
 {
 public:
-  GmshReader(InputFile& file, const ImportOptions& options)
-    : File(file)
-    , Options(options)
-    , Scanner(file)
+  GmshReader(InputFile& file, RawMeshBuilder& builder)
+    : Input(file)
+    , Builder(builder)
+    , Nodes(builder.workspace())
   {
   }
 
-  IndexedMesh read()
+  void read()
   {
-    while (!this->Scanner.atEnd())
+    try
     {
-      const std::string section(this->Scanner.tokenInLine());
-      if (section == "$MeshFormat")
+      for (std::string name = this->Input.sectionName(); !name.empty();
+           name = this->Input.sectionName())
       {
-        this->readFormat();
+        this->readSection(name);
       }
-      else if (section == "$Nodes")
-      {
-        this->Version4 ? this->readNodeBlocks() : this->readNodes();
-      }
-      else if (section == "$Elements")
-      {
-        this->Version4 ? this->readElementBlocks() : this->readElements();
-      }
-      else if (section.empty() || section[0] != '$')
-      {
-        this->Scanner.fail(inQuotes(section) + " stands where a section should begin");
-      }
-      this->skipToEnd("$End" + section.substr(1));
     }
-    this->Cells.finish(this->Mesh);
-    return std::move(this->Mesh);
+    catch (const MeshError& error)
+    {
+      this->Input.fail(error.what());
+    }
   }
 
 private:
-  void readFormat()
+  void readSection(const std::string& name)
   {
-    const double version = this->Scanner.number("the version");
-    this->Version4 = version >= 4.1 && version < 5.0;
-    if (!this->Version4 && (version < 2.0 || version >= 3.0))
+    const std::string end = "$End" + name.substr(1);
+    if (name == "$MeshFormat")
     {
-      this->Scanner.fail("this version of the format is not read: save it as 2.2 or 4.1");
+      this->Input.readFormat();
+      this->Input.endSection(end);
+      return;
     }
-    if (this->Scanner.integer("the kind of file") != 0)
+    if (name != "$Nodes" && name != "$Elements")
     {
-      this->Scanner.fail("binary .msh files are not read: save it as text");
+      this->Input.skipSection(end);
+      return;
+    }
+    if (!this->Input.hasFormat())
+    {
+      this->Input.fail("the section $MeshFormat is missing");
+    }
+    name == "$Nodes" ? this->readNodeSection() : this->readElementSection();
+    this->Input.endNumbers();
+    this->Input.endSection(end);
+  }
+
+  void readNodeSection()
+  {
+    if (this->HasNodes)
+    {
+      this->Input.fail("there are two sections $Nodes");
+    }
+    this->HasNodes = true;
+    this->Input.hasBlocks() ? this->readNodeBlocks() : this->readNodes();
+    this->Nodes.finish();
+    if (auto numbers = this->Nodes.takeNumbers())
+    {
+      this->Builder.relabelCorners(std::move(*numbers));
     }
   }
 
-  /** Passes the rest of a section. */
-  void skipToEnd(const std::string& end)
+  void readElementSection()
   {
-    while (this->Scanner.peek() != end)
+    if (!this->HasNodes)
     {
-      if (this->Scanner.atEnd())
-      {
-        this->Scanner.fail("the file is truncated: " + end + " is missing");
-      }
-      this->Scanner.skipLine();
+      this->Input.fail("the elements come before the nodes");
     }
-    this->Scanner.token();
-  }
-
-  void begin(std::int64_t nodes)
-  {
-    if (this->Nodes.count() > 0)
+    if (this->Input.hasBlocks())
     {
-      this->Scanner.fail("there are two sections $Nodes");
+      this->readElementBlocks();
     }
-    this->Mesh.positions.reserve(static_cast<std::size_t>(nodes) * 3);
-  }
-
-  void addTag(std::int64_t tag)
-  {
-    if (!this->Nodes.add(tag))
+    else
     {
-      this->Scanner.fail("there are two nodes " + std::to_string(tag));
+      this->Input.isBinary() ? this->readElementGroups() : this->readElements();
     }
   }
 
-  void addPoint()
+  void readPoint()
   {
-    for (int axis = 0; axis < 3; ++axis)
+    std::array<double, 3> point{};
+    for (double& coordinate : point)
     {
-      this->Mesh.positions.push_back(this->Scanner.number("a coordinate of a node"));
+      coordinate = this->Input.number("a coordinate of a node");
     }
+    this->Builder.vertex(point[0], point[1], point[2]);
   }
 
   void readNodes()
   {
-    const std::int64_t nodes = this->Scanner.count("the number of nodes", 8);
-    this->begin(nodes);
+    const std::int64_t nodes = this->Input.lineCount("the number of nodes", 8, 28);
+    this->Input.beginNumbers();
     for (std::int64_t i = 0; i < nodes; ++i)
     {
-      this->addTag(this->Scanner.integer("the tag of a node"));
-      this->addPoint();
-      this->Scanner.skipLine();
+      this->Nodes.add(this->Input.integer("the tag of a node"));
+      this->readPoint();
     }
   }
 
   void readNodeBlocks()
   {
-    const std::int64_t blocks = this->Scanner.count("the number of blocks", 8);
-    this->begin(this->Scanner.count("the number of nodes", 8));
-    this->Scanner.skipLine();
+    this->Input.beginNumbers();
+    const std::int64_t blocks = this->Input.count("the number of blocks", 8, 20);
+    const std::int64_t nodes = this->Input.count("the number of nodes", 8, 32);
+    this->Input.longInteger("the least tag");
+    this->Input.longInteger("the largest tag");
     for (std::int64_t block = 0; block < blocks; ++block)
     {
-      this->Scanner.integer("the dimension of an entity");
-      this->Scanner.integer("the tag of an entity");
-      this->Scanner.integer("whether there are parameters");
-      const std::int64_t nodes = this->Scanner.count("the number of nodes of a block", 8);
-      for (std::int64_t i = 0; i < nodes; ++i)
+      this->readNodeBlock();
+    }
+    this->checkSum(this->Nodes.count(), nodes, "nodes");
+  }
+
+  void readNodeBlock()
+  {
+    const std::int64_t dimension = this->Input.integer("the dimension of an entity");
+    this->Input.integer("the tag of an entity");
+    const std::int64_t parametric = this->Input.integer("whether there are parameters");
+    if (dimension < 0 || dimension > 3 || parametric < 0 || parametric > 1)
+    {
+      this->Input.fail("a block of nodes begins with its dimension, 0 to 3, its tag, and whether "
+                       "there are parameters, 0 or 1");
+    }
+    const std::int64_t nodes = this->Input.count("the number of nodes of a block", 8, 32);
+    for (std::int64_t i = 0; i < nodes; ++i)
+    {
+      this->Nodes.add(this->Input.longInteger("the tag of a node"));
+    }
+    for (std::int64_t i = 0; i < nodes; ++i)
+    {
+      this->readPoint();
+      for (std::int64_t k = 0; k < dimension * parametric; ++k)
       {
-        this->addTag(this->Scanner.integer("the tag of a node"));
-      }
-      for (std::int64_t i = 0; i < nodes; ++i)
-      {
-        this->addPoint();
-        this->Scanner.skipLine();
+        this->Input.number("a parameter of a node");
       }
     }
   }
 
-  void checkMemory(std::int64_t elements)
-  {
-    MeshSizes sizes;
-    sizes.vertices = this->Mesh.vertices();
-    sizes.cells = elements;
-    sizes.corners = 4;
-    this->Options.budget.check(this->File.path(), sizes);
-  }
-
+  /** Elements of version 2, as text: each says what it is. */
   void readElements()
   {
-    const std::int64_t elements = this->Scanner.count("the number of elements", 6);
-    this->checkMemory(elements);
+    const std::int64_t elements = this->Input.lineCount("the number of elements", 8, 8);
     for (std::int64_t i = 0; i < elements; ++i)
     {
-      this->Scanner.integer("the tag of an element");
-      const std::int64_t type = this->Scanner.integer("the type of an element");
-      const std::int64_t tags = this->Scanner.count("the number of tags", 2);
-      for (std::int64_t k = 0; k < tags; ++k)
+      this->Input.integer("the tag of an element");
+      const GmshElementType type = this->readType();
+      const std::int64_t tags = this->Input.count("the number of tags", 2, 4);
+      this->skipTags(tags);
+      this->readElement(type, [this] { return this->Input.integer("a node of an element"); });
+    }
+  }
+
+  /** Elements of version 2, binary: one head for a number of elements of the same type. */
+  void readElementGroups()
+  {
+    const std::int64_t elements = this->Input.lineCount("the number of elements", 8, 8);
+    this->Input.beginNumbers();
+    for (std::int64_t done = 0; done < elements;)
+    {
+      const GmshElementType type = this->readType();
+      const std::int64_t group = this->Input.integer("the number of elements of a group");
+      const std::int64_t tags = this->Input.integer("the number of tags");
+      this->Input.checkCount(tags, "the number of tags", sizeof(std::int32_t));
+      this->Input.checkCount(group, "the number of elements of a group",
+        sizeof(std::int32_t) * static_cast<std::size_t>(1 + tags + type.nodes));
+      if (group < 1 || group > elements - done)
       {
-        this->Scanner.integer("a tag of an element");
+        this->Input.fail("a group has " + std::to_string(group) + " elements, but there are " +
+                         std::to_string(elements - done) + " left");
       }
-      this->readElement(type);
+      for (std::int64_t i = 0; i < group; ++i)
+      {
+        this->Input.integer("the tag of an element");
+        this->skipTags(tags);
+        this->readElement(type, [this] { return this->Input.integer("a node of an element"); });
+      }
+      done += group;
     }
   }
 
   void readElementBlocks()
   {
-    const std::int64_t blocks = this->Scanner.count("the number of blocks", 8);
-    this->checkMemory(this->Scanner.count("the number of elements", 4));
-    this->Scanner.skipLine();
+    this->Input.beginNumbers();
+    const std::int64_t blocks = this->Input.count("the number of blocks", 8, 20);
+    const std::int64_t elements = this->Input.count("the number of elements", 4, 16);
+    const std::int64_t before = this->Builder.elements();
+    this->Input.longInteger("the least tag");
+    this->Input.longInteger("the largest tag");
     for (std::int64_t block = 0; block < blocks; ++block)
     {
-      this->Scanner.integer("the dimension of an entity");
-      this->Scanner.integer("the tag of an entity");
-      const std::int64_t type = this->Scanner.integer("the type of the elements");
-      const std::int64_t elements = this->Scanner.count("the number of elements of a block", 4);
-      for (std::int64_t i = 0; i < elements; ++i)
+      this->Input.integer("the dimension of an entity");
+      this->Input.integer("the tag of an entity");
+      const GmshElementType type = this->readType();
+      const std::int64_t count = this->Input.count("the number of elements of a block", 4, 16);
+      for (std::int64_t i = 0; i < count; ++i)
       {
-        this->Scanner.integer("the tag of an element");
-        this->readElement(type);
+        this->Input.longInteger("the tag of an element");
+        this->readElement(type, [this] { return this->Input.longInteger("a node of an element"); });
       }
     }
+    this->checkSum(this->Builder.elements() - before, elements, "elements");
   }
 
-  /** The nodes of an element, the rest of its line. */
-  void readElement(std::int64_t type)
+  GmshElementType readType()
   {
-    const Shape shape = shapeOf(type);
-    std::array<std::int64_t, 4> corners{};
-    const std::size_t count = shape == Shape::Triangle ? 3 : 4;
-    if (shape == Shape::OtherVolume)
+    const std::int64_t number = this->Input.integer("the type of an element");
+    const GmshElementType type = gmshElementType(number);
+    if (type.nodes == 0)
     {
-      this->Scanner.fail("the mesh has elements of type " + std::to_string(type) +
-                         " (hexahedra, prisms or pyramids): cut them into tetrahedra first");
+      this->Input.fail("elements of type " + std::to_string(number) + " are not known");
     }
-    if (shape == Shape::None)
+    return type;
+  }
+
+  void skipTags(std::int64_t tags)
+  {
+    for (std::int64_t k = 0; k < tags; ++k)
     {
-      this->Cells.dropped();
-      this->Scanner.skipLine();
-      return;
-    }
-    for (std::size_t k = 0; k < count; ++k)
-    {
-      const std::int64_t tag = this->Scanner.integer("a node of an element");
-      corners[k] = this->Nodes.find(tag);
-      if (corners[k] < 0)
-      {
-        this->Scanner.fail(
-          "the element names node " + std::to_string(tag) + ", which is not there");
-      }
-    }
-    this->Scanner.skipLine();
-    if (shape == Shape::Triangle)
-    {
-      this->Cells.triangle(corners[0], corners[1], corners[2]);
-    }
-    else if (shape == Shape::Quadrilateral)
-    {
-      this->Cells.polygon(corners);
-    }
-    else
-    {
-      this->Cells.tetrahedron(corners[0], corners[1], corners[2], corners[3]);
+      this->Input.integer("a tag of an element");
     }
   }
 
-  InputFile& File;
-  const ImportOptions& Options;
-  TextScanner Scanner;
-  IndexedMesh Mesh;
-  CellCollector Cells;
+  void readElement(GmshElementType type, const auto& readTag)
+  {
+    std::array<std::int64_t, 8> corners{};
+    const std::size_t count = type.corners();
+    for (std::size_t k = 0; k < type.nodes; ++k)
+    {
+      const std::int64_t tag = readTag();
+      if (k < count)
+      {
+        corners[k] = this->Nodes.corner(tag);
+        if (corners[k] < 0)
+        {
+          this->Input.fail(
+            "the element names node " + std::to_string(tag) + ", which is not there");
+        }
+      }
+    }
+    addGmshElement(this->Builder, type, std::span(corners).first(count));
+  }
+
+  void checkSum(std::int64_t found, std::int64_t promised, const std::string& things)
+  {
+    if (found != promised)
+    {
+      this->Input.fail("the blocks have " + std::to_string(found) + ' ' + things +
+                       ", but the section says " + std::to_string(promised));
+    }
+  }
+
+  GmshInput Input;
+  RawMeshBuilder& Builder;
   GmshNodes Nodes;
-  bool Version4 = false;
+  bool HasNodes = false;
 };
 
 } // namespace
 
-IndexedMesh importGmsh(InputFile& file, const ImportOptions& options)
+void importGmsh(InputFile& file, RawMeshBuilder& builder)
 {
-  return GmshReader(file, options).read();
+  GmshReader(file, builder).read();
 }
 
 } // namespace smg

@@ -1,67 +1,85 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/External/ExternalSort.h"
+#include "IO/External/Relabelling.h"
+
 #include <cstdint>
-#include <unordered_map>
-#include <vector>
+#include <limits>
+#include <optional>
 
 namespace smg
 {
 
-/** Finds the place of a node by its tag. Tags are any numbers, mostly 1, 2, 3 ... */
+/**
+ * The tags of the nodes, which elements name them by: any numbers, mostly 1, 2, 3 ... As long as
+ * they count up by one nothing is kept of them; else they are sorted out of core, and the elements
+ * are given by their tags until a Relabelling replaces these.
+ */
 class GmshNodes
 {
 public:
-  /** Notes the tag of the next node; false if there is one with this tag already. */
-  bool add(std::int64_t tag)
+  explicit GmshNodes(Workspace& workspace)
+    : Space(workspace)
   {
-    const std::int64_t place = this->Count++;
-    if (this->Others.empty() && this->distance(tag) == static_cast<std::uint64_t>(place))
-    {
-      return true;
-    }
-    if (place == 0)
-    {
-      this->First = tag;
-      return true;
-    }
-    if (this->Others.empty())
-    {
-      this->Consecutive = place;
-    }
-    return !this->isConsecutive(tag) && this->Others.emplace(tag, place).second;
   }
 
-  /** The place of the node, from 0, or -1. */
-  std::int64_t find(std::int64_t tag) const
+  /** Notes the tag of the next node. */
+  void add(std::int64_t tag)
   {
-    if (this->isConsecutive(tag))
+    if (!this->Tags && tag >= this->First &&
+        this->distance(tag) == static_cast<std::uint64_t>(this->Count))
     {
-      return tag - this->First;
+      ++this->Count;
+      return;
     }
-    const auto entry = this->Others.find(tag);
-    return entry == this->Others.end() ? -1 : entry->second;
+    this->addOther(tag);
   }
-
   std::int64_t count() const { return this->Count; }
 
-private:
-  bool isConsecutive(std::int64_t tag) const
+  /**
+   * After the last node. Throws MeshError if a tag stands for two nodes, or the tags are so far
+   * apart that 32 bits are not enough for them.
+   */
+  void finish();
+
+  /** The number of the corner that is called `tag`; -1 if no node can have the tag. */
+  std::int64_t corner(std::int64_t tag) const
   {
-    const std::int64_t end = this->Others.empty() ? this->Count : this->Consecutive;
-    return this->distance(tag) < static_cast<std::uint64_t>(end);
+    const std::uint64_t place = this->distance(tag);
+    return place < this->Range ? static_cast<std::int64_t>(place) : -1;
   }
+
+  /** Gives the vertices of the corners; nothing where corners are vertices. */
+  std::optional<Relabelling> takeNumbers() { return std::move(this->Numbers); }
+
+private:
+  struct Tag
+  {
+    std::int64_t tag;
+    std::int64_t vertex;
+    bool operator<(const Tag& other) const
+    {
+      return this->tag != other.tag ? this->tag < other.tag : this->vertex < other.vertex;
+    }
+  };
 
   /** From the first tag, without overflow. */
   std::uint64_t distance(std::int64_t tag) const
   {
     return static_cast<std::uint64_t>(tag) - static_cast<std::uint64_t>(this->First);
   }
+  void addOther(std::int64_t tag);
+  void number();
 
+  Workspace& Space;
   std::int64_t Count = 0;
-  std::int64_t First = 1;       ///< tag of the first node
-  std::int64_t Consecutive = 0; ///< nodes from the first on whose tags count up by one
-  std::unordered_map<std::int64_t, std::int64_t> Others;
+  std::int64_t First = 1; ///< tag of the first node; from finish() on the least tag
+  std::int64_t Least = std::numeric_limits<std::int64_t>::max();
+  std::int64_t Largest = std::numeric_limits<std::int64_t>::min();
+  std::uint64_t Range = 0; ///< tags from First to the largest one
+  std::optional<ExternalSort<Tag>> Tags;
+  std::optional<Relabelling> Numbers;
 };
 
 } // namespace smg

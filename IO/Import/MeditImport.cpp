@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Import/CellCollector.h"
 #include "IO/Import/Formats.h"
 #include "IO/Import/TextScanner.h"
 
 #include <array>
 #include <cctype>
-#include <cstring>
+#include <span>
 #include <string>
 
 namespace smg
@@ -14,107 +13,88 @@ namespace smg
 namespace
 {
 
+/** Sections of elements that become cells, and their corners. */
+struct Section
+{
+  std::string_view keyword;
+  std::size_t corners;
+};
+constexpr std::array<Section, 6> Sections{ { { "Triangles", 3 }, { "Quadrilaterals", 4 },
+  { "Tetrahedra", 4 }, { "Hexahedra", 8 }, { "Prisms", 6 }, { "Pyramids", 5 } } };
+
 /** Reads the sections of a Medit file. */
 class MeditReader
 {
 public:
-  MeditReader(InputFile& file, const ImportOptions& options)
-    : File(file)
-    , Options(options)
-    , Scanner(file, '#')
+  MeditReader(InputFile& file, RawMeshBuilder& builder)
+    : Scanner(file, '#')
+    , Builder(builder)
   {
+    const ColumnSpec references{ "Reference", ScalarType::Int64, 1 };
+    this->VertexReferences.column = builder.addVertexColumn(references);
+    this->ElementReferences.column = builder.addElementColumn(references);
   }
 
-  IndexedMesh read()
+  void read()
   {
-    this->findSizes();
-    while (!this->Scanner.atEnd())
+    try
     {
-      const std::string keyword(this->Scanner.token());
-      if (keyword == "End")
+      while (!this->Scanner.atEnd())
       {
-        break;
+        const std::string keyword(this->Scanner.token());
+        if (keyword == "End")
+        {
+          break;
+        }
+        this->readSection(keyword);
       }
-      this->readSection(keyword);
     }
-    if (this->LargestCorner > this->Mesh.vertices())
+    catch (const MeshError& error)
     {
-      this->Scanner.failAt(
-        this->LargestLine, "the element names vertex " + std::to_string(this->LargestCorner) +
-                             ", but the file has " + std::to_string(this->Mesh.vertices()));
+      this->Scanner.fail(error.what());
     }
     this->finish();
-    return std::move(this->Mesh);
   }
 
 private:
-  /** Looks the counts of the sections up, for the memory the mesh will take. */
-  void findSizes()
+  /** The labels of vertices or elements. */
+  struct References
   {
-    MeshSizes triangles;
-    triangles.vertexColumnBytes = triangles.cellColumnBytes = sizeof(std::int64_t);
-    MeshSizes tetrahedra = triangles;
-    TextScanner scanner(this->File, '#');
-    while (!scanner.atEnd())
-    {
-      const std::string_view token = scanner.tokenInLine();
-      if (token == "Vertices")
-      {
-        triangles.vertices = tetrahedra.vertices = scanner.count("the number of vertices", 4);
-      }
-      else if (token == "Triangles")
-      {
-        triangles.cells = scanner.count("the number of triangles", 6);
-      }
-      else if (token == "Tetrahedra")
-      {
-        tetrahedra.cells = scanner.count("the number of tetrahedra", 8);
-        tetrahedra.corners = 4;
-      }
-      scanner.skipLine();
-    }
-    this->File.rewind();
-    this->Options.budget.check(this->File.path(), tetrahedra.cells > 0 ? tetrahedra : triangles);
-  }
+    int column = -1;
+    bool used = false; ///< whether any is not 0
+  };
 
   void readSection(const std::string& keyword)
   {
     if (keyword == "MeshVersionFormatted")
     {
       this->Scanner.integer("the version");
+      return;
     }
-    else if (keyword == "Dimension")
+    if (keyword == "Dimension")
     {
-      this->Dimension = this->Scanner.integer("the dimension");
-      if (this->Dimension != 2 && this->Dimension != 3)
-      {
-        this->Scanner.fail("the dimension must be 2 or 3");
-      }
+      this->readDimension();
+      return;
     }
-    else if (keyword == "Vertices")
+    if (keyword == "Vertices")
     {
       this->readVertices();
+      return;
     }
-    else if (keyword == "Triangles" || keyword == "Quadrilaterals" || keyword == "Tetrahedra")
+    for (const Section& section : Sections)
     {
-      this->readCells(keyword[0] == 'T' && keyword[1] == 'r' ? 3 : 4, keyword[0] == 'Q');
-    }
-    else if (keyword == "Hexahedra" || keyword == "Prisms" || keyword == "Pyramids")
-    {
-      if (this->Scanner.count("the number of elements", 2) > 0)
+      if (keyword == section.keyword)
       {
-        this->Scanner.fail("the mesh has " + keyword + ": cut them into tetrahedra first");
+        this->readElements(section);
+        return;
       }
     }
-    else if (std::isalpha(static_cast<unsigned char>(keyword[0])))
-    {
-      this->skipSection();
-    }
-    else
+    if (!std::isalpha(static_cast<unsigned char>(keyword[0])))
     {
       this->Scanner.fail(inQuotes(keyword) + " stands where a keyword should be: a section is "
                                              "longer than its number of entries");
     }
+    this->skipSection();
   }
 
   /** Passes the numbers of a section that is of no interest. */
@@ -128,49 +108,72 @@ private:
     }
   }
 
+  void readDimension()
+  {
+    this->Dimension = this->Scanner.integer("the dimension");
+    if (this->Dimension != 2 && this->Dimension != 3)
+    {
+      this->Scanner.fail("the dimension must be 2 or 3");
+    }
+  }
+
   void readVertices()
   {
-    if (!this->Mesh.positions.empty())
+    if (this->Builder.vertices() > 0)
     {
       this->Scanner.fail("there are two sections 'Vertices'");
     }
     const std::int64_t count = this->Scanner.count("the number of vertices", 4);
-    this->Mesh.positions.reserve(static_cast<std::size_t>(count) * 3);
     for (std::int64_t i = 0; i < count; ++i)
     {
-      for (std::int64_t axis = 0; axis < 3; ++axis)
+      std::array<double, 3> point{};
+      for (std::size_t axis = 0; axis < static_cast<std::size_t>(this->Dimension); ++axis)
       {
-        this->Mesh.positions.push_back(
-          axis < this->Dimension ? this->Scanner.number("a coordinate of a vertex") : 0.0);
+        point[axis] = this->Scanner.number("a coordinate of a vertex");
       }
-      this->VertexReferences.push_back(this->reference());
+      this->Builder.vertex(point[0], point[1], point[2]);
+      const std::int64_t label = this->reference(this->VertexReferences);
+      this->Builder.vertexTuples(
+        this->VertexReferences.column, std::as_bytes(std::span(&label, 1)));
     }
   }
 
-  void readCells(int corners, bool quadrilateral)
+  void readElements(const Section& section)
   {
-    const std::int64_t count =
-      this->Scanner.count("the number of elements", 2 * static_cast<std::size_t>(corners));
-    std::array<std::int64_t, 4> cell{};
+    const std::int64_t count = this->Scanner.count("the number of elements", 2 * section.corners);
+    std::array<std::int64_t, 8> storage{};
+    const std::span<std::int64_t> corners = std::span(storage).first(section.corners);
     for (std::int64_t i = 0; i < count; ++i)
     {
-      for (int k = 0; k < corners; ++k)
+      for (std::int64_t& corner : corners)
       {
-        cell[static_cast<std::size_t>(k)] = this->corner();
+        corner = this->corner();
       }
-      this->CellReferences.push_back(this->reference());
-      if (corners == 3)
-      {
-        this->Cells.triangle(cell[0], cell[1], cell[2]);
-      }
-      else if (quadrilateral)
-      {
-        this->Cells.polygon(cell);
-      }
-      else
-      {
-        this->Cells.tetrahedron(cell[0], cell[1], cell[2], cell[3]);
-      }
+      this->add(section, corners);
+      const std::int64_t label = this->reference(this->ElementReferences);
+      this->Builder.elementTuples(
+        this->ElementReferences.column, std::as_bytes(std::span(&label, 1)));
+    }
+  }
+
+  void add(const Section& section, std::span<const std::int64_t> corners)
+  {
+    switch (section.keyword[0])
+    {
+      case 'Q':
+        this->Builder.polygon(corners);
+        break;
+      case 'T':
+        corners.size() == 3
+          ? this->Builder.triangle(corners[0], corners[1], corners[2])
+          : this->Builder.tetrahedron(corners[0], corners[1], corners[2], corners[3]);
+        break;
+      default:
+        corners.size() == 6
+          // The first triangle of a prism faces in here, and out in VTK.
+          ? this->Builder.solid(std::array<std::int64_t, 6>{
+              corners[0], corners[2], corners[1], corners[3], corners[5], corners[4] })
+          : this->Builder.solid(corners);
     }
   }
 
@@ -191,43 +194,36 @@ private:
   }
 
   /** The label at the end of an entry's line; some writers leave it out. */
-  std::int64_t reference()
+  std::int64_t reference(References& references)
   {
     const std::string_view token = this->Scanner.tokenInLine();
     const std::int64_t label = token.empty() ? 0 : this->Scanner.toInteger(token, "a label");
-    this->Labelled = this->Labelled || label != 0;
+    references.used = references.used || label != 0;
     return label;
   }
 
   void finish()
   {
-    std::vector<Column> cellColumns;
-    if (this->Labelled)
+    // Only now: the vertices may come after the elements.
+    if (this->LargestCorner > this->Builder.vertices())
     {
-      this->Mesh.vertexColumns.push_back(labels(this->VertexReferences));
-      cellColumns.push_back(labels(this->CellReferences));
+      this->Scanner.failAt(
+        this->LargestLine, "the element names vertex " + std::to_string(this->LargestCorner) +
+                             ", but the file has " + std::to_string(this->Builder.vertices()));
     }
-    this->Cells.finish(this->Mesh, std::move(cellColumns));
+    if (!this->VertexReferences.used)
+    {
+      this->Builder.dropVertexColumn(this->VertexReferences.column);
+    }
+    if (!this->ElementReferences.used)
+    {
+      this->Builder.dropElementColumn(this->ElementReferences.column);
+    }
   }
 
-  static Column labels(const std::vector<std::int64_t>& values)
-  {
-    Column column{ { "Reference", ScalarType::Int64, 1 }, {} };
-    column.resize(values.size());
-    if (!values.empty())
-    {
-      std::memcpy(column.bytes.data(), values.data(), column.bytes.size());
-    }
-    return column;
-  }
-
-  InputFile& File;
-  const ImportOptions& Options;
   TextScanner Scanner;
-  IndexedMesh Mesh;
-  CellCollector Cells;
-  std::vector<std::int64_t> VertexReferences, CellReferences;
-  bool Labelled = false;
+  RawMeshBuilder& Builder;
+  References VertexReferences, ElementReferences;
   std::int64_t Dimension = 3;
   std::int64_t LargestCorner = 0;
   std::int64_t LargestLine = 0;
@@ -235,9 +231,9 @@ private:
 
 } // namespace
 
-IndexedMesh importMedit(InputFile& file, const ImportOptions& options)
+void importMedit(InputFile& file, RawMeshBuilder& builder)
 {
-  return MeditReader(file, options).read();
+  MeditReader(file, builder).read();
 }
 
 } // namespace smg

@@ -255,6 +255,11 @@ void RawMeshBuilder::solid(std::span<const std::int64_t> corners)
     return;
   }
   const TetrahedraOfSolid tetrahedra = splitSolid(corners);
+  if (tetrahedra.all().empty())
+  {
+    this->dropped();
+    return;
+  }
   for (const auto& tetrahedron : tetrahedra.all())
   {
     this->cell(tetrahedron);

@@ -13,8 +13,13 @@ namespace smg
 class TetrahedraOfSolid
 {
 public:
+  /** Adds a tetrahedron, unless two of its corners are the same: those of a collapsed solid. */
   void add(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d)
   {
+    if (a == b || a == c || a == d || b == c || b == d || c == d)
+    {
+      return;
+    }
     this->Cells[this->Count++] = { a, b, c, d };
   }
   std::span<const std::array<std::int64_t, 4>> all() const
@@ -30,7 +35,8 @@ private:
 /**
  * Cuts a hexahedron (8 corners), wedge (6) or pyramid (5), corners in VTK's order, into tetrahedra
  * of the same orientation. Every quadrilateral is cut along the diagonal of its least corner, so
- * that neighbours fit together whatever they are (Dompierre et al., How to subdivide pyramids,
+ * that neighbours fit together whatever they are; where corners fall together there are fewer
+ * tetrahedra, or none (Dompierre et al., How to subdivide pyramids,
  * prisms and hexahedra into tetrahedra, 1999).
  */
 TetrahedraOfSolid splitSolid(std::span<const std::int64_t> corners);

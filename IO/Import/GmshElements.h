@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Raw/RawMeshBuilder.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace smg
+{
+
+/** What the elements of a Gmsh file are, whatever their order. */
+enum class GmshShape : std::uint8_t
+{
+  None, ///< a point or a line: no cell of a mesh
+  Triangle,
+  Quadrilateral,
+  Tetrahedron,
+  Hexahedron,
+  Prism,
+  Pyramid
+};
+
+/** A type of elements: its shape, and its nodes, of which the corners come first. */
+struct GmshElementType
+{
+  GmshShape shape = GmshShape::None;
+  std::uint16_t nodes = 0; ///< 0: there is no such type
+
+  std::size_t corners() const;
+};
+
+/** The element type of this number in a .msh file. */
+GmshElementType gmshElementType(std::int64_t type);
+
+/** Gives an element to the builder; `corners` are type.corners() vertices in Gmsh's order. */
+void addGmshElement(
+  RawMeshBuilder& builder, GmshElementType type, std::span<const std::int64_t> corners);
+
+} // namespace smg

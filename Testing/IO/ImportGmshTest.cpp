@@ -1,0 +1,470 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/IO/VolumeImport.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <numeric>
+
+namespace smg::testing
+{
+namespace
+{
+
+using Numbers = std::vector<std::int64_t>;
+
+/** A kind of .msh file. */
+struct Variant
+{
+  int version = 2; ///< 2.2 or 4.1
+  bool binary = false;
+  bool swapped = false; ///< the byte order that this machine has not
+};
+constexpr std::array<Variant, 6> Variants{ { { 2, false, false }, { 4, false, false },
+  { 2, true, false }, { 2, true, true }, { 4, true, false }, { 4, true, true } } };
+
+struct Element
+{
+  int type;
+  Numbers nodes; ///< tags
+};
+
+/** Writes .msh files of all variants. */
+class GmshWriter
+{
+public:
+  explicit GmshWriter(Variant variant)
+    : Kind(variant)
+  {
+    this->Bytes = std::string("$MeshFormat\n") + (variant.version == 2 ? "2.2 " : "4.1 ") +
+                  (variant.binary ? "1" : "0") + " 8\n";
+    if (variant.binary)
+    {
+      this->integer(1);
+      this->Bytes += '\n';
+    }
+    this->Bytes += "$EndMeshFormat\n";
+  }
+
+  void text(const std::string& bytes) { this->Bytes += bytes; }
+  void integer(std::int64_t value) { this->number(static_cast<std::int32_t>(value)); }
+  void size(std::int64_t value) { this->number(value); }
+  void real(double value) { this->number(value); }
+  void endRow() { this->Bytes += this->Kind.binary ? "" : "\n"; }
+
+  void nodes(const Numbers& tags, const std::vector<std::array<double, 3>>& points)
+  {
+    this->text("$Nodes\n");
+    if (this->Kind.version == 2)
+    {
+      this->text(std::to_string(tags.size()) + '\n');
+      for (std::size_t i = 0; i < tags.size(); ++i)
+      {
+        this->integer(tags[i]);
+        this->point(points[i]);
+      }
+    }
+    else
+    {
+      this->head({ 1, std::int64_t(tags.size()), 1, 99 });
+      this->block(3, 1, 0, std::int64_t(tags.size()));
+      for (const std::int64_t tag : tags)
+      {
+        this->size(tag);
+        this->endRow();
+      }
+      for (const auto& point : points)
+      {
+        this->point(point);
+      }
+    }
+    this->end("$EndNodes");
+  }
+
+  void elements(const std::vector<Element>& elements)
+  {
+    this->text("$Elements\n");
+    const auto count = static_cast<std::int64_t>(elements.size());
+    this->Kind.version == 2 ? this->text(std::to_string(count) + '\n')
+                            : this->head({ count, count, 1, count });
+    std::int64_t tag = 0;
+    for (const Element& element : elements)
+    {
+      this->element(element, ++tag);
+    }
+    this->end("$EndElements");
+  }
+
+  const std::string& bytes() const { return this->Bytes; }
+
+private:
+  template <class T>
+  void number(T value)
+  {
+    if (!this->Kind.binary)
+    {
+      this->Bytes += exact(static_cast<double>(value)) + ' ';
+      return;
+    }
+    std::array<char, sizeof(T)> raw;
+    std::memcpy(raw.data(), &value, sizeof(T));
+    if (this->Kind.swapped)
+    {
+      std::ranges::reverse(raw);
+    }
+    this->Bytes.append(raw.data(), sizeof(T));
+  }
+
+  void head(const Numbers& sizes)
+  {
+    for (const std::int64_t size : sizes)
+    {
+      this->size(size);
+    }
+    this->endRow();
+  }
+  void block(int a, int b, int c, std::int64_t count)
+  {
+    this->integer(a);
+    this->integer(b);
+    this->integer(c);
+    this->size(count);
+    this->endRow();
+  }
+  void point(const std::array<double, 3>& point)
+  {
+    for (const double coordinate : point)
+    {
+      this->real(coordinate);
+    }
+    this->endRow();
+  }
+  void element(const Element& element, std::int64_t tag)
+  {
+    if (this->Kind.version == 4)
+    {
+      this->block(3, 1, element.type, 1);
+      this->size(tag);
+      for (const std::int64_t node : element.nodes)
+      {
+        this->size(node);
+      }
+      this->endRow();
+      return;
+    }
+    // A head, which is a group of one element in a binary file; two tags.
+    const std::int64_t binaryHead[] = { element.type, 1, 2, tag };
+    const std::int64_t textHead[] = { tag, element.type, 2 };
+    for (const std::int64_t number : this->Kind.binary ? std::span<const std::int64_t>(binaryHead)
+                                                       : std::span<const std::int64_t>(textHead))
+    {
+      this->integer(number);
+    }
+    this->integer(17);
+    this->integer(18);
+    for (const std::int64_t node : element.nodes)
+    {
+      this->integer(node);
+    }
+    this->endRow();
+  }
+  void end(const std::string& line)
+  {
+    this->Bytes += (this->Kind.binary ? "\n" : "") + line + '\n';
+  }
+
+  Variant Kind;
+  std::string Bytes;
+};
+
+/** A point and a line, then the four solids, in file of this kind, with these tags of the nodes. */
+std::string fourSolids(Variant variant, const Numbers& tags)
+{
+  GmshWriter writer(variant);
+  writer.nodes(tags, FourSolidsPoints);
+  std::vector<Element> elements;
+  constexpr int types[] = { 5, 7, 6, 4 };
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    Element element{ types[i], {} };
+    for (const std::int64_t corner : FourSolids[i])
+    {
+      element.nodes.push_back(tags[static_cast<std::size_t>(corner)]);
+    }
+    elements.push_back(element);
+  }
+  writer.elements(elements);
+  return writer.bytes();
+}
+
+Numbers consecutiveTags(std::int64_t first)
+{
+  Numbers tags(12);
+  std::iota(tags.begin(), tags.end(), first);
+  return tags;
+}
+
+const std::string Format2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+const std::string Format4 = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+const std::string Nodes2 = "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n";
+const std::string Elements2 = "$Elements\n1\n1 4 2 0 1 1 2 3 4\n$EndElements\n";
+
+class ImportGmsh : public VolumeImport
+{
+protected:
+  ReadMesh gmsh(const std::string& bytes, CellChoice choice = CellChoice::Only)
+  {
+    return this->read(importGmsh, "a.msh", bytes, choice);
+  }
+  void expectRefused(const std::string& bytes, const std::string& part)
+  {
+    expectError([&] { this->gmsh(bytes); }, part);
+  }
+};
+
+} // namespace
+
+TEST_F(ImportGmsh, AllVariantsAndShapes)
+{
+  for (const Variant& variant : Variants)
+  {
+    SCOPED_TRACE(std::to_string(variant.version) + (variant.binary ? " binary" : " text") +
+                 (variant.swapped ? ", swapped" : ""));
+    expectFourSolids(this->gmsh(fourSolids(variant, consecutiveTags(1))));
+    expectFourSolids(this->gmsh(fourSolids(variant, consecutiveTags(77))));
+  }
+}
+
+TEST_F(ImportGmsh, TagsInAnyOrderKeepTheOrderOfTheVertices)
+{
+  const Numbers tags{ 1, 2, 40, 3, 1000, 7, 5, 4, 900, 13, 12, 11 };
+  for (const Variant& variant : Variants)
+  {
+    const ReadMesh mesh = this->gmsh(fourSolids(variant, tags));
+    expectFourSolids(mesh);
+    for (std::size_t i = 0; i < 12; ++i)
+    {
+      EXPECT_EQ(mesh.positions[3 * i + 2], FourSolidsPoints[i][2]);
+    }
+    EXPECT_EQ((Numbers{ mesh.corners.end() - 4, mesh.corners.end() }), FourSolids[3]);
+  }
+}
+
+TEST_F(ImportGmsh, TagsFarApartTakeSeveralPasses)
+{
+  Numbers tags = consecutiveTags(1);
+  tags[3] = 9000000;
+  tags[8] = 5000000;
+  expectFourSolids(this->gmsh(fourSolids(Variants[1], tags)));
+  tags[3] = 4294967290;
+  expectFourSolids(this->gmsh(fourSolids(Variants[1], tags)));
+  // Only their distance matters, not their size.
+  for (std::int64_t& tag : tags)
+  {
+    tag += std::int64_t(1) << 40;
+  }
+  expectFourSolids(this->gmsh(fourSolids(Variants[4], tags)));
+  tags[8] += std::int64_t(1) << 32;
+  this->expectRefused(fourSolids(Variants[4], tags), "renumber the nodes");
+}
+
+TEST_F(ImportGmsh, TrianglesAndQuadrilaterals)
+{
+  const ReadMesh mesh = this->gmsh("$Comments\nby hand\n$EndComments\n" + Format2 +
+                                   "$PhysicalNames\n1\n2 1 \"skin\"\n$EndPhysicalNames\n" + Nodes2 +
+                                   "$Elements\n4\n1 1 2 0 1 1 2\n2 2 2 0 1 1 2 3\n3 3 0 1 2 3 4\n"
+                                   "4 15 1 0 1\n$EndElements\n$NodeData\n1\n$EndNodeData\n");
+  EXPECT_EQ(mesh.cellType, CellType::Triangle);
+  EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 0, 1, 2, 0, 2, 3 }));
+  EXPECT_EQ(mesh.elements, (Numbers{ 1, 2, 2 }));
+  EXPECT_EQ(mesh.counts.droppedCells, 2);
+}
+
+TEST_F(ImportGmsh, KindsOfCellsAreChosen)
+{
+  const std::string bytes =
+    Format2 + Nodes2 + "$Elements\n2\n1 2 0 1 2 3\n2 4 0 1 2 3 4\n$EndElements\n";
+  this->expectRefused(bytes, "a.msh, line 14: the file has both");
+  EXPECT_EQ(this->gmsh(bytes, CellChoice::Tetrahedra).corners, (Numbers{ 0, 1, 2, 3 }));
+  EXPECT_EQ(this->gmsh(bytes, CellChoice::Triangles).corners, (Numbers{ 0, 1, 2 }));
+}
+
+TEST_F(ImportGmsh, OnlyCornersOfHigherOrderElementsAreUsed)
+{
+  // Types, by their numbers of nodes, as the reference manual of Gmsh lists them.
+  constexpr std::array<std::pair<int, int>, 31> types{ { { 1, 2 }, { 2, 3 }, { 3, 4 }, { 4, 4 },
+    { 5, 8 }, { 6, 6 }, { 7, 5 }, { 8, 3 }, { 9, 6 }, { 10, 9 }, { 11, 10 }, { 12, 27 }, { 13, 18 },
+    { 14, 14 }, { 15, 1 }, { 16, 8 }, { 17, 20 }, { 18, 15 }, { 19, 13 }, { 20, 9 }, { 21, 10 },
+    { 22, 12 }, { 23, 15 }, { 24, 15 }, { 25, 21 }, { 26, 4 }, { 27, 5 }, { 28, 6 }, { 29, 20 },
+    { 30, 35 }, { 31, 56 } } };
+  for (const auto choice : { CellChoice::Triangles, CellChoice::Tetrahedra })
+  {
+    GmshWriter writer(Variants[2]);
+    std::vector<Element> elements;
+    for (const auto& [type, nodes] : types)
+    {
+      Element element{ type, Numbers(static_cast<std::size_t>(nodes)) };
+      std::iota(element.nodes.begin(), element.nodes.end(), 1);
+      elements.push_back(element);
+    }
+    Numbers tags(56);
+    std::iota(tags.begin(), tags.end(), 1);
+    writer.nodes(tags, std::vector<std::array<double, 3>>(56));
+    writer.elements(elements);
+    const ReadMesh mesh = this->gmsh(writer.bytes(), choice);
+    EXPECT_LT(*std::ranges::max_element(mesh.corners), 8);
+    if (choice == CellChoice::Triangles)
+    {
+      // Triangles 2, 9, 20 to 25; quadrilaterals 3, 10, 16.
+      EXPECT_EQ(mesh.cells(), 8 + 2 * 3);
+      EXPECT_EQ(mesh.counts.higherOrderCells, 7 + 2);
+    }
+    else
+    {
+      // Tetrahedra 4, 11, 29 to 31; hexahedra 5, 12, 17; prisms 6, 13, 18; pyramids 7, 14, 19.
+      EXPECT_EQ(mesh.cells(), 5 + 6 * 3 + 3 * 3 + 2 * 3);
+      EXPECT_EQ(mesh.counts.higherOrderCells, 4 + 2 + 2 + 2);
+    }
+  }
+}
+
+TEST_F(ImportGmsh, ParametersOfNodesArePassed)
+{
+  for (const Variant& variant : { Variants[1], Variants[4], Variants[5] })
+  {
+    GmshWriter writer(variant);
+    writer.text("$Nodes\n");
+    for (const std::int64_t size : { 3, 4, 1, 4 })
+    {
+      writer.size(size);
+    }
+    const auto block = [&writer](int dimension, int parametric, const Numbers& tags)
+    {
+      writer.integer(dimension);
+      writer.integer(1);
+      writer.integer(parametric);
+      writer.size(std::int64_t(tags.size()));
+      for (const std::int64_t tag : tags)
+      {
+        writer.size(tag);
+      }
+      for (const std::int64_t tag : tags)
+      {
+        for (int k = 0; k < 3; ++k)
+        {
+          writer.real(k + 1 == tag - 1 ? 1 : 0);
+        }
+        for (int k = 0; k < dimension * parametric; ++k)
+        {
+          writer.real(0.125);
+        }
+      }
+    };
+    block(2, 1, { 1, 2 });
+    block(0, 1, { 3 });
+    block(3, 0, { 4 });
+    writer.text("\n$EndNodes\n");
+    writer.elements({ { 4, { 1, 2, 3, 4 } } });
+    const ReadMesh mesh = this->gmsh(writer.bytes());
+    EXPECT_EQ(mesh.positions, (std::vector<double>{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 }));
+  }
+}
+
+TEST_F(ImportGmsh, OtherSectionsOfBinaryFilesArePassed)
+{
+  GmshWriter writer(Variants[4]);
+  // Longer than what is in memory of a file, its end between two windows or not.
+  std::string periodic((std::size_t(2) << 20) + 12345, '\n');
+  periodic.replace(5000, 8, "$EndPeri");
+  writer.text("$Periodic\n" + periodic + "\n$EndPeriodic\n");
+  writer.nodes({ 1, 2, 3, 4 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } });
+  writer.elements({ { 4, { 1, 2, 3, 4 } } });
+  EXPECT_EQ(this->gmsh(writer.bytes()).cells(), 1);
+  const std::string cut = writer.bytes().substr(0, 2000000);
+  this->expectRefused(cut, "a.msh, byte 2000000: the file is truncated: $EndPeriodic is missing");
+}
+
+TEST_F(ImportGmsh, ErrorsOfTextNameTheLine)
+{
+  this->expectRefused(Nodes2 + Elements2, "a.msh, line 1: the section $MeshFormat is missing");
+  this->expectRefused("$MeshFormat\n4.0 0 8\n$EndMeshFormat\n", "line 2: this version");
+  this->expectRefused("$MeshFormat\n2.2 2 8\n$EndMeshFormat\n", "line 2: the kind of file");
+  this->expectRefused(Format2 + Elements2 + Nodes2, "line 4: the elements come before");
+  this->expectRefused(Format2 + Nodes2 + Nodes2 + Elements2, "line 11: there are two sections");
+  this->expectRefused(Format2 + Nodes2, "no triangles and no tetrahedra");
+  this->expectRefused(Format2 + "$Nodes\n5\n1 0 0 0\n2 0 0 0\n3 0 0 0\n4 0 0 0\n$EndNodes\n",
+    "line 10: '$EndNodes' is no integer");
+  this->expectRefused(Format2 + "$Nodes\n3\n1 0 0 0\n2 0 0 0\n3 0 0 0\n4 0 0 0\n$EndNodes\n",
+    "line 9: '4' stands where $EndNodes");
+  this->expectRefused(Format2 + "$Nodes\n999999999\n1 0 0 0\n", "line 5: 999999999 cannot be");
+  this->expectRefused(Format2 + "$Nodes\n2\n1 0 0 0\n1 0 0 0\n$EndNodes\n", "two nodes 1");
+  this->expectRefused(Format2 + "$Nodes\n1\n1 0 nan 0\n$EndNodes\n", "line 6: 'nan' is not finite");
+  const auto element = [](const std::string& row)
+  { return Format2 + Nodes2 + "$Elements\n1\n" + row + "\n$EndElements\n"; };
+  this->expectRefused(element("1 4 0 1 2 3 5"), "line 13: the element names node 5");
+  this->expectRefused(element("1 4 0 0 2 3 4"), "line 13: the element names node 0");
+  this->expectRefused(element("1 4 0 -1 2 3 4"), "line 13: the element names node -1");
+  this->expectRefused(element("1 34 0 1 2 3"), "line 13: elements of type 34 are not known");
+  this->expectRefused(element("1 4 -1 1 2 3 4"), "line 13: -1 cannot be");
+  this->expectRefused(
+    Format2 + Nodes2 + "$Elements\n1\n1 4 0 1 2 3 4\n", "$EndElements is missing");
+  this->expectRefused(Format2 + Nodes2 + Elements2 + "$Extra\n1\n", "$EndExtra is missing");
+  this->expectRefused(Format4 + "$Nodes\n1 2 1 2\n3 1 0 1\n1\n0 0 0\n$EndNodes\n", "says 2");
+  this->expectRefused(Format4 + "$Nodes\n1 1 1 1\n4 1 0 1\n1\n0 0 0\n$EndNodes\n", "line 6");
+}
+
+TEST_F(ImportGmsh, ACornerWithoutANodeIsRefusedWhereTagsHaveGaps)
+{
+  this->expectRefused(Format2 + "$Nodes\n3\n1 0 0 0\n9 0 0 0\n5 0 0 0\n$EndNodes\n$Elements\n1\n"
+                                "1 2 0 1 5 7\n$EndElements\n",
+    "a vertex that the file does not have");
+}
+
+TEST_F(ImportGmsh, ErrorsOfBinaryFilesNameTheByte)
+{
+  const std::string format = "$MeshFormat\n2.2 1 8\n";
+  this->expectRefused(format + std::string("\1\1\0\0\n", 5) + "$EndMeshFormat\n", "byte order");
+  this->expectRefused("$MeshFormat\n2.2 1 4\n", "numbers of 4 bytes");
+  for (const Variant& variant : { Variants[2], Variants[4] })
+  {
+    GmshWriter repeated(variant);
+    repeated.nodes({ 1, 3, 3 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } });
+    this->expectRefused(repeated.bytes(), "there are two nodes 3");
+    GmshWriter infinite(variant);
+    infinite.nodes({ 1 }, { { 0, std::numeric_limits<double>::infinity(), 0 } });
+    this->expectRefused(infinite.bytes(), "a.msh, byte ");
+    this->expectRefused(infinite.bytes(), "a coordinate is not finite");
+    GmshWriter wrong(variant);
+    wrong.nodes({ 1, 2, 3 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } });
+    wrong.elements({ { 2, { 1, 2, 4 } } });
+    this->expectRefused(wrong.bytes(), "the element names node 4");
+    const std::string good = fourSolids(variant, consecutiveTags(1));
+    this->expectRefused(good.substr(0, good.size() - 8), "$EndElements");
+    this->expectRefused(good.substr(0, good.size() - 40), "the file");
+  }
+}
+
+TEST_F(ImportGmsh, DamagedFilesAreRefusedOrValid)
+{
+  for (const Variant& variant : Variants)
+  {
+    this->expectSafe(importGmsh, "a.msh", fourSolids(variant, consecutiveTags(1)));
+  }
+  const Numbers tags{ 1, 2, 40, 3, 99, 7, 5, 4, 90, 13, 12, 11 };
+  this->expectSafe(importGmsh, "a.msh", fourSolids(Variants[1], tags));
+}
+
+TEST_F(ImportGmsh, ArchiveMeshHasItsCounts)
+{
+  const std::filesystem::path folder = SMG_TEST_DATA_DIR;
+  if (folder.empty())
+  {
+    GTEST_SKIP() << "SMG_TEST_DATA_DIR is not set";
+  }
+  const ReadMesh mesh = this->readFile(importGmsh, folder / "armadillo_tet.msh");
+  EXPECT_EQ(mesh.vertices(), 13230);
+  EXPECT_EQ(mesh.cells(), 54985);
+}
+
+} // namespace smg::testing

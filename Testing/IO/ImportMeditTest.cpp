@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/IO/VolumeImport.h"
+
+namespace smg::testing
+{
+namespace
+{
+
+const std::string Mixed = "MeshVersionFormatted 1\nDimension\n3\n# the points\nVertices 5\n"
+                          "0 0 0 1\n1 0 0 1\n0 1 0 2\n0 0 1 2\n1 1 1 3\nCorners 1\n1\n"
+                          "Triangles 1\n1 2 3 7\nTetrahedra\n2\n1 2 3 4 8\n2 3 4 5 9\nEnd\n";
+
+/** A file with these lines after the dimension and four vertices of a tetrahedron. */
+std::string fourVertices(const std::string& rest)
+{
+  return "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n" +
+         rest;
+}
+
+class ImportMedit : public VolumeImport
+{
+protected:
+  ReadMesh medit(const std::string& text, CellChoice choice = CellChoice::Only)
+  {
+    return this->read(importMedit, "a.mesh", text, choice);
+  }
+  void expectRefused(const std::string& text, const std::string& part)
+  {
+    expectError([&] { this->medit(text); }, part);
+  }
+};
+
+} // namespace
+
+TEST_F(ImportMedit, KindsOfCellsAreChosen)
+{
+  this->expectRefused(Mixed, "a.mesh, line 17: the file has both");
+  const ReadMesh tetrahedra = this->medit(Mixed, CellChoice::Tetrahedra);
+  EXPECT_EQ(tetrahedra.corners, (std::vector<std::int64_t>{ 0, 1, 2, 3, 1, 2, 3, 4 }));
+  EXPECT_EQ(tetrahedra.elements, (std::vector<std::int64_t>{ 1, 2 }));
+  EXPECT_EQ(tetrahedra.elementCount, 3);
+  EXPECT_EQ(tetrahedra.counts.droppedCells, 1);
+  const ReadMesh triangles = this->medit(Mixed, CellChoice::Triangles);
+  EXPECT_EQ(triangles.corners, (std::vector<std::int64_t>{ 0, 1, 2 }));
+}
+
+TEST_F(ImportMedit, ReferencesAreColumns)
+{
+  const ReadMesh mesh = this->medit(Mixed, CellChoice::Tetrahedra);
+  const ColumnSpec spec{ "Reference", ScalarType::Int64, 1 };
+  ASSERT_EQ(mesh.vertexColumns.size(), 1u);
+  EXPECT_EQ(mesh.vertexColumns[0].spec, spec);
+  EXPECT_EQ(mesh.vertexColumns[0].value(4), 3);
+  ASSERT_EQ(mesh.elementColumns.size(), 1u);
+  EXPECT_EQ(mesh.elementColumns[0].spec, spec);
+  EXPECT_EQ(mesh.elementColumns[0].value(0), 7);
+  EXPECT_EQ(mesh.elementColumns[0].value(2), 9);
+}
+
+TEST_F(ImportMedit, ReferencesThatAreZeroAreNoColumns)
+{
+  const ReadMesh mesh = this->medit(fourVertices("Tetrahedra\n1\n1 2 3 4 5\n"));
+  EXPECT_TRUE(mesh.vertexColumns.empty());
+  EXPECT_EQ(mesh.elementColumns.size(), 1u);
+  // Labels may be left out.
+  EXPECT_TRUE(this->medit(fourVertices("Tetrahedra\n1\n1 2 3 4\n")).elementColumns.empty());
+}
+
+TEST_F(ImportMedit, SolidsBecomeTetrahedra)
+{
+  std::string text = "MeshVersionFormatted 1\nDimension 3\n";
+  constexpr const char* keywords[] = { "Hexahedra", "Pyramids", "Prisms", "Tetrahedra" };
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    text += std::string(keywords[i]) + "\n1\n";
+    for (const std::int64_t corner : FourSolids[i])
+    {
+      text += std::to_string(corner + 1) + ' ';
+    }
+    text += "0\n";
+  }
+  // The vertices may come last.
+  text += "Vertices\n12\n";
+  for (const auto& point : FourSolidsPoints)
+  {
+    text += exact(point[0]) + ' ' + exact(point[1]) + ' ' + exact(point[2]) + " 0\n";
+  }
+  expectFourSolids(this->medit(text));
+}
+
+TEST_F(ImportMedit, PlaneMeshesAndQuadrilaterals)
+{
+  const ReadMesh mesh = this->medit("MeshVersionFormatted 1 Dimension 2 Vertices 4\n0 0 0\n1 0 0\n"
+                                    "1 1 0\n0 1 0\nQuadrilaterals 1\n1 2 3 4 0\nEnd");
+  EXPECT_EQ(mesh.positions, (std::vector<double>{ 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 }));
+  EXPECT_EQ(mesh.corners, (std::vector<std::int64_t>{ 0, 1, 2, 0, 2, 3 }));
+  EXPECT_EQ(mesh.counts.triangulatedPolygons, 1);
+}
+
+TEST_F(ImportMedit, OtherSectionsArePassed)
+{
+  const ReadMesh mesh =
+    this->medit(fourVertices("Edges\n2\n1 2 1\n2 3 1\nRidges 1\n1\nNormals\n1\n0.5 1e-3 -.5\n"
+                             "NormalAtVertices\n1\n1 1\nTetrahedra 1\n1 2 3 4 0\nRequiredVertices\n"
+                             "0\nEnd\nanything else"));
+  EXPECT_EQ(mesh.cells(), 1);
+  EXPECT_EQ(mesh.elementCount, 1);
+}
+
+TEST_F(ImportMedit, ErrorsNameTheLine)
+{
+  this->expectRefused("MeshVersionFormatted 1\nDimension 4\n", "a.mesh, line 2: the dimension");
+  this->expectRefused(fourVertices("Tetrahedra\n1\n1 2 3 5 0\n"), "line 11: the element names");
+  this->expectRefused(fourVertices("Tetrahedra\n1\n0 2 3 4 0\n"), "line 11: an element names");
+  this->expectRefused(fourVertices("Tetrahedra\n1\n-1 2 3 4 0\n"), "line 11: an element names");
+  this->expectRefused(fourVertices("Tetrahedra\n1\n1 2 3 99999999999999999999 0\n"), "line 11");
+  this->expectRefused(fourVertices("Tetrahedra\n1\n1 2 3 9999999999 0\n"), "line 11");
+  this->expectRefused(fourVertices("Tetrahedra\n1000000000000\n1 2 3 4 0\n"), "truncated");
+  this->expectRefused(fourVertices("Tetrahedra\n-1\n1 2 3 4 0\n"), "line 10: -1 cannot be");
+  this->expectRefused(fourVertices("Tetrahedra\n1\n1 2 3 4 0\n1 2 3 4 0\n"), "line 12: '1' stands");
+  this->expectRefused(fourVertices("Tetrahedra\n2\n1 2 3 4 0\n 1 2 3"), "line 12");
+  this->expectRefused(fourVertices("Vertices\n1\n1 2 3 0\n"), "two sections 'Vertices'");
+  this->expectRefused(fourVertices("Tetrahedra\n0\n"), "no triangles and no tetrahedra");
+  this->expectRefused("MeshVersionFormatted 1\nDimension 3\nVertices\n1\nnan 0 0 0\n", "line 5");
+  this->expectRefused("MeshVersionFormatted 1\nDimension 3\nVertices\n1\n0 1e999 0 0\n", "line 5");
+  this->expectRefused("MeshVersionFormatted 1\nDimension 3\nVertices\n9\n0 0 0 0\n", "line 4: 9");
+}
+
+TEST_F(ImportMedit, DamagedFilesAreRefusedOrValid)
+{
+  this->expectSafe(importMedit, "a.mesh", Mixed);
+  this->expectSafe(importMedit, "a.mesh",
+    fourVertices("Prisms\n1\n1 2 3 4 1 2 0\nTetrahedra\n2\n1 2 3 4 0\n1 2 4 3 1\nEnd\n"));
+}
+
+TEST_F(ImportMedit, ArchiveMeshHasItsCounts)
+{
+  const std::filesystem::path folder = SMG_TEST_DATA_DIR;
+  if (folder.empty())
+  {
+    GTEST_SKIP() << "SMG_TEST_DATA_DIR is not set";
+  }
+  const ReadMesh mesh =
+    this->readFile(importMedit, folder / "bunny_tet.mesh", CellChoice::Tetrahedra);
+  EXPECT_EQ(mesh.vertices(), 5433);
+  EXPECT_EQ(mesh.cells(), 34055);
+  EXPECT_TRUE(mesh.vertexColumns.empty());
+}
+
+} // namespace smg::testing
