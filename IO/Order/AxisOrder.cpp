@@ -14,10 +14,10 @@ namespace
 {
 
 template <class Real>
-std::array<Real, 3> point(std::span<const std::byte> positions, std::size_t i)
+std::array<Real, 3> point(const PageView& page, std::uint32_t i)
 {
   std::array<Real, 3> result;
-  std::memcpy(result.data(), positions.data() + i * sizeof(result), sizeof(result));
+  std::memcpy(result.data(), page.position(i, sizeof(result)), sizeof(result));
   return result;
 }
 
@@ -28,12 +28,11 @@ std::size_t longestAxis(VertexPages& pages, Workspace& workspace)
   least.fill(std::numeric_limits<double>::infinity());
   most.fill(-std::numeric_limits<double>::infinity());
   forEachPage(pages, workspace,
-    [&](std::int64_t page, std::span<const std::byte> bytes)
+    [&](const PageView& page)
     {
-      const auto positions = pages.positions(page, bytes);
-      for (std::size_t i = 0; i < pages.verticesOf(page); ++i)
+      for (std::uint32_t i = 0; i < page.vertices(); ++i)
       {
-        const std::array<Real, 3> p = point<Real>(positions, i);
+        const std::array<Real, 3> p = point<Real>(page, i);
         for (std::size_t axis = 0; axis < 3; ++axis)
         {
           least[axis] = std::min<double>(least[axis], p[axis]);
@@ -54,8 +53,7 @@ OrderedVertices order(VertexPages& pages, Workspace& workspace)
 {
   const std::size_t axis = longestAxis<Real>(pages, workspace);
   return scalarOrder<Real>(pages, workspace,
-    [&pages, axis](std::int64_t page, std::span<const std::byte> bytes, std::size_t i)
-    { return double(point<Real>(pages.positions(page, bytes), i)[axis]); });
+    [axis](const PageView& page, std::uint32_t i) { return double(point<Real>(page, i)[axis]); });
 }
 
 } // namespace

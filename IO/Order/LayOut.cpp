@@ -5,6 +5,7 @@
 #include "IO/Order/FirstUseOrder.h"
 #include "IO/Order/SpectralOrder.h"
 
+#include <optional>
 #include <utility>
 
 namespace smg

@@ -7,13 +7,11 @@
 #include "IO/Order/VertexPages.h"
 
 #include <cstring>
-#include <span>
 
 namespace smg
 {
 
-/** Calls `take` with each page of the file: its number and all its bytes, in a buffer of the pool.
- */
+/** Calls `take` with a view of each whole page of the file, in a buffer of the pool. */
 template <class Take>
 void forEachPage(VertexPages& pages, Workspace& workspace, Take&& take)
 {
@@ -27,13 +25,13 @@ void forEachPage(VertexPages& pages, Workspace& workspace, Take&& take)
       buffer = Buffer(workspace.pool(), bytes + bytes / 4);
     }
     pages.read(page, buffer.bytes().first(bytes));
-    take(page, std::span<const std::byte>(buffer.bytes().first(bytes)));
+    take(pages.view(page, buffer.data()));
   }
 }
 
 /**
  * Sorts paged vertices by a value each, ties by their numbers in the file. `value` is called with
- * the page, its bytes and the number of the vertex in the page.
+ * a view of the page and the number of the vertex in the page.
  */
 template <class Real, class Value>
 OrderedVertices scalarOrder(VertexPages& pages, Workspace& workspace, Value&& value)
@@ -50,15 +48,13 @@ OrderedVertices scalarOrder(VertexPages& pages, Workspace& workspace, Value&& va
   };
   ExternalSort<Entry> sort(workspace, workspace.available() * 3 / 4);
   forEachPage(pages, workspace,
-    [&](std::int64_t page, std::span<const std::byte> bytes)
+    [&](const PageView& page)
     {
-      const auto ids = pages.ids(page, bytes);
-      const auto positions = pages.positions(page, bytes);
-      for (std::uint32_t i = 0; i < ids.size(); ++i)
+      for (std::uint32_t i = 0; i < page.vertices(); ++i)
       {
-        Entry entry{ value(page, bytes, i), { {}, ids[i], NoIndex } };
+        Entry entry{ value(page, i), { {}, page.ids()[i], NoIndex } };
         std::memcpy(
-          entry.vertex.position, positions.data() + i * 3 * sizeof(Real), 3 * sizeof(Real));
+          entry.vertex.position, page.position(i, 3 * sizeof(Real)), 3 * sizeof(Real));
         sort.put(entry);
       }
     });
