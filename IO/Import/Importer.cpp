@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Import/Importer.h"
 
-#include "IO/Container/ReservedNames.h"
-#include "IO/Formats/Suffix.h"
+#include "IO/Import/FormatOfBytes.h"
 #include "IO/Import/Formats.h"
+#include "IO/Import/Inflate.h"
 #include "Solver/Core/Error.h"
 
 #include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <system_error>
 
 namespace smg
 {
@@ -22,67 +22,122 @@ namespace
 
 std::atomic<VtkImporter> TheVtkImporter{ nullptr };
 
-std::string firstBytes(const std::filesystem::path& path)
+/** What the first bytes of a file are, without compression. */
+struct FileStart
 {
-  std::string bytes(256, '\0');
+  std::string bytes;
+  std::optional<std::uint64_t> size; ///< of the file; none if it is compressed
+};
+
+/** Of a file that cannot be read, nothing. */
+FileStart startOf(const std::filesystem::path& path)
+{
+  FileStart start{ std::string(FormatBytes, '\0'), {} };
   std::ifstream stream(path, std::ios::binary);
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
-  return bytes;
-}
-
-/** Whether the first line is OFF or one of its variants, as COFF or STN4OFF. */
-bool isOff(std::string_view bytes)
-{
-  const std::size_t at = bytes.find("OFF");
-  return at <= 5 && bytes.substr(0, at).find_first_not_of("STCN4n") == std::string_view::npos &&
-         (at + 3 == bytes.size() || std::isspace(static_cast<unsigned char>(bytes[at + 3])));
-}
-
-MeshFormat formatOfSuffix(const std::filesystem::path& path)
-{
-  const std::string suffix = lowerSuffix(path);
-  constexpr std::pair<std::string_view, MeshFormat> suffixes[] = { { ".ply", MeshFormat::Ply },
-    { ".obj", MeshFormat::Obj }, { ".off", MeshFormat::Off }, { ".stl", MeshFormat::Stl },
-    { ".mesh", MeshFormat::Medit }, { ".msh", MeshFormat::Gmsh }, { ".vtk", MeshFormat::VtkLegacy },
-    { ".vtp", MeshFormat::VtkXml }, { ".vtu", MeshFormat::VtkXml } };
-  for (const auto& [name, format] : suffixes)
+  stream.read(start.bytes.data(), static_cast<std::streamsize>(FormatBytes));
+  start.bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+  if (isGzip(start.bytes))
   {
-    if (suffix == name)
-    {
-      return format;
-    }
+    start.bytes = inflateStart(start.bytes, FormatBytes);
+    return start;
   }
-  return MeshFormat::Unknown;
-}
-
-IndexedMesh importVtk(
-  const std::filesystem::path& path, MeshFormat format, const ImportOptions& options)
-{
-  const VtkImporter importer = TheVtkImporter;
-  if (!importer)
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!error)
   {
-    throw Error(
-      path.string() +
-      ": this is a VTK file, and this program was built without VTK: convert it to PLY or .mesh.");
+    start.size = size;
   }
-  return importer(path, format, options);
+  return start;
 }
 
-/** Takes out the columns whose names mean something else in a stream. */
-void dropReserved(std::vector<Column>& columns, std::vector<std::string>& dropped)
+MeshFormat formatOf(const FileStart& start, const std::filesystem::path& path)
 {
-  std::erase_if(columns,
-    [&dropped](const Column& column)
-    {
-      const bool reserved = isReservedColumn(column.spec.name);
-      if (reserved)
-      {
-        dropped.push_back(column.spec.name);
-      }
-      return reserved;
-    });
+  MeshFormat format = formatOfSign(start.bytes);
+  format = format == MeshFormat::Unknown ? formatOfLooks(start.bytes, start.size) : format;
+  return format == MeshFormat::Unknown ? formatOfSuffix(path) : format;
 }
+
+void import(
+  InputFile& file, MeshFormat format, RawMeshBuilder& builder, const ProgressFunction& progress)
+{
+  switch (format)
+  {
+    case MeshFormat::Ply:
+      return importPly(file, builder);
+    case MeshFormat::Obj:
+      return importObj(file, builder);
+    case MeshFormat::Off:
+      return importOff(file, builder);
+    case MeshFormat::Stl:
+      return importStl(file, builder);
+    case MeshFormat::Medit:
+      return importMedit(file, builder);
+    case MeshFormat::Gmsh:
+      return importGmsh(file, builder);
+    case MeshFormat::TetGen:
+      return importTetGen(file, builder);
+    case MeshFormat::VtkLegacy:
+      return importLegacyVtk(file, builder);
+    case MeshFormat::VtkXml:
+      return importVtkXml(file, builder, progress);
+    case MeshFormat::VtkParallelXml:
+      return importParallelVtkXml(file, builder, progress);
+    case MeshFormat::Unknown:
+      throw Error(file.name() +
+                  ": the format is not known by its content or suffix: meshes are read from .vsm, "
+                  ".sma, .smb, .sva, .svb, .ply, .obj, .off, .stl, .mesh, .msh, .node, .ele, .vtk, "
+                  ".vtp, .vtu, .pvtp and .pvtu files, which may be compressed by gzip.");
+  }
+}
+
+RawMesh importInflated(
+  InputFile& file, Workspace& workspace, CellChoice cells, const ProgressFunction& progress)
+{
+  // The name is the one that the file had before it was inflated, and has its suffix.
+  const FileStart start{ std::string(file.at(0, FormatBytes).substr(0, FormatBytes)), file.size() };
+  try
+  {
+    RawMeshBuilder builder(workspace, cells);
+    import(file, formatOf(start, file.name()), builder, progress);
+    return builder.finish();
+  }
+  catch (const MeshError& error)
+  {
+    throw Error(file.name() + ": " + error.what() + '.');
+  }
+}
+
+/** The part of `whole` from `begin` to `end`, both 0 to 1. */
+ProgressFunction partOf(const ProgressFunction& whole, double begin, double end)
+{
+  if (!whole)
+  {
+    return {};
+  }
+  return [whole, begin, end](double done) { return whole(begin + done * (end - begin)); };
+}
+
+/** A file in the workspace that is removed at the end of the scope. */
+class ScratchFile
+{
+public:
+  ScratchFile(const Workspace& workspace, const char* name)
+    : Path(workspace.folder() / name)
+  {
+  }
+  ~ScratchFile()
+  {
+    std::error_code ignored;
+    std::filesystem::remove(this->Path, ignored);
+  }
+  ScratchFile(const ScratchFile&) = delete;
+  ScratchFile& operator=(const ScratchFile&) = delete;
+
+  const std::filesystem::path& path() const { return this->Path; }
+
+private:
+  std::filesystem::path Path;
+};
 
 } // namespace
 
@@ -91,77 +146,38 @@ void setVtkImporter(VtkImporter importer)
   TheVtkImporter = importer;
 }
 
+VtkImporter vtkImporter()
+{
+  return TheVtkImporter;
+}
+
 MeshFormat meshFormatOfContent(const std::filesystem::path& path)
 {
-  const std::string bytes = firstBytes(path);
-  const auto begins = [&bytes](std::string_view text) { return bytes.starts_with(text); };
-  if (begins("ply\n") || begins("ply\r"))
-  {
-    return MeshFormat::Ply;
-  }
-  if (begins("# vtk DataFile"))
-  {
-    return MeshFormat::VtkLegacy;
-  }
-  if (bytes.find("<VTKFile") != std::string::npos)
-  {
-    return MeshFormat::VtkXml;
-  }
-  if (begins("$MeshFormat"))
-  {
-    return MeshFormat::Gmsh;
-  }
-  if (bytes.find("MeshVersionFormatted") != std::string::npos)
-  {
-    return MeshFormat::Medit;
-  }
-  return isOff(bytes) ? MeshFormat::Off : MeshFormat::Unknown;
+  return formatOfSign(startOf(path).bytes);
 }
 
 MeshFormat meshFormat(const std::filesystem::path& path)
 {
-  const MeshFormat format = meshFormatOfContent(path);
-  return format != MeshFormat::Unknown ? format : formatOfSuffix(path);
+  return formatOf(startOf(path), path);
 }
 
-IndexedMesh importMesh(const std::filesystem::path& path, const ImportOptions& options)
+RawMesh importMesh(
+  const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options)
 {
-  InputFile file(path, options.progress);
-  const MeshFormat format = meshFormat(path);
-  const auto import = [&]
+  constexpr double inflatingShare = 0.3;
+  std::optional<ScratchFile> inflated;
   {
-    switch (format)
+    InputFile file(path, partOf(options.progress, 0.0, inflatingShare));
+    if (isGzip(file.at(0, 2)))
     {
-      case MeshFormat::Ply:
-        return importPly(file, options);
-      case MeshFormat::Obj:
-        return importObj(file, options);
-      case MeshFormat::Off:
-        return importOff(file, options);
-      case MeshFormat::Stl:
-        return importStl(file, options);
-      case MeshFormat::Medit:
-        return importMedit(file, options);
-      case MeshFormat::Gmsh:
-        return importGmsh(file, options);
-      case MeshFormat::VtkLegacy:
-      case MeshFormat::VtkXml:
-        return importVtk(path, format, options);
-      default:
-        throw Error(
-          path.string() +
-          ": the format is not known by its content or suffix: meshes are read from .vsm, .sma, "
-          ".smb, .sva, .svb, .ply, .obj, .off, .stl, .mesh, .msh, .vtk, .vtp and .vtu files.");
+      inflated.emplace(workspace, "inflated");
+      inflateFile(file, workspace, inflated->path());
     }
-  };
-  IndexedMesh mesh = import();
-  if (mesh.corners.empty())
-  {
-    throw Error(path.string() + ": the file has no triangles and no tetrahedra.");
   }
-  dropReserved(mesh.vertexColumns, mesh.droppedColumns);
-  dropReserved(mesh.cellColumns, mesh.droppedColumns);
-  return mesh;
+  const ProgressFunction progress =
+    inflated ? partOf(options.progress, inflatingShare, 1.0) : options.progress;
+  InputFile file(inflated ? inflated->path() : path, progress, path.string());
+  return importInflated(file, workspace, options.cells, progress);
 }
 
 } // namespace smg

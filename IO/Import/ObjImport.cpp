@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Import/CellCollector.h"
 #include "IO/Import/Formats.h"
 #include "IO/Import/TextScanner.h"
+#include "IO/Import/TriangleRuns.h"
 
-#include <cstring>
+#include <string>
 
 namespace smg
 {
@@ -11,127 +11,133 @@ namespace smg
 namespace
 {
 
-/** Counts the lines that begin with `v ` and `f `, for the memory they will take. */
-MeshSizes countLines(InputFile& file)
-{
-  MeshSizes sizes;
-  const char* at = file.begin();
-  while (at < file.end())
-  {
-    while (at < file.end() && (*at == ' ' || *at == '\t'))
-    {
-      ++at;
-    }
-    if (file.end() - at > 1 && (at[1] == ' ' || at[1] == '\t'))
-    {
-      sizes.vertices += *at == 'v';
-      sizes.cells += *at == 'f';
-    }
-    const void* newline = std::memchr(at, '\n', static_cast<std::size_t>(file.end() - at));
-    at = newline ? static_cast<const char*>(newline) + 1 : file.end();
-  }
-  return sizes;
-}
-
 /** Reads the lines of an OBJ file. */
 class ObjReader
 {
 public:
-  explicit ObjReader(InputFile& file)
+  ObjReader(InputFile& file, RawMeshBuilder& builder)
     : Scanner(file, '#')
+    , Builder(builder)
+    , Fan(builder)
   {
   }
 
-  IndexedMesh read(const MeshSizes& sizes)
+  void read()
   {
-    this->Mesh.positions.reserve(static_cast<std::size_t>(sizes.vertices) * 3);
-    this->Cells.reserve(sizes.cells, 0);
-    while (!this->Scanner.atEnd())
+    try
     {
-      const std::string_view keyword = this->Scanner.tokenInLine();
-      if (keyword == "v")
+      while (!this->Scanner.atEnd())
       {
-        this->readVertex();
+        const std::string_view keyword = this->Scanner.tokenInLine();
+        if (keyword == "v")
+        {
+          this->readVertex();
+        }
+        else if (keyword == "f")
+        {
+          this->readFace();
+        }
+        this->Scanner.skipLine();
       }
-      else if (keyword == "f")
-      {
-        this->readFace();
-      }
-      this->Scanner.skipLine();
     }
-    if (this->LargestCorner >= this->Mesh.vertices())
+    catch (const MeshError& error)
+    {
+      this->Scanner.fail(error.what());
+    }
+    if (this->LargestCorner >= this->Builder.vertices())
     {
       this->Scanner.failAt(
         this->LargestLine, "the face names vertex " + std::to_string(this->LargestCorner + 1) +
-                             ", but the file has " + std::to_string(this->Mesh.vertices()));
+                             ", but the file has " + std::to_string(this->Builder.vertices()));
     }
-    this->Cells.finish(this->Mesh);
-    return std::move(this->Mesh);
   }
 
 private:
-  void readVertex()
+  /** A token of a line; a backslash at the end of a line continues it. */
+  std::string_view nextToken()
   {
-    for (const char* what : { "the coordinate x", "the coordinate y", "the coordinate z" })
+    while (true)
     {
-      this->Mesh.positions.push_back(this->Scanner.toNumber(this->Scanner.tokenInLine(), what));
+      if (this->Continues)
+      {
+        if (!this->Scanner.tokenInLine().empty())
+        {
+          this->Scanner.fail("there is a backslash that is not at the end of its line");
+        }
+        this->Scanner.skipLine();
+        this->Continues = false;
+      }
+      std::string_view token = this->Scanner.tokenInLine();
+      if (token.ends_with('\\'))
+      {
+        this->Continues = true;
+        token.remove_suffix(1);
+      }
+      if (!token.empty() || !this->Continues)
+      {
+        return token;
+      }
     }
   }
 
-  /** A token of a face's line; a backslash at the end of a line continues it. */
-  std::string_view faceToken()
+  void readVertex()
   {
-    std::string_view token = this->Scanner.tokenInLine();
-    while (token == "\\")
+    const double x = this->Scanner.toNumber(this->nextToken(), "the coordinate x");
+    const double y = this->Scanner.toNumber(this->nextToken(), "the coordinate y");
+    const double z = this->Scanner.toNumber(this->nextToken(), "the coordinate z");
+    this->Builder.vertex(x, y, z);
+    while (this->Continues)
     {
-      this->Scanner.skipLine();
-      token = this->Scanner.tokenInLine();
+      this->nextToken(); // a weight or a colour
     }
-    return token;
   }
 
   void readFace()
   {
-    this->Polygon.clear();
-    for (std::string_view token = this->faceToken(); !token.empty(); token = this->faceToken())
+    for (std::string_view token = this->nextToken(); !token.empty(); token = this->nextToken())
     {
-      const std::int64_t number =
-        this->Scanner.toInteger(token.substr(0, token.find('/')), "a vertex of a face");
-      const std::int64_t corner = number < 0 ? this->Mesh.vertices() + number : number - 1;
-      if (number == 0 || corner < 0)
-      {
-        this->Scanner.fail("a face names vertex " + std::to_string(number) + ", where " +
-                           std::to_string(this->Mesh.vertices()) + " vertices have come so far");
-      }
-      if (corner > this->LargestCorner)
-      {
-        this->LargestCorner = corner;
-        this->LargestLine = this->Scanner.line();
-      }
-      this->Polygon.push_back(corner);
+      this->Fan.corner(this->corner(token));
     }
-    if (this->Polygon.size() < 3)
+    if (this->Fan.corners() < 3)
     {
       this->Scanner.fail("a face has fewer than three vertices");
     }
-    this->Cells.polygon(this->Polygon);
+    this->Fan.end();
+  }
+
+  /** The vertex that a token as 7, 7/1, 7//2 or -1/2/3 names. */
+  std::int64_t corner(std::string_view token)
+  {
+    const std::int64_t vertices = this->Builder.vertices();
+    const std::int64_t number =
+      this->Scanner.toInteger(token.substr(0, token.find('/')), "a vertex of a face");
+    const std::int64_t corner = number < 0 ? vertices + number : number - 1;
+    if (number == 0 || corner < 0)
+    {
+      this->Scanner.fail("a face names vertex " + std::to_string(number) + ", where " +
+                         std::to_string(vertices) + " vertices have come so far");
+    }
+    if (corner > this->LargestCorner)
+    {
+      this->LargestCorner = corner;
+      this->LargestLine = this->Scanner.line();
+    }
+    return corner;
   }
 
   TextScanner Scanner;
-  IndexedMesh Mesh;
-  CellCollector Cells;
-  std::vector<std::int64_t> Polygon;
+  RawMeshBuilder& Builder;
+  TriangleFan Fan;
+  bool Continues = false; ///< the line ends here and goes on in the next one
   std::int64_t LargestCorner = -1;
   std::int64_t LargestLine = 0;
 };
 
 } // namespace
 
-IndexedMesh importObj(InputFile& file, const ImportOptions& options)
+void importObj(InputFile& file, RawMeshBuilder& builder)
 {
-  const MeshSizes sizes = countLines(file);
-  options.budget.check(file.path(), sizes);
-  return ObjReader(file).read(sizes);
+  ObjReader(file, builder).read();
 }
 
 } // namespace smg

@@ -17,6 +17,21 @@
 namespace smg
 {
 
+/** The record of a PLY file that is being read, for errors. */
+struct PlyPlace
+{
+  const std::string* element = nullptr;
+  std::int64_t record = 0;
+
+  /** The sentence with the record before it. */
+  std::string with(const std::string& sentence) const
+  {
+    return this->element ? "record " + std::to_string(this->record) + " of element " +
+                             inQuotes(*this->element) + ": " + sentence
+                         : sentence;
+  }
+};
+
 /** Reads the numbers of a binary PLY body. `Swap`: the file's byte order is not the machine's. */
 template <bool Swap>
 class PlyBinaryCursor
@@ -24,16 +39,32 @@ class PlyBinaryCursor
 public:
   PlyBinaryCursor(InputFile& file, std::size_t offset)
     : File(file)
-    , At(file.begin() + offset)
+    , EndOffset(offset)
   {
   }
 
-  /** Begins record `record` of the element `element`. */
+  /** Begins record `record` of the element `element`, a string that stays. */
   void begin(const std::string& element, std::int64_t record)
   {
-    this->Element = &element;
-    this->Record = record;
-    this->File.passed(static_cast<std::size_t>(this->At - this->File.begin()));
+    this->Place = { &element, record };
+  }
+
+  /** The next number, which the file has as a T. */
+  template <class T>
+  T take()
+  {
+    if (static_cast<std::size_t>(this->End - this->At) < sizeof(T))
+    {
+      this->moveTo(this->offset(), sizeof(T));
+    }
+    std::array<char, sizeof(T)> bytes;
+    std::memcpy(bytes.data(), this->At, sizeof(T));
+    if constexpr (Swap)
+    {
+      std::reverse(bytes.begin(), bytes.end());
+    }
+    this->At += sizeof(T);
+    return std::bit_cast<T>(bytes);
   }
 
   double read(ScalarType type)
@@ -44,8 +75,15 @@ public:
   /** Passes `count` numbers. */
   void skip(ScalarType type, std::int64_t count)
   {
-    this->need(sizeOf(type) * static_cast<std::size_t>(count));
-    this->At += sizeOf(type) * static_cast<std::size_t>(count);
+    const std::size_t bytes = sizeOf(type) * static_cast<std::size_t>(count);
+    if (bytes > static_cast<std::size_t>(this->End - this->At))
+    {
+      // Whether the last of them is there.
+      this->moveTo(this->offset() + bytes - 1, 1);
+      ++this->At;
+      return;
+    }
+    this->At += bytes;
   }
 
   /** Whether `count` numbers can follow. */
@@ -54,45 +92,37 @@ public:
     return static_cast<std::size_t>(count) <= this->left() / sizeOf(type);
   }
 
-  std::size_t left() const { return static_cast<std::size_t>(this->File.end() - this->At); }
+  std::size_t left() const { return this->File.size() - this->offset(); }
 
   [[noreturn]] void fail(const std::string& sentence) const
   {
-    this->File.fail(static_cast<std::size_t>(this->At - this->File.begin()),
-      this->Element ? "record " + std::to_string(this->Record) + " of element " +
-                        inQuotes(*this->Element) + ": " + sentence
-                    : sentence);
+    this->File.fail(this->offset(), this->Place.with(sentence));
   }
 
 private:
-  void need(std::size_t bytes) const
+  std::size_t offset() const
   {
-    if (this->left() < bytes)
+    return this->EndOffset - static_cast<std::size_t>(this->End - this->At);
+  }
+
+  /** Has `least` bytes from `offset` on in memory. */
+  void moveTo(std::size_t offset, std::size_t least)
+  {
+    if (offset > this->File.size() || this->File.size() - offset < least)
     {
       this->fail("the file is truncated");
     }
-  }
-
-  template <class T>
-  T take()
-  {
-    this->need(sizeof(T));
-    std::array<char, sizeof(T)> bytes;
-    std::memcpy(bytes.data(), this->At, sizeof(T));
-    if constexpr (Swap)
-    {
-      std::reverse(bytes.begin(), bytes.end());
-    }
-    this->At += sizeof(T);
-    T value;
-    std::memcpy(&value, bytes.data(), sizeof(T));
-    return value;
+    const std::string_view bytes = this->File.at(offset, least);
+    this->At = bytes.data();
+    this->End = bytes.data() + bytes.size();
+    this->EndOffset = offset + bytes.size();
   }
 
   InputFile& File;
-  const char* At;
-  const std::string* Element = nullptr;
-  std::int64_t Record = 0;
+  const char* At = nullptr;
+  const char* End = nullptr;
+  std::size_t EndOffset; ///< place of the end in the file
+  PlyPlace Place;
 };
 
 /** Reads the numbers of a PLY body in text. */
@@ -100,35 +130,35 @@ class PlyTextCursor
 {
 public:
   PlyTextCursor(InputFile& file, std::size_t offset, std::int64_t line)
-    : File(file)
-    , Scanner(file, '\0', offset, line)
+    : Scanner(file, '\0', offset, line)
   {
   }
 
   void begin(const std::string& element, std::int64_t record)
   {
-    this->Element = &element;
-    this->Record = record;
+    this->Place = { &element, record };
+  }
+
+  template <class T>
+  T take()
+  {
+    const double value = this->Scanner.toNumber(this->Scanner.token(), "a property", false);
+    if constexpr (std::numeric_limits<T>::is_integer)
+    {
+      if (value != std::floor(value) ||
+          value < static_cast<double>(std::numeric_limits<T>::lowest()) ||
+          value > static_cast<double>(std::numeric_limits<T>::max()))
+      {
+        this->fail(
+          "a number is out of the range of its type " + std::string(nameOf(scalarTypeOf<T>())));
+      }
+    }
+    return static_cast<T>(value);
   }
 
   double read(ScalarType type)
   {
-    const double value = this->Scanner.toNumber(this->Scanner.token(), "a property", false);
-    if (type < ScalarType::Float32)
-    {
-      dispatch(type,
-        [&]<class T>(T)
-        {
-          if (value != std::floor(value) ||
-              value < static_cast<double>(std::numeric_limits<T>::lowest()) ||
-              value > static_cast<double>(std::numeric_limits<T>::max()))
-          {
-            this->fail("a number is out of the range of its type " + std::string(nameOf(type)));
-          }
-        });
-    }
-    // The number that a binary file would have.
-    return type == ScalarType::Float32 ? static_cast<double>(static_cast<float>(value)) : value;
+    return dispatch(type, [this]<class T>(T) { return static_cast<double>(this->take<T>()); });
   }
 
   void skip(ScalarType, std::int64_t count)
@@ -147,20 +177,16 @@ public:
     return static_cast<std::size_t>(count) <= (this->left() + 1) / 2;
   }
 
-  std::size_t left() const { return this->File.size() - this->Scanner.offset(); }
+  std::size_t left() const { return this->Scanner.left(); }
 
   [[noreturn]] void fail(const std::string& sentence) const
   {
-    this->Scanner.fail(this->Element ? "record " + std::to_string(this->Record) + " of element " +
-                                         inQuotes(*this->Element) + ": " + sentence
-                                     : sentence);
+    this->Scanner.fail(this->Place.with(sentence));
   }
 
 private:
-  InputFile& File;
   TextScanner Scanner;
-  const std::string* Element = nullptr;
-  std::int64_t Record = 0;
+  PlyPlace Place;
 };
 
 /** Calls f with a cursor at the beginning of the body. */

@@ -130,6 +130,9 @@ PlyHeader readPlyHeader(InputFile& file)
 {
   TextScanner scanner(file);
   PlyHeader header;
+  // A header is held in memory.
+  constexpr int MostLines = 4096;
+  int lines = 0;
   if (scanner.tokenInLine() != "ply")
   {
     scanner.fail("a PLY file must begin with the line 'ply'");
@@ -142,6 +145,11 @@ PlyHeader readPlyHeader(InputFile& file)
     if (keyword == "end_header")
     {
       break;
+    }
+    if ((keyword == "element" || keyword == "property") && ++lines > MostLines)
+    {
+      scanner.fail(
+        "the header has more than " + std::to_string(MostLines) + " elements and properties");
     }
     if (keyword == "format")
     {

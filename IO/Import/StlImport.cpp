@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Import/CellCollector.h"
+#include "IO/Import/CornerWelder.h"
 #include "IO/Import/Formats.h"
+#include "IO/Import/StlLayout.h"
 #include "IO/Import/TextScanner.h"
-
+#include "IO/Import/TriangleRuns.h"
 #include "Solver/Core/Error.h"
 
-#include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
-#include <unordered_map>
+#include <string>
 
 namespace smg
 {
@@ -16,191 +16,180 @@ namespace smg
 namespace
 {
 
-constexpr std::size_t BinaryHeader = 84;
-constexpr std::size_t BinaryTriangle = 50;
-
-using Point = std::array<float, 3>;
-
-struct PointHash
-{
-  std::size_t operator()(const Point& point) const
-  {
-    std::uint64_t hash = 0x9e3779b97f4a7c15u;
-    for (const float coordinate : point)
-    {
-      std::uint32_t bits;
-      std::memcpy(&bits, &coordinate, sizeof(bits));
-      hash = (hash ^ bits) * 0xff51afd7ed558ccdu;
-      hash ^= hash >> 32;
-    }
-    return hash;
-  }
-};
-
-/** Makes one vertex of all corners with the same coordinates. */
-class Welder
+/** Takes the facets: their corners go to the welder, the numbers of their corners to a file. */
+class FacetCollector
 {
 public:
-  /** `sizes`: what is expected; when more vertices come, the budget is asked again. */
-  Welder(const std::filesystem::path& path, const MemoryBudget& budget, const MeshSizes& sizes)
-    : Path(path)
-    , Budget(budget)
-    , Sizes(sizes)
+  explicit FacetCollector(RawMeshBuilder& builder)
+    : Builder(builder)
+    , Welder(builder)
+    , Sizes(builder.workspace())
   {
-    budget.check(path, sizes);
   }
 
-  std::int64_t vertex(Point point)
+  void corner(const CornerWelder::Point& point)
   {
-    for (float& coordinate : point)
+    this->Welder.corner(point);
+    ++this->Size;
+  }
+  void endFacet()
+  {
+    this->Sizes.put(this->Size);
+    this->Size = 0;
+  }
+
+  /** Gives the mesh to the builder. */
+  void finish()
+  {
+    this->Sizes.close();
+    this->Builder.useSinglePrecision();
+    this->Welder.makeVertices();
+    TriangleFan fan(this->Builder);
+    RecordFile<std::uint32_t>::Reader sizes(this->Sizes);
+    for (std::uint32_t size = 0; sizes.next(size);)
     {
-      coordinate += 0.0f; // -0 and 0 are the same place
-    }
-    const auto [entry, fresh] =
-      this->Vertices.try_emplace(point, static_cast<std::int64_t>(this->Vertices.size()));
-    if (fresh)
-    {
-      if (entry->second >= this->Sizes.vertices)
+      for (std::uint32_t k = 0; k < size; ++k)
       {
-        this->Sizes.vertices *= 2;
-        this->Budget.check(this->Path, this->Sizes);
+        fan.corner(this->Welder.next());
       }
-      this->Positions.insert(this->Positions.end(), point.begin(), point.end());
+      fan.end();
     }
-    return entry->second;
   }
-
-  std::vector<double> positions() { return std::move(this->Positions); }
 
 private:
-  const std::filesystem::path& Path;
-  const MemoryBudget& Budget;
-  MeshSizes Sizes;
-  std::unordered_map<Point, std::int64_t, PointHash> Vertices;
-  std::vector<double> Positions;
+  RawMeshBuilder& Builder;
+  CornerWelder Welder;
+  RecordFile<std::uint32_t> Sizes;
+  std::uint32_t Size = 0; ///< corners so far of the facet that is being read
 };
 
-std::uint32_t littleEndian(const char* bytes)
+void readBinary(InputFile& file, FacetCollector& facets)
 {
-  std::uint32_t value = 0;
-  for (int i = 3; i >= 0; --i)
+  const std::string_view header = file.at(0, StlHeaderBytes);
+  const std::uint64_t end = stlBytes(header);
+  const std::uint32_t triangles = littleEndian32(header.data() + StlHeaderBytes - 4);
+  if (file.size() < end)
   {
-    value = value << 8 | static_cast<unsigned char>(bytes[i]);
-  }
-  return value;
-}
-
-bool isBinary(const InputFile& file)
-{
-  return file.size() >= BinaryHeader &&
-         (file.size() == BinaryHeader + BinaryTriangle * littleEndian(file.begin() + 80) ||
-           !file.text().starts_with("solid"));
-}
-
-void readBinary(InputFile& file, Welder& welder, CellCollector& cells)
-{
-  const std::size_t triangles = littleEndian(file.begin() + 80);
-  const std::size_t expected = BinaryHeader + BinaryTriangle * triangles;
-  if (file.size() < expected)
-  {
-    throw Error(file.path().string() + ": the file is truncated: " + std::to_string(triangles) +
-                " triangles take " + std::to_string(expected) + " bytes, it has " +
+    throw Error(file.name() + ": the file is truncated: " + std::to_string(triangles) +
+                " triangles take " + std::to_string(end) + " bytes, it has " +
                 std::to_string(file.size()) + '.');
   }
-  for (std::size_t i = 0; i < triangles; ++i)
+  constexpr std::size_t normalBytes = 3 * sizeof(float);
+  for (std::size_t offset = StlHeaderBytes; offset < end; offset += StlTriangleBytes)
   {
-    const std::size_t offset = BinaryHeader + BinaryTriangle * i;
-    std::array<std::int64_t, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k)
+    const char* at = file.at(offset, StlTriangleBytes).data() + normalBytes;
+    for (int k = 0; k < 3; ++k)
     {
-      Point point;
-      for (std::size_t axis = 0; axis < 3; ++axis)
+      CornerWelder::Point point;
+      for (float& coordinate : point)
       {
-        const std::uint32_t bits = littleEndian(file.begin() + offset + 12 + 12 * k + 4 * axis);
-        std::memcpy(&point[axis], &bits, sizeof(bits));
-        if (!std::isfinite(point[axis]))
-        {
-          file.fail(offset, "a coordinate of triangle " + std::to_string(i) + " is not finite");
-        }
+        coordinate = std::bit_cast<float>(littleEndian32(at));
+        at += sizeof(float);
       }
-      corners[k] = welder.vertex(point);
+      try
+      {
+        facets.corner(point);
+      }
+      catch (const MeshError& error)
+      {
+        file.fail(offset, "triangle " +
+                            std::to_string((offset - StlHeaderBytes) / StlTriangleBytes) + ": " +
+                            error.what());
+      }
     }
-    cells.triangle(corners[0], corners[1], corners[2]);
-    file.passed(offset);
+    facets.endFacet();
   }
 }
 
-void readText(InputFile& file, Welder& welder, CellCollector& cells)
+/** Reads the lines of an STL file in text. */
+class StlTextReader
 {
-  TextScanner scanner(file);
-  std::vector<std::int64_t> polygon;
-  bool inside = false;
-  bool ended = false;
-  while (!scanner.atEnd())
+public:
+  StlTextReader(InputFile& file, FacetCollector& facets)
+    : Scanner(file)
+    , Facets(facets)
   {
-    const std::string_view keyword = scanner.tokenInLine();
-    if (keyword == "vertex")
-    {
-      Point point;
-      for (float& coordinate : point)
-      {
-        coordinate =
-          static_cast<float>(scanner.toNumber(scanner.tokenInLine(), "a coordinate of a vertex"));
-      }
-      if (!std::isfinite(point[0]) || !std::isfinite(point[1]) || !std::isfinite(point[2]))
-      {
-        scanner.fail("a coordinate is beyond the range of single precision");
-      }
-      polygon.push_back(welder.vertex(point));
-    }
-    else if (keyword == "outer")
-    {
-      polygon.clear();
-      inside = true;
-    }
-    else if (keyword == "endloop")
-    {
-      cells.polygon(polygon);
-      inside = false;
-    }
-    else if (keyword != "solid" && keyword != "facet" && keyword != "endfacet" &&
-             keyword != "endsolid")
-    {
-      scanner.fail(inQuotes(keyword) + " is not a keyword of an STL file");
-    }
-    ended = keyword == "endsolid";
-    scanner.skipLine();
   }
-  if (inside || !ended)
+
+  void read()
   {
-    scanner.fail("the file is truncated: it must end with 'endsolid'");
+    bool ended = false;
+    while (!this->Scanner.atEnd())
+    {
+      const std::string_view keyword = this->Scanner.tokenInLine();
+      ended = keyword == "endsolid";
+      if (keyword == "vertex")
+      {
+        this->readVertex();
+      }
+      else if (keyword == "outer" || keyword == "endloop")
+      {
+        this->readLoop(keyword == "outer");
+      }
+      else if (!ended && keyword != "solid" && keyword != "facet" && keyword != "endfacet")
+      {
+        this->Scanner.fail(inQuotes(keyword) + " is not a keyword of an STL file");
+      }
+      this->Scanner.skipLine();
+    }
+    if (this->InLoop || !ended)
+    {
+      this->Scanner.fail("the file is truncated: it must end with 'endsolid'");
+    }
   }
-}
+
+private:
+  void readVertex()
+  {
+    if (!this->InLoop)
+    {
+      this->Scanner.fail("there is a vertex before 'outer loop'");
+    }
+    CornerWelder::Point point;
+    for (float& coordinate : point)
+    {
+      coordinate = static_cast<float>(
+        this->Scanner.toNumber(this->Scanner.tokenInLine(), "a coordinate of a vertex"));
+      if (!std::isfinite(coordinate))
+      {
+        this->Scanner.fail("a coordinate is beyond the range of single precision");
+      }
+    }
+    this->Facets.corner(point);
+  }
+
+  void readLoop(bool begins)
+  {
+    if (this->InLoop == begins)
+    {
+      this->Scanner.fail(
+        begins ? "a loop begins before the last one has ended" : "a loop ends that has not begun");
+    }
+    this->InLoop = begins;
+    if (!begins)
+    {
+      this->Facets.endFacet();
+    }
+  }
+
+  TextScanner Scanner;
+  FacetCollector& Facets;
+  bool InLoop = false;
+};
 
 } // namespace
 
-IndexedMesh importStl(InputFile& file, const ImportOptions& options)
+void importStl(InputFile& file, RawMeshBuilder& builder)
 {
-  const bool binary = isBinary(file);
-  if (!binary && !file.text().starts_with("solid"))
+  const std::string_view header = file.at(0, StlHeaderBytes);
+  const bool text = !isBinaryStl(header, file.size()) && TextScanner(file).peek() == "solid";
+  if (!text && file.size() < StlHeaderBytes)
   {
-    throw Error(file.path().string() + ": the file is too short for an STL file.");
+    throw Error(file.name() + ": the file is too short for an STL file.");
   }
-  // A triangle's text takes some 200 bytes, and a closed mesh has half as many vertices as
-  // triangles; the welder looks after meshes that have more. The table of the welded corners counts
-  // as attributes.
-  MeshSizes sizes;
-  sizes.cells = static_cast<std::int64_t>(file.size() / (binary ? BinaryTriangle : 200));
-  sizes.vertices = sizes.cells / 2 + 2;
-  sizes.vertexColumnBytes = 56;
-  Welder welder(file.path(), options.budget, sizes);
-  CellCollector cells;
-  binary ? readBinary(file, welder, cells) : readText(file, welder, cells);
-  IndexedMesh mesh;
-  mesh.doublePositions = false;
-  mesh.positions = welder.positions();
-  cells.finish(mesh);
-  return mesh;
+  FacetCollector facets(builder);
+  text ? StlTextReader(file, facets).read() : readBinary(file, facets);
+  facets.finish();
 }
 
 } // namespace smg

@@ -247,6 +247,18 @@ void RawMeshBuilder::strip(std::span<const std::int64_t> corners)
   this->endElement(triangles);
 }
 
+void RawMeshBuilder::endTriangles()
+{
+  const std::int64_t triangles = std::exchange(this->ElementTriangles, 0);
+  if (triangles == 0)
+  {
+    this->dropped();
+    return;
+  }
+  this->Mesh.counts.triangulatedPolygons += triangles > 1 ? 1 : 0;
+  this->endElement(triangles);
+}
+
 void RawMeshBuilder::solid(std::span<const std::int64_t> corners)
 {
   if (!this->wants(CellType::Tetrahedron))

@@ -92,6 +92,20 @@ public:
   /** A triangle strip; -1 starts another one. */
   void strip(std::span<const std::int64_t> corners);
   /**
+   * A triangle of the next element, of which more may come: for polygons and strips whose corners
+   * do not fit into memory. endTriangles() completes the element.
+   */
+  void triangleOfElement(std::int64_t a, std::int64_t b, std::int64_t c)
+  {
+    if (this->wants(CellType::Triangle))
+    {
+      this->cell(std::array<std::int64_t, 3>{ a, b, c });
+      ++this->ElementTriangles;
+    }
+  }
+  /** Without any triangle the element is a dropped one. */
+  void endTriangles();
+  /**
    * A hexahedron (8 corners), wedge (6) or pyramid (5), corners in VTK's order, becomes tetrahedra.
    * Each face is cut along the diagonal of its least corner, so that neighbours fit together.
    */
@@ -135,6 +149,7 @@ private:
   RawMesh Mesh;
   std::optional<CellType> Kind; ///< of the cells so far
   bool ElementIsCell = true;    ///< so far
+  std::int64_t ElementTriangles = 0;
   std::int64_t LargestCorner = -1, LargestElement = -1;
   std::vector<std::uint8_t> DroppedVertexColumns, DroppedElementColumns;
   std::optional<Relabelling> Numbers;

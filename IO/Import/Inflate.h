@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/External/Workspace.h"
+#include "IO/Import/InputFile.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace smg
+{
+
+/** Whether a file that begins with these bytes is compressed by gzip. */
+inline bool isGzip(std::string_view bytes)
+{
+  return bytes.starts_with("\x1f\x8b");
+}
+
+/**
+ * Writes what a file holds that gzip compressed, one member or several, to the file `to`. Checksums
+ * are checked. Throws Error naming the file and the byte: it is damaged, truncated or not of gzip.
+ */
+void inflateFile(InputFile& file, Workspace& workspace, const std::filesystem::path& to);
+
+/** The first bytes of what such a file holds, at most `most`, as far as its first bytes tell. */
+std::string inflateStart(std::string_view bytes, std::size_t most);
+
+} // namespace smg

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace smg
+{
+
+/** Bytes of the header of a binary STL file: 80 of any text and the number of triangles. */
+inline constexpr std::size_t StlHeaderBytes = 84;
+/** Bytes of a triangle: normal and corners, 12 floats, and two bytes of attributes. */
+inline constexpr std::size_t StlTriangleBytes = 50;
+
+/** The little-endian number that begins at `bytes`. */
+inline std::uint32_t littleEndian32(const char* bytes)
+{
+  std::uint32_t value = 0;
+  for (int i = 3; i >= 0; --i)
+  {
+    value = value << 8 | static_cast<unsigned char>(bytes[i]);
+  }
+  return value;
+}
+
+/** Bytes that a binary STL file has which begins with `bytes`, 84 at least. */
+inline std::uint64_t stlBytes(std::string_view bytes)
+{
+  return StlHeaderBytes +
+         std::uint64_t(StlTriangleBytes) * littleEndian32(bytes.data() + StlHeaderBytes - 4);
+}
+
+/**
+ * Whether a file of `size` bytes that begins with `bytes` is binary STL; the text "solid" at the
+ * beginning says nothing, many binary files have it.
+ */
+inline bool isBinaryStl(std::string_view bytes, std::uint64_t size)
+{
+  return bytes.size() >= StlHeaderBytes && stlBytes(bytes) == size;
+}
+
+} // namespace smg

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Import/Importer.h"
+#include "Testing/IO/MeshText.h"
+#include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/RawMeshReading.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace smg::testing
+{
+
+/** Appends the bytes of a value, in the other byte order if `big`. */
+template <class T>
+void put(std::string& bytes, T value, bool big = false)
+{
+  char raw[sizeof(T)];
+  std::memcpy(raw, &value, sizeof(T));
+  if (big)
+  {
+    std::reverse(raw, raw + sizeof(T));
+  }
+  bytes.append(raw, sizeof(T));
+}
+
+using Numbers = std::vector<std::int64_t>;
+
+/** Imports files whose bytes a test gives. */
+class ImportFixture : public ::testing::Test
+{
+protected:
+  ReadMesh read(const std::string& name, std::string_view bytes,
+    CellChoice cells = CellChoice::Only, std::int64_t memory = Workspace::LeastMemory)
+  {
+    writeBytes(this->Folder / name, bytes);
+    return this->readFile(this->Folder / name, cells, memory);
+  }
+
+  ReadMesh readFile(const std::filesystem::path& path, CellChoice cells = CellChoice::Only,
+    std::int64_t memory = Workspace::LeastMemory)
+  {
+    Workspace workspace(this->Folder.path(), memory);
+    ImportOptions options;
+    options.cells = cells;
+    const RawMesh mesh = importMesh(path, workspace, options);
+    EXPECT_LE(workspace.pool().peak(), memory);
+    return readRaw(mesh);
+  }
+
+  /** What the Error says; empty if there is none. */
+  std::string errorOf(const std::string& name, std::string_view bytes)
+  {
+    return messageOf([&] { this->read(name, bytes); });
+  }
+  void expectError(const std::string& name, std::string_view bytes, const std::string& part)
+  {
+    const std::string message = this->errorOf(name, bytes);
+    EXPECT_NE(message.find((this->Folder / name).string()), std::string::npos) << message;
+    EXPECT_NE(message.find(part), std::string::npos) << "got: '" << message << "'";
+  }
+
+  /** Expects that the file is refused with an Error or read, and then is valid. */
+  void expectRefusedOrValid(const std::string& name, std::string_view bytes)
+  {
+    try
+    {
+      const ReadMesh mesh = this->read(name, bytes);
+      for (const std::int64_t corner : mesh.corners)
+      {
+        ASSERT_LT(corner, mesh.vertices());
+      }
+      for (const Column& column : mesh.vertexColumns)
+      {
+        ASSERT_EQ(column.tuples(), static_cast<std::size_t>(mesh.vertices()));
+      }
+      for (const Column& column : mesh.elementColumns)
+      {
+        ASSERT_EQ(column.tuples(), static_cast<std::size_t>(mesh.elementCount));
+      }
+      ASSERT_EQ(static_cast<std::int64_t>(mesh.elements.size()), mesh.cells());
+    }
+    catch (const Error& error)
+    {
+      ASSERT_NE(std::string(error.what()).find((this->Folder / name).string()), std::string::npos)
+        << error.what();
+    }
+  }
+
+  /** The same of the file cut off at every byte, and with bytes that are changed. */
+  void expectDamageIsFound(const std::string& name, const std::string& bytes, int changes = 400)
+  {
+    for (std::size_t length = 0; length < bytes.size(); ++length)
+    {
+      this->expectRefusedOrValid(name, std::string_view(bytes).substr(0, length));
+    }
+    Random random(7);
+    for (int i = 0; i < changes; ++i)
+    {
+      std::string damaged = bytes;
+      for (int k = 0; k < 1 + i % 4; ++k)
+      {
+        const auto place =
+          static_cast<std::size_t>(random.below(static_cast<std::int64_t>(damaged.size())));
+        damaged[place] =
+          i % 2 ? static_cast<char>(random.below(256)) : "0123456789-.e \n"[random.below(15)];
+      }
+      this->expectRefusedOrValid(name, damaged);
+    }
+  }
+
+  TemporaryFolder Folder;
+};
+
+} // namespace smg::testing

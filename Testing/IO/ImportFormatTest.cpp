@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Import/InputFile.h"
+#include "Testing/IO/ImportFixture.h"
+
+#include <zlib.h>
+
+using namespace smg;
+using namespace smg::testing;
+
+namespace
+{
+
+class ImportFormat : public ImportFixture
+{
+protected:
+  MeshFormat format(const std::string& name, std::string_view bytes)
+  {
+    writeBytes(this->Folder / name, bytes);
+    return meshFormat(this->Folder / name);
+  }
+};
+
+const std::string Triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const std::string Off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+/** The bytes as one member of a gzip file. */
+std::string gzip(std::string_view bytes)
+{
+  constexpr int onlyGzip = 16;
+  z_stream stream{};
+  deflateInit2(&stream, Z_BEST_SPEED, Z_DEFLATED, MAX_WBITS + onlyGzip, 8, Z_DEFAULT_STRATEGY);
+  std::string compressed(deflateBound(&stream, bytes.size()), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(compressed.data());
+  stream.avail_out = static_cast<uInt>(compressed.size());
+  deflate(&stream, Z_FINISH);
+  compressed.resize(stream.total_out);
+  deflateEnd(&stream);
+  return compressed;
+}
+
+} // namespace
+
+TEST_F(ImportFormat, IsKnownByContentWhateverTheSuffix)
+{
+  const std::pair<const char*, MeshFormat> files[] = { { "ply\nformat", MeshFormat::Ply },
+    { "ply\r\nformat", MeshFormat::Ply }, { "OFF\n", MeshFormat::Off },
+    { "# a comment\nCNOFF 3 1 0", MeshFormat::Off }, { "OFF# comment\n", MeshFormat::Off },
+    { "STCN4nOFF\n", MeshFormat::Off }, { "# vtk DataFile Version 5.1\n", MeshFormat::VtkLegacy },
+    { "<VTKFile type=\"PolyData\">", MeshFormat::VtkXml },
+    { "<?xml version=\"1.0\"?>\n<VTKFile version='1.0' type='PUnstructuredGrid'>",
+      MeshFormat::VtkParallelXml },
+    { "<VTKFile type=\"PPolyData\">", MeshFormat::VtkParallelXml },
+    { "$MeshFormat\n4.1 0 8\n", MeshFormat::Gmsh },
+    { "# comment\n\n MeshVersionFormatted 2\n", MeshFormat::Medit },
+    { "solid x\n facet normal 0 0 1\n", MeshFormat::Stl }, { "solid\nendsolid\n", MeshFormat::Stl },
+    { "# c\n\nmtllib a.mtl\nv 0 0 0\n", MeshFormat::Obj },
+    { "g a \\\n b\nvn 0 0 1\nv 1 1 1", MeshFormat::Obj } };
+  for (const auto& [content, format] : files)
+  {
+    for (const char* name : { "noSuffix", "a.xyz", "a.ply", "a.OBJ", "a.stl", "a.msh", "a.node" })
+    {
+      EXPECT_EQ(this->format(name, content), format) << name << ": " << content;
+    }
+  }
+}
+
+TEST_F(ImportFormat, LongContentIsToldByItsBeginning)
+{
+  std::string obj = "# header\n";
+  while (obj.size() < 20000)
+  {
+    obj += Triangle;
+  }
+  EXPECT_EQ(this->format("a", obj), MeshFormat::Obj);
+  EXPECT_EQ(this->format("a", obj.replace(1000, 9, "\nnot obj\n")), MeshFormat::Unknown);
+  std::string stl(84 + 50 * 1000, 'x');
+  const std::uint32_t triangles = 1000;
+  std::memcpy(stl.data() + 80, &triangles, sizeof(triangles));
+  EXPECT_EQ(this->format("a.ply", stl), MeshFormat::Stl);
+  EXPECT_EQ(this->format("a", stl + 'x'), MeshFormat::Unknown);
+}
+
+TEST_F(ImportFormat, IsKnownBySuffixWhereContentSaysNothing)
+{
+  const std::pair<const char*, MeshFormat> files[] = { { "a.node", MeshFormat::TetGen },
+    { "a.ELE", MeshFormat::TetGen }, { "a.off", MeshFormat::Off }, { "a.mesh", MeshFormat::Medit },
+    { "a.pvtu", MeshFormat::VtkParallelXml }, { "a.xyz", MeshFormat::Unknown },
+    { "a", MeshFormat::Unknown } };
+  for (const auto& [name, format] : files)
+  {
+    EXPECT_EQ(this->format(name, "3 1 0\n"), format) << name;
+    EXPECT_EQ(this->format(name + std::string(".gz"), gzip("3 1 0\n")), format) << name;
+  }
+  EXPECT_EQ(meshFormat(this->Folder / "missing.off"), MeshFormat::Off);
+}
+
+TEST_F(ImportFormat, ContentAloneIsSureOfWhatHasASign)
+{
+  this->format("a", Off);
+  EXPECT_EQ(meshFormatOfContent(this->Folder / "a"), MeshFormat::Off);
+  this->format("a", gzip(Off));
+  EXPECT_EQ(meshFormatOfContent(this->Folder / "a"), MeshFormat::Off);
+  // A streaming format in text looks the same.
+  this->format("a.obj", Triangle);
+  EXPECT_EQ(meshFormatOfContent(this->Folder / "a.obj"), MeshFormat::Unknown);
+  EXPECT_EQ(meshFormatOfContent(this->Folder / "missing"), MeshFormat::Unknown);
+}
+
+TEST_F(ImportFormat, MeshesAreReadWhateverTheSuffix)
+{
+  for (const char* name : { "a", "a.ply", "a.vtu", "a.stl.gz" })
+  {
+    EXPECT_EQ(this->read(name, Off).corners, (Numbers{ 0, 1, 2 })) << name;
+    EXPECT_EQ(this->read(name, Triangle).corners, (Numbers{ 0, 1, 2 })) << name;
+  }
+  EXPECT_EQ(this->read("a.off", Off.substr(4)).corners, (Numbers{ 0, 1, 2 }));
+}
+
+TEST_F(ImportFormat, WhatIsNoMeshIsRefused)
+{
+  std::string garbage;
+  Random random(5);
+  for (int i = 0; i < 300000; ++i)
+  {
+    garbage += static_cast<char>(random.below(256));
+  }
+  this->expectError("a.xyz", garbage, "the format is not known");
+  this->expectError("a", "1 2 3", "the format is not known");
+  this->expectError("a.txt", "v is a letter\nthe text goes on\n", "the format is not known");
+  this->expectError("a.ply", "", "empty");
+  for (const char* name : { "a.ply", "a.obj", "a.off", "a.stl" })
+  {
+    this->expectError(name, garbage, ": ");
+    this->expectError(name, "This is a text, and no mesh.\n", ": ");
+  }
+  Workspace workspace({}, Workspace::LeastMemory);
+  smg::testing::expectError(
+    [&] { importMesh(this->Folder / "missing.ply", workspace); }, "missing.ply: cannot be opened");
+  smg::testing::expectError(
+    [&] { importMesh(this->Folder.path(), workspace); }, "not a regular file");
+}
+
+TEST_F(ImportFormat, CompressedFilesAreTheSame)
+{
+  const IndexedTestMesh mesh = torus(150, 150, 0.1);
+  const std::string text = meshText(mesh);
+  ASSERT_GT(text.size(), InputFile::WindowBytes);
+  const std::string half = text.substr(0, text.size() / 2);
+  const std::string members = gzip(half) + gzip("") + gzip(text.substr(half.size()));
+  for (const std::string& bytes : { gzip(text), members, members + std::string(600, '\0') })
+  {
+    const ReadMesh read = this->read("a.off.gz", bytes);
+    EXPECT_TRUE(read.positions == mesh.positions);
+    EXPECT_TRUE(read.corners == mesh.corners);
+  }
+}
+
+TEST_F(ImportFormat, NothingOfACompressedFileStays)
+{
+  writeBytes(this->Folder / "a.gz", gzip(Off));
+  Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+  importMesh(this->Folder / "a.gz", workspace);
+  EXPECT_TRUE(std::filesystem::is_empty(workspace.folder()));
+}
+
+TEST_F(ImportFormat, DamageOfCompressedFilesIsFound)
+{
+  const std::string bytes = gzip(Off);
+  for (std::size_t length = 2; length < bytes.size(); ++length)
+  {
+    this->expectError("a.off.gz", bytes.substr(0, length), "truncated");
+  }
+  std::string checksum = bytes;
+  checksum[checksum.size() - 6] ^= 1;
+  this->expectError("a.off.gz", checksum, "the compressed data are damaged");
+  this->expectError("a.off.gz", bytes + "more", "something comes after the compressed data");
+  this->expectError("a.off.gz", bytes + bytes.substr(0, 12), "truncated");
+  this->expectError("a.off.gz", gzip(""), "the file is empty");
+  // Errors of the parser call the file by its name, not by that of a scratch file.
+  this->expectError("a.off.gz", gzip("OFF\n3 1 0\n0 0 x\n"), "a.off.gz, line 3: 'x' is no number");
+  this->expectError("a.gz", gzip("1 2 3"), "a.gz: the format is not known");
+  this->expectDamageIsFound("b.off.gz", bytes);
+}
+
+TEST_F(ImportFormat, ProgressGrowsToItsEnd)
+{
+  const std::string text = meshText(torus(200, 200, 0.1));
+  for (const std::string& bytes : { text, gzip(text) })
+  {
+    writeBytes(this->Folder / "a.off", bytes);
+    std::vector<double> done;
+    ImportOptions options;
+    options.progress = [&done](double fraction)
+    {
+      done.push_back(fraction);
+      return true;
+    };
+    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    importMesh(this->Folder / "a.off", workspace, options);
+    ASSERT_GE(done.size(), 3u);
+    EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
+    EXPECT_LE(done.back(), 1.0);
+    EXPECT_GT(done.back(), 0.3);
+  }
+}
+
+TEST_F(ImportFormat, CancelEndsIt)
+{
+  const std::string text = meshText(grid(20, 20));
+  for (const std::string& bytes : { text, gzip(text) })
+  {
+    writeBytes(this->Folder / "a.off", bytes);
+    ImportOptions options;
+    options.progress = [](double) { return false; };
+    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    EXPECT_THROW(importMesh(this->Folder / "a.off", workspace, options), Cancelled);
+  }
+}

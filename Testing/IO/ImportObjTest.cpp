@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/IO/ImportFixture.h"
+
+using namespace smg;
+using namespace smg::testing;
+
+namespace
+{
+
+using ImportObj = ImportFixture;
+
+const std::string Obj = "# two triangles and a quad\nmtllib none.mtl\nv 0 0 0\nv 1 0 0 1.0\n"
+                        "v 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\nv 1 1 0\nf -1 -2 -3\n"
+                        "v 2 0 0\nv 2 1 0\nf 2/1/1 5/2/1 \\\n 6/3/1 4/4/1\n";
+
+} // namespace
+
+TEST_F(ImportObj, PolygonsAndReferences)
+{
+  const ReadMesh mesh = this->read("a.obj", Obj);
+  EXPECT_EQ(mesh.vertices(), 6);
+  EXPECT_TRUE(mesh.doublePositions);
+  EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 3, 2, 1, 1, 4, 5, 1, 5, 3 }));
+  EXPECT_EQ(mesh.elements, (Numbers{ 0, 1, 2, 2 }));
+  EXPECT_EQ(mesh.counts.triangulatedPolygons, 1);
+}
+
+TEST_F(ImportObj, FacesMayComeBeforeTheirVertices)
+{
+  const ReadMesh mesh = this->read("a.obj", "f 1/1 2/2 3/3\r\nv 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\n");
+  EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2 }));
+}
+
+TEST_F(ImportObj, ColoursAreIgnoredAndLinesContinued)
+{
+  const ReadMesh mesh =
+    this->read("a.obj", "v 0 0 0 0.1 0.2 0.3\nv 1 \\\n0 \\\n0 0.5 \\\n 0.5 0.5\nv 0 1 0\n"
+                        "f 1\\\n 2\\\n 3\ns off\nusemtl f\nl 1 2\ng v 1 2 3\n");
+  EXPECT_EQ(mesh.positions, (std::vector<double>{ 0, 0, 0, 1, 0, 0, 0, 1, 0 }));
+  EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2 }));
+}
+
+TEST_F(ImportObj, LongPolygonsNeedNoMemory)
+{
+  // The corners of one face take more bytes than the memory that is allowed.
+  constexpr int corners = 2500000;
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
+  for (int i = 0; i < corners; ++i)
+  {
+    text += i % 2 ? " 2/1/1" : " 3";
+  }
+  writeBytes(this->Folder / "a.obj", text);
+  Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+  EXPECT_EQ(importMesh(this->Folder / "a.obj", workspace).cells, corners - 2);
+}
+
+TEST_F(ImportObj, ErrorsNameFileAndPlace)
+{
+  this->expectError("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",
+    "a.obj, line 4: the face names vertex 4, but the file has 3");
+  this->expectError("a.obj", "v 0 0 0\nv 1 x 0\n", "line 2: 'x' is no number");
+  this->expectError("a.obj", "v 0 0 nan\n", "line 1: 'nan' is not finite");
+  this->expectError("a.obj", "v 0 0 1e999\n", "not finite");
+  this->expectError("a.obj", "v 0 0\nv 0 0 0\n", "line 1: the file or line ends where");
+  this->expectError("a.obj", "v 0 0 0\nf 1 -2 1\n", "line 2: a face names vertex -2");
+  this->expectError("a.obj", "v 0 0 0\nf 1 0 1\n", "line 2: a face names vertex 0");
+  this->expectError("a.obj", "v 0 0 0\nf 1 1\n", "line 2: a face has fewer than three");
+  this->expectError("a.obj", "v 0 0 0\nf 1 1 1 99999999999\n", "line 2: the corner 99999999998");
+  this->expectError("a.obj", "v 0 0 0\nf 1\\ 1 1\n", "line 2: there is a backslash");
+  this->expectError("a.obj", "v 0 0 0\nf 1 1 \\\n x\n", "line 3: 'x' is no integer");
+  this->expectError("a.obj", "v 0 0 0\n", "no triangles");
+}
+
+TEST_F(ImportObj, DamageIsFound)
+{
+  this->expectDamageIsFound("a.obj", Obj);
+}
+
+TEST(ImportObjData, ArchiveMeshHasItsCounts)
+{
+  const std::filesystem::path folder = SMG_TEST_DATA_DIR;
+  if (folder.empty())
+  {
+    GTEST_SKIP() << "SMG_TEST_DATA_DIR is not set";
+  }
+  Workspace workspace({}, Workspace::LeastMemory);
+  const RawMesh mesh = importMesh(folder / "armadillo43k.obj", workspace);
+  EXPECT_EQ(mesh.vertices, 43243);
+  EXPECT_EQ(mesh.cells, 86482);
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/IO/ImportFixture.h"
+
+using namespace smg;
+using namespace smg::testing;
+
+namespace
+{
+
+using ImportOff = ImportFixture;
+
+const std::string CoffOff = "COFF # with colours\n4 3 0\n0 0 0 255 0 0 255\n1 0 0 1 1 1 1\n\n"
+                            "# between\n0 1 0 0 0 0 0\n1 1 0 9 9 9 9\n3 0 1 2\n3 1 3 2 255 0 0\n"
+                            "2 0 1\n";
+
+} // namespace
+
+TEST_F(ImportOff, WithColours)
+{
+  const ReadMesh mesh = this->read("a.off", CoffOff);
+  EXPECT_EQ(mesh.positions, (std::vector<double>{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0 }));
+  EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 1, 3, 2 }));
+  EXPECT_EQ(mesh.elementCount, 3);
+  EXPECT_EQ(mesh.counts.droppedCells, 1);
+}
+
+TEST_F(ImportOff, WithAnyKeywordOrNone)
+{
+  const std::string points = "0 0 0 1 1\n1 0 0 1 1\n0 1 0 1 1\n";
+  for (const char* keyword : { "OFF\n", "OFF ", "NOFF\n", "STOFF\n", "STCNOFF\r\n", "" })
+  {
+    const ReadMesh mesh = this->read("a.off", keyword + ("3 1 0\n" + points + "3 0 1 2\n"));
+    EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2 })) << keyword;
+    EXPECT_EQ(mesh.positions[7], 1) << keyword;
+  }
+}
+
+TEST_F(ImportOff, MeshesKeepTheirBits)
+{
+  const IndexedTestMesh mesh = torus(20, 30, 0.1);
+  const ReadMesh read = this->read("a.off", meshText(mesh));
+  EXPECT_EQ(read.positions, mesh.positions);
+  EXPECT_EQ(read.corners, mesh.corners);
+}
+
+TEST_F(ImportOff, ErrorsNameFileAndPlace)
+{
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
+  this->expectError("a.off", "OFF\n3 1 0\n" + points + "3 0 1 3\n", "line 6: the corner 3 is none");
+  this->expectError("a.off", "OFF\n3 1 0\n" + points + "3 0 -1 2\n", "line 6: the corner -1");
+  this->expectError("a.off", "OFF\n9999999999 1 0\n0 0 0\n", "line 2: 9999999999 cannot be");
+  this->expectError("a.off", "OFF\n-3 1 0\n0 0 0\n", "line 2: -3 cannot be");
+  this->expectError("a.off", "OFF\n3 1 0\n" + points + "3 0 1", "line 6");
+  this->expectError("a.off", "OFF\n3 1 0\n" + points + "900 0 1 2\n", "line 6: 900 cannot be");
+  this->expectError("a.off", "OFF\n3 1 0\n0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n", "line 4: 'inf'");
+  this->expectError("a.off", "OFF BINARY\n3 1 0\n", "line 1: binary OFF files");
+  this->expectError("a.off", "4OFF\n3 1 0\n", "line 1: the vertices of a '4OFF'");
+  this->expectError("a.off", "OFF\n3 0 0\n" + points, "no triangles");
+}
+
+TEST_F(ImportOff, DamageIsFound)
+{
+  this->expectDamageIsFound("a.off", CoffOff);
+}
+
+TEST(ImportOffData, ArchiveMeshHasItsCounts)
+{
+  const std::filesystem::path folder = SMG_TEST_DATA_DIR;
+  if (folder.empty())
+  {
+    GTEST_SKIP() << "SMG_TEST_DATA_DIR is not set";
+  }
+  Workspace workspace({}, Workspace::LeastMemory);
+  const RawMesh mesh = importMesh(folder / "elephant44k.off", workspace);
+  EXPECT_EQ(mesh.vertices, 44460);
+  EXPECT_EQ(mesh.cells, 88928);
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/IO/ImportFixture.h"
+
+#include <array>
+#include <map>
+
+using namespace smg;
+using namespace smg::testing;
+
+namespace
+{
+
+using ImportStl = ImportFixture;
+
+const std::string Stl = "solid two\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                        "vertex 0 1 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
+                        "vertex 1 0 -0\nvertex 1 1 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
+
+using Triangle = std::array<float, 9>;
+
+std::string binaryStl(const std::vector<Triangle>& triangles, const char* header)
+{
+  std::string bytes = header;
+  bytes.resize(80, ' ');
+  put(bytes, static_cast<std::uint32_t>(triangles.size()));
+  for (const Triangle& triangle : triangles)
+  {
+    bytes.append(12, '\0');
+    for (const float coordinate : triangle)
+    {
+      put(bytes, coordinate);
+    }
+    bytes.append(2, '\0');
+  }
+  return bytes;
+}
+
+std::string twoTriangles(const char* header = "solid, but binary")
+{
+  return binaryStl({ { 0, 0, 0, 1, 0, 0, 0, 1, 0 }, { 1, -0.0f, 0, 1, 1, 0, 0, 1, 0 } }, header);
+}
+
+/** Triangles of a torus with corners in any order, so that vertices recur far away. */
+std::vector<Triangle> manyTriangles(int count)
+{
+  Random random(11);
+  std::vector<Triangle> triangles(static_cast<std::size_t>(count));
+  for (Triangle& triangle : triangles)
+  {
+    for (float& coordinate : triangle)
+    {
+      coordinate = static_cast<float>(random.below(90)) - 45.0f;
+    }
+  }
+  return triangles;
+}
+
+} // namespace
+
+TEST_F(ImportStl, CornersAreWelded)
+{
+  for (const std::string& bytes : { Stl, twoTriangles(), twoTriangles("binary") })
+  {
+    const ReadMesh mesh = this->read("a.stl", bytes);
+    EXPECT_FALSE(mesh.doublePositions);
+    EXPECT_EQ(mesh.positions, (std::vector<double>{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0 }));
+    EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 1, 3, 2 }));
+  }
+}
+
+TEST_F(ImportStl, WeldingOutOfCoreIsWeldingInMemory)
+{
+  // A multiple of what the least memory holds: corners and vertices are sorted on disk.
+  const std::vector<Triangle> triangles = manyTriangles(400000);
+  std::map<std::array<float, 3>, std::int64_t> vertices;
+  Numbers corners;
+  std::vector<double> positions;
+  for (const Triangle& triangle : triangles)
+  {
+    for (std::size_t k = 0; k < 9; k += 3)
+    {
+      const std::array<float, 3> point{ triangle[k], triangle[k + 1], triangle[k + 2] };
+      const auto [entry, fresh] =
+        vertices.try_emplace(point, static_cast<std::int64_t>(vertices.size()));
+      if (fresh)
+      {
+        positions.insert(positions.end(), point.begin(), point.end());
+      }
+      corners.push_back(entry->second);
+    }
+  }
+  const ReadMesh mesh = this->read("a.stl", binaryStl(triangles, "many"));
+  EXPECT_TRUE(mesh.positions == positions);
+  EXPECT_TRUE(mesh.corners == corners);
+}
+
+TEST_F(ImportStl, TrianglesThatShareNothingKeepTheirCorners)
+{
+  std::vector<Triangle> triangles(200000);
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+  {
+    for (std::size_t k = 0; k < 9; ++k)
+    {
+      triangles[i][k] = static_cast<float>(i) + 0.01f * static_cast<float>(k * k);
+    }
+  }
+  const ReadMesh mesh = this->read("soup.stl", binaryStl(triangles, "soup"));
+  EXPECT_EQ(mesh.vertices(), 3 * static_cast<std::int64_t>(triangles.size()));
+  for (std::size_t i = 0; i < mesh.corners.size(); ++i)
+  {
+    ASSERT_EQ(mesh.corners[i], static_cast<std::int64_t>(i));
+    ASSERT_EQ(mesh.positions[3 * i], triangles[i / 3][i % 3 * 3]);
+  }
+}
+
+TEST_F(ImportStl, FacetsMayHaveMoreCornersAndFilesMoreSolids)
+{
+  const ReadMesh mesh = this->read("a.stl",
+    "  solid a b c\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\n"
+    "vertex 0 1 0\nendloop\nendfacet\nendsolid a\nsolid empty\nfacet normal 0 0 0\nouter loop\n"
+    "vertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\nendsolid empty\n");
+  EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 0, 2, 3 }));
+  EXPECT_EQ(mesh.counts.triangulatedPolygons, 1);
+  EXPECT_EQ(mesh.counts.droppedCells, 1);
+}
+
+TEST_F(ImportStl, ErrorsNameFileAndPlace)
+{
+  std::string infinite = twoTriangles();
+  const float infinity = std::numeric_limits<float>::infinity();
+  std::memcpy(infinite.data() + 84 + 50 + 12, &infinity, sizeof(infinity));
+  this->expectError("a.stl", infinite, "byte 134: triangle 1: a coordinate is not finite");
+  this->expectError("a.stl", twoTriangles("binary").substr(0, 150), "2 triangles take 184 bytes");
+  this->expectError("a.stl", "too short", "too short for an STL file");
+  this->expectError("a.stl", Stl.substr(0, Stl.size() - 10), "must end with 'endsolid'");
+  this->expectError("a.stl", "solid\nfacet\nvertex 0 0 0\n", "line 3: there is a vertex before");
+  this->expectError("a.stl", "solid\nfacet\nouter loop\nouter loop\n", "line 4: a loop begins");
+  this->expectError("a.stl", "solid\nfacet\nendloop\n", "line 3: a loop ends");
+  this->expectError("a.stl", "solid\nfacet\nouter loop\nvertex 0 0 1e39\n", "single precision");
+  this->expectError("a.stl", "solid\nfacet\ncorner 0 0 0\n", "line 3: 'corner' is not a keyword");
+  this->expectError("a.stl", "solid\nendsolid\n", "no triangles");
+}
+
+TEST_F(ImportStl, DamageIsFound)
+{
+  this->expectDamageIsFound("a.stl", Stl);
+  this->expectDamageIsFound("b.stl", twoTriangles());
+  this->expectDamageIsFound("c.stl", twoTriangles("binary"));
+}
