@@ -88,6 +88,7 @@ SearchResult PagedSearch::run(std::span<const SearchSource> sources, Reach&& rea
   assert(std::ranges::is_sorted(sources, {}, &SearchSource::level) && this->Queue.size() == 0);
   SearchResult result;
   std::size_t nextSource = 0;
+  std::uint32_t level = 0;
   std::int64_t leftOfLevel = 0;
   double sumOfQueues = 0;
   while (nextSource < sources.size() || this->Queue.size() > 0)
@@ -96,9 +97,9 @@ SearchResult PagedSearch::run(std::span<const SearchSource> sources, Reach&& rea
     {
       if (this->Queue.size() == 0)
       {
-        result.levels = std::max(result.levels, sources[nextSource].level);
+        level = std::max(level, sources[nextSource].level);
       }
-      while (nextSource < sources.size() && sources[nextSource].level <= result.levels)
+      while (nextSource < sources.size() && sources[nextSource].level <= level)
       {
         reach(sources[nextSource++].rank);
       }
@@ -109,13 +110,13 @@ SearchResult PagedSearch::run(std::span<const SearchSource> sources, Reach&& rea
       }
     }
     result.last = this->Queue.pop();
-    take(result.last, result.levels);
+    take(result.last, level);
     ++result.vertices;
     sumOfQueues += static_cast<double>(this->Queue.size());
     result.peakQueue = std::max(result.peakQueue, this->Queue.size());
     if (--leftOfLevel == 0)
     {
-      ++result.levels;
+      result.levels = ++level;
     }
   }
   result.meanQueue = result.vertices > 0 ? sumOfQueues / double(result.vertices) : 0;

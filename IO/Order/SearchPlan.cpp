@@ -21,6 +21,10 @@ constexpr int MostAxisEnds = 4;
 constexpr std::int32_t LeastDistance = 8;
 /** Samples that a component must have for a plan, and for its principal axes. */
 constexpr std::size_t LeastSamples = 16, LeastSamplesForAxes = 100;
+/** More samples do not make better plans. */
+constexpr std::size_t MostSamples = 8192;
+/** Plans that are tried out. */
+constexpr std::size_t MostTrials = 3;
 
 std::size_t sampleCount(const PagedMesh& mesh)
 {
@@ -61,15 +65,10 @@ public:
       this->measureLandmarks();
       this->measureAxisEnds();
     }
-    Candidate& best = *std::ranges::min_element(this->Candidates, {}, &Candidate::cost);
+    Candidate best = *std::ranges::min_element(this->Candidates, {}, &Candidate::cost);
     if (this->Samples.size() >= LeastSamples)
     {
-      Candidate planned{ this->planned(), {} };
-      planned.result = this->Search.probe(planned.sources);
-      if (planned.cost() < best.cost())
-      {
-        return planned.sources;
-      }
+      this->tryPlans(best);
     }
     return best.sources;
   }
@@ -100,9 +99,13 @@ private:
   /** The first search tells which samples are in the component. */
   void beginSamples()
   {
+    const auto reached = static_cast<std::size_t>(
+      this->Levels.size() - std::size_t(std::ranges::count(this->Levels, NoIndex)));
+    const std::size_t step = std::max<std::size_t>(1, reached / MostSamples);
+    std::size_t seen = 0;
     for (std::size_t i = 0; i < this->Levels.size(); ++i)
     {
-      if (this->Levels[i] != NoIndex)
+      if (this->Levels[i] != NoIndex && seen++ % step == 0)
       {
         this->Samples.push(static_cast<std::uint32_t>(i));
         this->Nearest.push(std::numeric_limits<std::int32_t>::max());
@@ -144,10 +147,24 @@ private:
     }
   }
 
-  std::vector<SearchSource> planned()
+  /** Finds out whether a plan keeps its promise: samples do not tell everything. */
+  void tryPlans(Candidate& best)
   {
-    const SourcePlan plan =
-      planSources(*this->Distances, this->Candidates[0].result.vertices, this->Space);
+    const std::vector<SourcePlan> plans =
+      planSources(*this->Distances, best.result.vertices, this->Space);
+    for (std::size_t i = 0; i < std::min(plans.size(), MostTrials); ++i)
+    {
+      if (plans[i].sources.size() > 1)
+      {
+        Candidate planned{ this->sourcesOf(plans[i]), {} };
+        planned.result = this->Search.probe(planned.sources);
+        best = planned.cost() < best.cost() ? planned : best;
+      }
+    }
+  }
+
+  std::vector<SearchSource> sourcesOf(const SourcePlan& plan) const
+  {
     std::vector<SearchSource> sources;
     for (const PlannedSource& planned : plan.sources)
     {

@@ -21,8 +21,11 @@ constexpr std::size_t Beginnings = 4;
 constexpr std::size_t MostSources = 9;
 /** Start levels that are tried for one more source. */
 constexpr int LevelSteps = 12;
+/** How often the levels are adjusted after each addition, and by which shares of their range. */
+constexpr int AdjustRounds = 3;
+constexpr double Adjustments[] = { -0.1, 0.1, -0.04, 0.04, -0.015, 0.015 };
 /** What one more source, and a change of a level, must gain to be worth it. */
-constexpr double SourceGain = 0.993, LevelGain = 0.999;
+constexpr double SourceGain = 0.995, LevelGain = 0.9995;
 
 /** Estimates the cost of a search from the levels of the samples. */
 class LevelCost
@@ -34,10 +37,9 @@ public:
   {
   }
 
-  /** The levels are not negative. */
-  double operator()(std::span<const std::int32_t> levels)
+  /** The levels are not negative; `last` is the greatest of them. */
+  double operator()(std::span<const std::int32_t> levels, std::int32_t last)
   {
-    const std::int32_t last = *std::ranges::max_element(levels);
     const std::int32_t width = std::max(1, (last + MostBins) / MostBins);
     const auto bins = static_cast<std::size_t>(last / width) + 1;
     std::fill_n(this->Bins.begin(), bins, 0);
@@ -86,38 +88,47 @@ public:
 
   SourcePlan single(std::size_t candidate)
   {
-    return { { { candidate, 0 } }, this->Cost(this->Distances[candidate]) };
+    const std::span<const std::int32_t> distances = this->Distances[candidate];
+    return { { { candidate, 0 } }, this->Cost(distances, *std::ranges::max_element(distances)) };
   }
 
   /** Joins sources to a plan while that helps. */
   void extend(SourcePlan& plan)
   {
-    this->evaluate(plan, this->Current);
+    this->Last = this->evaluate(plan, this->Current);
     while (plan.sources.size() < MostSources && this->addSource(plan))
     {
-      this->evaluate(plan, this->Current);
-      this->adjustLevels(plan);
+      this->Last = this->evaluate(plan, this->Current);
+      for (int round = 0; round < AdjustRounds; ++round)
+      {
+        this->adjustLevels(plan);
+      }
       this->adjustLevels(plan);
     }
   }
 
 private:
-  /** The levels that the search of a plan gives the samples. */
-  void evaluate(const SourcePlan& plan, Levels levels) const
+  /** The levels that the search of a plan gives the samples; answers the last of them. */
+  std::int32_t evaluate(const SourcePlan& plan, Levels levels) const
   {
     std::ranges::fill(levels, std::numeric_limits<std::int32_t>::max());
+    std::int32_t last = 0;
     for (const PlannedSource& source : plan.sources)
     {
-      join(levels, levels, source.level, this->Distances[source.candidate]);
+      last = join(levels, levels, source.level, this->Distances[source.candidate]);
     }
+    return last;
   }
-  static void join(std::span<const std::int32_t> levels, Levels joined, std::int32_t level,
+  static std::int32_t join(std::span<const std::int32_t> levels, Levels joined, std::int32_t level,
     std::span<const std::int32_t> distances)
   {
+    std::int32_t last = 0;
     for (std::size_t i = 0; i < joined.size(); ++i)
     {
       joined[i] = std::min(levels[i], level + distances[i]);
+      last = std::max(last, joined[i]);
     }
+    return last;
   }
 
   bool addSource(SourcePlan& plan)
@@ -135,8 +146,8 @@ private:
       for (int step = 0; step < LevelSteps && latest > 1; ++step)
       {
         const auto level = static_cast<std::int32_t>(latest * step / LevelSteps);
-        join(this->Current, this->Tried, level, distances);
-        if (const double cost = this->Cost(this->Tried); cost < best)
+        const std::int32_t last = join(this->Current, this->Tried, level, distances);
+        if (const double cost = this->Cost(this->Tried, last); cost < best)
         {
           best = cost;
           added = { candidate, level };
@@ -157,23 +168,23 @@ private:
   {
     for (std::size_t i = 0; i < plan.sources.size(); ++i)
     {
-      for (const double share : { -0.04, 0.04, -0.015, 0.015 })
+      for (const double share : Adjustments)
       {
-        const std::int32_t range = *std::ranges::max_element(this->Current);
         SourcePlan changed = plan;
-        changed.sources[i].level += static_cast<std::int32_t>(share * range);
+        changed.sources[i].level += static_cast<std::int32_t>(share * this->Last);
         const std::int32_t first =
           std::ranges::min_element(changed.sources, {}, &PlannedSource::level)->level;
         for (PlannedSource& source : changed.sources)
         {
           source.level -= first;
         }
-        this->evaluate(changed, this->Tried);
-        changed.cost = this->Cost(this->Tried);
+        const std::int32_t last = this->evaluate(changed, this->Tried);
+        changed.cost = this->Cost(this->Tried, last);
         if (changed.cost < plan.cost * LevelGain)
         {
           plan = std::move(changed);
           std::swap(this->Current, this->Tried);
+          this->Last = last;
         }
       }
     }
@@ -182,28 +193,30 @@ private:
   const SourceDistances& Distances;
   LevelCost Cost;
   Buffer Memory;
-  Levels Current; ///< of the plan that is being extended
+  Levels Current;        ///< of the plan that is being extended
+  std::int32_t Last = 0; ///< the greatest of them
   Levels Tried;
 };
 
 } // namespace
 
-SourcePlan planSources(
+std::vector<SourcePlan> planSources(
   const SourceDistances& distances, std::int64_t vertices, Workspace& workspace)
 {
   Planner planner(distances, vertices, workspace);
-  std::vector<SourcePlan> singles;
+  std::vector<SourcePlan> plans;
   for (std::size_t candidate = 0; candidate < distances.candidates(); ++candidate)
   {
-    singles.push_back(planner.single(candidate));
+    plans.push_back(planner.single(candidate));
   }
-  std::ranges::stable_sort(singles, {}, &SourcePlan::cost);
-  singles.resize(std::min(singles.size(), Beginnings));
-  for (SourcePlan& plan : singles)
+  std::ranges::stable_sort(plans, {}, &SourcePlan::cost);
+  plans.resize(std::min(plans.size(), Beginnings));
+  for (SourcePlan& plan : plans)
   {
     planner.extend(plan);
   }
-  return *std::ranges::min_element(singles, {}, &SourcePlan::cost);
+  std::ranges::stable_sort(plans, {}, &SourcePlan::cost);
+  return plans;
 }
 
 } // namespace smg

@@ -74,8 +74,9 @@ struct SourcePlan
  * are known at the samples, are small: each of the best single candidates is joined by others as
  * long as that helps. Deterministic.
  * @param vertices of the component
+ * @return plans of one or more sources, the one that promises most first
  */
-SourcePlan planSources(
+std::vector<SourcePlan> planSources(
   const SourceDistances& distances, std::int64_t vertices, Workspace& workspace);
 
 } // namespace smg
