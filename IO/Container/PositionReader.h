@@ -15,8 +15,9 @@ namespace smg
 class PositionReader
 {
 public:
-  explicit PositionReader(VsmFile& file)
-    : Rows(file.Blocks, VsmFormat::Vertices, 0)
+  /** `column` of `table` has them. */
+  explicit PositionReader(VsmFile& file, int table = VsmFormat::Vertices, int column = 0)
+    : Rows(file.Blocks, table, column)
   {
   }
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -35,9 +36,10 @@ public:
   }
 
   /** A block's columns: `first`, then the collected ones. Valid until rows are appended. */
-  std::span<const std::span<const std::byte>> block(std::span<const std::byte> first)
+  std::span<const std::span<const std::byte>> block(
+    std::initializer_list<std::span<const std::byte>> first)
   {
-    this->Spans.assign(1, first);
+    this->Spans.assign(first);
     this->Spans.insert(this->Spans.end(), this->Bytes.begin(), this->Bytes.end());
     return this->Spans;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Container/VsmFile.h"
 
+#include "IO/Container/IsolatedWriter.h"
 #include "IO/Container/PackedIntegers.h"
 #include "Solver/Core/Error.h"
 
@@ -64,7 +65,9 @@ void VsmFile::readTables()
   const ScalarType real = this->Info.doublePositions ? ScalarType::Float64 : ScalarType::Float32;
   const std::vector<ColumnSpec> blockColumns{ { "FirstVertex", ScalarType::Int64, 1 },
     { "Finalized", ScalarType::Int64, 1 } };
-  if (tables.size() != 4 || first(VsmFormat::Vertices) != ColumnSpec{ "Position", real, 3 } ||
+  const std::size_t most = VsmFormat::LeastTables + 1;
+  if (tables.size() < VsmFormat::LeastTables || tables.size() > most ||
+      first(VsmFormat::Vertices) != ColumnSpec{ "Position", real, 3 } ||
       first(VsmFormat::Last) != ColumnSpec{ "LastCell", ScalarType::UInt8, 0 } ||
       first(VsmFormat::Cells) != ColumnSpec{ "Corners", ScalarType::UInt8, 0 } ||
       tables[VsmFormat::Blocks].columns != blockColumns)
@@ -85,6 +88,16 @@ void VsmFile::readTables()
   { return std::vector(tables[table].columns.begin() + 1, tables[table].columns.end()); };
   this->Info.vertexColumns = attributes(VsmFormat::Vertices);
   this->Info.cellColumns = attributes(VsmFormat::Cells);
+  this->HasIsolated = tables.size() == most;
+  if (this->HasIsolated && tables[VsmFormat::Isolated] != IsolatedWriter::table(this->Info))
+  {
+    this->fail("has isolated vertices that are not like the others; make it anew.");
+  }
+  this->checkColumns();
+}
+
+void VsmFile::checkColumns() const
+{
   for (const auto* columns : { &this->Info.vertexColumns, &this->Info.cellColumns })
   {
     if (std::any_of(columns->begin(), columns->end(),

@@ -34,6 +34,12 @@ public:
   /** Reads the last cells of the vertices of a block of the vertices. */
   void readLastCells(std::int64_t block, std::vector<std::int64_t>& cells);
 
+  /** Vertices of no cell, which are kept beside the stream. */
+  std::int64_t isolatedVertices() const
+  {
+    return this->HasIsolated ? this->Blocks.rows(VsmFormat::Isolated) : 0;
+  }
+
   /** The number that a column of that name has in its table. */
   int vertexColumn(const std::string& name) const;
   int cellColumn(const std::string& name) const;
@@ -45,11 +51,13 @@ public:
 private:
   void readHeader();
   void readTables();
+  void checkColumns() const;
   void readBlockTable();
   int find(const std::vector<ColumnSpec>& columns, const std::string& name, const char* kind) const;
   void readPacked(int table, std::int64_t block, std::size_t count);
 
   std::string Name;
+  bool HasIsolated = false; ///< the table, if only without rows
   std::vector<std::int64_t> FirstVertex;
   std::vector<std::int64_t> Finalized;
   std::vector<std::byte> Packed;

@@ -7,7 +7,7 @@ namespace smg
 {
 
 /**
- * A .vsm file ("VTK streaming mesh") is a block file (BlockFile.h) of four tables:
+ * A .vsm file ("VTK streaming mesh") is a block file (BlockFile.h) of these tables:
  *
  * - vertices: `Position`, three float32 or float64, then the attribute columns; blocks of
  *   BlockRows rows.
@@ -17,6 +17,9 @@ namespace smg
  *   its distance back from the number of vertices introduced so far: 0 introduces the next one.
  * - blocks: a row for each block of the cells. `FirstVertex` is the number of vertices introduced
  *   before the block; no cell after the block uses a vertex below `Finalized`.
+ * - isolated: the vertices of no cell, which are no part of the stream: `Id`, the place in the
+ *   original file (int64), `Position`, then the attribute columns as those of the vertices; blocks
+ *   of BlockRows rows. Files of the first four tables only have no such vertices.
  *
  * The header says kind, cell ("triangle" or "tetrahedron"), precision ("float32" or "float64"),
  * vertices, cells, bounds (xmin, xmax, ymin ...), width, span and mean_width, and may have
@@ -30,8 +33,11 @@ struct VsmFormat
     Vertices,
     Last,
     Cells,
-    Blocks
+    Blocks,
+    Isolated
   };
+  /** Tables that every file has. */
+  static constexpr int LeastTables = Isolated;
   /** Rows of a block of vertices or cells, but for the last one. */
   static constexpr std::int64_t BlockRows = 8192;
 };

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Container/VsmReader.h"
 
+#include "IO/Container/Columns.h"
 #include "IO/Container/PieceReader.h"
+#include "IO/Container/PositionReader.h"
+#include "IO/Container/RowReader.h"
 #include "IO/Container/VertexReader.h"
 #include "IO/Container/VsmFile.h"
 #include "IO/Container/VsmSource.h"
@@ -178,6 +181,38 @@ void VsmReader::readLastCells(std::int64_t first, std::span<std::int64_t> cells)
 {
   this->Self->checkVertices(first, static_cast<std::int64_t>(cells.size()));
   this->Self->LastCells.read(first, cells);
+}
+
+std::int64_t VsmReader::isolatedVertices() const
+{
+  return this->Self->File.isolatedVertices();
+}
+
+void VsmReader::readIsolated(std::int64_t first, std::int64_t count, IsolatedVertices& vertices)
+{
+  VsmFile& file = this->Self->File;
+  if (first < 0 || count < 0 || first > file.isolatedVertices() - count)
+  {
+    file.fail("has no " + std::to_string(count) + " isolated vertices from " +
+              std::to_string(first) + " on, but " + std::to_string(file.isolatedVertices()) +
+              " in all.");
+  }
+  vertices.ids.resize(static_cast<std::size_t>(count));
+  vertices.positions.resize(static_cast<std::size_t>(3 * count));
+  vertices.columns = emptyColumns(file.Info.vertexColumns);
+  if (count == 0)
+  {
+    return;
+  }
+  RowReader(file.Blocks, VsmFormat::Isolated, 0)
+    .read(first, count, reinterpret_cast<std::byte*>(vertices.ids.data()));
+  PositionReader(file, VsmFormat::Isolated, 1).read(first, count, vertices.positions.data());
+  int number = 2;
+  for (Column& column : vertices.columns)
+  {
+    column.resize(static_cast<std::size_t>(count));
+    RowReader(file.Blocks, VsmFormat::Isolated, number++).read(first, count, column.bytes.data());
+  }
 }
 
 } // namespace smg

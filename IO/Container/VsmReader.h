@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Container/IsolatedVertices.h"
 #include "IO/Container/MeshPiece.h"
 #include "Solver/Storage/BlockFile.h"
 #include "Solver/Stream/MeshSource.h"
@@ -75,6 +76,11 @@ public:
     const std::string& name, std::int64_t first, std::int64_t count, Column& column);
   /** For each of the vertices from `first` on, the last cell that uses it. */
   void readLastCells(std::int64_t first, std::span<std::int64_t> cells);
+
+  /** Vertices of no cell, which are no part of the stream. */
+  std::int64_t isolatedVertices() const;
+  /** Reads `count` of them from number `first` on, with all columns, in the order of the file. */
+  void readIsolated(std::int64_t first, std::int64_t count, IsolatedVertices& vertices);
 
 private:
   struct Implementation;

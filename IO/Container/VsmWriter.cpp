@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Container/VsmWriter.h"
 
+#include "IO/Container/IsolatedWriter.h"
 #include "IO/Container/PackedIntegers.h"
 #include "IO/Container/PagedArray.h"
+#include "IO/Container/PositionBuffer.h"
 #include "IO/Container/ReservedNames.h"
 #include "IO/Container/RowBuffer.h"
 #include "IO/Container/StreamStatistics.h"
@@ -66,7 +68,7 @@ std::vector<TableSpec> tablesOf(const StreamInfo& info, const std::string& file)
   return { tableWith("vertices", { "Position", real, 3 }, info.vertexColumns),
     tableWith("last", { "LastCell", ScalarType::UInt8, 0 }, {}),
     tableWith("cells", { "Corners", ScalarType::UInt8, 0 }, info.cellColumns),
-    tableWith("blocks", firstVertex, { finalized }) };
+    tableWith("blocks", firstVertex, { finalized }), IsolatedWriter::table(info) };
 }
 
 } // namespace
@@ -78,10 +80,12 @@ struct VsmWriter::Implementation
     : Name(path.string())
     , Info(info)
     , Corners(cornersOf(info.cellType))
+    , Positions(info.doublePositions)
     , VertexRows(info.vertexColumns)
     , CellRows(info.cellColumns)
     , LastCell(path.parent_path(), LastCellBytes)
     , Statistics(path.parent_path())
+    , Isolated(this->Name, info)
     , File(path, tablesOf(info, this->Name), codec, statistics)
   {
     this->Info.vertices = this->Info.cells = this->Info.width = this->Info.span = 0;
@@ -113,8 +117,7 @@ struct VsmWriter::Implementation
   std::int64_t Settled = 0;    ///< vertices whose last cell is known
   double MeanWidth = 0;
 
-  std::vector<double> Doubles; ///< positions of the block that is being collected
-  std::vector<float> Floats;   ///< the same, in single precision
+  PositionBuffer Positions; ///< of the block that is being collected
   RowBuffer VertexRows;
   std::vector<std::uint64_t> Distances; ///< corners of the block that is being collected
   RowBuffer CellRows;
@@ -127,6 +130,7 @@ struct VsmWriter::Implementation
 
   PagedArray<std::int64_t> LastCell; ///< so far
   StreamStatistics Statistics;
+  IsolatedWriter Isolated;
   BlockFileWriter File;
 };
 
@@ -206,8 +210,7 @@ void VsmWriter::Implementation::addPositions(
   for (std::int64_t i = 3 * first; i < 3 * (first + count); i++)
   {
     const double x = block.positions[i];
-    const auto single = static_cast<float>(x);
-    if (!std::isfinite(x) || (!this->Info.doublePositions && static_cast<double>(single) != x))
+    if (!this->Positions.append(x))
     {
       this->fail("coordinate " + std::to_string(i % 3) + " of vertex " +
                  std::to_string(block.firstVertex + i / 3) + " is " + std::to_string(x) +
@@ -217,14 +220,6 @@ void VsmWriter::Implementation::addPositions(
     double* const bounds = &this->Info.bounds[2 * (i % 3)];
     bounds[0] = std::min(bounds[0], x);
     bounds[1] = std::max(bounds[1], x);
-    if (this->Info.doublePositions)
-    {
-      this->Doubles.push_back(x);
-    }
-    else
-    {
-      this->Floats.push_back(single);
-    }
   }
 }
 
@@ -307,12 +302,9 @@ void VsmWriter::Implementation::settle(std::int64_t end)
 
 void VsmWriter::Implementation::flushVertices()
 {
-  const std::size_t rows = (this->Doubles.size() + this->Floats.size()) / 3;
-  const auto positions = this->Info.doublePositions ? std::as_bytes(std::span(this->Doubles))
-                                                    : std::as_bytes(std::span(this->Floats));
-  this->File.append(VsmFormat::Vertices, std::int64_t(rows), this->VertexRows.block(positions));
-  this->Doubles.clear();
-  this->Floats.clear();
+  this->File.append(VsmFormat::Vertices, std::int64_t(this->Positions.positions()),
+    this->VertexRows.block({ this->Positions.bytes() }));
+  this->Positions.clear();
   this->VertexRows.clear();
 }
 
@@ -329,7 +321,7 @@ void VsmWriter::Implementation::flushCells()
 {
   packIntegers(this->Distances, this->Packed);
   this->File.append(VsmFormat::Cells, std::int64_t(this->Distances.size()) / this->Corners,
-    this->CellRows.block(this->Packed));
+    this->CellRows.block({ this->Packed }));
   this->Distances.clear();
   this->CellRows.clear();
 }
@@ -340,6 +332,12 @@ void VsmWriter::Implementation::writeBlockTable()
   const std::span<const std::byte> columns[] = { std::as_bytes(std::span(this->FirstVertex)),
     std::as_bytes(std::span(this->Finalized)) };
   this->File.append(VsmFormat::Blocks, std::int64_t(this->FirstVertex.size()), columns);
+}
+
+void VsmWriter::isolated(std::span<const std::int64_t> ids, std::span<const double> positions,
+  const std::vector<Column>& columns)
+{
+  this->Self->Isolated.append(this->Self->File, ids, positions, columns);
 }
 
 StreamInfo VsmWriter::finish(const std::string& origin)
@@ -366,6 +364,7 @@ StreamInfo VsmWriter::finish(const std::string& origin)
     self.flushCells();
   }
   self.writeBlockTable();
+  self.Isolated.finish(self.File);
   const StreamStatistics::Result alive = self.Statistics.count(info.cells);
   info.width = alive.width;
   self.MeanWidth = alive.mean;

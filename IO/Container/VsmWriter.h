@@ -4,9 +4,12 @@
 #include "Solver/Storage/BlockFile.h"
 #include "Solver/Stream/MeshSource.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace smg
 {
@@ -40,6 +43,17 @@ public:
    * not the length that it should have.
    */
   void append(const MeshBlock& block);
+
+  /**
+   * Appends vertices of no cell (see IsolatedVertices.h), any time before finish(). They are no
+   * part of the stream: its order, counts, bounds and statistics do not know them.
+   * @param ids their places in the original file
+   * @param columns as the stream's vertex columns; none: their values are zero
+   * Throws Error if an id is negative, a coordinate cannot be stored (see append()), or something
+   * has not the length that it should have.
+   */
+  void isolated(std::span<const std::int64_t> ids, std::span<const double> positions,
+    const std::vector<Column>& columns = {});
 
   /**
    * Completes the file and gives it its name. Answers counts, bounds, width and span. Throws Error

@@ -3,13 +3,14 @@
 
 #include "IO/Formats/InQuotes.h"
 #include "IO/Formats/Suffix.h"
+#include "IO/Output/PlyColumns.h"
 #include "IO/Output/PlyRecords.h"
 #include "IO/Output/PositionedFile.h"
 #include "Solver/Core/Error.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 
 namespace smg
@@ -17,8 +18,6 @@ namespace smg
 
 namespace
 {
-
-constexpr std::int64_t MostVertices = std::numeric_limits<std::int32_t>::max();
 
 /** Writes the stream; as all records of an element have one size, each has its place at once. */
 class PlyWriter
@@ -36,8 +35,8 @@ public:
         { name, info.doublePositions ? ScalarType::Float64 : ScalarType::Float32, 1 });
     }
     this->Faces.add("list uchar int vertex_indices", 1 + 3 * sizeof(std::int32_t));
-    this->PointData = this->addColumns(this->Vertices, info.vertexColumns);
-    this->CellData = this->addColumns(this->Faces, info.cellColumns);
+    this->PointData.emplace(this->Vertices, info.vertexColumns, this->Written);
+    this->CellData.emplace(this->Faces, info.cellColumns, this->Written);
     const std::string header =
       plyFormatLines() + this->Vertices.header() + this->Faces.header() + "end_header\n";
     this->File.write(0, std::as_bytes(std::span(header)));
@@ -58,7 +57,7 @@ public:
       this->Single.assign(block.positions.begin(), block.positions.end());
       this->Vertices.fill(0, std::as_bytes(std::span(this->Single)), 3 * sizeof(float));
     }
-    this->fillColumns(this->Vertices, this->PointData, block.vertexColumns);
+    this->PointData->fill(this->Vertices, block.vertexColumns, this->Written);
     this->write(this->Vertices, this->VertexEnd);
 
     this->Corners.assign(block.corners.begin(), block.corners.end());
@@ -66,7 +65,7 @@ public:
     this->Faces.begin(this->Counts.size());
     this->Faces.fill(0, this->Counts, 1);
     this->Faces.fill(1, std::as_bytes(std::span(this->Corners)), 3 * sizeof(std::int32_t));
-    this->fillColumns(this->Faces, this->CellData, block.cellColumns);
+    this->CellData->fill(this->Faces, block.cellColumns, this->Written);
     this->write(this->Faces, this->FaceEnd);
   }
 
@@ -86,35 +85,6 @@ public:
   }
 
 private:
-  std::vector<std::ptrdiff_t> addColumns(PlyRecords& records, const std::vector<ColumnSpec>& specs)
-  {
-    std::vector<std::ptrdiff_t> places;
-    for (const ColumnSpec& spec : specs)
-    {
-      places.push_back(records.add(spec));
-      if (places.back() < 0)
-      {
-        this->Written.droppedColumns.push_back(spec.name);
-      }
-    }
-    return places;
-  }
-
-  void fillColumns(PlyRecords& records, const std::vector<std::ptrdiff_t>& places,
-    const std::vector<Column>& columns)
-  {
-    std::vector<std::string>& rounded = this->Written.roundedColumns;
-    for (std::size_t i = 0; i < places.size(); ++i)
-    {
-      const std::string& name = columns[i].spec.name;
-      if (places[i] >= 0 && records.fill(places[i], columns[i]) &&
-          std::find(rounded.begin(), rounded.end(), name) == rounded.end())
-      {
-        rounded.push_back(name);
-      }
-    }
-  }
-
   void write(const PlyRecords& records, std::int64_t& at)
   {
     this->File.write(at, records.records());
@@ -124,7 +94,7 @@ private:
   const StreamInfo& Info;
   PositionedFile File;
   PlyRecords Vertices, Faces;
-  std::vector<std::ptrdiff_t> PointData, CellData; ///< places of the columns; -1: left out
+  std::optional<PlyColumns> PointData, CellData;
   std::int64_t VertexEnd = 0, FirstFace = 0, FaceEnd = 0;
   std::vector<float> Single;
   std::vector<std::int32_t> Corners;
@@ -150,7 +120,7 @@ std::vector<std::string> notesOn(const WrittenPly& written)
   return notes;
 }
 
-void checkPlyPath(const std::filesystem::path& path, CellType cellType)
+void checkPlyPath(const std::filesystem::path& path, CellType cellType, std::int64_t vertices)
 {
   if (lowerSuffix(path) != ".ply")
   {
@@ -160,19 +130,19 @@ void checkPlyPath(const std::filesystem::path& path, CellType cellType)
   {
     throw Error(path.string() + ": PLY holds no tetrahedra: choose .vsm or .vtu.");
   }
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  if (vertices > most)
+  {
+    throw Error(path.string() + ": PLY has room for " + std::to_string(most) +
+                " vertices, but there are " + std::to_string(vertices) + ": choose .vsm or .vtp.");
+  }
 }
 
 WrittenPly writePly(
   MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress)
 {
   const StreamInfo& info = source.info();
-  checkPlyPath(path, info.cellType);
-  if (info.vertices > MostVertices)
-  {
-    throw Error(path.string() + ": PLY has room for " + std::to_string(MostVertices) +
-                " vertices, but there are " + std::to_string(info.vertices) +
-                ": choose .vsm or .vtp.");
-  }
+  checkPlyPath(path, info.cellType, info.vertices);
   Progress reported(progress);
   PlyWriter writer(info, path);
   for (MeshBlock block; source.next(block);)

@@ -4,6 +4,7 @@
 #include "Solver/Core/Progress.h"
 #include "Solver/Stream/MeshSource.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -33,9 +34,8 @@ struct WrittenPly
  * no 64-bit integers: they are written, and come back, as double, which is exact up to 2^53. So
  * convert() takes the `OriginalId` of a PLY file for an attribute (see there): its own are the
  * places in the PLY file.
- * @throws Error if checkPlyPath() does, there are more than 2^31 - 1 vertices, the stream has not
- * the counts that it says, or the file cannot be written; Cancelled. Nothing is left of the file
- * then.
+ * @throws Error if checkPlyPath() does, the stream has not the counts that it says, or the file
+ * cannot be written; Cancelled. Nothing is left of the file then.
  */
 WrittenPly writePly(
   MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress = {});
@@ -43,7 +43,10 @@ WrittenPly writePly(
 /** What a user should know of it, a sentence a column. */
 std::vector<std::string> notesOn(const WrittenPly& written);
 
-/** Throws Error unless `path` ends with .ply and the cells are triangles. */
-void checkPlyPath(const std::filesystem::path& path, CellType cellType);
+/**
+ * Throws Error unless `path` ends with .ply, the cells are triangles, and there are no more
+ * vertices (0: not known yet) than PLY has numbers for.
+ */
+void checkPlyPath(const std::filesystem::path& path, CellType cellType, std::int64_t vertices = 0);
 
 } // namespace smg

@@ -12,9 +12,8 @@ namespace smg
 /**
  * Writes a mesh stream, which says its numbers of vertices and cells, as one VTK XML file: .vtp for
  * triangles, .vtu for triangles or tetrahedra, with all columns as point and cell data, points in
- * stream order. Each array is within its element, in base64 with 64-bit counts, since with recent
- * versions of Expat many of VTK's readers refuse appended data. The data are written as they come,
- * in the memory of a few blocks.
+ * stream order (see VtkXmlFile.h). The data are written as they come, in the memory of a few
+ * blocks.
  * @throws Error if the suffix does not go with the cells or the file cannot be written; Cancelled.
  * Nothing is left of the file then.
  */

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Restore/ElementRestorer.h"
+
+#include "IO/Container/Columns.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace smg
+{
+
+namespace
+{
+
+/** About so many bytes a triangle are needed to look for a polygon. */
+constexpr std::size_t BytesOfFanTriangle = 64;
+
+constexpr std::int64_t ChunkElements = 8192;
+constexpr std::size_t ChunkCorners = std::size_t(64) << 10;
+/** About so many bytes of columns are delivered at once. */
+constexpr std::size_t ChunkBytes = std::size_t(512) << 10;
+
+} // namespace
+
+ElementRestorer::ElementRestorer(
+  Workspace& workspace, std::int64_t memory, const RestoredInfo& info)
+  : CornersOfCell(static_cast<std::size_t>(cornersOf(info.cellType)))
+  , Columns(info.elementColumns)
+  , Sorted(workspace, memory, this->CornersOfCell * sizeof(std::uint32_t) + this->Columns.bytes())
+  , Elements(workspace)
+  , MostCells(static_cast<std::size_t>(workspace.pool().limit()) / 8 /
+              (BytesOfFanTriangle + this->Columns.bytes()))
+{
+}
+
+void ElementRestorer::put(std::int64_t element, std::span<const std::uint32_t> corners,
+  const std::vector<Column>& columns, std::size_t tuple)
+{
+  std::byte* const row = this->Sorted.put(static_cast<std::uint64_t>(element));
+  std::memcpy(row, corners.data(), corners.size_bytes());
+  this->Columns.gather(columns, tuple, row + corners.size_bytes());
+}
+
+void ElementRestorer::restore(RestoredInfo& info)
+{
+  this->Sorted.sort();
+  for (RowSort::Row row; this->Sorted.next(row);)
+  {
+    this->take(row);
+  }
+  this->endGroup();
+  this->Elements.close();
+  info.elements = this->Counts.elements;
+  info.quadrilaterals = this->Counts.quadrilaterals;
+  info.corners = this->Counts.corners;
+  info.mostCorners = this->Counts.mostCorners;
+}
+
+void ElementRestorer::take(const RowSort::Row& row)
+{
+  if (row.key != this->Element)
+  {
+    this->endGroup();
+    this->Element = row.key;
+    this->TooLarge = false;
+  }
+  if (this->Corners.size() == this->MostCells * this->CornersOfCell)
+  {
+    // What is delivered of so large an element are its cells, one by one.
+    this->Large += this->TooLarge ? 0 : 1;
+    this->TooLarge = true;
+    this->endGroup();
+  }
+  const std::size_t size = this->Corners.size();
+  this->Corners.resize(size + this->CornersOfCell);
+  const std::size_t cornerBytes = this->CornersOfCell * sizeof(std::uint32_t);
+  std::memcpy(&this->Corners[size], row.bytes, cornerBytes);
+  const std::byte* const tuples = row.bytes + cornerBytes;
+  this->Tuples.insert(this->Tuples.end(), tuples, tuples + this->Columns.bytes());
+}
+
+/** Writes the cells that were collected of one element, as a polygon where they are its fan. */
+void ElementRestorer::endGroup()
+{
+  const std::size_t cells = this->Corners.size() / this->CornersOfCell;
+  const std::span<const std::byte> tuples = this->Tuples;
+  const std::size_t bytes = this->Columns.bytes();
+  if (cells > 1 && !this->TooLarge && this->CornersOfCell == 3 && this->Fan.build(this->Corners))
+  {
+    // All tuples are the same if each is the one before.
+    const bool same =
+      std::equal(tuples.begin() + static_cast<std::ptrdiff_t>(bytes), tuples.end(), tuples.begin());
+    this->Different += same ? 0 : 1;
+    this->write(this->Fan.polygon(), tuples.first(bytes));
+  }
+  else
+  {
+    this->Split += cells > 1 && !this->TooLarge ? 1 : 0;
+    for (std::size_t cell = 0; cell < cells; ++cell)
+    {
+      this->write(std::span(this->Corners).subspan(cell * this->CornersOfCell, this->CornersOfCell),
+        tuples.subspan(cell * bytes, bytes));
+    }
+  }
+  this->Corners.clear();
+  this->Tuples.clear();
+}
+
+void ElementRestorer::write(
+  std::span<const std::uint32_t> corners, std::span<const std::byte> tuples)
+{
+  const auto size = static_cast<std::uint32_t>(corners.size());
+  this->Elements.put(0, size);
+  this->Elements.append(0, std::as_bytes(corners));
+  this->Elements.append(0, tuples);
+  ++this->Counts.elements;
+  this->Counts.quadrilaterals += size == 4 && this->CornersOfCell == 3 ? 1 : 0;
+  this->Counts.corners += size;
+  this->Counts.mostCorners = std::max<std::int64_t>(this->Counts.mostCorners, size);
+}
+
+std::vector<std::string> ElementRestorer::notes() const
+{
+  std::vector<std::string> notes;
+  const std::string cells = this->CornersOfCell == 3 ? "triangles" : "tetrahedra";
+  if (this->Split > 0)
+  {
+    notes.push_back(std::to_string(this->Split) +
+                    " cells of the original file, which became several " + cells +
+                    " each, are written as these " + cells + ".");
+  }
+  if (this->Large > 0)
+  {
+    notes.push_back(std::to_string(this->Large) + " polygons of more than " +
+                    std::to_string(this->MostCells) +
+                    " corners are written as triangles: allow more memory to keep them.");
+  }
+  if (this->Different > 0)
+  {
+    notes.push_back(std::to_string(this->Different) +
+                    " polygons were triangles with different values in the mesh stream: they have "
+                    "those of one of these.");
+  }
+  return notes;
+}
+
+bool ElementRestorer::next(RestoredElements& elements)
+{
+  if (!this->Reader)
+  {
+    this->Reader.emplace(this->Elements);
+    this->Next = 0;
+  }
+  elements.first = this->Next;
+  elements.sizes.clear();
+  elements.corners.clear();
+  elements.columns = emptyColumns(this->Columns.specs());
+  std::vector<std::byte> tuples(this->Columns.bytes());
+  std::vector<std::uint32_t> corners;
+  const std::int64_t most = std::clamp<std::int64_t>(
+    static_cast<std::int64_t>(ChunkBytes / (1 + this->Columns.bytes())), 1, ChunkElements);
+  std::uint32_t size = 0;
+  while (
+    elements.count() < most && elements.corners.size() < ChunkCorners && this->Reader->get(size))
+  {
+    corners.resize(size);
+    this->Reader->read(std::as_writable_bytes(std::span(corners)));
+    this->Reader->read(tuples);
+    elements.sizes.push_back(size);
+    elements.corners.insert(elements.corners.end(), corners.begin(), corners.end());
+    this->Columns.append(tuples.data(), elements.columns);
+  }
+  this->Next += elements.count();
+  return elements.count() > 0;
+}
+
+} // namespace smg

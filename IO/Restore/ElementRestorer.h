@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Restore/ColumnRows.h"
+#include "IO/Restore/FanChain.h"
+#include "IO/Restore/RestoredChunks.h"
+#include "IO/Restore/RowSort.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Makes of the cells of a mesh stream the elements of the original file, in its order and out of
+ * core: put() all cells, then restore(), then next() delivers the elements. Triangles of one
+ * element that are the fan of a polygon become this polygon; other cells of one element keep the
+ * sequence in which they came.
+ */
+class ElementRestorer
+{
+public:
+  /** For cells of info.cellType with info.elementColumns. Uses `memory` bytes of the workspace. */
+  ElementRestorer(Workspace& workspace, std::int64_t memory, const RestoredInfo& info);
+
+  /** Takes tuple `tuple` of the columns, which begin with those of the info, as a cell's. */
+  void put(std::int64_t element, std::span<const std::uint32_t> corners,
+    const std::vector<Column>& columns, std::size_t tuple);
+
+  /** Ends the putting, and counts the elements and corners into `info`. Throws Error. */
+  void restore(RestoredInfo& info);
+
+  /** What restore() could not do, a sentence each. */
+  std::vector<std::string> notes() const;
+
+  /** The next elements; false at the end. */
+  bool next(RestoredElements& elements);
+  /** Goes back to the first element. */
+  void rewind() { this->Reader.reset(); }
+
+private:
+  void take(const RowSort::Row& row);
+  void endGroup();
+  void write(std::span<const std::uint32_t> corners, std::span<const std::byte> tuples);
+
+  std::size_t CornersOfCell;
+  ColumnRows Columns;
+  RowSort Sorted;      ///< a row is the corners, then the columns
+  BucketFile Elements; ///< number of corners, corners, columns
+  RestoredInfo Counts;
+  std::size_t MostCells; ///< of an element that is looked at as a whole
+
+  // The cells of one element.
+  std::uint64_t Element = UINT64_MAX; ///< none, at first
+  std::vector<std::uint32_t> Corners;
+  std::vector<std::byte> Tuples; ///< of all columns, cell by cell
+  bool TooLarge = false;
+  FanChain Fan;
+  std::int64_t Split = 0, Large = 0, Different = 0; ///< elements of that kind
+
+  std::optional<BucketFile::Reader> Reader;
+  std::int64_t Next = 0;
+};
+
+} // namespace smg

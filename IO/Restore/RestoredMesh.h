@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/External/Relabelling.h"
+#include "IO/External/Workspace.h"
+#include "IO/Restore/ElementRestorer.h"
+#include "IO/Restore/RestoredChunks.h"
+#include "IO/Restore/VertexRestorer.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+class VsmReader;
+
+/**
+ * A .vsm file in the order of the file that it was made of: its vertices by the vertex column
+ * `OriginalId`, the isolated ones in their places, and its cells by the cell column
+ * `OriginalCellId`, polygons as polygons. Works out of core, in the memory of the workspace.
+ *
+ * What a conversion adds (`OriginalId`, `OriginalCellId`, `CellFlags`) is no part of it.
+ */
+class RestoredMesh
+{
+public:
+  /**
+   * Reads the stream and sorts it. Tells the workspace's progress up to SortedShare.
+   * @throws Error if the file has no OriginalId, its vertices are not all of the original ones, or
+   * it cannot be read; Cancelled.
+   */
+  RestoredMesh(const std::filesystem::path& vsm, Workspace& workspace);
+  RestoredMesh(const RestoredMesh&) = delete;
+  RestoredMesh& operator=(const RestoredMesh&) = delete;
+
+  const RestoredInfo& info() const { return this->Info; }
+  /** What a user should know of the restored mesh, a sentence each. */
+  const std::vector<std::string>& notes() const { return this->Notes; }
+
+  /** The next vertices, from 0; false at the end. They can be read once. Throws Error; Cancelled.
+   */
+  bool next(RestoredVertices& vertices);
+  /** The next elements, from 0; false at the end. Throws Error; Cancelled. */
+  bool next(RestoredElements& elements);
+  /** Goes back to the first element. */
+  void rewindElements() { this->Elements->rewind(); }
+
+  /** Share of the work, 0 to 1, that is done when the mesh can be read. */
+  static constexpr double SortedShare = 0.6;
+
+private:
+  void readInfo(const VsmReader& reader);
+  void readVertices(VsmReader& reader, Relabelling& ids, RecordFile<std::uint32_t>& corners);
+  void readIsolated(VsmReader& reader);
+  void readCells(VsmReader& reader, Relabelling& ids, RecordFile<std::uint32_t>& corners);
+
+  Workspace& Space;
+  std::string Name;
+  RestoredInfo Info;
+  bool KnowsCells = false; ///< whether there is an OriginalCellId
+  std::unique_ptr<VertexRestorer> Vertices;
+  std::unique_ptr<ElementRestorer> Elements;
+  std::vector<std::string> Notes;
+  std::int64_t Delivered = 0; ///< vertices and elements
+};
+
+} // namespace smg

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Restore/ColumnRows.h"
+#include "IO/Restore/RestoredChunks.h"
+#include "IO/Restore/RowSort.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Brings vertices into the order of their original numbers, out of core: put() all, then sort(),
+ * then next() delivers them. The numbers must be 0, 1, 2 ..., each of one vertex.
+ */
+class VertexRestorer
+{
+public:
+  /**
+   * For info.vertices vertices with info.vertexColumns. Uses `memory` bytes of the workspace.
+   * `name` is what errors call the mesh.
+   */
+  VertexRestorer(
+    Workspace& workspace, std::int64_t memory, const RestoredInfo& info, std::string name);
+
+  /**
+   * Takes vertices with these numbers. The columns begin with those of the info. Throws Error if a
+   * number is none of a vertex.
+   */
+  void put(std::span<const std::int64_t> ids, std::span<const double> positions,
+    const std::vector<Column>& columns);
+
+  /** Ends the putting. */
+  void sort() { this->Sorted.sort(); }
+
+  /**
+   * The next vertices; false at the end. Throws Error if a number was given to no vertex, or to
+   * two.
+   */
+  bool next(RestoredVertices& vertices);
+
+private:
+  [[noreturn]] void fail(const std::string& what) const;
+
+  std::string Name;
+  bool DoublePositions;
+  std::size_t PositionBytes;
+  ColumnRows Columns;
+  std::int64_t Count;
+  std::int64_t Chunk; ///< vertices that are delivered at once
+  std::int64_t Next = 0;
+  RowSort Sorted; ///< a row is a position, then the columns
+};
+
+} // namespace smg
