@@ -241,7 +241,8 @@ private:
         { std::memcpy(column.bytes.data(), flagger.flags(block).data(), column.bytes.size()); });
     }
     space.beginPart(1.0, Unknown);
-    this->write(*source, this->toldTo(space), [](VsmWriter&) {});
+    this->write(*source, this->toldTo(space),
+      [&](VsmWriter& writer) { copyIsolated(path, source->info(), writer); });
   }
 
   /** Back into the order of the first file. */

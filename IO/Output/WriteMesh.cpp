@@ -42,7 +42,14 @@ std::vector<std::string> writeMesh(
       writeVtkXml(source, path, options.progress);
       return {};
     default:
-      writeVsm(source, path, options.codec, options.progress);
+      writeVsm(source, path, options.codec, options.progress, {},
+        [&](VsmWriter& writer)
+        {
+          if (!options.isolatedFrom.empty())
+          {
+            copyIsolated(options.isolatedFrom, source.info(), writer);
+          }
+        });
       return {};
   }
 }
@@ -53,6 +60,7 @@ std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
   if (kindOfOutput(path) != MeshFileKind::Stream)
   {
     WriteMeshOptions options;
+    options.isolatedFrom = vsm;
     options.progress = progress;
     return writeMesh(*VsmReader(vsm).source(), path, options);
   }

@@ -18,6 +18,8 @@ struct WriteMeshOptions
   Codec codec = Codec::Zstd;
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
+  /** A .vsm file whose isolated vertices a new .vsm file keeps; empty: none. See writeVsm(). */
+  std::filesystem::path isolatedFrom;
   ProgressFunction progress;
 };
 

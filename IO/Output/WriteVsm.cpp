@@ -1,9 +1,57 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Output/WriteVsm.h"
 
+#include "IO/Container/Columns.h"
+#include "IO/Container/VsmFormat.h"
+#include "IO/Container/VsmReader.h"
+#include "IO/Container/VsmWriter.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
 
 namespace smg
 {
+
+namespace
+{
+
+/** Rounds the coordinates to numbers of single precision. */
+void roundToSingle(std::vector<double>& positions)
+{
+  for (double& x : positions)
+  {
+    x = static_cast<float>(x);
+  }
+}
+
+} // namespace
+
+void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer)
+{
+  VsmReader reader(from);
+  IsolatedVertices chunk;
+  for (std::int64_t first = 0; first < reader.isolatedVertices(); first += VsmFormat::BlockRows)
+  {
+    reader.readIsolated(
+      first, std::min(VsmFormat::BlockRows, reader.isolatedVertices() - first), chunk);
+    if (!info.doublePositions)
+    {
+      roundToSingle(chunk.positions);
+    }
+    std::vector<Column> columns = emptyColumns(info.vertexColumns);
+    for (Column& column : columns)
+    {
+      const std::ptrdiff_t same = findColumn(chunk.columns, column.spec);
+      column.resize(chunk.ids.size());
+      if (same >= 0)
+      {
+        column.bytes = chunk.columns[static_cast<std::size_t>(same)].bytes;
+      }
+    }
+    writer.isolated(chunk.ids, chunk.positions, columns);
+  }
+}
 
 WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path, Codec codec,
   const ProgressFunction& progress, const std::string& origin,

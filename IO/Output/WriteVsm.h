@@ -30,4 +30,10 @@ WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path,
   Codec codec = Codec::Zstd, const ProgressFunction& progress = {}, const std::string& origin = {},
   const std::function<void(VsmWriter&)>& add = {});
 
+/**
+ * Gives the isolated vertices of a .vsm file, with the columns that both have, to the writer of a
+ * stream like `info`: a stream that was made of a .vsm file does not carry them.
+ */
+void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer);
+
 } // namespace smg

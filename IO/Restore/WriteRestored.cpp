@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Restore/WriteRestored.h"
+
+#include "IO/Container/VsmReader.h"
+#include "IO/Formats/Suffix.h"
+#include "IO/Restore/RestoredFormats.h"
+#include "IO/Restore/RestoredMesh.h"
+#include "Solver/Core/Error.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace smg
+{
+
+namespace
+{
+
+/** A format, and what it holds. */
+struct Format
+{
+  std::string_view suffix;
+  bool tetrahedra;
+  bool columns;
+  RestoredNotes (*write)(RestoredMesh&, const std::filesystem::path&, Workspace&);
+};
+
+/** A writer that needs no workspace. */
+template <RestoredNotes (*Write)(RestoredMesh&, const std::filesystem::path&)>
+RestoredNotes alone(RestoredMesh& mesh, const std::filesystem::path& path, Workspace&)
+{
+  return Write(mesh, path);
+}
+
+constexpr Format Formats[] = {
+  { ".ply", false, true, alone<writeRestoredPly> },
+  { ".vtp", false, true, alone<writeRestoredVtkXml> },
+  { ".vtu", true, true, alone<writeRestoredVtkXml> },
+  { ".vtk", true, true, alone<writeRestoredVtk> },
+  { ".obj", false, false, alone<writeRestoredObj> },
+  { ".off", false, false, alone<writeRestoredOff> },
+  { ".stl", false, false, writeRestoredStl },
+  { ".mesh", true, false, alone<writeRestoredMedit> },
+  { ".msh", true, false, alone<writeRestoredGmsh> },
+};
+
+const Format* formatOf(const std::filesystem::path& path)
+{
+  const std::string suffix = lowerSuffix(path);
+  const auto* const found = std::ranges::find(Formats, suffix, &Format::suffix);
+  return found == std::end(Formats) ? nullptr : found;
+}
+
+} // namespace
+
+bool canRestoreTo(const std::filesystem::path& path)
+{
+  return formatOf(path) != nullptr;
+}
+
+void checkRestoredPath(const std::filesystem::path& path, CellType cellType)
+{
+  const Format* const format = formatOf(path);
+  if (!format)
+  {
+    throw Error(path.string() +
+                ": the original order can be restored in .ply, .vtp, .vtu, .vtk, .obj, .off, .stl, "
+                ".mesh and .msh files; a mesh stream has an order of its own.");
+  }
+  if (cellType == CellType::Tetrahedron && !format->tetrahedra)
+  {
+    throw Error(path.string() + ": the format holds no tetrahedra: choose .vtu, .vtk, .mesh or "
+                                ".msh.");
+  }
+}
+
+std::vector<std::string> writeRestored(
+  const std::filesystem::path& vsm, const std::filesystem::path& out, Workspace& workspace)
+{
+  checkRestoredPath(out, VsmReader(vsm).info().cellType);
+  const Format& format = *formatOf(out);
+  RestoredMesh mesh(vsm, workspace);
+  std::vector<std::string> notes = mesh.notes();
+  const RestoredNotes more = format.write(mesh, out, workspace);
+  notes.insert(notes.end(), more.begin(), more.end());
+  const RestoredInfo& info = mesh.info();
+  if (!format.columns && !(info.vertexColumns.empty() && info.elementColumns.empty()))
+  {
+    notes.push_back(
+      "The columns are left out, since " + std::string(format.suffix) + " files have none.");
+  }
+  workspace.progress(1.0);
+  return notes;
+}
+
+} // namespace smg
