@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Support/FileMesh.h"
+
+#include "Testing/Support/FileCursor.h"
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+namespace smg::testing
+{
+
+namespace
+{
+
+std::string contentOf(const std::filesystem::path& path)
+{
+  std::ifstream in(path, std::ios::binary);
+  return { std::istreambuf_iterator<char>(in), {} };
+}
+
+FileMesh readObj(FileCursor in)
+{
+  FileMesh mesh;
+  while (!in.atEnd())
+  {
+    std::istringstream line(in.line());
+    std::string keyword;
+    line >> keyword;
+    const std::vector<double> numbers{ std::istream_iterator<double>(line), {} };
+    if (keyword == "v")
+    {
+      mesh.points.insert(mesh.points.end(), numbers.begin(), numbers.end());
+      continue;
+    }
+    mesh.cells.emplace_back();
+    for (const double number : numbers)
+    {
+      mesh.cells.back().push_back(static_cast<std::int64_t>(number) - 1);
+    }
+  }
+  return mesh;
+}
+
+FileMesh readOff(FileCursor in)
+{
+  FileMesh mesh;
+  in.expect("OFF");
+  const std::int64_t points = in.integer();
+  const std::int64_t cells = in.integer();
+  in.integer();
+  in.points(points, mesh);
+  for (std::int64_t i = 0; i < cells; ++i)
+  {
+    in.cell(in.integer(), 0, mesh);
+  }
+  return mesh;
+}
+
+FileMesh readMedit(FileCursor in)
+{
+  FileMesh mesh;
+  const std::map<std::string, int> corners{ { "Triangles", 3 }, { "Quadrilaterals", 4 },
+    { "Tetrahedra", 4 } };
+  in.expect("MeshVersionFormatted");
+  in.integer();
+  in.expect("Dimension");
+  in.expect("3");
+  in.expect("Vertices");
+  for (std::int64_t count = in.integer(); count > 0; --count)
+  {
+    in.points(1, mesh);
+    in.integer();
+  }
+  for (std::string keyword = in.word(); keyword != "End"; keyword = in.word())
+  {
+    for (std::int64_t count = in.integer(); count > 0; --count)
+    {
+      in.cell(corners.at(keyword), 1, mesh);
+      in.integer();
+    }
+  }
+  return mesh;
+}
+
+FileMesh readGmsh(FileCursor in)
+{
+  FileMesh mesh;
+  const std::map<int, int> corners{ { 2, 3 }, { 3, 4 }, { 4, 4 } };
+  for (const char* word : { "$MeshFormat", "2.2", "0", "8", "$EndMeshFormat", "$Nodes" })
+  {
+    in.expect(word);
+  }
+  const std::int64_t points = in.integer();
+  for (std::int64_t i = 0; i < points; ++i)
+  {
+    in.expect(std::to_string(i + 1));
+    in.points(1, mesh);
+  }
+  in.expect("$EndNodes");
+  in.expect("$Elements");
+  const std::int64_t cells = in.integer();
+  for (std::int64_t i = 0; i < cells; ++i)
+  {
+    in.expect(std::to_string(i + 1));
+    const int type = static_cast<int>(in.integer());
+    for (std::int64_t tags = in.integer(); tags > 0; --tags)
+    {
+      in.integer();
+    }
+    in.cell(corners.at(type), 1, mesh);
+  }
+  in.expect("$EndElements");
+  return mesh;
+}
+
+FileMesh readPly(FileCursor in)
+{
+  struct Property
+  {
+    std::string type, name, countType;
+  };
+  FileMesh mesh;
+  std::int64_t counts[2] = {};
+  std::vector<Property> properties[2];
+  int element = -1;
+  for (std::string line = in.line(); line != "end_header"; line = in.line())
+  {
+    std::istringstream words(line);
+    std::string keyword, type, name;
+    words >> keyword >> type;
+    if (keyword == "element")
+    {
+      words >> counts[++element];
+    }
+    else if (keyword == "property" && type == "list")
+    {
+      Property property;
+      words >> property.countType >> property.type >> property.name;
+      properties[element].push_back(property);
+    }
+    else if (keyword == "property")
+    {
+      words >> name;
+      properties[element].push_back({ type, name, "" });
+    }
+  }
+  const std::endian order = std::endian::native;
+  for (int e = 0; e < 2; ++e)
+  {
+    for (std::int64_t i = 0; i < counts[e]; ++i)
+    {
+      for (const Property& property : properties[e])
+      {
+        if (!property.countType.empty())
+        {
+          mesh.cells.emplace_back();
+          for (auto n = in.binary(property.countType, order); n > 0; --n)
+          {
+            mesh.cells.back().push_back(static_cast<std::int64_t>(in.binary(property.type, order)));
+          }
+          continue;
+        }
+        const double value = in.binary(property.type, order);
+        const bool isPosition =
+          property.name == "x" || property.name == "y" || property.name == "z";
+        (isPosition ? mesh.points : (e == 0 ? mesh.pointData : mesh.cellData)[property.name])
+          .push_back(value);
+      }
+    }
+  }
+  return mesh;
+}
+
+} // namespace
+
+FileMesh readFileMesh(const std::filesystem::path& path)
+{
+  const std::string suffix = path.extension().string();
+  const std::string text = contentOf(path);
+  return suffix == ".ply"    ? readPly(FileCursor(text))
+         : suffix == ".obj"  ? readObj(FileCursor(text))
+         : suffix == ".off"  ? readOff(FileCursor(text))
+         : suffix == ".mesh" ? readMedit(FileCursor(text))
+         : suffix == ".msh"  ? readGmsh(FileCursor(text))
+         : suffix == ".vtk"  ? readVtk(FileCursor(text))
+                             : readVtkXml(text);
+}
+
+std::vector<double> readStlPoints(const std::filesystem::path& path)
+{
+  const std::string text = contentOf(path);
+  std::vector<double> points;
+  if (text.starts_with("solid"))
+  {
+    FileCursor in(text);
+    while (!in.atEnd())
+    {
+      if (in.word() == "vertex")
+      {
+        points.push_back(in.number());
+        points.push_back(in.number());
+        points.push_back(in.number());
+      }
+    }
+    return points;
+  }
+  FileCursor in(text.substr(80));
+  const auto count = in.binary<std::uint32_t>(std::endian::little);
+  if (text.size() != 84 + std::size_t(50) * count)
+  {
+    throw std::runtime_error("a binary STL file that is not as long as it says");
+  }
+  for (std::uint32_t i = 0; i < count; ++i)
+  {
+    for (int k = 0; k < 12; ++k)
+    {
+      const auto value = in.binary<float>(std::endian::little);
+      if (k >= 3)
+      {
+        points.push_back(value);
+      }
+    }
+    in.binary<std::uint16_t>(std::endian::little);
+  }
+  return points;
+}
+
+} // namespace smg::testing
