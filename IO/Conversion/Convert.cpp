@@ -77,7 +77,7 @@ public:
       throw Error("A conversion needs a memory limit of at least " +
                   std::to_string(Workspace::LeastMemory >> 20) + " MiB.");
     }
-    options.restoreOrder ? checkRestoredOutput(out) : checkOutput(out);
+    options.restoreOrder ? this->checkRestored() : checkOutput(out);
     this->Report.order = options.restoreOrder ? "restored" : nameOf(options.order);
   }
 
@@ -107,6 +107,15 @@ private:
   bool isStream() const
   {
     return this->From == MeshFileKind::Vsm || this->From == MeshFileKind::Stream;
+  }
+
+  void checkRestored() const
+  {
+    if (this->From != MeshFileKind::Vsm)
+    {
+      throw Error(this->In.string() +
+                  ": only a .vsm file knows the order of the file that it was made of: give one.");
+    }
   }
 
   Workspace& workspace()
@@ -250,12 +259,8 @@ private:
   {
     Workspace& space = this->workspace();
     space.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
-    if (this->From != MeshFileKind::Vsm)
-    {
-      throw Error(this->In.string() +
-                  ": only a .vsm file knows the order of the file that it was made of: give one.");
-    }
     const VsmReader reader(this->In);
+    checkRestoredPath(this->Out, reader.info().cellType);
     this->Report.vertices = reader.info().vertices;
     this->Report.cells = reader.info().cells;
     this->Report.notes = writeRestored(this->In, this->Out, space);
