@@ -32,10 +32,16 @@ enum class MeshFormat
   VtkParallelXml
 };
 
-/** The format by the file's first bytes; Unknown where these say nothing, as for STL and OBJ. */
+/**
+ * The format by the sign that the file begins with; Unknown for what has none, as STL, OBJ and
+ * TetGen. Of a file that gzip compressed, it is the format of what it holds.
+ */
 MeshFormat meshFormatOfContent(const std::filesystem::path& path);
 
-/** The format by the file's first bytes, or by its suffix where these say nothing. */
+/**
+ * The format by the sign that the file begins with, else by its first bytes if they look like STL
+ * or OBJ, else by its suffix, .gz left out of account.
+ */
 MeshFormat meshFormat(const std::filesystem::path& path);
 
 /**

@@ -4,6 +4,10 @@
 
 #include <zlib.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+
 using namespace smg;
 using namespace smg::testing;
 
@@ -161,8 +165,14 @@ TEST_F(ImportFormat, NothingOfACompressedFileStays)
 {
   writeBytes(this->Folder / "a.gz", gzip(Off));
   Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+  const auto files = [&workspace]
+  { return std::distance(std::filesystem::directory_iterator(workspace.folder()), {}); };
+  const std::ptrdiff_t before = files();
   importMesh(this->Folder / "a.gz", workspace);
-  EXPECT_TRUE(std::filesystem::is_empty(workspace.folder()));
+  EXPECT_EQ(files(), before);
+  writeBytes(this->Folder / "a.gz", gzip("no mesh"));
+  EXPECT_THROW(importMesh(this->Folder / "a.gz", workspace), Error);
+  EXPECT_EQ(files(), before);
 }
 
 TEST_F(ImportFormat, DamageOfCompressedFilesIsFound)

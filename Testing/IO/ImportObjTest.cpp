@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Import/InputFile.h"
 #include "Testing/IO/ImportFixture.h"
 
 using namespace smg;
@@ -40,18 +41,19 @@ TEST_F(ImportObj, ColoursAreIgnoredAndLinesContinued)
   EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2 }));
 }
 
-TEST_F(ImportObj, LongPolygonsNeedNoMemory)
+TEST_F(ImportObj, PolygonsOfAnyLength)
 {
-  // The corners of one face take more bytes than the memory that is allowed.
-  constexpr int corners = 2500000;
+  constexpr std::int64_t corners = 300000;
   std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
-  for (int i = 0; i < corners; ++i)
+  for (std::int64_t i = 0; i < corners; ++i)
   {
     text += i % 2 ? " 2/1/1" : " 3";
   }
-  writeBytes(this->Folder / "a.obj", text);
-  Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
-  EXPECT_EQ(importMesh(this->Folder / "a.obj", workspace).cells, corners - 2);
+  ASSERT_GT(text.size(), InputFile::WindowBytes);
+  const ReadMesh mesh = this->read("a.obj", text);
+  EXPECT_EQ(mesh.cells(), corners - 2);
+  EXPECT_EQ(mesh.elementCount, 1);
+  EXPECT_EQ((Numbers(mesh.corners.end() - 6, mesh.corners.end())), (Numbers{ 2, 1, 2, 2, 2, 1 }));
 }
 
 TEST_F(ImportObj, ErrorsNameFileAndPlace)
