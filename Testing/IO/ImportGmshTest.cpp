@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/IO/GmshWriter.h"
 #include "Testing/IO/VolumeImport.h"
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -12,182 +12,16 @@ namespace smg::testing
 namespace
 {
 
-using Numbers = std::vector<std::int64_t>;
-
-/** A kind of .msh file. */
-struct Variant
-{
-  int version = 2; ///< 2.2 or 4.1
-  bool binary = false;
-  bool swapped = false; ///< the byte order that this machine has not
-};
-constexpr std::array<Variant, 6> Variants{ { { 2, false, false }, { 4, false, false },
-  { 2, true, false }, { 2, true, true }, { 4, true, false }, { 4, true, true } } };
-
-struct Element
-{
-  int type;
-  Numbers nodes; ///< tags
-};
-
-/** Writes .msh files of all variants. */
-class GmshWriter
-{
-public:
-  explicit GmshWriter(Variant variant)
-    : Kind(variant)
-  {
-    this->Bytes = std::string("$MeshFormat\n") + (variant.version == 2 ? "2.2 " : "4.1 ") +
-                  (variant.binary ? "1" : "0") + " 8\n";
-    if (variant.binary)
-    {
-      this->integer(1);
-      this->Bytes += '\n';
-    }
-    this->Bytes += "$EndMeshFormat\n";
-  }
-
-  void text(const std::string& bytes) { this->Bytes += bytes; }
-  void integer(std::int64_t value) { this->number(static_cast<std::int32_t>(value)); }
-  void size(std::int64_t value) { this->number(value); }
-  void real(double value) { this->number(value); }
-  void endRow() { this->Bytes += this->Kind.binary ? "" : "\n"; }
-
-  void nodes(const Numbers& tags, const std::vector<std::array<double, 3>>& points)
-  {
-    this->text("$Nodes\n");
-    if (this->Kind.version == 2)
-    {
-      this->text(std::to_string(tags.size()) + '\n');
-      for (std::size_t i = 0; i < tags.size(); ++i)
-      {
-        this->integer(tags[i]);
-        this->point(points[i]);
-      }
-    }
-    else
-    {
-      this->head({ 1, std::int64_t(tags.size()), 1, 99 });
-      this->block(3, 1, 0, std::int64_t(tags.size()));
-      for (const std::int64_t tag : tags)
-      {
-        this->size(tag);
-        this->endRow();
-      }
-      for (const auto& point : points)
-      {
-        this->point(point);
-      }
-    }
-    this->end("$EndNodes");
-  }
-
-  void elements(const std::vector<Element>& elements)
-  {
-    this->text("$Elements\n");
-    const auto count = static_cast<std::int64_t>(elements.size());
-    this->Kind.version == 2 ? this->text(std::to_string(count) + '\n')
-                            : this->head({ count, count, 1, count });
-    std::int64_t tag = 0;
-    for (const Element& element : elements)
-    {
-      this->element(element, ++tag);
-    }
-    this->end("$EndElements");
-  }
-
-  const std::string& bytes() const { return this->Bytes; }
-
-private:
-  template <class T>
-  void number(T value)
-  {
-    if (!this->Kind.binary)
-    {
-      this->Bytes += exact(static_cast<double>(value)) + ' ';
-      return;
-    }
-    std::array<char, sizeof(T)> raw;
-    std::memcpy(raw.data(), &value, sizeof(T));
-    if (this->Kind.swapped)
-    {
-      std::ranges::reverse(raw);
-    }
-    this->Bytes.append(raw.data(), sizeof(T));
-  }
-
-  void head(const Numbers& sizes)
-  {
-    for (const std::int64_t size : sizes)
-    {
-      this->size(size);
-    }
-    this->endRow();
-  }
-  void block(int a, int b, int c, std::int64_t count)
-  {
-    this->integer(a);
-    this->integer(b);
-    this->integer(c);
-    this->size(count);
-    this->endRow();
-  }
-  void point(const std::array<double, 3>& point)
-  {
-    for (const double coordinate : point)
-    {
-      this->real(coordinate);
-    }
-    this->endRow();
-  }
-  void element(const Element& element, std::int64_t tag)
-  {
-    if (this->Kind.version == 4)
-    {
-      this->block(3, 1, element.type, 1);
-      this->size(tag);
-      for (const std::int64_t node : element.nodes)
-      {
-        this->size(node);
-      }
-      this->endRow();
-      return;
-    }
-    // A head, which is a group of one element in a binary file; two tags.
-    const std::int64_t binaryHead[] = { element.type, 1, 2, tag };
-    const std::int64_t textHead[] = { tag, element.type, 2 };
-    for (const std::int64_t number : this->Kind.binary ? std::span<const std::int64_t>(binaryHead)
-                                                       : std::span<const std::int64_t>(textHead))
-    {
-      this->integer(number);
-    }
-    this->integer(17);
-    this->integer(18);
-    for (const std::int64_t node : element.nodes)
-    {
-      this->integer(node);
-    }
-    this->endRow();
-  }
-  void end(const std::string& line)
-  {
-    this->Bytes += (this->Kind.binary ? "\n" : "") + line + '\n';
-  }
-
-  Variant Kind;
-  std::string Bytes;
-};
-
-/** A point and a line, then the four solids, in file of this kind, with these tags of the nodes. */
-std::string fourSolids(Variant variant, const Numbers& tags)
+/** The four solids in a file of this kind, with these tags of the nodes. */
+std::string fourSolids(GmshVariant variant, const Numbers& tags)
 {
   GmshWriter writer(variant);
   writer.nodes(tags, FourSolidsPoints);
-  std::vector<Element> elements;
+  std::vector<GmshElement> elements;
   constexpr int types[] = { 5, 7, 6, 4 };
   for (std::size_t i = 0; i < 4; ++i)
   {
-    Element element{ types[i], {} };
+    GmshElement element{ types[i], {} };
     for (const std::int64_t corner : FourSolids[i])
     {
       element.nodes.push_back(tags[static_cast<std::size_t>(corner)]);
@@ -227,7 +61,7 @@ protected:
 
 TEST_F(ImportGmsh, AllVariantsAndShapes)
 {
-  for (const Variant& variant : Variants)
+  for (const GmshVariant& variant : GmshVariants)
   {
     SCOPED_TRACE(std::to_string(variant.version) + (variant.binary ? " binary" : " text") +
                  (variant.swapped ? ", swapped" : ""));
@@ -239,7 +73,7 @@ TEST_F(ImportGmsh, AllVariantsAndShapes)
 TEST_F(ImportGmsh, TagsInAnyOrderKeepTheOrderOfTheVertices)
 {
   const Numbers tags{ 1, 2, 40, 3, 1000, 7, 5, 4, 900, 13, 12, 11 };
-  for (const Variant& variant : Variants)
+  for (const GmshVariant& variant : GmshVariants)
   {
     const ReadMesh mesh = this->gmsh(fourSolids(variant, tags));
     expectFourSolids(mesh);
@@ -256,17 +90,17 @@ TEST_F(ImportGmsh, TagsFarApartTakeSeveralPasses)
   Numbers tags = consecutiveTags(1);
   tags[3] = 9000000;
   tags[8] = 5000000;
-  expectFourSolids(this->gmsh(fourSolids(Variants[1], tags)));
+  expectFourSolids(this->gmsh(fourSolids(GmshVariants[1], tags)));
   tags[3] = 4294967290;
-  expectFourSolids(this->gmsh(fourSolids(Variants[1], tags)));
+  expectFourSolids(this->gmsh(fourSolids(GmshVariants[1], tags)));
   // Only their distance matters, not their size.
   for (std::int64_t& tag : tags)
   {
     tag += std::int64_t(1) << 40;
   }
-  expectFourSolids(this->gmsh(fourSolids(Variants[4], tags)));
+  expectFourSolids(this->gmsh(fourSolids(GmshVariants[4], tags)));
   tags[8] += std::int64_t(1) << 32;
-  this->expectRefused(fourSolids(Variants[4], tags), "renumber the nodes");
+  this->expectRefused(fourSolids(GmshVariants[4], tags), "renumber the nodes");
 }
 
 TEST_F(ImportGmsh, TrianglesAndQuadrilaterals)
@@ -300,11 +134,11 @@ TEST_F(ImportGmsh, OnlyCornersOfHigherOrderElementsAreUsed)
     { 30, 35 }, { 31, 56 } } };
   for (const auto choice : { CellChoice::Triangles, CellChoice::Tetrahedra })
   {
-    GmshWriter writer(Variants[2]);
-    std::vector<Element> elements;
+    GmshWriter writer(GmshVariants[2]);
+    std::vector<GmshElement> elements;
     for (const auto& [type, nodes] : types)
     {
-      Element element{ type, Numbers(static_cast<std::size_t>(nodes)) };
+      GmshElement element{ type, Numbers(static_cast<std::size_t>(nodes)) };
       std::iota(element.nodes.begin(), element.nodes.end(), 1);
       elements.push_back(element);
     }
@@ -331,7 +165,7 @@ TEST_F(ImportGmsh, OnlyCornersOfHigherOrderElementsAreUsed)
 
 TEST_F(ImportGmsh, ParametersOfNodesArePassed)
 {
-  for (const Variant& variant : { Variants[1], Variants[4], Variants[5] })
+  for (const GmshVariant& variant : { GmshVariants[1], GmshVariants[4], GmshVariants[5] })
   {
     GmshWriter writer(variant);
     writer.text("$Nodes\n");
@@ -373,7 +207,7 @@ TEST_F(ImportGmsh, ParametersOfNodesArePassed)
 
 TEST_F(ImportGmsh, OtherSectionsOfBinaryFilesArePassed)
 {
-  GmshWriter writer(Variants[4]);
+  GmshWriter writer(GmshVariants[4]);
   // Longer than what is in memory of a file, its end between two windows or not.
   std::string periodic((std::size_t(2) << 20) + 12345, '\n');
   periodic.replace(5000, 8, "$EndPeri");
@@ -426,7 +260,7 @@ TEST_F(ImportGmsh, ErrorsOfBinaryFilesNameTheByte)
   const std::string format = "$MeshFormat\n2.2 1 8\n";
   this->expectRefused(format + std::string("\1\1\0\0\n", 5) + "$EndMeshFormat\n", "byte order");
   this->expectRefused("$MeshFormat\n2.2 1 4\n", "numbers of 4 bytes");
-  for (const Variant& variant : { Variants[2], Variants[4] })
+  for (const GmshVariant& variant : { GmshVariants[2], GmshVariants[4] })
   {
     GmshWriter repeated(variant);
     repeated.nodes({ 1, 3, 3 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } });
@@ -447,12 +281,12 @@ TEST_F(ImportGmsh, ErrorsOfBinaryFilesNameTheByte)
 
 TEST_F(ImportGmsh, DamagedFilesAreRefusedOrValid)
 {
-  for (const Variant& variant : Variants)
+  for (const GmshVariant& variant : GmshVariants)
   {
     this->expectSafe(importGmsh, "a.msh", fourSolids(variant, consecutiveTags(1)));
   }
   const Numbers tags{ 1, 2, 40, 3, 99, 7, 5, 4, 90, 13, 12, 11 };
-  this->expectSafe(importGmsh, "a.msh", fourSolids(Variants[1], tags));
+  this->expectSafe(importGmsh, "a.msh", fourSolids(GmshVariants[1], tags));
 }
 
 TEST_F(ImportGmsh, ArchiveMeshHasItsCounts)
