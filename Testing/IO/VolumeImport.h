@@ -100,6 +100,8 @@ protected:
 
   void write(const std::string& name, std::string_view bytes)
   {
+    // A file that is overwritten goes to the disk at once on some systems, which takes long.
+    std::filesystem::remove(this->Folder / name);
     writeBytes(this->Folder / name, bytes);
   }
 
@@ -113,12 +115,12 @@ protected:
   /** Damages the file in many ways: each time it is read, to a valid mesh, or refused. */
   void expectSafe(Importer importer, const std::string& name, const std::string& bytes)
   {
-    for (std::size_t length = 0; length < bytes.size(); length += 1 + bytes.size() / 400)
+    for (std::size_t length = 0; length < bytes.size(); ++length)
     {
       this->attempt(importer, name, bytes.substr(0, length));
     }
     Random random(7);
-    for (int i = 0; i < 120; ++i)
+    for (int i = 0; i < 400; ++i)
     {
       std::string damaged = bytes;
       for (int k = 0; k < 1 + i % 4; ++k)
