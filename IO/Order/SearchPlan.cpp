@@ -6,7 +6,6 @@
 #include "IO/Order/SourcePlan.h"
 
 #include <algorithm>
-#include <cassert>
 #include <limits>
 #include <optional>
 
@@ -17,14 +16,16 @@ namespace
 {
 
 constexpr int MostAxisEnds = 4;
+/** The ends of a double sweep. */
+constexpr int LeastLandmarks = 2;
 /** Landmarks are not nearer to each other than this. */
 constexpr std::int32_t LeastDistance = 8;
 /** Samples that a component must have for a plan, and for its principal axes. */
 constexpr std::size_t LeastSamples = 16, LeastSamplesForAxes = 100;
 /** More samples do not make better plans. */
-constexpr std::size_t MostSamples = 8192;
+constexpr std::size_t MostSamples = 16384;
 /** Plans that are tried out. */
-constexpr std::size_t MostTrials = 3;
+constexpr std::size_t MostTrials = 4;
 
 std::size_t sampleCount(const PagedMesh& mesh)
 {
@@ -48,7 +49,7 @@ public:
     : Search(search)
     , Mesh(mesh)
     , Space(workspace)
-    , Landmarks(static_cast<std::size_t>(landmarks))
+    , Landmarks(static_cast<std::size_t>(std::max(landmarks, LeastLandmarks)))
     , LevelMemory(workspace.pool(), sampleCount(mesh) * sizeof(std::uint32_t))
     , Levels(reinterpret_cast<std::uint32_t*>(this->LevelMemory.data()), sampleCount(mesh))
     , Samples(workspace)
@@ -154,7 +155,7 @@ private:
       planSources(*this->Distances, best.result.vertices, this->Space);
     for (std::size_t i = 0; i < std::min(plans.size(), MostTrials); ++i)
     {
-      if (plans[i].sources.size() > 1)
+      if (plans[i].sources.size() > 1 && plans[i].cost < best.cost())
       {
         Candidate planned{ this->sourcesOf(plans[i]), {} };
         planned.result = this->Search.probe(planned.sources);
@@ -194,14 +195,13 @@ private:
 std::int64_t searchPlanMemory(const PagedMesh& mesh, int landmarks)
 {
   // Rows of numbers: levels, samples, nearest (which grow), distances, two for the planner.
-  const std::int64_t rows = 1 + 2 * 3 + landmarks + MostAxisEnds + 2;
+  const std::int64_t rows = 1 + 2 * 3 + std::max(landmarks, LeastLandmarks) + MostAxisEnds + 2;
   return rows * std::int64_t(sampleCount(mesh) * sizeof(std::uint32_t)) + 4096;
 }
 
 std::vector<SearchSource> planSearch(PagedSearch& search, const PagedMesh& mesh,
   Workspace& workspace, int landmarks, std::uint32_t end)
 {
-  assert(landmarks >= 2);
   return Planning(search, mesh, workspace, landmarks).plan(end);
 }
 

@@ -20,7 +20,7 @@ std::int64_t searchPlanMemory(const PagedMesh& mesh, int landmarks);
  * out: no single source that distances were measured from has a search of less cost, see
  * searchCost. Deterministic.
  * @param search of the pages of the mesh
- * @param landmarks at least 2
+ * @param landmarks less than 2 are taken for 2
  * @param end a vertex of the component that is far out, such as the last one of a search
  * @return sources in ascending order of levels
  */

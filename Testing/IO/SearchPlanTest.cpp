@@ -196,6 +196,15 @@ TEST(SearchPlan, IsNeverWorseThanADoubleSweep)
   }
 }
 
+TEST(SearchPlan, TakesAnyNumberOfLandmarks)
+{
+  for (const int landmarks : { 1, 2, 3, 8 })
+  {
+    const Planned planned(torus(90, 40), landmarks);
+    EXPECT_LE(costOf(planned.planned), costOf(planned.swept));
+  }
+}
+
 TEST(SearchPlan, StaysInItsComponent)
 {
   const Planned planned(disjointUnion(cross(60, 8), grid(50, 50), { 1000, 0, 0 }));
