@@ -11,16 +11,14 @@ namespace smg
 {
 
 /**
- * Reads a legacy VTK file or a .vtp or .vtu file with VTK's own readers. Polygons, strips, quads
- * and pixels become triangles; second-order cells lose their middle points; points and lines, and
- * all faces beside tetrahedra, are left out; numeric point and cell arrays become columns.
- * @throws Error if VTK's reader complains, the file is neither vtkPolyData nor vtkUnstructuredGrid,
- * or has volume cells that are no tetrahedra; and as importMesh()
+ * Reads a .vtp or .vtu file with VTK's own reader, in memory, and writes it with appended raw data
+ * and without compression, as which it is parsed as a stream. It is a VtkRecoder.
+ * @throws Error if VTK's reader or writer complains
  */
-VTKSTREAMINGMULTIGRIDIO_EXPORT IndexedMesh importVtkMesh(
-  const std::filesystem::path& path, MeshFormat format, const ImportOptions& options);
+VTKSTREAMINGMULTIGRIDIO_EXPORT void recodeVtkFile(
+  const std::filesystem::path& from, const std::filesystem::path& to);
 
-/** Makes importMesh() read the VTK formats. */
+/** Makes importMesh() have VTK read what it cannot parse itself. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT void registerVtkImporter();
 
 } // namespace smg

@@ -8,19 +8,20 @@
 
 #include <dlfcn.h>
 
-void loadVtkFor(const std::filesystem::path& path)
+namespace
 {
-  const smg::MeshFormat format = smg::meshFormat(path);
-  if (format != smg::MeshFormat::VtkLegacy && format != smg::MeshFormat::VtkXml)
-  {
-    return;
-  }
+
+/** Loads the library, which sets an importer in this one's place, and lets that import. */
+void importWithLibrary(const std::filesystem::path& path, smg::MeshFormat format,
+  smg::RawMeshBuilder& builder, const smg::ProgressFunction& progress)
+{
   // Found by the program's RUNPATH. Never unloaded: VTK's singletons do not survive that.
   void* library = ::dlopen(SMG_VTK_BRIDGE, RTLD_NOW | RTLD_GLOBAL);
   if (!library)
   {
-    throw smg::Error(path.string() + ": the library that reads VTK files cannot be loaded (" +
-                     std::string(::dlerror()) + "): convert the file to PLY or .mesh.");
+    throw smg::Error(path.string() + ": the library that reads compressed VTK files cannot be " +
+                     "loaded (" + std::string(::dlerror()) +
+                     "): save the file without compression.");
   }
   using Function = void (*)();
   const auto registerImporter =
@@ -31,4 +32,16 @@ void loadVtkFor(const std::filesystem::path& path)
       path.string() + ": the library " SMG_VTK_BRIDGE " does not belong to this program.");
   }
   registerImporter();
+  smg::vtkImporter()(path, format, builder, progress);
+}
+
+} // namespace
+
+void loadVtkFor(const std::filesystem::path& path)
+{
+  const smg::MeshFormat format = smg::meshFormat(path);
+  if (format == smg::MeshFormat::VtkXml || format == smg::MeshFormat::VtkParallelXml)
+  {
+    smg::setVtkImporter(importWithLibrary);
+  }
 }

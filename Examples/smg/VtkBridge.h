@@ -4,8 +4,8 @@
 #include <filesystem>
 
 /**
- * Makes the VTK formats readable if `path` has one of them: loads the library with the VTK readers,
- * which lies beside this program's other libraries. Done on demand, since VTK takes hundreds of
- * megabytes of address space and a solve on a .vsm file needs none of it.
+ * Makes readable what only VTK reads of the VTK formats, if `path` has one of them: the library
+ * with the VTK readers, which lies beside this program's other libraries, is loaded when such a
+ * file needs it, since VTK takes hundreds of megabytes of address space.
  */
 void loadVtkFor(const std::filesystem::path& path);

@@ -9,7 +9,7 @@ extern "C" __attribute__((visibility("default"))) void smgRegisterVtkImporter()
 {
   // What VTK complains of comes as an exception; the program says it in a line of its own.
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-  smg::setVtkImporter(
-    [](const std::filesystem::path& path, smg::MeshFormat format, const smg::ImportOptions& options)
-    { return smg::importInChild(smg::importVtkMesh, path, format, options); });
+  smg::setVtkImporter([](const std::filesystem::path& path, smg::MeshFormat format,
+                        smg::RawMeshBuilder& builder, const smg::ProgressFunction& progress)
+    { smg::importInChild(smg::recodeVtkFile, path, format, builder, progress); });
 }

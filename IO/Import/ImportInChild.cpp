@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Import/ImportInChild.h"
 
-#include "IO/Import/MeshPipe.h"
 #include "Solver/Core/Error.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <exception>
 #include <fstream>
 #include <new>
-#include <optional>
 #include <string>
+#include <string_view>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -61,44 +62,50 @@ std::uintmax_t secondsFor(const std::filesystem::path& path)
   return LeastSeconds + std::filesystem::file_size(path, ignored) / BytesOfSecond;
 }
 
-/** What the child does; it never returns to the code that started it. */
-[[noreturn]] void runChild(int pipe, VtkImporter importer, const std::filesystem::path& path,
-  MeshFormat format, const ImportOptions& options)
+/** Writes all of a text; if nobody reads it any more there is nobody to tell. */
+void send(int pipe, std::string_view text)
+{
+  while (!text.empty())
+  {
+    const ssize_t written = ::write(pipe, text.data(), text.size());
+    if (written < 0 && errno != EINTR)
+    {
+      return;
+    }
+    text.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
+  }
+}
+
+/**
+ * What the child does; it never returns to the code that started it. It says nothing, or else the
+ * sentence of an error.
+ */
+[[noreturn]] void runChild(int pipe, const VtkRecoder& recode, const std::filesystem::path& from,
+  const std::filesystem::path& to, std::int64_t memory)
 {
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGTERM, SIG_DFL);
   std::signal(SIGPIPE, SIG_DFL);
   limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, secondsFor(path));
+  limit(RLIMIT_CPU, secondsFor(from));
   // Not the address space: of that, every thread may reserve a lot without using it.
-  const std::int64_t needed = options.budget.limit() + SpareBytes + dataBytes();
-  limit(RLIMIT_DATA, static_cast<std::uintmax_t>(needed));
+  limit(RLIMIT_DATA, static_cast<std::uintmax_t>(memory + SpareBytes + dataBytes()));
   // What libraries print when they fail is not for the user: the parent says what happened.
   const int nowhere = ::open("/dev/null", O_WRONLY);
   ::dup2(nowhere, STDOUT_FILENO);
   ::dup2(nowhere, STDERR_FILENO);
-
-  MeshPipeWriter writer(pipe);
   try
   {
-    ImportOptions own = options;
-    own.progress = [&writer](double done)
-    {
-      writer.sendProgress(done);
-      return true;
-    };
-    writer.sendMesh(importer(path, format, own));
+    recode(from, to);
   }
   catch (const std::bad_alloc&)
   {
-    writer.sendFailure(
-      path.string() +
-      ": reading it takes more memory than is allowed: it is damaged, or the memory "
-      "limit is too low.");
+    send(pipe, from.string() + ": reading it takes more memory than is allowed: it is damaged, or "
+                               "the memory limit is too low.");
   }
   catch (const std::exception& error)
   {
-    writer.sendFailure(error.what());
+    send(pipe, error.what());
   }
   ::_exit(0);
 }
@@ -175,68 +182,78 @@ private:
               ": the file is damaged.");
 }
 
-/** Takes what the child sends until its mesh has come; none if the child ended before. */
-std::optional<IndexedMesh> receive(int pipe, Progress& progress)
+/** Milliseconds of silence after which the parent looks whether to go on. */
+constexpr int Patience = 50;
+
+/** All that the child sends up to its end. */
+std::string receive(int pipe, const ProgressFunction& progress)
 {
-  double done = 0.0;
-  MeshPipeReader reader(pipe, [&] { progress.update(done); });
-  MeshMessage message{};
-  while (reader.next(message))
+  std::string text;
+  for (;;)
   {
-    if (message == MeshMessage::Progress && reader.receive(done))
+    if (progress && !progress(0.0))
     {
-      progress.update(done);
+      throw Cancelled();
     }
-    else if (message == MeshMessage::Failure)
+    pollfd wanted{ pipe, POLLIN, 0 };
+    if (::poll(&wanted, 1, Patience) <= 0)
     {
-      std::string sentence;
-      if (reader.receive(sentence))
-      {
-        throw Error(sentence);
-      }
+      continue;
     }
-    else if (message == MeshMessage::Mesh)
+    char part[1024];
+    const ssize_t got = ::read(pipe, part, sizeof(part));
+    if (got == 0 || (got < 0 && errno != EINTR))
     {
-      IndexedMesh mesh;
-      return reader.receive(mesh) ? std::optional(std::move(mesh)) : std::nullopt;
+      return text;
     }
+    text.append(part, static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
   }
-  return std::nullopt;
 }
 
-} // namespace
-
-IndexedMesh importInChild(VtkImporter importer, const std::filesystem::path& path,
-  MeshFormat format, const ImportOptions& options)
+void recodeInChild(const VtkRecoder& recode, const std::filesystem::path& from,
+  const std::filesystem::path& to, std::int64_t memory, const ProgressFunction& progress)
 {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0)
   {
-    throw Error(path.string() + ": no pipe can be made to read it: " + std::strerror(errno) + '.');
+    throw Error(from.string() + ": no pipe can be made to read it: " + std::strerror(errno) + '.');
   }
-  PipeEnd from(ends[0]);
-  PipeEnd to(ends[1]);
+  PipeEnd in(ends[0]);
+  PipeEnd out(ends[1]);
   const pid_t id = ::fork();
   if (id < 0)
   {
     throw Error(
-      path.string() + ": no process can be started to read it: " + std::strerror(errno) + '.');
+      from.string() + ": no process can be started to read it: " + std::strerror(errno) + '.');
   }
   if (id == 0)
   {
-    from.close();
-    runChild(to.number(), importer, path, format, options);
+    in.close();
+    runChild(out.number(), recode, from, to, memory);
   }
   Child child(id);
-  to.close();
-  Progress progress(options.progress);
-  std::optional<IndexedMesh> mesh = receive(from.number(), progress);
+  out.close();
+  const std::string complaint = receive(in.number(), progress);
   const int status = child.wait();
-  if (!mesh)
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
   {
-    failAfter(status, path);
+    failAfter(status, from);
   }
-  return std::move(*mesh);
+  if (!complaint.empty())
+  {
+    throw Error(complaint);
+  }
+}
+
+} // namespace
+
+void importInChild(const VtkRecoder& recode, const std::filesystem::path& path, MeshFormat format,
+  RawMeshBuilder& builder, const ProgressFunction& progress)
+{
+  const std::int64_t memory = builder.workspace().available();
+  importRecoded([&](const std::filesystem::path& from, const std::filesystem::path& to)
+    { recodeInChild(recode, from, to, memory, progress); },
+    path, format, builder, progress);
 }
 
 } // namespace smg

@@ -66,6 +66,21 @@ public:
       this->Mesh.elementColumns[std::size_t(column)].tuples.append(0, tuples);
     }
   }
+  /** Says that a column has all its tuples: the memory of its last chunk is given back. */
+  void endVertexColumn(int column)
+  {
+    if (column >= 0)
+    {
+      this->Mesh.vertexColumns[std::size_t(column)].tuples.close();
+    }
+  }
+  void endElementColumn(int column)
+  {
+    if (column >= 0)
+    {
+      this->Mesh.elementColumns[std::size_t(column)].tuples.close();
+    }
+  }
   /** Takes a column out again, whatever it has. The numbers of the others stay. */
   void dropVertexColumn(int column);
   void dropElementColumn(int column);

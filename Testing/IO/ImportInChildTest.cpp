@@ -4,6 +4,7 @@
 #include "Solver/Core/Error.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 #include <new>
 #include <string>
 #include <thread>
+#include <vector>
 
 using namespace smg;
 using namespace smg::testing;
@@ -21,122 +23,95 @@ using namespace smg::testing;
 namespace
 {
 
-/** A mesh that says something in each of its members. */
-IndexedMesh fullMesh()
+constexpr const char* Triangle =
+  "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><Points>"
+  "<DataArray type=\"Float32\">0 0 0 1 0 0 0 1 0</DataArray></Points><Polys>"
+  "<DataArray type=\"Int32\" Name=\"connectivity\">2 0 1</DataArray>"
+  "<DataArray type=\"Int32\" Name=\"offsets\">3</DataArray></Polys></Piece></PolyData></VTKFile>";
+
+using Path = std::filesystem::path;
+
+void copyFile(const Path& from, const Path& to)
 {
-  IndexedMesh mesh;
-  mesh.cellType = CellType::Tetrahedron;
-  mesh.doublePositions = false;
-  mesh.positions = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 };
-  mesh.corners = { 0, 1, 2, 3 };
-  mesh.originalCells = { 7 };
-  mesh.vertexColumns.push_back({ { "a", ScalarType::Int16, 1 }, {} });
-  mesh.vertexColumns[0].resize(4);
-  mesh.vertexColumns[0].as<std::int16_t>()[3] = -5;
-  mesh.cellColumns.push_back({ { "", ScalarType::Float64, 3 }, {} });
-  mesh.cellColumns[0].resize(1);
-  mesh.triangulatedPolygons = 11;
-  mesh.droppedCells = 12;
-  return mesh;
+  std::filesystem::copy_file(from, to);
 }
 
-IndexedMesh importFull(const std::filesystem::path&, MeshFormat, const ImportOptions& options)
+void complain(const Path& from, const Path&)
 {
-  Progress(options.progress).update(0.5);
-  return fullMesh();
+  throw Error(from.string() + ": is not to be read.");
 }
 
-IndexedMesh complain(const std::filesystem::path& path, MeshFormat, const ImportOptions&)
-{
-  throw Error(path.string() + ": is not to be read.");
-}
-
-IndexedMesh crash(const std::filesystem::path&, MeshFormat, const ImportOptions&)
+void crash(const Path&, const Path&)
 {
   std::fputs("this does not reach the user\n", stderr);
   std::signal(SIGSEGV, SIG_DFL);
   std::raise(SIGSEGV);
-  return {};
 }
 
-IndexedMesh ask(const std::filesystem::path&, MeshFormat, const ImportOptions&)
+/** Asks for more than the workspace has and all that the process may have beside it. */
+void askTooMuch(const Path& from, const Path& to)
 {
-  throw std::bad_alloc();
+  const std::vector<char> memory(std::size_t(4) << 30, 'x');
+  copyFile(memory.back() == 'x' ? from : to, to);
 }
 
-/** Asks for more than the budget and all that the process may have beside it. */
-IndexedMesh askTooMuch(const std::filesystem::path&, MeshFormat, const ImportOptions& options)
-{
-  IndexedMesh mesh = fullMesh();
-  mesh.originalCells.resize(
-    static_cast<std::size_t>(options.budget.limit() + (std::int64_t(2) << 30)) / 8);
-  return mesh;
-}
-
-IndexedMesh hang(const std::filesystem::path&, MeshFormat, const ImportOptions&)
+void hang(const Path&, const Path&)
 {
   std::this_thread::sleep_for(std::chrono::hours(1));
-  return {};
 }
 
 class ImportInChild : public ::testing::Test
 {
 protected:
-  ImportInChild() { writeBytes(this->Path, "x"); }
+  ImportInChild() { writeBytes(this->File, Triangle); }
 
-  std::string errorOf(VtkImporter importer)
+  ReadMesh import(const VtkRecoder& recode, MeshFormat format = MeshFormat::VtkXml,
+    const ProgressFunction& progress = {})
   {
-    return messageOf([&] { importInChild(importer, this->Path, MeshFormat::VtkXml, {}); });
+    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    RawMeshBuilder builder(workspace, CellChoice::Only);
+    importInChild(recode, this->File, format, builder, progress);
+    return readRaw(builder.finish());
+  }
+
+  std::string errorOf(const VtkRecoder& recode)
+  {
+    return messageOf([&] { this->import(recode); });
   }
 
   TemporaryFolder Folder;
-  std::filesystem::path Path = Folder / "a.vtu";
+  Path File = Folder / "a.vtx";
 };
 
 } // namespace
 
-TEST_F(ImportInChild, GivesTheWholeMesh)
+TEST_F(ImportInChild, GivesTheMesh)
 {
-  ImportOptions options;
-  double done = 0.0;
-  options.progress = [&done](double fraction)
-  {
-    done = fraction;
-    return true;
-  };
-  const IndexedMesh mesh = importInChild(importFull, this->Path, MeshFormat::VtkXml, options);
-  const IndexedMesh expected = fullMesh();
-  EXPECT_EQ(done, 0.5);
-  EXPECT_EQ(mesh.cellType, expected.cellType);
-  EXPECT_EQ(mesh.doublePositions, expected.doublePositions);
-  EXPECT_EQ(mesh.positions, expected.positions);
-  EXPECT_EQ(mesh.corners, expected.corners);
-  EXPECT_EQ(mesh.originalCells, expected.originalCells);
-  ASSERT_EQ(mesh.vertexColumns.size(), 1u);
-  EXPECT_EQ(mesh.vertexColumns[0].spec, expected.vertexColumns[0].spec);
-  EXPECT_EQ(mesh.vertexColumns[0].bytes, expected.vertexColumns[0].bytes);
-  ASSERT_EQ(mesh.cellColumns.size(), 1u);
-  EXPECT_EQ(mesh.cellColumns[0].spec, expected.cellColumns[0].spec);
-  EXPECT_EQ(mesh.cellColumns[0].bytes, expected.cellColumns[0].bytes);
-  EXPECT_EQ(mesh.triangulatedPolygons, 11);
-  EXPECT_EQ(mesh.droppedCells, 12);
+  const ReadMesh mesh = this->import(copyFile);
+  EXPECT_EQ(mesh.vertices(), 3);
+  EXPECT_EQ(mesh.corners, (std::vector<std::int64_t>{ 2, 0, 1 }));
+}
+
+TEST_F(ImportInChild, GivesThePiecesOfAParallelFile)
+{
+  writeBytes(this->Folder / "piece.vtp", Triangle);
+  writeBytes(this->File, "<VTKFile type=\"PPolyData\"><PPolyData><Piece Source=\"piece.vtp\"/>"
+                         "<Piece Source=\"piece.vtp\"/></PPolyData></VTKFile>");
+  const ReadMesh mesh = this->import(copyFile, MeshFormat::VtkParallelXml);
+  EXPECT_EQ(mesh.vertices(), 6);
+  EXPECT_EQ(mesh.corners, (std::vector<std::int64_t>{ 2, 0, 1, 5, 3, 4 }));
 }
 
 TEST_F(ImportInChild, FailuresAreErrors)
 {
-  EXPECT_EQ(this->errorOf(complain), this->Path.string() + ": is not to be read.");
+  EXPECT_EQ(this->errorOf(complain), this->File.string() + ": is not to be read.");
   const std::string crashed = this->errorOf(crash);
-  EXPECT_EQ(crashed.find(this->Path.string()), 0u) << crashed;
+  EXPECT_EQ(crashed.find(this->File.string()), 0u) << crashed;
   EXPECT_NE(crashed.find("damaged"), std::string::npos) << crashed;
-  EXPECT_NE(this->errorOf(ask).find("memory"), std::string::npos);
-  ImportOptions options;
-  options.budget = MemoryBudget(1 << 20);
-  EXPECT_THROW(importInChild(askTooMuch, this->Path, MeshFormat::VtkXml, options), Error);
+  EXPECT_NE(this->errorOf(askTooMuch).find("memory"), std::string::npos);
 }
 
 TEST_F(ImportInChild, CancelEndsAReaderThatHangs)
 {
-  ImportOptions options;
-  options.progress = [](double) { return false; };
-  EXPECT_THROW(importInChild(hang, this->Path, MeshFormat::VtkXml, options), Cancelled);
+  EXPECT_THROW(this->import(hang, MeshFormat::VtkXml, [](double) { return false; }), Cancelled);
 }

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/ScalarType.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace smg
+{
+
+/** How the numbers of an array are written in a VTK file. */
+enum class VtkEncoding : std::uint8_t
+{
+  Text,
+  Raw, ///< bytes as they are
+  Base64
+};
+
+/** What the bytes of an array are compressed by, in blocks. */
+enum class VtkCompression : std::uint8_t
+{
+  None,
+  Zlib,
+  Lz4,
+  Other ///< one that is left to VTK
+};
+
+/** An array of numbers in a VTK file: what it is, where it stands and how it is written. */
+struct VtkArray
+{
+  std::string name;
+  ScalarType type = ScalarType::Float32;       ///< of the numbers in the file
+  ScalarType columnType = ScalarType::Float32; ///< of the column that they make
+  int components = 1;
+  std::int64_t values = -1; ///< numbers, not tuples; -1: as many as there are
+  std::size_t begin = 0;    ///< byte of the file
+  VtkEncoding encoding = VtkEncoding::Text;
+  VtkCompression compression = VtkCompression::None;
+  bool bigEndian = false;
+  /** Bytes of a number of the header that leads what is not text; 0: there is no header. */
+  int headerBytes = 0;
+  bool isFractions = false; ///< numbers from 0 to 1 that stand for bytes from 0 to 255
+};
+
+} // namespace smg

@@ -1,0 +1,447 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Import/VtkXmlLayout.h"
+
+#include "IO/Container/ReservedNames.h"
+#include "IO/Formats/InQuotes.h"
+#include "IO/Import/XmlTags.h"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+/** No file has more points, cells or bytes. */
+constexpr std::int64_t MostThings = std::int64_t(1) << 48;
+
+constexpr std::pair<std::string_view, ScalarType> TypeNames[] = { { "Int8", ScalarType::Int8 },
+  { "UInt8", ScalarType::UInt8 }, { "Int16", ScalarType::Int16 }, { "UInt16", ScalarType::UInt16 },
+  { "Int32", ScalarType::Int32 }, { "UInt32", ScalarType::UInt32 }, { "Int64", ScalarType::Int64 },
+  { "UInt64", ScalarType::UInt64 }, { "Float32", ScalarType::Float32 },
+  { "Float64", ScalarType::Float64 } };
+
+std::string valueOf(const XmlTag& tag, const char* name, const char* otherwise = "")
+{
+  const std::string* value = tag.attribute(name);
+  return value ? *value : otherwise;
+}
+
+/** The tag <VTKFile>, which comes first. */
+XmlTag rootOf(InputFile& file, XmlTags& tags)
+{
+  XmlTag root;
+  if (!tags.next(root) || root.name != "VTKFile")
+  {
+    file.fail(0, "the file does not begin with <VTKFile>");
+  }
+  return root;
+}
+
+/** A file that is cut off within its last tags may still look whole otherwise. */
+void requireEnd(InputFile& file)
+{
+  constexpr std::size_t Most = 4096;
+  const std::size_t begin = file.size() - std::min(file.size(), Most);
+  if (file.at(begin, Most).find("</VTKFile") == std::string_view::npos)
+  {
+    file.fail(file.size(), "the file does not end with </VTKFile>: it is truncated");
+  }
+}
+
+/** Reads the tags of a file into the pieces of a layout. */
+class LayoutReader
+{
+public:
+  LayoutReader(InputFile& file, VtkLayout& layout)
+    : File(file)
+    , Tags(file)
+    , Layout(layout)
+    , FirstPiece(layout.pieces.size())
+  {
+  }
+
+  void read()
+  {
+    requireEnd(this->File);
+    this->readRoot();
+    this->Layout.files.push_back(this->File.path());
+    for (XmlTag tag; this->Tags.next(tag);)
+    {
+      if (tag.name == "AppendedData")
+      {
+        this->placeAppended(tag);
+        break;
+      }
+      tag.closes ? this->close(tag) : this->open(tag);
+    }
+    if (this->Layout.pieces.size() > this->FirstPiece)
+    {
+      this->check();
+    }
+  }
+
+private:
+  void readRoot()
+  {
+    const XmlTag root = rootOf(this->File, this->Tags);
+    const std::string kind = valueOf(root, "type");
+    this->IsGrid = kind == "UnstructuredGrid";
+    if (!this->IsGrid && kind != "PolyData")
+    {
+      this->File.fail(root.begin, "the file is neither polygonal data nor an unstructured grid of "
+                                  "VTK, which are the kinds that hold meshes");
+    }
+    this->BigEndian = valueOf(root, "byte_order") == "BigEndian";
+    this->HeaderBytes = valueOf(root, "header_type", "UInt32") == "UInt64" ? 8 : 4;
+    const std::string compressor = valueOf(root, "compressor");
+    this->Compression = compressor.empty()                      ? VtkCompression::None
+                        : compressor == "vtkZLibDataCompressor" ? VtkCompression::Zlib
+                        : compressor == "vtkLZ4DataCompressor"  ? VtkCompression::Lz4
+                                                                : VtkCompression::Other;
+  }
+
+  void close(const XmlTag& tag)
+  {
+    if (tag.name == this->Section)
+    {
+      this->Section.clear();
+    }
+  }
+
+  void open(const XmlTag& tag)
+  {
+    static constexpr std::string_view Sections[] = { "Points", "PointData", "CellData", "Cells",
+      "Verts", "Lines", "Polys", "Strips", "FieldData" };
+    if (tag.name == "Piece")
+    {
+      this->openPiece(tag);
+    }
+    else if (std::ranges::find(Sections, tag.name) != std::end(Sections))
+    {
+      this->Section = tag.alone ? "" : tag.name;
+      this->noteActive(tag);
+    }
+    else if (tag.name == "DataArray" && !this->Section.empty() && this->Section != "FieldData")
+    {
+      this->addArray(tag);
+    }
+  }
+
+  void openPiece(const XmlTag& tag)
+  {
+    VtkPiece piece;
+    piece.file = this->Layout.files.size() - 1;
+    piece.points = this->count(tag, "NumberOfPoints");
+    piece.globalIds = GlobalIdsName;
+    using namespace VtkCellTypes;
+    static constexpr std::pair<const char*, int> Counts[] = { { "NumberOfVerts", PolyVertex },
+      { "NumberOfLines", PolyLine }, { "NumberOfPolys", Polygon },
+      { "NumberOfStrips", TriangleStrip } };
+    for (const auto& [name, type] : Counts)
+    {
+      VtkCellList& list = piece.lists.emplace_back();
+      list.cells = this->count(tag, this->IsGrid ? "NumberOfCells" : name);
+      list.type = type;
+      piece.cells += list.cells;
+      if (this->IsGrid)
+      {
+        break;
+      }
+    }
+    this->Layout.pieces.push_back(std::move(piece));
+    this->Section.clear();
+  }
+
+  /** The names of arrays that mean more than others. */
+  void noteActive(const XmlTag& tag)
+  {
+    if (this->Layout.pieces.size() == this->FirstPiece)
+    {
+      return;
+    }
+    VtkPiece& piece = this->Layout.pieces.back();
+    if (tag.name == "PointData")
+    {
+      piece.pointNormals = valueOf(tag, "Normals");
+      piece.globalIds = valueOf(tag, "GlobalIds", GlobalIdsName);
+    }
+    else if (tag.name == "CellData")
+    {
+      piece.cellNormals = valueOf(tag, "Normals");
+    }
+  }
+
+  /** Puts an array to where its section wants it. */
+  void addArray(const XmlTag& tag)
+  {
+    const std::string type = valueOf(tag, "type");
+    const auto* const known =
+      std::ranges::find(TypeNames, type, &std::pair<std::string_view, ScalarType>::first);
+    const bool attribute = this->Section == "PointData" || this->Section == "CellData";
+    if (known == std::end(TypeNames) && attribute && (type == "String" || type == "Bit"))
+    {
+      return;
+    }
+    if (known == std::end(TypeNames) || this->Layout.pieces.size() == this->FirstPiece)
+    {
+      this->File.fail(tag.begin, "the array here has the type " + inQuotes(type) +
+                                   ", or stands outside a piece, and cannot be read");
+    }
+    VtkPiece& piece = this->Layout.pieces.back();
+    VtkArray array = this->arrayOf(tag, known->second);
+    if (attribute)
+    {
+      const bool ofPoints = this->Section == "PointData";
+      array.values = this->product(tag, ofPoints ? piece.points : piece.cells, array.components);
+      auto& arrays = ofPoints ? piece.pointArrays : piece.cellArrays;
+      // Of the same array at several time steps the first one is taken.
+      if (!array.name.empty() &&
+          std::ranges::find(arrays, array.name, &VtkArray::name) == arrays.end())
+      {
+        arrays.push_back(std::move(array));
+      }
+    }
+    else if (this->Section == "Points" && !piece.positions)
+    {
+      array.components = 3;
+      array.values = this->product(tag, piece.points, 3);
+      piece.positions = std::move(array);
+    }
+    else if (this->Section != "Points")
+    {
+      this->addCellArray(piece, std::move(array));
+    }
+  }
+
+  void addCellArray(VtkPiece& piece, VtkArray array)
+  {
+    static constexpr std::string_view Lists[] = { "Verts", "Lines", "Polys", "Strips" };
+    const auto* const place = std::ranges::find(Lists, this->Section);
+    const bool own = this->IsGrid ? this->Section == "Cells" : place != std::end(Lists);
+    if (!own)
+    {
+      return;
+    }
+    VtkCellList& list =
+      piece.lists[this->IsGrid ? 0 : static_cast<std::size_t>(place - std::begin(Lists))];
+    array.components = 1;
+    if (array.name == "connectivity")
+    {
+      list.points = std::move(array);
+    }
+    else if (array.name == "offsets" || array.name == "types")
+    {
+      array.values = list.cells;
+      (array.name == "types" ? list.types : list.offsets) = std::move(array);
+    }
+  }
+
+  VtkArray arrayOf(const XmlTag& tag, ScalarType type)
+  {
+    VtkArray array;
+    array.name = valueOf(tag, "Name");
+    array.type = array.columnType = type;
+    array.begin = tag.end;
+    array.bigEndian = this->BigEndian;
+    const std::int64_t components =
+      tag.attribute("NumberOfComponents") ? this->count(tag, "NumberOfComponents") : 1;
+    if (components < 1 || components > std::numeric_limits<std::int16_t>::max())
+    {
+      this->File.fail(
+        tag.begin, "an array cannot have " + std::to_string(components) + " components");
+    }
+    array.components = static_cast<int>(components);
+    const std::string format = valueOf(tag, "format", "ascii");
+    if (format != "ascii" && format != "binary" && format != "appended")
+    {
+      this->File.fail(tag.begin,
+        "the array here has the format " + inQuotes(format) + ", not ascii, binary or appended");
+    }
+    if (format == "ascii")
+    {
+      return array;
+    }
+    array.headerBytes = this->HeaderBytes;
+    array.compression = this->Compression;
+    array.encoding = VtkEncoding::Base64;
+    if (format == "appended")
+    {
+      // Where the appended data begin and how they are written is told after all arrays.
+      array.encoding = VtkEncoding::Raw;
+      array.begin = static_cast<std::size_t>(this->count(tag, "offset"));
+    }
+    return array;
+  }
+
+  /** Tells the arrays that are appended where and how that is. */
+  void placeAppended(const XmlTag& tag)
+  {
+    const bool base64 = valueOf(tag, "encoding", "base64") != "raw";
+    std::size_t begin = tag.end;
+    for (std::string_view text = this->File.at(begin); !text.empty() && text.front() != '_';
+         text = this->File.at(++begin))
+    {
+    }
+    ++begin;
+    this->forEachArray(
+      [&](VtkArray& array)
+      {
+        if (array.encoding != VtkEncoding::Raw)
+        {
+          return;
+        }
+        if (begin >= this->File.size() || array.begin > this->File.size() - begin)
+        {
+          this->File.fail(tag.begin, "the array " + inQuotes(array.name) +
+                                       " begins behind the end of the file: it is truncated or an "
+                                       "offset is wrong");
+        }
+        array.begin += begin;
+        array.encoding = base64 ? VtkEncoding::Base64 : VtkEncoding::Raw;
+      });
+    this->HasAppended = true;
+  }
+
+  void forEachArray(const auto& visit)
+  {
+    for (std::size_t i = this->FirstPiece; i < this->Layout.pieces.size(); ++i)
+    {
+      VtkPiece& piece = this->Layout.pieces[i];
+      for (auto* arrays : { &piece.pointArrays, &piece.cellArrays })
+      {
+        std::ranges::for_each(*arrays, visit);
+      }
+      const auto visitOne = [&visit](std::optional<VtkArray>& array)
+      {
+        if (array)
+        {
+          visit(*array);
+        }
+      };
+      visitOne(piece.positions);
+      for (VtkCellList& list : piece.lists)
+      {
+        visitOne(list.points);
+        visitOne(list.offsets);
+        visitOne(list.types);
+      }
+    }
+  }
+
+  /** Whether what the pieces need is there. */
+  void check()
+  {
+    if (this->Layout.pieces.front().lists.size() != (this->IsGrid ? 1u : 4u))
+    {
+      this->File.fail(0, "the pieces are not all of the same kind of data");
+    }
+    for (std::size_t i = this->FirstPiece; i < this->Layout.pieces.size(); ++i)
+    {
+      const VtkPiece& piece = this->Layout.pieces[i];
+      if (piece.points > 0 && !piece.positions)
+      {
+        this->File.fail(0, "a piece has no array of its points");
+      }
+      for (const VtkCellList& list : piece.lists)
+      {
+        if (list.cells > 0 && (!list.points || !list.offsets || (this->IsGrid && !list.types)))
+        {
+          this->File.fail(0, "a piece lacks an array of its cells: connectivity, offsets or types");
+        }
+      }
+    }
+    this->forEachArray(
+      [this](const VtkArray& array)
+      {
+        if (array.encoding == VtkEncoding::Raw && !this->HasAppended)
+        {
+          this->File.fail(0, "the data of the array " + inQuotes(array.name) +
+                               " should be appended, but the file has no <AppendedData>");
+        }
+      });
+  }
+
+  std::int64_t count(const XmlTag& tag, const char* name)
+  {
+    const std::string text = valueOf(tag, name, "0");
+    std::string_view digits = text;
+    digits.remove_prefix(std::min(digits.find_first_not_of(" \t\r\n"), digits.size()));
+    digits = digits.substr(0, digits.find_first_of(" \t\r\n"));
+    std::int64_t value = -1;
+    const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc() || stop != digits.data() + digits.size() || value < 0 ||
+        value > MostThings)
+    {
+      this->File.fail(tag.begin, inQuotes(text) + " cannot be the " + name + " of the tag here");
+    }
+    return value;
+  }
+
+  std::int64_t product(const XmlTag& tag, std::int64_t count, std::int64_t components)
+  {
+    std::int64_t values = 0;
+    // The array in bytes shall be a number, too.
+    if (__builtin_mul_overflow(count, components * 8, &values))
+    {
+      this->File.fail(tag.begin, "the array here cannot have " + std::to_string(count) + " tuples");
+    }
+    return values / 8;
+  }
+
+  InputFile& File;
+  XmlTags Tags;
+  VtkLayout& Layout;
+  const std::size_t FirstPiece;
+  bool IsGrid = false, BigEndian = false, HasAppended = false;
+  int HeaderBytes = 4;
+  VtkCompression Compression = VtkCompression::None;
+  std::string Section; ///< where arrays belong to now
+};
+
+} // namespace
+
+void addVtkXmlLayout(InputFile& file, VtkLayout& layout)
+{
+  LayoutReader(file, layout).read();
+}
+
+std::vector<std::filesystem::path> vtkXmlPieceFiles(InputFile& file)
+{
+  requireEnd(file);
+  XmlTags tags(file);
+  const XmlTag root = rootOf(file, tags);
+  const std::string kind = valueOf(root, "type");
+  if (kind != "PPolyData" && kind != "PUnstructuredGrid")
+  {
+    file.fail(root.begin, "the file names no pieces of polygonal data or of an unstructured grid "
+                          "of VTK, which are the kinds that hold meshes");
+  }
+  std::vector<std::filesystem::path> files;
+  for (XmlTag tag; tags.next(tag);)
+  {
+    if (tag.name == "Piece" && !tag.closes)
+    {
+      const std::string source = valueOf(tag, "Source");
+      if (source.empty())
+      {
+        file.fail(tag.begin, "the piece here has no Source: the file is damaged");
+      }
+      files.push_back(file.path().parent_path() / source);
+    }
+  }
+  if (files.empty())
+  {
+    file.fail(root.begin, "the file names no pieces");
+  }
+  return files;
+}
+
+} // namespace smg

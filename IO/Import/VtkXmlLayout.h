@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Import/InputFile.h"
+#include "IO/Import/VtkLayout.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Finds out where everything stands in a .vtp or .vtu file and adds its pieces to the layout.
+ * Arrays of texts and bits are left out.
+ * @throws Error with the byte where the file is wrong or ends too early, or has another kind of
+ * data
+ */
+void addVtkXmlLayout(InputFile& file, VtkLayout& layout);
+
+/** The files that a .pvtp or .pvtu file names. Throws Error if it is none. */
+std::vector<std::filesystem::path> vtkXmlPieceFiles(InputFile& file);
+
+} // namespace smg

@@ -1,0 +1,457 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Base64.h"
+#include "IO/Import/Formats.h"
+#include "Testing/IO/MeshText.h"
+#include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/RawMeshReading.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <lz4.h>
+#include <zlib.h>
+
+using namespace smg;
+using namespace smg::testing;
+
+namespace
+{
+
+enum class Way
+{
+  Ascii,
+  Inline,
+  AppendedBase64,
+  AppendedRaw
+};
+
+/** Writes .vtu and .vtp files in any of the ways that there are. */
+class XmlWriter
+{
+public:
+  Way way = Way::Ascii;
+  bool bigEndian = false, wideHeader = false;
+  std::string compressor; ///< class of VTK; empty: none
+
+  /** A DataArray of numbers of a type, as "Int32". */
+  template <class T>
+  std::string array(const std::string& name, const std::string& type, const std::vector<T>& values,
+    int components = 1)
+  {
+    std::string tag = "<DataArray type=\"" + type + "\" Name=\"" + name +
+                      "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"";
+    if (this->way == Way::Ascii)
+    {
+      tag += "ascii\">\n";
+      for (const T value : values)
+      {
+        tag += exact(static_cast<double>(value)) + ' ';
+      }
+      return tag + "\n</DataArray>\n";
+    }
+    std::string bytes;
+    for (const T value : values)
+    {
+      bytes += this->bytesOf(value);
+    }
+    const std::string data = this->encoded(bytes);
+    if (this->way == Way::Inline)
+    {
+      return tag + "binary\">\n  " + data + "\n</DataArray>\n";
+    }
+    tag += "appended\" offset=\"" + std::to_string(this->Appended.size()) + "\"/>\n";
+    this->Appended += data;
+    return tag;
+  }
+
+  std::string file(const std::string& kind, const std::string& content) const
+  {
+    std::string text = "<?xml version=\"1.0\"?>\n<!-- > -->\n<VTKFile type=\"" + kind +
+                       "\" byte_order=\"" + (this->bigEndian ? "BigEndian" : "LittleEndian") +
+                       "\" header_type=\"" + (this->wideHeader ? "UInt64" : "UInt32") + "\"";
+    text += this->compressor.empty() ? "" : " compressor=\"" + this->compressor + "\"";
+    text += ">\n<" + kind + ">\n" + content + "</" + kind + ">\n";
+    if (!this->Appended.empty())
+    {
+      text += "<AppendedData encoding=\"";
+      text += this->way == Way::AppendedRaw ? "raw" : "base64";
+      text += "\">\n _" + this->Appended + "\n</AppendedData>\n";
+    }
+    return text + "</VTKFile>\n";
+  }
+
+private:
+  template <class T>
+  std::string bytesOf(T value) const
+  {
+    std::string bytes(reinterpret_cast<const char*>(&value), sizeof(T));
+    if (this->bigEndian != (std::endian::native == std::endian::big))
+    {
+      std::ranges::reverse(bytes);
+    }
+    return bytes;
+  }
+
+  std::string number(std::size_t value) const
+  {
+    return this->wideHeader ? this->bytesOf(static_cast<std::uint64_t>(value))
+                            : this->bytesOf(static_cast<std::uint32_t>(value));
+  }
+
+  std::string text(const std::string& bytes) const
+  {
+    if (this->way == Way::AppendedRaw)
+    {
+      return bytes;
+    }
+    std::string text;
+    Base64Encoder encoder;
+    encoder.append(std::as_bytes(std::span(bytes)), text);
+    encoder.finish(text);
+    return text;
+  }
+
+  std::string compressed(const std::string& block) const
+  {
+    std::string to(block.size() + 1000, '\0');
+    if (this->compressor == "vtkLZ4DataCompressor")
+    {
+      to.resize(static_cast<std::size_t>(LZ4_compress_default(
+        block.data(), to.data(), static_cast<int>(block.size()), static_cast<int>(to.size()))));
+      return to;
+    }
+    uLongf size = to.size();
+    EXPECT_EQ(::compress(reinterpret_cast<Bytef*>(to.data()), &size,
+                reinterpret_cast<const Bytef*>(block.data()), block.size()),
+      Z_OK);
+    to.resize(size);
+    return to;
+  }
+
+  std::string encoded(const std::string& bytes) const
+  {
+    if (this->compressor.empty())
+    {
+      return this->text(this->number(bytes.size()) + bytes);
+    }
+    constexpr std::size_t BlockBytes = 40;
+    const std::size_t blocks = (bytes.size() + BlockBytes - 1) / BlockBytes;
+    std::string header =
+      this->number(blocks) + this->number(BlockBytes) + this->number(bytes.size() % BlockBytes);
+    std::string data;
+    for (std::size_t i = 0; i < blocks; ++i)
+    {
+      const std::string block = this->compressed(bytes.substr(i * BlockBytes, BlockBytes));
+      header += this->number(block.size());
+      data += block;
+    }
+    return this->text(header) + this->text(data);
+  }
+
+  std::string Appended;
+};
+
+class ImportVtkXml : public ::testing::Test
+{
+protected:
+  ImportVtkXml() { setVtkImporter(nullptr); }
+
+  ReadMesh read(const std::string& bytes, std::int64_t memory = Workspace::LeastMemory)
+  {
+    writeBytes(this->Path, bytes);
+    Workspace workspace(this->Folder.path(), memory);
+    RawMeshBuilder builder(workspace, CellChoice::Only);
+    InputFile file(this->Path);
+    importVtkXml(file, builder, {});
+    return readRaw(builder.finish());
+  }
+
+  /** Whether the file is refused while it is parsed, or since its mesh is none. */
+  bool isRefused(const std::string& bytes)
+  {
+    try
+    {
+      return !messageOf([&] { this->read(bytes); }).empty();
+    }
+    catch (const MeshError&)
+    {
+      return true;
+    }
+  }
+
+  ReadMesh readParallel(const std::string& bytes)
+  {
+    writeBytes(this->Folder / "all.pvtu", bytes);
+    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    RawMeshBuilder builder(workspace, CellChoice::Only);
+    InputFile file(this->Folder / "all.pvtu");
+    importParallelVtkXml(file, builder, {});
+    return readRaw(builder.finish());
+  }
+
+  TemporaryFolder Folder;
+  std::filesystem::path Path = Folder / "a.vtu";
+};
+
+const std::vector<double> FivePoints{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1.5 };
+
+/** Two tetrahedra with attributes, the arrays in an unusual order. */
+std::string tetrahedra(XmlWriter writer)
+{
+  std::string piece = "<Piece NumberOfPoints=\"5\" NumberOfCells=\"2\">\n<Cells>\n";
+  piece += writer.array("types", "UInt8", std::vector<std::uint8_t>{ 10, 10 });
+  piece +=
+    writer.array("connectivity", "Int32", std::vector<std::int32_t>{ 0, 1, 2, 3, 1, 2, 3, 4 });
+  piece += writer.array("offsets", "Int64", std::vector<std::int64_t>{ 4, 8 });
+  piece += "</Cells>\n<PointData Normals=\"out\">\n";
+  piece += writer.array("out", "Float32", std::vector<float>(15, 0.5f), 3);
+  piece += writer.array("a &lt; b", "UInt16", std::vector<std::uint16_t>{ 1, 2, 3, 4, 65535 });
+  piece += "<Array type=\"String\" Name=\"s\" format=\"ascii\">48 0 49 0</Array></PointData>\n";
+  piece += "<CellData>\n" + writer.array("c", "Int8", std::vector<std::int8_t>{ -1, 2 });
+  piece += "</CellData>\n<Points>\n" + writer.array("Points", "Float64", FivePoints, 3);
+  return writer.file("UnstructuredGrid", piece + "</Points>\n</Piece>\n");
+}
+
+/** A piece that is one triangle on three points of the x-axis and above, from `x` on. */
+std::string trianglePiece(
+  XmlWriter& writer, double x, const std::string& pointData, const std::string& cellData)
+{
+  return "<Piece NumberOfPoints=\"3\" NumberOfVerts=\"1\" NumberOfPolys=\"1\">\n<PointData>" +
+         pointData + "</PointData>\n<CellData>" + cellData + "</CellData>\n<Points>" +
+         writer.array(
+           "Points", "Float64", std::vector<double>{ x, 0, 0, x + 1, 0, 0, x, 1, 0 }, 3) +
+         "</Points>\n<Verts>" + writer.array("connectivity", "Int32", std::vector<int>{ 2 }) +
+         writer.array("offsets", "Int32", std::vector<int>{ 1 }) + "</Verts>\n<Polys>" +
+         writer.array("connectivity", "Int32", std::vector<int>{ 0, 1, 2 }) +
+         writer.array("offsets", "Int32", std::vector<int>{ 3 }) + "</Polys>\n</Piece>\n";
+}
+
+/** A piece of a grid that is two triangles on a square of which the left edge is at `x`. */
+std::string squareFile(int x, const std::vector<int>& ghosts, bool numbers)
+{
+  XmlWriter writer;
+  std::string text = "<Piece NumberOfPoints=\"4\" NumberOfCells=\"2\">\n<PointData>\n";
+  text += numbers ? writer.array("GlobalIds", "Int64",
+                      std::vector<int>{ 2 * x, 2 * x + 1, 2 * x + 2, 2 * x + 3 })
+                  : "";
+  text += writer.array("x", "Int32", std::vector<int>{ x, x, x + 1, x + 1 });
+  text += "</PointData>\n<CellData>" + writer.array("vtkGhostType", "UInt8", ghosts) +
+          writer.array("n", "Int32", std::vector<int>{ 10 * x, 10 * x + 1 }) + "</CellData>\n";
+  const double left = x;
+  text += "<Points>" +
+          writer.array("Points", "Float64",
+            std::vector<double>{ left, 0, 0, left, 1, 0, left + 1, 0, 0, left + 1, 1, 0 }, 3) +
+          "</Points>\n<Cells>" +
+          writer.array("connectivity", "Int64", std::vector<int>{ 0, 2, 1, 1, 2, 3 }) +
+          writer.array("offsets", "Int64", std::vector<int>{ 3, 6 }) +
+          writer.array("types", "UInt8", std::vector<int>{ 5, 5 }) + "</Cells>\n</Piece>\n";
+  return writer.file("UnstructuredGrid", text);
+}
+
+std::string parallel(const std::vector<std::string>& sources)
+{
+  std::string text = "<VTKFile type=\"PUnstructuredGrid\">\n<PUnstructuredGrid>\n";
+  for (const std::string& source : sources)
+  {
+    text += "<Piece Source=\"" + source + "\"/>\n";
+  }
+  return text + "</PUnstructuredGrid>\n</VTKFile>\n";
+}
+
+} // namespace
+
+TEST_F(ImportVtkXml, AllWaysOfWritingAreTheSameMesh)
+{
+  for (const Way way : { Way::Ascii, Way::Inline, Way::AppendedBase64, Way::AppendedRaw })
+  {
+    for (const char* compressor : { "", "vtkZLibDataCompressor", "vtkLZ4DataCompressor" })
+    {
+      for (const int flags : { 0, 1, 2, 3 })
+      {
+        XmlWriter writer;
+        writer.way = way;
+        writer.compressor = compressor;
+        writer.bigEndian = (flags & 1) != 0;
+        writer.wideHeader = (flags & 2) != 0;
+        const ReadMesh mesh = this->read(tetrahedra(writer));
+        EXPECT_EQ(mesh.cellType, CellType::Tetrahedron);
+        EXPECT_TRUE(mesh.doublePositions);
+        EXPECT_EQ(mesh.positions, FivePoints);
+        EXPECT_EQ(mesh.corners, (std::vector<std::int64_t>{ 0, 1, 2, 3, 1, 2, 3, 4 }));
+        ASSERT_EQ(mesh.vertexColumns.size(), 2u);
+        EXPECT_EQ(mesh.vertexColumns[0].spec, (ColumnSpec{ "Normals", ScalarType::Float32, 3 }));
+        EXPECT_EQ(mesh.vertexColumns[0].value(4, 2), 0.5);
+        EXPECT_EQ(mesh.vertexColumns[1].spec, (ColumnSpec{ "a < b", ScalarType::UInt16, 1 }));
+        EXPECT_EQ(mesh.vertexColumns[1].value(4), 65535);
+        ASSERT_EQ(mesh.elementColumns.size(), 1u);
+        EXPECT_EQ(mesh.elementColumns[0].value(0), -1);
+      }
+    }
+  }
+}
+
+TEST_F(ImportVtkXml, PiecesFollowEachOtherAsVtkNumbersThem)
+{
+  XmlWriter writer;
+  writer.way = Way::AppendedRaw;
+  std::string pieces;
+  for (const int x : { 0, 1, 2 })
+  {
+    pieces += trianglePiece(writer, x, "",
+      writer.array("n", "Int32", std::vector<int>{ x, 10 + x }) +
+        (x < 2 ? writer.array("some", "Int32", std::vector<int>{ 0, 0 }) : ""));
+  }
+  const ReadMesh mesh = this->read(writer.file("PolyData", pieces));
+  EXPECT_EQ(mesh.vertices(), 9);
+  EXPECT_EQ(mesh.corners, (std::vector<std::int64_t>{ 0, 1, 2, 3, 4, 5, 6, 7, 8 }));
+  // The points of all pieces are the first elements.
+  EXPECT_EQ(mesh.elements, (std::vector<std::int64_t>{ 3, 4, 5 }));
+  ASSERT_EQ(mesh.elementColumns.size(), 1u);
+  for (std::size_t i = 0; i < 6; ++i)
+  {
+    EXPECT_EQ(mesh.elementColumns[0].value(i), i < 3 ? i : 7 + i);
+  }
+  ASSERT_EQ(mesh.counts.notes.size(), 1u);
+  EXPECT_NE(mesh.counts.notes[0].find("'some'"), std::string::npos);
+}
+
+TEST_F(ImportVtkXml, PointsWithTheSameGlobalNumberAreOne)
+{
+  XmlWriter writer;
+  std::string pieces;
+  for (const int x : { 0, 1, 2 })
+  {
+    // The right point of a triangle is the left one of the next.
+    pieces += trianglePiece(writer, x,
+      writer.array("GlobalIds", "Int64", std::vector<int>{ 2 * x, 2 * x + 2, 2 * x + 1 }) +
+        writer.array("v", "Int32", std::vector<int>{ 10 * x, 10 * x + 1, 10 * x + 2 }),
+      "");
+  }
+  const ReadMesh mesh = this->read(writer.file("PolyData", pieces));
+  EXPECT_EQ(mesh.vertices(), 7);
+  EXPECT_EQ(mesh.counts.mergedPoints, 2);
+  EXPECT_EQ(mesh.corners, (std::vector<std::int64_t>{ 0, 1, 2, 1, 3, 4, 3, 5, 6 }));
+  ASSERT_EQ(mesh.vertexColumns.size(), 1u);
+  const std::vector<double> values{ 0, 1, 2, 11, 12, 21, 22 };
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    EXPECT_EQ(mesh.vertexColumns[0].value(i), values[i]);
+  }
+}
+
+TEST_F(ImportVtkXml, GhostsOfParallelFilesAreLeftOut)
+{
+  for (const bool numbers : { true, false })
+  {
+    writeBytes(this->Folder / "0.vtu", squareFile(0, { 0, 0 }, numbers));
+    writeBytes(this->Folder / "1.vtu", squareFile(1, { 1, 0 }, numbers));
+    const ReadMesh mesh = this->readParallel(parallel({ "0.vtu", "1.vtu" }));
+    EXPECT_EQ(mesh.vertices(), numbers ? 6 : 8);
+    EXPECT_EQ(mesh.cells(), 3);
+    EXPECT_EQ(mesh.elementCount, 3);
+    const std::vector<std::int64_t> last{ mesh.corners.end() - 3, mesh.corners.end() };
+    EXPECT_EQ(last,
+      numbers ? (std::vector<std::int64_t>{ 3, 4, 5 }) : (std::vector<std::int64_t>{ 5, 6, 7 }));
+    ASSERT_EQ(mesh.elementColumns.size(), 1u);
+    EXPECT_EQ(mesh.elementColumns[0].value(2), 11);
+    EXPECT_EQ(mesh.counts.notes.size(), numbers ? 0u : 1u);
+  }
+}
+
+TEST_F(ImportVtkXml, AMissingPieceIsNamed)
+{
+  writeBytes(this->Folder / "0.vtu", squareFile(0, { 0, 0 }, true));
+  expectError([this] { this->readParallel(parallel({ "0.vtu", "gone.vtu" })); }, "gone.vtu");
+  expectError([this] { this->readParallel(parallel({})); }, "no pieces");
+}
+
+TEST_F(ImportVtkXml, WhatOnlyVtkReadsIsRefusedBeforeItIsRead)
+{
+  XmlWriter writer;
+  writer.way = Way::AppendedRaw;
+  writer.compressor = "vtkLZMADataCompressor";
+  const std::string text = tetrahedra(writer);
+  expectError([&] { this->read(text); }, "without compression");
+  static int calls = 0;
+  setVtkImporter(
+    [](const std::filesystem::path&, MeshFormat, RawMeshBuilder& builder, const ProgressFunction&)
+    {
+      ++calls;
+      builder.vertex(0, 0, 0);
+      builder.triangle(0, 0, 0);
+    });
+  EXPECT_EQ(this->read(text).vertices(), 1);
+  // The header of the points says that they take 40 GB.
+  writer.wideHeader = true;
+  std::string large = tetrahedra(writer);
+  const std::string blocks("\3\0\0\0\0\0\0\0\50\0\0\0\0\0\0\0", 16);
+  const std::size_t header = large.find(blocks, large.find("<AppendedData"));
+  ASSERT_NE(header, std::string::npos);
+  large.replace(header, 8, std::string("\0\0\0\100\0\0\0\0", 8));
+  expectError([&] { this->read(large); }, "are needed");
+  EXPECT_EQ(calls, 1);
+  setVtkImporter(nullptr);
+}
+
+TEST_F(ImportVtkXml, WhatIsWrongIsSaidWithItsPlace)
+{
+  XmlWriter writer;
+  const std::string good = tetrahedra(writer);
+  const auto with = [&good](const std::string& from, const std::string& to)
+  {
+    std::string text = good;
+    const std::size_t place = text.find(from);
+    EXPECT_NE(place, std::string::npos) << from;
+    return text.replace(place, from.size(), to);
+  };
+  const std::vector<std::pair<std::string, std::string>> wrong{
+    { with("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3 5"), "cell 1: it names point 5" },
+    { with("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3"), "fewer numbers" },
+    { with("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3 4 4"), "more numbers" },
+    { with("0 1 2 3 1 2 3 4", "0 1 2 3 1 2 3 4x"), "'4x'" }, { with("10 10", "10 42"), "type 42" },
+    { with("4 8", "4 3"), "before it begins" }, { with("4 8", "4 9"), "fewer numbers" },
+    { with("4 8", "8 8"), "cannot have" }, { with("1.5", "nan"), "point 4" },
+    { with("\"5\"", "\"6\""), "fewer numbers" }, { with("\"5\"", "\"-5\""), "NumberOfPoints" },
+    { with("\"5\"", "\"4611686018427387904\""), "NumberOfPoints" },
+    { with("\"offsets\"", "\"off\""), "lacks an array" },
+    { with("UnstructuredGrid", "ImageData"), "neither" }, { with("ascii", "octal"), "'octal'" },
+    { with("ascii", "appended\" offset=\"0"), "appended" }, { with("</VTKFile>", ""), "end" },
+    { with("Float64", "Complex"), "'Complex'" },
+    { with("NumberOfComponents=\"3\"", "NumberOfComponents=\"0\""), "components" }
+  };
+  for (const auto& [text, part] : wrong)
+  {
+    expectError([&] { this->read(text); }, part);
+    expectError([&] { this->read(text); }, this->Path.string());
+  }
+}
+
+TEST_F(ImportVtkXml, TruncatedFilesAreErrors)
+{
+  for (const Way way : { Way::Ascii, Way::Inline, Way::AppendedBase64, Way::AppendedRaw })
+  {
+    for (const char* compressor : { "", "vtkZLibDataCompressor" })
+    {
+      XmlWriter writer;
+      writer.way = way;
+      writer.compressor = compressor;
+      const std::string whole = tetrahedra(writer);
+      const std::size_t dataEnd =
+        whole.rfind(way < Way::AppendedBase64 ? "\n</DataArray>" : "\n</AppendedData>");
+      for (std::size_t size = 1; size + 4 < whole.size(); size += 5)
+      {
+        EXPECT_TRUE(this->isRefused(whole.substr(0, size))) << size;
+        // Bytes are missing before the end; so many, that the end cannot be taken for them.
+        const std::string cut = whole.substr(0, size) + "</VTKFile>\n";
+        EXPECT_TRUE(size + 16 >= dataEnd || this->isRefused(cut)) << size;
+      }
+    }
+  }
+}
