@@ -4,7 +4,6 @@
 #include "IO/Formats/InQuotes.h"
 #include "IO/Import/LegacyVtkScanner.h"
 
-#include <charconv>
 #include <limits>
 #include <string>
 #include <utility>
@@ -14,28 +13,6 @@ namespace smg
 
 namespace
 {
-
-/** Names are written with what is no letter or digit as % and two hexadecimal digits. */
-std::string decoded(const std::string& name)
-{
-  std::string text;
-  for (std::size_t i = 0; i < name.size(); ++i)
-  {
-    int code = 0;
-    const char* const digits = name.data() + i + 1;
-    if (name[i] == '%' && i + 2 < name.size() &&
-        std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2)
-    {
-      text += static_cast<char>(code);
-      i += 2;
-    }
-    else
-    {
-      text += name[i];
-    }
-  }
-  return text;
-}
 
 class LayoutReader
 {
@@ -196,7 +173,7 @@ private:
     {
       if (word == kind)
       {
-        const std::string name = decoded(this->Scanner.word());
+        const std::string name = this->Scanner.name();
         this->readNamed(word, name, components);
         return true;
       }
@@ -282,11 +259,11 @@ private:
     const std::int64_t count = this->Scanner.count("the number of arrays");
     for (std::int64_t i = 0; i < count; ++i)
     {
-      std::string name = this->Scanner.word();
+      std::string name = this->Scanner.name();
       if (name == "METADATA")
       {
         this->skipMetadata();
-        name = this->Scanner.word();
+        name = this->Scanner.name();
       }
       if (name.empty())
       {
@@ -302,7 +279,7 @@ private:
       const bool wanted =
         own == tuples && components > 0 && components <= std::numeric_limits<std::int16_t>::max();
       this->product(own, components);
-      this->readArray(wanted ? arrays : nullptr, decoded(name), type, components, own);
+      this->readArray(wanted ? arrays : nullptr, name, type, components, own);
     }
   }
 

@@ -127,6 +127,28 @@ std::string LegacyVtkScanner::keyword()
   return word;
 }
 
+std::string LegacyVtkScanner::name()
+{
+  const std::string name = this->word();
+  std::string text;
+  for (std::size_t i = 0; i < name.size(); ++i)
+  {
+    int code = 0;
+    const char* const digits = name.data() + i + 1;
+    if (name[i] == '%' && i + 2 < name.size() &&
+        std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2)
+    {
+      text += static_cast<char>(code);
+      i += 2;
+    }
+    else
+    {
+      text += name[i];
+    }
+  }
+  return text;
+}
+
 std::string LegacyVtkScanner::line()
 {
   std::string line;

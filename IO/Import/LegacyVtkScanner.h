@@ -30,6 +30,8 @@ public:
   std::string word();
   /** The next word in capital letters. */
   std::string keyword();
+  /** The next word as a name, in which % and two hexadecimal digits stand for a character. */
+  std::string name();
   /** The next word without passing it. */
   std::string peek();
   /** The rest of the line, which is passed. */

@@ -5,6 +5,7 @@
 #include "IO/Import/VtkMeshReader.h"
 #include "IO/Import/VtkPointMerger.h"
 #include "IO/Import/VtkXmlLayout.h"
+#include "IO/Import/VtkXmlPieces.h"
 #include "Solver/Core/Error.h"
 
 #include <filesystem>

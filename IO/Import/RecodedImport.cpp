@@ -3,7 +3,7 @@
 
 #include "IO/Formats/VtkXml.h"
 #include "IO/Import/Formats.h"
-#include "IO/Import/VtkXmlLayout.h"
+#include "IO/Import/VtkXmlPieces.h"
 
 #include <cstddef>
 #include <fstream>

@@ -9,10 +9,9 @@
 #include "IO/Import/VtkCellReader.h"
 #include "IO/Import/VtkFiles.h"
 #include "IO/Import/VtkPointMerger.h"
+#include "IO/Import/VtkTuples.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,8 +24,6 @@ namespace smg
 namespace
 {
 
-constexpr std::size_t ChunkBytes = std::size_t(64) << 10;
-
 const VtkArray* find(const std::vector<VtkArray>& arrays, const std::string& name)
 {
   const auto found = std::ranges::find(arrays, name, &VtkArray::name);
@@ -36,70 +33,6 @@ const VtkArray* find(const std::vector<VtkArray>& arrays, const std::string& nam
 bool isSame(const VtkArray& a, const VtkArray& b)
 {
   return a.columnType == b.columnType && a.components == b.components;
-}
-
-/** Makes scalars of the column's type of those in the file. */
-void convert(const VtkArray& array, const std::byte* from, std::size_t count, std::byte* to)
-{
-  dispatch(array.type,
-    [&]<class From>(From)
-    {
-      dispatch(array.columnType,
-        [&]<class To>(To)
-        {
-          for (std::size_t i = 0; i < count; ++i)
-          {
-            From value;
-            std::memcpy(&value, from + i * sizeof(From), sizeof(From));
-            To result{};
-            if (array.isFractions)
-            {
-              const double clamped = std::clamp(static_cast<double>(value), 0.0, 1.0);
-              result = static_cast<To>(std::lround(std::isnan(clamped) ? 0.0 : clamped * 255.0));
-            }
-            else
-            {
-              result = static_cast<To>(value);
-            }
-            std::memcpy(to + i * sizeof(To), &result, sizeof(To));
-          }
-        });
-    });
-}
-
-/** Reads tuples of a column in chunks and gives those to `take` of which `stays` says so. */
-void copyTuples(
-  VtkArrayReader& reader, std::int64_t tuples, const auto& stays, bool allStay, const auto& take)
-{
-  const VtkArray& array = reader.array();
-  const auto components = static_cast<std::size_t>(array.components);
-  const std::size_t tupleBytes = components * sizeOf(array.columnType);
-  const std::size_t chunk = std::max<std::size_t>(ChunkBytes / (components * 8), 1);
-  const bool converts = array.type != array.columnType;
-  std::vector<std::byte> read(chunk * components * sizeOf(array.type));
-  std::vector<std::byte> converted(converts ? chunk * tupleBytes : 0);
-  for (std::int64_t left = tuples; left > 0;)
-  {
-    const auto count =
-      static_cast<std::size_t>(std::min<std::int64_t>(left, static_cast<std::int64_t>(chunk)));
-    reader.read(read.data(), count * components);
-    std::byte* values = read.data();
-    if (converts)
-    {
-      convert(array, read.data(), count * components, converted.data());
-      values = converted.data();
-    }
-    std::size_t kept = allStay ? count : 0;
-    for (std::size_t i = 0; i < count && !allStay; ++i)
-    {
-      if (stays())
-      {
-        std::memmove(values + kept++ * tupleBytes, values + i * tupleBytes, tupleBytes);
-      }
-    }
-    take(std::span<const std::byte>(values, kept * tupleBytes));
-    left -= static_cast<std::int64_t>(count);
-  }
 }
 
 class MeshReader
@@ -189,7 +122,7 @@ private:
     array.columnType = ScalarType::Float64;
     VtkArrayReader reader(this->open(piece), array, this->MemoryPool);
     std::int64_t point = 0;
-    copyTuples(
+    copyVtkTuples(
       reader, piece.points, [] { return true; }, true,
       [&](std::span<const std::byte> bytes)
       {
@@ -346,7 +279,7 @@ private:
         continue;
       }
       VtkArrayReader reader(this->open(piece), *find(piece.pointArrays, name), this->MemoryPool);
-      copyTuples(
+      copyVtkTuples(
         reader, piece.points, [&walk] { return walk->next(); }, !walk,
         [&](std::span<const std::byte> tuples) { this->Builder.vertexTuples(column, tuples); });
       this->advance();
@@ -373,7 +306,7 @@ private:
         VtkArrayReader reader(this->open(piece), array, this->MemoryPool);
         reader.skip(first * array.components);
         std::optional<VtkIndexReader> ghosts = this->ghosts(piece, first);
-        copyTuples(
+        copyVtkTuples(
           reader, piece.lists[list].cells, [&ghosts] { return stays(ghosts); }, !ghosts,
           [&](std::span<const std::byte> tuples) { this->Builder.elementTuples(column, tuples); });
         this->advance();

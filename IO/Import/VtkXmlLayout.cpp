@@ -3,6 +3,7 @@
 
 #include "IO/Container/ReservedNames.h"
 #include "IO/Formats/InQuotes.h"
+#include "IO/Import/VtkXmlRoot.h"
 #include "IO/Import/XmlTags.h"
 
 #include <algorithm>
@@ -28,34 +29,6 @@ constexpr std::pair<std::string_view, ScalarType> TypeNames[] = { { "Int8", Scal
   { "UInt64", ScalarType::UInt64 }, { "Float32", ScalarType::Float32 },
   { "Float64", ScalarType::Float64 } };
 
-std::string valueOf(const XmlTag& tag, const char* name, const char* otherwise = "")
-{
-  const std::string* value = tag.attribute(name);
-  return value ? *value : otherwise;
-}
-
-/** The tag <VTKFile>, which comes first. */
-XmlTag rootOf(InputFile& file, XmlTags& tags)
-{
-  XmlTag root;
-  if (!tags.next(root) || root.name != "VTKFile")
-  {
-    file.fail(0, "the file does not begin with <VTKFile>");
-  }
-  return root;
-}
-
-/** A file that is cut off within its last tags may still look whole otherwise. */
-void requireEnd(InputFile& file)
-{
-  constexpr std::size_t Most = 4096;
-  const std::size_t begin = file.size() - std::min(file.size(), Most);
-  if (file.at(begin, Most).find("</VTKFile") == std::string_view::npos)
-  {
-    file.fail(file.size(), "the file does not end with </VTKFile>: it is truncated");
-  }
-}
-
 /** Reads the tags of a file into the pieces of a layout. */
 class LayoutReader
 {
@@ -70,7 +43,6 @@ public:
 
   void read()
   {
-    requireEnd(this->File);
     this->readRoot();
     this->Layout.files.push_back(this->File.path());
     for (XmlTag tag; this->Tags.next(tag);)
@@ -91,17 +63,17 @@ public:
 private:
   void readRoot()
   {
-    const XmlTag root = rootOf(this->File, this->Tags);
-    const std::string kind = valueOf(root, "type");
+    const XmlTag root = vtkXmlRoot(this->File, this->Tags);
+    const std::string kind = root.value("type");
     this->IsGrid = kind == "UnstructuredGrid";
     if (!this->IsGrid && kind != "PolyData")
     {
       this->File.fail(root.begin, "the file is neither polygonal data nor an unstructured grid of "
                                   "VTK, which are the kinds that hold meshes");
     }
-    this->BigEndian = valueOf(root, "byte_order") == "BigEndian";
-    this->HeaderBytes = valueOf(root, "header_type", "UInt32") == "UInt64" ? 8 : 4;
-    const std::string compressor = valueOf(root, "compressor");
+    this->BigEndian = root.value("byte_order") == "BigEndian";
+    this->HeaderBytes = root.value("header_type", "UInt32") == "UInt64" ? 8 : 4;
+    const std::string compressor = root.value("compressor");
     this->Compression = compressor.empty()                      ? VtkCompression::None
                         : compressor == "vtkZLibDataCompressor" ? VtkCompression::Zlib
                         : compressor == "vtkLZ4DataCompressor"  ? VtkCompression::Lz4
@@ -170,19 +142,19 @@ private:
     VtkPiece& piece = this->Layout.pieces.back();
     if (tag.name == "PointData")
     {
-      piece.pointNormals = valueOf(tag, "Normals");
-      piece.globalIds = valueOf(tag, "GlobalIds", GlobalIdsName);
+      piece.pointNormals = tag.value("Normals");
+      piece.globalIds = tag.value("GlobalIds", GlobalIdsName);
     }
     else if (tag.name == "CellData")
     {
-      piece.cellNormals = valueOf(tag, "Normals");
+      piece.cellNormals = tag.value("Normals");
     }
   }
 
   /** Puts an array to where its section wants it. */
   void addArray(const XmlTag& tag)
   {
-    const std::string type = valueOf(tag, "type");
+    const std::string type = tag.value("type");
     const auto* const known =
       std::ranges::find(TypeNames, type, &std::pair<std::string_view, ScalarType>::first);
     const bool attribute = this->Section == "PointData" || this->Section == "CellData";
@@ -247,7 +219,7 @@ private:
   VtkArray arrayOf(const XmlTag& tag, ScalarType type)
   {
     VtkArray array;
-    array.name = valueOf(tag, "Name");
+    array.name = tag.value("Name");
     array.type = array.columnType = type;
     array.begin = tag.end;
     array.bigEndian = this->BigEndian;
@@ -259,7 +231,7 @@ private:
         tag.begin, "an array cannot have " + std::to_string(components) + " components");
     }
     array.components = static_cast<int>(components);
-    const std::string format = valueOf(tag, "format", "ascii");
+    const std::string format = tag.value("format", "ascii");
     if (format != "ascii" && format != "binary" && format != "appended")
     {
       this->File.fail(tag.begin,
@@ -284,7 +256,7 @@ private:
   /** Tells the arrays that are appended where and how that is. */
   void placeAppended(const XmlTag& tag)
   {
-    const bool base64 = valueOf(tag, "encoding", "base64") != "raw";
+    const bool base64 = tag.value("encoding", "base64") != "raw";
     std::size_t begin = tag.end;
     for (std::string_view text = this->File.at(begin); !text.empty() && text.front() != '_';
          text = this->File.at(++begin))
@@ -371,7 +343,7 @@ private:
 
   std::int64_t count(const XmlTag& tag, const char* name)
   {
-    const std::string text = valueOf(tag, name, "0");
+    const std::string text = tag.value(name, "0");
     std::string_view digits = text;
     digits.remove_prefix(std::min(digits.find_first_not_of(" \t\r\n"), digits.size()));
     digits = digits.substr(0, digits.find_first_of(" \t\r\n"));
@@ -411,37 +383,6 @@ private:
 void addVtkXmlLayout(InputFile& file, VtkLayout& layout)
 {
   LayoutReader(file, layout).read();
-}
-
-std::vector<std::filesystem::path> vtkXmlPieceFiles(InputFile& file)
-{
-  requireEnd(file);
-  XmlTags tags(file);
-  const XmlTag root = rootOf(file, tags);
-  const std::string kind = valueOf(root, "type");
-  if (kind != "PPolyData" && kind != "PUnstructuredGrid")
-  {
-    file.fail(root.begin, "the file names no pieces of polygonal data or of an unstructured grid "
-                          "of VTK, which are the kinds that hold meshes");
-  }
-  std::vector<std::filesystem::path> files;
-  for (XmlTag tag; tags.next(tag);)
-  {
-    if (tag.name == "Piece" && !tag.closes)
-    {
-      const std::string source = valueOf(tag, "Source");
-      if (source.empty())
-      {
-        file.fail(tag.begin, "the piece here has no Source: the file is damaged");
-      }
-      files.push_back(file.path().parent_path() / source);
-    }
-  }
-  if (files.empty())
-  {
-    file.fail(root.begin, "the file names no pieces");
-  }
-  return files;
 }
 
 } // namespace smg

@@ -4,9 +4,6 @@
 #include "IO/Import/InputFile.h"
 #include "IO/Import/VtkLayout.h"
 
-#include <filesystem>
-#include <vector>
-
 namespace smg
 {
 
@@ -17,8 +14,5 @@ namespace smg
  * data
  */
 void addVtkXmlLayout(InputFile& file, VtkLayout& layout);
-
-/** The files that a .pvtp or .pvtu file names. Throws Error if it is none. */
-std::vector<std::filesystem::path> vtkXmlPieceFiles(InputFile& file);
 
 } // namespace smg

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,12 @@ struct XmlTag
 
   /** The value of an attribute; null without. */
   const std::string* attribute(const char* name) const;
+  /** The value of an attribute, or `otherwise` without. */
+  std::string value(const char* name, const char* otherwise = "") const
+  {
+    const std::string* value = this->attribute(name);
+    return value ? *value : otherwise;
+  }
 };
 
 /**

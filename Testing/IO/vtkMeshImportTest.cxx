@@ -203,8 +203,8 @@ TEST_F(VtkMeshImport, WhatVtkCannotReadIsRefused)
 TEST_F(VtkMeshImport, TheMemoryThatVtkNeedsIsAskedFor)
 {
   vtkNew<vtkSphereSource> sphere;
-  sphere->SetThetaResolution(700);
-  sphere->SetPhiResolution(700);
+  sphere->SetThetaResolution(400);
+  sphere->SetPhiResolution(400);
   sphere->Update();
   this->writeXml<vtkXMLPolyDataWriter>(
     "a.vtp", sphere->GetOutput(), vtkXMLWriter::Binary, vtkXMLWriter::LZMA, true);

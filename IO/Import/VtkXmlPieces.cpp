@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Import/VtkXmlPieces.h"
+
+#include "IO/Import/VtkXmlRoot.h"
+
+#include <string>
+
+namespace smg
+{
+
+std::vector<std::filesystem::path> vtkXmlPieceFiles(InputFile& file)
+{
+  XmlTags tags(file);
+  const XmlTag root = vtkXmlRoot(file, tags);
+  const std::string kind = root.value("type");
+  if (kind != "PPolyData" && kind != "PUnstructuredGrid")
+  {
+    file.fail(root.begin, "the file names no pieces of polygonal data or of an unstructured grid "
+                          "of VTK, which are the kinds that hold meshes");
+  }
+  std::vector<std::filesystem::path> files;
+  for (XmlTag tag; tags.next(tag);)
+  {
+    if (tag.name == "Piece" && !tag.closes)
+    {
+      const std::string source = tag.value("Source");
+      if (source.empty())
+      {
+        file.fail(tag.begin, "the piece here has no Source: the file is damaged");
+      }
+      files.push_back(file.path().parent_path() / source);
+    }
+  }
+  if (files.empty())
+  {
+    file.fail(root.begin, "the file names no pieces");
+  }
+  return files;
+}
+
+} // namespace smg
