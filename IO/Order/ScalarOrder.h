@@ -53,8 +53,7 @@ OrderedVertices scalarOrder(VertexPages& pages, Workspace& workspace, Value&& va
       for (std::uint32_t i = 0; i < page.vertices(); ++i)
       {
         Entry entry{ value(page, i), { {}, page.ids()[i], NoIndex } };
-        std::memcpy(
-          entry.vertex.position, page.position(i, 3 * sizeof(Real)), 3 * sizeof(Real));
+        std::memcpy(entry.vertex.position, page.position(i, 3 * sizeof(Real)), 3 * sizeof(Real));
         sort.put(entry);
       }
     });

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Container/PagedArray.h"
+#include "IO/Order/PageStretch.h"
+#include "IO/Order/WeightedGraph.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace smg
+{
+
+/** How large the graph of patches may become. */
+struct PatchLimits
+{
+  std::size_t nodes;
+  std::size_t edges; ///< each counted at both of its nodes
+};
+
+/**
+ * Cuts paged vertices into *patches*, the connected parts of runs of consecutive ranks, and makes
+ * the graph of the patches: masses are vertices, weights are edges of the mesh. So the components
+ * of this graph are those of the mesh. A component that lies in one run is no node of the graph:
+ * its vertices get their values at once.
+ */
+class PatchGraph
+{
+public:
+  /**
+   * The arrays, by rank, are filled: `patches` with the patch, `values` with a place below closed()
+   * for each vertex of a component that lies in a run; its patch is NoIndex.
+   */
+  PatchGraph(VertexPages& pages, Workspace& workspace, PagedArray<std::uint32_t>& patches,
+    PagedArray<float>& values);
+
+  /** Makes the graph from runs of `run` vertices. False: it is larger than the limits. */
+  bool build(std::int64_t run, const PatchLimits& limits);
+
+  const WeightedGraph& graph() const { return this->Graph; }
+  /** Vertices of components that lie in a run. */
+  std::int64_t closed() const { return this->Closed; }
+
+private:
+  /** Calls take(begin, end) for each run while it is loaded, until it gives false. */
+  template <class Take>
+  bool forEachRun(std::int64_t run, Take&& take);
+  void label(std::uint32_t begin, std::uint32_t end);
+  bool search(std::uint32_t start, std::uint32_t begin, std::uint32_t end, std::uint8_t mark);
+  void connect(std::uint32_t begin, std::uint32_t end);
+
+  VertexPages& Pages;
+  PageStretch Stretch;
+  PagedArray<std::uint32_t>& Patches;
+  PagedArray<float>& Values;
+  WeightedGraph Graph;
+  std::int64_t Closed = 0;
+  std::vector<std::uint32_t> Queue;
+  std::vector<std::uint8_t> Marks; ///< of the vertices of a run
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> Crossing;
+};
+
+} // namespace smg

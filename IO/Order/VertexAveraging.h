@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Container/PagedArray.h"
+#include "IO/Order/PageStretch.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Smooths values of paged vertices: each becomes the mean of its neighbours' values, one vertex
+ * after the other. Vertices whose value is below `least` are left alone.
+ */
+class VertexAveraging
+{
+public:
+  /** All must outlive it. */
+  VertexAveraging(VertexPages& pages, Workspace& workspace, PagedArray<float>& values, float least);
+
+  /** Two sweeps over all vertices, from the first to the last and back. */
+  void sweepVertices();
+
+  /**
+   * The same, but the vertices of a patch among `run` consecutive ranks get one value together,
+   * the mean beyond them: long waves are smoothed, where vertices alone would need many sweeps.
+   */
+  void sweepRuns(std::int64_t run, PagedArray<std::uint32_t>& patches);
+
+private:
+  /** The vertices of a patch in a run. */
+  struct Group
+  {
+    std::uint32_t patch;
+    std::uint32_t edges;
+    double sum;
+  };
+
+  template <class Take>
+  void forEachPageBothWays(Take&& take);
+  void averageRun(std::uint32_t begin, std::uint32_t end, PagedArray<std::uint32_t>& patches);
+
+  VertexPages& Pages;
+  PageStretch Stretch;
+  PagedArray<float>& Values;
+  float Least;
+  std::vector<Group> Groups;
+  std::vector<std::uint32_t> GroupOf; ///< of the vertices of a run
+};
+
+} // namespace smg
