@@ -101,6 +101,13 @@ bool isPointOrLine(int type)
 
 void takeVtkCell(int type, std::span<const std::int64_t> points, RawMeshBuilder& builder)
 {
+  constexpr int Tetrahedron = 10;
+  if (type == Tetrahedron && points.size() == 4)
+  {
+    // Most cells of a volume are these.
+    builder.tetrahedron(points[0], points[1], points[2], points[3]);
+    return;
+  }
   const TypeOfCell& cell = typeOf(type);
   const bool sound = cell.higherOrder ? points.size() >= cell.corners
                                       : cell.corners == 0 || points.size() == cell.corners;

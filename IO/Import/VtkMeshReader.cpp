@@ -209,8 +209,7 @@ private:
         {
           continue;
         }
-        isPointOrLine(reader.type()) ? this->Builder.dropped()
-                                     : takeVtkCell(reader.type(), corners, this->Builder);
+        takeVtkCell(reader.type(), corners, this->Builder);
       }
     }
     catch (const MeshError& error)
