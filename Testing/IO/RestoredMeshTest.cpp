@@ -228,6 +228,24 @@ TEST_F(RestoredMeshTest, SaysThatTheTrianglesOfAPolygonDiffer)
   EXPECT_TRUE(this->isNoted("1 polygons were triangles with different values"));
 }
 
+TEST_F(RestoredMeshTest, PolygonsTooLargeForTheMemoryAreTriangles)
+{
+  MeshOfFile mesh;
+  Corners large(100000);
+  std::iota(large.begin(), large.end(), 0);
+  mesh.points.resize(3 * large.size());
+  mesh.cells = { { 1, 2, 3, 4 }, large, { 5, 6, 7, 8, 9 } };
+  mesh.numbers = { 0, 1, 2 };
+  std::vector<Corners> back = this->restored(mesh, ".off").cells;
+  EXPECT_TRUE(this->isNoted("1 polygons of more than"));
+  ASSERT_EQ(back.size(), large.size());
+  EXPECT_EQ(back.front(), mesh.cells.front());
+  EXPECT_EQ(back.back(), mesh.cells.back());
+  std::ranges::sort(back.begin() + 1, back.end() - 1);
+  const std::vector<Corners> triangles = cutAbove({ large }, 3);
+  EXPECT_TRUE(std::equal(triangles.begin(), triangles.end(), back.begin() + 1));
+}
+
 TEST_F(RestoredMeshTest, RefusesWhatIsNotTheWholeMesh)
 {
   const auto restore = [this](const MeshOfFile& mesh) { this->write(mesh, "out.ply"); };
