@@ -5,6 +5,7 @@
 #include "IO/Conversion/PartialProgress.h"
 #include "IO/Formats/StreamFile.h"
 #include "IO/Import/Importer.h"
+#include "IO/Import/Inflate.h"
 #include "IO/Motion/MovedVertices.h"
 #include "IO/Motion/RewritePly.h"
 #include "IO/Motion/RewriteStream.h"
@@ -22,7 +23,7 @@ bool canRewrite(const std::filesystem::path& in, const std::filesystem::path& ou
     return cellTypeOf(detectStreamFormat(in)) == cellTypeOf(*streamFormatOfName(out));
   }
   return from == MeshFileKind::Indexed && to == MeshFileKind::Ply &&
-         meshFormat(in) == MeshFormat::Ply;
+         meshFormat(in) == MeshFormat::Ply && !isGzip(in);
 }
 
 void rewriteMesh(const std::filesystem::path& in, const std::filesystem::path& out,

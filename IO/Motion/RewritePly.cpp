@@ -230,7 +230,7 @@ void rewritePly(const std::filesystem::path& in, const std::filesystem::path& ou
     fates.push_back(fatesOf(element, moved.hasNormals()));
   }
   SequentialOutput output(out);
-  output.put(newHeader(file.text().substr(0, header.bodyOffset), header, fates));
+  output.put(newHeader(file.at(0, header.bodyOffset).substr(0, header.bodyOffset), header, fates));
   withPlyBody(file, header,
     [&](auto cursor)
     {

@@ -66,11 +66,11 @@ RestoredMesh::RestoredMesh(const std::filesystem::path& vsm, Workspace& workspac
     this->Vertices->sort();
     this->readCells(reader, ids, corners);
   }
-  workspace.progress(CellsShare);
+  workspace.tell(CellsShare);
   this->Elements->restore(this->Info);
   const std::vector<std::string> notes = this->Elements->notes();
   this->Notes.insert(this->Notes.end(), notes.begin(), notes.end());
-  workspace.progress(SortedShare);
+  workspace.tell(SortedShare);
 }
 
 void RestoredMesh::readInfo(const VsmReader& reader)
@@ -119,7 +119,7 @@ void RestoredMesh::readVertices(
     }
     numbers.assign(block.corners.begin(), block.corners.end());
     corners.put(std::span<const std::uint32_t>(numbers));
-    this->Space.progress(
+    this->Space.tell(
       VerticesShare * static_cast<double>(block.firstCell) / static_cast<double>(this->Info.cells));
   }
   corners.close();
@@ -166,7 +166,7 @@ void RestoredMesh::readCells(
       {
         cell = 0;
         cells = block.corners.size() / cornersOfCell;
-        this->Space.progress(VerticesShare + (CellsShare - VerticesShare) *
+        this->Space.tell(VerticesShare + (CellsShare - VerticesShare) *
                                                static_cast<double>(block.firstCell) /
                                                static_cast<double>(this->Info.cells));
       }
@@ -190,7 +190,7 @@ bool RestoredMesh::next(RestoredVertices& vertices)
 {
   const bool more = this->Vertices->next(vertices);
   this->Delivered += vertices.count();
-  this->Space.progress(
+  this->Space.tell(
     SortedShare + (1 - SortedShare) * static_cast<double>(this->Delivered) /
                     static_cast<double>(this->Info.vertices + this->Info.elements));
   return more;
@@ -200,7 +200,7 @@ bool RestoredMesh::next(RestoredElements& elements)
 {
   const bool more = this->Elements->next(elements);
   this->Delivered += elements.count();
-  this->Space.progress(
+  this->Space.tell(
     SortedShare + (1 - SortedShare) * static_cast<double>(this->Delivered) /
                     static_cast<double>(this->Info.vertices + this->Info.elements));
   return more;

@@ -89,7 +89,7 @@ std::vector<std::string> writeRestored(
     notes.push_back(
       "The columns are left out, since " + std::string(format.suffix) + " files have none.");
   }
-  workspace.progress(1.0);
+  workspace.tell(1.0);
   return notes;
 }
 
