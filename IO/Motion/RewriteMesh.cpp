@@ -6,6 +6,7 @@
 #include "IO/Formats/StreamFile.h"
 #include "IO/Import/Importer.h"
 #include "IO/Import/Inflate.h"
+#include "IO/Import/InputFile.h"
 #include "IO/Motion/MovedVertices.h"
 #include "IO/Motion/RewritePly.h"
 #include "IO/Motion/RewriteStream.h"
@@ -13,6 +14,16 @@
 
 namespace smg
 {
+
+namespace
+{
+
+bool isPlainPly(const std::filesystem::path& path)
+{
+  return meshFormat(path) == MeshFormat::Ply && !isGzip(InputFile(path).at(0, 2));
+}
+
+} // namespace
 
 bool canRewrite(const std::filesystem::path& in, const std::filesystem::path& out)
 {
@@ -23,7 +34,7 @@ bool canRewrite(const std::filesystem::path& in, const std::filesystem::path& ou
     return cellTypeOf(detectStreamFormat(in)) == cellTypeOf(*streamFormatOfName(out));
   }
   return from == MeshFileKind::Indexed && to == MeshFileKind::Ply &&
-         meshFormat(in) == MeshFormat::Ply && !isGzip(in);
+         isPlainPly(in);
 }
 
 void rewriteMesh(const std::filesystem::path& in, const std::filesystem::path& out,

@@ -3,10 +3,10 @@
 
 #include "IO/Container/VsmReader.h"
 #include "IO/Conversion/Convert.h"
-#include "IO/Import/Importer.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -65,8 +65,8 @@ TEST(ReservedNames, AreLeftOutByTheImport)
     "z\nproperty int GlobalIds\nproperty int quality\nelement face 1\nproperty list uchar int "
     "vertex_indices\nproperty int Corners\nend_header\n0 0 0 5 6\n1 0 0 5 6\n0 1 0 5 6\n3 0 1 2 "
     "9\n");
-  const IndexedMesh mesh = importMesh(folder / "a.ply");
-  EXPECT_EQ(mesh.droppedColumns, (std::vector<std::string>{ "GlobalIds", "Corners" }));
+  const ReadMesh mesh = importWhole(folder / "a.ply");
+  EXPECT_EQ(mesh.counts.droppedColumns, (std::vector<std::string>{ "GlobalIds", "Corners" }));
   ASSERT_EQ(mesh.vertexColumns.size(), 1u);
   EXPECT_EQ(mesh.vertexColumns[0].spec.name, "quality");
   const ConversionReport report = convert(folder / "a.ply", folder / "a.vsm");

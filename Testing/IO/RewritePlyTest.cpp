@@ -4,12 +4,12 @@
 #include "IO/Container/VsmReader.h"
 #include "IO/Conversion/AddedColumn.h"
 #include "IO/Conversion/Convert.h"
-#include "IO/Import/Importer.h"
 #include "IO/Motion/VertexNormals.h"
 #include "IO/Output/WritePly.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/IO/ShiftedSource.h"
 #include "Testing/IO/StreamFormatsFixture.h"
+#include "Testing/Support/RawMeshReading.h"
 
 #include <gtest/gtest.h>
 
@@ -93,9 +93,9 @@ protected:
 TEST_F(RewritePly, KeepsEverythingButTheCoordinates)
 {
   const std::filesystem::path in = this->squareFile();
-  const IndexedMesh before = importMesh(in);
+  const ReadMesh before = importWhole(in);
   rewriteMesh(in, this->Folder / "out.ply", *this->moved(in, 0.125));
-  const IndexedMesh after = importMesh(this->Folder / "out.ply");
+  const ReadMesh after = importWhole(this->Folder / "out.ply");
   EXPECT_EQ(this->header(),
     "ply\nformat binary_little_endian 1.0\ncomment  a square\n"
     "element camera 1\nproperty float view\nproperty list int short lens\n"
@@ -111,15 +111,15 @@ TEST_F(RewritePly, KeepsEverythingButTheCoordinates)
   }
   EXPECT_EQ(after.positions, expected);
   EXPECT_EQ(after.corners, before.corners);
-  EXPECT_EQ(after.originalCells, before.originalCells);
+  EXPECT_EQ(after.elements, before.elements);
   ASSERT_EQ(after.vertexColumns.size(), 2u);
   EXPECT_EQ(after.vertexColumns[0].value(0, 0), 1);
   EXPECT_EQ(after.vertexColumns[0].value(4, 1), 1);
   EXPECT_EQ(after.vertexColumns[0].value(6, 1), 1);
   EXPECT_EQ(after.vertexColumns[0].value(6, 2), 0);
   EXPECT_EQ(after.vertexColumns[1].bytes, before.vertexColumns[1].bytes);
-  ASSERT_EQ(after.cellColumns.size(), 1u);
-  EXPECT_EQ(after.cellColumns[0].bytes, before.cellColumns.back().bytes);
+  ASSERT_EQ(after.elementColumns.size(), 1u);
+  EXPECT_EQ(after.elementColumns[0].bytes, before.elementColumns.back().bytes);
 }
 
 TEST_F(RewritePly, WritesIntegerNormalsAsReal)
@@ -135,7 +135,7 @@ TEST_F(RewritePly, WritesIntegerNormalsAsReal)
     *this->moved(this->Folder / "in.ply", 0.125));
   EXPECT_NE(this->header().find("property float ny\n"), std::string::npos);
   EXPECT_EQ(this->header().find("property char"), std::string::npos);
-  const IndexedMesh after = importMesh(this->Folder / "out.ply");
+  const ReadMesh after = importWhole(this->Folder / "out.ply");
   EXPECT_EQ(after.vertexColumns[0].value(0, 0), 1);
   EXPECT_EQ(after.vertexColumns[0].value(6, 1), 1);
 }
@@ -145,7 +145,7 @@ TEST_F(RewritePly, LeavesStaleNormalsOut)
   const std::filesystem::path in = this->squareFile();
   rewriteMesh(in, this->Folder / "out.ply", *this->moved(in, 0.125, false));
   EXPECT_EQ(this->header().find("property float n"), std::string::npos);
-  EXPECT_EQ(importMesh(this->Folder / "out.ply").vertexColumns.size(), 1u);
+  EXPECT_EQ(importWhole(this->Folder / "out.ply").vertexColumns.size(), 1u);
 }
 
 TEST_F(RewritePly, GivesABinaryFileBackByteForByte)
@@ -192,8 +192,8 @@ TEST_F(RewritePly, KeepsTheOrderOfTheScansOfTheArchive)
   for (const char* name : { "bunny.ply", "horse_be.ply", "rangemap_lato315.ply" })
   {
     rewriteMesh(data / name, this->Folder / "out.ply", *this->moved(data / name, 0.0));
-    const IndexedMesh before = importMesh(data / name);
-    const IndexedMesh after = importMesh(this->Folder / "out.ply");
+    const ReadMesh before = importWhole(data / name);
+    const ReadMesh after = importWhole(this->Folder / "out.ply");
     EXPECT_TRUE(before.positions == after.positions) << name;
     EXPECT_TRUE(before.corners == after.corners) << name;
     expectSame(before.vertexColumns, after.vertexColumns);

@@ -3,9 +3,9 @@
 
 #include "IO/Container/VsmReader.h"
 #include "IO/Conversion/Convert.h"
-#include "IO/Import/Importer.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/IO/StreamFormatsFixture.h"
+#include "Testing/Support/RawMeshReading.h"
 
 #include <gtest/gtest.h>
 
@@ -64,12 +64,12 @@ TEST_F(WritePly, ComesBackWithItsColumns)
       mesh.positions.assign(mesh.positions.size(), 0.1F);
     }
     EXPECT_TRUE(this->writeAsPly(mesh, { .single = single }).droppedColumns.empty());
-    const IndexedMesh back = importMesh(this->Folder / "out.ply");
+    const ReadMesh back = importWhole(this->Folder / "out.ply");
     EXPECT_EQ(back.doublePositions, !single);
     EXPECT_EQ(back.positions, mesh.positions);
     EXPECT_EQ(back.corners, mesh.corners);
     expectSame(back.vertexColumns, mesh.vertexColumns);
-    expectSame(back.cellColumns, mesh.cellColumns);
+    expectSame(back.elementColumns, mesh.cellColumns);
   }
   EXPECT_NE(this->header().find("property float nx\n"), std::string::npos);
   EXPECT_NE(this->header().find("property uchar alpha\n"), std::string::npos);
@@ -107,7 +107,7 @@ TEST_F(WritePly, NamesPropertiesOfOtherColumns)
     written.droppedColumns, (std::vector<std::string>{ "x", "two_words_1", "vertex_indices" }));
   EXPECT_TRUE(written.roundedColumns.empty());
   EXPECT_EQ(notesOn(written).size(), 3u);
-  const IndexedMesh back = importMesh(this->Folder / "out.ply");
+  const ReadMesh back = importWhole(this->Folder / "out.ply");
   ASSERT_EQ(back.vertexColumns.size(), 4u);
   for (int component = 0; component < 2; component++)
   {
@@ -221,7 +221,7 @@ TEST_F(WritePly, IsAFormatOfConversion)
   options.order = StreamOrder::Keep;
   const ConversionReport report =
     convert(this->Folder / "mesh.vsm", this->Folder / "out.ply", options);
-  EXPECT_EQ(importMesh(this->Folder / "out.ply").corners, mesh.corners);
+  EXPECT_EQ(importWhole(this->Folder / "out.ply").corners, mesh.corners);
   ASSERT_EQ(report.notes.size(), 1u);
   EXPECT_NE(report.notes[0].find("column 'x'"), std::string::npos) << report.notes[0];
   write(this->Folder / "tets.vsm", toStream(tetBox(3, 3, 3)));

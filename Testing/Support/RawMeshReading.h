@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Import/Importer.h"
 #include "IO/Raw/RawMesh.h"
 #include "Solver/Stream/Column.h"
 
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -96,6 +98,14 @@ inline ReadMesh readRaw(const RawMesh& mesh)
   read.elementColumns = columnsOf(mesh.elementColumns);
   read.counts = mesh.counts;
   return read;
+}
+
+/** The mesh of a file in memory. */
+inline ReadMesh importWhole(
+  const std::filesystem::path& path, CellChoice cells = CellChoice::Only)
+{
+  Workspace workspace({}, Workspace::LeastMemory);
+  return readRaw(importMesh(path, workspace, { cells, {} }));
 }
 
 } // namespace smg::testing
