@@ -9,6 +9,8 @@
 #include <span>
 #include <utility>
 
+#include <sys/mman.h>
+
 namespace smg
 {
 
@@ -24,7 +26,7 @@ public:
     , Capacity((bytes + 63) / 64 * 64)
   {
     pool.acquire(static_cast<std::int64_t>(this->Capacity));
-    this->Data = static_cast<std::byte*>(std::aligned_alloc(64, this->Capacity));
+    this->Data = static_cast<std::byte*>(allocate(this->Capacity));
     if (!this->Data && this->Capacity > 0)
     {
       pool.release(static_cast<std::int64_t>(this->Capacity));
@@ -35,7 +37,7 @@ public:
   {
     if (this->Owner)
     {
-      std::free(this->Data);
+      this->isMapped() ? void(::munmap(this->Data, this->Capacity)) : std::free(this->Data);
       this->Owner->release(static_cast<std::int64_t>(this->Capacity));
     }
   }
@@ -57,6 +59,22 @@ public:
   void resize(std::size_t bytes) { this->Size = bytes; }
 
 private:
+  /** From this size on memory comes from the system and goes back there: the heap would keep it. */
+  static constexpr std::size_t MappedBytes = std::size_t(128) << 10;
+
+  bool isMapped() const { return this->Capacity >= MappedBytes; }
+
+  static void* allocate(std::size_t bytes)
+  {
+    if (bytes < MappedBytes)
+    {
+      return std::aligned_alloc(64, bytes);
+    }
+    void* memory =
+      ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return memory == MAP_FAILED ? nullptr : memory;
+  }
+
   Pool* Owner = nullptr;
   std::byte* Data = nullptr;
   std::size_t Size = 0;

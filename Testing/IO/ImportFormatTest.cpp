@@ -189,7 +189,7 @@ TEST_F(ImportFormat, DamageOfCompressedFilesIsFound)
   this->expectError("a.off.gz", bytes + bytes.substr(0, 12), "truncated");
   this->expectError("a.off.gz", gzip(""), "the file is empty");
   // Errors of the parser call the file by its name, not by that of a scratch file.
-  this->expectError("a.off.gz", gzip("OFF\n3 1 0\n0 0 x\n"), "a.off.gz, line 3: 'x' is no number");
+  this->expectError("a.off.gz", gzip("OFF\n1 0 0\n0 0 x\n"), "a.off.gz, line 3: 'x' is no number");
   this->expectError("a.gz", gzip("1 2 3"), "a.gz: the format is not known");
   this->expectDamageIsFound("b.off.gz", bytes);
 }

@@ -12,6 +12,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <numeric>
 
 namespace smg::testing
@@ -302,6 +304,7 @@ TEST_F(RestoredMeshTest, CanBeCancelledAtAnyTime)
   const auto run = [this](const ProgressFunction& progress)
   {
     Workspace workspace(this->Folder.path(), Workspace::LeastMemory, progress);
+    workspace.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
     writeRestored(this->Folder / "mesh.vsm", this->Folder / "out.ply", workspace);
   };
   std::vector<double> fractions;
