@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkStreamingMeshWriter.h"
 
+#include "IO/Container/VsmReader.h"
+#include "IO/Conversion/Convert.h"
 #include "IO/Conversion/MeshFile.h"
 #include "IO/Conversion/PartialProgress.h"
+#include "IO/External/Workspace.h"
 #include "IO/Formats/Suffix.h"
 #include "IO/Output/WriteMesh.h"
+#include "IO/Output/WriteVsm.h"
+#include "IO/Restore/WriteRestored.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkPieceFiles.h"
 #include "IO/vtkPieceStream.h"
@@ -19,7 +24,10 @@
 #include "vtkObjectFactory.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkStreamingMeshWriter);
@@ -72,6 +80,33 @@ Notes writeThroughContainer(
   return smg::writeFromVsm(container, path, smg::partOf(whole, 0.5, 1.0));
 }
 
+/** In the order of the file that the mesh was made of; isolated points come from `streamFile`. */
+Notes writeInOriginalOrder(smg::PieceInput& input, int pieces, const std::filesystem::path& path,
+  const std::filesystem::path& streamFile, smg::Progress& progress)
+{
+  const smg::ProgressFunction whole = [&progress](double done)
+  {
+    progress.update(done);
+    return true;
+  };
+  smg::Workspace workspace(std::filesystem::absolute(path).parent_path(),
+    smg::ConversionOptions::DefaultMemory, smg::partOf(whole, 0.5, 1.0));
+  smg::PieceStream stream(input, pieces, { .all = true, .points = {}, .cells = {} });
+  smg::checkRestoredPath(path, stream.info().cellType);
+  std::filesystem::path container = workspace.folder() / "mesh.vsm";
+  smg::Progress half(smg::partOf(whole, 0.0, 0.5));
+  smg::writeContainer(stream, container, true, half);
+  if (!streamFile.empty())
+  {
+    const std::filesystem::path pieced = std::exchange(container, workspace.folder() / "all.vsm");
+    const auto source = smg::VsmReader(pieced).source();
+    smg::writeVsm(*source, container, smg::Codec::Lz4, {}, {}, [&](smg::VsmWriter& writer)
+      { smg::copyIsolated(streamFile, source->info(), writer); });
+  }
+  workspace.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
+  return smg::writeRestored(container, path, workspace);
+}
+
 Notes writeIndexedPieces(
   smg::PieceInput& input, int pieces, const std::filesystem::path& path, smg::Progress& progress)
 {
@@ -108,6 +143,7 @@ WriteFunction writerOf(const std::filesystem::path& path)
 vtkStreamingMeshWriter::~vtkStreamingMeshWriter()
 {
   this->SetFileName(nullptr);
+  this->SetStreamFileName(nullptr);
 }
 
 int vtkStreamingMeshWriter::FillInputPortInformation(int, vtkInformation* info)
@@ -125,12 +161,15 @@ bool vtkStreamingMeshWriter::WriteFile()
       throw smg::Error("No file is named: set FileName.");
     }
     const std::filesystem::path path = this->FileName;
-    const WriteFunction write = writerOf(path);
+    const WriteFunction write = this->RestoreOrder ? nullptr : writerOf(path);
     smg::Progress progress(smg::progressOf(*this));
     smg::PieceInput input(*this, 0);
     const int pieces =
       this->NumberOfStreamedPieces ? this->NumberOfStreamedPieces : chooseNumberOfPieces(input);
-    for (const std::string& note : write(input, pieces, path, progress))
+    const std::filesystem::path streamFile = this->StreamFileName ? this->StreamFileName : "";
+    const Notes notes = write ? write(input, pieces, path, progress)
+                              : writeInOriginalOrder(input, pieces, path, streamFile, progress);
+    for (const std::string& note : notes)
     {
       vtkWarningMacro(<< path.string() << ": " << note);
     }
@@ -182,5 +221,8 @@ void vtkStreamingMeshWriter::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "RestoreOrder: " << this->RestoreOrder << "\n";
+  os << indent << "StreamFileName: " << (this->StreamFileName ? this->StreamFileName : "(none)")
+     << "\n";
   os << indent << "NumberOfStreamedPieces: " << this->NumberOfStreamedPieces << "\n";
 }

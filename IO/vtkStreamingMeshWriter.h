@@ -49,6 +49,27 @@ public:
   vtkGetMacro(NumberOfStreamedPieces, int);
   ///@}
 
+  ///@{
+  /**
+   * Whether vertices and cells go back into the order of the mesh file that the stream was made of,
+   * which the arrays OriginalId and OriginalCellId tell: somebody who gave a PLY gets the same PLY
+   * back, with points moved. For .ply, .vtp, .vtu, .vtk, .obj, .off, .stl, .mesh and .msh files;
+   * see smg::writeRestored. Takes 256 MiB of memory at most. Default: off.
+   */
+  vtkSetMacro(RestoreOrder, bool);
+  vtkGetMacro(RestoreOrder, bool);
+  vtkBooleanMacro(RestoreOrder, bool);
+  ///@}
+
+  ///@{
+  /**
+   * With RestoreOrder, the .vsm file that the input comes from: pieces do not carry the points of
+   * no cell, which are taken from it. Default: none, for a mesh file that has no such points.
+   */
+  vtkSetFilePathMacro(StreamFileName);
+  vtkGetFilePathMacro(StreamFileName);
+  ///@}
+
   /** Writes the file. Answers 1, or 0 after an error or an abort. */
   int Write() override;
 
@@ -67,6 +88,8 @@ private:
 
   char* FileName = nullptr;
   int NumberOfStreamedPieces = 0;
+  bool RestoreOrder = false;
+  char* StreamFileName = nullptr;
 };
 
 #endif

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Conversion/Convert.h"
+#include "IO/vtkStreamingMeshReader.h"
+#include "IO/vtkStreamingMeshWriter.h"
+#include "Testing/IO/MeshText.h"
+#include "Testing/IO/vtkPieceTesting.h"
+#include "Testing/Support/RawMeshReading.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+namespace smg::testing
+{
+namespace
+{
+
+class VtkStreamingMeshWriterRestore : public ::testing::Test
+{
+protected:
+  /** A reader of the stream of a mesh file, and a writer of its pieces in the file's order. */
+  void start(const IndexedTestMesh& mesh, const std::string& name)
+  {
+    writeBytes(this->Folder / name, meshText(mesh));
+    convert(this->Folder / name, this->Folder / "mesh.vsm");
+    this->Reader->SetFileName((this->Folder / "mesh.vsm").c_str());
+    this->Reader->SetMaximumPointsInMemory(10);
+    this->Writer->SetInputConnection(this->Reader->GetOutputPort());
+    this->Writer->SetNumberOfStreamedPieces(5);
+    this->Writer->RestoreOrderOn();
+  }
+
+  int write(const std::string& name)
+  {
+    this->Writer->SetFileName((this->Folder / name).c_str());
+    return this->Writer->Write();
+  }
+
+  TemporaryFolder Folder;
+  vtkNew<vtkStreamingMeshReader> Reader;
+  vtkNew<vtkStreamingMeshWriter> Writer;
+};
+
+TEST_F(VtkStreamingMeshWriterRestore, GivesTheFileBack)
+{
+  const IndexedTestMesh surface = shuffled(torus(40, 30, 0.1));
+  this->start(surface, "in.off");
+  for (const char* name : { "out.ply", "out.off", "out.vtp", "out.obj", "out.vtk" })
+  {
+    ASSERT_TRUE(this->write(name)) << name;
+    const ReadMesh back = importWhole(this->Folder / name);
+    EXPECT_EQ(back.positions, surface.positions) << name;
+    EXPECT_EQ(back.corners, surface.corners) << name;
+  }
+}
+
+TEST_F(VtkStreamingMeshWriterRestore, GivesTetrahedraBack)
+{
+  const IndexedTestMesh volume = shuffled(tetBox(5, 6, 7, 0.1));
+  this->start(volume, "in.mesh");
+  for (const char* name : { "out.vtu", "out.mesh" })
+  {
+    ASSERT_TRUE(this->write(name)) << name;
+    const ReadMesh back = importWhole(this->Folder / name);
+    EXPECT_EQ(back.positions, volume.positions) << name;
+    EXPECT_EQ(back.corners, volume.corners) << name;
+  }
+}
+
+TEST_F(VtkStreamingMeshWriterRestore, TakesIsolatedPointsFromTheStream)
+{
+  IndexedTestMesh mesh = grid(6, 6);
+  mesh.positions.insert(mesh.positions.begin(), { 7, 8, 9 });
+  for (std::int64_t& corner : mesh.corners)
+  {
+    ++corner;
+  }
+  this->start(mesh, "in.off");
+  const Errors errors(this->Writer);
+  EXPECT_FALSE(this->write("out.ply"));
+  EXPECT_FALSE(std::filesystem::exists(this->Folder / "out.ply"));
+  this->Writer->SetStreamFileName((this->Folder / "mesh.vsm").c_str());
+  ASSERT_TRUE(this->write("out.ply"));
+  EXPECT_EQ(importWhole(this->Folder / "out.ply").positions, mesh.positions);
+  EXPECT_EQ(this->Folder.entries(), 3);
+}
+
+TEST_F(VtkStreamingMeshWriterRestore, RefusesWhatHasNoOrderToRestore)
+{
+  this->start(grid(6, 6), "in.off");
+  const Errors errors(this->Writer);
+  EXPECT_FALSE(this->write("out.vsm"));
+  EXPECT_FALSE(this->write("out.pvtp"));
+  EXPECT_EQ(this->Folder.entries(), 2);
+}
+
+} // namespace
+} // namespace smg::testing
