@@ -32,8 +32,8 @@ void vtkStreamingMeshConverter::UpdateContainer()
 {
   static constexpr smg::StreamOrder Orders[] = { smg::StreamOrder::BreadthFirst,
     smg::StreamOrder::Axis, smg::StreamOrder::Keep, smg::StreamOrder::Spectral };
-  static constexpr smg::CellChoice Choices[] = { smg::CellChoice::Only,
-    smg::CellChoice::Triangles, smg::CellChoice::Tetrahedra };
+  static constexpr smg::CellChoice Choices[] = { smg::CellChoice::Only, smg::CellChoice::Triangles,
+    smg::CellChoice::Tetrahedra };
   const std::string out = this->GetContainerName();
   if (out.empty())
   {

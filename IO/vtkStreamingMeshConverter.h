@@ -64,9 +64,9 @@ public:
   /** The cells of a file that has both surface cells and volume cells. */
   enum CellTypes
   {
-    ONLY = 0,       ///< a file that has both is an error
-    TRIANGLES = 1,  ///< volume cells are left out
-    TETRAHEDRA = 2  ///< surface cells are left out
+    ONLY = 0,      ///< a file that has both is an error
+    TRIANGLES = 1, ///< volume cells are left out
+    TETRAHEDRA = 2 ///< surface cells are left out
   };
 
   ///@{

@@ -100,8 +100,8 @@ Notes writeInOriginalOrder(smg::PieceInput& input, int pieces, const std::filesy
   {
     const std::filesystem::path pieced = std::exchange(container, workspace.folder() / "all.vsm");
     const auto source = smg::VsmReader(pieced).source();
-    smg::writeVsm(*source, container, smg::Codec::Lz4, {}, {}, [&](smg::VsmWriter& writer)
-      { smg::copyIsolated(streamFile, source->info(), writer); });
+    smg::writeVsm(*source, container, smg::Codec::Lz4, {}, {},
+      [&](smg::VsmWriter& writer) { smg::copyIsolated(streamFile, source->info(), writer); });
   }
   workspace.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
   return smg::writeRestored(container, path, workspace);

@@ -130,8 +130,8 @@ void addConvertCommand(CLI::App& program, Action& action)
     ->check(oneOf({ "zstd", "lz4", "none" }))
     ->capture_default_str();
   command
-    ->add_option("--cells", options->cells,
-      "Which cells to keep of a mesh that has both: triangles or tets")
+    ->add_option(
+      "--cells", options->cells, "Which cells to keep of a mesh that has both: triangles or tets")
     ->check(oneOf({ "triangles", "tets" }));
   command
     ->add_option("--weld", options->weld,

@@ -55,8 +55,8 @@ std::string ProgressBar::remaining(double fraction) const
   char part[64];
   if (this->Mebibytes >= 1.0)
   {
-    std::snprintf(part, sizeof(part), ", %.0f of %.0f MiB", fraction * this->Mebibytes,
-      this->Mebibytes);
+    std::snprintf(
+      part, sizeof(part), ", %.0f of %.0f MiB", fraction * this->Mebibytes, this->Mebibytes);
     text += part;
   }
   // The first seconds say little of the rest.

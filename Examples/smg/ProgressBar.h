@@ -8,8 +8,8 @@
 #include <string>
 
 /**
- * A progress bar with the time that is left, on standard error, if that is a terminal; stops when the
- * user interrupts.
+ * A progress bar with the time that is left, on standard error, if that is a terminal; stops when
+ * the user interrupts.
  */
 class ProgressBar
 {

@@ -148,8 +148,7 @@ void checkScratchRoom(const std::filesystem::path& folder, std::int64_t bytes)
   {
     const auto mebibytes = [](std::int64_t count) { return std::to_string((count >> 20) + 1); };
     throw Error(place.string() + ": the scratch files take about " + mebibytes(bytes) +
-                " MiB, there is room for " +
-                mebibytes(static_cast<std::int64_t>(room.available)) +
+                " MiB, there is room for " + mebibytes(static_cast<std::int64_t>(room.available)) +
                 " MiB: choose another folder for them (option --scratch).");
   }
 }

@@ -28,7 +28,8 @@ struct ConversionOptions
   CellChoice cells = CellChoice::Only;
   /** Merges points within this distance of each other; 0: equal coordinates; none: no points. */
   std::optional<double> weld;
-  /** Writes vertices and cells in the order that they had in the first file: see writeRestored(). */
+  /** Writes vertices and cells in the order that they had in the first file: see writeRestored().
+   */
   bool restoreOrder = false;
   /** How a .vsm file is compressed. */
   Codec codec = Codec::Zstd;

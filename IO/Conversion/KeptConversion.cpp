@@ -82,7 +82,7 @@ std::string originOf(const std::filesystem::path& in, const ConversionOptions& o
   return plainPath(in) + ' ' + std::to_string(std::filesystem::file_size(in)) + " bytes of " +
          std::to_string(std::filesystem::last_write_time(in).time_since_epoch().count()) +
          " in order " + std::string(nameOf(options.order)) +
-         (options.cells == CellChoice::Only        ? ""
+         (options.cells == CellChoice::Only         ? ""
            : options.cells == CellChoice::Triangles ? ", triangles"
                                                     : ", tetrahedra") +
          (options.weld ? ", welded " + std::to_string(*options.weld) : "");

@@ -33,8 +33,7 @@ bool canRewrite(const std::filesystem::path& in, const std::filesystem::path& ou
   {
     return cellTypeOf(detectStreamFormat(in)) == cellTypeOf(*streamFormatOfName(out));
   }
-  return from == MeshFileKind::Indexed && to == MeshFileKind::Ply &&
-         isPlainPly(in);
+  return from == MeshFileKind::Indexed && to == MeshFileKind::Ply && isPlainPly(in);
 }
 
 void rewriteMesh(const std::filesystem::path& in, const std::filesystem::path& out,

@@ -26,8 +26,7 @@ void markUsed(const StreamLayout& layout, std::span<std::uint64_t> used)
 }
 
 template <class Real>
-void takeUnused(
-  const RawMesh& mesh, std::span<const std::uint64_t> used, const TakeVertices& take)
+void takeUnused(const RawMesh& mesh, std::span<const std::uint64_t> used, const TakeVertices& take)
 {
   std::vector<std::int64_t> ids;
   std::vector<double> positions;

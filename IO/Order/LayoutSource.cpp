@@ -61,8 +61,8 @@ LayoutSource::LayoutSource(
   this->Info.cells = layout.cellCount;
   this->Info.doublePositions = mesh.doublePositions;
   this->AddIds = addSpecs(mesh.vertexColumns, IdSpec, true, this->Info.vertexColumns);
-  this->AddElements = addSpecs(mesh.elementColumns, CellIdSpec,
-    cellIds == WithCellIds, this->Info.cellColumns);
+  this->AddElements =
+    addSpecs(mesh.elementColumns, CellIdSpec, cellIds == WithCellIds, this->Info.cellColumns);
   if (layout.flags.size() > 0)
   {
     this->Info.cellColumns.push_back({ CellFlagsName, ScalarType::UInt8, 1 });

@@ -167,8 +167,8 @@ void RestoredMesh::readCells(
         cell = 0;
         cells = block.corners.size() / cornersOfCell;
         this->Space.tell(VerticesShare + (CellsShare - VerticesShare) *
-                                               static_cast<double>(block.firstCell) /
-                                               static_cast<double>(this->Info.cells));
+                                           static_cast<double>(block.firstCell) /
+                                           static_cast<double>(this->Info.cells));
       }
       std::int64_t number = block.firstCell + static_cast<std::int64_t>(cell);
       if (this->KnowsCells)
@@ -190,9 +190,8 @@ bool RestoredMesh::next(RestoredVertices& vertices)
 {
   const bool more = this->Vertices->next(vertices);
   this->Delivered += vertices.count();
-  this->Space.tell(
-    SortedShare + (1 - SortedShare) * static_cast<double>(this->Delivered) /
-                    static_cast<double>(this->Info.vertices + this->Info.elements));
+  this->Space.tell(SortedShare + (1 - SortedShare) * static_cast<double>(this->Delivered) /
+                                   static_cast<double>(this->Info.vertices + this->Info.elements));
   return more;
 }
 
@@ -200,9 +199,8 @@ bool RestoredMesh::next(RestoredElements& elements)
 {
   const bool more = this->Elements->next(elements);
   this->Delivered += elements.count();
-  this->Space.tell(
-    SortedShare + (1 - SortedShare) * static_cast<double>(this->Delivered) /
-                    static_cast<double>(this->Info.vertices + this->Info.elements));
+  this->Space.tell(SortedShare + (1 - SortedShare) * static_cast<double>(this->Delivered) /
+                                   static_cast<double>(this->Info.vertices + this->Info.elements));
   return more;
 }
 

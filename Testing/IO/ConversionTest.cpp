@@ -425,8 +425,8 @@ TEST(ConversionData, BreadthFirstWidths)
   {
     ConversionOptions options;
     options.cells = CellChoice::Tetrahedra; // beside which one of the files has triangles
-    const ConversionReport report =
-      convert(folder / file, out / "out.vsm", file.ends_with(".mesh") ? options : ConversionOptions());
+    const ConversionReport report = convert(
+      folder / file, out / "out.vsm", file.ends_with(".mesh") ? options : ConversionOptions());
     EXPECT_LT(static_cast<double>(report.width), 1.06 * width) << file;
   }
   const ConversionReport scan = convert(folder / "dragon_res3.ply", out / "out.vsm");

@@ -101,8 +101,7 @@ inline ReadMesh readRaw(const RawMesh& mesh)
 }
 
 /** The mesh of a file in memory. */
-inline ReadMesh importWhole(
-  const std::filesystem::path& path, CellChoice cells = CellChoice::Only)
+inline ReadMesh importWhole(const std::filesystem::path& path, CellChoice cells = CellChoice::Only)
 {
   Workspace workspace({}, Workspace::LeastMemory);
   return readRaw(importMesh(path, workspace, { cells, {} }));
