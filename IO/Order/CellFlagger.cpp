@@ -44,15 +44,23 @@ std::uint8_t CellFlagger::flag(const std::int64_t* corners)
     ++this->Degenerate;
   }
   std::sort(sorted.begin(), sorted.end());
-  CellsOfVertex& others = this->Cells[static_cast<std::size_t>(sorted.back() - this->First)];
-  if (std::find(others.begin(), others.end(), sorted) != others.end())
+  // A cell is listed under the corner with the fewest cells, so that no list gets long at a hub.
+  bool duplicate = false;
+  CellsOfVertex* shortest = nullptr;
+  for (std::size_t k = 0; k < this->Corners && !duplicate; ++k)
+  {
+    CellsOfVertex& cells = this->Cells[static_cast<std::size_t>(corners[k] - this->First)];
+    duplicate = std::find(cells.begin(), cells.end(), sorted) != cells.end();
+    shortest = shortest && shortest->size() <= cells.size() ? shortest : &cells;
+  }
+  if (duplicate)
   {
     flag |= DuplicateCell;
     ++this->Duplicates;
   }
   else
   {
-    others.push_back(sorted);
+    shortest->push_back(sorted);
   }
   return flag;
 }

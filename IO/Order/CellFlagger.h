@@ -33,7 +33,7 @@ public:
   static constexpr std::int64_t BytesPerVertex = 256;
 
 private:
-  /** The cells so far that have a vertex as the largest of their corners. */
+  /** Cells that have a vertex as a corner; each is listed under one of its corners. */
   using CellsOfVertex = std::vector<std::array<std::int64_t, 4>>;
 
   std::uint8_t flag(const std::int64_t* corners);
