@@ -17,6 +17,8 @@ namespace
 constexpr int MostIterations = 300;
 /** The iteration ends when the eigenvalue falls by less than this share, twice in a row. */
 constexpr double LeastGain = 1e-5;
+/** On fewer nodes an iteration takes no time that counts. */
+constexpr std::uint32_t PolledNodes = 4096;
 
 double plainDot(const std::vector<double>& a, const std::vector<double>& b)
 {
@@ -163,8 +165,9 @@ double ConjugateIteration::minimise(bool withPrevious)
   return solver.eigenvalues()(0);
 }
 
-std::vector<double> ConjugateIteration::run()
+std::vector<double> ConjugateIteration::run(const std::function<void()>& poll)
 {
+  const bool isPolled = poll && this->Graph.nodes() >= PolledNodes;
   this->removeMean(this->Current.values);
   this->applyLaplacian(this->Current.values, this->Current.image);
   if (!this->normalise(this->Current))
@@ -176,6 +179,10 @@ std::vector<double> ConjugateIteration::run()
   int idle = 0;
   for (int iteration = 0; iteration < MostIterations && idle < 2; ++iteration)
   {
+    if (isPolled)
+    {
+      poll();
+    }
     if (!this->residual(eigenvalue))
     {
       break;

@@ -3,6 +3,7 @@
 
 #include "IO/Order/WeightedGraph.h"
 
+#include <functional>
 #include <vector>
 
 namespace smg
@@ -18,8 +19,11 @@ public:
   /** The graph must outlive it. */
   ConjugateIteration(const WeightedGraph& graph, std::vector<double> start);
 
-  /** Iterates until the eigenvalue hardly falls any more, and gives the vector. */
-  std::vector<double> run();
+  /**
+   * Iterates until the eigenvalue hardly falls any more, and gives the vector. Calls `poll`, which
+   * may throw, in each iteration on a large graph.
+   */
+  std::vector<double> run(const std::function<void()>& poll = {});
 
 private:
   /** A vector of the search space and its image under the Laplacian. */

@@ -41,7 +41,7 @@ std::vector<double> directly(const WeightedGraph& graph)
   return vector;
 }
 
-std::vector<double> solve(const WeightedGraph& graph)
+std::vector<double> solve(const WeightedGraph& graph, const std::function<void()>& poll)
 {
   if (graph.nodes() <= DirectNodes)
   {
@@ -52,24 +52,25 @@ std::vector<double> solve(const WeightedGraph& graph)
     std::vector<std::uint32_t> groups;
     const WeightedGraph coarse = coarsen(graph, groups);
     // A star becomes one node, which says nothing: then any vector will do to begin with.
-    const std::vector<double> start = coarse.nodes() < 2 ? std::vector<double>() : solve(coarse);
+    const std::vector<double> start =
+      coarse.nodes() < 2 ? std::vector<double>() : solve(coarse, poll);
     for (std::uint32_t i = 0; i < graph.nodes(); ++i)
     {
       vector[i] = start.empty() ? i : start[groups[i]];
     }
   }
-  return ConjugateIteration(graph, std::move(vector)).run();
+  return ConjugateIteration(graph, std::move(vector)).run(poll);
 }
 
 } // namespace
 
-std::vector<double> fiedlerVector(const WeightedGraph& graph)
+std::vector<double> fiedlerVector(const WeightedGraph& graph, const std::function<void()>& poll)
 {
   if (graph.nodes() < 2)
   {
     return std::vector<double>(graph.nodes(), 0.0);
   }
-  return solve(graph);
+  return solve(graph, poll);
 }
 
 } // namespace smg

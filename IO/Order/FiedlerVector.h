@@ -3,6 +3,7 @@
 
 #include "IO/Order/WeightedGraph.h"
 
+#include <functional>
 #include <vector>
 
 namespace smg
@@ -16,7 +17,10 @@ namespace smg
  * The graph is coarsened until it is small enough for a dense solver; the vector is carried back
  * and improved on each graph by LOBPCG (Knyazev 2001) with a Jacobi preconditioner. The same graph
  * gives the same vector.
+ *
+ * @param poll called now and then, if the graph is large; it may throw
  */
-std::vector<double> fiedlerVector(const WeightedGraph& graph);
+std::vector<double> fiedlerVector(
+  const WeightedGraph& graph, const std::function<void()>& poll = {});
 
 } // namespace smg

@@ -25,7 +25,6 @@ public:
   /** Loads the pages [first, end). Throws Error, Cancelled. */
   void load(std::int64_t first, std::int64_t end)
   {
-    this->Space.poll();
     std::size_t bytes = 0;
     for (std::int64_t page = first; page < end; ++page)
     {

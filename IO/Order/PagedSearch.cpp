@@ -13,6 +13,8 @@ namespace smg
 namespace
 {
 
+constexpr std::uint32_t PolledVisits = std::uint32_t(1) << 16;
+
 /** Tells whether a 32-bit number is a multiple of a fixed one, without a division. */
 class MultipleOf
 {
@@ -70,7 +72,8 @@ private:
 
 PagedSearch::PagedSearch(
   VertexPages& pages, PageCache& cache, Workspace& workspace, std::size_t queueBytes)
-  : Pages(pages)
+  : Space(workspace)
+  , Pages(pages)
   , Cache(cache)
   , Queue(workspace, queueBytes)
   , Visited(workspace, pages.vertices())
@@ -112,6 +115,10 @@ SearchResult PagedSearch::run(std::span<const SearchSource> sources, Reach&& rea
     result.last = this->Queue.pop();
     take(result.last, level);
     ++result.vertices;
+    if (++this->Visits % PolledVisits == 0)
+    {
+      this->Space.poll(); // pages that are all in the cache are not read, which polls
+    }
     sumOfQueues += static_cast<double>(this->Queue.size());
     result.peakQueue = std::max(result.peakQueue, this->Queue.size());
     if (--leftOfLevel == 0)

@@ -31,7 +31,7 @@ struct SearchResult
   std::int64_t peakQueue = 0; ///< the span of the order that it gives
 };
 
-/** Breadth-first searches over paged vertices. */
+/** Breadth-first searches over paged vertices. They throw Error, and Cancelled. */
 class PagedSearch
 {
 public:
@@ -71,11 +71,13 @@ private:
   template <class Seen>
   SearchResult visit(std::span<const SearchSource> sources, Seen&& seen);
 
+  Workspace& Space;
   VertexPages& Pages;
   PageCache& Cache;
   SearchQueue Queue;
   VisitedBits Visited;
   std::int64_t Probes = 0;
+  std::uint32_t Visits = 0; ///< of vertices, by all searches
 };
 
 } // namespace smg

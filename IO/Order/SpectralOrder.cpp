@@ -29,6 +29,7 @@ constexpr std::int64_t PatchBytes = 600;
 constexpr std::size_t EdgesPerPatch = 16;
 /** The vector of more takes long and makes the order no better. */
 constexpr std::size_t MostPatches = std::size_t(1) << 19;
+constexpr std::size_t PolledComponents = 256;
 
 /** Connected components of a graph: the nodes of each, one component after the other. */
 struct GraphComponents
@@ -70,7 +71,7 @@ struct GraphComponents
  * Where each node's vertices would stand in an order of the mesh that has the nodes sorted by the
  * Fiedler vector, component after component, the first at `first`: the middle of their places.
  */
-std::vector<float> expectedPlaces(const WeightedGraph& graph, double first)
+std::vector<float> expectedPlaces(const WeightedGraph& graph, double first, Workspace& workspace)
 {
   std::vector<float> places(graph.nodes());
   const GraphComponents components(graph);
@@ -78,10 +79,14 @@ std::vector<float> expectedPlaces(const WeightedGraph& graph, double first)
   WeightedGraph part;
   for (std::size_t c = 0; c + 1 < components.begin.size(); ++c)
   {
+    if (c % PolledComponents == 0)
+    {
+      workspace.poll();
+    }
     std::vector<std::uint32_t> nodes(components.nodes.begin() + std::ptrdiff_t(components.begin[c]),
       components.nodes.begin() + std::ptrdiff_t(components.begin[c + 1]));
     extract(graph, nodes, numbers, part);
-    const std::vector<double> vector = fiedlerVector(part);
+    const std::vector<double> vector = fiedlerVector(part, [&workspace] { workspace.poll(); });
     std::vector<std::uint32_t> sorted(part.nodes());
     std::iota(sorted.begin(), sorted.end(), 0u);
     std::ranges::sort(sorted, [&](std::uint32_t a, std::uint32_t b)
@@ -162,7 +167,7 @@ bool SpectralValues::compute()
   }
   const auto closed = static_cast<double>(graph->closed());
   {
-    const std::vector<float> places = expectedPlaces(graph->graph(), closed);
+    const std::vector<float> places = expectedPlaces(graph->graph(), closed, this->Space);
     graph.reset();
     for (std::int64_t rank = 0; rank < this->Pages.vertices(); ++rank)
     {

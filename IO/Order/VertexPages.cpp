@@ -17,6 +17,7 @@ namespace
 
 constexpr std::size_t CollectedBytes = std::size_t(256) << 10;
 constexpr std::size_t MostVarintBytes = 5;
+constexpr std::size_t PolledBytes = std::size_t(256) << 10;
 
 /** Writes the lists of neighbours after their beginnings, which become narrow if they can be. */
 std::uint32_t putAdjacency(
@@ -169,6 +170,13 @@ void VertexPages::read(std::int64_t page, std::span<std::byte> bytes)
   assert(bytes.size() <= this->bytes(page) && this->Collected == 0);
   this->File.read(this->Directory[std::size_t(page)].offset, bytes);
   this->Space->traffic().bytesRead += std::int64_t(bytes.size());
+  // Pages are small: whoever is told of progress has other things to do between two of them.
+  this->Unpolled += bytes.size();
+  if (this->Unpolled >= PolledBytes)
+  {
+    this->Unpolled = 0;
+    this->Space->poll();
+  }
 }
 
 void VertexPages::writePlaces(std::int64_t page, std::span<const std::byte> bytes)

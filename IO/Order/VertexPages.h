@@ -81,7 +81,7 @@ public:
   std::int64_t allBytes() const { return this->FileEnd + std::int64_t(this->Collected); }
   std::int64_t allAdjacencyBytes() const { return this->AllAdjacencyBytes; }
 
-  /** Reads the beginning of a page, as many bytes as the span has. */
+  /** Reads the beginning of a page, as many bytes as the span has. Throws Error, Cancelled. */
   void read(std::int64_t page, std::span<std::byte> bytes);
   /** Writes the places of a page, which stand in the bytes of the whole page. */
   void writePlaces(std::int64_t page, std::span<const std::byte> bytes);
@@ -115,7 +115,8 @@ private:
   std::int64_t AllAdjacencyBytes = 0;
   FileDescriptor File;
   std::int64_t FileEnd = 0;
-  Buffer Collecting; ///< pages that are not in the file yet
+  std::size_t Unpolled = 0; ///< bytes that were read since the workspace was polled
+  Buffer Collecting;        ///< pages that are not in the file yet
   std::size_t Collected = 0;
   GrowingArray<Page> Directory;
 };

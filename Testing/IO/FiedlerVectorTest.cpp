@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/FiedlerVector.h"
 
+#include "Solver/Core/Error.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,6 +49,11 @@ double rayleighQuotient(const WeightedGraph& graph, const std::vector<double>& x
     square += graph.masses[i] * x[i] * x[i];
   }
   return energy / square;
+}
+
+TEST(FiedlerVector, OfALargeGraphCanBeCancelled)
+{
+  EXPECT_THROW(fiedlerVector(grid(100, 50), [] { throw Cancelled(); }), Cancelled);
 }
 
 TEST(FiedlerVector, OfGridsIsACosineAlongTheLongSide)

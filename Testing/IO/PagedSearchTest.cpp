@@ -188,6 +188,33 @@ TEST(PagedSearch, CountsComponents)
   EXPECT_EQ(search.components(), inCoreComponents(many.neighbours));
 }
 
+/** A search that has loaded its pages, or some of them, before it is refused to go on. */
+void expectCancelled(const IndexedTestMesh& mesh, bool allPagesFit)
+{
+  bool goesOn = true;
+  Workspace workspace({}, Workspace::LeastMemory, [&goesOn](double) { return goesOn; });
+  PagedMesh paged = pagesOf(mesh, 64, workspace);
+  PageCache cache(paged.pages, workspace,
+    allPagesFit ? PageCache::mostBytes(paged.pages) : PageCache::leastBytes(paged.pages));
+  PagedSearch search(paged.pages, cache, workspace, 4096);
+  const SearchSource source{ 0, 0 };
+  EXPECT_EQ(search.probe({ &source, 1 }).vertices, mesh.vertices());
+  const std::int64_t loads = cache.loads();
+  goesOn = false;
+  EXPECT_THROW(search.probe({ &source, 1 }), Cancelled);
+  EXPECT_EQ(cache.loads() == loads, allPagesFit);
+}
+
+TEST(PagedSearch, CanBeCancelledWhilePagesAreRead)
+{
+  expectCancelled(grid(200, 200), false);
+}
+
+TEST(PagedSearch, CanBeCancelledThoughNoPageIsRead)
+{
+  expectCancelled(grid(300, 300), true);
+}
+
 TEST(PagedSearch, ACacheThatIsTooSmallSaysSo)
 {
   PagedCase ball(sphere(3));
