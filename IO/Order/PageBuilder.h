@@ -34,7 +34,7 @@ struct PagedMesh
  * Puts the vertices of a mesh into pages along a Hilbert curve, out of core: keys by a metric that
  * makes edges about equally long, an external sort, the cells renumbered, and the cells of a
  * stretch of pages collected at a time. Where coordinates say nothing of neighbourhood, the curve
- * gives way to repeated contraction of the mesh's graph. See "The order" in the README.
+ * gives way to repeated contraction of the mesh's graph.
  *
  * Throws Error; Cancelled.
  */
