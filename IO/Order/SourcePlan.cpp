@@ -43,10 +43,11 @@ public:
     const std::int32_t width = std::max(1, (last + MostBins) / MostBins);
     const auto bins = static_cast<std::size_t>(last / width) + 1;
     std::fill_n(this->Bins.begin(), bins, 0);
-    const float scale = 1.0f / static_cast<float>(width);
+    // In double precision, in which the last level of a long mesh is not rounded beyond the bins.
+    const double scale = 1.0 / width;
     for (const std::int32_t level : levels)
     {
-      ++this->Bins[static_cast<std::size_t>((static_cast<float>(level) + 0.5f) * scale)];
+      ++this->Bins[static_cast<std::size_t>((level + 0.5) * scale)];
     }
     return this->costOfBins(bins, this->VerticesPerSample / width);
   }
@@ -71,7 +72,7 @@ private:
 
   double VerticesPerSample;
   std::size_t Samples;
-  std::array<std::int32_t, MostBins + 2> Bins;
+  std::array<std::int32_t, MostBins> Bins;
 };
 
 class Planner

@@ -58,6 +58,20 @@ TEST(SourcePlan, ArmsOfAStarAreSearchedTwoAfterTwo)
   EXPECT_EQ(std::ranges::min(plan.sources, {}, &PlannedSource::level).level, 0);
 }
 
+/** All samples have the last level of the last bin, which single precision rounds upwards. */
+TEST(SourcePlan, LevelsAreCountedHoweverManyThereAre)
+{
+  Workspace workspace({}, Workspace::LeastMemory);
+  constexpr std::size_t samples = 100;
+  SourceDistances distances(workspace, samples, 1);
+  std::fill_n(distances.add(), samples, 44999999);
+  // All are in the last of 150 bins of 300000 levels, which counts for the mean as it is, for the
+  // peak a quarter, as the bin before it sees it.
+  const double window = 60000000.0 / 300000;
+  EXPECT_NEAR(
+    planSources(distances, 60000000, workspace).front().cost, searchCost(window, window / 4), 1e-6);
+}
+
 TEST(SourcePlan, IsDetermined)
 {
   Workspace workspace({}, Workspace::LeastMemory);
