@@ -270,6 +270,8 @@ TEST_F(Container, RefusesOtherBlockFiles)
 {
   BlockFileWriter(this->Path, {}, Codec::None).finish({ { "kind", "something else" } });
   expectError([&] { VsmReader reader(this->Path); }, "not a mesh stream");
+  BlockFileWriter(this->Path, {}, Codec::None).finish({ { "kind", 5 } });
+  expectError([&] { VsmReader reader(this->Path); }, "not a mesh stream");
   BlockFileWriter(this->Path, {}, Codec::None).finish({ { "kind", "mesh stream" } });
   expectError([&] { VsmReader reader(this->Path); }, "incomplete header");
   write(this->Path, testStream(sphere(0)));
