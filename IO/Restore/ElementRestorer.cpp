@@ -2,6 +2,7 @@
 #include "IO/Restore/ElementRestorer.h"
 
 #include "IO/Container/Columns.h"
+#include "IO/External/Reservation.h"
 
 #include <algorithm>
 #include <cstring>
@@ -20,15 +21,22 @@ constexpr std::size_t ChunkCorners = std::size_t(64) << 10;
 /** About so many bytes of columns are delivered at once. */
 constexpr std::size_t ChunkBytes = std::size_t(512) << 10;
 
+/** Memory in which an element is looked at as a whole. */
+std::int64_t elementBytes(Workspace& workspace)
+{
+  return workspace.pool().limit() / 8;
+}
+
 } // namespace
 
 ElementRestorer::ElementRestorer(
   Workspace& workspace, std::int64_t memory, const RestoredInfo& info)
-  : CornersOfCell(static_cast<std::size_t>(cornersOf(info.cellType)))
+  : Space(workspace)
+  , CornersOfCell(static_cast<std::size_t>(cornersOf(info.cellType)))
   , Columns(info.elementColumns)
   , Sorted(workspace, memory, this->CornersOfCell * sizeof(std::uint32_t) + this->Columns.bytes())
   , Elements(workspace)
-  , MostCells(static_cast<std::size_t>(workspace.pool().limit()) / 8 /
+  , MostCells(static_cast<std::size_t>(elementBytes(workspace)) /
               (BytesOfFanTriangle + this->Columns.bytes()))
 {
 }
@@ -44,6 +52,7 @@ void ElementRestorer::put(std::int64_t element, std::span<const std::uint32_t> c
 void ElementRestorer::restore(RestoredInfo& info)
 {
   this->Sorted.sort();
+  const Reservation reserved(this->Space.pool(), elementBytes(this->Space));
   for (RowSort::Row row; this->Sorted.next(row);)
   {
     this->take(row);

@@ -47,6 +47,7 @@ private:
   void endGroup();
   void write(std::span<const std::uint32_t> corners, std::span<const std::byte> tuples);
 
+  Workspace& Space;
   std::size_t CornersOfCell;
   ColumnRows Columns;
   RowSort Sorted;      ///< a row is the corners, then the columns

@@ -186,21 +186,25 @@ void RestoredMesh::readCells(
     });
 }
 
+/** Tells the progress when so many vertices or elements more are read. */
+void RestoredMesh::deliver(std::int64_t count)
+{
+  this->Delivered += count;
+  this->Space.tell(SortedShare + (1 - SortedShare) * static_cast<double>(this->Delivered) /
+                                   static_cast<double>(this->Info.vertices + this->Info.elements));
+}
+
 bool RestoredMesh::next(RestoredVertices& vertices)
 {
   const bool more = this->Vertices->next(vertices);
-  this->Delivered += vertices.count();
-  this->Space.tell(SortedShare + (1 - SortedShare) * static_cast<double>(this->Delivered) /
-                                   static_cast<double>(this->Info.vertices + this->Info.elements));
+  this->deliver(vertices.count());
   return more;
 }
 
 bool RestoredMesh::next(RestoredElements& elements)
 {
   const bool more = this->Elements->next(elements);
-  this->Delivered += elements.count();
-  this->Space.tell(SortedShare + (1 - SortedShare) * static_cast<double>(this->Delivered) /
-                                   static_cast<double>(this->Info.vertices + this->Info.elements));
+  this->deliver(elements.count());
   return more;
 }
 

@@ -56,6 +56,7 @@ private:
   void readVertices(VsmReader& reader, Relabelling& ids, RecordFile<std::uint32_t>& corners);
   void readIsolated(VsmReader& reader);
   void readCells(VsmReader& reader, Relabelling& ids, RecordFile<std::uint32_t>& corners);
+  void deliver(std::int64_t count);
 
   Workspace& Space;
   std::string Name;

@@ -325,13 +325,13 @@ TEST_F(RestoredMeshTest, CanBeCancelledAtAnyTime)
   }
 }
 
-/** Half a million vertices, a third of them of no cell, with columns. */
+/** A quarter of a million vertices, a third of them of no cell, with columns. */
 class LargeRestoredMesh : public RestoredMeshTest
 {
 protected:
   void SetUp() override
   {
-    const IndexedTestMesh lattice = shuffled(grid(600, 556, 0.1));
+    const IndexedTestMesh lattice = shuffled(grid(400, 418, 0.1));
     this->Mesh.points.resize(std::size_t(3) * Vertices);
     Random random(5);
     std::ranges::generate(this->Mesh.points, [&random] { return random.uniform(); });
@@ -353,7 +353,7 @@ protected:
     writeVsmOf(this->Mesh, this->Folder / "mesh.vsm");
   }
 
-  static constexpr std::int64_t Vertices = 600 * 556 / 2 * 3;
+  static constexpr std::int64_t Vertices = 400 * 418 / 2 * 3;
   MeshOfFile Mesh;
 };
 
