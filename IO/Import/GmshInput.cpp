@@ -62,11 +62,11 @@ void GmshInput::endSection(const std::string& end)
   const std::string_view token = this->Scanner.token();
   if (token.empty())
   {
-    this->fail("the file is truncated: " + end + " is missing");
+    this->fail("the file is truncated: " + inQuotes(end) + " is missing");
   }
   if (token != end)
   {
-    this->fail(inQuotes(token) + " stands where " + end +
+    this->fail(inQuotes(token) + " stands where " + inQuotes(end) +
                " should be: the section is longer than its numbers of entries say");
   }
 }
@@ -79,7 +79,7 @@ void GmshInput::skipSection(const std::string& end)
     {
       if (this->Scanner.atEnd())
       {
-        this->fail("the file is truncated: " + end + " is missing");
+        this->fail("the file is truncated: " + inQuotes(end) + " is missing");
       }
       this->Scanner.skipLine();
     }
@@ -97,7 +97,7 @@ void GmshInput::skipSection(const std::string& end)
     }
     if (offset + bytes.size() >= this->File.size())
     {
-      this->File.fail(this->File.size(), "the file is truncated: " + end + " is missing");
+      this->File.fail(this->File.size(), "the file is truncated: " + inQuotes(end) + " is missing");
     }
     offset += bytes.size() - (end.size() - 1);
   }

@@ -216,7 +216,7 @@ TEST_F(ImportGmsh, OtherSectionsOfBinaryFilesArePassed)
   writer.elements({ { 4, { 1, 2, 3, 4 } } });
   EXPECT_EQ(this->gmsh(writer.bytes()).cells(), 1);
   const std::string cut = writer.bytes().substr(0, 2000000);
-  this->expectRefused(cut, "a.msh, byte 2000000: the file is truncated: $EndPeriodic is missing");
+  this->expectRefused(cut, "a.msh, byte 2000000: the file is truncated: '$EndPeriodic' is missing");
 }
 
 TEST_F(ImportGmsh, ErrorsOfTextNameTheLine)
@@ -230,7 +230,7 @@ TEST_F(ImportGmsh, ErrorsOfTextNameTheLine)
   this->expectRefused(Format2 + "$Nodes\n5\n1 0 0 0\n2 0 0 0\n3 0 0 0\n4 0 0 0\n$EndNodes\n",
     "line 10: '$EndNodes' is no integer");
   this->expectRefused(Format2 + "$Nodes\n3\n1 0 0 0\n2 0 0 0\n3 0 0 0\n4 0 0 0\n$EndNodes\n",
-    "line 9: '4' stands where $EndNodes");
+    "line 9: '4' stands where '$EndNodes'");
   this->expectRefused(Format2 + "$Nodes\n999999999\n1 0 0 0\n", "line 5: 999999999 cannot be");
   this->expectRefused(Format2 + "$Nodes\n2\n1 0 0 0\n1 0 0 0\n$EndNodes\n", "two nodes 1");
   this->expectRefused(Format2 + "$Nodes\n1\n1 0 nan 0\n$EndNodes\n", "line 6: 'nan' is not finite");
@@ -242,8 +242,8 @@ TEST_F(ImportGmsh, ErrorsOfTextNameTheLine)
   this->expectRefused(element("1 34 0 1 2 3"), "line 13: elements of type 34 are not known");
   this->expectRefused(element("1 4 -1 1 2 3 4"), "line 13: -1 cannot be");
   this->expectRefused(
-    Format2 + Nodes2 + "$Elements\n1\n1 4 0 1 2 3 4\n", "$EndElements is missing");
-  this->expectRefused(Format2 + Nodes2 + Elements2 + "$Extra\n1\n", "$EndExtra is missing");
+    Format2 + Nodes2 + "$Elements\n1\n1 4 0 1 2 3 4\n", "'$EndElements' is missing");
+  this->expectRefused(Format2 + Nodes2 + Elements2 + "$Extra\n1\n", "'$EndExtra' is missing");
   this->expectRefused(Format4 + "$Nodes\n1 2 1 2\n3 1 0 1\n1\n0 0 0\n$EndNodes\n", "says 2");
   this->expectRefused(Format4 + "$Nodes\n1 1 1 1\n4 1 0 1\n1\n0 0 0\n$EndNodes\n", "line 6");
 }
