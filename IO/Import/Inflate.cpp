@@ -88,6 +88,16 @@ public:
     , Out(FileDescriptor::createBeside(to))
   {
   }
+  /** Without renameTo(), nothing is left of the file. */
+  ~FileInflater()
+  {
+    if (this->Out.isOpen())
+    {
+      this->Out.remove();
+    }
+  }
+  FileInflater(const FileInflater&) = delete;
+  FileInflater& operator=(const FileInflater&) = delete;
 
   void run()
   {

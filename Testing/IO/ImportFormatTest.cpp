@@ -170,9 +170,12 @@ TEST_F(ImportFormat, NothingOfACompressedFileStays)
   const std::ptrdiff_t before = files();
   importMesh(this->Folder / "a.gz", workspace);
   EXPECT_EQ(files(), before);
-  writeBytes(this->Folder / "a.gz", gzip("no mesh"));
-  EXPECT_THROW(importMesh(this->Folder / "a.gz", workspace), Error);
-  EXPECT_EQ(files(), before);
+  for (const std::string& bytes : { gzip("no mesh"), gzip(Off) + "more", gzip(Off).substr(0, 30) })
+  {
+    writeBytes(this->Folder / "a.gz", bytes);
+    EXPECT_THROW(importMesh(this->Folder / "a.gz", workspace), Error);
+    EXPECT_EQ(files(), before);
+  }
 }
 
 TEST_F(ImportFormat, DamageOfCompressedFilesIsFound)
