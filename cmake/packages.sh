@@ -13,6 +13,7 @@ smg_paraview_packages=(
   paraview paraview-dev python3-paraview libopenmpi-dev xvfb xauth libqt5svg5)
 smg_test_packages=(libgtest-dev clang-format openmpi-bin xz-utils)
 smg_benchmark_packages=(libbenchmark-dev libhypre-dev libopenmpi-dev python3)
+smg_fuzzing_packages=(clang libclang-rt-14-dev)
 
 # As root: directly, or through sudo.
 smg_as_root() {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace smg::testing
+{
+
+/** What a reader of files must not do, whatever bytes it is given. */
+class Finding : public std::logic_error
+{
+public:
+  using std::logic_error::logic_error;
+};
+
+/** Throws Finding unless `condition` holds. */
+inline void mustHold(bool condition, const char* what)
+{
+  if (!condition)
+  {
+    throw Finding(what);
+  }
+}
+
+} // namespace smg::testing

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Fuzzing/FuzzTargets.h"
+#include "Testing/Support/TestMeshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+using namespace smg;
+using namespace smg::testing;
+
+namespace
+{
+
+struct Seed
+{
+  std::string name;
+  std::string bytes;
+};
+
+/** The files of a target's corpus, by name. */
+std::vector<Seed> corpusOf(const FuzzTarget& target)
+{
+  const auto folder =
+    std::filesystem::path(SMG_SOURCE_DIR) / "Testing" / "Fuzzing" / "corpus" / target.name;
+  std::vector<Seed> corpus;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  {
+    std::ifstream stream(entry.path(), std::ios::binary);
+    corpus.push_back(
+      { entry.path().filename().string(), { std::istreambuf_iterator<char>(stream), {} } });
+  }
+  std::ranges::sort(corpus, {}, &Seed::name);
+  return corpus;
+}
+
+/** The bytes with some of them changed, taken out or doubled. */
+std::string mutated(std::string bytes, Random& random)
+{
+  const auto place = [&]
+  { return static_cast<std::size_t>(random.below(static_cast<std::int64_t>(bytes.size()))); };
+  for (std::int64_t changes = 1 + random.below(4); changes > 0 && !bytes.empty(); --changes)
+  {
+    switch (random.below(4))
+    {
+      case 0:
+        bytes[place()] = static_cast<char>(random.below(256));
+        break;
+      case 1:
+        bytes[place()] = "0123456789-.e \n"[random.below(15)];
+        break;
+      case 2:
+        bytes.erase(place(), static_cast<std::size_t>(1 + random.below(16)));
+        break;
+      default:
+        const std::string part = bytes.substr(place(), static_cast<std::size_t>(random.below(16)));
+        bytes.insert(place(), part);
+    }
+  }
+  return bytes;
+}
+
+/** What a target did with the bytes that it must not do; empty: nothing. */
+std::string findingOf(const FuzzTarget& target, std::string_view bytes)
+{
+  try
+  {
+    target.run(bytes, choiceFor(bytes));
+    return {};
+  }
+  catch (const std::exception& error)
+  {
+    return error.what();
+  }
+}
+
+class FuzzCorpus : public ::testing::TestWithParam<FuzzTarget>
+{
+};
+
+} // namespace
+
+// A file whose name begins with "refused" is a damaged one that once did harm, or cannot be read.
+TEST_P(FuzzCorpus, IsReadUnlessItIsDamaged)
+{
+  const std::vector<Seed> corpus = corpusOf(GetParam());
+  EXPECT_GE(corpus.size(), 5U);
+  for (const Seed& seed : corpus)
+  {
+    EXPECT_EQ(GetParam().run(seed.bytes, CellChoice::Only), !seed.name.starts_with("refused"))
+      << seed.name;
+  }
+}
+
+TEST_P(FuzzCorpus, CutOffAnywhereIsRefusedOrValid)
+{
+  constexpr std::size_t steps = 60;
+  for (const Seed& seed : corpusOf(GetParam()))
+  {
+    const std::size_t step = seed.bytes.size() / steps + 1;
+    for (std::size_t length = 0; length <= seed.bytes.size(); length += step)
+    {
+      EXPECT_EQ(findingOf(GetParam(), std::string_view(seed.bytes).substr(0, length)), "")
+        << seed.name << ", the first " << length << " bytes";
+    }
+  }
+}
+
+TEST_P(FuzzCorpus, DamagedAnywhereIsRefusedOrValid)
+{
+  constexpr int mutations = 60;
+  for (const Seed& seed : corpusOf(GetParam()))
+  {
+    for (int i = 0; i < mutations; ++i)
+    {
+      Random random(static_cast<std::uint64_t>(i));
+      EXPECT_EQ(findingOf(GetParam(), mutated(seed.bytes, random)), "")
+        << seed.name << ", mutation " << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, FuzzCorpus,
+  ::testing::ValuesIn(fuzzTargets().begin(), fuzzTargets().end()),
+  [](const auto& instance) { return std::string(instance.param.name); });

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/External/Workspace.h"
+#include "Solver/Core/Error.h"
+#include "Testing/Fuzzing/Finding.h"
+#include "Testing/IO/MeshText.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace smg::testing
+{
+
+/** The folder and the workspace of all runs: to make them takes longer than most runs. */
+class FuzzPlace
+{
+public:
+  static FuzzPlace& instance()
+  {
+    static FuzzPlace place;
+    return place;
+  }
+
+  Workspace& workspace() { return this->Space; }
+
+  /** Writes a file in place of the one of an earlier run; its name may begin with a folder. */
+  std::filesystem::path write(const std::string& name, std::string_view bytes)
+  {
+    const std::filesystem::path path = this->Folder / name;
+    std::filesystem::create_directory(path.parent_path());
+    // Some file systems wait for the disk when a file is made shorter and written again.
+    std::filesystem::remove(path);
+    writeBytes(path, bytes);
+    return path;
+  }
+
+  /** What the errors of a reader say of names in the file. */
+  enum class Names
+  {
+    Printable, ///< only the characters that a terminal shows
+    Any        ///< what stands in the file
+  };
+
+  /**
+   * Lets a reader read. Answers whether it did, or threw an Error. Throws Finding if the Error does
+   * not name the file, in one line, or if anything is left in the workspace.
+   */
+  bool run(const auto& read, Names names = Names::Printable)
+  {
+    bool accepted = true;
+    try
+    {
+      read();
+    }
+    catch (const Error& error)
+    {
+      accepted = false;
+      this->checkMessage(error.what(), names);
+    }
+    this->checkWorkspace();
+    return accepted;
+  }
+
+private:
+  FuzzPlace()
+    : Space(Folder.path(), Workspace::LeastMemory)
+    , OwnEntries(this->workspaceEntries())
+  {
+  }
+
+  std::ptrdiff_t workspaceEntries() const
+  {
+    return std::distance(std::filesystem::directory_iterator(this->Space.folder()), {});
+  }
+
+  void checkMessage(std::string_view message, Names names) const
+  {
+    // The place may be in another file of the folder: in a piece, or in the nodes of the elements.
+    if (message.find(this->Folder.path().string()) == std::string_view::npos)
+    {
+      throw Finding("the Error does not name the file: " + std::string(message));
+    }
+    if (names == Names::Printable &&
+        std::ranges::any_of(message, [](unsigned char c) { return c < 32; }))
+    {
+      throw Finding("the Error has a control character: " + std::string(message));
+    }
+  }
+
+  void checkWorkspace()
+  {
+    if (this->Space.pool().used() != 0)
+    {
+      throw Finding(std::to_string(this->Space.pool().used()) + " bytes of the pool are left");
+    }
+    if (this->Space.pool().peak() > Workspace::LeastMemory)
+    {
+      throw Finding("more memory was taken from the pool than allowed");
+    }
+    if (this->workspaceEntries() != this->OwnEntries)
+    {
+      throw Finding("files are left in the workspace");
+    }
+  }
+
+  TemporaryFolder Folder;
+  Workspace Space;
+  std::ptrdiff_t OwnEntries; ///< that the workspace itself has
+};
+
+} // namespace smg::testing

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Fuzzing/FuzzTargets.h"
+
+#include "IO/Formats/StreamConversion.h"
+#include "IO/Import/Formats.h"
+#include "Solver/Core/Error.h"
+#include "Testing/Fuzzing/FuzzPlace.h"
+#include "Testing/Fuzzing/MeshChecks.h"
+#include "Testing/Fuzzing/SealedVsm.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace smg::testing
+{
+
+namespace
+{
+
+/** Separates the files of a format that has several. */
+constexpr std::string_view FileSeparator = "\n%%\n";
+
+/** The bytes before the first separator, which are taken from `bytes`, and it. */
+std::string_view takeFile(std::string_view& bytes)
+{
+  const std::size_t end = bytes.find(FileSeparator);
+  const std::string_view file = bytes.substr(0, end);
+  bytes.remove_prefix(end == std::string_view::npos ? bytes.size() : end + FileSeparator.size());
+  return file;
+}
+
+/** Parses the file in the place with the parser of one format. */
+template <class Parser>
+bool parse(const std::filesystem::path& path, CellChoice cells, Parser parser)
+{
+  FuzzPlace& place = FuzzPlace::instance();
+  return place.run(
+    [&]
+    {
+      RawMeshBuilder builder(place.workspace(), cells);
+      InputFile file(path);
+      parser(file, builder);
+      try
+      {
+        checkMesh(builder.finish());
+      }
+      catch (const MeshError& error)
+      {
+        // finish() does not know the file: whoever calls it names the place.
+        throw Error(path.string() + ": " + error.what() + '.');
+      }
+    });
+}
+
+template <void (*Parser)(InputFile&, RawMeshBuilder&)>
+bool runParser(std::string_view bytes, CellChoice cells)
+{
+  return parse(FuzzPlace::instance().write("mesh", bytes), cells, Parser);
+}
+
+bool runTetGen(std::string_view bytes, CellChoice cells)
+{
+  FuzzPlace& place = FuzzPlace::instance();
+  const std::filesystem::path nodes = place.write("tetgen/mesh.node", takeFile(bytes));
+  const std::filesystem::path elements = place.write("tetgen/mesh.ele", bytes);
+  return parse(bytes.size() % 2 ? nodes : elements, cells, importTetGen);
+}
+
+bool runVtkXml(std::string_view bytes, CellChoice cells)
+{
+  return parse(FuzzPlace::instance().write("mesh.vtu", bytes), cells,
+    [](InputFile& file, RawMeshBuilder& builder) { importVtkXml(file, builder, {}); });
+}
+
+/** The file, then its pieces, which are called 0.vtu, 1.vtu and 2.vtu. */
+bool runParallelVtkXml(std::string_view bytes, CellChoice cells)
+{
+  FuzzPlace& place = FuzzPlace::instance();
+  const std::filesystem::path path = place.write("pieces/mesh.pvtu", takeFile(bytes));
+  for (const char* piece : { "pieces/0.vtu", "pieces/1.vtu", "pieces/2.vtu" })
+  {
+    place.write(piece, takeFile(bytes));
+  }
+  return parse(path, cells,
+    [](InputFile& file, RawMeshBuilder& builder) { importParallelVtkXml(file, builder, {}); });
+}
+
+bool importWhole(const std::string& name, std::string_view bytes, CellChoice cells)
+{
+  FuzzPlace& place = FuzzPlace::instance();
+  const std::filesystem::path path = place.write(name, bytes);
+  return place.run([&] { checkMesh(importMesh(path, place.workspace(), { cells, {} })); });
+}
+
+bool runGzip(std::string_view bytes, CellChoice cells)
+{
+  return importWhole("mesh.obj.gz", bytes, cells);
+}
+
+bool runImport(std::string_view bytes, CellChoice cells)
+{
+  const std::array<const char*, 4> names{ "mesh", "mesh.stl", "mesh.obj", "mesh.ele" };
+  return importWhole(names[bytes.size() % names.size()], bytes, cells);
+}
+
+bool runStream(std::string_view bytes, CellChoice cells)
+{
+  FuzzPlace& place = FuzzPlace::instance();
+  // The suffix counts where the content leaves the format open.
+  const char* const name = cells == CellChoice::Only        ? "mesh"
+                           : cells == CellChoice::Triangles ? "mesh.sma"
+                                                            : "mesh.sva";
+  const std::filesystem::path path = place.write(name, bytes);
+  return place.run(
+    [&]
+    {
+      // Whatever is left of the output when it fails is found in the workspace.
+      const std::filesystem::path out = place.workspace().folder() / "out.vsm";
+      checkStreamFile(path);
+      streamToVsm(path, out);
+      checkVsm(out);
+      std::filesystem::remove(out);
+    });
+}
+
+bool runVsm(std::string_view bytes, CellChoice)
+{
+  FuzzPlace& place = FuzzPlace::instance();
+  const std::filesystem::path path = place.write("mesh.vsm", sealedVsm(bytes));
+  // A column may have any name.
+  return place.run([&] { checkVsm(path); }, FuzzPlace::Names::Any);
+}
+
+constexpr std::array Targets{ FuzzTarget{ "ply", runParser<importPly> },
+  FuzzTarget{ "obj", runParser<importObj> }, FuzzTarget{ "off", runParser<importOff> },
+  FuzzTarget{ "stl", runParser<importStl> }, FuzzTarget{ "medit", runParser<importMedit> },
+  FuzzTarget{ "gmsh", runParser<importGmsh> }, FuzzTarget{ "tetgen", runTetGen },
+  FuzzTarget{ "vtk", runParser<importLegacyVtk> }, FuzzTarget{ "vtu", runVtkXml },
+  FuzzTarget{ "pvtu", runParallelVtkXml }, FuzzTarget{ "gzip", runGzip },
+  FuzzTarget{ "import", runImport }, FuzzTarget{ "stream", runStream },
+  FuzzTarget{ "vsm", runVsm } };
+
+} // namespace
+
+std::span<const FuzzTarget> fuzzTargets()
+{
+  return Targets;
+}
+
+const FuzzTarget& fuzzTarget(std::string_view name)
+{
+  const auto found = std::ranges::find(Targets, name, &FuzzTarget::name);
+  if (found == Targets.end())
+  {
+    throw std::invalid_argument("there is no fuzz target " + std::string(name));
+  }
+  return *found;
+}
+
+CellChoice choiceFor(std::string_view bytes)
+{
+  constexpr std::array choices{ CellChoice::Only, CellChoice::Triangles, CellChoice::Tetrahedra };
+  return choices[bytes.size() % choices.size()];
+}
+
+} // namespace smg::testing

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Raw/RawMeshBuilder.h"
+
+#include <span>
+#include <string_view>
+
+namespace smg::testing
+{
+
+/** A reader of files that is given any bytes. */
+struct FuzzTarget
+{
+  std::string_view name; ///< of the folder of its corpus, too
+  /**
+   * Answers whether the bytes were accepted, else they were refused with an Error that names the
+   * file. Throws Finding, or anything but Error, if the reader has a defect.
+   */
+  bool (*run)(std::string_view bytes, CellChoice cells);
+};
+
+/** All of them. */
+std::span<const FuzzTarget> fuzzTargets();
+
+/** The target of that name. Throws std::invalid_argument if there is none. */
+const FuzzTarget& fuzzTarget(std::string_view name);
+
+/** The choice of cells with which these bytes are tried: all choices come up for some length. */
+CellChoice choiceFor(std::string_view bytes);
+
+} // namespace smg::testing

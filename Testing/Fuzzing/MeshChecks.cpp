@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Fuzzing/MeshChecks.h"
+
+#include "IO/Container/VsmReader.h"
+#include "IO/Formats/StreamFile.h"
+#include "Testing/Fuzzing/Finding.h"
+#include "Testing/Support/RawMeshReading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace smg::testing
+{
+
+namespace
+{
+
+bool isFinite(double value)
+{
+  return std::isfinite(value);
+}
+
+void checkColumns(const std::vector<RawColumn>& columns, std::int64_t rows)
+{
+  for (const RawColumn& column : columns)
+  {
+    mustHold(column.spec.components > 0, "a column has no components");
+    mustHold(!column.spec.name.empty(), "a column has no name");
+    mustHold(column.tuples.bytes() == rows * static_cast<std::int64_t>(column.spec.tupleBytes()),
+      "a column has not a tuple for each row");
+  }
+}
+
+void checkColumns(
+  const std::vector<Column>& columns, const std::vector<ColumnSpec>& specs, std::size_t rows)
+{
+  mustHold(columns.size() == specs.size(), "a column is missing");
+  for (std::size_t c = 0; c < columns.size(); ++c)
+  {
+    mustHold(columns[c].spec == specs[c], "a column is not what the header says");
+    mustHold(columns[c].tuples() == rows, "a column has not a tuple for each row");
+  }
+}
+
+/** The corners of the stream, in order. */
+std::vector<std::int64_t> checkSource(MeshSource& source)
+{
+  const StreamInfo& info = source.info();
+  const int corners = cornersOf(info.cellType);
+  std::vector<std::int64_t> all;
+  std::int64_t vertices = 0;
+  for (MeshBlock block; source.next(block);)
+  {
+    mustHold(block.firstVertex == vertices, "the vertices of the blocks do not follow");
+    mustHold(block.firstCell * corners == std::int64_t(all.size()), "the cells do not follow");
+    mustHold(block.vertices() > 0 || !block.corners.empty(), "a block is empty");
+    mustHold(std::ranges::all_of(block.positions, isFinite), "a position is not finite");
+    std::int64_t next = vertices;
+    for (const std::int64_t corner : block.corners)
+    {
+      mustHold(corner >= 0 && corner <= next, "the stream is not compact");
+      next += corner == next ? 1 : 0;
+    }
+    vertices += block.vertices();
+    mustHold(next == vertices, "a vertex of the block has no cell");
+    mustHold(block.finalized <= vertices, "a vertex is final that has not come");
+    all.insert(all.end(), block.corners.begin(), block.corners.end());
+    checkColumns(
+      block.vertexColumns, info.vertexColumns, static_cast<std::size_t>(block.vertices()));
+    checkColumns(block.cellColumns, info.cellColumns, block.corners.size() / std::size_t(corners));
+  }
+  mustHold(vertices == info.vertices, "the stream has not the vertices of its header");
+  mustHold(std::int64_t(all.size()) == corners * info.cells, "the stream has not its cells");
+  return all;
+}
+
+void checkPieces(VsmReader& reader, std::span<const std::int64_t> corners)
+{
+  constexpr std::int64_t pieces = 3;
+  const std::int64_t cells = reader.info().cells;
+  MeshPiece piece;
+  for (std::int64_t p = 0; p < pieces; ++p)
+  {
+    reader.readPiece(cells * p / pieces, cells * (p + 1) / pieces, piece);
+    for (const std::int64_t place : piece.corners)
+    {
+      mustHold(place >= 0 && place < piece.vertices(), "a corner is no vertex of the piece");
+      mustHold(piece.ids[std::size_t(place)] == corners.front(), "the piece has other corners");
+      corners = corners.subspan(1);
+    }
+    mustHold(std::ranges::all_of(piece.positions, isFinite), "a position is not finite");
+  }
+  mustHold(corners.empty(), "the pieces have not all cells");
+}
+
+} // namespace
+
+void checkMesh(const RawMesh& mesh)
+{
+  mustHold(mesh.vertices > 0 && mesh.cells > 0, "a mesh without vertices or cells is accepted");
+  const auto positionBytes = static_cast<std::int64_t>(mesh.positionBytes());
+  mustHold(mesh.positions.bytes() == mesh.vertices * positionBytes, "positions are missing");
+  checkColumns(mesh.vertexColumns, mesh.vertices);
+  checkColumns(mesh.elementColumns, mesh.elementCount);
+  const ReadMesh read = readRaw(mesh);
+  mustHold(std::ranges::all_of(read.positions, isFinite), "a position is not finite");
+  mustHold(mesh.corners.size() == mesh.cells * cornersOf(mesh.cellType), "corners are missing");
+  mustHold(std::ranges::all_of(read.corners,
+             [&](std::int64_t corner) { return corner >= 0 && corner < mesh.vertices; }),
+    "a corner is no vertex");
+  mustHold(std::int64_t(read.elements.size()) == mesh.cells, "a cell has no element");
+  mustHold(std::ranges::all_of(
+             read.elements, [&](std::int64_t element) { return element < mesh.elementCount; }),
+    "a cell is of no element");
+}
+
+void checkStreamFile(const std::filesystem::path& path)
+{
+  const std::unique_ptr<StreamFileReader> reader = openStreamFile(path);
+  const StreamFileHeader& header = reader->header();
+  const auto corners = static_cast<std::size_t>(cornersOf(cellTypeOf(header.format)));
+  std::int64_t vertices = 0, cells = 0;
+  StreamEvent event;
+  for (reader->next(event); event.kind != StreamEvent::End; reader->next(event))
+  {
+    const auto isVertex = [&](std::int64_t corner)
+    { return corner >= 0 && (header.postOrder || corner < vertices); };
+    if (event.kind == StreamEvent::Vertex)
+    {
+      ++vertices;
+      mustHold(std::ranges::all_of(event.position, isFinite), "a position is not finite");
+      mustHold(event.floats.size() == std::size_t(header.vertexFloats), "a float is missing");
+      mustHold(event.ints.size() == std::size_t(header.vertexInts), "an integer is missing");
+    }
+    else if (event.kind == StreamEvent::Cell)
+    {
+      ++cells;
+      mustHold(std::ranges::all_of(std::span(event.corners).first(corners), isVertex),
+        "a corner is no vertex that has come");
+      mustHold(event.finalMask < 1U << corners, "there are not as many corners");
+    }
+    else
+    {
+      mustHold(isVertex(event.corners[0]), "a vertex is final that has not come");
+    }
+  }
+  mustHold(header.vertices < 0 || header.vertices == vertices, "there are other vertices");
+  mustHold(header.cells < 0 || header.cells == cells, "there are other cells");
+}
+
+void checkVsm(const std::filesystem::path& path)
+{
+  VsmReader reader(path);
+  const std::vector<std::int64_t> corners = checkSource(*reader.source());
+  checkPieces(reader, corners);
+  std::vector<std::int64_t> lastCells(static_cast<std::size_t>(reader.info().vertices));
+  reader.readLastCells(0, lastCells);
+  IsolatedVertices isolated;
+  reader.readIsolated(0, reader.isolatedVertices(), isolated);
+  mustHold(std::int64_t(isolated.ids.size()) == reader.isolatedVertices(), "one is missing");
+}
+
+} // namespace smg::testing

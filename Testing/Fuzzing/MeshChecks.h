@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Raw/RawMesh.h"
+
+#include <filesystem>
+
+namespace smg::testing
+{
+
+// Whether what a reader accepted is what its header promises. Throw Finding.
+
+/** Counts agree, positions are finite, corners are vertices, columns have all tuples. */
+void checkMesh(const RawMesh& mesh);
+
+/**
+ * Reads a streaming mesh file element by element: positions are finite, the indices of a pre-order
+ * file name vertices that have come, the end comes after the header's counts. Throws Error.
+ */
+void checkStreamFile(const std::filesystem::path& path);
+
+/**
+ * Reads a .vsm file as a stream, which must be compact and as long as its header says, and in
+ * pieces, which must be the same; then last cells and isolated vertices. Throws Error.
+ */
+void checkVsm(const std::filesystem::path& path);
+
+} // namespace smg::testing
