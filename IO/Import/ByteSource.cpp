@@ -159,9 +159,17 @@ CompressedBytes::CompressedBytes(InputFile& file, const VtkArray& array, Pool& p
   const std::size_t header = (3 + this->Blocks) * static_cast<std::size_t>(array.headerBytes);
   this->Data = bytesAt(file, array.encoding,
     begin + (array.encoding == VtkEncoding::Base64 ? (header + 2) / 3 * 4 : header));
-  this->Plain = Buffer(pool, this->BlockBytes);
   // What does not become smaller is a little larger.
-  this->Compressed = Buffer(pool, this->BlockBytes + this->BlockBytes / 64 + 1024);
+  const std::uint64_t compressedBytes = this->BlockBytes + this->BlockBytes / 64 + 1024;
+  const std::uint64_t needed = this->BlockBytes + compressedBytes;
+  if (static_cast<std::int64_t>(needed) > pool.limit() - pool.used())
+  {
+    file.fail(begin, "the blocks of the compressed array here need " + std::to_string(needed) +
+                       " bytes of memory, more than there is: raise the memory limit, or save the "
+                       "file with smaller blocks");
+  }
+  this->Plain = Buffer(pool, this->BlockBytes);
+  this->Compressed = Buffer(pool, compressedBytes);
 }
 
 std::uint64_t CompressedBytes::nextSize()
