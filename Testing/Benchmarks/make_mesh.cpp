@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// make_mesh torus|scan|box N OUT.vsm : writes a mesh of about N vertices to measure with: a
-// jittered torus of triangles, one with bumps of several sizes as a scan has them, or a jittered
-// box of tetrahedra, in breadth-first order.
+// make_mesh torus|scan|box N OUT : writes a mesh of about N vertices to measure with: a jittered
+// torus of triangles, one with bumps of several sizes as a scan has them, or a jittered box of
+// tetrahedra.
+//
+// make_mesh finer MESH TIMES OUT : refines the mesh of a file (PLY, OBJ, OFF, STL, Medit, Gmsh or
+// VTK): every triangle becomes four, every tetrahedron eight, TIMES times. Each triangle made takes
+// about 60 bytes of memory.
+//
+// OUT.vsm is in breadth-first order. OUT.ply (triangles) and OUT.vtk (tetrahedra), both binary, are
+// in the order that the mesh is made in, or with --shuffle in a random one, the worst case for a
+// conversion.
 
 #include "IO/Container/VsmWriter.h"
+#include "Solver/Core/Error.h"
+#include "Testing/Benchmarks/FinerTetrahedra.h"
+#include "Testing/Benchmarks/IndexedFile.h"
 #include "Testing/Support/Bumps.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/Refinement.h"
@@ -12,7 +23,9 @@
 
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace
 {
@@ -43,33 +56,98 @@ IndexedTestMesh jitteredBox(double vertices)
   return tetBox(side, side, side, 0.15);
 }
 
+IndexedTestMesh finer(const std::string& path, int times)
+{
+  IndexedTestMesh mesh = smg::benchmark::readIndexed(path);
+  for (int i = 0; i < times; ++i)
+  {
+    mesh = mesh.cellType == smg::CellType::Triangle ? refined(mesh)
+                                                    : smg::benchmark::finerTetrahedra(mesh);
+  }
+  return mesh;
+}
+
+struct Options
+{
+  double vertices = 0;
+  std::string mesh, out;
+  int times = 0;
+  bool isShuffled = false;
+  std::uint64_t seed = 1;
+
+  IndexedTestMesh made(const std::string& shape) const
+  {
+    return shape == "torus"  ? jitteredTorus(this->vertices)
+           : shape == "scan" ? scan(this->vertices)
+           : shape == "box"  ? jitteredBox(this->vertices)
+                             : finer(this->mesh, this->times);
+  }
+};
+
+void writeStream(const IndexedTestMesh& mesh, const std::string& path)
+{
+  MemorySource source(toStream(mesh));
+  smg::VsmWriter writer(path, source.info());
+  for (smg::MeshBlock block; source.next(block);)
+  {
+    writer.append(block);
+  }
+  std::cout << ", span " << writer.finish().span;
+}
+
+void write(const IndexedTestMesh& mesh, const Options& options)
+{
+  std::cout << options.out << ": " << mesh.vertices() << " vertices, " << mesh.cells() << " cells";
+  if (options.out.ends_with(".vsm"))
+  {
+    writeStream(mesh, options.out);
+  }
+  else
+  {
+    smg::benchmark::writeIndexed(
+      mesh, options.out, options.isShuffled ? std::optional(options.seed) : std::nullopt);
+  }
+  std::cout << '\n';
+}
+
+void addOptions(CLI::App& app, Options& options)
+{
+  for (const auto& [shape, what] : { std::pair("torus", "A jittered torus of triangles"),
+         std::pair("scan", "A torus with bumps of several sizes"),
+         std::pair("box", "A jittered box of tetrahedra") })
+  {
+    app.add_subcommand(shape, what)
+      ->add_option("N", options.vertices, "Vertices")
+      ->required()
+      ->check(CLI::Range(1e3, 1e8));
+  }
+  CLI::App* refinement = app.add_subcommand("finer", "The mesh of a file, refined");
+  refinement->add_option("MESH", options.mesh, "Its file")->required()->check(CLI::ExistingFile);
+  refinement->add_option("TIMES", options.times, "How often")->required()->check(CLI::Range(0, 10));
+  for (CLI::App* shape : app.get_subcommands({}))
+  {
+    shape->add_option("OUT", options.out, "A .vsm, .ply or .vtk file")->required();
+    shape->add_flag(
+      "--shuffle", options.isShuffled, "Vertices and cells of a .ply or .vtk in a random order");
+    shape->add_option("--seed", options.seed, "Of the random order")->capture_default_str();
+  }
+  app.require_subcommand(1);
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 try
 {
   CLI::App app("Makes a mesh to measure with.");
-  std::string shape;
-  double vertices = 0;
-  std::string path;
-  app.add_option("SHAPE", shape, "torus, scan or box")
-    ->required()
-    ->check(CLI::IsMember({ "torus", "scan", "box" }));
-  app.add_option("N", vertices, "Vertices")->required()->check(CLI::Range(1e3, 1e8));
-  app.add_option("OUT", path, "A .vsm file")->required();
+  Options options;
+  addOptions(app, options);
   CLI11_PARSE(app, argc, argv);
-
-  MemorySource source(toStream(shape == "torus"  ? jitteredTorus(vertices)
-                               : shape == "scan" ? scan(vertices)
-                                                 : jitteredBox(vertices)));
-  smg::VsmWriter writer(path, source.info());
-  for (smg::MeshBlock block; source.next(block);)
+  if (options.isShuffled && options.out.ends_with(".vsm"))
   {
-    writer.append(block);
+    throw smg::Error(options.out + ": a stream is in its own order; shuffle a .ply or a .vtk.");
   }
-  const smg::StreamInfo info = writer.finish();
-  std::cout << path << ": " << info.vertices << " vertices, " << info.cells << " cells, span "
-            << info.span << '\n';
+  write(options.made(app.get_subcommands().front()->get_name()), options);
   return 0;
 }
 catch (const std::exception& error)
