@@ -117,28 +117,6 @@ ProgressFunction partOf(const ProgressFunction& whole, double begin, double end)
   return [whole, begin, end](double done) { return whole(begin + done * (end - begin)); };
 }
 
-/** A file in the workspace that is removed at the end of the scope. */
-class ScratchFile
-{
-public:
-  ScratchFile(const Workspace& workspace, const char* name)
-    : Path(workspace.folder() / name)
-  {
-  }
-  ~ScratchFile()
-  {
-    std::error_code ignored;
-    std::filesystem::remove(this->Path, ignored);
-  }
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-
-  const std::filesystem::path& path() const { return this->Path; }
-
-private:
-  std::filesystem::path Path;
-};
-
 } // namespace
 
 void setVtkImporter(VtkImporter importer)
@@ -165,13 +143,12 @@ RawMesh importMesh(
   const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options)
 {
   constexpr double inflatingShare = 0.3;
-  std::optional<ScratchFile> inflated;
+  std::optional<InflatedFile> inflated;
   {
     InputFile file(path, partOf(options.progress, 0.0, inflatingShare));
     if (isGzip(file.at(0, 2)))
     {
-      inflated.emplace(workspace, "inflated");
-      inflateFile(file, workspace, inflated->path());
+      inflated.emplace(file, workspace, "inflated");
     }
   }
   const ProgressFunction progress =

@@ -11,6 +11,7 @@
 #include <limits>
 #include <new>
 #include <span>
+#include <system_error>
 
 namespace smg
 {
@@ -135,6 +136,8 @@ private:
       this->Out.write(this->Written, this->Chunk.bytes().first(written));
       this->Written += static_cast<std::int64_t>(written);
       this->Space.traffic().bytesWritten += static_cast<std::int64_t>(written);
+      // A little that is compressed can become a lot.
+      this->Space.poll();
     } while (!this->Gzip.memberEnded() && written == this->Chunk.size());
   }
 
@@ -173,6 +176,18 @@ void inflateFile(InputFile& file, Workspace& workspace, const std::filesystem::p
   FileInflater inflater(file, workspace, to);
   inflater.run();
   inflater.renameTo(to);
+}
+
+InflatedFile::InflatedFile(InputFile& file, Workspace& workspace, const char* name)
+  : Path(workspace.folder() / name)
+{
+  inflateFile(file, workspace, this->Path);
+}
+
+InflatedFile::~InflatedFile()
+{
+  std::error_code ignored;
+  std::filesystem::remove(this->Path, ignored);
 }
 
 std::string inflateStart(std::string_view bytes, std::size_t most)

@@ -24,6 +24,22 @@ inline bool isGzip(std::string_view bytes)
  */
 void inflateFile(InputFile& file, Workspace& workspace, const std::filesystem::path& to);
 
+/** What a file holds that gzip compressed, as a file that is removed at the end of the scope. */
+class InflatedFile
+{
+public:
+  /** Makes the file of this name in the workspace's folder. Throws as inflateFile(). */
+  InflatedFile(InputFile& file, Workspace& workspace, const char* name);
+  ~InflatedFile();
+  InflatedFile(const InflatedFile&) = delete;
+  InflatedFile& operator=(const InflatedFile&) = delete;
+
+  const std::filesystem::path& path() const { return this->Path; }
+
+private:
+  std::filesystem::path Path;
+};
+
 /** The first bytes of what such a file holds, at most `most`, as far as its first bytes tell. */
 std::string inflateStart(std::string_view bytes, std::size_t most);
 

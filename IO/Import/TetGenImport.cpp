@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Suffix.h"
 #include "IO/Import/Formats.h"
+#include "IO/Import/Inflate.h"
 #include "IO/Import/TextScanner.h"
 #include "Solver/Core/Error.h"
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -197,25 +199,45 @@ private:
   std::vector<double> Attributes;
 };
 
-/** The other file of the two. */
+/** What the file is called, or was before gzip compressed it. */
+std::filesystem::path plainName(const InputFile& file)
+{
+  std::filesystem::path name(file.name());
+  return lowerSuffix(name) == ".gz" ? name.replace_extension() : name;
+}
+
+/** The other file of the two, which gzip may have compressed as well. */
 std::filesystem::path otherFile(const InputFile& file, bool isElements)
 {
-  std::filesystem::path other = file.path();
-  other.replace_extension(isElements ? ".node" : ".ele");
-  if (!std::filesystem::exists(other))
+  const std::filesystem::path plain =
+    plainName(file).replace_extension(isElements ? ".node" : ".ele");
+  const std::filesystem::path compressed = plain.string() + ".gz";
+  for (const std::filesystem::path& other : { plain, compressed })
   {
-    throw Error(file.name() + ": the file " + inQuotes(other.string()) + ", which has the " +
-                (isElements ? "nodes" : "elements") + ", must lie beside it.");
+    if (std::filesystem::exists(other))
+    {
+      return other;
+    }
   }
-  return other;
+  throw Error(file.name() + ": the file " + inQuotes(plain.string()) + ", which has the " +
+              (isElements ? "nodes" : "elements") + ", must lie beside it.");
 }
 
 } // namespace
 
 void importTetGen(InputFile& file, RawMeshBuilder& builder)
 {
-  const bool isElements = lowerSuffix(file.path()) == ".ele";
-  InputFile other(otherFile(file, isElements));
+  const bool isElements = lowerSuffix(plainName(file)) == ".ele";
+  const std::filesystem::path otherPath = otherFile(file, isElements);
+  std::optional<InflatedFile> inflated;
+  {
+    InputFile start(otherPath);
+    if (isGzip(start.at(0, 2)))
+    {
+      inflated.emplace(start, builder.workspace(), "inflated-other");
+    }
+  }
+  InputFile other(inflated ? inflated->path() : otherPath, {}, otherPath.string());
   TetGenReader reader(builder);
   reader.readNodes(isElements ? other : file);
   reader.readElements(isElements ? file : other);

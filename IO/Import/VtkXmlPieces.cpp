@@ -18,6 +18,8 @@ std::vector<std::filesystem::path> vtkXmlPieceFiles(InputFile& file)
     file.fail(root.begin, "the file names no pieces of polygonal data or of an unstructured grid "
                           "of VTK, which are the kinds that hold meshes");
   }
+  // Beside the file that the user knows, of which this one may be the inflated one.
+  const std::filesystem::path folder = std::filesystem::path(file.name()).parent_path();
   std::vector<std::filesystem::path> files;
   for (XmlTag tag; tags.next(tag);)
   {
@@ -28,7 +30,7 @@ std::vector<std::filesystem::path> vtkXmlPieceFiles(InputFile& file)
       {
         file.fail(tag.begin, "the piece here has no Source: the file is damaged");
       }
-      files.push_back(file.path().parent_path() / source);
+      files.push_back(folder / source);
     }
   }
   if (files.empty())

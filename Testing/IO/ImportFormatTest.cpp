@@ -197,6 +197,30 @@ TEST_F(ImportFormat, DamageOfCompressedFilesIsFound)
   this->expectDamageIsFound("b.off.gz", bytes);
 }
 
+TEST_F(ImportFormat, FilesBesideACompressedFileAreFound)
+{
+  const std::string nodes = "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n";
+  const std::string elements = "1 4 0\n1 1 2 3 4\n";
+  const Numbers corners{ 0, 1, 2, 3 };
+  writeBytes(this->Folder / "a.ele", elements);
+  EXPECT_EQ(this->read("a.node.gz", gzip(nodes)).corners, corners);
+  EXPECT_EQ(this->readFile(this->Folder / "a.node.gz").corners, corners);
+  this->expectError("b.ele.gz", gzip(elements), "b.node', which has the nodes");
+  writeBytes(this->Folder / "b.node.gz", gzip(nodes));
+  EXPECT_EQ(this->readFile(this->Folder / "b.ele.gz").corners, corners);
+
+  writeBytes(this->Folder / "piece.vtp",
+    "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><Points>"
+    "<DataArray type=\"Float32\">0 0 0 1 0 0 0 1 0</DataArray></Points><Polys>"
+    "<DataArray type=\"Int32\" Name=\"connectivity\">0 1 2</DataArray>"
+    "<DataArray type=\"Int32\" "
+    "Name=\"offsets\">3</DataArray></Polys></Piece></PolyData></VTKFile>");
+  const std::string parallel =
+    "<VTKFile type=\"PPolyData\"><PPolyData><Piece Source=\"piece.vtp\"/>"
+    "</PPolyData></VTKFile>";
+  EXPECT_EQ(this->read("a.pvtp.gz", gzip(parallel)).cells(), 1);
+}
+
 TEST_F(ImportFormat, ProgressGrowsToItsEnd)
 {
   const std::string text = meshText(torus(200, 200, 0.1));
