@@ -3,6 +3,7 @@
 
 #include "IO/Formats/Suffix.h"
 #include "IO/Import/StlLayout.h"
+#include "IO/Import/TextScanner.h"
 
 #include <algorithm>
 #include <cctype>
@@ -20,6 +21,12 @@ constexpr std::string_view Blanks = " \t\r\f\v\n";
 bool isBlank(char c)
 {
   return Blanks.find(c) != std::string_view::npos;
+}
+
+/** The text without a byte order mark. */
+std::string_view withoutMark(std::string_view text)
+{
+  return text.substr(text.starts_with(ByteOrderMark) ? ByteOrderMark.size() : 0);
 }
 
 /** The text from its first character on that is no blank. */
@@ -115,11 +122,7 @@ bool isTextStl(std::string_view text)
 
 MeshFormat formatOfSign(std::string_view bytes)
 {
-  constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
-  if (bytes.starts_with(byteOrderMark))
-  {
-    bytes.remove_prefix(byteOrderMark.size());
-  }
+  bytes = withoutMark(bytes);
   const std::string_view text = trimmed(bytes);
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r"))
   {
@@ -142,12 +145,12 @@ MeshFormat formatOfSign(std::string_view bytes)
 
 MeshFormat formatOfLooks(std::string_view bytes, std::optional<std::uint64_t> size)
 {
-  if ((size && isBinaryStl(bytes, *size)) || isTextStl(trimmed(bytes)))
+  if ((size && isBinaryStl(bytes, *size)) || isTextStl(trimmed(withoutMark(bytes))))
   {
     return MeshFormat::Stl;
   }
   const bool whole = size && bytes.size() == *size;
-  return isObj(bytes, whole) ? MeshFormat::Obj : MeshFormat::Unknown;
+  return isObj(withoutMark(bytes), whole) ? MeshFormat::Obj : MeshFormat::Unknown;
 }
 
 MeshFormat formatOfSuffix(const std::filesystem::path& path)

@@ -50,6 +50,11 @@ public:
         this->LargestLine, "the face names vertex " + std::to_string(this->LargestCorner + 1) +
                              ", but the file has " + std::to_string(this->Builder.vertices()));
     }
+    if (this->HasColors)
+    {
+      this->Builder.note("The colours of the vertices are left out, since OBJ files have no place "
+                         "for them: save the mesh as PLY to keep them.");
+    }
   }
 
 private:
@@ -86,10 +91,12 @@ private:
     const double y = this->Scanner.toNumber(this->nextToken(), "the coordinate y");
     const double z = this->Scanner.toNumber(this->nextToken(), "the coordinate z");
     this->Builder.vertex(x, y, z);
-    while (this->Continues)
+    int others = 0; // a weight or a colour
+    while (!this->nextToken().empty())
     {
-      this->nextToken(); // a weight or a colour
+      ++others;
     }
+    this->HasColors |= others >= 3;
   }
 
   void readFace()
@@ -128,6 +135,7 @@ private:
   TextScanner Scanner;
   RawMeshBuilder& Builder;
   TriangleFan Fan;
+  bool HasColors = false;
   bool Continues = false; ///< the line ends here and goes on in the next one
   std::int64_t LargestCorner = -1;
   std::int64_t LargestLine = 0;

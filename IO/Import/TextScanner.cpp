@@ -37,7 +37,8 @@ TextScanner::TextScanner(InputFile& file, char comment, std::size_t begin, std::
   {
     this->Kinds[static_cast<unsigned char>(comment)] = Kind::Comment;
   }
-  this->moveTo(begin);
+  const bool isMarked = begin == 0 && file.at(0, ByteOrderMark.size()).starts_with(ByteOrderMark);
+  this->moveTo(isMarked ? ByteOrderMark.size() : begin);
 }
 
 void TextScanner::moveTo(std::size_t offset)

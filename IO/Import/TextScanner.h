@@ -12,9 +12,12 @@
 namespace smg
 {
 
+/** What some editors put before a text to say that it is UTF-8. */
+inline constexpr std::string_view ByteOrderMark = "\xEF\xBB\xBF";
+
 /**
  * Reads an InputFile as text: tokens separated by blanks, numbers, lines. Knows the line it is at,
- * for errors. A carriage return counts as a blank.
+ * for errors. A carriage return counts as a blank; a byte order mark before the text is passed.
  *
  * It reads from the file's window: whoever asks the file for other bytes in between must moveTo()
  * where the text goes on. A token that is given out is valid until the next call that reads.

@@ -41,6 +41,22 @@ TEST_F(ImportObj, ColoursAreIgnoredAndLinesContinued)
   EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2 }));
 }
 
+TEST_F(ImportObj, ColoursThatAreLeftOutAreNoted)
+{
+  const std::string face = "v 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  EXPECT_EQ(this->read("a.obj", "v 0 0 0 0.1 0.2 0.3\n" + face).counts.notes.size(), 1u);
+  EXPECT_TRUE(this->read("a.obj", "v 0 0 0 1\n" + face).counts.notes.empty());
+}
+
+TEST_F(ImportObj, AByteOrderMarkIsNoPartOfTheFirstLine)
+{
+  const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n";
+  for (const char* name : { "a.obj", "a.txt" })
+  {
+    EXPECT_EQ(this->read(name, "\xEF\xBB\xBF" + text).vertices(), 4);
+  }
+}
+
 TEST_F(ImportObj, PolygonsOfAnyLength)
 {
   constexpr std::int64_t corners = 300000;
