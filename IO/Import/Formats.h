@@ -27,13 +27,13 @@ void importStl(InputFile& file, RawMeshBuilder& builder);
 void importMedit(InputFile& file, RawMeshBuilder& builder);
 /** Gmsh .msh 2.2 and 4.1, text and binary, elements of any order. */
 void importGmsh(InputFile& file, RawMeshBuilder& builder);
-/** TetGen: `path` is the .node or the .ele file, the other one lies beside it. */
+/** TetGen: `file` is the .node or the .ele file, the other one lies beside it. */
 void importTetGen(InputFile& file, RawMeshBuilder& builder);
 /** Legacy VTK, text and binary, polygonal data and unstructured grids, layouts 2.0 to 5.1. */
 void importLegacyVtk(InputFile& file, RawMeshBuilder& builder);
 /**
- * VTK XML (.vtp, .vtu): raw appended and inline text data are parsed; what is compressed or base64
- * goes to the VtkImporter.
+ * VTK XML (.vtp, .vtu): appended and inline data, as text, base64 or raw, plain or compressed by
+ * zlib or LZ4. What is compressed otherwise goes to the VtkImporter.
  */
 void importVtkXml(InputFile& file, RawMeshBuilder& builder, const ProgressFunction& progress);
 /** The pieces that a .pvtp or .pvtu file names, one after the other. */

@@ -52,7 +52,7 @@ using VtkImporter = void (*)(const std::filesystem::path& path, MeshFormat forma
   RawMeshBuilder& builder, const ProgressFunction& progress);
 
 /**
- * Sets who reads the VTK files that are not parsed as streams (compressed or encoded data), since
+ * Sets who reads the VTK files that are not parsed as streams (compressed by LZMA), since
  * this library knows nothing of VTK: IO/vtkMeshImport.h has the function. Until it is set, such
  * files are refused.
  */
