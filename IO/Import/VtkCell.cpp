@@ -118,6 +118,7 @@ void takeVtkCell(int type, std::span<const std::int64_t> points, RawMeshBuilder&
   }
   const auto corners = cell.corners > 0 ? points.first(cell.corners) : points;
   const auto& p = corners;
+  const std::int64_t before = builder.cells();
   switch (cell.shape)
   {
     case Shape::Tetrahedron:
@@ -147,7 +148,7 @@ void takeVtkCell(int type, std::span<const std::int64_t> points, RawMeshBuilder&
     default:
       failForType(type);
   }
-  if (cell.higherOrder)
+  if (cell.higherOrder && builder.cells() > before)
   {
     builder.noteHigherOrder();
   }

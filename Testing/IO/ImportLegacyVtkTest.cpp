@@ -211,6 +211,16 @@ TEST_F(ImportLegacyVtk, FlatCellsAreTheirPolygon)
     (std::vector<std::int64_t>{ 0, 1, 3, 3, 1, 2 }));
 }
 
+TEST_F(ImportLegacyVtk, CellsThatAreNotWantedAreOnlyDropped)
+{
+  const ReadMesh mesh = this->read(head(false, "3.0", "UNSTRUCTURED_GRID") + Square +
+                                     "CELLS 2 12\n6 0 1 2 0 0 0 4 0 1 2 3\nCELL_TYPES 2\n22 10\n",
+    CellChoice::Tetrahedra);
+  EXPECT_EQ(mesh.corners, (std::vector<std::int64_t>{ 0, 1, 2, 3 }));
+  EXPECT_EQ(mesh.counts.droppedCells, 1);
+  EXPECT_EQ(mesh.counts.higherOrderCells, 0);
+}
+
 TEST_F(ImportLegacyVtk, AttributesOfEveryKind)
 {
   const std::string text =
