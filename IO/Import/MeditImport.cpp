@@ -2,10 +2,12 @@
 #include "IO/Import/Formats.h"
 #include "IO/Import/TextScanner.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace smg
 {
@@ -21,6 +23,19 @@ struct Section
 };
 constexpr std::array<Section, 6> Sections{ { { "Triangles", 3 }, { "Quadrilaterals", 4 },
   { "Tetrahedra", 4 }, { "Hexahedra", 8 }, { "Prisms", 6 }, { "Pyramids", 5 } } };
+
+/** Whether the section has cells of higher order, as TetrahedraP2 and HexahedraQ2. */
+bool isOfHigherOrder(std::string_view keyword)
+{
+  return std::ranges::any_of(Sections,
+    [keyword](const Section& section)
+    {
+      const std::string_view order =
+        keyword.substr(std::min(section.keyword.size(), keyword.size()));
+      return keyword.starts_with(section.keyword) && order.size() == 2 &&
+             (order[0] == 'P' || order[0] == 'Q');
+    });
+}
 
 /** Reads the sections of a Medit file. */
 class MeditReader
@@ -93,6 +108,11 @@ private:
     {
       this->Scanner.fail(inQuotes(keyword) + " stands where a keyword should be: a section is "
                                              "longer than its number of entries");
+    }
+    if (isOfHigherOrder(keyword))
+    {
+      this->Scanner.fail("cells of higher order, as the section " + inQuotes(keyword) +
+                         " has them, are not read: save the mesh with straight cells");
     }
     this->skipSection();
   }

@@ -107,6 +107,15 @@ TEST_F(ImportMedit, OtherSectionsArePassed)
   EXPECT_EQ(mesh.elementCount, 1);
 }
 
+TEST_F(ImportMedit, CellsOfHigherOrderAreNotLostSilently)
+{
+  const std::string straight = "Tetrahedra\n1\n1 2 3 4 0\n";
+  this->expectRefused(
+    fourVertices(straight + "TetrahedraP2\n1\n1 2 3 4 1 2 3 4 1 2 0\nEnd\n"), "'TetrahedraP2'");
+  this->expectRefused(fourVertices(straight + "HexahedraQ2\n0\n"), "'HexahedraQ2'");
+  EXPECT_EQ(this->medit(fourVertices(straight + "EdgesP2\n1\n1 2 3 0\nEnd\n")).cells(), 1);
+}
+
 TEST_F(ImportMedit, ErrorsNameTheLine)
 {
   this->expectRefused("MeshVersionFormatted 1\nDimension 4\n", "a.mesh, line 2: the dimension");
