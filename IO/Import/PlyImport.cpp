@@ -123,17 +123,21 @@ private:
       {
         if (!alone)
         {
+          this->CellColumns.push_back(-1);
           return -1;
         }
         this->CellColumns.push_back(this->Builder.addElementColumn(spec));
         return this->CellColumns.back();
       });
-    if (!alone)
+    if (!alone && !this->CellColumns.empty())
     {
+      this->Builder.note("The attributes of the faces are left out, since the file has several "
+                         "elements of cells, which do not share them.");
       for (const int column : this->CellColumns)
       {
         this->Builder.dropElementColumn(column);
       }
+      this->CellColumns.clear();
     }
     const bool hasCorners =
       std::ranges::any_of(plan.steps, [](auto& step) { return step.kind == PlyStep::Corners; });

@@ -148,6 +148,7 @@ TEST_F(ImportPly, AttributesOfFacesAndStripsTogetherAreLeftOut)
                ThreePoints + "3 0 1 2 7\n3 2 1 0\n");
   EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 2, 1, 0 }));
   EXPECT_TRUE(mesh.elementColumns.empty());
+  EXPECT_EQ(mesh.counts.notes.size(), 1u);
 }
 
 TEST_F(ImportPly, AnElementWithoutRecordsHasNoColumns)
