@@ -190,6 +190,10 @@ void importStl(InputFile& file, RawMeshBuilder& builder)
   FacetCollector facets(builder);
   text ? StlTextReader(file, facets).read() : readBinary(file, facets);
   facets.finish();
+  if (!text && file.size() > stlBytes(file.at(0, StlHeaderBytes)))
+  {
+    builder.note("The bytes after the last triangle that the header promises are left out.");
+  }
 }
 
 } // namespace smg

@@ -141,6 +141,14 @@ TEST_F(ImportStl, ErrorsNameFileAndPlace)
   this->expectError("a.stl", "solid\nendsolid\n", "no triangles");
 }
 
+TEST_F(ImportStl, BytesAfterTheLastTriangleAreNoted)
+{
+  EXPECT_TRUE(this->read("a.stl", twoTriangles("binary")).counts.notes.empty());
+  const ReadMesh mesh = this->read("a.stl", twoTriangles("binary") + "more");
+  EXPECT_EQ(mesh.cells(), 2);
+  EXPECT_EQ(mesh.counts.notes.size(), 1u);
+}
+
 TEST_F(ImportStl, DamageIsFound)
 {
   this->expectDamageIsFound("a.stl", Stl);
