@@ -297,13 +297,16 @@ RawMesh RawMeshBuilder::finish()
   if (this->Numbers)
   {
     RecordFile<std::uint32_t> corners(this->Space);
+    std::int64_t cell = 0;
     this->Numbers->apply(mesh.corners, static_cast<std::size_t>(cornersOf(mesh.cellType)),
       [&](std::span<const std::uint32_t> numbers)
       {
         if (std::ranges::find(numbers, NoIndex) != numbers.end())
         {
-          throw MeshError("a cell names a vertex that the file does not have");
+          throw MeshError("cell " + std::to_string(cell) +
+                          ", counted from 0, names a vertex that the file does not have");
         }
+        ++cell;
         corners.put(numbers);
       });
     this->Numbers.reset();

@@ -252,7 +252,7 @@ TEST_F(ImportGmsh, ACornerWithoutANodeIsRefusedWhereTagsHaveGaps)
 {
   this->expectRefused(Format2 + "$Nodes\n3\n1 0 0 0\n9 0 0 0\n5 0 0 0\n$EndNodes\n$Elements\n1\n"
                                 "1 2 0 1 5 7\n$EndElements\n",
-    "a vertex that the file does not have");
+    ", counted from 0, names a vertex that the file does not have");
 }
 
 TEST_F(ImportGmsh, ErrorsOfBinaryFilesNameTheByte)
