@@ -225,7 +225,19 @@ private:
       this->product(this->Tuples, components));
     array.columnType = ScalarType::UInt8;
     array.isFractions = !binary;
-    this->Arrays->push_back(std::move(array));
+    this->keep(std::move(array), *this->Arrays);
+  }
+
+  void keep(VtkArray array, std::vector<VtkArray>& arrays)
+  {
+    // What they are is held in memory.
+    constexpr std::size_t MostArrays = 4096;
+    if (arrays.size() == MostArrays)
+    {
+      this->Scanner.fail("there are more than " + std::to_string(MostArrays) +
+                         " arrays of points or of cells, which are too many");
+    }
+    arrays.push_back(std::move(array));
   }
 
   int components()
@@ -300,7 +312,7 @@ private:
       VtkArray array = this->Scanner.array(name, type, static_cast<int>(components), values);
       if (arrays)
       {
-        arrays->push_back(std::move(array));
+        this->keep(std::move(array), *arrays);
       }
     }
   }

@@ -3,7 +3,6 @@
 #include "IO/Import/Formats.h"
 #include "IO/Import/VtkFallback.h"
 #include "IO/Import/VtkMeshReader.h"
-#include "IO/Import/VtkPointMerger.h"
 #include "IO/Import/VtkXmlLayout.h"
 #include "IO/Import/VtkXmlPieces.h"
 #include "Solver/Core/Error.h"
@@ -17,6 +16,7 @@ namespace smg
 void importParallelVtkXml(
   InputFile& file, RawMeshBuilder& builder, const ProgressFunction& progress)
 {
+  const std::int64_t mostBytes = builder.workspace().available() / 2;
   VtkLayout layout;
   for (const std::filesystem::path& path : vtkXmlPieceFiles(file))
   {
@@ -27,18 +27,12 @@ void importParallelVtkXml(
                   " that the file names does not exist.");
     }
     InputFile piece(path);
-    addVtkXmlLayout(piece, layout);
+    addVtkXmlLayout(piece, layout, mostBytes);
   }
   if (needsVtk(layout))
   {
     importWithVtk(file, MeshFormat::VtkParallelXml, layout, builder, progress);
     return;
-  }
-  if (layout.pieces.size() > 1 && !VtkPointMerger::applies(layout))
-  {
-    builder.note("The pieces of " + file.name() +
-                 " have no global numbers of points (GlobalIds): points that pieces share stay "
-                 "separate, and the mesh is open where pieces meet.");
   }
   readVtkMesh(file, layout, builder, progress);
 }

@@ -5,7 +5,6 @@
 #include "IO/Import/VtkFiles.h"
 #include "Solver/Core/Error.h"
 
-#include <algorithm>
 #include <string>
 
 namespace smg
@@ -13,17 +12,6 @@ namespace smg
 
 namespace
 {
-
-/** Calls `visit` with each array of a piece, until it answers true; tells whether it did. */
-bool anyArray(const VtkPiece& piece, const auto& visit)
-{
-  const auto visitOne = [&visit](const std::optional<VtkArray>& array)
-  { return array && visit(*array); };
-  return visitOne(piece.positions) || std::ranges::any_of(piece.pointArrays, visit) ||
-         std::ranges::any_of(piece.cellArrays, visit) ||
-         std::ranges::any_of(piece.lists, [&](const VtkCellList& list)
-           { return visitOne(list.points) || visitOne(list.offsets) || visitOne(list.types); });
-}
 
 /** Bytes of an array in memory, by the header of its data. */
 std::int64_t bytesOf(InputFile& file, const VtkArray& array)
@@ -56,14 +44,13 @@ std::int64_t neededBytes(InputFile& file, const VtkLayout& layout)
   for (const VtkPiece& piece : layout.pieces)
   {
     InputFile& own = files.open(piece.file, VtkFiles::Main);
-    anyArray(piece,
+    forEachArray(piece,
       [&](const VtkArray& array)
       {
         if (__builtin_add_overflow(sum, bytesOf(own, array), &sum) || sum < 0)
         {
           own.fail(array.begin, "the size of the array here cannot be right: the file is damaged");
         }
-        return false;
       });
   }
   std::int64_t needed = 0;
@@ -79,12 +66,13 @@ std::string mebibytes(std::int64_t bytes)
 
 bool needsVtk(const VtkLayout& layout)
 {
-  return std::ranges::any_of(layout.pieces,
-    [](const VtkPiece& piece)
-    {
-      return anyArray(
-        piece, [](const VtkArray& array) { return array.compression == VtkCompression::Other; });
-    });
+  bool needed = false;
+  for (const VtkPiece& piece : layout.pieces)
+  {
+    forEachArray(piece,
+      [&needed](const VtkArray& array) { needed |= array.compression == VtkCompression::Other; });
+  }
+  return needed;
 }
 
 void importWithVtk(InputFile& file, MeshFormat format, const VtkLayout& layout,

@@ -3,6 +3,7 @@
 
 #include "IO/Import/VtkArray.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -41,11 +42,33 @@ struct VtkPiece
   std::string pointNormals, cellNormals, globalIds;
 };
 
+/** Calls `visit` with each array of a piece. */
+void forEachArray(auto& piece, const auto& visit)
+{
+  const auto visitOne = [&visit](auto& array)
+  {
+    if (array)
+    {
+      visit(*array);
+    }
+  };
+  visitOne(piece.positions);
+  std::ranges::for_each(piece.pointArrays, visit);
+  std::ranges::for_each(piece.cellArrays, visit);
+  for (auto& list : piece.lists)
+  {
+    visitOne(list.points);
+    visitOne(list.offsets);
+    visitOne(list.types);
+  }
+}
+
 /** Where everything of a mesh stands in its files. */
 struct VtkLayout
 {
   std::vector<std::filesystem::path> files;
   std::vector<VtkPiece> pieces;
+  std::int64_t bytes = 0; ///< of memory that the pieces take, about
 };
 
 /** Types of cells in VTK, which are the same in its files. */

@@ -3,6 +3,7 @@
 
 #include "IO/Container/NormalsColumn.h"
 #include "IO/Container/ReservedNames.h"
+#include "IO/External/Reservation.h"
 #include "IO/Formats/InQuotes.h"
 #include "IO/Import/VtkArrayReader.h"
 #include "IO/Import/VtkCell.h"
@@ -327,6 +328,13 @@ private:
 void readVtkMesh(InputFile& file, const VtkLayout& layout, RawMeshBuilder& builder,
   const ProgressFunction& progress)
 {
+  if (layout.pieces.size() > 1 && !VtkPointMerger::applies(layout))
+  {
+    builder.note("The pieces of " + file.name() +
+                 " have no global numbers of points (GlobalIds): points that pieces share stay "
+                 "separate, and the mesh is open where pieces meet.");
+  }
+  const Reservation reserved(builder.workspace().pool(), layout.bytes);
   VtkFiles files(file, layout, progress);
   MeshReader(files, layout, builder).read();
 }

@@ -32,7 +32,7 @@ struct MergedPoint
 const VtkArray* globalIdsOf(const VtkPiece& piece)
 {
   const auto found = std::ranges::find(piece.pointArrays, piece.globalIds, &VtkArray::name);
-  return found == piece.pointArrays.end() ? nullptr : &*found;
+  return found == piece.pointArrays.end() || found->components != 1 ? nullptr : &*found;
 }
 
 void sortNumbers(VtkFiles& files, const VtkLayout& layout, Workspace& workspace,

@@ -10,7 +10,7 @@ namespace smg
 void importVtkXml(InputFile& file, RawMeshBuilder& builder, const ProgressFunction& progress)
 {
   VtkLayout layout;
-  addVtkXmlLayout(file, layout);
+  addVtkXmlLayout(file, layout, builder.workspace().available() / 2);
   if (needsVtk(layout))
   {
     importWithVtk(file, MeshFormat::VtkXml, layout, builder, progress);

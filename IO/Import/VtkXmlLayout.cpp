@@ -33,10 +33,11 @@ constexpr std::pair<std::string_view, ScalarType> TypeNames[] = { { "Int8", Scal
 class LayoutReader
 {
 public:
-  LayoutReader(InputFile& file, VtkLayout& layout)
+  LayoutReader(InputFile& file, VtkLayout& layout, std::int64_t mostBytes)
     : File(file)
     , Tags(file)
     , Layout(layout)
+    , MostBytes(mostBytes)
     , FirstPiece(layout.pieces.size())
   {
   }
@@ -128,6 +129,7 @@ private:
         break;
       }
     }
+    this->account(tag, sizeof(piece) + piece.lists.size() * sizeof(VtkCellList));
     this->Layout.pieces.push_back(std::move(piece));
     this->Section.clear();
   }
@@ -178,6 +180,7 @@ private:
       if (!array.name.empty() &&
           std::ranges::find(arrays, array.name, &VtkArray::name) == arrays.end())
       {
+        this->account(tag, sizeof(array) + array.name.size());
         arrays.push_back(std::move(array));
       }
     }
@@ -197,23 +200,32 @@ private:
   {
     static constexpr std::string_view Lists[] = { "Verts", "Lines", "Polys", "Strips" };
     const auto* const place = std::ranges::find(Lists, this->Section);
-    const bool own = this->IsGrid ? this->Section == "Cells" : place != std::end(Lists);
-    if (!own)
+    const bool isList = this->IsGrid ? this->Section == "Cells" : place != std::end(Lists);
+    if (!isList)
     {
       return;
     }
     VtkCellList& list =
       piece.lists[this->IsGrid ? 0 : static_cast<std::size_t>(place - std::begin(Lists))];
     array.components = 1;
-    if (array.name == "connectivity")
+    const bool areCorners = array.name == "connectivity";
+    if (!areCorners && array.name != "offsets" && array.name != "types")
     {
-      list.points = std::move(array);
+      return;
     }
-    else if (array.name == "offsets" || array.name == "types")
+    std::optional<VtkArray>& own = areCorners              ? list.points
+                                   : array.name == "types" ? list.types
+                                                           : list.offsets;
+    // As of other arrays, of several time steps the first one is taken.
+    if (own)
+    {
+      return;
+    }
+    if (!areCorners)
     {
       array.values = list.cells;
-      (array.name == "types" ? list.types : list.offsets) = std::move(array);
     }
+    own = std::move(array);
   }
 
   VtkArray arrayOf(const XmlTag& tag, ScalarType type)
@@ -253,6 +265,16 @@ private:
     return array;
   }
 
+  void account(const XmlTag& tag, std::size_t bytes)
+  {
+    this->Layout.bytes += static_cast<std::int64_t>(bytes);
+    if (this->Layout.bytes > this->MostBytes)
+    {
+      this->File.fail(tag.begin, "there are more pieces and arrays than fit into the memory: raise "
+                                 "its limit (option --memory), or join pieces first");
+    }
+  }
+
   /** Tells the arrays that are appended where and how that is. */
   void placeAppended(const XmlTag& tag)
   {
@@ -286,25 +308,7 @@ private:
   {
     for (std::size_t i = this->FirstPiece; i < this->Layout.pieces.size(); ++i)
     {
-      VtkPiece& piece = this->Layout.pieces[i];
-      for (auto* arrays : { &piece.pointArrays, &piece.cellArrays })
-      {
-        std::ranges::for_each(*arrays, visit);
-      }
-      const auto visitOne = [&visit](std::optional<VtkArray>& array)
-      {
-        if (array)
-        {
-          visit(*array);
-        }
-      };
-      visitOne(piece.positions);
-      for (VtkCellList& list : piece.lists)
-      {
-        visitOne(list.points);
-        visitOne(list.offsets);
-        visitOne(list.types);
-      }
+      smg::forEachArray(this->Layout.pieces[i], visit);
     }
   }
 
@@ -371,6 +375,7 @@ private:
   InputFile& File;
   XmlTags Tags;
   VtkLayout& Layout;
+  const std::int64_t MostBytes;
   const std::size_t FirstPiece;
   bool IsGrid = false, BigEndian = false, HasAppended = false;
   int HeaderBytes = 4;
@@ -380,9 +385,9 @@ private:
 
 } // namespace
 
-void addVtkXmlLayout(InputFile& file, VtkLayout& layout)
+void addVtkXmlLayout(InputFile& file, VtkLayout& layout, std::int64_t mostBytes)
 {
-  LayoutReader(file, layout).read();
+  LayoutReader(file, layout, mostBytes).read();
 }
 
 } // namespace smg

@@ -8,6 +8,14 @@
 namespace smg
 {
 
+namespace
+{
+
+/** The names of the pieces are held in memory. */
+constexpr std::size_t MostPieces = 100000;
+
+} // namespace
+
 std::vector<std::filesystem::path> vtkXmlPieceFiles(InputFile& file)
 {
   XmlTags tags(file);
@@ -29,6 +37,11 @@ std::vector<std::filesystem::path> vtkXmlPieceFiles(InputFile& file)
       if (source.empty())
       {
         file.fail(tag.begin, "the piece here has no Source: the file is damaged");
+      }
+      if (files.size() == MostPieces)
+      {
+        file.fail(tag.begin,
+          "there are more than " + std::to_string(MostPieces) + " pieces, which are too many");
       }
       files.push_back(folder / source);
     }

@@ -318,8 +318,50 @@ TEST_F(ImportVtkXml, PiecesFollowEachOtherAsVtkNumbersThem)
   {
     EXPECT_EQ(mesh.elementColumns[0].value(i), i < 3 ? i : 7 + i);
   }
-  ASSERT_EQ(mesh.counts.notes.size(), 1u);
-  EXPECT_NE(mesh.counts.notes[0].find("'some'"), std::string::npos);
+  ASSERT_EQ(mesh.counts.notes.size(), 2u);
+  EXPECT_NE(mesh.counts.notes[0].find("no global numbers"), std::string::npos);
+  EXPECT_NE(mesh.counts.notes[1].find("'some'"), std::string::npos);
+}
+
+TEST_F(ImportVtkXml, PiecesTakeOnlyTheMemoryThatIsAllowed)
+{
+  XmlWriter writer;
+  const auto pieces = [](int count)
+  {
+    std::string text;
+    for (int i = 0; i < count; ++i)
+    {
+      text += "<Piece/>";
+    }
+    return text;
+  };
+  const std::string one = trianglePiece(writer, 0, "", "");
+  EXPECT_EQ(this->read(writer.file("PolyData", one + pieces(100))).cells(), 1);
+  expectError([&] { this->read(writer.file("PolyData", one + pieces(100000))); },
+    "more pieces and arrays than fit into the memory");
+}
+
+TEST_F(ImportVtkXml, OfSeveralTimeStepsTheFirstOneIsTaken)
+{
+  XmlWriter writer;
+  std::string piece = trianglePiece(writer, 0, "", "");
+  const std::string end = "</Polys>";
+  piece.insert(piece.find(end), writer.array("connectivity", "Int32", std::vector<int>{ 2, 1, 0 }) +
+                                  writer.array("offsets", "Int32", std::vector<int>{ 2 }));
+  EXPECT_EQ(
+    this->read(writer.file("PolyData", piece)).corners, (std::vector<std::int64_t>{ 0, 1, 2 }));
+}
+
+TEST_F(ImportVtkXml, GlobalNumbersAreSingleNumbers)
+{
+  XmlWriter writer;
+  std::string pieces;
+  for (const int x : { 0, 1 })
+  {
+    pieces +=
+      trianglePiece(writer, x, writer.array("GlobalIds", "Int64", std::vector<int>(9, x), 3), "");
+  }
+  EXPECT_EQ(this->read(writer.file("PolyData", pieces)).vertices(), 6);
 }
 
 TEST_F(ImportVtkXml, PointsWithTheSameGlobalNumberAreOne)
