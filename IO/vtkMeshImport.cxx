@@ -83,10 +83,9 @@ void recodeVtkFile(const std::filesystem::path& from, const std::filesystem::pat
   InputFile file(from);
   XmlTags tags(file);
   XmlTag root;
-  const std::string* kind = tags.next(root) ? root.attribute("type") : nullptr;
-  kind&&* kind == "PolyData"
-    ? recode<vtkXMLPolyDataReader, vtkXMLPolyDataWriter>(from, to)
-    : recode<vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter>(from, to);
+  const bool isPolyData = tags.next(root) && root.value("type") == "PolyData";
+  isPolyData ? recode<vtkXMLPolyDataReader, vtkXMLPolyDataWriter>(from, to)
+             : recode<vtkXMLUnstructuredGridReader, vtkXMLUnstructuredGridWriter>(from, to);
 }
 
 void registerVtkImporter()
