@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -27,7 +28,9 @@ int addColumn(Workspace& space, const ColumnSpec& spec, std::vector<RawColumn>& 
     counts.droppedColumns.push_back(spec.name);
     return -1;
   }
-  columns.push_back({ spec, BucketFile(space) });
+  // Many columns, which may be filled at the same time, share the memory that a few would have.
+  const std::int64_t share = space.available() / 16 / (std::ssize(columns) + 1);
+  columns.push_back({ spec, BucketFile(space, 1, share) });
   dropped.push_back(0);
   return static_cast<int>(columns.size()) - 1;
 }

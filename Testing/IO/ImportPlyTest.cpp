@@ -151,6 +151,24 @@ TEST_F(ImportPly, AttributesOfFacesAndStripsTogetherAreLeftOut)
   EXPECT_EQ(mesh.counts.notes.size(), 1u);
 }
 
+TEST_F(ImportPly, ManyAttributesFitIntoTheLeastMemory)
+{
+  constexpr int count = 1000;
+  std::string header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                       "property float y\nproperty float z\n";
+  std::string values;
+  for (int i = 0; i < count; ++i)
+  {
+    header += "property short a" + std::to_string(i) + '\n';
+    values += ' ' + std::to_string(i);
+  }
+  header += "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const ReadMesh mesh = this->read(
+    "a.ply", header + "0 0 0" + values + "\n1 0 0" + values + "\n0 1 0" + values + "\n3 0 1 2\n");
+  ASSERT_EQ(mesh.vertexColumns.size(), std::size_t(count));
+  EXPECT_EQ(mesh.vertexColumns[count - 1].value(2), count - 1);
+}
+
 TEST_F(ImportPly, AnElementWithoutRecordsHasNoColumns)
 {
   const ReadMesh mesh = this->read(
