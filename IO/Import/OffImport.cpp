@@ -77,6 +77,10 @@ void importOff(InputFile& file, RawMeshBuilder& builder)
   {
     readVertices(scanner, vertices, builder);
     readFaces(scanner, faces, vertices, builder);
+    if (!scanner.atEnd())
+    {
+      scanner.fail("there is more after the last face: the counts at the beginning are wrong");
+    }
   }
   catch (const MeshError& error)
   {

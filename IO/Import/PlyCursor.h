@@ -13,6 +13,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <string_view>
 
 namespace smg
 {
@@ -93,6 +94,24 @@ public:
   }
 
   std::size_t left() const { return this->File.size() - this->offset(); }
+
+  /** Whether only blanks and zeros are left, as some programs write at the end. */
+  bool atEnd()
+  {
+    constexpr std::string_view Filling("\0 \t\r\n", 5);
+    for (; this->left() > 0; ++this->At)
+    {
+      if (this->At == this->End)
+      {
+        this->moveTo(this->offset(), 1);
+      }
+      if (Filling.find(*this->At) == std::string_view::npos)
+      {
+        return false;
+      }
+    }
+    return true;
+  }
 
   [[noreturn]] void fail(const std::string& sentence) const
   {
@@ -178,6 +197,9 @@ public:
   }
 
   std::size_t left() const { return this->Scanner.left(); }
+
+  /** Whether only blanks are left. */
+  bool atEnd() { return this->Scanner.atEnd(); }
 
   [[noreturn]] void fail(const std::string& sentence) const
   {

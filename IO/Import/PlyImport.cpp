@@ -47,6 +47,10 @@ public:
       {
         this->readElement(element);
       }
+      if (!this->In.atEnd())
+      {
+        this->In.fail("there is more after the last record: the counts of the header are wrong");
+      }
     }
     catch (const MeshError& error)
     {

@@ -74,6 +74,11 @@ void readBinary(InputFile& file, FacetCollector& facets)
                 " triangles take " + std::to_string(end) + " bytes, it has " +
                 std::to_string(file.size()) + '.');
   }
+  if (file.size() - end >= StlTriangleBytes)
+  {
+    file.fail(end, "there is more after the last of " + std::to_string(triangles) +
+                     " triangles: their number at the beginning is wrong");
+  }
   constexpr std::size_t normalBytes = 3 * sizeof(float);
   for (std::size_t offset = StlHeaderBytes; offset < end; offset += StlTriangleBytes)
   {
