@@ -5,12 +5,14 @@
 #include "IO/Conversion/MeshFile.h"
 #include "IO/Formats/StreamFile.h"
 #include "IO/Import/Importer.h"
+#include "IO/Import/Inflate.h"
 #include "IO/Import/PlyHeader.h"
 #include "Solver/Core/Error.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstring>
 
 namespace smg
 {
@@ -25,6 +27,7 @@ struct Counts
   int corners = 3;
   std::int64_t columnBytes = 0; ///< of all columns of the mesh
   bool counted = false;
+  std::int64_t inflatedBytes = 0; ///< of the file, if it is compressed
 };
 
 /** Bytes that a vertex takes in a file, with the cells that come to it: two triangles, six tets. */
@@ -46,8 +49,6 @@ Share shareOf(MeshFormat format)
     case MeshFormat::Gmsh:
       return { 250, 4 };
     case MeshFormat::VtkLegacy:
-    case MeshFormat::VtkXml:
-    case MeshFormat::VtkParallelXml:
       return { 45, 3 };
     default:
       return { 75, 3 };
@@ -68,17 +69,60 @@ std::int64_t columnBytes(const StreamInfo& info)
   return bytes;
 }
 
+/**
+ * Bytes of what a file holds that gzip compressed: its last four bytes say them modulo 2^32, if it
+ * is one member.
+ */
+std::int64_t inflatedSize(InputFile& file)
+{
+  const std::string_view tail = file.at(file.size() - 4, 4);
+  std::uint32_t said = 0;
+  std::memcpy(&said, tail.data(), sizeof(said));
+  const auto least = static_cast<std::int64_t>(file.size());
+  constexpr std::int64_t Modulus = std::int64_t(1) << 32;
+  return said + (std::max<std::int64_t>(least - said, 0) + Modulus - 1) / Modulus * Modulus;
+}
+
+Counts guess(const std::filesystem::path& path)
+{
+  const Share share = shareOf(meshFormat(path));
+  InputFile file(path);
+  Counts counts;
+  if (file.size() >= 18 && isGzip(file.at(0, 2)))
+  {
+    counts.inflatedBytes = inflatedSize(file);
+  }
+  const auto bytes =
+    counts.inflatedBytes > 0 ? counts.inflatedBytes : static_cast<std::int64_t>(file.size());
+  counts.corners = share.corners;
+  counts.vertices = bytes / share.bytes;
+  counts.cells = counts.vertices * (share.corners == 3 ? 2 : 6);
+  return counts;
+}
+
+/** What a PLY file says, unless it is too short for that. */
 Counts countsOfPly(const std::filesystem::path& path)
 {
   InputFile file(path);
+  if (isGzip(file.at(0, 2)))
+  {
+    return guess(path);
+  }
   Counts counts;
   counts.counted = true;
+  double least = 0;
   for (const PlyElement& element : readPlyHeader(file).elements)
   {
     std::int64_t bytes = 0;
     for (const PlyProperty& property : element.properties)
     {
       bytes += property.list ? 0 : static_cast<std::int64_t>(sizeOf(property.type));
+    }
+    // No property takes less than a byte, with a list's length or the space after a number.
+    least += static_cast<double>(element.count) * static_cast<double>(element.properties.size());
+    if (least > static_cast<double>(file.size()))
+    {
+      return guess(path);
     }
     if (element.name == "vertex")
     {
@@ -94,16 +138,6 @@ Counts countsOfPly(const std::filesystem::path& path)
   return counts;
 }
 
-Counts guess(const std::filesystem::path& path)
-{
-  const Share share = shareOf(meshFormat(path));
-  Counts counts;
-  counts.corners = share.corners;
-  counts.vertices = static_cast<std::int64_t>(std::filesystem::file_size(path)) / share.bytes;
-  counts.cells = counts.vertices * (share.corners == 3 ? 2 : 6);
-  return counts;
-}
-
 Counts countsOf(const std::filesystem::path& path)
 {
   switch (kindOfInput(path))
@@ -111,7 +145,7 @@ Counts countsOf(const std::filesystem::path& path)
     case MeshFileKind::Vsm:
     {
       const StreamInfo info = VsmReader(path).info();
-      return { info.vertices, info.cells, cornersOf(info.cellType), columnBytes(info), true };
+      return { info.vertices, info.cells, cornersOf(info.cellType), columnBytes(info), true, 0 };
     }
     case MeshFileKind::Indexed:
       return meshFormat(path) == MeshFormat::Ply ? countsOfPly(path) : guess(path);
@@ -134,21 +168,37 @@ std::int64_t scratchBytes(
 {
   // The mesh as it was parsed, pages, and cells by their places, of which the last two do not
   // overlap with all that comes before them; columns twice while they are brought into order.
-  constexpr std::int64_t VertexBytes = 110;
-  constexpr std::int64_t CornerBytes = 18;
+  constexpr std::int64_t VertexBytes = 95;
+  constexpr std::int64_t CornerBytes = 15;
   return vertices * VertexBytes + cells * corners * CornerBytes + 2 * columnBytes;
 }
 
-void checkScratchRoom(const std::filesystem::path& folder, std::int64_t bytes)
+std::int64_t scratchBytes(const RawMesh& mesh)
+{
+  std::int64_t columns = 0;
+  for (const RawColumn& column : mesh.vertexColumns)
+  {
+    columns += mesh.vertices * static_cast<std::int64_t>(column.spec.tupleBytes());
+  }
+  for (const RawColumn& column : mesh.elementColumns)
+  {
+    columns += mesh.elementCount * static_cast<std::int64_t>(column.spec.tupleBytes());
+  }
+  return scratchBytes(mesh.vertices, mesh.cells, cornersOf(mesh.cellType), columns);
+}
+
+void checkScratchRoom(const std::filesystem::path& folder, std::int64_t bytes, std::int64_t written)
 {
   const std::filesystem::path place = scratchFolder(folder);
   std::error_code unknown;
   const std::filesystem::space_info room = std::filesystem::space(place, unknown);
-  if (!unknown && static_cast<std::int64_t>(room.available) < bytes)
+  // A mesh that fits the memory takes half as much as one that does not.
+  if (!unknown && static_cast<std::int64_t>(room.available) < bytes / 2 - written)
   {
     const auto mebibytes = [](std::int64_t count) { return std::to_string((count >> 20) + 1); };
     throw Error(place.string() + ": the scratch files take about " + mebibytes(bytes) +
-                " MiB, there is room for " + mebibytes(static_cast<std::int64_t>(room.available)) +
+                " MiB, there is room for " +
+                mebibytes(static_cast<std::int64_t>(room.available) + written) +
                 " MiB: choose another folder for them (option --scratch).");
   }
 }
@@ -164,7 +214,8 @@ ConversionEstimate estimateConversion(
   estimate.memory_bytes =
     options.memoryLimit > 0 ? options.memoryLimit : ConversionOptions::DefaultMemory;
   estimate.scratch_bytes =
-    scratchBytes(counts.vertices, counts.cells, counts.corners, counts.columnBytes);
+    scratchBytes(counts.vertices, counts.cells, counts.corners, counts.columnBytes) +
+    counts.inflatedBytes;
   std::error_code unknown;
   estimate.scratch_free = static_cast<std::int64_t>(
     std::filesystem::space(scratchFolder(options.scratch), unknown).available);

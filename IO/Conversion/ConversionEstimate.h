@@ -37,7 +37,15 @@ ConversionEstimate estimateConversion(
 std::int64_t scratchBytes(
   std::int64_t vertices, std::int64_t cells, int corners, std::int64_t columnBytes);
 
-/** Throws Error, with both figures, unless `folder` (empty: the temporary folder) has the room. */
-void checkScratchRoom(const std::filesystem::path& folder, std::int64_t bytes);
+/** The same of a mesh that was parsed. */
+std::int64_t scratchBytes(const RawMesh& mesh);
+
+/**
+ * Refuses scratch files that certainly do not fit: throws Error, with both figures, unless `folder`
+ * (empty: the temporary folder) has room for half of `bytes`, as scratchBytes() estimates them,
+ * without those that are `written` already.
+ */
+void checkScratchRoom(
+  const std::filesystem::path& folder, std::int64_t bytes, std::int64_t written = 0);
 
 } // namespace smg

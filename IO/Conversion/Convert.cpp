@@ -3,6 +3,7 @@
 
 #include "IO/Container/VsmReader.h"
 #include "IO/Conversion/AddedColumn.h"
+#include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/MeshFile.h"
 #include "IO/Conversion/NumberNames.h"
 #include "IO/Conversion/PartialProgress.h"
@@ -159,17 +160,49 @@ private:
     {
       return importMesh(this->In, space, { this->Options.cells, this->toldTo(space) });
     }
+    return readStream(*this->openStream(space).source(), space);
+  }
+
+  /** The stream that is the input, as a .vsm file. */
+  const VsmReader& openStream(Workspace& space)
+  {
     const bool direct = this->From == MeshFileKind::Vsm;
-    const VsmReader reader(direct ? this->In : this->importStream(this->toldTo(space)));
-    return readStream(*reader.source(), space);
+    this->Stream.emplace(direct ? this->In : this->importStream(this->toldTo(space)));
+    if (direct)
+    {
+      this->Report.isolated_vertices = this->Stream->isolatedVertices();
+    }
+    return *this->Stream;
+  }
+
+  /** Refuses what certainly does not fit the disk where the file says how large the mesh is. */
+  void checkSaidRoom() const
+  {
+    if (this->From == MeshFileKind::Unknown)
+    {
+      return;
+    }
+    const ConversionEstimate estimate = estimateConversion(this->In, this->Options);
+    if (estimate.counted)
+    {
+      checkScratchRoom(this->Options.scratch, estimate.scratch_bytes);
+    }
+  }
+
+  /** The same of a mesh that is in scratch files itself. */
+  void checkRoom(const RawMesh& mesh, Workspace& space) const
+  {
+    checkScratchRoom(this->Options.scratch, scratchBytes(mesh), space.traffic().bytesWritten);
   }
 
   /** By scratch files, into a new order. */
   void convertMesh()
   {
+    this->checkSaidRoom();
     Workspace& space = this->workspace();
     RawMesh mesh = this->importInput(space);
     checkOutput(this->Out, mesh.cellType);
+    this->checkRoom(mesh, space);
     if (this->Options.weld)
     {
       this->Report.merged_points = weldPoints(mesh, *this->Options.weld, space);
@@ -191,6 +224,12 @@ private:
     this->write(source, this->toldTo(space),
       [&](VsmWriter& writer)
       {
+        // Those of a stream are beside it already, by their numbers in the first file.
+        if (this->Stream)
+        {
+          copyIsolated(this->Stream->path(), source.info(), writer);
+          return;
+        }
         takeIsolatedVertices(mesh, layout, space,
           [&writer](std::span<const std::int64_t> ids, std::span<const double> positions)
           { writer.isolated(ids, positions); });
@@ -231,9 +270,7 @@ private:
     Workspace& space = this->workspace();
     constexpr std::int64_t Unknown = std::numeric_limits<std::int64_t>::max();
     space.beginPart(0.4, Unknown);
-    const std::filesystem::path path =
-      this->From == MeshFileKind::Vsm ? this->In : this->importStream(this->toldTo(space));
-    const VsmReader reader(path);
+    const VsmReader& reader = this->openStream(space);
     const StreamInfo& info = reader.info();
     checkOutput(this->Out, info.cellType);
     this->Report.seconds.import = this->Watch.lap();
@@ -251,7 +288,7 @@ private:
     }
     space.beginPart(1.0, Unknown);
     this->write(*source, this->toldTo(space),
-      [&](VsmWriter& writer) { copyIsolated(path, source->info(), writer); });
+      [&](VsmWriter& writer) { copyIsolated(reader.path(), source->info(), writer); });
   }
 
   /** Back into the order of the first file. */
@@ -339,6 +376,7 @@ private:
   const std::int64_t Memory;
   const MeshFileKind From, To;
   std::optional<Workspace> Space;
+  std::optional<VsmReader> Stream; ///< the input, if it is a stream
   Stopwatch Watch;
   ConversionReport Report;
 };
