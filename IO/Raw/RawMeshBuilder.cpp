@@ -133,7 +133,7 @@ bool RawMeshBuilder::wants(CellType type)
   if (*this->Kind != type && this->Choice == CellChoice::Only)
   {
     throw MeshError("the file has both surface cells and volume cells: choose the ones to keep, "
-                    "triangles or tets (option --cells)");
+                    "triangles or tets (option --cells of smg convert)");
   }
   return *this->Kind == type;
 }
