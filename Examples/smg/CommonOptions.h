@@ -22,7 +22,7 @@ struct CommonOptions
    * Adds the options to a command, all but --threads. `memoryDefault` says what holds without
    * --memory.
    */
-  void addTo(CLI::App& command, const std::string& memoryDefault = "half of the machine's memory");
+  void addTo(CLI::App& command, const std::string& memoryDefault = "256");
   /** Adds --threads. */
   void addThreadsTo(CLI::App& command);
 

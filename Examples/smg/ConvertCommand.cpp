@@ -25,7 +25,7 @@ void print(const smg::ConversionReport& report)
     }
   };
   line(report.components, "components");
-  line(report.isolated_vertices, "isolated vertices left out");
+  line(report.isolated_vertices, "isolated vertices, which are no part of the stream");
   line(report.dropped_cells, "cells of other kinds left out");
   line(report.triangulated_polygons, "polygons made triangles");
   line(report.split_cells, "hexahedra, wedges and pyramids made tetrahedra");
@@ -142,7 +142,7 @@ void addConvertCommand(CLI::App& program, Action& action)
     "Write vertices and cells in the order of the file that the .vsm file IN was made of");
   command->add_flag("--dry-run", options->dryRun,
     "Only say how large the mesh is and what the conversion will take");
-  options->addTo(*command, "256");
+  options->addTo(*command);
   options->addThreadsTo(*command);
   command->callback([options, &action] { action = [options] { options->run(); }; });
 }

@@ -95,6 +95,7 @@ protected:
     }
     smg::WriteMeshOptions options;
     options.scratch = this->scratch;
+    options.isolatedFrom = mesh.path();
     options.progress = smg::partOf(progress, 0.3, 1.0);
     std::vector<std::string> notes = this->Notes;
     const std::vector<std::string> more = smg::writeMesh(*source, this->Out, options);

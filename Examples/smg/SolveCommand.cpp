@@ -77,6 +77,8 @@ protected:
       [&solution](const smg::MeshBlock& block, smg::Column& column)
       { solution.read(block.firstVertex, block.vertices(), column.as<double>()); });
     smg::WriteMeshOptions options;
+    options.scratch = this->scratch;
+    options.isolatedFrom = mesh.path();
     options.progress = progress;
     return smg::writeMesh(source, this->Out, options);
   }

@@ -45,7 +45,7 @@ void SolvingCommand::addSolverOptions(
   command.add_option("--core-nodes", options.coreNodes)->group("");
   this->addTo(command, std::to_string(options.memoryLimit >> 20));
   command.get_option("--memory")
-    ->description("Memory limit in MiB; unless given, half of the machine's memory to convert IN");
+    ->description("Memory limit in MiB; unless given, 256 MiB to convert IN");
   this->addThreadsTo(command);
 }
 
@@ -97,13 +97,14 @@ void SolvingCommand::run()
 std::vector<std::string> SolvingCommand::notesOn(const smg::ConversionReport& conversion) const
 {
   const bool rewritten = this->rewritesInput();
+  const bool whole = rewritten || smg::kindOfOutput(this->Out) == smg::MeshFileKind::Vsm;
   std::vector<std::string> notes;
   if (const std::int64_t isolated = conversion.isolated_vertices; isolated > 0)
   {
     notes.push_back(
       std::to_string(isolated) +
       (isolated == 1 ? " vertex belongs to no cell: it " : " vertices belong to no cell: they ") +
-      (rewritten        ? isolated == 1 ? "stays where it is." : "stay where they are."
+      (whole            ? isolated == 1 ? "stays where it is." : "stay where they are."
         : isolated == 1 ? "is left out."
                         : "are left out."));
   }
