@@ -94,7 +94,6 @@ def test_errors():
                         ("solve", "torus.vsm", "o2.vsm", "--problem", "problem.json")):
             run(*command, "--report", report, code=1)
     run("convert", "torus.obj", "o2.vsm", "--order", "random", code=2)
-    run("convert", "torus.obj", "o2.vsm", "--order", "spectral", code=1)
     run("convert", "missing.ply", "o2.vsm", code=1)
     run("convert", "torus.obj", "o2.xyz", code=1)
     run("convert", "torus.obj", "o2.svb", code=1)

@@ -290,7 +290,7 @@ def test_help():
     for command in ("deform", "solve"):
         assert "=1024" in run(command, "--help").stdout
     for command in ("convert", "info", "preview"):
-        assert "half of the machine" in run(command, "--help").stdout
+        assert "=256" in run(command, "--help").stdout
 
 
 def test_errors():

@@ -1,0 +1,234 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""smg convert from outside: nothing of a mesh is lost, whatever the order, the memory and the way."""
+
+import gzip
+import json
+import os
+import sys
+
+from mesh_files import read_mesh, same_points
+from odd_mesh import fans, odd_solid, odd_surface
+from program import load, run, write_torus
+from tetrahedra import tetrahedra
+
+ORDERS = ("bfs", "spectral", "axis", "keep")
+SURFACES = (".ply", ".vtp", ".vtu", ".vtk", ".obj", ".off", ".stl", ".mesh", ".msh")
+SOLIDS = (".vtu", ".vtk", ".mesh", ".msh")
+
+
+def write_ply(name, points, cells, kind="double"):
+    with open(name, "w", encoding="utf-8") as file:
+        file.write("ply\nformat ascii 1.0\nelement vertex %d\n" % len(points))
+        file.writelines("property %s %s\n" % (kind, axis) for axis in "xyz")
+        file.write("property int tag\nelement face %d\n" % len(cells))
+        file.write("property list uchar int vertex_indices\nend_header\n")
+        file.writelines("%r %r %r %d\n" % (*point, i) for i, point in enumerate(points))
+        file.writelines(" ".join(map(str, (len(cell), *cell))) + "\n" for cell in cells)
+
+
+def write_medit(name, points, cells, triangles=()):
+    with open(name, "w", encoding="utf-8") as file:
+        file.write("MeshVersionFormatted 2\nDimension 3\nVertices\n%d\n" % len(points))
+        file.writelines("%r %r %r 0\n" % point for point in points)
+        for section, rows in (("Triangles", triangles), ("Tetrahedra", cells)):
+            if rows:
+                file.write("%s\n%d\n" % (section, len(rows)))
+                file.writelines(" ".join(str(i + 1) for i in row) + " 0\n" for row in rows)
+        file.write("End\n")
+
+
+def convert(name, out, *arguments):
+    """Converts and gives the report."""
+    run("convert", name, out, "--quiet", "--report", "report.json", *arguments)
+    return load("report.json")
+
+
+def restore(vsm, suffix):
+    """The mesh of the .vsm file in the order of the first file, by way of a file of this suffix."""
+    name = "restored" + suffix
+    run("convert", vsm, name, "--restore-order", "--quiet")
+    return read_mesh(name)
+
+
+def check_restored(vsm, suffix, points, cells):
+    """Points and cells are those given."""
+    mesh = restore(vsm, suffix)
+    if suffix == ".stl":
+        points = [points[corner] for cell in fans(cells) for corner in cell]
+    else:
+        assert mesh.cells == cells, (vsm, suffix)
+    assert same_points(mesh.points, points), (vsm, suffix)
+
+
+def test_restored_order():
+    """Each format gets points and cells as they were, and gives them back again."""
+    points, cells = odd_surface()
+    write_ply("odd.ply", points, cells)
+    few_points, few_cells = odd_surface(36, 18, largest=4)
+    write_ply("few.ply", few_points, few_cells, "float")
+    for order in ORDERS:
+        convert("odd.ply", "odd.vsm", "--order", order)
+        for suffix in SURFACES[:6]:
+            check_restored("odd.vsm", suffix, points, cells)
+            convert("odd.vsm", "axis.vsm", "--order", "axis")
+            check_restored("axis.vsm", suffix, points, cells)
+            convert("restored" + suffix, "again.vsm", "--order", "axis")
+            check_restored("again.vsm", ".ply", points, cells)
+        check_restored("odd.vsm", ".stl", points, cells)
+        convert("few.ply", "few.vsm", "--order", order)
+        by_kind = sorted(few_cells, key=len)
+        for suffix, expected in ((".stl", few_cells), (".mesh", by_kind), (".msh", few_cells)):
+            check_restored("few.vsm", suffix, few_points, expected)
+            if suffix != ".stl":
+                convert("restored" + suffix, "again.vsm")
+                check_restored("again.vsm", ".ply", few_points, expected)
+        assert load("report.json")["isolated_vertices"] == 9
+
+
+def test_restored_solids():
+    points, cells = odd_solid()
+    write_medit("odd.mesh", points, cells)
+    for order in ORDERS:
+        report = convert("odd.mesh", "solid.vsm", "--order", order)
+        assert report["duplicate_cells"] == 1 and report["isolated_vertices"] == 9
+        for suffix in SOLIDS:
+            check_restored("solid.vsm", suffix, points, cells)
+            convert("restored" + suffix, "again.vsm", "--order", "spectral")
+            check_restored("again.vsm", ".mesh", points, cells)
+    assert "holds no tetrahedra" in run(
+        "convert", "solid.vsm", "o.ply", "--restore-order", code=1).stderr
+    assert not os.path.exists("o.ply")
+
+
+def test_restored_is_the_same_file():
+    """Columns come back too: the second restored file is the first one."""
+    convert("odd.ply", "odd.vsm", "--order", "spectral")
+    run("convert", "odd.vsm", "first.ply", "--restore-order", "--quiet")
+    convert("first.ply", "second.vsm", "--order", "axis", "--memory", 16)
+    run("convert", "second.vsm", "second.ply", "--restore-order", "--quiet", "--memory", 16)
+    with open("first.ply", "rb") as first, open("second.ply", "rb") as second:
+        data = first.read()
+        assert data == second.read() and b"tag" in data[:1000]
+
+
+def test_moved_meshes_keep_their_order():
+    """What deform and solve make of a .vsm file is restored as well, with the points of no cell."""
+    points, cells = odd_surface(48, 24)
+    write_ply("odd.ply", points, cells)
+    convert("odd.ply", "odd.vsm")
+    with open("handles.json", "w", encoding="utf-8") as file:
+        json.dump({"handles": [
+            {"region": {"halfspace": [-1, 0, 0, 2.6]}, "fixed": True},
+            {"region": {"halfspace": [1, 0, 0, 2.6]}, "translate": [0, 0, 1]}]}, file)
+    with open("problem.json", "w", encoding="utf-8") as file:
+        json.dump({"dirichlet": [{"halfspace": [1, 0, 0, 2.6], "value": [1]}]}, file)
+    run("deform", "odd.vsm", "moved.vsm", "--handles", "handles.json", "--quiet")
+    used = {corner for cell in cells for corner in cell}
+    for suffix in SURFACES[:6]:
+        mesh = restore("moved.vsm", suffix)
+        assert mesh.cells == cells, suffix
+        moved = [after != before for before, after in zip(points, mesh.points)]
+        assert len(mesh.points) == len(points) and sum(moved) > 100, suffix
+        assert not any(moved[i] for i in range(len(points)) if i not in used), suffix
+        assert all(abs(mesh.points[i][2] - points[i][2] - 1) < 1e-9 for i in used
+                   if points[i][0] >= 2.6), suffix
+    run("solve", "odd.vsm", "solved.vsm", "--problem", "problem.json", "--quiet")
+    check_restored("solved.vsm", ".ply", points, cells)
+    with open("restored.ply", "rb") as file:
+        assert b"Solution" in file.read(1000)
+
+
+def test_gzip_and_wrong_suffixes():
+    """What a file is says its content, whatever it is called and whether it is compressed."""
+    convert("odd.ply", "odd.vsm", "--order", "keep")
+    points, cells = read_mesh("odd.ply")[:2]
+    write_medit("tets.mesh", *odd_solid())
+    tets = odd_solid()
+    convert("tets.mesh", "tets.vsm", "--order", "keep")
+    for vsm, suffixes, expected in (("odd.vsm", SURFACES[:6], (points, cells)),
+                                    ("tets.vsm", SOLIDS, tets)):
+        for suffix in suffixes:
+            run("convert", vsm, "plain" + suffix, "--restore-order", "--quiet")
+            with open("plain" + suffix, "rb") as file:
+                data = file.read()
+            wrong = ".stl" if suffix != ".stl" else ".ply"
+            with open("wrong" + wrong, "wb") as file:
+                file.write(data)
+            with gzip.open("packed" + suffix + ".gz", "wb") as file:
+                file.write(data)
+            with gzip.open("packed" + wrong, "wb") as file:
+                file.write(data)
+            for name in ("wrong" + wrong, "packed" + suffix + ".gz", "packed" + wrong):
+                convert(name, "again.vsm", "--order", "axis")
+                check_restored("again.vsm", ".vtu", *expected)
+
+
+def test_weld():
+    """Triangles that have points of their own become a closed surface."""
+    write_torus("torus.obj", 60, 30)
+    mesh = read_mesh("torus.obj")
+    triangles = fans(mesh.cells)
+    for name, distance, weld in (("soup.ply", 0.0, 0), ("loose.ply", 1e-5, 1e-3)):
+        soup = [tuple(x + distance * k for x in mesh.points[cell[k]])
+                for cell in triangles for k in range(3)]
+        write_ply(name, soup, [(i, i + 1, i + 2) for i in range(0, len(soup), 3)])
+        report = convert(name, "soup.vsm")
+        assert report["vertices"] == 3 * 3600 and report["components"] == 3600
+        for order in ORDERS:
+            report = convert(name, "welded.vsm", "--weld", weld, "--order", order)
+            assert report["vertices"] == 1800 and report["cells"] == 3600, report
+            assert report["merged_points"] == len(soup) - 1800, report
+            assert report["isolated_vertices"] == 0, report
+            assert report["components"] == 1 and report["boundary_edges"] == 0, report
+            assert report["nonmanifold_edges"] == 0 and report["degenerate_cells"] == 0, report
+    report = convert("loose.ply", "welded.vsm", "--weld", 0)
+    assert report["vertices"] > 1800 and report["boundary_edges"] > 0, report
+    run("convert", "soup.ply", "o.vsm", "--weld", -1, code=2)
+
+
+def test_cells_of_both_kinds():
+    points, solids = tetrahedra(5)
+    faces = [(0, 1, 5), (1, 5, 6), (5, 6, 10)]
+    write_medit("both.mesh", points, solids, faces)
+    with open("problem.json", "w", encoding="utf-8") as file:
+        json.dump({"dirichlet": [{"halfspace": [1, 0, 0, 2.6], "value": [1]}]}, file)
+    for command in (("convert", "both.mesh", "o.vsm"), ("info", "both.mesh"),
+                    ("solve", "both.mesh", "o.vsm", "--problem", "problem.json"),
+                    ("preview", "both.mesh", "o.vsm")):
+        error = run(*command, code=1).stderr
+        assert "both.mesh" in error and "--cells" in error, error
+        assert command[0] == "convert" or "smg convert" in error, error
+    report = convert("both.mesh", "o.vsm", "--cells", "tets")
+    assert report["cells"] == len(solids) and report["dropped_cells"] == 3
+    report = convert("both.mesh", "o.vsm", "--cells", "triangles")
+    assert report["cells"] == 3 and report["dropped_cells"] == len(solids)
+    assert report["vertices"] == 5 and report["isolated_vertices"] == 120
+    os.remove("o.vsm")
+    error = run("convert", "torus.obj", "o.vsm", "--cells", "tets", code=1).stderr
+    assert "torus.obj" in error and not os.path.exists("o.vsm"), error
+
+
+def test_same_mesh_for_any_memory():
+    """The bytes are the same, but for bfs, whose pages go by the memory: there the mesh is."""
+    write_torus("large.obj", 400, 200)
+    for order in ORDERS:
+        files = set()
+        for memory in (16, 64, 256):
+            report = convert("large.obj", "large.vsm", "--order", order, "--memory", memory)
+            assert report["pool_bytes_peak"] <= memory << 20, report
+            name = "large.vsm"
+            if order == "bfs":
+                name = "large.ply"
+                run("convert", "large.vsm", name, "--restore-order", "--quiet")
+            with open(name, "rb") as file:
+                files.add(file.read())
+        assert len(files) == 1, order
+
+
+for each in (test_restored_order, test_restored_solids, test_restored_is_the_same_file,
+             test_moved_meshes_keep_their_order, test_gzip_and_wrong_suffixes, test_weld,
+             test_cells_of_both_kinds, test_same_mesh_for_any_memory):
+    each()
+    print("passed", each.__name__)
+sys.exit(0)
