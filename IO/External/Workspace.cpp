@@ -6,10 +6,17 @@
 namespace smg
 {
 
+namespace
+{
+
+constexpr PoolUse ConversionMemory{ "the conversion", "raise the memory limit (option --memory)" };
+
+} // namespace
+
 Workspace::Workspace(
   const std::filesystem::path& scratch, std::int64_t memory, const ProgressFunction& progress)
   : Folder(scratch)
-  , Memory(std::max(memory, LeastMemory))
+  , Memory(std::max(memory, LeastMemory), ConversionMemory)
   , Reported(progress)
 {
 }

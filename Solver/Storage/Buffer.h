@@ -4,6 +4,7 @@
 #include "Solver/Storage/Pool.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <span>
@@ -23,7 +24,7 @@ public:
   Buffer(Pool& pool, std::size_t bytes)
     : Owner(&pool)
     , Size(bytes)
-    , Capacity((bytes + 63) / 64 * 64)
+    , Capacity(roundedUp(bytes))
   {
     pool.acquire(static_cast<std::int64_t>(this->Capacity));
     this->Data = static_cast<std::byte*>(allocate(this->Capacity));
@@ -61,6 +62,12 @@ public:
 private:
   /** From this size on memory comes from the system and goes back there: the heap would keep it. */
   static constexpr std::size_t MappedBytes = std::size_t(128) << 10;
+
+  /** To whole cache lines; sizes that are too large for any memory stay so. */
+  static constexpr std::size_t roundedUp(std::size_t bytes)
+  {
+    return bytes > SIZE_MAX - 63 ? bytes : (bytes + 63) / 64 * 64;
+  }
 
   bool isMapped() const { return this->Capacity >= MappedBytes; }
 

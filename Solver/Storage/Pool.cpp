@@ -4,27 +4,31 @@
 #include "Solver/Core/Error.h"
 
 #include <algorithm>
+#include <limits>
+#include <string>
 
 namespace smg
 {
 
-std::string memoryLimitSentence(std::int64_t needed, std::int64_t allowed)
+std::string memoryLimitSentence(std::int64_t needed, std::int64_t allowed, const PoolUse& use)
 {
   const auto mebibytes = [](std::int64_t bytes)
   {
-    return std::to_string((bytes + (1 << 20) - 1) >> 20) + " MiB (" + std::to_string(bytes) +
-           " bytes)";
+    return std::to_string((bytes >> 20) + (bytes % (1 << 20) > 0 ? 1 : 0)) + " MiB (" +
+           std::to_string(bytes) + " bytes)";
   };
-  return "the solve needs at least " + mebibytes(needed) + " of memory but the limit is " +
-         mebibytes(allowed) +
-         ": raise the memory limit, convert the mesh with the order bfs, or use fewer sweeps";
+  return std::string(use.operation) + " needs at least " + mebibytes(needed) +
+         " of memory but the limit is " + mebibytes(allowed) + ": " + use.advice;
 }
 
 void Pool::acquire(std::int64_t bytes)
 {
-  if (this->Used + bytes > this->Limit)
+  // A size that a damaged file tells may be anything: the sum must not overflow.
+  if (bytes < 0 || bytes > this->Limit - this->Used)
   {
-    throw Error(memoryLimitSentence(this->Used + bytes, this->Limit));
+    constexpr std::int64_t Most = std::numeric_limits<std::int64_t>::max();
+    const bool fits = bytes >= 0 && bytes <= Most - this->Used;
+    throw Error(memoryLimitSentence(fits ? this->Used + bytes : Most, this->Limit, this->Use));
   }
   this->Used += bytes;
   this->Peak = std::max(this->Peak, this->Used);

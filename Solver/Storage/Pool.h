@@ -7,9 +7,19 @@
 namespace smg
 {
 
+/** What a pool is for, in the words of the sentence that its limit is too low. */
+struct PoolUse
+{
+  const char* operation; ///< what needs the memory
+  const char* advice;    ///< what to change
+};
+
+inline constexpr PoolUse SolveMemory{ "the solve",
+  "raise the memory limit, convert the mesh with the order bfs, or use fewer sweeps" };
+
 /**
- * Accounts for all block memory of a solve and keeps the promise of its limit: a request above it
- * is an Error that names the bytes needed, the bytes allowed and what to change.
+ * Accounts for all block memory of an operation and keeps the promise of its limit: a request above
+ * it is an Error that names the bytes needed, the bytes allowed and what to change.
  *
  * The pool counts; the memory itself comes from Ring and Buffer. Not thread safe: windows grow
  * on the thread that drives the stages.
@@ -18,12 +28,14 @@ class Pool
 {
 public:
   /** `limit` in bytes. */
-  explicit Pool(std::int64_t limit)
-    : Limit(limit)
+  explicit Pool(std::int64_t limit, const PoolUse& use = SolveMemory)
+    : Use(use)
+    , Limit(limit)
   {
   }
 
-  /** Adds `bytes` to the memory in use. Throws Error, and adds nothing, above the limit. */
+  /** Adds `bytes`, at least 0, to the memory in use. Throws Error, and adds nothing, above the
+   * limit. */
   void acquire(std::int64_t bytes);
   void release(std::int64_t bytes) { this->Used -= bytes; }
 
@@ -32,12 +44,14 @@ public:
   std::int64_t limit() const { return this->Limit; }
 
 private:
+  PoolUse Use;
   std::int64_t Limit;
   std::int64_t Used = 0;
   std::int64_t Peak = 0;
 };
 
-/** "the solve needs ... MiB, ... MiB are allowed: ..." */
-std::string memoryLimitSentence(std::int64_t needed, std::int64_t allowed);
+/** "the solve needs at least ... MiB of memory but the limit is ... MiB: ..." */
+std::string memoryLimitSentence(
+  std::int64_t needed, std::int64_t allowed, const PoolUse& use = SolveMemory);
 
 } // namespace smg
