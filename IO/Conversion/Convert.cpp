@@ -224,15 +224,14 @@ private:
     this->write(source, this->toldTo(space),
       [&](VsmWriter& writer)
       {
+        takeIsolatedVertices(mesh, layout, space,
+          [&writer](const IsolatedVertices& vertices)
+          { writer.isolated(vertices.ids, vertices.positions, vertices.columns); });
         // Those of a stream are beside it already, by their numbers in the first file.
         if (this->Stream)
         {
           copyIsolated(this->Stream->path(), source.info(), writer);
-          return;
         }
-        takeIsolatedVertices(mesh, layout, space,
-          [&writer](std::span<const std::int64_t> ids, std::span<const double> positions)
-          { writer.isolated(ids, positions); });
       });
     this->noteTraffic(space);
   }

@@ -25,24 +25,54 @@ struct UsedVertex
 
 using VertexSort = ExternalSort<UsedVertex>;
 
+/** The first corner, among all of the file, that a vertex is. */
+struct FirstUse
+{
+  std::uint64_t corner;
+  std::uint32_t id;
+  auto operator<=>(const FirstUse&) const = default;
+};
+
+/** Puts the first use of each used vertex, with a bit for each vertex of a range at a time. */
+void putFirstUses(const RawMesh& mesh, Workspace& workspace, ExternalSort<FirstUse>& uses)
+{
+  const auto words = static_cast<std::size_t>(std::clamp<std::int64_t>(
+    workspace.available() / 4 / std::int64_t(sizeof(std::uint64_t)), 1, mesh.vertices / 64 + 1));
+  Buffer bytes(workspace.pool(), words * sizeof(std::uint64_t));
+  const std::span seen(reinterpret_cast<std::uint64_t*>(bytes.data()), words);
+  const std::uint64_t range = 64 * words;
+  for (std::uint64_t first = 0; first < static_cast<std::uint64_t>(mesh.vertices); first += range)
+  {
+    std::ranges::fill(seen, 0);
+    RecordFile<std::uint32_t>::Reader corners(mesh.corners);
+    std::uint32_t id = 0;
+    for (std::uint64_t corner = 0; corners.next(id); ++corner)
+    {
+      if (id < first || id - first >= range)
+      {
+        continue;
+      }
+      std::uint64_t& word = seen[(id - first) / 64];
+      const std::uint64_t bit = std::uint64_t(1) << (id - first) % 64;
+      if ((word & bit) == 0)
+      {
+        word |= bit;
+        uses.put({ corner, id });
+      }
+    }
+  }
+}
+
 /** Gives the vertices to `used` as they come; answers how many. */
 std::int64_t findUsed(const RawMesh& mesh, Workspace& workspace, VertexSort& used)
 {
-  const auto words = static_cast<std::size_t>(mesh.vertices / 64 + 1);
-  Buffer bytes(workspace.pool(), words * sizeof(std::uint64_t));
-  const std::span seen(reinterpret_cast<std::uint64_t*>(bytes.data()), words);
-  std::fill(seen.begin(), seen.end(), 0);
+  ExternalSort<FirstUse> uses(workspace, workspace.available() / 4);
+  putFirstUses(mesh, workspace, uses);
+  uses.sort();
   std::uint32_t count = 0;
-  RecordFile<std::uint32_t>::Reader corners(mesh.corners);
-  for (std::uint32_t id = 0; corners.next(id);)
+  for (FirstUse use{}; uses.next(use);)
   {
-    std::uint64_t& word = seen[id / 64];
-    const std::uint64_t bit = std::uint64_t(1) << id % 64;
-    if ((word & bit) == 0)
-    {
-      word |= bit;
-      used.put({ id, count++ });
-    }
+    used.put({ use.id, count++ });
   }
   return count;
 }

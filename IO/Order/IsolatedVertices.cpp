@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/IsolatedVertices.h"
 
+#include "IO/Formats/StreamConversion.h"
 #include "IO/Order/OrderedVertices.h"
 
 #include <algorithm>
-#include <cstring>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace smg
@@ -15,41 +18,137 @@ namespace
 
 constexpr std::size_t ChunkVertices = 4096;
 
+const ColumnSpec IdSpec{ OriginalIdName, ScalarType::Int64, 1 };
+
+/** Reads the vertices of a mesh one after the other and collects those that are wanted. */
 template <class Real>
-void markUsed(const StreamLayout& layout, std::span<std::uint64_t> used)
+class VertexCollector
 {
+public:
+  VertexCollector(const RawMesh& mesh, const TakeVertices& take)
+    : Take(take)
+    , Positions(mesh.positions)
+  {
+    for (const RawColumn& column : mesh.vertexColumns)
+    {
+      this->Chunk.columns.push_back({ column.spec, {} });
+      this->Tuples.emplace_back(column.tuples, 0, BucketFile::ChunkBytes / 4);
+    }
+    this->IdColumn = findColumn(this->Chunk.columns, IdSpec);
+    if (this->IdColumn < 0)
+    {
+      this->Chunk.columns.push_back({ IdSpec, {} });
+    }
+    this->resize(ChunkVertices);
+  }
+
+  /** Reads the next vertex. */
+  void read(bool wanted)
+  {
+    Real position[3];
+    this->Positions.get(position);
+    for (std::size_t c = 0; c < this->Tuples.size(); ++c)
+    {
+      Column& column = this->Chunk.columns[c];
+      const std::size_t bytes = column.spec.tupleBytes();
+      this->Tuples[c].read(std::span(column.bytes).subspan(this->Count * bytes, bytes));
+    }
+    if (wanted)
+    {
+      std::copy_n(position, 3, &this->Chunk.positions[3 * this->Count]);
+      this->Chunk.ids[this->Count] = this->id();
+      if (++this->Count == ChunkVertices)
+      {
+        this->flush();
+      }
+    }
+    ++this->Number;
+  }
+
+  /** Gives away what has been collected. */
+  void flush()
+  {
+    if (this->Count > 0)
+    {
+      this->resize(this->Count);
+      this->Take(this->Chunk);
+      this->resize(ChunkVertices);
+      this->Count = 0;
+    }
+  }
+
+private:
+  void resize(std::size_t count)
+  {
+    this->Chunk.ids.resize(count);
+    this->Chunk.positions.resize(3 * count);
+    for (Column& column : this->Chunk.columns)
+    {
+      column.resize(count);
+    }
+  }
+
+  /** The original number of the vertex that was read; a column without it gets it. */
+  std::int64_t id()
+  {
+    if (this->IdColumn < 0)
+    {
+      this->Chunk.columns.back().template as<std::int64_t>()[this->Count] = this->Number;
+      return this->Number;
+    }
+    const std::int64_t id = this->Chunk.columns[static_cast<std::size_t>(this->IdColumn)]
+                              .template as<std::int64_t>()[this->Count];
+    // A negative one, which says no place in a file, has none in the container either.
+    return id < 0 ? this->Number : id;
+  }
+
+  const TakeVertices& Take;
+  BucketFile::Reader Positions;
+  std::vector<BucketFile::Reader> Tuples; ///< of each column of the mesh
+  IsolatedVertices Chunk;
+  std::size_t Count = 0;        ///< vertices of the chunk
+  std::ptrdiff_t IdColumn = -1; ///< of the mesh's OriginalId; -1: there is none
+  std::int64_t Number = 0;      ///< of the next vertex in the file
+};
+
+/** Marks the vertices of [first, end) that the layout has. */
+template <class Real>
+void markUsed(
+  const StreamLayout& layout, std::int64_t first, std::int64_t end, std::span<std::uint64_t> used)
+{
+  std::ranges::fill(used, 0);
   BucketFile::Reader vertices(layout.vertices);
   for (OrderedVertex<Real> vertex; vertices.get(vertex);)
   {
-    used[vertex.id / 64] |= std::uint64_t(1) << vertex.id % 64;
+    if (vertex.id >= first && vertex.id < end)
+    {
+      const auto bit = static_cast<std::uint64_t>(vertex.id - first);
+      used[bit / 64] |= std::uint64_t(1) << bit % 64;
+    }
   }
 }
 
 template <class Real>
-void takeUnused(const RawMesh& mesh, std::span<const std::uint64_t> used, const TakeVertices& take)
+void takeUnused(
+  const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace, const TakeVertices& take)
 {
-  std::vector<std::int64_t> ids;
-  std::vector<double> positions;
-  BucketFile::Reader reader(mesh.positions);
-  std::array<Real, 3> position;
-  for (std::int64_t id = 0; reader.get(position); ++id)
+  VertexCollector<Real> collector(mesh, take);
+  // A bit a vertex, of as many vertices at a time as the memory has room for.
+  const std::int64_t words = std::clamp<std::int64_t>(
+    workspace.available() / 2 / std::int64_t(sizeof(std::uint64_t)), 1, mesh.vertices / 64 + 1);
+  const Buffer bytes(workspace.pool(), static_cast<std::size_t>(words) * sizeof(std::uint64_t));
+  const std::span used(
+    reinterpret_cast<std::uint64_t*>(bytes.data()), static_cast<std::size_t>(words));
+  for (std::int64_t first = 0; first < mesh.vertices; first += 64 * words)
   {
-    if ((used[static_cast<std::size_t>(id / 64)] >> id % 64 & 1) == 0)
+    const std::int64_t end = std::min(first + 64 * words, mesh.vertices);
+    markUsed<Real>(layout, first, end, used);
+    for (std::int64_t bit = 0; bit < end - first; ++bit)
     {
-      ids.push_back(id);
-      positions.insert(positions.end(), position.begin(), position.end());
-      if (ids.size() == ChunkVertices)
-      {
-        take(ids, positions);
-        ids.clear();
-        positions.clear();
-      }
+      collector.read((used[static_cast<std::size_t>(bit / 64)] >> bit % 64 & 1) == 0);
     }
   }
-  if (!ids.empty())
-  {
-    take(ids, positions);
-  }
+  collector.flush();
 }
 
 } // namespace
@@ -57,23 +156,10 @@ void takeUnused(const RawMesh& mesh, std::span<const std::uint64_t> used, const 
 void takeIsolatedVertices(
   const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace, const TakeVertices& take)
 {
-  if (layout.vertexCount == mesh.vertices)
+  if (layout.vertexCount < mesh.vertices)
   {
-    return;
-  }
-  const auto words = static_cast<std::size_t>(mesh.vertices / 64 + 1);
-  const Buffer bytes(workspace.pool(), words * sizeof(std::uint64_t));
-  const std::span used(reinterpret_cast<std::uint64_t*>(bytes.data()), words);
-  std::fill(used.begin(), used.end(), 0);
-  if (mesh.doublePositions)
-  {
-    markUsed<double>(layout, used);
-    takeUnused<double>(mesh, used, take);
-  }
-  else
-  {
-    markUsed<float>(layout, used);
-    takeUnused<float>(mesh, used, take);
+    mesh.doublePositions ? takeUnused<double>(mesh, layout, workspace, take)
+                         : takeUnused<float>(mesh, layout, workspace, take);
   }
 }
 

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Container/IsolatedVertices.h"
 #include "IO/Order/StreamAssembly.h"
 #include "IO/Raw/RawMesh.h"
 
-#include <array>
-#include <cstdint>
 #include <functional>
-#include <span>
 
 namespace smg
 {
 
-/** Takes some vertices: their numbers, and x, y, z each. */
-using TakeVertices =
-  std::function<void(std::span<const std::int64_t> ids, std::span<const double> positions)>;
+using TakeVertices = std::function<void(const IsolatedVertices& vertices)>;
 
-/** Gives the vertices of a mesh that are not in its layout, by ascending numbers, to `take`. */
+/**
+ * Gives the vertices of a mesh that are not in its layout, some at a time and in the file's
+ * sequence, to `take`, with the vertex columns that a LayoutSource has. They are known by
+ * OriginalId if the mesh has that column, else by their numbers in the file.
+ */
 void takeIsolatedVertices(
   const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace, const TakeVertices& take);
 

@@ -312,10 +312,13 @@ TEST_F(StreamAssembly, IsolatedVerticesAreTold)
   std::vector<std::int64_t> ids;
   std::vector<double> positions;
   takeIsolatedVertices(mesh, layout, this->Space,
-    [&](std::span<const std::int64_t> some, std::span<const double> at)
+    [&](const IsolatedVertices& some)
     {
-      ids.insert(ids.end(), some.begin(), some.end());
-      positions.insert(positions.end(), at.begin(), at.end());
+      ids.insert(ids.end(), some.ids.begin(), some.ids.end());
+      positions.insert(positions.end(), some.positions.begin(), some.positions.end());
+      ASSERT_EQ(some.columns.size(), 1U);
+      EXPECT_EQ(some.columns[0].spec.name, OriginalIdName);
+      EXPECT_TRUE(std::ranges::equal(some.columns[0].as<std::int64_t>(), some.ids));
     });
   EXPECT_EQ(ids, std::vector<std::int64_t>{ mesh.vertices - 1 });
   EXPECT_EQ(positions, (std::vector<double>{ 9, 9, 9 }));
