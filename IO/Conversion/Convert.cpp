@@ -78,6 +78,10 @@ public:
       throw Error("A conversion needs a memory limit of at least " +
                   std::to_string(Workspace::LeastMemory >> 20) + " MiB.");
     }
+    if (options.weld)
+    {
+      checkWeldDistance(*options.weld);
+    }
     options.restoreOrder ? this->checkRestored() : checkOutput(out);
     this->Report.order = options.restoreOrder ? "restored" : nameOf(options.order);
   }

@@ -85,7 +85,7 @@ std::string originOf(const std::filesystem::path& in, const ConversionOptions& o
          (options.cells == CellChoice::Only         ? ""
            : options.cells == CellChoice::Triangles ? ", triangles"
                                                     : ", tetrahedra") +
-         (options.weld ? ", welded " + std::to_string(*options.weld) : "");
+         (options.weld ? ", welded " + nlohmann::json(*options.weld).dump() : "");
 }
 
 /** The origin that a file tells; empty if it tells none or is not a whole .vsm file. */

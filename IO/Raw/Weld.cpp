@@ -149,8 +149,17 @@ void readPoints(const RawMesh& mesh, ExternalSort<Point>& points)
 
 } // namespace
 
+void checkWeldDistance(double tolerance)
+{
+  if (!(tolerance >= 0))
+  {
+    throw Error("The distance within which points are merged must be 0 or more.");
+  }
+}
+
 std::int64_t weldPoints(RawMesh& mesh, double tolerance, Workspace& workspace)
 {
+  checkWeldDistance(tolerance);
   const std::int64_t memory = workspace.available() / 3;
   Relabelling kept(workspace, mesh.vertices, memory);
   std::int64_t merged = 0;

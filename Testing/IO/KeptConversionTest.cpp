@@ -68,6 +68,20 @@ TEST_F(KeptConversion, IsMadeAnewForAnotherOrderOrAChangedFile)
   EXPECT_TRUE(this->converts());
 }
 
+TEST_F(KeptConversion, IsMadeAnewForAnotherWeldDistanceHoweverSmall)
+{
+  const auto converts = [this](double distance)
+  {
+    ConversionOptions options;
+    options.weld = distance;
+    return convertToKeep(this->In, this->Out, options).has_value();
+  };
+  EXPECT_TRUE(converts(0));
+  EXPECT_TRUE(converts(1e-9));
+  EXPECT_FALSE(converts(1e-9));
+  EXPECT_TRUE(converts(1.1e-9));
+}
+
 TEST_F(KeptConversion, LeavesOtherFilesAlone)
 {
   writeBytes(this->Out, "a letter");

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <random>
 
@@ -76,6 +77,14 @@ std::vector<std::int64_t> expectedVertices(const std::vector<Point>& points, dou
 }
 
 } // namespace
+
+TEST_F(Weld, RefusesDistancesThatAreNone)
+{
+  RawMesh mesh = this->soup({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } });
+  EXPECT_THROW(weldPoints(mesh, -1e-9, this->Space), Error);
+  EXPECT_THROW(weldPoints(mesh, std::numeric_limits<double>::quiet_NaN(), this->Space), Error);
+  EXPECT_EQ(weldPoints(mesh, 0, this->Space), 0);
+}
 
 TEST_F(Weld, MergesEqualPoints)
 {
