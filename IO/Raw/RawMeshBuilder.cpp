@@ -81,6 +81,12 @@ int RawMeshBuilder::addVertexColumn(const ColumnSpec& spec)
 
 int RawMeshBuilder::addElementColumn(const ColumnSpec& spec)
 {
+  if (spec.name == CellFlagsName)
+  {
+    // The flags are found anew: what a file says of them would be believed.
+    this->Mesh.counts.droppedColumns.push_back(spec.name);
+    return -1;
+  }
   return addColumn(
     this->Space, spec, this->Mesh.elementColumns, this->DroppedElementColumns, this->Mesh.counts);
 }
@@ -228,7 +234,7 @@ void RawMeshBuilder::strip(std::span<const std::int64_t> corners)
   std::size_t start = 0;
   for (std::size_t i = 0; i < corners.size(); ++i)
   {
-    if (corners[i] < 0)
+    if (corners[i] == -1)
     {
       start = i + 1;
     }
@@ -294,7 +300,10 @@ RawMesh RawMeshBuilder::finish()
   RawMesh& mesh = this->Mesh;
   if (mesh.cells == 0)
   {
-    throw MeshError("the file has no triangles and no tetrahedra");
+    throw MeshError(this->Choice == CellChoice::Only ? "the file has no triangles and no tetrahedra"
+                    : this->Choice == CellChoice::Triangles
+                      ? "the file has no triangles (option --cells)"
+                      : "the file has no tetrahedra (option --cells)");
   }
   mesh.corners.close();
   if (this->Numbers)

@@ -49,7 +49,7 @@ public:
 
   /** Adds a column of the vertices; what it is known by below. Reserved names lead to no column. */
   int addVertexColumn(const ColumnSpec& spec);
-  /** The same of the elements. */
+  /** The same of the elements, of which CellFlags is reserved too. */
   int addElementColumn(const ColumnSpec& spec);
   /** Appends tuples to a column; without a column of this number nothing. */
   void vertexTuples(int column, std::span<const std::byte> tuples)

@@ -155,6 +155,49 @@ TEST_F(RawMeshBuilderTest, CornersAreVertices)
   this->expectRefused([](RawMeshBuilder& b) { b.triangle(0, 1, std::int64_t(1) << 32); }, "corner");
   this->expectRefused([](RawMeshBuilder& b) { b.triangle(0, 1, NoIndex - 1); }, "corner");
   this->expectRefused([](RawMeshBuilder& b) { b.dropped(); }, "no triangles and no tetrahedra");
+  this->expectRefused(
+    [](RawMeshBuilder& b) {
+      b.strip(Numbers{ 0, 1, 2, -5, 0, 1, 2 });
+    },
+    "the corner -5");
+}
+
+TEST_F(RawMeshBuilderTest, CellsOfTheKindThatIsWantedMustBeThere)
+{
+  const auto complaint = [this](CellChoice choice)
+  {
+    RawMeshBuilder builder(this->Space, choice);
+    for (int i = 0; i < 4; ++i)
+    {
+      builder.vertex(i, 0, 0);
+    }
+    choice == CellChoice::Triangles ? builder.tetrahedron(0, 1, 2, 3) : builder.triangle(0, 1, 2);
+    try
+    {
+      builder.finish();
+    }
+    catch (const MeshError& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint(CellChoice::Triangles), "the file has no triangles (option --cells)");
+  EXPECT_EQ(complaint(CellChoice::Tetrahedra), "the file has no tetrahedra (option --cells)");
+}
+
+TEST_F(RawMeshBuilderTest, TheFlagsOfCellsAreNoColumn)
+{
+  RawMeshBuilder builder(this->Space, CellChoice::Only);
+  EXPECT_EQ(builder.addElementColumn({ CellFlagsName, ScalarType::UInt8, 1 }), -1);
+  EXPECT_EQ(builder.addVertexColumn({ CellFlagsName, ScalarType::UInt8, 1 }), 0);
+  builder.dropVertexColumn(0);
+  for (int i = 0; i < 3; ++i)
+  {
+    builder.vertex(i, 0, 0);
+  }
+  builder.triangle(0, 1, 2);
+  EXPECT_EQ(builder.finish().counts.droppedColumns, std::vector<std::string>{ CellFlagsName });
 }
 
 TEST_F(RawMeshBuilderTest, CornersAreRelabelled)
