@@ -164,7 +164,7 @@ private:
     {
       return importMesh(this->In, space, { this->Options.cells, this->toldTo(space) });
     }
-    return readStream(*this->openStream(space).source(), space);
+    return readStream(*this->openStream(space).source(), this->In.string(), space);
   }
 
   /** The stream that is the input, as a .vsm file. */
@@ -331,6 +331,7 @@ private:
     const StreamInfo& info = reader.info();
     if (info.span > this->Memory / CellFlagger::BytesPerVertex)
     {
+      this->Report.degenerate_cells = this->Report.duplicate_cells = -1;
       this->Report.notes.push_back(
         "The order of the stream is too poor (span " + std::to_string(info.span) +
         ") to look for degenerate and duplicate cells within the memory limit.");

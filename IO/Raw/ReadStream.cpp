@@ -9,7 +9,7 @@
 namespace smg
 {
 
-RawMesh readStream(MeshSource& source, Workspace& workspace)
+RawMesh readStream(MeshSource& source, const std::string& name, Workspace& workspace)
 {
   const StreamInfo& info = source.info();
   const bool triangles = info.cellType == CellType::Triangle;
@@ -55,8 +55,7 @@ RawMesh readStream(MeshSource& source, Workspace& workspace)
   }
   catch (const MeshError& error)
   {
-    throw Error(
-      std::string("The stream cannot be brought into another order: ") + error.what() + '.');
+    throw Error(name + ": the stream cannot be brought into another order: " + error.what() + '.');
   }
 }
 

@@ -4,13 +4,16 @@
 #include "IO/Raw/RawMesh.h"
 #include "Solver/Stream/MeshSource.h"
 
+#include <string>
+
 namespace smg
 {
 
 /**
  * Takes a mesh stream as a raw mesh: vertices are known by their stream indices, elements are the
- * cells. All columns are taken, but for CellFlags, which follow from the cells. Throws Error.
+ * cells. All columns are taken, but for CellFlags, which follow from the cells. Throws Error, which
+ * calls the stream `name`.
  */
-RawMesh readStream(MeshSource& source, Workspace& workspace);
+RawMesh readStream(MeshSource& source, const std::string& name, Workspace& workspace);
 
 } // namespace smg
