@@ -27,7 +27,7 @@ void ColumnJoin::join()
   }
   this->Rows.emplace(this->Space, this->NextRow, rowBytes, this->Memory);
   this->Numbers.sort();
-  std::vector<std::byte> row(rowBytes);
+  const Buffer row(this->Space.pool(), rowBytes);
   std::int64_t read = -1; // the number whose tuples are in `row`
   for (Pair pair; this->Numbers.next(pair);)
   {
@@ -37,11 +37,11 @@ void ColumnJoin::join()
       for (std::size_t c = 0; c < readers.size(); ++c)
       {
         const std::size_t bytes = this->Columns[c].spec.tupleBytes();
-        readers[c].read(std::span(row).subspan(at, bytes));
+        readers[c].read(row.bytes().subspan(at, bytes));
         at += bytes;
       }
     }
-    this->Rows->put(pair.row, row);
+    this->Rows->put(pair.row, row.bytes());
   }
 }
 
