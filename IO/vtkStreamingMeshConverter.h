@@ -100,8 +100,8 @@ public:
 
   ///@{
   /**
-   * Memory that the conversion may use, in MiB, whatever the size of the mesh. Default: 0, which is
-   * 256.
+   * Memory that the conversion may use, in MiB, at least 16, whatever the size of the mesh.
+   * Default: 0, which is 256.
    */
   vtkSetClampMacro(MemoryLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(MemoryLimit, int);
