@@ -19,11 +19,10 @@ ColumnJoin::ColumnJoin(
 void ColumnJoin::join()
 {
   std::size_t rowBytes = 0;
-  std::vector<BucketFile::Reader> readers;
+  std::vector<BucketFile::Reader> readers = readersOf(this->Columns, this->Space.available() / 4);
   for (const RawColumn& column : this->Columns)
   {
     rowBytes += column.spec.tupleBytes();
-    readers.emplace_back(column.tuples, 0, BucketFile::ChunkBytes / 4);
   }
   this->Rows.emplace(this->Space, this->NextRow, rowBytes, this->Memory);
   this->Numbers.sort();

@@ -25,14 +25,14 @@ template <class Real>
 class VertexCollector
 {
 public:
-  VertexCollector(const RawMesh& mesh, const TakeVertices& take)
+  VertexCollector(const RawMesh& mesh, Workspace& workspace, const TakeVertices& take)
     : Take(take)
     , Positions(mesh.positions)
+    , Tuples(readersOf(mesh.vertexColumns, workspace.available() / 4))
   {
     for (const RawColumn& column : mesh.vertexColumns)
     {
       this->Chunk.columns.push_back({ column.spec, {} });
-      this->Tuples.emplace_back(column.tuples, 0, BucketFile::ChunkBytes / 4);
     }
     this->IdColumn = findColumn(this->Chunk.columns, IdSpec);
     if (this->IdColumn < 0)
@@ -132,7 +132,7 @@ template <class Real>
 void takeUnused(
   const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace, const TakeVertices& take)
 {
-  VertexCollector<Real> collector(mesh, take);
+  VertexCollector<Real> collector(mesh, workspace, take);
   // A bit a vertex, of as many vertices at a time as the memory has room for.
   const std::int64_t words = std::clamp<std::int64_t>(
     workspace.available() / 2 / std::int64_t(sizeof(std::uint64_t)), 1, mesh.vertices / 64 + 1);

@@ -5,6 +5,8 @@
 #include "Solver/Stream/Column.h"
 #include "Solver/Stream/MeshSource.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -33,6 +35,22 @@ struct RawColumn
   ColumnSpec spec;
   BucketFile tuples; ///< one after the other
 };
+
+/** A reader of each column, all of them in `memory` bytes as far as small buffers can do. */
+inline std::vector<BucketFile::Reader> readersOf(
+  const std::vector<RawColumn>& columns, std::int64_t memory)
+{
+  const std::size_t share =
+    static_cast<std::size_t>(memory) / std::max<std::size_t>(columns.size(), 1);
+  std::vector<BucketFile::Reader> readers;
+  readers.reserve(columns.size());
+  for (const RawColumn& column : columns)
+  {
+    readers.emplace_back(
+      column.tuples, 0, std::clamp(share, BucketFile::LeastChunkBytes, BucketFile::ChunkBytes / 4));
+  }
+  return readers;
+}
 
 /**
  * A mesh as its file has it, in scratch files: any vertex order, any cell order, isolated vertices.

@@ -17,6 +17,8 @@
 #include <array>
 #include <numeric>
 #include <random>
+#include <span>
+#include <string>
 #include <vector>
 
 using namespace smg;
@@ -322,4 +324,45 @@ TEST_F(StreamAssembly, IsolatedVerticesAreTold)
     });
   EXPECT_EQ(ids, std::vector<std::int64_t>{ mesh.vertices - 1 });
   EXPECT_EQ(positions, (std::vector<double>{ 9, 9, 9 }));
+}
+
+TEST_F(StreamAssembly, ManyColumnsFitTheLeastMemory)
+{
+  Workspace space(this->Folder.path(), Workspace::LeastMemory);
+  RawMeshBuilder builder(space, CellChoice::Only);
+  constexpr int Columns = 600;
+  constexpr int Vertices = 3000;
+  for (int c = 0; c < Columns; ++c)
+  {
+    builder.addVertexColumn({ "c" + std::to_string(c), ScalarType::Int32, 1 });
+  }
+  for (std::int32_t i = 0; i < Vertices; ++i)
+  {
+    builder.vertex(i, i % 2, 0);
+    for (std::int32_t c = 0; c < Columns; ++c)
+    {
+      const std::int32_t value = i * Columns + c;
+      builder.vertexTuples(c, std::as_bytes(std::span(&value, 1)));
+    }
+  }
+  for (int i = 1; i + 2 < Vertices; ++i)
+  {
+    builder.triangle(i, i + 1, i + 2);
+  }
+  const RawMesh mesh = builder.finish();
+  const StreamLayout layout =
+    assembleStream(mesh, firstUseOrder(mesh, space), CellSequence::AsFiled, space);
+  LayoutSource source(mesh, layout, space);
+  const StreamMesh stream = collect(source);
+  const auto expectValue = [](const std::vector<Column>& columns, std::size_t row, int vertex)
+  {
+    for (int c = 0; c < Columns; ++c)
+    {
+      ASSERT_EQ(columns[std::size_t(c)].as<std::int32_t>()[row], vertex * Columns + c);
+    }
+  };
+  expectValue(stream.vertexColumns, 0, 1);
+  expectValue(stream.vertexColumns, Vertices - 2, Vertices - 1);
+  takeIsolatedVertices(
+    mesh, layout, space, [&](const IsolatedVertices& some) { expectValue(some.columns, 0, 0); });
 }
