@@ -88,7 +88,7 @@ bool runParallelVtkXml(std::string_view bytes, CellChoice cells)
     [](InputFile& file, RawMeshBuilder& builder) { importParallelVtkXml(file, builder, {}); });
 }
 
-bool importWhole(const std::string& name, std::string_view bytes, CellChoice cells)
+bool runImportMesh(const std::string& name, std::string_view bytes, CellChoice cells)
 {
   FuzzPlace& place = FuzzPlace::instance();
   const std::filesystem::path path = place.write(name, bytes);
@@ -97,13 +97,13 @@ bool importWhole(const std::string& name, std::string_view bytes, CellChoice cel
 
 bool runGzip(std::string_view bytes, CellChoice cells)
 {
-  return importWhole("mesh.obj.gz", bytes, cells);
+  return runImportMesh("mesh.obj.gz", bytes, cells);
 }
 
 bool runImport(std::string_view bytes, CellChoice cells)
 {
   const std::array<const char*, 4> names{ "mesh", "mesh.stl", "mesh.obj", "mesh.ele" };
-  return importWhole(names[bytes.size() % names.size()], bytes, cells);
+  return runImportMesh(names[bytes.size() % names.size()], bytes, cells);
 }
 
 bool runStream(std::string_view bytes, CellChoice cells)
