@@ -5,6 +5,7 @@
 #include "IO/Import/VtkFiles.h"
 #include "Solver/Core/Error.h"
 
+#include <cstdint>
 #include <string>
 
 namespace smg
@@ -14,21 +15,21 @@ namespace
 {
 
 /** Bytes of an array in memory, by the header of its data. */
-std::int64_t bytesOf(InputFile& file, const VtkArray& array)
+std::uint64_t bytesOf(InputFile& file, const VtkArray& array)
 {
   if (array.headerBytes == 0)
   {
-    const auto values = array.values < 0 ? 0 : array.values;
-    return values * static_cast<std::int64_t>(sizeOf(array.type));
+    const auto values = static_cast<std::uint64_t>(array.values < 0 ? 0 : array.values);
+    return values * sizeOf(array.type);
   }
   const auto header = bytesAt(file, array.encoding, array.begin);
   const auto integer = [&] { return header->integer(array.headerBytes, array.bigEndian); };
   const std::uint64_t blocks = integer();
   if (array.compression == VtkCompression::None || blocks == 0)
   {
-    return static_cast<std::int64_t>(blocks);
+    return blocks;
   }
-  std::int64_t bytes = 0;
+  std::uint64_t bytes = 0;
   if (__builtin_mul_overflow(blocks, integer(), &bytes))
   {
     file.fail(array.begin, "the header of the compressed array here cannot be right");
@@ -47,7 +48,7 @@ std::int64_t neededBytes(InputFile& file, const VtkLayout& layout)
     forEachArray(piece,
       [&](const VtkArray& array)
       {
-        if (__builtin_add_overflow(sum, bytesOf(own, array), &sum) || sum < 0)
+        if (__builtin_add_overflow(sum, bytesOf(own, array), &sum))
         {
           own.fail(array.begin, "the size of the array here cannot be right: the file is damaged");
         }
