@@ -157,6 +157,20 @@ private:
     return path;
   }
 
+  /** Throws Error if a stream, whose cells are all of one kind, has none of those that are wanted.
+   */
+  void checkCells(const StreamInfo& info) const
+  {
+    const CellChoice unwanted =
+      info.cellType == CellType::Triangle ? CellChoice::Tetrahedra : CellChoice::Triangles;
+    if (this->Options.cells == unwanted)
+    {
+      throw Error(this->In.string() + ": the file has no " +
+                  (unwanted == CellChoice::Triangles ? "triangles" : "tetrahedra") +
+                  " (option --cells).");
+    }
+  }
+
   RawMesh importInput(Workspace& space)
   {
     space.beginPart(0.15, std::numeric_limits<std::int64_t>::max());
@@ -172,6 +186,7 @@ private:
   {
     const bool direct = this->From == MeshFileKind::Vsm;
     this->Stream.emplace(direct ? this->In : this->importStream(this->toldTo(space)));
+    this->checkCells(this->Stream->info());
     if (direct)
     {
       this->Report.isolated_vertices = this->Stream->isolatedVertices();

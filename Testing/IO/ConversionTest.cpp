@@ -212,6 +212,21 @@ TEST_F(Conversion, OddCellsAreCountedAndFlagged)
   }
 }
 
+TEST_F(Conversion, AStreamMustHaveTheCellsThatAreWanted)
+{
+  const std::filesystem::path vsm = this->Folder / "mesh.vsm";
+  convert(this->write(grid(5, 4)), vsm, {});
+  for (const StreamOrder order : { StreamOrder::BreadthFirst, StreamOrder::Keep })
+  {
+    ConversionOptions options = this->options(order);
+    options.cells = CellChoice::Tetrahedra;
+    expectError([&] { convert(vsm, this->Folder / "out.vsm", options); },
+      "mesh.vsm: the file has no tetrahedra");
+    options.cells = CellChoice::Triangles;
+    EXPECT_EQ(convert(vsm, this->Folder / "out.vsm", options).cells, 24);
+  }
+}
+
 TEST_F(Conversion, EdgesAndComponentsAreCounted)
 {
   // Three triangles on one edge, and a fourth one alone.
