@@ -102,6 +102,7 @@ public:
     {
       this->convertMesh();
     }
+    this->noteTraffic();
     this->Report.seconds.total = timer.seconds();
     this->Report.cpu_seconds = processSeconds() - cpu;
     this->Report.rss_bytes_peak = peakResidentBytes();
@@ -252,7 +253,6 @@ private:
           copyIsolated(this->Stream->path(), source.info(), writer);
         }
       });
-    this->noteTraffic(space);
   }
 
   void note(const ImportCounts& file, const MeshCounts& mesh)
@@ -275,8 +275,9 @@ private:
     this->Report.notes.insert(this->Report.notes.end(), file.notes.begin(), file.notes.end());
   }
 
-  void noteTraffic(Workspace& space)
+  void noteTraffic()
   {
+    Workspace& space = this->workspace();
     this->Report.pool_bytes_peak = space.pool().peak();
     this->Report.scratch_bytes_read = space.traffic().bytesRead;
     this->Report.scratch_bytes_written = space.traffic().bytesWritten;
@@ -320,7 +321,6 @@ private:
     this->Report.cells = reader.info().cells;
     this->Report.notes = writeRestored(this->In, this->Out, space);
     this->Report.seconds.write = this->Watch.lap();
-    this->noteTraffic(space);
   }
 
   /** Counts the flags that the cells of the stream have. */

@@ -26,6 +26,10 @@ inline StreamMesh archiveMesh(const std::string& name)
   const TemporaryFolder scratch;
   ConversionOptions options;
   options.scratch = scratch.path();
+  if (name.ends_with(".mesh"))
+  {
+    options.cells = CellChoice::Tetrahedra; // beside which there may be triangles
+  }
   const std::unique_ptr<OpenedMesh> opened = openMesh(Archive / name, options);
   const std::unique_ptr<MeshSource> source = opened->reader().source();
   return collect(*source);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Base64.h"
 #include "IO/Import/Formats.h"
 #include "Testing/IO/MeshText.h"
+#include "Testing/IO/VtkXmlWriter.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -15,148 +15,11 @@
 #include <string>
 #include <vector>
 
-#include <lz4.h>
-#include <zlib.h>
-
 using namespace smg;
 using namespace smg::testing;
 
 namespace
 {
-
-enum class Way
-{
-  Ascii,
-  Inline,
-  AppendedBase64,
-  AppendedRaw
-};
-
-/** Writes .vtu and .vtp files in any of the ways that there are. */
-class XmlWriter
-{
-public:
-  Way way = Way::Ascii;
-  bool bigEndian = false, wideHeader = false;
-  std::string compressor; ///< class of VTK; empty: none
-
-  /** A DataArray of numbers of a type, as "Int32". */
-  template <class T>
-  std::string array(const std::string& name, const std::string& type, const std::vector<T>& values,
-    int components = 1)
-  {
-    std::string tag = "<DataArray type=\"" + type + "\" Name=\"" + name +
-                      "\" NumberOfComponents=\"" + std::to_string(components) + "\" format=\"";
-    if (this->way == Way::Ascii)
-    {
-      tag += "ascii\">\n";
-      for (const T value : values)
-      {
-        tag += exact(static_cast<double>(value)) + ' ';
-      }
-      return tag + "\n</DataArray>\n";
-    }
-    std::string bytes;
-    for (const T value : values)
-    {
-      bytes += this->bytesOf(value);
-    }
-    const std::string data = this->encoded(bytes);
-    if (this->way == Way::Inline)
-    {
-      return tag + "binary\">\n  " + data + "\n</DataArray>\n";
-    }
-    tag += "appended\" offset=\"" + std::to_string(this->Appended.size()) + "\"/>\n";
-    this->Appended += data;
-    return tag;
-  }
-
-  std::string file(const std::string& kind, const std::string& content) const
-  {
-    std::string text = "<?xml version=\"1.0\"?>\n<!-- > -->\n<VTKFile type=\"" + kind +
-                       "\" byte_order=\"" + (this->bigEndian ? "BigEndian" : "LittleEndian") +
-                       "\" header_type=\"" + (this->wideHeader ? "UInt64" : "UInt32") + "\"";
-    text += this->compressor.empty() ? "" : " compressor=\"" + this->compressor + "\"";
-    text += ">\n<" + kind + ">\n" + content + "</" + kind + ">\n";
-    if (!this->Appended.empty())
-    {
-      text += "<AppendedData encoding=\"";
-      text += this->way == Way::AppendedRaw ? "raw" : "base64";
-      text += "\">\n _" + this->Appended + "\n</AppendedData>\n";
-    }
-    return text + "</VTKFile>\n";
-  }
-
-private:
-  template <class T>
-  std::string bytesOf(T value) const
-  {
-    std::string bytes(reinterpret_cast<const char*>(&value), sizeof(T));
-    if (this->bigEndian != (std::endian::native == std::endian::big))
-    {
-      std::ranges::reverse(bytes);
-    }
-    return bytes;
-  }
-
-  std::string number(std::size_t value) const
-  {
-    return this->wideHeader ? this->bytesOf(static_cast<std::uint64_t>(value))
-                            : this->bytesOf(static_cast<std::uint32_t>(value));
-  }
-
-  std::string text(const std::string& bytes) const
-  {
-    if (this->way == Way::AppendedRaw)
-    {
-      return bytes;
-    }
-    std::string text;
-    Base64Encoder encoder;
-    encoder.append(std::as_bytes(std::span(bytes)), text);
-    encoder.finish(text);
-    return text;
-  }
-
-  std::string compressed(const std::string& block) const
-  {
-    std::string to(block.size() + 1000, '\0');
-    if (this->compressor == "vtkLZ4DataCompressor")
-    {
-      to.resize(static_cast<std::size_t>(LZ4_compress_default(
-        block.data(), to.data(), static_cast<int>(block.size()), static_cast<int>(to.size()))));
-      return to;
-    }
-    uLongf size = to.size();
-    EXPECT_EQ(::compress(reinterpret_cast<Bytef*>(to.data()), &size,
-                reinterpret_cast<const Bytef*>(block.data()), block.size()),
-      Z_OK);
-    to.resize(size);
-    return to;
-  }
-
-  std::string encoded(const std::string& bytes) const
-  {
-    if (this->compressor.empty())
-    {
-      return this->text(this->number(bytes.size()) + bytes);
-    }
-    constexpr std::size_t BlockBytes = 40;
-    const std::size_t blocks = (bytes.size() + BlockBytes - 1) / BlockBytes;
-    std::string header =
-      this->number(blocks) + this->number(BlockBytes) + this->number(bytes.size() % BlockBytes);
-    std::string data;
-    for (std::size_t i = 0; i < blocks; ++i)
-    {
-      const std::string block = this->compressed(bytes.substr(i * BlockBytes, BlockBytes));
-      header += this->number(block.size());
-      data += block;
-    }
-    return this->text(header) + this->text(data);
-  }
-
-  std::string Appended;
-};
 
 class ImportVtkXml : public ::testing::Test
 {
@@ -203,7 +66,7 @@ protected:
 const std::vector<double> FivePoints{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1.5 };
 
 /** Two tetrahedra with attributes, the arrays in an unusual order. */
-std::string tetrahedra(XmlWriter writer)
+std::string tetrahedra(VtkXmlWriter writer)
 {
   std::string piece = "<Piece NumberOfPoints=\"5\" NumberOfCells=\"2\">\n<Cells>\n";
   piece += writer.array("types", "UInt8", std::vector<std::uint8_t>{ 10, 10 });
@@ -221,7 +84,7 @@ std::string tetrahedra(XmlWriter writer)
 
 /** A piece that is one triangle on three points of the x-axis and above, from `x` on. */
 std::string trianglePiece(
-  XmlWriter& writer, double x, const std::string& pointData, const std::string& cellData)
+  VtkXmlWriter& writer, double x, const std::string& pointData, const std::string& cellData)
 {
   return "<Piece NumberOfPoints=\"3\" NumberOfVerts=\"1\" NumberOfPolys=\"1\">\n<PointData>" +
          pointData + "</PointData>\n<CellData>" + cellData + "</CellData>\n<Points>" +
@@ -236,7 +99,7 @@ std::string trianglePiece(
 /** A piece of a grid that is two triangles on a square of which the left edge is at `x`. */
 std::string squareFile(int x, const std::vector<int>& ghosts, bool numbers)
 {
-  XmlWriter writer;
+  VtkXmlWriter writer;
   std::string text = "<Piece NumberOfPoints=\"4\" NumberOfCells=\"2\">\n<PointData>\n";
   text += numbers ? writer.array("GlobalIds", "Int64",
                       std::vector<int>{ 2 * x, 2 * x + 1, 2 * x + 2, 2 * x + 3 })
@@ -275,7 +138,7 @@ TEST_F(ImportVtkXml, AllWaysOfWritingAreTheSameMesh)
     {
       for (const int flags : { 0, 1, 2, 3 })
       {
-        XmlWriter writer;
+        VtkXmlWriter writer;
         writer.way = way;
         writer.compressor = compressor;
         writer.bigEndian = (flags & 1) != 0;
@@ -299,7 +162,7 @@ TEST_F(ImportVtkXml, AllWaysOfWritingAreTheSameMesh)
 
 TEST_F(ImportVtkXml, PiecesFollowEachOtherAsVtkNumbersThem)
 {
-  XmlWriter writer;
+  VtkXmlWriter writer;
   writer.way = Way::AppendedRaw;
   std::string pieces;
   for (const int x : { 0, 1, 2 })
@@ -325,7 +188,7 @@ TEST_F(ImportVtkXml, PiecesFollowEachOtherAsVtkNumbersThem)
 
 TEST_F(ImportVtkXml, PiecesTakeOnlyTheMemoryThatIsAllowed)
 {
-  XmlWriter writer;
+  VtkXmlWriter writer;
   const auto pieces = [](int count)
   {
     std::string text;
@@ -343,7 +206,7 @@ TEST_F(ImportVtkXml, PiecesTakeOnlyTheMemoryThatIsAllowed)
 
 TEST_F(ImportVtkXml, OfSeveralTimeStepsTheFirstOneIsTaken)
 {
-  XmlWriter writer;
+  VtkXmlWriter writer;
   std::string piece = trianglePiece(writer, 0, "", "");
   const std::string end = "</Polys>";
   piece.insert(piece.find(end), writer.array("connectivity", "Int32", std::vector<int>{ 2, 1, 0 }) +
@@ -354,7 +217,7 @@ TEST_F(ImportVtkXml, OfSeveralTimeStepsTheFirstOneIsTaken)
 
 TEST_F(ImportVtkXml, GlobalNumbersAreSingleNumbers)
 {
-  XmlWriter writer;
+  VtkXmlWriter writer;
   std::string pieces;
   for (const int x : { 0, 1 })
   {
@@ -366,7 +229,7 @@ TEST_F(ImportVtkXml, GlobalNumbersAreSingleNumbers)
 
 TEST_F(ImportVtkXml, PointsWithTheSameGlobalNumberAreOne)
 {
-  XmlWriter writer;
+  VtkXmlWriter writer;
   std::string pieces;
   for (const int x : { 0, 1, 2 })
   {
@@ -416,7 +279,7 @@ TEST_F(ImportVtkXml, AMissingPieceIsNamed)
 
 TEST_F(ImportVtkXml, WhatOnlyVtkReadsIsRefusedBeforeItIsRead)
 {
-  XmlWriter writer;
+  VtkXmlWriter writer;
   writer.way = Way::AppendedRaw;
   writer.compressor = "vtkLZMADataCompressor";
   const std::string text = tetrahedra(writer);
@@ -444,7 +307,7 @@ TEST_F(ImportVtkXml, WhatOnlyVtkReadsIsRefusedBeforeItIsRead)
 
 TEST_F(ImportVtkXml, WhatIsWrongIsSaidWithItsPlace)
 {
-  XmlWriter writer;
+  VtkXmlWriter writer;
   const std::string good = tetrahedra(writer);
   const auto with = [&good](const std::string& from, const std::string& to)
   {
@@ -481,7 +344,7 @@ TEST_F(ImportVtkXml, TruncatedFilesAreErrors)
   {
     for (const char* compressor : { "", "vtkZLibDataCompressor" })
     {
-      XmlWriter writer;
+      VtkXmlWriter writer;
       writer.way = way;
       writer.compressor = compressor;
       const std::string whole = tetrahedra(writer);

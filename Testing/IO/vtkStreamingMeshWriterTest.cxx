@@ -2,9 +2,9 @@
 #include "IO/vtkStreamingMeshWriter.h"
 #include "IO/Container/VsmReader.h"
 #include "IO/Conversion/OpenMesh.h"
-#include "IO/Import/Importer.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "Testing/IO/vtkPieceTesting.h"
+#include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include "vtkFieldData.h"
@@ -136,7 +136,7 @@ TEST_F(VtkStreamingMeshWriter, PlyHasTheMeshAndItsColumns)
 {
   this->start(torus(60, 30, 0.2));
   ASSERT_TRUE(this->write("out.ply"));
-  const IndexedMesh back = importMesh(this->Folder / "out.ply");
+  const ReadMesh back = importWhole(this->Folder / "out.ply");
   EXPECT_EQ(back.positions, this->Mesh.positions);
   EXPECT_EQ(back.corners, this->Mesh.corners);
   std::size_t properties = 0;
