@@ -4,6 +4,7 @@
 
 import gzip
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -108,9 +109,15 @@ def test_full_output():
 
 
 def stopped(kind, delay, *arguments):
-    """The exit code and the errors of a conversion that gets the signal after `delay` seconds."""
+    """
+    The exit code and the errors of a conversion that gets the signal `delay` seconds after it has
+    made its scratch folder.
+    """
+    before = listing("scratch")
     process = subprocess.Popen([SMG, "convert", *arguments], stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, text=True)
+    while listing("scratch") == before and process.poll() is None:
+        time.sleep(0.001)
     time.sleep(delay)
     process.send_signal(kind)
     _, error = process.communicate(timeout=60)
@@ -125,16 +132,17 @@ def test_signals():
     os.makedirs("out", exist_ok=True)
     stops = 0
     for order in ORDERS:
-        for kind, delay in ((signal.SIGINT, 0.2), (signal.SIGTERM, 0.45), (signal.SIGINT, 0.7)):
+        for kind, delay in ((signal.SIGINT, 0), (signal.SIGTERM, 0.05), (signal.SIGINT, 0.2)):
             code, error = stopped(kind, delay, "large.obj", "out/o.vsm", "--order", order,
                                   "--scratch", "scratch")
             stops += code == 1
             assert code in (0, 1), (code, error)
             assert code == 0 or error == "smg: cancelled\n", error
-            assert listing("out") == (["o.vsm"] if code == 0 else []) and not listing("scratch")
+            assert listing("out") == (["o.vsm"] if code == 0 else []), (order, delay)
+            assert not listing("scratch"), (order, delay)
             if code == 0:
                 os.remove("out/o.vsm")
-    code, error = stopped(signal.SIGTERM, 0.2, "large.vsm", "out/o.obj", "--restore-order",
+    code, error = stopped(signal.SIGTERM, 0, "large.vsm", "out/o.obj", "--restore-order",
                           "--scratch", "scratch")
     stops += code == 1
     assert (listing("out") == []) == (code != 0) and not listing("scratch"), (code, error)
@@ -152,7 +160,7 @@ def test_kill():
     run("convert", "large.obj", "out/kept.vsm", "--quiet")
     kept = read("out/kept.vsm")
     left = 0
-    for delay in (0.25, 0.5):
+    for delay in (0, 0.05):
         code, _ = stopped(signal.SIGKILL, delay, "large.obj", "out/kept.vsm", "--scratch", "scratch")
         assert code == -signal.SIGKILL
         left += listing("scratch") != mine
@@ -163,6 +171,8 @@ def test_kill():
     assert read("out/kept.vsm") == kept
 
 
+for folder in ("out", "scratch"):  # what an earlier run that failed has left
+    shutil.rmtree(folder, ignore_errors=True)
 for each in (test_estimates, test_full_scratch, test_full_output, test_signals, test_kill):
     if can_mount() or each in (test_signals, test_kill):
         each()
