@@ -3,22 +3,22 @@
  * @class   vtkStreamingMeshConverter
  * @brief   Converts a mesh file to a stream, keeps it, and delivers its pieces
  *
- * Brings a mesh file of any format that can be read (PLY, OBJ, OFF, STL, Medit, Gmsh, legacy VTK,
- * .vtp, .vtu, SMA, SMB, SVA, SVB, .vsm) into a stream order and writes it to the container
- * OutputFileName, which stays. FileName is the mesh file; otherwise this is a
- * vtkStreamingMeshReader of that container: see there for its pieces, its arrays, and the preview
- * that it shows of a mesh that is too large. ScratchDirectory is for the scratch files of the
- * conversion.
+ * Brings a mesh file of any format that can be read (PLY, OBJ, OFF, STL, Medit, Gmsh, TetGen,
+ * legacy VTK, .vtp, .vtu, .pvtp, .pvtu, SMA, SMB, SVA, SVB, .vsm, also .gz) into a stream order and
+ * writes it to the container OutputFileName, which stays. FileName is the mesh file; otherwise this
+ * is a vtkStreamingMeshReader of that container: see there for its pieces, its arrays, and the
+ * preview that it shows of a mesh that is too large. ScratchDirectory is for the scratch files of
+ * the conversion.
  *
  * vtkStreamingMeshReader itself reads such files, too, but converts them to a temporary container,
  * again for every reader. Use this class where a mesh is to be opened more than once.
  *
  * The conversion takes place when the pipeline first asks for anything. It is not repeated as long
- * as FileName and Order stay what they are, and FileName as it is: the container says what it was
- * made from, so that it is used again in later sessions, too. When something of that changes, the
- * container is made anew. A file of the name OutputFileName that is no conversion of FileName is
- * left alone, which is an error, unless Overwrite is on. With several processes one converts, the
- * others wait; FileName and OutputFileName must then be seen by all.
+ * as FileName, Order, Cells and Weld stay what they are, and FileName as it is: the container says
+ * what it was made from, so that it is used again in later sessions, too. When something of that
+ * changes, the container is made anew. A file of the name OutputFileName that is no conversion of
+ * FileName is left alone, which is an error, unless Overwrite is on. With several processes one
+ * converts, the others wait; FileName and OutputFileName must then be seen by all.
  *
  * The conversion works out of core: it needs no more memory than MemoryLimit, and room for scratch
  * files in ScratchDirectory of about five times the size of the mesh in memory.
@@ -43,7 +43,7 @@ public:
   /** The orders that a mesh can be brought into. */
   enum OrderTypes
   {
-    BREADTH_FIRST = 0, ///< from a vertex at the rim, component after component
+    BREADTH_FIRST = 0, ///< from planned starts, component after component
     AXIS = 1,          ///< along the longest side of the bounds
     KEEP = 2,          ///< the order of the cells in the file
     SPECTRAL = 3       ///< along the Fiedler vector: the smallest width

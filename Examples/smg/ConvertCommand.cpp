@@ -15,8 +15,12 @@ namespace
 void print(const smg::ConversionReport& report)
 {
   const auto number = [](std::int64_t value) { return static_cast<long long>(value); };
-  std::printf("%lld vertices, %lld cells, width %lld, span %lld, %.2f s\n", number(report.vertices),
-    number(report.cells), number(report.width), number(report.span), report.seconds.total);
+  std::printf("%lld vertices, %lld cells, ", number(report.vertices), number(report.cells));
+  if (report.width >= 0)
+  {
+    std::printf("width %lld, span %lld, ", number(report.width), number(report.span));
+  }
+  std::printf("%.2f s\n", report.seconds.total);
   const auto line = [&number](std::int64_t count, const char* what)
   {
     if (count > 0)
@@ -138,8 +142,11 @@ void addConvertCommand(CLI::App& program, Action& action)
       "Merge points within this distance of each other; 0: equal coordinates")
     ->check(CLI::NonNegativeNumber)
     ->type_name("DISTANCE");
-  command->add_flag("--restore-order", options->restoreOrder,
-    "Write vertices and cells in the order of the file that the .vsm file IN was made of");
+  command
+    ->add_flag("--restore-order", options->restoreOrder,
+      "Write vertices and cells in the order of the file that the .vsm file IN was made of, to a "
+      ".ply, .vtp, .vtu, .vtk, .obj, .off, .stl, .mesh or .msh file")
+    ->excludes("--order", "--weld", "--cells", "--codec");
   command->add_flag("--dry-run", options->dryRun,
     "Only say how large the mesh is and what the conversion will take");
   options->addTo(*command);

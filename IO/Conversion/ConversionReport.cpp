@@ -32,6 +32,8 @@ std::string ConversionReport::json(int indent) const
   json["rss_bytes_peak"] = this->rss_bytes_peak;
   json["scratch_bytes_read"] = this->scratch_bytes_read;
   json["scratch_bytes_written"] = this->scratch_bytes_written;
+  json["pages"] = this->pages;
+  json["page_loads"] = this->page_loads;
   json["cpu_seconds"] = this->cpu_seconds;
   json["seconds"] = { { "import", this->seconds.import }, { "order", this->seconds.order },
     { "write", this->seconds.write }, { "total", this->seconds.total } };

@@ -8,7 +8,7 @@
 namespace smg
 {
 
-/** What a conversion did. Counts that a conversion without reordering does not know are -1. */
+/** What a conversion did. Counts that are not known, or are none of such cells, are -1. */
 struct ConversionReport
 {
   struct Seconds
@@ -18,7 +18,7 @@ struct ConversionReport
 
   std::string order;
   std::int64_t vertices = 0, cells = 0;
-  std::int64_t isolated_vertices = 0;     ///< vertices of no cell: left out
+  std::int64_t isolated_vertices = 0;     ///< vertices of no cell: kept beside a .vsm stream
   std::int64_t merged_points = 0;         ///< points welded to others
   std::int64_t degenerate_cells = 0;      ///< cells without area or volume: flagged
   std::int64_t duplicate_cells = 0;       ///< cells with the corners of an earlier one: flagged
@@ -37,6 +37,8 @@ struct ConversionReport
   std::int64_t pool_bytes_peak = 0; ///< accounted memory
   std::int64_t rss_bytes_peak = 0;  ///< of the process
   std::int64_t scratch_bytes_read = 0, scratch_bytes_written = 0;
+  /** Pages of vertices, and how often one was loaded while a breadth-first order was made. */
+  std::int64_t pages = 0, page_loads = 0;
   double cpu_seconds = 0;
   Seconds seconds;
   /** What a user should know. */

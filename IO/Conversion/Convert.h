@@ -43,7 +43,8 @@ struct ConversionOptions
 /**
  * Brings a mesh into a stream order and writes it, in a fixed amount of memory whatever its size.
  *
- * In: everything that importMesh() reads, .vsm, and the streaming formats SMA, SMB, SVA and SVB.
+ * In: everything that importMesh() reads, .vsm, and the streaming formats SMA, SMB, SVA and SVB, or
+ * one of them compressed by gzip; at most 4,294,967,294 vertices and as many cells.
  * Out, by the suffix: .vsm; .sma, .smb (triangles), .sva, .svb (tetrahedra); .ply, .vtp
  * (triangles), .vtu; with `restoreOrder` the formats of writeRestored().
  *

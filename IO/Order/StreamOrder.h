@@ -10,7 +10,7 @@ namespace smg
 /** The order that a conversion brings a mesh into. */
 enum class StreamOrder
 {
-  BreadthFirst, ///< from a vertex at the rim, component after component: `bfs`
+  BreadthFirst, ///< from planned starts, component after component: `bfs`
   Axis,         ///< along the longest side of the bounds: `axis`
   Keep,         ///< the order of the cells in the file: `keep`
   Spectral      ///< by the Fiedler vector: `spectral`

@@ -135,9 +135,6 @@ public:
 
   std::int64_t elements() const { return this->Mesh.elementCount; }
   std::int64_t cells() const { return this->Mesh.cells; }
-  /** The largest corner so far, and the element that has it; -1 without cells. */
-  std::int64_t largestCorner() const { return this->LargestCorner; }
-  std::int64_t largestElement() const { return this->LargestElement; }
 
   /**
    * Says that corners were given by other numbers than the vertices': `numbers` has put() the
