@@ -3,6 +3,7 @@
 
 #include "IO/Container/VsmReader.h"
 #include "IO/Conversion/AddedColumn.h"
+#include "IO/Conversion/CompressedStream.h"
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/MeshFile.h"
 #include "IO/Conversion/NumberNames.h"
@@ -12,8 +13,6 @@
 #include "IO/Formats/StreamConversion.h"
 #include "IO/Formats/StreamFile.h"
 #include "IO/Import/Importer.h"
-#include "IO/Import/Inflate.h"
-#include "IO/Import/InputFile.h"
 #include "IO/Order/CellFlagger.h"
 #include "IO/Order/IsolatedVertices.h"
 #include "IO/Order/LayOut.h"
@@ -404,43 +403,6 @@ private:
   ConversionReport Report;
 };
 
-/** Whether the file is compressed by gzip and, as far as its beginning tells, no mesh to parse. */
-bool isCompressedStream(const std::filesystem::path& path)
-{
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(path, ignored) &&
-         std::filesystem::file_size(path, ignored) > 0 && isGzip(InputFile(path).at(0, 2)) &&
-         kindOfInput(path) != MeshFileKind::Indexed;
-}
-
-/** Converts a stream that gzip compressed by way of a file that it did not. */
-ConversionReport convertCompressed(const std::filesystem::path& in,
-  const std::filesystem::path& out, const ConversionOptions& options)
-{
-  Workspace space(options.scratch, Workspace::LeastMemory);
-  InputFile file(in);
-  const std::string name = in.stem().string() + ".stream";
-  const InflatedFile inflated(file, space, name.c_str());
-  try
-  {
-    return Conversion(inflated.path(), out, options).run();
-  }
-  catch (const Cancelled&)
-  {
-    throw;
-  }
-  catch (const Error& error)
-  {
-    std::string sentence = error.what();
-    const std::string path = inflated.path().string();
-    if (sentence.starts_with(path))
-    {
-      sentence.replace(0, path.size(), in.string());
-    }
-    throw Error(sentence);
-  }
-}
-
 } // namespace
 
 ConversionReport convert(const std::filesystem::path& in, const std::filesystem::path& out,
@@ -451,7 +413,7 @@ ConversionReport convert(const std::filesystem::path& in, const std::filesystem:
   {
     throw Error(out.string() + " is the mesh itself: choose another name for the result.");
   }
-  return isCompressedStream(in) ? convertCompressed(in, out, options)
+  return isCompressedStream(in) ? convertCompressedStream(in, out, options)
                                 : Conversion(in, out, options).run();
 }
 

@@ -35,10 +35,11 @@ VertexRestorer::VertexRestorer(
 
 void VertexRestorer::fail(const std::string& what) const
 {
-  throw Error(this->Name + ": " + what +
-              ", so the original order cannot be restored: take the whole mesh that was converted, "
-              "with its column OriginalId, and the .vsm file that has its points of no cell (in VTK, "
-              "StreamFileName of the writer).");
+  throw Error(
+    this->Name + ": " + what +
+    ", so the original order cannot be restored: take the whole mesh that was converted, "
+    "with its column OriginalId, and the .vsm file that has its points of no cell (in VTK, "
+    "StreamFileName of the writer).");
 }
 
 void VertexRestorer::put(std::span<const std::int64_t> ids, std::span<const double> positions,

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Conversion/CompressedStream.h"
+
+#include "IO/Conversion/MeshFile.h"
+#include "IO/External/Workspace.h"
+#include "IO/Import/Inflate.h"
+#include "IO/Import/InputFile.h"
+#include "Solver/Core/Error.h"
+
+#include <string>
+
+namespace smg
+{
+
+bool isCompressedStream(const std::filesystem::path& path)
+{
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored) &&
+         std::filesystem::file_size(path, ignored) > 0 && isGzip(InputFile(path).at(0, 2)) &&
+         kindOfInput(path) != MeshFileKind::Indexed;
+}
+
+ConversionReport convertCompressedStream(const std::filesystem::path& in,
+  const std::filesystem::path& out, const ConversionOptions& options)
+{
+  Workspace space(options.scratch, Workspace::LeastMemory);
+  InputFile file(in);
+  const std::string name = in.stem().string() + ".stream";
+  const InflatedFile inflated(file, space, name.c_str());
+  try
+  {
+    return convert(inflated.path(), out, options);
+  }
+  catch (const Cancelled&)
+  {
+    throw;
+  }
+  catch (const Error& error)
+  {
+    std::string sentence = error.what();
+    const std::string path = inflated.path().string();
+    if (sentence.starts_with(path))
+    {
+      sentence.replace(0, path.size(), in.string());
+    }
+    throw Error(sentence);
+  }
+}
+
+} // namespace smg
