@@ -3,6 +3,7 @@
 
 #include "IO/Conversion/MeshFile.h"
 #include "IO/External/Workspace.h"
+#include "IO/Formats/StreamFile.h"
 #include "IO/Import/Inflate.h"
 #include "IO/Import/InputFile.h"
 #include "Solver/Core/Error.h"
@@ -14,10 +15,11 @@ namespace smg
 
 bool isCompressedStream(const std::filesystem::path& path)
 {
+  // A text stream looks like an OBJ file: there its name tells.
   std::error_code ignored;
   return std::filesystem::is_regular_file(path, ignored) &&
          std::filesystem::file_size(path, ignored) > 0 && isGzip(InputFile(path).at(0, 2)) &&
-         kindOfInput(path) != MeshFileKind::Indexed;
+         (kindOfInput(path) != MeshFileKind::Indexed || streamFormatOfName(path.stem()));
 }
 
 ConversionReport convertCompressedStream(const std::filesystem::path& in,

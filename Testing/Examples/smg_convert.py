@@ -164,6 +164,40 @@ def test_gzip_and_wrong_suffixes():
                 check_restored("again.vsm", ".vtu", *expected)
 
 
+def test_compressed_streams():
+    """Streams may be compressed, too; what is damaged is told by the name of the file."""
+    write_torus("stream.obj", 40, 30)
+    run("convert", "stream.obj", "stream.vsm")
+    for suffix in (".sma", ".smb", ".vsm"):
+        if suffix != ".vsm":
+            run("convert", "stream.vsm", "stream" + suffix, "--order", "keep")
+        with open("stream" + suffix, "rb") as file:
+            plain = file.read()
+        with gzip.open("stream" + suffix + ".gz", "wb") as file:
+            file.write(plain)
+        run("convert", "stream" + suffix, "plain.vsm", "--order", "keep")
+        run("convert", "stream" + suffix + ".gz", "packed.vsm", "--order", "keep")
+        with open("plain.vsm", "rb") as one, open("packed.vsm", "rb") as other:
+            assert one.read() == other.read(), suffix
+    with open("stream.smb.gz", "rb") as file:
+        packed = file.read()
+    with open("cut.smb.gz", "wb") as file:
+        file.write(packed[:len(packed) // 2])
+    assert "cut.smb.gz" in run("convert", "cut.smb.gz", "no.vsm", code=1).stderr
+    assert not os.path.exists("no.vsm")
+
+
+def test_own_name():
+    """A mesh is not overwritten by its own conversion."""
+    write_torus("own.obj", 10, 8)
+    with open("own.obj", "rb") as file:
+        before = file.read()
+    run("convert", "own.obj", "own.obj", code=1)
+    run("convert", "stream.vsm", "./stream.vsm", code=1)
+    with open("own.obj", "rb") as file:
+        assert file.read() == before
+
+
 def test_weld():
     """Triangles that have points of their own become a closed surface."""
     write_torus("torus.obj", 60, 30)
@@ -227,7 +261,8 @@ def test_same_mesh_for_any_memory():
 
 
 for each in (test_restored_order, test_restored_solids, test_restored_is_the_same_file,
-             test_moved_meshes_keep_their_order, test_gzip_and_wrong_suffixes, test_weld,
+             test_moved_meshes_keep_their_order, test_gzip_and_wrong_suffixes,
+             test_compressed_streams, test_own_name, test_weld,
              test_cells_of_both_kinds, test_same_mesh_for_any_memory):
     each()
     print("passed", each.__name__)
