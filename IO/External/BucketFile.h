@@ -5,6 +5,7 @@
 #include "Solver/Storage/Buffer.h"
 #include "Solver/Storage/FileDescriptor.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -41,7 +42,7 @@ public:
     Row& row = this->Rows[std::size_t(bucket)];
     if (row.used + bytes.size() <= this->Chunk && row.chunk.data())
     {
-      std::memcpy(row.chunk.data() + row.used, bytes.data(), bytes.size());
+      std::copy_n(bytes.data(), bytes.size(), row.chunk.data() + row.used);
       row.used += bytes.size();
       row.bytes += static_cast<std::int64_t>(bytes.size());
     }

@@ -22,10 +22,11 @@ public:
     }
     this->Cells[this->Count++] = { a, b, c, d };
   }
-  std::span<const std::array<std::int64_t, 4>> all() const
+  std::span<const std::array<std::int64_t, 4>> all() const&
   {
     return { this->Cells.data(), this->Count };
   }
+  std::span<const std::array<std::int64_t, 4>> all() const&& = delete; ///< it would dangle
 
 private:
   std::array<std::array<std::int64_t, 4>, 6> Cells{};

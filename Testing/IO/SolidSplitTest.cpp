@@ -207,7 +207,8 @@ TEST(SolidSplit, NeighboursFitTogether)
     std::map<std::array<std::int64_t, 3>, int> faces;
     for (const Corners& solid : lattice.mesh().solids)
     {
-      for (const auto& tetrahedron : splitSolid(solid).all())
+      const TetrahedraOfSolid tetrahedra = splitSolid(solid);
+      for (const auto& tetrahedron : tetrahedra.all())
       {
         const double part = volume(points, tetrahedron);
         ASSERT_GT(part, 1e-3);
@@ -238,7 +239,8 @@ TEST(SolidSplit, CollapsedSolidsAreFilledToo)
   for (const auto& [corners, expected] : collapsed)
   {
     double sum = 0;
-    for (const auto& tetrahedron : splitSolid(corners).all())
+    const TetrahedraOfSolid tetrahedra = splitSolid(corners);
+    for (const auto& tetrahedron : tetrahedra.all())
     {
       const double part = volume(Hexahedron.points, tetrahedron);
       EXPECT_GT(part, 1e-3);
