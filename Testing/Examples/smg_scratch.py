@@ -116,7 +116,8 @@ def stopped(kind, delay, *arguments):
     before = listing("scratch")
     process = subprocess.Popen([SMG, "convert", *arguments], stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, text=True)
-    while listing("scratch") == before and process.poll() is None:
+    while (not any(name.startswith("smg-scratch-") for name in set(listing("scratch")) - set(before))
+           and process.poll() is None):
         time.sleep(0.001)
     time.sleep(delay)
     process.send_signal(kind)
