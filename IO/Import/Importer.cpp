@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Import/Importer.h"
 
+#include "IO/Conversion/PartialProgress.h"
 #include "IO/Import/FormatOfBytes.h"
 #include "IO/Import/Formats.h"
 #include "IO/Import/Inflate.h"
@@ -105,16 +106,6 @@ RawMesh importInflated(
   {
     throw Error(file.name() + ": " + error.what() + '.');
   }
-}
-
-/** The part of `whole` from `begin` to `end`, both 0 to 1. */
-ProgressFunction partOf(const ProgressFunction& whole, double begin, double end)
-{
-  if (!whole)
-  {
-    return {};
-  }
-  return [whole, begin, end](double done) { return whole(begin + done * (end - begin)); };
 }
 
 } // namespace
