@@ -72,20 +72,7 @@ protected:
   {
     try
     {
-      const ReadMesh mesh = this->read(name, bytes);
-      for (const std::int64_t corner : mesh.corners)
-      {
-        ASSERT_LT(corner, mesh.vertices());
-      }
-      for (const Column& column : mesh.vertexColumns)
-      {
-        ASSERT_EQ(column.tuples(), static_cast<std::size_t>(mesh.vertices()));
-      }
-      for (const Column& column : mesh.elementColumns)
-      {
-        ASSERT_EQ(column.tuples(), static_cast<std::size_t>(mesh.elementCount));
-      }
-      ASSERT_EQ(static_cast<std::int64_t>(mesh.elements.size()), mesh.cells());
+      expectValid(this->read(name, bytes));
     }
     catch (const Error& error)
     {

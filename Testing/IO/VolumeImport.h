@@ -144,19 +144,7 @@ private:
   {
     try
     {
-      const ReadMesh mesh = this->read(importer, name, bytes);
-      for (const std::int64_t corner : mesh.corners)
-      {
-        ASSERT_LT(corner, mesh.vertices());
-      }
-      for (const Column& column : mesh.vertexColumns)
-      {
-        ASSERT_EQ(column.tuples(), static_cast<std::size_t>(mesh.vertices()));
-      }
-      for (const Column& column : mesh.elementColumns)
-      {
-        ASSERT_EQ(column.tuples(), static_cast<std::size_t>(mesh.elementCount));
-      }
+      expectValid(this->read(importer, name, bytes));
     }
     catch (const Error& error)
     {

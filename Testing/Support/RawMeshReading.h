@@ -5,6 +5,8 @@
 #include "IO/Raw/RawMesh.h"
 #include "Solver/Stream/Column.h"
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -98,6 +100,24 @@ inline ReadMesh readRaw(const RawMesh& mesh)
   read.elementColumns = columnsOf(mesh.elementColumns);
   read.counts = mesh.counts;
   return read;
+}
+
+/** Expects that corners are vertices and that columns have as many tuples as they should. */
+inline void expectValid(const ReadMesh& mesh)
+{
+  for (const std::int64_t corner : mesh.corners)
+  {
+    ASSERT_LT(corner, mesh.vertices());
+  }
+  for (const Column& column : mesh.vertexColumns)
+  {
+    ASSERT_EQ(column.tuples(), static_cast<std::size_t>(mesh.vertices()));
+  }
+  for (const Column& column : mesh.elementColumns)
+  {
+    ASSERT_EQ(column.tuples(), static_cast<std::size_t>(mesh.elementCount));
+  }
+  ASSERT_EQ(static_cast<std::int64_t>(mesh.elements.size()), mesh.cells());
 }
 
 /** The mesh of a file in memory. */
