@@ -137,7 +137,7 @@ void LevelWindow<Real>::loadBlock()
   if (this->RightSide)
   {
     this->Values->read(std::as_writable_bytes(x));
-    this->RightSide->read(std::as_writable_bytes(b));
+    this->readRightSide(b);
   }
   else
   {
@@ -147,6 +147,24 @@ void LevelWindow<Real>::loadBlock()
   this->unpack(this->Now.b, begin, end, b.data());
   this->Blocks.push_back(std::move(block));
   this->Loaded = end;
+}
+
+template <class Real>
+void LevelWindow<Real>::readRightSide(std::span<Real> b)
+{
+  const bool zero = this->RightSide->nextBytes() == 0;
+  this->RightSide->read(std::as_writable_bytes(zero ? std::span<Real>() : b));
+  if (zero)
+  {
+    std::fill(b.begin(), b.end(), Real{});
+  }
+}
+
+template <class Real>
+void LevelWindow<Real>::appendRightSide(std::span<const Real> b)
+{
+  const bool zero = std::all_of(b.begin(), b.end(), [](Real value) { return value == Real{}; });
+  this->RightSide->append(std::as_bytes(zero ? std::span<const Real>() : b));
 }
 
 template <class Real>
@@ -173,7 +191,7 @@ void LevelWindow<Real>::write(std::int64_t done)
     this->Values->append(this->RightSide ? packed.first(packed.size() / 2) : packed);
     if (this->RightSide && (this->First || this->Next))
     {
-      this->RightSide->append(packed.last(packed.size() / 2));
+      this->appendRightSide(std::span<const Real>(this->Packed).last(values));
     }
     this->Written = end;
   }

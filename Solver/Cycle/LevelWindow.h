@@ -174,6 +174,10 @@ private:
   }
   bool finest() const { return this->Index == 0; }
   void loadBlock();
+  /** Most right-hand sides are zero but near constraints: a block of zeros takes no room on disk.
+   */
+  void readRightSide(std::span<Real> b);
+  void appendRightSide(std::span<const Real> b);
   Buffer buffer(std::size_t bytes);
   void pack(
     const Ring<Real>& state, int columns, std::int64_t begin, std::int64_t end, Real* packed) const;
@@ -216,9 +220,9 @@ void LevelWindow<Real>::rewriteB(F&& f)
     const std::span<Real> b(this->Packed);
     if (this->RightSide)
     {
-      this->RightSide->read(std::as_writable_bytes(b));
+      this->readRightSide(b);
       f(first / RowBlock::Nodes, b);
-      this->RightSide->append(std::as_bytes(b));
+      this->appendRightSide(b);
     }
     else
     {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/RunBoth.h"
+#include "Solver/Core/RunAll.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Cycle/CoreCycle.h"
 #include "Solver/Engine/Convergence.h"
@@ -95,7 +95,8 @@ private:
   void addLevels(std::int64_t vertices);
   void addCoarseLevel(int l, bool core);
   void firstPass(MeshSource& mesh, Problem& problem, RowListener* listener);
-  void readStream(MeshSource& mesh, Assembly& assembly, HierarchyBuilder<Operators>& builder);
+  void readStream(MeshSource& mesh, Assembly& assembly, AssembledRows& rows,
+    HierarchyBuilder<Operators>& builder);
   void noteAssembly(const Assembly& assembly);
   void factorize();
 };

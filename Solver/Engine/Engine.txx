@@ -16,7 +16,9 @@ namespace smg
 /** Compute threads where `wanted` are asked for; 0: one a core. */
 inline int computeThreads(int wanted)
 {
-  constexpr int ParallelStages = 2; // way up and way down
+  // Of the first pass: the assembly, the coarsening of two levels (the others are small), the way
+  // down. Later passes have two: the way up and the way down.
+  constexpr int ParallelStages = 4;
   const int most = std::min(ParallelStages, tbb::info::default_concurrency());
   return wanted > 0 ? std::min(wanted, most) : most;
 }
@@ -191,10 +193,10 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem, RowListene
 {
   HierarchyBuilder<Operators> builder(
     this->Memory, Operators::forCells(mesh.info().cellType), this->Hierarchy, this->FirstCore);
-  Assembly assembly(this->Memory, mesh.info(), problem, builder.finestRows(),
-    this->Hierarchy.finest->window(), this->Parts, this->Labels, listener);
+  AssembledRows rows;
+  Assembly assembly(this->Memory, mesh.info(), problem, rows, this->Parts, this->Labels, listener);
   this->startPass(true);
-  this->readStream(mesh, assembly, builder);
+  this->readStream(mesh, assembly, rows, builder);
   const int coarsest = builder.finish([this](int l) { this->addCoarseLevel(l, true); });
   this->endPass();
   if (coarsest < this->FirstCore)
@@ -208,34 +210,54 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem, RowListene
   this->noteAssembly(assembly);
 }
 
+/**
+ * The first pass. In each step the next block of the mesh is assembled, every streamed level is
+ * coarsened, and the way down advances, all at the same time, each on what the steps before have
+ * handed over.
+ */
 template <OperatorSet Operators>
 void Engine<Operators>::readStream(
-  MeshSource& mesh, Assembly& assembly, HierarchyBuilder<Operators>& builder)
+  MeshSource& mesh, Assembly& assembly, AssembledRows& rows, HierarchyBuilder<Operators>& builder)
 {
   FineLevel& finest = *this->Hierarchy.finest;
   MeshBlock block;
+  bool more = true;
   std::int64_t open = 0;
   const auto expected = static_cast<double>(std::max<std::int64_t>(1, mesh.info().vertices));
-  while (mesh.next(block))
+  const auto assemble = [&]
   {
-    assembly.add(block);
-    builder.advance();
-    finest.advanceDown();
+    if (more)
+    {
+      more = mesh.next(block);
+      more ? assembly.add(block) : assembly.finish();
+    }
+  };
+  while (!builder.complete())
+  {
+    runAll(this->Threads, 2 + this->FirstCore,
+      [&](int task)
+      {
+        // The tasks that take longest come first.
+        task == 0   ? builder.advance(0)
+        : task == 1 ? assemble()
+        : task == 2 ? finest.advanceDown()
+                    : builder.advance(task - 2);
+      });
     finest.settle();
+    rows.moveTo(builder.finestRows(), finest.window(), this->Columns);
+    builder.finestRows().Ended = !more;
+    builder.handOver();
     this->Resident.add(assembly.openVertices() - open);
     open = assembly.openVertices();
     this->Progress.updateFirst(static_cast<double>(assembly.vertices()) / expected);
   }
+  finest.advanceDown();
+  finest.settle();
   if (assembly.vertices() == 0)
   {
     throw Error("the mesh has no vertices");
   }
-  assembly.finish();
   this->Labels.finish();
-  this->Resident.add(-open);
-  builder.advance();
-  finest.advanceDown();
-  finest.settle();
 }
 
 template <OperatorSet Operators>
@@ -295,8 +317,7 @@ void Engine<Operators>::pass(double scale, Loaded&& loaded, BeforeDown&& beforeD
     loaded();
     // The way down works on what the way up left behind a step ago: no node is touched by both.
     finest.showProgress();
-    runBoth(
-      this->Threads, [&] { finest.pull(last); }, down);
+    runAll(this->Threads, 2, [&](int task) { task == 0 ? finest.pull(last) : down(); });
     finest.settle();
     this->Progress.update(static_cast<double>(last) / static_cast<double>(nodes));
   }

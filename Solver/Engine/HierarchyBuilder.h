@@ -51,17 +51,41 @@ public:
     }
   }
 
-  /** The finest level's rows, to be appended to. */
+  /** The finest level's rows, to be appended to between two steps. */
   LevelRows& finestRows() { return *this->Rows.front(); }
 
-  /** Advances all stages of the streamed levels as far as they can. */
-  void advance()
+  /**
+   * Advances all stages of streamed level l as far as they can. The levels may do so on as many
+   * threads: what one makes for another is handed over afterwards.
+   */
+  void advance(int l)
+  {
+    this->Steps[static_cast<std::size_t>(l)]->advance();
+    this->pack(l, true);
+  }
+
+  /** Ends a step of all streamed levels: the next level gets its rows, the windows their blocks. */
+  void handOver()
   {
     for (int l = 0; l < this->FirstCore; ++l)
     {
-      this->Steps[static_cast<std::size_t>(l)]->advance();
-      this->pack(l, true);
+      this->Steps[static_cast<std::size_t>(l)]->handOver();
+      this->append(l);
     }
+  }
+
+  /** Whether all rows of the streamed levels have come and are in their windows. */
+  bool complete() const
+  {
+    for (int l = 0; l < this->FirstCore; ++l)
+    {
+      const auto k = static_cast<std::size_t>(l);
+      if (!this->Rows[k + 1]->Ended || this->Packed[k] < this->Rows[k]->end())
+      {
+        return false;
+      }
+    }
+    return true;
   }
 
   /**
@@ -89,6 +113,8 @@ public:
       {
         this->Steps.back()->advance(end);
         this->pack(l, true);
+        this->Steps.back()->handOver();
+        this->append(l);
       }
       this->close(l);
       addLevel(l + 1);
@@ -96,6 +122,7 @@ public:
     if (l >= this->FirstCore)
     {
       this->pack(l, false);
+      this->append(l);
       this->close(l);
     }
     this->Built.sizes.resize(static_cast<std::size_t>(l + 1));
@@ -132,20 +159,27 @@ private:
   {
     this->Rows.push_back(std::make_unique<LevelRows>(this->Owner));
     this->Packed.push_back(0);
+    this->Ready.resize(this->Rows.size());
     this->Steps.push_back(std::make_unique<Coarsening<Operators>>(
       this->Owner, this->Set, *this->Rows[this->Rows.size() - 2], *this->Rows.back()));
   }
 
-  void append(int l, RowBlock block)
+  /** Gives the blocks of level l that are ready to its window. */
+  void append(int l)
   {
-    if (l == 0)
+    std::vector<RowBlock>& ready = this->Ready[static_cast<std::size_t>(l)];
+    for (RowBlock& block : ready)
     {
-      this->Built.finest->append(std::move(block));
+      if (l == 0)
+      {
+        this->Built.finest->append(std::move(block));
+      }
+      else
+      {
+        this->Built.coarse[static_cast<std::size_t>(l - 1)]->append(std::move(block));
+      }
     }
-    else
-    {
-      this->Built.coarse[static_cast<std::size_t>(l - 1)]->append(std::move(block));
-    }
+    ready.clear();
   }
 
   /** Packs the blocks of level l that are final, with or without interpolation. */
@@ -160,7 +194,8 @@ private:
     while (begin + RowBlock::Nodes <= final || (ended && begin < final))
     {
       const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
-      this->append(l, packRows(this->Owner, rows, step ? &step->data() : nullptr, begin, nodes));
+      this->Ready[static_cast<std::size_t>(l)].push_back(
+        packRows(this->Owner, rows, step ? &step->data() : nullptr, begin, nodes));
       begin += nodes;
       if (step)
       {
@@ -178,6 +213,7 @@ private:
   std::vector<std::unique_ptr<LevelRows>> Rows;
   std::vector<std::unique_ptr<Coarsening<Operators>>> Steps;
   std::vector<std::int64_t> Packed;
+  std::vector<std::vector<RowBlock>> Ready; // packed, not yet in the windows
 };
 
 } // namespace smg

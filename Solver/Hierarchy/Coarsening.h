@@ -3,6 +3,7 @@
 
 #include "Solver/Hierarchy/CoarseningData.h"
 #include "Solver/Hierarchy/OperatorSet.h"
+#include "Solver/Hierarchy/RowBatch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,10 @@ public:
   /** Says that the rows and the interpolation of nodes below `end` have been copied. */
   void packed(std::int64_t end) { this->Packed = end; }
 
-  /** Advances every stage as far as it can on the rows that have come, or on those below `rows`. */
+  /**
+   * Advances every stage as far as it can on the rows that have come, or on those below `rows`. The
+   * coarse level gets its new rows by handOver(): several levels may advance on as many threads.
+   */
   void advance(std::int64_t rows = std::numeric_limits<std::int64_t>::max())
   {
     this->Rows = std::min(rows, this->Data.fine.end());
@@ -43,6 +47,14 @@ public:
     this->gather();
     this->finish();
     this->release();
+  }
+
+  /** Appends the coarse rows that have become final to the coarse level. */
+  void handOver()
+  {
+    this->Final.moveTo(this->Data.coarse);
+    this->Data.coarse.Ended = this->Data.fine.Ended && this->Lifted == this->Data.fine.end() &&
+                              this->Finished == this->Data.coarseNodes;
   }
 
   /** Lets go of what no stage needs any more. */
@@ -183,7 +195,7 @@ private:
     {
       const std::int64_t size = d.raw.size(c);
       const RowEntry* raw = d.raw.row(c);
-      RowEntry* out = d.coarse.open(size);
+      RowEntry* out = this->Final.open(size);
       std::int64_t kept = 0;
       for (std::int64_t e = 0; e < size; ++e)
       {
@@ -192,14 +204,13 @@ private:
           out[kept++] = raw[e];
         }
       }
-      d.coarse.close(kept, d.rawAlpha[c], d.childReach[c]);
+      this->Final.close(kept, d.rawAlpha[c], d.childReach[c]);
     }
-    d.coarse.Ended =
-      d.fine.Ended && this->Lifted == d.fine.end() && this->Finished == d.coarseNodes;
   }
 
   Operators Set;
   CoarseningData Data;
+  RowBatch Final;
 
   std::int64_t Rows = 0; // of the fine level, that stages may look at
   std::int64_t Lifted = 0, Initial = 0, Interpolated = 0, Multiplied = 0; // by fine node

@@ -16,6 +16,20 @@ struct RowEntry
   float weight;
 };
 
+/** The diagonal of a row whose sum is alpha. */
+inline double diagonalOf(std::span<const RowEntry> row, double alpha)
+{
+  double sum = alpha;
+  for (const RowEntry& entry : row)
+  {
+    sum += entry.weight;
+  }
+  // A node that is all that is left of a component without constraint: any correction will do, and
+  // this diagonal makes it zero.
+  constexpr double Isolated = 1e20;
+  return sum > 0.0 ? sum : Isolated;
+}
+
 /**
  * The rows of a level's matrix while the level is being built, in node order: entries by ascending
  * column, A_ii = diagonal = alpha + sum of the weights, so alpha is the row sum.
@@ -61,17 +75,11 @@ public:
   {
     const std::int64_t i = this->end();
     const RowEntry* entry = this->Entries.open(0);
-    double sum = alpha;
     float strongest = 0.0F;
     for (std::int64_t e = 0; e < size; ++e)
     {
-      sum += entry[e].weight;
       strongest = std::max(strongest, entry[e].weight);
     }
-    // A node that is all that is left of a component without constraint: any correction will do,
-    // and this diagonal makes it zero.
-    constexpr double Isolated = 1e20;
-    sum = sum > 0.0 ? sum : Isolated;
     const std::int64_t last = size > 0 ? i + std::max(0, entry[size - 1].delta) : i;
     this->Entries.close(size);
     for (auto* ring : { &this->Diagonal, &this->Alpha })
@@ -81,7 +89,7 @@ public:
     this->Strongest.extendRaw(i + 1);
     this->Reach.extendRaw(i + 1);
     this->ChildReach.extendRaw(i + 1);
-    this->Diagonal[i] = sum;
+    this->Diagonal[i] = diagonalOf({ entry, static_cast<std::size_t>(size) }, alpha);
     this->Alpha[i] = alpha;
     this->Strongest[i] = strongest;
     this->LastReach = std::max(this->LastReach, last);

@@ -40,9 +40,8 @@ int usualNeighbours(CellType type)
 
 } // namespace
 
-Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, LevelRows& rows,
-  LevelWindow<double>& level, Components& components, ComponentLabels& labels,
-  RowListener* listener)
+Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, AssembledRows& rows,
+  Components& components, ComponentLabels& labels, RowListener* listener)
   : Type(info.cellType)
   , Check(info.cellType)
   , Given(problem)
@@ -50,8 +49,7 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, LevelRo
   , Kind(problem.weights())
   , Screening(problem.screening())
   , ConnectsFlat(problem.connectsFlatCells())
-  , Rows(rows)
-  , Level(level)
+  , Out(rows)
   , Parts(components)
   , PartLabels(labels)
   , Listener(listener)
@@ -77,7 +75,6 @@ void Assembly::add(const MeshBlock& block)
 void Assembly::finish()
 {
   this->finalize(this->Vertices);
-  this->Rows.Ended = true;
 }
 
 void Assembly::addVertices(const MeshBlock& block)
@@ -199,7 +196,6 @@ bool Assembly::hasLength(std::int64_t a, std::int64_t b) const
 
 void Assembly::finalize(std::int64_t end)
 {
-  this->Level.extendState(std::max(end, this->Level.x().end()));
   this->Reach.extendRaw(std::max(end, this->Reach.end()));
   const bool targets = this->Given.hasEdgeTargets();
   while (this->Final < end)
@@ -306,10 +302,10 @@ void Assembly::applyEdgeTargets(std::int64_t begin)
 void Assembly::closeRow(
   std::int64_t i, const Neighbour* neighbours, std::size_t count, const double* target)
 {
-  double* x = this->Level.x().at(i);
-  double* b = this->Level.b().at(i);
-  const double* value = this->Values.at(i);
-  std::copy_n(value, this->Columns, x);
+  const double* x = this->Values.at(i);
+  this->Out.x.insert(this->Out.x.end(), x, x + this->Columns);
+  this->Out.b.resize(this->Out.x.size());
+  double* b = this->Out.b.data() + (this->Out.b.size() - static_cast<std::size_t>(this->Columns));
   const std::int32_t label = this->Labels[i] < 0 ? -1 : this->Parts.root(this->Labels[i]);
   this->LabelBatch.push_back(label);
 
@@ -323,9 +319,9 @@ void Assembly::closeRow(
     {
       this->Parts.anchor(label);
     }
-    std::copy_n(value, this->Columns, b);
-    this->Rows.open(0);
-    this->Rows.close(0, 1.0, -1);
+    std::copy_n(x, this->Columns, b);
+    this->Out.rows.open(0);
+    this->Out.rows.close(0, 1.0, -1);
     return;
   }
 
@@ -334,7 +330,7 @@ void Assembly::closeRow(
   {
     b[k] = this->Mass[i] * this->Sources.at(i)[k];
   }
-  RowEntry* row = this->Rows.open(static_cast<std::int64_t>(count));
+  RowEntry* row = this->Out.rows.open(static_cast<std::int64_t>(count));
   std::int64_t size = 0;
   double squares[2] = { 0.0, 0.0 };
   for (std::size_t e = 0; e < count; ++e)
@@ -370,9 +366,9 @@ void Assembly::closeRow(
       this->Listener->link(static_cast<std::int32_t>(delta), neighbour.weight);
     }
   }
-  this->Rows.close(size, alpha, -1);
+  this->Out.rows.close(size, alpha, -1);
 
-  const double diagonal = this->Rows.diagonal(i);
+  const double diagonal = diagonalOf({ row, static_cast<std::size_t>(size) }, alpha);
   for (int k = 0; k < this->Columns; ++k)
   {
     double sum = b[k] - diagonal * x[k];

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Cycle/LevelWindow.h"
-#include "Solver/Hierarchy/LevelRows.h"
+#include "Solver/Problem/AssembledRows.h"
 #include "Solver/Problem/CellWeights.h"
 #include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Problem/Components.h"
@@ -19,16 +18,15 @@ namespace smg
 
 /**
  * Turns the mesh stream into the rows of the finest level: weights are summed per edge while cells
- * come; when a vertex is final its row, right-hand side and initial value go to the level.
+ * come; when a vertex is final its row, right-hand side and initial value go to `rows`.
  * Constrained vertices are nodes with an empty row; their neighbours carry them in alpha and b.
  */
 class Assembly
 {
 public:
   /** `listener`, if given, is told what the rows do not keep. */
-  Assembly(Pool& pool, const StreamInfo& info, Problem& problem, LevelRows& rows,
-    LevelWindow<double>& level, Components& components, ComponentLabels& labels,
-    RowListener* listener = nullptr);
+  Assembly(Pool& pool, const StreamInfo& info, Problem& problem, AssembledRows& rows,
+    Components& components, ComponentLabels& labels, RowListener* listener = nullptr);
 
   /** Takes a block; makes the rows final that it finalises. Throws Error on a bad block. */
   void add(const MeshBlock& block);
@@ -71,8 +69,7 @@ private:
   Weights Kind;
   double Screening;
   bool ConnectsFlat;
-  LevelRows& Rows;
-  LevelWindow<double>& Level;
+  AssembledRows& Out;
   Components& Parts;
   ComponentLabels& PartLabels;
   RowListener* Listener;

@@ -23,6 +23,7 @@ std::string memoryLimitSentence(std::int64_t needed, std::int64_t allowed, const
 
 void Pool::acquire(std::int64_t bytes)
 {
+  const std::lock_guard lock(this->Mutex);
   // A size that a damaged file tells may be anything: the sum must not overflow.
   if (bytes < 0 || bytes > this->Limit - this->Used)
   {
@@ -32,6 +33,24 @@ void Pool::acquire(std::int64_t bytes)
   }
   this->Used += bytes;
   this->Peak = std::max(this->Peak, this->Used);
+}
+
+void Pool::release(std::int64_t bytes)
+{
+  const std::lock_guard lock(this->Mutex);
+  this->Used -= bytes;
+}
+
+std::int64_t Pool::used() const
+{
+  const std::lock_guard lock(this->Mutex);
+  return this->Used;
+}
+
+std::int64_t Pool::peak() const
+{
+  const std::lock_guard lock(this->Mutex);
+  return this->Peak;
 }
 
 } // namespace smg

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <mutex>
 #include <string>
 
 namespace smg
@@ -21,8 +22,8 @@ inline constexpr PoolUse SolveMemory{ "the solve",
  * Accounts for all block memory of an operation and keeps the promise of its limit: a request above
  * it is an Error that names the bytes needed, the bytes allowed and what to change.
  *
- * The pool counts; the memory itself comes from Ring and Buffer. Not thread safe: windows grow
- * on the thread that drives the stages.
+ * The pool counts; the memory itself comes from Ring and Buffer. Any thread may acquire and
+ * release.
  */
 class Pool
 {
@@ -37,15 +38,16 @@ public:
   /** Adds `bytes`, at least 0, to the memory in use. Throws Error, and adds nothing, above the
    * limit. */
   void acquire(std::int64_t bytes);
-  void release(std::int64_t bytes) { this->Used -= bytes; }
+  void release(std::int64_t bytes);
 
-  std::int64_t used() const { return this->Used; }
-  std::int64_t peak() const { return this->Peak; }
+  std::int64_t used() const;
+  std::int64_t peak() const;
   std::int64_t limit() const { return this->Limit; }
 
 private:
   PoolUse Use;
   std::int64_t Limit;
+  mutable std::mutex Mutex;
   std::int64_t Used = 0;
   std::int64_t Peak = 0;
 };

@@ -318,6 +318,7 @@ TEST(Coarsening, ofALevelWithoutNodesIsOneWithoutNodes)
   Coarsening<RecordingOperators> step(pool, {}, fine, coarse);
   fine.Ended = true;
   step.advance();
+  step.handOver();
   EXPECT_TRUE(coarse.Ended);
   EXPECT_EQ(coarse.end(), 0);
 }
@@ -337,6 +338,7 @@ TEST(Coarsening, keepsAWindowOnly)
     {
       level.append(fine, i, i + 1);
       step.advance();
+      step.handOver();
       step.packed(step.interpolated());
       step.release();
       coarse.release(coarse.end(), coarse.end());

@@ -61,6 +61,7 @@ public:
       steps.push_back(std::make_unique<Coarsening<RecordingOperators>>(
         this->Memory, operators, *rows[l], *rows[l + 1]));
       steps.back()->advance();
+      steps.back()->handOver();
       this->Records.push_back(operators.record);
     }
     for (int l = 0; l < levels; ++l)

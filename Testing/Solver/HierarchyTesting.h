@@ -231,6 +231,7 @@ inline CoarsenedLevel coarsen(const TestLevel& fine, RecordingOperators operator
     fine.append(fineRows, begin, end);
     fineRows.Ended = end == fine.nodes();
     step.advance();
+    step.handOver();
     step.packed(step.interpolated());
     step.release();
     begin = end;

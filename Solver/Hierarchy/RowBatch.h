@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Hierarchy/LevelRows.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Rows that one thread has made and that the level's rows take over between two steps, when no
+ * thread looks at them.
+ */
+class RowBatch
+{
+public:
+  /** Room for at most `size` entries of the next row. */
+  RowEntry* open(std::int64_t size)
+  {
+    this->Entries.resize(this->Used + static_cast<std::size_t>(size));
+    return this->Entries.data() + this->Used;
+  }
+
+  /** Ends the row that open() began; see LevelRows::close. */
+  void close(std::int64_t size, double alpha, std::int64_t childReach)
+  {
+    this->Used += static_cast<std::size_t>(size);
+    this->Closed.push_back({ size, alpha, childReach });
+  }
+
+  /** Appends the rows to `rows` and forgets them. */
+  void moveTo(LevelRows& rows)
+  {
+    const RowEntry* entry = this->Entries.data();
+    for (const Row& row : this->Closed)
+    {
+      std::copy_n(entry, row.size, rows.open(row.size));
+      rows.close(row.size, row.alpha, row.childReach);
+      entry += row.size;
+    }
+    this->Closed.clear();
+    this->Used = 0;
+  }
+
+private:
+  struct Row
+  {
+    std::int64_t size;
+    double alpha;
+    std::int64_t childReach;
+  };
+
+  std::vector<RowEntry> Entries;
+  std::vector<Row> Closed;
+  std::size_t Used = 0;
+};
+
+} // namespace smg
