@@ -30,9 +30,22 @@ std::string Report::json(int indent) const
   out["rss_bytes_peak"] = this->rss_bytes_peak;
   out["bytes_read"] = this->bytes_read;
   out["bytes_written"] = this->bytes_written;
+  out["bytes_by_kind"] = nlohmann::ordered_json::array();
+  for (const Traffic& traffic : this->bytes_by_kind)
+  {
+    auto& entry = out["bytes_by_kind"].emplace_back();
+    entry["kind"] = traffic.kind;
+    if (traffic.level >= 0)
+    {
+      entry["level"] = traffic.level;
+    }
+    entry["read"] = traffic.read;
+    entry["written"] = traffic.written;
+  }
   out["seconds"] = { { "convert", this->seconds.convert }, { "build", this->seconds.build },
     { "solve", this->seconds.solve }, { "coarse", this->seconds.coarse },
-    { "io_wait", this->seconds.io_wait }, { "total", this->seconds.total } };
+    { "io_wait", this->seconds.io_wait }, { "build_io_wait", this->seconds.build_io_wait },
+    { "total", this->seconds.total } };
   out["cpu_seconds"] = this->cpu_seconds;
   out["threads"] = this->threads;
   out["prescribed"] = this->prescribed;

@@ -19,6 +19,15 @@ struct Report
   struct Seconds
   {
     double convert = 0, build = 0, solve = 0, coarse = 0, io_wait = 0, total = 0;
+    double build_io_wait = 0; ///< the part of io_wait that is in build
+  };
+
+  /** The traffic of the scratch files of one kind, of a level or (level -1) of none. */
+  struct Traffic
+  {
+    std::string kind; ///< rows, right_side (finest level), state, labels, rest (deformation)
+    int level = -1;
+    std::int64_t read = 0, written = 0;
   };
 
   /** One of the problems of a solve that has several, one after the other. */
@@ -45,6 +54,7 @@ struct Report
   std::int64_t peak_nodes = 0; ///< most nodes of all levels in memory at once
   std::int64_t pool_bytes_peak = 0, rss_bytes_peak = 0;
   std::int64_t bytes_read = 0, bytes_written = 0;
+  std::vector<Traffic> bytes_by_kind; ///< what bytes_read and bytes_written are the sums of
   Seconds seconds;
   double cpu_seconds = 0;
   int threads = 1;

@@ -8,14 +8,14 @@ namespace smg
 {
 
 template <class Real>
-void LevelWindow<Real>::useScratch(const std::filesystem::path& folder, IoStatistics& statistics)
+void LevelWindow<Real>::useScratch(const std::filesystem::path& folder, ScratchTraffic& traffic)
 {
   const std::string level = "level" + std::to_string(this->Index);
-  this->Rows.emplace(folder / (level + ".rows"), statistics);
-  this->Values.emplace(folder / (level + ".state"), statistics);
+  this->Rows.emplace(folder / (level + ".rows"), traffic.add("rows", this->Index));
+  this->Values.emplace(folder / (level + ".state"), traffic.add("state", this->Index));
   if (this->finest())
   {
-    this->RightSide.emplace(folder / (level + ".b"), statistics);
+    this->RightSide.emplace(folder / (level + ".b"), traffic.add("right_side", this->Index));
   }
 }
 

@@ -7,6 +7,7 @@
 #include "Solver/Cycle/Transfer.h"
 #include "Solver/Storage/Ring.h"
 #include "Solver/Storage/ScratchStream.h"
+#include "Solver/Storage/ScratchTraffic.h"
 
 #include <cstdint>
 #include <deque>
@@ -50,7 +51,7 @@ public:
   }
 
   /** Keeps the level in scratch files in `folder`. */
-  void useScratch(const std::filesystem::path& folder, IoStatistics& statistics);
+  void useScratch(const std::filesystem::path& folder, ScratchTraffic& traffic);
 
   int stride() const { return this->Stride; }
   Ring<Real>& x() { return this->Now.x; }

@@ -33,7 +33,7 @@ public:
   {
     if (this->Scratch)
     {
-      this->Rest.useScratch(this->Scratch->path(), this->Traffic);
+      this->Rest.useScratch(this->Scratch->path(), this->Traffic.add("rest"));
     }
   }
 

@@ -12,6 +12,7 @@
 #include "Solver/Problem/Assembly.h"
 #include "Solver/Solve.h"
 #include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Storage/ScratchTraffic.h"
 
 #include <cmath>
 #include <memory>
@@ -76,7 +77,7 @@ protected:
   Pool Memory;
   ResidentNodes Resident;
   std::optional<ScratchFolder> Scratch;
-  IoStatistics Traffic;
+  ScratchTraffic Traffic;
   Components Parts;
   ComponentLabels Labels;
   FreeComponents Free;

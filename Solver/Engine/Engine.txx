@@ -73,12 +73,13 @@ void Engine<Operators>::build(
   }
   if (!this->Options.inCore)
   {
-    this->Labels.useScratch(this->Scratch->path(), this->Traffic);
+    this->Labels.useScratch(this->Scratch->path(), this->Traffic.add("labels"));
   }
   this->addLevels(mesh.info().vertices);
   this->firstPass(mesh, problem, listener);
   this->Free.projectRightSide(this->Hierarchy.finest->window(), this->Result.notes);
   this->Result.seconds.build = building.seconds();
+  this->Result.seconds.build_io_wait = this->Traffic.waitSeconds();
 }
 
 template <OperatorSet Operators>
@@ -396,9 +397,15 @@ void Engine<Operators>::finishReport()
   r.peak_nodes = this->Resident.peak;
   r.pool_bytes_peak = this->Memory.peak();
   r.rss_bytes_peak = peakResidentBytes();
-  r.bytes_read = this->Traffic.bytesRead;
-  r.bytes_written = this->Traffic.bytesWritten;
-  r.seconds.io_wait = 1e-9 * static_cast<double>(this->Traffic.waitNanoseconds);
+  r.bytes_read = r.bytes_written = 0;
+  r.bytes_by_kind.clear();
+  for (const auto& [name, level, statistics] : this->Traffic.kinds())
+  {
+    r.bytes_by_kind.push_back({ name, level, statistics.bytesRead, statistics.bytesWritten });
+    r.bytes_read += statistics.bytesRead;
+    r.bytes_written += statistics.bytesWritten;
+  }
+  r.seconds.io_wait = this->Traffic.waitSeconds();
   r.seconds.total = this->Wall.seconds();
   r.cpu_seconds = processSeconds() - this->CpuAtStart;
   r.threads = this->Threads.max_concurrency();

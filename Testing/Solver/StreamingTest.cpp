@@ -173,6 +173,56 @@ TEST(Streaming, doesKCyclesInKPlusOnePasses)
   }
 }
 
+TEST(Streaming, tellsItsTrafficByKind)
+{
+  auto [mesh, problem] = tasks()[0];
+  const auto after = [&, &mesh = mesh, &problem = problem](int cycles)
+  {
+    SolveOptions options = shortSolve();
+    options.maxCycles = cycles;
+    options.coreNodes = 500;
+    return solveMesh(mesh, problem, options).report;
+  };
+  const Report reports[] = { after(1), after(2), after(3) };
+  for (const Report& report : reports)
+  {
+    std::int64_t read = 0, written = 0;
+    for (const Report::Traffic& traffic : report.bytes_by_kind)
+    {
+      read += traffic.read;
+      written += traffic.written;
+    }
+    EXPECT_EQ(read, report.bytes_read);
+    EXPECT_EQ(written, report.bytes_written);
+  }
+  const auto& [one, two, three] = reports;
+  ASSERT_EQ(one.bytes_by_kind.size(), three.bytes_by_kind.size());
+  for (std::size_t k = 0; k < one.bytes_by_kind.size(); ++k)
+  {
+    const Report::Traffic& first = one.bytes_by_kind[k];
+    const std::int64_t pass = two.bytes_by_kind[k].read - first.read;
+    const std::int64_t writing = two.bytes_by_kind[k].written - first.written;
+    EXPECT_EQ(three.bytes_by_kind[k].read, first.read + 2 * pass) << first.kind << first.level;
+    if (first.kind == "state")
+    {
+      EXPECT_GT(writing, 0) << first.level; // anew in every pass
+    }
+    else
+    {
+      EXPECT_EQ(writing, 0) << first.kind << first.level; // once
+    }
+    if (first.kind == "right_side")
+    {
+      EXPECT_EQ(pass, mesh.vertices() * problem.Columns * std::int64_t(sizeof(double)));
+    }
+    if (first.kind == "rows")
+    {
+      EXPECT_GT(pass, 0) << first.level;
+      EXPECT_LT(pass, first.written) << first.level;
+    }
+  }
+}
+
 TEST(Streaming, doesNotDependOnTheCountsThatTheSourceClaims)
 {
   /** A mesh whose source says that it has another number of vertices. */

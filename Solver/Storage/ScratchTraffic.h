@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Storage/BlockFile.h"
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <utility>
+
+namespace smg
+{
+
+/** The traffic of the scratch files of a solve, each kind of file by itself. */
+class ScratchTraffic
+{
+public:
+  struct Kind
+  {
+    std::string name;
+    int level = NoLevel;
+    IoStatistics statistics;
+  };
+  static constexpr int NoLevel = -1;
+
+  /** The account of a new kind of file, of a level or of none; it stays where it is. */
+  IoStatistics& add(std::string name, int level = NoLevel)
+  {
+    // Not a vector: an account is being counted in while others are added.
+    Kind& kind = this->Kinds.emplace_back();
+    kind.name = std::move(name);
+    kind.level = level;
+    return kind.statistics;
+  }
+
+  const std::deque<Kind>& kinds() const { return this->Kinds; }
+
+  /** Seconds that the callers of all files stood waiting for the disk, so far. */
+  double waitSeconds() const
+  {
+    std::int64_t nanoseconds = 0;
+    for (const Kind& kind : this->Kinds)
+    {
+      nanoseconds += kind.statistics.waitNanoseconds;
+    }
+    return 1e-9 * static_cast<double>(nanoseconds);
+  }
+
+private:
+  std::deque<Kind> Kinds;
+};
+
+} // namespace smg
