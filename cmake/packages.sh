@@ -12,7 +12,8 @@ smg_build_packages=(
 smg_paraview_packages=(
   paraview paraview-dev python3-paraview libopenmpi-dev xvfb xauth libqt5svg5)
 smg_test_packages=(libgtest-dev clang-format openmpi-bin xz-utils)
-smg_benchmark_packages=(libbenchmark-dev libhypre-dev libopenmpi-dev python3)
+smg_benchmark_packages=(
+  libbenchmark-dev libhypre-dev libpetsc-real-dev libopenmpi-dev python3 python3-matplotlib)
 smg_fuzzing_packages=(clang libclang-rt-14-dev)
 
 # As root: directly, or through sudo.

@@ -20,12 +20,14 @@ struct Task
 /**
  * Each solves the task in this process and writes the solution. The answer holds `cpu_assemble`,
  * `cpu_setup`, `cpu_solve` in seconds, as far as they can be told apart, `cpu_total`, `peak_bytes`,
- * `iterations` (hypre's: of the three columns together). For hypre and CHOLMOD the peak is counted
- * from the assembled matrix on, without what the assembly needed.
+ * `iterations` (hypre's and PETSc's: of the three columns together). For hypre, PETSc and CHOLMOD
+ * the peak is counted from the assembled matrix on, without what the assembly needed. Those of smg
+ * have the solver's `report`, and in `mesh_seconds` what reading the mesh took of the time.
  */
 nlohmann::json runStreaming(const Task& task);
 nlohmann::json runInCore(const Task& task);
 nlohmann::json runHypre(const Task& task);
+nlohmann::json runPetsc(const Task& task); ///< where PETSc was found: SMG_BENCHMARK_PETSC
 nlohmann::json runCholmod(const Task& task);
 
 /** Reads the solution back: `{"relative_residual": r}` by the independently assembled system. */

@@ -9,16 +9,14 @@
 // temporary folder (TMPDIR). With --address-space a conversion that takes more
 // memory than that from the system fails, whatever the accounts say.
 
-#include "Solver/Core/Error.h"
 #include "Testing/Benchmarks/ChildProcess.h"
 #include "Testing/Benchmarks/MeasuredConversion.h"
 #include "Testing/Benchmarks/OrderQuality.h"
+#include "Testing/Benchmarks/Output.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -28,6 +26,7 @@ namespace
 
 using nlohmann::json;
 using smg::benchmark::ConversionTask;
+using smg::benchmark::text;
 
 constexpr std::int64_t Mebibyte = std::int64_t(1) << 20;
 /** Above it the order in core would take more memory than the machine may have. */
@@ -70,13 +69,6 @@ json measure(const ConversionTask& task, json& inCore)
   }
   std::filesystem::remove(task.output);
   return result;
-}
-
-std::string text(const char* format, double value)
-{
-  char characters[64];
-  std::snprintf(characters, sizeof(characters), format, value);
-  return characters;
 }
 
 /** The number of an order, and how many times that of the order in core it is. */
@@ -186,12 +178,9 @@ void run(const Options& options)
   }
   printTitle(options, results);
   printTable(results, inCore);
-  const json all = { { "mesh", options.mesh }, { "address_space_mib", options.addressSpace },
-    { "in_core", inCore }, { "results", results } };
-  if (!options.jsonFile.empty() && !(std::ofstream(options.jsonFile) << all.dump(2) << '\n'))
-  {
-    throw smg::Error(options.jsonFile + ": cannot be written.");
-  }
+  smg::benchmark::writeNumbers(
+    options.jsonFile, { { "mesh", options.mesh }, { "address_space_mib", options.addressSpace },
+                        { "in_core", inCore }, { "results", results } });
 }
 
 } // namespace

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // benchmark_peers MESH.vsm : solves one Poisson problem (FixedEndsProblem.h) with the streaming
-// solver, with the same code in core, with hypre's BoomerAMG-preconditioned conjugate gradients and
-// with CHOLMOD, each in a process of its own, and compares CPU time and memory.
+// solver, with the same code in core, with conjugate gradients preconditioned by hypre's BoomerAMG
+// and by PETSc's GAMG (where PETSc was found) and with CHOLMOD, each in a process of its own, and
+// compares CPU time and memory.
 //
 //   benchmark_peers bunny.vsm --json bunny.json
 //
@@ -9,18 +10,17 @@
 // says otherwise for smg.
 
 #include "IO/Container/VsmReader.h"
-#include "Solver/Core/Error.h"
 #include "Testing/Benchmarks/ChildProcess.h"
+#include "Testing/Benchmarks/Output.h"
 #include "Testing/Benchmarks/Peers.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
-#include <fstream>
+#include <algorithm>
 #include <iostream>
-#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace
@@ -29,18 +29,34 @@ namespace
 using nlohmann::json;
 using smg::benchmark::Task;
 
-const std::map<std::string, json (*)(const Task&)> Peers = {
+/** In the order of the table. */
+const std::vector<std::pair<std::string, json (*)(const Task&)>> Peers = {
   { "smg", smg::benchmark::runStreaming },
   { "smg-in-core", smg::benchmark::runInCore },
   { "hypre", smg::benchmark::runHypre },
+#ifdef SMG_BENCHMARK_PETSC
+  { "petsc", smg::benchmark::runPetsc },
+#endif
   { "cholmod", smg::benchmark::runCholmod },
 };
 
-/** One peer's numbers, its solution checked by an independent assembly. */
-json measure(const std::string& peer, const Task& task)
+std::vector<std::string> peerNames()
 {
-  json result = smg::benchmark::runInChild([&] { return Peers.at(peer)(task); });
-  if (!result.contains("failed"))
+  std::vector<std::string> names;
+  for (const auto& [name, run] : Peers)
+  {
+    names.push_back(name);
+  }
+  return names;
+}
+
+/** One peer's numbers, its solution checked by an independent assembly if `isChecked`. */
+json measure(const std::string& peer, const Task& task, bool isChecked)
+{
+  const auto found = std::find_if(
+    Peers.begin(), Peers.end(), [&](const auto& entry) { return entry.first == peer; });
+  json result = smg::benchmark::runInChild([&] { return found->second(task); });
+  if (isChecked && !result.contains("failed"))
   {
     result.update(smg::benchmark::runInChild([&] { return smg::benchmark::checkSolution(task); }));
   }
@@ -55,10 +71,8 @@ std::string microseconds(const json& result, const char* key, std::int64_t verti
   {
     return "-";
   }
-  char text[32];
-  std::snprintf(
-    text, sizeof(text), "%.2f", 1e6 * result[key].get<double>() / static_cast<double>(vertices));
-  return text;
+  return smg::benchmark::text(
+    "%.2f", 1e6 * result[key].get<double>() / static_cast<double>(vertices));
 }
 
 void printTable(const std::vector<std::string>& peers, const json& results, std::int64_t vertices)
@@ -81,8 +95,12 @@ void printTable(const std::vector<std::string>& peers, const json& results, std:
       std::cout << " | " << microseconds(result, key, vertices);
     }
     std::cout << " | " << result["peak_bytes"].get<std::int64_t>() / vertices << " | "
-              << result["iterations"] << " | " << result["relative_residual"].get<double>()
-              << " |\n";
+              << result["iterations"] << " | ";
+    if (result.contains("relative_residual"))
+    {
+      std::cout << result["relative_residual"].get<double>();
+    }
+    std::cout << " |\n";
   }
 }
 
@@ -91,17 +109,20 @@ void printTable(const std::vector<std::string>& peers, const json& results, std:
 int main(int argc, char** argv)
 try
 {
-  CLI::App app("Compares the solver with hypre and CHOLMOD on one mesh.");
+  CLI::App app("Compares the solver with hypre, PETSc and CHOLMOD on one mesh.");
   Task task;
-  std::vector<std::string> names = { "smg", "smg-in-core", "hypre", "cholmod" };
+  std::vector<std::string> names = peerNames();
   std::string jsonFile;
+  bool isChecked = true;
   app.add_option("MESH", task.mesh, "A .vsm file")->required()->check(CLI::ExistingFile);
   app.add_option("--tolerance", task.tolerance, "Of the relative residual")->capture_default_str();
   app.add_option("--threads", task.threads, "Of smg")->capture_default_str();
   app.add_option("--peers", names, "Which ones, separated by commas")
     ->delimiter(',')
-    ->check(CLI::IsMember(Peers))
+    ->check(CLI::IsMember(peerNames()))
     ->capture_default_str();
+  app.add_flag("--check,!--no-check", isChecked,
+    "Whether each solution is checked by a system assembled in core, which takes its memory");
   app.add_option("--json", jsonFile, "Where to write the numbers");
   CLI11_PARSE(app, argc, argv);
 
@@ -112,21 +133,14 @@ try
   for (const std::string& name : names)
   {
     std::cerr << name << " ...\n";
-    results[name] = measure(name, task);
+    results[name] = measure(name, task, isChecked);
   }
   std::cout << task.mesh.filename().string() << ": " << info.vertices << " vertices, " << info.cells
             << " cells, 3 columns, relative residual " << task.tolerance << "\n\n";
   printTable(names, results, info.vertices);
-  if (!jsonFile.empty())
-  {
-    const json all = { { "mesh", task.mesh.string() }, { "vertices", info.vertices },
-      { "cells", info.cells }, { "tolerance", task.tolerance }, { "threads", task.threads },
-      { "results", results } };
-    if (!(std::ofstream(jsonFile) << all.dump(2) << '\n'))
-    {
-      throw smg::Error(jsonFile + ": cannot be written.");
-    }
-  }
+  smg::benchmark::writeNumbers(jsonFile,
+    { { "mesh", task.mesh.string() }, { "vertices", info.vertices }, { "cells", info.cells },
+      { "tolerance", task.tolerance }, { "threads", task.threads }, { "results", results } });
   return 0;
 }
 catch (const std::exception& error)

@@ -1,39 +1,58 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Testing/Benchmarks/run.sh [MESH...] : measures the solver beside hypre and CHOLMOD, and the
-# interactive deformation of each mesh's preview, and leaves a table and the numbers of each mesh in
-# build-benchmarks/results. Without arguments it makes its own meshes: tori of 0.25 and 1 million
-# vertices, a box of tetrahedra of 0.25 million, and a bumpy surface like a scan of 1 million, of
-# which the preview alone is measured. A MESH may have any format that `smg convert` reads.
+# Testing/Benchmarks/run.sh [PART] [OPTION VALUE]... [MESH...] : measures, and leaves tables (.md) and
+# numbers (.json) in build-benchmarks/results. A MESH may have any format that `smg convert` reads,
+# a .vsm is taken as it is; without one a part makes its own. The parts:
 #
-# Testing/Benchmarks/run.sh convert [OPTION VALUE]... [MESH...] : measures the conversion of each
-# mesh, and what VTK's reader takes where ParaView is installed. Its options are
-#   --memory 64,256                  limits of the memory in MiB
-#   --orders bfs,spectral,axis,keep  which orders
-#   --address-space MiB              as ulimit -v on every conversion, to prove the memory; the
-#                                    program itself and the stacks of its threads count
-# Without a MESH it makes its own, refined and shuffled: a torus of 1 million vertices and a box of
-# tetrahedra of 0.5 million. A larger real one is made by
-#   build-benchmarks/bin/make_mesh finer dragon.ply 3 dragon-x64.ply --shuffle
-# Scratch files go to TMPDIR, which should be a disk.
+#   solve     (default) the solver beside hypre, PETSc and CHOLMOD, and the interactive deformation of
+#             each mesh's preview. Its own meshes: tori of 0.25 and 1 million vertices, a box of
+#             tetrahedra of 0.25 million, and a bumpy surface like a scan of 1 million, of which the
+#             preview alone is measured.
+#   convert   the conversion of each mesh, and what VTK's reader takes where ParaView is installed.
+#               --memory 64,256                  limits of the memory in MiB
+#               --orders bfs,spectral,axis,keep  which orders
+#               --address-space MiB              as ulimit -v on every conversion, to prove the
+#                                                memory; the program itself and the stacks of its
+#                                                threads count
+#             Its own meshes, refined and shuffled: a torus of 1 million vertices and a box of
+#             tetrahedra of 0.5 million. A larger real one is made by
+#               build-benchmarks/bin/make_mesh finer dragon.ply 3 dragon-x64.ply --shuffle
+#   scaling   the growth of memory and time: each mesh is refined again and again, converted and
+#             solved out of core with one and two threads; scaling.md, .json and .svg, with the
+#             exponents of the growth.
+#               --to VERTICES        most vertices of a mesh (3000000)
+#               --peers-to VERTICES  most vertices of a mesh that the others also solve (1000000)
+#             Its own meshes: a torus and a box of tetrahedra of 40 thousand vertices.
+#   table3    Table 3 of the paper for these meshes: I/O, hierarchy, multigrid, total time, peak nodes
+#             and memory, out of core and in core; table3.md and .json. Meshes as for solve.
+#               --threads N          of each solve (1)
+#   kernels   nanoseconds a node of each kernel. Its own mesh: a torus of 0.25 million vertices.
+#   roofline  the bytes that a pass moves, and how near it comes to the bandwidths of memory, page
+#             cache and disk. Its own mesh: a torus of 1 million vertices.
+#               --scratch DIR        on the disk to measure (TMPDIR)
+#               --threads 1,2        of the solves
+#               --file MiB           size of the file that is written and read (1024)
 #
-# To repeat a measurement: keep the machine otherwise idle, and run it twice; the spread between the
-# runs is the accuracy of the times.
+# Scratch files go to TMPDIR, which should be a disk. To repeat a measurement: keep the machine
+# otherwise idle, and run it twice; the spread between the runs is the accuracy of the times.
 set -euo pipefail
 part=solve
-if [ "${1:-}" = convert ]; then
-  part=convert
-  shift
-fi
+case "${1:-}" in
+  solve | convert | scaling | table3 | kernels | roofline)
+    part=$1
+    shift
+    ;;
+esac
 meshes=()
 options=()
 while [ $# -gt 0 ]; do
   case "$part$1" in
-    convert--memory | convert--orders | convert--address-space)
+    convert--memory | convert--orders | convert--address-space | scaling--to | scaling--peers-to | \
+      table3--threads | roofline--scratch | roofline--threads | roofline--file)
       options+=("$1" "${2:?"$1 needs a value"}")
       shift
       ;;
-    *) meshes+=("$(realpath -e "$1")") ;;
+    *) meshes+=("$(realpath -e -- "$1")") ;;
   esac
   shift
 done
@@ -76,17 +95,31 @@ measure_conversion() {
   fi
 }
 
-# made SHAPE VERTICES : makes the mesh and prints its name
+# made SHAPE VERTICES [SUFFIX] : makes the mesh, a stream unless SUFFIX says else, prints its name
 made() {
-  "$bin/make_mesh" "$1" "$2" "$results/$1-$2.vsm" >&2
-  echo "$results/$1-$2.vsm"
+  "$bin/make_mesh" "$1" "$2" "$results/$1-$2.${3:-vsm}" >&2
+  echo "$results/$1-$2.${3:-vsm}"
 }
 
 # made_finer SHAPE VERTICES SUFFIX : makes the mesh, refines it once, shuffles it, prints its name
 made_finer() {
-  "$bin/make_mesh" "$1" "$2" "$results/$1-$2.$3" >&2
-  "$bin/make_mesh" finer "$results/$1-$2.$3" 1 "$results/$1-$2-finer.$3" --shuffle >&2
-  echo "$results/$1-$2-finer.$3"
+  local mesh finer
+  mesh=$(made "$@")
+  finer=${mesh%."$3"}-finer.$3
+  "$bin/make_mesh" finer "$mesh" 1 "$finer" --shuffle >&2
+  echo "$finer"
+}
+
+# Makes streams of those meshes that are none.
+convert_meshes() {
+  local i name
+  for i in "${!meshes[@]}"; do
+    if [[ ${meshes[i]} != *.vsm ]]; then
+      name=$(basename "${meshes[i]}")
+      "$bin/smg" convert "${meshes[i]}" "$results/${name%.*}.vsm"
+      meshes[i]=$results/${name%.*}.vsm
+    fi
+  done
 }
 
 convert_part() {
@@ -105,12 +138,52 @@ solve_part() {
     measure "$(made box 250000)"
     measure_preview "$(made scan 1000000)"
   else
+    convert_meshes
     for mesh in "${meshes[@]}"; do
-      name=$(basename "$mesh")
-      "$bin/smg" convert "$mesh" "$results/${name%.*}.vsm"
-      measure "$results/${name%.*}.vsm"
+      measure "$mesh"
     done
   fi
+}
+
+scaling_part() {
+  if [ ${#meshes[@]} -eq 0 ]; then
+    meshes=("$(made torus 40000 ply)" "$(made box 40000 vtk)")
+  fi
+  # Debian's Python, which is the one that matplotlib is installed for.
+  /usr/bin/python3 Testing/Benchmarks/scaling.py "$bin" "$results" "${options[@]}" "${meshes[@]}"
+}
+
+table3_part() {
+  convert_meshes
+  if [ ${#meshes[@]} -eq 0 ]; then
+    meshes=("$(made torus 250000)" "$(made torus 1000000)" "$(made box 250000)")
+  fi
+  "$bin/benchmark_table3" "${meshes[@]}" "${options[@]}" --json "$results/table3.json" |
+    tee "$results/table3.md"
+}
+
+# measure_kernels NAME [MESH.vsm]
+measure_kernels() {
+  "$bin/benchmark_kernels" "${@:2}" --benchmark_counters_tabular=true \
+    --benchmark_out="$results/$1-kernels.json" | tee "$results/$1-kernels.txt"
+}
+
+kernels_part() {
+  convert_meshes
+  [ ${#meshes[@]} -gt 0 ] || measure_kernels torus
+  for mesh in "${meshes[@]}"; do
+    measure_kernels "$(basename "$mesh" .vsm)" "$mesh"
+  done
+}
+
+roofline_part() {
+  local out
+  convert_meshes
+  [ ${#meshes[@]} -gt 0 ] || meshes=("$(made torus 1000000)")
+  for mesh in "${meshes[@]}"; do
+    out=$results/$(basename "$mesh" .vsm)-roofline
+    "$bin/benchmark_roofline" "$mesh" "${options[@]}" --json "$out.json" | tee "$out.md"
+  done
 }
 
 "${part}_part"

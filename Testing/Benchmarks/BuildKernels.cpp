@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Core/Timer.h"
+#include "Solver/Cycle/RowBlockPacker.h"
+#include "Solver/Hierarchy/Coarsening.h"
+#include "Solver/Hierarchy/Extended.h"
+#include "Solver/Problem/Assembly.h"
+#include "Testing/Benchmarks/FixedEndsProblem.h"
+#include "Testing/Benchmarks/Kernels.h"
+#include "Testing/Benchmarks/TimedOperators.h"
+#include "Testing/Support/MemorySource.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace smg::benchmark
+{
+namespace
+{
+
+using ::benchmark::State;
+
+constexpr std::int64_t NoLimit = std::int64_t(1) << 40;
+
+/** The rows of a level that stay where they are. */
+struct KeptRows
+{
+  Pool pool{ NoLimit };
+  LevelRows rows{ pool };
+
+  /** Appends rows [begin, end) to `to`. */
+  void copy(std::int64_t begin, std::int64_t end, LevelRows& to) const
+  {
+    for (std::int64_t i = begin; i < end; ++i)
+    {
+      const auto row = this->rows.row(i);
+      const auto size = static_cast<std::int64_t>(row.size());
+      std::copy(row.begin(), row.end(), to.open(size));
+      to.close(size, this->rows.alpha(i), this->rows.childReach(i));
+    }
+  }
+};
+
+/** Assembles the mesh to `rows`; `settle` follows each block. */
+template <class Settle>
+void assemble(const testing::StreamMesh& mesh, LevelRows& rows, Pool& pool, Settle&& settle)
+{
+  testing::MemorySource source(mesh, 5000);
+  FixedEndsProblem problem(source.info());
+  ResidentNodes resident;
+  LevelWindow<double> window(pool, resident, 0, problem.columns());
+  Components components(problem.columns(), &pool);
+  ComponentLabels labels;
+  Assembly assembly(pool, source.info(), problem, rows, window, components, labels);
+  for (MeshBlock block; source.next(block);)
+  {
+    settle(window, [&] { assembly.add(block); });
+  }
+  settle(window, [&] { assembly.finish(); });
+}
+
+void assembling(State& state, const testing::StreamMesh& mesh)
+{
+  double seconds = 0.0;
+  Report::Level level;
+  for (auto _ : state)
+  {
+    const double before = seconds;
+    Pool pool(NoLimit);
+    LevelRows rows(pool);
+    assemble(mesh, rows, pool,
+      [&](LevelWindow<double>& window, auto&& add)
+      {
+        const double start = processSeconds();
+        add();
+        seconds += processSeconds() - start;
+        rows.release(rows.end(), rows.end());
+        window.x().release(rows.end());
+        window.b().release(rows.end());
+      });
+    state.SetIterationTime(seconds - before);
+    level = { rows.end(), rows.nonzeros() };
+  }
+  setCounters(state, level, seconds);
+}
+
+using TimedStep = Coarsening<TimedOperators<Extended>>;
+
+/** Packs the blocks that are final, from node `begin` on; answers where it has come to. */
+std::int64_t pack(Pool& pool, TimedStep& step, const LevelRows& rows, std::int64_t begin)
+{
+  const std::int64_t final = step.interpolated();
+  const bool ended = rows.Ended && final == rows.end();
+  while (begin + RowBlock::Nodes <= final || (ended && begin < final))
+  {
+    const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
+    ::benchmark::DoNotOptimize(packRows(pool, rows, &step.data(), begin, nodes).buffer().data());
+    begin += nodes;
+    step.packed(begin);
+    step.release();
+  }
+  return begin;
+}
+
+void coarsening(State& state, const KeptRows& kept, CellType type)
+{
+  const Report::Level level{ kept.rows.end(), kept.rows.nonzeros() };
+  StageClock clock;
+  for (auto _ : state)
+  {
+    const double before = clock.total();
+    Pool pool(NoLimit);
+    LevelRows fine(pool), coarse(pool);
+    TimedStep step(pool, { Extended::forCells(type), clock }, fine, coarse);
+    std::int64_t packed = 0;
+    for (std::int64_t end = 0; end < level.nodes;)
+    {
+      const std::int64_t begin = end;
+      end = std::min(level.nodes, begin + RowBlock::Nodes);
+      kept.copy(begin, end, fine);
+      fine.Ended = end == level.nodes;
+      clock.enter(Stage::Lift);
+      step.advance();
+      clock.enter(Stage::Pack);
+      packed = pack(pool, step, fine, packed);
+      clock.stop();
+      coarse.release(coarse.end(), coarse.end());
+    }
+    state.SetIterationTime(clock.total() - before);
+  }
+  setCounters(state, level, clock.total());
+  for (std::size_t s = 0; s < StageNames.size(); ++s)
+  {
+    state.counters[StageNames[s]] = perNode(clock.seconds(static_cast<Stage>(s)), state, level);
+  }
+}
+
+/** The rows of the levels that are worth measuring. */
+std::vector<std::shared_ptr<KeptRows>> keptRows(const testing::StreamMesh& mesh)
+{
+  std::vector<std::shared_ptr<KeptRows>> levels;
+  levels.push_back(std::make_shared<KeptRows>());
+  Pool pool(NoLimit);
+  assemble(mesh, levels[0]->rows, pool, [](auto&, auto&& add) { add(); });
+  for (;;)
+  {
+    LevelRows fine(pool);
+    levels.back()->copy(0, levels.back()->rows.end(), fine);
+    fine.Ended = true;
+    auto next = std::make_shared<KeptRows>();
+    Coarsening<Extended>(pool, Extended::forCells(mesh.cellType), fine, next->rows).advance();
+    if (next->rows.end() < FewestNodes)
+    {
+      return levels;
+    }
+    levels.push_back(std::move(next));
+  }
+}
+
+} // namespace
+
+void addBuildKernels(const testing::StreamMesh& mesh)
+{
+  ::benchmark::RegisterBenchmark("assemble", [&](State& state) { assembling(state, mesh); })
+    ->Unit(::benchmark::kMillisecond)
+    ->UseManualTime();
+  int l = 0;
+  for (const std::shared_ptr<KeptRows>& rows : keptRows(mesh))
+  {
+    ::benchmark::RegisterBenchmark(("coarsen/level_" + std::to_string(l++)).c_str(),
+      [&mesh, rows](State& state) { coarsening(state, *rows, mesh.cellType); })
+      ->Unit(::benchmark::kMillisecond)
+      ->UseManualTime();
+  }
+}
+
+} // namespace smg::benchmark

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Timer.h"
+#include "Solver/Hierarchy/OperatorSet.h"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace smg::benchmark
+{
+
+/** The stages from the rows of a level to those of the next one, in their order. */
+enum class Stage
+{
+  Lift,
+  InterpolateInitial,
+  Interpolate,
+  Multiply,
+  Gather,
+  Sparsify,
+  Pack,
+  None
+};
+inline constexpr std::array<const char*, static_cast<std::size_t>(Stage::None)> StageNames = {
+  "lift", "initial", "interpolate", "multiply", "gather", "sparsify", "pack"
+};
+
+/**
+ * Processor seconds by stage. A stage lasts until another one begins: the clock is read at changes
+ * only, which are few, since a stage treats a whole block of nodes; so it does not disturb what it
+ * times.
+ */
+class StageClock
+{
+public:
+  void enter(Stage stage)
+  {
+    if (stage != this->Current)
+    {
+      const double now = processSeconds();
+      this->Seconds[index(this->Current)] += now - this->Since;
+      this->Current = stage;
+      this->Since = now;
+    }
+  }
+  void stop() { this->enter(Stage::None); }
+
+  double seconds(Stage stage) const { return this->Seconds[index(stage)]; }
+  /** Of all stages. */
+  double total() const
+  {
+    double sum = 0.0;
+    for (std::size_t s = 0; s < StageNames.size(); ++s)
+    {
+      sum += this->Seconds[s];
+    }
+    return sum;
+  }
+
+private:
+  static std::size_t index(Stage stage) { return static_cast<std::size_t>(stage); }
+
+  std::array<double, StageNames.size() + 1> Seconds{};
+  Stage Current = Stage::None;
+  double Since = processSeconds();
+};
+
+/** Another operator set that tells a clock which of its stages is at work. */
+template <OperatorSet Operators>
+class TimedOperators
+{
+public:
+  static constexpr const char* name = Operators::name;
+  using Relaxation = typename Operators::Relaxation;
+
+  /** Of no use without a clock; an operator set has such a constructor, and forCells(). */
+  TimedOperators() = default;
+  TimedOperators(Operators operators, StageClock& clock)
+    : Set(std::move(operators))
+    , Clock(&clock)
+  {
+  }
+  static TimedOperators forCells(CellType type)
+  {
+    TimedOperators timed;
+    timed.Set = Operators::forCells(type);
+    return timed;
+  }
+
+  bool lift(CoarseningData& data, std::int64_t i)
+  {
+    this->Clock->enter(Stage::Lift);
+    return this->Set.lift(data, i);
+  }
+  void interpolateInitial(CoarseningData& data, std::int64_t i)
+  {
+    this->Clock->enter(Stage::InterpolateInitial);
+    this->Set.interpolateInitial(data, i);
+  }
+  void interpolate(CoarseningData& data, std::int64_t i)
+  {
+    this->Clock->enter(Stage::Interpolate);
+    this->Set.interpolate(data, i);
+  }
+  void multiply(CoarseningData& data, std::int64_t i)
+  {
+    this->Clock->enter(Stage::Multiply);
+    this->Set.multiply(data, i);
+  }
+  void gather(CoarseningData& data, std::int64_t c)
+  {
+    this->Clock->enter(Stage::Gather);
+    this->Set.gather(data, c);
+  }
+  void sparsify(CoarseningData& data, std::int64_t c)
+  {
+    this->Clock->enter(Stage::Sparsify);
+    this->Set.sparsify(data, c);
+  }
+
+private:
+  Operators Set;
+  StageClock* Clock = nullptr;
+};
+
+} // namespace smg::benchmark

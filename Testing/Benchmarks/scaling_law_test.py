@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The laws that scaling.py's meshes follow are found again in its table and plot."""
+import pathlib
+import sys
+import tempfile
+
+import scaling_law
+
+
+def point(vertices):
+    """Nodes like the root of the vertices, memory like the power 2/3, time like the vertices."""
+    result = {"cpu_total": 3e-6 * vertices, "peak_bytes": 1 << 24, "iterations": 8,
+              "report": {"peak_nodes": round(1e3 * vertices ** 0.5),
+                         "pool_bytes_peak": round(1e6 * vertices ** (2 / 3)),
+                         "seconds": {"total": 1.0}}}
+    return {"vertices": vertices, "convert": {"span": 7, "cpu_seconds": 1.0},
+            "streaming": {"1": result, "2": result},
+            "peers": {"hypre": result, "cholmod": {"failed": "no memory"}}}
+
+
+def main():
+    points = [point(10 ** k) for k in (4, 5, 6, 7)]
+    series = [{"mesh": "wing", "points": points}, {"mesh": "dot", "points": points[:1]}]
+    fits = scaling_law.growth(points)
+    for name, law in (("peak_nodes", 1 / 2), ("pool_bytes", 2 / 3), ("cpu_seconds", 1)):
+        for which in ("all", "last"):
+            assert abs(fits[name][which] - law) < 1e-4, (name, fits)
+    # One point off the line moves the fit over all points, as least squares say: 3 of 20 for the
+    # last of four points at equal distances.
+    fitted = scaling_law.exponent([(1, 1), (10, 1), (100, 1), (1000, 10)])
+    assert abs(fitted - 0.3) < 1e-12, fitted
+    table = scaling_law.table(series)
+    assert "| wing, all | 0.50 | 0.67 | 1.00 |" in table, table
+    assert "| dot," not in table and "| 3.00, 16 | failed |" in table, table
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "plot.svg"
+        scaling_law.plot(series, file)
+        svg = file.read_text()
+    assert "hypre BoomerAMG, wing" in svg and "CHOLMOD" not in svg
+
+
+sys.exit(main())
