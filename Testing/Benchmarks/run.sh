@@ -22,7 +22,8 @@
 #             exponents of the growth.
 #               --to VERTICES        most vertices of a mesh (3000000)
 #               --peers-to VERTICES  most vertices of a mesh that the others also solve (1000000)
-#             Its own meshes: a torus and a box of tetrahedra of 40 thousand vertices.
+#             Its own meshes: a torus and a box of tetrahedra of 40 thousand vertices. What the README
+#             shows is kept in Testing/Benchmarks/results.
 #   table3    Table 3 of the paper for these meshes: I/O, hierarchy, multigrid, total time, peak nodes
 #             and memory, out of core and in core; table3.md and .json. Meshes as for solve.
 #               --threads N          of each solve (1)

@@ -100,12 +100,8 @@ def main():
                         help="most vertices of a mesh that the other solvers get")
     options = parser.parse_args()
     series = [Series(mesh, options).measure_all() for mesh in options.meshes]
-    numbers = {"machine": machine(), "series": series}
-    (options.out / "scaling.json").write_text(json.dumps(numbers, indent=1) + "\n")
-    table = scaling_law.table(series)
-    (options.out / "scaling.md").write_text(table)
-    scaling_law.plot(series, options.out / "scaling.svg")
-    print(table, end="")
+    scaling_law.write(options.out, {"machine": machine(), "series": series})
+    print((options.out / "scaling.md").read_text(), end="")
 
 
 main()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What scaling.py has measured: the exponents of the growth, a Markdown table and a plot."""
+"""What scaling.py has measured: the exponents of the growth, Markdown tables and a plot."""
+import json
 import math
 
 import matplotlib
@@ -47,43 +48,60 @@ def growth(points):
     return {name: {"all": fit(points, name), "last": fit(points[-2:], name)} for name in GROWTHS}
 
 
-def of_peer(point, peer, value):
-    result = point["peers"].get(peer)
-    return "" if result is None else "failed" if "failed" in result else value(result)
+def mebibytes(value, digits=0):
+    return f"{value / MEBIBYTE:.{digits}f}"
 
 
-def table(series):
-    """Markdown: a row for each mesh, and the exponents."""
-    peers = [peer for peer in SOLVERS if any(
-        peer in point["peers"] for entry in series for point in entry["points"])]
-    head = ["mesh", "vertices", "span", "peak nodes", "accounted MiB", "process MiB",
-            "convert, CPU us/vertex", "solve, CPU us/vertex", "wall s, 1 thread", "2 threads",
-            "V-cycles"] + [f"{SOLVERS[peer][1]}: CPU us/vertex, MiB" for peer in peers]
-    lines = ["| " + " | ".join(head) + " |", "|---" * len(head) + "|"]
+def markdown(head, rows):
+    lines = [head, ["---"] * len(head), *rows]
+    return "".join("| " + " | ".join(map(str, line)) + " |\n" for line in lines) + "\n"
+
+
+def streaming_table(series):
+    """A row for each mesh, solved out of core."""
+    rows = []
     for entry in series:
         for point in entry["points"]:
-            vertices, one, two = point["vertices"], streaming(point), streaming(point, 2)
-            report = one["report"]
-            cells = [entry["mesh"], vertices, point["convert"]["span"], report["peak_nodes"],
-                     f'{report["pool_bytes_peak"] / MEBIBYTE:.1f}',
-                     f'{one["peak_bytes"] / MEBIBYTE:.0f}',
-                     f'{1e6 * point["convert"]["cpu_seconds"] / vertices:.2f}',
-                     f'{1e6 * one["cpu_total"] / vertices:.2f}',
-                     f'{report["seconds"]["total"]:.2f}',
-                     f'{two["report"]["seconds"]["total"]:.2f}', one["iterations"]]
-            cells += [of_peer(point, peer, lambda result: (
-                f'{1e6 * result["cpu_total"] / vertices:.2f}, '
-                f'{result["peak_bytes"] / MEBIBYTE:.0f}')) for peer in peers]
-            lines.append("| " + " | ".join(str(cell) for cell in cells) + " |")
-    lines += ["", "| exponent of the growth with the vertices | peak nodes | accounted memory | "
-              "CPU time |", "|---|---|---|---|"]
+            vertices, one = point["vertices"], streaming(point)
+            report, of_two = one["report"], streaming(point, 2)["report"]
+            rows.append([
+                entry["mesh"], vertices, point["convert"]["span"], report["peak_nodes"],
+                mebibytes(report["pool_bytes_peak"], 1), mebibytes(one["peak_bytes"]),
+                f'{1e6 * point["convert"]["cpu_seconds"] / vertices:.2f}',
+                f'{1e6 * one["cpu_total"] / vertices:.2f}', f'{report["seconds"]["total"]:.2f}',
+                f'{of_two["seconds"]["total"]:.2f}', one["iterations"]])
+    return markdown(
+        ["mesh", "vertices", "span", "peak nodes", "accounted MiB", "process MiB",
+         "convert, CPU us/vertex", "solve, CPU us/vertex", "wall s, 1 thread", "2 threads",
+         "V-cycles"], rows)
+
+
+def growth_table(series):
+    """A row for each series that has something to fit."""
+    rows = []
     for entry in series:
         if len(entry["points"]) > 1:
             fits = growth(entry["points"])
-            for which, what in (("all", "all"), ("last", "the last two")):
-                lines.append(f'| {entry["mesh"]}, {what} | ' + " | ".join(
-                    f"{fits[name][which]:.2f}" for name in GROWTHS) + " |")
-    return "\n".join(lines) + "\n"
+            rows += [[f'{entry["mesh"]}, {what}'] + [f"{fits[name][which]:.2f}" for name in GROWTHS]
+                     for which, what in (("all", "all"), ("last", "the last two"))]
+    return markdown(["exponent of the growth with the vertices", "peak nodes", "accounted memory",
+                     "CPU time"], rows)
+
+
+def peer_table(series):
+    """A row for each mesh that the others have solved, too."""
+    results = [(entry["mesh"], point["vertices"], {"smg": streaming(point), **point["peers"]})
+               for entry in series for point in entry["points"] if point["peers"]]
+    solvers = [name for name in SOLVERS if any(name in of for _, _, of in results)]
+
+    def cell(vertices, result):
+        if result is None or "failed" in result:
+            return "failed" if result else ""
+        return f'{1e6 * result["cpu_total"] / vertices:.2f}, {mebibytes(result["peak_bytes"])}'
+    return markdown(
+        ["CPU us/vertex, MiB", "vertices", *(SOLVERS[name][1] for name in solvers)],
+        [[mesh, vertices, *(cell(vertices, of.get(name)) for name in solvers)]
+         for mesh, vertices, of in results]) if results else ""
 
 
 def curve(entry, solver, value):
@@ -118,3 +136,13 @@ def plot(series, file):
     figure.legend(handles, labels, loc="center left", bbox_to_anchor=(1.0, 0.5), fontsize=8)
     figure.savefig(file, bbox_inches="tight", metadata={"Date": None})
     pyplot.close(figure)
+
+
+def write(out, numbers):
+    """scaling.md, .json and .svg in the folder `out`."""
+    series, machine = numbers["series"], numbers["machine"]
+    (out / "scaling.json").write_text(json.dumps(numbers, indent=1) + "\n")
+    (out / "scaling.md").write_text(
+        f'Measured on {machine["processor"]}, {machine["cores"]} cores, {machine["memory_gib"]} '
+        f"GiB of memory:\n\n{streaming_table(series)}{growth_table(series)}{peer_table(series)}")
+    plot(series, out / "scaling.svg")

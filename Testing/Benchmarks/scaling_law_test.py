@@ -29,13 +29,15 @@ def main():
     # last of four points at equal distances.
     fitted = scaling_law.exponent([(1, 1), (10, 1), (100, 1), (1000, 10)])
     assert abs(fitted - 0.3) < 1e-12, fitted
-    table = scaling_law.table(series)
-    assert "| wing, all | 0.50 | 0.67 | 1.00 |" in table, table
-    assert "| dot," not in table and "| 3.00, 16 | failed |" in table, table
     with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / "plot.svg"
-        scaling_law.plot(series, file)
-        svg = file.read_text()
+        out = pathlib.Path(folder)
+        machine = {"processor": "abacus", "cores": 1, "memory_gib": 0}
+        scaling_law.write(out, {"machine": machine, "series": series})
+        tables = (out / "scaling.md").read_text()
+        svg = (out / "scaling.svg").read_text()
+    assert "| wing, all | 0.50 | 0.67 | 1.00 |" in tables and "| dot, all" not in tables, tables
+    # 3 us a vertex and 16 MiB, streaming and hypre.
+    assert "| dot | 10000 | 3.00, 16 | 3.00, 16 | failed |" in tables, tables
     assert "hypre BoomerAMG, wing" in svg and "CHOLMOD" not in svg
 
 
