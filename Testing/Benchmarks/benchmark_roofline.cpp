@@ -40,7 +40,8 @@ struct Options
 
 /**
  * What a pass after the first one reads and writes. Of p passes, the last p - 1 read every file;
- * the state is written in all, the rest in the first one only.
+ * the state is written in all, the rest in the first one only. What components without prescribed
+ * value take beside the passes is spread over them.
  */
 json bytesOfPass(const json& report)
 {
