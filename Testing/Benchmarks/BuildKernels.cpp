@@ -52,12 +52,22 @@ void assemble(const testing::StreamMesh& mesh, LevelRows& rows, Pool& pool, Sett
   LevelWindow<double> window(pool, resident, 0, problem.columns());
   Components components(problem.columns(), &pool);
   ComponentLabels labels;
-  Assembly assembly(pool, source.info(), problem, rows, window, components, labels);
+  AssembledRows batch;
+  Assembly assembly(pool, source.info(), problem, batch, components, labels);
+  const auto step = [&](auto&& make)
+  {
+    settle(window,
+      [&]
+      {
+        make();
+        batch.moveTo(rows, window, problem.columns());
+      });
+  };
   for (MeshBlock block; source.next(block);)
   {
-    settle(window, [&] { assembly.add(block); });
+    step([&] { assembly.add(block); });
   }
-  settle(window, [&] { assembly.finish(); });
+  step([&] { assembly.finish(); });
 }
 
 void assembling(State& state, const testing::StreamMesh& mesh)
@@ -122,6 +132,7 @@ void coarsening(State& state, const KeptRows& kept, CellType type)
       fine.Ended = end == level.nodes;
       clock.enter(Stage::Lift);
       step.advance();
+      step.handOver();
       clock.enter(Stage::Pack);
       packed = pack(pool, step, fine, packed);
       clock.stop();
@@ -149,7 +160,9 @@ std::vector<std::shared_ptr<KeptRows>> keptRows(const testing::StreamMesh& mesh)
     levels.back()->copy(0, levels.back()->rows.end(), fine);
     fine.Ended = true;
     auto next = std::make_shared<KeptRows>();
-    Coarsening<Extended>(pool, Extended::forCells(mesh.cellType), fine, next->rows).advance();
+    Coarsening<Extended> step(pool, Extended::forCells(mesh.cellType), fine, next->rows);
+    step.advance();
+    step.handOver();
     if (next->rows.end() < FewestNodes)
     {
       return levels;

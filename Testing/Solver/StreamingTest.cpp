@@ -213,7 +213,9 @@ TEST(Streaming, tellsItsTrafficByKind)
     }
     if (first.kind == "right_side")
     {
-      EXPECT_EQ(pass, mesh.vertices() * problem.Columns * std::int64_t(sizeof(double)));
+      // Blocks of zeros, which lie away from the constraints, take no room.
+      EXPECT_GT(pass, 0);
+      EXPECT_LT(pass, mesh.vertices() * problem.Columns * std::int64_t(sizeof(double)));
     }
     if (first.kind == "rows")
     {
