@@ -129,7 +129,7 @@ public:
   {
     if (this->First)
     {
-      this->Window.extendState(node + 1);
+      this->Window.extendB(node + 1);
     }
     if (this->First || this->Core)
     {

@@ -106,10 +106,15 @@ public:
   /** First pass: state of nodes below `end`, zero. */
   void extendState(std::int64_t end)
   {
-    const std::int64_t before = this->Now.x.end();
+    this->Now.x.extend(end);
+    this->extendB(end);
+  }
+  /** First pass: right-hand side of nodes below `end`, zero. */
+  void extendB(std::int64_t end)
+  {
+    const std::int64_t before = this->Now.b.end();
     if (end > before)
     {
-      this->Now.x.extend(end);
       this->Now.b.extend(end);
       this->Resident->add(end - before);
     }

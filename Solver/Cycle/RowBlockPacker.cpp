@@ -45,13 +45,12 @@ Header measure(
       const std::int64_t count = coarsening->interpolation.size(i);
       if (count > 0 && !based)
       {
-        h.parentBase = coarsening->coarseNodes + offset(p->coarse, coarsening->coarseNodes);
+        h.parentBase = coarsening->coarseNodes + p->offset(coarsening->coarseNodes);
         based = true;
       }
       for (std::int64_t e = 0; e < count; ++e)
       {
-        largestParent =
-          std::max<std::int64_t>(largestParent, std::abs(offset(p[e].coarse, h.parentBase)));
+        largestParent = std::max<std::int64_t>(largestParent, std::abs(p[e].offset(h.parentBase)));
       }
       h.parents += static_cast<std::int32_t>(count);
       h.parentReach[group] = coarsening->parentReach[i];
@@ -96,8 +95,8 @@ void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarseni
       const InterpolationEntry* end = p + coarsening->interpolation.size(i);
       for (; p != end; ++p)
       {
-        parent[parents] = static_cast<Index>(offset(p->coarse, h.parentBase));
-        quanta[parents++] = static_cast<std::uint8_t>(p->quanta);
+        parent[parents] = static_cast<Index>(p->offset(h.parentBase));
+        quanta[parents++] = static_cast<std::uint8_t>(p->quanta());
       }
     }
     parentEnd[k] = static_cast<Count>(parents - h.parentStart[group]);

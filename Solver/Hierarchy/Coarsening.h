@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/Error.h"
 #include "Solver/Hierarchy/CoarseningData.h"
 #include "Solver/Hierarchy/OperatorSet.h"
 #include "Solver/Hierarchy/RowBatch.h"
@@ -78,19 +79,18 @@ public:
       std::min({ this->ReachDone, this->ProductDone, this->Packed });
     d.interpolation.release(interpolationDone);
     d.rowQuanta.release(interpolationDone);
-    d.parentReach.release(std::min(interpolationDone, this->Interpolated - 1));
+    d.parentReach.release(interpolationDone);
     const std::int64_t nextFine =
       this->Gathered < d.coarseNodes ? d.liftedFrom[this->Gathered] : this->Lifted;
     d.fine.release(std::min(this->Multiplied, this->Packed),
       std::min({ this->LiftedDone, this->InitialDone, this->ReachDone, nextFine }));
     d.liftedFrom.release(this->Gathered);
     d.firstChild.release(this->Gathered);
-    d.lastChild.release(this->Gathered);
+    d.lastChild.release(this->Finished);
     d.raw.release(this->Finished);
     d.rawAlpha.release(this->Finished);
     d.rawStrongest.release(this->Finished);
     d.rawReach.release(this->Finished);
-    d.childReach.release(this->Finished);
     d.rawLower.release(this->Finished);
     d.rawFilled.release(this->Finished);
     d.slots.release(this->Finished);
@@ -104,21 +104,20 @@ private:
     for (std::int64_t& i = this->Lifted; i < this->Rows; ++i)
     {
       const bool lifted = this->Set.lift(d, i);
-      d.lifted[i] = lifted ? d.coarseNodes : -1;
+      d.lifted[i] = lifted ? static_cast<CoarseIndex>(d.coarseNodes) : CoarseningData::Retained;
       if (lifted)
       {
-        d.liftedFrom.extendRaw(d.coarseNodes + 1);
-        d.liftedFrom[d.coarseNodes] = i;
+        d.liftedFrom.append(i);
         ++d.coarseNodes;
       }
     }
-    const std::int64_t before = d.firstChild.end();
-    d.firstChild.extendRaw(d.coarseNodes);
-    d.lastChild.extendRaw(d.coarseNodes);
-    for (std::int64_t c = before; c < d.coarseNodes; ++c)
+    if (d.coarseNodes - this->Finished >= InterpolationEntry::CoarseWindow)
     {
-      d.firstChild[c] = d.lastChild[c] = -1;
+      throw Error(
+        "neighbours lie too far apart in the stream: convert the mesh with the order bfs");
     }
+    d.firstChild.extend(d.coarseNodes);
+    d.lastChild.extend(d.coarseNodes);
     d.slots.extend(d.coarseNodes);
   }
 
@@ -131,7 +130,6 @@ private:
       this->Set.interpolateInitial(d, i);
     }
     d.rowQuanta.extendRaw(rows);
-    d.parentReach.extendRaw(rows);
     for (std::int64_t& i = this->Interpolated; i < rows && d.fine.reach(i) < this->Initial; ++i)
     {
       this->Set.interpolate(d, i);
@@ -158,19 +156,13 @@ private:
     {
       return false;
     }
-    const std::int64_t near = d.liftedFrom[c];
-    const std::uint32_t last = d.interpolation.entry(d.lastChild[c]).fine;
-    return near + static_cast<std::int32_t>(last - static_cast<std::uint32_t>(near)) <
-           this->Multiplied;
+    return d.lastChild[c].row(d.liftedFrom[c]) < this->Multiplied;
   }
 
   void gather()
   {
     CoarseningData& d = this->Data;
-    for (auto* ring : { &d.rawReach, &d.childReach })
-    {
-      ring->extendRaw(d.coarseNodes);
-    }
+    d.rawReach.extendRaw(d.coarseNodes);
     d.rawAlpha.extendRaw(d.coarseNodes);
     d.rawStrongest.extendRaw(d.coarseNodes);
     d.rawLower.extendRaw(d.coarseNodes);
@@ -179,8 +171,8 @@ private:
     {
       this->Set.gather(d, c);
     }
-    for (std::int64_t& c = this->Sparsified; c < this->Gathered && d.rawReach[c] < this->Gathered;
-         ++c)
+    for (std::int64_t& c = this->Sparsified;
+         c < this->Gathered && c + d.rawReach[c] < this->Gathered; ++c)
     {
       this->Set.sparsify(d, c);
     }
@@ -190,8 +182,8 @@ private:
   void finish()
   {
     CoarseningData& d = this->Data;
-    for (std::int64_t& c = this->Finished; c < this->Sparsified && d.rawReach[c] < this->Sparsified;
-         ++c)
+    for (std::int64_t& c = this->Finished;
+         c < this->Sparsified && c + d.rawReach[c] < this->Sparsified; ++c)
     {
       const std::int64_t size = d.raw.size(c);
       const RowEntry* raw = d.raw.row(c);
@@ -204,7 +196,7 @@ private:
           out[kept++] = raw[e];
         }
       }
-      this->Final.close(kept, d.rawAlpha[c], d.childReach[c]);
+      this->Final.close(kept, d.rawAlpha[c], d.lastChild[c].row(this->Rows));
     }
   }
 

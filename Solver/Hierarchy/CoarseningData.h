@@ -2,7 +2,8 @@
 #pragma once
 
 #include "Solver/Hierarchy/LevelRows.h"
-#include "Solver/Storage/Ring.h"
+#include "Solver/Storage/MonotoneRing.h"
+#include "Solver/Storage/RaggedRing.h"
 
 #include <cstdint>
 
@@ -32,16 +33,67 @@ struct InitialEntry
 inline constexpr int Quanta = 255;
 inline constexpr float Quantum = 1.0F / Quanta;
 
-/** An entry of row `fine` of the interpolation P, and the next one of the same column. */
-struct InterpolationEntry
+/**
+ * A child of a coarse node: the row of the interpolation, by its low 29 bits, and the entry in it.
+ * Rows that are alive at once lie within 2^28 of each other.
+ */
+class ChildLink
 {
-  CoarseIndex coarse;
-  std::uint32_t fine; ///< low 32 bits
-  std::uint32_t next; ///< how many entries ahead; 0: none
-  std::uint32_t quanta;
+public:
+  /** Most entries of a row that have links. */
+  static constexpr int Slots = 7;
 
-  float weight() const { return static_cast<float>(this->quanta) * Quantum; }
+  /** No child. */
+  ChildLink() = default;
+  ChildLink(std::int64_t row, int slot)
+    : Bits(static_cast<std::uint32_t>(row) << 3 | static_cast<std::uint32_t>(slot))
+  {
+  }
+
+  bool none() const { return this->Bits == ~std::uint32_t(0); }
+  int slot() const { return static_cast<int>(this->Bits & 7); }
+  /** The row, given any row that is alive. */
+  std::int64_t row(std::int64_t near) const
+  {
+    const std::uint32_t distance =
+      (this->Bits & ~std::uint32_t(7)) - (static_cast<std::uint32_t>(near) << 3);
+    return near + (static_cast<std::int32_t>(distance) >> 3);
+  }
+
+private:
+  std::uint32_t Bits = ~std::uint32_t(0);
 };
+
+/**
+ * An entry of a row of the interpolation P, and the next child of its coarse node. The coarse node
+ * is known by its low 24 bits: those that are alive at once are fewer than CoarseWindow.
+ */
+class InterpolationEntry
+{
+public:
+  static constexpr std::int64_t CoarseWindow = std::int64_t(1) << 23;
+
+  InterpolationEntry(CoarseIndex coarse, std::uint32_t quanta)
+    : Bits(coarse << 8 | quanta)
+  {
+  }
+
+  std::uint32_t quanta() const { return this->Bits & 255; }
+  float weight() const { return static_cast<float>(this->quanta()) * Quantum; }
+  /** Distance of the coarse node from `near`, which is alive. */
+  std::int32_t offset(std::int64_t near) const
+  {
+    const std::uint32_t distance =
+      (this->Bits & ~std::uint32_t(255)) - (static_cast<std::uint32_t>(near) << 8);
+    return static_cast<std::int32_t>(distance) >> 8;
+  }
+
+  ChildLink next;
+
+private:
+  std::uint32_t Bits;
+};
+static_assert(sizeof(InterpolationEntry) == 8 && Quanta <= 255);
 
 /** An entry of a row of the product A P. */
 struct ProductEntry
@@ -63,16 +115,15 @@ struct CoarseningData
     , initial(pool)
     , interpolation(pool)
     , rowQuanta(pool)
-    , parentReach(pool)
+    , parentReach(pool, -1)
     , product(pool)
     , productSum(pool)
-    , liftedFrom(pool)
+    , liftedFrom(pool, -1)
     , firstChild(pool)
     , lastChild(pool)
     , raw(pool)
     , rawAlpha(pool)
     , rawStrongest(pool)
-    , childReach(pool)
     , rawReach(pool)
     , rawLower(pool)
     , rawFilled(pool)
@@ -84,24 +135,25 @@ struct CoarseningData
   LevelRows& coarse;
 
   // By fine node.
-  Ring<std::int64_t> lifted; ///< its coarse node, or -1 if it is retained
+  /** Its coarse node by the low 32 bits, or Retained. */
+  Ring<CoarseIndex> lifted;
+  static constexpr CoarseIndex Retained = ~CoarseIndex(0);
   RaggedRing<InitialEntry> initial;
   RaggedRing<InterpolationEntry> interpolation;
-  Ring<std::int32_t> rowQuanta;   ///< sum of the row of P
-  Ring<std::int64_t> parentReach; ///< largest coarse index in rows 0 .. i of P, or -1
+  Ring<std::uint16_t> rowQuanta; ///< sum of the row of P
+  MonotoneRing parentReach;      ///< largest coarse index in rows 0 .. i of P, or -1
   RaggedRing<ProductEntry> product;
   Ring<double> productSum; ///< sum of the row of A P
 
   // By coarse node.
-  Ring<std::int64_t> liftedFrom;            ///< its fine node
-  Ring<std::int64_t> firstChild, lastChild; ///< places in `interpolation` of its column, or -1
-  RaggedRing<RowEntry> raw;                 ///< rows of P^T A P, before and during sparsification
+  MonotoneRing liftedFrom;               ///< its fine node
+  Ring<ChildLink> firstChild, lastChild; ///< of its column of P
+  RaggedRing<RowEntry> raw;              ///< rows of P^T A P, before and during sparsification
   Ring<double> rawAlpha;
   Ring<float> rawStrongest;
-  Ring<std::int64_t> childReach; ///< the last of its children
-  Ring<std::int64_t> rawReach;   ///< largest column of the row, at least the row itself
-  Ring<std::int32_t> rawLower;   ///< columns below the row
-  Ring<std::int32_t> rawFilled;  ///< columns above the row that have been mirrored
+  Ring<std::int32_t> rawReach;  ///< how far the row's largest column is above the row, at least 0
+  Ring<std::int32_t> rawLower;  ///< columns below the row
+  Ring<std::int32_t> rawFilled; ///< columns above the row that have been mirrored
 
   /** Scratch of the stages: a mark and a value for each coarse node. */
   struct Slot
@@ -119,6 +171,12 @@ struct CoarseningData
   {
     this->Mark += this->Mark == UINT32_MAX ? 2 : 1;
     return this->Mark;
+  }
+
+  /** The entry of P that a link stands for, given any row that is alive. */
+  InterpolationEntry& child(ChildLink link, std::int64_t near) const
+  {
+    return this->interpolation.row(link.row(near))[link.slot()];
   }
 
   std::int64_t coarseNodes = 0;

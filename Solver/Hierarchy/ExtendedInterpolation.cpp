@@ -9,10 +9,11 @@ namespace smg
 
 void ExtendedInterpolation::initial(CoarseningData& data, std::int64_t i) const
 {
-  const std::int64_t* lifted = data.lifted.at(i);
-  if (*lifted >= 0)
+  constexpr CoarseIndex Retained = CoarseningData::Retained;
+  const CoarseIndex* lifted = data.lifted.at(i);
+  if (*lifted != Retained)
   {
-    *data.initial.open(1) = { static_cast<CoarseIndex>(*lifted), 1.0F };
+    *data.initial.open(1) = { *lifted, 1.0F };
     data.initial.close(1);
     return;
   }
@@ -23,10 +24,10 @@ void ExtendedInterpolation::initial(CoarseningData& data, std::int64_t i) const
   auto sum = static_cast<float>(std::max(0.0, data.fine.alpha(i)));
   for (const RowEntry& entry : row)
   {
-    const std::int64_t coarse = lifted[entry.delta];
-    if (coarse >= 0 && entry.weight >= strong)
+    const CoarseIndex coarse = lifted[entry.delta];
+    if (coarse != Retained && entry.weight >= strong)
     {
-      out[size++] = { static_cast<CoarseIndex>(coarse), entry.weight };
+      out[size++] = { coarse, entry.weight };
       sum += entry.weight;
     }
   }
@@ -109,10 +110,10 @@ void ExtendedInterpolation::truncate()
 
 void ExtendedInterpolation::operator()(CoarseningData& data, std::int64_t i)
 {
-  const std::int64_t coarse = data.lifted[i];
-  if (coarse >= 0)
+  const CoarseIndex coarse = data.lifted[i];
+  if (coarse != CoarseningData::Retained)
   {
-    this->Candidates.assign(1, { static_cast<CoarseIndex>(coarse), 1.0F });
+    this->Candidates.assign(1, { coarse, 1.0F });
     this->Rounded.assign(1, Quanta);
   }
   else
@@ -128,10 +129,9 @@ void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i)
   const std::int64_t near = data.coarseNodes;
   InterpolationEntry* out =
     data.interpolation.open(static_cast<std::int64_t>(this->Candidates.size()));
-  const std::int64_t start = data.interpolation.start(i);
-  std::int64_t size = 0;
-  std::int64_t reach = i > 0 ? data.parentReach[i - 1] : -1;
-  std::int32_t sum = 0;
+  int size = 0;
+  std::int64_t reach = -1;
+  std::uint32_t sum = 0;
   for (std::size_t k = 0; k < this->Candidates.size(); ++k)
   {
     const std::uint32_t quanta = this->Rounded[k];
@@ -141,24 +141,17 @@ void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i)
     }
     const CoarseIndex low = this->Candidates[k].coarse;
     const std::int64_t coarse = near + offset(low, near);
-    const std::int64_t place = start + size;
-    std::int64_t& last = data.lastChild[coarse];
-    if (last < 0)
-    {
-      data.firstChild[coarse] = place;
-    }
-    else
-    {
-      data.interpolation.entry(last).next = static_cast<std::uint32_t>(place - last);
-    }
-    last = place;
-    out[size++] = { low, static_cast<std::uint32_t>(i), 0, quanta };
+    const ChildLink link(i, size);
+    ChildLink& last = data.lastChild[coarse];
+    (last.none() ? data.firstChild[coarse] : data.child(last, i).next) = link;
+    last = link;
+    out[size++] = InterpolationEntry(low, quanta);
     reach = std::max(reach, coarse);
-    sum += static_cast<std::int32_t>(quanta);
+    sum += quanta;
   }
   data.interpolation.close(size);
-  data.rowQuanta[i] = sum;
-  data.parentReach[i] = reach;
+  data.rowQuanta[i] = static_cast<std::uint16_t>(sum);
+  data.parentReach.append(reach);
 }
 
 } // namespace smg

@@ -24,7 +24,7 @@ class ExtendedInterpolation
 {
 public:
   IndependentSetLifting lifting;
-  /** Entries kept of a row, at least 2. */
+  /** Entries kept of a row, from 2 to ChildLink::Slots. */
   int entries = 4;
 
   /** Appends row i of P0. The nodes up to reach(i) have been decided. */

@@ -34,10 +34,11 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i) const
   const InterpolationEntry* p = data.interpolation.row(i);
   for (std::int64_t e = 0; e < own; ++e)
   {
-    CoarseningData::Slot& slot = slots[offset(p[e].coarse, near)];
+    const std::int32_t distance = p[e].offset(near);
+    CoarseningData::Slot& slot = slots[distance];
     slot.mark = mark;
     slot.place = size;
-    out[size++] = { p[e].coarse, diagonal * p[e].weight() };
+    out[size++] = { static_cast<CoarseIndex>(near + distance), diagonal * p[e].weight() };
   }
   const std::int32_t ownQuanta = data.rowQuanta[i];
   double sum = data.fine.alpha(i) * ownQuanta;
@@ -49,13 +50,14 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i) const
     const InterpolationEntry* end = p + data.interpolation.size(j);
     for (; p != end; ++p)
     {
-      CoarseningData::Slot& slot = slots[offset(p->coarse, near)];
+      const std::int32_t distance = p->offset(near);
+      CoarseningData::Slot& slot = slots[distance];
       const float value = -entry.weight * p->weight();
       if (slot.mark != mark)
       {
         slot.mark = mark;
         slot.place = size;
-        out[size++] = { p->coarse, value };
+        out[size++] = { static_cast<CoarseIndex>(near + distance), value };
       }
       else
       {
@@ -98,13 +100,12 @@ void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
   const std::int64_t nearFine = data.liftedFrom[c];
   this->Columns.clear();
   double alpha = 0.0;
-  std::int64_t fine = nearFine;
-  for (std::int64_t place = data.firstChild[c]; place >= 0;)
+  for (ChildLink link = data.firstChild[c]; !link.none();)
   {
-    const InterpolationEntry& child = data.interpolation.entry(place);
-    fine = nearFine + static_cast<std::int32_t>(child.fine - static_cast<std::uint32_t>(nearFine));
+    const std::int64_t fine = link.row(nearFine);
+    const InterpolationEntry& child = data.interpolation.row(fine)[link.slot()];
     const float weight = child.weight();
-    alpha += static_cast<double>(child.quanta) / Quanta * data.productSum[fine];
+    alpha += static_cast<double>(child.quanta()) / Quanta * data.productSum[fine];
     const ProductEntry* entry = data.product.row(fine);
     const ProductEntry* end = entry + data.product.size(fine);
     for (; entry != end; ++entry)
@@ -123,7 +124,7 @@ void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
         slot.value += value;
       }
     }
-    place = child.next > 0 ? place + child.next : -1;
+    link = child.next;
   }
   this->sort();
 
@@ -154,8 +155,7 @@ void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
   data.rawStrongest[c] = strongest;
   data.rawLower[c] = lower;
   data.rawFilled[c] = 0;
-  data.rawReach[c] = size > 0 ? c + std::max(0, out[size - 1].delta) : c;
-  data.childReach[c] = fine;
+  data.rawReach[c] = size > 0 ? std::max(0, out[size - 1].delta) : 0;
 }
 
 } // namespace smg

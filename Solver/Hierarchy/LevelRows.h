@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Storage/Ring.h"
+#include "Solver/Storage/MonotoneRing.h"
+#include "Solver/Storage/RaggedRing.h"
 
 #include <cstdint>
 #include <span>
@@ -37,13 +38,17 @@ inline double diagonalOf(std::span<const RowEntry> row, double alpha)
 class LevelRows
 {
 public:
+  /** Of two nodes that share an edge on the finest level: windows keep indices by their low bits.
+   */
+  static constexpr std::int64_t MostDistance = std::int64_t(1) << 26;
+
   explicit LevelRows(Pool& pool)
     : Entries(pool)
     , Diagonal(pool)
     , Alpha(pool)
     , Strongest(pool)
-    , Reach(pool)
-    , ChildReach(pool)
+    , Reach(pool, 0)
+    , ChildReach(pool, -1)
   {
   }
 
@@ -74,7 +79,7 @@ public:
   void close(std::int64_t size, double alpha, std::int64_t childReach)
   {
     const std::int64_t i = this->end();
-    const RowEntry* entry = this->Entries.open(0);
+    const RowEntry* entry = this->Entries.opened();
     float strongest = 0.0F;
     for (std::int64_t e = 0; e < size; ++e)
     {
@@ -87,15 +92,11 @@ public:
       ring->extendRaw(i + 1);
     }
     this->Strongest.extendRaw(i + 1);
-    this->Reach.extendRaw(i + 1);
-    this->ChildReach.extendRaw(i + 1);
     this->Diagonal[i] = diagonalOf({ entry, static_cast<std::size_t>(size) }, alpha);
     this->Alpha[i] = alpha;
     this->Strongest[i] = strongest;
-    this->LastReach = std::max(this->LastReach, last);
-    this->LastChildReach = std::max(this->LastChildReach, childReach);
-    this->Reach[i] = this->LastReach;
-    this->ChildReach[i] = this->LastChildReach;
+    this->Reach.append(last);
+    this->ChildReach.append(childReach);
     this->Nonzeros += size + 1;
   }
 
@@ -125,9 +126,7 @@ private:
   RaggedRing<RowEntry> Entries;
   Ring<double> Diagonal, Alpha;
   Ring<float> Strongest;
-  Ring<std::int64_t> Reach, ChildReach;
-  std::int64_t LastReach = 0;
-  std::int64_t LastChildReach = -1;
+  MonotoneRing Reach, ChildReach;
   std::int64_t Nonzeros = 0;
 };
 

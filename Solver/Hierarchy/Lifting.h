@@ -29,14 +29,14 @@ struct IndependentSetLifting
   {
     const auto row = data.fine.row(i);
     const float strong = this->threshold(data, i);
-    const std::int64_t* lifted = data.lifted.at(i);
+    const CoarseIndex* lifted = data.lifted.at(i);
     for (const RowEntry& entry : row)
     {
       if (entry.delta > 0)
       {
         break;
       }
-      if (entry.weight >= strong && lifted[entry.delta] >= 0)
+      if (entry.weight >= strong && lifted[entry.delta] != CoarseningData::Retained)
       {
         return false;
       }

@@ -349,7 +349,7 @@ void Assembly::closeRow(
               : 0.0));
     }
     const std::int64_t delta = neighbour.to - i;
-    if (delta != static_cast<std::int32_t>(delta))
+    if (delta > LevelRows::MostDistance || delta < -LevelRows::MostDistance)
     {
       throw Error("vertices " + std::to_string(i) + " and " + std::to_string(neighbour.to) +
                   " share an edge but lie too far apart in the stream: convert the mesh with the "

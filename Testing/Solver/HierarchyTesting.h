@@ -185,7 +185,7 @@ public:
     for (std::int64_t e = 0; e < data.interpolation.size(i); ++e)
     {
       const std::int64_t near = data.coarseNodes;
-      parents.push_back({ near + offset(entry[e].coarse, near), entry[e].quanta });
+      parents.push_back({ near + entry[e].offset(near), entry[e].quanta() });
     }
   }
   void multiply(CoarseningData& data, std::int64_t i) { this->Product.multiply(data, i); }

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Storage/Ring.h"
+
+#include <cstdint>
+
+namespace smg
+{
+
+/**
+ * A window of a sequence of 64-bit indices that never descends, by their low 32 bits: those that
+ * are in memory at once lie within 2^32 of the last one, from which the rest follows.
+ */
+class MonotoneRing
+{
+public:
+  explicit MonotoneRing(Pool& pool, std::int64_t before)
+    : Low(pool)
+    , Last(before)
+  {
+  }
+
+  std::int64_t end() const { return this->Low.end(); }
+  /** The last value, or the one that was said to be before all. */
+  std::int64_t last() const { return this->Last; }
+
+  std::int64_t operator[](std::int64_t i) const
+  {
+    return this->Last - (static_cast<std::uint32_t>(this->Last) - this->Low[i]);
+  }
+
+  /** Appends `value`, or the last one if that is larger. */
+  void append(std::int64_t value)
+  {
+    const std::int64_t i = this->end();
+    this->Low.extendRaw(i + 1);
+    this->Last = std::max(this->Last, value);
+    this->Low[i] = static_cast<std::uint32_t>(this->Last);
+  }
+
+  void release(std::int64_t first) { this->Low.release(first); }
+
+private:
+  Ring<std::uint32_t> Low;
+  std::int64_t Last;
+};
+
+} // namespace smg
