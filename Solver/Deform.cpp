@@ -5,12 +5,18 @@
 #include "Solver/Deformation/InteractiveDeformation.h"
 #include "Solver/Deformation/InteractiveEngine.h"
 #include "Solver/Hierarchy/Extended.h"
+#include "Solver/Shi2006/Shi2006.h"
 
 namespace smg
 {
 
 void checkOptions(const DeformOptions& options)
 {
+  if (options.operators == Shi2006::name)
+  {
+    throw Error("a deformation needs solutions, which the operator set " + options.operators +
+                " does not give: use " + Extended::name);
+  }
   checkOptions(static_cast<const SolveOptions&>(options));
   if (options.cycles < 0)
   {

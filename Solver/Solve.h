@@ -17,7 +17,11 @@ namespace smg
 /** How to solve. The defaults suit a mesh of any size. */
 struct SolveOptions
 {
-  /** Name of the operator set; see Solver/Hierarchy/OperatorSet.h. */
+  /**
+   * Name of the operator set: "extended" (see Solver/Hierarchy/OperatorSet.h), or "shi2006", the
+   * paper's own equations, whose result is no solution (see Solver/Shi2006/Shi2006.h); that one
+   * works in core only.
+   */
   std::string operators = "extended";
   /** Gauss-Seidel sweeps before and after each coarse-level correction, 1 to 20. */
   int sweeps = 2;

@@ -35,8 +35,10 @@ public:
 
   void addOptions(CLI::App& command)
   {
-    this->addSolverOptions(
-      command, "The mesh with its solution: .vsm, .ply, .vtp or .vtu", this->Solve);
+    this->addSolverOptions(command, "The mesh with its solution: .vsm, .ply, .vtp or .vtu",
+      this->Solve, { "extended", "shi2006" });
+    command.get_option("--operators")
+      ->description("Operator set; shi2006: the paper's printed equations, biased, --in-core only");
     addTolerance(command, this->Solve.tolerance)->capture_default_str();
     command.add_option("--problem", this->File, "The problem, a JSON file")
       ->required()
@@ -55,7 +57,11 @@ protected:
     smg::checkOutput(this->Out);
   }
 
-  void readTask() override { this->Data = smg::readProblemFileData(this->File); }
+  void readTask() override
+  {
+    smg::checkOptions(this->Solve);
+    this->Data = smg::readProblemFileData(this->File);
+  }
 
   std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) override

@@ -23,13 +23,13 @@ std::string SolvingCommand::checkTolerance(const std::string& text)
            : '\'' + text + "' is no number between 0 and 1, both excluded";
 }
 
-void SolvingCommand::addSolverOptions(
-  CLI::App& command, const std::string& result, smg::SolveOptions& options)
+void SolvingCommand::addSolverOptions(CLI::App& command, const std::string& result,
+  smg::SolveOptions& options, std::vector<std::string> operators)
 {
   command.add_option("IN", this->In, "The mesh, best as a .vsm file")->required();
   command.add_option("OUT", this->Out, result)->required();
   command.add_option("--operators", options.operators, "Operator set")
-    ->check(oneOf({ "extended" }))
+    ->check(oneOf(std::move(operators)))
     ->capture_default_str();
   command
     .add_option("--sweeps", options.sweeps, "Gauss-Seidel sweeps before and after a correction")

@@ -31,9 +31,11 @@ protected:
   }
 
   /**
-   * Adds IN, OUT and the options of the solver, all but the tolerance. `result` says what OUT is.
+   * Adds IN, OUT and the options of the solver, all but the tolerance. `result` says what OUT is,
+   * `operators` which operator sets there are.
    */
-  void addSolverOptions(CLI::App& command, const std::string& result, smg::SolveOptions& options);
+  void addSolverOptions(CLI::App& command, const std::string& result, smg::SolveOptions& options,
+    std::vector<std::string> operators = { "extended" });
   /** Adds the option --tolerance. */
   template <class Number>
   static CLI::Option* addTolerance(CLI::App& command, Number& tolerance)

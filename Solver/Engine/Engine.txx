@@ -278,20 +278,7 @@ void Engine<Operators>::factorize()
 template <OperatorSet Operators>
 void Engine<Operators>::noteAssembly(const Assembly& assembly)
 {
-  Report& r = this->Result;
-  r.vertices = assembly.vertices();
-  r.cells = assembly.cells();
-  r.prescribed = assembly.prescribed();
-  r.held = assembly.held();
-  r.degenerate_cells = assembly.degenerateCells();
-  r.clamped_weights = assembly.clampedWeights();
-  r.components = this->Parts.components();
-  r.free_components = this->Parts.freeComponents();
-  if (!std::isfinite(assembly.termSquares()))
-  {
-    throw Error(
-      "the squares of the values overflow: scale the mesh, the prescribed values or the sources");
-  }
+  reportAssembly(assembly, this->Parts, this->Result);
   this->RoundingNorm = roundingOf(assembly.termSquares());
   this->InitialNorm =
     std::sqrt(std::max(0.0, assembly.initialSquares() - this->Parts.incompatibleSquares()));
@@ -352,13 +339,7 @@ void Engine<Operators>::iterate(Convergence& convergence, bool spareLast)
 template <OperatorSet Operators>
 void Engine<Operators>::checkRange(std::int64_t first, std::int64_t count, std::size_t room) const
 {
-  if (first < 0 || count < 0 || first > this->Result.vertices - count ||
-      room < static_cast<std::size_t>(count))
-  {
-    throw Error(std::to_string(count) + " vertices from " + std::to_string(first) +
-                " on were asked of a solution of " + std::to_string(this->Result.vertices) +
-                ", or there is no room for their values");
-  }
+  checkVertexRange(first, count, room, this->Result.vertices);
 }
 
 template <OperatorSet Operators>
@@ -380,17 +361,7 @@ template <OperatorSet Operators>
 void Engine<Operators>::finishReport()
 {
   Report& r = this->Result;
-  if (r.clamped_weights > 0)
-  {
-    r.notes.push_back(std::to_string(r.clamped_weights) +
-                      " cotangent weights were below the floor and were raised to it: there the "
-                      "operator is not that of finite elements");
-  }
-  if (r.held > 0)
-  {
-    r.notes.push_back(std::to_string(r.held) +
-                      " vertices belong to no cell that has a weight: they stay as they are");
-  }
+  addAssemblyNotes(r);
   r.levels = this->Hierarchy.sizes;
   r.levels.front().nodes -= r.prescribed + r.held;
   r.levels.front().nonzeros -= r.prescribed + r.held;

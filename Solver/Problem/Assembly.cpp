@@ -358,6 +358,10 @@ void Assembly::closeRow(
     if (!known)
     {
       row[size++] = { static_cast<std::int32_t>(delta), neighbour.weight };
+      if (this->Listener && target)
+      {
+        this->Listener->target(target + e * static_cast<std::size_t>(this->Columns));
+      }
       continue;
     }
     alpha += weight;

@@ -15,6 +15,11 @@ public:
   /** The next vertex, which is free, has an edge to constrained vertex index + delta. */
   virtual void link(std::int32_t delta, float weight) = 0;
   /**
+   * The next edge of the next vertex's row has this target d_ij, one value a column. Only told when
+   * the problem has edge targets; `target` holds for the call.
+   */
+  virtual void target(const double* /*target*/) {}
+  /**
    * The next vertex is complete. `point`: its position; `reach`: the largest neighbour of this and
    * all earlier vertices.
    */

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Engine/AssemblyReport.h"
+
+#include "Solver/Core/Error.h"
+
+#include <cmath>
+#include <string>
+
+namespace smg
+{
+
+void reportAssembly(const Assembly& assembly, const Components& components, Report& report)
+{
+  report.vertices = assembly.vertices();
+  report.cells = assembly.cells();
+  report.prescribed = assembly.prescribed();
+  report.held = assembly.held();
+  report.degenerate_cells = assembly.degenerateCells();
+  report.clamped_weights = assembly.clampedWeights();
+  report.components = components.components();
+  report.free_components = components.freeComponents();
+  if (!std::isfinite(assembly.termSquares()))
+  {
+    throw Error(
+      "the squares of the values overflow: scale the mesh, the prescribed values or the sources");
+  }
+}
+
+void addAssemblyNotes(Report& report)
+{
+  if (report.clamped_weights > 0)
+  {
+    report.notes.push_back(
+      std::to_string(report.clamped_weights) +
+      " cotangent weights were below the floor and were raised to it: there the "
+      "operator is not that of finite elements");
+  }
+  if (report.held > 0)
+  {
+    report.notes.push_back(std::to_string(report.held) +
+                           " vertices belong to no cell that has a weight: they stay as they are");
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Problem/Assembly.h"
+#include "Solver/Shi2006/Level.h"
+
+namespace smg::shi2006
+{
+
+/** Makes the finest level of the rows that an Assembly makes final, and of the edge targets. */
+class FinestRows : public RowListener
+{
+public:
+  /** The components and labels are for the assembly; `level` comes empty. */
+  FinestRows(Pool& pool, const StreamInfo& info, Problem& problem, Components& components,
+    ComponentLabels& labels, Level& level);
+
+  void add(const MeshBlock& block);
+  /** Makes the rest final. All but the level's `constraint` is there then: see sumConstraints(). */
+  void finish();
+  const Assembly& assembly() const { return this->Assembled; }
+
+  // What the assembly tells.
+  void link(std::int32_t /*delta*/, float /*weight*/) override {} // is in alpha and b
+  void target(const double* target) override;
+  void close(const double* /*point*/, std::int64_t /*reach*/) override {}
+
+private:
+  void take();
+
+  Level& Finest;
+  LevelRows Rows;
+  ResidentNodes Resident;
+  LevelWindow<double> State;
+  Assembly Assembled;
+};
+
+/**
+ * xi0_i = b_i - sum_j w_ij d_ij of the finest level: the constrained neighbours' share of the
+ * right-hand side, and the source.
+ */
+void sumConstraints(Level& finest);
+
+} // namespace smg::shi2006

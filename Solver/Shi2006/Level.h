@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Storage/Ring.h"
+
+#include <cstdint>
+
+namespace smg::shi2006
+{
+
+/** An edge of node i to `neighbour`, with w_ij. */
+struct Edge
+{
+  std::int64_t neighbour;
+  double weight;
+};
+
+/** What the equation of a node says but for its edges and its values. */
+struct Node
+{
+  double alpha;             ///< alpha_i: the weights to constrained vertices, and the screening
+  double diagonal;          ///< alpha_i + sum_j w_ij
+  double pull = 0.0;        ///< Z_i of a retained node: alpha_i + sum of w_ij over lifted j
+  std::int64_t parent = -1; ///< its node on the next level; -1: retained
+
+  bool lifted() const { return this->parent >= 0; }
+};
+
+/**
+ * A level of the paper's hierarchy, all of it in memory: equation (2), with its vectors g on the
+ * edges. For the unknowns v_i,
+ *
+ *   sum_j w_ij (v_i - v_j - d_ij) + alpha_i v_i = xi0_i.
+ *
+ * On the finest level v is the solution and d the problem's edge targets; on the others v is the
+ * correction Delta, zero at first, and d and xi0 are the g and xi that restriction made. What is
+ * left of them for the current v is g_ij = d_ij - (v_i - v_j) and xi_i = xi0_i - alpha_i v_i.
+ *
+ * Constrained vertices are nodes of the finest level without edges, so that a node is a vertex;
+ * their neighbours know them by alpha and xi0 alone, and no coarser level knows them at all.
+ */
+struct Level
+{
+  Level(Pool& pool, int columns)
+    : edges(pool)
+    , target(pool, columns)
+    , node(pool)
+    , constraint(pool, columns)
+    , rightSide(pool, columns)
+    , value(pool, columns)
+  {
+  }
+
+  std::int64_t nodes() const { return this->node.end(); }
+  int columns() const { return this->value.lanes(); }
+  /** Entries of the level's matrix, diagonals included. */
+  std::int64_t nonzeros() const { return this->edges.start(this->nodes()) + this->nodes(); }
+
+  RaggedRing<Edge> edges; ///< by node, by ascending neighbour
+  Ring<double> target;    ///< d_ij of every edge, in the order of `edges`
+  Ring<Node> node;
+  Ring<double> constraint; ///< xi0_i
+  Ring<double> rightSide;  ///< b_i = xi0_i + sum_j w_ij d_ij
+  Ring<double> value;      ///< v_i
+};
+
+} // namespace smg::shi2006

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Shi2006/Level.h"
+
+namespace smg::shi2006
+{
+
+/**
+ * The lifting rule: a greedy maximal independent set in stream order. Node i is lifted iff no lower
+ * neighbour is. A node without edges is retained: relaxation solves it exactly. Fills in `parent`
+ * and `pull` of the level's nodes; answers how many are lifted.
+ */
+std::int64_t lift(Level& level);
+
+} // namespace smg::shi2006

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Shi2006/Level.h"
+
+namespace smg::shi2006
+{
+
+/**
+ * Restriction, equations (8) and (10): makes of what is left of the level's equation for its
+ * current values, g_ij = d_ij - (v_i - v_j) and xi_i = xi0_i - alpha_i v_i, the equation of the
+ * next level, whose values become zero. For lifted i and k, over retained j,
+ *
+ *   g_ki = sum_j w_kj w_ji (g_kj + g_ji) / Z_j / w_ki,
+ *   xi_i += sum_j w_ji (xi_j + alpha_j g_ji) / Z_j.
+ *
+ * g must be antisymmetric, and is so again. The flux over the edges between retained nodes is left
+ * out, as it is in the coarse operator: this is the right-hand side of the truncated system, not
+ * P^T r, and the only one that fits that operator.
+ */
+void restrictRightSide(const Level& fine, Level& coarse);
+
+/** b_i = xi0_i + sum_j w_ij d_ij: the part of (3) that relaxation does not change. */
+void sumRightSide(Level& level);
+
+} // namespace smg::shi2006

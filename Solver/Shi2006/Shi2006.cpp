@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Shi2006/Shi2006.h"
+
+#include "Solver/Core/Error.h"
+#include "Solver/Core/Timer.h"
+#include "Solver/Engine/AssemblyReport.h"
+#include "Solver/Engine/VertexRange.h"
+#include "Solver/Shi2006/FinestRows.h"
+#include "Solver/Shi2006/Relaxation.h"
+#include "Solver/Shi2006/VCycle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace smg
+{
+namespace
+{
+
+constexpr PoolUse InCoreMemory{ "a solve by shi2006",
+  "raise the memory limit, or use the operator set extended, which works out of core" };
+
+/** The finest level as FreeComponents sees it. */
+struct FinestState
+{
+  shi2006::Level& level;
+
+  std::int64_t nodes() const { return this->level.nodes(); }
+  void readX(std::int64_t first, std::int64_t count, double* values) const
+  {
+    std::copy_n(this->level.value.at(first), count * this->level.columns(), values);
+  }
+  template <class F>
+  void rewriteB(F&& f) const
+  {
+    constexpr auto Block = static_cast<std::int64_t>(ComponentLabels::Block);
+    for (std::int64_t first = 0; first < this->nodes(); first += Block)
+    {
+      const std::int64_t count = std::min(Block, this->nodes() - first);
+      f(first / Block, std::span(this->level.rightSide.at(first),
+                         static_cast<std::size_t>(count * this->level.columns())));
+    }
+  }
+};
+
+} // namespace
+
+Shi2006::Shi2006(int columns, const SolveOptions& options)
+  : Columns(columns)
+  , Options(options)
+  , Progress(options.progress)
+  , Memory(options.memoryLimit, InCoreMemory)
+  , Parts(columns, &this->Memory)
+  , Free(this->Parts, this->Labels, columns)
+  , Values(this->Memory, columns)
+{
+}
+
+void Shi2006::solve(MeshSource& mesh, Problem& problem)
+{
+  const Timer wall;
+  const double cpuAtStart = processSeconds();
+  Report& r = this->Result;
+  this->Progress.begin({ this->Options.tolerance, this->Options.maxCycles }, 0.0, 1.0, true);
+  shi2006::Level finest(this->Memory, this->Columns);
+  this->assemble(mesh, problem, finest);
+  shi2006::VCycle cycle(this->Memory, finest, this->Options.sweeps);
+  this->reportLevels(cycle);
+  r.seconds.build = wall.seconds();
+  const Timer solving;
+  this->iterate(cycle, finest);
+  FinestState state{ finest };
+  this->Free.fixMeans(state, r.notes);
+  r.seconds.solve = solving.seconds();
+  this->Values = std::move(finest.value);
+  addAssemblyNotes(r);
+  r.pool_bytes_peak = this->Memory.peak();
+  r.rss_bytes_peak = peakResidentBytes();
+  r.seconds.total = wall.seconds();
+  r.cpu_seconds = processSeconds() - cpuAtStart;
+  this->Progress.finish();
+}
+
+/**
+ * The finest level of a closed mesh, without its constrained vertices' share and the coarser
+ * levels: a solve that fits is not refused.
+ */
+std::int64_t Shi2006::estimateMemory(const StreamInfo& info, int columns)
+{
+  const auto value = static_cast<std::int64_t>(sizeof(double)) * columns;
+  const std::int64_t node = static_cast<std::int64_t>(sizeof(shi2006::Node) + 8) + 3 * value;
+  const std::int64_t edge = static_cast<std::int64_t>(sizeof(shi2006::Edge)) + value;
+  // Euler's formula; the number of triangles is close to twice that of vertices, that of the
+  // triangles of a tetrahedral mesh to twice that of its cells.
+  const std::int64_t edges =
+    info.cellType == CellType::Triangle ? info.cells * 3 / 2 : info.vertices + info.cells;
+  return info.vertices * node + 2 * edges * edge;
+}
+
+void Shi2006::assemble(MeshSource& mesh, Problem& problem, shi2006::Level& finest)
+{
+  const StreamInfo& info = mesh.info();
+  if (const std::int64_t need = estimateMemory(info, this->Columns); need > this->Memory.limit())
+  {
+    throw Error(memoryLimitSentence(need, this->Memory.limit(), InCoreMemory));
+  }
+  shi2006::FinestRows rows(this->Memory, info, problem, this->Parts, this->Labels, finest);
+  MeshBlock block;
+  const auto expected = static_cast<double>(std::max<std::int64_t>(1, info.vertices));
+  while (mesh.next(block))
+  {
+    rows.add(block);
+    this->Progress.updateFirst(static_cast<double>(rows.assembly().vertices()) / expected);
+  }
+  if (rows.assembly().vertices() == 0)
+  {
+    throw Error("the mesh has no vertices");
+  }
+  rows.finish();
+  this->Labels.finish();
+  reportAssembly(rows.assembly(), this->Parts, this->Result);
+  this->RoundingNorm = roundingOf(rows.assembly().termSquares());
+  FinestState state{ finest };
+  this->Free.projectRightSide(state, this->Result.notes);
+  sumConstraints(finest);
+  this->Result.passes = 1;
+}
+
+void Shi2006::reportLevels(const shi2006::VCycle& cycle)
+{
+  Report& r = this->Result;
+  for (std::size_t l = 0; l < cycle.levels(); ++l)
+  {
+    const shi2006::Level& level = cycle.level(l);
+    r.levels.push_back({ level.nodes(), level.nonzeros() });
+    r.peak_nodes += level.nodes();
+  }
+  r.levels.front().nodes -= r.prescribed + r.held;
+  r.levels.front().nonzeros -= r.prescribed + r.held;
+}
+
+/** V-cycles until the tolerance is reached or the values are final. */
+void Shi2006::iterate(shi2006::VCycle& cycle, const shi2006::Level& finest)
+{
+  // A V-cycle forgets the values it begins with: where it does not help at once it never will.
+  constexpr double Final = 0.9;
+  // The rounding of a V-cycle is some times that of the residual's terms.
+  constexpr double NearRounding = 10.0;
+  Report& r = this->Result;
+  const auto norm = [&] { return std::sqrt(shi2006::residualSquares(finest)); };
+  const double first = norm();
+  const double reference = std::max(first, this->RoundingNorm);
+  const double least = NearRounding * this->RoundingNorm;
+  double now = first;
+  double before = now;
+  const auto done = [&]
+  {
+    r.converged = now <= std::max(this->Options.tolerance * reference, least);
+    return r.converged || r.cycles == this->Options.maxCycles ||
+           (r.cycles > 1 && now > Final * before);
+  };
+  while (!done())
+  {
+    cycle.run([this](double share) { this->Progress.update(share); });
+    before = now;
+    now = norm();
+    if (!std::isfinite(now))
+    {
+      throw Error("the values overflow: scale the mesh, the prescribed values or the sources");
+    }
+    ++r.cycles;
+    r.residuals.push_back(now / reference);
+    this->Progress.endCycle(r.cycles, r.residuals.back());
+  }
+  if (!r.converged)
+  {
+    r.notes.push_back("not converged: the relative residual is " + scientific(r.residual()) +
+                      " after " + std::to_string(r.cycles) +
+                      " V-cycles, and more would not change it");
+  }
+  r.notes.push_back("shi2006 are the equations as the paper prints them: unless the edge targets "
+                    "are integrable, their result carries a bias that no further V-cycle removes; "
+                    "use the operator set extended for solutions");
+}
+
+void Shi2006::read(std::int64_t first, std::int64_t count, std::span<double> values)
+{
+  checkVertexRange(
+    first, count, values.size() / static_cast<std::size_t>(this->Columns), this->Result.vertices);
+  std::copy_n(this->Values.at(first), count * this->Columns, values.data());
+  this->Free.shift(first, count, values);
+}
+
+} // namespace smg
