@@ -320,6 +320,10 @@ void Assembly::closeRow(
       this->Parts.anchor(label);
     }
     std::copy_n(x, this->Columns, b);
+    if (this->Listener)
+    {
+      this->Listener->constraint(x);
+    }
     this->Out.rows.open(0);
     this->Out.rows.close(0, 1.0, -1);
     return;
@@ -330,6 +334,7 @@ void Assembly::closeRow(
   {
     b[k] = this->Mass[i] * this->Sources.at(i)[k];
   }
+  this->Constraint.assign(b, b + this->Columns);
   RowEntry* row = this->Out.rows.open(static_cast<std::int64_t>(count));
   std::int64_t size = 0;
   double squares[2] = { 0.0, 0.0 };
@@ -339,14 +344,16 @@ void Assembly::closeRow(
     const double weight = neighbour.weight;
     const bool known = this->Prescribed[neighbour.to] != 0;
     const double* other = this->Values.at(neighbour.to);
+    const auto term = [&](int k)
+    {
+      return weight * ((known ? other[k] : 0.0) +
+                        (target ? target[e * static_cast<std::size_t>(this->Columns) +
+                                         static_cast<std::size_t>(k)]
+                                : 0.0));
+    };
     for (int k = 0; k < this->Columns; ++k)
     {
-      b[k] +=
-        weight *
-        ((known ? other[k] : 0.0) +
-          (target
-              ? target[e * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)]
-              : 0.0));
+      b[k] += term(k);
     }
     const std::int64_t delta = neighbour.to - i;
     if (delta > LevelRows::MostDistance || delta < -LevelRows::MostDistance)
@@ -368,9 +375,17 @@ void Assembly::closeRow(
     if (this->Listener)
     {
       this->Listener->link(static_cast<std::int32_t>(delta), neighbour.weight);
+      for (int k = 0; k < this->Columns; ++k)
+      {
+        this->Constraint[static_cast<std::size_t>(k)] += term(k);
+      }
     }
   }
   this->Out.rows.close(size, alpha, -1);
+  if (this->Listener)
+  {
+    this->Listener->constraint(this->Constraint.data());
+  }
 
   const double diagonal = diagonalOf({ row, static_cast<std::size_t>(size) }, alpha);
   for (int k = 0; k < this->Columns; ++k)

@@ -87,6 +87,7 @@ private:
   std::vector<Neighbour> Neighbours;
   std::vector<std::size_t> RowEnds;
   std::vector<double> Targets, FromPoints, ToPoints;
+  std::vector<double> Constraint; // of a row: what of b is not of edges to unknowns
   std::vector<std::int64_t> From, To;
   std::vector<std::int32_t> LabelBatch;
 

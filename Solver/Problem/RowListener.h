@@ -20,6 +20,11 @@ public:
    */
   virtual void target(const double* /*target*/) {}
   /**
+   * What the source and the constrained neighbours bring to the next vertex's b, one value a
+   * column; b itself if the vertex is no unknown. `sum` holds for the call.
+   */
+  virtual void constraint(const double* /*sum*/) {}
+  /**
    * The next vertex is complete. `point`: its position; `reach`: the largest neighbour of this and
    * all earlier vertices.
    */

@@ -5,6 +5,17 @@
 
 namespace smg::shi2006
 {
+namespace
+{
+
+void append(Ring<double>& to, const double* values)
+{
+  const std::int64_t end = to.end();
+  to.extendRaw(end + 1);
+  std::copy_n(values, to.lanes(), to.at(end));
+}
+
+} // namespace
 
 FinestRows::FinestRows(Pool& pool, const StreamInfo& info, Problem& problem, Components& components,
   ComponentLabels& labels, Level& level)
@@ -29,10 +40,12 @@ void FinestRows::finish()
 
 void FinestRows::target(const double* target)
 {
-  Ring<double>& targets = this->Finest.target;
-  const std::int64_t edge = targets.end();
-  targets.extendRaw(edge + 1);
-  std::copy_n(target, targets.lanes(), targets.at(edge));
+  append(this->Finest.target, target);
+}
+
+void FinestRows::constraint(const double* sum)
+{
+  append(this->Finest.constraint, sum);
 }
 
 /** Moves the rows that are final to the level. */
@@ -56,32 +69,11 @@ void FinestRows::take()
     level.edges.close(static_cast<std::int64_t>(row.size()));
     level.node[i] = { this->Rows.alpha(i), this->Rows.diagonal(i) };
     std::copy_n(this->State.x().at(i), columns, level.value.at(i));
-    std::copy_n(this->State.b().at(i), columns, level.rightSide.at(i));
   }
   level.target.extend(level.edges.start(end)); // without edge targets: zero
   this->Rows.release(end, end);
   this->State.x().release(end);
   this->State.b().release(end);
-}
-
-void sumConstraints(Level& finest)
-{
-  const int columns = finest.columns();
-  finest.constraint.extendRaw(finest.nodes());
-  for (std::int64_t i = 0; i < finest.nodes(); ++i)
-  {
-    double* xi = finest.constraint.at(i);
-    std::copy_n(finest.rightSide.at(i), columns, xi);
-    const Edge* edge = finest.edges.row(i);
-    const double* target = finest.target.at(finest.edges.start(i));
-    for (std::int64_t e = 0; e < finest.edges.size(i); ++e, target += columns)
-    {
-      for (int k = 0; k < columns; ++k)
-      {
-        xi[k] -= edge[e].weight * target[k];
-      }
-    }
-  }
 }
 
 } // namespace smg::shi2006

@@ -16,13 +16,14 @@ public:
     ComponentLabels& labels, Level& level);
 
   void add(const MeshBlock& block);
-  /** Makes the rest final. All but the level's `constraint` is there then: see sumConstraints(). */
+  /** Makes the rest final. All but the level's `rightSide` is there then: see sumRightSide(). */
   void finish();
   const Assembly& assembly() const { return this->Assembled; }
 
   // What the assembly tells.
-  void link(std::int32_t /*delta*/, float /*weight*/) override {} // is in alpha and b
+  void link(std::int32_t /*delta*/, float /*weight*/) override {} // is in alpha and xi0
   void target(const double* target) override;
+  void constraint(const double* sum) override;
   void close(const double* /*point*/, std::int64_t /*reach*/) override {}
 
 private:
@@ -34,11 +35,5 @@ private:
   LevelWindow<double> State;
   Assembly Assembled;
 };
-
-/**
- * xi0_i = b_i - sum_j w_ij d_ij of the finest level: the constrained neighbours' share of the
- * right-hand side, and the source.
- */
-void sumConstraints(Level& finest);
 
 } // namespace smg::shi2006

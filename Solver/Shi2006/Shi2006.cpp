@@ -7,6 +7,7 @@
 #include "Solver/Engine/VertexRange.h"
 #include "Solver/Shi2006/FinestRows.h"
 #include "Solver/Shi2006/Relaxation.h"
+#include "Solver/Shi2006/RightSideTransfer.h"
 #include "Solver/Shi2006/VCycle.h"
 
 #include <algorithm>
@@ -31,6 +32,7 @@ struct FinestState
   {
     std::copy_n(this->level.value.at(first), count * this->level.columns(), values);
   }
+  /** b and xi0 differ by what the edges bring, which is not to be rewritten. */
   template <class F>
   void rewriteB(F&& f) const
   {
@@ -38,7 +40,7 @@ struct FinestState
     for (std::int64_t first = 0; first < this->nodes(); first += Block)
     {
       const std::int64_t count = std::min(Block, this->nodes() - first);
-      f(first / Block, std::span(this->level.rightSide.at(first),
+      f(first / Block, std::span(this->level.constraint.at(first),
                          static_cast<std::size_t>(count * this->level.columns())));
     }
   }
@@ -123,7 +125,7 @@ void Shi2006::assemble(MeshSource& mesh, Problem& problem, shi2006::Level& fines
   this->RoundingNorm = roundingOf(rows.assembly().termSquares());
   FinestState state{ finest };
   this->Free.projectRightSide(state, this->Result.notes);
-  sumConstraints(finest);
+  sumRightSide(finest);
   this->Result.passes = 1;
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Shi2006/RightSideTransfer.h"
 #include "Solver/Shi2006/VCycle.h"
 #include "Testing/Solver/Shi2006Testing.h"
 
@@ -19,7 +18,6 @@ Eigen::MatrixXd valuesAfter(
   AssembledLevel assembled(mesh, problem);
   shi2006::VCycle cycle(assembled.pool, assembled.level, sweeps, 20);
   EXPECT_GE(cycle.levels(), 4U);
-  shi2006::sumRightSide(assembled.level);
   for (std::int64_t v = 0; v < mesh.vertices(); ++v)
   {
     for (int k = 0; !problem.Prescribed[v] && k < problem.Columns; ++k)
@@ -113,7 +111,6 @@ TEST(Shi2006Cycle, partsThatNoConstraintReachesStayFinite)
   problem.Source = { 0, 0, 0, 0, 0, 1, 0, 0 };
   AssembledLevel assembled(mesh, problem);
   shi2006::VCycle cycle(assembled.pool, assembled.level, 1);
-  shi2006::sumRightSide(assembled.level);
   ASSERT_EQ(cycle.level(1).nodes(), 3);
   EXPECT_EQ(cycle.level(1).node[2].diagonal, 0.0);
   cycle.run();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Shi2006/Prolongation.h"
 #include "Solver/Shi2006/Relaxation.h"
-#include "Solver/Shi2006/RightSideTransfer.h"
 #include "Testing/Solver/Shi2006Testing.h"
 #include "Testing/Support/EdgeWeights.h"
 
@@ -33,7 +32,6 @@ struct Hierarchy
   /** Restricts to level 2, with sweeps on the way: no value is zero. */
   void restrictAll()
   {
-    shi2006::sumRightSide(this->finest());
     shi2006::relax(this->finest());
     shi2006::restrictRightSide(this->finest(), this->next);
     shi2006::relax(this->next);

@@ -4,6 +4,7 @@
 #include "Solver/Shi2006/CoarseOperator.h"
 #include "Solver/Shi2006/FinestRows.h"
 #include "Solver/Shi2006/Lifting.h"
+#include "Solver/Shi2006/RightSideTransfer.h"
 #include "Testing/Solver/SolveTesting.h"
 
 #include <Eigen/Dense>
@@ -79,7 +80,7 @@ struct AssembledLevel
       rows.add(block);
     }
     rows.finish();
-    shi2006::sumConstraints(this->level);
+    shi2006::sumRightSide(this->level);
   }
 
   /** Lifts `fine` and makes the next level of it. */
