@@ -17,7 +17,7 @@ namespace
 using Matrix = Eigen::SparseMatrix<double>;
 
 /** For each node of a part without alpha the part's first node, else -1. */
-std::vector<std::int64_t> floatingParts(const Level& level)
+std::vector<std::int64_t> findFloatingParts(const Level& level)
 {
   const auto nodes = static_cast<std::size_t>(level.nodes());
   std::vector<std::int64_t> above(nodes);
@@ -107,7 +107,7 @@ void CoarsestSolver::factorize(const Level& level)
   {
     return;
   }
-  this->Self->floating = floatingParts(level);
+  this->Self->floating = findFloatingParts(level);
   std::vector<Eigen::Triplet<double>> triplets;
   for (std::int64_t i = 0; i < level.nodes(); ++i)
   {
@@ -131,6 +131,16 @@ void CoarsestSolver::factorize(const Level& level)
       "the coarsest level's matrix could not be factorised: the weights of the mesh span too "
       "many orders of magnitude; use uniform weights");
   }
+}
+
+std::int64_t CoarsestSolver::floatingParts() const
+{
+  std::int64_t parts = 0;
+  for (std::size_t i = 0; i < this->Self->floating.size(); ++i)
+  {
+    parts += this->Self->pinned(static_cast<std::int64_t>(i)) ? 1 : 0;
+  }
+  return parts;
 }
 
 void CoarsestSolver::solve(Level& level) const

@@ -22,6 +22,8 @@ public:
 
   /** Throws Error if the factorisation meets a zero pivot. */
   void factorize(const Level& level);
+  /** Connected parts without alpha. */
+  std::int64_t floatingParts() const;
   /** v = A^-1 b on the level that was factorised. */
   void solve(Level& level) const;
 

@@ -68,7 +68,7 @@ void Shi2006::solve(MeshSource& mesh, Problem& problem)
   shi2006::Level finest(this->Memory, this->Columns);
   this->assemble(mesh, problem, finest);
   shi2006::VCycle cycle(this->Memory, finest, this->Options.sweeps);
-  this->reportLevels(cycle);
+  this->describe(cycle);
   r.seconds.build = wall.seconds();
   const Timer solving;
   this->iterate(cycle, finest);
@@ -129,7 +129,7 @@ void Shi2006::assemble(MeshSource& mesh, Problem& problem, shi2006::Level& fines
   this->Result.passes = 1;
 }
 
-void Shi2006::reportLevels(const shi2006::VCycle& cycle)
+void Shi2006::describe(const shi2006::VCycle& cycle)
 {
   Report& r = this->Result;
   for (std::size_t l = 0; l < cycle.levels(); ++l)
@@ -140,6 +140,12 @@ void Shi2006::reportLevels(const shi2006::VCycle& cycle)
   }
   r.levels.front().nodes -= r.prescribed + r.held;
   r.levels.front().nonzeros -= r.prescribed + r.held;
+  if (cycle.detachedParts() > r.free_components)
+  {
+    r.notes.push_back(
+      "lifting has torn the mesh into parts that no constraint reaches, which makes "
+      "the result much worse: convert the mesh with the order bfs");
+  }
 }
 
 /** V-cycles until the tolerance is reached or the values are final. */
@@ -178,8 +184,7 @@ void Shi2006::iterate(shi2006::VCycle& cycle, const shi2006::Level& finest)
   if (!r.converged)
   {
     r.notes.push_back("not converged: the relative residual is " + scientific(r.residual()) +
-                      " after " + std::to_string(r.cycles) +
-                      " V-cycles, and more would not change it");
+                      " after " + std::to_string(r.cycles) + " V-cycles; further ones do not help");
   }
   r.notes.push_back("shi2006 are the equations as the paper prints them: unless the edge targets "
                     "are integrable, their result carries a bias that no further V-cycle removes; "

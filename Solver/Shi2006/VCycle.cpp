@@ -27,6 +27,20 @@ VCycle::VCycle(Pool& pool, Level& finest, int sweeps, std::int64_t coarsestNodes
   this->Coarsest.factorize(*this->Coarse.back());
 }
 
+std::int64_t VCycle::detachedParts() const
+{
+  std::int64_t parts = this->Coarsest.floatingParts();
+  for (std::size_t l = 1; l + 1 < this->levels(); ++l)
+  {
+    const Level& level = this->level(l);
+    for (std::int64_t i = 0; i < level.nodes(); ++i)
+    {
+      parts += level.node[i].diagonal > 0.0 ? 0 : 1;
+    }
+  }
+  return parts;
+}
+
 void VCycle::run(std::size_t l, const StepDone& stepDone)
 {
   Level& fine = this->at(l);

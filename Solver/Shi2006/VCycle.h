@@ -31,6 +31,11 @@ public:
   /** Level `l`, 0 the finest. */
   const Level& level(std::size_t l) const { return l == 0 ? this->Finest : *this->Coarse[l - 1]; }
   std::size_t levels() const { return this->Coarse.size() + 1; }
+  /**
+   * Parts of the hierarchy that no constraint reaches. If there are more than components without
+   * constraint, lifting has torn some.
+   */
+  std::int64_t detachedParts() const;
 
 private:
   Level& at(std::size_t l) { return l == 0 ? this->Finest : *this->Coarse[l - 1]; }

@@ -80,6 +80,13 @@ def test_solve():
     done = run("solve", "torus.vsm", "o.vsm", "--problem", name, "--max-cycles", 1, "--quiet",
                "--report", "solve.json")
     assert "not converged" in done.stderr and not load("solve.json")["converged"]
+    done = run("solve", "torus.vsm", "o.vsm", "--problem", name, "--operators", "shi2006", "--in-core",
+               "--quiet", "--report", "solve.json")
+    assert "not converged" in done.stderr and not load("solve.json")["converged"]
+    assert any("bias" in note for note in load("solve.json")["notes"])
+    done = run("solve", "torus.vsm", "o.vsm", "--problem", name, "--operators", "shi2006", code=1)
+    assert "in core only" in done.stderr, done.stderr
+    assert "shi2006" not in run("deform", "--help").stdout
 
 
 def test_errors():

@@ -186,6 +186,17 @@ TEST(Shi2006Solve, verticesThatArePrescribedOrHeldKeepTheirValue)
   }
 }
 
+TEST(Shi2006Solve, aTornHierarchyIsTold)
+{
+  const IndexedTestMesh ring = torus(90, 45, 0.3);
+  for (const bool scattered : { false, true })
+  {
+    const StreamMesh mesh = scattered ? toStream(shuffled(ring), TestOrder::Keep) : toStream(ring);
+    ArrayProblem problem = deformed(mesh);
+    EXPECT_EQ(hasNote(solveMesh(mesh, problem, literal()).report, "torn"), scattered);
+  }
+}
+
 TEST(Shi2006Solve, rangesOfVerticesAreThoseOfTheWhole)
 {
   const StreamMesh mesh = toStream(torus(60, 30, 0.3));
