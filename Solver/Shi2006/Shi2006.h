@@ -18,7 +18,7 @@ namespace smg
  * out of the coarse operator and of the coarse right-hand side alike, so what a V-cycle arrives at
  * depends on the edge targets, the constraints, the hierarchy and the sweeps after the correction,
  * and not on the values it began with: it is final after one V-cycle, and not the solution. On real
- * meshes the relative residual was 1e-3 to 1e-1, the error 1 to 40 % of the mesh's size.
+ * meshes the largest error was 1 to 50 % of the values' range.
  *
  * Lifting may tear a component, the more the less the stream order follows the mesh: 2-ring edges
  * need not keep a graph connected. A part that no constraint reaches stays about where it is.
