@@ -18,9 +18,14 @@ void checkOptions(const DeformOptions& options)
                 " does not give: use " + Extended::name);
   }
   checkOptions(static_cast<const SolveOptions&>(options));
+  checkOperators(options);
   if (options.cycles < 0)
   {
     throw Error("the number of V-cycles a step must not be negative");
+  }
+  if (options.weights == Weights::Own)
+  {
+    throw Error("a deformation has uniform or cotangent weights, none of its own");
   }
 }
 

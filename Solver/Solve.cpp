@@ -2,9 +2,9 @@
 #include "Solver/Solve.h"
 
 #include "Solver/Core/Error.h"
-#include "Solver/Engine/Engine.txx"
 #include "Solver/Hierarchy/Extended.h"
 #include "Solver/Shi2006/Shi2006.h"
+#include "Solver/SolveWith.h"
 
 #include <cmath>
 #include <string>
@@ -22,26 +22,10 @@ void require(bool holds, const std::string& sentence)
   }
 }
 
-template <class Solver>
-std::unique_ptr<Solution> solveBy(MeshSource& mesh, Problem& problem, const SolveOptions& options)
-{
-  auto solver = std::make_unique<Solver>(problem.columns(), options);
-  solver->solve(mesh, problem);
-  return solver;
-}
-
 } // namespace
 
 void checkOptions(const SolveOptions& options)
 {
-  require(options.operators == Extended::name || options.operators == Shi2006::name,
-    "there is no operator set '" + options.operators + "': use " + Extended::name + " or " +
-      Shi2006::name);
-  require(options.operators != Shi2006::name || options.inCore,
-    std::string("the operator set ") + Shi2006::name +
-      " keeps vectors on the edges of every level and works in core only: solve in core "
-      "(--in-core), or use " +
-      Extended::name);
   require(options.sweeps >= 1 && options.sweeps <= 20, "the number of sweeps must be from 1 to 20");
   require(options.tolerance > 0.0 && options.tolerance < 1.0,
     "the tolerance must lie between 0 and 1, both excluded");
@@ -52,17 +36,37 @@ void checkOptions(const SolveOptions& options)
   require(options.coreNodes >= 0, "the number of nodes of a core level must not be negative");
 }
 
-std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveOptions& given)
+void checkOperators(const SolveOptions& options)
 {
-  checkOptions(given);
+  require(options.operators == Extended::name || options.operators == Shi2006::name,
+    "there is no operator set '" + options.operators + "': use " + Extended::name + " or " +
+      Shi2006::name);
+  require(options.operators != Shi2006::name || options.inCore,
+    std::string("the operator set ") + Shi2006::name +
+      " keeps vectors on the edges of every level and works in core only: solve in core "
+      "(--in-core), or use " +
+      Extended::name);
+}
+
+void checkProblem(const Problem& problem)
+{
   require(problem.columns() >= 1, "a problem needs at least one column");
   require(problem.screening() >= 0.0 && std::isfinite(problem.screening()),
     "the screening must be a finite number that is not negative");
-  if (given.operators == Shi2006::name)
+}
+
+std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveOptions& options)
+{
+  checkOperators(options);
+  if (options.operators != Shi2006::name)
   {
-    return solveBy<Shi2006>(mesh, problem, given);
+    return solveWith<Extended>(mesh, problem, options);
   }
-  return solveBy<Engine<Extended>>(mesh, problem, given);
+  checkOptions(options);
+  checkProblem(problem);
+  auto solver = std::make_unique<Shi2006>(problem.columns(), options);
+  solver->solve(mesh, problem);
+  return solver;
 }
 
 } // namespace smg

@@ -18,9 +18,10 @@ namespace smg
 struct SolveOptions
 {
   /**
-   * Name of the operator set: "extended" (see Solver/Hierarchy/OperatorSet.h), or "shi2006", the
-   * paper's own equations, whose result is no solution (see Solver/Shi2006/Shi2006.h); that one
-   * works in core only.
+   * Name of the operator set of the library: "extended" (see Solver/Hierarchy/OperatorSet.h), or
+   * "shi2006", the paper's own equations, whose result is no solution (see
+   * Solver/Shi2006/Shi2006.h); that one works in core only. A set of your own has no name here: see
+   * Solver/SolveWith.h.
    */
   std::string operators = "extended";
   /** Gauss-Seidel sweeps before and after each coarse-level correction, 1 to 20. */
@@ -45,8 +46,14 @@ struct SolveOptions
   ProgressFunction progress;
 };
 
-/** Throws Error if an option is out of range; solve() does so, too. */
+/** Throws Error if an option other than the operator set's name is out of range; solve() does so,
+ * too. */
 void checkOptions(const SolveOptions& options);
+/** Throws Error unless the library has an operator set of that name, which goes with the other
+ * options; solve() does so, too. */
+void checkOperators(const SolveOptions& options);
+/** Throws Error if the problem's columns or screening are out of range; solve() does so, too. */
+void checkProblem(const Problem& problem);
 
 /** The solution of a solve: `columns` values a vertex, in stream order, on disk or in memory. */
 class Solution

@@ -60,6 +60,7 @@ protected:
   void readTask() override
   {
     smg::checkOptions(this->Solve);
+    smg::checkOperators(this->Solve);
     this->Data = smg::readProblemFileData(this->File);
   }
 
@@ -70,7 +71,8 @@ protected:
     smg::RegionProblem problem(std::move(this->Data), mesh.info(), this->File.string());
     problem.check(*mesh.source(problem.vertexColumns(), {}));
     this->applyTo(this->Solve, std::move(progress));
-    return smg::solve(*mesh.source(problem.vertexColumns(), {}), problem, this->Solve);
+    return smg::solve(
+      *mesh.source(problem.vertexColumns(), problem.cellColumns()), problem, this->Solve);
   }
 
   std::vector<std::string> write(const smg::VsmReader& mesh, smg::Solution& solution,

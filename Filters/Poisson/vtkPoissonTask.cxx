@@ -13,6 +13,7 @@ void PoissonTask::check() const
 {
   ColumnProblem::check(this->arrays);
   checkOptions(this->options);
+  checkOperators(this->options);
   if (!std::isfinite(this->screening))
   {
     throw Error("The screening is not a finite number: use one that is at least 0.");

@@ -2,8 +2,10 @@
 #include "IO/Problem/RegionProblem.h"
 
 #include "IO/Problem/WeightsName.h"
+#include "Solver/Core/Error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace smg
@@ -31,9 +33,27 @@ RegionValue parseValue(const JsonNode& value, int columns)
   return { {}, true };
 }
 
+void parseConductivity(const JsonNode& node, RegionProblemData& data)
+{
+  if (data.weights != Weights::Cotangent)
+  {
+    node.fail("can be given with cotangent weights only");
+  }
+  if (node.isString() && !node.string().empty())
+  {
+    data.conductivityColumn = node.string();
+    return;
+  }
+  data.conductivity = node.number();
+  if (data.conductivity <= 0.0)
+  {
+    node.fail("must be a positive number or the name of a cell column");
+  }
+}
+
 RegionProblemData parseProblem(const JsonNode& node)
 {
-  node.requireObject({ "weights", "columns", "dirichlet", "source", "screening" });
+  node.requireObject({ "weights", "columns", "dirichlet", "source", "screening", "conductivity" });
   RegionProblemData data;
   data.weights = parseWeights(node).value_or(data.weights);
   if (node.has("columns"))
@@ -48,6 +68,10 @@ RegionProblemData parseProblem(const JsonNode& node)
     {
       screening.fail("must not be negative");
     }
+  }
+  if (node.has("conductivity"))
+  {
+    parseConductivity(node.member("conductivity"), data);
   }
   if (node.has("source"))
   {
@@ -68,11 +92,65 @@ RegionProblemData parseProblem(const JsonNode& node)
 } // namespace
 
 RegionProblem::RegionProblem(RegionProblemData data, const StreamInfo& mesh, std::string file)
-  : Regions(std::move(data.regions), mesh, std::move(file))
+  : File(std::move(file))
+  , Regions(std::move(data.regions), mesh, this->File)
   , Data(std::move(data))
 {
+  const std::string& name = this->Data.conductivityColumn;
+  if (!name.empty() && std::ranges::none_of(mesh.cellColumns, [&name](const ColumnSpec& spec)
+                         { return spec.name == name && spec.components == 1; }))
+  {
+    throw Error(this->File + ": conductivity: the mesh has no cell column '" + name +
+                "' of one number a cell.");
+  }
   this->AnyPosition = std::any_of(this->Data.values.begin(), this->Data.values.end(),
     [](const RegionValue& value) { return value.position; });
+}
+
+Weights RegionProblem::weights() const
+{
+  const bool conducts = this->Data.conductivity != 1.0 || !this->Data.conductivityColumn.empty();
+  return conducts ? Weights::Own : this->Data.weights;
+}
+
+std::vector<std::string> RegionProblem::cellColumns() const
+{
+  const std::string& name = this->Data.conductivityColumn;
+  return name.empty() ? std::vector<std::string>{} : std::vector{ name };
+}
+
+/** The column of the conductivity; none if all cells have the same. */
+const Column* RegionProblem::conductivityOf(const MeshBlock& block) const
+{
+  const std::string& name = this->Data.conductivityColumn;
+  const auto found = std::ranges::find_if(
+    block.cellColumns, [&name](const Column& column) { return column.spec.name == name; });
+  if (found == block.cellColumns.end() && !name.empty())
+  {
+    throw Error(this->File + ": conductivity: the mesh source does not deliver the cell column '" +
+                name + "'.");
+  }
+  return name.empty() ? nullptr : &*found;
+}
+
+void RegionProblem::cellWeights(CellBatch& batch)
+{
+  const Column* column = this->conductivityOf(batch.block);
+  for (std::size_t c = 0; c < batch.cells(); ++c)
+  {
+    const double factor = column ? column->value(batch.first + c) : this->Data.conductivity;
+    if (!(factor > 0.0 && std::isfinite(factor)))
+    {
+      const auto number = batch.block.firstCell + static_cast<std::int64_t>(batch.first + c);
+      throw Error(
+        this->File + ": conductivity: it must be a positive number in each cell, but is " +
+        std::to_string(factor) + " in cell " + std::to_string(number) + " of the stream.");
+    }
+    for (double& weight : batch.weightsOf(c))
+    {
+      weight *= factor;
+    }
+  }
 }
 
 void RegionProblem::conditions(const MeshBlock& block, VertexConditions& conditions)

@@ -28,6 +28,10 @@ struct RegionProblemData
   Weights weights = Weights::Cotangent;
   int columns = 1;
   double screening = 0.0;
+  /** A factor of the cotangent weights, positive: of all cells, or that of each, which stands in
+   * the cell column of this name. */
+  double conductivity = 1.0;
+  std::string conductivityColumn;
   /** A density for each column; empty: none. */
   std::vector<double> source;
   /** Where values are prescribed. Where regions overlap, the later one holds. */
@@ -45,16 +49,23 @@ struct RegionProblemData
 class RegionProblem : public Problem
 {
 public:
-  /** `mesh` is the mesh the problem is for. `file` is what errors call the problem. */
+  /**
+   * `mesh` is the mesh the problem is for. `file` is what errors call the problem. Throws Error if
+   * the mesh has no column of the conductivity.
+   */
   RegionProblem(RegionProblemData data, const StreamInfo& mesh, std::string file = "problem");
 
   int columns() const override { return this->Data.columns; }
-  Weights weights() const override { return this->Data.weights; }
+  Weights weights() const override;
+  void cellWeights(CellBatch& batch) override;
   double screening() const override { return this->Data.screening; }
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
 
   /** The vertex columns that the mesh source must deliver. */
   std::vector<std::string> vertexColumns() const { return this->Regions.vertexColumns(); }
+
+  /** The cell columns that the mesh source must deliver. */
+  std::vector<std::string> cellColumns() const;
 
   /**
    * Reads the stream once, without solving, and throws Error naming the region if a region selects
@@ -63,6 +74,9 @@ public:
   void check(MeshSource& mesh) const { this->Regions.check(mesh); }
 
 private:
+  const Column* conductivityOf(const MeshBlock& block) const;
+
+  std::string File;
   RegionList Regions;     ///< those of the data
   RegionProblemData Data; ///< all but the regions
   bool AnyPosition = false;
@@ -76,10 +90,11 @@ private:
  *                      { "box": [x0, y0, z0, x1, y1, z1], "value": [..] },
  *                      { "sphere": [x, y, z, r], "value": "position" },
  *                      { "vertices": [original numbers], "value": [..] } ],
- *       "source": [..], "screening": 0.0 }
+ *       "source": [..], "screening": 0.0, "conductivity": 1.0 | "name of a cell column" }
  *
- * Every key may be left out: cotangent weights, one column, nothing prescribed, no source and no
- * screening. A value or source has as many numbers as there are columns (1 to 64).
+ * Every key may be left out: cotangent weights, one column, nothing prescribed, no source, no
+ * screening and a conductivity of 1. A value or source has as many numbers as there are columns (1
+ * to 64). A conductivity, positive, is for cotangent weights alone.
  * @throws Error naming the file and the place in it
  */
 RegionProblemData readProblemFileData(const std::filesystem::path& path);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Cycle/Relaxation.h"
 #include "Solver/Hierarchy/CoarseningData.h"
 #include "Solver/Stream/MeshSource.h"
 
@@ -11,22 +12,42 @@ namespace smg
 {
 
 /**
- * An operator set: the pluggable part of the multigrid. A type O with a default constructor and
+ * An operator set: the pluggable part of the multigrid. A default-constructible, copyable type O
+ * (every level gets a copy) with
  *
- *   O::name                         what `--operators` calls it
- *   O::forCells(CellType)           the set with its parameters for that kind of cells
+ *   const char* O::name             what it is called
+ *   O O::forCells(CellType)         the set with its parameters for that kind of cells
  *   bool o.lift(data, i)            lifting rule: does node i get a parent?
- *   void o.interpolateInitial(data, i), o.interpolate(data, i)
- *                                   interpolation in two steps; each appends row i
- *   void o.multiply(data, i), o.gather(data, c), o.sparsify(data, c)
- *                                   coarse operator in three steps
- *   O::Relaxation                   relaxation; see Solver/Cycle/GaussSeidel.h
+ *   o.interpolateInitial(data, i)   interpolation in two steps, where the second may look at the
+ *   o.interpolate(data, i)          first of all neighbours: row i of P
+ *   o.multiply(data, i)             coarse operator in three steps: row i of A P,
+ *   o.gather(data, c)               row c of P^T A P,
+ *   o.sparsify(data, c)             and what is left of it
+ *   O::Relaxation                   see Solver/Cycle/Relaxation.h
  *
- * Each step may read what CoarseningData says is there when Coarsening calls it; restriction is the
- * transpose of interpolation.
+ * Restriction is the transpose of interpolation. Coarsening calls each step once for each fine node
+ * i or coarse node c, in ascending order, on windows that hold no more than what follows; a step
+ * that reads anything else reads memory that is gone. `data.fine` are the rows of the fine level.
+ *
+ *   step                may read                                     must set
+ *   lift                row i; lifted of the nodes below             its answer
+ *   interpolateInitial  row i; lifted of its neighbours              row i of initial
+ *   interpolate         row i; lifted[i]; initial of i, neighbours   row i of interpolation,
+ * chained by columns from firstChild to lastChild; rowQuanta, parentReach multiply            row
+ * i; interpolation of i, neighbours        row i of product; productSum gather              the
+ * chain of column c, product of its rows,  row c of raw, by ascending raw below c column; rawAlpha
+ * and the other values by coarse node sparsify            raw up to rawReach[c] NaN as the weight
+ * of entries to be removed, in both rows
+ *
+ * What the engine relies on: a node without edges is not lifted; each lifted node has a child; P
+ * has entries from 0 to 1 (multiples of 1/Quanta) with row sums of at most 1, from coarse nodes
+ * within two rings; the coarse operator is exactly symmetric, with row sums alpha that are zero
+ * where no constraint reaches; a step depends on what it may read alone, not on when it is called.
+ * `lift` and `sparsify` may do nothing more than decide; to exchange one step, derive from Extended
+ * and hide that member: see Examples/CustomOperators.
  */
 template <class O>
-concept OperatorSet = std::default_initializable<O> &&
+concept OperatorSet = std::default_initializable<O> && std::copyable<O> &&
   requires(O o, CoarseningData& data, std::int64_t i, CellType type)
 {
   {
@@ -44,6 +65,7 @@ concept OperatorSet = std::default_initializable<O> &&
   o.gather(data, i);
   o.sparsify(data, i);
   typename O::Relaxation;
+  requires Relaxation<typename O::Relaxation>;
 };
 
 } // namespace smg

@@ -20,24 +20,6 @@ bool allFinite(const std::vector<double>& values)
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-bool hasRepeatedCorner(const std::int64_t* corners, int count)
-{
-  for (int a = 1; a < count; ++a)
-  {
-    if (std::find(corners, corners + a, corners[a]) != corners + a)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-/** Neighbours that an open vertex has room for without the table aside. */
-int usualNeighbours(CellType type)
-{
-  return type == CellType::Triangle ? 12 : 24;
-}
-
 } // namespace
 
 Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, AssembledRows& rows,
@@ -60,8 +42,12 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, Assembl
   , Prescribed(pool)
   , Labels(pool)
   , Reach(pool)
-  , Edges(pool, usualNeighbours(info.cellType))
+  , Edges(pool, OpenEdges::usual(info.cellType))
 {
+  if (this->Kind == Weights::Own)
+  {
+    this->Own.emplace(pool, problem, info.cellType);
+  }
 }
 
 void Assembly::add(const MeshBlock& block)
@@ -104,6 +90,10 @@ void Assembly::addVertices(const MeshBlock& block)
   this->Mass.extend(end);
   this->Labels.extendRaw(end);
   this->Edges.extend(end);
+  if (this->Own)
+  {
+    this->Own->extend(end);
+  }
   std::copy(block.positions.begin(), block.positions.end(), this->Points.at(this->Vertices));
   std::copy(given.value.begin(), given.value.end(), this->Values.at(this->Vertices));
   std::copy(given.source.begin(), given.source.end(), this->Sources.at(this->Vertices));
@@ -124,6 +114,10 @@ void Assembly::addCells(const MeshBlock& block)
   for (std::size_t c = 0; c < cells; ++c)
   {
     const std::int64_t* cell = block.corners.data() + c * corners;
+    if (this->Own)
+    {
+      this->Own->prepare(block, c, this->Points);
+    }
     this->addCell(cell, flags ? static_cast<unsigned>(flags->value(c)) : 0U);
   }
   this->Cells += static_cast<std::int64_t>(cells);
@@ -131,7 +125,6 @@ void Assembly::addCells(const MeshBlock& block)
 
 void Assembly::addCell(const std::int64_t* corners, unsigned flags)
 {
-  const bool triangle = this->Type == CellType::Triangle;
   const double* point[4] = {};
   for (int k = 0; k < cornersOf(this->Type); ++k)
   {
@@ -139,8 +132,8 @@ void Assembly::addCell(const std::int64_t* corners, unsigned flags)
   }
   const bool repeated = hasRepeatedCorner(corners, cornersOf(this->Type));
   const CellWeights cell = repeated || flags != 0 ? CellWeights{}
-                           : triangle             ? triangleWeights(point[0], point[1], point[2])
-                                      : tetrahedronWeights(point[0], point[1], point[2], point[3]);
+                           : this->Own            ? this->Own->cell()
+                                                  : cellWeights(this->Type, point);
   const bool degenerate = cell.measure == 0.0;
   this->Degenerate += degenerate ? 1 : 0;
   if (!degenerate || (this->ConnectsFlat && !repeated && (flags & DuplicateCell) == 0))
@@ -169,11 +162,9 @@ void Assembly::connect(const std::int64_t* corners, const CellWeights& cell)
     this->Mass[corners[k]] += mass;
   }
 
-  const bool triangle = this->Type == CellType::Triangle;
-  const int edges = triangle ? 3 : 6;
-  for (int e = 0; e < edges; ++e)
+  for (int e = 0; e < edgesOf(this->Type); ++e)
   {
-    const int* ends = triangle ? TriangleEdges[e] : TetrahedronEdges[e];
+    const int* ends = edgeCorners(this->Type, e);
     const std::int64_t a = corners[ends[0]];
     const std::int64_t b = corners[ends[1]];
     if (cell.measure == 0.0 && !this->hasLength(a, b))
@@ -184,6 +175,10 @@ void Assembly::connect(const std::int64_t* corners, const CellWeights& cell)
     const double weight = this->Kind == Weights::Uniform ? 1.0 : forth.weight + cell.weight[e];
     forth.weight = weight;
     this->Edges.edge(b, a).weight = weight;
+    if (this->Own)
+    {
+      this->Own->connect(a, b);
+    }
   }
 }
 
@@ -241,28 +236,39 @@ void Assembly::finalize(std::int64_t end)
   this->Mass.release(this->Final);
   this->Labels.release(this->Final);
   this->Edges.release(this->Final);
+  if (this->Own)
+  {
+    this->Own->release(this->Final);
+  }
 }
 
 /** Appends the neighbours of vertex i, with the weights as they are stored, to the batch. */
 void Assembly::collectRow(std::int64_t i)
 {
   this->Edges.take(i, this->Row);
-  for (const OpenEdge& edge : this->Row)
+  const OpenEdge* scales = this->Own ? this->Own->takeScales(i).data() : nullptr;
+  for (std::size_t e = 0; e < this->Row.size(); ++e)
   {
-    double weight = edge.weight;
-    if (this->Kind == Weights::Cotangent)
+    const std::int64_t j = this->Row[e].to;
+    double weight = this->Row[e].weight;
+    if (this->Kind != Weights::Uniform)
     {
-      const double floor = cotangentFloor(this->Type, this->Points.at(i), this->Points.at(edge.to));
+      const double floor = (scales ? scales[e].weight : 1.0) *
+                           cotangentFloor(this->Type, this->Points.at(i), this->Points.at(j));
       this->Clamped += weight < floor ? 1 : 0;
       weight = std::max(weight, floor);
+    }
+    if (this->Own)
+    {
+      this->Own->requireRange(weight, i, j);
     }
     if (!std::isfinite(static_cast<float>(weight)))
     {
       throw Error("the weight of the edge between vertices " + std::to_string(i) + " and " +
-                  std::to_string(edge.to) +
+                  std::to_string(j) +
                   " is too large: the cells there are almost flat; use uniform weights");
     }
-    this->Neighbours.push_back({ edge.to, static_cast<float>(weight) });
+    this->Neighbours.push_back({ j, static_cast<float>(weight) });
   }
   this->RowEnds.push_back(this->Neighbours.size());
   const std::int64_t last = this->Row.empty() ? i : std::max(i, this->Row.back().to);

@@ -6,11 +6,13 @@
 #include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Problem/Components.h"
 #include "Solver/Problem/OpenEdges.h"
+#include "Solver/Problem/OwnWeights.h"
 #include "Solver/Problem/Problem.h"
 #include "Solver/Problem/RowListener.h"
 #include "Solver/Stream/StreamCheck.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace smg
@@ -80,6 +82,7 @@ private:
   Ring<std::int32_t> Labels;
   Ring<std::int64_t> Reach; // largest neighbour of vertices 0 .. i, of final rows
   OpenEdges Edges;
+  std::optional<OwnWeights> Own;
   VertexConditions Conditions;
 
   // The rows of the current batch.

@@ -3,6 +3,7 @@
 
 #include "Solver/Stream/MeshSource.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace smg
@@ -24,6 +25,16 @@ inline constexpr int TriangleEdges[3][2] = { { 0, 1 }, { 0, 2 }, { 1, 2 } };
 inline constexpr int TetrahedronEdges[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 },
   { 2, 3 } };
 
+constexpr int edgesOf(CellType type)
+{
+  return type == CellType::Triangle ? 3 : 6;
+}
+/** The corners of edge e of a cell. */
+constexpr const int* edgeCorners(CellType type, int e)
+{
+  return type == CellType::Triangle ? TriangleEdges[e] : TetrahedronEdges[e];
+}
+
 /**
  * The cotangent weights of a triangle, half the cotangent of the angle opposite to the edge
  * (Pinkall and Polthier 1993).
@@ -35,6 +46,27 @@ CellWeights triangleWeights(const double* a, const double* b, const double* c);
  * length of the opposite edge times the cotangent of the dihedral angle there.
  */
 CellWeights tetrahedronWeights(const double* a, const double* b, const double* c, const double* d);
+
+/** Whether a cell uses a vertex twice. */
+inline bool hasRepeatedCorner(const std::int64_t* corners, int count)
+{
+  for (int a = 1; a < count; ++a)
+  {
+    if (std::find(corners, corners + a, corners[a]) != corners + a)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/** Either of them: of a cell with the given corners. */
+inline CellWeights cellWeights(CellType type, const double* const* points)
+{
+  return type == CellType::Triangle
+           ? triangleWeights(points[0], points[1], points[2])
+           : tetrahedronWeights(points[0], points[1], points[2], points[3]);
+}
 
 /**
  * The floor of the cotangent weight of an edge, that keeps the operator an M-matrix on obtuse

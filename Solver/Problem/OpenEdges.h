@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Storage/Ring.h"
+#include "Solver/Stream/MeshSource.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -25,6 +26,9 @@ struct OpenEdge
 class OpenEdges
 {
 public:
+  /** Neighbours that a vertex of a usual mesh has at most. */
+  static constexpr int usual(CellType type) { return type == CellType::Triangle ? 12 : 24; }
+
   /** `usual`: neighbours that a vertex has room for. */
   OpenEdges(Pool& pool, int usual)
     : Edges(pool, usual)

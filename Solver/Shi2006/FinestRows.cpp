@@ -22,7 +22,7 @@ FinestRows::FinestRows(Pool& pool, const StreamInfo& info, Problem& problem, Com
   : Finest(level)
   , Rows(pool)
   , State(pool, this->Resident, 0, problem.columns())
-  , Assembled(pool, info, problem, this->Rows, this->State, components, labels, this)
+  , Assembled(pool, info, problem, this->Made, components, labels, this)
 {
 }
 
@@ -53,6 +53,7 @@ void FinestRows::take()
 {
   Level& level = this->Finest;
   const int columns = level.columns();
+  this->Made.moveTo(this->Rows, this->State, columns);
   const std::int64_t begin = level.nodes();
   const std::int64_t end = this->Rows.end();
   level.node.extendRaw(end);

@@ -30,6 +30,7 @@ private:
   void take();
 
   Level& Finest;
+  AssembledRows Made;
   LevelRows Rows;
   ResidentNodes Resident;
   LevelWindow<double> State;

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Storage/Ring.h"
+#include "Solver/Shi2006/EdgeRows.h"
 
 #include <cstdint>
 
 namespace smg::shi2006
 {
-
-/** An edge of node i to `neighbour`, with w_ij. */
-struct Edge
-{
-  std::int64_t neighbour;
-  double weight;
-};
 
 /** What the equation of a node says but for its edges and its values. */
 struct Node
@@ -56,8 +49,8 @@ struct Level
   /** Entries of the level's matrix, diagonals included. */
   std::int64_t nonzeros() const { return this->edges.start(this->nodes()) + this->nodes(); }
 
-  RaggedRing<Edge> edges; ///< by node, by ascending neighbour
-  Ring<double> target;    ///< d_ij of every edge, in the order of `edges`
+  EdgeRows edges;      ///< by node, by ascending neighbour
+  Ring<double> target; ///< d_ij of every edge, in the order of `edges`
   Ring<Node> node;
   Ring<double> constraint; ///< xi0_i
   Ring<double> rightSide;  ///< b_i = xi0_i + sum_j w_ij d_ij

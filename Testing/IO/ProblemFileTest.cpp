@@ -99,6 +99,61 @@ TEST_F(ProblemFile, PositionIsValueAndGuess)
   }
 }
 
+TEST_F(ProblemFile, ConductivityIsANumberOrACellColumn)
+{
+  StreamMesh mesh = lattice();
+  std::vector<float> factors;
+  for (std::int64_t c = 0; c < mesh.cells(); ++c)
+  {
+    factors.push_back(c == 20 ? -1.0F : 0.5F + static_cast<float>(c));
+  }
+  mesh.cellColumns.push_back(
+    makeColumn<std::uint8_t>(CellFlagsName, std::vector<std::uint8_t>(32)));
+  mesh.cellColumns.push_back(makeColumn<float>("k", factors));
+  MemorySource source(mesh, 32);
+  MeshBlock block;
+  source.next(block);
+  // What becomes of the weights of cells [10, 10 + count).
+  const auto weightsOf = [&](const std::string& json, std::size_t count)
+  {
+    const auto problem = readProblemFile(this->file(json), source.info());
+    EXPECT_EQ(problem->weights(), Weights::Own);
+    std::vector<double> weight(3 * count, 2.0);
+    std::vector<double> measure(count, 1.0);
+    CellBatch batch{ CellType::Triangle, block, 10, {}, {}, weight, measure };
+    problem->cellWeights(batch);
+    EXPECT_EQ(measure, std::vector<double>(count, 1.0));
+    return weight;
+  };
+  EXPECT_EQ(weightsOf(R"({"conductivity": 0.25})", 1), std::vector<double>(3, 0.5));
+  EXPECT_EQ(
+    weightsOf(R"({"conductivity": "k"})", 2), (std::vector<double>{ 21, 21, 21, 23, 23, 23 }));
+  EXPECT_CONTAINS(messageOf([&] { weightsOf(R"({"conductivity": "k"})", 11); }),
+    "conductivity: it must be a positive number in each cell, but is -1");
+  EXPECT_CONTAINS(
+    messageOf([&] { weightsOf(R"({"conductivity": "k"})", 11); }), "in cell 20 of the stream");
+
+  using Names = std::vector<std::string>;
+  const auto columnsOf = [&](const std::string& json)
+  { return readProblemFile(this->file(json), source.info())->cellColumns(); };
+  EXPECT_EQ(columnsOf(R"({"conductivity": "k"})"), Names{ "k" });
+  EXPECT_EQ(columnsOf(R"({"conductivity": 2})"), Names{});
+  EXPECT_EQ(this->parse(R"({"conductivity": 1})")->weights(), Weights::Cotangent);
+}
+
+TEST_F(ProblemFile, ErrorsOfTheConductivity)
+{
+  for (const char* bad : { "0", "-2", "\"\"", "[1]", "null", "1e999" })
+  {
+    EXPECT_CONTAINS(this->errorOf(std::string(R"({"conductivity": )") + bad + "}"), "p.json");
+  }
+  EXPECT_CONTAINS(this->errorOf(R"({"conductivity": 0})"), "conductivity: must be a positive");
+  EXPECT_CONTAINS(
+    this->errorOf(R"({"conductivity": "k"})"), "conductivity: the mesh has no cell column 'k'");
+  EXPECT_CONTAINS(this->errorOf(R"({"weights": "uniform", "conductivity": 2})"),
+    "conductivity: can be given with cotangent weights only");
+}
+
 TEST_F(ProblemFile, ErrorsNameThePlace)
 {
   EXPECT_CONTAINS(this->errorOf(R"({"weight": "uniform"})"), "weight: is not known");

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Hierarchy/Extended.h"
+#include "Solver/SolveWith.h"
+#include "Testing/Solver/SolveTesting.h"
+
+#include <gtest/gtest.h>
+
+// Operator sets of a program's own.
+
+namespace smg::testing
+{
+namespace
+{
+
+/** Successive over-relaxation. */
+struct OverRelaxation
+{
+  static constexpr double Factor = 1.2;
+
+  template <bool LowerOnly, class Vectors, class Real>
+  static void sweep(const auto& header, const auto& rows, BlockRange nodes, std::int64_t stride,
+    Real* x, const Real* b)
+  {
+    for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
+    {
+      const auto sum = neighbourSum<LowerOnly, Vectors>(header, rows, k, stride, x);
+      const auto solved =
+        (Vectors::load(b + k * stride) + sum) * static_cast<Real>(1.0 / rows.diagonal[k]);
+      typename Vectors::Vector old{};
+      if (!LowerOnly)
+      {
+        old = Vectors::load(x + k * stride);
+      }
+      Vectors::store(x + k * stride, old + static_cast<Real>(Factor) * (solved - old));
+    }
+  }
+};
+
+/** Extended with another relaxation. */
+struct Custom : Extended
+{
+  static constexpr const char* name = "custom";
+  using Relaxation = OverRelaxation;
+  static Custom forCells(CellType type) { return { Extended::forCells(type) }; }
+};
+
+struct WithoutSweep
+{
+};
+struct OnlyInDouble
+{
+  template <bool LowerOnly, class Vectors>
+  static void sweep(const auto&, const auto&, BlockRange, std::int64_t, double*, const double*)
+  {
+  }
+};
+struct BadRelaxation : Extended
+{
+  using Relaxation = OnlyInDouble;
+  static BadRelaxation forCells(CellType) { return {}; }
+};
+
+static_assert(OperatorSet<Extended> && OperatorSet<Custom>);
+static_assert(Relaxation<OverRelaxation> && Relaxation<GaussSeidel>);
+static_assert(!Relaxation<WithoutSweep> && !Relaxation<OnlyInDouble>);
+static_assert(!OperatorSet<BadRelaxation> && !OperatorSet<GaussSeidel>);
+
+template <OperatorSet Operators>
+Solved solveWithSet(const StreamMesh& mesh, Problem& problem, const SolveOptions& options)
+{
+  MemorySource source(mesh);
+  const std::unique_ptr<Solution> solution = solveWith<Operators>(source, problem, options);
+  return { valuesOf(*solution), solution->report() };
+}
+
+std::vector<std::pair<StreamMesh, ArrayProblem>> tasks()
+{
+  std::vector<std::pair<StreamMesh, ArrayProblem>> list;
+  const StreamMesh surface = toStream(shuffled(torus(80, 50, 0.3)));
+  list.emplace_back(surface, heldEnds(surface, 3, Weights::Cotangent));
+  list.emplace_back(surface, heldEnds(surface, 1, Weights::Uniform));
+  const StreamMesh solid = toStream(shuffled(tetBox(13, 12, 14, 0.1)));
+  list.emplace_back(solid, heldEnds(solid, 1, Weights::Cotangent));
+  return list;
+}
+
+} // namespace
+
+TEST(CustomOperators, theDefaultSetIsThatOfSolve)
+{
+  auto [mesh, problem] = tasks()[0];
+  const Solved expected = solveMesh(mesh, problem);
+  EXPECT_TRUE(sameBits(solveWithSet<Extended>(mesh, problem, {}).values, expected.values));
+}
+
+TEST(CustomOperators, anotherRelaxationConvergesToTheDirectSolution)
+{
+  for (auto& [mesh, problem] : tasks())
+  {
+    const Solved solved = solveWithSet<Custom>(mesh, problem, accurate());
+    EXPECT_TRUE(solved.report.converged);
+    EXPECT_LE(solved.report.cycles, 25);
+    EXPECT_LT(relativeError(solved.values, solveDirectly(mesh, problem)), 1e-7);
+    // It is another method, not the default one under another name.
+    const Solved usual = solveWithSet<Extended>(mesh, problem, accurate());
+    EXPECT_NE(solved.report.residuals, usual.report.residuals);
+  }
+}
+
+TEST(CustomOperators, streamingEqualsInCoreBitForBit)
+{
+  SolveOptions options;
+  options.tolerance = 1e-12;
+  options.maxCycles = 3;
+  for (auto& [mesh, problem] : tasks())
+  {
+    options.inCore = true;
+    const Solved expected = solveWithSet<Custom>(mesh, problem, options);
+    options.inCore = false;
+    for (const std::int64_t coreNodes : { 0, 300 })
+    {
+      for (const std::int64_t blockNodes : { 64, 1000, 1 << 20 })
+      {
+        for (const int threads : { 1, 2 })
+        {
+          options.coreNodes = coreNodes;
+          options.blockNodes = blockNodes;
+          options.threads = threads;
+          const Solved solved = solveWithSet<Custom>(mesh, problem, options);
+          EXPECT_TRUE(sameBits(solved.values, expected.values))
+            << coreNodes << " core nodes, blocks of " << blockNodes << ", " << threads
+            << " threads";
+          EXPECT_EQ(solved.report.residuals, expected.report.residuals);
+        }
+      }
+    }
+  }
+}
+
+TEST(CustomOperators, optionsAndProblemsAreCheckedAsBySolve)
+{
+  auto [mesh, problem] = tasks()[1];
+  SolveOptions options;
+  options.operators = "not looked at";
+  EXPECT_EQ(messageOf([&] { solveWithSet<Custom>(mesh, problem, options); }), "");
+  EXPECT_NE(messageOf([&] { solveMesh(mesh, problem, options); }).find("no operator set"),
+    std::string::npos);
+  options.sweeps = 0;
+  EXPECT_NE(messageOf([&] { solveWithSet<Custom>(mesh, problem, options); }).find("sweeps"),
+    std::string::npos);
+  problem.Screening = -1;
+  EXPECT_NE(messageOf([&] { solveWithSet<Custom>(mesh, problem, {}); }).find("screening"),
+    std::string::npos);
+}
+
+} // namespace smg::testing
