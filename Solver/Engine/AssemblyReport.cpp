@@ -32,8 +32,8 @@ void addAssemblyNotes(Report& report)
   {
     report.notes.push_back(
       std::to_string(report.clamped_weights) +
-      " cotangent weights were below the floor and were raised to it: there the "
-      "operator is not that of finite elements");
+      " weights were below the floor and were raised to it: there the operator is "
+      "not that of finite elements");
   }
   if (report.held > 0)
   {

@@ -19,7 +19,10 @@ Run it:
 
     custom_operators ../../Data/bunny.smb
 
-    cotangent weights, Gauss-Seidel: converged after 7 cycles, relative residual 2.96394e-07
+    sheet, extended: converged after 12 cycles, relative residual 8.40062e-11
+    sheet, over-relaxed: converged after 11 cycles, relative residual 3.30247e-11
+    wires, extended: converged after 9 cycles, relative residual 3.60376e-11
+    wires, over-relaxed: converged after 8 cycles, relative residual 6.08347e-11
 */
 
 #include "IO/Conversion/OpenMesh.h"
@@ -99,7 +102,9 @@ struct FeetAndEars : smg::Problem
 template <smg::OperatorSet Operators>
 void solveAndPrint(const smg::VsmReader& mesh, FeetAndEars& problem)
 {
-  const auto solution = smg::solveWith<Operators>(*mesh.source({}, {}), problem);
+  smg::SolveOptions options;
+  options.tolerance = 1e-10;
+  const auto solution = smg::solveWith<Operators>(*mesh.source({}, {}), problem, options);
   const smg::Report& report = solution->report();
   std::cout << (problem.wires ? "wires" : "sheet") << ", " << Operators::name << ": "
             << (report.converged ? "converged" : "not converged") << " after " << report.cycles
