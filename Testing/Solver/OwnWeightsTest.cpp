@@ -204,6 +204,21 @@ TEST(OwnWeights, aStepOfConductivityDividesTheDropAlongABar)
   }
 }
 
+TEST(OwnWeights, atAStepTheFloorIsThatOfTheWeakerSide)
+{
+  // The edge between the cells has the weight 0 in the strong one, opposite to a right angle.
+  MeshBlock block;
+  block.positions = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 2, 0 };
+  block.corners = { 0, 1, 2, 1, 3, 2 };
+  block.finalized = 4;
+  for (const double beyond : { 1.0, 1e-5 })
+  {
+    BlockSource source(CellType::Triangle, { block });
+    Weighed own(ArrayProblem(), step(0, 0.5, beyond));
+    EXPECT_EQ(solveMesh(source, own, {}).report.clamped_weights, 0) << beyond;
+  }
+}
+
 TEST(OwnWeights, doNotDependOnBlocks)
 {
   for (const StreamMesh& mesh : meshes())
