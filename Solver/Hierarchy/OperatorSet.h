@@ -42,9 +42,9 @@ namespace smg
  * What the engine relies on: a node without edges is not lifted; each lifted node has a child; P
  * has entries from 0 to 1 (multiples of 1/Quanta) with row sums of at most 1, from coarse nodes
  * within two rings; the coarse operator is exactly symmetric, with row sums alpha that are zero
- * where no constraint reaches; a step depends on what it may read alone, not on when it is called.
- * `lift` and `sparsify` may do nothing more than decide; to exchange one step, derive from Extended
- * and hide that member: see Examples/CustomOperators.
+ * where no constraint reaches, before and after sparsification; a step depends on what it may read
+ * alone, not on when it is called. To exchange one step, derive from Extended and hide that member:
+ * see Examples/CustomOperators.
  */
 template <class O>
 concept OperatorSet = std::default_initializable<O> && std::copyable<O> &&
