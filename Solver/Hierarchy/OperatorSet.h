@@ -29,15 +29,18 @@ namespace smg
  * i or coarse node c, in ascending order, on windows that hold no more than what follows; a step
  * that reads anything else reads memory that is gone. `data.fine` are the rows of the fine level.
  *
- *   step                may read                                     must set
- *   lift                row i; lifted of the nodes below             its answer
- *   interpolateInitial  row i; lifted of its neighbours              row i of initial
- *   interpolate         row i; lifted[i]; initial of i, neighbours   row i of interpolation,
- * chained by columns from firstChild to lastChild; rowQuanta, parentReach multiply            row
- * i; interpolation of i, neighbours        row i of product; productSum gather              the
- * chain of column c, product of its rows,  row c of raw, by ascending raw below c column; rawAlpha
- * and the other values by coarse node sparsify            raw up to rawReach[c] NaN as the weight
- * of entries to be removed, in both rows
+ * - `lift` may read row i and `lifted` of the nodes below, and answers.
+ * - `interpolateInitial` may read row i and `lifted` of its neighbours, and appends row i of
+ *   `initial`.
+ * - `interpolate` may read row i and `initial` of i and its neighbours. It appends row i of
+ *   `interpolation`, chained by columns from `firstChild` to `lastChild`, and sets `rowQuanta` and
+ *   `parentReach`.
+ * - `multiply` may read row i and `interpolation` of i and its neighbours. It appends row i of
+ *   `product` and sets `productSum`.
+ * - `gather` may read the chain of column c, `product` of its rows and the rows of `raw` above c.
+ * It appends row c of `raw`, by ascending column, and sets all other values by coarse node.
+ * - `sparsify` may read and change `raw` up to rawReach[c]. An entry that is to go gets the weight
+ *   NaN, in both of its rows.
  *
  * What the engine relies on: a node without edges is not lifted; each lifted node has a child; P
  * has entries from 0 to 1 (multiples of 1/Quanta) with row sums of at most 1, from coarse nodes
