@@ -13,6 +13,7 @@ namespace smg
 
 /** Names of the columns that a conversion adds: places in the original file, from 0, int64. */
 inline constexpr const char* OriginalIdName = "OriginalId";
+inline const ColumnSpec OriginalIdSpec{ OriginalIdName, ScalarType::Int64, 1 };
 inline constexpr const char* OriginalCellIdName = "OriginalCellId";
 
 struct StreamToVsmOptions

@@ -36,7 +36,7 @@ OrderedVertices orderPages(
   counts.mesh = paged.counts;
   counts.mesh.components = countComponents(paged, workspace);
   return order == StreamOrder::Axis ? axisOrder(paged.pages, workspace)
-                                    : spectralOrder(paged, workspace);
+                                    : spectralOrder(paged, workspace, &counts.notes);
 }
 
 } // namespace

@@ -7,6 +7,9 @@
 #include "IO/Order/StreamOrder.h"
 #include "IO/Raw/RawMesh.h"
 
+#include <string>
+#include <vector>
+
 namespace smg
 {
 
@@ -15,6 +18,7 @@ struct LayOutCounts
 {
   MeshCounts mesh;
   PageTraffic pages;
+  std::vector<std::string> notes; ///< what a user should know of the order
 };
 
 /**

@@ -14,7 +14,6 @@ namespace smg
 namespace
 {
 
-const ColumnSpec IdSpec{ OriginalIdName, ScalarType::Int64, 1 };
 const ColumnSpec CellIdSpec{ OriginalCellIdName, ScalarType::Int64, 1 };
 
 /** Adds the specs of the columns, and the one of the original numbers if it is wanted and not among
@@ -60,7 +59,7 @@ LayoutSource::LayoutSource(
   this->Info.vertices = layout.vertexCount;
   this->Info.cells = layout.cellCount;
   this->Info.doublePositions = mesh.doublePositions;
-  this->AddIds = addSpecs(mesh.vertexColumns, IdSpec, true, this->Info.vertexColumns);
+  this->AddIds = addSpecs(mesh.vertexColumns, OriginalIdSpec, true, this->Info.vertexColumns);
   this->AddElements =
     addSpecs(mesh.elementColumns, CellIdSpec, cellIds == WithCellIds, this->Info.cellColumns);
   if (layout.flags.size() > 0)
@@ -117,7 +116,7 @@ void LayoutSource::fillVertices(MeshBlock& block, std::int64_t end)
   if (this->AddIds)
   {
     Column& column = block.vertexColumns.back();
-    column.spec = IdSpec;
+    column.spec = OriginalIdSpec;
     column.resize(static_cast<std::size_t>(rows));
     ids = column.as<std::int64_t>().data();
   }

@@ -193,12 +193,19 @@ bool SpectralValues::compute()
 
 } // namespace
 
-OrderedVertices spectralOrder(PagedMesh& mesh, Workspace& workspace)
+OrderedVertices spectralOrder(
+  PagedMesh& mesh, Workspace& workspace, std::vector<std::string>* notes)
 {
   VertexPages& pages = mesh.pages;
   SpectralValues values(pages, workspace);
   if (!values.compute())
   {
+    if (notes)
+    {
+      notes->push_back(
+        "The order is that of \"axis\", since the graph for \"spectral\" has no room "
+        "in the memory limit.");
+    }
     return axisOrder(pages, workspace);
   }
   const auto value = [&values](const PageView& page, std::uint32_t i)

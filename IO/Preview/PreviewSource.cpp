@@ -20,7 +20,6 @@ namespace
 constexpr std::int64_t OrderMemory = std::int64_t(256) << 20;
 
 const ColumnSpec StreamIndexSpec{ StreamIndexName, ScalarType::Int64, 1 };
-const ColumnSpec OriginalIdSpec{ OriginalIdName, ScalarType::Int64, 1 };
 
 /** The preview as a raw mesh of triangles. */
 RawMesh rawMesh(const MeshPiece& piece, bool doublePositions, Workspace& workspace)

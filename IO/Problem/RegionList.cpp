@@ -13,8 +13,6 @@ namespace smg
 namespace
 {
 
-const ColumnSpec IdSpec{ OriginalIdName, ScalarType::Int64, 1 };
-
 /** What a region selects. */
 struct Selection
 {
@@ -28,7 +26,7 @@ RegionList::RegionList(std::vector<NamedRegion> regions, const StreamInfo& mesh,
   : Regions(std::move(regions))
   , File(std::move(file))
 {
-  this->HasIds = findColumn(mesh.vertexColumns, IdSpec) >= 0;
+  this->HasIds = findColumn(mesh.vertexColumns, OriginalIdSpec) >= 0;
   this->ByName = std::any_of(this->Regions.begin(), this->Regions.end(),
     [](const NamedRegion& named) { return named.region.vertices() != nullptr; });
 }
@@ -41,7 +39,7 @@ std::vector<std::string> RegionList::vertexColumns() const
 
 const Column* RegionList::idColumn(const MeshBlock& block) const
 {
-  const std::ptrdiff_t place = findColumn(block.vertexColumns, IdSpec);
+  const std::ptrdiff_t place = findColumn(block.vertexColumns, OriginalIdSpec);
   if (place < 0 && !this->vertexColumns().empty())
   {
     throw Error(this->File + ": the mesh is read without its column " + OriginalIdName +

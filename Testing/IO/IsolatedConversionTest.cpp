@@ -5,7 +5,7 @@
 #include "IO/External/Reservation.h"
 #include "IO/Formats/StreamConversion.h"
 #include "IO/Order/FirstUseOrder.h"
-#include "IO/Order/IsolatedVertices.h"
+#include "IO/Order/TakeIsolated.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/TemporaryFolder.h"
 
@@ -17,9 +17,8 @@
 #include <string>
 #include <vector>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -168,3 +167,5 @@ TEST_F(IsolatedConversion, MoreVerticesThanTheMemoryHasBitsFor)
     });
   EXPECT_EQ(next, Vertices);
 }
+
+} // namespace smg::testing

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace smg::testing
@@ -84,7 +85,9 @@ std::vector<std::uint32_t> spectral(
 {
   Workspace workspace({}, memory);
   PagedMesh paged = mortonPages(workspace, mesh, pageVertices);
-  const OrderedVertices order = spectralOrder(paged, workspace);
+  std::vector<std::string> notes;
+  const OrderedVertices order = spectralOrder(paged, workspace, &notes);
+  EXPECT_TRUE(notes.empty());
   EXPECT_LE(workspace.pool().peak(), memory);
   std::vector<std::uint32_t> numbers = numbersOf(order);
   EXPECT_EQ(order.count, std::int64_t(numbers.size()));
@@ -229,8 +232,11 @@ TEST(SpectralOrder, IsTheAxisOrderWherePagesSayNothing)
   std::shuffle(shuffled.begin(), shuffled.end(), std::mt19937(1));
   Workspace workspace({}, Workspace::LeastMemory);
   PagedMesh paged = makePages(workspace, mesh, neighbours, shuffled, 256);
-  EXPECT_EQ(
-    numbersOf(spectralOrder(paged, workspace)), numbersOf(axisOrder(paged.pages, workspace)));
+  std::vector<std::string> notes;
+  EXPECT_EQ(numbersOf(spectralOrder(paged, workspace, &notes)),
+    numbersOf(axisOrder(paged.pages, workspace)));
+  ASSERT_EQ(notes.size(), 1);
+  EXPECT_NE(notes[0].find("\"axis\""), std::string::npos);
 }
 
 } // namespace

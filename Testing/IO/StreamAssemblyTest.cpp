@@ -3,8 +3,8 @@
 
 #include "IO/Formats/StreamConversion.h"
 #include "IO/Order/FirstUseOrder.h"
-#include "IO/Order/IsolatedVertices.h"
 #include "IO/Order/LayoutSource.h"
+#include "IO/Order/TakeIsolated.h"
 #include "IO/Raw/RawMeshBuilder.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/StreamMesh.h"
@@ -21,9 +21,8 @@
 #include <string>
 #include <vector>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -107,7 +106,7 @@ std::vector<std::int64_t> idsOf(const StreamMesh& stream)
   return { ids.begin(), ids.end() };
 }
 
-void expectSame(const StreamMesh& stream, const ReadMesh& mesh)
+void expectSameMesh(const StreamMesh& stream, const ReadMesh& mesh)
 {
   const std::vector<std::int64_t> ids = idsOf(stream);
   ASSERT_EQ(static_cast<std::int64_t>(ids.size()), mesh.vertices() - 1);
@@ -154,7 +153,7 @@ TEST_F(StreamAssembly, SortedCellsComeWhenTheirLastVertexIsReached)
       assembleStream(mesh, std::move(order), CellSequence::Sorted, this->Space);
     LayoutSource source(mesh, layout, this->Space);
     const StreamMesh stream = collect(source);
-    expectSame(stream, read);
+    expectSameMesh(stream, read);
     const std::vector<std::int64_t> ids = idsOf(stream);
     const auto corners = static_cast<std::size_t>(cornersOf(read.cellType));
     std::vector<std::int64_t> before;
@@ -211,7 +210,7 @@ TEST_F(StreamAssembly, FiledCellsKeepTheirOrder)
     assembleStream(mesh, firstUseOrder(mesh, this->Space), CellSequence::AsFiled, this->Space);
   LayoutSource source(mesh, layout, this->Space);
   const StreamMesh stream = collect(source);
-  expectSame(stream, read);
+  expectSameMesh(stream, read);
   const auto elements = stream.cellColumns.at(0).as<std::int64_t>();
   EXPECT_TRUE(std::is_sorted(elements.begin(), elements.end()));
 }
@@ -366,3 +365,5 @@ TEST_F(StreamAssembly, ManyColumnsFitTheLeastMemory)
   takeIsolatedVertices(
     mesh, layout, space, [&](const IsolatedVertices& some) { expectValue(some.columns, 0, 0); });
 }
+
+} // namespace smg::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Order/IsolatedVertices.h"
+#include "IO/Order/TakeIsolated.h"
 
 #include "IO/Formats/StreamConversion.h"
 #include "IO/Order/OrderedVertices.h"
@@ -18,8 +18,6 @@ namespace
 
 constexpr std::size_t ChunkVertices = 4096;
 
-const ColumnSpec IdSpec{ OriginalIdName, ScalarType::Int64, 1 };
-
 /** Reads the vertices of a mesh one after the other and collects those that are wanted. */
 template <class Real>
 class VertexCollector
@@ -34,10 +32,10 @@ public:
     {
       this->Chunk.columns.push_back({ column.spec, {} });
     }
-    this->IdColumn = findColumn(this->Chunk.columns, IdSpec);
+    this->IdColumn = findColumn(this->Chunk.columns, OriginalIdSpec);
     if (this->IdColumn < 0)
     {
-      this->Chunk.columns.push_back({ IdSpec, {} });
+      this->Chunk.columns.push_back({ OriginalIdSpec, {} });
     }
     this->resize(ChunkVertices);
   }

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Conversion/Conversion.h"
+
+#include "IO/Conversion/PartialProgress.h"
+#include "IO/Formats/StreamConversion.h"
+#include "IO/Output/WriteMesh.h"
+#include "IO/Output/WriteVsm.h"
+#include "IO/Raw/Weld.h"
+#include "Solver/Core/Error.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Memory that vertices wait in while a streaming format is read. */
+constexpr std::int64_t MostStreamMemory = std::int64_t(256) << 20;
+
+} // namespace
+
+Conversion::Conversion(const std::filesystem::path& in, const std::filesystem::path& out,
+  const ConversionOptions& options)
+  : In(in)
+  , Out(out)
+  , Options(options)
+  , Memory(options.memoryLimit > 0 ? options.memoryLimit : ConversionOptions::DefaultMemory)
+  , From(kindOfInput(in))
+  , To(kindOfOutput(out))
+{
+  if (this->Memory < Workspace::LeastMemory)
+  {
+    throw Error("A conversion needs a memory limit of at least " +
+                std::to_string(Workspace::LeastMemory >> 20) + " MiB.");
+  }
+  if (options.weld)
+  {
+    checkWeldDistance(*options.weld);
+  }
+}
+
+Workspace& Conversion::workspace()
+{
+  if (!this->Space)
+  {
+    this->Space.emplace(this->Options.scratch, this->Memory, this->Options.progress);
+  }
+  return *this->Space;
+}
+
+ProgressFunction Conversion::progress()
+{
+  return [&workspace = this->workspace()](double done)
+  {
+    workspace.tell(done);
+    return true;
+  };
+}
+
+bool Conversion::isStream() const
+{
+  return this->From == MeshFileKind::Vsm || this->From == MeshFileKind::Stream;
+}
+
+const VsmReader& Conversion::openStream()
+{
+  const bool direct = this->From == MeshFileKind::Vsm;
+  this->Stream.emplace(direct ? this->In : this->importStream());
+  this->checkCells(this->Stream->info());
+  if (direct)
+  {
+    this->Report.isolated_vertices = this->Stream->isolatedVertices();
+  }
+  return *this->Stream;
+}
+
+/** Makes a .vsm file of a streaming file; answers its name. */
+std::filesystem::path Conversion::importStream()
+{
+  StreamToVsmOptions options;
+  options.codec = Codec::Lz4;
+  options.scratch = this->workspace().folder();
+  options.memory = std::min<std::int64_t>(this->Memory / 4, MostStreamMemory);
+  options.progress = this->progress();
+  const std::filesystem::path path = this->workspace().folder() / "stream.vsm";
+  this->Report.isolated_vertices = streamToVsm(this->In, path, options).isolatedVertices;
+  return path;
+}
+
+/** Throws Error if a stream, whose cells are all of one kind, has none of those that are wanted. */
+void Conversion::checkCells(const StreamInfo& info) const
+{
+  const CellChoice unwanted =
+    info.cellType == CellType::Triangle ? CellChoice::Tetrahedra : CellChoice::Triangles;
+  if (this->Options.cells == unwanted)
+  {
+    throw Error(this->In.string() + ": the file has no " +
+                (unwanted == CellChoice::Triangles ? "triangles" : "tetrahedra") +
+                " (option --cells).");
+  }
+}
+
+void Conversion::write(MeshSource& source, const AddTables& add)
+{
+  const bool direct = this->To == MeshFileKind::Vsm;
+  const ProgressFunction progress = this->progress();
+  const std::filesystem::path path = direct ? this->Out : this->workspace().folder() / "mesh.vsm";
+  const WrittenVsm written = writeVsm(source, path, direct ? this->Options.codec : Codec::Lz4,
+    partOf(progress, 0.0, direct ? 1.0 : 0.6), direct ? this->Options.origin : std::string(), add);
+  this->Report.vertices = written.info.vertices;
+  this->Report.cells = written.info.cells;
+  this->Report.width = written.info.width;
+  this->Report.span = written.info.span;
+  this->Report.mean_width = written.meanWidth;
+  if (!direct)
+  {
+    for (std::string& note : writeFromVsm(path, this->Out, partOf(progress, 0.6, 1.0)))
+    {
+      this->Report.notes.push_back(std::move(note));
+    }
+  }
+  this->Report.seconds.write = this->lap();
+}
+
+double Conversion::lap()
+{
+  const auto now = std::chrono::steady_clock::now();
+  const double seconds = std::chrono::duration<double>(now - this->Last).count();
+  this->Last = now;
+  return seconds;
+}
+
+} // namespace smg

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Conversion/ConvertMesh.h"
+
+#include "IO/Conversion/ConversionEstimate.h"
+#include "IO/Conversion/NumberNames.h"
+#include "IO/Formats/InQuotes.h"
+#include "IO/Import/Importer.h"
+#include "IO/Order/LayOut.h"
+#include "IO/Order/LayoutSource.h"
+#include "IO/Order/TakeIsolated.h"
+#include "IO/Output/WriteVsm.h"
+#include "IO/Raw/ReadStream.h"
+#include "IO/Raw/Weld.h"
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace smg
+{
+
+namespace
+{
+
+constexpr std::int64_t Unknown = std::numeric_limits<std::int64_t>::max();
+
+/** Refuses what certainly does not fit the disk where the file says how large the mesh is. */
+void checkSaidRoom(const Conversion& conversion)
+{
+  if (conversion.inputKind() == MeshFileKind::Unknown)
+  {
+    return;
+  }
+  const ConversionEstimate estimate = estimateConversion(conversion.in(), conversion.options());
+  if (estimate.counted)
+  {
+    checkScratchRoom(conversion.options().scratch, estimate.scratch_bytes);
+  }
+}
+
+RawMesh importInput(Conversion& conversion)
+{
+  Workspace& space = conversion.workspace();
+  space.beginPart(0.15, Unknown);
+  if (!conversion.isStream())
+  {
+    return importMesh(
+      conversion.in(), space, { conversion.options().cells, conversion.progress() });
+  }
+  return readStream(*conversion.openStream().source(), conversion.in().string(), space);
+}
+
+void noteImport(const ImportCounts& file, ConversionReport& report)
+{
+  report.dropped_cells = file.droppedCells;
+  report.triangulated_polygons = file.triangulatedPolygons;
+  report.split_cells = file.splitCells;
+  report.higher_order_cells = file.higherOrderCells;
+  report.merged_points = file.mergedPoints;
+  for (const std::string& name : file.droppedColumns)
+  {
+    report.notes.push_back(
+      "The column " + inQuotes(name) + " was left out, since its name is reserved or used twice.");
+  }
+  report.notes.insert(report.notes.end(), file.notes.begin(), file.notes.end());
+}
+
+void noteLayout(const LayOutCounts& counts, const StreamLayout& layout, ConversionReport& report)
+{
+  report.components = counts.mesh.components;
+  report.boundary_edges = counts.mesh.boundaryEdges;
+  report.nonmanifold_edges = counts.mesh.nonManifoldEdges;
+  report.nonmanifold_vertices = counts.mesh.nonManifoldVertices;
+  report.pages = counts.pages.pages;
+  report.page_loads = counts.pages.loads;
+  report.degenerate_cells = layout.degenerateCells;
+  report.duplicate_cells = layout.duplicateCells;
+  report.notes.insert(report.notes.end(), counts.notes.begin(), counts.notes.end());
+}
+
+} // namespace
+
+void convertMesh(Conversion& conversion)
+{
+  checkSaidRoom(conversion);
+  Workspace& space = conversion.workspace();
+  ConversionReport& report = conversion.report();
+  RawMesh mesh = importInput(conversion);
+  checkOutput(conversion.out(), mesh.cellType);
+  checkScratchRoom(conversion.options().scratch, scratchBytes(mesh), space.traffic().bytesWritten);
+  const std::optional<double>& weld = conversion.options().weld;
+  const std::int64_t welded = weld ? weldPoints(mesh, *weld, space) : 0;
+  freeNumberNames(mesh, report.notes);
+  report.seconds.import = conversion.lap();
+
+  LayOutCounts counts;
+  const StreamLayout layout = layOut(mesh, conversion.options().order, space, counts, 0.75);
+  // Points that were merged into others are in no cell any more.
+  report.isolated_vertices += counts.mesh.isolatedVertices - welded;
+  noteImport(mesh.counts, report);
+  noteLayout(counts, layout, report);
+  report.inverted_cells = mesh.cellType == CellType::Tetrahedron ? layout.invertedCells : -1;
+  report.seconds.order = conversion.lap();
+
+  space.beginPart(1.0, Unknown);
+  LayoutSource source(mesh, layout, space);
+  conversion.write(source,
+    [&](VsmWriter& writer)
+    {
+      takeIsolatedVertices(mesh, layout, space,
+        [&writer](const IsolatedVertices& vertices)
+        { writer.isolated(vertices.ids, vertices.positions, vertices.columns); });
+      // Those of a stream are beside it already, by their numbers in the first file.
+      if (const VsmReader* const stream = conversion.stream())
+      {
+        copyIsolated(stream->path(), source.info(), writer);
+      }
+    });
+}
+
+} // namespace smg
