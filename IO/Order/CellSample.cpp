@@ -60,8 +60,9 @@ std::vector<std::size_t> CellSample::differentVertices() const
   }
   const auto vertexAt = [this](std::size_t place) { return this->vertices[place]; };
   std::ranges::sort(places, {}, vertexAt);
-  const auto repeated = std::ranges::unique(places, {}, vertexAt);
-  places.erase(repeated.begin(), repeated.end());
+  const auto repeated = std::unique(places.begin(), places.end(),
+    [&](std::size_t a, std::size_t b) { return vertexAt(a) == vertexAt(b); });
+  places.erase(repeated, places.end());
   return places;
 }
 

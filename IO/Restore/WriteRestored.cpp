@@ -53,11 +53,6 @@ const Format* formatOf(const std::filesystem::path& path)
 
 } // namespace
 
-bool canRestoreTo(const std::filesystem::path& path)
-{
-  return formatOf(path) != nullptr;
-}
-
 void checkRestoredPath(const std::filesystem::path& path, CellType cellType)
 {
   const Format* const format = formatOf(path);

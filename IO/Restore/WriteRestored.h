@@ -27,9 +27,6 @@ namespace smg
 std::vector<std::string> writeRestored(
   const std::filesystem::path& vsm, const std::filesystem::path& out, Workspace& workspace);
 
-/** Whether writeRestored() writes files of this name, by the suffix. */
-bool canRestoreTo(const std::filesystem::path& path);
-
 /** Throws Error unless writeRestored() writes files of this name with these cells. */
 void checkRestoredPath(const std::filesystem::path& path, CellType cellType);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Container/Columns.h"
 #include "IO/Container/VsmWriter.h"
 #include "Testing/Support/TestMeshes.h"
 
@@ -64,13 +63,20 @@ inline std::vector<Part> partsOf(const MeshOfFile& mesh, std::uint64_t seed)
   return parts;
 }
 
+/** The tuples `rows` of each column, in the rows' order. */
 template <class Rows>
 std::vector<Column> gathered(const std::vector<Column>& columns, const Rows& rows)
 {
-  std::vector<Column> result(columns.size());
-  for (std::size_t c = 0; c < columns.size(); ++c)
+  std::vector<Column> result;
+  for (const Column& column : columns)
   {
-    gatherTuples(columns[c], rows, result[c]);
+    Column& some = result.emplace_back(Column{ column.spec, {} });
+    const auto bytes = static_cast<std::ptrdiff_t>(column.spec.tupleBytes());
+    for (const auto row : rows)
+    {
+      const auto tuple = column.bytes.begin() + static_cast<std::ptrdiff_t>(row) * bytes;
+      some.bytes.insert(some.bytes.end(), tuple, tuple + bytes);
+    }
   }
   return result;
 }

@@ -288,12 +288,10 @@ TEST_F(RestoredMeshTest, RefusesFormatsThatCannotHaveIt)
   for (const char* name : { "out.vsm", "out.sma", "out.svb", "out" })
   {
     expectError([&] { this->write(surface, name); }, "an order of its own");
-    EXPECT_FALSE(canRestoreTo(name));
   }
   for (const char* name : { "out.ply", "out.vtp", "out.obj", "out.off", "out.stl" })
   {
     expectError([&] { this->write(volume, name); }, "holds no tetrahedra");
-    EXPECT_TRUE(canRestoreTo(name));
   }
   EXPECT_EQ(this->Folder.entries(), 1);
 }
