@@ -6,6 +6,7 @@
 #include "IO/Formats/StreamFile.h"
 #include "IO/Import/Importer.h"
 #include "IO/Import/Inflate.h"
+#include "IO/Import/OffHeader.h"
 #include "IO/Import/PlyHeader.h"
 #include "Solver/Core/Error.h"
 
@@ -100,14 +101,16 @@ Counts guess(const std::filesystem::path& path)
   return counts;
 }
 
-/** What a PLY file says, unless it is too short for that. */
-Counts countsOfPly(const std::filesystem::path& path)
+Counts countsOfOff(InputFile& file)
 {
-  InputFile file(path);
-  if (isGzip(file.at(0, 2)))
-  {
-    return guess(path);
-  }
+  TextScanner scanner(file, '#');
+  const OffHeader header = readOffHeader(scanner);
+  return { header.vertices, header.faces, 3, 0, true, 0 };
+}
+
+/** What a PLY file says, unless it is too short for that. */
+Counts countsOfPly(InputFile& file, const std::filesystem::path& path)
+{
   Counts counts;
   counts.counted = true;
   double least = 0;
@@ -138,6 +141,24 @@ Counts countsOfPly(const std::filesystem::path& path)
   return counts;
 }
 
+Counts countsOfIndexed(const std::filesystem::path& path)
+{
+  InputFile file(path);
+  if (isGzip(file.at(0, 2)))
+  {
+    return guess(path);
+  }
+  switch (meshFormat(path))
+  {
+    case MeshFormat::Ply:
+      return countsOfPly(file, path);
+    case MeshFormat::Off:
+      return countsOfOff(file);
+    default:
+      return guess(path);
+  }
+}
+
 Counts countsOf(const std::filesystem::path& path)
 {
   switch (kindOfInput(path))
@@ -148,7 +169,7 @@ Counts countsOf(const std::filesystem::path& path)
       return { info.vertices, info.cells, cornersOf(info.cellType), columnBytes(info), true, 0 };
     }
     case MeshFileKind::Indexed:
-      return meshFormat(path) == MeshFormat::Ply ? countsOfPly(path) : guess(path);
+      return countsOfIndexed(path);
     case MeshFileKind::Stream:
       return guess(path);
     default:

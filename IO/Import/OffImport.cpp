@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Import/Formats.h"
+#include "IO/Import/OffHeader.h"
 #include "IO/Import/TextScanner.h"
 #include "IO/Import/TriangleRuns.h"
 
@@ -66,13 +67,20 @@ void readFaces(
 
 } // namespace
 
+OffHeader readOffHeader(TextScanner& scanner)
+{
+  readKeyword(scanner);
+  OffHeader header;
+  header.vertices = scanner.count("the number of vertices", 6);
+  header.faces = scanner.count("the number of faces", 2);
+  scanner.integer("the number of edges");
+  return header;
+}
+
 void importOff(InputFile& file, RawMeshBuilder& builder)
 {
   TextScanner scanner(file, '#');
-  readKeyword(scanner);
-  const std::int64_t vertices = scanner.count("the number of vertices", 6);
-  const std::int64_t faces = scanner.count("the number of faces", 2);
-  scanner.integer("the number of edges");
+  const auto [vertices, faces] = readOffHeader(scanner);
   try
   {
     readVertices(scanner, vertices, builder);
