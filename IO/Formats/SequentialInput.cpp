@@ -12,14 +12,14 @@ namespace smg
 namespace
 {
 
-constexpr std::size_t BufferBytes = std::size_t(256) << 10;
+constexpr std::size_t InputBufferBytes = std::size_t(256) << 10;
 
 } // namespace
 
 SequentialInput::SequentialInput(const std::filesystem::path& path)
   : File(FileDescriptor::openForReading(path))
   , Size(this->File.size())
-  , Buffer(BufferBytes)
+  , Buffer(InputBufferBytes)
 {
 }
 

@@ -9,14 +9,14 @@ namespace smg
 namespace
 {
 
-constexpr std::size_t BufferBytes = std::size_t(512) << 10;
+constexpr std::size_t OutputBufferBytes = std::size_t(512) << 10;
 
 } // namespace
 
 SequentialOutput::SequentialOutput(std::filesystem::path path)
   : Path(std::move(path))
   , File(FileDescriptor::createBeside(this->Path))
-  , Behind(std::make_unique<WriteBehind>(this->File, 0, BufferBytes))
+  , Behind(std::make_unique<WriteBehind>(this->File, 0, OutputBufferBytes))
 {
 }
 
@@ -39,9 +39,9 @@ void SequentialOutput::check()
 
 void SequentialOutput::put(std::span<const std::byte> bytes)
 {
-  const std::int64_t before = this->Behind->offset() / std::int64_t(BufferBytes);
+  const std::int64_t before = this->Behind->offset() / std::int64_t(OutputBufferBytes);
   this->Behind->put(bytes);
-  if (this->Behind->offset() / std::int64_t(BufferBytes) != before)
+  if (this->Behind->offset() / std::int64_t(OutputBufferBytes) != before)
   {
     this->check();
   }

@@ -18,7 +18,7 @@ namespace
 /** Compressed sizes that are read at once, so that the window of the file seldom jumps. */
 constexpr std::uint64_t SizesAtOnce = 4096;
 
-bool isBlank(char c)
+bool isXmlBlank(char c)
 {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
@@ -108,7 +108,7 @@ void Base64Bytes::decodeGroup()
   {
     const std::string_view text = this->File.at(this->At);
     const char c = text.empty() ? '\0' : text.front();
-    if (isBlank(c))
+    if (isXmlBlank(c))
     {
       ++this->At;
       continue;
@@ -136,7 +136,7 @@ CompressedBytes::CompressedBytes(InputFile& file, const VtkArray& array, Pool& p
 {
   std::size_t begin = array.begin;
   while (array.encoding == VtkEncoding::Base64 && !file.at(begin).empty() &&
-         isBlank(file.at(begin).front()))
+         isXmlBlank(file.at(begin).front()))
   {
     ++begin;
   }

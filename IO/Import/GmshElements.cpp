@@ -18,14 +18,14 @@ struct Run
   std::initializer_list<std::uint16_t> nodes;
 };
 
-constexpr std::size_t Types = 132;
+constexpr std::size_t GmshTypes = 132;
 
 /** Gmsh gave the numbers as the types came: by order, complete ones and those without inner nodes.
  */
-constexpr std::array<GmshElementType, Types> makeTypes()
+constexpr std::array<GmshElementType, GmshTypes> makeGmshTypes()
 {
   using enum GmshShape;
-  std::array<GmshElementType, Types> types{};
+  std::array<GmshElementType, GmshTypes> types{};
   for (const Run& run : {
          Run{ 1, None, { 2 } },
          Run{ 2, Triangle, { 3 } },
@@ -83,9 +83,9 @@ std::size_t GmshElementType::corners() const
 
 GmshElementType gmshElementType(std::int64_t type)
 {
-  static constexpr std::array<GmshElementType, Types> types = makeTypes();
-  return type < 0 || type >= std::int64_t(Types) ? GmshElementType()
-                                                 : types[static_cast<std::size_t>(type)];
+  static constexpr std::array<GmshElementType, GmshTypes> types = makeGmshTypes();
+  return type < 0 || type >= std::int64_t(GmshTypes) ? GmshElementType()
+                                                     : types[static_cast<std::size_t>(type)];
 }
 
 void addGmshElement(

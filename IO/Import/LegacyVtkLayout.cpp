@@ -14,10 +14,10 @@ namespace smg
 namespace
 {
 
-class LayoutReader
+class LegacyLayoutReader
 {
 public:
-  explicit LayoutReader(InputFile& file)
+  explicit LegacyLayoutReader(InputFile& file)
     : File(file)
     , Scanner(file)
   {
@@ -59,7 +59,7 @@ private:
                          "which are the kinds that hold meshes");
     }
     using namespace VtkCellTypes;
-    for (const int type : { PolyVertex, PolyLine, Polygon, TriangleStrip })
+    for (const int type : { PolyVertex, PolyLine, Polygon, VtkCellTypes::TriangleStrip })
     {
       this->Piece.lists.emplace_back().type = type;
     }
@@ -385,7 +385,7 @@ private:
 
 VtkLayout legacyVtkLayout(InputFile& file)
 {
-  return LayoutReader(file).read();
+  return LegacyLayoutReader(file).read();
 }
 
 } // namespace smg

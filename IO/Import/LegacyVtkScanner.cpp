@@ -18,7 +18,7 @@ namespace
 {
 
 /** Longest word and line that a keyword or name can be. */
-constexpr std::size_t MostLetters = 4096;
+constexpr std::size_t MostLineBytes = 4096;
 
 struct TypeName
 {
@@ -27,7 +27,7 @@ struct TypeName
 };
 
 /** Numbers of type vtkIdType are written as int. */
-constexpr TypeName TypeNames[] = { { "char", ScalarType::Int8, ScalarType::Int8 },
+constexpr TypeName LegacyTypeNames[] = { { "char", ScalarType::Int8, ScalarType::Int8 },
   { "signed_char", ScalarType::Int8, ScalarType::Int8 },
   { "unsigned_char", ScalarType::UInt8, ScalarType::UInt8 },
   { "short", ScalarType::Int16, ScalarType::Int16 },
@@ -63,8 +63,8 @@ bool isSpace(char c)
 std::optional<TypeName> typeOf(std::string name)
 {
   std::ranges::transform(name, name.begin(), lower);
-  const auto* const found = std::ranges::find(TypeNames, name, &TypeName::name);
-  return found == std::end(TypeNames) ? std::nullopt : std::optional(*found);
+  const auto* const found = std::ranges::find(LegacyTypeNames, name, &TypeName::name);
+  return found == std::end(LegacyTypeNames) ? std::nullopt : std::optional(*found);
 }
 
 } // namespace
@@ -107,7 +107,7 @@ void LegacyVtkScanner::skipBlanks()
 std::string LegacyVtkScanner::peek()
 {
   this->skipBlanks();
-  const std::string_view text = this->File.at(this->At, MostLetters).substr(0, MostLetters);
+  const std::string_view text = this->File.at(this->At, MostLineBytes).substr(0, MostLineBytes);
   const auto* const end = std::find_if(text.begin(), text.end(), isSpace);
   return { text.begin(), end };
 }
@@ -157,7 +157,7 @@ std::string LegacyVtkScanner::line()
     const std::string_view text = this->File.at(this->At);
     const std::size_t end = text.find('\n');
     const std::string_view part = text.substr(0, end);
-    line += part.substr(0, MostLetters - std::min(MostLetters, line.size()));
+    line += part.substr(0, MostLineBytes - std::min(MostLineBytes, line.size()));
     this->At += part.size();
     if (end != std::string_view::npos)
     {

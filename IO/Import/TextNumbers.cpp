@@ -17,14 +17,14 @@ namespace smg
 namespace
 {
 
-bool isBlank(char c)
+bool isTextBlank(char c)
 {
   return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
 bool endsWord(char c)
 {
-  return isBlank(c) || c == '<';
+  return isTextBlank(c) || c == '<';
 }
 
 /** Parses a number; null if there is none or the type does not have it. */
@@ -52,7 +52,7 @@ std::string_view TextNumbers::rest()
   for (;;)
   {
     const std::string_view text = this->File.at(this->At, MostLetters);
-    const auto* const word = std::find_if_not(text.begin(), text.end(), isBlank);
+    const auto* const word = std::find_if_not(text.begin(), text.end(), isTextBlank);
     this->At += static_cast<std::size_t>(word - text.begin());
     const std::string_view rest(word, static_cast<std::size_t>(text.end() - word));
     const bool all = this->At + rest.size() >= this->File.size();
@@ -90,7 +90,7 @@ std::size_t TextNumbers::readAs(T* values, std::size_t count)
             std::string(nameOf(scalarTypeOf<T>())) + ", where one should be");
       }
       ++done;
-      at = std::find_if_not(stop, end, isBlank);
+      at = std::find_if_not(stop, end, isTextBlank);
     }
     this->At += static_cast<std::size_t>(at - text.data());
   }
@@ -114,7 +114,7 @@ std::int64_t TextNumbers::skip(std::int64_t count)
     const char* const end = at + text.size();
     for (; at < end && *at != '<'; ++at)
     {
-      const bool letter = !isBlank(*at);
+      const bool letter = !isTextBlank(*at);
       if (letter && !inWord)
       {
         if (done == count)

@@ -32,7 +32,7 @@ struct TypeOfCell
   bool higherOrder = false;
 };
 
-constexpr std::array<TypeOfCell, 82> makeTypes()
+constexpr std::array<TypeOfCell, 82> makeVtkTypes()
 {
   std::array<TypeOfCell, 82> types{};
   for (const int type : { 1, 2, 3, 4, 21, 35, 60, 68, 75 })
@@ -78,12 +78,13 @@ constexpr std::array<TypeOfCell, 82> makeTypes()
   return types;
 }
 
-constexpr std::array<TypeOfCell, 82> Types = makeTypes();
+constexpr std::array<TypeOfCell, 82> VtkTypes = makeVtkTypes();
 
 const TypeOfCell& typeOf(int type)
 {
   static constexpr TypeOfCell Unknown;
-  return type >= 0 && type < static_cast<int>(Types.size()) ? Types[std::size_t(type)] : Unknown;
+  return type >= 0 && type < static_cast<int>(VtkTypes.size()) ? VtkTypes[std::size_t(type)]
+                                                               : Unknown;
 }
 
 [[noreturn]] void failForType(int type)

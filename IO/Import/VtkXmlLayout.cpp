@@ -23,17 +23,17 @@ namespace
 /** No file has more points, cells or bytes. */
 constexpr std::int64_t MostThings = std::int64_t(1) << 48;
 
-constexpr std::pair<std::string_view, ScalarType> TypeNames[] = { { "Int8", ScalarType::Int8 },
+constexpr std::pair<std::string_view, ScalarType> XmlTypeNames[] = { { "Int8", ScalarType::Int8 },
   { "UInt8", ScalarType::UInt8 }, { "Int16", ScalarType::Int16 }, { "UInt16", ScalarType::UInt16 },
   { "Int32", ScalarType::Int32 }, { "UInt32", ScalarType::UInt32 }, { "Int64", ScalarType::Int64 },
   { "UInt64", ScalarType::UInt64 }, { "Float32", ScalarType::Float32 },
   { "Float64", ScalarType::Float64 } };
 
 /** Reads the tags of a file into the pieces of a layout. */
-class LayoutReader
+class XmlLayoutReader
 {
 public:
-  LayoutReader(InputFile& file, VtkLayout& layout, std::int64_t mostBytes)
+  XmlLayoutReader(InputFile& file, VtkLayout& layout, std::int64_t mostBytes)
     : File(file)
     , Tags(file)
     , Layout(layout)
@@ -117,7 +117,7 @@ private:
     using namespace VtkCellTypes;
     static constexpr std::pair<const char*, int> Counts[] = { { "NumberOfVerts", PolyVertex },
       { "NumberOfLines", PolyLine }, { "NumberOfPolys", Polygon },
-      { "NumberOfStrips", TriangleStrip } };
+      { "NumberOfStrips", VtkCellTypes::TriangleStrip } };
     for (const auto& [name, type] : Counts)
     {
       VtkCellList& list = piece.lists.emplace_back();
@@ -158,13 +158,13 @@ private:
   {
     const std::string type = tag.value("type");
     const auto* const known =
-      std::ranges::find(TypeNames, type, &std::pair<std::string_view, ScalarType>::first);
+      std::ranges::find(XmlTypeNames, type, &std::pair<std::string_view, ScalarType>::first);
     const bool attribute = this->Section == "PointData" || this->Section == "CellData";
-    if (known == std::end(TypeNames) && attribute && (type == "String" || type == "Bit"))
+    if (known == std::end(XmlTypeNames) && attribute && (type == "String" || type == "Bit"))
     {
       return;
     }
-    if (known == std::end(TypeNames) || this->Layout.pieces.size() == this->FirstPiece)
+    if (known == std::end(XmlTypeNames) || this->Layout.pieces.size() == this->FirstPiece)
     {
       this->File.fail(tag.begin, "the array here has the type " + inQuotes(type) +
                                    ", or stands outside a piece, and cannot be read");
@@ -387,7 +387,7 @@ private:
 
 void addVtkXmlLayout(InputFile& file, VtkLayout& layout, std::int64_t mostBytes)
 {
-  LayoutReader(file, layout, mostBytes).read();
+  XmlLayoutReader(file, layout, mostBytes).read();
 }
 
 } // namespace smg

@@ -13,9 +13,9 @@ namespace
 {
 
 /** Longest tag that is read. */
-constexpr std::size_t MostLetters = std::size_t(64) << 10;
+constexpr std::size_t MostTagBytes = std::size_t(64) << 10;
 
-constexpr std::string_view Blanks = " \t\r\n";
+constexpr std::string_view XmlBlanks = " \t\r\n";
 
 /** The character that an entity stands for, as "lt" or "#65"; 0 for others. */
 char characterOf(std::string_view entity)
@@ -87,7 +87,7 @@ void XmlTags::skipPast(std::string_view end)
   const std::size_t begin = this->At;
   for (;;)
   {
-    const std::string_view text = this->File.at(this->At, MostLetters);
+    const std::string_view text = this->File.at(this->At, MostTagBytes);
     const std::size_t place = text.find(end);
     if (place != std::string_view::npos)
     {
@@ -106,7 +106,7 @@ bool XmlTags::next(XmlTag& tag)
 {
   while (this->find())
   {
-    const std::string_view text = this->File.at(this->At, MostLetters).substr(0, MostLetters);
+    const std::string_view text = this->File.at(this->At, MostTagBytes).substr(0, MostTagBytes);
     if (text.starts_with("<!--"))
     {
       this->skipPast("-->");
@@ -148,13 +148,13 @@ void XmlTags::parse(std::string_view text, XmlTag& tag) const
   tag.alone = text.ends_with('/');
   text = text.substr(
     tag.closes, text.size() - std::min<std::size_t>(text.size(), tag.closes + tag.alone));
-  const std::size_t nameEnd = std::min(text.find_first_of(Blanks), text.size());
+  const std::size_t nameEnd = std::min(text.find_first_of(XmlBlanks), text.size());
   tag.name = text.substr(0, nameEnd);
   tag.attributes.clear();
   text.remove_prefix(nameEnd);
   for (;;)
   {
-    text.remove_prefix(std::min(text.find_first_not_of(Blanks), text.size()));
+    text.remove_prefix(std::min(text.find_first_not_of(XmlBlanks), text.size()));
     if (text.empty())
     {
       return;
@@ -162,7 +162,7 @@ void XmlTags::parse(std::string_view text, XmlTag& tag) const
     const std::size_t equals = text.find('=');
     const std::size_t open = equals == std::string_view::npos
                                ? std::string_view::npos
-                               : text.find_first_not_of(Blanks, equals + 1);
+                               : text.find_first_not_of(XmlBlanks, equals + 1);
     const bool quoted = open != std::string_view::npos && (text[open] == '"' || text[open] == '\'');
     const std::size_t close = quoted ? text.find(text[open], open + 1) : std::string_view::npos;
     if (close == std::string_view::npos)

@@ -21,7 +21,7 @@ namespace
 {
 
 /** Elements between two reports of progress. */
-constexpr std::int64_t ProgressElements = std::int64_t(1) << 16;
+constexpr std::int64_t ElementsBetweenTells = std::int64_t(1) << 16;
 
 /** The elements of a streaming mesh file with the vertices moved. */
 class MovedElements
@@ -51,7 +51,7 @@ public:
     {
       this->Moved.check(this->Vertices, this->Reader->name());
     }
-    if (++this->Elements % ProgressElements == 0)
+    if (++this->Elements % ElementsBetweenTells == 0)
     {
       this->Reported.update(this->Reader->fraction());
     }

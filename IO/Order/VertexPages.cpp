@@ -15,7 +15,7 @@ namespace smg
 namespace
 {
 
-constexpr std::size_t CollectedBytes = std::size_t(256) << 10;
+constexpr std::size_t LeastCollectedBytes = std::size_t(256) << 10;
 constexpr std::size_t MostVarintBytes = 5;
 constexpr std::size_t PolledBytes = std::size_t(256) << 10;
 
@@ -139,7 +139,7 @@ void VertexPages::makeRoom(std::size_t bytes)
   if (bytes > this->Collecting.size())
   {
     this->Collecting = Buffer();
-    this->Collecting = Buffer(this->Space->pool(), std::max(bytes, CollectedBytes));
+    this->Collecting = Buffer(this->Space->pool(), std::max(bytes, LeastCollectedBytes));
   }
 }
 

@@ -19,7 +19,7 @@ constexpr std::size_t BytesOfFanTriangle = 64;
 constexpr std::int64_t ChunkElements = 8192;
 constexpr std::size_t ChunkCorners = std::size_t(64) << 10;
 /** About so many bytes of columns are delivered at once. */
-constexpr std::size_t ChunkBytes = std::size_t(512) << 10;
+constexpr std::size_t ElementChunkBytes = std::size_t(512) << 10;
 
 /** Memory in which an element is looked at as a whole. */
 std::int64_t elementBytes(Workspace& workspace)
@@ -167,7 +167,7 @@ bool ElementRestorer::next(RestoredElements& elements)
   std::vector<std::byte> tuples(this->Columns.bytes());
   std::vector<std::uint32_t> corners;
   const std::int64_t most = std::clamp<std::int64_t>(
-    static_cast<std::int64_t>(ChunkBytes / (1 + this->Columns.bytes())), 1, ChunkElements);
+    static_cast<std::int64_t>(ElementChunkBytes / (1 + this->Columns.bytes())), 1, ChunkElements);
   std::uint32_t size = 0;
   while (
     elements.count() < most && elements.corners.size() < ChunkCorners && this->Reader->get(size))

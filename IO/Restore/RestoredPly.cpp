@@ -14,10 +14,10 @@ namespace
 {
 
 /** Writes the vertices, then the faces, whose records are of different sizes. */
-class PlyWriter
+class RestoredPlyWriter
 {
 public:
-  PlyWriter(const RestoredInfo& info, const std::filesystem::path& path)
+  RestoredPlyWriter(const RestoredInfo& info, const std::filesystem::path& path)
     : Info(info)
     , Out(path)
     , Vertices("vertex", info.vertices)
@@ -113,7 +113,7 @@ private:
 RestoredNotes writeRestoredPly(RestoredMesh& mesh, const std::filesystem::path& path)
 {
   checkPlyPath(path, mesh.info().cellType, mesh.info().vertices);
-  return notesOn(PlyWriter(mesh.info(), path).write(mesh));
+  return notesOn(RestoredPlyWriter(mesh.info(), path).write(mesh));
 }
 
 } // namespace smg

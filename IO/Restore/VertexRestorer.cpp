@@ -16,7 +16,7 @@ namespace
 {
 
 /** About so many bytes of vertices are delivered at once. */
-constexpr std::size_t ChunkBytes = std::size_t(512) << 10;
+constexpr std::size_t VertexChunkBytes = std::size_t(512) << 10;
 
 } // namespace
 
@@ -27,8 +27,8 @@ VertexRestorer::VertexRestorer(
   , PositionBytes(3 * (info.doublePositions ? sizeof(double) : sizeof(float)))
   , Columns(info.vertexColumns)
   , Count(info.vertices)
-  , Chunk(static_cast<std::int64_t>(
-      std::clamp<std::size_t>(ChunkBytes / (this->PositionBytes + this->Columns.bytes()), 1, 8192)))
+  , Chunk(static_cast<std::int64_t>(std::clamp<std::size_t>(
+      VertexChunkBytes / (this->PositionBytes + this->Columns.bytes()), 1, 8192)))
   , Sorted(workspace, memory, this->PositionBytes + this->Columns.bytes())
 {
 }

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-using namespace smg;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -67,3 +67,5 @@ TEST(Base64, AnEncoderIsUsedAgain)
   }
   EXPECT_EQ(text, "Zg==Zg==");
 }
+
+} // namespace smg::testing

@@ -162,7 +162,7 @@ TEST_F(Container, OnlyTheNamedColumnsAreRead)
 }
 
 /** A block of two triangles around vertices 0 to 3. */
-MeshBlock twoTriangles()
+MeshBlock twoTriangleBlock()
 {
   MeshBlock block;
   block.positions = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0.5 };
@@ -177,7 +177,7 @@ TEST_F(Container, RefusesWhatIsNoStream)
   {
     return [this, change]
     {
-      MeshBlock block = twoTriangles();
+      MeshBlock block = twoTriangleBlock();
       change(block);
       StreamInfo info;
       info.doublePositions = false;
@@ -214,7 +214,7 @@ TEST_F(Container, RefusesWhatIsNoStream)
     [this]
     {
       VsmWriter writer(this->Path, {});
-      MeshBlock block = twoTriangles();
+      MeshBlock block = twoTriangleBlock();
       writer.append(block);
       block.firstVertex = 4;
       block.firstCell = 2;
@@ -228,7 +228,7 @@ TEST_F(Container, RefusesWhatIsNoStream)
     [&]
     {
       VsmWriter writer(this->Path, info);
-      writer.append(twoTriangles());
+      writer.append(twoTriangleBlock());
     },
     "does not have 2 values of column 'c'");
   info.cellColumns.push_back(column);

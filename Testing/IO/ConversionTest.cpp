@@ -21,9 +21,8 @@
 #include <string>
 #include <vector>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -441,3 +440,5 @@ TEST(ConversionData, OddScansAreCounted)
   EXPECT_EQ(dragon.degenerate_cells, 108);
   EXPECT_EQ(dragon.boundary_edges, 4270);
 }
+
+} // namespace smg::testing

@@ -17,8 +17,8 @@ namespace smg::testing
 namespace
 {
 
-/** A grid of nodes, all masses and weights 1. */
-WeightedGraph grid(std::uint32_t columns, std::uint32_t rows)
+/** A gridGraph of nodes, all masses and weights 1. */
+WeightedGraph gridGraph(std::uint32_t columns, std::uint32_t rows)
 {
   WeightedGraph graph;
   const auto add = [&](std::uint32_t other)
@@ -53,7 +53,7 @@ double rayleighQuotient(const WeightedGraph& graph, const std::vector<double>& x
 
 TEST(FiedlerVector, OfALargeGraphCanBeCancelled)
 {
-  EXPECT_THROW(fiedlerVector(grid(100, 50), [] { throw Cancelled(); }), Cancelled);
+  EXPECT_THROW(fiedlerVector(gridGraph(100, 50), [] { throw Cancelled(); }), Cancelled);
 }
 
 TEST(FiedlerVector, OfGridsIsACosineAlongTheLongSide)
@@ -62,7 +62,7 @@ TEST(FiedlerVector, OfGridsIsACosineAlongTheLongSide)
          std::pair(200u, 1u), std::pair(300u, 20u), std::pair(120u, 90u) })
   {
     SCOPED_TRACE(std::to_string(columns) + " x " + std::to_string(rows));
-    const WeightedGraph graph = grid(columns, rows);
+    const WeightedGraph graph = gridGraph(columns, rows);
     const std::vector<double> vector = fiedlerVector(graph);
     ASSERT_EQ(vector.size(), graph.nodes());
     EXPECT_NEAR(std::accumulate(vector.begin(), vector.end(), 0.0), 0, 1e-9);
@@ -81,7 +81,7 @@ TEST(FiedlerVector, OfGridsIsACosineAlongTheLongSide)
 TEST(FiedlerVector, RespectsMassesAndWeights)
 {
   // Two equal clusters with a weak tie: the vector is nearly constant on each, 0 in the mean.
-  WeightedGraph graph = grid(100, 1);
+  WeightedGraph graph = gridGraph(100, 1);
   std::fill_n(graph.masses.begin(), 50, 3.0f);
   for (std::uint32_t node : { 49u, 50u })
   {
@@ -99,7 +99,7 @@ TEST(FiedlerVector, RespectsMassesAndWeights)
 TEST(FiedlerVector, OfFewerThanTwoNodesIsZero)
 {
   EXPECT_TRUE(fiedlerVector(WeightedGraph()).empty());
-  EXPECT_EQ(fiedlerVector(grid(1, 1)), std::vector<double>{ 0.0 });
+  EXPECT_EQ(fiedlerVector(gridGraph(1, 1)), std::vector<double>{ 0.0 });
 }
 
 TEST(FiedlerVector, OfAStarIsFound)
@@ -127,7 +127,7 @@ TEST(FiedlerVector, OfAStarIsFound)
 
 TEST(WeightedGraph, CoarseningKeepsMassesAndWeights)
 {
-  const WeightedGraph graph = grid(37, 23);
+  const WeightedGraph graph = gridGraph(37, 23);
   std::vector<std::uint32_t> groups;
   const WeightedGraph coarse = coarsen(graph, groups);
   EXPECT_LE(coarse.nodes(), graph.nodes() / 2);

@@ -6,9 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -260,3 +259,5 @@ TEST_F(HandleFileText, ErrorsOfRegionsNameThePlace)
   EXPECT_CONTAINS(
     errorIn(R"({"vertices": [1000, 1025]})"), "handles[1].region.vertices: the mesh has no vertex");
 }
+
+} // namespace smg::testing

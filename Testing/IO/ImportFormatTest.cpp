@@ -8,9 +8,8 @@
 #include <filesystem>
 #include <iterator>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -24,7 +23,7 @@ protected:
   }
 };
 
-const std::string Triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+const std::string TriangleObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 const std::string Off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
 /** The bytes as one member of a gzip file. */
@@ -75,7 +74,7 @@ TEST_F(ImportFormat, LongContentIsToldByItsBeginning)
   std::string obj = "# header\n";
   while (obj.size() < 20000)
   {
-    obj += Triangle;
+    obj += TriangleObj;
   }
   EXPECT_EQ(this->format("a", obj), MeshFormat::Obj);
   EXPECT_EQ(this->format("a", obj.replace(1000, 9, "\nnot obj\n")), MeshFormat::Unknown);
@@ -107,7 +106,7 @@ TEST_F(ImportFormat, ContentAloneIsSureOfWhatHasASign)
   this->format("a", gzip(Off));
   EXPECT_EQ(meshFormatOfContent(this->Folder / "a"), MeshFormat::Off);
   // A streaming format in text looks the same.
-  this->format("a.obj", Triangle);
+  this->format("a.obj", TriangleObj);
   EXPECT_EQ(meshFormatOfContent(this->Folder / "a.obj"), MeshFormat::Unknown);
   EXPECT_EQ(meshFormatOfContent(this->Folder / "missing"), MeshFormat::Unknown);
 }
@@ -117,7 +116,7 @@ TEST_F(ImportFormat, MeshesAreReadWhateverTheSuffix)
   for (const char* name : { "a", "a.ply", "a.vtu", "a.stl.gz" })
   {
     EXPECT_EQ(this->read(name, Off).corners, (Numbers{ 0, 1, 2 })) << name;
-    EXPECT_EQ(this->read(name, Triangle).corners, (Numbers{ 0, 1, 2 })) << name;
+    EXPECT_EQ(this->read(name, TriangleObj).corners, (Numbers{ 0, 1, 2 })) << name;
   }
   EXPECT_EQ(this->read("a.off", Off.substr(4)).corners, (Numbers{ 0, 1, 2 }));
 }
@@ -255,3 +254,5 @@ TEST_F(ImportFormat, CancelEndsIt)
     EXPECT_THROW(importMesh(this->Folder / "a.off", workspace, options), Cancelled);
   }
 }
+
+} // namespace smg::testing

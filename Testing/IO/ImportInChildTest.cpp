@@ -17,13 +17,12 @@
 #include <thread>
 #include <vector>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
-constexpr const char* Triangle =
+constexpr const char* TriangleVtp =
   "<VTKFile type=\"PolyData\"><PolyData><Piece NumberOfPoints=\"3\" NumberOfPolys=\"1\"><Points>"
   "<DataArray type=\"Float32\">0 0 0 1 0 0 0 1 0</DataArray></Points><Polys>"
   "<DataArray type=\"Int32\" Name=\"connectivity\">2 0 1</DataArray>"
@@ -69,7 +68,7 @@ void hang(const Path&, const Path&)
 class ImportInChild : public ::testing::Test
 {
 protected:
-  ImportInChild() { writeBytes(this->File, Triangle); }
+  ImportInChild() { writeBytes(this->File, TriangleVtp); }
 
   ReadMesh import(const VtkRecoder& recode, MeshFormat format = MeshFormat::VtkXml,
     const ProgressFunction& progress = {})
@@ -100,7 +99,7 @@ TEST_F(ImportInChild, GivesTheMesh)
 
 TEST_F(ImportInChild, GivesThePiecesOfAParallelFile)
 {
-  writeBytes(this->Folder / "piece.vtp", Triangle);
+  writeBytes(this->Folder / "piece.vtp", TriangleVtp);
   writeBytes(this->File, "<VTKFile type=\"PPolyData\"><PPolyData><Piece Source=\"piece.vtp\"/>"
                          "<Piece Source=\"piece.vtp\"/></PPolyData></VTKFile>");
   const ReadMesh mesh = this->import(copyFile, MeshFormat::VtkParallelXml);
@@ -123,3 +122,5 @@ TEST_F(ImportInChild, CancelEndsAReaderThatHangs)
 {
   EXPECT_THROW(this->import(hang, MeshFormat::VtkXml, [](double) { return false; }), Cancelled);
 }
+
+} // namespace smg::testing

@@ -14,9 +14,8 @@
 #include <string>
 #include <vector>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -355,3 +354,5 @@ TEST_F(ImportLegacyVtk, ManyPolygonsPassThroughTheLeastMemory)
     ASSERT_EQ(mesh.vertexColumns[0].value(i), static_cast<double>(i) / 3);
   }
 }
+
+} // namespace smg::testing

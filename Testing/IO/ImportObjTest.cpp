@@ -2,9 +2,8 @@
 #include "IO/Import/InputFile.h"
 #include "Testing/IO/ImportFixture.h"
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -106,3 +105,5 @@ TEST(ImportObjData, ArchiveMeshHasItsCounts)
   EXPECT_EQ(mesh.vertices, 43243);
   EXPECT_EQ(mesh.cells, 86482);
 }
+
+} // namespace smg::testing

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/IO/ImportFixture.h"
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -75,3 +74,5 @@ TEST(ImportOffData, ArchiveMeshHasItsCounts)
   EXPECT_EQ(mesh.vertices, 44460);
   EXPECT_EQ(mesh.cells, 88928);
 }
+
+} // namespace smg::testing

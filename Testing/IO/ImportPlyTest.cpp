@@ -4,9 +4,8 @@
 
 #include <array>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -306,3 +305,5 @@ TEST(ImportPlyData, ArchiveMeshesHaveTheirCounts)
     EXPECT_EQ(mesh.cells, each.cells) << each.file;
   }
 }
+
+} // namespace smg::testing

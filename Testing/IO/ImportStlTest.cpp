@@ -4,9 +4,8 @@
 #include <array>
 #include <map>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -16,14 +15,14 @@ const std::string Stl = "solid two\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0
                         "vertex 0 1 0\nendloop\nendfacet\nfacet normal 0 0 1\nouter loop\n"
                         "vertex 1 0 -0\nvertex 1 1 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
 
-using Triangle = std::array<float, 9>;
+using Coordinates = std::array<float, 9>;
 
-std::string binaryStl(const std::vector<Triangle>& triangles, const char* header)
+std::string binaryStl(const std::vector<Coordinates>& triangles, const char* header)
 {
   std::string bytes = header;
   bytes.resize(80, ' ');
   put(bytes, static_cast<std::uint32_t>(triangles.size()));
-  for (const Triangle& triangle : triangles)
+  for (const Coordinates& triangle : triangles)
   {
     bytes.append(12, '\0');
     for (const float coordinate : triangle)
@@ -41,11 +40,11 @@ std::string twoTriangles(const char* header = "solid, but binary")
 }
 
 /** Triangles of a torus with corners in any order, so that vertices recur far away. */
-std::vector<Triangle> manyTriangles(int count)
+std::vector<Coordinates> manyTriangles(int count)
 {
   Random random(11);
-  std::vector<Triangle> triangles(static_cast<std::size_t>(count));
-  for (Triangle& triangle : triangles)
+  std::vector<Coordinates> triangles(static_cast<std::size_t>(count));
+  for (Coordinates& triangle : triangles)
   {
     for (float& coordinate : triangle)
     {
@@ -71,11 +70,11 @@ TEST_F(ImportStl, CornersAreWelded)
 TEST_F(ImportStl, WeldingOutOfCoreIsWeldingInMemory)
 {
   // A multiple of what the least memory holds: corners and vertices are sorted on disk.
-  const std::vector<Triangle> triangles = manyTriangles(400000);
+  const std::vector<Coordinates> triangles = manyTriangles(400000);
   std::map<std::array<float, 3>, std::int64_t> vertices;
   Numbers corners;
   std::vector<double> positions;
-  for (const Triangle& triangle : triangles)
+  for (const Coordinates& triangle : triangles)
   {
     for (std::size_t k = 0; k < 9; k += 3)
     {
@@ -96,7 +95,7 @@ TEST_F(ImportStl, WeldingOutOfCoreIsWeldingInMemory)
 
 TEST_F(ImportStl, TrianglesThatShareNothingKeepTheirCorners)
 {
-  std::vector<Triangle> triangles(200000);
+  std::vector<Coordinates> triangles(200000);
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
     for (std::size_t k = 0; k < 9; ++k)
@@ -155,3 +154,5 @@ TEST_F(ImportStl, DamageIsFound)
   this->expectDamageIsFound("b.stl", twoTriangles());
   this->expectDamageIsFound("c.stl", twoTriangles("binary"));
 }
+
+} // namespace smg::testing

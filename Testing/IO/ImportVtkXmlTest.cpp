@@ -15,9 +15,8 @@
 #include <string>
 #include <vector>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -360,3 +359,5 @@ TEST_F(ImportVtkXml, TruncatedFilesAreErrors)
     }
   }
 }
+
+} // namespace smg::testing

@@ -15,9 +15,8 @@
 #include <thread>
 #include <vector>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -173,3 +172,5 @@ TEST_F(KeptConversion, OfSeveralAtATimeOneConverts)
 }
 
 } // namespace
+
+} // namespace smg::testing

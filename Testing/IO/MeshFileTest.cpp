@@ -8,9 +8,8 @@
 
 #include <unistd.h>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -54,3 +53,5 @@ TEST(MeshFile, FoldersThatCannotBeWrittenToAreRefused)
   }
   std::filesystem::permissions(folder.path(), perms::owner_all);
 }
+
+} // namespace smg::testing

@@ -12,9 +12,8 @@
 #include <string>
 #include <vector>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -180,3 +179,5 @@ TEST_F(MovedMeshes, KeepTheirPrecision)
   expectError([&] { collect(*MovedMesh(reader, far, MovedNormals::Drop).source()); },
     "The moved mesh: coordinate 1 of vertex 7 ");
 }
+
+} // namespace smg::testing

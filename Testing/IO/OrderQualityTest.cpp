@@ -13,9 +13,8 @@
 #include <numeric>
 #include <string>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -83,3 +82,5 @@ INSTANTIATE_TEST_SUITE_P(Data, OrderQuality,
     std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
     return name;
   });
+
+} // namespace smg::testing

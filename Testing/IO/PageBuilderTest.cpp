@@ -25,12 +25,12 @@ namespace smg::testing
 namespace
 {
 
-using Neighbours = std::map<std::uint32_t, std::set<std::uint32_t>>;
+using NeighbourSets = std::map<std::uint32_t, std::set<std::uint32_t>>;
 
 /** What pages hold, by the numbers of the raw mesh. */
 struct Unpacked
 {
-  Neighbours neighbours;
+  NeighbourSets neighbours;
   std::map<std::uint32_t, std::array<double, 3>> positions;
   std::vector<std::uint32_t> ids; ///< by rank
   std::int64_t crossing = 0, edges = 0;
@@ -116,9 +116,9 @@ private:
   }
 };
 
-Neighbours neighboursOf(const IndexedTestMesh& mesh)
+NeighbourSets neighbourSetsOf(const IndexedTestMesh& mesh)
 {
-  Neighbours result;
+  NeighbourSets result;
   const auto corners = static_cast<std::size_t>(cornersOf(mesh.cellType));
   for (std::size_t i = 0; i < mesh.corners.size(); ++i)
   {
@@ -142,7 +142,7 @@ void expectPagesOf(const IndexedTestMesh& mesh, PagedMesh& paged, const Unpacked
   EXPECT_EQ(paged.counts.isolatedVertices, mesh.vertices() - std::int64_t(used.size()));
   ASSERT_EQ(pages.ids.size(), used.size());
   EXPECT_EQ(std::set<std::int64_t>(pages.ids.begin(), pages.ids.end()), used);
-  EXPECT_EQ(pages.neighbours, neighboursOf(mesh));
+  EXPECT_EQ(pages.neighbours, neighbourSetsOf(mesh));
   for (const auto& [id, position] : pages.positions)
   {
     for (std::size_t k = 0; k < 3; ++k)

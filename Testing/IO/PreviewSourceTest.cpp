@@ -10,9 +10,8 @@
 #include <algorithm>
 #include <vector>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -98,3 +97,5 @@ TEST_F(PreviewStreams, OfNothingAreRefused)
   expectError(
     [&] { PreviewSource(reader, 100, {}, "scan.ply"); }, "scan.ply: a preview of at most");
 }
+
+} // namespace smg::testing

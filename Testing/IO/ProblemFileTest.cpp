@@ -3,9 +3,8 @@
 
 #include "Testing/IO/RegionFileFixture.h"
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -208,3 +207,5 @@ TEST_F(ProblemFile, WithoutOriginalNumbersTheStreamCounts)
   EXPECT_TRUE(problem->vertexColumns().empty());
   EXPECT_NO_THROW(problem->check(plain));
 }
+
+} // namespace smg::testing

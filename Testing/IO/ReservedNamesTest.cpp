@@ -14,9 +14,8 @@
 #include <string>
 #include <vector>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -93,3 +92,5 @@ TEST(CellFlags, AreDeliveredWhateverIsChosen)
   ASSERT_EQ(piece.cellColumns.size(), 1u);
   EXPECT_EQ(piece.cellColumns[0].bytes, mesh.cellColumns.back().bytes);
 }
+
+} // namespace smg::testing

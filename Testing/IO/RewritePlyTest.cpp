@@ -22,25 +22,26 @@ namespace
 {
 
 /** A square of a polygon and a triangle, with much beside them. */
-const std::string Square = "ply\r\nformat ascii 1.0\r\ncomment  a square\r\n"
-                           "element camera 1\nproperty float view\nproperty list int short lens\n"
-                           "obj_info two\n"
-                           "element vertex 7\nproperty float x\nproperty double y\nproperty int z\n"
-                           "property float nx\nproperty float ny\nproperty float nz\n"
-                           "property uchar red\n"
-                           "element face 2\nproperty float nx\n"
-                           "property list uchar uint vertex_index\nproperty short group\n"
-                           "end_header\n"
-                           "0.5 2 -7 8\n"
-                           "9 9 9 1 0 0 1\n"
-                           "1 1 0 0 0 1 2\n"
-                           "0 0 0 0 0 1 3\n"
-                           "1 0 0 0 0 1 4\n"
-                           "8 8 8 0 1 0 5\n"
-                           "0 1 0 0 0 1 6\n"
-                           "0.5 2 0 0 0 1 255\n"
-                           "0.25 4 2 3 1 5 -3\n"
-                           "0.75 3 1 5 6 12\n";
+const std::string SquarePly =
+  "ply\r\nformat ascii 1.0\r\ncomment  a square\r\n"
+  "element camera 1\nproperty float view\nproperty list int short lens\n"
+  "obj_info two\n"
+  "element vertex 7\nproperty float x\nproperty double y\nproperty int z\n"
+  "property float nx\nproperty float ny\nproperty float nz\n"
+  "property uchar red\n"
+  "element face 2\nproperty float nx\n"
+  "property list uchar uint vertex_index\nproperty short group\n"
+  "end_header\n"
+  "0.5 2 -7 8\n"
+  "9 9 9 1 0 0 1\n"
+  "1 1 0 0 0 1 2\n"
+  "0 0 0 0 0 1 3\n"
+  "1 0 0 0 0 1 4\n"
+  "8 8 8 0 1 0 5\n"
+  "0 1 0 0 0 1 6\n"
+  "0.5 2 0 0 0 1 255\n"
+  "0.25 4 2 3 1 5 -3\n"
+  "0.75 3 1 5 6 12\n";
 
 class RewritePly : public ::testing::Test
 {
@@ -77,7 +78,7 @@ protected:
 
   std::filesystem::path squareFile()
   {
-    std::ofstream(this->Folder / "in.ply", std::ios::binary) << Square;
+    std::ofstream(this->Folder / "in.ply", std::ios::binary) << SquarePly;
     return this->Folder / "in.ply";
   }
 
@@ -124,7 +125,7 @@ TEST_F(RewritePly, KeepsEverythingButTheCoordinates)
 
 TEST_F(RewritePly, WritesIntegerNormalsAsReal)
 {
-  std::string text = Square;
+  std::string text = SquarePly;
   for (const std::string axis : { "nx", "ny", "nz" })
   {
     const std::string line = "property float " + axis;
@@ -176,7 +177,7 @@ TEST_F(RewritePly, RefusesAnotherMeshAndLeavesNothing)
   expectError([&] { rewriteMesh(in, this->Folder / "out.ply", *far); }, "single precision");
 
   const std::unique_ptr<MeshSource> good = this->moved(in, 0);
-  std::ofstream(in, std::ios::binary) << Square.substr(0, Square.size() - 9);
+  std::ofstream(in, std::ios::binary) << SquarePly.substr(0, SquarePly.size() - 9);
   expectError([&] { rewriteMesh(in, this->Folder / "out.ply", *good); }, "record 1 of element");
   EXPECT_FALSE(std::filesystem::exists(this->Folder / "out.ply"));
   EXPECT_EQ(this->Folder.entries(), 4);

@@ -102,7 +102,7 @@ TEST_F(RewriteStream, KeepsTheOrderOfEveryVariant)
     for (int variant = 0; variant < 48; variant++)
     {
       const bool text = variant % 2 != 0;
-      FileMesh file;
+      StreamStyle file;
       file.header.format = text ? (tets ? StreamFormat::Sva : StreamFormat::Sma)
                                 : (tets ? StreamFormat::Svb : StreamFormat::Smb);
       file.header.postOrder = variant / 2 % 2 != 0;

@@ -11,9 +11,8 @@
 #include <random>
 #include <vector>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -67,3 +66,5 @@ TEST(RowScatter, HasNoRowsOfNothing)
 {
   expectScattered(0, 1 << 18);
 }
+
+} // namespace smg::testing

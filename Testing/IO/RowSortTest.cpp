@@ -22,7 +22,7 @@ struct Expected
 };
 
 /** Sorts random keys, of which many are the same, with rows of `rowBytes` bytes. */
-void expectSorted(std::int64_t count, std::size_t rowBytes, std::int64_t memory)
+void expectSortedRows(std::int64_t count, std::size_t rowBytes, std::int64_t memory)
 {
   const TemporaryFolder folder;
   Workspace workspace(folder.path(), Workspace::LeastMemory);
@@ -60,26 +60,26 @@ void expectSorted(std::int64_t count, std::size_t rowBytes, std::int64_t memory)
 
 TEST(RowSort, SortsInMemory)
 {
-  expectSorted(0, 8, 1 << 20);
-  expectSorted(1, 8, 1 << 20);
-  expectSorted(5000, 12, 8 << 20);
+  expectSortedRows(0, 8, 1 << 20);
+  expectSortedRows(1, 8, 1 << 20);
+  expectSortedRows(5000, 12, 8 << 20);
 }
 
 TEST(RowSort, MergesRuns)
 {
-  expectSorted(60000, 100, 1 << 20);
-  expectSorted(300000, 8, 2 << 20);
+  expectSortedRows(60000, 100, 1 << 20);
+  expectSortedRows(300000, 8, 2 << 20);
 }
 
 /** With rows as large as that, two runs of two rows are merged at once: five levels of runs. */
 TEST(RowSort, MergesLevelsOfRuns)
 {
-  expectSorted(101, 500000, 1 << 20);
+  expectSortedRows(101, 500000, 1 << 20);
 }
 
 TEST(RowSort, HasRowsOfAnySize)
 {
-  expectSorted(300, 100000, 1 << 20);
+  expectSortedRows(300, 100000, 1 << 20);
 }
 
 } // namespace

@@ -68,7 +68,7 @@ TEST_F(StreamFormats, EveryVariantIsTheSameMesh)
     for (int variant = 0; variant < 256; variant++)
     {
       const bool text = (variant & 1) != 0;
-      FileMesh file;
+      StreamStyle file;
       file.header.format = tets ? (text ? StreamFormat::Sva : StreamFormat::Svb)
                                 : (text ? StreamFormat::Sma : StreamFormat::Smb);
       file.header.postOrder = (variant & 2) != 0;

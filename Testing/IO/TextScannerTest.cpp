@@ -12,9 +12,8 @@
 #include <string>
 #include <vector>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -193,3 +192,5 @@ TEST_F(Scanner, EndlessTokensAreRefused)
   EXPECT_EQ(scanner.token().size(), TextScanner::MostTokenBytes);
   expectError([&] { scanner.token(); }, "name.off, line 2: a word has more than 65536 bytes");
 }
+
+} // namespace smg::testing

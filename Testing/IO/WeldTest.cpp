@@ -14,9 +14,8 @@
 #include <map>
 #include <random>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
@@ -129,3 +128,5 @@ TEST_F(Weld, LeavesDistinctPointsAlone)
   EXPECT_EQ(weldPoints(mesh, 0.5, this->Space), 0);
   EXPECT_EQ(readRaw(mesh).corners, (std::vector<std::int64_t>{ 0, 1, 2 }));
 }
+
+} // namespace smg::testing

@@ -15,7 +15,7 @@ namespace smg::testing
 {
 
 /** A mesh in the order of the file that it is written to. */
-struct FileMesh
+struct StreamStyle
 {
   StreamFileHeader header;
   StreamFileStyle style;
@@ -27,7 +27,7 @@ struct FileMesh
  * Writes a stream: in post-order each vertex after its last cell, else before its first; vertices
  * of the file are numbered as they come.
  */
-inline void writeStream(const std::filesystem::path& path, const StreamMesh& mesh, FileMesh file)
+inline void writeStream(const std::filesystem::path& path, const StreamMesh& mesh, StreamStyle file)
 {
   const auto corners = std::size_t(cornersOf(mesh.cellType));
   file.header.vertices = file.counts ? mesh.vertices() : -1;

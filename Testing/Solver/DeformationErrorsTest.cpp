@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Solver/DeformationTesting.h"
+#include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/NotNumbers.h"
 #include "Testing/Support/ProgressRecord.h"
 #include "Testing/Support/ScratchError.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -17,9 +19,6 @@ namespace smg::testing
 namespace
 {
 
-constexpr double NotANumber = std::numeric_limits<double>::quiet_NaN();
-constexpr double Infinite = std::numeric_limits<double>::infinity();
-
 /** The sentence of the Error that deforming ends with. */
 std::string errorOfDeform(MeshSource& source, Handles& handles, const DeformOptions& options = {})
 {
@@ -32,11 +31,6 @@ std::string errorOfDeform(
 {
   MemorySource source(mesh, 100);
   return errorOfDeform(source, handles, options);
-}
-
-bool contains(const std::string& sentence, const std::string& part)
-{
-  return sentence.find(part) != std::string::npos;
 }
 
 StreamMesh testMesh()

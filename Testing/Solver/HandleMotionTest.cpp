@@ -2,22 +2,18 @@
 #include "Solver/Deformation/HandleMotion.h"
 
 #include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/NotNumbers.h"
 
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 
-using namespace smg;
-using namespace smg::testing;
-
+namespace smg::testing
+{
 namespace
 {
 
 using Vector = std::array<double, 3>;
-
-constexpr double NotANumber = std::numeric_limits<double>::quiet_NaN();
-constexpr double Infinity = std::numeric_limits<double>::infinity();
 
 void expectNear(const Vector& a, const Vector& b, double tolerance = 1e-14)
 {
@@ -169,9 +165,9 @@ TEST(HandleMotion, ErrorsSayWhatIsWrong)
   const auto contains = [](const std::string& text, const char* part)
   { EXPECT_NE(text.find(part), std::string::npos) << "got: '" << text << "'"; };
   contains(complaint([](Parameters& p) { p.translation[1] = NotANumber; }), "translation");
-  contains(complaint([](Parameters& p) { p.axis[0] = Infinity; }), "axis of a handle");
+  contains(complaint([](Parameters& p) { p.axis[0] = Infinite; }), "axis of a handle");
   contains(complaint([](Parameters& p) { p.degrees = NotANumber; }), "angle");
-  contains(complaint([](Parameters& p) { p.center[2] = Infinity; }), "centre");
+  contains(complaint([](Parameters& p) { p.center[2] = Infinite; }), "centre");
   contains(complaint([](Parameters& p) { p.scale = NotANumber; }), "scale");
   contains(complaint([](Parameters& p) { p.scale = 0.0; }), "greater than 0");
   contains(complaint([](Parameters& p) { p.scale = -1.0; }), "greater than 0");
@@ -203,3 +199,5 @@ TEST(HandleMotion, MatrixErrors)
     complaintOf({ 1, 2, 3, 4, 5, 6, 7, 8, 9 }, 15, 1.0).find("determinant"), std::string::npos);
   EXPECT_EQ(complaintOf({ 1e-120, 0, 0, 0, 1e-120, 0, 0, 0, 1e-120 }, 15, 1.0), "");
 }
+
+} // namespace smg::testing

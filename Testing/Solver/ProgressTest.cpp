@@ -14,7 +14,7 @@ namespace smg::testing
 namespace
 {
 
-StreamMesh testMesh()
+StreamMesh someTorus()
 {
   return toStream(torus(120, 60, 0.3));
 }
@@ -40,7 +40,7 @@ TEST(Progress, neverDecreasesAndStopsWhenRefused)
 
 TEST(Progress, ofASolveRisesFromNearZeroToOne)
 {
-  const StreamMesh mesh = testMesh();
+  const StreamMesh mesh = someTorus();
   ArrayProblem problem = fixedEnds(mesh);
   for (const bool core : { false, true })
   {
@@ -62,7 +62,7 @@ TEST(Progress, ofASolveRisesFromNearZeroToOne)
 TEST(Progress, cancellingAnywhereLeavesNoScratchFile)
 {
   const TemporaryFolder folder;
-  const StreamMesh mesh = testMesh();
+  const StreamMesh mesh = someTorus();
   ArrayProblem problem = fixedEnds(mesh);
   for (const double limit : { 0.0, 0.05, 0.15, 0.3, 0.39, 0.45, 0.55, 0.7, 0.9, 1.0 })
   {
@@ -85,7 +85,7 @@ TEST(Progress, cancellingAnywhereLeavesNoScratchFile)
 TEST(Progress, anExceptionOfTheCallbackPassesThrough)
 {
   const TemporaryFolder folder;
-  const StreamMesh mesh = testMesh();
+  const StreamMesh mesh = someTorus();
   ArrayProblem problem = fixedEnds(mesh);
   SolveOptions options;
   options.scratch = folder.path();

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Solver/MemoryLimits.h"
 #include "Testing/Solver/SolveTesting.h"
+#include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/NotNumbers.h"
 #include "Testing/Support/ScratchError.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <limits>
 
 // What is wrong ends in one sentence, and no scratch file is left.
 
@@ -14,9 +15,6 @@ namespace smg::testing
 {
 namespace
 {
-
-constexpr double NotANumber = std::numeric_limits<double>::quiet_NaN();
-constexpr double Infinite = std::numeric_limits<double>::infinity();
 
 /** The sentence of the Error that solving ends with. */
 std::string errorOfSolve(MeshSource& source, Problem& problem, const SolveOptions& options = {})
@@ -36,11 +34,6 @@ std::string errorOfBlocks(std::vector<MeshBlock> blocks)
   BlockSource source(CellType::Triangle, std::move(blocks));
   ArrayProblem problem;
   return errorOfSolve(source, problem);
-}
-
-bool contains(const std::string& sentence, const std::string& part)
-{
-  return sentence.find(part) != std::string::npos;
 }
 
 } // namespace

@@ -10,6 +10,11 @@
 namespace smg::testing
 {
 
+inline bool contains(const std::string& sentence, const std::string& part)
+{
+  return sentence.find(part) != std::string::npos;
+}
+
 /** What the Error of `action` says; empty if there is none. */
 std::string messageOf(const auto& action)
 {
