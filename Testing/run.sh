@@ -3,7 +3,8 @@
 # Builds and tests everything on a Debian 12 machine (as root, or as a user with sudo):
 #   main        build/             ParaView 5.11's VTK, plugin, Python; all tests but the long ones
 #   vtk91       build-vtk91/       Debian's standalone VTK 9.1; the tests of what is built on VTK
-#   asan-ubsan  build-asan-ubsan/  Solver, IO and smg without VTK, under two sanitizers
+#   asan-ubsan  build-asan-ubsan/  Solver, IO and smg without VTK, under two sanitizers, several
+#                                  sources compiled as one: the names in their unnamed namespaces differ
 # Stops at the first configuration that fails, with ctest's summary as its last lines.
 #
 # Environment:

@@ -21,6 +21,10 @@ if (CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LE
   # g++ 12 warns of overlaps inside std::string's own operator+ (GCC bug 105329).
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)
 endif ()
+if (CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  # Told of types in unnamed namespaces only where a source is included by another.
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
+endif ()
 if (SMG_SANITIZE)
   add_compile_options(-fsanitize=${SMG_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${SMG_SANITIZE})

@@ -2,6 +2,8 @@
 # How tests are made. Labels:
 #   unit, vtk, paraview, tree, install   what the test needs or looks at
 #   data                                 needs SMG_TEST_DATA_DIR; skips itself where it is empty
+#   law                                  how errors, rates or memory go with the size of the mesh:
+#                                        larger meshes, on which sanitizers find nothing more
 #   long                                 takes minutes: left out by `ctest -LE long`
 
 # The folder that holds the meshes of the archive itself, whichever level was named.
@@ -12,16 +14,16 @@ endif ()
 
 # smg_add_gtest(<name> LABELS <label>... SOURCES <file>... LIBRARIES <target>...)
 # One GoogleTest program. Suites whose name ends in Data get the label data and more time, those
-# whose name ends in Long the label long.
+# whose name ends in Law the label law, and those whose name ends in Long the label long.
 function (smg_add_gtest name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LABELS;SOURCES;LIBRARIES")
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} smgTesting GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE
     SMG_TEST_DATA_DIR="${smg_test_data}"
-    SMG_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-    $<$<TARGET_EXISTS:smg>:SMG_PROGRAM="$<TARGET_FILE:smg>">)
-  smg_discover(${name} "-*Data.*:*Long.*" 120 "${arg_LABELS}")
+    SMG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  smg_discover(${name} "-*Data.*:*Law.*:*Long.*" 120 "${arg_LABELS}")
+  smg_discover(${name} "*Law.*" 120 "${arg_LABELS};law")
   smg_discover(${name} "*Data.*" 300 "${arg_LABELS};data")
   smg_discover(${name} "*Long.*" 3600 "${arg_LABELS};data;long")
 endfunction ()

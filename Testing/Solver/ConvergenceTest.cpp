@@ -29,7 +29,7 @@ Solved solveEnds(const IndexedTestMesh& mesh, Weights weights, double tolerance)
 
 } // namespace
 
-TEST(Convergence, hardlyDependsOnTheSizeOfASurface)
+TEST(ConvergenceLaw, hardlyDependsOnTheSizeOfASurface)
 {
   for (const Weights weights : { Weights::Uniform, Weights::Cotangent })
   {
@@ -47,7 +47,7 @@ TEST(Convergence, hardlyDependsOnTheSizeOfASurface)
   }
 }
 
-TEST(Convergence, hardlyDependsOnTheSizeOfASolid)
+TEST(ConvergenceLaw, hardlyDependsOnTheSizeOfASolid)
 {
   for (const Weights weights : { Weights::Uniform, Weights::Cotangent })
   {

@@ -31,22 +31,22 @@ void checkErrors(const IndexedTestMesh& given, int more = 0)
 
 } // namespace
 
-TEST(DeformationAccuracy, ofASurface)
+TEST(DeformationAccuracyLaw, ofASurface)
 {
   checkErrors(torus(300, 150, 0.3));
 }
 
-TEST(DeformationAccuracy, ofABumpySurface)
+TEST(DeformationAccuracyLaw, ofABumpySurface)
 {
   checkErrors(bumpy(torus(200, 100, 0.2), 0.3));
 }
 
-TEST(DeformationAccuracy, ofASphere)
+TEST(DeformationAccuracyLaw, ofASphere)
 {
   checkErrors(sphere(6));
 }
 
-TEST(DeformationAccuracy, ofASolid)
+TEST(DeformationAccuracyLaw, ofASolid)
 {
   // It converges a little slower and takes one V-cycle more.
   checkErrors(tetBox(16, 24, 16, 0.15), 1);

@@ -22,20 +22,20 @@ Report oneCycleAStep(const StreamMesh& mesh)
 
 } // namespace
 
-TEST(DeformationMemory, ofASurfaceIsTheSquareRoot)
+TEST(DeformationMemoryLaw, ofASurfaceIsTheSquareRoot)
 {
   expectGrowth(oneCycleAStep,
     { toStream(torus(316, 158)), toStream(torus(632, 316)), toStream(torus(1264, 632)) }, 2.2, 2.4);
 }
 
-TEST(DeformationMemory, ofASolidIsThePowerTwoThirds)
+TEST(DeformationMemoryLaw, ofASolidIsThePowerTwoThirds)
 {
   // Plane after plane. Coarse rows become longer with the number of levels.
   const auto planes = [](int n) { return toStream(tetBox(n, n, n), TestOrder::Keep); };
   expectGrowth(oneCycleAStep, { planes(32), planes(64) }, 4.4, 6.5);
 }
 
-TEST(DeformationMemory, ofAStripIsItsWidth)
+TEST(DeformationMemoryLaw, ofAStripIsItsWidth)
 {
   expectGrowth(oneCycleAStep, { toStream(grid(2000, 40)), toStream(grid(8000, 40)) }, 1.25, 1.25);
 }
