@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Storage/Ring.h"
 #include "Solver/Core/Error.h"
+#include "Solver/Hierarchy/CoarseningData.h"
+#include "Solver/Storage/MonotoneRing.h"
+#include "Solver/Storage/RaggedRing.h"
 #include "Testing/Support/TestMeshes.h"
 
 #include <gtest/gtest.h>
@@ -118,6 +120,56 @@ TEST(RaggedRing, rowsKeepTheirEntries)
       rows.release(first);
     }
   }
+}
+
+TEST(RaggedRing, keepsAWindowOnly)
+{
+  Pool pool(1 << 20);
+  RaggedRing<std::int64_t> rows(pool);
+  for (std::int64_t row = 0; row < 100000; ++row)
+  {
+    const std::int64_t size = row % 7;
+    std::fill_n(rows.open(size + 3), size, row);
+    rows.close(size);
+    rows.release(std::max<std::int64_t>(0, row - 100));
+  }
+  EXPECT_LT(pool.peak(), 3 * 100 * 7 * 8 + 3 * 4096);
+}
+
+TEST(MonotoneRing, keepsIndicesBeyond32Bits)
+{
+  Pool pool(1 << 20);
+  constexpr std::int64_t Large = (std::int64_t(5) << 32) - 300;
+  MonotoneRing ring(pool, Large);
+  EXPECT_EQ(ring.last(), Large);
+  for (std::int64_t i = 0; i < 1000; ++i)
+  {
+    ring.append(i % 3 == 0 ? Large + i : 0);
+    ring.release(i - 200);
+    for (std::int64_t k = std::max<std::int64_t>(0, i - 200); k <= i; ++k)
+    {
+      ASSERT_EQ(ring[k], Large + k / 3 * 3);
+    }
+  }
+}
+
+TEST(InterpolationEntry, findsRowsAndCoarseNodesFromAnyNearOne)
+{
+  for (const std::int64_t place : { std::int64_t(0), std::int64_t(1) << 24, std::int64_t(1) << 29,
+         (std::int64_t(1) << 32) - 5, (std::int64_t(3) << 33) + 17 })
+  {
+    for (const std::int64_t distance : { -8000000, -1, 0, 1, 8000000 })
+    {
+      const std::int64_t near = place + distance;
+      EXPECT_EQ(ChildLink(place, 6).row(near), place);
+      EXPECT_EQ(ChildLink(place, 6).slot(), 6);
+      const InterpolationEntry entry(static_cast<CoarseIndex>(place), 255);
+      EXPECT_EQ(near + entry.offset(near), place);
+      EXPECT_EQ(entry.quanta(), 255U);
+    }
+  }
+  EXPECT_TRUE(ChildLink().none());
+  EXPECT_FALSE(ChildLink(std::int64_t(1) << 29, 6).none());
 }
 
 } // namespace smg::testing
