@@ -56,7 +56,7 @@ struct TableSpec
 class BlockFileWriter
 {
 public:
-  static constexpr std::size_t WriteBehindBytes = std::size_t(256) << 10;
+  static constexpr std::size_t WriteBehindBytes = std::size_t(384) << 10;
 
   BlockFileWriter(std::filesystem::path path, std::vector<TableSpec> tables, Codec codec,
     IoStatistics* statistics = nullptr);
@@ -106,10 +106,11 @@ public:
 
   /**
    * Starts reading all columns of a block on the reader's own thread, so that a later read() of it
-   * does not wait. A hint: any block may be read without it. Eight prefetched blocks are kept, each
-   * until its last column is read or it is the oldest.
+   * does not wait, and with it as many of the following blocks as lie right behind it in the file
+   * and go into `most` bytes; answers the block that follows these. A hint: any block may be read
+   * without it. Eight such ranges are kept, each until all of it is read or it is the oldest.
    */
-  void prefetch(int table, std::int64_t block);
+  std::int64_t prefetch(int table, std::int64_t block, std::size_t most = 0);
 
 private:
   struct Implementation;

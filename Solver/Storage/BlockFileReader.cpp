@@ -150,18 +150,17 @@ struct BlockFileReader::Implementation
   std::span<const std::byte> fetch(
     int table, std::int64_t block, int column, std::span<std::byte> room)
   {
-    const std::int64_t begin = this->Index.blocks[table].offset[block];
-    std::int64_t offset = begin;
+    std::int64_t offset = this->Index.blocks[table].offset[block];
     for (int c = 0; c < column; c++)
     {
       offset += this->Index.entry(table, block, c).storedBytes;
     }
     const std::int64_t waited = this->Ahead.waitNanoseconds();
-    const auto ahead = this->Ahead.find(begin);
+    const auto ahead = this->Ahead.find(offset, room.size());
     this->count(0, this->Ahead.waitNanoseconds() - waited);
     if (ahead)
     {
-      return ahead->subspan(offset - begin, room.size());
+      return *ahead;
     }
     const auto start = std::chrono::steady_clock::now();
     this->File.read(offset, room);
@@ -276,19 +275,29 @@ void BlockFileReader::read(int table, std::int64_t block, int column, std::span<
   }
   if (column + 1 == static_cast<int>(self.Index.tables[table].columns.size()))
   {
-    self.Ahead.release(self.Index.blocks[table].offset[block]);
+    self.Ahead.release(self.Index.blocks[table].offset[block] +
+                       static_cast<std::int64_t>(self.storedBytes(table, block)));
   }
 }
 
-void BlockFileReader::prefetch(int table, std::int64_t block)
+std::int64_t BlockFileReader::prefetch(int table, std::int64_t block, std::size_t most)
 {
   Implementation& self = *this->Self;
   self.check(table, block);
-  const std::size_t bytes = self.storedBytes(table, block);
-  if (bytes > 0 && self.Ahead.request(self.Index.blocks[table].offset[block], bytes))
+  const TableIndex& index = self.Index.blocks[table];
+  std::int64_t end = block + 1;
+  std::size_t bytes = self.storedBytes(table, block);
+  const auto adjoins = [&]
+  { return index.offset[end] == index.offset[block] + static_cast<std::int64_t>(bytes); };
+  while (end < index.blocks() && adjoins() && bytes + self.storedBytes(table, end) <= most)
+  {
+    bytes += self.storedBytes(table, end++);
+  }
+  if (bytes > 0 && self.Ahead.request(index.offset[block], bytes))
   {
     self.count(static_cast<std::int64_t>(bytes), 0);
   }
+  return end;
 }
 
 bool isBlockFile(const std::filesystem::path& path)

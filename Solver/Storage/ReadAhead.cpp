@@ -21,11 +21,12 @@ ReadAhead::~ReadAhead()
   this->Thread.join();
 }
 
-ReadAhead::Range* ReadAhead::lookUp(std::int64_t offset)
+ReadAhead::Range* ReadAhead::lookUp(std::int64_t offset, std::size_t bytes)
 {
   for (Range& range : this->Kept)
   {
-    if (range.state != State::Free && range.offset == offset)
+    if (range.state != State::Free && range.offset <= offset &&
+        offset + static_cast<std::int64_t>(bytes) <= range.end())
     {
       return &range;
     }
@@ -54,7 +55,7 @@ bool ReadAhead::request(std::int64_t offset, std::size_t bytes)
   }
   {
     const std::lock_guard lock(this->Mutex);
-    if (this->lookUp(offset))
+    if (this->lookUp(offset, bytes))
     {
       return false;
     }
@@ -86,10 +87,10 @@ bool ReadAhead::request(std::int64_t offset, std::size_t bytes)
   return true;
 }
 
-std::optional<std::span<const std::byte>> ReadAhead::find(std::int64_t offset)
+std::optional<std::span<const std::byte>> ReadAhead::find(std::int64_t offset, std::size_t bytes)
 {
   std::unique_lock lock(this->Mutex);
-  const Range* range = this->lookUp(offset);
+  const Range* range = this->lookUp(offset, bytes);
   if (!range)
   {
     return {};
@@ -105,17 +106,19 @@ std::optional<std::span<const std::byte>> ReadAhead::find(std::int64_t offset)
   {
     return {};
   }
-  return std::span(range->bytes).first(range->size);
+  return std::span(range->bytes).subspan(static_cast<std::size_t>(offset - range->offset), bytes);
 }
 
-void ReadAhead::release(std::int64_t offset)
+void ReadAhead::release(std::int64_t end)
 {
   const std::lock_guard lock(this->Mutex);
-  if (Range* range = this->lookUp(offset);
-      range && (range->state == State::Ready || range->state == State::Failed))
+  for (Range& range : this->Kept)
   {
-    range->state = State::Free;
-    range->age = 0;
+    if (range.end() == end && (range.state == State::Ready || range.state == State::Failed))
+    {
+      range.state = State::Free;
+      range.age = 0;
+    }
   }
 }
 

@@ -34,12 +34,13 @@ public:
    */
   bool request(std::int64_t offset, std::size_t bytes);
   /**
-   * The bytes of the range that begins at `offset`, waited for if they are on their way; nothing if
-   * it was never requested, has given way, or could not be read. Valid until the next request().
+   * The `bytes` bytes at `offset`, waited for if they are on their way; nothing if they are no part
+   * of a range that was requested, that has given way, or could not be read. Valid until the next
+   * request().
    */
-  std::optional<std::span<const std::byte>> find(std::int64_t offset);
-  /** Gives up the range that begins at `offset`: it is not wanted any more. */
-  void release(std::int64_t offset);
+  std::optional<std::span<const std::byte>> find(std::int64_t offset, std::size_t bytes);
+  /** Gives up the range that ends at `end`: it is not wanted any more. */
+  void release(std::int64_t end);
   /** Nanoseconds that find() stood waiting, in all. */
   std::int64_t waitNanoseconds() const { return this->Waited; }
 
@@ -59,10 +60,13 @@ private:
     std::size_t size = 0;
     std::uint64_t age = 0;
     std::vector<std::byte> bytes; ///< at least `size`; grows only
+
+    std::int64_t end() const { return this->offset + static_cast<std::int64_t>(this->size); }
   };
 
   void run();
-  Range* lookUp(std::int64_t offset);
+  /** The range that holds these bytes. */
+  Range* lookUp(std::int64_t offset, std::size_t bytes);
   Range* oldestQueued();
 
   const FileDescriptor& File;

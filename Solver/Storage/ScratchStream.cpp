@@ -24,16 +24,23 @@ std::filesystem::path ScratchStream::generationPath(int generation) const
 
 void ScratchStream::startPass(bool rewrite)
 {
-  this->Next = 0;
-  if (this->Reader && this->Reader->blocks(0) > 0)
-  {
-    this->Reader->prefetch(0, 0);
-  }
+  this->Next = this->Ahead = this->Requested = 0;
+  this->readAhead();
   if (rewrite)
   {
     const TableSpec table{ "blocks", { ColumnSpec{ "block", ScalarType::UInt8, 0 } } };
     this->Writer = std::make_unique<BlockFileWriter>(this->generationPath(this->Generation + 1),
       std::vector{ table }, Codec::None, this->Statistics);
+  }
+}
+
+/** Requests the next range of blocks when those of the last request begin to be used up. */
+void ScratchStream::readAhead()
+{
+  if (this->Reader && this->Next >= this->Ahead && this->Requested < this->Reader->blocks(0))
+  {
+    this->Ahead = this->Requested;
+    this->Requested = this->Reader->prefetch(0, this->Requested, ReadAheadBytes);
   }
 }
 
@@ -59,12 +66,9 @@ void ScratchStream::read(std::int64_t index, std::span<std::byte> block)
 
 void ScratchStream::read(std::span<std::byte> block)
 {
-  const std::int64_t current = this->Next++;
-  this->read(current, block);
-  if (this->Next < this->Reader->blocks(0))
-  {
-    this->Reader->prefetch(0, this->Next);
-  }
+  this->read(this->Next, block);
+  this->readAhead();
+  ++this->Next;
 }
 
 void ScratchStream::endPass()

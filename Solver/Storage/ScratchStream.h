@@ -12,8 +12,9 @@ namespace smg
 {
 
 /**
- * A scratch file of blocks of any size that a pass reads from first to last, with the next one read
- * ahead, and that a pass may rewrite at the same time: what it appends is what the next pass reads.
+ * A scratch file of blocks of any size that a pass reads from first to last, with the next ones
+ * read ahead, and that a pass may rewrite at the same time: what it appends is what the next pass
+ * reads.
  */
 class ScratchStream
 {
@@ -37,6 +38,10 @@ public:
   void endPass();
 
 private:
+  /** Read at once: the thread that reads is woken so much more seldom. */
+  static constexpr std::size_t ReadAheadBytes = std::size_t(192) << 10;
+
+  void readAhead();
   std::filesystem::path generationPath(int generation) const;
 
   std::filesystem::path Path;
@@ -45,6 +50,7 @@ private:
   std::unique_ptr<BlockFileWriter> Writer;
   int Generation = 0;
   std::int64_t Next = 0;
+  std::int64_t Ahead = 0, Requested = 0; // first block of the last request, and behind it
 };
 
 } // namespace smg

@@ -39,7 +39,7 @@ public:
   int failed();
 
 private:
-  static constexpr int Chunks = 4;
+  static constexpr int Chunks = 3;
   struct Chunk
   {
     std::vector<std::byte> bytes;
