@@ -23,9 +23,10 @@ void checkOptions(const DeformOptions& options)
   {
     throw Error("the number of V-cycles a step must not be negative");
   }
-  if (options.weights == Weights::Own)
+  if (options.weights == Weights::Own || options.weights == Weights::RawCotangent)
   {
-    throw Error("a deformation has uniform or cotangent weights, none of its own");
+    throw Error(
+      "a deformation has uniform or clamped cotangent weights, none of its own and no raw ones");
   }
 }
 

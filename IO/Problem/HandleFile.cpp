@@ -129,7 +129,7 @@ HandleFileData parseHandles(const JsonNode& node)
   {
     handles.fail("must have at least one handle");
   }
-  data.weights = parseWeights(node);
+  data.weights = parseWeights(node, false);
   if (node.has("cycles"))
   {
     data.cycles = static_cast<int>(node.member("cycles").integer(1, MostCycles));

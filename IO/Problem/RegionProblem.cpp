@@ -55,7 +55,7 @@ RegionProblemData parseProblem(const JsonNode& node)
 {
   node.requireObject({ "weights", "columns", "dirichlet", "source", "screening", "conductivity" });
   RegionProblemData data;
-  data.weights = parseWeights(node).value_or(data.weights);
+  data.weights = parseWeights(node, true).value_or(data.weights);
   if (node.has("columns"))
   {
     data.columns = static_cast<int>(node.member("columns").integer(1, MostColumns));

@@ -85,7 +85,7 @@ private:
 /**
  * Reads a problem file:
  *
- *     { "weights": "cotangent" | "uniform", "columns": 3,
+ *     { "weights": "cotangent" | "raw-cotangent" | "uniform", "columns": 3,
  *       "dirichlet": [ { "halfspace": [nx, ny, nz, d], "value": [..] },
  *                      { "box": [x0, y0, z0, x1, y1, z1], "value": [..] },
  *                      { "sphere": [x, y, z, r], "value": "position" },

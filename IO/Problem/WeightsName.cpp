@@ -10,10 +10,14 @@ std::optional<Weights> weightsOfName(std::string_view name)
   {
     return Weights::Cotangent;
   }
+  if (name == "raw-cotangent")
+  {
+    return Weights::RawCotangent;
+  }
   return name == "uniform" ? std::optional(Weights::Uniform) : std::nullopt;
 }
 
-std::optional<Weights> parseWeights(const JsonNode& object)
+std::optional<Weights> parseWeights(const JsonNode& object, bool raw)
 {
   if (!object.has("weights"))
   {
@@ -21,9 +25,10 @@ std::optional<Weights> parseWeights(const JsonNode& object)
   }
   const JsonNode node = object.member("weights");
   const std::optional<Weights> weights = weightsOfName(node.string());
-  if (!weights)
+  if (!weights || (!raw && weights == Weights::RawCotangent))
   {
-    node.fail("must be \"cotangent\" or \"uniform\"");
+    node.fail(raw ? "must be \"cotangent\", \"raw-cotangent\" or \"uniform\""
+                  : "must be \"cotangent\" or \"uniform\"");
   }
   return weights;
 }

@@ -48,7 +48,7 @@ std::int64_t estimateMemory(const StreamInfo& info, const Problem& problem,
   const std::int64_t first = (surface ? TriangleBytes : TetrahedronBytes) + ValueBytes * stride +
                              FurtherSweepBytes * std::max(0, options.sweeps - 2);
   const std::int64_t later = options.sweeps * (LaterSweepBytes + LaterSweepValueBytes * stride);
-  const std::int64_t percent = problem.weights() == Weights::Cotangent ? CotangentPercent : 100;
+  const std::int64_t percent = problem.weights() == Weights::Uniform ? 100 : CotangentPercent;
   return nodes * std::max(first, later) * percent / 100;
 }
 

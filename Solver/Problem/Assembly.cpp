@@ -2,6 +2,7 @@
 #include "Solver/Problem/Assembly.h"
 
 #include "Solver/Core/Error.h"
+#include "Solver/Problem/RowShortfall.h"
 
 #include <algorithm>
 #include <cmath>
@@ -131,9 +132,13 @@ void Assembly::addCell(const std::int64_t* corners, unsigned flags)
     point[k] = this->Points.at(corners[k]);
   }
   const bool repeated = hasRepeatedCorner(corners, cornersOf(this->Type));
-  const CellWeights cell = repeated || flags != 0 ? CellWeights{}
-                           : this->Own            ? this->Own->cell()
-                                                  : cellWeights(this->Type, point);
+  CellWeights cell = repeated || flags != 0 ? CellWeights{}
+                     : this->Own            ? this->Own->cell()
+                                            : cellWeights(this->Type, point);
+  if (this->Kind == Weights::RawCotangent)
+  {
+    this->Limited += limitWeights(this->Type, point, cell) ? 1 : 0;
+  }
   const bool degenerate = cell.measure == 0.0;
   this->Degenerate += degenerate ? 1 : 0;
   if (!degenerate || (this->ConnectsFlat && !repeated && (flags & DuplicateCell) == 0))
@@ -385,6 +390,17 @@ void Assembly::closeRow(
       {
         this->Constraint[static_cast<std::size_t>(k)] += term(k);
       }
+    }
+  }
+  if (this->Kind == Weights::RawCotangent)
+  {
+    const double raise = rowShortfall({ row, static_cast<std::size_t>(size) }, alpha);
+    this->Raised += raise > 0.0 ? 1 : 0;
+    alpha += raise;
+    for (int k = 0; k < this->Columns; ++k)
+    {
+      b[k] += raise * x[k];
+      this->Constraint[static_cast<std::size_t>(k)] += raise * x[k];
     }
   }
   this->Out.rows.close(size, alpha, -1);

@@ -42,6 +42,9 @@ public:
   std::int64_t held() const { return this->Held; }
   std::int64_t degenerateCells() const { return this->Degenerate; }
   std::int64_t clampedWeights() const { return this->Clamped / 2; }
+  /** With raw cotangent weights: cells whose weights were limited, rows that were raised. */
+  std::int64_t limitedCells() const { return this->Limited; }
+  std::int64_t raisedRows() const { return this->Raised; }
   /** ||b - A x_0||^2, and the same of the terms that it is the difference of. */
   double initialSquares() const { return this->InitialSquares; }
   double termSquares() const { return this->TermSquares; }
@@ -96,6 +99,7 @@ private:
 
   std::int64_t Vertices = 0, Cells = 0, Final = 0, Done = 0;
   std::int64_t PrescribedCount = 0, Held = 0, Degenerate = 0, Clamped = 0;
+  std::int64_t Limited = 0, Raised = 0;
   std::int64_t LastReach = 0;
   double InitialSquares = 0.0, TermSquares = 0.0;
 };

@@ -82,6 +82,33 @@ CellWeights tetrahedronWeights(const double* a, const double* b, const double* c
   return cell;
 }
 
+bool limitWeights(CellType type, const double* const* corners, CellWeights& cell)
+{
+  constexpr double Limit = 1e5;
+  double square = type == CellType::Triangle ? 1.0 : 0.0;
+  double largest = 0.0;
+  for (int e = 0; e < (type == CellType::Triangle ? 3 : 6); ++e)
+  {
+    largest = std::max(largest, std::fabs(cell.weight[e]));
+    if (type == CellType::Tetrahedron)
+    {
+      const int* ends = TetrahedronEdges[e];
+      const Vector edge = difference(corners[ends[0]], corners[ends[1]]);
+      square = std::max(square, dot(edge, edge));
+    }
+  }
+  const double limit = Limit * std::sqrt(square);
+  if (!(largest > limit))
+  {
+    return false;
+  }
+  for (double& weight : cell.weight)
+  {
+    weight *= limit / largest;
+  }
+  return true;
+}
+
 double cotangentFloor(CellType type, const double* a, const double* b)
 {
   if (type == CellType::Triangle)

@@ -69,6 +69,14 @@ inline CellWeights cellWeights(CellType type, const double* const* points)
 }
 
 /**
+ * Weights that are not clamped cancel in the sums of a row. Where a cell is so flat that their
+ * rounding to single precision would be of the size of other cells' weights, all of its weights are
+ * scaled down alike, to 1e5 at most (tetrahedra: times the longest edge): its stiffness stays
+ * positive semidefinite. Answers whether they were.
+ */
+bool limitWeights(CellType type, const double* const* corners, CellWeights& cell);
+
+/**
  * The floor of the cotangent weight of an edge, that keeps the operator an M-matrix on obtuse
  * meshes: about a thousandth of the weight in a regular mesh. Triangles: 5e-4, whatever the length;
  * tetrahedra: 1e-4 times the edge's length.

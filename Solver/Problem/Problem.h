@@ -15,9 +15,10 @@ namespace smg
 /** Which weight w_ij an edge of the mesh carries. See Solver/Problem/CellWeights.h. */
 enum class Weights
 {
-  Uniform,   ///< 1 on every edge
-  Cotangent, ///< the finite-element stiffness, clamped from below
-  Own        ///< what Problem::cellWeights makes of the cells, clamped from below
+  Uniform,      ///< 1 on every edge
+  Cotangent,    ///< the finite-element stiffness, clamped from below
+  RawCotangent, ///< the finite-element stiffness itself: negative opposite to obtuse angles
+  Own           ///< what Problem::cellWeights makes of the cells, clamped from below
 };
 
 /**

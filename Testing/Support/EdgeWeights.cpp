@@ -105,7 +105,7 @@ void EdgeWeights::finish(const std::vector<double>& positions)
     {
       sum.weight = 1.0;
     }
-    else if (sum.weight < floor)
+    else if (this->Kind == Weights::Cotangent && sum.weight < floor)
     {
       sum.weight = floor;
       ++this->ClampedWeights;

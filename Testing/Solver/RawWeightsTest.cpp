@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Problem/CellWeights.h"
+#include "Solver/Problem/RowShortfall.h"
+#include "Testing/Solver/SolveTesting.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace smg::testing
+{
+namespace
+{
+
+/** A flat grid of triangles most of which are obtuse; its columns are the positions, prescribed at
+ * the border and zero elsewhere. */
+std::pair<StreamMesh, ArrayProblem> obtuseGrid()
+{
+  IndexedTestMesh indexed = grid(40, 40, 0.3);
+  for (std::size_t k = 0; k < indexed.positions.size(); k += 3)
+  {
+    indexed.positions[k] += 2.0 * indexed.positions[k + 1];
+  }
+  const StreamMesh mesh = toStream(indexed);
+  ArrayProblem problem;
+  problem.Columns = 3;
+  problem.Value = mesh.positions;
+  problem.EdgeWeights = Weights::RawCotangent;
+  double low[2] = { 1e9, 1e9 };
+  double high[2] = { -1e9, -1e9 };
+  const auto along = [&](std::int64_t v, int axis)
+  {
+    const double y = mesh.positions[3 * v + 1];
+    return axis == 1 ? y : mesh.positions[3 * v] - 2.0 * y;
+  };
+  for (std::int64_t v = 0; v < 2 * mesh.vertices(); ++v)
+  {
+    low[v % 2] = std::min(low[v % 2], along(v / 2, v % 2));
+    high[v % 2] = std::max(high[v % 2], along(v / 2, v % 2));
+  }
+  problem.Prescribed.resize(mesh.vertices());
+  for (std::int64_t v = 0; v < mesh.vertices(); ++v)
+  {
+    for (const int axis : { 0, 1 })
+    {
+      const double margin = 0.05 * (high[axis] - low[axis]);
+      const double place = along(v, axis);
+      problem.Prescribed[v] |= place < low[axis] + margin || place > high[axis] - margin;
+    }
+    std::fill_n(&problem.Value[3 * v], problem.Prescribed[v] ? 0 : 3, 0.0);
+  }
+  return { mesh, problem };
+}
+
+double errorOfLinear(const StreamMesh& mesh, ArrayProblem& problem)
+{
+  const Solved solved = solveMesh(mesh, problem, accurate());
+  EXPECT_TRUE(solved.report.converged);
+  return (solved.values - positionsOf(mesh)).cwiseAbs().maxCoeff();
+}
+
+} // namespace
+
+TEST(RawWeights, keepLinearFunctionsWhichClampedOnesDoNot)
+{
+  auto [mesh, problem] = obtuseGrid();
+  const double extent = positionsOf(mesh).cwiseAbs().maxCoeff();
+  EXPECT_LT(errorOfLinear(mesh, problem), 1e-5 * extent);
+  problem.EdgeWeights = Weights::Cotangent;
+  EXPECT_GT(errorOfLinear(mesh, problem), 1e-3 * extent);
+}
+
+TEST(RawWeights, agreeWithTheDirectSolve)
+{
+  for (const bool surface : { true, false })
+  {
+    const StreamMesh mesh =
+      toStream(surface ? shuffled(torus(60, 20, 0.4)) : shuffled(tetBox(9, 8, 10, 0.3)));
+    ArrayProblem problem = heldEnds(mesh, 2, Weights::RawCotangent);
+    const Solved solved = solveMesh(mesh, problem, accurate());
+    EXPECT_TRUE(solved.report.converged);
+    EXPECT_EQ(solved.report.clamped_weights, 0);
+    EXPECT_LT((solved.values - solveDirectly(mesh, problem)).cwiseAbs().maxCoeff(), 1e-5);
+  }
+}
+
+TEST(RawWeights, ofFlatCellsAreScaledDown)
+{
+  const double a[3] = { 0, 0, 0 };
+  const double b[3] = { 1, 0, 0 };
+  const double c[3] = { 0.4, 1e-8, 0 };
+  const double* corners[4] = { a, b, c, nullptr };
+  const smg::CellWeights before = triangleWeights(a, b, c);
+  smg::CellWeights after = before;
+  EXPECT_TRUE(limitWeights(CellType::Triangle, corners, after));
+  double largest = 0.0;
+  for (int e = 0; e < 3; ++e)
+  {
+    EXPECT_NEAR(after.weight[e] / before.weight[e], after.weight[0] / before.weight[0], 1e-12);
+    largest = std::max(largest, std::fabs(after.weight[e]));
+  }
+  EXPECT_NEAR(largest, 1e5, 1e-6);
+  EXPECT_FALSE(limitWeights(CellType::Triangle, corners, after));
+}
+
+TEST(RawWeights, flatCellsDoNotSpoilTheRest)
+{
+  auto [mesh, problem] = obtuseGrid();
+  // A vertex in the middle moves almost onto the line through two of its neighbours.
+  const std::size_t cells = mesh.corners.size() / 3;
+  const std::int64_t* cell = &mesh.corners[3 * (cells / 2)];
+  for (int d = 0; d < 3; ++d)
+  {
+    mesh.positions[3 * cell[0] + d] =
+      0.5 * (mesh.positions[3 * cell[1] + d] + mesh.positions[3 * cell[2] + d]);
+  }
+  mesh.positions[3 * cell[0] + 1] += 1e-7;
+  const Solved solved = solveMesh(mesh, problem, accurate(1e-8));
+  EXPECT_TRUE(solved.report.converged);
+  EXPECT_TRUE(hasNote(solved.report, "so flat"));
+  EXPECT_TRUE(solved.values.allFinite());
+}
+
+TEST(RawWeights, aRowThatRoundingHasLeftWithoutDiagonalIsRaised)
+{
+  const RowEntry cancelling[] = { { -1, 1e5F }, { 2, -1e5F }, { 5, -0.01F } };
+  EXPECT_DOUBLE_EQ(rowShortfall(cancelling, 0.0) - 0.01F, 1e-6 * (2e5 + 0.01F));
+  const RowEntry sound[] = { { -1, 2.0F }, { 2, -1.0F } };
+  EXPECT_EQ(rowShortfall(sound, 0.0), 0.0);
+  EXPECT_GT(rowShortfall({}, 0.0), 0.0);
+}
+
+} // namespace smg::testing
