@@ -14,6 +14,20 @@
 namespace smg
 {
 
+/** How V-cycles are made to converge faster: each takes what the ones before it have found. */
+enum class AccelerationKind
+{
+  /** Conjugate gradients where four V-cycles or more are to be expected, and not for a fixed number
+   * of V-cycles. */
+  Automatic,
+  None,
+  /** Chebyshev polynomials for a rate measured on the way. One vector in memory and on disk. */
+  Chebyshev,
+  /** Conjugate gradients with the V-cycle as preconditioner, in the form that minimises the
+   * residual (conjugate residuals), one pass a step. Four vectors. */
+  ConjugateGradients
+};
+
 /** How to solve. The defaults suit a mesh of any size. */
 struct SolveOptions
 {
@@ -30,6 +44,7 @@ struct SolveOptions
   double tolerance = 1e-6;
   /** Most V-cycles, at least 1. */
   int maxCycles = 50;
+  AccelerationKind acceleration = AccelerationKind::Automatic;
   /** Promise on the accounted memory, bytes. */
   std::int64_t memoryLimit = std::int64_t(1) << 30;
   /** Compute threads, at least 1; 0: one a core. The result does not depend on it. */

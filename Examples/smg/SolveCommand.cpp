@@ -7,10 +7,15 @@
 #include "IO/Problem/RegionProblem.h"
 #include "Solver/Core/Error.h"
 
+#include <algorithm>
+
 namespace
 {
 
 constexpr const char* SolutionName = "Solution";
+
+/** In the order of smg::AccelerationKind. */
+const std::vector<std::string> Accelerations{ "automatic", "none", "chebyshev", "cg" };
 
 std::vector<std::string> namesWithoutSolution(const std::vector<smg::ColumnSpec>& specs)
 {
@@ -40,6 +45,18 @@ public:
     command.get_option("--operators")
       ->description("Operator set; shi2006: the paper's printed equations, biased, --in-core only");
     addTolerance(command, this->Solve.tolerance)->capture_default_str();
+    command
+      .add_option_function<std::string>(
+        "--acceleration",
+        [this](const std::string& name)
+        {
+          const auto place = std::find(Accelerations.begin(), Accelerations.end(), name);
+          this->Solve.acceleration =
+            static_cast<smg::AccelerationKind>(place - Accelerations.begin());
+        },
+        "How V-cycles converge faster: automatic, none, chebyshev or cg")
+      ->check(oneOf(Accelerations))
+      ->default_str(Accelerations.front());
     command.add_option("--problem", this->File, "The problem, a JSON file")
       ->required()
       ->type_name("FILE");

@@ -19,6 +19,7 @@ std::string Report::json(int indent) const
   out["passes"] = this->passes;
   out["cycles"] = this->cycles;
   out["residuals"] = this->residuals;
+  out["acceleration"] = this->acceleration;
   out["converged"] = this->converged;
   for (const Step& step : this->steps)
   {

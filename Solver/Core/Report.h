@@ -48,6 +48,8 @@ struct Report
    * with several steps, those of all steps in order.
    */
   std::vector<double> residuals;
+  /** How V-cycles were accelerated: "none", "chebyshev" or "cg"; see AccelerationKind. */
+  std::string acceleration = "none";
   /** The steps of a deformation: rotation and position. Empty for a solve of one problem. */
   std::vector<Step> steps;
   bool converged = false;      ///< of a solve with several steps: all of them

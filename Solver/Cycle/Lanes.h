@@ -10,6 +10,7 @@ namespace smg
 template <class Real, int Count>
 struct Lanes
 {
+  using Value = Real;
   static constexpr int count = Count;
   using Vector __attribute__((vector_size(sizeof(Real) * Count))) = Real;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Cycle/IterateHistory.h"
 #include "Solver/Cycle/LevelCursors.h"
 #include "Solver/Cycle/LevelWindow.h"
 #include "Solver/Cycle/Transfer.h"
@@ -41,6 +42,7 @@ public:
   {
     this->First = first;
     this->Renewing = false;
+    this->History = nullptr;
     this->At.rewind();
     std::fill(this->Squares.begin(), this->Squares.end(), Real{});
     this->Window.startPass(first);
@@ -50,7 +52,14 @@ public:
     }
   }
 
-  void endPass() { this->Window.endPass(); }
+  void endPass()
+  {
+    this->Window.endPass();
+    if (this->History)
+    {
+      this->History->endPass();
+    }
+  }
 
   /**
    * Restriction of the next pass multiplies by `scale`, a power of two, and its prolongation undoes
@@ -73,6 +82,9 @@ public:
     this->Renewed = end;
   }
 
+  /** On the finest level: this pass, which has started, accelerates the iterates. */
+  void setHistory(IterateHistory* history) { this->History = history; }
+
   /** How far the way up has come, as the way down knows it. */
   std::int64_t finishedUp() const { return this->At.seenPostSwept; }
 
@@ -80,7 +92,14 @@ public:
   void append(RowBlock block) { this->Window.append(std::move(block)); }
 
   /** Loads, here and on the coarser levels, all that the way up to `node` needs. */
-  void load(std::int64_t node) { this->load(static_cast<int>(this->At.postSweep.size()), node); }
+  void load(std::int64_t node)
+  {
+    this->load(static_cast<int>(this->At.postSweep.size()), node);
+    if (this->History)
+    {
+      this->History->load(this->Window.x(), this->Window.loaded());
+    }
+  }
 
   /** Way up: finishes the V-cycle on nodes 0 .. node, which is loaded. */
   void pull(std::int64_t node) { this->pull(static_cast<int>(this->At.postSweep.size()), node); }
@@ -100,6 +119,7 @@ public:
   void advanceDown()
   {
     this->preSweep();
+    this->combine();
     this->restrictDown();
     if (!this->Coarse->core())
     {
@@ -110,8 +130,12 @@ public:
   /** Writes what the way down has finished and lets go of what is not needed any more. */
   void settle()
   {
-    this->Window.write(this->At.preSweep.back());
+    this->Window.write(this->At.combined);
     this->Window.release(this->At.restricted);
+    if (this->History)
+    {
+      this->History->write(this->At.restricted);
+    }
     if (!this->Coarse->core())
     {
       this->Coarse->settle();
@@ -271,10 +295,21 @@ private:
     return end;
   }
 
+  /** Acceleration may change a node when no sweep reads it any more. */
+  void combine()
+  {
+    std::int64_t end = this->At.preSweep.back();
+    if (this->History)
+    {
+      end = this->Window.reachable(this->At.combined, end);
+      this->History->combine(this->Window.x(), this->At.combined, end);
+    }
+    this->At.combined = end;
+  }
+
   void restrictDown()
   {
-    const std::int64_t limit =
-      this->Window.reachable(this->At.restricted, this->At.preSweep.back());
+    const std::int64_t limit = this->Window.reachable(this->At.restricted, this->At.combined);
     std::int64_t end = this->At.restricted;
     while (end < limit)
     {
@@ -336,13 +371,14 @@ private:
         Real* squares = this->Squares.data();
         if (stride == 1)
         {
-          restrictResidual<One, Lanes<float, 1>>(
-            h, a, nodes, 1, x, b, coarse, this->Scale, squares);
+          restrictResidual<One, Lanes<float, 1>>(h, a, nodes, 1, x, b, coarse, this->Scale, squares,
+            keeping<One>(this->History, h.first, 0));
         }
         for (int lane = 0; lane + 3 < stride; lane += 4)
         {
-          restrictResidual<Four, Lanes<float, 4>>(
-            h, a, nodes, stride, x + lane, b + lane, coarse + lane, this->Scale, squares + lane);
+          restrictResidual<Four, Lanes<float, 4>>(h, a, nodes, stride, x + lane, b + lane,
+            coarse + lane, this->Scale, squares + lane,
+            keeping<Four>(this->History, h.first, lane));
         }
       });
   }
@@ -352,6 +388,7 @@ private:
   std::vector<Real> Squares;
   CoarseLevel* Coarse = nullptr;
   const LevelCursors* Fine = nullptr;
+  IterateHistory* History = nullptr;
   Real Scale = 1;
   Real Unscale = 1;
   bool First = true;

@@ -32,6 +32,7 @@ struct LevelCursors
   std::vector<std::int64_t> postSweep; ///< sweeps after prolongation
   std::int64_t reset = 0;              ///< b set to zero for the next V-cycle (coarse levels)
   std::vector<std::int64_t> preSweep;  ///< sweeps before restriction
+  std::int64_t combined = 0;           ///< acceleration (finest level)
   std::int64_t restricted = 0;         ///< residual and restriction
 
   /** Of the way up, what the way down knows: the two may run on two threads. */

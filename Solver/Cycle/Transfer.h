@@ -30,11 +30,13 @@ void prolong(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, BlockR
 
 /**
  * Residual and restriction of a block's nodes: r = b - A x, b_coarse += P^T r. Adds the squares of
- * r to `squares` (`stride` values), in node order. coarseB points to coarse node parentBase.
+ * r to `squares` (`stride` values), in node order, and calls keep(k, r) for each node k. coarseB
+ * points to coarse node parentBase.
  */
-template <class Vectors, class CoarseVectors, class Real, class Index>
+template <class Vectors, class CoarseVectors, class Real, class Index, class Keep>
 void restrictResidual(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, BlockRange nodes,
-  std::int64_t stride, const Real* x, const Real* b, float* coarseB, Real scale, Real* squares)
+  std::int64_t stride, const Real* x, const Real* b, float* coarseB, Real scale, Real* squares,
+  Keep&& keep)
 {
   auto total = Vectors::load(squares);
   for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
@@ -56,6 +58,7 @@ void restrictResidual(const RowBlock::Header& h, const RowBlock::Arrays<Index>& 
     }
     const auto residual = even + odd;
     total += residual * residual;
+    keep(k, residual);
     const auto coarse = __builtin_convertvector(residual * scale, typename CoarseVectors::Vector);
     const BlockRange parents = parentsOf(h, a, k);
     for (std::int64_t p = parents.begin; p < parents.end; ++p)

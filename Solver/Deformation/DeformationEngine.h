@@ -90,7 +90,7 @@ void DeformationEngine<Operators>::solveSteps()
   const Stopping stopping = this->stopping();
   Convergence rotations(stopping, this->InitialNorm, this->RoundingNorm);
   rotations.begin(this->residualNorm());
-  this->iterate(rotations, true);
+  this->iterate(rotations, true, "rotation step: ");
 
   PositionStep step(this->Memory, this->Rest, this->Hierarchy.finest->window());
   const double norm = this->sharedPass(step);
@@ -105,7 +105,7 @@ void DeformationEngine<Operators>::solveSteps()
   this->Progress.begin(stopping, 0.6, 1.0, false);
   Convergence positions(stopping, std::sqrt(step.initialSquares()), roundingOf(step.termSquares()));
   positions.begin(norm);
-  this->iterate(positions, false);
+  this->iterate(positions, false, "position step: ");
   this->addStep("position", positions);
   this->Result.converged = rotations.converged() && positions.converged();
   this->Result.seconds.solve = solving.seconds();

@@ -17,6 +17,17 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
   report.held = assembly.held();
   report.degenerate_cells = assembly.degenerateCells();
   report.clamped_weights = assembly.clampedWeights();
+  if (assembly.limitedCells() > 0)
+  {
+    report.notes.push_back(std::to_string(assembly.limitedCells()) +
+                           " cells are so flat that their raw cotangent weights were scaled down");
+  }
+  if (assembly.raisedRows() > 0)
+  {
+    report.notes.push_back(std::to_string(assembly.raisedRows()) +
+                           " vertices have raw cotangent weights whose sum is lost in rounding: "
+                           "they are held near their initial values");
+  }
   report.components = components.components();
   report.free_components = components.freeComponents();
   if (!std::isfinite(assembly.termSquares()))

@@ -54,6 +54,7 @@ void Convergence::begin(double norm, bool mayEnd)
 void Convergence::add(double norm)
 {
   const double relative = this->Reference > 0.0 ? norm / this->Reference : 0.0;
+  this->NormBefore = this->Norm;
   this->Norm = norm;
   this->Residuals.push_back(relative);
   this->Converged = norm <= this->Goal;
@@ -99,6 +100,13 @@ void Convergence::watch(double relative)
     this->Note = "not converged: the relative residual is " + scientific(relative) + " after " +
                  std::to_string(n) + " V-cycles, the most allowed";
   }
+}
+
+double Convergence::cyclesLeft(double factor) const
+{
+  return this->Norm > this->Goal && this->Goal > 0.0
+           ? std::log(this->Goal / this->Norm) / std::log(factor)
+           : 0.0;
 }
 
 void Convergence::addNotes(std::vector<std::string>& notes, const std::string& what) const

@@ -44,6 +44,12 @@ public:
   /** ||b - A x|| as last seen, and relative to the initial one after each V-cycle. */
   double norm() const { return this->Norm; }
   const std::vector<double>& residuals() const { return this->Residuals; }
+  /** Whether the number of V-cycles is given. */
+  bool fixed() const { return this->Fixed; }
+  /** ||b - A x|| over what it was a V-cycle before. */
+  double factor() const { return this->Norm / this->NormBefore; }
+  /** V-cycles to the tolerance if each multiplies the residual by `factor`, in (0, 1). */
+  double cyclesLeft(double factor) const;
   /** Adds what a user should know, beginning with `what`. */
   void addNotes(std::vector<std::string>& notes, const std::string& what) const;
 
@@ -53,7 +59,7 @@ private:
   bool Fixed;
   int Limit;
   double Rounding, Reference, Goal;
-  double FirstNorm = 0.0, Norm = 0.0;
+  double FirstNorm = 0.0, NormBefore = 0.0, Norm = 0.0;
   std::vector<double> Residuals;
   std::string Note;
   bool Done = false, Converged = false;

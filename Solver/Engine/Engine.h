@@ -4,6 +4,7 @@
 #include "Solver/Core/RunAll.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Cycle/CoreCycle.h"
+#include "Solver/Engine/Acceleration.h"
 #include "Solver/Engine/AssemblyReport.h"
 #include "Solver/Engine/Convergence.h"
 #include "Solver/Engine/FreeComponents.h"
@@ -52,17 +53,19 @@ protected:
    * `furtherCoreBytes`: a vertex, that the caller will need in core. */
   void build(MeshSource& mesh, Problem& problem, RowListener* listener = nullptr,
     std::int64_t furtherCoreBytes = 0);
-  /** V-cycles until `convergence` is done or only the last one of those allowed is left. */
-  void iterate(Convergence& convergence, bool spareLast);
+  /** V-cycles until `convergence` is done or only the last one of those allowed is left. Notes
+   * begin with `what`. */
+  void iterate(Convergence& convergence, bool spareLast, const std::string& what = "");
   /** The core levels' part of a V-cycle. */
   void runCore();
   /**
    * A pass that finishes a V-cycle and begins the next one. `scale` is about the size of the
    * residuals that it will meet. `loaded()` follows the loading of the finest level, `beforeDown()`
-   * comes in each step before the way down, on its thread.
+   * comes in each step before the way down, on its thread. `history`, if any, accelerates.
    */
   template <class Loaded, class BeforeDown>
-  void pass(double scale, Loaded&& loaded, BeforeDown&& beforeDown);
+  void pass(
+    double scale, Loaded&& loaded, BeforeDown&& beforeDown, IterateHistory* history = nullptr);
   void startPass(bool first);
   void endPass();
   double residualNorm() const;
@@ -102,6 +105,7 @@ private:
     HierarchyBuilder<Operators>& builder);
   void noteAssembly(const Assembly& assembly);
   void factorize();
+  void addHistory(Acceleration& acceleration, std::optional<IterateHistory>& history);
 };
 
 } // namespace smg

@@ -286,10 +286,12 @@ void Engine<Operators>::noteAssembly(const Assembly& assembly)
 
 template <OperatorSet Operators>
 template <class Loaded, class BeforeDown>
-void Engine<Operators>::pass(double scale, Loaded&& loaded, BeforeDown&& beforeDown)
+void Engine<Operators>::pass(
+  double scale, Loaded&& loaded, BeforeDown&& beforeDown, IterateHistory* history)
 {
   FineLevel& finest = *this->Hierarchy.finest;
   this->startPass(false);
+  finest.setHistory(history);
   const std::int64_t nodes = finest.window().nodes();
   const double typical = scale / std::sqrt(static_cast<double>(nodes));
   finest.setScale(typical > DBL_MIN && typical < DBL_MAX ? std::exp2(-std::ilogb(typical)) : 1.0);
@@ -321,19 +323,6 @@ void Engine<Operators>::runCore()
   const Timer coarse;
   this->Core.run();
   this->Result.seconds.coarse += coarse.seconds();
-}
-
-template <OperatorSet Operators>
-void Engine<Operators>::iterate(Convergence& convergence, bool spareLast)
-{
-  while (!convergence.done() && !(spareLast && convergence.isLast()))
-  {
-    this->runCore();
-    this->pass(
-      convergence.norm(), [] {}, [] {});
-    convergence.add(this->residualNorm());
-    this->Progress.endCycle(convergence.cycles(), convergence.residuals().back());
-  }
 }
 
 template <OperatorSet Operators>
@@ -383,3 +372,5 @@ void Engine<Operators>::finishReport()
 }
 
 } // namespace smg
+
+#include "Solver/Engine/Iteration.txx"

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Solver/SolveTesting.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace smg::testing
+{
+namespace
+{
+
+constexpr AccelerationKind Kinds[] = { AccelerationKind::Chebyshev,
+  AccelerationKind::ConjugateGradients };
+
+const char* nameOf(AccelerationKind kind)
+{
+  return kind == AccelerationKind::Chebyshev ? "chebyshev" : "cg";
+}
+
+/** A surface or a solid on which V-cycles of one sweep converge slowly, held at its ends. */
+std::pair<StreamMesh, ArrayProblem> slowTask(bool surface, int columns)
+{
+  StreamMesh mesh =
+    toStream(surface ? shuffled(torus(90, 50, 0.4)) : shuffled(tetBox(13, 12, 14, 0.15)));
+  ArrayProblem problem = heldEnds(mesh, columns, Weights::Cotangent);
+  return { std::move(mesh), std::move(problem) };
+}
+
+SolveOptions oneSweep(AccelerationKind kind, double tolerance)
+{
+  SolveOptions options = accurate(tolerance);
+  options.sweeps = 1;
+  options.acceleration = kind;
+  return options;
+}
+
+} // namespace
+
+TEST(Acceleration, findsTheSolution)
+{
+  for (const bool surface : { true, false })
+  {
+    auto [mesh, problem] = slowTask(surface, 3);
+    const Eigen::MatrixXd direct = solveDirectly(mesh, problem);
+    for (const AccelerationKind kind : Kinds)
+    {
+      const Solved solved = solveMesh(mesh, problem, oneSweep(kind, 1e-11));
+      EXPECT_TRUE(solved.report.converged);
+      EXPECT_EQ(solved.report.acceleration, nameOf(kind));
+      EXPECT_LT((solved.values - direct).cwiseAbs().maxCoeff(), 1e-6);
+    }
+  }
+}
+
+TEST(Acceleration, theReportedResidualIsTheTrueOne)
+{
+  auto [mesh, problem] = slowTask(true, 2);
+  MemorySource source(mesh);
+  const DirectSystem system = assembleDirect(source, problem);
+  for (const AccelerationKind kind : Kinds)
+  {
+    for (const int cycles : { 4, 6 })
+    {
+      SolveOptions options = oneSweep(kind, 1e-13);
+      options.maxCycles = cycles;
+      const Solved solved = solveMesh(mesh, problem, options);
+      EXPECT_EQ(solved.report.passes, cycles + 1);
+      const double expected = system.relativeResidual(solved.values);
+      EXPECT_NEAR(solved.report.residuals.back(), expected, 1e-3 * expected + 1e-7);
+    }
+  }
+}
+
+TEST(Acceleration, streamingEqualsInCoreBitForBit)
+{
+  for (const int columns : { 1, 3, 5 })
+  {
+    auto [mesh, problem] = slowTask(columns != 1, columns);
+    for (const AccelerationKind kind : Kinds)
+    {
+      SolveOptions options = oneSweep(kind, 1e-12);
+      options.maxCycles = 7;
+      options.inCore = true;
+      const Solved expected = solveMesh(mesh, problem, options);
+      options.inCore = false;
+      for (const auto& [threads, blockNodes] : { std::pair{ 1, 64 }, std::pair{ 2, 1000 } })
+      {
+        options.threads = threads;
+        options.blockNodes = blockNodes;
+        options.coreNodes = 300;
+        const Solved solved = solveMesh(mesh, problem, options);
+        EXPECT_TRUE(sameBits(solved.values, expected.values));
+        EXPECT_EQ(solved.report.residuals, expected.report.residuals);
+      }
+    }
+  }
+}
+
+TEST(Acceleration, needsFewerPassesWhereVCyclesAreSlow)
+{
+  // Raw cotangent weights of a torus with many obtuse triangles.
+  const StreamMesh mesh = toStream(shuffled(torus(90, 50, 0.5)));
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::RawCotangent);
+  const auto solveBy = [&](AccelerationKind kind)
+  {
+    const Report report = solveMesh(mesh, problem, oneSweep(kind, 1e-10)).report;
+    EXPECT_TRUE(report.converged);
+    return report;
+  };
+  const Report plain = solveBy(AccelerationKind::None);
+  EXPECT_EQ(plain.acceleration, "none");
+  ASSERT_GT(plain.residuals.back(), 0.5 * plain.residuals[plain.residuals.size() - 2])
+    << "this is no slow problem";
+  EXPECT_LT(solveBy(AccelerationKind::Chebyshev).passes, 0.7 * plain.passes);
+  EXPECT_LT(solveBy(AccelerationKind::ConjugateGradients).passes, 0.55 * plain.passes);
+  const Report automatic = solveBy(AccelerationKind::Automatic);
+  EXPECT_LT(automatic.passes, 0.55 * plain.passes);
+  EXPECT_EQ(automatic.acceleration, "cg");
+}
+
+TEST(Acceleration, isNotBegunWhereFewVCyclesAreLeft)
+{
+  auto [mesh, problem] = slowTask(true, 1);
+  SolveOptions options = accurate(1e-2);
+  const Solved automatic = solveMesh(mesh, problem, options);
+  EXPECT_EQ(automatic.report.acceleration, "none");
+  options.acceleration = AccelerationKind::None;
+  EXPECT_TRUE(sameBits(automatic.values, solveMesh(mesh, problem, options).values));
+}
+
+TEST(Acceleration, isGivenUpWithoutRoomForItsVectors)
+{
+  auto [mesh, problem] = slowTask(true, 16);
+  SolveOptions options = accurate(1e-8);
+  options.inCore = true;
+  options.coreNodes = 0; // else the limit decides which levels live in memory
+  options.acceleration = AccelerationKind::None;
+  const Solved plain = solveMesh(mesh, problem, options);
+  options.acceleration = AccelerationKind::ConjugateGradients;
+  options.memoryLimit = plain.report.pool_bytes_peak;
+  const Solved solved = solveMesh(mesh, problem, options);
+  EXPECT_TRUE(hasNote(solved.report, "acceleration (cg) was given up"));
+  EXPECT_EQ(solved.report.acceleration, "none");
+  EXPECT_TRUE(sameBits(solved.values, plain.values));
+}
+
+} // namespace smg::testing
