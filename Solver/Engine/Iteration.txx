@@ -53,7 +53,7 @@ void Engine<Operators>::addHistory(
       history.emplace(this->Memory, window.stride(), residuals);
       if (this->Scratch)
       {
-        history->useScratch(this->Scratch->path(), this->Traffic);
+        history->useScratch(this->Scratch->path(), this->Traffic.add("history", 0));
       }
       return;
     }
