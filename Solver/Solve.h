@@ -24,7 +24,8 @@ enum class AccelerationKind
   /** Chebyshev polynomials for a rate measured on the way. One vector in memory and on disk. */
   Chebyshev,
   /** Conjugate gradients with the V-cycle as preconditioner, in the form that minimises the
-   * residual (conjugate residuals), one pass a step. Four vectors. */
+   * residual (conjugate residuals), one pass a step. One vector and, on a sample of the vertices of
+   * a large mesh or on all of a small one, three more. */
   ConjugateGradients
 };
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Cycle/IterateHistory.h"
 
-#include "Solver/Cycle/RowBlock.h"
-
 #include <algorithm>
 #include <numeric>
 
@@ -22,7 +20,8 @@ void IterateHistory::startPass(const StepWeights& weights)
   this->Before.restart();
   if (this->Stream)
   {
-    this->Kept.restart();
+    this->Steps.restart();
+    this->Residuals.restart();
     this->Stream->startPass(true);
   }
 }
@@ -32,34 +31,65 @@ void IterateHistory::load(const Ring<double>& x, std::int64_t end)
   const std::int64_t begin = this->Before.end();
   this->Before.extendRaw(end);
   std::copy(x.at(begin), x.at(end), this->Before.at(begin));
-  if (this->First)
+  while (this->Steps.end() < end)
   {
-    this->Kept.extend(end);
-    return;
+    this->loadBlock(this->Steps.end(), std::min(end, this->Steps.end() + RowBlock::Nodes));
   }
-  for (std::int64_t first = this->Kept.end(); first < end; first += RowBlock::Nodes)
+}
+
+void IterateHistory::loadBlock(std::int64_t begin, std::int64_t end)
+{
+  const auto fill = [this](Ring<float>& ring, std::int64_t first, std::int64_t nodes)
   {
-    const std::int64_t stop = std::min(end, first + RowBlock::Nodes);
-    this->Kept.extendRaw(stop);
+    if (this->First)
+    {
+      ring.extend(first + nodes);
+      return;
+    }
+    ring.extendRaw(first + nodes);
     this->Stream->read(
-      std::as_writable_bytes(std::span<float>(this->Kept.at(first), this->Kept.at(stop))));
+      std::as_writable_bytes(std::span<float>(ring.at(first), ring.at(first + nodes))));
+  };
+  fill(this->Steps, begin, end - begin);
+  if (this->samples(begin / RowBlock::Nodes))
+  {
+    fill(this->Residuals, this->sampledIndex(begin), end - begin);
   }
 }
 
 void IterateHistory::combine(const Ring<double>& x, std::int64_t begin, std::int64_t end)
 {
+  if (this->Stride == 1)
+  {
+    this->combineLanes<Lanes<double, 1>>(x, begin, end, 0);
+  }
+  for (int lane = 0; lane + 3 < this->Stride; lane += 4)
+  {
+    this->combineLanes<Lanes<double, 4>>(x, begin, end, lane);
+  }
+}
+
+template <class Vectors>
+void IterateHistory::combineLanes(
+  const Ring<double>& x, std::int64_t begin, std::int64_t end, int lane)
+{
+  using Wide = typename Vectors::Vector;
+  using Single = Lanes<float, Vectors::count>;
+  double* value = x.at(begin) + lane;
+  const double* before = this->Before.at(begin) + lane;
+  float* step = this->Steps.at(begin) + lane;
+  const double correction = this->Weights.correction;
+  const double momentum = this->Weights.momentum;
   for (std::int64_t i = begin; i < end; ++i)
   {
-    double* value = x.at(i);
-    const double* before = this->Before.at(i);
-    float* step = this->Kept.at(i);
-    for (int k = 0; k < this->Stride; ++k)
-    {
-      const double change = this->Weights.correction * (value[k] - before[k]) +
-                            this->Weights.momentum * static_cast<double>(step[k]);
-      value[k] = before[k] + change;
-      step[k] = static_cast<float>(change);
-    }
+    const Wide old = Vectors::load(before);
+    const Wide change = correction * (Vectors::load(value) - old) +
+                        momentum * __builtin_convertvector(Single::load(step), Wide);
+    Vectors::store(value, old + change);
+    Single::store(step, __builtin_convertvector(change, typename Single::Vector));
+    value += this->Stride;
+    before += this->Stride;
+    step += this->Stride;
   }
 }
 
@@ -69,18 +99,27 @@ void IterateHistory::write(std::int64_t done)
   {
     return;
   }
+  const auto append = [this](Ring<float>& ring, std::int64_t first, std::int64_t nodes)
+  {
+    this->Stream->append(
+      std::as_bytes(std::span<const float>(ring.at(first), ring.at(first + nodes))));
+    ring.release(first + nodes);
+  };
   while (this->Written < done)
   {
-    const std::int64_t end = std::min(this->Kept.end(), this->Written + RowBlock::Nodes);
+    const std::int64_t begin = this->Written;
+    const std::int64_t end = std::min(this->Steps.end(), begin + RowBlock::Nodes);
     if (end > done)
     {
       break;
     }
-    this->Stream->append(
-      std::as_bytes(std::span<const float>(this->Kept.at(this->Written), this->Kept.at(end))));
-    this->Written = end;
-    this->Kept.release(end);
+    append(this->Steps, begin, end - begin);
+    if (this->samples(begin / RowBlock::Nodes))
+    {
+      append(this->Residuals, this->sampledIndex(begin), end - begin);
+    }
     this->Before.release(end);
+    this->Written = end;
   }
 }
 

@@ -2,13 +2,14 @@
 #pragma once
 
 #include "Solver/Cycle/Lanes.h"
+#include "Solver/Cycle/RowBlock.h"
 #include "Solver/Storage/Ring.h"
 #include "Solver/Storage/ScratchStream.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <type_traits>
 #include <vector>
 
 namespace smg
@@ -44,28 +45,32 @@ struct ResidualProducts
  * Then r(z_k) = r(z_{k-1}) - length q_k. As T is affine, T(z_k) needs no pass of its own:
  * T(z_k) = y_k + length u_k, u_k = T(y_k) - y_k - conjugation u_{k-1}, which is a step with a
  * momentum. Kept are z: r(z_k), q and a; their products give the next weights before the next pass.
+ * On large meshes one block in up to eight, which tells the two weights of a step well enough.
  */
 class IterateHistory
 {
 public:
-  IterateHistory(Pool& pool, int stride, bool residuals)
+  /** For a level of `nodes` nodes. */
+  IterateHistory(Pool& pool, std::int64_t nodes, int stride, bool residuals)
     : Stride(stride)
-    , Vectors(vectors(residuals))
+    , Every(residuals ? std::clamp<std::int64_t>(nodes / SampledNodes, 1, MostSparse) : 0)
     , Before(pool, stride)
-    , Kept(pool, stride * this->Vectors)
-    , Sums(static_cast<std::size_t>(5 * stride))
+    , Steps(pool, stride)
+    , Residuals(pool, stride * Vectors)
+    , Sums(static_cast<std::size_t>(Products * stride))
   {
   }
 
-  /** Bytes of a node in memory. */
+  /** Bytes of a node in memory, at most. */
   static std::int64_t nodeBytes(int stride, bool residuals)
   {
-    return stride * static_cast<std::int64_t>(sizeof(double) + vectors(residuals) * sizeof(float));
+    constexpr std::int64_t Single = sizeof(float);
+    return stride * (std::int64_t(sizeof(double)) + Single + (residuals ? Vectors * Single : 0));
   }
 
   /** Keeps the history in a scratch file in `folder`. */
   void useScratch(const std::filesystem::path& folder, IoStatistics& statistics);
-  bool keepsResiduals() const { return this->Vectors > 1; }
+  bool keepsResiduals() const { return this->Every > 0; }
 
   void startPass(const StepWeights& weights);
   /** Remembers the iterate x of nodes below `end`, which are loaded and not touched yet. */
@@ -76,9 +81,6 @@ public:
   void load(const Ring<float>&, std::int64_t) {}
   void combine(const Ring<float>&, std::int64_t, std::int64_t) {}
 
-  /** Takes the residual of y_{k+1} of node i, the values from `lane` on. Nodes in order. */
-  template <class Vectors>
-  void addResidual(std::int64_t i, int lane, typename Vectors::Vector residual);
   /** Writes and lets go of the blocks below `done`, whose residuals have come. */
   void write(std::int64_t done);
   void endPass();
@@ -87,61 +89,118 @@ public:
   ResidualProducts products() const;
 
 private:
-  static constexpr int vectors(bool residuals) { return residuals ? 4 : 1; }
+  template <class Vectors>
+  friend class ResidualKeeper;
+
+  static constexpr int Products = 5;
+  static constexpr int Vectors = 3;
+  static constexpr std::int64_t SampledNodes = std::int64_t(1) << 17;
+  static constexpr std::int64_t MostSparse = 8;
+
+  bool samples(std::int64_t block) const { return this->Every > 0 && block % this->Every == 0; }
+  /** Index in Residuals of node `i`, the first one of a block; nodes that are left out count none.
+   */
+  std::int64_t sampledIndex(std::int64_t i) const
+  {
+    return i / (RowBlock::Nodes * this->Every) * RowBlock::Nodes;
+  }
+  void loadBlock(std::int64_t begin, std::int64_t end);
 
   int Stride;
-  int Vectors;
+  std::int64_t Every; // of so many blocks one keeps residuals; 0: none
   StepWeights Weights;
   Ring<double> Before; // y_k
-  Ring<float> Kept;    // a node: step, then z, q and a, `Stride` values each
+  Ring<float> Steps;
+  Ring<float> Residuals; // of sampled blocks: z, q and a of a node, `Stride` values each
   std::vector<double> Sums;
   bool First = true;
   std::int64_t Written = 0;
   std::optional<ScratchStream> Stream;
+
+  template <class Vectors>
+  void combineLanes(const Ring<double>& x, std::int64_t begin, std::int64_t end, int lane);
 };
 
+/**
+ * What restriction does with the residuals of y_{k+1}, in node order, of the block of a level that
+ * begins with node `first`: the `Vectors::count` values from `lane` on. Without a history that
+ * keeps residuals, nothing.
+ */
 template <class Vectors>
-void IterateHistory::addResidual(std::int64_t i, int lane, typename Vectors::Vector residual)
+class ResidualKeeper
 {
   using Wide = typename Vectors::Vector;
   using Single = Lanes<float, Vectors::count>;
-  float* z = this->Kept.at(i) + this->Stride + lane;
-  float* q = z + this->Stride;
-  float* a = q + this->Stride;
-  const Wide oldZ = __builtin_convertvector(Single::load(z), Wide);
-  const Wide oldQ = __builtin_convertvector(Single::load(q), Wide);
-  const Wide oldA = __builtin_convertvector(Single::load(a), Wide);
-  const StepWeights& w = this->Weights;
-  const Wide newQ = w.begin ? Wide{} : oldA - w.conjugation * oldQ;
-  const Wide newZ = w.begin ? residual : oldZ - w.length * newQ;
-  const Wide newA = newZ - residual;
-  Single::store(z, __builtin_convertvector(newZ, typename Single::Vector));
-  Single::store(q, __builtin_convertvector(newQ, typename Single::Vector));
-  Single::store(a, __builtin_convertvector(newA, typename Single::Vector));
-  double* sum = this->Sums.data() + lane;
-  for (const Wide& product : { newA * newA, newA * newQ, newQ * newQ, newZ * newA, newZ * newQ })
-  {
-    Vectors::store(sum, Vectors::load(sum) + product);
-    sum += this->Stride;
-  }
-}
+  using Narrow = typename Single::Vector;
 
-/** What restriction does with the residuals of the block of a level that begins with node `first`.
- */
-template <class Vectors>
-auto keeping(IterateHistory* history, std::int64_t first, int lane)
-{
-  IterateHistory* const keeper = history && history->keepsResiduals() ? history : nullptr;
-  return [=](std::int64_t k, typename Vectors::Vector residual)
+public:
+  ResidualKeeper(IterateHistory* history, std::int64_t first, int lane)
   {
-    if constexpr (std::is_same_v<typename Vectors::Value, double>)
+    if (history && history->samples(first / RowBlock::Nodes))
     {
-      if (keeper)
+      this->Weights = history->Weights;
+      this->Stride = history->Stride;
+      this->Kept = history->Residuals.at(history->sampledIndex(first)) + lane;
+      this->Sums = history->Sums.data() + lane;
+      for (int n = 0; n < IterateHistory::Products; ++n)
       {
-        keeper->addResidual<Vectors>(first + k, lane, residual);
+        this->Sum[n] = Vectors::load(this->Sums + n * this->Stride);
       }
     }
-  };
-}
+  }
+  ~ResidualKeeper()
+  {
+    for (int n = 0; this->Kept && n < IterateHistory::Products; ++n)
+    {
+      Vectors::store(this->Sums + n * this->Stride, this->Sum[n]);
+    }
+  }
+  ResidualKeeper(const ResidualKeeper&) = delete;
+  ResidualKeeper& operator=(const ResidualKeeper&) = delete;
+
+  /** Node first + k. */
+  void operator()(std::int64_t k, Wide residual)
+  {
+    if (this->Kept)
+    {
+      this->add(this->Kept + IterateHistory::Vectors * k * this->Stride, residual);
+    }
+  }
+
+private:
+  void add(float* at, Wide residual)
+  {
+    const StepWeights& w = this->Weights;
+    const Wide oldZ = __builtin_convertvector(Single::load(at), Wide);
+    const Wide oldQ = __builtin_convertvector(Single::load(at + this->Stride), Wide);
+    const Wide oldA = __builtin_convertvector(Single::load(at + 2 * this->Stride), Wide);
+    const Wide q = w.begin ? Wide{} : oldA - w.conjugation * oldQ;
+    const Wide z = w.begin ? residual : oldZ - w.length * q;
+    const Wide a = z - residual;
+    Single::store(at, __builtin_convertvector(z, Narrow));
+    Single::store(at + this->Stride, __builtin_convertvector(q, Narrow));
+    Single::store(at + 2 * this->Stride, __builtin_convertvector(a, Narrow));
+    this->Sum[0] += a * a;
+    this->Sum[1] += a * q;
+    this->Sum[2] += q * q;
+    this->Sum[3] += z * a;
+    this->Sum[4] += z * q;
+  }
+
+  StepWeights Weights;
+  std::int64_t Stride = 0;
+  float* Kept = nullptr;
+  double* Sums = nullptr;
+  Wide Sum[IterateHistory::Products] = {};
+};
+
+/** The coarse levels are of single precision and not accelerated. */
+template <int Count>
+class ResidualKeeper<Lanes<float, Count>>
+{
+public:
+  ResidualKeeper(IterateHistory*, std::int64_t, int) {}
+  void operator()(std::int64_t, typename Lanes<float, Count>::Vector) {}
+};
 
 } // namespace smg

@@ -10,7 +10,6 @@ namespace smg
 template <class Real, int Count>
 struct Lanes
 {
-  using Value = Real;
   static constexpr int count = Count;
   using Vector __attribute__((vector_size(sizeof(Real) * Count))) = Real;
 

@@ -372,13 +372,13 @@ private:
         if (stride == 1)
         {
           restrictResidual<One, Lanes<float, 1>>(h, a, nodes, 1, x, b, coarse, this->Scale, squares,
-            keeping<One>(this->History, h.first, 0));
+            ResidualKeeper<One>(this->History, h.first, 0));
         }
         for (int lane = 0; lane + 3 < stride; lane += 4)
         {
           restrictResidual<Four, Lanes<float, 4>>(h, a, nodes, stride, x + lane, b + lane,
             coarse + lane, this->Scale, squares + lane,
-            keeping<Four>(this->History, h.first, lane));
+            ResidualKeeper<Four>(this->History, h.first, lane));
         }
       });
   }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Engine/Chebyshev.h"
 #include "Solver/Engine/ConjugateResiduals.h"
+#include "Testing/Support/TemporaryFolder.h"
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 // On a diagonal model: A is the identity, and a V-cycle T multiplies the error of node i by t_i.
@@ -19,12 +21,18 @@ class DiagonalModel
 public:
   DiagonalModel(Eigen::VectorXd factors, bool residuals)
     : Factors(std::move(factors))
-    , Memory(std::int64_t(1) << 24)
+    , Memory(std::int64_t(1) << 28)
     , Errors(this->Memory)
-    , History(this->Memory, 1, residuals)
+    , History(this->Memory, this->Factors.size(), 1, residuals)
   {
     this->Errors.extend(this->Factors.size());
     this->error().setOnes();
+  }
+
+  /** Keeps the history on disk. */
+  void useScratch(const std::filesystem::path& folder)
+  {
+    this->History.useScratch(folder, this->Traffic);
   }
 
   /** y_k - x; its residual is its negative. */
@@ -38,12 +46,17 @@ public:
     this->History.load(this->Errors, end);
     this->error().array() *= this->Factors.array();
     this->History.combine(this->Errors, 0, end);
-    for (std::int64_t i = 0; this->History.keepsResiduals() && i < end; ++i)
+    using One = Lanes<double, 1>;
+    for (std::int64_t first = 0; first < end; first += RowBlock::Nodes)
     {
-      using One = Lanes<double, 1>;
-      const double residual = -this->Errors[i];
-      this->History.addResidual<One>(i, 0, One::load(&residual));
+      ResidualKeeper<One> keep(&this->History, first, 0);
+      for (std::int64_t i = first; i < std::min(end, first + RowBlock::Nodes); ++i)
+      {
+        const double residual = -this->Errors[i];
+        keep(i - first, One::load(&residual));
+      }
     }
+    this->History.write(end);
     this->History.endPass();
   }
 
@@ -51,6 +64,7 @@ private:
   Eigen::VectorXd Factors;
   Pool Memory;
   Ring<double> Errors;
+  IoStatistics Traffic;
   IterateHistory History;
 };
 
@@ -98,6 +112,48 @@ TEST(IterateHistory, conjugateResidualsEndAfterAsManyStepsAsThereAreFactors)
     model.pass(directions.next(model.products()));
   }
   EXPECT_LT(model.error().norm(), 1e-4 * std::pow(0.95, 6) * 10);
+}
+
+TEST(IterateHistory, aSampleOfTheBlocksTellsTheWeightsOfAllOfThem)
+{
+  // All blocks alike: one block in four, or all of them, give the same weights.
+  const auto weightsOf = [](std::int64_t nodes)
+  {
+    Eigen::VectorXd factors(nodes);
+    for (Eigen::Index i = 0; i < nodes; ++i)
+    {
+      factors[i] = 0.9 * std::sin(static_cast<double>(i % 128));
+    }
+    DiagonalModel model(factors, true);
+    ConjugateResiduals directions;
+    for (int k = 0; k < 4; ++k)
+    {
+      model.pass(directions.next(model.products()));
+    }
+    EXPECT_GT(model.products().aa, 0.0);
+    return directions.next(model.products());
+  };
+  const StepWeights all = weightsOf(1 << 13);
+  const StepWeights sample = weightsOf(1 << 19);
+  EXPECT_NEAR(sample.length, all.length, 1e-9);
+  EXPECT_NEAR(sample.conjugation, all.conjugation, 1e-9);
+}
+
+TEST(IterateHistory, onDiskIsTheSameAsInMemory)
+{
+  const TemporaryFolder folder;
+  const Eigen::VectorXd factors = Eigen::VectorXd::LinSpaced((1 << 18) + 700, -0.4, 0.9);
+  DiagonalModel inMemory(factors, true);
+  DiagonalModel onDisk(factors, true);
+  onDisk.useScratch(folder.path());
+  ConjugateResiduals directions[2];
+  for (int k = 0; k < 6; ++k)
+  {
+    inMemory.pass(directions[0].next(inMemory.products()));
+    onDisk.pass(directions[1].next(onDisk.products()));
+  }
+  EXPECT_TRUE(inMemory.error() == onDisk.error());
+  EXPECT_LT(inMemory.error().norm(), 0.1 * std::pow(0.9, 6) * std::sqrt(factors.size()));
 }
 
 TEST(IterateHistory, conjugateResidualsMinimiseTheResidual)
