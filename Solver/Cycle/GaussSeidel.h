@@ -16,18 +16,16 @@ struct BlockRange
 };
 
 /** The entries of row k of a block. */
-template <class Index>
-inline BlockRange entriesOf(
-  const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, std::int64_t k)
+template <class Arrays>
+inline BlockRange entriesOf(const RowBlock::Header& h, const Arrays& a, std::int64_t k)
 {
   const std::int32_t start = h.entryStart[static_cast<std::size_t>(k / RowBlock::Group)];
   return { start + (k % RowBlock::Group ? a.entryEnd[k - 1] : 0), start + a.entryEnd[k] };
 }
 
 /** The parents of row k of a block. */
-template <class Index>
-inline BlockRange parentsOf(
-  const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, std::int64_t k)
+template <class Arrays>
+inline BlockRange parentsOf(const RowBlock::Header& h, const Arrays& a, std::int64_t k)
 {
   const std::int32_t start = h.parentStart[static_cast<std::size_t>(k / RowBlock::Group)];
   return { start + (k % RowBlock::Group ? a.parentEnd[k - 1] : 0), start + a.parentEnd[k] };
@@ -40,8 +38,8 @@ inline BlockRange parentsOf(
 struct GaussSeidel
 {
   /** LowerOnly: the nodes above are zero (first sweep on a coarse level) and are not looked at. */
-  template <bool LowerOnly, class Vectors, class Real, class Index>
-  static void sweep(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, BlockRange nodes,
+  template <bool LowerOnly, class Vectors, class Real, class Arrays>
+  static void sweep(const RowBlock::Header& h, const Arrays& a, BlockRange nodes,
     std::int64_t stride, Real* x, const Real* b)
   {
     for (std::int64_t k = nodes.begin; k < nodes.end; ++k)

@@ -28,6 +28,8 @@ template <class Real>
 class LevelWindow
 {
 public:
+  using Weight = RowBlock::WeightOf<Real>;
+
   /** The unknowns and the right-hand side of the nodes in memory. */
   struct State
   {
@@ -149,11 +151,11 @@ public:
       Real* b = state.b.at(h.first);
       if (h.wide)
       {
-        f(h, block.arrays<std::int32_t>(), nodes, x, b);
+        f(h, block.arrays<std::int32_t, Weight>(), nodes, x, b);
       }
       else
       {
-        f(h, block.arrays<std::int16_t>(), nodes, x, b);
+        f(h, block.arrays<std::int16_t, Weight>(), nodes, x, b);
       }
       begin = stop;
     }

@@ -13,8 +13,9 @@ namespace smg
 
 /** That R has the sweep that Relaxation describes, for one kind of numbers and blocks. */
 template <class R, class Real, int Count, class Index>
-concept RelaxesBlocks = requires(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a,
-  BlockRange nodes, std::int64_t stride, Real* x, const Real* b)
+concept RelaxesBlocks = requires(const RowBlock::Header& h,
+  const RowBlock::Arrays<Index, RowBlock::WeightOf<Real>>& a, BlockRange nodes, std::int64_t stride,
+  Real* x, const Real* b)
 {
   R::template sweep<false, Lanes<Real, Count>>(h, a, nodes, stride, x, b);
   R::template sweep<true, Lanes<Real, Count>>(h, a, nodes, stride, x, b);
@@ -60,9 +61,9 @@ concept Relaxation =
  * sum_j w_ij x_j over the neighbours j of node k, or over those below k. For a sweep of your own:
  * the x that solves row k is (b_k + neighbourSum) / a.diagonal[k].
  */
-template <bool LowerOnly, class Vectors, class Real, class Index>
-[[gnu::always_inline]] inline typename Vectors::Vector neighbourSum(const RowBlock::Header& h,
-  const RowBlock::Arrays<Index>& a, std::int64_t k, std::int64_t stride, const Real* x)
+template <bool LowerOnly, class Vectors, class Real, class Arrays>
+[[gnu::always_inline]] inline typename Vectors::Vector neighbourSum(
+  const RowBlock::Header& h, const Arrays& a, std::int64_t k, std::int64_t stride, const Real* x)
 {
   const BlockRange row = entriesOf(h, a, k);
   const Real* xk = x + k * stride;

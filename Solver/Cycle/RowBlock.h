@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Cycle/BFloat16.h"
 #include "Solver/Storage/Buffer.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace smg
 {
@@ -31,26 +33,38 @@ public:
     std::int32_t nodes = 0;
     std::int32_t entries = 0; ///< off-diagonals of all rows
     std::int32_t parents = 0; ///< entries of all rows of P
-    std::int32_t wide = 0;
+    std::int16_t wide = 0;
+    std::int16_t weightBytes = 0;
     /** Largest node in rows 0 .. end of the group; the same of children and of parents. */
     std::array<std::int64_t, Groups> neighbourReach{}, childReach{}, parentReach{};
     /** Where the entries and the parents of the group begin. */
     std::array<std::int32_t, Groups> entryStart{}, parentStart{};
   };
 
-  /** The arrays of a block, Index being std::int16_t (narrow) or std::int32_t (wide). */
-  template <class Index>
+  /**
+   * The arrays of a block, Index being std::int16_t (narrow) or std::int32_t (wide), Weight as
+   * WeightOf the level's numbers says.
+   */
+  template <class Index, class Weight>
   struct Arrays
   {
     using Count = std::make_unsigned_t<Index>;
     const double* diagonal;           // a node
-    const float* weight;              // an entry
+    const Weight* weight;             // an entry
     const Index* delta;               // an entry
     const Index* parent;              // a parent, relative to parentBase
     const Count* entryEnd;            // a node: end of its entries, from the group's start
     const Count* parentEnd;           // a node: end of its parents, from the group's start
     const std::uint8_t* parentQuanta; // a parent
   };
+
+  /**
+   * The finest level's weights are floats. Those of the coarse levels, whose numbers are floats and
+   * which only precondition, are rounded further: the diagonals are made of the rounded ones, so
+   * that row sums stay exact.
+   */
+  template <class Real>
+  using WeightOf = std::conditional_t<std::is_same_v<Real, double>, float, BFloat16>;
 
   RowBlock() = default;
   /** Takes the bytes of a block, as packRows() or a file has filled them. */
@@ -63,11 +77,11 @@ public:
   std::int64_t first() const { return this->header().first; }
   std::int64_t end() const { return this->header().first + this->header().nodes; }
 
-  template <class Index>
-  Arrays<Index> arrays() const
+  template <class Index, class Weight>
+  Arrays<Index, Weight> arrays() const
   {
     const Header& h = this->header();
-    Arrays<Index> a{};
+    Arrays<Index, Weight> a{};
     const std::byte* at = this->Bytes.data() + sizeof(Header);
     take(at, a.diagonal, h.nodes);
     take(at, a.weight, h.entries);
@@ -86,8 +100,9 @@ public:
     const auto nodes = static_cast<std::size_t>(h.nodes);
     const auto entries = static_cast<std::size_t>(h.entries);
     const auto parents = static_cast<std::size_t>(h.parents);
-    return sizeof(Header) + nodes * 8 + aligned(entries * 4) + aligned(entries * index) +
-           aligned(parents * index) + 2 * aligned(nodes * index) + aligned(parents);
+    return sizeof(Header) + nodes * 8 + aligned(entries * static_cast<std::size_t>(h.weightBytes)) +
+           aligned(entries * index) + aligned(parents * index) + 2 * aligned(nodes * index) +
+           aligned(parents);
   }
 
   const Buffer& buffer() const { return this->Bytes; }

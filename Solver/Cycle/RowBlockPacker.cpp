@@ -63,15 +63,15 @@ Header measure(
   return h;
 }
 
-template <class Index>
+template <class Index, class Weight>
 void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarsening)
 {
   const Header& h = block.header();
-  const auto a = block.arrays<Index>();
-  using Count = typename RowBlock::Arrays<Index>::Count;
+  const auto a = block.arrays<Index, Weight>();
+  using Count = typename RowBlock::Arrays<Index, Weight>::Count;
   // The arrays are constant for those who use a block; here it is made.
   auto* diagonal = const_cast<double*>(a.diagonal);
-  auto* weight = const_cast<float*>(a.weight);
+  auto* weight = const_cast<Weight*>(a.weight);
   auto* delta = const_cast<Index*>(a.delta);
   auto* parent = const_cast<Index*>(a.parent);
   auto* entryEnd = const_cast<Count*>(a.entryEnd);
@@ -82,12 +82,15 @@ void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarseni
   {
     const std::int64_t i = h.first + k;
     const auto group = static_cast<std::size_t>(k / RowBlock::Group);
-    diagonal[k] = rows.diagonal(i);
+    double sum = rows.alpha(i);
     for (const RowEntry& entry : rows.row(i))
     {
-      weight[entries] = entry.weight;
+      const Weight rounded(entry.weight);
+      sum += static_cast<float>(rounded);
+      weight[entries] = rounded;
       delta[entries++] = static_cast<Index>(entry.delta);
     }
+    diagonal[k] = usableDiagonal(sum);
     entryEnd[k] = static_cast<Count>(entries - h.entryStart[group]);
     if (coarsening)
     {
@@ -105,23 +108,30 @@ void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarseni
 
 } // namespace
 
+template <class Weight>
 RowBlock packRows(Pool& pool, const LevelRows& rows, const CoarseningData* coarsening,
   std::int64_t first, std::int64_t nodes)
 {
-  const Header header = measure(rows, coarsening, first, nodes);
+  Header header = measure(rows, coarsening, first, nodes);
+  header.weightBytes = sizeof(Weight);
   Buffer buffer(pool, RowBlock::bytes(header));
   std::fill_n(buffer.data(), buffer.size(), std::byte{});
   *reinterpret_cast<Header*>(buffer.data()) = header;
   RowBlock block(std::move(buffer));
   if (header.wide)
   {
-    fill<std::int32_t>(block, rows, coarsening);
+    fill<std::int32_t, Weight>(block, rows, coarsening);
   }
   else
   {
-    fill<std::int16_t>(block, rows, coarsening);
+    fill<std::int16_t, Weight>(block, rows, coarsening);
   }
   return block;
 }
+
+template RowBlock packRows<float>(
+  Pool&, const LevelRows&, const CoarseningData*, std::int64_t, std::int64_t);
+template RowBlock packRows<BFloat16>(
+  Pool&, const LevelRows&, const CoarseningData*, std::int64_t, std::int64_t);
 
 } // namespace smg

@@ -9,8 +9,9 @@ namespace smg
 
 /**
  * Copies the rows [first, first + nodes) of a level, and its interpolation if `coarsening` is not
- * null, to a block.
+ * null, to a block whose weights are of type Weight, float or BFloat16.
  */
+template <class Weight>
 RowBlock packRows(Pool& pool, const LevelRows& rows, const CoarseningData* coarsening,
   std::int64_t first, std::int64_t nodes);
 

@@ -9,9 +9,9 @@ namespace smg
 
 /** Prolongation of a block's nodes: x += scale P x_coarse. coarseX points to coarse node
  * parentBase. */
-template <class Vectors, class CoarseVectors, class Real, class Index>
-void prolong(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, BlockRange nodes,
-  std::int64_t stride, Real* x, const float* coarseX, Real scale)
+template <class Vectors, class CoarseVectors, class Real, class Arrays>
+void prolong(const RowBlock::Header& h, const Arrays& a, BlockRange nodes, std::int64_t stride,
+  Real* x, const float* coarseX, Real scale)
 {
   for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
   {
@@ -33,8 +33,8 @@ void prolong(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, BlockR
  * r to `squares` (`stride` values), in node order, and calls keep(k, r) for each node k. coarseB
  * points to coarse node parentBase.
  */
-template <class Vectors, class CoarseVectors, class Real, class Index, class Keep>
-void restrictResidual(const RowBlock::Header& h, const RowBlock::Arrays<Index>& a, BlockRange nodes,
+template <class Vectors, class CoarseVectors, class Real, class Arrays, class Keep>
+void restrictResidual(const RowBlock::Header& h, const Arrays& a, BlockRange nodes,
   std::int64_t stride, const Real* x, const Real* b, float* coarseB, Real scale, Real* squares,
   Keep&& keep)
 {

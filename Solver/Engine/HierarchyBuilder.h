@@ -194,8 +194,10 @@ private:
     while (begin + RowBlock::Nodes <= final || (ended && begin < final))
     {
       const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
+      const CoarseningData* data = step ? &step->data() : nullptr;
       this->Ready[static_cast<std::size_t>(l)].push_back(
-        packRows(this->Owner, rows, step ? &step->data() : nullptr, begin, nodes));
+        l == 0 ? packRows<RowBlock::WeightOf<double>>(this->Owner, rows, data, begin, nodes)
+               : packRows<RowBlock::WeightOf<float>>(this->Owner, rows, data, begin, nodes));
       begin += nodes;
       if (step)
       {

@@ -17,6 +17,15 @@ struct RowEntry
   float weight;
 };
 
+/** A diagonal to divide by, given the sum of alpha and the weights. */
+inline double usableDiagonal(double sum)
+{
+  // A node that is all that is left of a component without constraint: any correction will do, and
+  // this diagonal makes it zero.
+  constexpr double Isolated = 1e20;
+  return sum > 0.0 ? sum : Isolated;
+}
+
 /** The diagonal of a row whose sum is alpha. */
 inline double diagonalOf(std::span<const RowEntry> row, double alpha)
 {
@@ -25,10 +34,7 @@ inline double diagonalOf(std::span<const RowEntry> row, double alpha)
   {
     sum += entry.weight;
   }
-  // A node that is all that is left of a component without constraint: any correction will do, and
-  // this diagonal makes it zero.
-  constexpr double Isolated = 1e20;
-  return sum > 0.0 ? sum : Isolated;
+  return usableDiagonal(sum);
 }
 
 /**

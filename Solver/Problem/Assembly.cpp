@@ -256,7 +256,7 @@ void Assembly::collectRow(std::int64_t i)
   {
     const std::int64_t j = this->Row[e].to;
     double weight = this->Row[e].weight;
-    if (this->Kind != Weights::Uniform)
+    if (this->Kind == Weights::Cotangent || this->Kind == Weights::Own)
     {
       const double floor = (scales ? scales[e].weight : 1.0) *
                            cotangentFloor(this->Type, this->Points.at(i), this->Points.at(j));

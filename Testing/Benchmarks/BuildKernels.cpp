@@ -105,7 +105,8 @@ std::int64_t pack(Pool& pool, TimedStep& step, const LevelRows& rows, std::int64
   while (begin + RowBlock::Nodes <= final || (ended && begin < final))
   {
     const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
-    ::benchmark::DoNotOptimize(packRows(pool, rows, &step.data(), begin, nodes).buffer().data());
+    ::benchmark::DoNotOptimize(
+      packRows<float>(pool, rows, &step.data(), begin, nodes).buffer().data());
     begin += nodes;
     step.packed(begin);
     step.release();

@@ -12,15 +12,16 @@ namespace smg::testing
 {
 
 /** A copy of a narrow block with wide indices. */
-inline RowBlock widened(Pool& pool, const RowBlock& narrow)
+template <class Weight>
+RowBlock widened(Pool& pool, const RowBlock& narrow)
 {
   RowBlock::Header h = narrow.header();
-  const auto from = narrow.arrays<std::int16_t>();
+  const auto from = narrow.arrays<std::int16_t, Weight>();
   h.wide = 1;
   Buffer buffer(pool, RowBlock::bytes(h));
   *reinterpret_cast<RowBlock::Header*>(buffer.data()) = h;
   RowBlock wide(std::move(buffer));
-  const auto to = wide.arrays<std::int32_t>();
+  const auto to = wide.arrays<std::int32_t, Weight>();
   const auto copy = [](const auto* source, std::int32_t count, const auto* target)
   {
     std::copy_n(source, count,
@@ -34,6 +35,24 @@ inline RowBlock widened(Pool& pool, const RowBlock& narrow)
   copy(from.parentEnd, h.nodes, to.parentEnd);
   copy(from.parentQuanta, h.parents, to.parentQuanta);
   return wide;
+}
+
+/** The matrix with the off-diagonals of coarse levels, whose row sums are kept. */
+inline Eigen::MatrixXd rounded(Eigen::MatrixXd matrix)
+{
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+  {
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+    {
+      if (j != i)
+      {
+        const double value = BFloat16(static_cast<float>(matrix(i, j)));
+        matrix(i, i) += matrix(i, j) - value;
+        matrix(i, j) = value;
+      }
+    }
+  }
+  return matrix;
 }
 
 /**
@@ -66,7 +85,9 @@ public:
     }
     for (int l = 0; l < levels; ++l)
     {
-      this->Matrices.push_back(levelOf(*rows[l]).dense());
+      const bool rounds = l > 0 || std::is_same_v<Real, float>;
+      this->Matrices.push_back(
+        rounds ? rounded(levelOf(*rows[l]).dense()) : levelOf(*rows[l]).dense());
       if (l > 0)
       {
         this->Coarse.push_back(
@@ -82,8 +103,9 @@ public:
       for (std::int64_t begin = 0; begin < rows[l]->end(); begin += RowBlock::Nodes)
       {
         const std::int64_t nodes = std::min(RowBlock::Nodes, rows[l]->end() - begin);
-        RowBlock block = packRows(this->Memory, *rows[l], data, begin, nodes);
-        level.append(wide ? widened(this->Memory, block) : std::move(block));
+        using Weight = typename std::remove_reference_t<decltype(level.window())>::Weight;
+        RowBlock block = packRows<Weight>(this->Memory, *rows[l], data, begin, nodes);
+        level.append(wide ? widened<Weight>(this->Memory, block) : std::move(block));
       }
       if (data)
       {

@@ -158,7 +158,7 @@ TEST(RowBlockPacker, turnsWideWhereADistanceOrACountDoesNotFit)
       row[e] = { static_cast<std::int32_t>(distance - entries + 1 + e), 1.0F };
     }
     rows.close(entries, 0.0, -1);
-    return packRows(pool, rows, nullptr, 0, 1).header().wide != 0;
+    return packRows<float>(pool, rows, nullptr, 0, 1).header().wide != 0;
   };
   EXPECT_FALSE(isWide(32767, 1));
   EXPECT_TRUE(isWide(32768, 1));
@@ -175,9 +175,9 @@ TEST(RowBlockPacker, keepsRowsAndReaches)
   for (std::int64_t first = 0; first < level.nodes(); first += RowBlock::Nodes)
   {
     const std::int64_t nodes = std::min(RowBlock::Nodes, level.nodes() - first);
-    const RowBlock block = packRows(pool, rows, nullptr, first, nodes);
+    const RowBlock block = packRows<float>(pool, rows, nullptr, first, nodes);
     const RowBlock::Header& h = block.header();
-    const auto a = block.arrays<std::int16_t>();
+    const auto a = block.arrays<std::int16_t, float>();
     EXPECT_EQ(block.buffer().size(), RowBlock::bytes(h));
     EXPECT_EQ(block.end(), first + nodes);
     for (std::int64_t k = 0; k < nodes; ++k)
