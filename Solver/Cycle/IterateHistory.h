@@ -94,7 +94,7 @@ private:
 
   static constexpr int Products = 5;
   static constexpr int Vectors = 3;
-  static constexpr std::int64_t SampledNodes = std::int64_t(1) << 17;
+  static constexpr std::int64_t SampledNodes = std::int64_t(1) << 18;
   static constexpr std::int64_t MostSparse = 8;
 
   bool samples(std::int64_t block) const { return this->Every > 0 && block % this->Every == 0; }

@@ -116,7 +116,7 @@ TEST(IterateHistory, conjugateResidualsEndAfterAsManyStepsAsThereAreFactors)
 
 TEST(IterateHistory, aSampleOfTheBlocksTellsTheWeightsOfAllOfThem)
 {
-  // All blocks alike: one block in four, or all of them, give the same weights.
+  // All blocks alike: one block in two, or all of them, give the same weights.
   const auto weightsOf = [](std::int64_t nodes)
   {
     Eigen::VectorXd factors(nodes);
@@ -142,7 +142,7 @@ TEST(IterateHistory, aSampleOfTheBlocksTellsTheWeightsOfAllOfThem)
 TEST(IterateHistory, onDiskIsTheSameAsInMemory)
 {
   const TemporaryFolder folder;
-  const Eigen::VectorXd factors = Eigen::VectorXd::LinSpaced((1 << 18) + 700, -0.4, 0.9);
+  const Eigen::VectorXd factors = Eigen::VectorXd::LinSpaced((1 << 19) + 700, -0.4, 0.9);
   DiagonalModel inMemory(factors, true);
   DiagonalModel onDisk(factors, true);
   onDisk.useScratch(folder.path());
