@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Cycle/CoarsestFactor.h"
+
+#include "Solver/Core/Error.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace smg
+{
+
+void CoarsestFactor::findFloating(const CoarsestMatrix& matrix)
+{
+  const std::size_t nodes = matrix.diagonal.size();
+  std::vector<Eigen::Index> above(nodes);
+  std::iota(above.begin(), above.end(), 0);
+  const auto root = [&above](Eigen::Index i)
+  {
+    while (above[static_cast<std::size_t>(i)] != i)
+    {
+      Eigen::Index& next = above[static_cast<std::size_t>(i)];
+      i = next = above[static_cast<std::size_t>(next)];
+    }
+    return i;
+  };
+  for (const auto& entry : matrix.lower)
+  {
+    const Eigen::Index a = root(entry.row());
+    const Eigen::Index b = root(entry.col());
+    above[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+  std::vector<bool> anchored(nodes);
+  for (std::size_t i = 0; i < nodes; ++i)
+  {
+    if (matrix.anchored[i])
+    {
+      anchored[static_cast<std::size_t>(root(static_cast<Eigen::Index>(i)))] = true;
+    }
+  }
+  this->Floating.resize(nodes);
+  for (std::size_t i = 0; i < nodes; ++i)
+  {
+    const Eigen::Index first = root(static_cast<Eigen::Index>(i));
+    this->Floating[i] = anchored[static_cast<std::size_t>(first)] ? -1 : first;
+  }
+}
+
+void CoarsestFactor::factorize(const CoarsestMatrix& matrix)
+{
+  const auto nodes = static_cast<Eigen::Index>(matrix.diagonal.size());
+  this->findFloating(matrix);
+  if (nodes == 0)
+  {
+    return;
+  }
+  std::vector<Eigen::Triplet<double>> triplets;
+  triplets.reserve(matrix.lower.size() + matrix.diagonal.size());
+  for (const auto& entry : matrix.lower)
+  {
+    if (!this->pinned(entry.row()) && !this->pinned(entry.col()))
+    {
+      triplets.push_back(entry);
+    }
+  }
+  for (Eigen::Index i = 0; i < nodes; ++i)
+  {
+    triplets.emplace_back(
+      i, i, this->pinned(i) ? 1.0 : matrix.diagonal[static_cast<std::size_t>(i)]);
+  }
+  Eigen::SparseMatrix<double> sparse(nodes, nodes);
+  sparse.setFromTriplets(triplets.begin(), triplets.end());
+  this->Factor.compute(sparse);
+  if (this->Factor.info() != Eigen::Success)
+  {
+    throw Error(
+      "the coarsest level's matrix could not be factorised: the weights of the mesh span too "
+      "many orders of magnitude; use uniform weights");
+  }
+}
+
+/** Takes from b the mean over each floating component, and sets it to zero at the pinned node. */
+void CoarsestFactor::project(Eigen::MatrixXd& b) const
+{
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(b.rows(), b.cols());
+  Eigen::VectorXd counts = Eigen::VectorXd::Zero(b.rows());
+  for (Eigen::Index i = 0; i < b.rows(); ++i)
+  {
+    if (const Eigen::Index first = this->Floating[static_cast<std::size_t>(i)]; first >= 0)
+    {
+      sums.row(first) += b.row(i);
+      counts(first) += 1.0;
+    }
+  }
+  for (Eigen::Index i = 0; i < b.rows(); ++i)
+  {
+    if (this->pinned(i))
+    {
+      b.row(i).setZero();
+    }
+    else if (const Eigen::Index first = this->Floating[static_cast<std::size_t>(i)]; first >= 0)
+    {
+      b.row(i) -= sums.row(first) / counts(first);
+    }
+  }
+}
+
+Eigen::MatrixXd CoarsestFactor::solve(Eigen::MatrixXd b) const
+{
+  if (b.rows() == 0)
+  {
+    return b;
+  }
+  this->project(b);
+  return this->Factor.solve(b);
+}
+
+std::int64_t CoarsestFactor::floatingComponents() const
+{
+  std::int64_t components = 0;
+  for (std::size_t i = 0; i < this->Floating.size(); ++i)
+  {
+    components += this->pinned(static_cast<Eigen::Index>(i)) ? 1 : 0;
+  }
+  return components;
+}
+
+} // namespace smg

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/CholmodSupport>
+#include <Eigen/SparseCore>
+
+#include <cstdint>
+#include <vector>
+
+namespace smg
+{
+
+/** A symmetric matrix of the coarsest level. */
+struct CoarsestMatrix
+{
+  std::vector<Eigen::Triplet<double>> lower; ///< entries below the diagonal
+  std::vector<double> diagonal;
+  std::vector<bool> anchored; ///< a node: its row does not sum to zero
+};
+
+/**
+ * The Cholesky factor of the coarsest level's matrix. A component of it none of whose nodes is
+ * anchored determines its solution up to a constant only: its first node is pinned to zero, and its
+ * right-hand side loses its mean.
+ */
+class CoarsestFactor
+{
+public:
+  /** Throws Error if the matrix is not positive definite. */
+  void factorize(const CoarsestMatrix& matrix);
+  /** Solves for a right-hand side a column. */
+  Eigen::MatrixXd solve(Eigen::MatrixXd b) const;
+  /** Components that are not anchored. */
+  std::int64_t floatingComponents() const;
+
+private:
+  void findFloating(const CoarsestMatrix& matrix);
+  bool pinned(Eigen::Index i) const { return this->Floating[static_cast<std::size_t>(i)] == i; }
+  void project(Eigen::MatrixXd& b) const;
+
+  Eigen::CholmodSimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> Factor;
+  std::vector<Eigen::Index> Floating; // a node: the first one of its component, -1 if anchored
+};
+
+} // namespace smg
