@@ -15,12 +15,12 @@ namespace
 
 /** Bytes of all windows for one node of the stream's span, and for each value of its state: in the
  * first pass with two sweeps, for a sweep more, and in a later pass for each sweep. */
-constexpr std::int64_t TriangleBytes = 6700, TetrahedronBytes = 6500, ValueBytes = 300;
+constexpr std::int64_t TriangleBytes = 6300, TetrahedronBytes = 6300, ValueBytes = 300;
 constexpr std::int64_t FurtherSweepBytes = 250;
 constexpr std::int64_t LaterSweepBytes = 400, LaterSweepValueBytes = 75;
 
 /** Cotangent weights lift more nodes than uniform ones: percent of the bytes above. */
-constexpr std::int64_t CotangentPercent = 120;
+constexpr std::int64_t CotangentPercent = 108;
 
 /** The windows hold at least this many spans' worth of nodes, unless the mesh has fewer. */
 constexpr std::int64_t WindowSpans = 30;
