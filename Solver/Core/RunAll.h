@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <atomic>
@@ -11,8 +11,9 @@ namespace smg
 {
 
 /**
- * Runs task(0) .. task(count - 1) on the threads of the arena, each thread taking the next one that
- * is left, and waits for all. What one of them throws is thrown here.
+ * Runs task(0) .. task(count - 1) on the threads of the arena and waits for all: task(0) on the
+ * calling thread, the others on whichever thread comes first. What one of them throws is thrown
+ * here.
  */
 template <class Task>
 void runAll(tbb::task_arena& arena, int count, Task&& task)
@@ -20,8 +21,8 @@ void runAll(tbb::task_arena& arena, int count, Task&& task)
   // TBB orders the calls; the flags say so once more to a race detector, which cannot look into
   // TBB.
   std::atomic<bool> begun{ false };
-  std::atomic<int> next{ 0 }, finished{ 0 };
-  const auto work = [&](int)
+  std::atomic<int> next{ 1 }, finished{ 0 };
+  const auto others = [&]
   {
     begun.load(std::memory_order_acquire);
     for (int k = next.fetch_add(1); k < count; k = next.fetch_add(1))
@@ -31,18 +32,25 @@ void runAll(tbb::task_arena& arena, int count, Task&& task)
     finished.fetch_add(1, std::memory_order_release);
   };
   begun.store(true, std::memory_order_release);
-  const int threads = std::min(count, arena.max_concurrency());
   arena.execute(
     [&]
     {
-      if (threads == 1)
+      tbb::task_group helpers;
+      for (int k = 1; k < std::min(count, arena.max_concurrency()); ++k)
       {
-        work(0);
+        helpers.run(others);
       }
-      else
+      try
       {
-        tbb::parallel_for(0, threads, work, tbb::simple_partitioner());
+        task(0);
+        others();
       }
+      catch (...)
+      {
+        helpers.wait();
+        throw;
+      }
+      helpers.wait();
     });
   finished.load(std::memory_order_acquire);
 }

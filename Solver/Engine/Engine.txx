@@ -238,9 +238,10 @@ void Engine<Operators>::readStream(
     runAll(this->Threads, 2 + this->FirstCore,
       [&](int task)
       {
-        // The tasks that take longest come first.
-        task == 0   ? builder.advance(0)
-        : task == 1 ? assemble()
+        // The mesh and the problem are asked on the caller's thread; of the other tasks those that
+        // take longest come first.
+        task == 0   ? assemble()
+        : task == 1 ? builder.advance(0)
         : task == 2 ? finest.advanceDown()
                     : builder.advance(task - 2);
       });

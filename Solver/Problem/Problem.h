@@ -78,9 +78,10 @@ struct CellBatch
  * L_ij = -w_ij, row sums zero; M the lumped areas or volumes, s the screening, f the source
  * densities; (div d)_i = sum_j w_ij d_ij pulls x_i - x_j towards the edge target d_ij.
  *
- * A problem is asked block by block, in stream order, once: nothing is called for a single vertex,
- * cell or edge. What it answers must not depend on how the stream is cut into blocks and batches;
- * then neither does the solution, to the last bit. What it throws ends the solve.
+ * A problem is asked block by block, in stream order, once, on the thread that solves: nothing is
+ * called for a single vertex, cell or edge. What it answers must not depend on how the stream is
+ * cut into blocks and batches; then neither does the solution, to the last bit. What it throws ends
+ * the solve.
  */
 class Problem
 {

@@ -85,7 +85,8 @@ public:
   /** Valid from construction on. */
   virtual const StreamInfo& info() const = 0;
 
-  /** Fills `block` (its vectors' memory is reused); false at the end. Throws Error. */
+  /** Fills `block` (its vectors' memory is reused); false at the end. Throws Error. Called on the
+   * thread that solves. */
   virtual bool next(MeshBlock& block) = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <thread>
 
 // Streaming gives the bits of the in-core method, whatever the windows.
 
@@ -171,6 +172,37 @@ TEST(Streaming, doesKCyclesInKPlusOnePasses)
       EXPECT_EQ(report.residuals.size(), static_cast<std::size_t>(cycles));
     }
   }
+}
+
+TEST(Streaming, asksTheMeshAndTheProblemOnTheThreadThatSolves)
+{
+  struct ThreadCheckingSource : MemorySource
+  {
+    using MemorySource::MemorySource;
+    bool next(MeshBlock& block) override
+    {
+      EXPECT_EQ(std::this_thread::get_id(), this->Thread);
+      return MemorySource::next(block);
+    }
+    std::thread::id Thread = std::this_thread::get_id();
+  };
+  struct ThreadCheckingProblem : ArrayProblem
+  {
+    using ArrayProblem::ArrayProblem;
+    void conditions(const MeshBlock& block, VertexConditions& conditions) override
+    {
+      EXPECT_EQ(std::this_thread::get_id(), this->Thread);
+      ArrayProblem::conditions(block, conditions);
+    }
+    std::thread::id Thread = std::this_thread::get_id();
+  };
+  auto [mesh, given] = tasks()[0];
+  ThreadCheckingProblem problem;
+  static_cast<ArrayProblem&>(problem) = given;
+  ThreadCheckingSource source(mesh, 50);
+  SolveOptions options = shortSolve();
+  options.threads = 4;
+  EXPECT_EQ(solve(source, problem, options)->report().vertices, mesh.vertices());
 }
 
 TEST(Streaming, tellsItsTrafficByKind)
