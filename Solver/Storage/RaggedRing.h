@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 
 namespace smg
 {
@@ -116,7 +115,7 @@ private:
     {
       const std::uint32_t end = this->Ends[row + 1];
       const std::uint32_t start = end >= before ? before : 0;
-      std::memcpy(to + place, this->data() + start, (end - start) * sizeof(T));
+      std::copy_n(this->data() + start, end - start, to + place);
       place += end - start;
       before = end;
       this->Ends[row + 1] = static_cast<std::uint32_t>(place);
