@@ -269,7 +269,7 @@ void BlockFileReader::read(int table, std::int64_t block, int column, std::span<
     self.fail(self.place(table, block) + ": column '" + spec.name +
               "' cannot be decompressed: the file is damaged; make it anew.");
   }
-  if (!compressed && stored.data() != bytes.data())
+  if (!compressed && !stored.empty() && stored.data() != bytes.data())
   {
     std::memcpy(bytes.data(), stored.data(), stored.size());
   }
