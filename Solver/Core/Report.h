@@ -25,7 +25,9 @@ struct Report
   /** The traffic of the scratch files of one kind, of a level or (level -1) of none. */
   struct Traffic
   {
-    std::string kind; ///< rows, right_side (finest level), state, labels, rest (deformation)
+    /** rows, right_side (finest level), state, history (of accelerated V-cycles), labels, rest
+     * (deformation) */
+    std::string kind;
     int level = -1;
     std::int64_t read = 0, written = 0;
   };

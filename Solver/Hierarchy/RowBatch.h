@@ -3,6 +3,7 @@
 
 #include "Solver/Hierarchy/LevelRows.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -20,7 +21,9 @@ public:
   /** Room for at most `size` entries of the next row. */
   RowEntry* open(std::int64_t size)
   {
-    this->Entries.resize(this->Used + static_cast<std::size_t>(size));
+    // Grows only: what resize() adds it also clears, once for all batches.
+    const std::size_t end = this->Used + static_cast<std::size_t>(size);
+    this->Entries.resize(std::max(this->Entries.size(), end));
     return this->Entries.data() + this->Used;
   }
 
