@@ -16,6 +16,15 @@ namespace
 
 /** Components up to this size are searched from any vertex. */
 constexpr std::int64_t Tiny = 64;
+/** Vertices that all searches from landmarks may visit, and landmarks that are measured anyway. */
+constexpr std::int64_t Visits = 16'000'000;
+constexpr int LeastLandmarks = 4;
+
+int landmarksFor(std::int64_t vertices, const BreadthFirstOptions& options)
+{
+  const std::int64_t affordable = Visits / std::max<std::int64_t>(1, vertices);
+  return std::min(options.landmarks, std::max(LeastLandmarks, static_cast<int>(affordable)));
+}
 
 /** A search and its cache, with the memory that is available. */
 class Searching
@@ -52,10 +61,10 @@ public:
   ComponentOrder(PagedMesh& mesh, Workspace& workspace, const BreadthFirstOptions& options)
     : Mesh(mesh)
     , Space(workspace)
-    , Options(options)
+    , Landmarks(landmarksFor(mesh.pages.vertices(), options))
     , Searches(mesh.pages, workspace,
         std::int64_t(BucketFile::ChunkBytes) +
-          (options.landmarks > 0 ? searchPlanMemory(mesh, options.landmarks) : 0))
+          (this->Landmarks > 0 ? searchPlanMemory(mesh, this->Landmarks) : 0))
     , LeastPlanned(std::max(options.leastPlanned, mesh.pages.vertices() / 200))
   {
   }
@@ -92,9 +101,9 @@ private:
     PagedSearch& search = this->Searches.Search;
     const std::vector<SearchSource> first = { { 0, rank } };
     SearchResult result = search.probe(first);
-    if (this->Options.landmarks > 0 && result.vertices >= this->LeastPlanned)
+    if (this->Landmarks > 0 && result.vertices >= this->LeastPlanned)
     {
-      return planSearch(search, this->Mesh, this->Space, this->Options.landmarks, result.last);
+      return planSearch(search, this->Mesh, this->Space, this->Landmarks, result.last);
     }
     if (result.vertices > Tiny)
     {
@@ -106,7 +115,7 @@ private:
 
   PagedMesh& Mesh;
   Workspace& Space;
-  BreadthFirstOptions Options;
+  const int Landmarks;
   Searching Searches;
   std::int64_t LeastPlanned;
   PageTraffic Traffic;

@@ -10,8 +10,11 @@ namespace smg
 /** How a breadth-first order is planned. */
 struct BreadthFirstOptions
 {
-  /** Vertices that distances are measured from, 2 to 8; 0: each component is begun at its end. */
-  int landmarks = 4;
+  /**
+   * Vertices that distances are measured from; 0: each component is begun at its end. Each costs a
+   * search, so large meshes, which gain less, take fewer, but at least four.
+   */
+  int landmarks = 16;
   /** Components of fewer vertices are begun at their ends. */
   std::int64_t leastPlanned = 4096;
 };

@@ -23,7 +23,7 @@ constexpr std::int32_t LeastDistance = 8;
 /** Samples that a component must have for a plan, and for its principal axes. */
 constexpr std::size_t LeastSamples = 16, LeastSamplesForAxes = 100;
 /** More samples do not make better plans. */
-constexpr std::size_t MostSamples = 16384;
+constexpr std::size_t MostSamples = 8192;
 /** Plans that are tried out. */
 constexpr std::size_t MostTrials = 4;
 

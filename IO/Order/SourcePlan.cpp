@@ -18,14 +18,18 @@ using Levels = std::span<std::int32_t>;
 constexpr std::int32_t MostBins = 150;
 /** Single candidates that plans are begun with. */
 constexpr std::size_t Beginnings = 4;
-constexpr std::size_t MostSources = 9;
-/** Start levels that are tried for one more source. */
-constexpr int LevelSteps = 12;
+constexpr std::size_t MostSources = 24;
+/**
+ * By which shares of the levels one more source begins before the others reach it. Mostly small: it
+ * straightens the front that comes, where one that begins early has a front of its own.
+ */
+constexpr double HeadStarts[] = { 0.01, 0.02, 0.03, 0.05, 0.08, 0.12, 0.17, 0.25, 0.35, 0.5, 0.7,
+  1.0 };
 /** How often the levels are adjusted after each addition, and by which shares of their range. */
-constexpr int AdjustRounds = 3;
-constexpr double Adjustments[] = { -0.1, 0.1, -0.04, 0.04, -0.015, 0.015 };
+constexpr int AdjustRounds = 2;
+constexpr double Adjustments[] = { -0.1, 0.1, -0.04, 0.04, -0.015, 0.015, -0.005, 0.005 };
 /** What one more source, and a change of a level, must gain to be worth it. */
-constexpr double SourceGain = 0.995, LevelGain = 0.9995;
+constexpr double SourceGain = 0.998, LevelGain = 0.9997;
 
 /** Estimates the cost of a search from the levels of the samples. */
 class LevelCost
@@ -37,17 +41,17 @@ public:
   {
   }
 
-  /** The levels are not negative; `last` is the greatest of them. */
-  double operator()(std::span<const std::int32_t> levels, std::int32_t last)
+  /** All levels are from `first` to `last`. */
+  double operator()(std::span<const std::int32_t> levels, std::int32_t first, std::int32_t last)
   {
-    const std::int32_t width = std::max(1, (last + MostBins) / MostBins);
-    const auto bins = static_cast<std::size_t>(last / width) + 1;
+    const std::int32_t width = std::max(1, (last - first + MostBins) / MostBins);
+    const auto bins = static_cast<std::size_t>((last - first) / width) + 1;
     std::fill_n(this->Bins.begin(), bins, 0);
     // In double precision, in which the last level of a long mesh is not rounded beyond the bins.
     const double scale = 1.0 / width;
     for (const std::int32_t level : levels)
     {
-      ++this->Bins[static_cast<std::size_t>((level + 0.5) * scale)];
+      ++this->Bins[static_cast<std::size_t>((level - first + 0.5) * scale)];
     }
     return this->costOfBins(bins, this->VerticesPerSample / width);
   }
@@ -90,7 +94,7 @@ public:
   SourcePlan single(std::size_t candidate)
   {
     const std::span<const std::int32_t> distances = this->Distances[candidate];
-    return { { { candidate, 0 } }, this->Cost(distances, *std::ranges::max_element(distances)) };
+    return { { { candidate, 0 } }, this->Cost(distances, 0, *std::ranges::max_element(distances)) };
   }
 
   /** Joins sources to a plan while that helps. */
@@ -104,7 +108,7 @@ public:
       {
         this->adjustLevels(plan);
       }
-      this->adjustLevels(plan);
+      this->dropSources(plan);
     }
   }
 
@@ -139,16 +143,17 @@ private:
     for (std::size_t candidate = 0; candidate < this->Distances.candidates(); ++candidate)
     {
       const std::span<const std::int32_t> distances = this->Distances[candidate];
-      std::int64_t latest = 0; // a source that begins later is reached before
+      std::int32_t reached = 0; // a source that begins later has no effect
       for (std::size_t i = 0; i < distances.size(); ++i)
       {
-        latest = std::max<std::int64_t>(latest, this->Current[i] - distances[i]);
+        reached = std::max(reached, this->Current[i] - distances[i]);
       }
-      for (int step = 0; step < LevelSteps && latest > 1; ++step)
+      for (const double share : HeadStarts)
       {
-        const auto level = static_cast<std::int32_t>(latest * step / LevelSteps);
+        const std::int32_t level = reached - 1 - static_cast<std::int32_t>(share * this->Last);
         const std::int32_t last = join(this->Current, this->Tried, level, distances);
-        if (const double cost = this->Cost(this->Tried, last); cost < best)
+        const double cost = this->Cost(this->Tried, std::min(0, level), last);
+        if (cost < best)
         {
           best = cost;
           added = { candidate, level };
@@ -160,8 +165,19 @@ private:
       return false;
     }
     plan.sources.push_back(added);
+    beginAtZero(plan);
     plan.cost = best;
     return true;
+  }
+
+  static void beginAtZero(SourcePlan& plan)
+  {
+    const std::int32_t first =
+      std::ranges::min_element(plan.sources, {}, &PlannedSource::level)->level;
+    for (PlannedSource& source : plan.sources)
+    {
+      source.level -= first;
+    }
   }
 
   /** Moves the level of each source to and fro, and keeps what is better. */
@@ -173,21 +189,33 @@ private:
       {
         SourcePlan changed = plan;
         changed.sources[i].level += static_cast<std::int32_t>(share * this->Last);
-        const std::int32_t first =
-          std::ranges::min_element(changed.sources, {}, &PlannedSource::level)->level;
-        for (PlannedSource& source : changed.sources)
-        {
-          source.level -= first;
-        }
-        const std::int32_t last = this->evaluate(changed, this->Tried);
-        changed.cost = this->Cost(this->Tried, last);
-        if (changed.cost < plan.cost * LevelGain)
-        {
-          plan = std::move(changed);
-          std::swap(this->Current, this->Tried);
-          this->Last = last;
-        }
+        this->takeIfBetter(plan, std::move(changed), LevelGain);
       }
+    }
+  }
+
+  /** Leaves out the sources that others have made useless. */
+  void dropSources(SourcePlan& plan)
+  {
+    for (std::size_t i = plan.sources.size(); i-- > 0 && plan.sources.size() > 1;)
+    {
+      SourcePlan changed = plan;
+      changed.sources.erase(changed.sources.begin() + static_cast<std::ptrdiff_t>(i));
+      this->takeIfBetter(plan, std::move(changed), 1.0);
+    }
+  }
+
+  /** Replaces the plan if the changed one costs at most `gain` times as much. */
+  void takeIfBetter(SourcePlan& plan, SourcePlan changed, double gain)
+  {
+    beginAtZero(changed);
+    const std::int32_t last = this->evaluate(changed, this->Tried);
+    changed.cost = this->Cost(this->Tried, 0, last);
+    if (changed.cost <= plan.cost * gain)
+    {
+      plan = std::move(changed);
+      std::swap(this->Current, this->Tried);
+      this->Last = last;
     }
   }
 

@@ -13,11 +13,13 @@
 namespace smg
 {
 
-/** What a breadth-first order costs whoever streams it: the mean and the greatest of its windows.
+/**
+ * What a breadth-first order costs whoever streams it: mostly the mean of its windows, which all
+ * levels of a solver have to hold, and a little the greatest one.
  */
 inline double searchCost(double meanQueue, double peakQueue)
 {
-  return (meanQueue + peakQueue) / 2;
+  return 0.9 * meanQueue + 0.1 * peakQueue;
 }
 
 /** Distances, in edges, from candidates for sources to the samples of a connected component. */
