@@ -53,8 +53,8 @@ public:
   /**
    * Whether vertices and cells go back into the order of the mesh file that the stream was made of,
    * which the arrays OriginalId and OriginalCellId tell: somebody who gave a PLY gets the same PLY
-   * back, with points moved. For .ply, .vtp, .vtu, .vtk, .obj, .off, .stl, .mesh and .msh files;
-   * see smg::writeRestored. Takes 256 MiB of memory at most. Default: off.
+   * back, with points moved. For .ply, .vtp, .vtu, .vtk, .obj, .off, .stl, .mesh, .msh and .ele
+   * files; see smg::writeRestored. Takes 256 MiB of memory at most. Default: off.
    */
   vtkSetMacro(RestoreOrder, bool);
   vtkGetMacro(RestoreOrder, bool);

@@ -145,7 +145,7 @@ void addConvertCommand(CLI::App& program, Action& action)
   command
     ->add_flag("--restore-order", options->restoreOrder,
       "Write vertices and cells in the order of the file that the .vsm file IN was made of, to a "
-      ".ply, .vtp, .vtu, .vtk, .obj, .off, .stl, .mesh or .msh file")
+      ".ply, .vtp, .vtu, .vtk, .obj, .off, .stl, .mesh, .msh or .ele file")
     ->excludes("--order", "--weld", "--cells", "--codec");
   command->add_flag("--dry-run", options->dryRun,
     "Only say how large the mesh is and what the conversion will take");

@@ -3,6 +3,7 @@
 #include "IO/Import/GmshElements.h"
 #include "IO/Import/GmshInput.h"
 #include "IO/Import/GmshNodes.h"
+#include "IO/Import/GmshTags.h"
 
 #include <array>
 #include <string>
@@ -21,6 +22,7 @@ public:
     : Input(file)
     , Builder(builder)
     , Nodes(builder.workspace())
+    , Tags(builder)
   {
   }
 
@@ -33,6 +35,7 @@ public:
       {
         this->readSection(name);
       }
+      this->Tags.finish();
     }
     catch (const MeshError& error)
     {
@@ -50,7 +53,8 @@ private:
       this->Input.endSection(end);
       return;
     }
-    if (name != "$Nodes" && name != "$Elements")
+    const bool hasGroups = name == "$Entities" && this->Input.hasBlocks();
+    if (name != "$Nodes" && name != "$Elements" && !hasGroups)
     {
       this->Input.skipSection(end);
       return;
@@ -59,7 +63,14 @@ private:
     {
       this->Input.fail("the section $MeshFormat is missing");
     }
-    name == "$Nodes" ? this->readNodeSection() : this->readElementSection();
+    if (hasGroups)
+    {
+      this->Tags.readEntities(this->Input);
+    }
+    else
+    {
+      name == "$Nodes" ? this->readNodeSection() : this->readElementSection();
+    }
     this->Input.endNumbers();
     this->Input.endSection(end);
   }
@@ -164,7 +175,7 @@ private:
       this->Input.integer("the tag of an element");
       const GmshElementType type = this->readType();
       const std::int64_t tags = this->Input.count("the number of tags", 2, 4);
-      this->skipTags(tags);
+      this->readTags(tags);
       this->readElement(type, [this] { return this->Input.integer("a node of an element"); });
     }
   }
@@ -190,7 +201,7 @@ private:
       for (std::int64_t i = 0; i < group; ++i)
       {
         this->Input.integer("the tag of an element");
-        this->skipTags(tags);
+        this->readTags(tags);
         this->readElement(type, [this] { return this->Input.integer("a node of an element"); });
       }
       done += group;
@@ -207,13 +218,15 @@ private:
     this->Input.longInteger("the largest tag");
     for (std::int64_t block = 0; block < blocks; ++block)
     {
-      this->Input.integer("the dimension of an entity");
-      this->Input.integer("the tag of an entity");
+      const std::int64_t dimension = this->Input.integer("the dimension of an entity");
+      const std::int64_t entity = this->Input.integer("the tag of an entity");
+      const std::int64_t group = this->Tags.groupOf(dimension, entity);
       const GmshElementType type = this->readType();
       const std::int64_t count = this->Input.count("the number of elements of a block", 4, 16);
       for (std::int64_t i = 0; i < count; ++i)
       {
         this->Input.longInteger("the tag of an element");
+        this->Tags.add(group, entity);
         this->readElement(type, [this] { return this->Input.longInteger("a node of an element"); });
       }
     }
@@ -231,12 +244,19 @@ private:
     return type;
   }
 
-  void skipTags(std::int64_t tags)
+  /** The tags of an element of version 2: a physical group, an entity, and others. */
+  void readTags(std::int64_t tags)
   {
+    std::array<std::int64_t, 2> first{ GmshTags::NoGroup, GmshTags::FirstEntity };
     for (std::int64_t k = 0; k < tags; ++k)
     {
-      this->Input.integer("a tag of an element");
+      const std::int64_t tag = this->Input.integer("a tag of an element");
+      if (k < 2)
+      {
+        first[static_cast<std::size_t>(k)] = tag;
+      }
     }
+    this->Tags.add(first[0], first[1]);
   }
 
   void readElement(GmshElementType type, const auto& readTag)
@@ -271,6 +291,7 @@ private:
   GmshInput Input;
   RawMeshBuilder& Builder;
   GmshNodes Nodes;
+  GmshTags Tags;
   bool HasNodes = false;
 };
 

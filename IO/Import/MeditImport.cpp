@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Container/AttributeNames.h"
 #include "IO/Import/Formats.h"
 #include "IO/Import/TextScanner.h"
 
@@ -45,7 +46,7 @@ public:
     : Scanner(file, '#')
     , Builder(builder)
   {
-    const ColumnSpec references{ "Reference", ScalarType::Int64, 1 };
+    const ColumnSpec references{ ReferenceName, ScalarType::Int64, 1 };
     this->VertexReferences.column = builder.addVertexColumn(references);
     this->ElementReferences.column = builder.addElementColumn(references);
   }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Import/Formats.h"
+#include "IO/Import/TextColors.h"
 #include "IO/Import/TextScanner.h"
 #include "IO/Import/TriangleRuns.h"
 
+#include <array>
+#include <span>
 #include <string>
 
 namespace smg
@@ -19,6 +22,7 @@ public:
     : Scanner(file, '#')
     , Builder(builder)
     , Fan(builder)
+    , Colors(builder, TextColors::Of::Vertices)
   {
   }
 
@@ -37,6 +41,10 @@ public:
         {
           this->readFace();
         }
+        else if (keyword == "vn" || keyword == "vt")
+        {
+          this->HasCornerAttributes = true;
+        }
         this->Scanner.skipLine();
       }
     }
@@ -50,10 +58,11 @@ public:
         this->LargestLine, "the face names vertex " + std::to_string(this->LargestCorner + 1) +
                              ", but the file has " + std::to_string(this->Builder.vertices()));
     }
-    if (this->HasColors)
+    if (this->HasCornerAttributes)
     {
-      this->Builder.note("The colours of the vertices are left out, since OBJ files have no place "
-                         "for them: save the mesh as PLY to keep them.");
+      this->Builder.note("Normals and texture coordinates are left out, since in OBJ files they "
+                         "belong to corners of faces: save the mesh as PLY to have them of "
+                         "vertices.");
     }
   }
 
@@ -91,12 +100,14 @@ private:
     const double y = this->Scanner.toNumber(this->nextToken(), "the coordinate y");
     const double z = this->Scanner.toNumber(this->nextToken(), "the coordinate z");
     this->Builder.vertex(x, y, z);
-    int others = 0; // a weight or a colour
-    while (!this->nextToken().empty())
+    std::array<double, 4> others{}; // a weight or a colour
+    std::size_t count = 0;
+    for (std::string_view token = this->nextToken(); !token.empty() && count < others.size();
+         token = this->nextToken())
     {
-      ++others;
+      others[count++] = this->Scanner.toNumber(token, "a number behind the coordinates");
     }
-    this->HasColors |= others >= 3;
+    this->Colors.add(std::span(others).first(count));
   }
 
   void readFace()
@@ -135,7 +146,8 @@ private:
   TextScanner Scanner;
   RawMeshBuilder& Builder;
   TriangleFan Fan;
-  bool HasColors = false;
+  TextColors Colors;
+  bool HasCornerAttributes = false;
   bool Continues = false; ///< the line ends here and goes on in the next one
   std::int64_t LargestCorner = -1;
   std::int64_t LargestLine = 0;

@@ -12,6 +12,8 @@ namespace smg
 struct OffHeader
 {
   std::int64_t vertices = 0, faces = 0;
+  /** What its keyword says to stand behind the coordinates of a vertex. */
+  bool normals = false, colors = false, textureCoordinates = false;
 };
 
 /** Reads a text up to its first vertex. Throws Error if it is no OFF file of points in space, or

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Import/PlyPlan.h"
 
-#include "IO/Container/NormalsColumn.h"
+#include "IO/Container/AttributeNames.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@ std::pair<ColumnSpec, int> columnOf(const PlyElement& element, const PlyProperty
     std::array<const char*, 4> names;
   };
   constexpr Group groups[] = { { NormalsName, { "nx", "ny", "nz", "" } },
-    { "Colors", { "red", "green", "blue", "alpha" } } };
+    { ColorsName, { "red", "green", "blue", "alpha" } } };
   constexpr int LeastMembers = 3;
   for (const Group& candidate : groups)
   {

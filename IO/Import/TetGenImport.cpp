@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Container/AttributeNames.h"
 #include "IO/Formats/Suffix.h"
 #include "IO/Import/Formats.h"
 #include "IO/Import/Inflate.h"
@@ -50,7 +51,7 @@ public:
           scanner.fail("the number of boundary markers must be 0 or 1");
         }
         const int markerColumn =
-          markers ? this->Builder.addVertexColumn({ "Marker", ScalarType::Int64, 1 }) : -1;
+          markers ? this->Builder.addVertexColumn({ MarkerName, ScalarType::Int64, 1 }) : -1;
         for (std::int64_t i = 0; i < count; ++i)
         {
           this->readNode(scanner, i, static_cast<std::size_t>(dimension));
@@ -128,8 +129,8 @@ private:
     }
     this->Attributes.resize(static_cast<std::size_t>(attributes));
     this->Column = attributes == 0 ? -1
-                                   : (this->Builder.*addColumn)({ "Attribute", ScalarType::Float64,
-                                       static_cast<int>(attributes) });
+                                   : (this->Builder.*addColumn)({ AttributeName,
+                                       ScalarType::Float64, static_cast<int>(attributes) });
   }
 
   std::span<const std::byte> readAttributes(TextScanner& scanner)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Import/VtkMeshReader.h"
 
-#include "IO/Container/NormalsColumn.h"
+#include "IO/Container/AttributeNames.h"
 #include "IO/Container/ReservedNames.h"
 #include "IO/External/Reservation.h"
 #include "IO/Formats/InQuotes.h"

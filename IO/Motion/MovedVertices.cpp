@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Motion/MovedVertices.h"
 
-#include "IO/Container/NormalsColumn.h"
+#include "IO/Container/AttributeNames.h"
 #include "IO/Formats/StreamConversion.h"
 #include "Solver/Core/Error.h"
 

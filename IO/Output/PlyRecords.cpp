@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Output/PlyRecords.h"
 
-#include "IO/Container/NormalsColumn.h"
+#include "IO/Container/AttributeNames.h"
 #include "IO/Import/PlyHeader.h"
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Container/AttributeNames.h"
+#include "IO/Restore/PlacedColumns.h"
 #include "IO/Restore/RestoredFormats.h"
 #include "IO/Restore/TextOutput.h"
 
@@ -16,41 +18,56 @@ enum GmshType
   GmshTetrahedron = 4
 };
 
-/** Numbers elements from 1 and writes them. */
+/** Numbers elements from 1 and writes them with their tags. */
 class GmshElements
 {
 public:
-  GmshElements(TextOutput& out, CellType cellType)
+  GmshElements(TextOutput& out, CellType cellType, PlacedColumns& columns)
     : Out(out)
     , CellKind(cellType)
+    , Group(columns.ofElements(PhysicalTagName, 1, 1))
+    , Entity(columns.ofElements(GeometricalTagName, 1, 1))
   {
   }
 
-  void write(std::span<const std::int64_t> corners)
+  void write(const RestoredElements& elements)
+  {
+    this->Element = 0;
+    elements.forEach(
+      [&](std::span<const std::int64_t> corners)
+      {
+        this->write(elements, corners);
+        ++this->Element;
+      });
+  }
+
+private:
+  void write(const RestoredElements& elements, std::span<const std::int64_t> corners)
   {
     if (this->CellKind == CellType::Tetrahedron)
     {
-      this->write(GmshTetrahedron, corners);
+      this->write(elements, GmshTetrahedron, corners);
     }
     else if (corners.size() == 4)
     {
-      this->write(GmshQuadrilateral, corners);
+      this->write(elements, GmshQuadrilateral, corners);
     }
     else
     {
       for (std::size_t i = 2; i < corners.size(); ++i)
       {
         const std::int64_t triangle[] = { corners[0], corners[i - 1], corners[i] };
-        this->write(GmshTriangle, triangle);
+        this->write(elements, GmshTriangle, triangle);
       }
     }
   }
 
-private:
-  void write(GmshType type, std::span<const std::int64_t> corners)
+  void write(const RestoredElements& elements, GmshType type, std::span<const std::int64_t> corners)
   {
-    // Two tags, which Gmsh demands: no physical entity, elementary entity 1.
-    this->Out << ++this->Count << ' ' << static_cast<int>(type) << " 2 0 1";
+    // Two tags, which Gmsh demands.
+    this->Out << ++this->Count << ' ' << static_cast<int>(type) << " 2";
+    this->writeTag(elements, this->Group, "0");
+    this->writeTag(elements, this->Entity, "1");
     for (const std::int64_t corner : corners)
     {
       this->Out << ' ' << corner + 1;
@@ -58,8 +75,16 @@ private:
     this->Out << '\n';
   }
 
+  void writeTag(const RestoredElements& elements, std::ptrdiff_t column, const char* usual)
+  {
+    column < 0 ? static_cast<void>(this->Out << ' ' << usual)
+               : this->Out.tuple(elements.columns, column, this->Element);
+  }
+
   TextOutput& Out;
   CellType CellKind;
+  std::ptrdiff_t Group, Entity; ///< columns
+  std::size_t Element = 0;      ///< of the chunk
   std::int64_t Count = 0;
 };
 
@@ -82,18 +107,20 @@ RestoredNotes writeRestoredGmsh(RestoredMesh& mesh, const std::filesystem::path&
   }
   // All cells of the stream, but for one of the two triangles of each quadrilateral.
   out << "$EndNodes\n$Elements\n" << info.cells - info.quadrilaterals << '\n';
-  GmshElements writer(out, info.cellType);
+  PlacedColumns columns(info);
+  GmshElements writer(out, info.cellType, columns);
   for (RestoredElements elements; mesh.next(elements);)
   {
-    elements.forEach([&writer](std::span<const std::int64_t> corners) { writer.write(corners); });
+    writer.write(elements);
   }
   out << "$EndElements\n";
   out.finish();
+  RestoredNotes notes = columns.leftOut(".msh");
   if (info.cellType == CellType::Triangle && info.mostCorners > 4)
   {
-    return { "Polygons of more than four corners are written as triangles." };
+    notes.emplace_back("Polygons of more than four corners are written as triangles.");
   }
-  return {};
+  return notes;
 }
 
 } // namespace smg

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Container/AttributeNames.h"
+#include "IO/Restore/PlacedColumns.h"
 #include "IO/Restore/RestoredFormats.h"
 #include "IO/Restore/TextOutput.h"
 
 #include <array>
+#include <string_view>
 
 namespace smg
 {
@@ -10,52 +13,73 @@ namespace smg
 namespace
 {
 
-/** Writes an element by its corners, which count from 1, and a reference that says nothing. */
-void writeElement(TextOutput& out, std::span<const std::int64_t> corners)
+/** Writes elements by their corners, which count from 1, and their references. */
+class MeditElements
 {
-  for (const std::int64_t corner : corners)
+public:
+  MeditElements(TextOutput& out, RestoredMesh& mesh, std::ptrdiff_t references)
+    : Out(out)
+    , Mesh(mesh)
+    , References(references)
   {
-    out << corner + 1 << ' ';
   }
-  out << "0\n";
-}
 
-void writePolygons(TextOutput& out, RestoredMesh& mesh)
-{
-  const RestoredInfo& info = mesh.info();
-  // All triangles of the stream, but for the two of each quadrilateral.
-  if (const std::int64_t triangles = info.cells - 2 * info.quadrilaterals; triangles > 0)
+  /** Writes those that `choose` answers true for, by their number of corners. */
+  template <class Choose>
+  void write(std::string_view keyword, std::int64_t count, Choose&& choose)
   {
-    out << "Triangles\n" << triangles << '\n';
-    for (RestoredElements elements; mesh.next(elements);)
+    if (count == 0)
     {
+      return;
+    }
+    this->Out << keyword << '\n' << count << '\n';
+    for (RestoredElements elements; this->Mesh.next(elements);)
+    {
+      std::size_t element = 0;
       elements.forEach(
-        [&out](std::span<const std::int64_t> polygon)
+        [&](std::span<const std::int64_t> corners)
         {
-          for (std::size_t i = 2; i < polygon.size() && polygon.size() != 4; ++i)
+          if (choose(corners.size()))
           {
-            writeElement(out, std::array{ polygon[0], polygon[i - 1], polygon[i] });
+            this->write(elements, element, corners);
           }
+          ++element;
         });
     }
-    mesh.rewindElements();
+    this->Mesh.rewindElements();
   }
-  if (info.quadrilaterals > 0)
+
+private:
+  void write(
+    const RestoredElements& elements, std::size_t element, std::span<const std::int64_t> corners)
   {
-    out << "Quadrilaterals\n" << info.quadrilaterals << '\n';
-    for (RestoredElements elements; mesh.next(elements);)
+    if (corners.size() <= 4)
     {
-      elements.forEach(
-        [&out](std::span<const std::int64_t> polygon)
-        {
-          if (polygon.size() == 4)
-          {
-            writeElement(out, polygon);
-          }
-        });
+      this->writeCell(elements, element, corners);
+      return;
+    }
+    for (std::size_t i = 2; i < corners.size(); ++i)
+    {
+      this->writeCell(elements, element, std::array{ corners[0], corners[i - 1], corners[i] });
     }
   }
-}
+
+  void writeCell(
+    const RestoredElements& elements, std::size_t element, std::span<const std::int64_t> corners)
+  {
+    for (std::size_t k = 0; k < corners.size(); ++k)
+    {
+      this->Out << (k > 0 ? " " : "") << corners[k] + 1;
+    }
+    this->References < 0 ? static_cast<void>(this->Out << " 0")
+                         : this->Out.tuple(elements.columns, this->References, element);
+    this->Out << '\n';
+  }
+
+  TextOutput& Out;
+  RestoredMesh& Mesh;
+  std::ptrdiff_t References; ///< column
+};
 
 } // namespace
 
@@ -63,6 +87,8 @@ RestoredNotes writeRestoredMedit(RestoredMesh& mesh, const std::filesystem::path
 {
   TextOutput out(path);
   const RestoredInfo& info = mesh.info();
+  PlacedColumns columns(info);
+  const std::ptrdiff_t references = columns.ofVertices(ReferenceName, 1, 1);
   out << "MeshVersionFormatted " << (info.doublePositions ? 2 : 1) << "\nDimension 3\nVertices\n"
       << info.vertices << '\n';
   for (RestoredVertices vertices; mesh.next(vertices);)
@@ -71,25 +97,27 @@ RestoredNotes writeRestoredMedit(RestoredMesh& mesh, const std::filesystem::path
     for (std::size_t i = 0; i < positions.size(); i += 3)
     {
       out.position(positions.subspan(i, 3), info.doublePositions);
-      out << " 0\n";
+      references < 0 ? static_cast<void>(out << " 0")
+                     : out.tuple(vertices.columns, references, i / 3);
+      out << '\n';
     }
   }
+  MeditElements writer(out, mesh, columns.ofElements(ReferenceName, 1, 1));
   if (info.cellType == CellType::Triangle)
   {
-    writePolygons(out, mesh);
+    // All triangles of the stream, but for the two of each quadrilateral.
+    writer.write("Triangles", info.cells - 2 * info.quadrilaterals,
+      [](std::size_t corners) { return corners != 4; });
+    writer.write(
+      "Quadrilaterals", info.quadrilaterals, [](std::size_t corners) { return corners == 4; });
   }
   else
   {
-    out << "Tetrahedra\n" << info.elements << '\n';
-    for (RestoredElements elements; mesh.next(elements);)
-    {
-      elements.forEach(
-        [&out](std::span<const std::int64_t> corners) { writeElement(out, corners); });
-    }
+    writer.write("Tetrahedra", info.elements, [](std::size_t) { return true; });
   }
   out << "End\n";
   out.finish();
-  RestoredNotes notes;
+  RestoredNotes notes = columns.leftOut(".mesh");
   if (info.quadrilaterals > 0 && info.quadrilaterals < info.elements)
   {
     notes.push_back("The quadrilaterals come after the triangles, as the format has it.");

@@ -1,14 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Container/AttributeNames.h"
+#include "IO/Restore/PlacedColumns.h"
 #include "IO/Restore/RestoredFormats.h"
 #include "IO/Restore/TextOutput.h"
 
 namespace smg
 {
 
+namespace
+{
+
+/** Writes a colour, from 0 to 1. */
+void writeColor(TextOutput& out, const Column& colors, std::size_t tuple)
+{
+  const double one = colors.spec.type == ScalarType::UInt8 ? 255.0 : 1.0;
+  for (int k = 0; k < colors.spec.components; ++k)
+  {
+    out << ' ' << static_cast<float>(colors.value(tuple, k) / one);
+  }
+}
+
+} // namespace
+
 RestoredNotes writeRestoredObj(RestoredMesh& mesh, const std::filesystem::path& path)
 {
   TextOutput out(path);
   const bool isDouble = mesh.info().doublePositions;
+  PlacedColumns columns(mesh.info());
+  const std::ptrdiff_t colors = columns.ofVertices(ColorsName, 3, 4);
   for (RestoredVertices vertices; mesh.next(vertices);)
   {
     const std::span<const double> positions = vertices.positions;
@@ -16,6 +35,10 @@ RestoredNotes writeRestoredObj(RestoredMesh& mesh, const std::filesystem::path& 
     {
       out << "v ";
       out.position(positions.subspan(i, 3), isDouble);
+      if (colors >= 0)
+      {
+        writeColor(out, vertices.columns[static_cast<std::size_t>(colors)], i / 3);
+      }
       out << '\n';
     }
   }
@@ -33,7 +56,7 @@ RestoredNotes writeRestoredObj(RestoredMesh& mesh, const std::filesystem::path& 
       });
   }
   out.finish();
-  return {};
+  return columns.leftOut(".obj");
 }
 
 } // namespace smg

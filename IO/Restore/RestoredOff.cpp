@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Container/AttributeNames.h"
+#include "IO/Restore/PlacedColumns.h"
 #include "IO/Restore/RestoredFormats.h"
 #include "IO/Restore/TextOutput.h"
 
@@ -9,6 +11,12 @@ RestoredNotes writeRestoredOff(RestoredMesh& mesh, const std::filesystem::path& 
 {
   TextOutput out(path);
   const RestoredInfo& info = mesh.info();
+  PlacedColumns columns(info);
+  const std::ptrdiff_t normals = columns.ofVertices(NormalsName, 3, 3);
+  const std::ptrdiff_t colors = columns.ofVertices(ColorsName, 3, 4);
+  const std::ptrdiff_t texture = columns.ofVertices(TextureCoordinatesName, 2, 2);
+  const std::ptrdiff_t faceColors = columns.ofElements(ColorsName, 3, 4);
+  out << (texture < 0 ? "" : "ST") << (colors < 0 ? "" : "C") << (normals < 0 ? "" : "N");
   out << "OFF\n" << info.vertices << ' ' << info.elements << " 0\n";
   for (RestoredVertices vertices; mesh.next(vertices);)
   {
@@ -16,24 +24,30 @@ RestoredNotes writeRestoredOff(RestoredMesh& mesh, const std::filesystem::path& 
     for (std::size_t i = 0; i < positions.size(); i += 3)
     {
       out.position(positions.subspan(i, 3), info.doublePositions);
+      for (const std::ptrdiff_t column : { normals, colors, texture })
+      {
+        out.tuple(vertices.columns, column, i / 3);
+      }
       out << '\n';
     }
   }
   for (RestoredElements elements; mesh.next(elements);)
   {
+    std::size_t element = 0;
     elements.forEach(
-      [&out](std::span<const std::int64_t> corners)
+      [&](std::span<const std::int64_t> corners)
       {
         out << corners.size();
         for (const std::int64_t corner : corners)
         {
           out << ' ' << corner;
         }
+        out.tuple(elements.columns, faceColors, element++);
         out << '\n';
       });
   }
   out.finish();
-  return {};
+  return columns.leftOut(".off");
 }
 
 } // namespace smg

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Restore/ByteOrder.h"
+#include "IO/Restore/PlacedColumns.h"
 #include "IO/Restore/RestoredFormats.h"
 #include "IO/Restore/RowSort.h"
 #include "IO/Restore/TextOutput.h"
@@ -160,7 +161,7 @@ RestoredNotes writeRestoredStl(
   const RestoredInfo& info = mesh.info();
   TrianglePositions triangles(mesh, workspace);
   info.doublePositions ? writeText(triangles, path) : writeBinary(triangles, info.cells, path);
-  RestoredNotes notes;
+  RestoredNotes notes = PlacedColumns(info).leftOut(".stl");
   if (info.isolated > 0)
   {
     notes.push_back("The " + std::to_string(info.isolated) +

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Formats/SequentialOutput.h"
+#include "Solver/Stream/Column.h"
 
 #include <charconv>
 #include <concepts>
@@ -70,6 +71,25 @@ public:
       }
       isDouble ? *this << xyz[axis] : *this << static_cast<float>(xyz[axis]);
     }
+  }
+
+  /** Writes a tuple of a column with a blank before each number; nothing without a column. */
+  void tuple(const std::vector<Column>& columns, std::ptrdiff_t column, std::size_t tuple)
+  {
+    if (column < 0)
+    {
+      return;
+    }
+    const Column& values = columns[static_cast<std::size_t>(column)];
+    dispatch(values.spec.type,
+      [&]<class T>(T)
+      {
+        const auto components = static_cast<std::size_t>(values.spec.components);
+        for (const T value : values.as<T>().subspan(tuple * components, components))
+        {
+          *this << ' ' << value;
+        }
+      });
   }
 
   void finish()

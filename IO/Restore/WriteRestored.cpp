@@ -16,12 +16,11 @@ namespace smg
 namespace
 {
 
-/** A format, and what it holds. */
+/** A format, and whether it holds tetrahedra. */
 struct Format
 {
   std::string_view suffix;
   bool tetrahedra;
-  bool columns;
   RestoredNotes (*write)(RestoredMesh&, const std::filesystem::path&, Workspace&);
 };
 
@@ -33,15 +32,17 @@ RestoredNotes alone(RestoredMesh& mesh, const std::filesystem::path& path, Works
 }
 
 constexpr Format Formats[] = {
-  { ".ply", false, true, alone<writeRestoredPly> },
-  { ".vtp", false, true, alone<writeRestoredVtkXml> },
-  { ".vtu", true, true, alone<writeRestoredVtkXml> },
-  { ".vtk", true, true, alone<writeRestoredVtk> },
-  { ".obj", false, false, alone<writeRestoredObj> },
-  { ".off", false, false, alone<writeRestoredOff> },
-  { ".stl", false, false, writeRestoredStl },
-  { ".mesh", true, false, alone<writeRestoredMedit> },
-  { ".msh", true, false, alone<writeRestoredGmsh> },
+  { ".ply", false, alone<writeRestoredPly> },
+  { ".vtp", false, alone<writeRestoredVtkXml> },
+  { ".vtu", true, alone<writeRestoredVtkXml> },
+  { ".vtk", true, alone<writeRestoredVtk> },
+  { ".obj", false, alone<writeRestoredObj> },
+  { ".off", false, alone<writeRestoredOff> },
+  { ".stl", false, writeRestoredStl },
+  { ".mesh", true, alone<writeRestoredMedit> },
+  { ".msh", true, alone<writeRestoredGmsh> },
+  { ".node", true, alone<writeRestoredTetGen> },
+  { ".ele", true, alone<writeRestoredTetGen> },
 };
 
 const Format* formatOf(const std::filesystem::path& path)
@@ -60,12 +61,12 @@ void checkRestoredPath(const std::filesystem::path& path, CellType cellType)
   {
     throw Error(path.string() +
                 ": the original order can be restored in .ply, .vtp, .vtu, .vtk, .obj, .off, .stl, "
-                ".mesh and .msh files; a mesh stream has an order of its own.");
+                ".mesh, .msh, .node and .ele files; a mesh stream has an order of its own.");
   }
   if (cellType == CellType::Tetrahedron && !format->tetrahedra)
   {
-    throw Error(path.string() + ": the format holds no tetrahedra: choose .vtu, .vtk, .mesh or "
-                                ".msh.");
+    throw Error(path.string() + ": the format holds no tetrahedra: choose .vtu, .vtk, .mesh, "
+                                ".msh or .ele.");
   }
 }
 
@@ -78,12 +79,6 @@ std::vector<std::string> writeRestored(
   std::vector<std::string> notes = mesh.notes();
   const RestoredNotes more = format.write(mesh, out, workspace);
   notes.insert(notes.end(), more.begin(), more.end());
-  const RestoredInfo& info = mesh.info();
-  if (!format.columns && !(info.vertexColumns.empty() && info.elementColumns.empty()))
-  {
-    notes.push_back(
-      "The columns are left out, since " + std::string(format.suffix) + " files have none.");
-  }
   workspace.tell(1.0);
   return notes;
 }

@@ -17,8 +17,9 @@ namespace smg
  * polygons, in the same order (see RestoredMesh.h). Works out of core, in the memory and folder of
  * the workspace, and tells its progress.
  *
- * The format goes by the suffix: .ply, .vtp, .vtu and .vtk with all columns; .obj, .off, .stl,
- * .mesh and .msh without. Tetrahedra go to .vtu, .vtk, .mesh and .msh. Numbers in text read back
+ * The format goes by the suffix: .ply, .vtp, .vtu and .vtk with all columns; .obj, .off, .mesh,
+ * .msh and .node with .ele with those that they have a place for (see AttributeNames.h); .stl
+ * without. Tetrahedra go to .vtu, .vtk, .mesh, .msh and .node with .ele. Numbers in text read back
  * exactly.
  * @return a sentence for each thing that the file does not hold as the mesh has it
  * @throws Error if checkRestoredPath() does, the original order is not known (see RestoredMesh), or

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/IO/GmshWriter.h"
 #include "Testing/IO/VolumeImport.h"
+#include "Testing/Support/ColumnValues.h"
 
 #include <algorithm>
 #include <array>
@@ -113,6 +114,58 @@ TEST_F(ImportGmsh, TrianglesAndQuadrilaterals)
   EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 0, 1, 2, 0, 2, 3 }));
   EXPECT_EQ(mesh.elements, (Numbers{ 1, 2, 2 }));
   EXPECT_EQ(mesh.counts.droppedCells, 2);
+}
+
+TEST_F(ImportGmsh, TagsOfElementsAreColumns)
+{
+  const ReadMesh mesh = this->gmsh(Format2 + Nodes2 +
+                                   "$Elements\n3\n1 2 2 5 1 1 2 3\n2 2 3 6 8 9 2 3 4\n"
+                                   "3 2 0 1 2 4\n$EndElements\n");
+  ASSERT_EQ(mesh.elementColumns.size(), 2u);
+  EXPECT_EQ(mesh.elementColumns[0].spec, (ColumnSpec{ "PhysicalTag", ScalarType::Int64, 1 }));
+  EXPECT_EQ(valuesOf(mesh.elementColumns[0]), (std::vector<double>{ 5, 6, 0 }));
+  EXPECT_EQ(mesh.elementColumns[1].spec, (ColumnSpec{ "GeometricalTag", ScalarType::Int64, 1 }));
+  EXPECT_EQ(valuesOf(mesh.elementColumns[1]), (std::vector<double>{ 1, 8, 1 }));
+  // What says nothing is no column.
+  EXPECT_TRUE(this->gmsh(Format2 + Nodes2 + Elements2).elementColumns.empty());
+}
+
+TEST_F(ImportGmsh, EntitiesTellThePhysicalGroups)
+{
+  for (const GmshVariant& variant : { GmshVariants[1], GmshVariants[4], GmshVariants[5] })
+  {
+    GmshWriter writer(variant);
+    writer.text("$Entities\n");
+    for (const std::int64_t count : { 1, 0, 1, 1 })
+    {
+      writer.size(count);
+    }
+    const auto entity = [&writer](std::int64_t tag, int bounds, const Numbers& groups, bool isPoint)
+    {
+      writer.integer(tag);
+      for (int k = 0; k < bounds; ++k)
+      {
+        writer.real(0.5);
+      }
+      writer.size(std::int64_t(groups.size()));
+      std::ranges::for_each(groups, [&](std::int64_t group) { writer.integer(group); });
+      if (!isPoint)
+      {
+        writer.size(1);
+        writer.integer(-4);
+      }
+    };
+    entity(1, 3, { 70 }, true);
+    entity(1, 6, { 71 }, false);
+    entity(1, 6, { 42, 43 }, false);
+    writer.text("\n$EndEntities\n");
+    writer.nodes({ 1, 2, 3, 4 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } });
+    writer.elements({ { 4, { 1, 2, 3, 4 } } });
+    const ReadMesh mesh = this->gmsh(writer.bytes());
+    ASSERT_EQ(mesh.elementColumns.size(), 1u);
+    EXPECT_EQ(mesh.elementColumns[0].spec.name, "PhysicalTag");
+    EXPECT_EQ(valuesOf(mesh.elementColumns[0]), (std::vector<double>{ 42 }));
+  }
 }
 
 TEST_F(ImportGmsh, KindsOfCellsAreChosen)

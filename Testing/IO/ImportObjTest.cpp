@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Import/InputFile.h"
 #include "Testing/IO/ImportFixture.h"
+#include "Testing/Support/ColumnValues.h"
 
 namespace smg::testing
 {
@@ -31,7 +32,7 @@ TEST_F(ImportObj, FacesMayComeBeforeTheirVertices)
   EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2 }));
 }
 
-TEST_F(ImportObj, ColoursAreIgnoredAndLinesContinued)
+TEST_F(ImportObj, LinesAreContinued)
 {
   const ReadMesh mesh =
     this->read("a.obj", "v 0 0 0 0.1 0.2 0.3\nv 1 \\\n0 \\\n0 0.5 \\\n 0.5 0.5\nv 0 1 0\n"
@@ -40,11 +41,30 @@ TEST_F(ImportObj, ColoursAreIgnoredAndLinesContinued)
   EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2 }));
 }
 
-TEST_F(ImportObj, ColoursThatAreLeftOutAreNoted)
+TEST_F(ImportObj, ColoursOfAllVerticesAreAColumn)
 {
-  const std::string face = "v 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  EXPECT_EQ(this->read("a.obj", "v 0 0 0 0.1 0.2 0.3\n" + face).counts.notes.size(), 1u);
-  EXPECT_TRUE(this->read("a.obj", "v 0 0 0 1\n" + face).counts.notes.empty());
+  const std::string face = "f 1 2 3\n";
+  const ReadMesh mesh =
+    this->read("a.obj", "v 0 0 0 0.5 0.25 1\nv 1 0 0 1 1 1\nv 0 1 0 0 0 0.75\n" + face);
+  ASSERT_EQ(mesh.vertexColumns.size(), 1u);
+  EXPECT_EQ(mesh.vertexColumns[0].spec, (ColumnSpec{ "Colors", ScalarType::Float32, 3 }));
+  EXPECT_EQ(
+    valuesOf(mesh.vertexColumns[0]), (std::vector<double>{ 0.5, 0.25, 1, 1, 1, 1, 0, 0, 0.75 }));
+  // A weight is no colour.
+  EXPECT_TRUE(this->read("a.obj", "v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\n" + face).counts.notes.empty());
+}
+
+TEST_F(ImportObj, WhatIsLeftOutIsNoted)
+{
+  const std::string others = "v 1 0 0\nv 0 1 0\n";
+  const ReadMesh partly = this->read("a.obj", "v 0 0 0 0.1 0.2 0.3\n" + others + "f 1 2 3\n");
+  EXPECT_TRUE(partly.vertexColumns.empty());
+  ASSERT_EQ(partly.counts.notes.size(), 1u);
+  EXPECT_NE(partly.counts.notes[0].find("colours of the vertices"), std::string::npos);
+  const ReadMesh normals =
+    this->read("a.obj", "v 0 0 0\n" + others + "vn 0 0 1\nf 1//1 2//1 3//1\n");
+  ASSERT_EQ(normals.counts.notes.size(), 1u);
+  EXPECT_NE(normals.counts.notes[0].find("Normals"), std::string::npos);
 }
 
 TEST_F(ImportObj, AByteOrderMarkIsNoPartOfTheFirstLine)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/IO/ImportFixture.h"
+#include "Testing/Support/ColumnValues.h"
 
 namespace smg::testing
 {
@@ -21,6 +22,38 @@ TEST_F(ImportOff, WithColours)
   EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 1, 3, 2 }));
   EXPECT_EQ(mesh.elementCount, 3);
   EXPECT_EQ(mesh.counts.droppedCells, 1);
+  ASSERT_EQ(mesh.vertexColumns.size(), 1u);
+  EXPECT_EQ(mesh.vertexColumns[0].spec, (ColumnSpec{ "Colors", ScalarType::UInt8, 4 }));
+  EXPECT_EQ(valuesOf(mesh.vertexColumns[0]),
+    (std::vector<double>{ 255, 0, 0, 255, 1, 1, 1, 1, 0, 0, 0, 0, 9, 9, 9, 9 }));
+  // Not all faces have a colour.
+  EXPECT_TRUE(mesh.elementColumns.empty());
+}
+
+TEST_F(ImportOff, WithNormalsColoursAndTextureCoordinates)
+{
+  const std::string vertices = "0 0 0 0 0 1 0.25 1 0 0.5 0.125\n1 0 0 0 0 1 1 1 1 0.5 1\n"
+                               "0 1 0 1 0 0 0 0 0.5 0 0\n";
+  const ReadMesh mesh =
+    this->read("a.off", "STCNOFF\n3 2 0\n" + vertices + "3 0 1 2 255 0 7\n3 2 1 0 1 2 3\n");
+  ASSERT_EQ(mesh.vertexColumns.size(), 3u);
+  EXPECT_EQ(mesh.vertexColumns[0].spec, (ColumnSpec{ "Normals", ScalarType::Float32, 3 }));
+  EXPECT_EQ(valuesOf(mesh.vertexColumns[0]), (std::vector<double>{ 0, 0, 1, 0, 0, 1, 1, 0, 0 }));
+  EXPECT_EQ(
+    mesh.vertexColumns[1].spec, (ColumnSpec{ "TextureCoordinates", ScalarType::Float32, 2 }));
+  EXPECT_EQ(valuesOf(mesh.vertexColumns[1]), (std::vector<double>{ 0.5, 0.125, 0.5, 1, 0, 0 }));
+  EXPECT_EQ(mesh.vertexColumns[2].spec, (ColumnSpec{ "Colors", ScalarType::Float32, 3 }));
+  EXPECT_EQ(
+    valuesOf(mesh.vertexColumns[2]), (std::vector<double>{ 0.25, 1, 0, 1, 1, 1, 0, 0, 0.5 }));
+  ASSERT_EQ(mesh.elementColumns.size(), 1u);
+  EXPECT_EQ(mesh.elementColumns[0].spec, (ColumnSpec{ "Colors", ScalarType::UInt8, 3 }));
+  EXPECT_EQ(valuesOf(mesh.elementColumns[0]), (std::vector<double>{ 255, 0, 7, 1, 2, 3 }));
+}
+
+TEST_F(ImportOff, AllVerticesHaveAsManyNumbers)
+{
+  this->expectError("a.off", "NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0\n0 1 0 0 0 1\n3 0 1 2\n",
+    "line 4: a vertex has 2 numbers behind its coordinates, those before it have 3");
 }
 
 TEST_F(ImportOff, WithAnyKeywordOrNone)

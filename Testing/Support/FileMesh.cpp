@@ -3,6 +3,7 @@
 
 #include "Testing/Support/FileCursor.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -31,7 +32,8 @@ FileMesh readObj(FileCursor in)
     const std::vector<double> numbers{ std::istream_iterator<double>(line), {} };
     if (keyword == "v")
     {
-      mesh.points.insert(mesh.points.end(), numbers.begin(), numbers.end());
+      // A colour may follow.
+      mesh.points.insert(mesh.points.end(), numbers.begin(), numbers.begin() + 3);
       continue;
     }
     mesh.cells.emplace_back();
@@ -43,17 +45,30 @@ FileMesh readObj(FileCursor in)
   return mesh;
 }
 
+/** With any attributes behind the coordinates and corners. */
 FileMesh readOff(FileCursor in)
 {
   FileMesh mesh;
-  in.expect("OFF");
-  const std::int64_t points = in.integer();
-  const std::int64_t cells = in.integer();
-  in.integer();
-  in.points(points, mesh);
-  for (std::int64_t i = 0; i < cells; ++i)
+  if (!in.line().ends_with("OFF"))
   {
-    in.cell(in.integer(), 0, mesh);
+    throw std::runtime_error("no OFF file");
+  }
+  std::istringstream counts(in.line());
+  std::int64_t points = 0, cells = 0;
+  counts >> points >> cells;
+  for (; points > 0; --points)
+  {
+    std::istringstream line(in.line());
+    std::copy_n(std::istream_iterator<double>(line), 3, std::back_inserter(mesh.points));
+  }
+  for (; cells > 0; --cells)
+  {
+    std::istringstream line(in.line());
+    std::int64_t corners = 0;
+    line >> corners;
+    mesh.cells.emplace_back();
+    std::copy_n(
+      std::istream_iterator<std::int64_t>(line), corners, std::back_inserter(mesh.cells.back()));
   }
   return mesh;
 }

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Formats/InQuotes.h"
+#include "IO/Restore/RestoredChunks.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace smg
+{
+
+/** Columns of a restored mesh that a text format has a place for, and the others, which it has not.
+ */
+class PlacedColumns
+{
+public:
+  explicit PlacedColumns(const RestoredInfo& info)
+    : OfVertices(info.vertexColumns)
+    , OfElements(info.elementColumns)
+  {
+  }
+
+  // The place of the column of this name with so many components; -1: there is none.
+  std::ptrdiff_t ofVertices(std::string_view name, int least, int most)
+  {
+    return this->OfVertices.place(name, least, most);
+  }
+  std::ptrdiff_t ofElements(std::string_view name, int least, int most)
+  {
+    return this->OfElements.place(name, least, most);
+  }
+
+  /** A sentence for a user about the columns that nobody asked for. */
+  std::vector<std::string> leftOut(std::string_view suffix) const
+  {
+    std::string names = this->OfVertices.others(this->OfElements.others({}));
+    if (names.empty())
+    {
+      return {};
+    }
+    return { "These columns are left out, since " + std::string(suffix) +
+             " files have no place for them: " + names + '.' };
+  }
+
+private:
+  struct Places
+  {
+    explicit Places(const std::vector<ColumnSpec>& columns)
+      : Specs(columns)
+      , Taken(columns.size(), false)
+    {
+    }
+
+    std::ptrdiff_t place(std::string_view name, int least, int most)
+    {
+      const auto found = std::ranges::find_if(this->Specs, [&](const ColumnSpec& spec)
+        { return spec.name == name && spec.components >= least && spec.components <= most; });
+      if (found == this->Specs.end())
+      {
+        return -1;
+      }
+      const std::ptrdiff_t place = found - this->Specs.begin();
+      this->Taken[static_cast<std::size_t>(place)] = true;
+      return place;
+    }
+
+    /** The names of the others, before those that are given. */
+    std::string others(std::string names) const
+    {
+      for (std::size_t i = this->Specs.size(); i-- > 0;)
+      {
+        if (!this->Taken[i])
+        {
+          names = inQuotes(this->Specs[i].name) + (names.empty() ? "" : ", ") + names;
+        }
+      }
+      return names;
+    }
+
+    std::vector<ColumnSpec> Specs;
+    std::vector<bool> Taken;
+  };
+
+  Places OfVertices, OfElements;
+};
+
+} // namespace smg

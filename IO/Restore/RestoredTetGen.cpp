@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Container/AttributeNames.h"
+#include "IO/Restore/PlacedColumns.h"
+#include "IO/Restore/RestoredFormats.h"
+#include "IO/Restore/TextOutput.h"
+
+#include <limits>
+
+namespace smg
+{
+
+namespace
+{
+
+constexpr int AnyNumber = std::numeric_limits<int>::max();
+
+int components(const std::vector<ColumnSpec>& specs, std::ptrdiff_t column)
+{
+  return column < 0 ? 0 : specs[static_cast<std::size_t>(column)].components;
+}
+
+void writeNodes(TextOutput& out, RestoredMesh& mesh, PlacedColumns& columns)
+{
+  const RestoredInfo& info = mesh.info();
+  const std::ptrdiff_t attributes = columns.ofVertices(AttributeName, 1, AnyNumber);
+  const std::ptrdiff_t markers = columns.ofVertices(MarkerName, 1, 1);
+  out << info.vertices << " 3 " << components(info.vertexColumns, attributes) << ' '
+      << components(info.vertexColumns, markers) << '\n';
+  for (RestoredVertices vertices; mesh.next(vertices);)
+  {
+    const std::span<const double> positions = vertices.positions;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(vertices.count()); ++i)
+    {
+      out << vertices.first + static_cast<std::int64_t>(i) + 1 << ' ';
+      out.position(positions.subspan(3 * i, 3), info.doublePositions);
+      out.tuple(vertices.columns, attributes, i);
+      out.tuple(vertices.columns, markers, i);
+      out << '\n';
+    }
+  }
+}
+
+/** Tetrahedra, or polygons as triangles. */
+void writeElements(TextOutput& out, RestoredMesh& mesh, PlacedColumns& columns)
+{
+  const RestoredInfo& info = mesh.info();
+  const std::ptrdiff_t attributes = columns.ofElements(AttributeName, 1, AnyNumber);
+  out << info.cells << ' ' << cornersOf(info.cellType) << ' '
+      << components(info.elementColumns, attributes) << '\n';
+  std::int64_t number = 0;
+  for (RestoredElements elements; mesh.next(elements);)
+  {
+    std::size_t element = 0;
+    const auto write = [&](auto... corners)
+    {
+      out << ++number;
+      ((out << ' ' << corners + 1), ...);
+      out.tuple(elements.columns, attributes, element);
+      out << '\n';
+    };
+    elements.forEach(
+      [&](std::span<const std::int64_t> corners)
+      {
+        if (info.cellType == CellType::Tetrahedron)
+        {
+          write(corners[0], corners[1], corners[2], corners[3]);
+        }
+        for (std::size_t i = 2; i < corners.size() && info.cellType == CellType::Triangle; ++i)
+        {
+          write(corners[0], corners[i - 1], corners[i]);
+        }
+        ++element;
+      });
+  }
+}
+
+} // namespace
+
+RestoredNotes writeRestoredTetGen(RestoredMesh& mesh, const std::filesystem::path& path)
+{
+  PlacedColumns columns(mesh.info());
+  TextOutput nodes(std::filesystem::path(path).replace_extension(".node"));
+  TextOutput elements(std::filesystem::path(path).replace_extension(".ele"));
+  writeNodes(nodes, mesh, columns);
+  writeElements(elements, mesh, columns);
+  nodes.finish();
+  elements.finish();
+  RestoredNotes notes = columns.leftOut(".node and .ele");
+  if (mesh.info().cellType == CellType::Triangle && mesh.info().mostCorners > 3)
+  {
+    notes.emplace_back("Polygons are written as triangles.");
+  }
+  return notes;
+}
+
+} // namespace smg
