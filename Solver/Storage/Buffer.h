@@ -61,7 +61,7 @@ public:
 
 private:
   /** From this size on memory comes from the system and goes back there: the heap would keep it. */
-  static constexpr std::size_t MappedBytes = std::size_t(128) << 10;
+  static constexpr std::size_t MappedBytes = std::size_t(32) << 10;
 
   /** To whole cache lines; sizes that are too large for any memory stay so. */
   static constexpr std::size_t roundedUp(std::size_t bytes)
