@@ -41,6 +41,7 @@ StreamAssembler::StreamAssembler(const StreamFileReader& reader, VsmWriter& writ
   const StreamInfo info = infoOf(this->Header);
   this->Block.vertexColumns = emptyColumns(info.vertexColumns);
   this->Block.cellColumns = emptyColumns(info.cellColumns);
+  this->Aside.columns = emptyColumns(info.vertexColumns);
 }
 
 StreamInfo StreamAssembler::infoOf(const StreamFileHeader& header)
@@ -194,27 +195,66 @@ std::int64_t StreamAssembler::introduce(std::int64_t vertex)
   MeshBlock& block = this->Block;
   block.positions.insert(block.positions.end(), values.position.begin(), values.position.end());
   push(block.vertexColumns[0], vertex);
+  this->pushValues(vertex, block.vertexColumns);
+  return id;
+}
+
+void StreamAssembler::pushValues(std::int64_t vertex, std::vector<Column>& columns)
+{
   const int floats = this->Header.vertexFloats;
   const int count = floats + this->Header.vertexInts;
   for (int k = 0; k < count; k++)
   {
     const std::size_t column = k < floats || floats == 0 ? 1 : 2;
-    push(block.vertexColumns[column], this->Values.get(vertex * count + k));
+    push(columns[column], this->Values.get(vertex * count + k));
   }
-  return id;
 }
 
 void StreamAssembler::forget()
 {
-  while (this->FirstFileVertex < this->Vertices &&
-         this->FileVertices.get(this->FirstFileVertex).until <= this->Delivered)
+  while (this->FirstFileVertex < this->Vertices)
   {
+    const Vertex vertex = this->FileVertices.get(this->FirstFileVertex);
+    if (vertex.until > this->Delivered)
+    {
+      break;
+    }
+    if (vertex.number == 0)
+    {
+      this->setAside(this->FirstFileVertex);
+    }
     this->FirstFileVertex++;
   }
   while (this->FirstStreamVertex < this->Used &&
          this->Until.get(this->FirstStreamVertex) <= this->Delivered)
   {
     this->FirstStreamVertex++;
+  }
+}
+
+void StreamAssembler::setAside(std::int64_t vertex)
+{
+  const std::array<float, 3> position = this->FileVertices.get(vertex).position;
+  IsolatedVertices& aside = this->Aside;
+  aside.ids.push_back(vertex);
+  aside.positions.insert(aside.positions.end(), position.begin(), position.end());
+  push(aside.columns[0], vertex);
+  this->pushValues(vertex, aside.columns);
+  this->AsideCount++;
+  if (std::ssize(aside.ids) == BlockCells)
+  {
+    this->flushIsolated();
+  }
+}
+
+void StreamAssembler::flushIsolated()
+{
+  this->Writer.isolated(this->Aside.ids, this->Aside.positions, this->Aside.columns);
+  this->Aside.ids.clear();
+  this->Aside.positions.clear();
+  for (Column& column : this->Aside.columns)
+  {
+    column.bytes.clear();
   }
 }
 
@@ -253,6 +293,16 @@ void StreamAssembler::finish()
   {
     this->flush();
   }
+  // Those that were never said to be final.
+  for (std::int64_t vertex = this->FirstFileVertex; this->AsideCount < this->isolatedVertices();
+       vertex++)
+  {
+    if (this->FileVertices.get(vertex).number == 0)
+    {
+      this->setAside(vertex);
+    }
+  }
+  this->flushIsolated();
 }
 
 } // namespace smg

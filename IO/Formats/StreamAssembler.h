@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Container/IsolatedVertices.h"
 #include "IO/Container/PagedArray.h"
 #include "IO/Container/VsmWriter.h"
 #include "IO/Formats/StreamFile.h"
@@ -17,7 +18,8 @@ namespace smg
 
 /**
  * Makes of the elements of a streaming mesh file a compact mesh stream: cells in the order of the
- * file, each as soon as all of its vertices have come, vertices numbered by first use.
+ * file, each as soon as all of its vertices have come, vertices numbered by first use. Vertices of
+ * no cell go to the table of the isolated ones.
  *
  * What is known of the vertices and the cells that wait is kept in pages (PagedArray.h), which are
  * forgotten as soon as they are not needed: when their vertices are final.
@@ -60,8 +62,13 @@ private:
   void deliver();
   void deliverCell(const std::array<std::int64_t, 4>& corners);
   std::int64_t introduce(std::int64_t vertex);
+  /** Appends the further values of a vertex to the columns behind the first. */
+  void pushValues(std::int64_t vertex, std::vector<Column>& columns);
   /** Forgets what is not needed any more. */
   void forget();
+  /** A vertex that no cell uses. */
+  void setAside(std::int64_t vertex);
+  void flushIsolated();
   void flush();
 
   const StreamFileReader& Reader;
@@ -83,6 +90,8 @@ private:
   std::int64_t FirstStreamVertex = 0;
 
   MeshBlock Block; ///< that is being filled
+  IsolatedVertices Aside;
+  std::int64_t AsideCount = 0; ///< vertices that have been set aside
 };
 
 } // namespace smg

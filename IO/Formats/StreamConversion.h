@@ -29,7 +29,7 @@ struct StreamToVsmOptions
 struct StreamToVsmResult
 {
   StreamInfo info;
-  std::int64_t isolatedVertices = 0; ///< vertices of no cell: left out
+  std::int64_t isolatedVertices = 0; ///< vertices of no cell, beside the stream
 };
 
 /**

@@ -137,7 +137,7 @@ TEST_F(StreamFormats, AnyOrderIsConvertedInLittleMemory)
   }
 }
 
-TEST_F(StreamFormats, IsolatedVerticesAreLeftOut)
+TEST_F(StreamFormats, IsolatedVerticesAreBesideTheStream)
 {
   const std::string text = "v 9 9 9\nv 0 0 0\nv 1 0 0\nx 1\nv 0 1 0\nv 8 8 8\nf 2 -3 4\nv 7 7 7\n";
   const StreamMesh mesh = this->convert(this->write("a.sma", text));
@@ -145,6 +145,12 @@ TEST_F(StreamFormats, IsolatedVerticesAreLeftOut)
   EXPECT_EQ(mesh.positions, (std::vector<double>{ 0, 0, 0, 1, 0, 0, 0, 1, 0 }));
   EXPECT_EQ(mesh.vertexColumns[0].value(2), 3);
   EXPECT_EQ(this->Result.info.bounds[1], 1);
+  VsmReader reader(this->Folder / "out.vsm");
+  ASSERT_EQ(reader.isolatedVertices(), 3);
+  IsolatedVertices isolated;
+  reader.readIsolated(0, 3, isolated);
+  EXPECT_EQ(isolated.ids, (std::vector<std::int64_t>{ 0, 4, 5 }));
+  EXPECT_EQ(isolated.positions, (std::vector<double>{ 9, 9, 9, 8, 8, 8, 7, 7, 7 }));
 }
 
 TEST_F(StreamFormats, RepeatedCornersAreKept)
