@@ -176,10 +176,8 @@ void Assembly::connect(const std::int64_t* corners, const CellWeights& cell)
     {
       continue;
     }
-    OpenEdge& forth = this->Edges.edge(a, b);
-    const double weight = this->Kind == Weights::Uniform ? 1.0 : forth.weight + cell.weight[e];
-    forth.weight = weight;
-    this->Edges.edge(b, a).weight = weight;
+    double& weight = this->Edges.weight(a, b);
+    weight = this->Kind == Weights::Uniform ? 1.0 : weight + cell.weight[e];
     if (this->Own)
     {
       this->Own->connect(a, b);

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/Error.h"
 #include "Solver/Storage/Ring.h"
 #include "Solver/Stream/MeshSource.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace smg
 {
 
-/** An edge from an open vertex to a neighbour, with the weight that the cells so far give it. */
+/** An edge of a vertex to the neighbour `to`, with the weight that the cells give it. */
 struct OpenEdge
 {
   std::int64_t to;
@@ -20,8 +23,10 @@ struct OpenEdge
 };
 
 /**
- * The edges of the vertices that are not final yet. Each vertex has room for a usual number of
- * neighbours; the few that have more keep the others in a table aside.
+ * The edges of the vertices that are not final yet. The lower one of an edge's vertices keeps it;
+ * when that is taken the upper one gets it, which so has its edges to lower vertices in ascending
+ * order, and looks for an edge among those to higher ones only. Each vertex has room for a usual
+ * number of neighbours; the few that have more keep the others in a table aside.
  */
 class OpenEdges
 {
@@ -29,83 +34,162 @@ public:
   /** Neighbours that a vertex of a usual mesh has at most. */
   static constexpr int usual(CellType type) { return type == CellType::Triangle ? 12 : 24; }
 
-  /** `usual`: neighbours that a vertex has room for. */
+  /** `usual`: neighbours that a vertex has room for, 4 to 255. */
   OpenEdges(Pool& pool, int usual)
-    : Edges(pool, usual)
+    : To(pool, usual)
+    , Weight(pool, usual)
     , Counts(pool)
   {
   }
 
+  /** Throws Error if more vertices are open than their low 32 bits tell apart. */
   void extend(std::int64_t vertices)
   {
-    this->Edges.extendRaw(vertices);
+    if (vertices - this->To.first() > INT32_MAX)
+    {
+      throw Error("too many vertices are open at once: convert the mesh with the order bfs");
+    }
+    this->To.extendRaw(vertices);
+    this->Weight.extendRaw(vertices);
     this->Counts.extend(vertices);
   }
   void release(std::int64_t first)
   {
-    this->Edges.release(first);
+    this->To.release(first);
+    this->Weight.release(first);
     this->Counts.release(first);
   }
 
-  /** The edge from -> to, made with weight 0 if it is not there. */
-  OpenEdge& edge(std::int64_t from, std::int64_t to)
+  /** The weight of the edge between two open vertices, which is made with 0 if it is not there. */
+  double& weight(std::int64_t a, std::int64_t b)
   {
-    OpenEdge* list = this->Edges.at(from);
-    std::int32_t& count = this->Counts[from];
-    for (std::int32_t e = 0; e < count; ++e)
+    const std::int64_t from = std::min(a, b);
+    const std::int64_t to = std::max(a, b);
+    const auto low = static_cast<std::uint32_t>(to);
+    std::uint32_t* list = this->To.at(from);
+    Count& count = this->Counts[from];
+    for (int first = 0; first < count.upper; first += Group)
     {
-      if (list[e].to == to)
+      const std::uint32_t found = matches(list + first, low, count.upper - first);
+      if (found != 0)
       {
-        return list[e];
+        return this->Weight.at(from)[first + std::countr_zero(found)];
       }
     }
-    if (count < this->Edges.lanes())
+    if (this->hasRoom(count))
     {
-      list[count] = { to, 0.0 };
-      return list[count++];
+      double& weight = this->Weight.at(from)[count.upper];
+      list[count.upper++] = low;
+      return weight = 0.0;
     }
-    return this->More[from].try_emplace(to, OpenEdge{ to, 0.0 }).first->second;
+    return this->More[from].try_emplace(to, 0.0).first->second;
   }
 
-  /** Moves the edges of `from` to `edges`, by ascending neighbour. */
+  /**
+   * Moves the edges of vertex `from`, the lowest that is open, to `edges`, by ascending neighbour.
+   */
   void take(std::int64_t from, std::vector<OpenEdge>& edges)
   {
-    const OpenEdge* list = this->Edges.at(from);
-    const std::int32_t count = this->Counts[from];
-    edges.assign(list, list + count);
-    if (count == this->Edges.lanes())
+    const std::uint32_t* list = this->To.at(from);
+    const double* weight = this->Weight.at(from);
+    const Count count = this->Counts[from];
+    const int lanes = this->To.lanes();
+    edges.clear();
+    for (int e = lanes - 1; e >= lanes - count.lower; --e)
+    {
+      edges.push_back({ from - (static_cast<std::uint32_t>(from) - list[e]), weight[e] });
+    }
+    for (int e = 0; e < count.upper; ++e)
+    {
+      edges.push_back({ from + (list[e] - static_cast<std::uint32_t>(from)), weight[e] });
+    }
+    auto unsorted = edges.begin() + count.lower;
+    if (!this->hasRoom(count))
     {
       if (const auto more = this->More.find(from); more != this->More.end())
       {
-        for (const auto& [to, edge] : more->second)
+        for (const auto& [to, aside] : more->second)
         {
-          edges.push_back(edge);
+          edges.push_back({ to, aside });
         }
         this->More.erase(more);
+        unsorted = edges.begin();
       }
     }
-    if (edges.size() > 32)
+    sort(unsorted, edges.end());
+    for (auto edge = edges.rbegin(); edge != edges.rend() && edge->to > from; ++edge)
     {
-      std::sort(edges.begin(), edges.end(),
-        [](const OpenEdge& a, const OpenEdge& b) { return a.to < b.to; });
-      return;
-    }
-    for (std::size_t e = 1; e < edges.size(); ++e)
-    {
-      const OpenEdge edge = edges[e];
-      std::size_t place = e;
-      for (; place > 0 && edges[place - 1].to > edge.to; --place)
-      {
-        edges[place] = edges[place - 1];
-      }
-      edges[place] = edge;
+      this->handOn(from, *edge);
     }
   }
 
 private:
-  Ring<OpenEdge> Edges;
-  Ring<std::int32_t> Counts;
-  std::unordered_map<std::int64_t, std::unordered_map<std::int64_t, OpenEdge>> More;
+  struct Count
+  {
+    std::uint8_t upper; ///< to higher vertices, the first ones of a list
+    std::uint8_t lower; ///< to lower vertices, from the list's end on
+  };
+
+  /**
+   * Neighbours are looked for in groups of this many. A group may run over the end of a list; the
+   * ring has another one there.
+   */
+  static constexpr int Group = 8;
+
+  /**
+   * Which of the first `count` values are `low`, as bits of the first Group of them. All of these
+   * are looked at: where a search ends is nothing that a branch could predict.
+   */
+  static std::uint32_t matches(const std::uint32_t* list, std::uint32_t low, int count)
+  {
+    constexpr std::uint32_t Bit[Group] = { 1, 2, 4, 8, 16, 32, 64, 128 };
+    std::uint32_t bits = 0;
+    for (int e = 0; e < Group; ++e)
+    {
+      bits |= list[e] == low ? Bit[e] : 0U;
+    }
+    return count < Group ? bits & ((1U << count) - 1U) : bits;
+  }
+
+  bool hasRoom(Count count) const { return count.upper + count.lower < this->To.lanes(); }
+
+  /** Gives the edge to its upper vertex. */
+  void handOn(std::int64_t from, const OpenEdge& edge)
+  {
+    Count& count = this->Counts[edge.to];
+    if (this->hasRoom(count))
+    {
+      const int place = this->To.lanes() - ++count.lower;
+      this->To.at(edge.to)[place] = static_cast<std::uint32_t>(from);
+      this->Weight.at(edge.to)[place] = edge.weight;
+      return;
+    }
+    this->More[edge.to].try_emplace(from, edge.weight);
+  }
+
+  static void sort(std::vector<OpenEdge>::iterator first, std::vector<OpenEdge>::iterator last)
+  {
+    if (last - first > 32)
+    {
+      std::sort(first, last, [](const OpenEdge& a, const OpenEdge& b) { return a.to < b.to; });
+      return;
+    }
+    for (auto next = first; next != last; ++next)
+    {
+      const OpenEdge edge = *next;
+      auto place = next;
+      for (; place != first && place[-1].to > edge.to; --place)
+      {
+        *place = place[-1];
+      }
+      *place = edge;
+    }
+  }
+
+  Ring<std::uint32_t> To; ///< by their low 32 bits
+  Ring<double> Weight;
+  Ring<Count> Counts;
+  std::unordered_map<std::int64_t, std::unordered_map<std::int64_t, double>> More;
 };
 
 } // namespace smg

@@ -87,13 +87,12 @@ void OwnWeights::take(std::size_t k, std::int64_t number)
 
 void OwnWeights::connect(std::int64_t a, std::int64_t b)
 {
-  OpenEdge& forth = this->Scales.edge(a, b);
+  double& least = this->Scales.weight(a, b);
   if (this->cell().measure > 0.0)
   {
     const double scale = this->CellScales[this->Current];
-    forth.weight = forth.weight > 0.0 ? std::min(forth.weight, scale) : scale;
+    least = least > 0.0 ? std::min(least, scale) : scale;
   }
-  this->Scales.edge(b, a).weight = forth.weight;
 }
 
 const std::vector<OpenEdge>& OwnWeights::takeScales(std::int64_t from)
