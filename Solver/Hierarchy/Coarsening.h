@@ -93,7 +93,9 @@ public:
     d.rawReach.release(this->Finished);
     d.rawLower.release(this->Finished);
     d.rawFilled.release(this->Finished);
+    d.rawSettled.release(this->Finished);
     d.slots.release(this->Finished);
+    d.largeWeight.release(this->Finished);
   }
 
 private:
@@ -119,6 +121,7 @@ private:
     d.firstChild.extend(d.coarseNodes);
     d.lastChild.extend(d.coarseNodes);
     d.slots.extend(d.coarseNodes);
+    d.largeWeight.extend(d.coarseNodes);
   }
 
   void interpolate()
@@ -167,6 +170,7 @@ private:
     d.rawStrongest.extendRaw(d.coarseNodes);
     d.rawLower.extendRaw(d.coarseNodes);
     d.rawFilled.extendRaw(d.coarseNodes);
+    d.rawSettled.extendRaw(d.coarseNodes);
     for (std::int64_t& c = this->Gathered; c < d.coarseNodes && this->canGather(c); ++c)
     {
       this->Set.gather(d, c);
@@ -178,7 +182,11 @@ private:
     }
   }
 
-  /** A coarse row is final when the pairs of all its neighbours have been treated. */
+  /**
+   * A coarse row is final when the pairs of all its neighbours have been treated. Its upper weights
+   * then go to the lower parts of the rows above it: to the next entry of each, as rows become
+   * final in order.
+   */
   void finish()
   {
     CoarseningData& d = this->Data;
@@ -187,14 +195,17 @@ private:
     {
       const std::int64_t size = d.raw.size(c);
       const RowEntry* raw = d.raw.row(c);
+      for (std::int64_t e = d.rawLower[c]; e < size; ++e)
+      {
+        const std::int64_t k = c + raw[e].delta;
+        d.raw.row(k)[d.rawSettled[k]++].weight = raw[e].weight;
+      }
       RowEntry* out = this->Final.open(size);
       std::int64_t kept = 0;
       for (std::int64_t e = 0; e < size; ++e)
       {
-        if (!std::isnan(raw[e].weight))
-        {
-          out[kept++] = raw[e];
-        }
+        out[kept] = raw[e];
+        kept += std::isnan(raw[e].weight) ? 0 : 1;
       }
       this->Final.close(kept, d.rawAlpha[c], d.lastChild[c].row(this->Rows));
     }

@@ -5,6 +5,7 @@
 #include "Solver/Storage/MonotoneRing.h"
 #include "Solver/Storage/RaggedRing.h"
 
+#include <bit>
 #include <cstdint>
 
 namespace smg
@@ -127,7 +128,9 @@ struct CoarseningData
     , rawReach(pool)
     , rawLower(pool)
     , rawFilled(pool)
+    , rawSettled(pool)
     , slots(pool)
+    , largeWeight(pool)
   {
   }
 
@@ -154,18 +157,31 @@ struct CoarseningData
   Ring<std::int32_t> rawReach;  ///< how far the row's largest column is above the row, at least 0
   Ring<std::int32_t> rawLower;  ///< columns below the row
   Ring<std::int32_t> rawFilled; ///< columns above the row that have been mirrored
+  /** Columns below the row that have their final weight: until then only the upper one counts. */
+  Ring<std::int32_t> rawSettled;
 
   /** Scratch of the stages: a mark and a value for each coarse node. */
   struct Slot
   {
     std::uint32_t mark;
-    union
+    float value;
+
+    /**
+     * Adds to the value, which begins with 0 for a mark that the slot does not bear yet; answers
+     * whether it did. Without branches: nothing could predict them.
+     */
+    bool add(std::uint32_t fresh, float more)
     {
-      float value;
-      std::uint32_t place;
-    };
+      const bool known = this->mark == fresh;
+      const std::uint32_t bits = std::bit_cast<std::uint32_t>(this->value);
+      this->mark = fresh;
+      this->value = std::bit_cast<float>(bits & (0U - std::uint32_t(known))) + more;
+      return !known;
+    }
   };
   Ring<Slot> slots;
+  /** Scratch of sparsification: 0 for each coarse node but while a row is treated. */
+  Ring<float> largeWeight;
   /** A mark that no slot bears. */
   std::uint32_t freshMark()
   {

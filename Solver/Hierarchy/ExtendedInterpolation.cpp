@@ -43,28 +43,23 @@ void ExtendedInterpolation::gather(CoarseningData& data, std::int64_t i)
   const std::int64_t near = data.coarseNodes;
   CoarseningData::Slot* slots = data.slots.at(near);
   const std::uint32_t mark = data.freshMark();
-  this->Candidates.clear();
+  std::size_t size = 0;
   for (const RowEntry& entry : data.fine.row(i))
   {
     const std::int64_t j = i + entry.delta;
     const InitialEntry* initial = data.initial.row(j);
-    const InitialEntry* end = initial + data.initial.size(j);
-    for (; initial != end; ++initial)
+    const std::int64_t count = data.initial.size(j);
+    this->Candidates.resize(
+      std::max(this->Candidates.size(), size + static_cast<std::size_t>(count) + 1));
+    Candidate* candidate = this->Candidates.data();
+    for (const InitialEntry* end = initial + count; initial != end; ++initial)
     {
-      CoarseningData::Slot& slot = slots[offset(initial->coarse, near)];
-      const float value = entry.weight * initial->weight;
-      if (slot.mark != mark)
-      {
-        slot.mark = mark;
-        slot.value = value;
-        this->Candidates.push_back({ initial->coarse, 0.0F });
-      }
-      else
-      {
-        slot.value += value;
-      }
+      candidate[size].coarse = initial->coarse;
+      size +=
+        slots[offset(initial->coarse, near)].add(mark, entry.weight * initial->weight) ? 1 : 0;
     }
   }
+  this->Candidates.resize(size);
   const auto inverse = static_cast<float>(1.0 / data.fine.diagonal(i));
   for (Candidate& candidate : this->Candidates)
   {
@@ -72,7 +67,7 @@ void ExtendedInterpolation::gather(CoarseningData& data, std::int64_t i)
   }
 }
 
-void ExtendedInterpolation::truncate()
+void ExtendedInterpolation::truncate(int entries)
 {
   auto& list = this->Candidates;
   float sum = 0.0F;
@@ -80,7 +75,7 @@ void ExtendedInterpolation::truncate()
   {
     sum += candidate.weight;
   }
-  const auto kept = std::min(list.size(), static_cast<std::size_t>(this->entries));
+  const auto kept = std::min(list.size(), static_cast<std::size_t>(entries));
   float keptSum = 0.0F;
   for (std::size_t k = 0; k < kept; ++k)
   {
@@ -119,7 +114,8 @@ void ExtendedInterpolation::operator()(CoarseningData& data, std::int64_t i)
   else
   {
     this->gather(data, i);
-    this->truncate();
+    const bool finest = data.fine.childReach(i) < 0;
+    this->truncate(finest ? this->finestEntries : this->entries);
   }
   this->append(data, i);
 }

@@ -17,14 +17,15 @@ namespace smg
  *   P0_jk = w_jk / Z_j,  Z_j = alpha_j + sum of the w_jk,   k the strong lifted neighbours,
  *   P_j   = sum over all neighbours m of w_jm P0_m, divided by A_jj,
  *
- * of which the `entries` largest are kept, scaled to the old sum and rounded to multiples of
+ * of which the largest `entries` are kept, scaled to the old sum and rounded to multiples of
  * 1/Quanta with that sum kept.
  */
 class ExtendedInterpolation
 {
 public:
   IndependentSetLifting lifting;
-  /** Entries kept of a row, from 2 to ChildLink::Slots. */
+  /** Entries kept of a row of the finest level and of the others, from 2 to ChildLink::Slots. */
+  int finestEntries = 4;
   int entries = 4;
 
   /** Appends row i of P0. The nodes up to reach(i) have been decided. */
@@ -41,7 +42,7 @@ private:
   };
 
   void gather(CoarseningData& data, std::int64_t i);
-  void truncate();
+  void truncate(int entries);
   void append(CoarseningData& data, std::int64_t i);
 
   std::vector<Candidate> Candidates;

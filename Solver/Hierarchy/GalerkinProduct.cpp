@@ -21,7 +21,7 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i) const
     return;
   }
   const auto row = data.fine.row(i);
-  std::int64_t room = own;
+  std::int64_t room = own + 1;
   for (const RowEntry& entry : row)
   {
     room += data.interpolation.size(i + entry.delta);
@@ -35,47 +35,39 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i) const
   for (std::int64_t e = 0; e < own; ++e)
   {
     const std::int32_t distance = p[e].offset(near);
-    CoarseningData::Slot& slot = slots[distance];
-    slot.mark = mark;
-    slot.place = size;
-    out[size++] = { static_cast<CoarseIndex>(near + distance), diagonal * p[e].weight() };
+    slots[distance].add(mark, diagonal * p[e].weight());
+    out[size++].coarse = static_cast<CoarseIndex>(near + distance);
   }
-  const std::int32_t ownQuanta = data.rowQuanta[i];
+  const std::uint16_t* quanta = data.rowQuanta.at(i);
+  const std::int32_t ownQuanta = *quanta;
   double sum = data.fine.alpha(i) * ownQuanta;
   for (const RowEntry& entry : row)
   {
     const std::int64_t j = i + entry.delta;
-    sum += static_cast<double>(entry.weight) * (ownQuanta - data.rowQuanta[j]);
+    sum += static_cast<double>(entry.weight) * (ownQuanta - quanta[entry.delta]);
     p = data.interpolation.row(j);
     const InterpolationEntry* end = p + data.interpolation.size(j);
     for (; p != end; ++p)
     {
       const std::int32_t distance = p->offset(near);
-      CoarseningData::Slot& slot = slots[distance];
-      const float value = -entry.weight * p->weight();
-      if (slot.mark != mark)
-      {
-        slot.mark = mark;
-        slot.place = size;
-        out[size++] = { static_cast<CoarseIndex>(near + distance), value };
-      }
-      else
-      {
-        out[slot.place].value += value;
-      }
+      out[size].coarse = static_cast<CoarseIndex>(near + distance);
+      size += slots[distance].add(mark, -entry.weight * p->weight()) ? 1 : 0;
     }
+  }
+  for (std::uint32_t e = 0; e < size; ++e)
+  {
+    out[e].value = slots[offset(out[e].coarse, near)].value;
   }
   data.product.close(size);
   data.productSum[i] = sum / Quanta;
 }
 
-void GalerkinProduct::sort()
+void GalerkinProduct::sort(std::size_t size)
 {
-  const std::size_t size = this->Columns.size();
   this->Sorted.resize(size);
-  if (size > 64)
+  if (size > 128)
   {
-    this->Sorted = this->Columns;
+    std::copy_n(this->Columns.begin(), size, this->Sorted.begin());
     std::sort(this->Sorted.begin(), this->Sorted.end());
     return;
   }
@@ -93,68 +85,86 @@ void GalerkinProduct::sort()
   }
 }
 
-void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
+double GalerkinProduct::findChildren(const CoarseningData& data, std::int64_t c)
 {
-  CoarseningData::Slot* slots = data.slots.at(c);
-  const std::uint32_t mark = data.freshMark();
-  const std::int64_t nearFine = data.liftedFrom[c];
-  this->Columns.clear();
+  this->Children.clear();
   double alpha = 0.0;
+  const std::int64_t nearFine = data.liftedFrom[c];
   for (ChildLink link = data.firstChild[c]; !link.none();)
   {
     const std::int64_t fine = link.row(nearFine);
-    const InterpolationEntry& child = data.interpolation.row(fine)[link.slot()];
-    const float weight = child.weight();
-    alpha += static_cast<double>(child.quanta()) / Quanta * data.productSum[fine];
-    const ProductEntry* entry = data.product.row(fine);
-    const ProductEntry* end = entry + data.product.size(fine);
-    for (; entry != end; ++entry)
+    const InterpolationEntry& entry = data.interpolation.row(fine)[link.slot()];
+    const ProductEntry* product = data.product.row(fine);
+    for (int line = 0; line < 2; ++line)
+    {
+      __builtin_prefetch(product + 8 * line);
+    }
+    this->Children.push_back({ product, data.product.size(fine), entry.weight() });
+    alpha += static_cast<double>(entry.quanta()) / Quanta * data.productSum[fine];
+    link = entry.next;
+  }
+  return alpha;
+}
+
+void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
+{
+  const double alpha = this->findChildren(data, c);
+  CoarseningData::Slot* slots = data.slots.at(c);
+  const std::uint32_t mark = data.freshMark();
+  std::size_t columns = 0;
+  for (const Child& child : this->Children)
+  {
+    const std::size_t most = columns + static_cast<std::size_t>(child.size) + 1;
+    this->Columns.resize(std::max(this->Columns.size(), most));
+    std::int32_t* column = this->Columns.data();
+    const ProductEntry* end = child.product + child.size;
+    for (const ProductEntry* entry = child.product; entry != end; ++entry)
     {
       const std::int32_t delta = offset(entry->coarse, c);
-      CoarseningData::Slot& slot = slots[delta];
-      const float value = weight * entry->value;
-      if (slot.mark != mark)
-      {
-        slot.mark = mark;
-        slot.value = value;
-        this->Columns.push_back(delta);
-      }
-      else
-      {
-        slot.value += value;
-      }
+      column[columns] = delta;
+      columns += slots[delta].add(mark, child.weight * entry->value) ? 1 : 0;
     }
-    link = child.next;
   }
-  this->sort();
+  this->sort(columns);
+  this->append(data, c);
+  data.rawAlpha[c] = alpha;
+}
 
+void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
+{
+  const CoarseningData::Slot* slots = data.slots.at(c);
   RowEntry* out = data.raw.open(static_cast<std::int64_t>(this->Sorted.size()));
-  std::int64_t size = 0;
-  std::int32_t lower = 0;
-  float strongest = 0.0F;
-  for (const std::int32_t delta : this->Sorted)
+  // The lower entries mirror one of each row above: send for all before the first is read.
+  this->Mirrored.clear();
+  for (auto delta = this->Sorted.begin(); delta != this->Sorted.end() && *delta < 0; ++delta)
   {
-    if (delta == 0)
+    const std::int64_t k = c + *delta;
+    const RowEntry* mirrored = data.raw.row(k) + data.rawLower[k] + data.rawFilled[k]++;
+    __builtin_prefetch(mirrored);
+    this->Mirrored.push_back(mirrored);
+  }
+  std::int64_t size = 0;
+  float strongest = 0.0F;
+  for (const RowEntry* mirrored : this->Mirrored)
+  {
+    assert(mirrored->delta == -this->Sorted[static_cast<std::size_t>(size)]);
+    out[size++] = { -mirrored->delta, mirrored->weight };
+    strongest = std::max(strongest, mirrored->weight);
+  }
+  const std::int64_t lower = size;
+  for (auto e = static_cast<std::size_t>(lower); e < this->Sorted.size(); ++e)
+  {
+    const std::int32_t delta = this->Sorted[e];
+    if (delta > 0)
     {
-      continue;
+      out[size++] = { delta, -slots[delta].value };
+      strongest = std::max(strongest, -slots[delta].value);
     }
-    float weight = -slots[delta].value;
-    if (delta < 0)
-    {
-      const std::int64_t k = c + delta;
-      const RowEntry& mirror = data.raw.row(k)[data.rawLower[k] + data.rawFilled[k]++];
-      assert(mirror.delta == -delta);
-      weight = mirror.weight;
-      ++lower;
-    }
-    out[size++] = { delta, weight };
-    strongest = std::max(strongest, weight);
   }
   data.raw.close(size);
-  data.rawAlpha[c] = alpha;
   data.rawStrongest[c] = strongest;
-  data.rawLower[c] = lower;
-  data.rawFilled[c] = 0;
+  data.rawLower[c] = static_cast<std::int32_t>(lower);
+  data.rawFilled[c] = data.rawSettled[c] = 0;
   data.rawReach[c] = size > 0 ? std::max(0, out[size - 1].delta) : 0;
 }
 

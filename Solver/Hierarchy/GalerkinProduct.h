@@ -3,6 +3,7 @@
 
 #include "Solver/Hierarchy/CoarseningData.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace smg
@@ -24,8 +25,24 @@ public:
   void gather(CoarseningData& data, std::int64_t c);
 
 private:
-  void sort();
+  /** A child of the node whose row is gathered, and its row of A P. */
+  struct Child
+  {
+    const ProductEntry* product;
+    std::int64_t size;
+    float weight;
+  };
 
+  /** Finds the children of node c, sends for their rows of A P, and answers the node's row sum. */
+  double findChildren(const CoarseningData& data, std::int64_t c);
+  /** Sorts the first `size` of Columns. */
+  void sort(std::size_t size);
+
+  /** Appends the row of node c, with the columns of Sorted. */
+  void append(CoarseningData& data, std::int64_t c);
+
+  std::vector<Child> Children;
+  std::vector<const RowEntry*> Mirrored;
   std::vector<std::int32_t> Columns, Sorted;
 };
 

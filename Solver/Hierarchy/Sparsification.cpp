@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
 
 namespace smg
 {
@@ -13,83 +12,85 @@ namespace
 
 constexpr float Removed = std::numeric_limits<float>::quiet_NaN();
 
-std::span<RowEntry> rawRow(const CoarseningData& data, std::int64_t c)
+/** The entry of the pair {c,k}, which is there, in the upper one of its two rows. */
+RowEntry& upperEntry(const CoarseningData& data, std::int64_t c, std::int64_t k)
 {
-  return { data.raw.row(c), static_cast<std::size_t>(data.raw.size(c)) };
-}
-
-/** The entry of a row with the column `delta`, which is there. */
-RowEntry& find(std::span<RowEntry> row, std::int64_t delta)
-{
-  return *std::lower_bound(row.begin(), row.end(), delta,
-    [](const RowEntry& entry, std::int64_t value) { return entry.delta < value; });
+  const std::int64_t row = std::min(c, k);
+  const auto delta = static_cast<std::int32_t>(std::max(c, k) - row);
+  RowEntry* first = data.raw.row(row) + data.rawLower[row];
+  // A binary search without branches, which nothing could predict.
+  for (std::int64_t size = data.raw.size(row) - data.rawLower[row]; size > 1;)
+  {
+    const std::int64_t half = size / 2;
+    first += first[half].delta <= delta ? half : 0;
+    size -= half;
+  }
+  return *first;
 }
 
 } // namespace
 
+struct Sparsification::Candidate
+{
+  std::int64_t node = -1;
+  float weight = 0.0F;
+};
+
+/** The common neighbour m of c and k with the largest min(w_cm, w_km) of large weights. */
+Sparsification::Candidate Sparsification::strongestCommon(
+  const CoarseningData& data, std::int64_t k) const
+{
+  Candidate best;
+  const float* large = data.largeWeight.at(k);
+  const float* strongest = data.rawStrongest.at(k);
+  const RowEntry* other = data.raw.row(k);
+  const RowEntry* end = other + data.raw.size(k);
+  for (; other != end; ++other)
+  {
+    const float weight = std::min(other->weight, large[other->delta]);
+    // The first test is all that most entries get.
+    if (weight > best.weight && !this->isSmall(other->weight, *strongest, strongest[other->delta]))
+    {
+      best = { k + other->delta, weight };
+    }
+  }
+  return best;
+}
+
 void Sparsification::operator()(CoarseningData& data, std::int64_t c) const
 {
-  const float limit = this->tolerance * data.rawStrongest[c];
-  const auto isSmall = [&](float weight, float rowLimit, std::int64_t column) {
-    return !(std::fabs(weight) >= std::min(rowLimit, this->tolerance * data.rawStrongest[column]));
-  };
-
-  const std::span<RowEntry> row = rawRow(data, c);
-  CoarseningData::Slot* slots = data.slots.at(c);
-  std::uint32_t mark = 0;
-  for (auto entry = row.begin() + data.rawLower[c]; entry != row.end(); ++entry)
+  RowEntry* row = data.raw.row(c);
+  RowEntry* end = row + data.raw.size(c);
+  float* large = data.largeWeight.at(c);
+  const float* strongest = data.rawStrongest.at(c);
+  for (const RowEntry* entry = row; entry != end; ++entry)
+  {
+    const bool small = this->isSmall(entry->weight, *strongest, strongest[entry->delta]);
+    large[entry->delta] = small ? 0.0F : entry->weight;
+  }
+  for (RowEntry* entry = row + data.rawLower[c]; entry != end; ++entry)
   {
     const std::int64_t k = c + entry->delta;
     const float weight = entry->weight;
-    if (!(std::fabs(weight) < std::min(limit, this->tolerance * data.rawStrongest[k])))
+    if (!this->isSmall(weight, *strongest, strongest[entry->delta]))
     {
       continue;
     }
-    const std::span<RowEntry> other = rawRow(data, k);
-    if (weight <= 0.0F)
+    if (weight > 0.0F)
     {
-      entry->weight = find(other, c - k).weight = Removed;
-      continue;
-    }
-    if (mark == 0)
-    {
-      mark = data.freshMark();
-      for (std::uint32_t e = 0; e < row.size(); ++e)
-      {
-        CoarseningData::Slot& slot = slots[row[e].delta];
-        slot.mark = isSmall(row[e].weight, limit, c + row[e].delta) ? 0 : mark;
-        slot.place = e;
-      }
-    }
-    const float otherLimit = this->tolerance * data.rawStrongest[k];
-    const CoarseningData::Slot* otherSlots = slots + entry->delta;
-    float best = 0.0F;
-    RowEntry* bestOther = nullptr;
-    for (RowEntry& candidate : other)
-    {
-      const CoarseningData::Slot& slot = otherSlots[candidate.delta];
-      if (slot.mark != mark || isSmall(candidate.weight, otherLimit, k + candidate.delta))
+      const Candidate middle = this->strongestCommon(data, k);
+      if (middle.node < 0)
       {
         continue;
       }
-      const float value = std::min(row[slot.place].weight, candidate.weight);
-      if (value > best)
-      {
-        best = value;
-        bestOther = &candidate;
-      }
+      upperEntry(data, c, middle.node).weight += weight;
+      upperEntry(data, k, middle.node).weight += weight;
     }
-    if (!bestOther)
-    {
-      continue;
-    }
-    const std::int64_t m = k + bestOther->delta;
-    const std::span<RowEntry> middle = rawRow(data, m);
-    entry->weight = find(other, c - k).weight = Removed;
-    row[otherSlots[bestOther->delta].place].weight += weight;
-    bestOther->weight += weight;
-    find(middle, c - m).weight += weight;
-    find(middle, k - m).weight += weight;
+    entry->weight = Removed;
+  }
+  for (const RowEntry* entry = row; entry != end; ++entry)
+  {
+    large[entry->delta] = 0.0F;
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include "Solver/Hierarchy/CoarseningData.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 namespace smg
@@ -21,6 +23,16 @@ struct Sparsification
 
   /** Treats the pairs (c,k), k > c. The raw rows up to rawReach(c) are there. */
   void operator()(CoarseningData& data, std::int64_t c) const;
+
+private:
+  struct Candidate;
+
+  /** Whether a weight is, given the largest ones of its two rows. */
+  bool isSmall(float weight, float strongest, float otherStrongest) const
+  {
+    return !(std::fabs(weight) >= this->tolerance * std::min(strongest, otherStrongest));
+  }
+  Candidate strongestCommon(const CoarseningData& data, std::int64_t k) const;
 };
 
 } // namespace smg

@@ -26,7 +26,7 @@ std::vector<Case> cases()
   const RecordingOperators surface;
   RecordingOperators solid;
   solid.strength = 0.0F;
-  solid.entries = 5;
+  solid.finestEntries = solid.entries = 5;
   const auto uniform = Weights::Uniform;
   const auto cotangent = Weights::Cotangent;
   const StreamMesh patch = toStream(shuffled(grid(24, 19, 0.3)));
@@ -151,6 +151,25 @@ TEST(Coarsening, interpolationIsTheExtendedOneTruncatedAndRounded)
       }
       EXPECT_NEAR(quanta, 255.0 * sum, 0.501) << test.name << ", node " << i;
       EXPECT_LE(quanta, 255);
+    }
+  }
+}
+
+TEST(Coarsening, theFinestLevelMayKeepFewerEntriesThanTheOthers)
+{
+  for (Case& test : cases())
+  {
+    test.operators.finestEntries = 2;
+    test.operators.entries = 3;
+    for (const bool finest : { true, false })
+    {
+      test.level.finest = finest;
+      std::size_t most = 0;
+      for (const auto& parents : coarsen(test.level, test.operators).record.parents)
+      {
+        most = std::max(most, parents.size());
+      }
+      EXPECT_EQ(most, finest ? 2U : 3U) << test.name;
     }
   }
 }

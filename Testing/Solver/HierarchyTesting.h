@@ -25,6 +25,7 @@ struct TestLevel
 {
   std::vector<std::vector<RowEntry>> rows;
   std::vector<double> alpha;
+  bool finest = true; ///< or one that was coarsened from another
 
   std::int64_t nodes() const { return static_cast<std::int64_t>(this->rows.size()); }
 
@@ -60,7 +61,7 @@ struct TestLevel
     {
       const auto size = static_cast<std::int64_t>(this->rows[i].size());
       std::copy(this->rows[i].begin(), this->rows[i].end(), to.open(size));
-      to.close(size, this->alpha[i], -1);
+      to.close(size, this->alpha[i], this->finest ? -1 : 0);
     }
   }
 };
@@ -161,6 +162,7 @@ public:
   static RecordingOperators forCells(CellType) { return {}; }
 
   float strength = 0.1F;
+  int finestEntries = 4;
   int entries = 4;
   float tolerance = 0.1F; ///< of sparsification; 0: the raw product
   std::shared_ptr<CoarseningRecord> record = std::make_shared<CoarseningRecord>();
@@ -168,6 +170,7 @@ public:
   bool lift(const CoarseningData& data, std::int64_t i)
   {
     this->Interpolation.lifting.strength = this->strength;
+    this->Interpolation.finestEntries = this->finestEntries;
     this->Interpolation.entries = this->entries;
     const bool lifted = this->Interpolation.lifting(data, i);
     this->record->lifted.push_back(lifted ? data.coarseNodes : -1);
