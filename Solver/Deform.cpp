@@ -2,9 +2,9 @@
 #include "Solver/Deform.h"
 
 #include "Solver/Core/Error.h"
+#include "Solver/Deformation/DeformationOperators.h"
 #include "Solver/Deformation/InteractiveDeformation.h"
 #include "Solver/Deformation/InteractiveEngine.h"
-#include "Solver/Hierarchy/Extended.h"
 #include "Solver/Shi2006/Shi2006.h"
 
 namespace smg
@@ -33,7 +33,8 @@ void checkOptions(const DeformOptions& options)
 std::unique_ptr<Solution> deform(MeshSource& mesh, Handles& handles, const DeformOptions& options)
 {
   checkOptions(options);
-  auto engine = std::make_unique<DeformationEngine<Extended>>(options, mesh.info().cellType);
+  auto engine =
+    std::make_unique<DeformationEngine<DeformationOperators>>(options, mesh.info().cellType);
   engine->deform(mesh, handles);
   engine->keepSolution();
   return engine;
@@ -41,7 +42,7 @@ std::unique_ptr<Solution> deform(MeshSource& mesh, Handles& handles, const Defor
 
 struct InteractiveDeformation::Implementation
 {
-  InteractiveEngine<Extended> engine;
+  InteractiveEngine<DeformationOperators> engine;
 };
 
 namespace

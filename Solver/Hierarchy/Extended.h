@@ -28,17 +28,25 @@ public:
    * cotangent weights; on tetrahedra one of 0 takes the clamped weights of slivers for strong ones,
    * one above 0.05 fails to pay on the worst of them.
    *
-   * Most of the set-up's work is the product from the finest level to the next one. With one or two
-   * entries less there it takes up to a quarter less, and at most one V-cycle more pays for it; on
-   * coarser levels the same costs several V-cycles.
+   * Most of the set-up's work is the product from the finest level to the next one. Fewer entries
+   * there save up to a quarter of it, and one V-cycle more at most pays for that when it is the
+   * tolerance that is given; on coarser levels the same costs several V-cycles.
    */
   static Extended forCells(CellType type)
+  {
+    Extended set = forFewCycles(type);
+    set.Interpolation.finestEntries = 3;
+    return set;
+  }
+
+  /** Parameters for a given number of V-cycles: each is up to twice as good, the set-up longer. */
+  static Extended forFewCycles(CellType type)
   {
     Extended set;
     const bool surface = type == CellType::Triangle;
     set.Interpolation.lifting.strength = surface ? 0.2F : 0.05F;
-    set.Interpolation.finestEntries = 3;
     set.Interpolation.entries = surface ? 4 : 5;
+    set.Interpolation.finestEntries = set.Interpolation.entries;
     return set;
   }
 

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Hierarchy/Extended.h"
+
+namespace smg
+{
+
+/**
+ * The operator set of a deformation: Extended with the best V-cycles, since a step takes a given
+ * number of them and its accuracy is promised for few.
+ */
+struct DeformationOperators : Extended
+{
+  static DeformationOperators forCells(CellType type) { return { Extended::forFewCycles(type) }; }
+};
+
+static_assert(OperatorSet<DeformationOperators>);
+
+} // namespace smg
