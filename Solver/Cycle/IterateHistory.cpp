@@ -30,7 +30,7 @@ void IterateHistory::load(const Ring<double>& x, std::int64_t end)
 {
   const std::int64_t begin = this->Before.end();
   this->Before.extendRaw(end);
-  std::copy(x.at(begin), x.at(end), this->Before.at(begin));
+  std::ranges::copy(x.range(begin, end), this->Before.at(begin));
   while (this->Steps.end() < end)
   {
     this->loadBlock(this->Steps.end(), std::min(end, this->Steps.end() + RowBlock::Nodes));

@@ -133,7 +133,7 @@ public:
 
   void zeroB(std::int64_t begin, std::int64_t end)
   {
-    std::fill(this->Now.b.at(begin), this->Now.b.at(end), Real{});
+    std::ranges::fill(this->Now.b.range(begin, end), Real{});
   }
 
   /** Calls f(header, arrays, nodes, x, b) for the part of [begin, end) in each block; x and b of

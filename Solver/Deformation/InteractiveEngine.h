@@ -96,7 +96,7 @@ void InteractiveEngine<Operators>::take(const VertexHandles& handles)
   LevelWindow<double>& window = this->Hierarchy.finest->window();
   window.abandon();
   window.setColumns(RotationProblem::Columns);
-  std::fill(window.x().at(0), window.x().at(window.nodes()), 0.0);
+  std::ranges::fill(window.x().range(0, window.nodes()), 0.0);
   this->Result.shared = 0;
   this->forHeld(
     [&](RestBlock::Held& held, std::size_t i)
@@ -116,7 +116,7 @@ void InteractiveEngine<Operators>::beginRotations()
   LevelWindow<double>& window = this->Hierarchy.finest->window();
   const Ring<double>& x = window.x();
   const Ring<double>& b = window.b();
-  std::copy(x.at(0), x.at(window.nodes()), b.at(0));
+  std::ranges::copy(x.range(0, window.nodes()), b.at(0));
   double squares = 0.0;
   for (const RestBlock& block : this->Rest.blocks())
   {

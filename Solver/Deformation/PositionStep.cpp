@@ -54,8 +54,8 @@ void PositionStep::load()
       }
     }
     LevelWindow<double>::State& state = this->Window.down();
-    std::fill(state.x.at(first), state.x.at(block.end()), 0.0);
-    std::fill(state.b.at(first), state.b.at(block.end()), 0.0);
+    std::ranges::fill(state.x.range(first, block.end()), 0.0);
+    std::ranges::fill(state.b.range(first, block.end()), 0.0);
   }
 }
 

@@ -99,7 +99,7 @@ void Assembly::addVertices(const MeshBlock& block)
   std::copy(given.value.begin(), given.value.end(), this->Values.at(this->Vertices));
   std::copy(given.source.begin(), given.source.end(), this->Sources.at(this->Vertices));
   std::copy(given.prescribed.begin(), given.prescribed.end(), this->Prescribed.at(this->Vertices));
-  std::fill(this->Labels.at(this->Vertices), this->Labels.at(end), -1);
+  std::ranges::fill(this->Labels.range(this->Vertices, end), -1);
   this->Vertices = end;
 }
 

@@ -131,8 +131,8 @@ private:
 
 void restrictRightSide(const Level& fine, Level& coarse)
 {
-  std::fill(coarse.target.at(0), coarse.target.at(coarse.target.end()), 0.0);
-  std::fill(coarse.value.at(0), coarse.value.at(coarse.nodes()), 0.0);
+  std::ranges::fill(coarse.target.range(0, coarse.target.end()), 0.0);
+  std::ranges::fill(coarse.value.range(0, coarse.nodes()), 0.0);
   Restriction restrictTo(fine, coarse);
   for (std::int64_t i = 0; i < fine.nodes(); ++i)
   {

@@ -3,6 +3,7 @@
 
 #include "Solver/Storage/Pool.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -58,6 +59,31 @@ public:
   std::size_t capacity() const { return this->Capacity; }
   /** Uses the first `bytes` bytes, at most capacity(). */
   void resize(std::size_t bytes) { this->Size = bytes; }
+
+  /** Has room for at least `bytes` bytes from here on, accounted for in `pool`; keeps what there
+   * is.
+   */
+  void grow(Pool& pool, std::size_t bytes)
+  {
+    if (!this->isMapped() || roundedUp(bytes) < bytes)
+    {
+      Buffer larger(pool, bytes);
+      std::copy_n(this->Data, std::min(this->Size, bytes), larger.data());
+      *this = std::move(larger);
+      return;
+    }
+    const std::size_t more = roundedUp(bytes) - this->Capacity;
+    this->Owner->acquire(static_cast<std::int64_t>(more));
+    void* moved = ::mremap(this->Data, this->Capacity, this->Capacity + more, MREMAP_MAYMOVE);
+    if (moved == MAP_FAILED)
+    {
+      this->Owner->release(static_cast<std::int64_t>(more));
+      throw std::bad_alloc();
+    }
+    this->Data = static_cast<std::byte*>(moved);
+    this->Capacity += more;
+    this->Size = bytes;
+  }
 
 private:
   /** From this size on memory comes from the system and goes back there: the heap would keep it. */

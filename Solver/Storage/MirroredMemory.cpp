@@ -71,23 +71,23 @@ void MirroredMemory::grow(std::size_t bytes)
 
 void MirroredMemory::map(std::size_t bytes)
 {
-  void* both =
-    ::mmap(nullptr, 2 * bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (both == MAP_FAILED)
+  void* all =
+    ::mmap(nullptr, 3 * bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (all == MAP_FAILED)
   {
     fail("reserving address space");
   }
-  auto* first = static_cast<std::byte*>(both);
-  for (std::byte* image : { first, first + bytes })
+  auto* first = static_cast<std::byte*>(all);
+  for (std::byte* image : { first, first + bytes, first + 2 * bytes })
   {
     if (::mmap(image, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, this->Descriptor, 0) ==
         MAP_FAILED)
     {
-      ::munmap(both, 2 * bytes);
+      ::munmap(all, 3 * bytes);
       fail("mapping");
     }
   }
-  this->Data = first;
+  this->Data = first + bytes;
   this->Size = bytes;
 }
 
@@ -95,7 +95,7 @@ void MirroredMemory::unmap()
 {
   if (this->Data)
   {
-    ::munmap(this->Data, 2 * this->Size);
+    ::munmap(this->Data - this->Size, 3 * this->Size);
     this->Data = nullptr;
   }
 }

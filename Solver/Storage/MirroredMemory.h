@@ -9,8 +9,10 @@ namespace smg
 {
 
 /**
- * Memory that appears twice, the second image right behind the first: what runs over the end of the
- * first image continues at its beginning. A ring buffer in it needs no wrap test.
+ * Memory that appears three times in a row: what runs over an end of the middle image continues at
+ * the other end. So what lies around a place of a ring buffer in it is reached without wrap test.
+ * A page counts as resident once for each image in which it was touched: whoever stays in the
+ * middle one, but for what runs over its ends, has most of them counted once.
  */
 class MirroredMemory
 {
@@ -25,6 +27,7 @@ public:
   MirroredMemory(MirroredMemory&& other) noexcept;
   MirroredMemory& operator=(MirroredMemory&& other) noexcept;
 
+  /** The middle image. */
   std::byte* data() const { return this->Data; }
   std::size_t size() const { return this->Size; }
 

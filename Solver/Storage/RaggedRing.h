@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 
 namespace smg
 {
@@ -91,37 +92,43 @@ private:
     return size < head;
   }
 
-  /** Moves the rows to the beginning of larger memory, in which one of `size` entries follows. */
+  /** Enlarges the memory so that a row of `size` entries follows. */
   void grow(std::int64_t size)
   {
+    const std::int64_t last = this->end();
+    const std::int64_t tail = this->Ends[last];
     const std::int64_t first = this->Ends.first();
-    std::int64_t used = 0;
-    for (std::int64_t row = first; row < this->end(); ++row)
-    {
-      used += this->size(row);
-    }
-    const std::int64_t most = std::max(used + size + 1, this->capacity() + this->capacity() / 8);
-    if (most > UINT32_MAX)
+    const std::int64_t head = first < last ? this->start(first) : tail;
+    const bool wrapped = tail < head;
+    const std::int64_t before = this->capacity();
+    const std::int64_t least = wrapped ? before + tail + size + 1 - head : tail + size;
+    const std::int64_t entries = std::max(least, before + before / 16);
+    if (entries > UINT32_MAX)
     {
       throw Error(
         "neighbours lie too far apart in the stream: convert the mesh with the order bfs");
     }
-    Buffer larger(*this->Owner, static_cast<std::size_t>(most) * sizeof(T));
-    T* to = reinterpret_cast<T*>(larger.data());
-    std::int64_t place = 0;
-    std::uint32_t before = this->Ends[first];
-    this->Ends[first] = 0;
-    for (std::int64_t row = first; row < this->end(); ++row)
+    this->Memory.grow(*this->Owner, static_cast<std::size_t>(entries) * sizeof(T));
+    if (wrapped)
     {
-      const std::uint32_t end = this->Ends[row + 1];
-      const std::uint32_t start = end >= before ? before : 0;
-      std::copy_n(this->data() + start, end - start, to + place);
-      place += end - start;
-      before = end;
-      this->Ends[row + 1] = static_cast<std::uint32_t>(place);
+      this->moveToEnd(first, this->capacity() - before);
     }
-    this->Memory = std::move(larger);
-    this->Open = place;
+    this->Open = tail;
+  }
+
+  /** Moves the rows from `first` on that lie before the end of the memory by `distance` entries. */
+  void moveToEnd(std::int64_t first, std::int64_t distance)
+  {
+    const auto shift = static_cast<std::uint32_t>(distance);
+    const std::uint32_t head = this->Ends[first];
+    std::uint32_t end = head;
+    this->Ends[first] += shift;
+    for (std::int64_t row = first; this->Ends[row + 1] >= end; ++row)
+    {
+      end = this->Ends[row + 1];
+      this->Ends[row + 1] += shift;
+    }
+    std::memmove(this->data() + head + shift, this->data() + head, (end - head) * sizeof(T));
   }
 
   Pool* Owner;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <numeric>
+#include <span>
 #include <type_traits>
 
 namespace smg
@@ -14,8 +15,9 @@ namespace smg
 
 /**
  * The part [first, end) of an endless array of items that is in memory, an item being `lanes`
- * values of T. Items are addressed by their index in the endless array; items next to each other in
- * it are next to each other in memory (MirroredMemory), so `&ring[i] + lanes * d` is item i + d.
+ * values of T. Items are addressed by their index in the endless array; around any of them the
+ * others are next to each other in memory (MirroredMemory), so `at(i) + lanes * d` is item i + d.
+ * But at(i + d) may be another image of it: two answers of at() bound no range.
  */
 template <class T>
 class Ring
@@ -25,7 +27,6 @@ class Ring
 public:
   explicit Ring(Pool& pool, int lanes = 1)
     : Memory(pool)
-    , Owner(&pool)
     , Lanes(lanes)
   {
   }
@@ -35,8 +36,17 @@ public:
   int lanes() const { return this->Lanes; }
 
   /** The first value of item `i`, first() <= i <= end(). */
-  T* at(std::int64_t i) const { return this->Lap0 + (i - this->Lap) * this->Lanes; }
+  T* at(std::int64_t i) const
+  {
+    const std::int64_t slot = i - this->Lap;
+    return this->Slots + (slot < this->Capacity ? slot : slot - this->Capacity) * this->Lanes;
+  }
   T& operator[](std::int64_t i) const { return *this->at(i); }
+  /** The values of items [begin, end). */
+  std::span<T> range(std::int64_t begin, std::int64_t end) const
+  {
+    return { this->at(begin), static_cast<std::size_t>((end - begin) * this->Lanes) };
+  }
 
   /** Makes items end() .. end - 1 accessible, zeroed. May move the memory. Throws Error. */
   void extend(std::int64_t end)
@@ -45,7 +55,7 @@ public:
     this->extendRaw(end);
     if (end > before)
     {
-      std::fill(this->at(before), this->at(end), T{});
+      std::ranges::fill(this->range(before, end), T{});
     }
   }
 
@@ -81,7 +91,7 @@ public:
   {
     this->Memory.clear();
     this->Capacity = 0;
-    this->Lap0 = nullptr;
+    this->Slots = nullptr;
     this->restart();
   }
 
@@ -90,7 +100,7 @@ public:
   {
     if (items > this->Capacity)
     {
-      this->grow(std::max(items, this->Capacity + this->Capacity / 8));
+      this->grow(std::max(items, this->Capacity + this->Capacity / 16));
     }
   }
 
@@ -101,28 +111,25 @@ private:
     const std::int64_t page = MirroredMemory::PageBytes;
     const std::int64_t granule = page / std::gcd(page, itemBytes);
     const std::int64_t capacity = (items + granule - 1) / granule * granule;
-    if (this->Lap == 0 && this->End <= this->Capacity)
+    const std::int64_t added = capacity - this->Capacity;
+    const std::int64_t wrapped = this->End - this->Lap - this->Capacity;
+    this->Memory.grow(static_cast<std::size_t>(capacity * itemBytes));
+    if (wrapped > 0)
     {
-      // Nothing has wrapped yet: every item keeps its place.
-      this->Memory.grow(static_cast<std::size_t>(capacity * itemBytes));
-    }
-    else
-    {
-      MirroredMemory larger(*this->Owner);
-      larger.grow(static_cast<std::size_t>(capacity * itemBytes));
-      const std::int64_t slot = this->First % capacity;
-      std::memcpy(larger.data() + slot * itemBytes, this->at(this->First),
-        static_cast<std::size_t>((this->End - this->First) * itemBytes));
-      this->Memory = std::move(larger);
-      this->Lap = this->First - slot;
+      // The items at the beginning that belong behind the others go there, as many as have room.
+      std::byte* data = this->Memory.data();
+      const std::int64_t moved = std::min(wrapped, added);
+      std::memcpy(
+        data + this->Capacity * itemBytes, data, static_cast<std::size_t>(moved * itemBytes));
+      std::memmove(
+        data, data + moved * itemBytes, static_cast<std::size_t>((wrapped - moved) * itemBytes));
     }
     this->Capacity = capacity;
-    this->Lap0 = reinterpret_cast<T*>(this->Memory.data());
+    this->Slots = reinterpret_cast<T*>(this->Memory.data());
   }
 
   MirroredMemory Memory;
-  Pool* Owner;
-  T* Lap0 = nullptr;         // where item Lap is
+  T* Slots = nullptr;        // where item Lap is
   std::int64_t Lap = 0;      // a multiple of Capacity, at most First, First - Lap < Capacity
   std::int64_t Capacity = 0; // items
   std::int64_t First = 0;

@@ -151,7 +151,7 @@ Eigen::MatrixXd stateOf(const Ring<Real>& state, int columns)
 template <class Real>
 void setState(Ring<Real>& state, const Eigen::MatrixXd& values)
 {
-  std::fill(state.at(0), state.at(state.end()), Real{});
+  std::ranges::fill(state.range(0, state.end()), Real{});
   for (Eigen::Index i = 0; i < values.rows(); ++i)
   {
     for (Eigen::Index k = 0; k < values.cols(); ++k)

@@ -90,6 +90,54 @@ TEST(Ring, aRefusedGrowthLeavesItWhole)
   EXPECT_EQ(ring[999], 7);
 }
 
+TEST(Ring, growsWithoutASecondCopy)
+{
+  Pool pool(1 << 30);
+  Ring<std::int64_t> ring(pool);
+  std::int64_t end = 0;
+  for (std::int64_t window = 50000; window < 200000; window += 1000, ring.release(end - window))
+  {
+    for (const std::int64_t before = end; end < before + window / 3; ++end)
+    {
+      ring.extendRaw(end + 1);
+      ring[end] = end;
+    }
+    for (std::int64_t i = ring.first(); i < end; i += 11)
+    {
+      ASSERT_EQ(ring[i], i);
+    }
+  }
+  EXPECT_GT(pool.peak(), 8 * 190000);
+  EXPECT_EQ(pool.peak(), pool.used());
+}
+
+TEST(RaggedRing, growsWithoutASecondCopy)
+{
+  Pool pool(1 << 30);
+  RaggedRing<std::int64_t> rows(pool);
+  std::int64_t small = 0; // used before the memory is so large that the system moves it
+  std::int64_t first = 0;
+  for (std::int64_t window = 1000; window < 40000; window += 500)
+  {
+    for (const std::int64_t end = rows.end() + window / 3; rows.end() < end;)
+    {
+      const std::int64_t row = rows.end();
+      std::fill_n(rows.open(8), row % 8, row);
+      rows.close(row % 8);
+      small = pool.used() < (1 << 18) ? pool.peak() : small;
+    }
+    for (std::int64_t r = first; r < rows.end(); r += 11)
+    {
+      ASSERT_EQ(std::vector(rows.row(r), rows.row(r) + rows.size(r)),
+        std::vector<std::int64_t>(static_cast<std::size_t>(r % 8), r));
+    }
+    first = std::max<std::int64_t>(0, rows.end() - window);
+    rows.release(first);
+  }
+  EXPECT_GT(pool.used(), 4 * small);
+  EXPECT_EQ(pool.peak(), pool.used());
+}
+
 TEST(RaggedRing, rowsKeepTheirEntries)
 {
   Pool pool(1 << 30);
