@@ -47,8 +47,7 @@ void IterateHistory::loadBlock(std::int64_t begin, std::int64_t end)
       return;
     }
     ring.extendRaw(first + nodes);
-    this->Stream->read(
-      std::as_writable_bytes(std::span<float>(ring.at(first), ring.at(first + nodes))));
+    this->read(ring, first, nodes);
   };
   fill(this->Steps, begin, end - begin);
   if (this->samples(begin / RowBlock::Nodes))
@@ -99,12 +98,6 @@ void IterateHistory::write(std::int64_t done)
   {
     return;
   }
-  const auto append = [this](Ring<float>& ring, std::int64_t first, std::int64_t nodes)
-  {
-    this->Stream->append(
-      std::as_bytes(std::span<const float>(ring.at(first), ring.at(first + nodes))));
-    ring.release(first + nodes);
-  };
   while (this->Written < done)
   {
     const std::int64_t begin = this->Written;
@@ -113,14 +106,42 @@ void IterateHistory::write(std::int64_t done)
     {
       break;
     }
-    append(this->Steps, begin, end - begin);
+    this->append(this->Steps, begin, end - begin);
     if (this->samples(begin / RowBlock::Nodes))
     {
-      append(this->Residuals, this->sampledIndex(begin), end - begin);
+      this->append(this->Residuals, this->sampledIndex(begin), end - begin);
     }
     this->Before.release(end);
     this->Written = end;
   }
+}
+
+void IterateHistory::read(Ring<float>& ring, std::int64_t first, std::int64_t nodes)
+{
+  const std::int64_t vectors = nodes * (ring.lanes() / this->Stride);
+  this->Packed.resize(static_cast<std::size_t>(vectors * this->Columns));
+  this->Stream->read(std::as_writable_bytes(std::span<float>(this->Packed)));
+  const float* from = this->Packed.data();
+  float* to = ring.at(first);
+  for (std::int64_t v = 0; v < vectors; ++v, from += this->Columns, to += this->Stride)
+  {
+    std::copy_n(from, this->Columns, to);
+    std::fill(to + this->Columns, to + this->Stride, 0.0F);
+  }
+}
+
+void IterateHistory::append(Ring<float>& ring, std::int64_t first, std::int64_t nodes)
+{
+  const std::int64_t vectors = nodes * (ring.lanes() / this->Stride);
+  this->Packed.resize(static_cast<std::size_t>(vectors * this->Columns));
+  const float* from = ring.at(first);
+  float* to = this->Packed.data();
+  for (std::int64_t v = 0; v < vectors; ++v, from += this->Stride)
+  {
+    to = std::copy_n(from, this->Columns, to);
+  }
+  this->Stream->append(std::as_bytes(std::span<const float>(this->Packed)));
+  ring.release(first + nodes);
 }
 
 void IterateHistory::endPass()

@@ -50,14 +50,15 @@ struct ResidualProducts
 class IterateHistory
 {
 public:
-  /** For a level of `nodes` nodes. */
-  IterateHistory(Pool& pool, std::int64_t nodes, int stride, bool residuals)
-    : Stride(stride)
+  /** For a level of `nodes` nodes, as many right-hand sides as `columns`. */
+  IterateHistory(Pool& pool, std::int64_t nodes, int columns, bool residuals)
+    : Columns(columns)
+    , Stride(strideOf(columns))
     , Every(residuals ? std::clamp<std::int64_t>(nodes / SampledNodes, 1, MostSparse) : 0)
-    , Before(pool, stride)
-    , Steps(pool, stride)
-    , Residuals(pool, stride * Vectors)
-    , Sums(static_cast<std::size_t>(Products * stride))
+    , Before(pool, this->Stride)
+    , Steps(pool, this->Stride)
+    , Residuals(pool, this->Stride * Vectors)
+    , Sums(static_cast<std::size_t>(Products * this->Stride))
   {
   }
 
@@ -105,7 +106,11 @@ private:
     return i / (RowBlock::Nodes * this->Every) * RowBlock::Nodes;
   }
   void loadBlock(std::int64_t begin, std::int64_t end);
+  /** `nodes` nodes of a ring from disk or to it, where they have no padding. */
+  void read(Ring<float>& ring, std::int64_t first, std::int64_t nodes);
+  void append(Ring<float>& ring, std::int64_t first, std::int64_t nodes);
 
+  int Columns;
   int Stride;
   std::int64_t Every; // of so many blocks one keeps residuals; 0: none
   StepWeights Weights;
@@ -116,6 +121,7 @@ private:
   bool First = true;
   std::int64_t Written = 0;
   std::optional<ScratchStream> Stream;
+  std::vector<float> Packed;
 
   template <class Vectors>
   void combineLanes(const Ring<double>& x, std::int64_t begin, std::int64_t end, int lane);

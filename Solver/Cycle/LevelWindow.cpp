@@ -83,7 +83,7 @@ void LevelWindow<Real>::append(RowBlock block)
 {
   if (this->Rows)
   {
-    this->Rows->append(block.buffer().bytes());
+    this->Rows->append(block.stored());
   }
   this->extendState(block.end());
   this->Nodes = this->Loaded = block.end();
@@ -118,9 +118,12 @@ Buffer LevelWindow<Real>::buffer(std::size_t bytes)
 template <class Real>
 void LevelWindow<Real>::loadBlock()
 {
-  Buffer rows = this->buffer(this->Rows->nextBytes());
-  this->Rows->read(rows.bytes());
+  const std::size_t stored = this->Rows->nextBytes();
+  const std::int64_t nodes = std::min(RowBlock::Nodes, this->Nodes - this->Loaded);
+  Buffer rows = this->buffer(stored + RowBlock::diagonalBytes(nodes));
+  this->Rows->read(rows.bytes().first(stored));
   RowBlock block(std::move(rows));
+  block.sumDiagonals<Weight>();
   const std::int64_t begin = block.first();
   const std::int64_t end = block.end();
   for (State* state : { &this->up(), &this->down() })
@@ -204,26 +207,27 @@ void LevelWindow<Real>::release(std::int64_t done)
   {
     return;
   }
-  while (!this->Blocks.empty())
+  while (!this->Blocks.empty() && this->Blocks.front().end() <= std::min(done, this->Written))
   {
     const RowBlock& front = this->Blocks.front();
     const RowBlock::Header& h = front.header();
-    if (front.end() > this->Written || h.neighbourReach[groupIn(h, front.end() - 1)] >= done)
-    {
-      break;
-    }
-    this->Resident->add(-h.nodes);
-    for (State* state : { &this->up(), &this->down() })
-    {
-      state->x.release(front.end());
-      state->b.release(front.end());
-    }
+    this->Passed.push_back({ front.end(), h.neighbourReach[groupIn(h, front.end() - 1)] });
+    this->up().b.release(front.end());
+    this->down().b.release(front.end());
     if (this->Spare.size() < 2)
     {
       this->Spare.push_back(this->Blocks.front().takeBuffer());
     }
     this->Blocks.pop_front();
     ++this->FirstBlock;
+  }
+  while (!this->Passed.empty() && this->Passed.front().reach < done)
+  {
+    const std::int64_t end = this->Passed.front().end;
+    this->Resident->add(this->Now.x.first() - end);
+    this->up().x.release(end);
+    this->down().x.release(end);
+    this->Passed.pop_front();
   }
 }
 

@@ -55,6 +55,7 @@ public:
   /** Keeps the level in scratch files in `folder`. */
   void useScratch(const std::filesystem::path& folder, ScratchTraffic& traffic);
 
+  int columns() const { return this->Columns; }
   int stride() const { return this->Stride; }
   Ring<Real>& x() { return this->Now.x; }
   Ring<Real>& b() { return this->Now.b; }
@@ -128,7 +129,8 @@ public:
   void load(std::int64_t node);
   /** Writes the state of the blocks that lie below `done`. */
   void write(std::int64_t done);
-  /** Lets go of blocks that are written and that no node from `done` on needs. */
+  /** Lets go of what is written and no node from `done` on needs: of rows and b, which are a node's
+   * own, and of x, which its neighbours need longer. */
   void release(std::int64_t done);
 
   void zeroB(std::int64_t begin, std::int64_t end)
@@ -200,6 +202,12 @@ private:
   State Now;
   std::optional<State> Next; // of the way down, in a pass that renews
   std::deque<RowBlock> Blocks;
+  /** Blocks whose x is still there: where they end, and their largest neighbour. */
+  struct PassedBlock
+  {
+    std::int64_t end, reach;
+  };
+  std::deque<PassedBlock> Passed;
   std::int64_t FirstBlock = 0; // number of Blocks.front() among all blocks of the level
   std::int64_t Nodes = 0;
   std::int64_t Loaded = 0;

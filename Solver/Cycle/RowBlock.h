@@ -2,12 +2,15 @@
 #pragma once
 
 #include "Solver/Cycle/BFloat16.h"
+#include "Solver/Hierarchy/LevelRows.h"
 #include "Solver/Storage/Buffer.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 
 namespace smg
@@ -18,6 +21,9 @@ namespace smg
  * disk: used in place, without decoding. Columns are distances, of 16 bits ("narrow") or, where a
  * distance or a count does not fit, 32 bits ("wide"). Each group of `Group` nodes has the largest
  * indices that the cursors need.
+ *
+ * The diagonals are not on disk: they are the row sums, most of which are zero, and the weights, so
+ * sumDiagonals() makes them. They stand behind what is stored.
  */
 class RowBlock
 {
@@ -33,8 +39,9 @@ public:
     std::int32_t nodes = 0;
     std::int32_t entries = 0; ///< off-diagonals of all rows
     std::int32_t parents = 0; ///< entries of all rows of P
-    std::int16_t wide = 0;
-    std::int16_t weightBytes = 0;
+    std::int8_t wide = 0;
+    std::int8_t weightBytes = 0;
+    std::uint16_t alphaGroups = 0; ///< bit g: some row of group g has a sum that is not zero
     /** Largest node in rows 0 .. end of the group; the same of children and of parents. */
     std::array<std::int64_t, Groups> neighbourReach{}, childReach{}, parentReach{};
     /** Where the entries and the parents of the group begin. */
@@ -49,13 +56,14 @@ public:
   struct Arrays
   {
     using Count = std::make_unsigned_t<Index>;
-    const double* diagonal;           // a node
     const Weight* weight;             // an entry
     const Index* delta;               // an entry
     const Index* parent;              // a parent, relative to parentBase
     const Count* entryEnd;            // a node: end of its entries, from the group's start
     const Count* parentEnd;           // a node: end of its parents, from the group's start
     const std::uint8_t* parentQuanta; // a parent
+    const double* alpha;              // a node of the groups that have them: the row's sum
+    const double* diagonal;           // a node
   };
 
   /**
@@ -67,7 +75,8 @@ public:
   using WeightOf = std::conditional_t<std::is_same_v<Real, double>, float, BFloat16>;
 
   RowBlock() = default;
-  /** Takes the bytes of a block, as packRows() or a file has filled them. */
+  /** Takes the bytes of a block, as packRows() or a file has filled them, with room for the
+   * diagonals. */
   explicit RowBlock(Buffer buffer)
     : Bytes(std::move(buffer))
   {
@@ -83,32 +92,63 @@ public:
     const Header& h = this->header();
     Arrays<Index, Weight> a{};
     const std::byte* at = this->Bytes.data() + sizeof(Header);
-    take(at, a.diagonal, h.nodes);
     take(at, a.weight, h.entries);
     take(at, a.delta, h.entries);
     take(at, a.parent, h.parents);
     take(at, a.entryEnd, h.nodes);
     take(at, a.parentEnd, h.nodes);
     take(at, a.parentQuanta, h.parents);
+    take(at, a.alpha, alphas(h));
+    take(at, a.diagonal, h.nodes);
     return a;
   }
 
-  /** Bytes of a block with this header. */
-  static std::size_t bytes(const Header& h)
+  /** Nodes of the groups that have alphas; all groups but the last one are full. */
+  static std::int32_t alphas(const Header& h)
+  {
+    const std::int32_t room = std::popcount(h.alphaGroups) * static_cast<std::int32_t>(Group);
+    const std::int32_t last = (h.nodes - 1) / static_cast<std::int32_t>(Group);
+    const std::int32_t missing = (last + 1) * static_cast<std::int32_t>(Group) - h.nodes;
+    return room - (h.alphaGroups >> last & 1 ? missing : 0);
+  }
+
+  /** Bytes of the diagonals of so many nodes. */
+  static std::size_t diagonalBytes(std::int64_t nodes)
+  {
+    return static_cast<std::size_t>(nodes) * sizeof(double);
+  }
+
+  /** Bytes on disk of a block with this header. */
+  static std::size_t storedBytes(const Header& h)
   {
     const std::size_t index = h.wide ? 4 : 2;
     const auto nodes = static_cast<std::size_t>(h.nodes);
     const auto entries = static_cast<std::size_t>(h.entries);
     const auto parents = static_cast<std::size_t>(h.parents);
-    return sizeof(Header) + nodes * 8 + aligned(entries * static_cast<std::size_t>(h.weightBytes)) +
+    return sizeof(Header) + aligned(entries * static_cast<std::size_t>(h.weightBytes)) +
            aligned(entries * index) + aligned(parents * index) + 2 * aligned(nodes * index) +
-           aligned(parents);
+           aligned(parents) + static_cast<std::size_t>(alphas(h)) * sizeof(double);
   }
 
-  const Buffer& buffer() const { return this->Bytes; }
+  /** What is on disk of the block. */
+  std::span<const std::byte> stored() const
+  {
+    return this->Bytes.bytes().first(storedBytes(this->header()));
+  }
+  /** Makes the diagonals from what is stored. */
+  template <class Weight>
+  void sumDiagonals()
+  {
+    this->header().wide ? this->sumDiagonals<std::int32_t, Weight>()
+                        : this->sumDiagonals<std::int16_t, Weight>();
+  }
+
   Buffer takeBuffer() { return std::move(this->Bytes); }
 
 private:
+  template <class Index, class Weight>
+  void sumDiagonals();
+
   static std::size_t aligned(std::size_t bytes) { return (bytes + 7) / 8 * 8; }
 
   template <class T>
@@ -120,5 +160,26 @@ private:
 
   Buffer Bytes;
 };
+
+template <class Index, class Weight>
+void RowBlock::sumDiagonals()
+{
+  const Header& h = this->header();
+  const auto a = this->arrays<Index, Weight>();
+  // The arrays are constant for those who use a block; here it is made.
+  auto* diagonal = const_cast<double*>(a.diagonal);
+  const double* alpha = a.alpha;
+  const Weight* weight = a.weight;
+  for (std::int32_t k = 0; k < h.nodes; ++k)
+  {
+    const auto group = static_cast<std::size_t>(k / Group);
+    double sum = h.alphaGroups >> group & 1 ? *alpha++ : 0.0;
+    for (const Weight* end = a.weight + h.entryStart[group] + a.entryEnd[k]; weight < end; ++weight)
+    {
+      sum += static_cast<float>(*weight);
+    }
+    diagonal[k] = usableDiagonal(sum);
+  }
+}
 
 } // namespace smg

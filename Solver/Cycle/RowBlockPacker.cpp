@@ -36,6 +36,10 @@ Header measure(
         { largestDelta, std::abs(row.front().delta), std::abs(row.back().delta) });
     }
     h.entries += static_cast<std::int32_t>(row.size());
+    if (rows.alpha(i) != 0.0)
+    {
+      h.alphaGroups = static_cast<std::uint16_t>(h.alphaGroups | 1U << group);
+    }
     h.neighbourReach[group] = rows.reach(i);
     h.childReach[group] = rows.childReach(i);
     h.parentReach[group] = -1;
@@ -70,7 +74,7 @@ void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarseni
   const auto a = block.arrays<Index, Weight>();
   using Count = typename RowBlock::Arrays<Index, Weight>::Count;
   // The arrays are constant for those who use a block; here it is made.
-  auto* diagonal = const_cast<double*>(a.diagonal);
+  auto* alpha = const_cast<double*>(a.alpha);
   auto* weight = const_cast<Weight*>(a.weight);
   auto* delta = const_cast<Index*>(a.delta);
   auto* parent = const_cast<Index*>(a.parent);
@@ -82,15 +86,15 @@ void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarseni
   {
     const std::int64_t i = h.first + k;
     const auto group = static_cast<std::size_t>(k / RowBlock::Group);
-    double sum = rows.alpha(i);
+    if (h.alphaGroups >> group & 1)
+    {
+      *alpha++ = rows.alpha(i);
+    }
     for (const RowEntry& entry : rows.row(i))
     {
-      const Weight rounded(entry.weight);
-      sum += static_cast<float>(rounded);
-      weight[entries] = rounded;
+      weight[entries] = Weight(entry.weight);
       delta[entries++] = static_cast<Index>(entry.delta);
     }
-    diagonal[k] = usableDiagonal(sum);
     entryEnd[k] = static_cast<Count>(entries - h.entryStart[group]);
     if (coarsening)
     {
@@ -114,7 +118,7 @@ RowBlock packRows(Pool& pool, const LevelRows& rows, const CoarseningData* coars
 {
   Header header = measure(rows, coarsening, first, nodes);
   header.weightBytes = sizeof(Weight);
-  Buffer buffer(pool, RowBlock::bytes(header));
+  Buffer buffer(pool, RowBlock::storedBytes(header) + RowBlock::diagonalBytes(nodes));
   std::fill_n(buffer.data(), buffer.size(), std::byte{});
   *reinterpret_cast<Header*>(buffer.data()) = header;
   RowBlock block(std::move(buffer));
@@ -126,6 +130,7 @@ RowBlock packRows(Pool& pool, const LevelRows& rows, const CoarseningData* coars
   {
     fill<std::int16_t, Weight>(block, rows, coarsening);
   }
+  block.sumDiagonals<Weight>();
   return block;
 }
 

@@ -50,7 +50,7 @@ void Engine<Operators>::addHistory(
     constexpr std::int64_t Pages = std::int64_t(1) << 16; // memory grows by pages, and ahead
     if (this->Memory.used() + need + need / 4 + Pages <= this->Memory.limit())
     {
-      history.emplace(this->Memory, window.nodes(), window.stride(), residuals);
+      history.emplace(this->Memory, window.nodes(), window.columns(), residuals);
       if (this->Scratch)
       {
         history->useScratch(this->Scratch->path(), this->Traffic.add("history", 0));

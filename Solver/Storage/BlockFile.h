@@ -56,7 +56,7 @@ struct TableSpec
 class BlockFileWriter
 {
 public:
-  static constexpr std::size_t WriteBehindBytes = std::size_t(384) << 10;
+  static constexpr std::size_t WriteBehindBytes = std::size_t(192) << 10;
 
   BlockFileWriter(std::filesystem::path path, std::vector<TableSpec> tables, Codec codec,
     IoStatistics* statistics = nullptr);

@@ -106,7 +106,7 @@ std::int64_t pack(Pool& pool, TimedStep& step, const LevelRows& rows, std::int64
   {
     const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
     ::benchmark::DoNotOptimize(
-      packRows<float>(pool, rows, &step.data(), begin, nodes).buffer().data());
+      packRows<float>(pool, rows, &step.data(), begin, nodes).stored().data());
     begin += nodes;
     step.packed(begin);
     step.release();

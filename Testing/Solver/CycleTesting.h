@@ -18,7 +18,7 @@ RowBlock widened(Pool& pool, const RowBlock& narrow)
   RowBlock::Header h = narrow.header();
   const auto from = narrow.arrays<std::int16_t, Weight>();
   h.wide = 1;
-  Buffer buffer(pool, RowBlock::bytes(h));
+  Buffer buffer(pool, RowBlock::storedBytes(h) + RowBlock::diagonalBytes(h.nodes));
   *reinterpret_cast<RowBlock::Header*>(buffer.data()) = h;
   RowBlock wide(std::move(buffer));
   const auto to = wide.arrays<std::int32_t, Weight>();
@@ -27,13 +27,14 @@ RowBlock widened(Pool& pool, const RowBlock& narrow)
     std::copy_n(source, count,
       const_cast<std::remove_const_t<std::remove_pointer_t<decltype(target)>>*>(target));
   };
-  copy(from.diagonal, h.nodes, to.diagonal);
   copy(from.weight, h.entries, to.weight);
   copy(from.delta, h.entries, to.delta);
   copy(from.parent, h.parents, to.parent);
   copy(from.entryEnd, h.nodes, to.entryEnd);
   copy(from.parentEnd, h.nodes, to.parentEnd);
   copy(from.parentQuanta, h.parents, to.parentQuanta);
+  copy(from.alpha, RowBlock::alphas(h), to.alpha);
+  copy(from.diagonal, h.nodes, to.diagonal);
   return wide;
 }
 

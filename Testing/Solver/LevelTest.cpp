@@ -178,7 +178,7 @@ TEST(RowBlockPacker, keepsRowsAndReaches)
     const RowBlock block = packRows<float>(pool, rows, nullptr, first, nodes);
     const RowBlock::Header& h = block.header();
     const auto a = block.arrays<std::int16_t, float>();
-    EXPECT_EQ(block.buffer().size(), RowBlock::bytes(h));
+    EXPECT_EQ(block.stored().size(), RowBlock::storedBytes(h));
     EXPECT_EQ(block.end(), first + nodes);
     for (std::int64_t k = 0; k < nodes; ++k)
     {
