@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace smg
 {
@@ -15,7 +16,7 @@ void IterateHistory::useScratch(const std::filesystem::path& folder, IoStatistic
 void IterateHistory::startPass(const StepWeights& weights)
 {
   this->Weights = weights;
-  this->Written = 0;
+  this->Written = this->Read = 0;
   std::fill(this->Sums.begin(), this->Sums.end(), 0.0);
   this->Before.restart();
   if (this->Stream)
@@ -33,26 +34,62 @@ void IterateHistory::load(const Ring<double>& x, std::int64_t end)
   std::ranges::copy(x.range(begin, end), this->Before.at(begin));
   while (this->Steps.end() < end)
   {
-    this->loadBlock(this->Steps.end(), std::min(end, this->Steps.end() + RowBlock::Nodes));
+    this->loadBlock();
   }
 }
 
-void IterateHistory::loadBlock(std::int64_t begin, std::int64_t end)
+void IterateHistory::readAhead()
 {
-  const auto fill = [this](Ring<float>& ring, std::int64_t first, std::int64_t nodes)
+  const std::size_t wanted = std::max<std::size_t>(1, std::exchange(this->Taken, 0));
+  while (this->Stream && !this->First && this->Read < this->Nodes && this->Ahead.size() < wanted)
   {
-    if (this->First)
+    this->Ahead.push_back(this->readBlock());
+  }
+}
+
+/** The steps of the next block and, if it has them, the residuals. */
+Buffer IterateHistory::readBlock()
+{
+  const std::int64_t end = this->blockEnd(this->Read);
+  const auto values = static_cast<std::size_t>((end - this->Read) * this->Columns);
+  const bool residuals = this->samples(this->Read / RowBlock::Nodes);
+  Buffer block(*this->Owner, (residuals ? 1 + Vectors : 1) * values * sizeof(float));
+  this->Stream->read(block.bytes().first(values * sizeof(float)));
+  if (residuals)
+  {
+    this->Stream->read(block.bytes().subspan(values * sizeof(float)));
+  }
+  this->Read = end;
+  return block;
+}
+
+void IterateHistory::loadBlock()
+{
+  const std::int64_t begin = this->Steps.end();
+  const std::int64_t nodes = this->blockEnd(begin) - begin;
+  const std::int64_t sampled =
+    this->samples(begin / RowBlock::Nodes) ? this->sampledIndex(begin) : -1;
+  if (this->First)
+  {
+    this->Steps.extend(begin + nodes);
+    if (sampled >= 0)
     {
-      ring.extend(first + nodes);
-      return;
+      this->Residuals.extend(sampled + nodes);
     }
-    ring.extendRaw(first + nodes);
-    this->read(ring, first, nodes);
-  };
-  fill(this->Steps, begin, end - begin);
-  if (this->samples(begin / RowBlock::Nodes))
+    return;
+  }
+  if (this->Ahead.empty())
   {
-    fill(this->Residuals, this->sampledIndex(begin), end - begin);
+    this->Ahead.push_back(this->readBlock());
+  }
+  const Buffer block = std::move(this->Ahead.front());
+  this->Ahead.pop_front();
+  ++this->Taken;
+  const auto* packed = reinterpret_cast<const float*>(block.data());
+  packed = this->unpack(this->Steps, begin, nodes, packed);
+  if (sampled >= 0)
+  {
+    this->unpack(this->Residuals, sampled, nodes, packed);
   }
 }
 
@@ -101,7 +138,7 @@ void IterateHistory::write(std::int64_t done)
   while (this->Written < done)
   {
     const std::int64_t begin = this->Written;
-    const std::int64_t end = std::min(this->Steps.end(), begin + RowBlock::Nodes);
+    const std::int64_t end = this->blockEnd(begin);
     if (end > done)
     {
       break;
@@ -111,26 +148,39 @@ void IterateHistory::write(std::int64_t done)
     {
       this->append(this->Residuals, this->sampledIndex(begin), end - begin);
     }
-    this->Before.release(end);
     this->Written = end;
   }
 }
 
-void IterateHistory::read(Ring<float>& ring, std::int64_t first, std::int64_t nodes)
+void IterateHistory::release()
 {
-  const std::int64_t vectors = nodes * (ring.lanes() / this->Stride);
-  this->Packed.resize(static_cast<std::size_t>(vectors * this->Columns));
-  this->Stream->read(std::as_writable_bytes(std::span<float>(this->Packed)));
-  const float* from = this->Packed.data();
-  float* to = ring.at(first);
-  for (std::int64_t v = 0; v < vectors; ++v, from += this->Columns, to += this->Stride)
+  this->Before.release(this->Written);
+  if (this->Stream)
   {
-    std::copy_n(from, this->Columns, to);
-    std::fill(to + this->Columns, to + this->Stride, 0.0F);
+    this->Steps.release(this->Written);
+  }
+  if (this->Stream && this->Every > 0)
+  {
+    this->Residuals.release(this->sampledIndex(this->Written));
   }
 }
 
-void IterateHistory::append(Ring<float>& ring, std::int64_t first, std::int64_t nodes)
+/** Answers what follows in `packed`. */
+const float* IterateHistory::unpack(
+  Ring<float>& ring, std::int64_t first, std::int64_t nodes, const float* packed) const
+{
+  const std::int64_t vectors = nodes * (ring.lanes() / this->Stride);
+  ring.extendRaw(first + nodes);
+  float* to = ring.at(first);
+  for (std::int64_t v = 0; v < vectors; ++v, packed += this->Columns, to += this->Stride)
+  {
+    std::copy_n(packed, this->Columns, to);
+    std::fill(to + this->Columns, to + this->Stride, 0.0F);
+  }
+  return packed;
+}
+
+void IterateHistory::append(const Ring<float>& ring, std::int64_t first, std::int64_t nodes)
 {
   const std::int64_t vectors = nodes * (ring.lanes() / this->Stride);
   this->Packed.resize(static_cast<std::size_t>(vectors * this->Columns));
@@ -141,7 +191,6 @@ void IterateHistory::append(Ring<float>& ring, std::int64_t first, std::int64_t 
     to = std::copy_n(from, this->Columns, to);
   }
   this->Stream->append(std::as_bytes(std::span<const float>(this->Packed)));
-  ring.release(first + nodes);
 }
 
 void IterateHistory::endPass()

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -52,7 +53,9 @@ class IterateHistory
 public:
   /** For a level of `nodes` nodes, as many right-hand sides as `columns`. */
   IterateHistory(Pool& pool, std::int64_t nodes, int columns, bool residuals)
-    : Columns(columns)
+    : Owner(&pool)
+    , Nodes(nodes)
+    , Columns(columns)
     , Stride(strideOf(columns))
     , Every(residuals ? std::clamp<std::int64_t>(nodes / SampledNodes, 1, MostSparse) : 0)
     , Before(pool, this->Stride)
@@ -82,8 +85,13 @@ public:
   void load(const Ring<float>&, std::int64_t) {}
   void combine(const Ring<float>&, std::int64_t, std::int64_t) {}
 
-  /** Writes and lets go of the blocks below `done`, whose residuals have come. */
+  /** Reads as many blocks as load() has taken since, which it will take first. Other threads may
+   * work on what is loaded. */
+  void readAhead();
+  /** Writes the blocks below `done`, whose residuals have come. Other threads may work above. */
   void write(std::int64_t done);
+  /** Lets go of what is written. */
+  void release();
   void endPass();
 
   /** Of the last pass. */
@@ -95,7 +103,7 @@ private:
 
   static constexpr int Products = 5;
   static constexpr int Vectors = 3;
-  static constexpr std::int64_t SampledNodes = std::int64_t(1) << 18;
+  static constexpr std::int64_t SampledNodes = std::int64_t(1) << 16;
   static constexpr std::int64_t MostSparse = 8;
 
   bool samples(std::int64_t block) const { return this->Every > 0 && block % this->Every == 0; }
@@ -105,11 +113,19 @@ private:
   {
     return i / (RowBlock::Nodes * this->Every) * RowBlock::Nodes;
   }
-  void loadBlock(std::int64_t begin, std::int64_t end);
-  /** `nodes` nodes of a ring from disk or to it, where they have no padding. */
-  void read(Ring<float>& ring, std::int64_t first, std::int64_t nodes);
-  void append(Ring<float>& ring, std::int64_t first, std::int64_t nodes);
+  std::int64_t blockEnd(std::int64_t begin) const
+  {
+    return std::min(this->Nodes, begin + RowBlock::Nodes);
+  }
+  Buffer readBlock();
+  void loadBlock();
+  // On disk nodes have no padding.
+  const float* unpack(
+    Ring<float>& ring, std::int64_t first, std::int64_t nodes, const float* packed) const;
+  void append(const Ring<float>& ring, std::int64_t first, std::int64_t nodes);
 
+  Pool* Owner;
+  std::int64_t Nodes;
   int Columns;
   int Stride;
   std::int64_t Every; // of so many blocks one keeps residuals; 0: none
@@ -121,6 +137,9 @@ private:
   bool First = true;
   std::int64_t Written = 0;
   std::optional<ScratchStream> Stream;
+  std::int64_t Read = 0; // nodes of the blocks that have been read, and those to be taken
+  std::deque<Buffer> Ahead;
+  std::size_t Taken = 0; // since readAhead
   std::vector<float> Packed;
 
   template <class Vectors>

@@ -104,11 +104,14 @@ public:
   /** Way up: finishes the V-cycle on nodes 0 .. node, which is loaded. */
   void pull(std::int64_t node) { this->pull(static_cast<int>(this->At.postSweep.size()), node); }
 
-  /** Tells the way down, here and on the coarser levels, how far the way up has come. */
+  /** Tells the way down and writing, here and on the coarser levels, how far the way up and the way
+   * down have come. */
   void showProgress()
   {
     this->At.seenProlonged = this->At.prolonged;
     this->At.seenPostSwept = this->At.postSweep.back();
+    this->At.seenCombined = this->At.combined;
+    this->At.seenRestricted = this->At.restricted;
     if (!this->Coarse->core())
     {
       this->Coarse->showProgress();
@@ -127,19 +130,56 @@ public:
     }
   }
 
-  /** Writes what the way down has finished and lets go of what is not needed any more. */
-  void settle()
+  /** Reads, here and on the coarser levels, what load() will take next. Other threads may go up,
+   * go down and write. */
+  void readAhead()
   {
-    this->Window.write(this->At.combined);
-    this->Window.release(this->At.restricted);
+    this->Window.readAhead();
     if (this->History)
     {
-      this->History->write(this->At.restricted);
+      this->History->readAhead();
     }
     if (!this->Coarse->core())
     {
-      this->Coarse->settle();
+      this->Coarse->readAhead();
     }
+  }
+
+  /** Writes, here and on the coarser levels, what the way down is known to have finished. Other
+   * threads may go up, go down and read ahead. */
+  void write()
+  {
+    this->Window.write(this->At.seenCombined);
+    if (this->History)
+    {
+      this->History->write(this->At.seenRestricted);
+    }
+    if (!this->Coarse->core())
+    {
+      this->Coarse->write();
+    }
+  }
+
+  /** Lets go of what is written and not needed any more. */
+  void release()
+  {
+    this->Window.release(this->At.restricted);
+    if (this->History)
+    {
+      this->History->release();
+    }
+    if (!this->Coarse->core())
+    {
+      this->Coarse->release();
+    }
+  }
+
+  /** Writes what the way down has finished and lets go of what is not needed any more. */
+  void settle()
+  {
+    this->showProgress();
+    this->write();
+    this->release();
   }
 
   /** Whether every node has gone through all stages of the pass. */

@@ -37,6 +37,8 @@ struct LevelCursors
 
   /** Of the way up, what the way down knows: the two may run on two threads. */
   std::int64_t seenProlonged = 0, seenPostSwept = 0;
+  /** Of the way down, what writing knows. */
+  std::int64_t seenCombined = 0, seenRestricted = 0;
 
   explicit LevelCursors(int sweeps)
     : postSweep(static_cast<std::size_t>(sweeps))

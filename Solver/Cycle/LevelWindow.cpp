@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace smg
 {
@@ -33,7 +34,7 @@ void LevelWindow<Real>::startPass(bool first)
     }
     return;
   }
-  this->Loaded = 0;
+  this->Loaded = this->Read = 0;
   this->FirstBlock = 0;
   this->Now.x.restart();
   this->Now.b.restart();
@@ -100,56 +101,83 @@ void LevelWindow<Real>::load(std::int64_t node)
 }
 
 template <class Real>
-Buffer LevelWindow<Real>::buffer(std::size_t bytes)
+void LevelWindow<Real>::readAhead()
 {
-  if (!this->Spare.empty())
+  const std::size_t wanted = std::max<std::size_t>(1, std::exchange(this->Taken, 0));
+  while (this->Rows && this->Read < this->Nodes && this->Ahead.size() < wanted)
   {
-    Buffer spare = std::move(this->Spare.back());
-    this->Spare.pop_back();
-    if (spare.capacity() >= bytes)
+    this->Ahead.push_back(this->readBlock());
+  }
+}
+
+template <class Real>
+Buffer LevelWindow<Real>::buffer(std::vector<Buffer>& spare, std::size_t bytes)
+{
+  if (!spare.empty())
+  {
+    Buffer last = std::move(spare.back());
+    spare.pop_back();
+    if (last.capacity() >= bytes)
     {
-      spare.resize(bytes);
-      return spare;
+      last.resize(bytes);
+      return last;
     }
   }
   return Buffer(*this->Owner, bytes);
 }
 
 template <class Real>
-void LevelWindow<Real>::loadBlock()
+auto LevelWindow<Real>::readBlock() -> Incoming
 {
+  const std::int64_t nodes = std::min(RowBlock::Nodes, this->Nodes - this->Read);
   const std::size_t stored = this->Rows->nextBytes();
-  const std::int64_t nodes = std::min(RowBlock::Nodes, this->Nodes - this->Loaded);
-  Buffer rows = this->buffer(stored + RowBlock::diagonalBytes(nodes));
+  Buffer rows = this->buffer(this->SpareRows, stored + RowBlock::diagonalBytes(nodes));
   this->Rows->read(rows.bytes().first(stored));
   RowBlock block(std::move(rows));
   block.sumDiagonals<Weight>();
-  const std::int64_t begin = block.first();
-  const std::int64_t end = block.end();
+
+  const auto values = static_cast<std::size_t>(nodes * this->Columns);
+  Buffer state = this->buffer(this->SpareState, 2 * values * sizeof(Real));
+  if (this->RightSide)
+  {
+    this->Values->read(state.bytes().first(values * sizeof(Real)));
+    this->readRightSide({ reinterpret_cast<Real*>(state.data()) + values, values });
+  }
+  else
+  {
+    this->Values->read(state.bytes());
+  }
+  this->Read += nodes;
+  return { std::move(block), std::move(state) };
+}
+
+template <class Real>
+void LevelWindow<Real>::loadBlock()
+{
+  if (this->Ahead.empty())
+  {
+    this->Ahead.push_back(this->readBlock());
+  }
+  Incoming next = std::move(this->Ahead.front());
+  this->Ahead.pop_front();
+  const std::int64_t begin = next.rows.first();
+  const std::int64_t end = next.rows.end();
   for (State* state : { &this->up(), &this->down() })
   {
     state->x.extendRaw(end);
     state->b.extendRaw(end);
   }
   this->Resident->add(end - begin);
-
-  const auto values = static_cast<std::size_t>((end - begin) * this->Columns);
-  this->Packed.resize(2 * values);
-  const std::span<Real> x(this->Packed.data(), values);
-  const std::span<Real> b(this->Packed.data() + values, values);
-  if (this->RightSide)
+  const auto* x = reinterpret_cast<const Real*>(next.state.data());
+  this->unpack(this->Now.x, begin, end, x);
+  this->unpack(this->Now.b, begin, end, x + (end - begin) * this->Columns);
+  if (this->SpareState.size() < MostSpare)
   {
-    this->Values->read(std::as_writable_bytes(x));
-    this->readRightSide(b);
+    this->SpareState.push_back(std::move(next.state));
   }
-  else
-  {
-    this->Values->read(std::as_writable_bytes(std::span<Real>(this->Packed)));
-  }
-  this->unpack(this->Now.x, begin, end, x.data());
-  this->unpack(this->Now.b, begin, end, b.data());
-  this->Blocks.push_back(std::move(block));
+  this->Blocks.push_back(std::move(next.rows));
   this->Loaded = end;
+  ++this->Taken;
 }
 
 template <class Real>
@@ -214,9 +242,9 @@ void LevelWindow<Real>::release(std::int64_t done)
     this->Passed.push_back({ front.end(), h.neighbourReach[groupIn(h, front.end() - 1)] });
     this->up().b.release(front.end());
     this->down().b.release(front.end());
-    if (this->Spare.size() < 2)
+    if (this->SpareRows.size() < MostSpare)
     {
-      this->Spare.push_back(this->Blocks.front().takeBuffer());
+      this->SpareRows.push_back(this->Blocks.front().takeBuffer());
     }
     this->Blocks.pop_front();
     ++this->FirstBlock;
@@ -261,7 +289,7 @@ void LevelWindow<Real>::moveToMemory()
   {
     return;
   }
-  this->Loaded = this->FirstBlock = 0;
+  this->Loaded = this->Read = this->FirstBlock = 0;
   this->Now.x.restart();
   this->Now.b.restart();
   this->Rows->startPass(false);
@@ -275,7 +303,8 @@ void LevelWindow<Real>::moveToMemory()
 template <class Real>
 void LevelWindow<Real>::keepSolution()
 {
-  this->Spare.clear();
+  this->SpareRows.clear();
+  this->SpareState.clear();
   this->Blocks.clear();
   this->Now.b.clear();
   if (this->Rows)

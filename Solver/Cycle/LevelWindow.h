@@ -127,7 +127,10 @@ public:
 
   /** Loads up to node `node`. */
   void load(std::int64_t node);
-  /** Writes the state of the blocks that lie below `done`. */
+  /** Reads as many blocks as load() has taken since, which it will take first. Other threads may
+   * work on what is loaded. */
+  void readAhead();
+  /** Writes the state of the blocks that lie below `done`. Other threads may work above. */
   void write(std::int64_t done);
   /** Lets go of what is written and no node from `done` on needs: of rows and b, which are a node's
    * own, and of x, which its neighbours need longer. */
@@ -183,15 +186,25 @@ private:
     return this->Blocks[static_cast<std::size_t>(node / RowBlock::Nodes - this->FirstBlock)];
   }
   bool finest() const { return this->Index == 0; }
+  /** A block and its x and b, without padding, as they have been read. */
+  struct Incoming
+  {
+    RowBlock rows;
+    Buffer state;
+  };
+  Incoming readBlock();
   void loadBlock();
   /** Most right-hand sides are zero but near constraints: a block of zeros takes no room on disk.
    */
   void readRightSide(std::span<Real> b);
   void appendRightSide(std::span<const Real> b);
-  Buffer buffer(std::size_t bytes);
+  /** One of `spare` if it is large enough. */
+  Buffer buffer(std::vector<Buffer>& spare, std::size_t bytes);
   void pack(
     const Ring<Real>& state, int columns, std::int64_t begin, std::int64_t end, Real* packed) const;
   void unpack(Ring<Real>& state, std::int64_t begin, std::int64_t end, const Real* packed);
+
+  static constexpr std::size_t MostSpare = 4;
 
   Pool* Owner;
   ResidentNodes* Resident;
@@ -217,7 +230,10 @@ private:
   // Scratch: rows are written once, x in every pass; b in the first pass (finest) or with x.
   std::optional<ScratchStream> Rows, RightSide, Values;
   std::vector<Real> Packed;
-  std::vector<Buffer> Spare;
+  std::int64_t Read = 0; // nodes of the blocks that have been read, and those to be taken
+  std::deque<Incoming> Ahead;
+  std::size_t Taken = 0; // since readAhead
+  std::vector<Buffer> SpareRows, SpareState;
   std::int64_t CachedBlock = -1; // of readX
 };
 

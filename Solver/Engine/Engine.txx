@@ -306,10 +306,18 @@ void Engine<Operators>::pass(
     const std::int64_t last = std::min(nodes, begin + this->Options.blockNodes) - 1;
     finest.load(last);
     loaded();
-    // The way down works on what the way up left behind a step ago: no node is touched by both.
+    // The way down works on what the way up left behind a step ago, and what is written the way
+    // down has left behind: no node is touched by two of them.
     finest.showProgress();
-    runAll(this->Threads, 2, [&](int task) { task == 0 ? finest.pull(last) : down(); });
-    finest.settle();
+    runAll(this->Threads, 4,
+      [&](int task)
+      {
+        task == 0   ? finest.pull(last)
+        : task == 1 ? down()
+        : task == 2 ? finest.readAhead()
+                    : finest.write();
+      });
+    finest.release();
     this->Progress.update(static_cast<double>(last) / static_cast<double>(nodes));
   }
   finest.showProgress();

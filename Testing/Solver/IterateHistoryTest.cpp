@@ -57,6 +57,7 @@ public:
       }
     }
     this->History.write(end);
+    this->History.release();
     this->History.endPass();
   }
 
