@@ -60,8 +60,16 @@ public:
    */
   void advance(int l)
   {
-    this->Steps[static_cast<std::size_t>(l)]->advance();
-    this->pack(l, true);
+    const auto k = static_cast<std::size_t>(l);
+    const std::int64_t end = this->Rows[k]->end();
+    std::int64_t& rows = this->Advanced[k];
+    // A few rows at a time: what they need in between is let go of before the next ones come.
+    do
+    {
+      rows = std::min(end, rows + RowBlock::Nodes);
+      this->Steps[k]->advance(rows);
+      this->pack(l, true);
+    } while (rows < end);
   }
 
   /** Ends a step of all streamed levels: the next level gets its rows, the windows their blocks. */
@@ -158,6 +166,7 @@ private:
   void addStep()
   {
     this->Rows.push_back(std::make_unique<LevelRows>(this->Owner));
+    this->Advanced.push_back(0);
     this->Packed.push_back(0);
     this->Ready.resize(this->Rows.size());
     this->Steps.push_back(std::make_unique<Coarsening<Operators>>(
@@ -214,7 +223,7 @@ private:
   int FirstCore;
   std::vector<std::unique_ptr<LevelRows>> Rows;
   std::vector<std::unique_ptr<Coarsening<Operators>>> Steps;
-  std::vector<std::int64_t> Packed;
+  std::vector<std::int64_t> Advanced, Packed;
   std::vector<std::vector<RowBlock>> Ready; // packed, not yet in the windows
 };
 
