@@ -47,18 +47,14 @@ void IterateHistory::readAhead()
   }
 }
 
-/** The steps of the next block and, if it has them, the residuals. */
+/** The steps of the next block and the residuals of its sampled nodes. */
 Buffer IterateHistory::readBlock()
 {
   const std::int64_t end = this->blockEnd(this->Read);
-  const auto values = static_cast<std::size_t>((end - this->Read) * this->Columns);
-  const bool residuals = this->samples(this->Read / RowBlock::Nodes);
-  Buffer block(*this->Owner, (residuals ? 1 + Vectors : 1) * values * sizeof(float));
-  this->Stream->read(block.bytes().first(values * sizeof(float)));
-  if (residuals)
-  {
-    this->Stream->read(block.bytes().subspan(values * sizeof(float)));
-  }
+  const std::int64_t sampled = this->sampledBelow(end) - this->sampledBelow(this->Read);
+  const std::int64_t values = (end - this->Read + Vectors * sampled) * this->Columns;
+  Buffer block(*this->Owner, static_cast<std::size_t>(values) * sizeof(float));
+  this->Stream->read(block.bytes());
   this->Read = end;
   return block;
 }
@@ -66,16 +62,11 @@ Buffer IterateHistory::readBlock()
 void IterateHistory::loadBlock()
 {
   const std::int64_t begin = this->Steps.end();
-  const std::int64_t nodes = this->blockEnd(begin) - begin;
-  const std::int64_t sampled =
-    this->samples(begin / RowBlock::Nodes) ? this->sampledIndex(begin) : -1;
+  const std::int64_t end = this->blockEnd(begin);
   if (this->First)
   {
-    this->Steps.extend(begin + nodes);
-    if (sampled >= 0)
-    {
-      this->Residuals.extend(sampled + nodes);
-    }
+    this->Steps.extend(end);
+    this->Residuals.extend(this->sampledBelow(end));
     return;
   }
   if (this->Ahead.empty())
@@ -86,11 +77,8 @@ void IterateHistory::loadBlock()
   this->Ahead.pop_front();
   ++this->Taken;
   const auto* packed = reinterpret_cast<const float*>(block.data());
-  packed = this->unpack(this->Steps, begin, nodes, packed);
-  if (sampled >= 0)
-  {
-    this->unpack(this->Residuals, sampled, nodes, packed);
-  }
+  packed = this->unpack(this->Steps, end, packed);
+  this->unpack(this->Residuals, this->sampledBelow(end), packed);
 }
 
 void IterateHistory::combine(const Ring<double>& x, std::int64_t begin, std::int64_t end)
@@ -143,11 +131,10 @@ void IterateHistory::write(std::int64_t done)
     {
       break;
     }
-    this->append(this->Steps, begin, end - begin);
-    if (this->samples(begin / RowBlock::Nodes))
-    {
-      this->append(this->Residuals, this->sampledIndex(begin), end - begin);
-    }
+    this->Packed.clear();
+    this->pack(this->Steps, begin, end);
+    this->pack(this->Residuals, this->sampledBelow(begin), this->sampledBelow(end));
+    this->Stream->append(std::as_bytes(std::span<const float>(this->Packed)));
     this->Written = end;
   }
 }
@@ -158,20 +145,17 @@ void IterateHistory::release()
   if (this->Stream)
   {
     this->Steps.release(this->Written);
-  }
-  if (this->Stream && this->Every > 0)
-  {
-    this->Residuals.release(this->sampledIndex(this->Written));
+    this->Residuals.release(this->sampledBelow(this->Written));
   }
 }
 
-/** Answers what follows in `packed`. */
-const float* IterateHistory::unpack(
-  Ring<float>& ring, std::int64_t first, std::int64_t nodes, const float* packed) const
+/** Fills a ring up to `end`; answers what follows in `packed`. */
+const float* IterateHistory::unpack(Ring<float>& ring, std::int64_t end, const float* packed) const
 {
-  const std::int64_t vectors = nodes * (ring.lanes() / this->Stride);
-  ring.extendRaw(first + nodes);
-  float* to = ring.at(first);
+  const std::int64_t begin = ring.end();
+  const std::int64_t vectors = (end - begin) * (ring.lanes() / this->Stride);
+  ring.extendRaw(end);
+  float* to = ring.at(begin);
   for (std::int64_t v = 0; v < vectors; ++v, packed += this->Columns, to += this->Stride)
   {
     std::copy_n(packed, this->Columns, to);
@@ -180,17 +164,15 @@ const float* IterateHistory::unpack(
   return packed;
 }
 
-void IterateHistory::append(const Ring<float>& ring, std::int64_t first, std::int64_t nodes)
+/** Appends items [begin, end) of a ring to Packed. */
+void IterateHistory::pack(const Ring<float>& ring, std::int64_t begin, std::int64_t end)
 {
-  const std::int64_t vectors = nodes * (ring.lanes() / this->Stride);
-  this->Packed.resize(static_cast<std::size_t>(vectors * this->Columns));
-  const float* from = ring.at(first);
-  float* to = this->Packed.data();
+  const std::int64_t vectors = (end - begin) * (ring.lanes() / this->Stride);
+  const float* from = ring.at(begin);
   for (std::int64_t v = 0; v < vectors; ++v, from += this->Stride)
   {
-    to = std::copy_n(from, this->Columns, to);
+    this->Packed.insert(this->Packed.end(), from, from + this->Columns);
   }
-  this->Stream->append(std::as_bytes(std::span<const float>(this->Packed)));
 }
 
 void IterateHistory::endPass()

@@ -7,6 +7,7 @@
 #include "Solver/Storage/ScratchStream.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -46,7 +47,8 @@ struct ResidualProducts
  * Then r(z_k) = r(z_{k-1}) - length q_k. As T is affine, T(z_k) needs no pass of its own:
  * T(z_k) = y_k + length u_k, u_k = T(y_k) - y_k - conjugation u_{k-1}, which is a step with a
  * momentum. Kept are z: r(z_k), q and a; their products give the next weights before the next pass.
- * On large meshes one block in up to eight, which tells the two weights of a step well enough.
+ * On large meshes one group of nodes in up to eight, which tells the two weights of a step well
+ * enough: residuals differ from region to region, so the groups are small and everywhere.
  */
 class IterateHistory
 {
@@ -57,7 +59,7 @@ public:
     , Nodes(nodes)
     , Columns(columns)
     , Stride(strideOf(columns))
-    , Every(residuals ? std::clamp<std::int64_t>(nodes / SampledNodes, 1, MostSparse) : 0)
+    , Every(residuals ? sparsenessFor(nodes) : 0)
     , Before(pool, this->Stride)
     , Steps(pool, this->Stride)
     , Residuals(pool, this->Stride * Vectors)
@@ -106,12 +108,19 @@ private:
   static constexpr std::int64_t SampledNodes = std::int64_t(1) << 16;
   static constexpr std::int64_t MostSparse = 8;
 
-  bool samples(std::int64_t block) const { return this->Every > 0 && block % this->Every == 0; }
-  /** Index in Residuals of node `i`, the first one of a block; nodes that are left out count none.
-   */
-  std::int64_t sampledIndex(std::int64_t i) const
+  /** A power of two, so that every block has as many sampled groups. */
+  static std::int64_t sparsenessFor(std::int64_t nodes)
   {
-    return i / (RowBlock::Nodes * this->Every) * RowBlock::Nodes;
+    const auto most = static_cast<std::uint64_t>(nodes / SampledNodes);
+    return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::bit_floor(most)), 1, MostSparse);
+  }
+  /** Nodes below `end` whose residuals are kept: of `Every` groups the first one; none if 0. */
+  std::int64_t sampledBelow(std::int64_t end) const
+  {
+    constexpr std::int64_t Group = RowBlock::Group;
+    return this->Every == 0
+             ? 0
+             : end / (Group * this->Every) * Group + std::min(Group, end % (Group * this->Every));
   }
   std::int64_t blockEnd(std::int64_t begin) const
   {
@@ -120,19 +129,18 @@ private:
   Buffer readBlock();
   void loadBlock();
   // On disk nodes have no padding.
-  const float* unpack(
-    Ring<float>& ring, std::int64_t first, std::int64_t nodes, const float* packed) const;
-  void append(const Ring<float>& ring, std::int64_t first, std::int64_t nodes);
+  const float* unpack(Ring<float>& ring, std::int64_t end, const float* packed) const;
+  void pack(const Ring<float>& ring, std::int64_t begin, std::int64_t end);
 
   Pool* Owner;
   std::int64_t Nodes;
   int Columns;
   int Stride;
-  std::int64_t Every; // of so many blocks one keeps residuals; 0: none
+  std::int64_t Every; // of so many groups of nodes one keeps residuals; 0: none
   StepWeights Weights;
   Ring<double> Before; // y_k
   Ring<float> Steps;
-  Ring<float> Residuals; // of sampled blocks: z, q and a of a node, `Stride` values each
+  Ring<float> Residuals; // of sampled nodes: z, q and a of a node, `Stride` values each
   std::vector<double> Sums;
   bool First = true;
   std::int64_t Written = 0;
@@ -161,11 +169,12 @@ class ResidualKeeper
 public:
   ResidualKeeper(IterateHistory* history, std::int64_t first, int lane)
   {
-    if (history && history->samples(first / RowBlock::Nodes))
+    if (history && history->keepsResiduals())
     {
       this->Weights = history->Weights;
       this->Stride = history->Stride;
-      this->Kept = history->Residuals.at(history->sampledIndex(first)) + lane;
+      this->Every = history->Every;
+      this->Kept = history->Residuals.at(history->sampledBelow(first)) + lane;
       this->Sums = history->Sums.data() + lane;
       for (int n = 0; n < IterateHistory::Products; ++n)
       {
@@ -186,9 +195,11 @@ public:
   /** Node first + k. */
   void operator()(std::int64_t k, Wide residual)
   {
-    if (this->Kept)
+    const std::int64_t group = k / RowBlock::Group;
+    if (this->Kept && group % this->Every == 0)
     {
-      this->add(this->Kept + IterateHistory::Vectors * k * this->Stride, residual);
+      const std::int64_t node = group / this->Every * RowBlock::Group + k % RowBlock::Group;
+      this->add(this->Kept + IterateHistory::Vectors * node * this->Stride, residual);
     }
   }
 
@@ -213,7 +224,7 @@ private:
   }
 
   StepWeights Weights;
-  std::int64_t Stride = 0;
+  std::int64_t Stride = 0, Every = 1;
   float* Kept = nullptr;
   double* Sums = nullptr;
   Wide Sum[IterateHistory::Products] = {};

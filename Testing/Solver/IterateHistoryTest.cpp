@@ -115,15 +115,15 @@ TEST(IterateHistory, conjugateResidualsEndAfterAsManyStepsAsThereAreFactors)
   EXPECT_LT(model.error().norm(), 1e-4 * std::pow(0.95, 6) * 10);
 }
 
-TEST(IterateHistory, aSampleOfTheBlocksTellsTheWeightsOfAllOfThem)
+TEST(IterateHistory, aSampleOfTheNodesTellsTheWeightsOfAllOfThem)
 {
-  // All blocks alike: one block in two, or all of them, give the same weights.
+  // All groups alike: one group in eight, or all of them, give the same weights.
   const auto weightsOf = [](std::int64_t nodes)
   {
     Eigen::VectorXd factors(nodes);
     for (Eigen::Index i = 0; i < nodes; ++i)
     {
-      factors[i] = 0.9 * std::sin(static_cast<double>(i % 128));
+      factors[i] = 0.9 * std::sin(static_cast<double>(i % 64));
     }
     DiagonalModel model(factors, true);
     ConjugateResiduals directions;
