@@ -102,7 +102,7 @@ private:
     const bool wrapped = tail < head;
     const std::int64_t before = this->capacity();
     const std::int64_t least = wrapped ? before + tail + size + 1 - head : tail + size;
-    const std::int64_t entries = std::max(least, before + before / 16);
+    const std::int64_t entries = std::max(least, before + before / 32);
     if (entries > UINT32_MAX)
     {
       throw Error(
