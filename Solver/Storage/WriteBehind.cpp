@@ -67,8 +67,11 @@ void WriteBehind::handOver()
     this->Ring[this->Current].offset + std::int64_t(this->Ring[this->Current].used);
   {
     std::unique_lock lock(this->Mutex);
-    this->Full++;
-    this->Changed.notify_all();
+    // Woken for several chunks at a time the thread is woken more seldom; one remains to be filled.
+    if (++this->Full >= Chunks - 1)
+    {
+      this->Changed.notify_all();
+    }
     this->waitUntil(lock, [this] { return this->Full < Chunks; });
   }
   this->Current = (this->Current + 1) % Chunks;
@@ -83,6 +86,7 @@ void WriteBehind::flush()
     this->handOver();
   }
   std::unique_lock lock(this->Mutex);
+  this->Changed.notify_all();
   this->waitUntil(lock, [this] { return this->Full == 0; });
 }
 
