@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Restore/RestoredMesh.h"
 
-#include "IO/Import/Importer.h"
-#include "IO/Restore/WriteRestored.h"
-#include "Testing/IO/ContainerMeshes.h"
-#include "Testing/IO/MeshOfFile.h"
+#include "Testing/IO/RestoredMeshFixture.h"
 #include "Testing/Support/ColumnValues.h"
 #include "Testing/Support/ErrorMessage.h"
-#include "Testing/Support/FileMesh.h"
 #include "Testing/Support/ProgressRecord.h"
-#include "Testing/Support/RawMeshReading.h"
-#include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
@@ -24,34 +18,7 @@ namespace smg::testing
 namespace
 {
 
-using Corners = std::vector<std::int64_t>;
-
-class RestoredMeshTest : public ::testing::Test
-{
-protected:
-  /** The file that comes of the mesh by way of a mesh stream. */
-  FileMesh restored(const MeshOfFile& mesh, const std::string& suffix, std::uint64_t seed = 1)
-  {
-    this->write(mesh, "out" + suffix, seed);
-    return readFileMesh(this->Folder / ("out" + suffix));
-  }
-
-  void write(const MeshOfFile& mesh, const std::string& name, std::uint64_t seed = 1)
-  {
-    writeVsmOf(mesh, this->Folder / "mesh.vsm", seed);
-    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
-    this->Notes = writeRestored(this->Folder / "mesh.vsm", this->Folder / name, workspace);
-  }
-
-  bool isNoted(const std::string& part) const
-  {
-    return std::ranges::any_of(this->Notes,
-      [&part](const std::string& note) { return note.find(part) != std::string::npos; });
-  }
-
-  TemporaryFolder Folder;
-  std::vector<std::string> Notes;
-};
+using RestoredMeshTest = RestoredMeshFixture;
 
 /** The cells with polygons of more than `most` corners as fans of triangles. */
 std::vector<Corners> cutAbove(const std::vector<Corners>& cells, std::size_t most)
@@ -141,115 +108,6 @@ TEST_F(RestoredMeshTest, TetrahedraAreTheSame)
     const FileMesh back = this->restored(mesh, suffix);
     EXPECT_EQ(back.points, mesh.points);
     EXPECT_EQ(back.cells, mesh.cells);
-  }
-}
-
-/** Columns that the text formats have a place for, and one that they have not. */
-void giveTextColumns(MeshOfFile& mesh)
-{
-  const auto points = static_cast<std::size_t>(mesh.vertices());
-  const auto column = [](const char* name, int components, std::size_t tuples, auto valueOf)
-  {
-    std::vector<decltype(valueOf(0))> values(tuples * static_cast<std::size_t>(components));
-    for (std::size_t i = 0; i < values.size(); ++i)
-    {
-      values[i] = valueOf(static_cast<int>(i));
-    }
-    return makeColumn<decltype(valueOf(0))>(name, values, components);
-  };
-  const auto share = [](int i) { return static_cast<float>(i % 11) / 10.0F; };
-  const auto label = [](int i) { return std::int64_t(i % 7 - 2); };
-  const auto byte = [](int i) { return static_cast<std::uint8_t>(255 - i % 256); };
-  const auto real = [](int i) { return 1.0 / (i + 1); };
-  mesh.vertexColumns = { column("Normals", 3, points, share), column("Colors", 4, points, byte),
-    column("TextureCoordinates", 2, points, share), column("Reference", 1, points, label),
-    column("Attribute", 2, points, real), column("Marker", 1, points, label),
-    column("height", 1, points, real) };
-  const std::size_t cells = mesh.cells.size();
-  mesh.cellColumns = { column("Colors", 3, cells, byte), column("Reference", 1, cells, label),
-    column("PhysicalTag", 1, cells, label), column("GeometricalTag", 1, cells, label),
-    column("Attribute", 3, cells, real) };
-}
-
-void expectColumns(const std::vector<Column>& columns, const std::vector<Column>& of,
-  const std::vector<std::string>& names)
-{
-  std::vector<std::string> found;
-  for (const Column& column : columns)
-  {
-    found.push_back(column.spec.name);
-    const auto same =
-      std::ranges::find(of, column.spec.name, [](const Column& other) { return other.spec.name; });
-    ASSERT_NE(same, of.end());
-    EXPECT_EQ(column.spec, same->spec);
-    EXPECT_EQ(valuesOf(column), valuesOf(*same)) << column.spec.name;
-  }
-  EXPECT_TRUE(std::ranges::is_permutation(found, names)) << ::testing::PrintToString(found);
-}
-
-TEST_F(RestoredMeshTest, TextFormatsKeepTheColumnsThatTheyHaveAPlaceFor)
-{
-  using Names = std::vector<std::string>;
-  const struct
-  {
-    const char* suffix;
-    Names ofVertices, ofElements;
-  } formats[] = {
-    { ".off", { "Normals", "Colors", "TextureCoordinates" }, { "Colors" } },
-    { ".mesh", { "Reference" }, { "Reference" } },
-    { ".msh", {}, { "PhysicalTag", "GeometricalTag" } },
-    { ".node", { "Attribute", "Marker" }, { "Attribute" } },
-    { ".ele", { "Attribute", "Marker" }, { "Attribute" } },
-  };
-  for (const auto& [suffix, ofVertices, ofElements] : formats)
-  {
-    for (const CellType type : { CellType::Triangle, CellType::Tetrahedron })
-    {
-      if (type == CellType::Tetrahedron && std::string(suffix) == ".off")
-      {
-        continue;
-      }
-      SCOPED_TRACE(suffix);
-      MeshOfFile mesh = randomMeshOfFile(type, 6, true);
-      std::erase_if(mesh.cells, [](const Corners& cell) { return cell.size() > 4; });
-      std::ranges::stable_sort(mesh.cells, {}, &Corners::size);
-      if (std::string(suffix) == ".node" || std::string(suffix) == ".ele")
-      {
-        std::erase_if(
-          mesh.cells, [type](const Corners& cell) { return std::ssize(cell) != cornersOf(type); });
-      }
-      mesh.numbers.resize(mesh.cells.size());
-      std::iota(mesh.numbers.begin(), mesh.numbers.end(), 0);
-      giveTextColumns(mesh);
-      this->write(mesh, std::string("out") + suffix);
-      EXPECT_TRUE(this->isNoted("'height'"));
-      Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
-      const ReadMesh back =
-        readRaw(importMesh(this->Folder / (std::string("out") + suffix), workspace));
-      EXPECT_EQ(back.positions, mesh.points);
-      EXPECT_EQ(back.cells(),
-        std::accumulate(mesh.cells.begin(), mesh.cells.end(), std::int64_t(0),
-          [type](std::int64_t sum, const Corners& cell)
-          { return sum + (type == CellType::Triangle ? std::int64_t(cell.size()) - 2 : 1); }));
-      expectColumns(back.vertexColumns, mesh.vertexColumns, ofVertices);
-      expectColumns(back.elementColumns, mesh.cellColumns, ofElements);
-    }
-  }
-}
-
-TEST_F(RestoredMeshTest, ColoursOfObjAreFromZeroToOne)
-{
-  MeshOfFile mesh = randomMeshOfFile(CellType::Triangle, 4, true);
-  giveTextColumns(mesh);
-  this->write(mesh, "out.obj");
-  Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
-  const ReadMesh back = readRaw(importMesh(this->Folder / "out.obj", workspace));
-  ASSERT_EQ(back.vertexColumns.size(), 1U);
-  EXPECT_EQ(back.vertexColumns[0].spec, (ColumnSpec{ "Colors", ScalarType::Float32, 4 }));
-  for (std::size_t i = 0; i < back.vertexColumns[0].tuples(); ++i)
-  {
-    EXPECT_EQ(back.vertexColumns[0].value(i, 1),
-      static_cast<float>(mesh.vertexColumns[1].value(i, 1) / 255));
   }
 }
 
