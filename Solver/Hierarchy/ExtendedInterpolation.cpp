@@ -2,7 +2,6 @@
 #include "Solver/Hierarchy/ExtendedInterpolation.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace smg
 {
@@ -70,34 +69,42 @@ void ExtendedInterpolation::gather(CoarseningData& data, std::int64_t i)
 void ExtendedInterpolation::truncate(int entries)
 {
   auto& list = this->Candidates;
+  const auto most = static_cast<std::size_t>(entries);
   float sum = 0.0F;
-  for (const Candidate& candidate : list)
+  std::size_t kept = 0;
+  for (const Candidate candidate : list)
   {
     sum += candidate.weight;
-  }
-  const auto kept = std::min(list.size(), static_cast<std::size_t>(entries));
-  float keptSum = 0.0F;
-  for (std::size_t k = 0; k < kept; ++k)
-  {
-    std::size_t largest = k;
-    for (std::size_t e = k + 1; e < list.size(); ++e)
+    if (kept == most && !(candidate.weight > list[kept - 1].weight))
     {
-      largest = list[e].weight > list[largest].weight ? e : largest;
+      continue;
     }
-    std::swap(list[k], list[largest]);
-    keptSum += list[k].weight;
+    // The largest so far are the first of the list, in descending order.
+    std::size_t place = kept < most ? kept++ : kept - 1;
+    for (; place > 0 && list[place - 1].weight < candidate.weight; --place)
+    {
+      list[place] = list[place - 1];
+    }
+    list[place] = candidate;
   }
   list.resize(kept);
+  float keptSum = 0.0F;
+  for (const Candidate& candidate : list)
+  {
+    keptSum += candidate.weight;
+  }
 
-  // Rounding to quanta: the first entry, the largest, takes the rest.
+  // Rounding to quanta, where negative weights become 0: the first entry, the largest, takes the
+  // rest.
+  const auto rounded = [](float quanta)
+  { return std::clamp(static_cast<int>(quanta + 0.5F), 0, Quanta); };
   const float scale = keptSum > 0.0F ? sum / keptSum * Quanta : 0.0F;
-  const int wanted = std::clamp(static_cast<int>(std::floor(sum * Quanta + 0.5F)), 0, Quanta);
+  const int wanted = rounded(sum * Quanta);
   this->Rounded.resize(kept);
   int total = 0;
   for (std::size_t k = kept; k-- > 0;)
   {
-    const int quanta =
-      std::clamp(static_cast<int>(std::floor(list[k].weight * scale + 0.5F)), 0, Quanta);
+    const int quanta = rounded(list[k].weight * scale);
     this->Rounded[k] = static_cast<std::uint32_t>(k > 0 ? quanta : std::max(0, wanted - total));
     total += quanta;
   }
