@@ -47,10 +47,15 @@ void SequentialOutput::put(std::span<const std::byte> bytes)
   }
 }
 
-void SequentialOutput::finish()
+void SequentialOutput::flush()
 {
   this->Behind->flush();
   this->check();
+}
+
+void SequentialOutput::finish()
+{
+  this->flush();
   this->Behind.reset();
   this->File.renameTo(this->Path);
 }

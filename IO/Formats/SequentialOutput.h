@@ -26,6 +26,8 @@ public:
   /** Writes bytes. A failure is thrown at once or by a later call. */
   void put(std::span<const std::byte> bytes);
   void put(std::string_view text) { this->put(std::as_bytes(std::span(text))); }
+  /** Writes all that was put, so that only the name is missing. */
+  void flush();
   void finish();
 
 private:

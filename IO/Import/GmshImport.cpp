@@ -54,6 +54,10 @@ private:
       return;
     }
     const bool hasGroups = name == "$Entities" && this->Input.hasBlocks();
+    if (name == "$PartitionedEntities")
+    {
+      this->Builder.note("The mesh is partitioned: the physical groups of its parts are not read.");
+    }
     if (name != "$Nodes" && name != "$Elements" && !hasGroups)
     {
       this->Input.skipSection(end);

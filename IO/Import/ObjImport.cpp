@@ -5,6 +5,7 @@
 #include "IO/Import/TriangleRuns.h"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -47,6 +48,7 @@ public:
         }
         this->Scanner.skipLine();
       }
+      this->Colors.finish();
     }
     catch (const MeshError& error)
     {
@@ -100,12 +102,15 @@ private:
     const double y = this->Scanner.toNumber(this->nextToken(), "the coordinate y");
     const double z = this->Scanner.toNumber(this->nextToken(), "the coordinate z");
     this->Builder.vertex(x, y, z);
-    std::array<double, 4> others{}; // a weight or a colour
+    std::array<double, 5> others{}; // a weight or a colour
     std::size_t count = 0;
-    for (std::string_view token = this->nextToken(); !token.empty() && count < others.size();
-         token = this->nextToken())
+    for (std::string_view token = this->nextToken(); !token.empty(); token = this->nextToken())
     {
-      others[count++] = this->Scanner.toNumber(token, "a number behind the coordinates");
+      const std::optional<double> number = TextScanner::finiteNumber(token);
+      if (number && count < others.size())
+      {
+        others[count++] = *number;
+      }
     }
     this->Colors.add(std::span(others).first(count));
   }

@@ -40,11 +40,11 @@ std::array<T, 4> converted(std::span<const double> numbers)
 
 void TextColors::add(std::span<const double> numbers)
 {
-  if (!this->Begun)
+  if (this->Owned++ == 0)
   {
-    this->begin(numbers);
+    this->Components = isColor(numbers) ? numbers.size() : 0;
   }
-  if (this->Dropped || (this->Column < 0 && !isColor(numbers)))
+  if (this->Dropped || (this->Components == 0 && !isColor(numbers)))
   {
     return;
   }
@@ -53,42 +53,73 @@ void TextColors::add(std::span<const double> numbers)
     this->drop();
     return;
   }
+  if (this->Column < 0)
+  {
+    const double largest = std::ranges::max(numbers);
+    if (largest == 0.0)
+    {
+      return; // black, as all before
+    }
+    this->begin(this->Owned - 1, largest > 1.0);
+  }
+  this->append(numbers);
+}
+
+void TextColors::finish()
+{
+  if (this->Column < 0 && this->Components > 0 && !this->Dropped)
+  {
+    this->begin(this->Owned, true);
+  }
+}
+
+/** Makes the column, with so many black ones. */
+void TextColors::begin(std::int64_t black, bool bytes)
+{
+  this->Spec = { ColorsName, bytes ? ScalarType::UInt8 : ScalarType::Float32,
+    static_cast<int>(this->Components) };
+  this->Column = this->Owners == Of::Vertices ? this->Builder.addVertexColumn(this->Spec)
+                                              : this->Builder.addElementColumn(this->Spec);
+  const std::array<double, 4> zeros{};
+  for (std::int64_t i = 0; i < black; ++i)
+  {
+    this->append(std::span(zeros).first(this->Components));
+  }
+}
+
+/** Whether the numbers are a colour as those before. */
+bool TextColors::fits(std::span<const double> numbers) const
+{
+  if (numbers.size() != this->Components)
+  {
+    return false;
+  }
+  const bool areShares =
+    std::ranges::all_of(numbers, [](double number) { return number >= 0 && number <= 1; });
+  if (this->Column < 0)
+  {
+    return areShares || areBytes(numbers);
+  }
+  return this->Spec.type == ScalarType::UInt8 ? areBytes(numbers) : areShares;
+}
+
+void TextColors::append(std::span<const double> numbers)
+{
+  const auto put = [this](std::span<const std::byte> tuple)
+  {
+    this->Owners == Of::Vertices ? this->Builder.vertexTuples(this->Column, tuple)
+                                 : this->Builder.elementTuples(this->Column, tuple);
+  };
   if (this->Spec.type == ScalarType::UInt8)
   {
     const auto tuple = converted<std::uint8_t>(numbers);
-    this->append(std::as_bytes(std::span(tuple).first(numbers.size())));
+    put(std::as_bytes(std::span(tuple).first(numbers.size())));
   }
   else
   {
     const auto tuple = converted<float>(numbers);
-    this->append(std::as_bytes(std::span(tuple).first(numbers.size())));
+    put(std::as_bytes(std::span(tuple).first(numbers.size())));
   }
-}
-
-void TextColors::begin(std::span<const double> numbers)
-{
-  this->Begun = true;
-  if (!isColor(numbers))
-  {
-    return;
-  }
-  const bool bytes = areBytes(numbers) && std::ranges::max(numbers) > 1;
-  this->Spec = { ColorsName, bytes ? ScalarType::UInt8 : ScalarType::Float32,
-    static_cast<int>(numbers.size()) };
-  this->Column = this->Owners == Of::Vertices ? this->Builder.addVertexColumn(this->Spec)
-                                              : this->Builder.addElementColumn(this->Spec);
-}
-
-bool TextColors::fits(std::span<const double> numbers) const
-{
-  return this->Column >= 0 && numbers.size() == static_cast<std::size_t>(this->Spec.components) &&
-         (this->Spec.type != ScalarType::UInt8 || areBytes(numbers));
-}
-
-void TextColors::append(std::span<const std::byte> tuple)
-{
-  this->Owners == Of::Vertices ? this->Builder.vertexTuples(this->Column, tuple)
-                               : this->Builder.elementTuples(this->Column, tuple);
 }
 
 void TextColors::drop()

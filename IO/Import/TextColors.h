@@ -10,9 +10,10 @@ namespace smg
 {
 
 /**
- * The column `Colors` that comes of numbers behind the vertices or the faces of a text file. The
- * first three or four decide: whole numbers up to 255, of which one is above 1, are bytes, others
- * numbers of single precision. Where not all are alike there is no column, which is noted.
+ * The column `Colors` that comes of numbers behind the vertices or the faces of a text file, three
+ * or four each. The first colour that is not black decides: whole numbers up to 255, of which one
+ * is above 1, are bytes, others numbers of single precision up to 1. Where not all are alike there
+ * is no column, which is noted.
  */
 class TextColors
 {
@@ -31,18 +32,22 @@ public:
 
   /** The numbers of the next vertex or face; if they are not three or four it has no colour. */
   void add(std::span<const double> numbers);
+  /** After the last one. */
+  void finish();
 
 private:
-  void begin(std::span<const double> numbers);
+  void begin(std::int64_t black, bool bytes);
   bool fits(std::span<const double> numbers) const;
-  void append(std::span<const std::byte> tuple);
+  void append(std::span<const double> numbers);
   void drop();
 
   RawMeshBuilder& Builder;
   Of Owners;
   ColumnSpec Spec;
   int Column = -1;
-  bool Begun = false, Dropped = false;
+  std::size_t Components = 0; ///< of the first; 0: none
+  std::int64_t Owned = 0;     ///< vertices or faces so far
+  bool Dropped = false;
 };
 
 } // namespace smg

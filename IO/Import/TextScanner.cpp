@@ -163,6 +163,15 @@ double TextScanner::toNumber(std::string_view token, const char* what, bool fini
   return value;
 }
 
+std::optional<double> TextScanner::finiteNumber(std::string_view token)
+{
+  const char* end = token.data() + token.size();
+  double value = 0.0;
+  const auto result = fast_float::from_chars(afterPlus(token), end, value);
+  const bool isNumber = !token.empty() && result.ec == std::errc() && result.ptr == end;
+  return isNumber && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
 std::int64_t TextScanner::toInteger(std::string_view token, const char* what) const
 {
   if (token.empty())

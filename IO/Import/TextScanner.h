@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -60,6 +61,8 @@ public:
   /** The same for a token that has been read; an empty one is the end of the file or line. */
   double toNumber(std::string_view token, const char* what, bool finite = true) const;
   std::int64_t toInteger(std::string_view token, const char* what) const;
+  /** A token as a finite number; nothing if it is none. */
+  static std::optional<double> finiteNumber(std::string_view token);
 
   /**
    * A number of things that follow, each of at least `leastBytes` bytes: refused if negative or

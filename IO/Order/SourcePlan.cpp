@@ -101,7 +101,7 @@ public:
   void extend(SourcePlan& plan)
   {
     this->Last = this->evaluate(plan, this->Current);
-    while (plan.sources.size() < MostSources && this->addSource(plan))
+    for (std::size_t added = 1; added < MostSources && this->addSource(plan); ++added)
     {
       this->Last = this->evaluate(plan, this->Current);
       for (int round = 0; round < AdjustRounds; ++round)

@@ -27,11 +27,11 @@ std::vector<std::string> namesOf(const ColumnSpec& spec)
   {
     return { "nx", "ny", "nz" };
   }
-  if (spec.name == "Colors" && spec.components == 3)
+  if (spec.name == ColorsName && spec.components == 3)
   {
     return { "red", "green", "blue" };
   }
-  if (spec.name == "Colors" && spec.components == 4)
+  if (spec.name == ColorsName && spec.components == 4)
   {
     return { "red", "green", "blue", "alpha" };
   }

@@ -27,11 +27,20 @@ public:
   // The place of the column of this name with so many components; -1: there is none.
   std::ptrdiff_t ofVertices(std::string_view name, int least, int most)
   {
-    return this->OfVertices.place(name, least, most);
+    return this->OfVertices.place(name, least, most, false);
   }
   std::ptrdiff_t ofElements(std::string_view name, int least, int most)
   {
-    return this->OfElements.place(name, least, most);
+    return this->OfElements.place(name, least, most, false);
+  }
+  // The place of the column of this name that has one integer each.
+  std::ptrdiff_t integerOfVertices(std::string_view name)
+  {
+    return this->OfVertices.place(name, 1, 1, true);
+  }
+  std::ptrdiff_t integerOfElements(std::string_view name)
+  {
+    return this->OfElements.place(name, 1, 1, true);
   }
 
   /** A sentence for a user about the columns that nobody asked for. */
@@ -55,10 +64,15 @@ private:
     {
     }
 
-    std::ptrdiff_t place(std::string_view name, int least, int most)
+    std::ptrdiff_t place(std::string_view name, int least, int most, bool integer)
     {
-      const auto found = std::ranges::find_if(this->Specs, [&](const ColumnSpec& spec)
-        { return spec.name == name && spec.components >= least && spec.components <= most; });
+      const auto found = std::ranges::find_if(this->Specs,
+        [&](const ColumnSpec& spec)
+        {
+          const bool isReal = spec.type == ScalarType::Float32 || spec.type == ScalarType::Float64;
+          return spec.name == name && spec.components >= least && spec.components <= most &&
+                 !(integer && isReal);
+        });
       if (found == this->Specs.end())
       {
         return -1;

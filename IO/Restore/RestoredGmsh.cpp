@@ -25,8 +25,8 @@ public:
   GmshElements(TextOutput& out, CellType cellType, PlacedColumns& columns)
     : Out(out)
     , CellKind(cellType)
-    , Group(columns.ofElements(PhysicalTagName, 1, 1))
-    , Entity(columns.ofElements(GeometricalTagName, 1, 1))
+    , Group(columns.integerOfElements(PhysicalTagName))
+    , Entity(columns.integerOfElements(GeometricalTagName))
   {
   }
 
@@ -66,19 +66,13 @@ private:
   {
     // Two tags, which Gmsh demands.
     this->Out << ++this->Count << ' ' << static_cast<int>(type) << " 2";
-    this->writeTag(elements, this->Group, "0");
-    this->writeTag(elements, this->Entity, "1");
+    this->Out.tuple(elements.columns, this->Group, this->Element, " 0");
+    this->Out.tuple(elements.columns, this->Entity, this->Element, " 1");
     for (const std::int64_t corner : corners)
     {
       this->Out << ' ' << corner + 1;
     }
     this->Out << '\n';
-  }
-
-  void writeTag(const RestoredElements& elements, std::ptrdiff_t column, const char* usual)
-  {
-    column < 0 ? static_cast<void>(this->Out << ' ' << usual)
-               : this->Out.tuple(elements.columns, column, this->Element);
   }
 
   TextOutput& Out;

@@ -71,8 +71,7 @@ private:
     {
       this->Out << (k > 0 ? " " : "") << corners[k] + 1;
     }
-    this->References < 0 ? static_cast<void>(this->Out << " 0")
-                         : this->Out.tuple(elements.columns, this->References, element);
+    this->Out.tuple(elements.columns, this->References, element, " 0");
     this->Out << '\n';
   }
 
@@ -88,7 +87,7 @@ RestoredNotes writeRestoredMedit(RestoredMesh& mesh, const std::filesystem::path
   TextOutput out(path);
   const RestoredInfo& info = mesh.info();
   PlacedColumns columns(info);
-  const std::ptrdiff_t references = columns.ofVertices(ReferenceName, 1, 1);
+  const std::ptrdiff_t references = columns.integerOfVertices(ReferenceName);
   out << "MeshVersionFormatted " << (info.doublePositions ? 2 : 1) << "\nDimension 3\nVertices\n"
       << info.vertices << '\n';
   for (RestoredVertices vertices; mesh.next(vertices);)
@@ -97,12 +96,11 @@ RestoredNotes writeRestoredMedit(RestoredMesh& mesh, const std::filesystem::path
     for (std::size_t i = 0; i < positions.size(); i += 3)
     {
       out.position(positions.subspan(i, 3), info.doublePositions);
-      references < 0 ? static_cast<void>(out << " 0")
-                     : out.tuple(vertices.columns, references, i / 3);
+      out.tuple(vertices.columns, references, i / 3, " 0");
       out << '\n';
     }
   }
-  MeditElements writer(out, mesh, columns.ofElements(ReferenceName, 1, 1));
+  MeditElements writer(out, mesh, columns.integerOfElements(ReferenceName));
   if (info.cellType == CellType::Triangle)
   {
     // All triangles of the stream, but for the two of each quadrilateral.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Container/AttributeNames.h"
+#include "IO/Formats/Suffix.h"
 #include "IO/Restore/PlacedColumns.h"
 #include "IO/Restore/RestoredFormats.h"
 #include "IO/Restore/TextOutput.h"
 
+#include <array>
 #include <limits>
 
 namespace smg
@@ -23,7 +25,7 @@ void writeNodes(TextOutput& out, RestoredMesh& mesh, PlacedColumns& columns)
 {
   const RestoredInfo& info = mesh.info();
   const std::ptrdiff_t attributes = columns.ofVertices(AttributeName, 1, AnyNumber);
-  const std::ptrdiff_t markers = columns.ofVertices(MarkerName, 1, 1);
+  const std::ptrdiff_t markers = columns.integerOfVertices(MarkerName);
   out << info.vertices << " 3 " << components(info.vertexColumns, attributes) << ' '
       << components(info.vertexColumns, markers) << '\n';
   for (RestoredVertices vertices; mesh.next(vertices);)
@@ -50,24 +52,28 @@ void writeElements(TextOutput& out, RestoredMesh& mesh, PlacedColumns& columns)
   std::int64_t number = 0;
   for (RestoredElements elements; mesh.next(elements);)
   {
-    std::size_t element = 0;
-    const auto write = [&](auto... corners)
+    const auto write = [&](std::size_t element, std::span<const std::int64_t> corners)
     {
       out << ++number;
-      ((out << ' ' << corners + 1), ...);
+      for (const std::int64_t corner : corners)
+      {
+        out << ' ' << corner + 1;
+      }
       out.tuple(elements.columns, attributes, element);
       out << '\n';
     };
+    std::size_t element = 0;
     elements.forEach(
       [&](std::span<const std::int64_t> corners)
       {
-        if (info.cellType == CellType::Tetrahedron)
+        const bool isPolygon = info.cellType == CellType::Triangle;
+        for (std::size_t i = 2; isPolygon && i < corners.size(); ++i)
         {
-          write(corners[0], corners[1], corners[2], corners[3]);
+          write(element, std::array{ corners[0], corners[i - 1], corners[i] });
         }
-        for (std::size_t i = 2; i < corners.size() && info.cellType == CellType::Triangle; ++i)
+        if (!isPolygon)
         {
-          write(corners[0], corners[i - 1], corners[i]);
+          write(element, corners);
         }
         ++element;
       });
@@ -79,10 +85,16 @@ void writeElements(TextOutput& out, RestoredMesh& mesh, PlacedColumns& columns)
 RestoredNotes writeRestoredTetGen(RestoredMesh& mesh, const std::filesystem::path& path)
 {
   PlacedColumns columns(mesh.info());
-  TextOutput nodes(std::filesystem::path(path).replace_extension(".node"));
-  TextOutput elements(std::filesystem::path(path).replace_extension(".ele"));
+  const bool namesNodes = lowerSuffix(path) == ".node";
+  const auto beside = [&path](const char* suffix)
+  { return std::filesystem::path(path).replace_extension(suffix); };
+  TextOutput nodes(namesNodes ? path : beside(".node"));
+  TextOutput elements(namesNodes ? beside(".ele") : path);
   writeNodes(nodes, mesh, columns);
   writeElements(elements, mesh, columns);
+  // Neither gets its name before both are on the disk.
+  nodes.write();
+  elements.write();
   nodes.finish();
   elements.finish();
   RestoredNotes notes = columns.leftOut(".node and .ele");

@@ -73,11 +73,13 @@ public:
     }
   }
 
-  /** Writes a tuple of a column with a blank before each number; nothing without a column. */
-  void tuple(const std::vector<Column>& columns, std::ptrdiff_t column, std::size_t tuple)
+  /** Writes a tuple of a column with a blank before each number; without a column `otherwise`. */
+  void tuple(const std::vector<Column>& columns, std::ptrdiff_t column, std::size_t tuple,
+    std::string_view otherwise = {})
   {
     if (column < 0)
     {
+      *this << otherwise;
       return;
     }
     const Column& values = columns[static_cast<std::size_t>(column)];
@@ -92,6 +94,12 @@ public:
       });
   }
 
+  /** Writes all to the disk, so that only the name is missing. */
+  void write()
+  {
+    this->flush();
+    this->Out.flush();
+  }
   void finish()
   {
     this->flush();

@@ -19,7 +19,7 @@ struct Report
   struct Seconds
   {
     double convert = 0, build = 0, solve = 0, coarse = 0, io_wait = 0, total = 0;
-    double build_io_wait = 0; ///< the part of io_wait that is in build
+    double build_io_wait = 0; ///< the part of io_wait that is in build; threads count each
   };
 
   /** The traffic of the scratch files of one kind, of a level or (level -1) of none. */

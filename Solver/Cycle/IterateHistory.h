@@ -114,13 +114,27 @@ private:
     const auto most = static_cast<std::uint64_t>(nodes / SampledNodes);
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::bit_floor(most)), 1, MostSparse);
   }
-  /** Nodes below `end` whose residuals are kept: of `Every` groups the first one; none if 0. */
+  /** Which of `Every` groups of a block is sampled: no pattern, with which that of a mesh could
+   * agree. */
+  std::int64_t sampledGroup(std::int64_t block) const
+  {
+    constexpr std::uint32_t Golden = 2654435769U;
+    return (static_cast<std::uint32_t>(block) * Golden >> 16) % this->Every;
+  }
+  /** Nodes below `end` whose residuals are kept: those of one of `Every` groups; none if 0. */
   std::int64_t sampledBelow(std::int64_t end) const
   {
+    if (this->Every == 0)
+    {
+      return 0;
+    }
     constexpr std::int64_t Group = RowBlock::Group;
-    return this->Every == 0
-             ? 0
-             : end / (Group * this->Every) * Group + std::min(Group, end % (Group * this->Every));
+    const std::int64_t block = end / RowBlock::Nodes;
+    const std::int64_t inBlock = end % RowBlock::Nodes;
+    const std::int64_t period = Group * this->Every;
+    const std::int64_t inPeriod = inBlock % period - this->sampledGroup(block) * Group;
+    return block * (RowBlock::Nodes / this->Every) + inBlock / period * Group +
+           std::clamp<std::int64_t>(inPeriod, 0, Group);
   }
   std::int64_t blockEnd(std::int64_t begin) const
   {
@@ -174,6 +188,7 @@ public:
       this->Weights = history->Weights;
       this->Stride = history->Stride;
       this->Every = history->Every;
+      this->Sampled = history->sampledGroup(first / RowBlock::Nodes);
       this->Kept = history->Residuals.at(history->sampledBelow(first)) + lane;
       this->Sums = history->Sums.data() + lane;
       for (int n = 0; n < IterateHistory::Products; ++n)
@@ -196,7 +211,7 @@ public:
   void operator()(std::int64_t k, Wide residual)
   {
     const std::int64_t group = k / RowBlock::Group;
-    if (this->Kept && group % this->Every == 0)
+    if (this->Kept && group % this->Every == this->Sampled)
     {
       const std::int64_t node = group / this->Every * RowBlock::Group + k % RowBlock::Group;
       this->add(this->Kept + IterateHistory::Vectors * node * this->Stride, residual);
@@ -224,7 +239,7 @@ private:
   }
 
   StepWeights Weights;
-  std::int64_t Stride = 0, Every = 1;
+  std::int64_t Stride = 0, Every = 1, Sampled = 0;
   float* Kept = nullptr;
   double* Sums = nullptr;
   Wide Sum[IterateHistory::Products] = {};

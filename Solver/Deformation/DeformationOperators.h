@@ -7,8 +7,8 @@ namespace smg
 {
 
 /**
- * The operator set of a deformation: Extended with the best V-cycles, since a step takes a given
- * number of them and its accuracy is promised for few.
+ * The operator set of a deformation: Extended with the best V-cycles, since whoever gives the
+ * number of them for a step relies on what few achieve.
  */
 struct DeformationOperators : Extended
 {

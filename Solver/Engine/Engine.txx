@@ -17,7 +17,7 @@ namespace smg
 inline int computeThreads(int wanted)
 {
   // Of the first pass: the assembly, the coarsening of two levels (the others are small), the way
-  // down. Later passes have two: the way up and the way down.
+  // down. Of later passes: the way up, the way down, reading and writing.
   constexpr int ParallelStages = 4;
   const int most = std::min(ParallelStages, tbb::info::default_concurrency());
   return wanted > 0 ? std::min(wanted, most) : most;

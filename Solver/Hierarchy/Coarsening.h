@@ -170,7 +170,7 @@ private:
     d.rawStrongest.extendRaw(d.coarseNodes);
     d.rawLower.extendRaw(d.coarseNodes);
     d.rawFilled.extendRaw(d.coarseNodes);
-    d.rawSettled.extendRaw(d.coarseNodes);
+    d.rawSettled.extend(d.coarseNodes);
     for (std::int64_t& c = this->Gathered; c < d.coarseNodes && this->canGather(c); ++c)
     {
       this->Set.gather(d, c);

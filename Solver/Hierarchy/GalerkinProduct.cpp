@@ -164,7 +164,7 @@ void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
   data.raw.close(size);
   data.rawStrongest[c] = strongest;
   data.rawLower[c] = static_cast<std::int32_t>(lower);
-  data.rawFilled[c] = data.rawSettled[c] = 0;
+  data.rawFilled[c] = 0;
   data.rawReach[c] = size > 0 ? std::max(0, out[size - 1].delta) : 0;
 }
 

@@ -38,10 +38,11 @@ namespace smg
  * - `multiply` may read row i and `interpolation` of i and its neighbours. It appends row i of
  *   `product` and sets `productSum`.
  * - `gather` may read the chain of column c, `product` of its rows and the rows of `raw` above c.
- * It appends row c of `raw`, by ascending column, and sets all other values by coarse node.
- * - `sparsify` may read `raw` up to rawReach[c] and change the upper entries there, those with
- *   delta > 0; the lower ones are as `gather` left them, and take over the weights of the upper
- * ones at last. An entry that is to go gets the weight NaN.
+ *   It appends row c of `raw`, by ascending column, and sets rawAlpha, rawStrongest, rawLower,
+ *   rawFilled and rawReach of c.
+ * - `sparsify` may read `raw` up to rawReach[c] and change upper entries, those with delta > 0, of
+ *   the rows of c and its neighbours; the lower ones are as `gather` left them, and take over the
+ *   weights of the upper ones at last. An entry that is to go gets the weight NaN.
  *
  * What the engine relies on: a node without edges is not lifted; each lifted node has a child; P
  * has entries from 0 to 1 (multiples of 1/Quanta) with row sums of at most 1, from coarse nodes

@@ -9,7 +9,6 @@
 #include <bit>
 #include <cstdint>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 namespace smg

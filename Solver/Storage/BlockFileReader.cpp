@@ -7,12 +7,12 @@
 #include "Solver/Storage/Codec.h"
 #include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/ReadAhead.h"
+#include "Solver/Storage/WaitClock.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <cstring>
 #include <utility>
@@ -162,12 +162,14 @@ struct BlockFileReader::Implementation
     {
       return *ahead;
     }
-    const auto start = std::chrono::steady_clock::now();
+    const WaitClock clock;
     this->File.read(offset, room);
-    this->count(static_cast<std::int64_t>(room.size()),
-      std::chrono::nanoseconds(std::chrono::steady_clock::now() - start).count());
+    this->count(static_cast<std::int64_t>(room.size()), clock.nanoseconds());
     return room;
   }
+
+  /** Whether blocks are read to where they are wanted: the system reads ahead, no thread copies. */
+  bool readsInPlace() const { return this->Index.codec == Codec::None; }
 
   std::string Name;
   IoStatistics* Statistics;
@@ -293,7 +295,11 @@ std::int64_t BlockFileReader::prefetch(int table, std::int64_t block, std::size_
   {
     bytes += self.storedBytes(table, end++);
   }
-  if (bytes > 0 && self.Ahead.request(index.offset[block], bytes))
+  if (self.readsInPlace())
+  {
+    self.File.willRead(index.offset[block], bytes);
+  }
+  else if (bytes > 0 && self.Ahead.request(index.offset[block], bytes))
   {
     self.count(static_cast<std::int64_t>(bytes), 0);
   }

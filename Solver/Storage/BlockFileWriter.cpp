@@ -6,12 +6,14 @@
 #include "Solver/Storage/Checksum.h"
 #include "Solver/Storage/Codec.h"
 #include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Storage/WaitClock.h"
 #include "Solver/Storage/WriteBehind.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 namespace smg
@@ -25,8 +27,12 @@ struct BlockFileWriter::Implementation
     , Statistics(statistics)
     , Coder(codec)
     , File(FileDescriptor::createBeside(this->Path))
-    , Behind(std::make_unique<WriteBehind>(this->File, BlockFileHeaderBytes, WriteBehindBytes))
   {
+    // What nobody compresses the system takes as it is and writes behind.
+    if (codec != Codec::None)
+    {
+      this->Behind.emplace(this->File, BlockFileHeaderBytes, WriteBehindBytes);
+    }
     this->Index.codec = codec;
     this->Index.blocks.resize(tables.size());
     this->Index.tables = std::move(tables);
@@ -43,9 +49,33 @@ struct BlockFileWriter::Implementation
 
   void put(std::span<const std::byte> bytes)
   {
-    const std::int64_t waited = this->Behind->waitNanoseconds();
-    this->Behind->put(bytes);
-    this->count(static_cast<std::int64_t>(bytes.size()), this->Behind->waitNanoseconds() - waited);
+    const auto size = static_cast<std::int64_t>(bytes.size());
+    if (this->Behind)
+    {
+      const std::int64_t waited = this->Behind->waitNanoseconds();
+      this->Behind->put(bytes);
+      this->count(size, this->Behind->waitNanoseconds() - waited);
+    }
+    else
+    {
+      const WaitClock clock;
+      this->FirstError =
+        this->FirstError != 0 ? this->FirstError : this->File.tryWrite(this->Offset, bytes);
+      this->count(size, clock.nanoseconds());
+    }
+    this->Offset += size;
+  }
+
+  /** Waits until all is written. */
+  void flush()
+  {
+    if (this->Behind)
+    {
+      const std::int64_t waited = this->Behind->waitNanoseconds();
+      this->Behind->flush();
+      this->count(0, this->Behind->waitNanoseconds() - waited);
+    }
+    this->checkWritten();
   }
 
   void count(std::int64_t bytes, std::int64_t waited)
@@ -59,7 +89,7 @@ struct BlockFileWriter::Implementation
 
   void checkWritten()
   {
-    if (const int error = this->Behind->failed(); error != 0)
+    if (const int error = this->Behind ? this->Behind->failed() : this->FirstError; error != 0)
     {
       FileDescriptor::throwWriteError(this->Path, error);
     }
@@ -125,7 +155,9 @@ struct BlockFileWriter::Implementation
   ColumnCodec Coder;
   BlockFileIndex Index;
   FileDescriptor File;
-  std::unique_ptr<WriteBehind> Behind;
+  std::optional<WriteBehind> Behind;
+  std::int64_t Offset = BlockFileHeaderBytes; ///< where the next byte goes
+  int FirstError = 0;                         ///< of writes without Behind
 };
 
 BlockFileWriter::BlockFileWriter(
@@ -143,7 +175,7 @@ void BlockFileWriter::append(
   self.checkColumns(table, rows, columns);
   self.checkWritten();
   TableIndex& index = self.Index.blocks[table];
-  index.offset.push_back(self.Behind->offset());
+  index.offset.push_back(self.Offset);
   index.firstRow.push_back(index.firstRow.back() + rows);
   for (std::size_t c = 0; c < columns.size(); c++)
   {
@@ -165,13 +197,10 @@ void BlockFileWriter::finish(const nlohmann::json& header)
     throw Error(self.Path.string() + ": the header has " + std::to_string(text.size()) +
                 " bytes, but a block file has room for " + std::to_string(most) + ".");
   }
-  const std::int64_t tailOffset = self.Behind->offset();
+  const std::int64_t tailOffset = self.Offset;
   const std::vector<std::byte> tail = self.Index.serialize();
   self.put(tail);
-  const std::int64_t waited = self.Behind->waitNanoseconds();
-  self.Behind->flush();
-  self.count(0, self.Behind->waitNanoseconds() - waited);
-  self.checkWritten();
+  self.flush();
   self.writeFront(text, tail, tailOffset);
   self.Behind.reset();
   try

@@ -65,7 +65,12 @@ public:
    */
   void grow(Pool& pool, std::size_t bytes)
   {
-    if (!this->isMapped() || roundedUp(bytes) < bytes)
+    if (roundedUp(bytes) <= this->Capacity)
+    {
+      this->Size = bytes;
+      return;
+    }
+    if (!this->isMapped())
     {
       Buffer larger(pool, bytes);
       std::copy_n(this->Data, std::min(this->Size, bytes), larger.data());

@@ -194,6 +194,11 @@ void FileDescriptor::write(std::int64_t offset, std::span<const std::byte> bytes
   }
 }
 
+void FileDescriptor::willRead(std::int64_t offset, std::size_t bytes) const noexcept
+{
+  ::posix_fadvise(this->Number, offset, static_cast<off_t>(bytes), POSIX_FADV_WILLNEED);
+}
+
 void FileDescriptor::close()
 {
   if (this->isOpen() && ::close(std::exchange(this->Number, -1)) != 0 && errno != EINTR)

@@ -47,6 +47,9 @@ public:
   int tryRead(std::int64_t offset, std::span<std::byte> bytes) const noexcept;
   int tryWrite(std::int64_t offset, std::span<const std::byte> bytes) const noexcept;
 
+  /** Says that these bytes will be read soon: the system begins to bring them from the disk. */
+  void willRead(std::int64_t offset, std::size_t bytes) const noexcept;
+
   /** Closes the file; some systems tell only now that a write failed. */
   void close();
   /**

@@ -107,6 +107,7 @@ public:
 private:
   void grow(std::int64_t items)
   {
+    this->Lap = this->Capacity == 0 ? this->First : this->Lap;
     const auto itemBytes = static_cast<std::int64_t>(sizeof(T)) * this->Lanes;
     const std::int64_t page = MirroredMemory::PageBytes;
     const std::int64_t granule = page / std::gcd(page, itemBytes);
@@ -130,7 +131,7 @@ private:
 
   MirroredMemory Memory;
   T* Slots = nullptr;        // where item Lap is
-  std::int64_t Lap = 0;      // a multiple of Capacity, at most First, First - Lap < Capacity
+  std::int64_t Lap = 0;      // at most First, First - Lap < Capacity
   std::int64_t Capacity = 0; // items
   std::int64_t First = 0;
   std::int64_t End = 0;

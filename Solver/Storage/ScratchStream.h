@@ -38,7 +38,7 @@ public:
   void endPass();
 
 private:
-  /** Read at once: the thread that reads is woken so much more seldom. */
+  /** Asked of the system at once. */
   static constexpr std::size_t ReadAheadBytes = std::size_t(192) << 10;
 
   void readAhead();

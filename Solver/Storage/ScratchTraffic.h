@@ -35,7 +35,8 @@ public:
 
   const std::deque<Kind>& kinds() const { return this->Kinds; }
 
-  /** Seconds that the callers of all files stood waiting for the disk, so far. */
+  /** Seconds that the callers of all files stood waiting for the disk, so far: threads that wait at
+   * the same time count each. */
   double waitSeconds() const
   {
     std::int64_t nanoseconds = 0;

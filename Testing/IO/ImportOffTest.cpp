@@ -50,6 +50,34 @@ TEST_F(ImportOff, WithNormalsColoursAndTextureCoordinates)
   EXPECT_EQ(valuesOf(mesh.elementColumns[0]), (std::vector<double>{ 255, 0, 7, 1, 2, 3 }));
 }
 
+TEST_F(ImportOff, BlackTellsNotWhatKindTheColoursAre)
+{
+  const std::string face = "3 0 1 2\n";
+  const auto colors = [&](const std::string& last)
+  {
+    const ReadMesh mesh =
+      this->read("a.off", "COFF\n3 1 0\n0 0 0 0 0 0\n1 0 0 0 0 0\n0 1 0 " + last + "\n" + face);
+    EXPECT_EQ(mesh.vertexColumns.size(), 1u);
+    return mesh.vertexColumns.at(0);
+  };
+  const Column bytes = colors("200 100 0");
+  EXPECT_EQ(bytes.spec.type, ScalarType::UInt8);
+  EXPECT_EQ(valuesOf(bytes), (std::vector<double>{ 0, 0, 0, 0, 0, 0, 200, 100, 0 }));
+  const Column shares = colors("0.5 1 0");
+  EXPECT_EQ(shares.spec.type, ScalarType::Float32);
+  EXPECT_EQ(valuesOf(shares), (std::vector<double>{ 0, 0, 0, 0, 0, 0, 0.5, 1, 0 }));
+  EXPECT_EQ(valuesOf(colors("0 0 0")), std::vector<double>(9));
+}
+
+TEST_F(ImportOff, ColoursOfTwoKindsAreLeftOut)
+{
+  const ReadMesh mesh = this->read(
+    "a.off", "COFF\n3 1 0\n0 0 0 0.5 0 0\n1 0 0 7 0 0\n0 1 0 1 0 0\n3 0 1 2 nan nan nan\n");
+  EXPECT_TRUE(mesh.vertexColumns.empty());
+  ASSERT_EQ(mesh.counts.notes.size(), 1u);
+  EXPECT_NE(mesh.counts.notes[0].find("colours of the vertices"), std::string::npos);
+}
+
 TEST_F(ImportOff, AllVerticesHaveAsManyNumbers)
 {
   this->expectError("a.off", "NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0\n0 1 0 0 0 1\n3 0 1 2\n",

@@ -106,6 +106,22 @@ TEST_F(RestoredColumns, TextFormatsKeepTheColumnsThatTheyHaveAPlaceFor)
   }
 }
 
+TEST_F(RestoredColumns, LabelsThatAreNoIntegersAreLeftOut)
+{
+  MeshOfFile mesh = randomMeshOfFile(CellType::Tetrahedron, 4, true);
+  const std::vector<double> halves(mesh.cells.size(), 0.5);
+  mesh.vertexColumns.clear();
+  mesh.cellColumns = { makeColumn<double>("Reference", halves),
+    makeColumn<double>("PhysicalTag", halves) };
+  for (const char* name : { "out.mesh", "out.msh" })
+  {
+    this->write(mesh, name);
+    EXPECT_TRUE(this->isNoted("'Reference', 'PhysicalTag'"));
+    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    EXPECT_TRUE(importMesh(this->Folder / name, workspace).elementColumns.empty());
+  }
+}
+
 TEST_F(RestoredColumns, ColoursOfObjAreFromZeroToOne)
 {
   MeshOfFile mesh = randomMeshOfFile(CellType::Triangle, 4, true);

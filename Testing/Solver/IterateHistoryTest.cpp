@@ -117,13 +117,15 @@ TEST(IterateHistory, conjugateResidualsEndAfterAsManyStepsAsThereAreFactors)
 
 TEST(IterateHistory, aSampleOfTheNodesTellsTheWeightsOfAllOfThem)
 {
-  // All groups alike: one group in eight, or all of them, give the same weights.
+  // The groups differ, in a pattern of eight: one group in eight, if it is not always the same one,
+  // gives nearly the weights of all.
   const auto weightsOf = [](std::int64_t nodes)
   {
     Eigen::VectorXd factors(nodes);
     for (Eigen::Index i = 0; i < nodes; ++i)
     {
-      factors[i] = 0.9 * std::sin(static_cast<double>(i % 64));
+      const double group = static_cast<double>(i / 64 % 8 + 1) / 8;
+      factors[i] = 0.9 * group * std::sin(static_cast<double>(i % 64));
     }
     DiagonalModel model(factors, true);
     ConjugateResiduals directions;
@@ -136,8 +138,8 @@ TEST(IterateHistory, aSampleOfTheNodesTellsTheWeightsOfAllOfThem)
   };
   const StepWeights all = weightsOf(1 << 13);
   const StepWeights sample = weightsOf(1 << 19);
-  EXPECT_NEAR(sample.length, all.length, 1e-9);
-  EXPECT_NEAR(sample.conjugation, all.conjugation, 1e-9);
+  EXPECT_NEAR(sample.length, all.length, 0.02 * std::fabs(all.length));
+  EXPECT_NEAR(sample.conjugation, all.conjugation, 0.02);
 }
 
 TEST(IterateHistory, onDiskIsTheSameAsInMemory)

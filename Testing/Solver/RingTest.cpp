@@ -77,6 +77,23 @@ TEST(Ring, startsAgainAnywhere)
   EXPECT_EQ(ring[123456789 + 2999], 2);
 }
 
+TEST(Ring, mayBeginAnywhereBeforeItHasMemory)
+{
+  Pool pool(1 << 30);
+  Ring<int> ring(pool);
+  ring.restart(1'000'003);
+  ring.release(1'000'003);
+  for (std::int64_t i = ring.first(); i < 1'300'000; ++i)
+  {
+    ring.extend(i + 1);
+    ring[i] = static_cast<int>(i);
+  }
+  for (std::int64_t i = ring.first(); i < ring.end(); ++i)
+  {
+    ASSERT_EQ(ring[i], i);
+  }
+}
+
 TEST(Ring, aRefusedGrowthLeavesItWhole)
 {
   Pool pool(1 << 16);
