@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Cycle/IterateHistory.h"
 
+#include "Solver/Cycle/Padding.h"
+
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -155,24 +157,17 @@ const float* IterateHistory::unpack(Ring<float>& ring, std::int64_t end, const f
   const std::int64_t begin = ring.end();
   const std::int64_t vectors = (end - begin) * (ring.lanes() / this->Stride);
   ring.extendRaw(end);
-  float* to = ring.at(begin);
-  for (std::int64_t v = 0; v < vectors; ++v, packed += this->Columns, to += this->Stride)
-  {
-    std::copy_n(packed, this->Columns, to);
-    std::fill(to + this->Columns, to + this->Stride, 0.0F);
-  }
-  return packed;
+  pad(packed, this->Columns, vectors, ring.at(begin));
+  return packed + vectors * this->Columns;
 }
 
 /** Appends items [begin, end) of a ring to Packed. */
 void IterateHistory::pack(const Ring<float>& ring, std::int64_t begin, std::int64_t end)
 {
   const std::int64_t vectors = (end - begin) * (ring.lanes() / this->Stride);
-  const float* from = ring.at(begin);
-  for (std::int64_t v = 0; v < vectors; ++v, from += this->Stride)
-  {
-    this->Packed.insert(this->Packed.end(), from, from + this->Columns);
-  }
+  const std::size_t before = this->Packed.size();
+  this->Packed.resize(before + static_cast<std::size_t>(vectors * this->Columns));
+  unpad(ring.at(begin), this->Stride, this->Columns, vectors, this->Packed.data() + before);
 }
 
 void IterateHistory::endPass()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Cycle/LevelWindow.h"
 
+#include "Solver/Cycle/Padding.h"
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -263,23 +265,14 @@ template <class Real>
 void LevelWindow<Real>::pack(
   const Ring<Real>& state, int columns, std::int64_t begin, std::int64_t end, Real* packed) const
 {
-  const Real* node = state.at(begin);
-  for (std::int64_t i = begin; i < end; ++i, node += this->Stride, packed += columns)
-  {
-    std::copy_n(node, columns, packed);
-  }
+  unpad(state.at(begin), this->Stride, columns, end - begin, packed);
 }
 
 template <class Real>
 void LevelWindow<Real>::unpack(
   Ring<Real>& state, std::int64_t begin, std::int64_t end, const Real* packed)
 {
-  Real* node = state.at(begin);
-  for (std::int64_t i = begin; i < end; ++i, node += this->Stride, packed += this->Columns)
-  {
-    std::copy_n(packed, this->Columns, node);
-    std::fill(node + this->Columns, node + this->Stride, Real{});
-  }
+  pad(packed, this->Columns, end - begin, state.at(begin));
 }
 
 template <class Real>

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Cycle/Lanes.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <type_traits>
+
+namespace smg
+{
+
+/** Calls f with the number of columns, as a constant where there are few: loops over them unroll.
+ */
+template <class F>
+void withColumns(int columns, F&& f)
+{
+  switch (columns)
+  {
+    case 1:
+      return f(std::integral_constant<int, 1>());
+    case 2:
+      return f(std::integral_constant<int, 2>());
+    case 3:
+      return f(std::integral_constant<int, 3>());
+    case 4:
+      return f(std::integral_constant<int, 4>());
+    default:
+      return f(columns);
+  }
+}
+
+/** Copies `columns` values a node to nodes of strideOf(columns) values; the others become zero. */
+template <class Real>
+void pad(const Real* packed, int columns, std::int64_t nodes, Real* padded)
+{
+  withColumns(columns,
+    [=](auto count) mutable
+    {
+      const int stride = strideOf(count);
+      for (std::int64_t i = 0; i < nodes; ++i, packed += count, padded += stride)
+      {
+        std::copy_n(packed, static_cast<int>(count), padded);
+        std::fill(padded + count, padded + stride, Real{});
+      }
+    });
+}
+
+/** The other way, from nodes of `stride` values, at least `columns`. */
+template <class Real>
+void unpad(const Real* padded, int stride, int columns, std::int64_t nodes, Real* packed)
+{
+  withColumns(columns,
+    [=](auto count) mutable
+    {
+      for (std::int64_t i = 0; i < nodes; ++i, packed += count, padded += stride)
+      {
+        std::copy_n(padded, static_cast<int>(count), packed);
+      }
+    });
+}
+
+} // namespace smg
