@@ -86,7 +86,8 @@ void checkOutput(const std::filesystem::path& path)
   if (kindOfOutput(path) == MeshFileKind::Unknown)
   {
     throw Error(path.string() + ": meshes are written as .vsm, .sma, .smb, .sva, .svb, .ply, .vtp "
-                                "or .vtu: choose a name that ends so.");
+                                "or .vtu: choose a name that ends so. Other formats come of a "
+                                ".vsm file by smg convert --restore-order.");
   }
   // A folder that cannot be looked into is told of below.
   std::error_code ignored;

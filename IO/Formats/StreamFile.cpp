@@ -28,16 +28,14 @@ std::optional<StreamFormat> detectText(SequentialInput& input)
   for (int i = 0; i < LinesLookedAt && input.nextLine(line); i++)
   {
     Tokens tokens(line);
-    std::string_view key = tokens.word();
-    if (key == "#")
-    {
-      key = tokens.word();
-    }
-    if (key == "f" || key == "nfaces")
+    const std::string_view first = tokens.word();
+    // What a comment says of the mesh; its other words may be anything.
+    const std::string_view key = first == "#" ? tokens.word() : std::string_view();
+    if (first == "f" || key == "nfaces")
     {
       return StreamFormat::Sma;
     }
-    if (key == "c" || key == "ncells" || key == "svtype" || key == "v_pnum_f")
+    if (first == "c" || key == "ncells" || key == "svtype" || key == "v_pnum_f")
     {
       return StreamFormat::Sva;
     }

@@ -96,8 +96,9 @@ private:
     const std::size_t colors = numbers - std::min(others, numbers);
     if (numbers < others || (this->Header.colors ? colors != 3 && colors != 4 : colors != 0))
     {
-      this->Builder.note("The vertices have not the numbers that the keyword of the file promises: "
-                         "all but their coordinates is left out.");
+      this->Builder.note("The vertices have not the numbers that the keyword of the file promises "
+                         "(NOFF: normals, COFF: colours, STOFF: texture coordinates): all but "
+                         "their coordinates is left out.");
       return;
     }
     this->Used = numbers;

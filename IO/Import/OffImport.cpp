@@ -46,7 +46,7 @@ void readVertices(TextScanner& scanner, const OffHeader& header, RawMeshBuilder&
     const double y = scanner.number("the coordinate y of a vertex");
     const double z = scanner.number("the coordinate z of a vertex");
     builder.vertex(x, y, z);
-    if (attributes.any())
+    if (attributes.any() || i == 0)
     {
       numbers.read(scanner);
       attributes.add(numbers.all());

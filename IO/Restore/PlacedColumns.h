@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,20 +34,22 @@ public:
   {
     return this->OfElements.place(name, least, most, false);
   }
-  // The place of the column of this name that has one integer each.
-  std::ptrdiff_t integerOfVertices(std::string_view name)
+  // The place of the first of these columns that has one integer each: formats call the labels that
+  // they have differently.
+  std::ptrdiff_t integerOfVertices(std::initializer_list<std::string_view> names)
   {
-    return this->OfVertices.place(name, 1, 1, true);
+    return this->OfVertices.firstInteger(names);
   }
-  std::ptrdiff_t integerOfElements(std::string_view name)
+  std::ptrdiff_t integerOfElements(std::initializer_list<std::string_view> names)
   {
-    return this->OfElements.place(name, 1, 1, true);
+    return this->OfElements.firstInteger(names);
   }
 
   /** A sentence for a user about the columns that nobody asked for. */
   std::vector<std::string> leftOut(std::string_view suffix) const
   {
-    std::string names = this->OfVertices.others(this->OfElements.others({}));
+    const std::string names =
+      this->OfVertices.others("vertex", this->OfElements.others("cell", {}));
     if (names.empty())
     {
       return {};
@@ -82,14 +85,24 @@ private:
       return place;
     }
 
+    std::ptrdiff_t firstInteger(std::initializer_list<std::string_view> names)
+    {
+      std::ptrdiff_t found = -1;
+      for (const std::string_view* name = names.begin(); name != names.end() && found < 0; ++name)
+      {
+        found = this->place(*name, 1, 1, true);
+      }
+      return found;
+    }
+
     /** The names of the others, before those that are given. */
-    std::string others(std::string names) const
+    std::string others(const std::string& owner, std::string names) const
     {
       for (std::size_t i = this->Specs.size(); i-- > 0;)
       {
         if (!this->Taken[i])
         {
-          names = inQuotes(this->Specs[i].name) + (names.empty() ? "" : ", ") + names;
+          names = owner + ' ' + inQuotes(this->Specs[i].name) + (names.empty() ? "" : ", ") + names;
         }
       }
       return names;

@@ -25,8 +25,8 @@ public:
   GmshElements(TextOutput& out, CellType cellType, PlacedColumns& columns)
     : Out(out)
     , CellKind(cellType)
-    , Group(columns.integerOfElements(PhysicalTagName))
-    , Entity(columns.integerOfElements(GeometricalTagName))
+    , Group(columns.integerOfElements({ PhysicalTagName, ReferenceName }))
+    , Entity(columns.integerOfElements({ GeometricalTagName }))
   {
   }
 

@@ -87,7 +87,7 @@ RestoredNotes writeRestoredMedit(RestoredMesh& mesh, const std::filesystem::path
   TextOutput out(path);
   const RestoredInfo& info = mesh.info();
   PlacedColumns columns(info);
-  const std::ptrdiff_t references = columns.integerOfVertices(ReferenceName);
+  const std::ptrdiff_t references = columns.integerOfVertices({ ReferenceName, MarkerName });
   out << "MeshVersionFormatted " << (info.doublePositions ? 2 : 1) << "\nDimension 3\nVertices\n"
       << info.vertices << '\n';
   for (RestoredVertices vertices; mesh.next(vertices);)
@@ -100,7 +100,7 @@ RestoredNotes writeRestoredMedit(RestoredMesh& mesh, const std::filesystem::path
       out << '\n';
     }
   }
-  MeditElements writer(out, mesh, columns.integerOfElements(ReferenceName));
+  MeditElements writer(out, mesh, columns.integerOfElements({ ReferenceName, PhysicalTagName }));
   if (info.cellType == CellType::Triangle)
   {
     // All triangles of the stream, but for the two of each quadrilateral.

@@ -4,8 +4,32 @@
 #include "IO/Restore/RestoredFormats.h"
 #include "IO/Restore/TextOutput.h"
 
+#include <cmath>
+
 namespace smg
 {
+
+namespace
+{
+
+/** Writes a colour; numbers from 0 to 1 with a point, for those without are bytes. */
+void writeColor(
+  TextOutput& out, const std::vector<Column>& columns, std::ptrdiff_t column, std::size_t tuple)
+{
+  if (column < 0 || columns[static_cast<std::size_t>(column)].spec.type == ScalarType::UInt8)
+  {
+    out.tuple(columns, column, tuple);
+    return;
+  }
+  const Column& colors = columns[static_cast<std::size_t>(column)];
+  for (int k = 0; k < colors.spec.components; ++k)
+  {
+    const auto value = static_cast<float>(colors.value(tuple, k));
+    out << ' ' << value << (value == std::floor(value) ? ".0" : "");
+  }
+}
+
+} // namespace
 
 RestoredNotes writeRestoredOff(RestoredMesh& mesh, const std::filesystem::path& path)
 {
@@ -24,10 +48,9 @@ RestoredNotes writeRestoredOff(RestoredMesh& mesh, const std::filesystem::path& 
     for (std::size_t i = 0; i < positions.size(); i += 3)
     {
       out.position(positions.subspan(i, 3), info.doublePositions);
-      for (const std::ptrdiff_t column : { normals, colors, texture })
-      {
-        out.tuple(vertices.columns, column, i / 3);
-      }
+      out.tuple(vertices.columns, normals, i / 3);
+      writeColor(out, vertices.columns, colors, i / 3);
+      out.tuple(vertices.columns, texture, i / 3);
       out << '\n';
     }
   }
@@ -42,7 +65,7 @@ RestoredNotes writeRestoredOff(RestoredMesh& mesh, const std::filesystem::path& 
         {
           out << ' ' << corner;
         }
-        out.tuple(elements.columns, faceColors, element++);
+        writeColor(out, elements.columns, faceColors, element++);
         out << '\n';
       });
   }

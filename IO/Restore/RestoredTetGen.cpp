@@ -25,7 +25,7 @@ void writeNodes(TextOutput& out, RestoredMesh& mesh, PlacedColumns& columns)
 {
   const RestoredInfo& info = mesh.info();
   const std::ptrdiff_t attributes = columns.ofVertices(AttributeName, 1, AnyNumber);
-  const std::ptrdiff_t markers = columns.integerOfVertices(MarkerName);
+  const std::ptrdiff_t markers = columns.integerOfVertices({ MarkerName, ReferenceName });
   out << info.vertices << " 3 " << components(info.vertexColumns, attributes) << ' '
       << components(info.vertexColumns, markers) << '\n';
   for (RestoredVertices vertices; mesh.next(vertices);)
@@ -46,7 +46,11 @@ void writeNodes(TextOutput& out, RestoredMesh& mesh, PlacedColumns& columns)
 void writeElements(TextOutput& out, RestoredMesh& mesh, PlacedColumns& columns)
 {
   const RestoredInfo& info = mesh.info();
-  const std::ptrdiff_t attributes = columns.ofElements(AttributeName, 1, AnyNumber);
+  std::ptrdiff_t attributes = columns.ofElements(AttributeName, 1, AnyNumber);
+  if (attributes < 0)
+  {
+    attributes = columns.integerOfElements({ ReferenceName, PhysicalTagName });
+  }
   out << info.cells << ' ' << cornersOf(info.cellType) << ' '
       << components(info.elementColumns, attributes) << '\n';
   std::int64_t number = 0;

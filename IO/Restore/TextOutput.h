@@ -75,7 +75,7 @@ public:
 
   /** Writes a tuple of a column with a blank before each number; without a column `otherwise`. */
   void tuple(const std::vector<Column>& columns, std::ptrdiff_t column, std::size_t tuple,
-    std::string_view otherwise = {})
+    std::string_view otherwise = "")
   {
     if (column < 0)
     {

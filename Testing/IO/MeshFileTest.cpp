@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/MeshFile.h"
 
+#include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 
@@ -40,6 +41,15 @@ TEST(MeshFile, OutputsThatCannotBeWrittenAreRefused)
   expectRefused(folder / "out.xyz", ": meshes are written as");
   expectRefused(folder / "folder.vsm", ": this is a folder");
   expectRefused(folder / "absent" / "out.vsm", ": there is no folder");
+}
+
+TEST(MeshFile, CommentsMakeNoStream)
+{
+  const TemporaryFolder folder;
+  writeBytes(folder / "a.node", "# c cube\n# f\n4 3 0 0\n1 0 0 0\n");
+  EXPECT_EQ(kindOfInput(folder / "a.node"), MeshFileKind::Indexed);
+  writeBytes(folder / "a.txt", "# nfaces 1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(kindOfInput(folder / "a.txt"), MeshFileKind::Stream);
 }
 
 TEST(MeshFile, FoldersThatCannotBeWrittenToAreRefused)

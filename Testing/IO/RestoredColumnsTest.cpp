@@ -5,6 +5,7 @@
 #include "Testing/Support/RawMeshReading.h"
 
 #include <numeric>
+#include <utility>
 
 namespace smg::testing
 {
@@ -17,27 +18,35 @@ using RestoredColumns = RestoredMeshFixture;
 void giveTextColumns(MeshOfFile& mesh)
 {
   const auto points = static_cast<std::size_t>(mesh.vertices());
-  const auto column = [](const char* name, int components, std::size_t tuples, auto valueOf)
+  const auto add = [](std::vector<Column>& columns, const char* name, int components,
+                     std::size_t tuples, auto valueOf)
   {
     std::vector<decltype(valueOf(0))> values(tuples * static_cast<std::size_t>(components));
     for (std::size_t i = 0; i < values.size(); ++i)
     {
       values[i] = valueOf(static_cast<int>(i));
     }
-    return makeColumn<decltype(valueOf(0))>(name, values, components);
+    columns.push_back(makeColumn<decltype(valueOf(0))>(name, values, components));
   };
   const auto share = [](int i) { return static_cast<float>(i % 11) / 10.0F; };
   const auto label = [](int i) { return std::int64_t(i % 7 - 2); };
   const auto byte = [](int i) { return static_cast<std::uint8_t>(255 - i % 256); };
   const auto real = [](int i) { return 1.0 / (i + 1); };
-  mesh.vertexColumns = { column("Normals", 3, points, share), column("Colors", 4, points, byte),
-    column("TextureCoordinates", 2, points, share), column("Reference", 1, points, label),
-    column("Attribute", 2, points, real), column("Marker", 1, points, label),
-    column("height", 1, points, real) };
+  mesh.vertexColumns.clear();
+  add(mesh.vertexColumns, "Normals", 3, points, share);
+  add(mesh.vertexColumns, "Colors", 4, points, byte);
+  add(mesh.vertexColumns, "TextureCoordinates", 2, points, share);
+  add(mesh.vertexColumns, "Reference", 1, points, label);
+  add(mesh.vertexColumns, "Attribute", 2, points, real);
+  add(mesh.vertexColumns, "Marker", 1, points, label);
+  add(mesh.vertexColumns, "height", 1, points, real);
   const std::size_t cells = mesh.cells.size();
-  mesh.cellColumns = { column("Colors", 3, cells, byte), column("Reference", 1, cells, label),
-    column("PhysicalTag", 1, cells, label), column("GeometricalTag", 1, cells, label),
-    column("Attribute", 3, cells, real) };
+  mesh.cellColumns.clear();
+  add(mesh.cellColumns, "Colors", 3, cells, byte);
+  add(mesh.cellColumns, "Reference", 1, cells, label);
+  add(mesh.cellColumns, "PhysicalTag", 1, cells, label);
+  add(mesh.cellColumns, "GeometricalTag", 1, cells, label);
+  add(mesh.cellColumns, "Attribute", 3, cells, real);
 }
 
 void expectColumns(const std::vector<Column>& columns, const std::vector<Column>& of,
@@ -116,9 +125,28 @@ TEST_F(RestoredColumns, LabelsThatAreNoIntegersAreLeftOut)
   for (const char* name : { "out.mesh", "out.msh" })
   {
     this->write(mesh, name);
-    EXPECT_TRUE(this->isNoted("'Reference', 'PhysicalTag'"));
+    EXPECT_TRUE(this->isNoted("cell 'Reference', cell 'PhysicalTag'"));
     Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
     EXPECT_TRUE(importMesh(this->Folder / name, workspace).elementColumns.empty());
+  }
+}
+
+TEST_F(RestoredColumns, LabelsTravelBetweenFormatsThatCallThemDifferently)
+{
+  MeshOfFile mesh = randomMeshOfFile(CellType::Tetrahedron, 4, true);
+  std::vector<int> labels(mesh.cells.size());
+  std::iota(labels.begin(), labels.end(), 5);
+  mesh.vertexColumns.clear();
+  for (const auto& [from, to] : { std::pair("Reference", "out.msh"),
+         std::pair("PhysicalTag", "out.mesh"), std::pair("Reference", "out.ele") })
+  {
+    mesh.cellColumns = { makeColumn<int>(from, labels) };
+    this->write(mesh, to);
+    EXPECT_TRUE(this->Notes.empty());
+    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    const ReadMesh back = readRaw(importMesh(this->Folder / to, workspace));
+    ASSERT_EQ(back.elementColumns.size(), 1U);
+    EXPECT_EQ(valuesOf(back.elementColumns[0]), valuesOf(mesh.cellColumns[0])) << to;
   }
 }
 
