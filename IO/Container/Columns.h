@@ -22,4 +22,13 @@ inline std::vector<Column> emptyColumns(
   return columns;
 }
 
+/** Takes all tuples out; the memory stays. */
+inline void clearTuples(std::vector<Column>& columns)
+{
+  for (Column& column : columns)
+  {
+    column.bytes.clear();
+  }
+}
+
 } // namespace smg

@@ -194,13 +194,13 @@ std::int64_t StreamAssembler::introduce(std::int64_t vertex)
   this->Until.at(id) = values.until;
   MeshBlock& block = this->Block;
   block.positions.insert(block.positions.end(), values.position.begin(), values.position.end());
-  push(block.vertexColumns[0], vertex);
   this->pushValues(vertex, block.vertexColumns);
   return id;
 }
 
 void StreamAssembler::pushValues(std::int64_t vertex, std::vector<Column>& columns)
 {
+  push(columns[0], vertex);
   const int floats = this->Header.vertexFloats;
   const int count = floats + this->Header.vertexInts;
   for (int k = 0; k < count; k++)
@@ -238,7 +238,6 @@ void StreamAssembler::setAside(std::int64_t vertex)
   IsolatedVertices& aside = this->Aside;
   aside.ids.push_back(vertex);
   aside.positions.insert(aside.positions.end(), position.begin(), position.end());
-  push(aside.columns[0], vertex);
   this->pushValues(vertex, aside.columns);
   this->AsideCount++;
   if (std::ssize(aside.ids) == BlockCells)
@@ -252,10 +251,7 @@ void StreamAssembler::flushIsolated()
   this->Writer.isolated(this->Aside.ids, this->Aside.positions, this->Aside.columns);
   this->Aside.ids.clear();
   this->Aside.positions.clear();
-  for (Column& column : this->Aside.columns)
-  {
-    column.bytes.clear();
-  }
+  clearTuples(this->Aside.columns);
 }
 
 void StreamAssembler::flush()
@@ -267,13 +263,8 @@ void StreamAssembler::flush()
   this->Block.firstCell = this->Delivered;
   this->Block.positions.clear();
   this->Block.corners.clear();
-  for (auto* columns : { &this->Block.vertexColumns, &this->Block.cellColumns })
-  {
-    for (Column& column : *columns)
-    {
-      column.bytes.clear();
-    }
-  }
+  clearTuples(this->Block.vertexColumns);
+  clearTuples(this->Block.cellColumns);
   this->FileVertices.discardBelow(this->FirstFileVertex);
   this->Values.discardBelow(
     this->FirstFileVertex * (this->Header.vertexFloats + this->Header.vertexInts));

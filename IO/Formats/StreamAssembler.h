@@ -62,7 +62,7 @@ private:
   void deliver();
   void deliverCell(const std::array<std::int64_t, 4>& corners);
   std::int64_t introduce(std::int64_t vertex);
-  /** Appends the further values of a vertex to the columns behind the first. */
+  /** Appends the place of a vertex in the file and its further values to the columns. */
   void pushValues(std::int64_t vertex, std::vector<Column>& columns);
   /** Forgets what is not needed any more. */
   void forget();

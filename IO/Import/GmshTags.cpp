@@ -4,17 +4,14 @@
 #include "IO/Container/AttributeNames.h"
 
 #include <cstddef>
-#include <span>
 
 namespace smg
 {
 
 GmshTags::GmshTags(RawMeshBuilder& builder)
-  : Builder(builder)
+  : Physical(builder, ImportColumn::Of::Elements, PhysicalTagName, NoGroup)
+  , Geometrical(builder, ImportColumn::Of::Elements, GeometricalTagName, FirstEntity)
 {
-  this->Physical = { builder.addElementColumn({ PhysicalTagName, ScalarType::Int64, 1 }), NoGroup };
-  this->Geometrical = { builder.addElementColumn({ GeometricalTagName, ScalarType::Int64, 1 }),
-    FirstEntity };
 }
 
 void GmshTags::readEntities(GmshInput& input)
@@ -63,25 +60,14 @@ std::int64_t GmshTags::groupOf(std::int64_t dimension, std::int64_t entity) cons
 
 void GmshTags::add(std::int64_t group, std::int64_t entity)
 {
-  this->add(this->Physical, group);
-  this->add(this->Geometrical, entity);
-}
-
-void GmshTags::add(Tag& tag, std::int64_t value)
-{
-  this->Builder.elementTuples(tag.column, std::as_bytes(std::span(&value, 1)));
-  tag.used = tag.used || value != tag.usual;
+  this->Physical.add(group);
+  this->Geometrical.add(entity);
 }
 
 void GmshTags::finish()
 {
-  for (const Tag& tag : { this->Physical, this->Geometrical })
-  {
-    if (!tag.used)
-    {
-      this->Builder.dropElementColumn(tag.column);
-    }
-  }
+  this->Physical.finish();
+  this->Geometrical.finish();
 }
 
 } // namespace smg

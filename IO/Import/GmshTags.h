@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/Import/GmshInput.h"
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/LabelColumn.h"
 
 #include <array>
 #include <cstdint>
@@ -35,16 +35,7 @@ public:
   void finish();
 
 private:
-  struct Tag
-  {
-    int column = -1;
-    std::int64_t usual = 0;
-    bool used = false; ///< whether any is not the usual one
-  };
-  void add(Tag& tag, std::int64_t value);
-
-  RawMeshBuilder& Builder;
-  Tag Physical, Geometrical;
+  LabelColumn Physical, Geometrical;
   std::array<std::map<std::int64_t, std::int64_t>, 4> Groups; ///< by dimension and entity
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Container/AttributeNames.h"
 #include "IO/Import/Formats.h"
+#include "IO/Import/LabelColumn.h"
 #include "IO/Import/TextScanner.h"
 
 #include <algorithm>
@@ -45,10 +46,9 @@ public:
   MeditReader(InputFile& file, RawMeshBuilder& builder)
     : Scanner(file, '#')
     , Builder(builder)
+    , VertexReferences(builder, ImportColumn::Of::Vertices, ReferenceName)
+    , ElementReferences(builder, ImportColumn::Of::Elements, ReferenceName)
   {
-    const ColumnSpec references{ ReferenceName, ScalarType::Int64, 1 };
-    this->VertexReferences.column = builder.addVertexColumn(references);
-    this->ElementReferences.column = builder.addElementColumn(references);
   }
 
   void read()
@@ -73,13 +73,6 @@ public:
   }
 
 private:
-  /** The labels of vertices or elements. */
-  struct References
-  {
-    int column = -1;
-    bool used = false; ///< whether any is not 0
-  };
-
   void readSection(const std::string& keyword)
   {
     if (keyword == "MeshVersionFormatted")
@@ -153,9 +146,7 @@ private:
         point[axis] = this->Scanner.number("a coordinate of a vertex");
       }
       this->Builder.vertex(point[0], point[1], point[2]);
-      const std::int64_t label = this->reference(this->VertexReferences);
-      this->Builder.vertexTuples(
-        this->VertexReferences.column, std::as_bytes(std::span(&label, 1)));
+      this->VertexReferences.add(this->reference());
     }
   }
 
@@ -171,9 +162,7 @@ private:
         corner = this->corner();
       }
       this->add(section, corners);
-      const std::int64_t label = this->reference(this->ElementReferences);
-      this->Builder.elementTuples(
-        this->ElementReferences.column, std::as_bytes(std::span(&label, 1)));
+      this->ElementReferences.add(this->reference());
     }
   }
 
@@ -215,12 +204,10 @@ private:
   }
 
   /** The label at the end of an entry's line; some writers leave it out. */
-  std::int64_t reference(References& references)
+  std::int64_t reference()
   {
     const std::string_view token = this->Scanner.tokenInLine();
-    const std::int64_t label = token.empty() ? 0 : this->Scanner.toInteger(token, "a label");
-    references.used = references.used || label != 0;
-    return label;
+    return token.empty() ? 0 : this->Scanner.toInteger(token, "a label");
   }
 
   void finish()
@@ -232,19 +219,13 @@ private:
         this->LargestLine, "the element names vertex " + std::to_string(this->LargestCorner) +
                              ", but the file has " + std::to_string(this->Builder.vertices()));
     }
-    if (!this->VertexReferences.used)
-    {
-      this->Builder.dropVertexColumn(this->VertexReferences.column);
-    }
-    if (!this->ElementReferences.used)
-    {
-      this->Builder.dropElementColumn(this->ElementReferences.column);
-    }
+    this->VertexReferences.finish();
+    this->ElementReferences.finish();
   }
 
   TextScanner Scanner;
   RawMeshBuilder& Builder;
-  References VertexReferences, ElementReferences;
+  LabelColumn VertexReferences, ElementReferences;
   std::int64_t Dimension = 3;
   std::int64_t LargestCorner = 0;
   std::int64_t LargestLine = 0;

@@ -23,7 +23,7 @@ public:
     : Scanner(file, '#')
     , Builder(builder)
     , Fan(builder)
-    , Colors(builder, TextColors::Of::Vertices)
+    , Colors(builder, ImportColumn::Of::Vertices)
   {
   }
 

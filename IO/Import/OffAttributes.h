@@ -52,7 +52,7 @@ public:
   OffAttributes(const OffHeader& header, RawMeshBuilder& builder)
     : Header(header)
     , Builder(builder)
-    , Colors(builder, TextColors::Of::Vertices)
+    , Colors(builder, ImportColumn::Of::Vertices)
   {
   }
 
@@ -77,10 +77,17 @@ public:
                       " numbers behind its coordinates, those before it have " +
                       std::to_string(this->Used));
     }
-    numbers = this->put(this->Normals, numbers, this->Header.normals ? 3 : 0);
-    const std::size_t last = this->Header.textureCoordinates ? 2 : 0;
-    this->Colors.add(numbers.first(numbers.size() - last));
-    this->put(this->Texture, numbers.last(last), last);
+    if (this->Normals)
+    {
+      appendAs<float>(numbers.first(3), *this->Normals);
+      numbers = numbers.subspan(3);
+    }
+    if (this->Texture)
+    {
+      appendAs<float>(numbers.last(2), *this->Texture);
+      numbers = numbers.first(numbers.size() - 2);
+    }
+    this->Colors.add(numbers);
   }
 
   /** After the last vertex. */
@@ -104,31 +111,20 @@ private:
     this->Used = numbers;
     if (this->Header.normals)
     {
-      this->Normals = this->Builder.addVertexColumn({ NormalsName, ScalarType::Float32, 3 });
+      this->Normals.emplace(this->Builder, ImportColumn::Of::Vertices,
+        ColumnSpec{ NormalsName, ScalarType::Float32, 3 });
     }
     if (this->Header.textureCoordinates)
     {
-      this->Texture =
-        this->Builder.addVertexColumn({ TextureCoordinatesName, ScalarType::Float32, 2 });
+      this->Texture.emplace(this->Builder, ImportColumn::Of::Vertices,
+        ColumnSpec{ TextureCoordinatesName, ScalarType::Float32, 2 });
     }
-  }
-
-  /** Appends the first `count` numbers to the column; answers the others. */
-  std::span<const double> put(int column, std::span<const double> numbers, std::size_t count)
-  {
-    std::array<float, 3> tuple{};
-    for (std::size_t k = 0; k < std::min(tuple.size(), count); ++k)
-    {
-      tuple[k] = static_cast<float>(numbers[k]);
-    }
-    this->Builder.vertexTuples(column, std::as_bytes(std::span(tuple).first(count)));
-    return numbers.subspan(count);
   }
 
   OffHeader Header;
   RawMeshBuilder& Builder;
   TextColors Colors;
-  int Normals = -1, Texture = -1;
+  std::optional<ImportColumn> Normals, Texture;
   bool Begun = false;
   std::size_t Used = 0; ///< numbers behind the coordinates; 0: they are left out
 };

@@ -60,7 +60,7 @@ void readFaces(
   TextScanner& scanner, std::int64_t faces, std::int64_t vertices, RawMeshBuilder& builder)
 {
   TriangleFan fan(builder);
-  TextColors colors(builder, TextColors::Of::Faces);
+  TextColors colors(builder, ImportColumn::Of::Elements);
   LineNumbers numbers;
   for (std::int64_t i = 0; i < faces; ++i)
   {

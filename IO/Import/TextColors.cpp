@@ -25,17 +25,6 @@ bool areBytes(std::span<const double> numbers)
     [](double number) { return number >= 0 && number <= 255 && number == std::floor(number); });
 }
 
-template <class T>
-std::array<T, 4> converted(std::span<const double> numbers)
-{
-  std::array<T, 4> tuple{};
-  for (std::size_t k = 0; k < std::min(tuple.size(), numbers.size()); ++k)
-  {
-    tuple[k] = static_cast<T>(numbers[k]);
-  }
-  return tuple;
-}
-
 } // namespace
 
 void TextColors::add(std::span<const double> numbers)
@@ -53,7 +42,7 @@ void TextColors::add(std::span<const double> numbers)
     this->drop();
     return;
   }
-  if (this->Column < 0)
+  if (!this->Column)
   {
     const double largest = std::ranges::max(numbers);
     if (largest == 0.0)
@@ -67,7 +56,7 @@ void TextColors::add(std::span<const double> numbers)
 
 void TextColors::finish()
 {
-  if (this->Column < 0 && this->Components > 0 && !this->Dropped)
+  if (!this->Column && this->Components > 0 && !this->Dropped)
   {
     this->begin(this->Owned, true);
   }
@@ -76,10 +65,10 @@ void TextColors::finish()
 /** Makes the column, with so many black ones. */
 void TextColors::begin(std::int64_t black, bool bytes)
 {
-  this->Spec = { ColorsName, bytes ? ScalarType::UInt8 : ScalarType::Float32,
-    static_cast<int>(this->Components) };
-  this->Column = this->Owners == Of::Vertices ? this->Builder.addVertexColumn(this->Spec)
-                                              : this->Builder.addElementColumn(this->Spec);
+  this->Bytes = bytes;
+  this->Column.emplace(this->Builder, this->Owners,
+    ColumnSpec{ ColorsName, bytes ? ScalarType::UInt8 : ScalarType::Float32,
+      static_cast<int>(this->Components) });
   const std::array<double, 4> zeros{};
   for (std::int64_t i = 0; i < black; ++i)
   {
@@ -96,37 +85,26 @@ bool TextColors::fits(std::span<const double> numbers) const
   }
   const bool areShares =
     std::ranges::all_of(numbers, [](double number) { return number >= 0 && number <= 1; });
-  if (this->Column < 0)
+  if (!this->Column)
   {
     return areShares || areBytes(numbers);
   }
-  return this->Spec.type == ScalarType::UInt8 ? areBytes(numbers) : areShares;
+  return this->Bytes ? areBytes(numbers) : areShares;
 }
 
 void TextColors::append(std::span<const double> numbers)
 {
-  const auto put = [this](std::span<const std::byte> tuple)
-  {
-    this->Owners == Of::Vertices ? this->Builder.vertexTuples(this->Column, tuple)
-                                 : this->Builder.elementTuples(this->Column, tuple);
-  };
-  if (this->Spec.type == ScalarType::UInt8)
-  {
-    const auto tuple = converted<std::uint8_t>(numbers);
-    put(std::as_bytes(std::span(tuple).first(numbers.size())));
-  }
-  else
-  {
-    const auto tuple = converted<float>(numbers);
-    put(std::as_bytes(std::span(tuple).first(numbers.size())));
-  }
+  this->Bytes ? appendAs<std::uint8_t>(numbers, *this->Column)
+              : appendAs<float>(numbers, *this->Column);
 }
 
 void TextColors::drop()
 {
-  const bool ofVertices = this->Owners == Of::Vertices;
-  ofVertices ? this->Builder.dropVertexColumn(this->Column)
-             : this->Builder.dropElementColumn(this->Column);
+  const bool ofVertices = this->Owners == ImportColumn::Of::Vertices;
+  if (this->Column)
+  {
+    this->Column->drop();
+  }
   this->Dropped = true;
   this->Builder.note(std::string("The colours of the ") + (ofVertices ? "vertices" : "faces") +
                      " are left out, since not all of them have one of the same kind.");

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Raw/RawMeshBuilder.h"
+#include "IO/Import/ImportColumn.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace smg
@@ -18,13 +19,7 @@ namespace smg
 class TextColors
 {
 public:
-  enum class Of : std::uint8_t
-  {
-    Vertices,
-    Faces
-  };
-
-  TextColors(RawMeshBuilder& builder, Of of)
+  TextColors(RawMeshBuilder& builder, ImportColumn::Of of)
     : Builder(builder)
     , Owners(of)
   {
@@ -42,9 +37,9 @@ private:
   void drop();
 
   RawMeshBuilder& Builder;
-  Of Owners;
-  ColumnSpec Spec;
-  int Column = -1;
+  ImportColumn::Of Owners;
+  std::optional<ImportColumn> Column;
+  bool Bytes = false;
   std::size_t Components = 0; ///< of the first; 0: none
   std::int64_t Owned = 0;     ///< vertices or faces so far
   bool Dropped = false;

@@ -4,6 +4,7 @@
 #include "Solver/Stream/Column.h"
 #include "Solver/Stream/MeshSource.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -39,6 +40,16 @@ struct RestoredVertices
   std::int64_t count() const { return static_cast<std::int64_t>(this->positions.size() / 3); }
 };
 
+/** Calls `take` with the corners of each triangle of the fan of a polygon. */
+template <class Take>
+void forEachFanTriangle(std::span<const std::int64_t> polygon, Take&& take)
+{
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+  {
+    take(std::array{ polygon[0], polygon[i - 1], polygon[i] });
+  }
+}
+
 /** Consecutive elements of a restored mesh: polygons of any number of corners, or tetrahedra. */
 struct RestoredElements
 {
@@ -49,14 +60,15 @@ struct RestoredElements
 
   std::int64_t count() const { return static_cast<std::int64_t>(this->sizes.size()); }
 
-  /** Calls `take` with the corners of each element, from first to last. */
+  /** Calls `take` with the corners of each element, and its place here, from first to last. */
   template <class Take>
   void forEach(Take&& take) const
   {
     std::size_t begin = 0;
-    for (const std::uint32_t size : this->sizes)
+    for (std::size_t element = 0; element < this->sizes.size(); ++element)
     {
-      take(std::span<const std::int64_t>(this->corners).subspan(begin, size));
+      const std::size_t size = this->sizes[element];
+      take(std::span<const std::int64_t>(this->corners).subspan(begin, size), element);
       begin += size;
     }
   }
@@ -65,14 +77,8 @@ struct RestoredElements
   template <class Take>
   void forEachTriangle(Take&& take) const
   {
-    this->forEach(
-      [&take](std::span<const std::int64_t> polygon)
-      {
-        for (std::size_t i = 2; i < polygon.size(); ++i)
-        {
-          take(polygon[0], polygon[i - 1], polygon[i]);
-        }
-      });
+    this->forEach([&take](std::span<const std::int64_t> polygon, std::size_t)
+      { forEachFanTriangle(polygon, take); });
   }
 };
 

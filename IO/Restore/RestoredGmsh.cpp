@@ -32,42 +32,36 @@ public:
 
   void write(const RestoredElements& elements)
   {
-    this->Element = 0;
-    elements.forEach(
-      [&](std::span<const std::int64_t> corners)
-      {
-        this->write(elements, corners);
-        ++this->Element;
-      });
+    elements.forEach([&](std::span<const std::int64_t> corners, std::size_t element)
+      { this->write(elements, element, corners); });
   }
 
 private:
-  void write(const RestoredElements& elements, std::span<const std::int64_t> corners)
+  void write(
+    const RestoredElements& elements, std::size_t element, std::span<const std::int64_t> corners)
   {
     if (this->CellKind == CellType::Tetrahedron)
     {
-      this->write(elements, GmshTetrahedron, corners);
+      this->write(elements, element, GmshTetrahedron, corners);
     }
     else if (corners.size() == 4)
     {
-      this->write(elements, GmshQuadrilateral, corners);
+      this->write(elements, element, GmshQuadrilateral, corners);
     }
     else
     {
-      for (std::size_t i = 2; i < corners.size(); ++i)
-      {
-        const std::int64_t triangle[] = { corners[0], corners[i - 1], corners[i] };
-        this->write(elements, GmshTriangle, triangle);
-      }
+      forEachFanTriangle(corners,
+        [&](const auto& triangle) { this->write(elements, element, GmshTriangle, triangle); });
     }
   }
 
-  void write(const RestoredElements& elements, GmshType type, std::span<const std::int64_t> corners)
+  void write(const RestoredElements& elements, std::size_t element, GmshType type,
+    std::span<const std::int64_t> corners)
   {
     // Two tags, which Gmsh demands.
     this->Out << ++this->Count << ' ' << static_cast<int>(type) << " 2";
-    this->Out.tuple(elements.columns, this->Group, this->Element, " 0");
-    this->Out.tuple(elements.columns, this->Entity, this->Element, " 1");
+    this->Out.tuple(elements.columns, this->Group, element, " 0");
+    this->Out.tuple(elements.columns, this->Entity, element, " 1");
     for (const std::int64_t corner : corners)
     {
       this->Out << ' ' << corner + 1;
@@ -78,7 +72,6 @@ private:
   TextOutput& Out;
   CellType CellKind;
   std::ptrdiff_t Group, Entity; ///< columns
-  std::size_t Element = 0;      ///< of the chunk
   std::int64_t Count = 0;
 };
 

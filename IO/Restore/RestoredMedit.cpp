@@ -4,7 +4,6 @@
 #include "IO/Restore/RestoredFormats.h"
 #include "IO/Restore/TextOutput.h"
 
-#include <array>
 #include <string_view>
 
 namespace smg
@@ -35,15 +34,13 @@ public:
     this->Out << keyword << '\n' << count << '\n';
     for (RestoredElements elements; this->Mesh.next(elements);)
     {
-      std::size_t element = 0;
       elements.forEach(
-        [&](std::span<const std::int64_t> corners)
+        [&](std::span<const std::int64_t> corners, std::size_t element)
         {
           if (choose(corners.size()))
           {
             this->write(elements, element, corners);
           }
-          ++element;
         });
     }
     this->Mesh.rewindElements();
@@ -58,10 +55,8 @@ private:
       this->writeCell(elements, element, corners);
       return;
     }
-    for (std::size_t i = 2; i < corners.size(); ++i)
-    {
-      this->writeCell(elements, element, std::array{ corners[0], corners[i - 1], corners[i] });
-    }
+    forEachFanTriangle(
+      corners, [&](const auto& triangle) { this->writeCell(elements, element, triangle); });
   }
 
   void writeCell(

@@ -45,7 +45,7 @@ RestoredNotes writeRestoredObj(RestoredMesh& mesh, const std::filesystem::path& 
   for (RestoredElements elements; mesh.next(elements);)
   {
     elements.forEach(
-      [&out](std::span<const std::int64_t> corners)
+      [&out](std::span<const std::int64_t> corners, std::size_t)
       {
         out << 'f';
         for (const std::int64_t corner : corners)

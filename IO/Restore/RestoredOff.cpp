@@ -56,16 +56,15 @@ RestoredNotes writeRestoredOff(RestoredMesh& mesh, const std::filesystem::path& 
   }
   for (RestoredElements elements; mesh.next(elements);)
   {
-    std::size_t element = 0;
     elements.forEach(
-      [&](std::span<const std::int64_t> corners)
+      [&](std::span<const std::int64_t> corners, std::size_t element)
       {
         out << corners.size();
         for (const std::int64_t corner : corners)
         {
           out << ' ' << corner;
         }
-        writeColor(out, elements.columns, faceColors, element++);
+        writeColor(out, elements.columns, faceColors, element);
         out << '\n';
       });
   }

@@ -75,9 +75,8 @@ private:
   void writeFaces(const RestoredElements& elements)
   {
     this->Bytes.clear();
-    std::size_t face = 0;
     elements.forEach(
-      [&](std::span<const std::int64_t> corners)
+      [&](std::span<const std::int64_t> corners, std::size_t face)
       {
         const auto count = static_cast<std::int32_t>(corners.size());
         this->ManyCorners ? this->add(&count, sizeof(count))
@@ -88,7 +87,7 @@ private:
           this->add(&number, sizeof(number));
         }
         const std::size_t bytes = this->Faces.recordBytes();
-        this->add(this->Faces.records().data() + bytes * face++, bytes);
+        this->add(this->Faces.records().data() + bytes * face, bytes);
       });
     this->Out.put(this->Bytes);
   }

@@ -6,6 +6,7 @@
 #include "IO/Restore/TextOutput.h"
 #include "Solver/Core/Error.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -37,12 +38,7 @@ public:
     for (RestoredElements elements; mesh.next(elements);)
     {
       elements.forEachTriangle(
-        [&put](std::int64_t a, std::int64_t b, std::int64_t c)
-        {
-          put(a);
-          put(b);
-          put(c);
-        });
+        [&put](const auto& triangle) { std::ranges::for_each(triangle, put); });
     }
     byVertex.sort();
     RowSort::Row row;

@@ -5,7 +5,6 @@
 #include "IO/Restore/RestoredFormats.h"
 #include "IO/Restore/TextOutput.h"
 
-#include <array>
 #include <limits>
 
 namespace smg
@@ -66,20 +65,12 @@ void writeElements(TextOutput& out, RestoredMesh& mesh, PlacedColumns& columns)
       out.tuple(elements.columns, attributes, element);
       out << '\n';
     };
-    std::size_t element = 0;
     elements.forEach(
-      [&](std::span<const std::int64_t> corners)
+      [&](std::span<const std::int64_t> corners, std::size_t element)
       {
-        const bool isPolygon = info.cellType == CellType::Triangle;
-        for (std::size_t i = 2; isPolygon && i < corners.size(); ++i)
-        {
-          write(element, std::array{ corners[0], corners[i - 1], corners[i] });
-        }
-        if (!isPolygon)
-        {
-          write(element, corners);
-        }
-        ++element;
+        info.cellType == CellType::Triangle
+          ? forEachFanTriangle(corners, [&](const auto& triangle) { write(element, triangle); })
+          : write(element, corners);
       });
   }
 }

@@ -112,7 +112,7 @@ public:
   {
     this->Numbers.clear();
     elements.forEach(
-      [this](std::span<const std::int64_t> corners)
+      [this](std::span<const std::int64_t> corners, std::size_t)
       {
         this->Numbers.push_back(static_cast<std::int32_t>(corners.size()));
         this->Numbers.insert(this->Numbers.end(), corners.begin(), corners.end());

@@ -328,7 +328,7 @@ TEST_F(LargeRestoredMesh, IsRestoredInLittleMemory)
   for (RestoredElements elements; restored.next(elements);)
   {
     EXPECT_EQ(elements.first, std::int64_t(cells.size()));
-    elements.forEach([&cells](std::span<const std::int64_t> corners)
+    elements.forEach([&cells](std::span<const std::int64_t> corners, std::size_t)
       { cells.emplace_back(corners.begin(), corners.end()); });
     const std::vector<std::byte>& bytes = elements.columns[0].bytes;
     b.bytes.insert(b.bytes.end(), bytes.begin(), bytes.end());
