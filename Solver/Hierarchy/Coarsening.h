@@ -90,9 +90,8 @@ public:
     d.raw.release(this->Finished);
     d.rawAlpha.release(this->Finished);
     d.rawStrongest.release(this->Finished);
-    d.rawReach.release(this->Finished);
     d.rawLower.release(this->Finished);
-    d.rawFilled.release(this->Finished);
+    d.rawMirrored.release(this->Finished);
     d.rawSettled.release(this->Finished);
     d.slots.release(this->Finished);
     d.largeWeight.release(this->Finished);
@@ -165,36 +164,33 @@ private:
   void gather()
   {
     CoarseningData& d = this->Data;
-    d.rawReach.extendRaw(d.coarseNodes);
     d.rawAlpha.extendRaw(d.coarseNodes);
     d.rawStrongest.extendRaw(d.coarseNodes);
     d.rawLower.extendRaw(d.coarseNodes);
-    d.rawFilled.extendRaw(d.coarseNodes);
+    d.rawMirrored.extendRaw(d.coarseNodes);
     d.rawSettled.extend(d.coarseNodes);
     for (std::int64_t& c = this->Gathered; c < d.coarseNodes && this->canGather(c); ++c)
     {
       this->Set.gather(d, c);
-    }
-    for (std::int64_t& c = this->Sparsified;
-         c < this->Gathered && c + d.rawReach[c] < this->Gathered; ++c)
-    {
       this->Set.sparsify(d, c);
     }
   }
 
   /**
-   * A coarse row is final when the pairs of all its neighbours have been treated. Its upper weights
-   * then go to the lower parts of the rows above it: to the next entry of each, as rows become
-   * final in order.
+   * A coarse row is final when its last neighbour has been treated. Its upper weights then go to
+   * the lower parts of the rows above it: to the next entry of each, as rows become final in order.
    */
   void finish()
   {
     CoarseningData& d = this->Data;
-    for (std::int64_t& c = this->Finished;
-         c < this->Sparsified && c + d.rawReach[c] < this->Sparsified; ++c)
+    for (std::int64_t& c = this->Finished; c < this->Gathered; ++c)
     {
       const std::int64_t size = d.raw.size(c);
       const RowEntry* raw = d.raw.row(c);
+      if (size > 0 && c + raw[size - 1].delta >= this->Gathered)
+      {
+        break;
+      }
       for (std::int64_t e = d.rawLower[c]; e < size; ++e)
       {
         const std::int64_t k = c + raw[e].delta;
@@ -217,7 +213,7 @@ private:
 
   std::int64_t Rows = 0; // of the fine level, that stages may look at
   std::int64_t Lifted = 0, Initial = 0, Interpolated = 0, Multiplied = 0; // by fine node
-  std::int64_t Gathered = 0, Sparsified = 0, Finished = 0;                // by coarse node
+  std::int64_t Gathered = 0, Finished = 0;                                // by coarse node
   std::int64_t Packed = 0;
   std::int64_t LiftedDone = 0, InitialDone = 0, ReachDone = 0, ProductDone = 0;
 };

@@ -125,9 +125,8 @@ struct CoarseningData
     , raw(pool)
     , rawAlpha(pool)
     , rawStrongest(pool)
-    , rawReach(pool)
     , rawLower(pool)
-    , rawFilled(pool)
+    , rawMirrored(pool)
     , rawSettled(pool)
     , slots(pool)
     , largeWeight(pool)
@@ -154,9 +153,9 @@ struct CoarseningData
   RaggedRing<RowEntry> raw;              ///< rows of P^T A P, before and during sparsification
   Ring<double> rawAlpha;
   Ring<float> rawStrongest;
-  Ring<std::int32_t> rawReach;  ///< how far the row's largest column is above the row, at least 0
-  Ring<std::int32_t> rawLower;  ///< columns below the row
-  Ring<std::int32_t> rawFilled; ///< columns above the row that have been mirrored
+  Ring<std::int32_t> rawLower; ///< columns below the row
+  /** Where the entry is that the last row so far which has one for this row mirrors. */
+  Ring<std::int32_t> rawMirrored;
   /** Columns below the row that have their final weight: until then only the upper one counts. */
   Ring<std::int32_t> rawSettled;
 

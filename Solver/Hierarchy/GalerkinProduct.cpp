@@ -2,7 +2,6 @@
 #include "Solver/Hierarchy/GalerkinProduct.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace smg
@@ -134,38 +133,27 @@ void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
 {
   const CoarseningData::Slot* slots = data.slots.at(c);
   RowEntry* out = data.raw.open(static_cast<std::int64_t>(this->Sorted.size()));
-  // The lower entries mirror one of each row above: send for all before the first is read.
-  this->Mirrored.clear();
-  for (auto delta = this->Sorted.begin(); delta != this->Sorted.end() && *delta < 0; ++delta)
-  {
-    const std::int64_t k = c + *delta;
-    const RowEntry* mirrored = data.raw.row(k) + data.rawLower[k] + data.rawFilled[k]++;
-    __builtin_prefetch(mirrored);
-    this->Mirrored.push_back(mirrored);
-  }
+  std::int32_t lower = 0;
   std::int64_t size = 0;
   float strongest = 0.0F;
-  for (const RowEntry* mirrored : this->Mirrored)
+  for (const std::int32_t delta : this->Sorted)
   {
-    assert(mirrored->delta == -this->Sorted[static_cast<std::size_t>(size)]);
-    out[size++] = { -mirrored->delta, mirrored->weight };
-    strongest = std::max(strongest, mirrored->weight);
-  }
-  const std::int64_t lower = size;
-  for (auto e = static_cast<std::size_t>(lower); e < this->Sorted.size(); ++e)
-  {
-    const std::int32_t delta = this->Sorted[e];
-    if (delta > 0)
+    if (delta != 0)
     {
-      out[size++] = { delta, -slots[delta].value };
-      strongest = std::max(strongest, -slots[delta].value);
+      const float weight = -slots[delta].value;
+      out[size++] = { delta, weight };
+      lower += delta < 0 ? 1 : 0;
+      strongest = std::max(strongest, weight);
     }
+  }
+  for (std::int32_t e = 0; e < lower; ++e)
+  {
+    ++data.rawMirrored[c + out[e].delta];
   }
   data.raw.close(size);
   data.rawStrongest[c] = strongest;
-  data.rawLower[c] = static_cast<std::int32_t>(lower);
-  data.rawFilled[c] = 0;
-  data.rawReach[c] = size > 0 ? std::max(0, out[size - 1].delta) : 0;
+  data.rawLower[c] = lower;
+  data.rawMirrored[c] = lower - 1;
 }
 
 } // namespace smg

@@ -12,8 +12,8 @@ namespace smg
 /**
  * The coarse operator P^T A P, a row of A P at a time and then a row of the product at a time.
  * Row sums are accumulated by themselves in double precision, from differences of row sums of P, so
- * that a component without constraint has row sums of exactly zero on every level. A row copies its
- * lower part from the rows above it: the product is exactly symmetric.
+ * that a component without constraint has row sums of exactly zero on every level. Of the two
+ * weights of a pair the one in the upper of its rows counts: so the product is exactly symmetric.
  */
 class GalerkinProduct
 {
@@ -42,7 +42,6 @@ private:
   void append(CoarseningData& data, std::int64_t c);
 
   std::vector<Child> Children;
-  std::vector<const RowEntry*> Mirrored;
   std::vector<std::int32_t> Columns, Sorted;
 };
 

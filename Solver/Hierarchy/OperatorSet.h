@@ -37,12 +37,12 @@ namespace smg
  *   `parentReach`.
  * - `multiply` may read row i and `interpolation` of i and its neighbours. It appends row i of
  *   `product` and sets `productSum`.
- * - `gather` may read the chain of column c, `product` of its rows and the rows of `raw` above c.
- *   It appends row c of `raw`, by ascending column, and sets rawAlpha, rawStrongest, rawLower,
- *   rawFilled and rawReach of c.
- * - `sparsify` may read `raw` up to rawReach[c] and change upper entries, those with delta > 0, of
- *   the rows of c and its neighbours; the lower ones are as `gather` left them, and take over the
- *   weights of the upper ones at last. An entry that is to go gets the weight NaN.
+ * - `gather` may read the chain of column c and `product` of its rows. It appends row c of `raw`,
+ * by ascending column, sets rawAlpha, rawStrongest, rawLower and rawMirrored of c and moves
+ *   rawMirrored of its neighbours above on by one.
+ * - `sparsify`, which follows it, may read the rows of `raw` up to c that have neighbours from c
+ * on, and change their upper entries, those with delta > 0; the lower ones take over the weights of
+ *   these at last. An entry that is to go gets the weight NaN.
  *
  * What the engine relies on: a node without edges is not lifted; each lifted node has a child; P
  * has entries from 0 to 1 (multiples of 1/Quanta) with row sums of at most 1, from coarse nodes

@@ -11,6 +11,8 @@ namespace
 {
 
 constexpr float Removed = std::numeric_limits<float>::quiet_NaN();
+/** Instead of the largest weight of a row that has not come yet: the other row's counts. */
+constexpr float NotKnown = std::numeric_limits<float>::infinity();
 
 /** The entry of the pair {c,k}, which is there, in the upper one of its two rows. */
 RowEntry& upperEntry(const CoarseningData& data, std::int64_t c, std::int64_t k)
@@ -36,49 +38,63 @@ struct Sparsification::Candidate
   float weight = 0.0F;
 };
 
-/** The common neighbour m of c and k with the largest min(w_cm, w_km) of large weights. */
+/**
+ * The common neighbour m of c and k > c with the largest min(w_cm, w_km) of large weights, those of
+ * row k being in largeWeight.
+ */
 Sparsification::Candidate Sparsification::strongestCommon(
-  const CoarseningData& data, std::int64_t k) const
+  const CoarseningData& data, std::int64_t c, std::int64_t k) const
 {
   Candidate best;
-  const float* large = data.largeWeight.at(k);
-  const float* strongest = data.rawStrongest.at(k);
-  const RowEntry* other = data.raw.row(k);
-  const RowEntry* end = other + data.raw.size(k);
+  const float* large = data.largeWeight.at(c);
+  const float* strongest = data.rawStrongest.at(c);
+  const RowEntry* other = data.raw.row(c);
+  const RowEntry* end = other + data.raw.size(c);
   for (; other != end; ++other)
   {
     const float weight = std::min(other->weight, large[other->delta]);
     // The first test is all that most entries get.
-    if (weight > best.weight && !this->isSmall(other->weight, *strongest, strongest[other->delta]))
+    if (weight > best.weight)
     {
-      best = { k + other->delta, weight };
+      const std::int64_t m = c + other->delta;
+      if (!this->isSmall(other->weight, *strongest, m > k ? NotKnown : strongest[other->delta]))
+      {
+        best = { m, weight };
+      }
     }
   }
   return best;
 }
 
-void Sparsification::operator()(CoarseningData& data, std::int64_t c) const
+void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
 {
-  RowEntry* row = data.raw.row(c);
-  RowEntry* end = row + data.raw.size(c);
-  float* large = data.largeWeight.at(c);
-  const float* strongest = data.rawStrongest.at(c);
-  for (const RowEntry* entry = row; entry != end; ++entry)
+  RowEntry* row = data.raw.row(k);
+  RowEntry* upper = row + data.rawLower[k];
+  RowEntry* end = row + data.raw.size(k);
+  float* large = data.largeWeight.at(k);
+  const float* strongest = data.rawStrongest.at(k);
+  for (const RowEntry* entry = row; entry != upper; ++entry)
   {
+    const std::int64_t c = k + entry->delta;
+    __builtin_prefetch(data.raw.row(c) + data.rawMirrored[c]);
     const bool small = this->isSmall(entry->weight, *strongest, strongest[entry->delta]);
     large[entry->delta] = small ? 0.0F : entry->weight;
   }
-  for (RowEntry* entry = row + data.rawLower[c]; entry != end; ++entry)
+  for (const RowEntry* entry = upper; entry != end; ++entry)
   {
-    const std::int64_t k = c + entry->delta;
-    const float weight = entry->weight;
+    large[entry->delta] = this->isSmall(entry->weight, *strongest, NotKnown) ? 0.0F : entry->weight;
+  }
+  for (RowEntry* entry = row; entry != upper; ++entry)
+  {
+    const std::int64_t c = k + entry->delta;
+    float& weight = data.raw.row(c)[data.rawMirrored[c]].weight;
     if (!this->isSmall(weight, *strongest, strongest[entry->delta]))
     {
       continue;
     }
     if (weight > 0.0F)
     {
-      const Candidate middle = this->strongestCommon(data, k);
+      const Candidate middle = this->strongestCommon(data, c, k);
       if (middle.node < 0)
       {
         continue;
@@ -86,7 +102,8 @@ void Sparsification::operator()(CoarseningData& data, std::int64_t c) const
       upperEntry(data, c, middle.node).weight += weight;
       upperEntry(data, k, middle.node).weight += weight;
     }
-    entry->weight = Removed;
+    weight = entry->weight = Removed;
+    large[entry->delta] = 0.0F;
   }
   for (const RowEntry* entry = row; entry != end; ++entry)
   {

@@ -21,8 +21,8 @@ struct Sparsification
   /** 0 (nothing is removed) to 0.1; above that cycles diverge. */
   float tolerance = 0.1F;
 
-  /** Treats the pairs (c,k), k > c. The raw rows up to rawReach(c) are there. */
-  void operator()(CoarseningData& data, std::int64_t c) const;
+  /** Treats the pairs (c,k), c < k, as soon as row k is there. */
+  void operator()(CoarseningData& data, std::int64_t k) const;
 
 private:
   struct Candidate;
@@ -32,7 +32,7 @@ private:
   {
     return !(std::fabs(weight) >= this->tolerance * std::min(strongest, otherStrongest));
   }
-  Candidate strongestCommon(const CoarseningData& data, std::int64_t k) const;
+  Candidate strongestCommon(const CoarseningData& data, std::int64_t c, std::int64_t k) const;
 };
 
 } // namespace smg

@@ -19,12 +19,11 @@ enum class Stage
   Interpolate,
   Multiply,
   Gather,
-  Sparsify,
   Pack,
   None
 };
 inline constexpr std::array<const char*, static_cast<std::size_t>(Stage::None)> StageNames = {
-  "lift", "initial", "interpolate", "multiply", "gather", "sparsify", "pack"
+  "lift", "initial", "interpolate", "multiply", "gather", "pack"
 };
 
 /**
@@ -114,11 +113,8 @@ public:
     this->Clock->enter(Stage::Gather);
     this->Set.gather(data, c);
   }
-  void sparsify(CoarseningData& data, std::int64_t c)
-  {
-    this->Clock->enter(Stage::Sparsify);
-    this->Set.sparsify(data, c);
-  }
+  /** Takes turns with gather(), and counts as that. */
+  void sparsify(CoarseningData& data, std::int64_t c) { this->Set.sparsify(data, c); }
 
 private:
   Operators Set;
