@@ -244,7 +244,8 @@ void LevelWindow<Real>::release(std::int64_t done)
     this->Passed.push_back({ front.end(), h.neighbourReach[groupIn(h, front.end() - 1)] });
     this->up().b.release(front.end());
     this->down().b.release(front.end());
-    if (this->SpareRows.size() < MostSpare)
+    // The first pass reads none.
+    if (!this->First && this->SpareRows.size() < MostSpare)
     {
       this->SpareRows.push_back(this->Blocks.front().takeBuffer());
     }

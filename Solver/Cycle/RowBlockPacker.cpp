@@ -33,7 +33,7 @@ Header measure(
     if (!row.empty())
     {
       largestDelta = std::max<std::int64_t>(
-        { largestDelta, std::abs(row.front().delta), std::abs(row.back().delta) });
+        { largestDelta, std::abs(row.front().delta()), std::abs(row.back().delta()) });
     }
     h.entries += static_cast<std::int32_t>(row.size());
     if (rows.alpha(i) != 0.0)
@@ -92,8 +92,8 @@ void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarseni
     }
     for (const RowEntry& entry : rows.row(i))
     {
-      weight[entries] = Weight(entry.weight);
-      delta[entries++] = static_cast<Index>(entry.delta);
+      weight[entries] = Weight(entry.weight());
+      delta[entries++] = static_cast<Index>(entry.delta());
     }
     entryEnd[k] = static_cast<Count>(entries - h.entryStart[group]);
     if (coarsening)

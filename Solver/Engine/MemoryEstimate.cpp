@@ -15,7 +15,7 @@ namespace
 
 /** Bytes of all windows for one node of the stream's span, and for each value of its state: in the
  * first pass with two sweeps, for a sweep more, and in a later pass for each sweep. */
-constexpr std::int64_t TriangleBytes = 5700, TetrahedronBytes = 4700, ValueBytes = 280;
+constexpr std::int64_t TriangleBytes = 4100, TetrahedronBytes = 3300, ValueBytes = 280;
 constexpr std::int64_t FurtherSweepBytes = 250;
 constexpr std::int64_t LaterSweepBytes = 400, LaterSweepValueBytes = 75;
 

@@ -87,14 +87,8 @@ public:
     d.liftedFrom.release(this->Gathered);
     d.firstChild.release(this->Gathered);
     d.lastChild.release(this->Finished);
-    d.raw.release(this->Finished);
-    d.rawAlpha.release(this->Finished);
-    d.rawStrongest.release(this->Finished);
-    d.rawLower.release(this->Finished);
-    d.rawMirrored.release(this->Finished);
-    d.rawSettled.release(this->Finished);
+    d.releaseRaw(this->Finished);
     d.slots.release(this->Finished);
-    d.largeWeight.release(this->Finished);
   }
 
 private:
@@ -112,7 +106,7 @@ private:
         ++d.coarseNodes;
       }
     }
-    if (d.coarseNodes - this->Finished >= InterpolationEntry::CoarseWindow)
+    if (d.coarseNodes - this->Finished >= CoarseWindow)
     {
       throw Error(
         "neighbours lie too far apart in the stream: convert the mesh with the order bfs");
@@ -120,7 +114,6 @@ private:
     d.firstChild.extend(d.coarseNodes);
     d.lastChild.extend(d.coarseNodes);
     d.slots.extend(d.coarseNodes);
-    d.largeWeight.extend(d.coarseNodes);
   }
 
   void interpolate()
@@ -164,13 +157,9 @@ private:
   void gather()
   {
     CoarseningData& d = this->Data;
-    d.rawAlpha.extendRaw(d.coarseNodes);
-    d.rawStrongest.extendRaw(d.coarseNodes);
-    d.rawLower.extendRaw(d.coarseNodes);
-    d.rawMirrored.extendRaw(d.coarseNodes);
-    d.rawSettled.extend(d.coarseNodes);
     for (std::int64_t& c = this->Gathered; c < d.coarseNodes && this->canGather(c); ++c)
     {
+      d.extendRaw(c + 1);
       this->Set.gather(d, c);
       this->Set.sparsify(d, c);
     }
@@ -186,22 +175,23 @@ private:
     for (std::int64_t& c = this->Finished; c < this->Gathered; ++c)
     {
       const std::int64_t size = d.raw.size(c);
-      const RowEntry* raw = d.raw.row(c);
-      if (size > 0 && c + raw[size - 1].delta >= this->Gathered)
+      const CoarseEntry* raw = d.raw.row(c);
+      std::int32_t* settled = d.rawSettled.at(c);
+      if (size > 0 && c + raw[size - 1].offset(c) >= this->Gathered)
       {
         break;
       }
       for (std::int64_t e = d.rawLower[c]; e < size; ++e)
       {
-        const std::int64_t k = c + raw[e].delta;
-        d.raw.row(k)[d.rawSettled[k]++].weight = raw[e].weight;
+        const std::int32_t delta = raw[e].offset(c);
+        d.raw.row(c + delta)[settled[delta]++].setValue(raw[e].value());
       }
       RowEntry* out = this->Final.open(size);
       std::int64_t kept = 0;
       for (std::int64_t e = 0; e < size; ++e)
       {
-        out[kept] = raw[e];
-        kept += std::isnan(raw[e].weight) ? 0 : 1;
+        out[kept] = { raw[e].offset(c), raw[e].value() };
+        kept += std::isnan(out[kept].weight()) ? 0 : 1;
       }
       this->Final.close(kept, d.rawAlpha[c], d.lastChild[c].row(this->Rows));
     }

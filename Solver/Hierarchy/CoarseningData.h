@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Hierarchy/CoarseEntry.h"
 #include "Solver/Hierarchy/LevelRows.h"
 #include "Solver/Storage/MonotoneRing.h"
 #include "Solver/Storage/RaggedRing.h"
@@ -10,18 +11,6 @@
 
 namespace smg
 {
-
-/**
- * A coarse index by its low 32 bits. All that are alive at once lie within 2^31 of each other, so
- * the rest follows from any of them.
- */
-using CoarseIndex = std::uint32_t;
-
-/** Distance of a coarse index from `near`, whose full index is known. */
-inline std::int32_t offset(CoarseIndex index, std::int64_t near)
-{
-  return static_cast<std::int32_t>(index - static_cast<CoarseIndex>(near));
-}
 
 /** An entry of a row of the initial interpolation. */
 struct InitialEntry
@@ -65,15 +54,10 @@ private:
   std::uint32_t Bits = ~std::uint32_t(0);
 };
 
-/**
- * An entry of a row of the interpolation P, and the next child of its coarse node. The coarse node
- * is known by its low 24 bits: those that are alive at once are fewer than CoarseWindow.
- */
+/** An entry of a row of the interpolation P, and the next child of its coarse node. */
 class InterpolationEntry
 {
 public:
-  static constexpr std::int64_t CoarseWindow = std::int64_t(1) << 23;
-
   InterpolationEntry(CoarseIndex coarse, std::uint32_t quanta)
     : Bits(coarse << 8 | quanta)
   {
@@ -82,12 +66,7 @@ public:
   std::uint32_t quanta() const { return this->Bits & 255; }
   float weight() const { return static_cast<float>(this->quanta()) * Quantum; }
   /** Distance of the coarse node from `near`, which is alive. */
-  std::int32_t offset(std::int64_t near) const
-  {
-    const std::uint32_t distance =
-      (this->Bits & ~std::uint32_t(255)) - (static_cast<std::uint32_t>(near) << 8);
-    return static_cast<std::int32_t>(distance) >> 8;
-  }
+  std::int32_t offset(std::int64_t near) const { return coarseDistance(this->Bits, near); }
 
   ChildLink next;
 
@@ -95,13 +74,6 @@ private:
   std::uint32_t Bits;
 };
 static_assert(sizeof(InterpolationEntry) == 8 && Quanta <= 255);
-
-/** An entry of a row of the product A P. */
-struct ProductEntry
-{
-  CoarseIndex coarse;
-  float value;
-};
 
 /**
  * Everything that the step from a level (fine) to the next one (coarse) keeps in memory, as
@@ -128,8 +100,8 @@ struct CoarseningData
     , rawLower(pool)
     , rawMirrored(pool)
     , rawSettled(pool)
+    , rawLarge(pool)
     , slots(pool)
-    , largeWeight(pool)
   {
   }
 
@@ -142,15 +114,16 @@ struct CoarseningData
   static constexpr CoarseIndex Retained = ~CoarseIndex(0);
   RaggedRing<InitialEntry> initial;
   RaggedRing<InterpolationEntry> interpolation;
-  Ring<std::uint16_t> rowQuanta; ///< sum of the row of P
-  MonotoneRing parentReach;      ///< largest coarse index in rows 0 .. i of P, or -1
-  RaggedRing<ProductEntry> product;
-  Ring<double> productSum; ///< sum of the row of A P
+  Ring<std::uint16_t> rowQuanta;   ///< sum of the row of P
+  MonotoneRing parentReach;        ///< largest coarse index in rows 0 .. i of P, or -1
+  RaggedRing<CoarseEntry> product; ///< rows of A P
+  Ring<float> productSum;          ///< sum of the row of A P
 
   // By coarse node.
   MonotoneRing liftedFrom;               ///< its fine node
   Ring<ChildLink> firstChild, lastChild; ///< of its column of P
-  RaggedRing<RowEntry> raw;              ///< rows of P^T A P, before and during sparsification
+  /** Off-diagonal rows of -P^T A P, before and during sparsification. */
+  RaggedRing<CoarseEntry> raw;
   Ring<double> rawAlpha;
   Ring<float> rawStrongest;
   Ring<std::int32_t> rawLower; ///< columns below the row
@@ -158,6 +131,8 @@ struct CoarseningData
   Ring<std::int32_t> rawMirrored;
   /** Columns below the row that have their final weight: until then only the upper one counts. */
   Ring<std::int32_t> rawSettled;
+  /** Scratch of sparsification: which of the first 64 entries were large when the row came. */
+  Ring<std::uint64_t> rawLarge;
 
   /** Scratch of the stages: a mark and a value for each coarse node. */
   struct Slot
@@ -165,27 +140,56 @@ struct CoarseningData
     std::uint32_t mark;
     float value;
 
+    // Both without branches: nothing could predict them.
+
+    /** The value, or 0 if the slot does not bear the mark. */
+    float get(std::uint32_t fresh) const
+    {
+      const auto known = static_cast<std::uint32_t>(this->mark == fresh);
+      return std::bit_cast<float>(std::bit_cast<std::uint32_t>(this->value) & (0U - known));
+    }
     /**
      * Adds to the value, which begins with 0 for a mark that the slot does not bear yet; answers
-     * whether it did. Without branches: nothing could predict them.
+     * whether it did.
      */
     bool add(std::uint32_t fresh, float more)
     {
       const bool known = this->mark == fresh;
-      const std::uint32_t bits = std::bit_cast<std::uint32_t>(this->value);
+      this->value = this->get(fresh) + more;
       this->mark = fresh;
-      this->value = std::bit_cast<float>(bits & (0U - std::uint32_t(known))) + more;
       return !known;
     }
   };
   Ring<Slot> slots;
-  /** Scratch of sparsification: 0 for each coarse node but while a row is treated. */
-  Ring<float> largeWeight;
   /** A mark that no slot bears. */
   std::uint32_t freshMark()
   {
     this->Mark += this->Mark == UINT32_MAX ? 2 : 1;
     return this->Mark;
+  }
+
+  /** Room beside the rows of `raw` below `end`. */
+  void extendRaw(std::int64_t end)
+  {
+    this->rawAlpha.extendRaw(end);
+    this->rawStrongest.extendRaw(end);
+    for (auto* ring : { &this->rawLower, &this->rawMirrored, &this->rawSettled })
+    {
+      ring->extend(end);
+    }
+    this->rawLarge.extendRaw(end);
+  }
+  /** Lets go of the rows of `raw` below `first`. */
+  void releaseRaw(std::int64_t first)
+  {
+    this->raw.release(first);
+    this->rawAlpha.release(first);
+    this->rawStrongest.release(first);
+    for (auto* ring : { &this->rawLower, &this->rawMirrored, &this->rawSettled })
+    {
+      ring->release(first);
+    }
+    this->rawLarge.release(first);
   }
 
   /** The entry of P that a link stands for, given any row that is alive. */

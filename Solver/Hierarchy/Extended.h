@@ -59,7 +59,7 @@ public:
     this->Interpolation.initial(data, i);
   }
   void interpolate(CoarseningData& data, std::int64_t i) { this->Interpolation(data, i); }
-  void multiply(CoarseningData& data, std::int64_t i) const { this->Product.multiply(data, i); }
+  void multiply(CoarseningData& data, std::int64_t i) { this->Product.multiply(data, i); }
   void gather(CoarseningData& data, std::int64_t c) { this->Product.gather(data, c); }
   void sparsify(CoarseningData& data, std::int64_t c) const { this->Sparsify(data, c); }
 

@@ -23,11 +23,11 @@ void ExtendedInterpolation::initial(CoarseningData& data, std::int64_t i) const
   auto sum = static_cast<float>(std::max(0.0, data.fine.alpha(i)));
   for (const RowEntry& entry : row)
   {
-    const CoarseIndex coarse = lifted[entry.delta];
-    if (coarse != Retained && entry.weight >= strong)
+    const CoarseIndex coarse = lifted[entry.delta()];
+    if (coarse != Retained && entry.weight() >= strong)
     {
-      out[size++] = { coarse, entry.weight };
-      sum += entry.weight;
+      out[size++] = { coarse, entry.weight() };
+      sum += entry.weight();
     }
   }
   for (std::int64_t e = 0; e < size; ++e)
@@ -45,7 +45,7 @@ void ExtendedInterpolation::gather(CoarseningData& data, std::int64_t i)
   std::size_t size = 0;
   for (const RowEntry& entry : data.fine.row(i))
   {
-    const std::int64_t j = i + entry.delta;
+    const std::int64_t j = i + entry.delta();
     const InitialEntry* initial = data.initial.row(j);
     const std::int64_t count = data.initial.size(j);
     this->Candidates.resize(
@@ -53,16 +53,16 @@ void ExtendedInterpolation::gather(CoarseningData& data, std::int64_t i)
     Candidate* candidate = this->Candidates.data();
     for (const InitialEntry* end = initial + count; initial != end; ++initial)
     {
-      candidate[size].coarse = initial->coarse;
-      size +=
-        slots[offset(initial->coarse, near)].add(mark, entry.weight * initial->weight) ? 1 : 0;
+      const std::int32_t distance = offset(initial->coarse, near);
+      candidate[size].distance = distance;
+      size += slots[distance].add(mark, entry.weight() * initial->weight) ? 1 : 0;
     }
   }
   this->Candidates.resize(size);
   const auto inverse = static_cast<float>(1.0 / data.fine.diagonal(i));
   for (Candidate& candidate : this->Candidates)
   {
-    candidate.weight = slots[offset(candidate.coarse, near)].value * inverse;
+    candidate.weight = slots[candidate.distance].value * inverse;
   }
 }
 
@@ -115,7 +115,7 @@ void ExtendedInterpolation::operator()(CoarseningData& data, std::int64_t i)
   const CoarseIndex coarse = data.lifted[i];
   if (coarse != CoarseningData::Retained)
   {
-    this->Candidates.assign(1, { coarse, 1.0F });
+    this->Candidates.assign(1, { offset(coarse, data.coarseNodes), 1.0F });
     this->Rounded.assign(1, Quanta);
   }
   else
@@ -142,13 +142,12 @@ void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i)
     {
       continue;
     }
-    const CoarseIndex low = this->Candidates[k].coarse;
-    const std::int64_t coarse = near + offset(low, near);
+    const std::int64_t coarse = near + this->Candidates[k].distance;
     const ChildLink link(i, size);
     ChildLink& last = data.lastChild[coarse];
     (last.none() ? data.firstChild[coarse] : data.child(last, i).next) = link;
     last = link;
-    out[size++] = InterpolationEntry(low, quanta);
+    out[size++] = InterpolationEntry(static_cast<CoarseIndex>(coarse), quanta);
     reach = std::max(reach, coarse);
     sum += quanta;
   }

@@ -37,7 +37,7 @@ public:
 private:
   struct Candidate
   {
-    CoarseIndex coarse;
+    std::int32_t distance; ///< of the coarse node from coarseNodes
     float weight;
   };
 

@@ -7,7 +7,7 @@
 namespace smg
 {
 
-void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i) const
+void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
 {
   const std::int64_t near = data.coarseNodes;
   CoarseningData::Slot* slots = data.slots.at(near);
@@ -16,17 +16,18 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i) const
   {
     data.product.open(0);
     data.product.close(0);
-    data.productSum[i] = 0.0;
+    data.productSum[i] = 0.0F;
     return;
   }
   const auto row = data.fine.row(i);
   std::int64_t room = own + 1;
   for (const RowEntry& entry : row)
   {
-    room += data.interpolation.size(i + entry.delta);
+    room += data.interpolation.size(i + entry.delta());
   }
   const std::uint32_t mark = data.freshMark();
-  ProductEntry* out = data.product.open(room);
+  this->Columns.resize(std::max(this->Columns.size(), static_cast<std::size_t>(room)));
+  std::int32_t* columns = this->Columns.data();
   std::uint32_t size = 0;
 
   const auto diagonal = static_cast<float>(data.fine.diagonal(i));
@@ -35,30 +36,31 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i) const
   {
     const std::int32_t distance = p[e].offset(near);
     slots[distance].add(mark, diagonal * p[e].weight());
-    out[size++].coarse = static_cast<CoarseIndex>(near + distance);
+    columns[size++] = distance;
   }
   const std::uint16_t* quanta = data.rowQuanta.at(i);
   const std::int32_t ownQuanta = *quanta;
   double sum = data.fine.alpha(i) * ownQuanta;
   for (const RowEntry& entry : row)
   {
-    const std::int64_t j = i + entry.delta;
-    sum += static_cast<double>(entry.weight) * (ownQuanta - quanta[entry.delta]);
+    const std::int64_t j = i + entry.delta();
+    sum += static_cast<double>(entry.weight()) * (ownQuanta - quanta[entry.delta()]);
     p = data.interpolation.row(j);
     const InterpolationEntry* end = p + data.interpolation.size(j);
     for (; p != end; ++p)
     {
       const std::int32_t distance = p->offset(near);
-      out[size].coarse = static_cast<CoarseIndex>(near + distance);
-      size += slots[distance].add(mark, -entry.weight * p->weight()) ? 1 : 0;
+      columns[size] = distance;
+      size += slots[distance].add(mark, -entry.weight() * p->weight()) ? 1 : 0;
     }
   }
+  CoarseEntry* out = data.product.open(size);
   for (std::uint32_t e = 0; e < size; ++e)
   {
-    out[e].value = slots[offset(out[e].coarse, near)].value;
+    out[e] = { static_cast<CoarseIndex>(near + columns[e]), slots[columns[e]].value };
   }
   data.product.close(size);
-  data.productSum[i] = sum / Quanta;
+  data.productSum[i] = static_cast<float>(sum / Quanta);
 }
 
 void GalerkinProduct::sort(std::size_t size)
@@ -93,10 +95,10 @@ double GalerkinProduct::findChildren(const CoarseningData& data, std::int64_t c)
   {
     const std::int64_t fine = link.row(nearFine);
     const InterpolationEntry& entry = data.interpolation.row(fine)[link.slot()];
-    const ProductEntry* product = data.product.row(fine);
+    const CoarseEntry* product = data.product.row(fine);
     for (int line = 0; line < 2; ++line)
     {
-      __builtin_prefetch(product + 8 * line);
+      __builtin_prefetch(product + 10 * line);
     }
     this->Children.push_back({ product, data.product.size(fine), entry.weight() });
     alpha += static_cast<double>(entry.quanta()) / Quanta * data.productSum[fine];
@@ -116,12 +118,12 @@ void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
     const std::size_t most = columns + static_cast<std::size_t>(child.size) + 1;
     this->Columns.resize(std::max(this->Columns.size(), most));
     std::int32_t* column = this->Columns.data();
-    const ProductEntry* end = child.product + child.size;
-    for (const ProductEntry* entry = child.product; entry != end; ++entry)
+    const CoarseEntry* end = child.product + child.size;
+    for (const CoarseEntry* entry = child.product; entry != end; ++entry)
     {
-      const std::int32_t delta = offset(entry->coarse, c);
+      const std::int32_t delta = entry->offset(c);
       column[columns] = delta;
-      columns += slots[delta].add(mark, child.weight * entry->value) ? 1 : 0;
+      columns += slots[delta].add(mark, child.weight * entry->value()) ? 1 : 0;
     }
   }
   this->sort(columns);
@@ -132,7 +134,7 @@ void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
 void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
 {
   const CoarseningData::Slot* slots = data.slots.at(c);
-  RowEntry* out = data.raw.open(static_cast<std::int64_t>(this->Sorted.size()));
+  CoarseEntry* out = data.raw.open(static_cast<std::int64_t>(this->Sorted.size()));
   std::int32_t lower = 0;
   std::int64_t size = 0;
   float strongest = 0.0F;
@@ -141,19 +143,20 @@ void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
     if (delta != 0)
     {
       const float weight = -slots[delta].value;
-      out[size++] = { delta, weight };
+      out[size++] = { static_cast<CoarseIndex>(c + delta), weight };
       lower += delta < 0 ? 1 : 0;
       strongest = std::max(strongest, weight);
     }
   }
-  for (std::int32_t e = 0; e < lower; ++e)
-  {
-    ++data.rawMirrored[c + out[e].delta];
-  }
   data.raw.close(size);
   data.rawStrongest[c] = strongest;
   data.rawLower[c] = lower;
-  data.rawMirrored[c] = lower - 1;
+  std::int32_t* mirrored = data.rawMirrored.at(c);
+  *mirrored = lower - 1;
+  for (std::int32_t e = 0; e < lower; ++e)
+  {
+    ++mirrored[this->Sorted[static_cast<std::size_t>(e)]];
+  }
 }
 
 } // namespace smg

@@ -19,7 +19,7 @@ class GalerkinProduct
 {
 public:
   /** Appends row i of A P. The rows of P up to reach(i) are there. */
-  void multiply(CoarseningData& data, std::int64_t i) const;
+  void multiply(CoarseningData& data, std::int64_t i);
 
   /** Appends row c of P^T A P. All its children are known and their rows of A P are there. */
   void gather(CoarseningData& data, std::int64_t c);
@@ -28,7 +28,7 @@ private:
   /** A child of the node whose row is gathered, and its row of A P. */
   struct Child
   {
-    const ProductEntry* product;
+    const CoarseEntry* product;
     std::int64_t size;
     float weight;
   };

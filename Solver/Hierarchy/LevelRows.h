@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Hierarchy/RowEntry.h"
 #include "Solver/Storage/MonotoneRing.h"
 #include "Solver/Storage/RaggedRing.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
 namespace smg
 {
-
-/** An off-diagonal entry of row i of a level's matrix: A_ij = -weight, j = i + delta. */
-struct RowEntry
-{
-  std::int32_t delta;
-  float weight;
-};
 
 /** A diagonal to divide by, given the sum of alpha and the weights. */
 inline double usableDiagonal(double sum)
@@ -32,7 +27,7 @@ inline double diagonalOf(std::span<const RowEntry> row, double alpha)
   double sum = alpha;
   for (const RowEntry& entry : row)
   {
-    sum += entry.weight;
+    sum += entry.weight();
   }
   return usableDiagonal(sum);
 }
@@ -44,13 +39,8 @@ inline double diagonalOf(std::span<const RowEntry> row, double alpha)
 class LevelRows
 {
 public:
-  /** Of two nodes that share an edge on the finest level: windows keep indices by their low bits.
-   */
-  static constexpr std::int64_t MostDistance = std::int64_t(1) << 26;
-
   explicit LevelRows(Pool& pool)
     : Entries(pool)
-    , Diagonal(pool)
     , Alpha(pool)
     , Strongest(pool)
     , Reach(pool, 0)
@@ -67,7 +57,7 @@ public:
   {
     return { this->Entries.row(i), static_cast<std::size_t>(this->Entries.size(i)) };
   }
-  double diagonal(std::int64_t i) const { return this->Diagonal[i]; }
+  double diagonal(std::int64_t i) const { return diagonalOf(this->row(i), this->alpha(i)); }
   double alpha(std::int64_t i) const { return this->Alpha[i]; }
   /** The largest weight of row i, 0 if there is none. */
   float strongest(std::int64_t i) const { return this->Strongest[i]; }
@@ -89,16 +79,12 @@ public:
     float strongest = 0.0F;
     for (std::int64_t e = 0; e < size; ++e)
     {
-      strongest = std::max(strongest, entry[e].weight);
+      strongest = std::max(strongest, entry[e].weight());
     }
-    const std::int64_t last = size > 0 ? i + std::max(0, entry[size - 1].delta) : i;
+    const std::int64_t last = size > 0 ? i + std::max(0, entry[size - 1].delta()) : i;
     this->Entries.close(size);
-    for (auto* ring : { &this->Diagonal, &this->Alpha })
-    {
-      ring->extendRaw(i + 1);
-    }
+    this->Alpha.extendRaw(i + 1);
     this->Strongest.extendRaw(i + 1);
-    this->Diagonal[i] = diagonalOf({ entry, static_cast<std::size_t>(size) }, alpha);
     this->Alpha[i] = alpha;
     this->Strongest[i] = strongest;
     this->Reach.append(last);
@@ -121,7 +107,6 @@ public:
   void release(std::int64_t row, std::int64_t reach)
   {
     this->Entries.release(row);
-    this->Diagonal.release(row);
     this->Alpha.release(row);
     this->Strongest.release(row);
     this->ChildReach.release(row);
@@ -130,7 +115,7 @@ public:
 
 private:
   RaggedRing<RowEntry> Entries;
-  Ring<double> Diagonal, Alpha;
+  Ring<double> Alpha;
   Ring<float> Strongest;
   MonotoneRing Reach, ChildReach;
   std::int64_t Nonzeros = 0;

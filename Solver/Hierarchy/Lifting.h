@@ -32,11 +32,11 @@ struct IndependentSetLifting
     const CoarseIndex* lifted = data.lifted.at(i);
     for (const RowEntry& entry : row)
     {
-      if (entry.delta > 0)
+      if (entry.delta() > 0)
       {
         break;
       }
-      if (entry.weight >= strong && lifted[entry.delta] != CoarseningData::Retained)
+      if (entry.weight() >= strong && lifted[entry.delta()] != CoarseningData::Retained)
       {
         return false;
       }

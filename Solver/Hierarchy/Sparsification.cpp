@@ -2,6 +2,7 @@
 #include "Solver/Hierarchy/Sparsification.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -15,16 +16,16 @@ constexpr float Removed = std::numeric_limits<float>::quiet_NaN();
 constexpr float NotKnown = std::numeric_limits<float>::infinity();
 
 /** The entry of the pair {c,k}, which is there, in the upper one of its two rows. */
-RowEntry& upperEntry(const CoarseningData& data, std::int64_t c, std::int64_t k)
+CoarseEntry& upperEntry(const CoarseningData& data, std::int64_t c, std::int64_t k)
 {
   const std::int64_t row = std::min(c, k);
   const auto delta = static_cast<std::int32_t>(std::max(c, k) - row);
-  RowEntry* first = data.raw.row(row) + data.rawLower[row];
+  CoarseEntry* first = data.raw.row(row) + data.rawLower[row];
   // A binary search without branches, which nothing could predict.
   for (std::int64_t size = data.raw.size(row) - data.rawLower[row]; size > 1;)
   {
     const std::int64_t half = size / 2;
-    first += first[half].delta <= delta ? half : 0;
+    first += first[half].offset(row) <= delta ? half : 0;
     size -= half;
   }
   return *first;
@@ -38,29 +39,42 @@ struct Sparsification::Candidate
   float weight = 0.0F;
 };
 
+bool Sparsification::isLarge(
+  const CoarseningData& data, std::int64_t c, const CoarseEntry& entry) const
+{
+  const float* strongest = data.rawStrongest.at(c);
+  const std::int32_t delta = entry.offset(c);
+  return !this->isSmall(entry.value(), *strongest, delta < 0 ? strongest[delta] : NotKnown);
+}
+
 /**
  * The common neighbour m of c and k > c with the largest min(w_cm, w_km) of large weights, those of
- * row k being in largeWeight.
+ * row k being in the slots that bear the mark.
  */
 Sparsification::Candidate Sparsification::strongestCommon(
-  const CoarseningData& data, std::int64_t c, std::int64_t k) const
+  const CoarseningData& data, std::int64_t c, std::uint32_t mark) const
 {
   Candidate best;
-  const float* large = data.largeWeight.at(c);
-  const float* strongest = data.rawStrongest.at(c);
-  const RowEntry* other = data.raw.row(c);
-  const RowEntry* end = other + data.raw.size(c);
-  for (; other != end; ++other)
+  const CoarseningData::Slot* large = data.slots.at(c);
+  const CoarseEntry* row = data.raw.row(c);
+  const auto consider = [&](const CoarseEntry& entry)
   {
-    const float weight = std::min(other->weight, large[other->delta]);
-    // The first test is all that most entries get.
+    const std::int32_t delta = entry.offset(c);
+    const float weight = std::min(entry.value(), large[delta].get(mark));
     if (weight > best.weight)
     {
-      const std::int64_t m = c + other->delta;
-      if (!this->isSmall(other->weight, *strongest, m > k ? NotKnown : strongest[other->delta]))
-      {
-        best = { m, weight };
-      }
+      best = { c + delta, weight };
+    }
+  };
+  for (std::uint64_t bits = data.rawLarge[c]; bits != 0; bits &= bits - 1)
+  {
+    consider(row[std::countr_zero(bits)]);
+  }
+  for (std::int64_t e = 64; e < data.raw.size(c); ++e)
+  {
+    if (this->isLarge(data, c, row[e]))
+    {
+      consider(row[e]);
     }
   }
   return best;
@@ -68,46 +82,56 @@ Sparsification::Candidate Sparsification::strongestCommon(
 
 void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
 {
-  RowEntry* row = data.raw.row(k);
-  RowEntry* upper = row + data.rawLower[k];
-  RowEntry* end = row + data.raw.size(k);
-  float* large = data.largeWeight.at(k);
+  CoarseEntry* row = data.raw.row(k);
+  const std::int32_t lower = data.rawLower[k];
+  const std::int64_t size = data.raw.size(k);
+  CoarseningData::Slot* large = data.slots.at(k);
+  const std::uint32_t mark = data.freshMark();
   const float* strongest = data.rawStrongest.at(k);
-  for (const RowEntry* entry = row; entry != upper; ++entry)
+  const std::int32_t* mirrored = data.rawMirrored.at(k);
+  std::uint64_t bits = 0;
+  for (std::int64_t e = 0; e < size; ++e)
   {
-    const std::int64_t c = k + entry->delta;
-    __builtin_prefetch(data.raw.row(c) + data.rawMirrored[c]);
-    const bool small = this->isSmall(entry->weight, *strongest, strongest[entry->delta]);
-    large[entry->delta] = small ? 0.0F : entry->weight;
+    const std::int32_t delta = row[e].offset(k);
+    const float weight = row[e].value();
+    const bool small = this->isSmall(weight, *strongest, e < lower ? strongest[delta] : NotKnown);
+    large[delta] = { mark, small ? 0.0F : weight };
+    bits |= std::uint64_t(!small && e < 64) << (e & 63);
+    if (small && e < lower)
+    {
+      __builtin_prefetch(data.raw.row(k + delta) + mirrored[delta]);
+    }
   }
-  for (const RowEntry* entry = upper; entry != end; ++entry)
+  data.rawLarge[k] = bits;
+  for (std::int64_t e = 0; e < lower; ++e)
   {
-    large[entry->delta] = this->isSmall(entry->weight, *strongest, NotKnown) ? 0.0F : entry->weight;
-  }
-  for (RowEntry* entry = row; entry != upper; ++entry)
-  {
-    const std::int64_t c = k + entry->delta;
-    float& weight = data.raw.row(c)[data.rawMirrored[c]].weight;
-    if (!this->isSmall(weight, *strongest, strongest[entry->delta]))
+    const std::int32_t delta = row[e].offset(k);
+    if (large[delta].value != 0.0F)
+    {
+      continue;
+    }
+    const std::int64_t c = k + delta;
+    CoarseEntry& pair = data.raw.row(c)[mirrored[delta]];
+    const float weight = pair.value();
+    if (!this->isSmall(weight, *strongest, strongest[delta]))
     {
       continue;
     }
     if (weight > 0.0F)
     {
-      const Candidate middle = this->strongestCommon(data, c, k);
+      const Candidate middle = this->strongestCommon(data, c, mark);
       if (middle.node < 0)
       {
         continue;
       }
-      upperEntry(data, c, middle.node).weight += weight;
-      upperEntry(data, k, middle.node).weight += weight;
+      for (const std::int64_t node : { c, k })
+      {
+        CoarseEntry& taker = upperEntry(data, node, middle.node);
+        taker.setValue(taker.value() + weight);
+      }
     }
-    weight = entry->weight = Removed;
-    large[entry->delta] = 0.0F;
-  }
-  for (const RowEntry* entry = row; entry != end; ++entry)
-  {
-    large[entry->delta] = 0.0F;
+    pair.setValue(Removed);
+    row[e].setValue(Removed);
   }
 }
 

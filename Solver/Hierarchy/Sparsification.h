@@ -32,7 +32,9 @@ private:
   {
     return !(std::fabs(weight) >= this->tolerance * std::min(strongest, otherStrongest));
   }
-  Candidate strongestCommon(const CoarseningData& data, std::int64_t c, std::int64_t k) const;
+  /** Whether an entry of row c is large, by what was known when that row came. */
+  bool isLarge(const CoarseningData& data, std::int64_t c, const CoarseEntry& entry) const;
+  Candidate strongestCommon(const CoarseningData& data, std::int64_t c, std::uint32_t mark) const;
 };
 
 } // namespace smg

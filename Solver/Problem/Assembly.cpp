@@ -365,7 +365,7 @@ void Assembly::closeRow(
       b[k] += term(k);
     }
     const std::int64_t delta = neighbour.to - i;
-    if (delta > LevelRows::MostDistance || delta < -LevelRows::MostDistance)
+    if (delta > RowEntry::MostDistance || delta < -RowEntry::MostDistance)
     {
       throw Error("vertices " + std::to_string(i) + " and " + std::to_string(neighbour.to) +
                   " share an edge but lie too far apart in the stream: convert the mesh with the "
@@ -413,7 +413,7 @@ void Assembly::closeRow(
     double sum = b[k] - diagonal * x[k];
     for (std::int64_t e = 0; e < size; ++e)
     {
-      sum += static_cast<double>(row[e].weight) * this->Values.at(i + row[e].delta)[k];
+      sum += static_cast<double>(row[e].weight()) * this->Values.at(i + row[e].delta())[k];
     }
     squares[0] += sum * sum;
     squares[1] += b[k] * b[k] + diagonal * diagonal * x[k] * x[k];

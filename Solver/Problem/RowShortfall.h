@@ -23,8 +23,8 @@ inline double rowShortfall(std::span<const RowEntry> row, double alpha)
   double terms = std::fabs(alpha);
   for (const RowEntry& entry : row)
   {
-    diagonal += entry.weight;
-    terms += std::fabs(entry.weight);
+    diagonal += entry.weight();
+    terms += std::fabs(entry.weight());
   }
   const double least = std::max<double>(Rounding * terms, FLT_MIN);
   return std::max(0.0, least - diagonal);

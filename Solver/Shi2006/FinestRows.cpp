@@ -65,7 +65,7 @@ void FinestRows::take()
     Edge* edge = level.edges.open(static_cast<std::int64_t>(row.size()));
     for (const RowEntry& entry : row)
     {
-      *edge++ = { i + entry.delta, entry.weight };
+      *edge++ = { i + entry.delta(), entry.weight() };
     }
     level.edges.close(static_cast<std::int64_t>(row.size()));
     level.node[i] = { this->Rows.alpha(i), this->Rows.diagonal(i) };

@@ -58,7 +58,7 @@ bool sameLevels(const TestLevel& a, const TestLevel& b)
   {
     same = std::equal(a.rows[i].begin(), a.rows[i].end(), b.rows[i].begin(), b.rows[i].end(),
       [](const RowEntry& x, const RowEntry& y)
-      { return x.delta == y.delta && std::memcmp(&x.weight, &y.weight, sizeof(float)) == 0; });
+      { return std::memcmp(&x, &y, sizeof(RowEntry)) == 0; });
   }
   return same;
 }
@@ -74,11 +74,11 @@ Eigen::MatrixXd extendedInterpolation(const CoarsenedLevel& step, float strength
     double sum = fine.alpha[i];
     for (const RowEntry& entry : fine.rows[i])
     {
-      const std::int64_t coarse = lifted[i + entry.delta];
-      if (coarse >= 0 && entry.weight >= strength * fine.strongest(i))
+      const std::int64_t coarse = lifted[i + entry.delta()];
+      if (coarse >= 0 && entry.weight() >= strength * fine.strongest(i))
       {
-        initial(i, coarse) = entry.weight;
-        sum += entry.weight;
+        initial(i, coarse) = entry.weight();
+        sum += entry.weight();
       }
     }
     initial.row(i) /= sum > 0.0 ? sum : 1.0;
@@ -119,8 +119,8 @@ TEST(Coarsening, liftedNodesAreAMaximalIndependentSetOfTheStrongEdges)
       bool dependsOnLifted = false;
       for (const RowEntry& entry : test.level.rows[i])
       {
-        dependsOnLifted = dependsOnLifted || (entry.delta < 0 && entry.weight >= strong &&
-                                               lifted[i + entry.delta] >= 0);
+        dependsOnLifted = dependsOnLifted || (entry.delta() < 0 && entry.weight() >= strong &&
+                                               lifted[i + entry.delta()] >= 0);
       }
       const bool expected = !dependsOnLifted && !test.level.rows[i].empty();
       ASSERT_EQ(lifted[i], expected ? next : -1) << test.name << ", node " << i;
@@ -213,11 +213,12 @@ TEST(Coarsening, theRawProductIsTheGalerkinProduct)
     const Eigen::MatrixXd expected = p.transpose() * test.level.dense() * p;
     const Eigen::MatrixXd product = step.coarse.dense();
     EXPECT_EQ(product, product.transpose());
-    EXPECT_LT((product - expected).cwiseAbs().maxCoeff(), 2e-6 * expected.maxCoeff()) << test.name;
+    // Entries keep 16 bits; row sums are floats on the way.
+    EXPECT_LT((product - expected).cwiseAbs().maxCoeff(), 4e-5 * expected.maxCoeff()) << test.name;
     const Eigen::VectorXd rowSums = expected.rowwise().sum();
     for (std::int64_t c = 0; c < step.coarse.nodes(); ++c)
     {
-      EXPECT_NEAR(step.coarse.alpha[c], rowSums[c], 1e-12 * expected(c, c)) << test.name;
+      EXPECT_NEAR(step.coarse.alpha[c], rowSums[c], 1e-6 * expected(c, c)) << test.name;
     }
   }
 }
@@ -265,10 +266,10 @@ TEST(Coarsening, sparsificationRemovesSmallEntriesThatCanGo)
     { return test.operators.tolerance * std::min(raw.strongest(c), raw.strongest(k)); };
     const auto isLarge = [&](std::int64_t c, std::int64_t k)
     { return c != k && std::fabs(before(c, k)) >= limit(c, k); };
-    // Of a row that comes after those of a pair only what they know of it counts.
-    const auto mayTake = [&](std::int64_t c, std::int64_t m, std::int64_t last)
+    // Of a row that comes later than another one only what that one knows of it counts.
+    const auto mayTake = [&](std::int64_t c, std::int64_t m)
     {
-      const double least = m > last ? test.operators.tolerance * raw.strongest(c) : limit(c, m);
+      const double least = m > c ? test.operators.tolerance * raw.strongest(c) : limit(c, m);
       return c != m && before(c, m) > 0 && before(c, m) >= least;
     };
     std::int64_t removed = 0;
@@ -287,7 +288,7 @@ TEST(Coarsening, sparsificationRemovesSmallEntriesThatCanGo)
         EXPECT_GE(after(c, k), 0.0) << test.name;
         for (std::int64_t m = 0; after(c, k) != 0.0 && m < nodes; ++m)
         {
-          EXPECT_FALSE(mayTake(c, m, c) && mayTake(k, m, c)) << test.name;
+          EXPECT_FALSE(mayTake(c, m) && mayTake(k, m)) << test.name;
         }
       }
     }
@@ -306,7 +307,7 @@ TEST(Coarsening, sparsificationDoesNotWeakenTheOperator)
     const Eigen::MatrixXd after = step.coarse.dense();
     for (std::int64_t c = 0; c < step.coarse.nodes(); ++c)
     {
-      EXPECT_GE(after(c, c), before(c, c) * (1.0 - 1e-6)) << test.name;
+      EXPECT_GE(after(c, c), before(c, c) * (1.0 - 4e-5)) << test.name;
     }
   }
 }

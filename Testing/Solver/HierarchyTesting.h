@@ -34,7 +34,7 @@ struct TestLevel
     float largest = 0.0F;
     for (const RowEntry& entry : this->rows[i])
     {
-      largest = std::max(largest, entry.weight);
+      largest = std::max(largest, entry.weight());
     }
     return largest;
   }
@@ -47,8 +47,8 @@ struct TestLevel
       a(i, i) = this->alpha[i];
       for (const RowEntry& entry : this->rows[i])
       {
-        a(i, i) += entry.weight;
-        a(i, i + entry.delta) = -static_cast<double>(entry.weight);
+        a(i, i) += entry.weight();
+        a(i, i + entry.delta()) = -static_cast<double>(entry.weight());
       }
     }
     return a;
@@ -119,7 +119,7 @@ inline TestLevel finestLevel(const StreamMesh& mesh, Weights weights, std::int64
   for (auto& row : level.rows)
   {
     std::sort(row.begin(), row.end(),
-      [](const RowEntry& a, const RowEntry& b) { return a.delta < b.delta; });
+      [](const RowEntry& a, const RowEntry& b) { return a.delta() < b.delta(); });
   }
   return level;
 }
@@ -195,8 +195,12 @@ public:
   void gather(CoarseningData& data, std::int64_t c)
   {
     this->Product.gather(data, c);
-    const RowEntry* row = data.raw.row(c);
-    this->record->raw.rows.emplace_back(row, row + data.raw.size(c));
+    auto& row = this->record->raw.rows.emplace_back();
+    const CoarseEntry* entry = data.raw.row(c);
+    for (const CoarseEntry* end = entry + data.raw.size(c); entry != end; ++entry)
+    {
+      row.push_back({ entry->offset(c), entry->value() });
+    }
     this->record->raw.alpha.push_back(data.rawAlpha[c]);
   }
   void sparsify(CoarseningData& data, std::int64_t c) const

@@ -187,8 +187,8 @@ TEST(RowBlockPacker, keepsRowsAndReaches)
       ASSERT_EQ(row.end - row.begin, static_cast<std::int64_t>(expected.size()));
       for (std::int64_t e = row.begin; e < row.end; ++e)
       {
-        EXPECT_EQ(a.delta[e], expected[e - row.begin].delta);
-        EXPECT_EQ(a.weight[e], expected[e - row.begin].weight);
+        EXPECT_EQ(a.delta[e], expected[e - row.begin].delta());
+        EXPECT_EQ(a.weight[e], expected[e - row.begin].weight());
         EXPECT_LE(first + k + a.delta[e], h.neighbourReach[k / RowBlock::Group]);
       }
       EXPECT_EQ(a.diagonal[k], rows.diagonal(first + k));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Core/Error.h"
-#include "Solver/Hierarchy/CoarseningData.h"
 #include "Solver/Storage/MonotoneRing.h"
 #include "Solver/Storage/RaggedRing.h"
 #include "Testing/Support/TestMeshes.h"
@@ -216,25 +215,6 @@ TEST(MonotoneRing, keepsIndicesBeyond32Bits)
       ASSERT_EQ(ring[k], Large + k / 3 * 3);
     }
   }
-}
-
-TEST(InterpolationEntry, findsRowsAndCoarseNodesFromAnyNearOne)
-{
-  for (const std::int64_t place : { std::int64_t(0), std::int64_t(1) << 24, std::int64_t(1) << 29,
-         (std::int64_t(1) << 32) - 5, (std::int64_t(3) << 33) + 17 })
-  {
-    for (const std::int64_t distance : { -8000000, -1, 0, 1, 8000000 })
-    {
-      const std::int64_t near = place + distance;
-      EXPECT_EQ(ChildLink(place, 6).row(near), place);
-      EXPECT_EQ(ChildLink(place, 6).slot(), 6);
-      const InterpolationEntry entry(static_cast<CoarseIndex>(place), 255);
-      EXPECT_EQ(near + entry.offset(near), place);
-      EXPECT_EQ(entry.quanta(), 255U);
-    }
-  }
-  EXPECT_TRUE(ChildLink().none());
-  EXPECT_FALSE(ChildLink(std::int64_t(1) << 29, 6).none());
 }
 
 } // namespace smg::testing

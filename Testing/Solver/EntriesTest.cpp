@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Hierarchy/CoarseEntry.h"
+#include "Solver/Hierarchy/CoarseningData.h"
+#include "Solver/Hierarchy/RowEntry.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace smg::testing
+{
+
+TEST(InterpolationEntry, findsRowsAndCoarseNodesFromAnyNearOne)
+{
+  for (const std::int64_t place : { std::int64_t(0), std::int64_t(1) << 24, std::int64_t(1) << 29,
+         (std::int64_t(1) << 32) - 5, (std::int64_t(3) << 33) + 17 })
+  {
+    for (const std::int64_t distance : { -8000000, -1, 0, 1, 8000000 })
+    {
+      const std::int64_t near = place + distance;
+      EXPECT_EQ(ChildLink(place, 6).row(near), place);
+      EXPECT_EQ(ChildLink(place, 6).slot(), 6);
+      const InterpolationEntry entry(static_cast<CoarseIndex>(place), 255);
+      EXPECT_EQ(near + entry.offset(near), place);
+      EXPECT_EQ(entry.quanta(), 255U);
+    }
+  }
+  EXPECT_TRUE(ChildLink().none());
+  EXPECT_FALSE(ChildLink(std::int64_t(1) << 29, 6).none());
+}
+
+TEST(CoarseEntry, findsCoarseNodesFromAnyNearOne)
+{
+  for (const std::int64_t place : { std::int64_t(0), std::int64_t(1) << 24, std::int64_t(1) << 29,
+         (std::int64_t(1) << 32) - 5, (std::int64_t(3) << 33) + 17 })
+  {
+    for (const std::int64_t distance :
+      { 1 - CoarseWindow, std::int64_t(-1), std::int64_t(0), std::int64_t(1), CoarseWindow - 1 })
+    {
+      for (const float value : { -1.5F, 0.0F, 3e30F })
+      {
+        const CoarseEntry entry(static_cast<CoarseIndex>(place), value);
+        EXPECT_EQ(place + distance + entry.offset(place + distance), place);
+      }
+    }
+  }
+}
+
+TEST(CoarseEntry, keepsNumbersToSixteenBits)
+{
+  std::vector<CoarseEntry> entries;
+  for (int k = 0; k < 1000; ++k)
+  {
+    const float value = (k % 2 == 0 ? 1.0F : -1.0F) * std::exp(0.05F * static_cast<float>(k - 500));
+    entries.emplace_back(static_cast<CoarseIndex>(k), value);
+    EXPECT_NEAR(entries.back().value(), value, std::ldexp(std::fabs(value), -16));
+  }
+  // One is changed and its neighbours stay.
+  const float before = entries[499].value();
+  const float after = entries[501].value();
+  entries[500].setValue(-0.25F);
+  EXPECT_EQ(entries[500].value(), -0.25F);
+  EXPECT_EQ(entries[500].offset(0), 500);
+  EXPECT_EQ(entries[499].value(), before);
+  EXPECT_EQ(entries[501].value(), after);
+  EXPECT_EQ(entries[501].offset(0), 501);
+
+  entries[500].setValue(std::numeric_limits<float>::quiet_NaN());
+  EXPECT_TRUE(std::isnan(entries[500].value()));
+  entries[500].setValue(0.0F);
+  EXPECT_EQ(entries[500].value(), 0.0F);
+}
+
+TEST(RowEntry, keepsDistanceAndWeight)
+{
+  constexpr auto Most = static_cast<std::int32_t>(RowEntry::MostDistance);
+  for (const std::int32_t delta : { -Most, -257, -1, 1, 256, Most })
+  {
+    for (const float weight : { 0.0F, 1.0F / 3.0F, -7e-30F })
+    {
+      const RowEntry entry(delta, weight);
+      EXPECT_EQ(entry.delta(), delta);
+      EXPECT_EQ(entry.weight(), weight);
+    }
+  }
+}
+
+} // namespace smg::testing
