@@ -42,11 +42,8 @@ void IterateHistory::load(const Ring<double>& x, std::int64_t end)
 
 void IterateHistory::readAhead()
 {
-  const std::size_t wanted = std::max<std::size_t>(1, std::exchange(this->Taken, 0));
-  while (this->Stream && !this->First && this->Read < this->Nodes && this->Ahead.size() < wanted)
-  {
-    this->Ahead.push_back(this->readBlock());
-  }
+  this->Ahead.fill([this] { return this->Stream && !this->First && this->Read < this->Nodes; },
+    [this] { return this->readBlock(); });
 }
 
 /** The steps of the next block and the residuals of its sampled nodes. */
@@ -55,7 +52,7 @@ Buffer IterateHistory::readBlock()
   const std::int64_t end = this->blockEnd(this->Read);
   const std::int64_t sampled = this->sampledBelow(end) - this->sampledBelow(this->Read);
   const std::int64_t values = (end - this->Read + Vectors * sampled) * this->Columns;
-  Buffer block(*this->Owner, static_cast<std::size_t>(values) * sizeof(float));
+  Buffer block = this->Spare.take(static_cast<std::size_t>(values) * sizeof(float));
   this->Stream->read(block.bytes());
   this->Read = end;
   return block;
@@ -71,16 +68,11 @@ void IterateHistory::loadBlock()
     this->Residuals.extend(this->sampledBelow(end));
     return;
   }
-  if (this->Ahead.empty())
-  {
-    this->Ahead.push_back(this->readBlock());
-  }
-  const Buffer block = std::move(this->Ahead.front());
-  this->Ahead.pop_front();
-  ++this->Taken;
+  Buffer block = this->Ahead.take([this] { return this->readBlock(); });
   const auto* packed = reinterpret_cast<const float*>(block.data());
   packed = this->unpack(this->Steps, end, packed);
   this->unpack(this->Residuals, this->sampledBelow(end), packed);
+  this->Spare.give(std::move(block));
 }
 
 void IterateHistory::combine(const Ring<double>& x, std::int64_t begin, std::int64_t end)

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Cycle/BlocksAhead.h"
 #include "Solver/Cycle/Lanes.h"
 #include "Solver/Cycle/RowBlock.h"
 #include "Solver/Storage/Ring.h"
 #include "Solver/Storage/ScratchStream.h"
+#include "Solver/Storage/SpareBuffers.h"
 
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -55,8 +56,7 @@ class IterateHistory
 public:
   /** For a level of `nodes` nodes, as many right-hand sides as `columns`. */
   IterateHistory(Pool& pool, std::int64_t nodes, int columns, bool residuals)
-    : Owner(&pool)
-    , Nodes(nodes)
+    : Nodes(nodes)
     , Columns(columns)
     , Stride(strideOf(columns))
     , Every(residuals ? sparsenessFor(nodes) : 0)
@@ -64,6 +64,7 @@ public:
     , Steps(pool, this->Stride)
     , Residuals(pool, this->Stride * Vectors)
     , Sums(static_cast<std::size_t>(Products * this->Stride))
+    , Spare(pool)
   {
   }
 
@@ -146,7 +147,6 @@ private:
   const float* unpack(Ring<float>& ring, std::int64_t end, const float* packed) const;
   void pack(const Ring<float>& ring, std::int64_t begin, std::int64_t end);
 
-  Pool* Owner;
   std::int64_t Nodes;
   int Columns;
   int Stride;
@@ -160,8 +160,8 @@ private:
   std::int64_t Written = 0;
   std::optional<ScratchStream> Stream;
   std::int64_t Read = 0; // nodes of the blocks that have been read, and those to be taken
-  std::deque<Buffer> Ahead;
-  std::size_t Taken = 0; // since readAhead
+  BlocksAhead<Buffer> Ahead;
+  SpareBuffers Spare;
   std::vector<float> Packed;
 
   template <class Vectors>

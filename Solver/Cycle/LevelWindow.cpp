@@ -105,27 +105,8 @@ void LevelWindow<Real>::load(std::int64_t node)
 template <class Real>
 void LevelWindow<Real>::readAhead()
 {
-  const std::size_t wanted = std::max<std::size_t>(1, std::exchange(this->Taken, 0));
-  while (this->Rows && this->Read < this->Nodes && this->Ahead.size() < wanted)
-  {
-    this->Ahead.push_back(this->readBlock());
-  }
-}
-
-template <class Real>
-Buffer LevelWindow<Real>::buffer(std::vector<Buffer>& spare, std::size_t bytes)
-{
-  if (!spare.empty())
-  {
-    Buffer last = std::move(spare.back());
-    spare.pop_back();
-    if (last.capacity() >= bytes)
-    {
-      last.resize(bytes);
-      return last;
-    }
-  }
-  return Buffer(*this->Owner, bytes);
+  this->Ahead.fill([this] { return this->Rows && this->Read < this->Nodes; },
+    [this] { return this->readBlock(); });
 }
 
 template <class Real>
@@ -133,13 +114,13 @@ auto LevelWindow<Real>::readBlock() -> Incoming
 {
   const std::int64_t nodes = std::min(RowBlock::Nodes, this->Nodes - this->Read);
   const std::size_t stored = this->Rows->nextBytes();
-  Buffer rows = this->buffer(this->SpareRows, stored + RowBlock::diagonalBytes(nodes));
+  Buffer rows = this->SpareRows.take(stored + RowBlock::diagonalBytes(nodes));
   this->Rows->read(rows.bytes().first(stored));
   RowBlock block(std::move(rows));
   block.sumDiagonals<Weight>();
 
   const auto values = static_cast<std::size_t>(nodes * this->Columns);
-  Buffer state = this->buffer(this->SpareState, 2 * values * sizeof(Real));
+  Buffer state = this->SpareState.take(2 * values * sizeof(Real));
   if (this->RightSide)
   {
     this->Values->read(state.bytes().first(values * sizeof(Real)));
@@ -156,12 +137,7 @@ auto LevelWindow<Real>::readBlock() -> Incoming
 template <class Real>
 void LevelWindow<Real>::loadBlock()
 {
-  if (this->Ahead.empty())
-  {
-    this->Ahead.push_back(this->readBlock());
-  }
-  Incoming next = std::move(this->Ahead.front());
-  this->Ahead.pop_front();
+  Incoming next = this->Ahead.take([this] { return this->readBlock(); });
   const std::int64_t begin = next.rows.first();
   const std::int64_t end = next.rows.end();
   for (State* state : { &this->up(), &this->down() })
@@ -173,13 +149,9 @@ void LevelWindow<Real>::loadBlock()
   const auto* x = reinterpret_cast<const Real*>(next.state.data());
   this->unpack(this->Now.x, begin, end, x);
   this->unpack(this->Now.b, begin, end, x + (end - begin) * this->Columns);
-  if (this->SpareState.size() < MostSpare)
-  {
-    this->SpareState.push_back(std::move(next.state));
-  }
+  this->SpareState.give(std::move(next.state));
   this->Blocks.push_back(std::move(next.rows));
   this->Loaded = end;
-  ++this->Taken;
 }
 
 template <class Real>
@@ -245,9 +217,9 @@ void LevelWindow<Real>::release(std::int64_t done)
     this->up().b.release(front.end());
     this->down().b.release(front.end());
     // The first pass reads none.
-    if (!this->First && this->SpareRows.size() < MostSpare)
+    if (!this->First)
     {
-      this->SpareRows.push_back(this->Blocks.front().takeBuffer());
+      this->SpareRows.give(this->Blocks.front().takeBuffer());
     }
     this->Blocks.pop_front();
     ++this->FirstBlock;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Cycle/BlocksAhead.h"
 #include "Solver/Cycle/Lanes.h"
 #include "Solver/Cycle/LevelCursors.h"
 #include "Solver/Cycle/RowBlock.h"
@@ -8,6 +9,7 @@
 #include "Solver/Storage/Ring.h"
 #include "Solver/Storage/ScratchStream.h"
 #include "Solver/Storage/ScratchTraffic.h"
+#include "Solver/Storage/SpareBuffers.h"
 
 #include <cstdint>
 #include <deque>
@@ -49,6 +51,8 @@ public:
     , WrittenColumns(columns)
     , Stride(strideOf(columns))
     , Now(pool, this->Stride)
+    , SpareRows(pool)
+    , SpareState(pool)
   {
   }
 
@@ -198,13 +202,9 @@ private:
    */
   void readRightSide(std::span<Real> b);
   void appendRightSide(std::span<const Real> b);
-  /** One of `spare` if it is large enough. */
-  Buffer buffer(std::vector<Buffer>& spare, std::size_t bytes);
   void pack(
     const Ring<Real>& state, int columns, std::int64_t begin, std::int64_t end, Real* packed) const;
   void unpack(Ring<Real>& state, std::int64_t begin, std::int64_t end, const Real* packed);
-
-  static constexpr std::size_t MostSpare = 4;
 
   Pool* Owner;
   ResidentNodes* Resident;
@@ -231,9 +231,8 @@ private:
   std::optional<ScratchStream> Rows, RightSide, Values;
   std::vector<Real> Packed;
   std::int64_t Read = 0; // nodes of the blocks that have been read, and those to be taken
-  std::deque<Incoming> Ahead;
-  std::size_t Taken = 0; // since readAhead
-  std::vector<Buffer> SpareRows, SpareState;
+  BlocksAhead<Incoming> Ahead;
+  SpareBuffers SpareRows, SpareState;
   std::int64_t CachedBlock = -1; // of readX
 };
 
