@@ -49,10 +49,9 @@ struct TableSpec
  * index of all blocks make any block readable by itself. BlockFileLayout.h has the format.
  *
  * The file is written under a temporary name beside `path` and renamed by finish(); without
- * finish() the destructor removes it. Compressed blocks are written behind the caller on a thread
- * of the writer; at most `WriteBehindBytes` wait in memory. Others go to the system at once,
- * without a copy. A failed write (disk full) is thrown as Error, with the path, by the next
- * append() or by finish().
+ * finish() the destructor removes it. Writing is done behind the caller on a thread of the writer;
+ * at most `WriteBehindBytes` wait in memory. A failed write (disk full) is thrown as Error, with
+ * the path, by the next append() or by finish().
  */
 class BlockFileWriter
 {
@@ -106,12 +105,10 @@ public:
   void read(int table, std::int64_t block, int column, std::span<std::byte> bytes);
 
   /**
-   * Starts reading all columns of a block, so that a later read() of it does not wait, and with it
-   * as many of the following blocks as lie right behind it in the file and go into `most` bytes;
-   * answers the block that follows these. A hint: any block may be read without it. The system does
-   * it where blocks are not compressed, which read() then brings to their place without another
-   * copy; else the reader's own thread, and eight such ranges are kept, each until all of it is
-   * read or it is the oldest.
+   * Starts reading all columns of a block on the reader's own thread, so that a later read() of it
+   * does not wait, and with it as many of the following blocks as lie right behind it in the file
+   * and go into `most` bytes; answers the block that follows these. A hint: any block may be read
+   * without it. Eight such ranges are kept, each until all of it is read or it is the oldest.
    */
   std::int64_t prefetch(int table, std::int64_t block, std::size_t most = 0);
 

@@ -168,9 +168,6 @@ struct BlockFileReader::Implementation
     return room;
   }
 
-  /** Whether blocks are read to where they are wanted: the system reads ahead, no thread copies. */
-  bool readsInPlace() const { return this->Index.codec == Codec::None; }
-
   std::string Name;
   IoStatistics* Statistics;
   FileDescriptor File;
@@ -295,11 +292,7 @@ std::int64_t BlockFileReader::prefetch(int table, std::int64_t block, std::size_
   {
     bytes += self.storedBytes(table, end++);
   }
-  if (self.readsInPlace())
-  {
-    self.File.willRead(index.offset[block], bytes);
-  }
-  else if (bytes > 0 && self.Ahead.request(index.offset[block], bytes))
+  if (bytes > 0 && self.Ahead.request(index.offset[block], bytes))
   {
     self.count(static_cast<std::int64_t>(bytes), 0);
   }

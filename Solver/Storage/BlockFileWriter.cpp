@@ -6,14 +6,12 @@
 #include "Solver/Storage/Checksum.h"
 #include "Solver/Storage/Codec.h"
 #include "Solver/Storage/FileDescriptor.h"
-#include "Solver/Storage/WaitClock.h"
 #include "Solver/Storage/WriteBehind.h"
 
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <cstring>
-#include <optional>
 #include <utility>
 
 namespace smg
@@ -27,12 +25,8 @@ struct BlockFileWriter::Implementation
     , Statistics(statistics)
     , Coder(codec)
     , File(FileDescriptor::createBeside(this->Path))
+    , Behind(std::make_unique<WriteBehind>(this->File, BlockFileHeaderBytes, WriteBehindBytes))
   {
-    // What nobody compresses the system takes as it is and writes behind.
-    if (codec != Codec::None)
-    {
-      this->Behind.emplace(this->File, BlockFileHeaderBytes, WriteBehindBytes);
-    }
     this->Index.codec = codec;
     this->Index.blocks.resize(tables.size());
     this->Index.tables = std::move(tables);
@@ -49,33 +43,9 @@ struct BlockFileWriter::Implementation
 
   void put(std::span<const std::byte> bytes)
   {
-    const auto size = static_cast<std::int64_t>(bytes.size());
-    if (this->Behind)
-    {
-      const std::int64_t waited = this->Behind->waitNanoseconds();
-      this->Behind->put(bytes);
-      this->count(size, this->Behind->waitNanoseconds() - waited);
-    }
-    else
-    {
-      const WaitClock clock;
-      this->FirstError =
-        this->FirstError != 0 ? this->FirstError : this->File.tryWrite(this->Offset, bytes);
-      this->count(size, clock.nanoseconds());
-    }
-    this->Offset += size;
-  }
-
-  /** Waits until all is written. */
-  void flush()
-  {
-    if (this->Behind)
-    {
-      const std::int64_t waited = this->Behind->waitNanoseconds();
-      this->Behind->flush();
-      this->count(0, this->Behind->waitNanoseconds() - waited);
-    }
-    this->checkWritten();
+    const std::int64_t waited = this->Behind->waitNanoseconds();
+    this->Behind->put(bytes);
+    this->count(static_cast<std::int64_t>(bytes.size()), this->Behind->waitNanoseconds() - waited);
   }
 
   void count(std::int64_t bytes, std::int64_t waited)
@@ -89,7 +59,7 @@ struct BlockFileWriter::Implementation
 
   void checkWritten()
   {
-    if (const int error = this->Behind ? this->Behind->failed() : this->FirstError; error != 0)
+    if (const int error = this->Behind->failed(); error != 0)
     {
       FileDescriptor::throwWriteError(this->Path, error);
     }
@@ -155,9 +125,7 @@ struct BlockFileWriter::Implementation
   ColumnCodec Coder;
   BlockFileIndex Index;
   FileDescriptor File;
-  std::optional<WriteBehind> Behind;
-  std::int64_t Offset = BlockFileHeaderBytes; ///< where the next byte goes
-  int FirstError = 0;                         ///< of writes without Behind
+  std::unique_ptr<WriteBehind> Behind;
 };
 
 BlockFileWriter::BlockFileWriter(
@@ -175,7 +143,7 @@ void BlockFileWriter::append(
   self.checkColumns(table, rows, columns);
   self.checkWritten();
   TableIndex& index = self.Index.blocks[table];
-  index.offset.push_back(self.Offset);
+  index.offset.push_back(self.Behind->offset());
   index.firstRow.push_back(index.firstRow.back() + rows);
   for (std::size_t c = 0; c < columns.size(); c++)
   {
@@ -197,10 +165,13 @@ void BlockFileWriter::finish(const nlohmann::json& header)
     throw Error(self.Path.string() + ": the header has " + std::to_string(text.size()) +
                 " bytes, but a block file has room for " + std::to_string(most) + ".");
   }
-  const std::int64_t tailOffset = self.Offset;
+  const std::int64_t tailOffset = self.Behind->offset();
   const std::vector<std::byte> tail = self.Index.serialize();
   self.put(tail);
-  self.flush();
+  const std::int64_t waited = self.Behind->waitNanoseconds();
+  self.Behind->flush();
+  self.count(0, self.Behind->waitNanoseconds() - waited);
+  self.checkWritten();
   self.writeFront(text, tail, tailOffset);
   self.Behind.reset();
   try

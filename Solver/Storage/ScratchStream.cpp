@@ -1,57 +1,76 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/ScratchStream.h"
 
-#include <nlohmann/json.hpp>
+#include "Solver/Core/Error.h"
+#include "Solver/Storage/Checksum.h"
+#include "Solver/Storage/WaitClock.h"
+
+#include <string>
 
 namespace smg
 {
 
-ScratchStream::~ScratchStream()
-{
-  this->Writer.reset();
-  if (this->Reader)
-  {
-    this->Reader.reset();
-    std::error_code ignored;
-    std::filesystem::remove(this->generationPath(this->Generation), ignored);
-  }
-}
-
-std::filesystem::path ScratchStream::generationPath(int generation) const
-{
-  return this->Path.string() + "." + std::to_string(generation);
-}
-
 void ScratchStream::startPass(bool rewrite)
 {
-  this->Next = this->Ahead = this->Requested = 0;
+  this->Rewriting = rewrite;
+  this->Next = this->Written = this->Ahead = this->Requested = 0;
   this->readAhead();
-  if (rewrite)
-  {
-    const TableSpec table{ "blocks", { ColumnSpec{ "block", ScalarType::UInt8, 0 } } };
-    this->Writer = std::make_unique<BlockFileWriter>(this->generationPath(this->Generation + 1),
-      std::vector{ table }, Codec::None, this->Statistics);
-  }
 }
 
 /** Requests the next range of blocks when those of the last request begin to be used up. */
 void ScratchStream::readAhead()
 {
-  if (this->Reader && this->Next >= this->Ahead && this->Requested < this->Reader->blocks(0))
+  if (this->Next < this->Ahead || this->Requested >= this->Count)
   {
-    this->Ahead = this->Requested;
-    this->Requested = this->Reader->prefetch(0, this->Requested, ReadAheadBytes);
+    return;
   }
+  this->Ahead = this->Requested;
+  const std::int64_t begin = this->block(this->Requested).offset;
+  std::int64_t end = begin;
+  // As far as the blocks adjoin.
+  while (this->Requested < this->Count && this->block(this->Requested).offset == end &&
+         (end == begin || end + this->block(this->Requested).room <= begin + ReadAheadBytes))
+  {
+    end += this->block(this->Requested++).room;
+  }
+  this->File.willRead(begin, static_cast<std::size_t>(end - begin));
 }
 
-void ScratchStream::append(std::span<const std::byte> block)
+auto ScratchStream::place(std::size_t bytes) -> Block&
 {
-  this->Writer->append(0, 1, { &block, 1 });
+  const auto index = static_cast<std::size_t>(this->Written);
+  if (index == this->Blocks.size())
+  {
+    this->Blocks.push_back({ .offset = this->End });
+  }
+  Block& block = this->Blocks[index];
+  if (bytes > block.room)
+  {
+    block.offset = this->End;
+    block.room = static_cast<std::uint32_t>(bytes);
+    this->End += static_cast<std::int64_t>(bytes);
+  }
+  return block;
+}
+
+void ScratchStream::append(std::span<const std::byte> bytes)
+{
+  const WaitClock clock;
+  Block& block = this->place(bytes.size());
+  if (const int error = this->File.tryWrite(block.offset, bytes); error != 0)
+  {
+    FileDescriptor::throwWriteError(this->Path, error);
+  }
+  block.bytes = static_cast<std::uint32_t>(bytes.size());
+  block.checksum = checksum(bytes);
+  ++this->Written;
+  this->Statistics->bytesWritten += static_cast<std::int64_t>(bytes.size());
+  this->Statistics->waitNanoseconds += clock.nanoseconds();
 }
 
 std::size_t ScratchStream::bytes(std::int64_t index) const
 {
-  return this->Reader->columnBytes(0, index, 0);
+  return this->block(index).bytes;
 }
 
 std::size_t ScratchStream::nextBytes() const
@@ -59,9 +78,21 @@ std::size_t ScratchStream::nextBytes() const
   return this->bytes(this->Next);
 }
 
-void ScratchStream::read(std::int64_t index, std::span<std::byte> block)
+void ScratchStream::read(std::int64_t index, std::span<std::byte> bytes)
 {
-  this->Reader->read(0, index, 0, block);
+  const WaitClock clock;
+  const Block& block = this->block(index);
+  if (const int error = this->File.tryRead(block.offset, bytes); error != 0)
+  {
+    FileDescriptor::throwReadError(this->Path, error);
+  }
+  if (bytes.size() != block.bytes || checksum(bytes) != block.checksum)
+  {
+    throw Error(this->Path.string() + ": block " + std::to_string(index) +
+                " is not what was written: look for faults of the disk, or use another one.");
+  }
+  this->Statistics->bytesRead += static_cast<std::int64_t>(bytes.size());
+  this->Statistics->waitNanoseconds += clock.nanoseconds();
 }
 
 void ScratchStream::read(std::span<std::byte> block)
@@ -73,23 +104,11 @@ void ScratchStream::read(std::span<std::byte> block)
 
 void ScratchStream::endPass()
 {
-  if (!this->Writer)
+  if (this->Rewriting)
   {
-    return;
+    this->Rewriting = false;
+    this->Count = this->Written;
   }
-  this->Writer->finish(nlohmann::json::object());
-  this->Writer.reset();
-  const std::filesystem::path old = this->generationPath(this->Generation);
-  const bool hadReader = this->Reader != nullptr;
-  this->Reader.reset();
-  if (hadReader)
-  {
-    std::error_code ignored;
-    std::filesystem::remove(old, ignored);
-  }
-  ++this->Generation;
-  this->Reader =
-    std::make_unique<BlockFileReader>(this->generationPath(this->Generation), this->Statistics);
 }
 
 } // namespace smg

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "Solver/Storage/BlockFile.h"
+#include "Solver/Storage/FileDescriptor.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <span>
+#include <vector>
 
 namespace smg
 {
@@ -14,19 +16,25 @@ namespace smg
 /**
  * A scratch file of blocks of any size that a pass reads from first to last, with the next ones
  * read ahead, and that a pass may rewrite at the same time: what it appends is what the next pass
- * reads.
+ * reads. A block takes the place of the one with its number, if it fits there: that one is to have
+ * been read before. So pages that the system keeps are overwritten instead of given back and asked
+ * for anew.
+ *
+ * The file has no name: it is gone with the stream or the program. What is read is checked by what
+ * was written (XXH3).
  */
 class ScratchStream
 {
 public:
+  /** `path` tells the folder, and the name in messages. */
   ScratchStream(std::filesystem::path path, IoStatistics& statistics)
     : Path(std::move(path))
     , Statistics(&statistics)
+    , File(FileDescriptor::createNameless(this->Path.parent_path()))
   {
   }
-  ~ScratchStream();
 
-  /** Goes back to the first block; with `rewrite`, append() begins the next generation. */
+  /** Goes back to the first block; with `rewrite`, append() begins with the first one, too. */
   void startPass(bool rewrite);
   void append(std::span<const std::byte> block);
   /** Bytes of the block that read() delivers next. */
@@ -38,17 +46,33 @@ public:
   void endPass();
 
 private:
-  /** Asked of the system at once. */
-  static constexpr std::size_t ReadAheadBytes = std::size_t(192) << 10;
+  struct Block
+  {
+    std::int64_t offset = 0;
+    std::uint64_t checksum = 0;
+    std::uint32_t bytes = 0;
+    std::uint32_t room = 0; ///< bytes that its place has
+  };
 
+  /** Asked of the system at once. */
+  static constexpr std::int64_t ReadAheadBytes = std::int64_t(192) << 10;
+
+  const Block& block(std::int64_t index) const
+  {
+    return this->Blocks[static_cast<std::size_t>(index)];
+  }
+  /** The block that is written next, with room for so many bytes. */
+  Block& place(std::size_t bytes);
   void readAhead();
-  std::filesystem::path generationPath(int generation) const;
 
   std::filesystem::path Path;
   IoStatistics* Statistics;
-  std::unique_ptr<BlockFileReader> Reader;
-  std::unique_ptr<BlockFileWriter> Writer;
-  int Generation = 0;
+  FileDescriptor File;
+  std::vector<Block> Blocks;
+  std::int64_t End = 0; // of the file
+  bool Rewriting = false;
+  std::int64_t Count = 0; // of blocks that the last rewriting pass wrote
+  std::int64_t Written = 0;
   std::int64_t Next = 0;
   std::int64_t Ahead = 0, Requested = 0; // first block of the last request, and behind it
 };
