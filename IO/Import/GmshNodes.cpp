@@ -25,7 +25,7 @@ void GmshNodes::addOther(std::int64_t tag)
       this->Tags->put({ this->First + vertex, vertex });
     }
     this->Least = this->First;
-    this->Largest = this->First + this->Count - 1;
+    this->Largest = this->First + (this->Count - 1);
   }
   this->Tags->put({ tag, this->Count++ });
   this->Least = std::min(this->Least, tag);

@@ -104,6 +104,14 @@ TEST_F(ImportGmsh, TagsFarApartTakeSeveralPasses)
   this->expectRefused(fourSolids(GmshVariants[4], tags), "renumber the nodes");
 }
 
+TEST_F(ImportGmsh, TagsMayBeTheLargestThereAre)
+{
+  Numbers tags = consecutiveTags(std::numeric_limits<std::int64_t>::max() - 11);
+  expectFourSolids(this->gmsh(fourSolids(GmshVariants[4], tags)));
+  std::swap(tags.front(), tags.back());
+  expectFourSolids(this->gmsh(fourSolids(GmshVariants[4], tags)));
+}
+
 TEST_F(ImportGmsh, TrianglesAndQuadrilaterals)
 {
   const ReadMesh mesh = this->gmsh("$Comments\nby hand\n$EndComments\n" + Format2 +
