@@ -57,6 +57,8 @@ Sparsification::Candidate Sparsification::strongestCommon(
   Candidate best;
   const CoarseningData::Slot* large = data.slots.at(c);
   const CoarseEntry* row = data.raw.row(c);
+  // Neighbours of c that are gone are none of k: all neighbours of theirs have come.
+  const std::int64_t there = data.raw.first() - c;
   const auto consider = [&](const CoarseEntry& entry)
   {
     const std::int32_t delta = entry.offset(c);
@@ -68,11 +70,15 @@ Sparsification::Candidate Sparsification::strongestCommon(
   };
   for (std::uint64_t bits = data.rawLarge[c]; bits != 0; bits &= bits - 1)
   {
-    consider(row[std::countr_zero(bits)]);
+    const CoarseEntry& entry = row[std::countr_zero(bits)];
+    if (entry.offset(c) >= there)
+    {
+      consider(entry);
+    }
   }
   for (std::int64_t e = 64; e < data.raw.size(c); ++e)
   {
-    if (this->isLarge(data, c, row[e]))
+    if (row[e].offset(c) >= there && this->isLarge(data, c, row[e]))
     {
       consider(row[e]);
     }

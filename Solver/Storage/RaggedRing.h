@@ -29,6 +29,8 @@ public:
     this->Ends.extend(1);
   }
 
+  /** The first row that is there. */
+  std::int64_t first() const { return this->Ends.first(); }
   /** Number of rows appended. */
   std::int64_t end() const { return this->Ends.end() - 1; }
   std::int64_t size(std::int64_t row) const { return this->Ends[row + 1] - this->start(row); }

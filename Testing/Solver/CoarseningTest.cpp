@@ -312,6 +312,22 @@ TEST(Coarsening, sparsificationDoesNotWeakenTheOperator)
   }
 }
 
+/** Meshes whose windows use the same memory for neighbours of a neighbour that are long gone. */
+TEST(Coarsening, whatIsGoneIsNotLookedAt)
+{
+  RecordingOperators operators;
+  operators.strength = 0.05F;
+  operators.finestEntries = operators.entries = 5;
+  for (const TestLevel& level :
+    { finestLevel(toStream(shuffled(tetBox(31, 16, 16, 0.2))), Weights::Uniform),
+      finestLevel(toStream(shuffled(tetBox(35, 22, 20, 0.2))), Weights::Cotangent) })
+  {
+    const CoarsenedLevel whole = coarsen(level, operators);
+    const CoarsenedLevel parts = coarsen(level, operators, 16);
+    EXPECT_TRUE(sameLevels(parts.coarse, whole.coarse)) << level.nodes();
+  }
+}
+
 TEST(Coarsening, doesNotDependOnHowManyRowsComeAtOnce)
 {
   for (const Case& test : cases())
