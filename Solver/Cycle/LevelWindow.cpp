@@ -261,6 +261,8 @@ void LevelWindow<Real>::moveToMemory()
   this->Rows->startPass(false);
   this->Values->startPass(false);
   this->load(this->Nodes - 1);
+  this->SpareRows.clear();
+  this->SpareState.clear();
   this->Rows.reset();
   this->Values.reset();
   this->RightSide.reset();

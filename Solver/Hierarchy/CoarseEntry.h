@@ -59,7 +59,7 @@ public:
   std::int32_t offset(std::int64_t near) const { return coarseDistance(this->load(2), near); }
 
 private:
-  /** The upper 24 bits of the nearest number that has no more; NaN stays one. */
+  /** The upper 24 bits of the nearest number that has no more; the usual NaN stays one. */
   static std::uint32_t rounded(float value)
   {
     return (std::bit_cast<std::uint32_t>(value) + 128) >> 8;
@@ -73,6 +73,6 @@ private:
 
   std::array<std::byte, 6> Bytes; // 24 bits of the number, then 24 of the index
 };
-static_assert(sizeof(CoarseEntry) == 6);
+static_assert(sizeof(CoarseEntry) == 6 && std::endian::native == std::endian::little);
 
 } // namespace smg

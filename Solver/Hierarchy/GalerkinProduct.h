@@ -11,9 +11,10 @@ namespace smg
 
 /**
  * The coarse operator P^T A P, a row of A P at a time and then a row of the product at a time.
- * Row sums are accumulated by themselves in double precision, from differences of row sums of P, so
- * that a component without constraint has row sums of exactly zero on every level. Of the two
- * weights of a pair the one in the upper of its rows counts: so the product is exactly symmetric.
+ * Row sums are accumulated by themselves in double precision, one for a row of A P in single
+ * precision, from differences of row sums of P, so that a component without constraint has row sums
+ * of exactly zero on every level. Of the two weights of a pair the one in the upper of its rows
+ * counts: so the product is exactly symmetric.
  */
 class GalerkinProduct
 {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -45,6 +46,6 @@ public:
 private:
   std::array<std::byte, 7> Bytes; // the weight and 24 bits of delta
 };
-static_assert(sizeof(RowEntry) == 7);
+static_assert(sizeof(RowEntry) == 7 && std::endian::native == std::endian::little);
 
 } // namespace smg

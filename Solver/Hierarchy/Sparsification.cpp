@@ -88,7 +88,7 @@ Sparsification::Candidate Sparsification::strongestCommon(
 
 void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
 {
-  CoarseEntry* row = data.raw.row(k);
+  const CoarseEntry* row = data.raw.row(k);
   const std::int32_t lower = data.rawLower[k];
   const std::int64_t size = data.raw.size(k);
   CoarseningData::Slot* large = data.slots.at(k);
@@ -137,7 +137,6 @@ void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
       }
     }
     pair.setValue(Removed);
-    row[e].setValue(Removed);
   }
 }
 

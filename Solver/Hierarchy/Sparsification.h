@@ -13,8 +13,9 @@ namespace smg
 /**
  * Removes small entries of a coarse operator without changing its row sums: an edge (c,k) with
  * |w| < tolerance * min(strongest_c, strongest_k) is dropped if w is negative; if positive its
- * weight moves to the two edges (c,m) and (m,k) of the strongest common neighbour m, or it stays if
- * there is none. Plain dropping weakens the operator and diverges on bad triangles.
+ * weight moves to the two edges (c,m) and (m,k) of the strongest common neighbour m, both large, or
+ * it stays if there is none. Of a row m that comes later only what those of c and k say counts.
+ * Plain dropping weakens the operator and diverges on bad triangles.
  */
 struct Sparsification
 {
@@ -32,7 +33,7 @@ private:
   {
     return !(std::fabs(weight) >= this->tolerance * std::min(strongest, otherStrongest));
   }
-  /** Whether an entry of row c is large, by what was known when that row came. */
+  /** Whether an entry of row c is large, against what was known when that row came. */
   bool isLarge(const CoarseningData& data, std::int64_t c, const CoarseEntry& entry) const;
   Candidate strongestCommon(const CoarseningData& data, std::int64_t c, std::uint32_t mark) const;
 };

@@ -13,41 +13,51 @@ namespace smg
 void ScratchStream::startPass(bool rewrite)
 {
   this->Rewriting = rewrite;
-  this->Next = this->Written = this->Ahead = this->Requested = 0;
+  this->Coming.count = 0;
+  this->Next = this->Ahead = this->Requested = 0;
   this->readAhead();
 }
 
 /** Requests the next range of blocks when those of the last request begin to be used up. */
 void ScratchStream::readAhead()
 {
-  if (this->Next < this->Ahead || this->Requested >= this->Count)
+  if (this->Next < this->Ahead || this->Requested >= this->Last.count)
   {
     return;
   }
   this->Ahead = this->Requested;
-  const std::int64_t begin = this->block(this->Requested).offset;
-  std::int64_t end = begin;
-  // As far as the blocks adjoin.
-  while (this->Requested < this->Count && this->block(this->Requested).offset == end &&
-         (end == begin || end + this->block(this->Requested).room <= begin + ReadAheadBytes))
+  std::int64_t begin = 0;
+  std::size_t bytes = 0;
+  // As far as the blocks adjoin; some are without bytes.
+  for (; this->Requested < this->Last.count; ++this->Requested)
   {
-    end += this->block(this->Requested++).room;
+    const Block& block = this->block(this->Requested);
+    const bool adjoins = block.offset == begin + static_cast<std::int64_t>(bytes);
+    if (bytes > 0 && (!adjoins || bytes + block.room > ReadAheadBytes))
+    {
+      break;
+    }
+    begin = bytes == 0 ? block.offset : begin;
+    bytes += block.room;
   }
-  this->File.willRead(begin, static_cast<std::size_t>(end - begin));
+  if (bytes > 0)
+  {
+    this->File.willRead(begin, bytes);
+  }
 }
 
 auto ScratchStream::place(std::size_t bytes) -> Block&
 {
-  const auto index = static_cast<std::size_t>(this->Written);
-  if (index == this->Blocks.size())
+  const auto index = static_cast<std::size_t>(this->Coming.count);
+  if (index == this->Coming.blocks.size())
   {
-    this->Blocks.push_back({ .offset = this->End });
+    this->Coming.blocks.push_back({ .offset = this->End });
   }
-  Block& block = this->Blocks[index];
+  Block& block = this->Coming.blocks[index];
   if (bytes > block.room)
   {
     block.offset = this->End;
-    block.room = static_cast<std::uint32_t>(bytes);
+    block.room = bytes;
     this->End += static_cast<std::int64_t>(bytes);
   }
   return block;
@@ -61,9 +71,9 @@ void ScratchStream::append(std::span<const std::byte> bytes)
   {
     FileDescriptor::throwWriteError(this->Path, error);
   }
-  block.bytes = static_cast<std::uint32_t>(bytes.size());
+  block.bytes = bytes.size();
   block.checksum = checksum(bytes);
-  ++this->Written;
+  ++this->Coming.count;
   this->Statistics->bytesWritten += static_cast<std::int64_t>(bytes.size());
   this->Statistics->waitNanoseconds += clock.nanoseconds();
 }
@@ -107,7 +117,7 @@ void ScratchStream::endPass()
   if (this->Rewriting)
   {
     this->Rewriting = false;
-    this->Count = this->Written;
+    std::swap(this->Last, this->Coming);
   }
 }
 

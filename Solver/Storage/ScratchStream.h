@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace smg
@@ -16,9 +17,9 @@ namespace smg
 /**
  * A scratch file of blocks of any size that a pass reads from first to last, with the next ones
  * read ahead, and that a pass may rewrite at the same time: what it appends is what the next pass
- * reads. A block takes the place of the one with its number, if it fits there: that one is to have
- * been read before. So pages that the system keeps are overwritten instead of given back and asked
- * for anew.
+ * reads. The generation that is being read stays as it is until the pass ends; a block takes the
+ * place of the one with its number of the generation before, if it fits there. So pages that the
+ * system keeps are overwritten instead of given back and asked for anew.
  *
  * The file has no name: it is gone with the stream or the program. What is read is checked by what
  * was written (XXH3).
@@ -50,16 +51,21 @@ private:
   {
     std::int64_t offset = 0;
     std::uint64_t checksum = 0;
-    std::uint32_t bytes = 0;
-    std::uint32_t room = 0; ///< bytes that its place has
+    std::size_t bytes = 0;
+    std::size_t room = 0; ///< bytes that its place has
+  };
+  struct Generation
+  {
+    std::vector<Block> blocks;
+    std::int64_t count = 0; ///< of those that it has; the others are places for later ones
   };
 
   /** Asked of the system at once. */
-  static constexpr std::int64_t ReadAheadBytes = std::int64_t(192) << 10;
+  static constexpr std::size_t ReadAheadBytes = std::size_t(192) << 10;
 
   const Block& block(std::int64_t index) const
   {
-    return this->Blocks[static_cast<std::size_t>(index)];
+    return this->Last.blocks.at(static_cast<std::size_t>(index));
   }
   /** The block that is written next, with room for so many bytes. */
   Block& place(std::size_t bytes);
@@ -68,11 +74,9 @@ private:
   std::filesystem::path Path;
   IoStatistics* Statistics;
   FileDescriptor File;
-  std::vector<Block> Blocks;
-  std::int64_t End = 0; // of the file
+  Generation Last, Coming; // what the last rewriting pass wrote, and what this one writes
+  std::int64_t End = 0;    // of the file
   bool Rewriting = false;
-  std::int64_t Count = 0; // of blocks that the last rewriting pass wrote
-  std::int64_t Written = 0;
   std::int64_t Next = 0;
   std::int64_t Ahead = 0, Requested = 0; // first block of the last request, and behind it
 };

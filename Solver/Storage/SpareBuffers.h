@@ -3,7 +3,6 @@
 
 #include "Solver/Storage/Buffer.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -13,7 +12,8 @@ namespace smg
 
 /**
  * Buffers that are used again: memory that is given back to the system and asked for anew costs
- * more than what is read into it. All are as large as the largest that was asked for.
+ * more than what is read into it. They have a little more room than was asked for, to serve the
+ * next time, too.
  */
 class SpareBuffers
 {
@@ -25,7 +25,6 @@ public:
 
   Buffer take(std::size_t bytes)
   {
-    this->Largest = std::max(this->Largest, bytes);
     Buffer buffer;
     if (!this->Spare.empty())
     {
@@ -35,7 +34,7 @@ public:
     if (buffer.capacity() < bytes)
     {
       buffer = Buffer();
-      buffer = Buffer(*this->Owner, this->Largest);
+      buffer = Buffer(*this->Owner, bytes + bytes / 8);
     }
     buffer.resize(bytes);
     return buffer;
@@ -46,7 +45,6 @@ public:
 private:
   Pool* Owner;
   std::vector<Buffer> Spare;
-  std::size_t Largest = 0;
 };
 
 } // namespace smg

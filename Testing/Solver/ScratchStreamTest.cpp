@@ -109,7 +109,7 @@ TEST(ScratchStream, anyBlockCanBeReadBetweenPasses)
   }
 }
 
-TEST(ScratchStream, blocksThatFitAreRewrittenInPlace)
+TEST(ScratchStream, placesOfTheGenerationBeforeAreUsedAgain)
 {
   const TemporaryFolder folder;
   IoStatistics statistics;
@@ -122,7 +122,7 @@ TEST(ScratchStream, blocksThatFitAreRewrittenInPlace)
       stream.append(std::vector<std::byte>(static_cast<std::size_t>(size + i)));
     }
     stream.endPass();
-    EXPECT_EQ(bytesOpenIn(folder), 8 * 1000 + 28) << size;
+    EXPECT_LE(bytesOpenIn(folder), 2 * (8 * 1000 + 28)) << size;
   }
 }
 
