@@ -36,7 +36,10 @@ std::string fourSolids(GmshVariant variant, const Numbers& tags)
 Numbers consecutiveTags(std::int64_t first)
 {
   Numbers tags(12);
-  std::iota(tags.begin(), tags.end(), first);
+  for (std::size_t k = 0; k < tags.size(); ++k)
+  {
+    tags[k] = first + static_cast<std::int64_t>(k);
+  }
   return tags;
 }
 
