@@ -41,8 +41,8 @@ namespace smg
  *   by ascending column, sets rawAlpha, rawStrongest, rawLower and rawMirrored of c and moves
  *   rawMirrored of its neighbours above on by one.
  * - `sparsify`, which follows it, may read the rows of `raw` up to c that have neighbours from c
- *   on, and change their upper entries, those with delta > 0; the lower ones take over the weights of
- *   these at last. An entry that is to go gets the weight NaN.
+ *   on, and change their upper entries, those with delta > 0; the lower ones take over the
+ *   weights of these at last. An entry that is to go gets the weight NaN.
  *
  * What the engine relies on: a node without edges is not lifted; each lifted node has a child; P
  * has entries from 0 to 1 (multiples of 1/Quanta) with row sums of at most 1, from coarse nodes
