@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Storage/IoStatistics.h"
 #include "Solver/Stream/Column.h"
 
 #include <nlohmann/json_fwd.hpp>
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -23,15 +23,6 @@ enum class Codec : std::uint8_t
   None = 0,
   Lz4 = 1,
   Zstd = 2
-};
-
-/** Totals of the traffic of any number of block files. */
-struct IoStatistics
-{
-  std::atomic<std::int64_t> bytesRead{ 0 };
-  std::atomic<std::int64_t> bytesWritten{ 0 };
-  /** Nanoseconds that a caller stood waiting for the disk. */
-  std::atomic<std::int64_t> waitNanoseconds{ 0 };
 };
 
 /** A table of a block file: rows that all have the same columns. */
@@ -106,11 +97,10 @@ public:
 
   /**
    * Starts reading all columns of a block on the reader's own thread, so that a later read() of it
-   * does not wait, and with it as many of the following blocks as lie right behind it in the file
-   * and go into `most` bytes; answers the block that follows these. A hint: any block may be read
-   * without it. Eight such ranges are kept, each until all of it is read or it is the oldest.
+   * does not wait. A hint: any block may be read without it. Eight such blocks are kept, each until
+   * all of it is read or it is the oldest.
    */
-  std::int64_t prefetch(int table, std::int64_t block, std::size_t most = 0);
+  void prefetch(int table, std::int64_t block);
 
 private:
   struct Implementation;

@@ -279,24 +279,15 @@ void BlockFileReader::read(int table, std::int64_t block, int column, std::span<
   }
 }
 
-std::int64_t BlockFileReader::prefetch(int table, std::int64_t block, std::size_t most)
+void BlockFileReader::prefetch(int table, std::int64_t block)
 {
   Implementation& self = *this->Self;
   self.check(table, block);
-  const TableIndex& index = self.Index.blocks[table];
-  std::int64_t end = block + 1;
-  std::size_t bytes = self.storedBytes(table, block);
-  const auto adjoins = [&]
-  { return index.offset[end] == index.offset[block] + static_cast<std::int64_t>(bytes); };
-  while (end < index.blocks() && adjoins() && bytes + self.storedBytes(table, end) <= most)
-  {
-    bytes += self.storedBytes(table, end++);
-  }
-  if (bytes > 0 && self.Ahead.request(index.offset[block], bytes))
+  const std::size_t bytes = self.storedBytes(table, block);
+  if (bytes > 0 && self.Ahead.request(self.Index.blocks[table].offset[block], bytes))
   {
     self.count(static_cast<std::int64_t>(bytes), 0);
   }
-  return end;
 }
 
 bool isBlockFile(const std::filesystem::path& path)

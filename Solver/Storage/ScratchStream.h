@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Storage/BlockFile.h"
 #include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Storage/IoStatistics.h"
 
 #include <cstddef>
 #include <cstdint>

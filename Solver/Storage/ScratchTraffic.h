@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Storage/BlockFile.h"
+#include "Solver/Storage/IoStatistics.h"
 
 #include <cstdint>
 #include <deque>
