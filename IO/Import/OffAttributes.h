@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Container/AttributeNames.h"
+#include "IO/Import/ImportColumn.h"
 #include "IO/Import/OffHeader.h"
 #include "IO/Import/TextColors.h"
 #include "IO/Import/TextScanner.h"
