@@ -159,7 +159,7 @@ private:
     CoarseningData& d = this->Data;
     for (std::int64_t& c = this->Gathered; c < d.coarseNodes && this->canGather(c); ++c)
     {
-      d.extendRaw(c + 1);
+      d.openRaw(c + 1);
       this->Set.gather(d, c);
       this->Set.sparsify(d, c);
     }

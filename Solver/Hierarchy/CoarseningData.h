@@ -169,7 +169,7 @@ struct CoarseningData
   }
 
   /** Room beside the rows of `raw` below `end`. */
-  void extendRaw(std::int64_t end)
+  void openRaw(std::int64_t end)
   {
     this->rawAlpha.extendRaw(end);
     this->rawStrongest.extendRaw(end);

@@ -7,6 +7,13 @@
 namespace smg
 {
 
+std::int32_t* GalerkinProduct::roomFor(std::int64_t columns)
+{
+  const auto size = static_cast<std::size_t>(columns);
+  this->Columns.resize(std::max(this->Columns.size(), size));
+  return this->Columns.data();
+}
+
 void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
 {
   const std::int64_t near = data.coarseNodes;
@@ -20,15 +27,9 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
     return;
   }
   const auto row = data.fine.row(i);
-  std::int64_t room = own + 1;
-  for (const RowEntry& entry : row)
-  {
-    room += data.interpolation.size(i + entry.delta());
-  }
   const std::uint32_t mark = data.freshMark();
-  this->Columns.resize(std::max(this->Columns.size(), static_cast<std::size_t>(room)));
-  std::int32_t* columns = this->Columns.data();
-  std::uint32_t size = 0;
+  std::int64_t size = 0;
+  std::int32_t* columns = this->roomFor(own);
 
   const auto diagonal = static_cast<float>(data.fine.diagonal(i));
   const InterpolationEntry* p = data.interpolation.row(i);
@@ -46,7 +47,9 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
     const std::int64_t j = i + entry.delta();
     sum += static_cast<double>(entry.weight()) * (ownQuanta - quanta[entry.delta()]);
     p = data.interpolation.row(j);
-    const InterpolationEntry* end = p + data.interpolation.size(j);
+    const std::int64_t more = data.interpolation.size(j);
+    columns = this->roomFor(size + more + 1);
+    const InterpolationEntry* end = p + more;
     for (; p != end; ++p)
     {
       const std::int32_t distance = p->offset(near);
@@ -55,7 +58,7 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
     }
   }
   CoarseEntry* out = data.product.open(size);
-  for (std::uint32_t e = 0; e < size; ++e)
+  for (std::int64_t e = 0; e < size; ++e)
   {
     out[e] = { static_cast<CoarseIndex>(near + columns[e]), slots[columns[e]].value };
   }
@@ -112,12 +115,10 @@ void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
   const double alpha = this->findChildren(data, c);
   CoarseningData::Slot* slots = data.slots.at(c);
   const std::uint32_t mark = data.freshMark();
-  std::size_t columns = 0;
+  std::int64_t columns = 0;
   for (const Child& child : this->Children)
   {
-    const std::size_t most = columns + static_cast<std::size_t>(child.size) + 1;
-    this->Columns.resize(std::max(this->Columns.size(), most));
-    std::int32_t* column = this->Columns.data();
+    std::int32_t* column = this->roomFor(columns + child.size + 1);
     const CoarseEntry* end = child.product + child.size;
     for (const CoarseEntry* entry = child.product; entry != end; ++entry)
     {
@@ -126,7 +127,7 @@ void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
       columns += slots[delta].add(mark, child.weight * entry->value()) ? 1 : 0;
     }
   }
-  this->sort(columns);
+  this->sort(static_cast<std::size_t>(columns));
   this->append(data, c);
   data.rawAlpha[c] = alpha;
 }

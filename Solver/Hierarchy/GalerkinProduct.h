@@ -4,6 +4,7 @@
 #include "Solver/Hierarchy/CoarseningData.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace smg
@@ -34,6 +35,8 @@ private:
     float weight;
   };
 
+  /** Columns, with room for so many at least. */
+  std::int32_t* roomFor(std::int64_t columns);
   /** Finds the children of node c, sends for their rows of A P, and answers the node's row sum. */
   double findChildren(const CoarseningData& data, std::int64_t c);
   /** Sorts the first `size` of Columns. */

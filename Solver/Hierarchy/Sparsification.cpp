@@ -12,8 +12,6 @@ namespace
 {
 
 constexpr float Removed = std::numeric_limits<float>::quiet_NaN();
-/** Instead of the largest weight of a row that has not come yet: the other row's counts. */
-constexpr float NotKnown = std::numeric_limits<float>::infinity();
 
 /** The entry of the pair {c,k}, which is there, in the upper one of its two rows. */
 CoarseEntry& upperEntry(const CoarseningData& data, std::int64_t c, std::int64_t k)
@@ -38,14 +36,6 @@ struct Sparsification::Candidate
   std::int64_t node = -1;
   float weight = 0.0F;
 };
-
-bool Sparsification::isLarge(
-  const CoarseningData& data, std::int64_t c, const CoarseEntry& entry) const
-{
-  const float* strongest = data.rawStrongest.at(c);
-  const std::int32_t delta = entry.offset(c);
-  return !this->isSmall(entry.value(), *strongest, delta < 0 ? strongest[delta] : NotKnown);
-}
 
 /**
  * The common neighbour m of c and k > c with the largest min(w_cm, w_km) of large weights, those of
@@ -78,7 +68,8 @@ Sparsification::Candidate Sparsification::strongestCommon(
   }
   for (std::int64_t e = 64; e < data.raw.size(c); ++e)
   {
-    if (row[e].offset(c) >= there && this->isLarge(data, c, row[e]))
+    const std::int32_t delta = row[e].offset(c);
+    if (delta >= there && this->isLarge(row[e].value(), delta, data.rawStrongest.at(c)))
     {
       consider(row[e]);
     }
@@ -100,10 +91,10 @@ void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
   {
     const std::int32_t delta = row[e].offset(k);
     const float weight = row[e].value();
-    const bool small = this->isSmall(weight, *strongest, e < lower ? strongest[delta] : NotKnown);
-    large[delta] = { mark, small ? 0.0F : weight };
-    bits |= std::uint64_t(!small && e < 64) << (e & 63);
-    if (small && e < lower)
+    const bool isLarge = this->isLarge(weight, delta, strongest);
+    large[delta] = { mark, isLarge ? weight : 0.0F };
+    bits |= std::uint64_t(isLarge && e < 64) << (e & 63);
+    if (!isLarge && e < lower)
     {
       __builtin_prefetch(data.raw.row(k + delta) + mirrored[delta]);
     }

@@ -33,8 +33,14 @@ private:
   {
     return !(std::fabs(weight) >= this->tolerance * std::min(strongest, otherStrongest));
   }
-  /** Whether an entry of row c is large, against what was known when that row came. */
-  bool isLarge(const CoarseningData& data, std::int64_t c, const CoarseEntry& entry) const;
+  /**
+   * Whether the weight of a row's neighbour at distance delta is large, given the largest weight of
+   * that row and those of the rows before it: a neighbour that comes later has no say.
+   */
+  bool isLarge(float weight, std::int32_t delta, const float* strongest) const
+  {
+    return !this->isSmall(weight, *strongest, strongest[std::min(delta, 0)]);
+  }
   Candidate strongestCommon(const CoarseningData& data, std::int64_t c, std::uint32_t mark) const;
 };
 

@@ -218,7 +218,7 @@ TEST(Coarsening, theRawProductIsTheGalerkinProduct)
     const Eigen::VectorXd rowSums = expected.rowwise().sum();
     for (std::int64_t c = 0; c < step.coarse.nodes(); ++c)
     {
-      EXPECT_NEAR(step.coarse.alpha[c], rowSums[c], 1e-6 * expected(c, c)) << test.name;
+      EXPECT_NEAR(step.coarse.alpha[c], rowSums[c], 1e-7 * expected(c, c)) << test.name;
     }
   }
 }
