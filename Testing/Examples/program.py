@@ -55,3 +55,15 @@ def write_torus(name, nu, nv):
             file.write("v %.9g %.9g %.9g\n" % point)
         for quadrangle in quadrangles:
             file.write("f %d %d %d %d\n" % tuple(corner + 1 for corner in quadrangle))
+
+
+def write_medit(name, points, cells, triangles=()):
+    """Tetrahedra, and triangles, as a Medit file."""
+    with open(name, "w", encoding="utf-8") as file:
+        file.write("MeshVersionFormatted 2\nDimension 3\nVertices\n%d\n" % len(points))
+        file.writelines("%r %r %r 0\n" % point for point in points)
+        for section, rows in (("Triangles", triangles), ("Tetrahedra", cells)):
+            if rows:
+                file.write("%s\n%d\n" % (section, len(rows)))
+                file.writelines(" ".join(str(i + 1) for i in row) + " 0\n" for row in rows)
+        file.write("End\n")

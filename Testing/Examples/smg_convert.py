@@ -9,7 +9,7 @@ import sys
 
 from mesh_files import read_mesh, same_points
 from odd_mesh import fans, odd_solid, odd_surface
-from program import load, run, write_torus
+from program import load, run, write_medit, write_torus
 from tetrahedra import tetrahedra
 
 ORDERS = ("bfs", "spectral", "axis", "keep")
@@ -25,17 +25,6 @@ def write_ply(name, points, cells, kind="double"):
         file.write("property list uchar int vertex_indices\nend_header\n")
         file.writelines("%r %r %r %d\n" % (*point, i) for i, point in enumerate(points))
         file.writelines(" ".join(map(str, (len(cell), *cell))) + "\n" for cell in cells)
-
-
-def write_medit(name, points, cells, triangles=()):
-    with open(name, "w", encoding="utf-8") as file:
-        file.write("MeshVersionFormatted 2\nDimension 3\nVertices\n%d\n" % len(points))
-        file.writelines("%r %r %r 0\n" % point for point in points)
-        for section, rows in (("Triangles", triangles), ("Tetrahedra", cells)):
-            if rows:
-                file.write("%s\n%d\n" % (section, len(rows)))
-                file.writelines(" ".join(str(i + 1) for i in row) + " 0\n" for row in rows)
-        file.write("End\n")
 
 
 def convert(name, out, *arguments):

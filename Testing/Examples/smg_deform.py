@@ -7,7 +7,7 @@ import math
 import os
 import sys
 
-from program import load, read_vtk_xml, run, write_torus
+from program import load, read_vtk_xml, run, write_medit, write_torus
 from tetrahedra import tetrahedra
 from torus import torus
 
@@ -59,13 +59,7 @@ def surface_file(name, normal=False):
 
 
 def solid_file(name, n=6):
-    points, cells = tetrahedra(n)
-    with open(name, "w", encoding="utf-8") as file:
-        file.write("MeshVersionFormatted 2\nDimension 3\nVertices\n%d\n" % len(points))
-        file.writelines("%g %g %g 0\n" % point for point in points)
-        file.write("Tetrahedra\n%d\n" % len(cells))
-        file.writelines("%d %d %d %d 0\n" % tuple(i + 1 for i in cell) for cell in cells)
-        file.write("End\n")
+    write_medit(name, *tetrahedra(n))
 
 
 def test_rigid_motions():

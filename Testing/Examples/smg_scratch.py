@@ -11,7 +11,7 @@ import sys
 import time
 
 from odd_mesh import odd_solid
-from program import SMG, load, run, write_torus
+from program import SMG, load, run, write_medit, write_torus
 from small_disk import SmallDisk, can_mount, peak_of
 
 ORDERS = ("bfs", "spectral", "axis", "keep")
@@ -44,13 +44,7 @@ def write_binary_ply(name, vertices, cells):
 
 def test_estimates():
     """Scratch files, output and memory are about as large as --dry-run says."""
-    points, cells = odd_solid(14)
-    with open("solid.mesh", "w", encoding="utf-8") as file:
-        file.write("MeshVersionFormatted 2\nDimension 3\nVertices\n%d\n" % len(points))
-        file.writelines("%r %r %r 0\n" % point for point in points)
-        file.write("Tetrahedra\n%d\n" % len(cells))
-        file.writelines("%d %d %d %d 0\n" % tuple(i + 1 for i in cell) for cell in cells)
-        file.write("End\n")
+    write_medit("solid.mesh", *odd_solid(14))
     write_large()
     run("convert", "large.obj", "large.vsm", "--quiet")
     run("convert", "large.vsm", "large.ply", "--restore-order", "--quiet")
