@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 namespace smg
@@ -40,7 +41,7 @@ void pad(const Real* packed, int columns, std::int64_t nodes, Real* padded)
       const int stride = strideOf(count);
       for (std::int64_t i = 0; i < nodes; ++i, packed += count, padded += stride)
       {
-        std::copy_n(packed, static_cast<int>(count), padded);
+        std::memcpy(padded, packed, count * sizeof(Real));
         std::fill(padded + count, padded + stride, Real{});
       }
     });
@@ -55,7 +56,7 @@ void unpad(const Real* padded, int stride, int columns, std::int64_t nodes, Real
     {
       for (std::int64_t i = 0; i < nodes; ++i, packed += count, padded += stride)
       {
-        std::copy_n(padded, static_cast<int>(count), packed);
+        std::memcpy(packed, padded, count * sizeof(Real));
       }
     });
 }

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "Solver/Cycle/LevelWindow.h"
+#include "Solver/Cycle/Padding.h"
 #include "Solver/Hierarchy/RowBatch.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -22,16 +22,12 @@ struct AssembledRows
 
   void moveTo(LevelRows& level, LevelWindow<double>& window, int columns)
   {
-    std::int64_t i = level.end();
+    const std::int64_t begin = level.end();
     this->rows.moveTo(level);
-    window.extendState(level.end());
-    const double* value = this->x.data();
-    const double* side = this->b.data();
-    for (; i < level.end(); ++i, value += columns, side += columns)
-    {
-      std::copy_n(value, columns, window.x().at(i));
-      std::copy_n(side, columns, window.b().at(i));
-    }
+    const std::int64_t end = level.end();
+    window.extendState(end);
+    pad(this->x.data(), columns, end - begin, window.x().at(begin));
+    pad(this->b.data(), columns, end - begin, window.b().at(begin));
     this->x.clear();
     this->b.clear();
   }
