@@ -162,9 +162,12 @@ struct BlockFileReader::Implementation
     {
       return *ahead;
     }
-    const WaitClock clock;
-    this->File.read(offset, room);
-    this->count(static_cast<std::int64_t>(room.size()), clock.nanoseconds());
+    std::int64_t wait = 0;
+    if (const int error = this->File.tryRead(offset, room, wait); error != 0)
+    {
+      FileDescriptor::throwReadError(this->Name, error);
+    }
+    this->count(static_cast<std::int64_t>(room.size()), wait);
     return room;
   }
 

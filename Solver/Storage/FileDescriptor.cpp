@@ -2,12 +2,14 @@
 #include "Solver/Storage/FileDescriptor.h"
 
 #include "Solver/Core/Error.h"
+#include "Solver/Storage/WaitClock.h"
 
 #include <atomic>
 #include <cerrno>
 #include <fcntl.h>
 #include <string>
 #include <sys/stat.h>
+#include <sys/uio.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -158,6 +160,30 @@ int FileDescriptor::tryRead(std::int64_t offset, std::span<std::byte> bytes) con
     }
   }
   return 0;
+}
+
+std::size_t FileDescriptor::readCached(
+  std::int64_t offset, std::span<std::byte> bytes) const noexcept
+{
+  iovec part{ bytes.data(), bytes.size() };
+  const ssize_t n = ::preadv2(this->Number, &part, 1, offset, RWF_NOWAIT);
+  // Not every file system can tell: then nothing is.
+  return n > 0 ? static_cast<std::size_t>(n) : 0;
+}
+
+int FileDescriptor::tryRead(
+  std::int64_t offset, std::span<std::byte> bytes, std::int64_t& waited) const noexcept
+{
+  const std::size_t cached = this->readCached(offset, bytes);
+  if (cached == bytes.size())
+  {
+    return 0;
+  }
+  const WaitClock clock;
+  const int error =
+    this->tryRead(offset + static_cast<std::int64_t>(cached), bytes.subspan(cached));
+  waited += clock.nanoseconds();
+  return error;
 }
 
 int FileDescriptor::tryWrite(std::int64_t offset, std::span<const std::byte> bytes) const noexcept

@@ -45,6 +45,8 @@ public:
    * file ends before.
    */
   int tryRead(std::int64_t offset, std::span<std::byte> bytes) const noexcept;
+  /** The same; adds the nanoseconds for which the disk was waited for to `waited`. */
+  int tryRead(std::int64_t offset, std::span<std::byte> bytes, std::int64_t& waited) const noexcept;
   int tryWrite(std::int64_t offset, std::span<const std::byte> bytes) const noexcept;
 
   /** Says that these bytes will be read soon: the system begins to bring them from the disk. */
@@ -65,6 +67,9 @@ public:
   [[noreturn]] static void throwReadError(const std::filesystem::path& path, int errorNumber);
 
 private:
+  /** Reads what is in memory already, from the front; answers how many bytes. */
+  std::size_t readCached(std::int64_t offset, std::span<std::byte> bytes) const noexcept;
+
   int Number = -1;
   std::filesystem::path Path;
 };

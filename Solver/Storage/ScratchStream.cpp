@@ -90,9 +90,9 @@ std::size_t ScratchStream::nextBytes() const
 
 void ScratchStream::read(std::int64_t index, std::span<std::byte> bytes)
 {
-  const WaitClock clock;
   const Block& block = this->block(index);
-  if (const int error = this->File.tryRead(block.offset, bytes); error != 0)
+  std::int64_t waited = 0;
+  if (const int error = this->File.tryRead(block.offset, bytes, waited); error != 0)
   {
     FileDescriptor::throwReadError(this->Path, error);
   }
@@ -102,7 +102,7 @@ void ScratchStream::read(std::int64_t index, std::span<std::byte> bytes)
                 " is not what was written: look for faults of the disk, or use another one.");
   }
   this->Statistics->bytesRead += static_cast<std::int64_t>(bytes.size());
-  this->Statistics->waitNanoseconds += clock.nanoseconds();
+  this->Statistics->waitNanoseconds += waited;
 }
 
 void ScratchStream::read(std::span<std::byte> block)

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Storage/FileDescriptor.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <fcntl.h>
+#include <filesystem>
+#include <span>
+#include <unistd.h>
+#include <vector>
+
+namespace smg::testing
+{
+namespace
+{
+
+/** Asks the system to keep nothing of a file in memory. */
+void dropFromMemory(const std::filesystem::path& path)
+{
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  ASSERT_GE(file, 0);
+  EXPECT_EQ(::fsync(file), 0);
+  EXPECT_EQ(::posix_fadvise(file, 0, 0, POSIX_FADV_DONTNEED), 0);
+  ::close(file);
+}
+
+} // namespace
+
+TEST(FileDescriptor, readsWhatIsInMemoryAndWhatIsNot)
+{
+  const TemporaryFolder folder;
+  const FileDescriptor file = FileDescriptor::createBeside(folder / "file");
+  const std::vector<std::byte> written(100000, std::byte{ 7 });
+  ASSERT_EQ(file.tryWrite(0, written), 0);
+  for (const bool dropped : { false, true })
+  {
+    if (dropped)
+    {
+      dropFromMemory(file.path());
+    }
+    std::vector<std::byte> read(written.size());
+    std::int64_t waited = 0;
+    EXPECT_EQ(file.tryRead(0, read, waited), 0);
+    EXPECT_EQ(read, written);
+  }
+}
+
+TEST(FileDescriptor, saysThatAFileEndsBefore)
+{
+  const TemporaryFolder folder;
+  const FileDescriptor file = FileDescriptor::createNameless(folder.path());
+  ASSERT_EQ(file.tryWrite(0, std::vector<std::byte>(100)), 0);
+  std::vector<std::byte> read(101);
+  std::int64_t waited = 0;
+  EXPECT_EQ(file.tryRead(0, read, waited), -1);
+}
+
+} // namespace smg::testing
