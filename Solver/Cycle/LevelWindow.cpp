@@ -216,11 +216,7 @@ void LevelWindow<Real>::release(std::int64_t done)
     this->Passed.push_back({ front.end(), h.neighbourReach[groupIn(h, front.end() - 1)] });
     this->up().b.release(front.end());
     this->down().b.release(front.end());
-    // The first pass reads none.
-    if (!this->First)
-    {
-      this->SpareRows.give(this->Blocks.front().takeBuffer());
-    }
+    this->SpareRows.give(this->Blocks.front().takeBuffer());
     this->Blocks.pop_front();
     ++this->FirstBlock;
   }

@@ -175,6 +175,9 @@ public:
   template <class F>
   void rewriteB(F&& f);
 
+  /** Gives buffers of blocks that were let go of to those who make more in the first pass. */
+  void giveSpareRows(SpareBuffers& others) { this->SpareRows.giveTo(others, MostSpareRows); }
+
   /** Between passes: loads the whole level, which stays in memory from here on. */
   void moveToMemory();
 
@@ -185,6 +188,9 @@ public:
   void readX(std::int64_t first, std::int64_t count, Real* values);
 
 private:
+  /** Of these a step needs about as many anew; more would cost memory. */
+  static constexpr std::size_t MostSpareRows = 4;
+
   const RowBlock& block(std::int64_t node) const
   {
     return this->Blocks[static_cast<std::size_t>(node / RowBlock::Nodes - this->FirstBlock)];

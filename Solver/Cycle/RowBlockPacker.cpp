@@ -113,12 +113,12 @@ void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarseni
 } // namespace
 
 template <class Weight>
-RowBlock packRows(Pool& pool, const LevelRows& rows, const CoarseningData* coarsening,
+RowBlock packRows(SpareBuffers& buffers, const LevelRows& rows, const CoarseningData* coarsening,
   std::int64_t first, std::int64_t nodes)
 {
   Header header = measure(rows, coarsening, first, nodes);
   header.weightBytes = sizeof(Weight);
-  Buffer buffer(pool, RowBlock::storedBytes(header) + RowBlock::diagonalBytes(nodes));
+  Buffer buffer = buffers.take(RowBlock::storedBytes(header) + RowBlock::diagonalBytes(nodes));
   std::fill_n(buffer.data(), buffer.size(), std::byte{});
   *reinterpret_cast<Header*>(buffer.data()) = header;
   RowBlock block(std::move(buffer));
@@ -135,8 +135,8 @@ RowBlock packRows(Pool& pool, const LevelRows& rows, const CoarseningData* coars
 }
 
 template RowBlock packRows<float>(
-  Pool&, const LevelRows&, const CoarseningData*, std::int64_t, std::int64_t);
+  SpareBuffers&, const LevelRows&, const CoarseningData*, std::int64_t, std::int64_t);
 template RowBlock packRows<BFloat16>(
-  Pool&, const LevelRows&, const CoarseningData*, std::int64_t, std::int64_t);
+  SpareBuffers&, const LevelRows&, const CoarseningData*, std::int64_t, std::int64_t);
 
 } // namespace smg

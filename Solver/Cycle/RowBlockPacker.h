@@ -3,16 +3,17 @@
 
 #include "Solver/Cycle/RowBlock.h"
 #include "Solver/Hierarchy/CoarseningData.h"
+#include "Solver/Storage/SpareBuffers.h"
 
 namespace smg
 {
 
 /**
  * Copies the rows [first, first + nodes) of a level, and its interpolation if `coarsening` is not
- * null, to a block whose weights are of type Weight, float or BFloat16.
+ * null, to a block whose weights are of type Weight, float or BFloat16, in one of the buffers.
  */
 template <class Weight>
-RowBlock packRows(Pool& pool, const LevelRows& rows, const CoarseningData* coarsening,
+RowBlock packRows(SpareBuffers& buffers, const LevelRows& rows, const CoarseningData* coarsening,
   std::int64_t first, std::int64_t nodes);
 
 } // namespace smg

@@ -44,7 +44,7 @@ public:
     , Built(levels)
     , FirstCore(firstCore)
   {
-    this->Rows.push_back(std::make_unique<LevelRows>(pool));
+    this->addRows();
     for (int l = 0; l < firstCore; ++l)
     {
       this->addStep();
@@ -163,38 +163,52 @@ private:
     this->Rows[k].reset();
   }
 
-  void addStep()
+  void addRows()
   {
     this->Rows.push_back(std::make_unique<LevelRows>(this->Owner));
+    this->Buffers.emplace_back(this->Owner);
+    this->Ready.emplace_back();
+  }
+
+  void addStep()
+  {
+    this->addRows();
     this->Advanced.push_back(0);
     this->Packed.push_back(0);
-    this->Ready.resize(this->Rows.size());
     this->Steps.push_back(std::make_unique<Coarsening<Operators>>(
       this->Owner, this->Set, *this->Rows[this->Rows.size() - 2], *this->Rows.back()));
   }
 
-  /** Gives the blocks of level l that are ready to its window. */
+  /** Gives the blocks of level l that are ready to its window, and takes the buffers of old ones.
+   */
   void append(int l)
+  {
+    if (l == 0)
+    {
+      this->append(l, *this->Built.finest);
+    }
+    else
+    {
+      this->append(l, *this->Built.coarse[static_cast<std::size_t>(l - 1)]);
+    }
+  }
+  template <class Level>
+  void append(int l, Level& level)
   {
     std::vector<RowBlock>& ready = this->Ready[static_cast<std::size_t>(l)];
     for (RowBlock& block : ready)
     {
-      if (l == 0)
-      {
-        this->Built.finest->append(std::move(block));
-      }
-      else
-      {
-        this->Built.coarse[static_cast<std::size_t>(l - 1)]->append(std::move(block));
-      }
+      level.append(std::move(block));
     }
     ready.clear();
+    level.window().giveSpareRows(this->Buffers[static_cast<std::size_t>(l)]);
   }
 
   /** Packs the blocks of level l that are final, with or without interpolation. */
   void pack(int l, bool interpolated)
   {
     const LevelRows& rows = *this->Rows[static_cast<std::size_t>(l)];
+    SpareBuffers& buffers = this->Buffers[static_cast<std::size_t>(l)];
     Coarsening<Operators>* step =
       interpolated ? this->Steps[static_cast<std::size_t>(l)].get() : nullptr;
     const std::int64_t final = step ? step->interpolated() : rows.end();
@@ -205,8 +219,8 @@ private:
       const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
       const CoarseningData* data = step ? &step->data() : nullptr;
       this->Ready[static_cast<std::size_t>(l)].push_back(
-        l == 0 ? packRows<RowBlock::WeightOf<double>>(this->Owner, rows, data, begin, nodes)
-               : packRows<RowBlock::WeightOf<float>>(this->Owner, rows, data, begin, nodes));
+        l == 0 ? packRows<RowBlock::WeightOf<double>>(buffers, rows, data, begin, nodes)
+               : packRows<RowBlock::WeightOf<float>>(buffers, rows, data, begin, nodes));
       begin += nodes;
       if (step)
       {
@@ -225,6 +239,7 @@ private:
   std::vector<std::unique_ptr<Coarsening<Operators>>> Steps;
   std::vector<std::int64_t> Advanced, Packed;
   std::vector<std::vector<RowBlock>> Ready; // packed, not yet in the windows
+  std::vector<SpareBuffers> Buffers;
 };
 
 } // namespace smg

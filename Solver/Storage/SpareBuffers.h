@@ -12,8 +12,8 @@ namespace smg
 
 /**
  * Buffers that are used again: memory that is given back to the system and asked for anew costs
- * more than what is read into it. They have a little more room than was asked for, to serve the
- * next time, too.
+ * more than what is read into it. One that turned out too small is replaced by one with a little
+ * more room than is asked for, to serve the next time, too.
  */
 class SpareBuffers
 {
@@ -33,13 +33,23 @@ public:
     }
     if (buffer.capacity() < bytes)
     {
+      const bool replaced = buffer.capacity() > 0;
       buffer = Buffer();
-      buffer = Buffer(*this->Owner, bytes + bytes / 8);
+      buffer = Buffer(*this->Owner, replaced ? bytes + bytes / 8 : bytes);
     }
     buffer.resize(bytes);
     return buffer;
   }
   void give(Buffer buffer) { this->Spare.push_back(std::move(buffer)); }
+  /** Gives its buffers to others, which keep at most `most`. */
+  void giveTo(SpareBuffers& others, std::size_t most)
+  {
+    for (; !this->Spare.empty() && others.Spare.size() < most; this->Spare.pop_back())
+    {
+      others.give(std::move(this->Spare.back()));
+    }
+    this->Spare.clear();
+  }
   void clear() { this->Spare.clear(); }
 
 private:

@@ -102,11 +102,13 @@ std::int64_t pack(Pool& pool, TimedStep& step, const LevelRows& rows, std::int64
 {
   const std::int64_t final = step.interpolated();
   const bool ended = rows.Ended && final == rows.end();
+  SpareBuffers buffers(pool);
   while (begin + RowBlock::Nodes <= final || (ended && begin < final))
   {
     const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
-    ::benchmark::DoNotOptimize(
-      packRows<float>(pool, rows, &step.data(), begin, nodes).stored().data());
+    RowBlock block = packRows<float>(buffers, rows, &step.data(), begin, nodes);
+    ::benchmark::DoNotOptimize(block.stored().data());
+    buffers.give(block.takeBuffer());
     begin += nodes;
     step.packed(begin);
     step.release();

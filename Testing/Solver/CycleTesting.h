@@ -98,6 +98,7 @@ public:
     }
     this->Finest = std::make_unique<TestedLevel>(this->Memory, this->Resident, 0, columns, sweeps);
     this->Finest->setCore();
+    SpareBuffers buffers(this->Memory);
     const auto fill = [&](auto& level, int l)
     {
       const CoarseningData* data = l + 1 < levels ? &steps[l]->data() : nullptr;
@@ -105,7 +106,7 @@ public:
       {
         const std::int64_t nodes = std::min(RowBlock::Nodes, rows[l]->end() - begin);
         using Weight = typename std::remove_reference_t<decltype(level.window())>::Weight;
-        RowBlock block = packRows<Weight>(this->Memory, *rows[l], data, begin, nodes);
+        RowBlock block = packRows<Weight>(buffers, *rows[l], data, begin, nodes);
         level.append(wide ? widened<Weight>(this->Memory, block) : std::move(block));
       }
       if (data)

@@ -149,6 +149,7 @@ TEST(Level, narrowAndWideBlocksGiveTheSameBits)
 TEST(RowBlockPacker, turnsWideWhereADistanceOrACountDoesNotFit)
 {
   Pool pool(1 << 28);
+  SpareBuffers buffers(pool);
   const auto isWide = [&](std::int32_t distance, std::int64_t entries)
   {
     LevelRows rows(pool);
@@ -158,7 +159,7 @@ TEST(RowBlockPacker, turnsWideWhereADistanceOrACountDoesNotFit)
       row[e] = { static_cast<std::int32_t>(distance - entries + 1 + e), 1.0F };
     }
     rows.close(entries, 0.0, -1);
-    return packRows<float>(pool, rows, nullptr, 0, 1).header().wide != 0;
+    return packRows<float>(buffers, rows, nullptr, 0, 1).header().wide != 0;
   };
   EXPECT_FALSE(isWide(32767, 1));
   EXPECT_TRUE(isWide(32768, 1));
@@ -170,12 +171,13 @@ TEST(RowBlockPacker, keepsRowsAndReaches)
 {
   const TestLevel level = finestLevel(toStream(shuffled(grid(60, 40, 0.1))), Weights::Cotangent);
   Pool pool(1 << 28);
+  SpareBuffers buffers(pool);
   LevelRows rows(pool);
   level.append(rows, 0, level.nodes());
   for (std::int64_t first = 0; first < level.nodes(); first += RowBlock::Nodes)
   {
     const std::int64_t nodes = std::min(RowBlock::Nodes, level.nodes() - first);
-    const RowBlock block = packRows<float>(pool, rows, nullptr, first, nodes);
+    const RowBlock block = packRows<float>(buffers, rows, nullptr, first, nodes);
     const RowBlock::Header& h = block.header();
     const auto a = block.arrays<std::int16_t, float>();
     EXPECT_EQ(block.stored().size(), RowBlock::storedBytes(h));
