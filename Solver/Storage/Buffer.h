@@ -16,6 +16,12 @@
 namespace smg
 {
 
+#ifdef __SANITIZE_THREAD__
+inline constexpr bool ThreadsAreWatched = true;
+#else
+inline constexpr bool ThreadsAreWatched = false;
+#endif
+
 /** Bytes of a block, aligned to a cache line and accounted for in a pool. What they hold is left to
  * chance. */
 class Buffer
@@ -91,8 +97,12 @@ public:
   }
 
 private:
-  /** From this size on memory comes from the system and goes back there: the heap would keep it. */
-  static constexpr std::size_t MappedBytes = std::size_t(32) << 10;
+  /**
+   * From this size on memory comes from the system and goes back there: the heap would keep it. Not
+   * so where ThreadSanitizer looks: it does not follow mremap(), and what another thread did at the
+   * same place before would count.
+   */
+  static constexpr std::size_t MappedBytes = ThreadsAreWatched ? SIZE_MAX : std::size_t(32) << 10;
 
   /** To whole cache lines; sizes that are too large for any memory stay so. */
   static constexpr std::size_t roundedUp(std::size_t bytes)

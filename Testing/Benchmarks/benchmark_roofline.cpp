@@ -40,21 +40,24 @@ struct Options
 
 /**
  * What a pass after the first one reads and writes. Of p passes, the last p - 1 read every file;
- * the state is written in all, the rest in the first one only. What components without prescribed
- * value take beside the passes is spread over them.
+ * the state is written in all, the history of the acceleration in the last p - 1, the rest in the
+ * first one only. What components without prescribed value take beside the passes is spread over
+ * them.
  */
 json bytesOfPass(const json& report)
 {
   const double passes = report["passes"];
+  const double later = std::max(1.0, passes - 1.0);
   json kinds = json::array();
   for (const json& traffic : report["bytes_by_kind"])
   {
-    const bool isState = traffic["kind"] == "state";
-    const double written = traffic["written"].get<double>() / (isState ? passes : 1.0);
+    const bool inFirst = traffic["kind"] != "history";
+    const bool inLater = traffic["kind"] == "state" || !inFirst;
+    const double written =
+      traffic["written"].get<double>() / ((inFirst ? 1.0 : 0.0) + (inLater ? later : 0.0));
     kinds.push_back({ { "kind", traffic["kind"] }, { "level", traffic.value("level", -1) },
-      { "first_pass_written", written },
-      { "read", traffic["read"].get<double>() / std::max(1.0, passes - 1.0) },
-      { "written", isState ? written : 0.0 } });
+      { "first_pass_written", inFirst ? written : 0.0 },
+      { "read", traffic["read"].get<double>() / later }, { "written", inLater ? written : 0.0 } });
   }
   return kinds;
 }
