@@ -188,7 +188,7 @@ public:
   void readX(std::int64_t first, std::int64_t count, Real* values);
 
 private:
-  /** Of these a step needs about as many anew; more would cost memory. */
+  /** About what a step packs; more would cost memory. */
   static constexpr std::size_t MostSpareRows = 4;
 
   const RowBlock& block(std::int64_t node) const

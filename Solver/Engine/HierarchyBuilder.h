@@ -161,6 +161,7 @@ private:
       this->Steps[k].reset();
     }
     this->Rows[k].reset();
+    this->Buffers[k].clear();
   }
 
   void addRows()

@@ -48,7 +48,7 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
     sum += static_cast<double>(entry.weight()) * (ownQuanta - quanta[entry.delta()]);
     p = data.interpolation.row(j);
     const std::int64_t more = data.interpolation.size(j);
-    columns = this->roomFor(size + more + 1);
+    columns = this->roomFor(size + more);
     const InterpolationEntry* end = p + more;
     for (; p != end; ++p)
     {
@@ -118,7 +118,7 @@ void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
   std::int64_t columns = 0;
   for (const Child& child : this->Children)
   {
-    std::int32_t* column = this->roomFor(columns + child.size + 1);
+    std::int32_t* column = this->roomFor(columns + child.size);
     const CoarseEntry* end = child.product + child.size;
     for (const CoarseEntry* entry = child.product; entry != end; ++entry)
     {

@@ -91,10 +91,10 @@ void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
   {
     const std::int32_t delta = row[e].offset(k);
     const float weight = row[e].value();
-    const bool isLarge = this->isLarge(weight, delta, strongest);
-    large[delta] = { mark, isLarge ? weight : 0.0F };
-    bits |= std::uint64_t(isLarge && e < 64) << (e & 63);
-    if (!isLarge && e < lower)
+    const bool counts = this->isLarge(weight, delta, strongest);
+    large[delta] = { mark, counts ? weight : 0.0F };
+    bits |= std::uint64_t(counts && e < 64) << (e & 63);
+    if (!counts && e < lower)
     {
       __builtin_prefetch(data.raw.row(k + delta) + mirrored[delta]);
     }

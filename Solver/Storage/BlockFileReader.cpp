@@ -7,7 +7,6 @@
 #include "Solver/Storage/Codec.h"
 #include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/ReadAhead.h"
-#include "Solver/Storage/WaitClock.h"
 
 #include <nlohmann/json.hpp>
 

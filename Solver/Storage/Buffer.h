@@ -16,6 +16,8 @@
 namespace smg
 {
 
+/** ThreadSanitizer does not follow mremap(): what another thread did at a place before would count.
+ */
 #ifdef __SANITIZE_THREAD__
 inline constexpr bool ThreadsAreWatched = true;
 #else
@@ -76,7 +78,7 @@ public:
       this->Size = bytes;
       return;
     }
-    if (!this->isMapped())
+    if (!this->isMapped() || ThreadsAreWatched)
     {
       Buffer larger(pool, bytes);
       std::copy_n(this->Data, std::min(this->Size, bytes), larger.data());
@@ -97,12 +99,8 @@ public:
   }
 
 private:
-  /**
-   * From this size on memory comes from the system and goes back there: the heap would keep it. Not
-   * so where ThreadSanitizer looks: it does not follow mremap(), and what another thread did at the
-   * same place before would count.
-   */
-  static constexpr std::size_t MappedBytes = ThreadsAreWatched ? SIZE_MAX : std::size_t(32) << 10;
+  /** From this size on memory comes from the system and goes back there: the heap would keep it. */
+  static constexpr std::size_t MappedBytes = std::size_t(32) << 10;
 
   /** To whole cache lines; sizes that are too large for any memory stay so. */
   static constexpr std::size_t roundedUp(std::size_t bytes)

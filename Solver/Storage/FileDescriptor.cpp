@@ -174,7 +174,7 @@ std::size_t FileDescriptor::readCached(
 int FileDescriptor::tryRead(
   std::int64_t offset, std::span<std::byte> bytes, std::int64_t& waited) const noexcept
 {
-  const std::size_t cached = this->readCached(offset, bytes);
+  const std::size_t cached = bytes.empty() ? 0 : this->readCached(offset, bytes);
   if (cached == bytes.size())
   {
     return 0;

@@ -18,6 +18,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <string>
 #include <utility>
@@ -94,8 +95,9 @@ void printTable(const std::vector<std::string>& peers, const json& results, std:
     {
       std::cout << " | " << microseconds(result, key, vertices);
     }
-    std::cout << " | " << result["peak_bytes"].get<std::int64_t>() / vertices << " | "
-              << result["iterations"] << " | ";
+    std::cout << " | "
+              << std::llround(result["peak_bytes"].get<double>() / static_cast<double>(vertices))
+              << " | " << result["iterations"] << " | ";
     if (result.contains("relative_residual"))
     {
       std::cout << result["relative_residual"].get<double>();

@@ -39,10 +39,10 @@ struct Options
 };
 
 /**
- * What a pass after the first one reads and writes. Of p passes, the last p - 1 read every file;
- * the state is written in all, the history of the acceleration in the last p - 1, the rest in the
- * first one only. What components without prescribed value take beside the passes is spread over
- * them.
+ * What a pass after the first one reads and writes. Of p passes, the last p - 1 read every file but
+ * the history of the acceleration, which is written in them and read from the third one on; the
+ * state is written in all, the rest in the first one only. What components without prescribed value
+ * take beside the passes is spread over them.
  */
 json bytesOfPass(const json& report)
 {
@@ -57,7 +57,8 @@ json bytesOfPass(const json& report)
       traffic["written"].get<double>() / ((inFirst ? 1.0 : 0.0) + (inLater ? later : 0.0));
     kinds.push_back({ { "kind", traffic["kind"] }, { "level", traffic.value("level", -1) },
       { "first_pass_written", inFirst ? written : 0.0 },
-      { "read", traffic["read"].get<double>() / later }, { "written", inLater ? written : 0.0 } });
+      { "read", traffic["read"].get<double>() / (inFirst ? later : std::max(1.0, later - 1.0)) },
+      { "written", inLater ? written : 0.0 } });
   }
   return kinds;
 }
