@@ -160,7 +160,7 @@ public:
       Real* b = state.b.at(h.first);
       if (h.wide)
       {
-        f(h, block.arrays<std::int32_t, Weight>(), nodes, x, b);
+        f(h, block.arrays<WideIndex, Weight>(), nodes, x, b);
       }
       else
       {

@@ -53,9 +53,9 @@ concept RelaxesBlocks = requires(const RowBlock::Header& h,
 template <class R>
 concept Relaxation =
   RelaxesBlocks<R, double, 1, std::int16_t> && RelaxesBlocks<R, double, 4, std::int16_t> &&
-  RelaxesBlocks<R, double, 1, std::int32_t> && RelaxesBlocks<R, double, 4, std::int32_t> &&
+  RelaxesBlocks<R, double, 1, WideIndex> && RelaxesBlocks<R, double, 4, WideIndex> &&
   RelaxesBlocks<R, float, 1, std::int16_t> && RelaxesBlocks<R, float, 4, std::int16_t> &&
-  RelaxesBlocks<R, float, 1, std::int32_t> && RelaxesBlocks<R, float, 4, std::int32_t>;
+  RelaxesBlocks<R, float, 1, WideIndex> && RelaxesBlocks<R, float, 4, WideIndex>;
 
 /**
  * sum_j w_ij x_j over the neighbours j of node k, or over those below k. For a sweep of your own:

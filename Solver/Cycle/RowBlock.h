@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Cycle/BFloat16.h"
+#include "Solver/Cycle/WideIndex.h"
 #include "Solver/Hierarchy/LevelRows.h"
 #include "Solver/Storage/Buffer.h"
 
@@ -19,7 +20,7 @@ namespace smg
 /**
  * The rows and the interpolation of up to `Nodes` consecutive nodes of a level, as they are on
  * disk: used in place, without decoding. Columns are distances, of 16 bits ("narrow") or, where a
- * distance or a count does not fit, 32 bits ("wide"). Each group of `Group` nodes has the largest
+ * distance or a count does not fit, 24 bits ("wide"). Each group of `Group` nodes has the largest
  * indices that the cursors need.
  *
  * The diagonals are not on disk: they are the row sums, most of which are zero, and the weights, so
@@ -48,14 +49,18 @@ public:
     std::array<std::int32_t, Groups> entryStart{}, parentStart{};
   };
 
+  template <class Index>
+  using CountOf =
+    std::conditional_t<std::is_same_v<Index, WideIndex>, std::uint32_t, std::uint16_t>;
+
   /**
-   * The arrays of a block, Index being std::int16_t (narrow) or std::int32_t (wide), Weight as
+   * The arrays of a block, Index being std::int16_t (narrow) or WideIndex (wide), Weight as
    * WeightOf the level's numbers says.
    */
   template <class Index, class Weight>
   struct Arrays
   {
-    using Count = std::make_unsigned_t<Index>;
+    using Count = CountOf<Index>;
     const Weight* weight;             // an entry
     const Index* delta;               // an entry
     const Index* parent;              // a parent, relative to parentBase
@@ -121,12 +126,13 @@ public:
   /** Bytes on disk of a block with this header. */
   static std::size_t storedBytes(const Header& h)
   {
-    const std::size_t index = h.wide ? 4 : 2;
+    const std::size_t index = h.wide ? sizeof(WideIndex) : sizeof(std::int16_t);
+    const std::size_t count = h.wide ? sizeof(CountOf<WideIndex>) : sizeof(CountOf<std::int16_t>);
     const auto nodes = static_cast<std::size_t>(h.nodes);
     const auto entries = static_cast<std::size_t>(h.entries);
     const auto parents = static_cast<std::size_t>(h.parents);
     return sizeof(Header) + aligned(entries * static_cast<std::size_t>(h.weightBytes)) +
-           aligned(entries * index) + aligned(parents * index) + 2 * aligned(nodes * index) +
+           aligned(entries * index) + aligned(parents * index) + 2 * aligned(nodes * count) +
            aligned(parents) + static_cast<std::size_t>(alphas(h)) * sizeof(double);
   }
 
@@ -139,7 +145,7 @@ public:
   template <class Weight>
   void sumDiagonals()
   {
-    this->header().wide ? this->sumDiagonals<std::int32_t, Weight>()
+    this->header().wide ? this->sumDiagonals<WideIndex, Weight>()
                         : this->sumDiagonals<std::int16_t, Weight>();
   }
 

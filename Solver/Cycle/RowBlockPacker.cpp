@@ -124,7 +124,7 @@ RowBlock packRows(SpareBuffers& buffers, const LevelRows& rows, const Coarsening
   RowBlock block(std::move(buffer));
   if (header.wide)
   {
-    fill<std::int32_t, Weight>(block, rows, coarsening);
+    fill<WideIndex, Weight>(block, rows, coarsening);
   }
   else
   {

@@ -21,11 +21,12 @@ RowBlock widened(Pool& pool, const RowBlock& narrow)
   Buffer buffer(pool, RowBlock::storedBytes(h) + RowBlock::diagonalBytes(h.nodes));
   *reinterpret_cast<RowBlock::Header*>(buffer.data()) = h;
   RowBlock wide(std::move(buffer));
-  const auto to = wide.arrays<std::int32_t, Weight>();
+  const auto to = wide.arrays<WideIndex, Weight>();
   const auto copy = [](const auto* source, std::int32_t count, const auto* target)
   {
-    std::copy_n(source, count,
-      const_cast<std::remove_const_t<std::remove_pointer_t<decltype(target)>>*>(target));
+    using Target = std::remove_const_t<std::remove_pointer_t<decltype(target)>>;
+    std::transform(source, source + count, const_cast<Target*>(target),
+      [](auto value) { return static_cast<Target>(value); });
   };
   copy(from.weight, h.entries, to.weight);
   copy(from.delta, h.entries, to.delta);

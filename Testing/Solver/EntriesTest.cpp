@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Cycle/WideIndex.h"
 #include "Solver/Hierarchy/CoarseEntry.h"
 #include "Solver/Hierarchy/CoarseningData.h"
 #include "Solver/Hierarchy/RowEntry.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -84,6 +86,24 @@ TEST(RowEntry, keepsDistanceAndWeight)
       const RowEntry entry(delta, weight);
       EXPECT_EQ(entry.delta(), delta);
       EXPECT_EQ(entry.weight(), weight);
+    }
+  }
+}
+
+TEST(WideIndex, keepsAsManyBitsAsARowEntry)
+{
+  constexpr auto Most = static_cast<std::int32_t>(RowEntry::MostDistance);
+  const std::vector<std::int32_t> expected = { -Most - 1, Most, -1, 0, -257, 255, 32768 };
+  for (const int before : { 0, 255 })
+  {
+    // As in a block, something precedes them, which they do not depend on.
+    std::vector<std::uint8_t> bytes(8 + expected.size() * sizeof(WideIndex));
+    bytes[7] = static_cast<std::uint8_t>(before);
+    auto* index = reinterpret_cast<WideIndex*>(bytes.data() + 8);
+    std::ranges::transform(expected, index, [](std::int32_t value) { return WideIndex(value); });
+    for (std::size_t e = 0; e < expected.size(); ++e)
+    {
+      EXPECT_EQ(index[e], expected[e]);
     }
   }
 }

@@ -167,6 +167,36 @@ TEST(RowBlockPacker, turnsWideWhereADistanceOrACountDoesNotFit)
   EXPECT_TRUE(isWide(70000, 70000));
 }
 
+TEST(RowBlockPacker, wideRowsKeepTheLargestDistances)
+{
+  constexpr auto Most = static_cast<std::int32_t>(RowEntry::MostDistance);
+  const std::vector<RowEntry> expected = { { -Most, 2.0F }, { -1, 3.0F }, { 1, 4.0F },
+    { Most, 5.0F } };
+  Pool pool(1 << 28);
+  SpareBuffers buffers(pool);
+  LevelRows rows(pool);
+  for (int i = 0; i < 3; ++i)
+  {
+    std::ranges::copy(expected, rows.open(4));
+    rows.close(4, 1.0, -1);
+  }
+  const RowBlock block = packRows<BFloat16>(buffers, rows, nullptr, 0, 3);
+  const RowBlock::Header& h = block.header();
+  ASSERT_EQ(h.wide, 1);
+  const auto a = block.arrays<WideIndex, BFloat16>();
+  for (std::int64_t k = 0; k < 3; ++k)
+  {
+    const BlockRange row = entriesOf(h, a, k);
+    ASSERT_EQ(row.end - row.begin, 4);
+    for (std::int64_t e = 0; e < 4; ++e)
+    {
+      EXPECT_EQ(a.delta[row.begin + e], expected[e].delta());
+      EXPECT_EQ(float(a.weight[row.begin + e]), expected[e].weight());
+    }
+    EXPECT_EQ(a.diagonal[k], 15.0);
+  }
+}
+
 TEST(RowBlockPacker, keepsRowsAndReaches)
 {
   const TestLevel level = finestLevel(toStream(shuffled(grid(60, 40, 0.1))), Weights::Cotangent);
