@@ -48,7 +48,7 @@ struct ResidualProducts
  * Then r(z_k) = r(z_{k-1}) - length q_k. As T is affine, T(z_k) needs no pass of its own:
  * T(z_k) = y_k + length u_k, u_k = T(y_k) - y_k - conjugation u_{k-1}, which is a step with a
  * momentum. Kept are z: r(z_k), q and a; their products give the next weights before the next pass.
- * On large meshes one group of nodes in up to eight, which tells the two weights of a step well
+ * On large meshes one group of nodes in up to sixteen, which tells the two weights of a step well
  * enough: residuals differ from region to region, so the groups are small and everywhere.
  */
 class IterateHistory
@@ -106,14 +106,17 @@ private:
 
   static constexpr int Products = 5;
   static constexpr int Vectors = 3;
-  static constexpr std::int64_t SampledNodes = std::int64_t(1) << 16;
-  static constexpr std::int64_t MostSparse = 8;
 
-  /** A power of two, so that every block has as many sampled groups. */
+  /** One group in so many, a power of two, so that every block has as many sampled groups: up to 8
+   * while that leaves 2^16 nodes, 16 where it leaves 2^19. */
   static std::int64_t sparsenessFor(std::int64_t nodes)
   {
-    const auto most = static_cast<std::uint64_t>(nodes / SampledNodes);
-    return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::bit_floor(most)), 1, MostSparse);
+    if (nodes >> 19 >= 16)
+    {
+      return 16;
+    }
+    const auto most = static_cast<std::uint64_t>(nodes >> 16);
+    return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::bit_floor(most)), 1, 8);
   }
   /** Which of `Every` groups of a block is sampled: no pattern, with which that of a mesh could
    * agree. */

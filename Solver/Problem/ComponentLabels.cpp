@@ -23,8 +23,7 @@ void ComponentLabels::append(std::span<const std::int32_t> labels)
   std::size_t done = 0;
   for (; this->Labels.size() - done >= Block; done += Block)
   {
-    this->Scratch->append(
-      std::as_bytes(std::span<const std::int32_t>(this->Labels).subspan(done, Block)));
+    this->store(std::span<const std::int32_t>(this->Labels).subspan(done, Block));
   }
   this->Labels.erase(
     this->Labels.begin(), this->Labels.begin() + static_cast<std::ptrdiff_t>(done));
@@ -38,9 +37,15 @@ void ComponentLabels::finish()
   }
   if (!this->Labels.empty())
   {
-    this->Scratch->append(std::as_bytes(std::span<const std::int32_t>(this->Labels)));
+    this->store(this->Labels);
   }
   this->Scratch->endPass();
+}
+
+void ComponentLabels::store(std::span<const std::int32_t> labels)
+{
+  const bool one = std::ranges::count(labels, labels.front()) == std::ssize(labels);
+  this->Scratch->append(std::as_bytes(one ? labels.first(1) : labels));
 }
 
 std::span<const std::int32_t> ComponentLabels::block(std::int64_t index)
@@ -53,8 +58,9 @@ std::span<const std::int32_t> ComponentLabels::block(std::int64_t index)
   }
   if (this->Cached != index)
   {
-    this->Labels.resize(count);
+    this->Labels.resize(this->Scratch->bytes(index) / sizeof(std::int32_t));
     this->Scratch->read(index, std::as_writable_bytes(std::span<std::int32_t>(this->Labels)));
+    this->Labels.resize(count, this->Labels.front());
     this->Cached = index;
   }
   return this->Labels;

@@ -31,6 +31,9 @@ public:
   std::int64_t vertices() const { return this->Count; }
 
 private:
+  /** Most blocks have one label only, of which one is kept. */
+  void store(std::span<const std::int32_t> labels);
+
   std::optional<ScratchStream> Scratch;
   std::vector<std::int32_t> Labels; // all of them, or those of the current block
   std::int64_t Count = 0;

@@ -150,4 +150,23 @@ TEST(ComponentLabels, areTheSameInMemoryAndInScratch)
   EXPECT_EQ(folder.entries(), 0);
 }
 
+TEST(ComponentLabels, blocksOfOneLabelTakeNoRoom)
+{
+  const TemporaryFolder folder;
+  IoStatistics statistics;
+  const ScratchFolder place(folder.path());
+  ComponentLabels labels;
+  labels.useScratch(place.path(), statistics);
+  std::vector<std::int32_t> given(3 * 1024 + 5, 7);
+  given[1024] = -1;
+  labels.append(given);
+  labels.finish();
+  EXPECT_EQ(statistics.bytesWritten, 4 * (1 + 1024 + 1 + 1));
+  for (const std::int64_t block : { 1, 0, 3, 2 })
+  {
+    EXPECT_TRUE(std::ranges::equal(
+      labels.block(block), std::span(given).subspan(1024 * block, block == 3 ? 5 : 1024)));
+  }
+}
+
 } // namespace smg::testing
