@@ -106,16 +106,18 @@ private:
 
   static constexpr int Products = 5;
   static constexpr int Vectors = 3;
+  static constexpr std::int64_t SampledNodes = std::int64_t(1) << 16;
+  static constexpr std::int64_t ManyNodes = std::int64_t(1) << 23;
 
-  /** One group in so many, a power of two, so that every block has as many sampled groups: up to 8
-   * while that leaves 2^16 nodes, 16 where it leaves 2^19. */
+  /** One group in so many, a power of two, so that every block has as many sampled groups. With
+   * one in 16 what has fewer than ManyNodes converges more slowly. */
   static std::int64_t sparsenessFor(std::int64_t nodes)
   {
-    if (nodes >> 19 >= 16)
+    if (nodes >= ManyNodes)
     {
-      return 16;
+      return RowBlock::Groups;
     }
-    const auto most = static_cast<std::uint64_t>(nodes >> 16);
+    const auto most = static_cast<std::uint64_t>(nodes / SampledNodes);
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::bit_floor(most)), 1, 8);
   }
   /** Which of `Every` groups of a block is sampled: no pattern, with which that of a mesh could

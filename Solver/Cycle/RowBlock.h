@@ -20,8 +20,8 @@ namespace smg
 /**
  * The rows and the interpolation of up to `Nodes` consecutive nodes of a level, as they are on
  * disk: used in place, without decoding. Columns are distances, of 16 bits ("narrow") or, where a
- * distance or a count does not fit, 24 bits ("wide"). Each group of `Group` nodes has the largest
- * indices that the cursors need.
+ * distance or a count does not fit, 24 bits ("wide"; counts: 32). Each group of `Group` nodes has
+ * the largest indices that the cursors need.
  *
  * The diagonals are not on disk: they are the row sums, most of which are zero, and the weights, so
  * sumDiagonals() makes them. They stand behind what is stored.
@@ -49,18 +49,15 @@ public:
     std::array<std::int32_t, Groups> entryStart{}, parentStart{};
   };
 
-  template <class Index>
-  using CountOf =
-    std::conditional_t<std::is_same_v<Index, WideIndex>, std::uint32_t, std::uint16_t>;
-
   /**
    * The arrays of a block, Index being std::int16_t (narrow) or WideIndex (wide), Weight as
-   * WeightOf the level's numbers says.
+   * WeightOf the level's numbers says. An index is read where it stands, never from a copy.
    */
   template <class Index, class Weight>
   struct Arrays
   {
-    using Count = CountOf<Index>;
+    using Count =
+      std::conditional_t<std::is_same_v<Index, WideIndex>, std::uint32_t, std::uint16_t>;
     const Weight* weight;             // an entry
     const Index* delta;               // an entry
     const Index* parent;              // a parent, relative to parentBase
@@ -127,7 +124,7 @@ public:
   static std::size_t storedBytes(const Header& h)
   {
     const std::size_t index = h.wide ? sizeof(WideIndex) : sizeof(std::int16_t);
-    const std::size_t count = h.wide ? sizeof(CountOf<WideIndex>) : sizeof(CountOf<std::int16_t>);
+    const std::size_t count = h.wide ? sizeof(std::uint32_t) : sizeof(std::uint16_t);
     const auto nodes = static_cast<std::size_t>(h.nodes);
     const auto entries = static_cast<std::size_t>(h.entries);
     const auto parents = static_cast<std::size_t>(h.parents);

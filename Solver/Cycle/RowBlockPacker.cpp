@@ -11,6 +11,9 @@ namespace
 
 using Header = RowBlock::Header;
 
+// What a WideIndex holds.
+static_assert(RowEntry::MostDistance < (1 << 23) && CoarseWindow <= (1 << 23));
+
 /** Measures the block: its counts, reaches, and whether it fits narrow indices. */
 Header measure(
   const LevelRows& rows, const CoarseningData* coarsening, std::int64_t first, std::int64_t nodes)

@@ -11,8 +11,8 @@ namespace smg
 {
 
 /**
- * An index of a wide block, in three bytes: 24 bits are what a RowEntry has. It is read together
- * with the byte before it, in one load, so it only lives in an array that others precede.
+ * An index of a wide block, in three bytes: distances of rows and of parents have no more bits. It
+ * is read with the byte before it, in one load, so only where it stands in a block.
  */
 class WideIndex
 {
@@ -20,6 +20,9 @@ public:
   WideIndex() = default;
   /** From -2^23 to 2^23 - 1. */
   explicit WideIndex(std::int32_t index) { std::memcpy(this->Bytes.data(), &index, sizeof(*this)); }
+  /** A copy would have another byte before it. */
+  WideIndex(const WideIndex&) = delete;
+  WideIndex& operator=(const WideIndex&) = default;
 
   operator std::int64_t() const
   {

@@ -2,6 +2,7 @@
 #include "Solver/Problem/ComponentLabels.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace smg
 {
@@ -44,7 +45,7 @@ void ComponentLabels::finish()
 
 void ComponentLabels::store(std::span<const std::int32_t> labels)
 {
-  const bool one = std::ranges::count(labels, labels.front()) == std::ssize(labels);
+  const bool one = std::ranges::adjacent_find(labels, std::ranges::not_equal_to()) == labels.end();
   this->Scratch->append(std::as_bytes(one ? labels.first(1) : labels));
 }
 

@@ -31,7 +31,7 @@ public:
   std::int64_t vertices() const { return this->Count; }
 
 private:
-  /** Most blocks have one label only, of which one is kept. */
+  /** Most blocks have one label only, which is stored once: block() repeats it. */
   void store(std::span<const std::int32_t> labels);
 
   std::optional<ScratchStream> Scratch;

@@ -150,7 +150,7 @@ TEST(ComponentLabels, areTheSameInMemoryAndInScratch)
   EXPECT_EQ(folder.entries(), 0);
 }
 
-TEST(ComponentLabels, blocksOfOneLabelTakeNoRoom)
+TEST(ComponentLabels, blocksOfOneLabelKeepOne)
 {
   const TemporaryFolder folder;
   IoStatistics statistics;

@@ -167,23 +167,33 @@ TEST(RowBlockPacker, turnsWideWhereADistanceOrACountDoesNotFit)
   EXPECT_TRUE(isWide(70000, 70000));
 }
 
-TEST(RowBlockPacker, wideRowsKeepTheLargestDistances)
+TEST(RowBlockPacker, wideBlocksKeepTheLargestDistances)
 {
   constexpr auto Most = static_cast<std::int32_t>(RowEntry::MostDistance);
+  constexpr std::int64_t Base = std::int64_t(1) << 33;
   const std::vector<RowEntry> expected = { { -Most, 2.0F }, { -1, 3.0F }, { 1, 4.0F },
     { Most, 5.0F } };
+  const std::vector<std::int64_t> parents = { 0, -40000, Most };
   Pool pool(1 << 28);
   SpareBuffers buffers(pool);
-  LevelRows rows(pool);
-  for (int i = 0; i < 3; ++i)
+  LevelRows rows(pool), coarse(pool);
+  CoarseningData coarsening(pool, rows, coarse);
+  coarsening.coarseNodes = Base + 100;
+  for (std::uint32_t i = 0; i < 3; ++i)
   {
     std::ranges::copy(expected, rows.open(4));
     rows.close(4, 1.0, -1);
+    InterpolationEntry* entry = coarsening.interpolation.open(1);
+    *entry = InterpolationEntry(static_cast<CoarseIndex>(Base + parents[i]), 10 + i);
+    coarsening.interpolation.close(1);
+    coarsening.parentReach.append(Base);
   }
-  const RowBlock block = packRows<BFloat16>(buffers, rows, nullptr, 0, 3);
+  const RowBlock block = packRows<BFloat16>(buffers, rows, &coarsening, 0, 3);
   const RowBlock::Header& h = block.header();
   ASSERT_EQ(h.wide, 1);
+  EXPECT_EQ(h.parentBase, Base);
   const auto a = block.arrays<WideIndex, BFloat16>();
+  EXPECT_EQ(reinterpret_cast<const std::byte*>(a.diagonal), std::to_address(block.stored().end()));
   for (std::int64_t k = 0; k < 3; ++k)
   {
     const BlockRange row = entriesOf(h, a, k);
@@ -194,6 +204,10 @@ TEST(RowBlockPacker, wideRowsKeepTheLargestDistances)
       EXPECT_EQ(float(a.weight[row.begin + e]), expected[e].weight());
     }
     EXPECT_EQ(a.diagonal[k], 15.0);
+    const BlockRange parent = parentsOf(h, a, k);
+    ASSERT_EQ(parent.end - parent.begin, 1);
+    EXPECT_EQ(a.parent[parent.begin], parents[k]);
+    EXPECT_EQ(a.parentQuanta[parent.begin], 10 + k);
   }
 }
 
@@ -210,7 +224,8 @@ TEST(RowBlockPacker, keepsRowsAndReaches)
     const RowBlock block = packRows<float>(buffers, rows, nullptr, first, nodes);
     const RowBlock::Header& h = block.header();
     const auto a = block.arrays<std::int16_t, float>();
-    EXPECT_EQ(block.stored().size(), RowBlock::storedBytes(h));
+    EXPECT_EQ(
+      reinterpret_cast<const std::byte*>(a.diagonal), std::to_address(block.stored().end()));
     EXPECT_EQ(block.end(), first + nodes);
     for (std::int64_t k = 0; k < nodes; ++k)
     {
