@@ -37,10 +37,18 @@ void CommonOptions::addThreadsTo(CLI::App& command)
 namespace
 {
 
+/** Whether the report is written in place: to a pipe, a device or through a link, which must stay
+ * what they are. */
+bool isInPlace(const std::filesystem::path& report)
+{
+  const std::filesystem::file_status status = std::filesystem::symlink_status(report);
+  return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+}
+
 /** Where the report is written; it is renamed, so that a reader never sees half a report. */
 std::filesystem::path temporaryOf(const std::filesystem::path& report)
 {
-  return report.string() + ".part";
+  return isInPlace(report) ? report : std::filesystem::path(report.string() + ".part");
 }
 
 [[noreturn]] void failReport(const std::filesystem::path& report, const std::string& reason)
@@ -50,15 +58,36 @@ std::filesystem::path temporaryOf(const std::filesystem::path& report)
 
 } // namespace
 
-void CommonOptions::checkReport() const
+bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b)
+{
+  // Links are equivalent; what is not there yet has no more than its name.
+  std::error_code absent;
+  const auto named = [](const std::filesystem::path& file)
+  { return std::filesystem::absolute(file).lexically_normal(); };
+  return std::filesystem::equivalent(a, b, absent) || named(a) == named(b);
+}
+
+void CommonOptions::checkReport(std::initializer_list<std::filesystem::path> others) const
 {
   if (this->report.empty())
   {
     return;
   }
+  for (const std::filesystem::path& other : others)
+  {
+    if (!other.empty() && sameFile(this->report, other))
+    {
+      throw smg::Error(this->report.string() +
+                       ": the report would overwrite it: choose another name for the report.");
+    }
+  }
   if (std::filesystem::is_directory(this->report))
   {
     failReport(this->report, std::strerror(EISDIR));
+  }
+  if (isInPlace(this->report))
+  {
+    return;
   }
   const std::filesystem::path part = temporaryOf(this->report);
   if (!std::ofstream(part))
@@ -78,10 +107,14 @@ void CommonOptions::writeReport(const std::string& json) const
   std::ofstream stream(part);
   stream << json << '\n';
   stream.close();
-  if (!stream || std::rename(part.c_str(), this->report.c_str()) != 0)
+  const bool inPlace = part == this->report;
+  if (!stream || (!inPlace && std::rename(part.c_str(), this->report.c_str()) != 0))
   {
     const std::string reason = std::strerror(errno);
-    std::remove(part.c_str());
+    if (!inPlace)
+    {
+      std::remove(part.c_str());
+    }
     failReport(this->report, reason);
   }
 }

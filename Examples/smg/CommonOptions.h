@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -32,11 +33,15 @@ struct CommonOptions
     return this->memory > 0 ? this->memory << 20 : fallback;
   }
 
-  /** Throws smg::Error if the report that was asked for cannot be written, before the work. */
-  void checkReport() const;
+  /** Throws smg::Error if the report that was asked for cannot be written, or would overwrite one
+   * of the command's other files, before the work. */
+  void checkReport(std::initializer_list<std::filesystem::path> others) const;
   /** Writes the report if one was asked for. Throws smg::Error. */
   void writeReport(const std::string& json) const;
 };
+
+/** Whether both name the same file, which need not be there. */
+bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b);
 
 /** Checks that the value of an option is one of these; the error says which there are. */
 std::function<std::string(const std::string&)> oneOf(std::vector<std::string> values);

@@ -88,7 +88,7 @@ struct ConvertOptions : CommonOptions
 
   void run() const
   {
-    this->checkReport();
+    this->checkReport({ this->in, this->out });
     smg::ConversionOptions options = this->conversion();
     if (this->dryRun)
     {

@@ -130,7 +130,6 @@ private:
     return std::min(this->Deform.memoryLimit / 4, smg::NormalsOptions().memory);
   }
 
-  std::filesystem::path File;
   smg::HandleFileData Data; ///< what the file says
   std::string Weights;      ///< empty: those of the file
   std::optional<int> Cycles;

@@ -97,7 +97,7 @@ struct InfoOptions : CommonOptions
 
   void run() const
   {
-    this->checkReport();
+    this->checkReport({ this->file });
     ProgressBar bar("reading", this->quiet);
     // The order of the file itself is what the figures are about.
     const std::unique_ptr<smg::OpenedMesh> mesh =

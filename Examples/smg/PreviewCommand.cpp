@@ -43,7 +43,7 @@ void PreviewOptions::run() const
 {
   const auto start = std::chrono::steady_clock::now();
   this->checkOutputName();
-  this->checkReport();
+  this->checkReport({ this->in, this->out });
   nlohmann::ordered_json report;
   std::vector<std::string> notes;
   {

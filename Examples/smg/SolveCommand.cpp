@@ -111,7 +111,6 @@ protected:
   const smg::SolveOptions& solveOptions() const override { return this->Solve; }
 
 private:
-  std::filesystem::path File;
   smg::RegionProblemData Data; ///< what the file says
   smg::SolveOptions Solve;
 };

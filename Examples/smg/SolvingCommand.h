@@ -64,6 +64,7 @@ protected:
   virtual const smg::SolveOptions& solveOptions() const = 0;
 
   std::filesystem::path In, Out;
+  std::filesystem::path File; ///< says what to do
 
 private:
   /** CLI::Range includes its ends and takes nan. */

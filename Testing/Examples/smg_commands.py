@@ -127,6 +127,38 @@ def test_errors():
     assert not any(file.startswith("o2") for file in os.listdir("."))
 
 
+def link(target, name):
+    """A symbolic link, rather than that of the run before."""
+    if os.path.lexists(name):
+        os.remove(name)
+    os.symlink(target, name)
+
+
+def test_files_of_the_command_are_not_overwritten():
+    name = problem(dirichlet=[{"sphere": [0, 0, 0, 9], "value": [0]}])
+    link("torus.vsm", "link.vsm")
+    before = {file: open(file, "rb").read() for file in ("torus.obj", "torus.vsm", name)}
+    solve = ("--problem", name)
+    for command in (("info", "torus.obj", "--report", "torus.obj"),
+                    ("info", "torus.vsm", "--report", "link.vsm"),
+                    ("convert", "torus.obj", "o3.vsm", "--report", "o3.vsm"),
+                    ("preview", "torus.obj", "o3.vsm", "--report", "./o3.vsm"),
+                    ("solve", "torus.vsm", "o3.vsm", *solve, "--report", name),
+                    ("solve", "torus.vsm", "torus.vsm", *solve),
+                    ("solve", "torus.vsm", "link.vsm", *solve)):
+        assert "choose another name" in run(*command, code=1).stderr
+    for file, content in before.items():
+        assert open(file, "rb").read() == content, file
+    assert not os.path.exists("o3.vsm") and os.path.islink("link.vsm")
+
+
+def test_reports_go_where_they_are_wanted():
+    assert json.loads(run("info", "torus.vsm", "--report", "/dev/stdout", "--quiet").stdout)
+    link("there.json", "here.json")
+    run("info", "torus.vsm", "--report", "here.json", "--quiet")
+    assert os.path.islink("here.json") and load("there.json")["vertices"] == 7200
+
+
 def test_interrupt_cleans_up():
     os.makedirs("scratch", exist_ok=True)
     write_torus("large.obj", 900, 500)
@@ -148,7 +180,9 @@ def test_interrupt_cleans_up():
         assert sorted(os.listdir(".")) == before and os.listdir("scratch") == []
 
 
-for each in (test_convert_and_info, test_vtk_xml, test_solve, test_errors, test_interrupt_cleans_up):
+for each in (test_convert_and_info, test_vtk_xml, test_solve, test_errors,
+             test_files_of_the_command_are_not_overwritten, test_reports_go_where_they_are_wanted,
+             test_interrupt_cleans_up):
     each()
     print("passed", each.__name__)
 sys.exit(0)
