@@ -56,8 +56,7 @@ std::filesystem::path temporaryOf(const std::filesystem::path& report)
   throw smg::Error(report.string() + ": the report cannot be written: " + reason + '.');
 }
 
-} // namespace
-
+/** Whether both name the same file, which need not be there. */
 bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b)
 {
   // Links are equivalent; what is not there yet has no more than its name.
@@ -66,6 +65,8 @@ bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b)
   { return std::filesystem::absolute(file).lexically_normal(); };
   return std::filesystem::equivalent(a, b, absent) || named(a) == named(b);
 }
+
+} // namespace
 
 void CommonOptions::checkReport(std::initializer_list<std::filesystem::path> others) const
 {

@@ -40,9 +40,6 @@ struct CommonOptions
   void writeReport(const std::string& json) const;
 };
 
-/** Whether both name the same file, which need not be there. */
-bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b);
-
 /** Checks that the value of an option is one of these; the error says which there are. */
 std::function<std::string(const std::string&)> oneOf(std::vector<std::string> values);
 

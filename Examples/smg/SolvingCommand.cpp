@@ -7,7 +7,6 @@
 #include "IO/Conversion/MeshFile.h"
 #include "IO/Conversion/PartialProgress.h"
 #include "IO/Formats/StreamConversion.h"
-#include "Solver/Core/Error.h"
 
 #include <chrono>
 #include <cstdio>
@@ -64,11 +63,7 @@ void SolvingCommand::run()
   const auto secondsSince = [](std::chrono::steady_clock::time_point then)
   { return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count(); };
   this->checkOutputName();
-  if (sameFile(this->In, this->Out))
-  {
-    throw smg::Error(
-      this->Out.string() + " is the mesh itself: choose another name for the result.");
-  }
+  smg::checkIsNotInput(this->In, this->Out);
   this->checkReport({ this->In, this->Out, this->File });
   this->readTask();
   smg::Report report;

@@ -5,6 +5,7 @@
 #include "IO/Conversion/Conversion.h"
 #include "IO/Conversion/ConvertMesh.h"
 #include "IO/Conversion/CopyStream.h"
+#include "IO/Conversion/MeshFile.h"
 #include "IO/Restore/WriteRestored.h"
 #include "Solver/Core/Error.h"
 #include "Solver/Core/Timer.h"
@@ -56,11 +57,7 @@ void run(Conversion& conversion)
 ConversionReport convert(const std::filesystem::path& in, const std::filesystem::path& out,
   const ConversionOptions& options)
 {
-  std::error_code absent;
-  if (std::filesystem::equivalent(in, out, absent))
-  {
-    throw Error(out.string() + " is the mesh itself: choose another name for the result.");
-  }
+  checkIsNotInput(in, out);
   if (isCompressedStream(in))
   {
     return convertCompressedStream(in, out, options);

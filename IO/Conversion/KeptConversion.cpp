@@ -2,6 +2,7 @@
 #include "IO/Conversion/KeptConversion.h"
 
 #include "IO/Container/VsmReader.h"
+#include "IO/Conversion/MeshFile.h"
 #include "IO/Formats/Suffix.h"
 #include "Solver/Core/Error.h"
 #include "Solver/Core/Progress.h"
@@ -116,10 +117,7 @@ std::optional<ConversionReport> convertToKeep(const std::filesystem::path& in,
   {
     throw Error(in.string() + ": there is no such file to convert.");
   }
-  if (std::filesystem::equivalent(in, out, absent))
-  {
-    throw Error(out.string() + " is the mesh itself: choose another name for its conversion.");
-  }
+  checkIsNotInput(in, out);
   const InputLock lock(in);
   lock.wait(options.progress);
   ConversionOptions conversion = options;

@@ -127,4 +127,13 @@ void checkOutput(const std::filesystem::path& path, CellType cellType)
   }
 }
 
+void checkIsNotInput(const std::filesystem::path& in, const std::filesystem::path& out)
+{
+  std::error_code absent;
+  if (std::filesystem::equivalent(in, out, absent))
+  {
+    throw Error(out.string() + " is the mesh itself: choose another name for the result.");
+  }
+}
+
 } // namespace smg

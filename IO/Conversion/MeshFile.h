@@ -37,4 +37,7 @@ void checkOutput(const std::filesystem::path& path, CellType cellType);
 /** The same as far as it can be known before the mesh is. */
 void checkOutput(const std::filesystem::path& path);
 
+/** Throws Error if the output is the input, by whatever name or link. */
+void checkIsNotInput(const std::filesystem::path& in, const std::filesystem::path& out);
+
 } // namespace smg
