@@ -35,6 +35,14 @@ struct ResidualProducts
   double aa = 0.0, aq = 0.0, qq = 0.0, za = 0.0, zq = 0.0;
 };
 
+/** Of which nodes conjugate residuals keep their vectors. */
+enum class KeptResiduals
+{
+  None,
+  Sampled,
+  All ///< where bad cells make the residuals of few nodes decide
+};
+
 /**
  * What acceleration keeps of the finest level's iterates from pass to pass: of each value the step
  * y_k - y_{k-1} and, for conjugate residuals, three vectors more. In single precision, for their
@@ -48,18 +56,21 @@ struct ResidualProducts
  * Then r(z_k) = r(z_{k-1}) - length q_k. As T is affine, T(z_k) needs no pass of its own:
  * T(z_k) = y_k + length u_k, u_k = T(y_k) - y_k - conjugation u_{k-1}, which is a step with a
  * momentum. Kept are z: r(z_k), q and a; their products give the next weights before the next pass.
- * On large meshes one group of nodes in up to sixteen, which tells the two weights of a step well
- * enough: residuals differ from region to region, so the groups are small and everywhere.
+ * On large meshes, if sampled, one group of nodes in up to sixteen, which tells the two weights of
+ * a step well enough: residuals differ from region to region, so the groups are small and
+ * everywhere.
  */
 class IterateHistory
 {
 public:
   /** For a level of `nodes` nodes, as many right-hand sides as `columns`. */
-  IterateHistory(Pool& pool, std::int64_t nodes, int columns, bool residuals)
+  IterateHistory(Pool& pool, std::int64_t nodes, int columns, KeptResiduals residuals)
     : Nodes(nodes)
     , Columns(columns)
     , Stride(strideOf(columns))
-    , Every(residuals ? sparsenessFor(nodes) : 0)
+    , Every(residuals == KeptResiduals::Sampled ? sparsenessFor(nodes)
+            : residuals == KeptResiduals::All   ? 1
+                                                : 0)
     , Before(pool, this->Stride)
     , Steps(pool, this->Stride)
     , Residuals(pool, this->Stride * Vectors)
@@ -69,10 +80,11 @@ public:
   }
 
   /** Bytes of a node in memory, at most. */
-  static std::int64_t nodeBytes(int stride, bool residuals)
+  static std::int64_t nodeBytes(int stride, KeptResiduals residuals)
   {
     constexpr std::int64_t Single = sizeof(float);
-    return stride * (std::int64_t(sizeof(double)) + Single + (residuals ? Vectors * Single : 0));
+    return stride * (std::int64_t(sizeof(double)) + Single +
+                      (residuals != KeptResiduals::None ? Vectors * Single : 0));
   }
 
   /** Keeps the history in a scratch file in `folder`. */

@@ -117,7 +117,7 @@ auto LevelWindow<Real>::readBlock() -> Incoming
   Buffer rows = this->SpareRows.take(stored + RowBlock::diagonalBytes(nodes));
   this->Rows->read(rows.bytes().first(stored));
   RowBlock block(std::move(rows));
-  block.sumDiagonals<Weight>();
+  block.sumDiagonals();
 
   const auto values = static_cast<std::size_t>(nodes * this->Columns);
   Buffer state = this->SpareState.take(2 * values * sizeof(Real));

@@ -30,8 +30,6 @@ template <class Real>
 class LevelWindow
 {
 public:
-  using Weight = RowBlock::WeightOf<Real>;
-
   /** The unknowns and the right-hand side of the nodes in memory. */
   struct State
   {
@@ -158,14 +156,7 @@ public:
       const BlockRange nodes{ begin - h.first, stop - h.first };
       Real* x = state.x.at(h.first);
       Real* b = state.b.at(h.first);
-      if (h.wide)
-      {
-        f(h, block.arrays<WideIndex, Weight>(), nodes, x, b);
-      }
-      else
-      {
-        f(h, block.arrays<std::int16_t, Weight>(), nodes, x, b);
-      }
+      block.visit<Real>([&](const auto& arrays) { f(h, arrays, nodes, x, b); });
       begin = stop;
     }
   }

@@ -12,14 +12,20 @@ namespace smg
 {
 
 /** That R has the sweep that Relaxation describes, for one kind of numbers and blocks. */
-template <class R, class Real, int Count, class Index>
+template <class R, class Real, int Count, class Index, class Weight>
 concept RelaxesBlocks = requires(const RowBlock::Header& h,
-  const RowBlock::Arrays<Index, RowBlock::WeightOf<Real>>& a, BlockRange nodes, std::int64_t stride,
-  Real* x, const Real* b)
+  const RowBlock::Arrays<Index, Weight>& a, BlockRange nodes, std::int64_t stride, Real* x,
+  const Real* b)
 {
   R::template sweep<false, Lanes<Real, Count>>(h, a, nodes, stride, x, b);
   R::template sweep<true, Lanes<Real, Count>>(h, a, nodes, stride, x, b);
 };
+
+/** The same for all blocks of such levels. */
+template <class R, class Real, class Weight>
+concept RelaxesLevels = RelaxesBlocks<R, Real, 1, std::int16_t, Weight> &&
+  RelaxesBlocks<R, Real, 4, std::int16_t, Weight> && RelaxesBlocks<R, Real, 1, WideIndex, Weight> &&
+  RelaxesBlocks<R, Real, 4, WideIndex, Weight>;
 
 /**
  * A relaxation of A x = b: what smooths the error on every level, before and after the correction
@@ -51,11 +57,8 @@ concept RelaxesBlocks = requires(const RowBlock::Header& h,
  * A (SOR: a factor between 0 and 2).
  */
 template <class R>
-concept Relaxation =
-  RelaxesBlocks<R, double, 1, std::int16_t> && RelaxesBlocks<R, double, 4, std::int16_t> &&
-  RelaxesBlocks<R, double, 1, WideIndex> && RelaxesBlocks<R, double, 4, WideIndex> &&
-  RelaxesBlocks<R, float, 1, std::int16_t> && RelaxesBlocks<R, float, 4, std::int16_t> &&
-  RelaxesBlocks<R, float, 1, WideIndex> && RelaxesBlocks<R, float, 4, WideIndex>;
+concept Relaxation = RelaxesLevels<R, double, float> && RelaxesLevels<R, float, float> &&
+  RelaxesLevels<R, float, BFloat16>;
 
 /**
  * sum_j w_ij x_j over the neighbours j of node k, or over those below k. For a sweep of your own:

@@ -50,8 +50,12 @@ public:
   };
 
   /**
-   * The arrays of a block, Index being std::int16_t (narrow) or WideIndex (wide), Weight as
-   * WeightOf the level's numbers says. An index is read where it stands, never from a copy.
+   * The arrays of a block, Index being std::int16_t (narrow) or WideIndex (wide). An index is read
+   * where it stands, never from a copy.
+   *
+   * Weight is float on the finest level. On the coarse ones, which only precondition, it is
+   * BFloat16: the diagonals are made of the rounded weights, so that row sums stay exact. Where
+   * rows may be stiff, weights nearly cancel, and are floats on all levels.
    */
   template <class Index, class Weight>
   struct Arrays
@@ -67,14 +71,6 @@ public:
     const double* alpha;              // a node of the groups that have them: the row's sum
     const double* diagonal;           // a node
   };
-
-  /**
-   * The finest level's weights are floats. Those of the coarse levels, whose numbers are floats and
-   * which only precondition, are rounded further: the diagonals are made of the rounded ones, so
-   * that row sums stay exact.
-   */
-  template <class Real>
-  using WeightOf = std::conditional_t<std::is_same_v<Real, double>, float, BFloat16>;
 
   RowBlock() = default;
   /** Takes the bytes of a block, as packRows() or a file has filled them, with room for the
@@ -103,6 +99,14 @@ public:
     take(at, a.alpha, alphas(h));
     take(at, a.diagonal, h.nodes);
     return a;
+  }
+
+  /** Calls f(arrays) with the arrays of this block, one of a level of such numbers. */
+  template <class Real, class F>
+  void visit(F&& f) const
+  {
+    this->header().wide ? this->visitWeights<Real, WideIndex>(f)
+                        : this->visitWeights<Real, std::int16_t>(f);
   }
 
   /** Nodes of the groups that have alphas; all groups but the last one are full. */
@@ -139,18 +143,30 @@ public:
     return this->Bytes.bytes().first(storedBytes(this->header()));
   }
   /** Makes the diagonals from what is stored. */
-  template <class Weight>
   void sumDiagonals()
   {
-    this->header().wide ? this->sumDiagonals<WideIndex, Weight>()
-                        : this->sumDiagonals<std::int16_t, Weight>();
+    this->visit<float>([this](const auto& arrays) { this->sumDiagonals(arrays); });
   }
 
   Buffer takeBuffer() { return std::move(this->Bytes); }
 
 private:
+  template <class Real, class Index, class F>
+  void visitWeights(F&& f) const
+  {
+    if constexpr (!std::is_same_v<Real, double>)
+    {
+      if (this->header().weightBytes == sizeof(BFloat16))
+      {
+        f(this->arrays<Index, BFloat16>());
+        return;
+      }
+    }
+    f(this->arrays<Index, float>());
+  }
+
   template <class Index, class Weight>
-  void sumDiagonals();
+  void sumDiagonals(const Arrays<Index, Weight>& a);
 
   static std::size_t aligned(std::size_t bytes) { return (bytes + 7) / 8 * 8; }
 
@@ -165,10 +181,9 @@ private:
 };
 
 template <class Index, class Weight>
-void RowBlock::sumDiagonals()
+void RowBlock::sumDiagonals(const Arrays<Index, Weight>& a)
 {
   const Header& h = this->header();
-  const auto a = this->arrays<Index, Weight>();
   // The arrays are constant for those who use a block; here it is made.
   auto* diagonal = const_cast<double*>(a.diagonal);
   const double* alpha = a.alpha;

@@ -133,7 +133,7 @@ RowBlock packRows(SpareBuffers& buffers, const LevelRows& rows, const Coarsening
   {
     fill<std::int16_t, Weight>(block, rows, coarsening);
   }
-  block.sumDiagonals<Weight>();
+  block.sumDiagonals();
   return block;
 }
 

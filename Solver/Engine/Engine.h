@@ -88,6 +88,7 @@ protected:
   FreeComponents Free;
   Levels<Relaxation> Hierarchy;
   int FirstCore = 0;
+  bool MixedSigns = false; // the finest level may have negative weights
   CoreCycle<Relaxation> Core;
   tbb::task_arena Threads;
   double InitialNorm = 0.0;

@@ -192,8 +192,10 @@ double Engine<Operators>::residualNorm() const
 template <OperatorSet Operators>
 void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem, RowListener* listener)
 {
-  HierarchyBuilder<Operators> builder(
-    this->Memory, Operators::forCells(mesh.info().cellType), this->Hierarchy, this->FirstCore);
+  const CellType type = mesh.info().cellType;
+  this->MixedSigns = problem.weights() == Weights::RawCotangent;
+  HierarchyBuilder<Operators> builder(this->Memory, Operators::forCells(type), this->Hierarchy,
+    this->FirstCore, this->MixedSigns && type == CellType::Triangle ? StiffTriangles : NoneStiff);
   AssembledRows rows;
   Assembly assembly(this->Memory, mesh.info(), problem, rows, this->Parts, this->Labels, listener);
   this->startPass(true);

@@ -38,11 +38,14 @@ public:
    */
   static constexpr double StalledShare = 0.8;
 
-  HierarchyBuilder(Pool& pool, Operators operators, Levels<Relaxation>& levels, int firstCore)
+  /** `stiffBelow`: see StiffRows. */
+  HierarchyBuilder(
+    Pool& pool, Operators operators, Levels<Relaxation>& levels, int firstCore, float stiffBelow)
     : Owner(pool)
     , Set(std::move(operators))
     , Built(levels)
     , FirstCore(firstCore)
+    , StiffBelow(stiffBelow)
   {
     this->addRows();
     for (int l = 0; l < firstCore; ++l)
@@ -166,7 +169,7 @@ private:
 
   void addRows()
   {
-    this->Rows.push_back(std::make_unique<LevelRows>(this->Owner));
+    this->Rows.push_back(std::make_unique<LevelRows>(this->Owner, this->StiffBelow));
     this->Buffers.emplace_back(this->Owner);
     this->Ready.emplace_back();
   }
@@ -220,8 +223,9 @@ private:
       const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
       const CoarseningData* data = step ? &step->data() : nullptr;
       this->Ready[static_cast<std::size_t>(l)].push_back(
-        l == 0 ? packRows<RowBlock::WeightOf<double>>(buffers, rows, data, begin, nodes)
-               : packRows<RowBlock::WeightOf<float>>(buffers, rows, data, begin, nodes));
+        l == 0 || this->StiffBelow > NoneStiff
+          ? packRows<float>(buffers, rows, data, begin, nodes)
+          : packRows<BFloat16>(buffers, rows, data, begin, nodes));
       begin += nodes;
       if (step)
       {
@@ -236,6 +240,7 @@ private:
   Operators Set;
   Levels<Relaxation>& Built;
   int FirstCore;
+  float StiffBelow;
   std::vector<std::unique_ptr<LevelRows>> Rows;
   std::vector<std::unique_ptr<Coarsening<Operators>>> Steps;
   std::vector<std::int64_t> Advanced, Packed;

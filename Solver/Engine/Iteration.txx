@@ -41,7 +41,10 @@ void Engine<Operators>::addHistory(
   Acceleration& acceleration, std::optional<IterateHistory>& history)
 {
   LevelWindow<double>& window = this->Hierarchy.finest->window();
-  const bool residuals = acceleration.kind() == AccelerationKind::ConjugateGradients;
+  const KeptResiduals residuals = acceleration.kind() != AccelerationKind::ConjugateGradients
+                                    ? KeptResiduals::None
+                                  : this->MixedSigns ? KeptResiduals::All
+                                                     : KeptResiduals::Sampled;
   if (acceleration.kind() != AccelerationKind::None && !history)
   {
     const std::int64_t nodes =

@@ -125,7 +125,7 @@ struct CoarseningData
   /** Off-diagonal rows of -P^T A P, before and during sparsification. */
   RaggedRing<CoarseEntry> raw;
   Ring<double> rawAlpha;
-  Ring<float> rawStrongest;
+  Ring<float> rawStrongest;    ///< negative if the row is stiff: nothing is small beside it
   Ring<std::int32_t> rawLower; ///< columns below the row
   /** Where the entry is that the last row so far which has one for this row mirrors. */
   Ring<std::int32_t> rawMirrored;

@@ -138,7 +138,7 @@ void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
   CoarseEntry* out = data.raw.open(static_cast<std::int64_t>(this->Sorted.size()));
   std::int32_t lower = 0;
   std::int64_t size = 0;
-  float strongest = 0.0F;
+  float strongest = 0.0F, least = 0.0F;
   for (const std::int32_t delta : this->Sorted)
   {
     if (delta != 0)
@@ -147,10 +147,11 @@ void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
       out[size++] = { static_cast<CoarseIndex>(c + delta), weight };
       lower += delta < 0 ? 1 : 0;
       strongest = std::max(strongest, weight);
+      least = std::min(least, weight);
     }
   }
   data.raw.close(size);
-  data.rawStrongest[c] = strongest;
+  data.rawStrongest[c] = least < data.coarse.stiffBelow() ? -strongest : strongest;
   data.rawLower[c] = lower;
   std::int32_t* mirrored = data.rawMirrored.at(c);
   *mirrored = lower - 1;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "Solver/Hierarchy/RowEntry.h"
+#include "Solver/Hierarchy/StiffRows.h"
 #include "Solver/Storage/MonotoneRing.h"
 #include "Solver/Storage/RaggedRing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -39,8 +41,10 @@ inline double diagonalOf(std::span<const RowEntry> row, double alpha)
 class LevelRows
 {
 public:
-  explicit LevelRows(Pool& pool)
-    : Entries(pool)
+  /** A row with a weight below `stiffBelow` is stiff: see StiffRows. */
+  explicit LevelRows(Pool& pool, float stiffBelow = NoneStiff)
+    : StiffBelow(stiffBelow)
+    , Entries(pool)
     , Alpha(pool)
     , Strongest(pool)
     , Reach(pool, 0)
@@ -60,7 +64,10 @@ public:
   double diagonal(std::int64_t i) const { return diagonalOf(this->row(i), this->alpha(i)); }
   double alpha(std::int64_t i) const { return this->Alpha[i]; }
   /** The largest weight of row i, 0 if there is none. */
-  float strongest(std::int64_t i) const { return this->Strongest[i]; }
+  float strongest(std::int64_t i) const { return std::fabs(this->Strongest[i]); }
+  /** Whether row i is stiff. */
+  bool stiff(std::int64_t i) const { return this->Strongest[i] < 0.0F; }
+  float stiffBelow() const { return this->StiffBelow; }
   /** The largest node index that occurs in rows 0 .. i, at least i. */
   std::int64_t reach(std::int64_t i) const { return this->Reach[i]; }
   /** The last node of the finer level that interpolates from a node 0 .. i; -1 on level 0. */
@@ -76,17 +83,18 @@ public:
   {
     const std::int64_t i = this->end();
     const RowEntry* entry = this->Entries.opened();
-    float strongest = 0.0F;
+    float strongest = 0.0F, least = 0.0F;
     for (std::int64_t e = 0; e < size; ++e)
     {
       strongest = std::max(strongest, entry[e].weight());
+      least = std::min(least, entry[e].weight());
     }
     const std::int64_t last = size > 0 ? i + std::max(0, entry[size - 1].delta()) : i;
     this->Entries.close(size);
     this->Alpha.extendRaw(i + 1);
     this->Strongest.extendRaw(i + 1);
     this->Alpha[i] = alpha;
-    this->Strongest[i] = strongest;
+    this->Strongest[i] = least < this->StiffBelow ? -strongest : strongest;
     this->Reach.append(last);
     this->ChildReach.append(childReach);
     this->Nonzeros += size + 1;
@@ -114,9 +122,10 @@ public:
   }
 
 private:
+  float StiffBelow;
   RaggedRing<RowEntry> Entries;
   Ring<double> Alpha;
-  Ring<float> Strongest;
+  Ring<float> Strongest; // negative if the row is stiff
   MonotoneRing Reach, ChildReach;
   std::int64_t Nonzeros = 0;
 };

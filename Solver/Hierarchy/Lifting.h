@@ -11,8 +11,8 @@ namespace smg
 
 /**
  * The lifting rule of the paper on strong edges: a greedy maximal independent set in stream order.
- * Node i is lifted iff none of the lower nodes that it strongly depends on is. A node without edges
- * is never lifted: relaxation solves it exactly.
+ * Node i is lifted iff none of the lower nodes that it strongly depends on is, or if its row is
+ * stiff. A node without edges is never lifted: relaxation solves it exactly.
  */
 struct IndependentSetLifting
 {
@@ -27,6 +27,10 @@ struct IndependentSetLifting
   /** Whether node i is lifted; the nodes below i are decided. */
   bool operator()(const CoarseningData& data, std::int64_t i) const
   {
+    if (data.fine.stiff(i))
+    {
+      return true;
+    }
     const auto row = data.fine.row(i);
     const float strong = this->threshold(data, i);
     const CoarseIndex* lifted = data.lifted.at(i);

@@ -106,7 +106,8 @@ public:
       for (std::int64_t begin = 0; begin < rows[l]->end(); begin += RowBlock::Nodes)
       {
         const std::int64_t nodes = std::min(RowBlock::Nodes, rows[l]->end() - begin);
-        using Weight = typename std::remove_reference_t<decltype(level.window())>::Weight;
+        using Finest = std::is_same<decltype(level), Level<double, GaussSeidel>&>;
+        using Weight = std::conditional_t<Finest::value, float, BFloat16>;
         RowBlock block = packRows<Weight>(buffers, *rows[l], data, begin, nodes);
         level.append(wide ? widened<Weight>(this->Memory, block) : std::move(block));
       }

@@ -38,6 +38,11 @@ struct TestLevel
     }
     return largest;
   }
+  bool stiff(std::int64_t i, float below) const
+  {
+    return std::any_of(this->rows[i].begin(), this->rows[i].end(),
+      [below](const RowEntry& entry) { return entry.weight() < below; });
+  }
 
   Eigen::MatrixXd dense() const
   {
@@ -225,12 +230,12 @@ struct CoarsenedLevel
 
 /** Coarsens a level whose rows come `batch` at a time; their copies are kept as a solve does. */
 inline CoarsenedLevel coarsen(const TestLevel& fine, RecordingOperators operators,
-  std::int64_t batch = std::numeric_limits<std::int64_t>::max())
+  std::int64_t batch = std::numeric_limits<std::int64_t>::max(), float stiffBelow = NoneStiff)
 {
   operators.record = std::make_shared<CoarseningRecord>();
   Pool pool(std::int64_t(1) << 32);
-  LevelRows fineRows(pool);
-  LevelRows coarseRows(pool);
+  LevelRows fineRows(pool, stiffBelow);
+  LevelRows coarseRows(pool, stiffBelow);
   Coarsening<RecordingOperators> step(pool, operators, fineRows, coarseRows);
   for (std::int64_t begin = 0; begin < fine.nodes();)
   {

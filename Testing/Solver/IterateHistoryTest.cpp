@@ -19,7 +19,7 @@ namespace
 class DiagonalModel
 {
 public:
-  DiagonalModel(Eigen::VectorXd factors, bool residuals)
+  DiagonalModel(Eigen::VectorXd factors, KeptResiduals residuals)
     : Factors(std::move(factors))
     , Memory(std::int64_t(1) << 28)
     , Errors(this->Memory)
@@ -83,7 +83,7 @@ TEST(IterateHistory, chebyshevWeightsGiveChebyshevPolynomials)
 {
   const double bound = 0.6;
   const Eigen::VectorXd factors = Eigen::VectorXd::LinSpaced(41, -0.7, 0.9);
-  DiagonalModel model(factors, false);
+  DiagonalModel model(factors, KeptResiduals::None);
   Chebyshev polynomial(bound);
   for (int k = 1; k <= 9; ++k)
   {
@@ -105,7 +105,7 @@ TEST(IterateHistory, conjugateResidualsEndAfterAsManyStepsAsThereAreFactors)
   {
     factors[i] = values[i % 4];
   }
-  DiagonalModel model(factors, true);
+  DiagonalModel model(factors, KeptResiduals::Sampled);
   ConjugateResiduals directions;
   // The first pass begins, the second one gives the first direction: then one for each factor.
   for (int k = 0; k < 2 + 4; ++k)
@@ -127,7 +127,7 @@ TEST(IterateHistory, aSampleOfTheNodesTellsTheWeightsOfAllOfThem)
       const double group = static_cast<double>(i / 64 % 8 + 1) / 8;
       factors[i] = 0.9 * group * std::sin(static_cast<double>(i % 64));
     }
-    DiagonalModel model(factors, true);
+    DiagonalModel model(factors, KeptResiduals::Sampled);
     ConjugateResiduals directions;
     for (int k = 0; k < 4; ++k)
     {
@@ -149,8 +149,8 @@ TEST(IterateHistory, onDiskIsTheSameAsInMemory)
 {
   const TemporaryFolder folder;
   const Eigen::VectorXd factors = Eigen::VectorXd::LinSpaced((1 << 19) + 700, -0.4, 0.9);
-  DiagonalModel inMemory(factors, true);
-  DiagonalModel onDisk(factors, true);
+  DiagonalModel inMemory(factors, KeptResiduals::Sampled);
+  DiagonalModel onDisk(factors, KeptResiduals::Sampled);
   onDisk.useScratch(folder.path());
   ConjugateResiduals directions[2];
   for (int k = 0; k < 6; ++k)
@@ -166,7 +166,7 @@ TEST(IterateHistory, conjugateResidualsMinimiseTheResidual)
 {
   // After the first direction: the best multiple of it, z_1 = z_0 + length (T z_0 - z_0).
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(30, -0.3, 0.9);
-  DiagonalModel model(t, true);
+  DiagonalModel model(t, KeptResiduals::Sampled);
   ConjugateResiduals directions;
   model.pass(directions.next(model.products()));
   const Eigen::VectorXd z = model.error();

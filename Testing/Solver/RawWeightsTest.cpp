@@ -84,6 +84,32 @@ TEST(RawWeights, agreeWithTheDirectSolve)
   }
 }
 
+TEST(RawWeights, ofSliversConvergeHoweverFlatTheyAre)
+{
+  for (const double height : { 2e-2, 2e-3, 2e-4, 2e-5 })
+  {
+    const StreamMesh mesh = toStream(sliverChains(60, 48, height));
+    ArrayProblem problem = heldEnds(mesh, 2, Weights::RawCotangent);
+    SolveOptions options = accurate(1e-12);
+    options.inCore = true;
+    const Solved solved = solveMesh(mesh, problem, options);
+    EXPECT_TRUE(solved.report.converged);
+    EXPECT_LE(solved.report.passes, 11) << height;
+    // Weights are kept in single precision, and nearly cancel here.
+    const Eigen::MatrixXd direct = solveDirectly(mesh, problem);
+    EXPECT_LT((solved.values - direct).cwiseAbs().maxCoeff(), 1e-5 * direct.cwiseAbs().maxCoeff());
+
+    options.inCore = false;
+    options.coreNodes = 300;
+    for (const auto& [threads, blockNodes] : { std::pair{ 1, 64 }, std::pair{ 2, 1000 } })
+    {
+      options.threads = threads;
+      options.blockNodes = blockNodes;
+      EXPECT_TRUE(sameBits(solveMesh(mesh, problem, options).values, solved.values));
+    }
+  }
+}
+
 TEST(RawWeights, ofFlatCellsAreScaledDown)
 {
   const double a[3] = { 0, 0, 0 };

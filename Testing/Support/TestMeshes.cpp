@@ -120,6 +120,20 @@ IndexedTestMesh grid(int nx, int ny, double jitter, std::uint64_t seed)
   return mesh;
 }
 
+IndexedTestMesh sliverChains(int nx, int ny, double height)
+{
+  IndexedTestMesh mesh = grid(nx, ny);
+  const std::size_t row = 3 * static_cast<std::size_t>(nx);
+  for (std::size_t y = 1; y + row < mesh.positions.size(); y += 3)
+  {
+    if (y / row % 6 == 2)
+    {
+      mesh.positions[y] = mesh.positions[y + row] - height;
+    }
+  }
+  return mesh;
+}
+
 IndexedTestMesh torus(int nu, int nv, double jitter, std::uint64_t seed)
 {
   IndexedTestMesh mesh;

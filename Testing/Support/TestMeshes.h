@@ -30,6 +30,10 @@ struct IndexedTestMesh
  */
 IndexedTestMesh grid(int nx, int ny, double jitter = 0.0, std::uint64_t seed = 1);
 
+/** The grid where every sixth row of vertices lies `height` below the next one: between the two are
+ * chains of slivers. */
+IndexedTestMesh sliverChains(int nx, int ny, double height);
+
 /** A torus with radii 2 and 1 of nu x nv vertices (at least 3 x 3), jittered in its parameters. */
 IndexedTestMesh torus(int nu, int nv, double jitter = 0.0, std::uint64_t seed = 1);
 
