@@ -171,7 +171,7 @@ private:
   StepWeights Weights;
   Ring<double> Before; // y_k
   Ring<float> Steps;
-  Ring<float> Residuals; // of sampled nodes: z, q and a of a node, `Stride` values each
+  Ring<float> Residuals; // of those nodes: z, q and a of a node, `Stride` values each
   std::vector<double> Sums;
   bool First = true;
   std::int64_t Written = 0;

@@ -55,7 +55,8 @@ public:
    *
    * Weight is float on the finest level. On the coarse ones, which only precondition, it is
    * BFloat16: the diagonals are made of the rounded weights, so that row sums stay exact. Where
-   * rows may be stiff, weights nearly cancel, and are floats on all levels.
+   * rows may be stiff, weights nearly cancel, and are floats on all levels, as precise as the
+   * coarse operator's entries (CoarseEntry).
    */
   template <class Index, class Weight>
   struct Arrays
@@ -105,8 +106,14 @@ public:
   template <class Real, class F>
   void visit(F&& f) const
   {
-    this->header().wide ? this->visitWeights<Real, WideIndex>(f)
-                        : this->visitWeights<Real, std::int16_t>(f);
+    if (this->header().wide)
+    {
+      this->visitWeights<Real, WideIndex>(f);
+    }
+    else
+    {
+      this->visitWeights<Real, std::int16_t>(f);
+    }
   }
 
   /** Nodes of the groups that have alphas; all groups but the last one are full. */

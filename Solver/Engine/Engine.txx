@@ -195,7 +195,7 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem, RowListene
   const CellType type = mesh.info().cellType;
   this->MixedSigns = problem.weights() == Weights::RawCotangent;
   HierarchyBuilder<Operators> builder(this->Memory, Operators::forCells(type), this->Hierarchy,
-    this->FirstCore, this->MixedSigns && type == CellType::Triangle ? StiffTriangles : NoneStiff);
+    this->FirstCore, Assembly::stiffRows(type, problem.weights()));
   AssembledRows rows;
   Assembly assembly(this->Memory, mesh.info(), problem, rows, this->Parts, this->Labels, listener);
   this->startPass(true);

@@ -34,18 +34,18 @@ public:
   using Relaxation = typename Operators::Relaxation;
   /** Coarsening ends at a level of at most this many nodes, which is factorised directly ... */
   static constexpr std::int64_t CoarsestNodes = 1000;
-  /** ... or that has more than this share of the nodes of the level before: it has no strong edges.
-   */
+  /** ... or that has more than this share of the nodes of the level before: it has few strong
+   * edges, or stiff rows. */
   static constexpr double StalledShare = 0.8;
 
-  /** `stiffBelow`: see StiffRows. */
+  /** `stiff` finds the stiff rows of each coarse level. */
   HierarchyBuilder(
-    Pool& pool, Operators operators, Levels<Relaxation>& levels, int firstCore, float stiffBelow)
+    Pool& pool, Operators operators, Levels<Relaxation>& levels, int firstCore, StiffRows stiff)
     : Owner(pool)
     , Set(std::move(operators))
     , Built(levels)
     , FirstCore(firstCore)
-    , StiffBelow(stiffBelow)
+    , Stiff(stiff)
   {
     this->addRows();
     for (int l = 0; l < firstCore; ++l)
@@ -169,7 +169,7 @@ private:
 
   void addRows()
   {
-    this->Rows.push_back(std::make_unique<LevelRows>(this->Owner, this->StiffBelow));
+    this->Rows.push_back(std::make_unique<LevelRows>(this->Owner));
     this->Buffers.emplace_back(this->Owner);
     this->Ready.emplace_back();
   }
@@ -180,7 +180,7 @@ private:
     this->Advanced.push_back(0);
     this->Packed.push_back(0);
     this->Steps.push_back(std::make_unique<Coarsening<Operators>>(
-      this->Owner, this->Set, *this->Rows[this->Rows.size() - 2], *this->Rows.back()));
+      this->Owner, this->Set, *this->Rows[this->Rows.size() - 2], *this->Rows.back(), this->Stiff));
   }
 
   /** Gives the blocks of level l that are ready to its window, and takes the buffers of old ones.
@@ -223,9 +223,8 @@ private:
       const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
       const CoarseningData* data = step ? &step->data() : nullptr;
       this->Ready[static_cast<std::size_t>(l)].push_back(
-        l == 0 || this->StiffBelow > NoneStiff
-          ? packRows<float>(buffers, rows, data, begin, nodes)
-          : packRows<BFloat16>(buffers, rows, data, begin, nodes));
+        l == 0 || this->Stiff.any() ? packRows<float>(buffers, rows, data, begin, nodes)
+                                    : packRows<BFloat16>(buffers, rows, data, begin, nodes));
       begin += nodes;
       if (step)
       {
@@ -240,7 +239,7 @@ private:
   Operators Set;
   Levels<Relaxation>& Built;
   int FirstCore;
-  float StiffBelow;
+  StiffRows Stiff;
   std::vector<std::unique_ptr<LevelRows>> Rows;
   std::vector<std::unique_ptr<Coarsening<Operators>>> Steps;
   std::vector<std::int64_t> Advanced, Packed;

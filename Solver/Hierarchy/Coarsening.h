@@ -23,9 +23,11 @@ template <OperatorSet Operators>
 class Coarsening
 {
 public:
-  Coarsening(Pool& pool, Operators operators, LevelRows& fine, LevelRows& coarse)
+  /** `stiff`: those of the coarse level. */
+  Coarsening(
+    Pool& pool, Operators operators, LevelRows& fine, LevelRows& coarse, StiffRows stiff = {})
     : Set(std::move(operators))
-    , Data(pool, fine, coarse)
+    , Data(pool, fine, coarse, stiff)
   {
   }
 
@@ -193,7 +195,8 @@ private:
         out[kept] = { raw[e].offset(c), raw[e].value() };
         kept += std::isnan(out[kept].weight()) ? 0 : 1;
       }
-      this->Final.close(kept, d.rawAlpha[c], d.lastChild[c].row(this->Rows));
+      this->Final.close(
+        kept, d.rawAlpha[c], d.lastChild[c].row(this->Rows), std::signbit(d.rawStrongest[c]));
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include "Solver/Hierarchy/CoarseEntry.h"
 #include "Solver/Hierarchy/LevelRows.h"
+#include "Solver/Hierarchy/StiffRows.h"
 #include "Solver/Storage/MonotoneRing.h"
 #include "Solver/Storage/RaggedRing.h"
 
@@ -81,9 +82,10 @@ static_assert(sizeof(InterpolationEntry) == 8 && Quanta <= 255);
  */
 struct CoarseningData
 {
-  CoarseningData(Pool& pool, LevelRows& fineRows, LevelRows& coarseRows)
+  CoarseningData(Pool& pool, LevelRows& fineRows, LevelRows& coarseRows, StiffRows stiffRows = {})
     : fine(fineRows)
     , coarse(coarseRows)
+    , stiff(stiffRows)
     , lifted(pool)
     , initial(pool)
     , interpolation(pool)
@@ -107,6 +109,7 @@ struct CoarseningData
 
   LevelRows& fine;
   LevelRows& coarse;
+  StiffRows stiff; ///< of the coarse level
 
   // By fine node.
   /** Its coarse node by the low 32 bits, or Retained. */
@@ -125,7 +128,7 @@ struct CoarseningData
   /** Off-diagonal rows of -P^T A P, before and during sparsification. */
   RaggedRing<CoarseEntry> raw;
   Ring<double> rawAlpha;
-  Ring<float> rawStrongest;    ///< negative if the row is stiff: nothing is small beside it
+  Ring<float> rawStrongest;    ///< with the sign - if the row is stiff
   Ring<std::int32_t> rawLower; ///< columns below the row
   /** Where the entry is that the last row so far which has one for this row mirrors. */
   Ring<std::int32_t> rawMirrored;

@@ -151,7 +151,7 @@ void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
     }
   }
   data.raw.close(size);
-  data.rawStrongest[c] = least < data.coarse.stiffBelow() ? -strongest : strongest;
+  data.rawStrongest[c] = data.stiff(least) ? -strongest : strongest;
   data.rawLower[c] = lower;
   std::int32_t* mirrored = data.rawMirrored.at(c);
   *mirrored = lower - 1;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "Solver/Hierarchy/RowEntry.h"
-#include "Solver/Hierarchy/StiffRows.h"
 #include "Solver/Storage/MonotoneRing.h"
 #include "Solver/Storage/RaggedRing.h"
 
@@ -41,10 +40,8 @@ inline double diagonalOf(std::span<const RowEntry> row, double alpha)
 class LevelRows
 {
 public:
-  /** A row with a weight below `stiffBelow` is stiff: see StiffRows. */
-  explicit LevelRows(Pool& pool, float stiffBelow = NoneStiff)
-    : StiffBelow(stiffBelow)
-    , Entries(pool)
+  explicit LevelRows(Pool& pool)
+    : Entries(pool)
     , Alpha(pool)
     , Strongest(pool)
     , Reach(pool, 0)
@@ -66,8 +63,7 @@ public:
   /** The largest weight of row i, 0 if there is none. */
   float strongest(std::int64_t i) const { return std::fabs(this->Strongest[i]); }
   /** Whether row i is stiff. */
-  bool stiff(std::int64_t i) const { return this->Strongest[i] < 0.0F; }
-  float stiffBelow() const { return this->StiffBelow; }
+  bool stiff(std::int64_t i) const { return std::signbit(this->Strongest[i]); }
   /** The largest node index that occurs in rows 0 .. i, at least i. */
   std::int64_t reach(std::int64_t i) const { return this->Reach[i]; }
   /** The last node of the finer level that interpolates from a node 0 .. i; -1 on level 0. */
@@ -78,23 +74,23 @@ public:
   /** Room for at most `size` entries of the next row. */
   RowEntry* open(std::int64_t size) { return this->Entries.open(size); }
 
-  /** Ends the row that open() began. `childReach` is that of this node alone. */
-  void close(std::int64_t size, double alpha, std::int64_t childReach)
+  /** Ends the row that open() began. `childReach` is that of this node alone; `stiff`: see
+   * StiffRows. */
+  void close(std::int64_t size, double alpha, std::int64_t childReach, bool stiff = false)
   {
     const std::int64_t i = this->end();
     const RowEntry* entry = this->Entries.opened();
-    float strongest = 0.0F, least = 0.0F;
+    float strongest = 0.0F;
     for (std::int64_t e = 0; e < size; ++e)
     {
       strongest = std::max(strongest, entry[e].weight());
-      least = std::min(least, entry[e].weight());
     }
     const std::int64_t last = size > 0 ? i + std::max(0, entry[size - 1].delta()) : i;
     this->Entries.close(size);
     this->Alpha.extendRaw(i + 1);
     this->Strongest.extendRaw(i + 1);
     this->Alpha[i] = alpha;
-    this->Strongest[i] = least < this->StiffBelow ? -strongest : strongest;
+    this->Strongest[i] = stiff ? -strongest : strongest;
     this->Reach.append(last);
     this->ChildReach.append(childReach);
     this->Nonzeros += size + 1;
@@ -122,10 +118,9 @@ public:
   }
 
 private:
-  float StiffBelow;
   RaggedRing<RowEntry> Entries;
   Ring<double> Alpha;
-  Ring<float> Strongest; // negative if the row is stiff
+  Ring<float> Strongest; // with the sign - if the row is stiff
   MonotoneRing Reach, ChildReach;
   std::int64_t Nonzeros = 0;
 };

@@ -29,7 +29,8 @@ namespace smg
  * i or coarse node c, in ascending order, on windows that hold no more than what follows; a step
  * that reads anything else reads memory that is gone. `data.fine` are the rows of the fine level.
  *
- * - `lift` may read row i and `lifted` of the nodes below, and answers.
+ * - `lift` may read row i and `lifted` of the nodes below, and answers. A node whose row is stiff
+ *   (see StiffRows) should be lifted.
  * - `interpolateInitial` may read row i and `lifted` of its neighbours, and appends row i of
  *   `initial`.
  * - `interpolate` may read row i and `initial` of i and its neighbours. It appends row i of
@@ -38,8 +39,8 @@ namespace smg
  * - `multiply` may read row i and `interpolation` of i and its neighbours. It appends row i of
  *   `product` and sets `productSum`.
  * - `gather` may read the chain of column c and `product` of its rows. It appends row c of `raw`,
- *   by ascending column, sets rawAlpha, rawStrongest, rawLower and rawMirrored of c and moves
- *   rawMirrored of its neighbours above on by one.
+ *   by ascending column, sets rawAlpha, rawStrongest (with the sign - if `stiff`, asked once, says
+ *   so), rawLower and rawMirrored of c and moves rawMirrored of its neighbours above on by one.
  * - `sparsify`, which follows it, may read the rows of `raw` up to c that have neighbours from c
  *   on, and change their upper entries, those with delta > 0; the lower ones take over the
  *   weights of these at last. An entry that is to go gets the weight NaN.

@@ -28,10 +28,10 @@ public:
   }
 
   /** Ends the row that open() began; see LevelRows::close. */
-  void close(std::int64_t size, double alpha, std::int64_t childReach)
+  void close(std::int64_t size, double alpha, std::int64_t childReach, bool stiff = false)
   {
     this->Used += static_cast<std::size_t>(size);
-    this->Closed.push_back({ size, alpha, childReach });
+    this->Closed.push_back({ size, alpha, childReach, stiff });
   }
 
   /** Appends the rows to `rows` and forgets them. */
@@ -41,7 +41,7 @@ public:
     for (const Row& row : this->Closed)
     {
       std::copy_n(entry, row.size, rows.open(row.size));
-      rows.close(row.size, row.alpha, row.childReach);
+      rows.close(row.size, row.alpha, row.childReach, row.stiff);
       entry += row.size;
     }
     this->Closed.clear();
@@ -54,6 +54,7 @@ private:
     std::int64_t size;
     double alpha;
     std::int64_t childReach;
+    bool stiff;
   };
 
   std::vector<RowEntry> Entries;

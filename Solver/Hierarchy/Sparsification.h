@@ -14,8 +14,9 @@ namespace smg
  * Removes small entries of a coarse operator without changing its row sums: an edge (c,k) with
  * |w| < tolerance * min(strongest_c, strongest_k) is dropped if w is negative; if positive its
  * weight moves to the two edges (c,m) and (m,k) of the strongest common neighbour m, both large, or
- * it stays if there is none. Of a row m that comes later only what those of c and k say counts.
- * Plain dropping weakens the operator and diverges on bad triangles.
+ * it stays if there is none. No entry of a stiff row is dropped. Of a row m that comes later only
+ * what those of c and k say counts. Plain dropping weakens the operator and diverges on bad
+ * triangles.
  */
 struct Sparsification
 {
@@ -28,7 +29,8 @@ struct Sparsification
 private:
   struct Candidate;
 
-  /** Whether a weight is, given the largest ones of its two rows. */
+  /** Whether a weight is, given the largest ones of its two rows. Beside a stiff row, whose largest
+   * one has the sign -, none is. */
   bool isSmall(float weight, float strongest, float otherStrongest) const
   {
     return !(std::fabs(weight) >= this->tolerance * std::min(strongest, otherStrongest));
@@ -39,7 +41,8 @@ private:
    */
   bool isLarge(float weight, std::int32_t delta, const float* strongest) const
   {
-    return !this->isSmall(weight, *strongest, strongest[std::min(delta, 0)]);
+    const float other = strongest[std::min(delta, 0)];
+    return !this->isSmall(weight, std::fabs(*strongest), std::fabs(other));
   }
   Candidate strongestCommon(const CoarseningData& data, std::int64_t c, std::uint32_t mark) const;
 };

@@ -36,6 +36,7 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, Assembl
   , Parts(components)
   , PartLabels(labels)
   , Listener(listener)
+  , Stiff(stiffRows(info.cellType, problem.weights()))
   , Points(pool, 3)
   , Values(pool, problem.columns())
   , Sources(pool, problem.columns())
@@ -401,7 +402,12 @@ void Assembly::closeRow(
       this->Constraint[static_cast<std::size_t>(k)] += raise * x[k];
     }
   }
-  this->Out.rows.close(size, alpha, -1);
+  float least = 0.0F;
+  for (std::int64_t e = 0; this->Stiff.any() && e < size; ++e)
+  {
+    least = std::min(least, row[e].weight());
+  }
+  this->Out.rows.close(size, alpha, -1, this->Stiff(least));
   if (this->Listener)
   {
     this->Listener->constraint(this->Constraint.data());

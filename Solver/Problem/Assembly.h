@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Hierarchy/StiffRows.h"
 #include "Solver/Problem/AssembledRows.h"
 #include "Solver/Problem/CellWeights.h"
 #include "Solver/Problem/ComponentLabels.h"
@@ -26,6 +27,13 @@ namespace smg
 class Assembly
 {
 public:
+  /** What finds the stiff rows of a level of a problem on such cells. */
+  static StiffRows stiffRows(CellType type, Weights weights)
+  {
+    const bool may = weights == Weights::RawCotangent && type == CellType::Triangle;
+    return may ? StiffRows(StiffRows::Triangles) : StiffRows();
+  }
+
   /** `listener`, if given, is told what the rows do not keep. */
   Assembly(Pool& pool, const StreamInfo& info, Problem& problem, AssembledRows& rows,
     Components& components, ComponentLabels& labels, RowListener* listener = nullptr);
@@ -78,6 +86,7 @@ private:
   Components& Parts;
   ComponentLabels& PartLabels;
   RowListener* Listener;
+  StiffRows Stiff;
 
   // By open vertex.
   Ring<double> Points, Values, Sources, Mass;

@@ -15,10 +15,12 @@ namespace smg
 /** Which weight w_ij an edge of the mesh carries. See Solver/Problem/CellWeights.h. */
 enum class Weights
 {
-  Uniform,      ///< 1 on every edge
-  Cotangent,    ///< the finite-element stiffness, clamped from below
-  RawCotangent, ///< the finite-element stiffness itself: negative opposite to obtuse angles
-  Own           ///< what Problem::cellWeights makes of the cells, clamped from below
+  Uniform,   ///< 1 on every edge
+  Cotangent, ///< the finite-element stiffness, clamped from below
+  /** The finite-element stiffness itself: negative opposite to obtuse angles. Slower on slivers,
+   * with more data a pass. */
+  RawCotangent,
+  Own ///< what Problem::cellWeights makes of the cells, clamped from below
 };
 
 /**

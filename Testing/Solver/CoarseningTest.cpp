@@ -349,12 +349,12 @@ TEST(Coarsening, stiffNodesStayAndTheirRowsAreNotSparsified)
   TestLevel level = finestLevel(toStream(sliverChains(40, 30, 1e-3)), Weights::RawCotangent, 17);
   for (int l = 0; l < 3; ++l)
   {
-    const CoarsenedLevel step = coarsen(level, {}, 50, StiffTriangles);
+    const CoarsenedLevel step = coarsen(level, {}, 50, StiffRows::Triangles);
     const TestLevel& raw = step.record.raw;
     std::int64_t stiff = 0, sparsified = 0;
     for (std::int64_t i = 0; i < level.nodes(); ++i)
     {
-      const bool isStiff = level.stiff(i, StiffTriangles);
+      const bool isStiff = level.least(i) < StiffRows::Triangles;
       stiff += isStiff ? 1 : 0;
       EXPECT_TRUE(!isStiff || step.record.lifted[i] >= 0);
     }
@@ -363,7 +363,7 @@ TEST(Coarsening, stiffNodesStayAndTheirRowsAreNotSparsified)
     for (std::int64_t c = 0; c < raw.nodes(); ++c)
     {
       const bool fewer = step.coarse.rows[c].size() < raw.rows[c].size();
-      EXPECT_FALSE(fewer && raw.stiff(c, StiffTriangles));
+      EXPECT_FALSE(fewer && raw.least(c) < StiffRows::Triangles);
       sparsified += fewer ? 1 : 0;
     }
     EXPECT_TRUE(l > 0 || sparsified > 0);

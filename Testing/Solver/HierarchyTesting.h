@@ -38,10 +38,14 @@ struct TestLevel
     }
     return largest;
   }
-  bool stiff(std::int64_t i, float below) const
+  float least(std::int64_t i) const
   {
-    return std::any_of(this->rows[i].begin(), this->rows[i].end(),
-      [below](const RowEntry& entry) { return entry.weight() < below; });
+    float smallest = 0.0F;
+    for (const RowEntry& entry : this->rows[i])
+    {
+      smallest = std::min(smallest, entry.weight());
+    }
+    return smallest;
   }
 
   Eigen::MatrixXd dense() const
@@ -60,13 +64,13 @@ struct TestLevel
   }
 
   /** Appends rows [begin, end) to the level's window. */
-  void append(LevelRows& to, std::int64_t begin, std::int64_t end) const
+  void append(LevelRows& to, std::int64_t begin, std::int64_t end, StiffRows stiff = {}) const
   {
     for (std::int64_t i = begin; i < end; ++i)
     {
       const auto size = static_cast<std::int64_t>(this->rows[i].size());
       std::copy(this->rows[i].begin(), this->rows[i].end(), to.open(size));
-      to.close(size, this->alpha[i], this->finest ? -1 : 0);
+      to.close(size, this->alpha[i], this->finest ? -1 : 0, stiff(this->least(i)));
     }
   }
 };
@@ -230,17 +234,19 @@ struct CoarsenedLevel
 
 /** Coarsens a level whose rows come `batch` at a time; their copies are kept as a solve does. */
 inline CoarsenedLevel coarsen(const TestLevel& fine, RecordingOperators operators,
-  std::int64_t batch = std::numeric_limits<std::int64_t>::max(), float stiffBelow = NoneStiff)
+  std::int64_t batch = std::numeric_limits<std::int64_t>::max(),
+  float stiffBelow = -std::numeric_limits<float>::infinity())
 {
   operators.record = std::make_shared<CoarseningRecord>();
   Pool pool(std::int64_t(1) << 32);
-  LevelRows fineRows(pool, stiffBelow);
-  LevelRows coarseRows(pool, stiffBelow);
-  Coarsening<RecordingOperators> step(pool, operators, fineRows, coarseRows);
+  LevelRows fineRows(pool);
+  LevelRows coarseRows(pool);
+  StiffRows stiff(stiffBelow);
+  Coarsening<RecordingOperators> step(pool, operators, fineRows, coarseRows, stiff);
   for (std::int64_t begin = 0; begin < fine.nodes();)
   {
     const std::int64_t end = begin + std::min(batch, fine.nodes() - begin);
-    fine.append(fineRows, begin, end);
+    fine.append(fineRows, begin, end, stiff);
     fineRows.Ended = end == fine.nodes();
     step.advance();
     step.handOver();

@@ -119,7 +119,7 @@ TEST(IterateHistory, aSampleOfTheNodesTellsTheWeightsOfAllOfThem)
 {
   // The groups differ, in a pattern of eight: one group in eight or sixteen, if it is not always
   // the same one, gives nearly the weights of all.
-  const auto weightsOf = [](std::int64_t nodes)
+  const auto weightsOf = [](std::int64_t nodes, KeptResiduals residuals)
   {
     Eigen::VectorXd factors(nodes);
     for (Eigen::Index i = 0; i < nodes; ++i)
@@ -127,7 +127,7 @@ TEST(IterateHistory, aSampleOfTheNodesTellsTheWeightsOfAllOfThem)
       const double group = static_cast<double>(i / 64 % 8 + 1) / 8;
       factors[i] = 0.9 * group * std::sin(static_cast<double>(i % 64));
     }
-    DiagonalModel model(factors, KeptResiduals::Sampled);
+    DiagonalModel model(factors, residuals);
     ConjugateResiduals directions;
     for (int k = 0; k < 4; ++k)
     {
@@ -136,10 +136,13 @@ TEST(IterateHistory, aSampleOfTheNodesTellsTheWeightsOfAllOfThem)
     EXPECT_GT(model.products().aa, 0.0);
     return directions.next(model.products());
   };
-  const StepWeights all = weightsOf(1 << 13);
+  const StepWeights all = weightsOf(1 << 13, KeptResiduals::Sampled); // few: all of them
+  const StepWeights kept = weightsOf(1 << 19, KeptResiduals::All);
+  EXPECT_NEAR(kept.length, all.length, 1e-6);
+  EXPECT_NEAR(kept.conjugation, all.conjugation, 1e-6);
   for (const std::int64_t nodes : { 1 << 19, 1 << 23 })
   {
-    const StepWeights sample = weightsOf(nodes);
+    const StepWeights sample = weightsOf(nodes, KeptResiduals::Sampled);
     EXPECT_NEAR(sample.length, all.length, 0.02 * std::fabs(all.length));
     EXPECT_NEAR(sample.conjugation, all.conjugation, 0.02);
   }

@@ -110,6 +110,20 @@ TEST(RawWeights, ofSliversConvergeHoweverFlatTheyAre)
   }
 }
 
+TEST(RawWeights, ofNothingButObtuseTrianglesLeaveASmallCoarsestLevel)
+{
+  IndexedTestMesh indexed = grid(220, 200);
+  for (std::size_t k = 0; k < indexed.positions.size(); k += 3)
+  {
+    indexed.positions[k] += 6.0 * indexed.positions[k + 1];
+  }
+  const StreamMesh mesh = toStream(indexed);
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::RawCotangent);
+  const Report report = solveMesh(mesh, problem, accurate(1e-2)).report;
+  EXPECT_TRUE(report.converged);
+  EXPECT_LT(report.levels.back().nodes, 5500);
+}
+
 TEST(RawWeights, ofFlatCellsAreScaledDown)
 {
   const double a[3] = { 0, 0, 0 };
