@@ -5,15 +5,14 @@
 smg_archive.py [all]: the meshes of up to 70,000 cells, or all."""
 
 import gzip
-import os
 import sys
 from typing import NamedTuple
 
+from archive_meshes import CHOSEN, in_archive
 from mesh_files import read_mesh, same_points
 from odd_mesh import fans
 from program import load, run
 
-ARCHIVE = os.environ["SMG_TEST_DATA_DIR"]
 MOST_CELLS = sys.maxsize if sys.argv[1:] == ["all"] else 70000
 ORDERS = ("bfs", "spectral", "axis", "keep")
 
@@ -48,7 +47,6 @@ MESHES = {
     "dragon.ply": Counts(437645, 871414, components=151, boundary=4270, degenerate=108),
     "head_mri_1m.ply": Counts(1091302, 2181324, components=518, boundary=98),
 }
-CHOSEN = {"bunny_tet.mesh": ("--cells", "tets")}
 
 
 def convert(name, out, *arguments):
@@ -60,10 +58,6 @@ def counts(report):
     return Counts(*(report[name] for name in (
         "vertices", "cells", "isolated_vertices", "components", "boundary_edges",
         "nonmanifold_edges", "nonmanifold_vertices", "duplicate_cells", "degenerate_cells")))
-
-
-def in_archive(name):
-    return os.path.join(ARCHIVE, name)
 
 
 def check_restored(vsm, suffix, name):
@@ -115,9 +109,6 @@ def test_gzip_and_wrong_suffix(meshes):
             assert counts(report) == expected, (other, report)
 
 
-if not ARCHIVE:
-    print("skipped: SMG_TEST_DATA_DIR names no archive of meshes")
-    sys.exit(77)
 for each in (test_every_order, test_restored_order, test_gzip_and_wrong_suffix):
     each({name: of for name, of in MESHES.items() if of.cells <= MOST_CELLS})
     print("passed", each.__name__)

@@ -5,18 +5,16 @@
 smg_passes.py [all]: the smaller ones, or all."""
 
 import json
-import os
 import sys
 
+from archive_meshes import CHOSEN, in_archive
 from program import load, run
 
-ARCHIVE = os.environ["SMG_TEST_DATA_DIR"]
 SURFACES = ("armadillo43k.obj", "lucy50k.ply", "elephant44k.off", "dragon_res3.ply")
 LARGE_SURFACES = ("bunny.ply", "horse_be.ply", "rangemap_lato315.ply", "brain168k.vtk",
                   "dragon.ply", "head_mri_1m.ply")
 SOLIDS = ("armadillo_tet.msh", "bunny_tet.mesh", "raptor_tet.vtu")
 LARGE_SOLIDS = ("head_tet336k.vtk",)
-CHOSEN = {"bunny_tet.mesh": ("--cells", "tets")}
 
 
 def bounds(mesh):
@@ -46,7 +44,7 @@ def passes(mesh, tolerance):
 
 
 def check(name, most, most_accurate):
-    run("convert", os.path.join(ARCHIVE, name), "mesh.vsm", "--quiet", *CHOSEN.get(name, ()))
+    run("convert", in_archive(name), "mesh.vsm", "--quiet", *CHOSEN.get(name, ()))
     low, high = bounds("mesh.vsm")
     longest = max(range(3), key=lambda d: high[d] - low[d])
     write_problem(low, high, longest, "cotangent")
@@ -63,7 +61,7 @@ def test_cotangent_weights(large):
 
 
 def test_raw_cotangent_weights_of_slivers():
-    run("convert", os.path.join(ARCHIVE, "dragon.ply"), "mesh.vsm", "--quiet")
+    run("convert", in_archive("dragon.ply"), "mesh.vsm", "--quiet")
     low, high = bounds("mesh.vsm")
     for axis in range(3):
         write_problem(low, high, axis, "raw-cotangent")
@@ -72,9 +70,6 @@ def test_raw_cotangent_weights_of_slivers():
         assert taken <= 30, axis
 
 
-if not ARCHIVE:
-    print("skipped: SMG_TEST_DATA_DIR names no archive of meshes")
-    sys.exit(77)
 test_cotangent_weights(sys.argv[1:] == ["all"])
 test_raw_cotangent_weights_of_slivers()
 sys.exit(0)
