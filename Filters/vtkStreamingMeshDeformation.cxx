@@ -27,7 +27,7 @@ struct vtkStreamingMeshDeformation::Internals
     smg::DeformOptions options;
     this->Self.FillOptions(options);
     options.weights =
-      this->Self.GetWeights() == UNIFORM ? smg::Weights::Uniform : smg::Weights::Cotangent;
+      this->Self.GetWeights() == UNIFORM ? smg::Weights::Uniform : smg::Weights::Clamped;
     options.cycles = this->Self.Cycles;
     return options;
   }

@@ -51,13 +51,14 @@ public:
   /** The weights that the edges of the mesh can have. */
   enum WeightTypes
   {
-    UNIFORM = 0,  ///< 1 on every edge
-    COTANGENT = 1 ///< the finite-element stiffness, clamped from below
+    UNIFORM = 0,   ///< 1 on every edge
+    COTANGENT = 1, ///< the stiffness of linear finite elements
+    CLAMPED = 2    ///< the same, raised to a positive floor
   };
 
   ///@{
   /** The weights of the edges. Default: COTANGENT. */
-  vtkSetClampMacro(Weights, int, UNIFORM, COTANGENT);
+  vtkSetClampMacro(Weights, int, UNIFORM, CLAMPED);
   vtkGetMacro(Weights, int);
   ///@}
 

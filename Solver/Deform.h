@@ -13,7 +13,7 @@ namespace smg
 /** How to deform. */
 struct DeformOptions : SolveOptions
 {
-  Weights weights = Weights::Cotangent;
+  Weights weights = Weights::Clamped;
   /** V-cycles of each of the two steps, at least 1; 0: until the step reaches the tolerance. */
   int cycles = 0;
 };

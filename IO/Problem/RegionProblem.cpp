@@ -35,7 +35,7 @@ RegionValue parseValue(const JsonNode& value, int columns)
 
 void parseConductivity(const JsonNode& node, RegionProblemData& data)
 {
-  if (data.weights != Weights::Cotangent)
+  if (data.weights == Weights::Uniform)
   {
     node.fail("can be given with cotangent weights only");
   }

@@ -6,13 +6,13 @@ namespace smg
 
 std::optional<Weights> weightsOfName(std::string_view name)
 {
-  if (name == "cotangent")
+  if (name == "cotangent" || name == "raw-cotangent")
   {
     return Weights::Cotangent;
   }
-  if (name == "raw-cotangent")
+  if (name == "clamped")
   {
-    return Weights::RawCotangent;
+    return Weights::Clamped;
   }
   return name == "uniform" ? std::optional(Weights::Uniform) : std::nullopt;
 }
@@ -25,10 +25,10 @@ std::optional<Weights> parseWeights(const JsonNode& object, bool raw)
   }
   const JsonNode node = object.member("weights");
   const std::optional<Weights> weights = weightsOfName(node.string());
-  if (!weights || (!raw && weights == Weights::RawCotangent))
+  if (!weights || (!raw && weights == Weights::Cotangent))
   {
-    node.fail(raw ? "must be \"cotangent\", \"raw-cotangent\" or \"uniform\""
-                  : "must be \"cotangent\" or \"uniform\"");
+    node.fail(raw ? "must be \"cotangent\", \"clamped\" or \"uniform\""
+                  : "must be \"clamped\" or \"uniform\"");
   }
   return weights;
 }

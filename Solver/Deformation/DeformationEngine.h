@@ -143,7 +143,7 @@ double DeformationEngine<Operators>::positionScale() const
 {
   const double extent = this->Rest.extent();
   const bool lengths =
-    this->Cells == CellType::Tetrahedron && this->EdgeWeights == Weights::Cotangent;
+    this->Cells == CellType::Tetrahedron && this->EdgeWeights == Weights::Clamped;
   return lengths ? extent * extent : extent;
 }
 

@@ -193,7 +193,7 @@ template <OperatorSet Operators>
 void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem, RowListener* listener)
 {
   const CellType type = mesh.info().cellType;
-  this->MixedSigns = problem.weights() == Weights::RawCotangent;
+  this->MixedSigns = problem.weights() == Weights::Cotangent;
   HierarchyBuilder<Operators> builder(this->Memory, Operators::forCells(type), this->Hierarchy,
     this->FirstCore, Assembly::stiffRows(type, problem.weights()));
   AssembledRows rows;

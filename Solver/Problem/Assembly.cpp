@@ -136,7 +136,7 @@ void Assembly::addCell(const std::int64_t* corners, unsigned flags)
   CellWeights cell = repeated || flags != 0 ? CellWeights{}
                      : this->Own            ? this->Own->cell()
                                             : cellWeights(this->Type, point);
-  if (this->Kind == Weights::RawCotangent)
+  if (this->Kind == Weights::Cotangent)
   {
     this->Limited += limitWeights(this->Type, point, cell) ? 1 : 0;
   }
@@ -255,7 +255,7 @@ void Assembly::collectRow(std::int64_t i)
   {
     const std::int64_t j = this->Row[e].to;
     double weight = this->Row[e].weight;
-    if (this->Kind == Weights::Cotangent || this->Kind == Weights::Own)
+    if (this->Kind == Weights::Clamped || this->Kind == Weights::Own)
     {
       const double floor = (scales ? scales[e].weight : 1.0) *
                            cotangentFloor(this->Type, this->Points.at(i), this->Points.at(j));
@@ -391,7 +391,7 @@ void Assembly::closeRow(
       }
     }
   }
-  if (this->Kind == Weights::RawCotangent)
+  if (this->Kind == Weights::Cotangent)
   {
     const double raise = rowShortfall({ row, static_cast<std::size_t>(size) }, alpha);
     this->Raised += raise > 0.0 ? 1 : 0;

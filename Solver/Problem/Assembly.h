@@ -30,7 +30,7 @@ public:
   /** What finds the stiff rows of a level of a problem on such cells. */
   static StiffRows stiffRows(CellType type, Weights weights)
   {
-    const bool may = weights == Weights::RawCotangent && type == CellType::Triangle;
+    const bool may = weights == Weights::Cotangent && type == CellType::Triangle;
     return may ? StiffRows(StiffRows::Triangles) : StiffRows();
   }
 

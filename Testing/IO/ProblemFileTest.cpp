@@ -49,7 +49,7 @@ TEST_F(ProblemFile, DefaultsAndValues)
 {
   const auto empty = this->parse("{}");
   EXPECT_EQ(empty->columns(), 1);
-  EXPECT_EQ(empty->weights(), Weights::Cotangent);
+  EXPECT_EQ(empty->weights(), Weights::Clamped);
   EXPECT_EQ(empty->screening(), 0.0);
   const auto full =
     this->parse(R"({"weights": "uniform", "columns": 2, "source": [1, -2.5], "screening": 0.25})");
@@ -137,7 +137,7 @@ TEST_F(ProblemFile, ConductivityIsANumberOrACellColumn)
   { return readProblemFile(this->file(json), source.info())->cellColumns(); };
   EXPECT_EQ(columnsOf(R"({"conductivity": "k"})"), Names{ "k" });
   EXPECT_EQ(columnsOf(R"({"conductivity": 2})"), Names{});
-  EXPECT_EQ(this->parse(R"({"conductivity": 1})")->weights(), Weights::Cotangent);
+  EXPECT_EQ(this->parse(R"({"conductivity": 1})")->weights(), Weights::Clamped);
 }
 
 TEST_F(ProblemFile, ErrorsOfTheConductivity)

@@ -23,7 +23,7 @@ std::pair<StreamMesh, ArrayProblem> slowTask(bool surface, int columns)
 {
   StreamMesh mesh =
     toStream(surface ? shuffled(torus(90, 50, 0.4)) : shuffled(tetBox(13, 12, 14, 0.15)));
-  ArrayProblem problem = heldEnds(mesh, columns, Weights::Cotangent);
+  ArrayProblem problem = heldEnds(mesh, columns, Weights::Clamped);
   return { std::move(mesh), std::move(problem) };
 }
 
@@ -101,7 +101,7 @@ TEST(Acceleration, needsFewerPassesWhereVCyclesAreSlow)
 {
   // Raw cotangent weights of tetrahedra of which many are flat.
   const StreamMesh mesh = toStream(shuffled(tetBox(13, 12, 14, 0.31)));
-  ArrayProblem problem = heldEnds(mesh, 1, Weights::RawCotangent);
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
   const auto solveBy = [&](AccelerationKind kind)
   {
     SolveOptions options = oneSweep(kind, 1e-10);

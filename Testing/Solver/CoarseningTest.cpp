@@ -28,7 +28,7 @@ std::vector<Case> cases()
   solid.strength = 0.0F;
   solid.finestEntries = solid.entries = 5;
   const auto uniform = Weights::Uniform;
-  const auto cotangent = Weights::Cotangent;
+  const auto cotangent = Weights::Clamped;
   const StreamMesh patch = toStream(shuffled(grid(24, 19, 0.3)));
   const StreamMesh ring = toStream(shuffled(torus(40, 16, 0.4)), TestOrder::Keep);
   const StreamMesh box = toStream(shuffled(tetBox(8, 7, 9, 0.15)));
@@ -320,7 +320,7 @@ TEST(Coarsening, whatIsGoneIsNotLookedAt)
   operators.finestEntries = operators.entries = 5;
   for (const TestLevel& level :
     { finestLevel(toStream(shuffled(tetBox(31, 16, 16, 0.2))), Weights::Uniform),
-      finestLevel(toStream(shuffled(tetBox(35, 22, 20, 0.2))), Weights::Cotangent) })
+      finestLevel(toStream(shuffled(tetBox(35, 22, 20, 0.2))), Weights::Clamped) })
   {
     const CoarsenedLevel whole = coarsen(level, operators);
     const CoarsenedLevel parts = coarsen(level, operators, 16);
@@ -346,7 +346,7 @@ TEST(Coarsening, doesNotDependOnHowManyRowsComeAtOnce)
 
 TEST(Coarsening, stiffNodesStayAndTheirRowsAreNotSparsified)
 {
-  TestLevel level = finestLevel(toStream(sliverChains(40, 30, 1e-3)), Weights::RawCotangent, 17);
+  TestLevel level = finestLevel(toStream(sliverChains(40, 30, 1e-3)), Weights::Cotangent, 17);
   for (int l = 0; l < 3; ++l)
   {
     const CoarsenedLevel step = coarsen(level, {}, 50, StiffRows::Triangles);

@@ -31,7 +31,7 @@ Solved solveEnds(const IndexedTestMesh& mesh, Weights weights, double tolerance)
 
 TEST(ConvergenceLaw, hardlyDependsOnTheSizeOfASurface)
 {
-  for (const Weights weights : { Weights::Uniform, Weights::Cotangent })
+  for (const Weights weights : { Weights::Uniform, Weights::Clamped })
   {
     double rates[2];
     for (const int k : { 0, 1 })
@@ -49,7 +49,7 @@ TEST(ConvergenceLaw, hardlyDependsOnTheSizeOfASurface)
 
 TEST(ConvergenceLaw, hardlyDependsOnTheSizeOfASolid)
 {
-  for (const Weights weights : { Weights::Uniform, Weights::Cotangent })
+  for (const Weights weights : { Weights::Uniform, Weights::Clamped })
   {
     double rates[2];
     for (const int k : { 0, 1 })
@@ -68,8 +68,8 @@ TEST(ConvergenceLaw, hardlyDependsOnTheSizeOfASolid)
 TEST(Convergence, needsFewCyclesForSixDigits)
 {
   EXPECT_LE(solveEnds(torus(300, 150, 0.3), Weights::Uniform, 1e-6).report.cycles, 8);
-  EXPECT_LE(solveEnds(torus(300, 150, 0.3), Weights::Cotangent, 1e-6).report.cycles, 11);
-  EXPECT_LE(solveEnds(tetBox(24, 24, 24, 0.15), Weights::Cotangent, 1e-6).report.cycles, 14);
+  EXPECT_LE(solveEnds(torus(300, 150, 0.3), Weights::Clamped, 1e-6).report.cycles, 11);
+  EXPECT_LE(solveEnds(tetBox(24, 24, 24, 0.15), Weights::Clamped, 1e-6).report.cycles, 14);
 }
 
 TEST(Convergence, moreSweepsNeedFewerCycles)
@@ -93,7 +93,7 @@ TEST(Convergence, theReportedResidualIsTheTrueOne)
   for (const bool surface : { true, false })
   {
     const StreamMesh mesh = toStream(surface ? torus(80, 40, 0.3) : tetBox(14, 13, 12, 0.15));
-    ArrayProblem problem = heldEnds(mesh, 2, Weights::Cotangent);
+    ArrayProblem problem = heldEnds(mesh, 2, Weights::Clamped);
     MemorySource source(mesh);
     const DirectSystem system = assembleDirect(source, problem);
     for (const int cycles : { 1, 2, 4 })
@@ -187,7 +187,7 @@ TEST(Convergence, reachesTheDirectSolution)
   int columns = 1;
   for (const IndexedTestMesh& mesh : meshes)
   {
-    for (const Weights weights : { Weights::Uniform, Weights::Cotangent })
+    for (const Weights weights : { Weights::Uniform, Weights::Clamped })
     {
       for (const TestOrder order : { TestOrder::BreadthFirst, TestOrder::Keep })
       {

@@ -47,7 +47,7 @@ Eigen::MatrixXd denseCycle(const DenseHierarchy<>& h, int levels, int l, const E
 TEST(CoreCycle, isTheVCycle)
 {
   const TestLevel surface =
-    finestLevel(toStream(shuffled(torus(50, 24, 0.4))), Weights::Cotangent, 100);
+    finestLevel(toStream(shuffled(torus(50, 24, 0.4))), Weights::Clamped, 100);
   const TestLevel solid = finestLevel(toStream(shuffled(tetBox(9, 9, 9))), Weights::Uniform, 100);
   for (const TestLevel& level : { surface, solid })
   {
@@ -76,7 +76,7 @@ TEST(CoreCycle, isTheVCycle)
 TEST(CoreCycle, contractsTheErrorOnManyLevels)
 {
   const TestLevel level =
-    finestLevel(toStream(shuffled(grid(40, 40, 0.2))), Weights::Cotangent, 90);
+    finestLevel(toStream(shuffled(grid(40, 40, 0.2))), Weights::Clamped, 90);
   DenseHierarchy<> h(level, 5, 1, 2);
   CoreCycle<GaussSeidel> cycle;
   cycle.setLevels(levelsOf(h, 5));
@@ -94,8 +94,8 @@ TEST(CoreCycle, contractsTheErrorOnManyLevels)
 TEST(CoarsestSolver, solvesComponentsWithAndWithoutConstraint)
 {
   // Two components: the second one is free.
-  const TestLevel fixed = finestLevel(toStream(torus(12, 7, 0.2)), Weights::Cotangent, 20);
-  const TestLevel free = finestLevel(toStream(grid(9, 8, 0.2)), Weights::Cotangent);
+  const TestLevel fixed = finestLevel(toStream(torus(12, 7, 0.2)), Weights::Clamped, 20);
+  const TestLevel free = finestLevel(toStream(grid(9, 8, 0.2)), Weights::Clamped);
   TestLevel both = fixed;
   both.rows.insert(both.rows.end(), free.rows.begin(), free.rows.end());
   both.alpha.insert(both.alpha.end(), free.alpha.begin(), free.alpha.end());

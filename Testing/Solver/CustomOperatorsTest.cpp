@@ -77,10 +77,10 @@ std::vector<std::pair<StreamMesh, ArrayProblem>> tasks()
 {
   std::vector<std::pair<StreamMesh, ArrayProblem>> list;
   const StreamMesh surface = toStream(shuffled(torus(80, 50, 0.3)));
-  list.emplace_back(surface, heldEnds(surface, 3, Weights::Cotangent));
+  list.emplace_back(surface, heldEnds(surface, 3, Weights::Clamped));
   list.emplace_back(surface, heldEnds(surface, 1, Weights::Uniform));
   const StreamMesh solid = toStream(shuffled(tetBox(13, 12, 14, 0.1)));
-  list.emplace_back(solid, heldEnds(solid, 1, Weights::Cotangent));
+  list.emplace_back(solid, heldEnds(solid, 1, Weights::Clamped));
   return list;
 }
 

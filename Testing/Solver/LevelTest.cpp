@@ -13,12 +13,12 @@ namespace
 
 TestLevel surfaceLevel()
 {
-  return finestLevel(toStream(shuffled(torus(50, 24, 0.4))), Weights::Cotangent, 37);
+  return finestLevel(toStream(shuffled(torus(50, 24, 0.4))), Weights::Clamped, 37);
 }
 
 TestLevel solidLevel()
 {
-  return finestLevel(toStream(shuffled(tetBox(9, 8, 8, 0.15))), Weights::Cotangent, 23);
+  return finestLevel(toStream(shuffled(tetBox(9, 8, 8, 0.15))), Weights::Clamped, 23);
 }
 
 template <class Real>
@@ -213,7 +213,7 @@ TEST(RowBlockPacker, wideBlocksKeepTheLargestDistances)
 
 TEST(RowBlockPacker, keepsRowsAndReaches)
 {
-  const TestLevel level = finestLevel(toStream(shuffled(grid(60, 40, 0.1))), Weights::Cotangent);
+  const TestLevel level = finestLevel(toStream(shuffled(grid(60, 40, 0.1))), Weights::Clamped);
   Pool pool(1 << 28);
   SpareBuffers buffers(pool);
   LevelRows rows(pool);

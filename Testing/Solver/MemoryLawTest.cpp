@@ -14,7 +14,7 @@ namespace
 
 Report twoPasses(const StreamMesh& mesh)
 {
-  ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
   SolveOptions options;
   options.maxCycles = 1;
   options.coreNodes = 1000;

@@ -116,7 +116,7 @@ TEST(OwnWeights, byTheCotangentFormulaAreTheCotangentWeightsBitForBit)
 {
   for (const StreamMesh& mesh : meshes())
   {
-    ArrayProblem problem = heldEnds(mesh, 3, Weights::Cotangent);
+    ArrayProblem problem = heldEnds(mesh, 3, Weights::Clamped);
     problem.Screening = 0.1;
     const Solved expected = shortSolve(mesh, problem);
     EXPECT_GT(expected.report.clamped_weights, 10);
@@ -135,7 +135,7 @@ TEST(OwnWeights, theirScaleDoesNotMatterNotEvenToTheFloor)
 {
   for (const StreamMesh& mesh : meshes())
   {
-    ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+    ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
     const Solved expected = shortSolve(mesh, problem);
     for (const int power : { -30, -3, 30 })
     {
@@ -223,7 +223,7 @@ TEST(OwnWeights, doNotDependOnBlocks)
 {
   for (const StreamMesh& mesh : meshes())
   {
-    Weighed own(heldEnds(mesh, 1, Weights::Cotangent), step(0, 1.0, 30.0));
+    Weighed own(heldEnds(mesh, 1, Weights::Clamped), step(0, 1.0, 30.0));
     SolveOptions inCore;
     inCore.tolerance = 1e-12;
     inCore.maxCycles = 3;
@@ -245,7 +245,7 @@ TEST(OwnWeights, areAskedForOnceForEachCellInStreamOrder)
     std::iota(numbers.begin(), numbers.end(), 0.0);
     mesh.cellColumns.push_back(makeColumn<double>("Number", numbers));
     std::int64_t next = 0;
-    Weighed own(heldEnds(mesh, 1, Weights::Cotangent),
+    Weighed own(heldEnds(mesh, 1, Weights::Clamped),
       [&](CellBatch& batch)
       {
         const auto size = static_cast<std::size_t>(cornersOf(mesh.cellType));
@@ -272,7 +272,7 @@ TEST(OwnWeights, aCellOfNoMeasureHasNoWeight)
 {
   for (StreamMesh mesh : meshes())
   {
-    ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+    ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
     Weighed own(problem,
       [](CellBatch& batch)
       {
@@ -310,7 +310,7 @@ TEST(OwnWeights, thatAreNotValidAreAnError)
   {
     const auto errorOf = [&mesh](const Weighed::Weigh& weigh)
     {
-      Weighed own(heldEnds(mesh, 1, Weights::Cotangent), weigh);
+      Weighed own(heldEnds(mesh, 1, Weights::Clamped), weigh);
       return messageOf([&] { shortSolve(mesh, own, 300); });
     };
     // Something is wrong with cell 700 of the stream alone.

@@ -90,7 +90,7 @@ TEST(Problem, linearFunctionsOnARegularMeshAreExactToNineDigits)
   const StreamMesh mesh = toStream(grid(60, 50));
   const Function u = [](double x, double y, double) { return 3 - 2 * x + 0.5 * y; };
   const Eigen::MatrixXd exact = sample(mesh, u);
-  for (const Weights weights : { Weights::Uniform, Weights::Cotangent })
+  for (const Weights weights : { Weights::Uniform, Weights::Clamped })
   {
     ArrayProblem problem;
     problem.EdgeWeights = weights;
@@ -179,7 +179,7 @@ TEST(Problem, sourcesAndScreeningAgreeWithTheDirectSolution)
     const StreamMesh mesh = toStream(surface ? torus(90, 45, 0.3) : tetBox(13, 14, 12, 0.15));
     for (const double screening : { 0.0, 0.2 })
     {
-      ArrayProblem problem = heldEnds(mesh, 2, Weights::Cotangent);
+      ArrayProblem problem = heldEnds(mesh, 2, Weights::Clamped);
       problem.Screening = screening;
       problem.Source.resize(2 * mesh.vertices());
       Random random(31);
@@ -198,7 +198,7 @@ TEST(Problem, edgeTargetsOfThePositionsGiveThemBack)
   for (const bool surface : { true, false })
   {
     const StreamMesh mesh = toStream(surface ? torus(90, 45, 0.3) : tetBox(13, 14, 12, 0.15));
-    for (const Weights weights : { Weights::Uniform, Weights::Cotangent })
+    for (const Weights weights : { Weights::Uniform, Weights::Clamped })
     {
       ArrayProblem problem = fixedEnds(mesh);
       problem.EdgeWeights = weights;
@@ -234,7 +234,7 @@ TEST(Problem, edgeTargetsThatAreNoGradientAgreeWithTheDirectSolution)
 TEST(Problem, theMaximumPrincipleHolds)
 {
   const StreamMesh mesh = toStream(shuffled(torus(150, 40, 0.9)));
-  ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
   const Solved solved = solveMesh(mesh, problem, accurate());
   EXPECT_GT(solved.report.clamped_weights, 0);
   EXPECT_LE(solved.values.maxCoeff(), 1.0 + 1e-8);
@@ -246,7 +246,7 @@ TEST(Problem, theReportCountsWhatTheDirectSystemCounts)
   for (const bool surface : { true, false })
   {
     const StreamMesh mesh = toStream(shuffled(surface ? torus(90, 45, 0.8) : tetBox(9, 9, 9, 0.2)));
-    ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+    ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
     const Report report = solveMesh(mesh, problem).report;
     MemorySource source(mesh);
     const DirectSystem system = assembleDirect(source, problem);

@@ -25,7 +25,7 @@ std::pair<StreamMesh, ArrayProblem> obtuseGrid()
   ArrayProblem problem;
   problem.Columns = 3;
   problem.Value = mesh.positions;
-  problem.EdgeWeights = Weights::RawCotangent;
+  problem.EdgeWeights = Weights::Cotangent;
   double low[2] = { 1e9, 1e9 };
   double high[2] = { -1e9, -1e9 };
   const auto along = [&](std::int64_t v, int axis)
@@ -66,7 +66,7 @@ TEST(RawWeights, keepLinearFunctionsWhichClampedOnesDoNot)
   auto [mesh, problem] = obtuseGrid();
   const double extent = positionsOf(mesh).cwiseAbs().maxCoeff();
   EXPECT_LT(errorOfLinear(mesh, problem), 1e-5 * extent);
-  problem.EdgeWeights = Weights::Cotangent;
+  problem.EdgeWeights = Weights::Clamped;
   EXPECT_GT(errorOfLinear(mesh, problem), 1e-3 * extent);
 }
 
@@ -76,7 +76,7 @@ TEST(RawWeights, agreeWithTheDirectSolve)
   {
     const StreamMesh mesh =
       toStream(surface ? shuffled(torus(60, 20, 0.4)) : shuffled(tetBox(9, 8, 10, 0.3)));
-    ArrayProblem problem = heldEnds(mesh, 2, Weights::RawCotangent);
+    ArrayProblem problem = heldEnds(mesh, 2, Weights::Cotangent);
     const Solved solved = solveMesh(mesh, problem, accurate());
     EXPECT_TRUE(solved.report.converged);
     EXPECT_EQ(solved.report.clamped_weights, 0);
@@ -89,7 +89,7 @@ TEST(RawWeights, ofSliversConvergeHoweverFlatTheyAre)
   for (const double height : { 2e-2, 2e-3, 2e-4, 2e-5 })
   {
     const StreamMesh mesh = toStream(sliverChains(60, 48, height));
-    ArrayProblem problem = heldEnds(mesh, 2, Weights::RawCotangent);
+    ArrayProblem problem = heldEnds(mesh, 2, Weights::Cotangent);
     SolveOptions options = accurate(1e-12);
     options.inCore = true;
     const Solved solved = solveMesh(mesh, problem, options);
@@ -118,7 +118,7 @@ TEST(RawWeights, ofNothingButObtuseTrianglesLeaveASmallCoarsestLevel)
     indexed.positions[k] += 6.0 * indexed.positions[k + 1];
   }
   const StreamMesh mesh = toStream(indexed);
-  ArrayProblem problem = heldEnds(mesh, 1, Weights::RawCotangent);
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
   const Report report = solveMesh(mesh, problem, accurate(1e-2)).report;
   EXPECT_TRUE(report.converged);
   EXPECT_LT(report.levels.back().nodes, 5500);

@@ -69,7 +69,7 @@ void forHierarchies(const std::function<void(Hierarchy&)>& check)
 {
   for (const StreamMesh& mesh : { toStream(torus(24, 12, 0.3)), toStream(tetBox(7, 6, 6, 0.15)) })
   {
-    for (const Weights weights : { Weights::Uniform, Weights::Cotangent })
+    for (const Weights weights : { Weights::Uniform, Weights::Clamped })
     {
       Hierarchy hierarchy(mesh, richProblem(mesh, weights));
       ASSERT_GT(hierarchy.last.nodes(), 5);

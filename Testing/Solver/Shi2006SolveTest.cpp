@@ -63,7 +63,7 @@ TEST(Shi2006Solve, convergesWhereTheTargetsAreDifferences)
   for (const StreamMesh& mesh :
     { toStream(torus(90, 45, 0.3)), toStream(tetBox(13, 14, 12, 0.15)) })
   {
-    ArrayProblem problem = heldEndsOf(mesh, wavy, 2, Weights::Cotangent);
+    ArrayProblem problem = heldEndsOf(mesh, wavy, 2, Weights::Clamped);
     problem.Target = differencesOf(wavy, 2);
     const Solved solved = solveMesh(mesh, problem, literal(1e-15));
     EXPECT_TRUE(solved.report.converged);
@@ -164,7 +164,7 @@ TEST(Shi2006Solve, verticesThatArePrescribedOrHeldKeepTheirValue)
   const std::int64_t before = mesh.vertices();
   mesh.positions.insert(mesh.positions.end(), { 50, 0, 0, 51, 0, 0, 52, 0, 0 });
   mesh.corners.insert(mesh.corners.end(), { before, before + 1, before + 2 }); // no area
-  ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
   std::fill(problem.Prescribed.begin() + before, problem.Prescribed.end(), 0);
   problem.Value[before] = 7;
   for (const bool all : { false, true })

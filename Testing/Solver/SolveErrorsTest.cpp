@@ -47,7 +47,7 @@ TEST(SolveErrors, numbersThatAreNotFinite)
     {
       StreamMesh broken = mesh;
       broken.positions[3 * vertex + 1] = bad;
-      ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+      ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
       EXPECT_TRUE(contains(errorOfSolve(broken, problem), "finite")) << vertex;
       ArrayProblem value = problem;
       value.Value[vertex] = bad;
@@ -57,7 +57,7 @@ TEST(SolveErrors, numbersThatAreNotFinite)
       source.Source[vertex] = bad;
       EXPECT_TRUE(contains(errorOfSolve(mesh, source), "finite"));
     }
-    ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+    ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
     problem.Target = [bad](const double* p, const double*, double* d)
     { d[0] = p[0] > 2 ? bad : 0.0; };
     EXPECT_TRUE(contains(errorOfSolve(mesh, problem), "finite"));
@@ -70,7 +70,7 @@ TEST(SolveErrors, numbersThatAreNotFinite)
 TEST(SolveErrors, valuesWhoseSquaresOverflow)
 {
   const StreamMesh mesh = toStream(torus(30, 20));
-  ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
   for (double& value : problem.Value)
   {
     value *= 1e300;
@@ -148,7 +148,7 @@ TEST(SolveErrors, ofTheSourcePassThrough)
     int Calls = 0;
   };
   const StreamMesh mesh = toStream(torus(60, 40));
-  ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
   Truncated source(mesh, 100);
   EXPECT_EQ(errorOfSolve(source, problem), "the file is truncated");
 }
@@ -203,7 +203,7 @@ TEST(SolveErrors, aScratchFolderThatDoesNotExist)
 TEST(SolveErrors, aMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
 {
   const StreamMesh mesh = toStream(torus(300, 150, 0.3));
-  ArrayProblem problem = heldEnds(mesh, 3, Weights::Cotangent);
+  ArrayProblem problem = heldEnds(mesh, 3, Weights::Clamped);
   SolveOptions options;
   options.coreNodes = 1000;
   options.maxCycles = 1;
@@ -216,7 +216,7 @@ TEST(SolveErrors, aMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
 TEST(SolveErrors, theMemoryLimitIsKept)
 {
   const StreamMesh mesh = toStream(torus(200, 100, 0.3));
-  ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
   SolveOptions options;
   options.maxCycles = 2;
   expectLimitsKept(options, 1 << 26,

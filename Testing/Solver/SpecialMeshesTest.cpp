@@ -51,7 +51,7 @@ TEST(SpecialMeshes, allVerticesPrescribed)
   for (const bool surface : { true, false })
   {
     const StreamMesh mesh = toStream(surface ? torus(60, 40) : tetBox(8, 8, 8));
-    ArrayProblem problem = heldEnds(mesh, 2, Weights::Cotangent);
+    ArrayProblem problem = heldEnds(mesh, 2, Weights::Clamped);
     std::fill(problem.Prescribed.begin(), problem.Prescribed.end(), 1);
     Random random(1);
     for (double& value : problem.Value)
@@ -77,7 +77,7 @@ TEST(SpecialMeshes, aSingleTriangle)
   problem.Prescribed = { 1, 0, 0 };
   problem.Value = { 5, 0, 1 };
   problem.Source = { 1, -2, 3 };
-  for (const Weights weights : { Weights::Uniform, Weights::Cotangent })
+  for (const Weights weights : { Weights::Uniform, Weights::Clamped })
   {
     problem.EdgeWeights = weights;
     solveInAllWays(mesh, problem);
@@ -128,7 +128,7 @@ TEST(SpecialMeshes, heldVerticesKeepTheirValue)
     mesh.corners.end(), { before, before + 1, before + 2, before + 3, before + 3, 3 });
   for (const double screening : { 0.0, 1.0 })
   {
-    ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+    ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
     std::fill(problem.Prescribed.begin() + before, problem.Prescribed.end(), 0);
     std::copy_n(std::vector<double>{ 7, 8, 9, 10 }.begin(), 4, problem.Value.begin() + before);
     problem.Screening = screening;
@@ -160,7 +160,7 @@ TEST(SpecialMeshes, onlyDegenerateCells)
 TEST(SpecialMeshes, flaggedCellsCarryNoWeight)
 {
   StreamMesh clean = toStream(torus(40, 20, 0.2));
-  const ArrayProblem problem = heldEnds(clean, 1, Weights::Cotangent);
+  const ArrayProblem problem = heldEnds(clean, 1, Weights::Clamped);
   StreamMesh doubled = clean;
   std::vector<std::uint8_t> flags;
   doubled.corners.clear();
@@ -190,7 +190,7 @@ TEST(SpecialMeshes, duplicatesWithoutFlagAddTheirWeight)
   StreamMesh mesh = toStream(torus(40, 20, 0.2));
   const auto corners = mesh.corners;
   mesh.corners.insert(mesh.corners.end(), corners.begin() + 300, corners.begin() + 600);
-  solveInAllWays(mesh, heldEnds(mesh, 1, Weights::Cotangent));
+  solveInAllWays(mesh, heldEnds(mesh, 1, Weights::Clamped));
   solveInAllWays(mesh, heldEnds(mesh, 1, Weights::Uniform));
 }
 
@@ -212,7 +212,7 @@ TEST(SpecialMeshes, aNonManifoldEdge)
     }
   }
   const StreamMesh stream = toStream(mesh);
-  solveInAllWays(stream, heldEnds(stream, 2, Weights::Cotangent));
+  solveInAllWays(stream, heldEnds(stream, 2, Weights::Clamped));
 }
 
 TEST(SpecialMeshes, sliversDoNotBreakConvergence)
@@ -267,7 +267,7 @@ TEST(SpecialMeshes, scaleAndPlaceDoNotMatter)
     p *= 0x1p-40;
   }
   const StreamMesh small = toStream(mesh);
-  ArrayProblem problem = heldEnds(plain, 1, Weights::Cotangent);
+  ArrayProblem problem = heldEnds(plain, 1, Weights::Clamped);
   EXPECT_TRUE(sameBits(solveMesh(small, problem).values, solveMesh(plain, problem).values));
 }
 

@@ -28,9 +28,9 @@ std::vector<std::pair<StreamMesh, ArrayProblem>> tasks()
     ArrayProblem problem = heldEnds(stream, columns, weights);
     list.emplace_back(std::move(stream), std::move(problem));
   };
-  add(surface, TestOrder::BreadthFirst, 3, Weights::Cotangent);
+  add(surface, TestOrder::BreadthFirst, 3, Weights::Clamped);
   add(surface, TestOrder::Keep, 1, Weights::Uniform);
-  add(solid, TestOrder::BreadthFirst, 1, Weights::Cotangent);
+  add(solid, TestOrder::BreadthFirst, 1, Weights::Clamped);
   add(solid, TestOrder::Keep, 3, Weights::Uniform);
   add(grid(5000, 2), TestOrder::BreadthFirst, 5, Weights::Uniform);
   return list;
@@ -131,7 +131,7 @@ TEST(Streaming, equalsInCoreWithSourcesTargetsScreeningAndFreeComponents)
 {
   const IndexedTestMesh one = torus(90, 40, 0.3);
   const StreamMesh mesh = toStream(shuffled(disjointUnion(one, sphere(4), { 0, 0, 8 })));
-  ArrayProblem problem = heldEnds(mesh, 2, Weights::Cotangent);
+  ArrayProblem problem = heldEnds(mesh, 2, Weights::Clamped);
   problem.Source.resize(2 * mesh.vertices());
   Random random(3);
   for (double& source : problem.Source)

@@ -19,7 +19,7 @@ public:
   using EdgeTarget = std::function<void(const double* p, const double* q, double* target)>;
 
   int Columns = 1;
-  Weights EdgeWeights = Weights::Cotangent;
+  Weights EdgeWeights = Weights::Clamped;
   double Screening = 0.0;
   std::vector<std::uint8_t> Prescribed; ///< one a vertex
   std::vector<double> Value;            ///< `Columns` a vertex

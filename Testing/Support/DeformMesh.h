@@ -10,7 +10,7 @@
 namespace smg::testing
 {
 
-inline constexpr Weights BothWeights[] = { Weights::Uniform, Weights::Cotangent };
+inline constexpr Weights BothWeights[] = { Weights::Uniform, Weights::Clamped };
 
 /** Deforms a mesh that comes in blocks of `blockCells` cells. */
 inline Solved deformMesh(const StreamMesh& mesh, Handles& handles,
@@ -22,7 +22,7 @@ inline Solved deformMesh(const StreamMesh& mesh, Handles& handles,
 }
 
 /** Options for `cycles` V-cycles a step. */
-inline DeformOptions withCycles(int cycles, Weights weights = Weights::Cotangent)
+inline DeformOptions withCycles(int cycles, Weights weights = Weights::Clamped)
 {
   DeformOptions options;
   options.weights = weights;
@@ -31,7 +31,7 @@ inline DeformOptions withCycles(int cycles, Weights weights = Weights::Cotangent
 }
 
 /** Options for steps that converge to a tolerance. */
-inline DeformOptions byTolerance(double tolerance, Weights weights = Weights::Cotangent)
+inline DeformOptions byTolerance(double tolerance, Weights weights = Weights::Clamped)
 {
   DeformOptions options;
   options.weights = weights;

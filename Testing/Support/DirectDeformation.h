@@ -24,7 +24,7 @@ struct DirectDeformation
 
 /** Deforms directly. Needs a held vertex and below 2^31 vertices. */
 DirectDeformation deformDirectly(
-  const StreamMesh& mesh, Handles& handles, Weights weights = Weights::Cotangent);
+  const StreamMesh& mesh, Handles& handles, Weights weights = Weights::Clamped);
 
 /** The largest distance between rows of `a` and `b`, divided by the diagonal of mesh's bounds. */
 double deformationError(const StreamMesh& mesh, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);

@@ -76,7 +76,7 @@ void EdgeWeights::add(const MeshBlock& block, const std::vector<double>& positio
     for (int pair = 0; pair < pairCount; ++pair)
     {
       const auto [from, to] = std::minmax(corners[pairs[pair][0]], corners[pairs[pair][1]]);
-      if (cell.size == 0.0 && this->Kind == Weights::Cotangent &&
+      if (cell.size == 0.0 && this->Kind == Weights::Clamped &&
           static_cast<float>(floorOf(this->Type, &positions[3 * from], &positions[3 * to])) == 0)
       {
         continue;
@@ -105,7 +105,7 @@ void EdgeWeights::finish(const std::vector<double>& positions)
     {
       sum.weight = 1.0;
     }
-    else if (this->Kind == Weights::Cotangent && sum.weight < floor)
+    else if (this->Kind == Weights::Clamped && sum.weight < floor)
     {
       sum.weight = floor;
       ++this->ClampedWeights;

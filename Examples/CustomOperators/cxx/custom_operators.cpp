@@ -73,7 +73,7 @@ struct FeetAndEars : smg::Problem
   int columns() const override { return 1; }
   smg::Weights weights() const override
   {
-    return this->wires ? smg::Weights::Own : smg::Weights::Cotangent;
+    return this->wires ? smg::Weights::Own : smg::Weights::Clamped;
   }
   void cellWeights(smg::CellBatch& batch) override
   {
