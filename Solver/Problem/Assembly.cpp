@@ -30,7 +30,6 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, Assembl
   , Given(problem)
   , Columns(problem.columns())
   , Kind(problem.weights())
-  , Screening(problem.screening())
   , ConnectsFlat(problem.connectsFlatCells())
   , Out(rows)
   , Parts(components)
@@ -40,13 +39,14 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, Assembl
   , Points(pool, 3)
   , Values(pool, problem.columns())
   , Sources(pool, problem.columns())
+  , Screening(pool)
   , Mass(pool)
   , Prescribed(pool)
   , Labels(pool)
   , Reach(pool)
   , Edges(pool, OpenEdges::usual(info.cellType))
 {
-  if (this->Kind == Weights::Own)
+  if (problem.hasCells())
   {
     this->Own.emplace(pool, problem, info.cellType);
   }
@@ -74,9 +74,10 @@ void Assembly::addVertices(const MeshBlock& block)
   }
   VertexConditions& given = this->Conditions;
   const auto values = static_cast<std::size_t>(count * this->Columns);
-  given.prescribed.assign(static_cast<std::size_t>(count), 0);
+  given.dirichlet.assign(static_cast<std::size_t>(count), -1);
   given.value.assign(values, 0.0);
   given.source.assign(values, 0.0);
+  given.screening.assign(static_cast<std::size_t>(count), 0.0);
   this->Given.conditions(block, given);
   if (!allFinite(given.value) || !allFinite(given.source))
   {
@@ -84,10 +85,21 @@ void Assembly::addVertices(const MeshBlock& block)
                 " and " + std::to_string(this->Vertices + count - 1) + " is not a finite number");
   }
 
+  for (std::size_t k = 0; k < given.screening.size(); ++k)
+  {
+    if (!(given.screening[k] >= 0.0 && std::isfinite(given.screening[k])))
+    {
+      throw Error("the screening of vertex " +
+                  std::to_string(this->Vertices + static_cast<std::int64_t>(k)) +
+                  " must be a finite number that is not negative");
+    }
+  }
+
   const std::int64_t end = this->Vertices + count;
   this->Points.extendRaw(end);
   this->Values.extendRaw(end);
   this->Sources.extendRaw(end);
+  this->Screening.extendRaw(end);
   this->Prescribed.extendRaw(end);
   this->Mass.extend(end);
   this->Labels.extendRaw(end);
@@ -99,7 +111,9 @@ void Assembly::addVertices(const MeshBlock& block)
   std::copy(block.positions.begin(), block.positions.end(), this->Points.at(this->Vertices));
   std::copy(given.value.begin(), given.value.end(), this->Values.at(this->Vertices));
   std::copy(given.source.begin(), given.source.end(), this->Sources.at(this->Vertices));
-  std::copy(given.prescribed.begin(), given.prescribed.end(), this->Prescribed.at(this->Vertices));
+  std::copy(given.screening.begin(), given.screening.end(), this->Screening.at(this->Vertices));
+  std::ranges::transform(given.dirichlet, this->Prescribed.at(this->Vertices),
+    [](std::int32_t condition) { return condition >= 0 ? 1 : 0; });
   std::ranges::fill(this->Labels.range(this->Vertices, end), -1);
   this->Vertices = end;
 }
@@ -237,6 +251,7 @@ void Assembly::finalize(std::int64_t end)
   this->Prescribed.release(this->Done);
   this->Reach.release(this->Done);
   this->Sources.release(this->Final);
+  this->Screening.release(this->Final);
   this->Mass.release(this->Final);
   this->Labels.release(this->Final);
   this->Edges.release(this->Final);
@@ -255,14 +270,14 @@ void Assembly::collectRow(std::int64_t i)
   {
     const std::int64_t j = this->Row[e].to;
     double weight = this->Row[e].weight;
-    if (this->Kind == Weights::Clamped || this->Kind == Weights::Own)
+    if (this->Kind == Weights::Clamped)
     {
       const double floor = (scales ? scales[e].weight : 1.0) *
                            cotangentFloor(this->Type, this->Points.at(i), this->Points.at(j));
       this->Clamped += weight < floor ? 1 : 0;
       weight = std::max(weight, floor);
     }
-    if (this->Own)
+    if (this->Own && this->Kind != Weights::Uniform)
     {
       this->Own->requireRange(weight, i, j);
     }
@@ -320,7 +335,8 @@ void Assembly::closeRow(
   this->LabelBatch.push_back(label);
 
   const bool prescribed = this->Prescribed[i] != 0;
-  const bool held = !prescribed && count == 0 && this->Screening * this->Mass[i] == 0.0;
+  const double screening = this->Screening[i] * this->Mass[i];
+  const bool held = !prescribed && count == 0 && screening == 0.0;
   if (prescribed || held)
   {
     this->PrescribedCount += prescribed ? 1 : 0;
@@ -339,7 +355,7 @@ void Assembly::closeRow(
     return;
   }
 
-  double alpha = this->Screening * this->Mass[i];
+  double alpha = screening;
   for (int k = 0; k < this->Columns; ++k)
   {
     b[k] = this->Mass[i] * this->Sources.at(i)[k];
@@ -426,7 +442,7 @@ void Assembly::closeRow(
   }
   this->InitialSquares += squares[0];
   this->TermSquares += squares[1];
-  if (this->Screening > 0.0)
+  if (screening > 0.0)
   {
     this->Parts.anchor(label);
   }

@@ -80,7 +80,6 @@ private:
   Problem& Given;
   int Columns;
   Weights Kind;
-  double Screening;
   bool ConnectsFlat;
   AssembledRows& Out;
   Components& Parts;
@@ -89,7 +88,7 @@ private:
   StiffRows Stiff;
 
   // By open vertex.
-  Ring<double> Points, Values, Sources, Mass;
+  Ring<double> Points, Values, Sources, Screening, Mass;
   Ring<std::uint8_t> Prescribed;
   Ring<std::int32_t> Labels;
   Ring<std::int64_t> Reach; // largest neighbour of vertices 0 .. i, of final rows

@@ -26,8 +26,8 @@ void OwnWeights::ask(const MeshBlock& block, std::size_t first, const Ring<doubl
   const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
   CellBatch batch{ this->Type, block, first,
     std::span(block.corners).subspan(first * corners, this->Cells.size() * corners), this->Points,
-    this->Weight, this->Measure };
-  this->Given.cellWeights(batch);
+    this->Weight, this->Measure, this->Screening, this->Source, this->Field, {} };
+  this->Given.cells(batch);
   for (std::size_t k = 0; k < this->Cells.size(); ++k)
   {
     this->take(k, block.firstCell + static_cast<std::int64_t>(first + k));
@@ -45,6 +45,10 @@ void OwnWeights::gather(const MeshBlock& block, std::size_t first, const Ring<do
   this->Points.clear();
   this->Weight.clear();
   this->Measure.clear();
+  const auto columns = static_cast<std::size_t>(this->Given.columns());
+  this->Screening.assign(this->Cells.size(), 0.0);
+  this->Source.assign(columns * this->Cells.size(), 0.0);
+  this->Field.assign(3 * columns * this->Cells.size(), 0.0);
   const std::int64_t* corner = block.corners.data() + first * static_cast<std::size_t>(corners);
   for (CellWeights& cell : this->Cells)
   {

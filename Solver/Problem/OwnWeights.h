@@ -14,7 +14,7 @@ namespace smg
 {
 
 /**
- * The weights of a problem with Weights::Own: asks for them, a batch of cells at a time, and knows
+ * The weights of a problem that has cells(): asks for them, a batch of cells at a time, and knows
  * for each open edge how they scale, so that the floor of the weights scales alike. That is a
  * matter of the edge: at a jump of the conductivity its two sides may differ by orders of
  * magnitude, and the floor of the strong side would conduct through the weak one.
@@ -68,7 +68,7 @@ private:
   CellType Type;
   std::vector<CellWeights> Cells; // of the batch; first finite elements, then the problem's own
   std::vector<double> CellScales;
-  std::vector<double> Points, Weight, Measure;
+  std::vector<double> Points, Weight, Measure, Screening, Source, Field;
   std::size_t Current = 0;
   OpenEdges Scales; // of each open edge the least one of its cells
   std::vector<OpenEdge> Row;
