@@ -24,11 +24,11 @@ std::string problemHelp()
   {
     keys += (keys.empty() ? "" : ", ") + std::string(key);
   }
-  return "The problem -div(K grad u - q) + s u = f has the keys " + keys +
-         "; each may be left out. Their JSON schema is "
-         "share/StreamingMultigrid/problem.schema.json "
-         "of the installation, docs/problem.schema.json of the sources; docs/problem.md explains "
-         "them.";
+  return "A problem file says -div(K grad u - q) + s u = f. Its keys, each of which may be left "
+         "out: " +
+         keys +
+         ". JSON schema: share/StreamingMultigrid/problem.schema.json of the installation, "
+         "docs/problem.schema.json of the sources; docs/problem.md explains it";
 }
 
 class SolveCommand : public SolvingCommand
