@@ -194,7 +194,6 @@ template <OperatorSet Operators>
 void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem, RowListener* listener)
 {
   const CellType type = mesh.info().cellType;
-  this->MixedSigns = problem.weights() == Weights::Cotangent;
   AssembledRows rows;
   HierarchyBuilder<Operators> builder(this->Memory, Operators::forCells(type), this->Hierarchy,
     this->FirstCore, Assembly::stiffRows(type, problem.weights(), rows));
@@ -212,6 +211,8 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem, RowListene
   }
   this->factorize();
   this->noteAssembly(assembly);
+  this->SlowestAreFew = assembly.stiffRows() > 0 ||
+                        (type == CellType::Tetrahedron && problem.weights() == Weights::Cotangent);
 }
 
 /**

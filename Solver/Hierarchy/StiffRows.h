@@ -54,6 +54,9 @@ public:
     return stiff;
   }
 
+  /** How many were. */
+  std::int64_t found() const { return this->Found; }
+
 private:
   static constexpr std::int64_t MostAtFirst = 4096, MostShare = 128;
 

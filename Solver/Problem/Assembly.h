@@ -60,6 +60,8 @@ public:
   double leastFlatness() const { return this->LeastFlatness; }
   /** With cotangent weights: rows that were raised. */
   std::int64_t raisedRows() const { return this->Rows.raised(); }
+  /** See StiffRows. */
+  std::int64_t stiffRows() const { return this->Rows.stiff(); }
   /** ||b - A x_0||^2, and the same of the terms that it is the difference of. */
   double initialSquares() const { return this->Rows.initialSquares(); }
   double termSquares() const { return this->Rows.termSquares(); }
