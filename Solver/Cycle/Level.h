@@ -87,16 +87,28 @@ public:
   /** On the finest level: this pass, which has started, accelerates the iterates. */
   void setHistory(IterateHistory* history) { this->History = history; }
 
-  /** How far the way up has come, as the way down knows it. */
-  std::int64_t finishedUp() const { return this->At.seenPostSwept; }
+  /** Below which node x of the way up is final, as the way down knows it. */
+  std::int64_t finishedUp()
+  {
+    std::int64_t& end = this->At.finishedUp;
+    end =
+      this->Patched ? this->Window.reachable(end, this->At.seenPostSwept) : this->At.seenPostSwept;
+    return end;
+  }
 
   /** Takes the next block of rows while the hierarchy is being built. */
-  void append(RowBlock block) { this->Window.append(std::move(block)); }
+  void append(RowBlock block)
+  {
+    this->Patched = this->Patched || block.header().values > 0;
+    this->Window.append(std::move(block));
+  }
 
   /** Loads, here and on the coarser levels, all that the way up to `node` needs. */
   void load(std::int64_t node)
   {
-    this->load(static_cast<int>(this->At.postSweep.size()), node);
+    const int last = static_cast<int>(this->At.postSweep.size());
+    this->load(last, node);
+    this->load(last, this->finalWith(node));
     if (this->History)
     {
       this->History->load(this->Window.x(), this->Window.loaded());
@@ -104,7 +116,10 @@ public:
   }
 
   /** Way up: finishes the V-cycle on nodes 0 .. node, which is loaded. */
-  void pull(std::int64_t node) { this->pull(static_cast<int>(this->At.postSweep.size()), node); }
+  void pull(std::int64_t node)
+  {
+    this->pull(static_cast<int>(this->At.postSweep.size()), this->finalWith(node));
+  }
 
   /** Tells the way down and writing, here and on the coarser levels, how far the way up and the way
    * down have come. */
@@ -112,7 +127,8 @@ public:
   {
     this->At.seenProlonged = this->At.prolonged;
     this->At.seenPostSwept = this->At.postSweep.back();
-    this->At.seenCombined = this->At.combined;
+    // A patch that is not finished yet may change nodes before it.
+    this->At.seenFinal = this->Patched ? this->At.restricted : this->At.combined;
     this->At.seenRestricted = this->At.restricted;
     if (!this->Coarse->core())
     {
@@ -151,7 +167,7 @@ public:
    * threads may go up, go down and read ahead. */
   void write()
   {
-    this->Window.write(this->At.seenCombined);
+    this->Window.write(this->At.seenFinal);
     if (this->History)
     {
       this->History->write(this->At.seenRestricted);
@@ -244,6 +260,21 @@ public:
 private:
   using One = Lanes<Real, 1>;
   using Four = Lanes<Real, 4>;
+
+  /**
+   * The node up to which the last sweep of the way up has to come for x of nodes 0 .. node, which
+   * have been loaded, to be final: the last node of a patch changes the others, all within a ring.
+   * The finest level may leave that to the steps that follow.
+   */
+  std::int64_t finalWith(std::int64_t node) const
+  {
+    if (!this->Patched || !this->Fine || this->Core || node < this->Window.first())
+    {
+      return node;
+    }
+    const RowBlock::Header& h = this->Window.header(node);
+    return h.neighbourReach[LevelWindow<Real>::groupIn(h, node)];
+  }
 
   static std::int64_t& upCursor(LevelCursors& cursors, int stage)
   {
@@ -391,6 +422,7 @@ private:
   Real Unscale = 1;
   bool First = true;
   bool Core = false;
+  bool Patched = false; // some nodes are relaxed at the turn of later ones
   bool Renewing = false;
   std::int64_t Renewed = 0;
 };

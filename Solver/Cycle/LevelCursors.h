@@ -37,8 +37,9 @@ struct LevelCursors
 
   /** Of the way up, what the way down knows: the two may run on two threads. */
   std::int64_t seenProlonged = 0, seenPostSwept = 0;
+  std::int64_t finishedUp = 0; ///< of the way up, final
   /** Of the way down, what writing knows. */
-  std::int64_t seenCombined = 0, seenRestricted = 0;
+  std::int64_t seenFinal = 0, seenRestricted = 0;
 
   explicit LevelCursors(int sweeps)
     : postSweep(static_cast<std::size_t>(sweeps))

@@ -67,6 +67,8 @@ public:
   /** Nodes of the level; while it is being built, those that have come. */
   std::int64_t nodes() const { return this->Nodes; }
   std::int64_t loaded() const { return this->Loaded; }
+  /** The first node whose row is there; those before it have gone through all stages. */
+  std::int64_t first() const { return this->FirstBlock * RowBlock::Nodes; }
 
   /** The header of the block of node `node`, which is loaded. */
   const RowBlock::Header& header(std::int64_t node) const { return this->block(node).header(); }

@@ -16,7 +16,8 @@ namespace smg::testing
 namespace
 {
 
-/** Uniform and cotangent surfaces and solids, in a good order and in none at all. */
+/** Surfaces and solids, in a good order and in none at all, of all weights: many vertices of the
+ * flat tetrahedra and of the chains of slivers are relaxed together. */
 std::vector<std::pair<StreamMesh, ArrayProblem>> tasks()
 {
   std::vector<std::pair<StreamMesh, ArrayProblem>> list;
@@ -33,6 +34,10 @@ std::vector<std::pair<StreamMesh, ArrayProblem>> tasks()
   add(solid, TestOrder::BreadthFirst, 1, Weights::Clamped);
   add(solid, TestOrder::Keep, 3, Weights::Uniform);
   add(grid(5000, 2), TestOrder::BreadthFirst, 5, Weights::Uniform);
+  const IndexedTestMesh flat = shuffled(tetBox(18, 18, 17, 0.33));
+  add(flat, TestOrder::BreadthFirst, 3, Weights::Cotangent);
+  add(flat, TestOrder::Keep, 1, Weights::Cotangent);
+  add(shuffled(sliverChains(90, 60, 1e-3)), TestOrder::BreadthFirst, 1, Weights::Cotangent);
   return list;
 }
 
