@@ -75,8 +75,9 @@ class Domain:
         cold = [{**top, "value": [0]}, {**bottom, "value": [0]}]
         unit = 1 / self.length**2
         yield Case("harmonic", {"dirichlet": ends})
-        yield Case("positions", {"columns": 3, "dirichlet": [{**top, "value": "position"},
-                                                            {**bottom, "value": "position"}]})
+        outputs = {"outputs": ["gradient", "flux"]}
+        yield Case("positions", {**outputs, "columns": 3, "dirichlet": [
+            {**top, "value": "position"}, {**bottom, "value": "position"}]})
         yield Case("source", {"dirichlet": cold, "source": [unit]})
         yield Case("screening", {"dirichlet": cold, "source": [unit], "screening": 50 * unit})
         yield Case("screening, vertex column", {"screening": "Absorption", "source": "Density"})
@@ -85,7 +86,8 @@ class Domain:
         yield Case("two materials", {"dirichlet": ends, "conductivity": [
             {"value": 1}, {"tag": ["Material", 2], "value": 10}]})
         yield Case("tensor", {"dirichlet": ends, "conductivity": TENSOR})
-        yield Case("tensor column", {"dirichlet": cold, "conductivity": "Tensor", "source": [unit]})
+        yield Case("tensor column", {**outputs, "dirichlet": cold, "conductivity": "Tensor",
+                                     "source": [unit]})
         if not self.isClosed:
             yield from self._boundary_cases(bottom)
         yield Case("field", {"dirichlet": cold, "field": "Swirl"})

@@ -1,0 +1,37 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Testing/Verification/run.sh : repeats what docs/verification.md shows, and writes its tables anew.
+#
+# Takes the archive of meshes that the environment variable SMG_TEST_DATA_DIR names; installs what is
+# missing, builds smg and the benchmarks without VTK in build-benchmarks, and leaves the numbers in
+# build-benchmarks/verification. It takes about an hour on two cores, most of it for direct solves.
+set -euo pipefail
+SMG_TEST_DATA_DIR=$(realpath -e "${SMG_TEST_DATA_DIR:?"must name the unpacked archive of meshes"}")
+export SMG_TEST_DATA_DIR
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+source cmake/packages.sh
+smg_install "${smg_build_packages[@]}" "${smg_verification_packages[@]}"
+
+launcher=()
+! command -v ccache > /dev/null || launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+cmake --preset benchmarks "${launcher[@]}" > /dev/null
+cmake --build --preset benchmarks --target smg benchmark_peers
+bin=$PWD/build-benchmarks/bin
+results=$PWD/build-benchmarks/verification
+mkdir -p "$results"
+
+# Debian's Python, which is the one that SciPy is installed for.
+/usr/bin/python3 Testing/Verification/finite_elements_test.py
+/usr/bin/python3 Testing/Verification/convergence.py "$bin/smg" --out "$results"
+for mesh in bunny_tet.mesh head_tet336k.vtk armadillo_tet.msh dragon.ply lucy50k.ply brain168k.vtk; do
+  name=${mesh%.*}
+  cells=()
+  [ "$mesh" != bunny_tet.mesh ] || cells=(--cells tets)
+  "$bin/smg" convert "$SMG_TEST_DATA_DIR/$mesh" "$results/$name.vsm" --quiet "${cells[@]}"
+  "$bin/benchmark_peers" "$results/$name.vsm" --peers smg,hypre --json "$results/peers-$name.json"
+done
+status=0
+/usr/bin/python3 Testing/Verification/verify.py "$bin/smg" --json "$results/verify.json" archive ||
+  status=$?
+/usr/bin/python3 Testing/Verification/tables.py "$results" docs
+exit "$status"
