@@ -80,6 +80,11 @@ class Domain:
             {**top, "value": "position"}, {**bottom, "value": "position"}]})
         yield Case("source", {"dirichlet": cold, "source": [unit]})
         yield Case("screening", {"dirichlet": cold, "source": [unit], "screening": 50 * unit})
+        yield Case("screening by region", {"dirichlet": ends, "screening": [
+            {"halfspace": [0, 0, 1, (lo + hi) / 2], "value": 200 * unit},
+            {"sphere": [*self.low, self.length / 2], "value": "Absorption"}]})
+        yield Case("screening by tag", {"dirichlet": ends, "screening": [
+            {"value": 1 * unit}, {"tag": ["Material", 1], "value": "Absorption"}]})
         yield Case("screening, vertex column", {"screening": "Absorption", "source": "Density"})
         yield Case("screening, cell column", {"dirichlet": ends, "screening": "CellAbsorption",
                                               "source": "CellDensity"})

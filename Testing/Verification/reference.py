@@ -26,7 +26,7 @@ class Answer(NamedTuple):
     mean: np.ndarray      # a column: weighted by the mass
     source: np.ndarray    # a column: what flows in by sources less what screening takes, where
                           # conditions determine the solution: with their fluxes it sums to zero
-    traffic: np.ndarray   # a column: the magnitudes of the same, and of the fluxes
+    traffic: np.ndarray   # a column: the magnitudes of the same and of what flows in, by vertex
 
 
 def duplicates(cells):
@@ -142,14 +142,29 @@ class Reference:
         return mass * self.vertex_values(given, columns)
 
     def screening(self, given):
-        """What a screening adds to the diagonal (vertices,)."""
-        if isinstance(given, list):
-            values = np.zeros(len(self.points))
+        """What a screening adds to the diagonal (vertices,). A list holds at the vertices, but in the
+        cells if an entry names a column of these."""
+        if not isinstance(given, list):
+            return self.density(given, 1)[:, 0]
+        named = {name for entry in given
+                 for name in (entry["value"], entry.get("mask"), entry.get("tag", [None])[0])}
+        if named & self.cell_columns.keys():
+            values = np.zeros(len(self.cells))
             for entry in given:
-                inside = self.vertices_in(entry)
-                values[inside] = self.vertex_values(entry["value"], 1)[inside, 0]
-            return values * self.elements.lumped()
-        return self.density(given, 1)[:, 0]
+                inside = self.cells_in(entry)
+                values[inside] = self._means(entry["value"])[inside]
+            return self.elements.lumped(values)
+        values = np.zeros(len(self.points))
+        for entry in given:
+            inside = self.vertices_in(entry)
+            values[inside] = self.vertex_values(entry["value"], 1)[inside, 0]
+        return values * self.elements.lumped()
+
+    def _means(self, given):
+        """(cells,): a number, a column of the cells, or the corners' mean of one of the vertices."""
+        if isinstance(given, str) and given in self.cell_columns:
+            return self.cell_columns[given]
+        return self.vertex_values(given, 1)[:, 0][self.cells].mean(axis=1)
 
     def vertex_values(self, given, columns):
         """(vertices, columns): numbers, `position`, or the name of a column of the vertices."""
@@ -210,12 +225,16 @@ class Reference:
 
         owner, initial = self._dirichlet(problem, columns)
         u = solve(elements, stiffness, diagonal, rhs, owner >= 0, initial)
-        conditions = self._balances(problem, owner, u, stiffness @ u + diagonal[:, None] * u - rhs)
-        conditions |= {f"flux[{k}]": self._facet_condition(mine, area, u, share.sum(axis=(0, 1)))
-                       for k, (mine, area, share) in flux.items()}
-        conditions |= {f"robin[{k}]": self._facet_condition(
-            mine, area, u, (share * (ambient - u[self.facets[mine]])).sum(axis=(0, 1)))
-                       for k, (mine, area, share, ambient) in robin.items()}
+        reaction = stiffness @ u + diagonal[:, None] * u - rhs
+        conditions = self._reactions(problem, owner, u, reaction)
+        traffic = np.abs(reaction[owner >= 0]).sum(axis=0)
+        for k, (mine, area, share) in flux.items():
+            conditions[f"flux[{k}]"] = self._facet_condition(mine, area, u, share)
+            traffic += np.abs(share).sum(axis=(0, 1))
+        for k, (mine, area, share, ambient) in robin.items():
+            flow = share * (ambient - u[self.facets[mine]])
+            conditions[f"robin[{k}]"] = self._facet_condition(mine, area, u, flow)
+            traffic += np.abs(flow).sum(axis=(0, 1))
         component = elements.components()
         determined = ~free_components(component, owner >= 0, diagonal)[component]
         inflow = (sources - taken[:, None] * u)[determined]
@@ -226,7 +245,7 @@ class Reference:
                       conditions,
                       0.5 * (np.einsum("vk,vk->k", u, stiffness @ u) + screened @ u**2),
                       mass @ u / mass.sum(), inflow.sum(axis=0),
-                      np.abs(inflow).sum(axis=0) + sum(abs(c.flux) for c in conditions.values()))
+                      traffic + np.abs(inflow).sum(axis=0))
 
     def _dirichlet(self, problem, columns):
         """Which Dirichlet condition holds a vertex (-1: none), and held and initial values."""
@@ -243,17 +262,18 @@ class Reference:
             initial[inside] = self.vertex_values(entry["value"], columns)[inside]
         return owner, initial
 
-    def _facet_condition(self, mine, area, u, flux):
+    def _facet_condition(self, mine, area, u, flow):
+        """Of facets with their areas and what flows in at their corners (facets, corners, columns)."""
         mean = (area @ u[self.facets[mine]].mean(axis=1)) / area.sum() if len(mine) else np.nan
-        return Condition(area.sum(), mean, flux)
+        return Condition(area.sum(), mean, flow.sum(axis=(0, 1)))
 
-    def _balances(self, problem, owner, u, reaction):
-        """The conditions of Dirichlet: the reaction of the held vertices is what flows into the body."""
+    def _reactions(self, problem, owner, u, reaction):
+        """The Dirichlet conditions: the reactions of the held vertices are what flows in."""
         conditions = {}
         for k in range(len(problem.get("dirichlet", []))):
             held = owner == k
             mine = np.flatnonzero(held[self.facets].all(axis=1))
             area = facet_measure(self.points, self.facets[mine])
             conditions[f"dirichlet[{k}]"] = self._facet_condition(
-                mine, area, u, reaction[held].sum(axis=0))
+                mine, area, u, reaction[held][None])
         return conditions
