@@ -21,13 +21,15 @@ results=$PWD/build-benchmarks/verification
 mkdir -p "$results"
 
 # Debian's Python, which is the one that SciPy is installed for.
-/usr/bin/python3 Testing/Verification/finite_elements_test.py
+data=$SMG_TEST_DATA_DIR
+/usr/bin/python3 Testing/Verification/finite_elements_test.py "$bin/smg" "$data/raptor_tet.vtu" \
+  "$data/bunny_tet.mesh" "$data/armadillo_tet.msh" "$data/bunny.ply" "$data/lucy50k.ply"
 /usr/bin/python3 Testing/Verification/convergence.py "$bin/smg" --out "$results"
 for mesh in bunny_tet.mesh head_tet336k.vtk armadillo_tet.msh dragon.ply lucy50k.ply brain168k.vtk; do
   name=${mesh%.*}
   cells=()
   [ "$mesh" != bunny_tet.mesh ] || cells=(--cells tets)
-  "$bin/smg" convert "$SMG_TEST_DATA_DIR/$mesh" "$results/$name.vsm" --quiet "${cells[@]}"
+  "$bin/smg" convert "$data/$mesh" "$results/$name.vsm" --quiet "${cells[@]}"
   "$bin/benchmark_peers" "$results/$name.vsm" --peers smg,hypre --json "$results/peers-$name.json"
 done
 status=0
