@@ -23,7 +23,7 @@ void checkOptions(const DeformOptions& options)
   {
     throw Error("the number of V-cycles a step must not be negative");
   }
-  if (options.weights == Weights::Own || options.weights == Weights::Cotangent)
+  if (options.weights == Weights::Cotangent)
   {
     throw Error(
       "a deformation has uniform or clamped cotangent weights, none of its own and no raw ones");

@@ -6,7 +6,6 @@
 #include "Solver/Shi2006/Shi2006.h"
 #include "Solver/SolveWith.h"
 
-#include <cmath>
 #include <string>
 
 namespace smg
@@ -51,8 +50,6 @@ void checkOperators(const SolveOptions& options)
 void checkProblem(const Problem& problem)
 {
   require(problem.columns() >= 1, "a problem needs at least one column");
-  require(problem.screening() >= 0.0 && std::isfinite(problem.screening()),
-    "the screening must be a finite number that is not negative");
 }
 
 std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveOptions& options)

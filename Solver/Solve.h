@@ -68,7 +68,7 @@ void checkOptions(const SolveOptions& options);
 /** Throws Error unless the library has an operator set of that name, which goes with the other
  * options; solve() does so, too. */
 void checkOperators(const SolveOptions& options);
-/** Throws Error if the problem's columns or screening are out of range; solve() does so, too. */
+/** Throws Error if the problem has no column; solve() does so, too. */
 void checkProblem(const Problem& problem);
 
 /** The solution of a solve: `columns` values a vertex, in stream order, on disk or in memory. */

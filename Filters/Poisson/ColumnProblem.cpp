@@ -96,7 +96,8 @@ void ColumnProblem::conditions(const MeshBlock& block, VertexConditions& conditi
   for (std::int64_t vertex = 0; vertex < block.vertices(); ++vertex)
   {
     const bool isConstrained = mask && this->finite(*mask, block, vertex, 0) != 0.0;
-    conditions.prescribed[vertex] = isConstrained ? 1 : 0;
+    conditions.dirichlet[vertex] = isConstrained ? 0 : -1;
+    conditions.screening[vertex] = this->Screening;
     // Values at free vertices are no one's business: they may be anything, also NaN.
     const Column* value = isConstrained ? values : guess;
     for (int k = 0; k < this->Columns; ++k)

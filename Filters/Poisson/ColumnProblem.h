@@ -35,7 +35,6 @@ public:
 
   int columns() const override { return this->Columns; }
   Weights weights() const override { return this->WeightsOfEdges; }
-  double screening() const override { return this->Screening; }
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
 
 private:

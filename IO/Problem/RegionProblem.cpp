@@ -107,10 +107,9 @@ RegionProblem::RegionProblem(RegionProblemData data, const StreamInfo& mesh, std
     [](const RegionValue& value) { return value.position; });
 }
 
-Weights RegionProblem::weights() const
+bool RegionProblem::hasCells() const
 {
-  const bool conducts = this->Data.conductivity != 1.0 || !this->Data.conductivityColumn.empty();
-  return conducts ? Weights::Own : this->Data.weights;
+  return this->Data.conductivity != 1.0 || !this->Data.conductivityColumn.empty();
 }
 
 std::vector<std::string> RegionProblem::cellColumns() const
@@ -133,7 +132,7 @@ const Column* RegionProblem::conductivityOf(const MeshBlock& block) const
   return name.empty() ? nullptr : &*found;
 }
 
-void RegionProblem::cellWeights(CellBatch& batch)
+void RegionProblem::cells(CellBatch& batch)
 {
   const Column* column = this->conductivityOf(batch.block);
   for (std::size_t c = 0; c < batch.cells(); ++c)
@@ -164,10 +163,11 @@ void RegionProblem::conditions(const MeshBlock& block, VertexConditions& conditi
     [&](std::size_t i, std::size_t k)
     {
       const RegionValue& given = this->Data.values[k];
-      conditions.prescribed[i] = 1;
+      conditions.dirichlet[i] = 0;
       std::copy_n(given.position ? block.positions.data() + 3 * i : given.value.data(), columns,
         conditions.value.data() + i * columns);
     });
+  std::ranges::fill(conditions.screening, this->Data.screening);
   const auto vertices = static_cast<std::size_t>(block.vertices());
   for (std::size_t i = 0; i < vertices && !this->Data.source.empty(); ++i)
   {

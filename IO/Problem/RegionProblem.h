@@ -56,9 +56,9 @@ public:
   RegionProblem(RegionProblemData data, const StreamInfo& mesh, std::string file = "problem");
 
   int columns() const override { return this->Data.columns; }
-  Weights weights() const override;
-  void cellWeights(CellBatch& batch) override;
-  double screening() const override { return this->Data.screening; }
+  Weights weights() const override { return this->Data.weights; }
+  bool hasCells() const override;
+  void cells(CellBatch& batch) override;
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
 
   /** The vertex columns that the mesh source must deliver. */

@@ -59,6 +59,10 @@ std::string Report::json(int indent) const
   out["clamped_weights"] = this->clamped_weights;
   out["components"] = this->components;
   out["free_components"] = this->free_components;
+  if (!this->removed_source.empty())
+  {
+    out["removed_source"] = this->removed_source;
+  }
   out["notes"] = this->notes;
   return out.dump(indent);
 }

@@ -69,6 +69,9 @@ struct Report
   std::int64_t clamped_weights = 0;  ///< edges whose weight was raised to the floor
   /** Connected components, and how many of them have no constrained vertex. */
   std::int64_t components = 0, free_components = 0;
+  /** Per column: what the mean of the sources of components without constraint, which was taken
+   * from them, sums to; empty if nothing was. */
+  std::vector<double> removed_source;
   /** What a user should know: how free components were treated, why it did not converge ... */
   std::vector<std::string> notes;
 

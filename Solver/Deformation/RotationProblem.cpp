@@ -20,7 +20,7 @@ void RotationProblem::conditions(const MeshBlock& block, VertexConditions& condi
     }
     const std::int64_t i = block.firstVertex + static_cast<std::int64_t>(k);
     checkHeld(this->At, k, i);
-    conditions.prescribed[k] = 1;
+    conditions.dirichlet[k] = 0;
     double* value = conditions.value.data() + Columns * k;
     std::copy_n(this->At.rotation.data() + 3 * k, 3, value);
     value[3] = this->At.logScale[k];

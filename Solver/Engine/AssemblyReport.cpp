@@ -2,6 +2,7 @@
 #include "Solver/Engine/AssemblyReport.h"
 
 #include "Solver/Core/Error.h"
+#include "Solver/Engine/Convergence.h"
 
 #include <cmath>
 #include <string>
@@ -20,13 +21,17 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
   if (assembly.limitedCells() > 0)
   {
     report.notes.push_back(std::to_string(assembly.limitedCells()) +
-                           " cells are so flat that their raw cotangent weights were scaled down");
+                           " cells are so flat that rounding would drown the others: their "
+                           "stiffness was scaled down, by a factor of " +
+                           scientific(assembly.leastFlatness()) +
+                           " at the least; there the operator is not that of finite elements");
   }
   if (assembly.raisedRows() > 0)
   {
     report.notes.push_back(std::to_string(assembly.raisedRows()) +
-                           " vertices have raw cotangent weights whose sum is lost in rounding: "
-                           "they are held near their initial values");
+                           " vertices have weights whose sum is lost in rounding: they are held "
+                           "near their initial values; there the operator is not that of finite "
+                           "elements");
   }
   report.components = components.components();
   report.free_components = components.freeComponents();

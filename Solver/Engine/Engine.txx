@@ -30,6 +30,7 @@ Engine<Operators>::Engine(int columns, const SolveOptions& options)
   , Progress(options.progress)
   , Memory(options.memoryLimit)
   , Parts(columns, &this->Memory)
+  , Labels(this->Parts)
   , Free(this->Parts, this->Labels, columns)
   , Threads(computeThreads(options.threads))
 {
@@ -48,7 +49,7 @@ void Engine<Operators>::solve(MeshSource& mesh, Problem& problem)
   this->build(mesh, problem);
   const Timer solving;
   Convergence convergence(stopping, this->InitialNorm, this->RoundingNorm);
-  convergence.begin(this->residualNorm(), this->Parts.incompatibleSquares() == 0.0);
+  convergence.begin(this->residualNorm(), this->Parts.incompatibility() == 0.0);
   this->iterate(convergence, false);
   this->Result.cycles = convergence.cycles();
   this->Result.residuals = convergence.residuals();
@@ -77,7 +78,7 @@ void Engine<Operators>::build(
   }
   this->addLevels(mesh.info().vertices);
   this->firstPass(mesh, problem, listener);
-  this->Free.projectRightSide(this->Hierarchy.finest->window(), this->Result.notes);
+  this->Free.projectRightSide(this->Hierarchy.finest->window(), this->Result);
   this->Result.seconds.build = building.seconds();
   this->Result.seconds.build_io_wait = this->Traffic.waitSeconds();
 }
@@ -284,7 +285,7 @@ void Engine<Operators>::noteAssembly(const Assembly& assembly)
   reportAssembly(assembly, this->Parts, this->Result);
   this->RoundingNorm = roundingOf(assembly.termSquares());
   this->InitialNorm =
-    std::sqrt(std::max(0.0, assembly.initialSquares() - this->Parts.incompatibleSquares()));
+    std::sqrt(std::max(0.0, assembly.initialSquares() + this->Parts.shiftedSquares()));
 }
 
 template <OperatorSet Operators>

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/Report.h"
 #include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Problem/Components.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,9 +16,9 @@ namespace smg
 {
 
 /**
- * Makes the solution of components without constraint unique: their right-hand side loses its mean,
- * and they keep the mean of their initial values. The finest level's State is told by nodes(),
- * rewriteB() and readX(), as LevelWindow has them.
+ * Makes the solution of components without constraint unique: their sources lose their mean, and
+ * they keep the mean of their initial values, both weighted with the lumped masses. The finest
+ * level's State is told by nodes(), rewriteB() and readX(), as LevelWindow has them.
  */
 class FreeComponents
 {
@@ -29,10 +32,10 @@ public:
 
   /**
    * A component without constraint has a solution only if its right-hand side sums to zero: takes
-   * the mean from it where it does not. Adds a note.
+   * the mean of the source from it where it does not. Says so in the report.
    */
   template <class State>
-  void projectRightSide(State& level, std::vector<std::string>& notes);
+  void projectRightSide(State& level, Report& report);
 
   /** After the solve: finds what shift() has to take from the values. Adds a note. */
   template <class State>
@@ -44,7 +47,10 @@ public:
 private:
   static constexpr auto Block = static_cast<std::int64_t>(ComponentLabels::Block);
 
-  std::int64_t rootOf(std::int32_t label) const { return label < 0 ? -1 : this->Parts.root(label); }
+  /** Calls f(place, root, weight) for the vertices of a block that belong to a free component;
+   * `place`: in the block, `weight`: what they count in its means. */
+  template <class F>
+  void forFree(std::int64_t block, F&& f);
 
   Components& Parts;
   ComponentLabels& Labels;
@@ -52,33 +58,48 @@ private:
   std::vector<double> MeanShifts;
 };
 
-template <class State>
-void FreeComponents::projectRightSide(State& level, std::vector<std::string>& notes)
+template <class F>
+void FreeComponents::forFree(std::int64_t block, F&& f)
 {
-  if (this->Parts.incompatibleSquares() == 0.0)
+  const auto [labels, masses] = this->Labels.block(block);
+  for (std::size_t i = 0; i < masses.size(); ++i)
+  {
+    const std::int32_t root = labels[i] < 0 ? -1 : this->Parts.root(labels[i]);
+    if (root >= 0 && this->Parts.isFree(root))
+    {
+      f(i, root, this->Parts.weightOf(root, masses[i]));
+    }
+  }
+}
+
+template <class State>
+void FreeComponents::projectRightSide(State& level, Report& report)
+{
+  const double share = this->Parts.incompatibility();
+  if (share == 0.0)
   {
     return;
   }
   const std::vector<double> shifts = this->Parts.rightSideShifts();
+  const auto columns = static_cast<std::size_t>(this->Columns);
   level.rewriteB(
     [&](std::int64_t block, std::span<double> b)
     {
-      const auto labels = this->Labels.block(block);
-      for (std::size_t i = 0; i < labels.size(); ++i)
-      {
-        const std::int64_t root = this->rootOf(labels[i]);
-        if (root >= 0 && this->Parts.isFree(static_cast<std::int32_t>(root)))
+      this->forFree(block,
+        [&](std::size_t i, std::int32_t root, double weight)
         {
-          for (int k = 0; k < this->Columns; ++k)
+          for (std::size_t k = 0; k < columns; ++k)
           {
-            b[i * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)] -=
-              shifts[static_cast<std::size_t>(root * this->Columns + k)];
+            b[i * columns + k] -= weight * shifts[static_cast<std::size_t>(root) * columns + k];
           }
-        }
-      }
+        });
     });
-  notes.push_back("the right-hand side of a component without prescribed value does not "
-                  "sum to zero: its mean was taken from it");
+  report.removed_source = this->Parts.shiftedSums();
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", 100.0 * share);
+  report.notes.push_back(
+    "the sources of a component without prescribed value do not sum to zero: their mean, " +
+    std::string(text) + " % of their size, was taken from them");
 }
 
 template <class State>
@@ -89,21 +110,20 @@ void FreeComponents::fixMeans(State& level, std::vector<std::string>& notes)
   {
     return;
   }
-  std::vector<double> sums(static_cast<std::size_t>(this->Parts.labels() * this->Columns));
-  std::vector<double> values(static_cast<std::size_t>(Block * this->Columns));
+  const auto columns = static_cast<std::size_t>(this->Columns);
+  std::vector<double> sums(static_cast<std::size_t>(this->Parts.labels()) * columns);
+  std::vector<double> values(static_cast<std::size_t>(Block) * columns);
   for (std::int64_t first = 0; first < level.nodes(); first += Block)
   {
-    const auto labels = this->Labels.block(first / Block);
-    level.readX(first, static_cast<std::int64_t>(labels.size()), values.data());
-    for (std::size_t i = 0; i < labels.size(); ++i)
-    {
-      const std::int64_t root = this->rootOf(labels[i]);
-      for (int k = 0; root >= 0 && k < this->Columns; ++k)
+    level.readX(first, std::min(Block, level.nodes() - first), values.data());
+    this->forFree(first / Block,
+      [&](std::size_t i, std::int32_t root, double weight)
       {
-        sums[static_cast<std::size_t>(root * this->Columns + k)] +=
-          values[i * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)];
-      }
-    }
+        for (std::size_t k = 0; k < columns; ++k)
+        {
+          sums[static_cast<std::size_t>(root) * columns + k] += weight * values[i * columns + k];
+        }
+      });
   }
   this->MeanShifts = this->Parts.meanShifts(sums);
   notes.push_back(std::to_string(components) + " of " + std::to_string(this->Parts.components()) +

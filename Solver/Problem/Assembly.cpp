@@ -2,7 +2,6 @@
 #include "Solver/Problem/Assembly.h"
 
 #include "Solver/Core/Error.h"
-#include "Solver/Problem/RowShortfall.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +15,6 @@ namespace
 /** Rows are made final in batches of this many, to ask for edge targets in one call. */
 constexpr std::int64_t BatchRows = 256;
 
-bool allFinite(const std::vector<double>& values)
-{
-  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-}
-
 } // namespace
 
 Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, AssembledRows& rows,
@@ -28,27 +22,33 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, Assembl
   : Type(info.cellType)
   , Check(info.cellType)
   , Given(problem)
-  , Columns(problem.columns())
+  , Columns(static_cast<std::size_t>(problem.columns()))
   , Kind(problem.weights())
-  , Screening(problem.screening())
   , ConnectsFlat(problem.connectsFlatCells())
-  , Out(rows)
   , Parts(components)
   , PartLabels(labels)
   , Listener(listener)
-  , Stiff(stiffRows(info.cellType, problem.weights()))
-  , Points(pool, 3)
-  , Values(pool, problem.columns())
-  , Sources(pool, problem.columns())
-  , Mass(pool)
-  , Prescribed(pool)
+  , Vertices(pool, problem)
   , Labels(pool)
   , Reach(pool)
   , Edges(pool, OpenEdges::usual(info.cellType))
+  , Rows(this->Vertices, problem, rows, components, stiffRows(info.cellType, problem.weights()),
+      listener)
+  , Load(this->Columns)
 {
-  if (this->Kind == Weights::Own)
+  if (problem.hasCells())
   {
-    this->Own.emplace(pool, problem, info.cellType);
+    this->Own.emplace(problem, this->Type);
+    this->CellLoads.emplace(pool, this->Type, problem.columns());
+  }
+  if (problem.hasCells() && this->Kind == Weights::Clamped)
+  {
+    this->Scales.emplace(pool, OpenEdges::usual(this->Type));
+  }
+  if (problem.hasFacets())
+  {
+    this->Facets.emplace(pool, problem, this->Type);
+    this->FacetLoads.emplace(pool, this->Type, problem.columns());
   }
 }
 
@@ -57,68 +57,50 @@ void Assembly::add(const MeshBlock& block)
   this->Check.add(block);
   this->addVertices(block);
   this->addCells(block);
+  if (this->Facets)
+  {
+    this->Facets->add(block);
+  }
   this->finalize(block.finalized);
 }
 
 void Assembly::finish()
 {
-  this->finalize(this->Vertices);
+  this->finalize(this->vertices());
 }
 
 void Assembly::addVertices(const MeshBlock& block)
 {
-  const std::int64_t count = block.vertices();
-  if (count == 0)
-  {
-    return;
-  }
-  VertexConditions& given = this->Conditions;
-  const auto values = static_cast<std::size_t>(count * this->Columns);
-  given.prescribed.assign(static_cast<std::size_t>(count), 0);
-  given.value.assign(values, 0.0);
-  given.source.assign(values, 0.0);
-  this->Given.conditions(block, given);
-  if (!allFinite(given.value) || !allFinite(given.source))
-  {
-    throw Error("a value or source of a vertex between " + std::to_string(this->Vertices) +
-                " and " + std::to_string(this->Vertices + count - 1) + " is not a finite number");
-  }
-
-  const std::int64_t end = this->Vertices + count;
-  this->Points.extendRaw(end);
-  this->Values.extendRaw(end);
-  this->Sources.extendRaw(end);
-  this->Prescribed.extendRaw(end);
-  this->Mass.extend(end);
+  const std::int64_t begin = this->vertices();
+  this->Vertices.add(block);
+  const std::int64_t end = this->vertices();
   this->Labels.extendRaw(end);
+  std::ranges::fill(this->Labels.range(begin, end), -1);
   this->Edges.extend(end);
-  if (this->Own)
+  const auto extend = [end](auto& optional)
   {
-    this->Own->extend(end);
-  }
-  std::copy(block.positions.begin(), block.positions.end(), this->Points.at(this->Vertices));
-  std::copy(given.value.begin(), given.value.end(), this->Values.at(this->Vertices));
-  std::copy(given.source.begin(), given.source.end(), this->Sources.at(this->Vertices));
-  std::copy(given.prescribed.begin(), given.prescribed.end(), this->Prescribed.at(this->Vertices));
-  std::ranges::fill(this->Labels.range(this->Vertices, end), -1);
-  this->Vertices = end;
+    if (optional)
+    {
+      optional->extend(end);
+    }
+  };
+  extend(this->Scales);
+  extend(this->Facets);
+  extend(this->CellLoads);
+  extend(this->FacetLoads);
 }
 
 void Assembly::addCells(const MeshBlock& block)
 {
   const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
   const auto cells = block.corners.size() / corners;
-  const Column* flags = nullptr;
-  for (const Column& column : block.cellColumns)
-  {
-    flags = column.spec.name == CellFlagsName ? &column : flags;
-  }
+  const Column* flags = block.flags();
   for (std::size_t c = 0; c < cells; ++c)
   {
     const std::int64_t* cell = block.corners.data() + c * corners;
     if (this->Own)
     {
-      this->Own->prepare(block, c, this->Points);
+      this->Own->prepare(block, c, this->Vertices.points);
     }
     this->addCell(cell, flags ? static_cast<unsigned>(flags->value(c)) : 0U);
   }
@@ -127,25 +109,44 @@ void Assembly::addCells(const MeshBlock& block)
 
 void Assembly::addCell(const std::int64_t* corners, unsigned flags)
 {
-  const double* point[4] = {};
+  const double* points[4] = {};
   for (int k = 0; k < cornersOf(this->Type); ++k)
   {
-    point[k] = this->Points.at(corners[k]);
+    points[k] = this->Vertices.points.at(corners[k]);
   }
   const bool repeated = hasRepeatedCorner(corners, cornersOf(this->Type));
-  CellWeights cell = repeated || flags != 0 ? CellWeights{}
-                     : this->Own            ? this->Own->cell()
-                                            : cellWeights(this->Type, point);
-  if (this->Kind == Weights::Cotangent)
-  {
-    this->Limited += limitWeights(this->Type, point, cell) ? 1 : 0;
-  }
+  const CellWeights cell = repeated || flags != 0 ? CellWeights{} : this->weightsOf(points);
   const bool degenerate = cell.measure == 0.0;
   this->Degenerate += degenerate ? 1 : 0;
   if (!degenerate || (this->ConnectsFlat && !repeated && (flags & DuplicateCell) == 0))
   {
     this->connect(corners, cell);
   }
+  if (!degenerate && this->CellLoads)
+  {
+    this->CellLoads->add(corners, points, *this->Own);
+  }
+}
+
+CellWeights Assembly::weightsOf(const double* const* points)
+{
+  CellWeights cell = this->Own ? this->Own->weights() : cellWeights(this->Type, points);
+  if (this->Kind != Weights::Cotangent || cell.measure == 0.0)
+  {
+    return cell;
+  }
+  const double flatness =
+    this->Own ? this->Own->flatness() : flatnessFactor(this->Type, points, cell);
+  if (flatness < 1.0)
+  {
+    ++this->Limited;
+    this->LeastFlatness = std::min(this->LeastFlatness, flatness);
+    for (double& weight : cell.weight)
+    {
+      weight *= flatness;
+    }
+  }
+  return cell;
 }
 
 /** The corners belong together, with these weights of the edges, which are 0 if the cell is flat.
@@ -165,7 +166,7 @@ void Assembly::connect(const std::int64_t* corners, const CellWeights& cell)
   for (int k = 0; k < cornersOf(this->Type); ++k)
   {
     this->Labels[corners[k]] = label;
-    this->Mass[corners[k]] += mass;
+    this->Vertices.mass[corners[k]] += mass;
   }
 
   for (int e = 0; e < edgesOf(this->Type); ++e)
@@ -179,9 +180,11 @@ void Assembly::connect(const std::int64_t* corners, const CellWeights& cell)
     }
     double& weight = this->Edges.weight(a, b);
     weight = this->Kind == Weights::Uniform ? 1.0 : weight + cell.weight[e];
-    if (this->Own)
+    if (this->Scales)
     {
-      this->Own->connect(a, b);
+      double& least = this->Scales->weight(a, b);
+      const double scale = cell.measure > 0.0 ? this->Own->scale() : 0.0;
+      least = least > 0.0 && scale > 0.0 ? std::min(least, scale) : std::max(least, scale);
     }
   }
 }
@@ -189,8 +192,9 @@ void Assembly::connect(const std::int64_t* corners, const CellWeights& cell)
 /** Whether an edge has a weight even in a cell without one. */
 bool Assembly::hasLength(std::int64_t a, std::int64_t b) const
 {
+  const Ring<double>& points = this->Vertices.points;
   return this->Kind == Weights::Uniform ||
-         static_cast<float>(cotangentFloor(this->Type, this->Points.at(a), this->Points.at(b))) > 0;
+         static_cast<float>(cotangentFloor(this->Type, points.at(a), points.at(b))) > 0;
 }
 
 void Assembly::finalize(std::int64_t end)
@@ -212,67 +216,62 @@ void Assembly::finalize(std::int64_t end)
       this->applyEdgeTargets(begin);
     }
     this->LabelBatch.clear();
+    this->MassBatch.clear();
     std::size_t first = 0;
     for (std::int64_t i = begin; i < stop; ++i)
     {
       const std::size_t last = this->RowEnds[static_cast<std::size_t>(i - begin)];
-      const double* target =
-        targets ? this->Targets.data() + first * static_cast<std::size_t>(this->Columns) : nullptr;
-      this->closeRow(i, this->Neighbours.data() + first, last - first, target);
+      this->closeRow(i, std::span(this->Neighbours).subspan(first, last - first),
+        targets ? this->Targets.data() + first * this->Columns : nullptr);
       if (this->Listener)
       {
-        this->Listener->close(this->Points.at(i), this->Reach[i]);
+        this->Listener->close(this->Vertices.points.at(i), this->Reach[i]);
       }
       first = last;
     }
-    this->PartLabels.append(this->LabelBatch);
+    this->PartLabels.append(this->LabelBatch, this->MassBatch);
     this->Final = stop;
   }
+  this->release();
+}
+
+/** Lets go of what no row to come needs. */
+void Assembly::release()
+{
   while (this->Done < this->Final && this->Reach[this->Done] < this->Final)
   {
     ++this->Done;
   }
-  this->Points.release(this->Done);
-  this->Values.release(this->Done);
-  this->Prescribed.release(this->Done);
+  this->Vertices.release(this->Done, this->Final);
   this->Reach.release(this->Done);
-  this->Sources.release(this->Final);
-  this->Mass.release(this->Final);
   this->Labels.release(this->Final);
   this->Edges.release(this->Final);
-  if (this->Own)
+  const auto release = [this](auto& optional)
   {
-    this->Own->release(this->Final);
-  }
+    if (optional)
+    {
+      optional->release(this->Final);
+    }
+  };
+  release(this->Scales);
+  release(this->Facets);
+  release(this->CellLoads);
+  release(this->FacetLoads);
 }
 
 /** Appends the neighbours of vertex i, with the weights as they are stored, to the batch. */
 void Assembly::collectRow(std::int64_t i)
 {
   this->Edges.take(i, this->Row);
-  const OpenEdge* scales = this->Own ? this->Own->takeScales(i).data() : nullptr;
+  if (this->Scales)
+  {
+    this->Scales->take(i, this->RowScales);
+  }
   for (std::size_t e = 0; e < this->Row.size(); ++e)
   {
-    const std::int64_t j = this->Row[e].to;
-    double weight = this->Row[e].weight;
-    if (this->Kind == Weights::Clamped || this->Kind == Weights::Own)
-    {
-      const double floor = (scales ? scales[e].weight : 1.0) *
-                           cotangentFloor(this->Type, this->Points.at(i), this->Points.at(j));
-      this->Clamped += weight < floor ? 1 : 0;
-      weight = std::max(weight, floor);
-    }
-    if (this->Own)
-    {
-      this->Own->requireRange(weight, i, j);
-    }
-    if (!std::isfinite(static_cast<float>(weight)))
-    {
-      throw Error("the weight of the edge between vertices " + std::to_string(i) + " and " +
-                  std::to_string(j) +
-                  " is too large: the cells there are almost flat; use uniform weights");
-    }
-    this->Neighbours.push_back({ j, static_cast<float>(weight) });
+    const double scale =
+      this->Scales && this->RowScales[e].weight > 0.0 ? this->RowScales[e].weight : 1.0;
+    this->Neighbours.push_back({ this->Row[e].to, this->storedWeight(i, this->Row[e], scale) });
   }
   this->RowEnds.push_back(this->Neighbours.size());
   const std::int64_t last = this->Row.empty() ? i : std::max(i, this->Row.back().to);
@@ -280,14 +279,37 @@ void Assembly::collectRow(std::int64_t i)
   this->Reach[i] = this->LastReach;
 }
 
+/** The weight of an edge of vertex i as its row has it; `scale`: of the weights of its weakest
+ * cell, by which the floor scales. */
+float Assembly::storedWeight(std::int64_t i, const OpenEdge& edge, double scale)
+{
+  double weight = edge.weight;
+  if (this->Kind == Weights::Clamped)
+  {
+    const Ring<double>& points = this->Vertices.points;
+    const double floor = scale * cotangentFloor(this->Type, points.at(i), points.at(edge.to));
+    this->Clamped += weight < floor ? 1 : 0;
+    weight = std::max(weight, floor);
+  }
+  const auto stored = static_cast<float>(weight);
+  if (!std::isfinite(stored))
+  {
+    throw Error("the weight of the edge between vertices " + std::to_string(i) + " and " +
+                std::to_string(edge.to) +
+                " is too large: the cells there are almost flat; use uniform weights");
+  }
+  return stored;
+}
+
 void Assembly::applyEdgeTargets(std::int64_t begin)
 {
+  const Ring<double>& points = this->Vertices.points;
   const std::size_t edges = this->Neighbours.size();
   this->From.resize(edges);
   this->To.resize(edges);
   this->FromPoints.resize(3 * edges);
   this->ToPoints.resize(3 * edges);
-  this->Targets.assign(edges * static_cast<std::size_t>(this->Columns), 0.0);
+  this->Targets.assign(edges * this->Columns, 0.0);
   std::int64_t i = begin;
   for (std::size_t e = 0; e < edges; ++e)
   {
@@ -297,140 +319,61 @@ void Assembly::applyEdgeTargets(std::int64_t begin)
     }
     this->From[e] = i;
     this->To[e] = this->Neighbours[e].to;
-    std::copy_n(this->Points.at(i), 3, this->FromPoints.data() + 3 * e);
-    std::copy_n(this->Points.at(this->To[e]), 3, this->ToPoints.data() + 3 * e);
+    std::copy_n(points.at(i), 3, this->FromPoints.data() + 3 * e);
+    std::copy_n(points.at(this->To[e]), 3, this->ToPoints.data() + 3 * e);
   }
   EdgeBatch batch{ this->From, this->To, this->FromPoints, this->ToPoints, this->Targets };
   this->Given.edgeTargets(batch);
-  if (!allFinite(this->Targets))
+  if (!std::ranges::all_of(this->Targets, [](double v) { return std::isfinite(v); }))
   {
     throw Error("an edge target near vertex " + std::to_string(begin) + " is not a finite number");
   }
 }
 
-/** Row, right-hand side and initial value of vertex i; target: `Columns` values a neighbour. */
+/** `target`: `columns` values a neighbour. */
 void Assembly::closeRow(
-  std::int64_t i, const Neighbour* neighbours, std::size_t count, const double* target)
+  std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target)
 {
-  const double* x = this->Values.at(i);
-  this->Out.x.insert(this->Out.x.end(), x, x + this->Columns);
-  this->Out.b.resize(this->Out.x.size());
-  double* b = this->Out.b.data() + (this->Out.b.size() - static_cast<std::size_t>(this->Columns));
+  if (this->Facets)
+  {
+    this->addBoundary(i);
+  }
+  const double mass = this->Vertices.mass[i];
+  double alpha = this->Vertices.screening[i] * mass;
+  for (std::size_t k = 0; k < this->Columns; ++k)
+  {
+    this->Load[k] = mass * this->Vertices.sources.at(i)[k];
+  }
+  for (const auto* loads : { &this->CellLoads, &this->FacetLoads })
+  {
+    if (*loads)
+    {
+      alpha += (*loads)->alpha(i);
+      for (std::size_t k = 0; k < this->Columns; ++k)
+      {
+        this->Load[k] += (*loads)->load(i)[k];
+      }
+    }
+  }
   const std::int32_t label = this->Labels[i] < 0 ? -1 : this->Parts.root(this->Labels[i]);
   this->LabelBatch.push_back(label);
+  this->MassBatch.push_back(mass);
+  this->Rows.close(i, label, neighbours, target, alpha, this->Load.data());
+}
 
-  const bool prescribed = this->Prescribed[i] != 0;
-  const bool held = !prescribed && count == 0 && this->Screening * this->Mass[i] == 0.0;
-  if (prescribed || held)
-  {
-    this->PrescribedCount += prescribed ? 1 : 0;
-    this->Held += held ? 1 : 0;
-    if (label >= 0)
+/** The boundary facets with the lowest corner i bring their share to all of their corners. */
+void Assembly::addBoundary(std::int64_t i)
+{
+  this->Facets->take(i,
+    [this](const BoundaryFacet& facet)
     {
-      this->Parts.anchor(label);
-    }
-    std::copy_n(x, this->Columns, b);
-    if (this->Listener)
-    {
-      this->Listener->constraint(x);
-    }
-    this->Out.rows.open(0);
-    this->Out.rows.close(0, 1.0, -1);
-    return;
-  }
-
-  double alpha = this->Screening * this->Mass[i];
-  for (int k = 0; k < this->Columns; ++k)
-  {
-    b[k] = this->Mass[i] * this->Sources.at(i)[k];
-  }
-  this->Constraint.assign(b, b + this->Columns);
-  RowEntry* row = this->Out.rows.open(static_cast<std::int64_t>(count));
-  std::int64_t size = 0;
-  double squares[2] = { 0.0, 0.0 };
-  for (std::size_t e = 0; e < count; ++e)
-  {
-    const Neighbour& neighbour = neighbours[e];
-    const double weight = neighbour.weight;
-    const bool known = this->Prescribed[neighbour.to] != 0;
-    const double* other = this->Values.at(neighbour.to);
-    const auto term = [&](int k)
-    {
-      return weight * ((known ? other[k] : 0.0) +
-                        (target ? target[e * static_cast<std::size_t>(this->Columns) +
-                                         static_cast<std::size_t>(k)]
-                                : 0.0));
-    };
-    for (int k = 0; k < this->Columns; ++k)
-    {
-      b[k] += term(k);
-    }
-    const std::int64_t delta = neighbour.to - i;
-    if (delta > RowEntry::MostDistance || delta < -RowEntry::MostDistance)
-    {
-      throw Error("vertices " + std::to_string(i) + " and " + std::to_string(neighbour.to) +
-                  " share an edge but lie too far apart in the stream: convert the mesh with the "
-                  "order bfs");
-    }
-    if (!known)
-    {
-      row[size++] = { static_cast<std::int32_t>(delta), neighbour.weight };
-      if (this->Listener && target)
+      const double* points[3] = {};
+      for (int k = 0; k < BoundaryFacet::cornersOf(this->Type); ++k)
       {
-        this->Listener->target(target + e * static_cast<std::size_t>(this->Columns));
+        points[k] = this->Vertices.points.at(facet.corners[k]);
       }
-      continue;
-    }
-    alpha += weight;
-    if (this->Listener)
-    {
-      this->Listener->link(static_cast<std::int32_t>(delta), neighbour.weight);
-      for (int k = 0; k < this->Columns; ++k)
-      {
-        this->Constraint[static_cast<std::size_t>(k)] += term(k);
-      }
-    }
-  }
-  if (this->Kind == Weights::Cotangent)
-  {
-    const double raise = rowShortfall({ row, static_cast<std::size_t>(size) }, alpha);
-    this->Raised += raise > 0.0 ? 1 : 0;
-    alpha += raise;
-    for (int k = 0; k < this->Columns; ++k)
-    {
-      b[k] += raise * x[k];
-      this->Constraint[static_cast<std::size_t>(k)] += raise * x[k];
-    }
-  }
-  float least = 0.0F;
-  for (std::int64_t e = 0; this->Stiff.any() && e < size; ++e)
-  {
-    least = std::min(least, row[e].weight());
-  }
-  this->Out.rows.close(size, alpha, -1, this->Stiff(least));
-  if (this->Listener)
-  {
-    this->Listener->constraint(this->Constraint.data());
-  }
-
-  const double diagonal = diagonalOf({ row, static_cast<std::size_t>(size) }, alpha);
-  for (int k = 0; k < this->Columns; ++k)
-  {
-    double sum = b[k] - diagonal * x[k];
-    for (std::int64_t e = 0; e < size; ++e)
-    {
-      sum += static_cast<double>(row[e].weight()) * this->Values.at(i + row[e].delta())[k];
-    }
-    squares[0] += sum * sum;
-    squares[1] += b[k] * b[k] + diagonal * diagonal * x[k] * x[k];
-  }
-  this->InitialSquares += squares[0];
-  this->TermSquares += squares[1];
-  if (this->Screening > 0.0)
-  {
-    this->Parts.anchor(label);
-  }
-  this->Parts.count(label, b, x);
+      this->FacetLoads->add(facet, facetArea(this->Type, points));
+    });
 }
 
 } // namespace smg

@@ -7,9 +7,13 @@
 #include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Problem/Components.h"
 #include "Solver/Problem/OpenEdges.h"
-#include "Solver/Problem/OwnWeights.h"
+#include "Solver/Problem/OpenVertices.h"
 #include "Solver/Problem/Problem.h"
+#include "Solver/Problem/ProblemCells.h"
+#include "Solver/Problem/ProblemFacets.h"
+#include "Solver/Problem/RowAssembly.h"
 #include "Solver/Problem/RowListener.h"
+#include "Solver/Problem/VertexLoads.h"
 #include "Solver/Stream/StreamCheck.h"
 
 #include <cstdint>
@@ -43,74 +47,73 @@ public:
   /** Makes the rest final. */
   void finish();
 
-  std::int64_t vertices() const { return this->Vertices; }
-  std::int64_t openVertices() const { return this->Vertices - this->Final; }
+  std::int64_t vertices() const { return this->Vertices.end(); }
+  std::int64_t openVertices() const { return this->vertices() - this->Final; }
   std::int64_t cells() const { return this->Cells; }
-  std::int64_t prescribed() const { return this->PrescribedCount; }
-  std::int64_t held() const { return this->Held; }
+  std::int64_t prescribed() const { return this->Rows.prescribed(); }
+  std::int64_t held() const { return this->Rows.held(); }
   std::int64_t degenerateCells() const { return this->Degenerate; }
   std::int64_t clampedWeights() const { return this->Clamped / 2; }
-  /** With raw cotangent weights: cells whose weights were limited, rows that were raised. */
+  /** With cotangent weights: cells whose stiffness was scaled down, and the least factor. */
   std::int64_t limitedCells() const { return this->Limited; }
-  std::int64_t raisedRows() const { return this->Raised; }
+  double leastFlatness() const { return this->LeastFlatness; }
+  /** With cotangent weights: rows that were raised. */
+  std::int64_t raisedRows() const { return this->Rows.raised(); }
   /** ||b - A x_0||^2, and the same of the terms that it is the difference of. */
-  double initialSquares() const { return this->InitialSquares; }
-  double termSquares() const { return this->TermSquares; }
+  double initialSquares() const { return this->Rows.initialSquares(); }
+  double termSquares() const { return this->Rows.termSquares(); }
 
 private:
-  struct Neighbour
-  {
-    std::int64_t to;
-    float weight;
-  };
-
   void addVertices(const MeshBlock& block);
   void addCells(const MeshBlock& block);
   void addCell(const std::int64_t* corners, unsigned flags);
+  CellWeights weightsOf(const double* const* points);
   void connect(const std::int64_t* corners, const CellWeights& cell);
   bool hasLength(std::int64_t a, std::int64_t b) const;
   void finalize(std::int64_t end);
   void collectRow(std::int64_t i);
+  float storedWeight(std::int64_t i, const OpenEdge& edge, double scale);
   void applyEdgeTargets(std::int64_t begin);
-  void closeRow(
-    std::int64_t i, const Neighbour* neighbours, std::size_t count, const double* target);
+  void closeRow(std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target);
+  void addBoundary(std::int64_t i);
+  void release();
 
   CellType Type;
   StreamCheck Check;
   Problem& Given;
-  int Columns;
+  std::size_t Columns;
   Weights Kind;
-  double Screening;
   bool ConnectsFlat;
-  AssembledRows& Out;
   Components& Parts;
   ComponentLabels& PartLabels;
   RowListener* Listener;
-  StiffRows Stiff;
 
   // By open vertex.
-  Ring<double> Points, Values, Sources, Mass;
-  Ring<std::uint8_t> Prescribed;
+  OpenVertices Vertices;
   Ring<std::int32_t> Labels;
   Ring<std::int64_t> Reach; // largest neighbour of vertices 0 .. i, of final rows
   OpenEdges Edges;
-  std::optional<OwnWeights> Own;
-  VertexConditions Conditions;
+  std::optional<ProblemCells> Own;
+  std::optional<OpenEdges> Scales; // of each open edge the least one of its cells
+  std::optional<ProblemFacets> Facets;
+  // Apart: facets are known when their vertices are final, which depends on the blocks.
+  std::optional<VertexLoads> CellLoads, FacetLoads;
+  RowAssembly Rows;
 
   // The rows of the current batch.
-  std::vector<OpenEdge> Row;
-  std::vector<Neighbour> Neighbours;
+  std::vector<OpenEdge> Row, RowScales;
+  std::vector<RowNeighbour> Neighbours;
   std::vector<std::size_t> RowEnds;
   std::vector<double> Targets, FromPoints, ToPoints;
-  std::vector<double> Constraint; // of a row: what of b is not of edges to unknowns
+  std::vector<double> Load; // of a row
   std::vector<std::int64_t> From, To;
   std::vector<std::int32_t> LabelBatch;
+  std::vector<double> MassBatch;
 
-  std::int64_t Vertices = 0, Cells = 0, Final = 0, Done = 0;
-  std::int64_t PrescribedCount = 0, Held = 0, Degenerate = 0, Clamped = 0;
-  std::int64_t Limited = 0, Raised = 0;
+  std::int64_t Cells = 0, Final = 0, Done = 0;
+  std::int64_t Degenerate = 0, Clamped = 0, Limited = 0;
+  double LeastFlatness = 1.0;
   std::int64_t LastReach = 0;
-  double InitialSquares = 0.0, TermSquares = 0.0;
 };
 
 } // namespace smg

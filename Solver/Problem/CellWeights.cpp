@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/CellWeights.h"
 
+#include "Solver/Problem/CellGradients.h"
+#include "Solver/Problem/Vector.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace smg
@@ -10,24 +12,13 @@ namespace smg
 namespace
 {
 
-using Vector = std::array<double, 3>;
-
 /** A cell is degenerate if its measure is below this share of what its edges allow: rounding. */
 constexpr double Flat = 1e-14;
 
-Vector difference(const double* a, const double* b)
+/** Whether K is a multiple of the identity. */
+bool isScalar(const double* K)
 {
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-double dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector cross(const Vector& a, const Vector& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+  return K[0] == K[1] && K[1] == K[2] && K[3] == 0.0 && K[4] == 0.0 && K[5] == 0.0;
 }
 
 } // namespace
@@ -82,12 +73,55 @@ CellWeights tetrahedronWeights(const double* a, const double* b, const double* c
   return cell;
 }
 
-bool limitWeights(CellType type, const double* const* corners, CellWeights& cell)
+CellWeights conductivityWeights(CellType type, const double* const* points, const double* K)
+{
+  CellWeights cell = cellWeights(type, points);
+  if (isScalar(K))
+  {
+    for (double& weight : cell.weight)
+    {
+      weight *= K[0];
+    }
+    return cell;
+  }
+  if (cell.measure == 0.0)
+  {
+    return cell;
+  }
+  const CellGradients gradients(type, points);
+  for (int e = 0; e < edgesOf(type); ++e)
+  {
+    const int* ends = edgeCorners(type, e);
+    cell.weight[e] = -cell.measure * dot(gradients[ends[0]], product(K, gradients[ends[1]]));
+  }
+  return cell;
+}
+
+bool isPositiveDefinite(const double* K)
+{
+  const double scale = *std::max_element(K, K + 3);
+  if (!(scale > 0.0) || !std::all_of(K, K + 6, [](double k) { return std::isfinite(k); }))
+  {
+    return false;
+  }
+  const double xx = K[0] / scale;
+  const double yy = K[1] / scale;
+  const double zz = K[2] / scale;
+  const double xy = K[3] / scale;
+  const double yz = K[4] / scale;
+  const double xz = K[5] / scale;
+  const double minor = xx * yy - xy * xy;
+  const double determinant =
+    xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+  return xx > 0.0 && minor > 0.0 && determinant > 0.0;
+}
+
+double flatnessFactor(CellType type, const double* const* corners, const CellWeights& cell)
 {
   constexpr double Limit = 1e5;
   double square = type == CellType::Triangle ? 1.0 : 0.0;
   double largest = 0.0;
-  for (int e = 0; e < (type == CellType::Triangle ? 3 : 6); ++e)
+  for (int e = 0; e < edgesOf(type); ++e)
   {
     largest = std::max(largest, std::fabs(cell.weight[e]));
     if (type == CellType::Tetrahedron)
@@ -98,15 +132,7 @@ bool limitWeights(CellType type, const double* const* corners, CellWeights& cell
     }
   }
   const double limit = Limit * std::sqrt(square);
-  if (!(largest > limit))
-  {
-    return false;
-  }
-  for (double& weight : cell.weight)
-  {
-    weight *= limit / largest;
-  }
-  return true;
+  return largest > limit ? limit / largest : 1.0;
 }
 
 double cotangentFloor(CellType type, const double* a, const double* b)

@@ -69,12 +69,23 @@ inline CellWeights cellWeights(CellType type, const double* const* points)
 }
 
 /**
+ * The same with a conductivity, a symmetric tensor K = [xx, yy, zz, xy, yz, xz]: weight_ij =
+ * -measure * grad phi_i . K grad phi_j. On a triangle the gradients lie in its plane.
+ */
+CellWeights conductivityWeights(CellType type, const double* const* points, const double* K);
+
+/** Whether all six numbers of K are finite and the tensor is positive definite. */
+bool isPositiveDefinite(const double* K);
+
+/**
  * Weights that are not clamped cancel in the sums of a row. Where a cell is so flat that their
  * rounding to single precision would be of the size of other cells' weights, all of its weights are
- * scaled down alike, to 1e5 at most (tetrahedra: times the longest edge): its stiffness stays
- * positive semidefinite. Answers whether they were.
+ * scaled down alike: its stiffness stays positive semidefinite. Answers the factor for a cell with
+ * these finite-element weights for K = 1, which brings them to 1e5 at most (tetrahedra: times the
+ * longest edge); 1 for nearly all cells. So it does not depend on the unit of length, nor on that
+ * of a conductivity.
  */
-bool limitWeights(CellType type, const double* const* corners, CellWeights& cell);
+double flatnessFactor(CellType type, const double* const* corners, const CellWeights& cell);
 
 /**
  * The floor of the cotangent weight of an edge, that keeps the operator an M-matrix on obtuse

@@ -2,10 +2,22 @@
 #include "Solver/Problem/ComponentLabels.h"
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
 
 namespace smg
 {
+namespace
+{
+
+template <class T>
+void append(std::vector<std::byte>& record, std::span<const T> values)
+{
+  const auto bytes = std::as_bytes(values);
+  record.insert(record.end(), bytes.begin(), bytes.end());
+}
+
+} // namespace
 
 void ComponentLabels::useScratch(const std::filesystem::path& folder, IoStatistics& statistics)
 {
@@ -13,58 +25,79 @@ void ComponentLabels::useScratch(const std::filesystem::path& folder, IoStatisti
   this->Scratch->startPass(true);
 }
 
-void ComponentLabels::append(std::span<const std::int32_t> labels)
+void ComponentLabels::append(std::span<const std::int32_t> labels, std::span<const double> masses)
 {
   this->Count += static_cast<std::int64_t>(labels.size());
   this->Labels.insert(this->Labels.end(), labels.begin(), labels.end());
-  if (!this->Scratch)
-  {
-    return;
-  }
+  this->Masses.insert(this->Masses.end(), masses.begin(), masses.end());
   std::size_t done = 0;
   for (; this->Labels.size() - done >= Block; done += Block)
   {
-    this->store(std::span<const std::int32_t>(this->Labels).subspan(done, Block));
+    this->store(done, Block);
   }
-  this->Labels.erase(
-    this->Labels.begin(), this->Labels.begin() + static_cast<std::ptrdiff_t>(done));
+  const auto stored = static_cast<std::ptrdiff_t>(done);
+  this->Labels.erase(this->Labels.begin(), this->Labels.begin() + stored);
+  this->Masses.erase(this->Masses.begin(), this->Masses.begin() + stored);
 }
 
 void ComponentLabels::finish()
 {
-  if (!this->Scratch)
-  {
-    return;
-  }
   if (!this->Labels.empty())
   {
-    this->store(this->Labels);
+    this->store(0, this->Labels.size());
   }
-  this->Scratch->endPass();
+  if (this->Scratch)
+  {
+    this->Scratch->endPass();
+  }
 }
 
-void ComponentLabels::store(std::span<const std::int32_t> labels)
+/** Most blocks have one label only, which is stored once, and no masses. */
+void ComponentLabels::store(std::size_t first, std::size_t count)
 {
+  const auto labels = std::span<const std::int32_t>(this->Labels).subspan(first, count);
+  const auto masses = std::span<const double>(this->Masses).subspan(first, count);
   const bool one = std::ranges::adjacent_find(labels, std::ranges::not_equal_to()) == labels.end();
-  this->Scratch->append(std::as_bytes(one ? labels.first(1) : labels));
+  const auto mayBeFree = [this](std::int32_t label)
+  { return label >= 0 && this->Parts.isFree(this->Parts.root(label)); };
+  this->Record.clear();
+  smg::append(this->Record, one ? labels.first(1) : labels);
+  if (one ? mayBeFree(labels.front()) : std::ranges::any_of(labels, mayBeFree))
+  {
+    smg::append(this->Record, masses);
+  }
+  if (this->Scratch)
+  {
+    this->Scratch->append(this->Record);
+    return;
+  }
+  this->Stored.push_back(this->Record);
 }
 
-std::span<const std::int32_t> ComponentLabels::block(std::int64_t index)
+ComponentLabels::Entries ComponentLabels::block(std::int64_t index)
 {
   const auto first = static_cast<std::size_t>(index) * Block;
   const std::size_t count = std::min(Block, static_cast<std::size_t>(this->Count) - first);
-  if (!this->Scratch)
-  {
-    return std::span<const std::int32_t>(this->Labels).subspan(first, count);
-  }
   if (this->Cached != index)
   {
-    this->Labels.resize(this->Scratch->bytes(index) / sizeof(std::int32_t));
-    this->Scratch->read(index, std::as_writable_bytes(std::span<std::int32_t>(this->Labels)));
+    if (this->Scratch)
+    {
+      this->Record.resize(this->Scratch->bytes(index));
+      this->Scratch->read(index, this->Record);
+    }
+    const std::vector<std::byte>& record =
+      this->Scratch ? this->Record : this->Stored[static_cast<std::size_t>(index)];
+    // The labels, one or all, then no masses or all.
+    const bool masses = record.size() >= count * sizeof(double);
+    const std::size_t bytes = record.size() - (masses ? count * sizeof(double) : 0);
+    this->Labels.resize(bytes / sizeof(std::int32_t));
+    std::memcpy(this->Labels.data(), record.data(), bytes);
     this->Labels.resize(count, this->Labels.front());
+    this->Masses.resize(masses ? count : 0);
+    std::memcpy(this->Masses.data(), record.data() + bytes, this->Masses.size() * sizeof(double));
     this->Cached = index;
   }
-  return this->Labels;
+  return { this->Labels, this->Masses };
 }
 
 } // namespace smg

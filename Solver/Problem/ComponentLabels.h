@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Problem/Components.h"
 #include "Solver/Storage/ScratchStream.h"
 
+#include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,30 +14,49 @@
 namespace smg
 {
 
-/** The component label of every vertex, in memory or in a scratch file, written once. */
+/**
+ * The component label of every vertex, and its mass where a component may turn out to be free, in
+ * memory or in a scratch file, written once.
+ */
 class ComponentLabels
 {
 public:
   /** Vertices of a block; the last one may be shorter. */
   static constexpr std::size_t Block = 1024;
 
+  /** What is known of the vertices of a block. */
+  struct Entries
+  {
+    std::span<const std::int32_t> labels;
+    /** Empty if the component of each of them had a constraint when the block was complete. */
+    std::span<const double> masses;
+  };
+
+  explicit ComponentLabels(const Components& components)
+    : Parts(components)
+  {
+  }
+
   /** Keeps the labels in a scratch file; else they stay in memory. */
   void useScratch(const std::filesystem::path& folder, IoStatistics& statistics);
 
-  /** Appends the labels of the next vertices. */
-  void append(std::span<const std::int32_t> labels);
+  /** Appends the next vertices: their labels (-1: of no component) and lumped masses. */
+  void append(std::span<const std::int32_t> labels, std::span<const double> masses);
   void finish();
 
-  /** The labels of block `index`, valid until the next call. */
-  std::span<const std::int32_t> block(std::int64_t index);
+  /** Block `index`, valid until the next call. */
+  Entries block(std::int64_t index);
   std::int64_t vertices() const { return this->Count; }
 
 private:
-  /** Most blocks have one label only, which is stored once: block() repeats it. */
-  void store(std::span<const std::int32_t> labels);
+  void store(std::size_t first, std::size_t count);
 
+  const Components& Parts;
   std::optional<ScratchStream> Scratch;
-  std::vector<std::int32_t> Labels; // all of them, or those of the current block
+  std::vector<std::vector<std::byte>> Stored; // the blocks, where there is no scratch file
+  std::vector<std::int32_t> Labels;           // of the block that is not complete, or of block()
+  std::vector<double> Masses;
+  std::vector<std::byte> Record;
   std::int64_t Count = 0;
   std::int64_t Cached = -1;
 };

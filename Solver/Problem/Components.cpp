@@ -3,6 +3,7 @@
 
 #include "Solver/Core/Error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -19,11 +20,11 @@ std::int32_t Components::add()
   if (this->Account)
   {
     this->Account->acquire(static_cast<std::int64_t>(sizeof(Component)) +
-                           3 * this->Columns * static_cast<std::int64_t>(sizeof(double)));
+                           this->Columns * static_cast<std::int64_t>(sizeof(Sums)));
   }
   const auto label = static_cast<std::int32_t>(this->Of.size());
-  this->Of.push_back({ label, false, 1, 0 });
-  this->Sums.resize(this->Sums.size() + 3 * static_cast<std::size_t>(this->Columns));
+  this->Of.push_back({ label, false, 1, 0, 0.0, 0.0 });
+  this->Summed.resize(this->Summed.size() + static_cast<std::size_t>(this->Columns));
   return label;
 }
 
@@ -55,23 +56,39 @@ std::int32_t Components::join(std::int32_t a, std::int32_t b)
   whole.anchored = whole.anchored || part.anchored;
   whole.labels += part.labels;
   whole.unknowns += part.unknowns;
-  for (int k = 0; k < 3 * this->Columns; ++k)
+  whole.mass += part.mass;
+  whole.massSquares += part.massSquares;
+  for (int k = 0; k < this->Columns; ++k)
   {
-    this->sums(a)[k] += this->sums(b)[k];
+    Sums& to = this->sums(static_cast<std::size_t>(a), k);
+    const Sums& from = this->sums(static_cast<std::size_t>(b), k);
+    to.b += from.b;
+    to.absolute += from.absolute;
+    to.initial += from.initial;
+    to.weighed += from.weighed;
+    to.residual += from.residual;
+    to.residuals += from.residuals;
   }
   return a;
 }
 
-void Components::count(std::int32_t label, const double* b, const double* x0)
+void Components::count(
+  std::int32_t label, const double* b, const double* x0, const double* residual, double mass)
 {
-  const std::int32_t whole = this->root(label);
-  ++this->Of[static_cast<std::size_t>(whole)].unknowns;
-  double* sum = this->sums(whole);
+  const auto whole = static_cast<std::size_t>(this->root(label));
+  Component& component = this->Of[whole];
+  ++component.unknowns;
+  component.mass += mass;
+  component.massSquares += mass * mass;
   for (int k = 0; k < this->Columns; ++k)
   {
-    sum[k] += b[k];
-    sum[this->Columns + k] += std::fabs(b[k]);
-    sum[2 * this->Columns + k] += x0[k];
+    Sums& sum = this->sums(whole, k);
+    sum.b += b[k];
+    sum.absolute += std::fabs(b[k]);
+    sum.initial += x0[k];
+    sum.weighed += mass * x0[k];
+    sum.residual += residual[k];
+    sum.residuals += mass * residual[k];
   }
 }
 
@@ -95,51 +112,87 @@ std::int64_t Components::freeComponents() const
   return count;
 }
 
-std::vector<double> Components::rightSideShifts() const
+/** Calls f(label, column) where b does not sum to zero in a free component. */
+template <class F>
+void Components::forShifts(F&& f) const
 {
-  std::vector<double> shifts(this->Of.size() * static_cast<std::size_t>(this->Columns));
+  constexpr double Rounding = 1e-12;
   for (std::size_t label = 0; label < this->Of.size(); ++label)
   {
-    if (!this->isRoot(label) || this->Of[label].anchored)
+    for (int k = 0; this->isRoot(label) && !this->Of[label].anchored && k < this->Columns; ++k)
     {
-      continue;
-    }
-    const double* sum = this->sums(static_cast<std::int32_t>(label));
-    for (int k = 0; k < this->Columns; ++k)
-    {
-      if (std::fabs(sum[k]) > 1e-12 * sum[this->Columns + k])
+      const Sums& sum = this->sums(label, k);
+      if (std::fabs(sum.b) > Rounding * sum.absolute)
       {
-        shifts[label * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)] =
-          sum[k] / static_cast<double>(this->Of[label].unknowns);
+        f(label, k);
       }
     }
   }
+}
+
+std::vector<double> Components::rightSideShifts() const
+{
+  std::vector<double> shifts(this->Summed.size());
+  this->forShifts(
+    [&](std::size_t label, int k)
+    {
+      shifts[label * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)] =
+        this->sums(label, k).b / this->weightSum(this->Of[label]);
+    });
   return shifts;
 }
 
-double Components::incompatibleSquares() const
+std::vector<double> Components::shiftedSums() const
+{
+  std::vector<double> sums(static_cast<std::size_t>(this->Columns));
+  this->forShifts(
+    [&](std::size_t label, int k) { sums[static_cast<std::size_t>(k)] += this->sums(label, k).b; });
+  return sums;
+}
+
+double Components::incompatibility() const
+{
+  double largest = 0.0;
+  this->forShifts(
+    [&](std::size_t label, int k)
+    {
+      const Sums& sum = this->sums(label, k);
+      largest = std::max(largest, std::fabs(sum.b) / sum.absolute);
+    });
+  return largest;
+}
+
+double Components::shiftedSquares() const
 {
   double squares = 0.0;
-  const std::vector<double> shifts = this->rightSideShifts();
-  for (std::size_t k = 0; k < shifts.size(); ++k)
-  {
-    const std::size_t label = k / static_cast<std::size_t>(this->Columns);
-    squares += shifts[k] * shifts[k] * static_cast<double>(this->Of[label].unknowns);
-  }
+  this->forShifts(
+    [&](std::size_t label, int k)
+    {
+      // ||r - s w||^2 - ||r||^2, s the shift and w the weights.
+      const Component& component = this->Of[label];
+      const Sums& sum = this->sums(label, k);
+      const bool masses = component.mass > 0.0;
+      const double shift = sum.b / this->weightSum(component);
+      squares +=
+        shift * shift * (masses ? component.massSquares : static_cast<double>(component.unknowns)) -
+        2.0 * shift * (masses ? sum.residuals : sum.residual);
+    });
   return squares;
 }
 
 std::vector<double> Components::meanShifts(std::span<const double> sums) const
 {
   std::vector<double> shifts(sums.size());
-  for (std::size_t k = 0; k < sums.size(); ++k)
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
   {
-    const std::size_t label = k / static_cast<std::size_t>(this->Columns);
-    if (this->isRoot(label) && !this->Of[label].anchored)
+    const Component& component = this->Of[label];
+    for (int k = 0; this->isRoot(label) && !component.anchored && k < this->Columns; ++k)
     {
-      const double initial = this->sums(static_cast<std::int32_t>(
-        label))[2 * this->Columns + static_cast<int>(k % static_cast<std::size_t>(this->Columns))];
-      shifts[k] = (sums[k] - initial) / static_cast<double>(this->Of[label].unknowns);
+      const std::size_t place =
+        label * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k);
+      const Sums& sum = this->sums(label, k);
+      const double initial = component.mass > 0.0 ? sum.weighed : sum.initial;
+      shifts[place] = (sums[place] - initial) / this->weightSum(component);
     }
   }
   return shifts;

@@ -14,7 +14,9 @@ namespace smg
  * The connected components of the mesh while it streams by: each vertex carries a label, and labels
  * whose vertices turn out to be connected are joined. A component without a constrained vertex (a
  * free component) determines its solution up to a constant only, and only if its right-hand side
- * sums to zero; what that takes is summed here.
+ * sums to zero; what that takes is summed here. Its means are weighted with the lumped masses of
+ * the vertices, so that what is taken from the right-hand side is a constant source; where none has
+ * any, with 1.
  */
 class Components
 {
@@ -32,22 +34,33 @@ public:
   std::int32_t join(std::int32_t a, std::int32_t b);
   std::int32_t root(std::int32_t label) const;
 
-  /** Counts an unknown of the component with its right-hand side and its initial value. */
-  void count(std::int32_t label, const double* b, const double* x0);
+  /** Counts an unknown of the component: its right-hand side, initial value and residual b - A x0,
+   * `columns` numbers each, and its mass. */
+  void count(
+    std::int32_t label, const double* b, const double* x0, const double* residual, double mass);
   /** The component has a constraint. */
   void anchor(std::int32_t label) { this->Of[static_cast<std::size_t>(label)].anchored = true; }
 
   std::int64_t components() const;
   std::int64_t freeComponents() const;
 
-  /** Per column and free component, the mean of b; 0 for those that are not free, or if b sums to
-   * zero up to rounding. */
+  /** Per column and free component (label-major): the mean of the sources that b is made of, sum of
+   * b / sum of masses; 0 for those that are not free, or if b sums to zero up to rounding. */
   std::vector<double> rightSideShifts() const;
-  /** Sum over free components of (sum of b)^2 / unknowns: what the shifts take from ||r_0||^2. */
-  double incompatibleSquares() const;
+  /** Per column: the sum of b that the shifts take from all components. */
+  std::vector<double> shiftedSums() const;
+  /** The largest |sum of b| / sum of |b| that the shifts take; 0: they take nothing. */
+  double incompatibility() const;
+  /** What the shifts add to ||r_0||^2. */
+  double shiftedSquares() const;
   /** Per column and free component: the mean of the values less the mean of the initial values,
-   * given the sums of the values (label-major). */
+   * given the sums of the weighted values (label-major). */
   std::vector<double> meanShifts(std::span<const double> sums) const;
+  /** What a vertex of this mass counts in the means of the component. */
+  double weightOf(std::int32_t root, double mass) const
+  {
+    return this->Of[static_cast<std::size_t>(root)].mass > 0.0 ? mass : 1.0;
+  }
   std::int64_t labels() const { return static_cast<std::int64_t>(this->Of.size()); }
   bool isFree(std::int32_t root) const
   {
@@ -61,16 +74,31 @@ private:
     bool anchored;
     std::int64_t labels; ///< labels joined in it
     std::int64_t unknowns;
+    double mass, massSquares;
+  };
+  /** Of a column. */
+  struct Sums
+  {
+    double b, absolute;         ///< of b, |b|
+    double initial, weighed;    ///< of x0, mass x0
+    double residual, residuals; ///< of r0, mass r0
   };
 
-  double* sums(std::int32_t label)
+  Sums& sums(std::size_t label, int column)
   {
-    return this->Sums.data() + 3 * this->Columns * static_cast<std::ptrdiff_t>(label);
+    return this
+      ->Summed[label * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(column)];
   }
-  const double* sums(std::int32_t label) const
+  const Sums& sums(std::size_t label, int column) const
   {
-    return this->Sums.data() + 3 * this->Columns * static_cast<std::ptrdiff_t>(label);
+    return const_cast<Components*>(this)->sums(label, column);
   }
+  double weightSum(const Component& component) const
+  {
+    return component.mass > 0.0 ? component.mass : static_cast<double>(component.unknowns);
+  }
+  template <class F>
+  void forShifts(F&& f) const;
   bool isRoot(std::size_t label) const
   {
     return this->Of[label].parent == static_cast<std::int32_t>(label);
@@ -79,7 +107,7 @@ private:
   int Columns;
   Pool* Account;
   std::vector<Component> Of;
-  std::vector<double> Sums; // a label: sums of b, |b| and x0, a column each
+  std::vector<Sums> Summed; // `Columns` a label
 };
 
 } // namespace smg

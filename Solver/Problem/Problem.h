@@ -20,19 +20,21 @@ enum class Weights
   Cotangent,
   /** The finite-element stiffness raised to a positive floor: an M-matrix, whose solutions keep the
    * maximum principle, but another operator where it raises. */
-  Clamped,
-  Own ///< what Problem::cellWeights makes of the cells, clamped from below
+  Clamped
 };
 
 /**
  * What holds at the vertices of one MeshBlock: one entry (or `columns` of them) a vertex.
- * Resized and zeroed by the engine before Problem::conditions fills it.
+ * Resized and zeroed (`dirichlet`: -1) by the engine before Problem::conditions fills it.
  */
 struct VertexConditions
 {
-  std::vector<std::uint8_t> prescribed; ///< 1: a constrained vertex, its value is given
+  /** The number of the Dirichlet condition that prescribes the vertex's value, below
+   * Problem::conditionCounts().dirichlet; -1: the vertex is free. */
+  std::vector<std::int32_t> dirichlet;
   std::vector<double> value;  ///< `columns` a vertex: the prescribed value, else the initial guess
-  std::vector<double> source; ///< `columns` a vertex: density, times the lumped area or volume
+  std::vector<double> source; ///< `columns` a vertex: f, times the lumped area or volume
+  std::vector<double> screening; ///< one a vertex: s >= 0, times the lumped area or volume
 };
 
 /**
@@ -49,7 +51,7 @@ struct EdgeBatch
 /**
  * A stretch of the cells of a MeshBlock, with the weights that each gives to its edges, in the
  * order of edgeCorners(): 3 of a triangle, 6 of a tetrahedron (see Solver/Problem/CellWeights.h).
- * On entry weights and measures are those of linear finite elements.
+ * On entry weights and measures are those of linear finite elements with K = 1, all else is zero.
  */
 struct CellBatch
 {
@@ -61,6 +63,14 @@ struct CellBatch
   std::span<double> weight;              ///< in and out: edgesOf(type) a cell
   /** In and out: area or volume of each cell; at 0 it has no weight, whatever `weight` says. */
   std::span<double> measure;
+  std::span<double> screening; ///< out: s >= 0, one a cell
+  std::span<double> source;    ///< out: f, `columns` a cell
+  std::span<double> field;     ///< out: the vector q, 3 numbers for each of the `columns` of a cell
+  /**
+   * Out, where it is not empty: K itself, 6 numbers a cell as of conductivityWeights(), the
+   * identity on entry. Asked for with the results alone (see Solver/Results/ProblemResults.h).
+   */
+  std::span<double> conductivity;
 
   std::size_t cells() const { return this->measure.size(); }
   /** The position of corner k of cell c of the batch. */
@@ -77,14 +87,52 @@ struct CellBatch
 };
 
 /**
- * The Poisson problem (L + s M) x = M f + div d with x given at the constrained vertices:
- * L_ij = -w_ij, row sums zero; M the lumped areas or volumes, s the screening, f the source
- * densities; (div d)_i = sum_j w_ij d_ij pulls x_i - x_j towards the edge target d_ij.
+ * The facets of a stretch of cells: edges of triangles, faces of tetrahedra; facet k of a cell is
+ * opposite to its corner k and has the other corners in their order. What is said of a facet counts
+ * where it turns out to lie on the boundary (open edges of a surface, faces of one tetrahedron).
+ * On entry `flux` and `robin` are -1, all else is zero.
+ */
+struct FacetBatch
+{
+  CellType type;
+  const MeshBlock& block;
+  std::size_t first;                     ///< the batch's first cell, numbered in the block
+  std::span<const std::int64_t> corners; ///< of the cells: stream indices, cornersOf(type) a cell
+  /** Out, one a facet: number of the flux condition that holds, or -1. */
+  std::span<std::int32_t> flux;
+  /** Out, `columns` a corner of a facet: (K grad u - q) . n, positive into the body. */
+  std::span<double> fluxValue;
+  /** Out, one a facet: number of the Robin condition that holds, or -1: adds the flux coefficient *
+   * (ambient - u). */
+  std::span<std::int32_t> robin;
+  std::span<double> coefficient; ///< out, one a corner of a facet, at least 0
+  std::span<double> ambient;     ///< out, `columns` a corner of a facet
+
+  /** The number of cells. */
+  std::size_t cells() const
+  {
+    return this->flux.size() / static_cast<std::size_t>(cornersOf(this->type));
+  }
+};
+
+/** How many Dirichlet, flux and Robin conditions a problem has, for which balances are kept. */
+struct ConditionCounts
+{
+  int dirichlet = 0, flux = 0, robin = 0;
+};
+
+/**
+ * The elliptic problem -div(K grad u - q) + s u = f by linear finite elements, lumped at the
+ * vertices: (L + S) u = F, with u given at the Dirichlet vertices. L_ij = -w_ij, row sums zero; S
+ * and F have s, f, the Robin coefficients and the fluxes times the share of a vertex in areas,
+ * volumes and boundary facets; F also has the integrals of q . grad phi_i and (div d)_i = sum_j
+ * w_ij d_ij, which pulls u_i - u_j towards the edge target d_ij. Where nothing else is said,
+ * (K grad u - q) . n = 0 on the boundary.
  *
  * A problem is asked block by block, in stream order, once, on the thread that solves: nothing is
- * called for a single vertex, cell or edge. What it answers must not depend on how the stream is
- * cut into blocks and batches; then neither does the solution, to the last bit. What it throws ends
- * the solve.
+ * called for a single vertex, cell or edge; of a block first conditions(), then cells() and
+ * facets(). What it answers must not depend on how the stream is cut into blocks and batches; then
+ * neither does the solution, to the last bit. What it throws ends the solve.
  */
 class Problem
 {
@@ -95,25 +143,30 @@ public:
   virtual int columns() const = 0;
   virtual Weights weights() const { return Weights::Cotangent; }
 
+  /** Whether cells() is to be called. */
+  virtual bool hasCells() const { return false; }
   /**
-   * With Weights::Own: replaces or changes the weights and measures of the cells, in stream order.
-   * The weight of an edge is the sum over its cells, the same in both directions. Called once for
-   * each cell, in batches of any size; a cell that is flat or flagged has no weight, whatever is
-   * set.
+   * Says what holds in the cells, in stream order. Called once for each cell, in batches of any
+   * size; a cell that is flat or flagged has no weight, whatever is set.
    *
-   * Negative weights may be set, but the sum is raised to a positive floor as for cotangent
-   * weights: 5e-4 (triangles) or 1e-4 times the edge's length (tetrahedra), times the scale of the
-   * edge's weakest cell, which is the cell's largest weight over the largest it had on entry.
+   * Weights: those of a conductivity K (see conductivityWeights()), or any others. The weight of an
+   * edge is the sum over its cells, the same in both directions. Weights::Clamped raises it to a
+   * positive floor: 5e-4 (triangles) or 1e-4 times the edge's length (tetrahedra), times the scale
+   * of the edge's weakest cell, which is the cell's largest weight over the largest it had on
+   * entry. Weights::Uniform does not look at them.
    *
-   * It is an Error if a number is not finite, a measure negative, none of a cell's weights
-   * positive, or the weight of an edge outside 1e-20 to 1e20.
-   *
-   * A conductivity k, for -div k grad x, is a factor k of the weights on entry.
+   * It is an Error if a number is not finite, a measure or screening negative, none of a cell's
+   * weights positive, or the weight of an edge outside 1e-20 to 1e20 in magnitude.
    */
-  virtual void cellWeights(CellBatch& /*batch*/) {}
+  virtual void cells(CellBatch& /*batch*/) {}
 
-  /** The screening s, at least 0. */
-  virtual double screening() const { return 0.0; }
+  /** Whether facets() is to be called. */
+  virtual bool hasFacets() const { return false; }
+  /** Says what would hold on the facets of the cells, if they lie on the boundary. */
+  virtual void facets(FacetBatch& /*batch*/) {}
+
+  /** The numbers of conditions that the answers name. */
+  virtual ConditionCounts conditionCounts() const { return { 1, 0, 0 }; }
 
   /**
    * Whether the edges of cells without area or volume that have distinct corners connect these,

@@ -54,6 +54,7 @@ Shi2006::Shi2006(int columns, const SolveOptions& options)
   , Progress(options.progress)
   , Memory(options.memoryLimit, InCoreMemory)
   , Parts(columns, &this->Memory)
+  , Labels(this->Parts)
   , Free(this->Parts, this->Labels, columns)
   , Values(this->Memory, columns)
 {
@@ -124,7 +125,7 @@ void Shi2006::assemble(MeshSource& mesh, Problem& problem, shi2006::Level& fines
   reportAssembly(rows.assembly(), this->Parts, this->Result);
   this->RoundingNorm = roundingOf(rows.assembly().termSquares());
   FinestState state{ finest };
-  this->Free.projectRightSide(state, this->Result.notes);
+  this->Free.projectRightSide(state, this->Result);
   sumRightSide(finest);
   this->Result.passes = 1;
 }

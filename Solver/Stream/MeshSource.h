@@ -3,6 +3,7 @@
 
 #include "Solver/Stream/Column.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -74,6 +75,14 @@ struct MeshBlock
   std::int64_t finalized = 0;
 
   std::int64_t vertices() const { return static_cast<std::int64_t>(this->positions.size() / 3); }
+
+  /** The column of CellFlag bits of the cells; null if the block has none. */
+  const Column* flags() const
+  {
+    const auto found = std::ranges::find(
+      this->cellColumns, CellFlagsName, [](const Column& column) { return column.spec.name; });
+    return found == this->cellColumns.end() ? nullptr : &*found;
+  }
 };
 
 /** Delivers a mesh stream once, from the first block to the last. */

@@ -51,7 +51,7 @@ void assemble(const testing::StreamMesh& mesh, LevelRows& rows, Pool& pool, Sett
   ResidentNodes resident;
   LevelWindow<double> window(pool, resident, 0, problem.columns());
   Components components(problem.columns(), &pool);
-  ComponentLabels labels;
+  ComponentLabels labels(components);
   AssembledRows batch;
   Assembly assembly(pool, source.info(), problem, batch, components, labels);
   const auto step = [&](auto&& make)

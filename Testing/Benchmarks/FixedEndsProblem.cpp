@@ -16,7 +16,7 @@ void FixedEndsProblem::conditions(const MeshBlock& block, VertexConditions& cond
   for (std::int64_t v = 0; v < block.vertices(); ++v)
   {
     const double z = block.positions[3 * v + 2];
-    conditions.prescribed[v] = z <= this->Low || z >= this->High;
+    conditions.dirichlet[v] = z <= this->Low || z >= this->High ? 0 : -1;
   }
 }
 

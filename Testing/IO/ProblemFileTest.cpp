@@ -31,11 +31,13 @@ protected:
       VertexConditions some;
       const auto vertices = static_cast<std::size_t>(block.vertices());
       const auto columns = static_cast<std::size_t>(problem.columns());
-      some.prescribed.assign(vertices, 0);
+      some.dirichlet.assign(vertices, -1);
+      some.screening.assign(vertices, 0.0);
       some.value.assign(vertices * columns, 0.0);
       some.source.assign(vertices * columns, 0.0);
       problem.conditions(block, some);
-      all.prescribed.insert(all.prescribed.end(), some.prescribed.begin(), some.prescribed.end());
+      all.dirichlet.insert(all.dirichlet.end(), some.dirichlet.begin(), some.dirichlet.end());
+      all.screening.insert(all.screening.end(), some.screening.begin(), some.screening.end());
       all.value.insert(all.value.end(), some.value.begin(), some.value.end());
       all.source.insert(all.source.end(), some.source.begin(), some.source.end());
     }
@@ -49,17 +51,17 @@ TEST_F(ProblemFile, DefaultsAndValues)
 {
   const auto empty = this->parse("{}");
   EXPECT_EQ(empty->columns(), 1);
-  EXPECT_EQ(empty->weights(), Weights::Clamped);
-  EXPECT_EQ(empty->screening(), 0.0);
+  EXPECT_EQ(empty->weights(), Weights::Cotangent);
+  EXPECT_EQ(this->ask(*empty).screening[7], 0.0);
   const auto full =
     this->parse(R"({"weights": "uniform", "columns": 2, "source": [1, -2.5], "screening": 0.25})");
   EXPECT_EQ(full->columns(), 2);
   EXPECT_EQ(full->weights(), Weights::Uniform);
-  EXPECT_EQ(full->screening(), 0.25);
   const VertexConditions conditions = this->ask(*full);
   EXPECT_EQ(conditions.source[0], 1.0);
   EXPECT_EQ(conditions.source[49], -2.5);
-  EXPECT_EQ(conditions.prescribed[3], 0);
+  EXPECT_EQ(conditions.screening[24], 0.25);
+  EXPECT_EQ(conditions.dirichlet[3], -1);
 }
 
 TEST_F(ProblemFile, LaterRegionsWin)
@@ -79,7 +81,7 @@ TEST_F(ProblemFile, LaterRegionsWin)
     expected = x >= 2 && x <= 2.6 ? 2 : expected;
     expected = x * x + y * y <= 0.25 ? 3 : expected;
     expected = i == 21 ? 4 : expected;
-    EXPECT_EQ(conditions.prescribed[i], expected > 0);
+    EXPECT_EQ(conditions.dirichlet[i], expected > 0 ? 0 : -1);
     EXPECT_EQ(conditions.value[i], expected);
   }
 }
@@ -89,8 +91,8 @@ TEST_F(ProblemFile, PositionIsValueAndGuess)
   const auto problem = this->parse(R"({"columns": 3, "dirichlet": [
     {"vertices": [1000], "value": "position"}, {"vertices": [1024], "value": [7, 8, 9]}]})");
   const VertexConditions conditions = this->ask(*problem);
-  EXPECT_EQ(conditions.prescribed[24], 1);
-  EXPECT_EQ(conditions.prescribed[0], 1);
+  EXPECT_EQ(conditions.dirichlet[24], 0);
+  EXPECT_EQ(conditions.dirichlet[0], 0);
   EXPECT_EQ(conditions.value[1], 8.0);
   for (std::size_t i = 3; i < 75; ++i)
   {
@@ -116,11 +118,11 @@ TEST_F(ProblemFile, ConductivityIsANumberOrACellColumn)
   const auto weightsOf = [&](const std::string& json, std::size_t count)
   {
     const auto problem = readProblemFile(this->file(json), source.info());
-    EXPECT_EQ(problem->weights(), Weights::Own);
+    EXPECT_TRUE(problem->hasCells());
     std::vector<double> weight(3 * count, 2.0);
     std::vector<double> measure(count, 1.0);
-    CellBatch batch{ CellType::Triangle, block, 10, {}, {}, weight, measure };
-    problem->cellWeights(batch);
+    CellBatch batch{ CellType::Triangle, block, 10, {}, {}, weight, measure, {}, {}, {}, {} };
+    problem->cells(batch);
     EXPECT_EQ(measure, std::vector<double>(count, 1.0));
     return weight;
   };
@@ -137,7 +139,7 @@ TEST_F(ProblemFile, ConductivityIsANumberOrACellColumn)
   { return readProblemFile(this->file(json), source.info())->cellColumns(); };
   EXPECT_EQ(columnsOf(R"({"conductivity": "k"})"), Names{ "k" });
   EXPECT_EQ(columnsOf(R"({"conductivity": 2})"), Names{});
-  EXPECT_EQ(this->parse(R"({"conductivity": 1})")->weights(), Weights::Clamped);
+  EXPECT_FALSE(this->parse(R"({"conductivity": 1})")->hasCells());
 }
 
 TEST_F(ProblemFile, ErrorsOfTheConductivity)

@@ -16,9 +16,10 @@ namespace smg::testing
 namespace
 {
 
-void count(Components& parts, std::int32_t label, double b, double x0)
+/** Counts a vertex of the mass 1 whose residual is b. */
+void count(Components& parts, std::int32_t label, double b, double x0, double mass = 1.0)
 {
-  parts.count(label, &b, &x0);
+  parts.count(label, &b, &x0, &b, mass);
 }
 
 } // namespace
@@ -86,7 +87,36 @@ TEST(Components, theMeanOfAnIncompatibleRightSideIsItsShift)
   const std::vector<double> shifts = parts.rightSideShifts();
   EXPECT_DOUBLE_EQ(shifts[whole], 1.0);
   EXPECT_EQ(shifts[fixed], 0.0);
-  EXPECT_DOUBLE_EQ(parts.incompatibleSquares(), 3.0);
+  EXPECT_DOUBLE_EQ(parts.shiftedSquares(), -3.0);
+  EXPECT_DOUBLE_EQ(parts.shiftedSums()[0], 3.0);
+  EXPECT_DOUBLE_EQ(parts.incompatibility(), 3.0 / 5.0);
+}
+
+TEST(Components, aConstantSourceIsAllMean)
+{
+  Components parts(1);
+  const std::int32_t label = parts.add();
+  double squares = 0.0;
+  for (const double mass : { 0.5, 2.0, 8.0 })
+  {
+    count(parts, label, 3.0 * mass, 0.0, mass);
+    squares += 9.0 * mass * mass;
+  }
+  EXPECT_DOUBLE_EQ(parts.rightSideShifts()[label], 3.0);
+  EXPECT_DOUBLE_EQ(parts.shiftedSquares(), -squares);
+  EXPECT_EQ(parts.weightOf(label, 0.5), 0.5);
+}
+
+TEST(Components, whereNoVertexHasAMassAllCountAlike)
+{
+  Components parts(1);
+  const std::int32_t label = parts.add();
+  count(parts, label, 3.0, 7.0, 0.0);
+  count(parts, label, 1.0, 9.0, 0.0);
+  EXPECT_DOUBLE_EQ(parts.rightSideShifts()[label], 2.0);
+  EXPECT_DOUBLE_EQ(parts.shiftedSquares(), -8.0);
+  EXPECT_EQ(parts.weightOf(label, 0.0), 1.0);
+  EXPECT_DOUBLE_EQ(parts.meanShifts(std::vector{ 18.0 })[label], 1.0);
 }
 
 TEST(Components, aRightSideThatSumsToZeroUpToRoundingIsLeftAlone)
@@ -97,7 +127,8 @@ TEST(Components, aRightSideThatSumsToZeroUpToRoundingIsLeftAlone)
   {
     count(parts, label, b, 0.0);
   }
-  EXPECT_EQ(parts.incompatibleSquares(), 0.0);
+  EXPECT_EQ(parts.incompatibility(), 0.0);
+  EXPECT_EQ(parts.rightSideShifts()[label], 0.0);
 }
 
 TEST(Components, theMeanShiftRestoresTheInitialMean)
@@ -108,11 +139,12 @@ TEST(Components, theMeanShiftRestoresTheInitialMean)
   for (const double x : { 1.0, 2.0, 6.0 })
   {
     const double initial[] = { x, 10.0 * x };
-    parts.count(label, b, initial);
+    parts.count(label, b, initial, b, x);
   }
-  const double sums[] = { 3.0, 150.0 };
+  // Masses 1, 2, 6: the initial mean of the first column is 41 / 9.
+  const double sums[] = { 5.0, 590.0 };
   const std::vector<double> shifts = parts.meanShifts(sums);
-  EXPECT_DOUBLE_EQ(shifts[0], -2.0);
+  EXPECT_DOUBLE_EQ(shifts[0], -4.0);
   EXPECT_DOUBLE_EQ(shifts[1], 20.0);
 }
 
@@ -122,18 +154,25 @@ TEST(ComponentLabels, areTheSameInMemoryAndInScratch)
   IoStatistics statistics;
   for (const std::int64_t vertices : { 1, 1023, 1024, 5000 })
   {
-    ComponentLabels memory;
-    ComponentLabels scratch;
+    Components parts(1);
+    std::vector<std::int32_t> labels(vertices);
+    std::vector<double> masses(vertices);
+    for (std::int64_t v = 0; v < vertices; ++v)
+    {
+      labels[v] = v == 0 ? -1 : parts.add();
+      masses[v] = 0.5 * static_cast<double>(v);
+    }
+    ComponentLabels memory(parts);
+    ComponentLabels scratch(parts);
     const ScratchFolder place(folder.path());
     scratch.useScratch(place.path(), statistics);
-    std::vector<std::int32_t> labels(vertices);
-    std::iota(labels.begin(), labels.end(), -1);
     for (std::int64_t first = 0; first < vertices; first += 300)
     {
-      const auto part =
-        std::span(labels).subspan(first, std::min<std::int64_t>(300, vertices - first));
-      memory.append(part);
-      scratch.append(part);
+      const auto count = std::min<std::int64_t>(300, vertices - first);
+      memory.append(
+        std::span(labels).subspan(first, count), std::span(masses).subspan(first, count));
+      scratch.append(
+        std::span(labels).subspan(first, count), std::span(masses).subspan(first, count));
     }
     memory.finish();
     scratch.finish();
@@ -141,31 +180,46 @@ TEST(ComponentLabels, areTheSameInMemoryAndInScratch)
     const std::int64_t blocks = (vertices + 1023) / 1024;
     for (const std::int64_t block : { blocks - 1, std::int64_t(0), blocks / 2 })
     {
-      const auto a = memory.block(block);
-      const auto b = scratch.block(block);
-      EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
-      EXPECT_EQ(b.front(), 1024 * block - 1);
+      const std::int64_t count = std::min<std::int64_t>(1024, vertices - 1024 * block);
+      for (ComponentLabels* each : { &memory, &scratch })
+      {
+        const ComponentLabels::Entries entries = each->block(block);
+        EXPECT_TRUE(
+          std::ranges::equal(entries.labels, std::span(labels).subspan(1024 * block, count)));
+        // A block of no component has no masses.
+        EXPECT_TRUE(vertices == 1 ? entries.masses.empty()
+                                  : std::ranges::equal(entries.masses,
+                                      std::span(masses).subspan(1024 * block, count)));
+      }
     }
   }
   EXPECT_EQ(folder.entries(), 0);
 }
 
-TEST(ComponentLabels, blocksOfOneLabelKeepOne)
+TEST(ComponentLabels, blocksOfOneLabelKeepOneAndMassesOnlyOfFreeOnes)
 {
   const TemporaryFolder folder;
   IoStatistics statistics;
   const ScratchFolder place(folder.path());
-  ComponentLabels labels;
+  Components parts(1);
+  const std::int32_t held = parts.add();
+  const std::int32_t free = parts.add();
+  parts.anchor(held);
+  ComponentLabels labels(parts);
   labels.useScratch(place.path(), statistics);
-  std::vector<std::int32_t> given(3 * 1024 + 5, 7);
+  std::vector<std::int32_t> given(3 * 1024 + 5, held);
   given[1024] = -1;
-  labels.append(given);
+  std::ranges::fill(std::span(given).last(5), free);
+  const std::vector<double> masses(given.size(), 0.25);
+  labels.append(given, masses);
   labels.finish();
-  EXPECT_EQ(statistics.bytesWritten, 4 * (1 + 1024 + 1 + 1));
+  EXPECT_EQ(statistics.bytesWritten, 4 * (1 + 1024 + 1 + 1) + 8 * 5);
   for (const std::int64_t block : { 1, 0, 3, 2 })
   {
-    EXPECT_TRUE(std::ranges::equal(
-      labels.block(block), std::span(given).subspan(1024 * block, block == 3 ? 5 : 1024)));
+    const ComponentLabels::Entries entries = labels.block(block);
+    const std::size_t count = block == 3 ? 5 : 1024;
+    EXPECT_TRUE(std::ranges::equal(entries.labels, std::span(given).subspan(1024 * block, count)));
+    EXPECT_EQ(entries.masses.size(), block == 3 ? 5 : 0);
   }
 }
 

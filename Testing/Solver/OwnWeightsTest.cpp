@@ -25,9 +25,10 @@ public:
     : ArrayProblem(std::move(problem))
     , Function(std::move(weigh))
   {
-    this->EdgeWeights = Weights::Own;
+    this->EdgeWeights = Weights::Clamped;
   }
-  void cellWeights(CellBatch& batch) override { this->Function(batch); }
+  bool hasCells() const override { return true; }
+  void cells(CellBatch& batch) override { this->Function(batch); }
 
 private:
   Weigh Function;

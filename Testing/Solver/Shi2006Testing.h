@@ -94,7 +94,7 @@ struct AssembledLevel
 
   Pool pool{ std::int64_t(1) << 32 };
   Components components;
-  ComponentLabels labels;
+  ComponentLabels labels{ components };
   shi2006::Level level;
 };
 

@@ -22,9 +22,14 @@ void copyTuples(const std::vector<T>& from, std::int64_t first, int components, 
 
 void ArrayProblem::conditions(const MeshBlock& block, VertexConditions& conditions)
 {
-  copyTuples(this->Prescribed, block.firstVertex, 1, conditions.prescribed);
+  for (std::size_t v = 0; v < conditions.dirichlet.size() && !this->Prescribed.empty(); ++v)
+  {
+    const std::size_t vertex = static_cast<std::size_t>(block.firstVertex) + v;
+    conditions.dirichlet[v] = this->Prescribed[vertex] != 0 ? 0 : -1;
+  }
   copyTuples(this->Value, block.firstVertex, this->Columns, conditions.value);
   copyTuples(this->Source, block.firstVertex, this->Columns, conditions.source);
+  std::ranges::fill(conditions.screening, this->Screening);
 }
 
 void ArrayProblem::edgeTargets(EdgeBatch& batch)

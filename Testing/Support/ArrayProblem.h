@@ -20,7 +20,7 @@ public:
 
   int Columns = 1;
   Weights EdgeWeights = Weights::Clamped;
-  double Screening = 0.0;
+  double Screening = 0.0;               ///< of all vertices
   std::vector<std::uint8_t> Prescribed; ///< one a vertex
   std::vector<double> Value;            ///< `Columns` a vertex
   std::vector<double> Source;           ///< `Columns` a vertex
@@ -28,7 +28,6 @@ public:
 
   int columns() const override { return this->Columns; }
   Weights weights() const override { return this->EdgeWeights; }
-  double screening() const override { return this->Screening; }
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
   bool hasEdgeTargets() const override { return static_cast<bool>(this->Target); }
   void edgeTargets(EdgeBatch& batch) override;

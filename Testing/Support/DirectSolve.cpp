@@ -10,27 +10,46 @@ namespace smg::testing
 namespace
 {
 
-/** The mean over each component, a row a component. */
-Eigen::MatrixXd means(const DirectSystem& system, const Eigen::MatrixXd& x)
+/** Of each unknown: what it counts in the means of its component: its mass, or 1 where no vertex of
+ * the component has any. */
+Eigen::VectorXd weights(const DirectSystem& system)
 {
+  Eigen::VectorXd mass = system.mass(system.freeVertices);
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(system.isFloating.size());
+  for (Eigen::Index i = 0; i < mass.size(); ++i)
+  {
+    sums[system.component[i]] += mass[i];
+  }
+  for (Eigen::Index i = 0; i < mass.size(); ++i)
+  {
+    mass[i] = sums[system.component[i]] > 0 ? mass[i] : 1.0;
+  }
+  return mass;
+}
+
+/** The sum of x over each component divided by that of its weights, a row a component. */
+Eigen::MatrixXd quotients(const DirectSystem& system, const Eigen::MatrixXd& x)
+{
+  const Eigen::VectorXd weight = weights(system);
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(system.isFloating.size(), x.cols());
-  Eigen::VectorXd count = Eigen::VectorXd::Zero(system.isFloating.size());
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(system.isFloating.size());
   for (Eigen::Index i = 0; i < x.rows(); ++i)
   {
     sum.row(system.component[i]) += x.row(i);
-    count[system.component[i]] += 1;
+    all[system.component[i]] += weight[i];
   }
-  return count.cwiseMax(1.0).cwiseInverse().asDiagonal() * sum;
+  return all.cwiseInverse().asDiagonal() * sum;
 }
 
-/** Adds row c of `shift` to the unknowns of each floating component c. */
-void shiftFloating(const DirectSystem& system, const Eigen::MatrixXd& shift, Eigen::MatrixXd& x)
+/** Adds row c of `shift`, times `weight`, to the unknowns of each floating component c. */
+void shiftFloating(const DirectSystem& system, const Eigen::MatrixXd& shift,
+  const Eigen::VectorXd& weight, Eigen::MatrixXd& x)
 {
   for (Eigen::Index i = 0; i < x.rows(); ++i)
   {
     if (system.isFloating[system.component[i]])
     {
-      x.row(i) += shift.row(system.component[i]);
+      x.row(i) += weight[i] * shift.row(system.component[i]);
     }
   }
 }
@@ -41,7 +60,8 @@ Eigen::MatrixXd solveDirect(const DirectSystem& system)
 {
   Eigen::SparseMatrix<double> matrix = system.matrix;
   Eigen::MatrixXd b = system.rightSide;
-  shiftFloating(system, -means(system, b), b);
+  const Eigen::VectorXd weight = weights(system);
+  shiftFloating(system, -quotients(system, b), weight, b);
 
   // One more on the diagonal holds the first vertex of a floating component at 0: the rows of the
   // component sum to zero, and so does b, hence that vertex's value.
@@ -66,7 +86,8 @@ Eigen::MatrixXd solveDirect(const DirectSystem& system)
     }
     x = factor.solve(b);
   }
-  shiftFloating(system, means(system, system.initial()) - means(system, x), x);
+  shiftFloating(system, quotients(system, weight.asDiagonal() * (system.initial() - x)),
+    Eigen::VectorXd::Ones(b.rows()), x);
   return system.scatter(x);
 }
 

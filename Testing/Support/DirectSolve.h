@@ -8,8 +8,8 @@ namespace smg::testing
 
 /**
  * Solves the system by CHOLMOD's simplicial LDL^T; the result is given at all vertices. In a
- * component that floats, the part of b that no x can answer (its mean) is left out, and the
- * solution's mean over the component's vertices is that of the initial values.
+ * component that floats, the part of b that no x can answer (the mean of the source, weighted with
+ * the masses) is left out, and the solution's weighted mean is that of the initial values.
  */
 Eigen::MatrixXd solveDirect(const DirectSystem& system);
 

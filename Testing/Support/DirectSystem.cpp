@@ -61,6 +61,7 @@ private:
   EdgeWeights Edges;
   std::vector<double> Positions;
   std::vector<std::uint8_t> Prescribed;
+  std::vector<double> Screening;
   Eigen::MatrixXd Source;
   std::vector<std::int32_t> Unknown; ///< of each vertex: the number of its unknown or -1
   DirectSystem System;
@@ -70,18 +71,20 @@ void Assembly::takeVertices(const MeshBlock& block)
 {
   const std::int64_t count = block.vertices();
   VertexConditions conditions;
-  conditions.prescribed.assign(count, 0);
+  conditions.dirichlet.assign(count, -1);
   conditions.value.assign(count * this->Columns, 0.0);
   conditions.source.assign(count * this->Columns, 0.0);
+  conditions.screening.assign(count, 0.0);
   if (count > 0)
   {
     this->Asked.conditions(block, conditions);
   }
   this->Positions.insert(this->Positions.end(), block.positions.begin(), block.positions.end());
-  this->Prescribed.insert(
-    this->Prescribed.end(), conditions.prescribed.begin(), conditions.prescribed.end());
+  this->Screening.insert(
+    this->Screening.end(), conditions.screening.begin(), conditions.screening.end());
   for (std::int64_t v = 0; v < count; ++v)
   {
+    this->Prescribed.push_back(conditions.dirichlet[v] >= 0);
     for (int k = 0; k < this->Columns; ++k)
     {
       this->System.values(block.firstVertex + v, k) = conditions.value[v * this->Columns + k];
@@ -124,7 +127,8 @@ void Assembly::fillMatrix()
   Eigen::VectorXd diagonal(unknowns);
   for (Eigen::Index i = 0; i < unknowns; ++i)
   {
-    diagonal[i] = this->Asked.screening() * this->System.mass[this->System.freeVertices[i]];
+    const std::int64_t v = this->System.freeVertices[i];
+    diagonal[i] = this->Screening[v] * this->System.mass[v];
   }
   for (const EdgeWeight& edge : this->Edges.edges())
   {
@@ -232,14 +236,14 @@ void Assembly::findComponents()
     if (component < 0)
     {
       component = static_cast<int>(this->System.isFloating.size());
-      this->System.isFloating.push_back(this->Asked.screening() == 0.0);
+      this->System.isFloating.push_back(1);
     }
     this->System.component.push_back(component);
   }
   for (std::int64_t v = 0; v < this->Vertices; ++v)
   {
     const int component = number[root(static_cast<std::int32_t>(v))];
-    if (this->Prescribed[v] && component >= 0)
+    if (component >= 0 && (this->Prescribed[v] || this->Screening[v] * this->System.mass[v] > 0))
     {
       this->System.isFloating[component] = 0;
     }

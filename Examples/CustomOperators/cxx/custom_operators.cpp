@@ -71,11 +71,9 @@ struct FeetAndEars : smg::Problem
   bool wires = false;
 
   int columns() const override { return 1; }
-  smg::Weights weights() const override
-  {
-    return this->wires ? smg::Weights::Own : smg::Weights::Clamped;
-  }
-  void cellWeights(smg::CellBatch& batch) override
+  smg::Weights weights() const override { return smg::Weights::Clamped; }
+  bool hasCells() const override { return this->wires; }
+  void cells(smg::CellBatch& batch) override
   {
     for (std::size_t c = 0; c < batch.cells(); ++c)
     {
@@ -93,7 +91,7 @@ struct FeetAndEars : smg::Problem
     for (std::int64_t i = 0; i < block.vertices(); ++i)
     {
       const double height = block.positions[3 * i + 1]; // metres
-      conditions.prescribed[i] = height < 0.036 || height > 0.18;
+      conditions.dirichlet[i] = height < 0.036 || height > 0.18 ? 0 : -1;
       conditions.value[i] = height > 0.18 ? 1.0 : 0.0;
     }
   }

@@ -50,7 +50,7 @@ public:
     for (std::int64_t i = 0; i < block.vertices(); ++i)
     {
       const double height = block.positions[3 * i + 1];
-      conditions.prescribed[i] = height < Feet || height > Ears;
+      conditions.dirichlet[i] = height < Feet || height > Ears ? 0 : -1;
       conditions.value[i] = height > Ears ? 1.0 : 0.0;
     }
   }

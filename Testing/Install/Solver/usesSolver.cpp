@@ -61,7 +61,7 @@ public:
     for (std::int64_t v = 0; v < block.vertices(); ++v)
     {
       const double x = block.positions[3 * v];
-      conditions.prescribed[v] = x == 0 || x == Columns - 1;
+      conditions.dirichlet[v] = x == 0 || x == Columns - 1 ? 0 : -1;
       conditions.value[v] = x == Columns - 1 ? 1.0 : 0.0;
     }
   }

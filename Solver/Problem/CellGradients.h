@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Problem/Vector.h"
+#include "Solver/Stream/MeshSource.h"
+
+#include <cstddef>
+
+namespace smg
+{
+
+/** The gradients of the hat functions of a cell's corners; on a triangle they lie in its plane. */
+class CellGradients
+{
+public:
+  /** `points`: of the corners of a cell that is not degenerate (see CellWeights::measure). */
+  CellGradients(CellType type, const double* const* points);
+
+  /** grad phi of corner k. */
+  const Vector& operator[](int k) const { return this->Of[static_cast<std::size_t>(k)]; }
+
+  /** The gradient of the linear function with value[k][column] at corner k. */
+  Vector of(CellType type, const double* const* value, int column) const
+  {
+    Vector sum{};
+    for (int k = 1; k < cornersOf(type); ++k)
+    {
+      // Differences: where a function is large and nearly constant, its gradient is not lost.
+      const double step = value[k][column] - value[0][column];
+      for (std::size_t d = 0; d < 3; ++d)
+      {
+        sum[d] += step * (*this)[k][d];
+      }
+    }
+    return sum;
+  }
+
+private:
+  std::array<Vector, 4> Of{};
+};
+
+} // namespace smg

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Problem/ProblemCells.h"
+
+#include "Solver/Core/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace smg
+{
+namespace
+{
+
+double largest(const CellWeights& cell, int edges)
+{
+  return *std::max_element(cell.weight, cell.weight + edges);
+}
+
+bool allFinite(const double* values, std::size_t count)
+{
+  return std::all_of(values, values + count, [](double value) { return std::isfinite(value); });
+}
+
+} // namespace
+
+ProblemCells::ProblemCells(Problem& problem, CellType type, bool conductivities)
+  : Given(problem)
+  , Type(type)
+  , Kind(problem.weights())
+  , Columns(static_cast<std::size_t>(problem.columns()))
+  , Conductivities(conductivities)
+{
+}
+
+/** Asks the problem about the batch that begins with cell `first` of the block. */
+void ProblemCells::ask(const MeshBlock& block, std::size_t first, const Ring<double>& points)
+{
+  this->gather(block, first, points);
+  const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
+  CellBatch batch{ this->Type, block, first,
+    std::span(block.corners).subspan(first * corners, this->Cells.size() * corners), this->Points,
+    this->Weight, this->Measure, this->Screening, this->Source, this->Field, this->Conductivity };
+  this->Given.cells(batch);
+  for (std::size_t k = 0; k < this->Cells.size(); ++k)
+  {
+    this->take(k, block.firstCell + static_cast<std::int64_t>(first + k));
+  }
+}
+
+/** What a batch holds on entry. */
+void ProblemCells::gather(const MeshBlock& block, std::size_t first, const Ring<double>& points)
+{
+  const int corners = cornersOf(this->Type);
+  const std::size_t all = block.corners.size() / static_cast<std::size_t>(corners);
+  const std::size_t cells = std::min(BatchCells, all - first);
+  this->Cells.resize(cells);
+  this->Points.clear();
+  this->Weight.clear();
+  this->Measure.clear();
+  this->Screening.assign(cells, 0.0);
+  this->Source.assign(cells * this->Columns, 0.0);
+  this->Field.assign(3 * cells * this->Columns, 0.0);
+  const std::int64_t* corner = block.corners.data() + first * static_cast<std::size_t>(corners);
+  for (Cell& cell : this->Cells)
+  {
+    const double* point[4] = {};
+    for (int k = 0; k < corners; ++k)
+    {
+      point[k] = points.at(*corner++);
+      this->Points.insert(this->Points.end(), point[k], point[k] + 3);
+    }
+    cell.weights = cellWeights(this->Type, point);
+    cell.flatness =
+      this->Kind == Weights::Cotangent ? flatnessFactor(this->Type, point, cell.weights) : 1.0;
+    this->Weight.insert(
+      this->Weight.end(), cell.weights.weight, cell.weights.weight + edgesOf(this->Type));
+    this->Measure.push_back(cell.weights.measure);
+  }
+  constexpr double Identity[6] = { 1.0, 1.0, 1.0, 0.0, 0.0, 0.0 };
+  this->Conductivity.clear();
+  for (std::size_t k = 0; this->Conductivities && k < cells; ++k)
+  {
+    this->Conductivity.insert(this->Conductivity.end(), Identity, Identity + 6);
+  }
+}
+
+/** Takes what the problem says of cell k of the batch, number `number` of the stream. */
+void ProblemCells::take(std::size_t k, std::int64_t number)
+{
+  CellWeights& cell = this->Cells[k].weights;
+  const double measure = this->Measure[k];
+  if (cell.measure == 0.0 || measure == 0.0)
+  {
+    cell = {};
+    return;
+  }
+  this->takeWeights(k, number);
+  this->requireFinite(k, number);
+}
+
+void ProblemCells::takeWeights(std::size_t k, std::int64_t number)
+{
+  CellWeights& cell = this->Cells[k].weights;
+  const auto edges = static_cast<std::size_t>(edgesOf(this->Type));
+  const double* weight = this->Weight.data() + k * edges;
+  const double before = largest(cell, edgesOf(this->Type));
+  const double after = *std::max_element(weight, weight + edges);
+  const bool seen = this->Kind != Weights::Uniform;
+  cell.measure = this->Measure[k];
+  if (!std::isfinite(cell.measure) || cell.measure < 0.0 ||
+      (seen && !(allFinite(weight, edges) && after > 0.0)))
+  {
+    throw Error("the problem's weights of cell " + std::to_string(number) +
+                " are not valid: they must be finite, at least one of them positive, and the "
+                "measure not negative");
+  }
+  // Single precision, in which the coarse levels compute, has to hold products of weights and their
+  // inverse.
+  if (seen && !(after >= 1e-20 && after <= 1e20))
+  {
+    throw Error("the weights of cell " + std::to_string(number) +
+                " are outside 1e-20 to 1e20: scale the conductivity or the weights of the problem");
+  }
+  std::copy_n(weight, edges, cell.weight);
+  this->Cells[k].scale = after / before;
+}
+
+void ProblemCells::requireFinite(std::size_t k, std::int64_t number) const
+{
+  const double screening = this->Screening[k];
+  if (!(screening >= 0.0 && std::isfinite(screening)))
+  {
+    throw Error("the screening of cell " + std::to_string(number) +
+                " must be a finite number that is not negative");
+  }
+  if (!allFinite(this->Source.data() + k * this->Columns, this->Columns) ||
+      !allFinite(this->Field.data() + 3 * k * this->Columns, 3 * this->Columns))
+  {
+    throw Error(
+      "the source or the field of cell " + std::to_string(number) + " is not a finite number");
+  }
+}
+
+} // namespace smg

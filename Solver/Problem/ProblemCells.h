@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Problem/CellWeights.h"
+#include "Solver/Problem/Problem.h"
+#include "Solver/Storage/Ring.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace smg
+{
+
+/** What a problem says of its cells: asks for it, a batch of cells at a time, and checks it. */
+class ProblemCells
+{
+public:
+  /** `conductivities`: whether K is asked for, too. */
+  ProblemCells(Problem& problem, CellType type, bool conductivities = false);
+
+  /**
+   * Makes ready for cell `c` of the block, asked for in ascending order; `points`: the positions of
+   * all open vertices. Throws Error if an answer is not valid.
+   */
+  void prepare(const MeshBlock& block, std::size_t c, const Ring<double>& points)
+  {
+    if (c % BatchCells == 0)
+    {
+      this->ask(block, c, points);
+    }
+    this->Current = c % BatchCells;
+  }
+
+  // Of the cell that is prepared.
+
+  /** The problem's own; measure 0: none. */
+  const CellWeights& weights() const { return this->Cells[this->Current].weights; }
+  /** See flatnessFactor(); 1 unless Weights::Cotangent. */
+  double flatness() const { return this->Cells[this->Current].flatness; }
+  /** The largest weight over the largest one of finite elements with K = 1. */
+  double scale() const { return this->Cells[this->Current].scale; }
+  double screening() const { return this->Screening[this->Current]; }
+  /** `columns` numbers. */
+  const double* source() const { return this->Source.data() + this->Current * this->Columns; }
+  /** 3 numbers a column. */
+  const double* field() const { return this->Field.data() + 3 * this->Current * this->Columns; }
+  /** 6 numbers, where asked for. */
+  const double* conductivity() const { return this->Conductivity.data() + 6 * this->Current; }
+
+private:
+  static constexpr std::size_t BatchCells = 256;
+
+  struct Cell
+  {
+    CellWeights weights; // of finite elements, then the problem's own
+    double flatness, scale;
+  };
+
+  void ask(const MeshBlock& block, std::size_t first, const Ring<double>& points);
+  void gather(const MeshBlock& block, std::size_t first, const Ring<double>& points);
+  void take(std::size_t k, std::int64_t cell);
+  void takeWeights(std::size_t k, std::int64_t cell);
+  void requireFinite(std::size_t k, std::int64_t cell) const;
+
+  Problem& Given;
+  CellType Type;
+  Weights Kind;
+  std::size_t Columns;
+  bool Conductivities;
+  std::size_t Current = 0;
+  std::vector<Cell> Cells; // of the batch
+  std::vector<double> Points, Weight, Measure, Screening, Source, Field, Conductivity;
+};
+
+} // namespace smg

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Problem/ProblemFacets.h"
+
+#include "Solver/Core/Error.h"
+#include "Solver/Problem/CellWeights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <utility>
+
+namespace smg
+{
+
+ProblemFacets::ProblemFacets(Pool& pool, Problem& problem, CellType type)
+  : Given(problem)
+  , Type(type)
+  , Columns(static_cast<std::size_t>(problem.columns()))
+  , Corners(static_cast<std::size_t>(BoundaryFacet::cornersOf(type)))
+  , Counts(problem.conditionCounts())
+  , Open(pool)
+  , Kept(pool, static_cast<int>(1 + this->Corners * (1 + 2 * this->Columns)))
+{
+}
+
+void ProblemFacets::add(const MeshBlock& block)
+{
+  const std::size_t cells = block.corners.size() / static_cast<std::size_t>(cornersOf(this->Type));
+  const Column* flags = block.flags();
+  for (std::size_t first = 0; first < cells; first += BatchCells)
+  {
+    const std::size_t count = std::min(BatchCells, cells - first);
+    this->ask(block, first, count);
+    for (std::size_t c = 0; c < count; ++c)
+    {
+      const unsigned flag = flags ? static_cast<unsigned>(flags->value(first + c)) : 0;
+      if ((flag & DuplicateCell) == 0)
+      {
+        this->addCell(block, first, c);
+      }
+    }
+  }
+}
+
+/** Asks the problem about the facets of cells [first, first + cells) of the block. */
+void ProblemFacets::ask(const MeshBlock& block, std::size_t first, std::size_t cells)
+{
+  const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
+  const std::size_t facets = cells * corners;
+  this->Flux.assign(facets, -1);
+  this->Robin.assign(facets, -1);
+  this->FluxValue.assign(facets * this->Corners * this->Columns, 0.0);
+  this->Coefficient.assign(facets * this->Corners, 0.0);
+  this->Ambient.assign(facets * this->Corners * this->Columns, 0.0);
+  FacetBatch batch{ this->Type, block, first,
+    std::span(block.corners).subspan(first * corners, cells * corners), this->Flux, this->FluxValue,
+    this->Robin, this->Coefficient, this->Ambient };
+  this->Given.facets(batch);
+}
+
+/** The facets of cell c of the batch that begins with cell `first`. */
+void ProblemFacets::addCell(const MeshBlock& block, std::size_t first, std::size_t c)
+{
+  const int corners = cornersOf(this->Type);
+  const std::int64_t* corner =
+    block.corners.data() + (first + c) * static_cast<std::size_t>(corners);
+  if (hasRepeatedCorner(corner, corners))
+  {
+    return;
+  }
+  for (int k = 0; k < corners; ++k)
+  {
+    std::int64_t vertex[3] = {};
+    int order[3] = { 0, 1, 2 };
+    for (int e = 0, other = 0; e < corners; ++e)
+    {
+      if (e != k)
+      {
+        vertex[other++] = corner[e];
+      }
+    }
+    const auto sort = [&](int& a, int& b)
+    {
+      if (vertex[a] > vertex[b])
+      {
+        std::swap(a, b);
+      }
+    };
+    sort(order[0], order[1]);
+    if (this->Type == CellType::Tetrahedron)
+    {
+      sort(order[1], order[2]);
+      sort(order[0], order[1]);
+    }
+    const std::size_t facet = c * static_cast<std::size_t>(corners) + static_cast<std::size_t>(k);
+    const std::int32_t data =
+      this->keep(order, facet, block.firstCell + static_cast<std::int64_t>(first + c));
+    const std::int32_t before =
+      this->Open.add(vertex[order[0]], vertex[order[1]], vertex[order[2]], data);
+    if (before != OpenFacets::Fresh)
+    {
+      this->forget(before);
+      this->forget(data);
+    }
+  }
+}
+
+/** Keeps what is said of a facet of the batch, its corners in this order; answers 0 if nothing is.
+ */
+std::int32_t ProblemFacets::keep(const int* order, std::size_t facet, std::int64_t cell)
+{
+  if (this->Flux[facet] < 0 && this->Robin[facet] < 0)
+  {
+    return 0;
+  }
+  this->require(facet, cell);
+  const std::int32_t slot = this->Kept.take();
+  double* kept = this->Kept.at(slot);
+  const std::int32_t conditions[2] = { this->Flux[facet], this->Robin[facet] };
+  std::memcpy(kept++, conditions, sizeof(conditions));
+  const auto copy = [&](const std::vector<double>& values, std::size_t each)
+  {
+    for (std::size_t e = 0; e < this->Corners; ++e, kept += each)
+    {
+      const std::size_t corner = facet * this->Corners + static_cast<std::size_t>(order[e]);
+      std::copy_n(values.data() + corner * each, each, kept);
+    }
+  };
+  copy(this->FluxValue, this->Columns);
+  copy(this->Coefficient, 1);
+  copy(this->Ambient, this->Columns);
+  return slot;
+}
+
+void ProblemFacets::require(std::size_t facet, std::int64_t cell) const
+{
+  const auto finite = [&](const std::vector<double>& values, std::size_t each)
+  {
+    const double* first = values.data() + facet * this->Corners * each;
+    return std::all_of(
+      first, first + this->Corners * each, [](double value) { return std::isfinite(value); });
+  };
+  if (this->Flux[facet] >= this->Counts.flux || this->Robin[facet] >= this->Counts.robin)
+  {
+    throw Error("a facet of cell " + std::to_string(cell) +
+                " names a condition that the problem does not have: see conditionCounts");
+  }
+  if (this->Flux[facet] >= 0 && !finite(this->FluxValue, this->Columns))
+  {
+    throw Error(
+      "the flux into a facet of cell " + std::to_string(cell) + " is not a finite number");
+  }
+  const double* coefficient = this->Coefficient.data() + facet * this->Corners;
+  const bool negative = std::any_of(
+    coefficient, coefficient + this->Corners, [](double value) { return !(value >= 0.0); });
+  if (this->Robin[facet] >= 0 &&
+      (negative || !finite(this->Coefficient, 1) || !finite(this->Ambient, this->Columns)))
+  {
+    throw Error("the coefficient and the ambient value of a facet of cell " + std::to_string(cell) +
+                " must be finite numbers, the coefficient not negative");
+  }
+}
+
+BoundaryFacet ProblemFacets::facet(
+  std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data) const
+{
+  BoundaryFacet facet{ { low, middle, high } };
+  if (data > 0)
+  {
+    const double* kept = this->Kept.at(data);
+    std::int32_t conditions[2];
+    std::memcpy(conditions, kept, sizeof(conditions));
+    facet.flux = conditions[0];
+    facet.robin = conditions[1];
+    facet.fluxValue = kept + 1;
+    facet.coefficient = facet.fluxValue + this->Corners * this->Columns;
+    facet.ambient = facet.coefficient + this->Corners;
+  }
+  return facet;
+}
+
+} // namespace smg

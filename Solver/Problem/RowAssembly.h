@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Hierarchy/StiffRows.h"
+#include "Solver/Problem/AssembledRows.h"
+#include "Solver/Problem/Components.h"
+#include "Solver/Problem/OpenVertices.h"
+#include "Solver/Problem/Problem.h"
+#include "Solver/Problem/RowListener.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/** A neighbour of a vertex, and the weight of their edge as it is stored. */
+struct RowNeighbour
+{
+  std::int64_t to;
+  float weight;
+};
+
+/** Makes a row of the finest level, its right-hand side and initial value of what is known of the
+ * vertex and of its neighbours. */
+class RowAssembly
+{
+public:
+  RowAssembly(const OpenVertices& vertices, Problem& problem, AssembledRows& rows,
+    Components& components, StiffRows stiff, RowListener* listener);
+
+  /**
+   * The next row, of vertex i with the component `label` (-1: none). `target`: of the edges to the
+   * neighbours, `columns` a neighbour; null without edge targets. `alpha` and `load` (`columns`)
+   * are what sources, screening and boundary bring to the diagonal and to the right-hand side.
+   */
+  void close(std::int64_t i, std::int32_t label, std::span<const RowNeighbour> neighbours,
+    const double* target, double alpha, const double* load);
+
+  std::int64_t prescribed() const { return this->Prescribed; }
+  /** Vertices without anything that would determine them. */
+  std::int64_t held() const { return this->Held; }
+  /** See rowShortfall(). */
+  std::int64_t raised() const { return this->Raised; }
+  double initialSquares() const { return this->InitialSquares; }
+  double termSquares() const { return this->TermSquares; }
+
+private:
+  void closeKnown(std::int64_t i, std::int32_t label);
+  void addNeighbours(
+    std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target, double& alpha);
+  void raise(std::int64_t i, double& alpha);
+  void count(std::int64_t i, std::int32_t label, double alpha);
+
+  const OpenVertices& Vertices;
+  std::size_t Columns;
+  Weights Kind;
+  AssembledRows& Out;
+  Components& Parts;
+  StiffRows Stiff;
+  RowListener* Listener;
+
+  // The row that is being made.
+  RowEntry* Row = nullptr;
+  std::int64_t Size = 0;
+  double Raise = 0.0;
+  std::vector<double> B;          // `Columns` numbers
+  std::vector<double> Constraint; // what of b is not of edges to unknowns
+  std::vector<double> Residual;
+
+  std::int64_t Prescribed = 0, Held = 0, Raised = 0;
+  double InitialSquares = 0.0, TermSquares = 0.0;
+};
+
+} // namespace smg
