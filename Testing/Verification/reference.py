@@ -22,7 +22,8 @@ class Answer(NamedTuple):
     gradient: np.ndarray  # (cells, 3 * columns)
     flux: np.ndarray      # (cells, 3 * columns): -K grad u
     conditions: dict      # Condition by name, such as dirichlet[0]
-    energy: np.ndarray    # a column: half the integral of grad u . K grad u + s u^2
+    energy: np.ndarray    # a column: half the integral of grad u . K grad u + s u^2, where the
+                          # weights of soft constraints are part of s
     mean: np.ndarray      # a column: weighted by the mass
     source: np.ndarray    # a column: what flows in by sources less what screening takes, where
                           # conditions determine the solution: with their fluxes it sums to zero
@@ -199,8 +200,7 @@ class Reference:
         elements = self.elements
         conductivity = self.cell_values(problem.get("conductivity"), 1.0)
         stiffness = elements.stiffness(conductivity)
-        screened = self.screening(problem.get("screening", 0.0))
-        diagonal = screened.copy()
+        diagonal = self.screening(problem.get("screening", 0.0)).copy()
         rhs = self.density(problem.get("source", [0.0] * columns), columns).copy()
         if "field" in problem:
             rhs += elements.divergence(self.cell_columns[problem["field"]]).reshape(rhs.shape)
@@ -209,7 +209,7 @@ class Reference:
             diagonal += weight
             rhs += weight[:, None] * self.vertex_values(soft["value"], columns)
 
-        sources, taken = rhs.copy(), diagonal.copy()
+        sources, screened = rhs.copy(), diagonal.copy()
         robin, flux = {}, {}
         for k, (mine, area, values) in enumerate(self._facet_terms(
                 problem.get("flux", []), {"value": columns})):
@@ -237,7 +237,7 @@ class Reference:
             traffic += np.abs(flow).sum(axis=(0, 1))
         component = elements.components()
         determined = ~free_components(component, owner >= 0, diagonal)[component]
-        inflow = (sources - taken[:, None] * u)[determined]
+        inflow = (sources - screened[:, None] * u)[determined]
         mass = elements.lumped()
         gradient = np.stack([elements.gradient(column) for column in u.T], axis=1)
         flow = -np.einsum("cde,cke->ckd", conductivity, gradient)
