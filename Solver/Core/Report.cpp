@@ -5,6 +5,38 @@
 
 namespace smg
 {
+namespace
+{
+
+nlohmann::ordered_json extremes(const std::vector<Report::Extreme>& of)
+{
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const Report::Extreme& extreme : of)
+  {
+    out.push_back({ { "value", extreme.value }, { "vertex", extreme.vertex } });
+  }
+  return out;
+}
+
+/** Numbers that are none become null. */
+void addResults(const Report& report, nlohmann::ordered_json& out)
+{
+  out["conditions"] = nlohmann::ordered_json::array();
+  for (const Report::Condition& condition : report.conditions)
+  {
+    out["conditions"].push_back({ { "name", condition.name }, { "area", condition.area },
+      { "mean", condition.mean }, { "flux", condition.flux } });
+  }
+  out["energy"] = report.energy;
+  out["mean"] = report.mean;
+  out["minimum"] = extremes(report.minimum);
+  out["maximum"] = extremes(report.maximum);
+  out["source"] = report.source;
+  out["screening"] = report.screening;
+  out["balance"] = report.balance;
+}
+
+} // namespace
 
 std::string Report::json(int indent) const
 {
@@ -62,6 +94,10 @@ std::string Report::json(int indent) const
   if (!this->removed_source.empty())
   {
     out["removed_source"] = this->removed_source;
+  }
+  if (!this->mean.empty())
+  {
+    addResults(*this, out);
   }
   out["notes"] = this->notes;
   return out.dump(indent);

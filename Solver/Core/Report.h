@@ -42,6 +42,28 @@ struct Report
     bool converged = false;
   };
 
+  /** A Dirichlet, flux or Robin condition, by what the solution makes of it. */
+  struct Condition
+  {
+    std::string name; ///< "dirichlet[0]", by the problem's numbers
+    /** Length (of a surface's open edges) or area of its boundary facets; of a Dirichlet condition
+     * those whose corners all have it. */
+    double area = 0;
+    /** Per column: the mean of u over the facets; without any over the vertices of a Dirichlet
+     * condition, else not a number. */
+    std::vector<double> mean;
+    /** Per column: the total of (K grad u - q) . n, into the body. Of a Dirichlet condition the
+     * reaction of its vertices, so that all fluxes balance. */
+    std::vector<double> flux;
+  };
+
+  /** A value and the stream index of the first vertex that has it. */
+  struct Extreme
+  {
+    double value = 0;
+    std::int64_t vertex = -1;
+  };
+
   std::int64_t vertices = 0, cells = 0;
   std::vector<Level> levels;
   int passes = 0, cycles = 0;
@@ -72,6 +94,19 @@ struct Report
   /** Per column: what the mean of the sources of components without constraint, which was taken
    * from them, sums to; empty if nothing was. */
   std::vector<double> removed_source;
+  /** What ProblemResults makes of the solution; all of these are empty without it. */
+  std::vector<Condition> conditions;
+  /** Per column: 1/2 the integral of grad u . K grad u + s u^2 over the piecewise linear u, s u^2
+   * lumped at the vertices. */
+  std::vector<double> energy;
+  /** Per column: the mean of u, weighted with the lumped areas or volumes. */
+  std::vector<double> mean;
+  std::vector<Extreme> minimum, maximum; ///< per column
+  /** Per column: the total of the sources f, less removed_source, and that of s u. */
+  std::vector<double> source, screening;
+  /** Per column: what the fluxes of all conditions and the sources bring and the screening does not
+   * take, over the sum of the magnitudes of all that is summed; about the tolerance. */
+  std::vector<double> balance;
   /** What a user should know: how free components were treated, why it did not converge ... */
   std::vector<std::string> notes;
 

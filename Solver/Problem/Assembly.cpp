@@ -31,7 +31,7 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, Assembl
   , Vertices(pool, problem)
   , Labels(pool)
   , Reach(pool)
-  , Edges(pool, OpenEdges::usual(info.cellType))
+  , Edges(pool, problem, info.cellType)
   , Rows(this->Vertices, problem, rows, components, stiffRows(info.cellType, problem.weights()),
       listener)
   , Load(this->Columns)
@@ -41,13 +41,9 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, Assembl
     this->Own.emplace(problem, this->Type);
     this->CellLoads.emplace(pool, this->Type, problem.columns());
   }
-  if (problem.hasCells() && this->Kind == Weights::Clamped)
-  {
-    this->Scales.emplace(pool, OpenEdges::usual(this->Type));
-  }
   if (problem.hasFacets())
   {
-    this->Facets.emplace(pool, problem, this->Type);
+    this->Facets.emplace(pool, problem, this->Type, this->Vertices);
     this->FacetLoads.emplace(pool, this->Type, problem.columns());
   }
 }
@@ -84,7 +80,6 @@ void Assembly::addVertices(const MeshBlock& block)
       optional->extend(end);
     }
   };
-  extend(this->Scales);
   extend(this->Facets);
   extend(this->CellLoads);
   extend(this->FacetLoads);
@@ -120,7 +115,7 @@ void Assembly::addCell(const std::int64_t* corners, unsigned flags)
   this->Degenerate += degenerate ? 1 : 0;
   if (!degenerate || (this->ConnectsFlat && !repeated && (flags & DuplicateCell) == 0))
   {
-    this->connect(corners, cell);
+    this->connect(corners, points, cell);
   }
   if (!degenerate && this->CellLoads)
   {
@@ -151,7 +146,8 @@ CellWeights Assembly::weightsOf(const double* const* points)
 
 /** The corners belong together, with these weights of the edges, which are 0 if the cell is flat.
  */
-void Assembly::connect(const std::int64_t* corners, const CellWeights& cell)
+void Assembly::connect(
+  const std::int64_t* corners, const double* const* points, const CellWeights& cell)
 {
   std::int32_t label = -1;
   for (int k = 0; k < cornersOf(this->Type); ++k)
@@ -169,37 +165,12 @@ void Assembly::connect(const std::int64_t* corners, const CellWeights& cell)
     this->Vertices.mass[corners[k]] += mass;
   }
 
-  for (int e = 0; e < edgesOf(this->Type); ++e)
-  {
-    const int* ends = edgeCorners(this->Type, e);
-    const std::int64_t a = corners[ends[0]];
-    const std::int64_t b = corners[ends[1]];
-    if (cell.measure == 0.0 && !this->hasLength(a, b))
-    {
-      continue;
-    }
-    double& weight = this->Edges.weight(a, b);
-    weight = this->Kind == Weights::Uniform ? 1.0 : weight + cell.weight[e];
-    if (this->Scales)
-    {
-      double& least = this->Scales->weight(a, b);
-      const double scale = cell.measure > 0.0 ? this->Own->scale() : 0.0;
-      least = least > 0.0 && scale > 0.0 ? std::min(least, scale) : std::max(least, scale);
-    }
-  }
-}
-
-/** Whether an edge has a weight even in a cell without one. */
-bool Assembly::hasLength(std::int64_t a, std::int64_t b) const
-{
-  const Ring<double>& points = this->Vertices.points;
-  return this->Kind == Weights::Uniform ||
-         static_cast<float>(cotangentFloor(this->Type, points.at(a), points.at(b))) > 0;
+  this->Edges.add(corners, points, cell, this->Own ? this->Own->scale() : 1.0,
+    [](std::int64_t, std::int64_t) { return true; });
 }
 
 void Assembly::finalize(std::int64_t end)
 {
-  this->Reach.extendRaw(std::max(end, this->Reach.end()));
   const bool targets = this->Given.hasEdgeTargets();
   while (this->Final < end)
   {
@@ -238,12 +209,7 @@ void Assembly::finalize(std::int64_t end)
 /** Lets go of what no row to come needs. */
 void Assembly::release()
 {
-  while (this->Done < this->Final && this->Reach[this->Done] < this->Final)
-  {
-    ++this->Done;
-  }
-  this->Vertices.release(this->Done, this->Final);
-  this->Reach.release(this->Done);
+  this->Vertices.release(this->Reach.advance(this->Final), this->Final);
   this->Labels.release(this->Final);
   this->Edges.release(this->Final);
   const auto release = [this](auto& optional)
@@ -253,7 +219,6 @@ void Assembly::release()
       optional->release(this->Final);
     }
   };
-  release(this->Scales);
   release(this->Facets);
   release(this->CellLoads);
   release(this->FacetLoads);
@@ -262,43 +227,12 @@ void Assembly::release()
 /** Appends the neighbours of vertex i, with the weights as they are stored, to the batch. */
 void Assembly::collectRow(std::int64_t i)
 {
-  this->Edges.take(i, this->Row);
-  if (this->Scales)
-  {
-    this->Scales->take(i, this->RowScales);
-  }
-  for (std::size_t e = 0; e < this->Row.size(); ++e)
-  {
-    const double scale =
-      this->Scales && this->RowScales[e].weight > 0.0 ? this->RowScales[e].weight : 1.0;
-    this->Neighbours.push_back({ this->Row[e].to, this->storedWeight(i, this->Row[e], scale) });
-  }
+  const std::size_t before = this->Neighbours.size();
+  this->Edges.take(i, this->Vertices.points, this->Neighbours);
   this->RowEnds.push_back(this->Neighbours.size());
-  const std::int64_t last = this->Row.empty() ? i : std::max(i, this->Row.back().to);
-  this->LastReach = std::max(this->LastReach, last);
-  this->Reach[i] = this->LastReach;
-}
-
-/** The weight of an edge of vertex i as its row has it; `scale`: of the weights of its weakest
- * cell, by which the floor scales. */
-float Assembly::storedWeight(std::int64_t i, const OpenEdge& edge, double scale)
-{
-  double weight = edge.weight;
-  if (this->Kind == Weights::Clamped)
-  {
-    const Ring<double>& points = this->Vertices.points;
-    const double floor = scale * cotangentFloor(this->Type, points.at(i), points.at(edge.to));
-    this->Clamped += weight < floor ? 1 : 0;
-    weight = std::max(weight, floor);
-  }
-  const auto stored = static_cast<float>(weight);
-  if (!std::isfinite(stored))
-  {
-    throw Error("the weight of the edge between vertices " + std::to_string(i) + " and " +
-                std::to_string(edge.to) +
-                " is too large: the cells there are almost flat; use uniform weights");
-  }
-  return stored;
+  const bool alone = this->Neighbours.size() == before;
+  const std::int64_t last = alone ? i : std::max(i, this->Neighbours.back().to);
+  this->Reach.close(i, last);
 }
 
 void Assembly::applyEdgeTargets(std::int64_t begin)

@@ -6,7 +6,7 @@
 #include "Solver/Problem/CellWeights.h"
 #include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Problem/Components.h"
-#include "Solver/Problem/OpenEdges.h"
+#include "Solver/Problem/NeighbourReach.h"
 #include "Solver/Problem/OpenVertices.h"
 #include "Solver/Problem/Problem.h"
 #include "Solver/Problem/ProblemCells.h"
@@ -14,6 +14,7 @@
 #include "Solver/Problem/RowAssembly.h"
 #include "Solver/Problem/RowListener.h"
 #include "Solver/Problem/VertexLoads.h"
+#include "Solver/Problem/WeightedEdges.h"
 #include "Solver/Stream/StreamCheck.h"
 
 #include <cstdint>
@@ -53,7 +54,7 @@ public:
   std::int64_t prescribed() const { return this->Rows.prescribed(); }
   std::int64_t held() const { return this->Rows.held(); }
   std::int64_t degenerateCells() const { return this->Degenerate; }
-  std::int64_t clampedWeights() const { return this->Clamped / 2; }
+  std::int64_t clampedWeights() const { return this->Edges.clamped(); }
   /** With cotangent weights: cells whose stiffness was scaled down, and the least factor. */
   std::int64_t limitedCells() const { return this->Limited; }
   double leastFlatness() const { return this->LeastFlatness; }
@@ -68,11 +69,9 @@ private:
   void addCells(const MeshBlock& block);
   void addCell(const std::int64_t* corners, unsigned flags);
   CellWeights weightsOf(const double* const* points);
-  void connect(const std::int64_t* corners, const CellWeights& cell);
-  bool hasLength(std::int64_t a, std::int64_t b) const;
+  void connect(const std::int64_t* corners, const double* const* points, const CellWeights& cell);
   void finalize(std::int64_t end);
   void collectRow(std::int64_t i);
-  float storedWeight(std::int64_t i, const OpenEdge& edge, double scale);
   void applyEdgeTargets(std::int64_t begin);
   void closeRow(std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target);
   void addBoundary(std::int64_t i);
@@ -91,17 +90,15 @@ private:
   // By open vertex.
   OpenVertices Vertices;
   Ring<std::int32_t> Labels;
-  Ring<std::int64_t> Reach; // largest neighbour of vertices 0 .. i, of final rows
-  OpenEdges Edges;
+  NeighbourReach Reach;
+  WeightedEdges Edges;
   std::optional<ProblemCells> Own;
-  std::optional<OpenEdges> Scales; // of each open edge the least one of its cells
   std::optional<ProblemFacets> Facets;
   // Apart: facets are known when their vertices are final, which depends on the blocks.
   std::optional<VertexLoads> CellLoads, FacetLoads;
   RowAssembly Rows;
 
   // The rows of the current batch.
-  std::vector<OpenEdge> Row, RowScales;
   std::vector<RowNeighbour> Neighbours;
   std::vector<std::size_t> RowEnds;
   std::vector<double> Targets, FromPoints, ToPoints;
@@ -110,10 +107,9 @@ private:
   std::vector<std::int32_t> LabelBatch;
   std::vector<double> MassBatch;
 
-  std::int64_t Cells = 0, Final = 0, Done = 0;
-  std::int64_t Degenerate = 0, Clamped = 0, Limited = 0;
+  std::int64_t Cells = 0, Final = 0;
+  std::int64_t Degenerate = 0, Limited = 0;
   double LeastFlatness = 1.0;
-  std::int64_t LastReach = 0;
 };
 
 } // namespace smg

@@ -13,9 +13,12 @@
 namespace smg
 {
 
-ProblemFacets::ProblemFacets(Pool& pool, Problem& problem, CellType type)
+ProblemFacets::ProblemFacets(
+  Pool& pool, Problem& problem, CellType type, const OpenVertices& vertices)
   : Given(problem)
+  , Vertices(vertices)
   , Type(type)
+  , Asks(problem.hasFacets())
   , Columns(static_cast<std::size_t>(problem.columns()))
   , Corners(static_cast<std::size_t>(BoundaryFacet::cornersOf(type)))
   , Counts(problem.conditionCounts())
@@ -31,7 +34,10 @@ void ProblemFacets::add(const MeshBlock& block)
   for (std::size_t first = 0; first < cells; first += BatchCells)
   {
     const std::size_t count = std::min(BatchCells, cells - first);
-    this->ask(block, first, count);
+    if (this->Asks)
+    {
+      this->ask(block, first, count);
+    }
     for (std::size_t c = 0; c < count; ++c)
     {
       const unsigned flag = flags ? static_cast<unsigned>(flags->value(first + c)) : 0;
@@ -80,6 +86,10 @@ void ProblemFacets::addCell(const MeshBlock& block, std::size_t first, std::size
         vertex[other++] = corner[e];
       }
     }
+    if (!this->Asks && !this->isWanted(vertex))
+    {
+      continue;
+    }
     const auto sort = [&](int& a, int& b)
     {
       if (vertex[a] > vertex[b])
@@ -106,11 +116,20 @@ void ProblemFacets::addCell(const MeshBlock& block, std::size_t first, std::size
   }
 }
 
+/** Whether the corners of a facet have the same Dirichlet condition. */
+bool ProblemFacets::isWanted(const std::int64_t* vertex) const
+{
+  const std::int32_t condition = this->Vertices.dirichlet[vertex[0]];
+  return condition >= 0 &&
+         std::all_of(vertex + 1, vertex + this->Corners,
+           [&](std::int64_t v) { return this->Vertices.dirichlet[v] == condition; });
+}
+
 /** Keeps what is said of a facet of the batch, its corners in this order; answers 0 if nothing is.
  */
 std::int32_t ProblemFacets::keep(const int* order, std::size_t facet, std::int64_t cell)
 {
-  if (this->Flux[facet] < 0 && this->Robin[facet] < 0)
+  if (!this->Asks || (this->Flux[facet] < 0 && this->Robin[facet] < 0))
   {
     return 0;
   }

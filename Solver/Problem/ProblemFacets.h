@@ -3,6 +3,7 @@
 
 #include "Solver/Problem/BoundaryFacet.h"
 #include "Solver/Problem/OpenFacets.h"
+#include "Solver/Problem/OpenVertices.h"
 #include "Solver/Problem/Problem.h"
 
 #include <cstddef>
@@ -20,7 +21,11 @@ namespace smg
 class ProblemFacets
 {
 public:
-  ProblemFacets(Pool& pool, Problem& problem, CellType type);
+  /**
+   * Of a problem without facets() nothing is asked, and only those facets are taken whose corners
+   * all have the same Dirichlet condition.
+   */
+  ProblemFacets(Pool& pool, Problem& problem, CellType type, const OpenVertices& vertices);
 
   /** As many vertices have come. */
   void extend(std::int64_t vertices) { this->Open.extend(vertices); }
@@ -50,6 +55,7 @@ private:
 
   void ask(const MeshBlock& block, std::size_t first, std::size_t cells);
   void addCell(const MeshBlock& block, std::size_t first, std::size_t c);
+  bool isWanted(const std::int64_t* vertex) const;
   std::int32_t keep(const int* order, std::size_t facet, std::int64_t cell);
   void require(std::size_t facet, std::int64_t cell) const;
   BoundaryFacet facet(
@@ -63,7 +69,9 @@ private:
   }
 
   Problem& Given;
+  const OpenVertices& Vertices;
   CellType Type;
+  bool Asks;
   std::size_t Columns, Corners; // Corners: of a facet
   ConditionCounts Counts;
   OpenFacets Open;

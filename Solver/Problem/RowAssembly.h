@@ -7,6 +7,7 @@
 #include "Solver/Problem/OpenVertices.h"
 #include "Solver/Problem/Problem.h"
 #include "Solver/Problem/RowListener.h"
+#include "Solver/Problem/WeightedEdges.h"
 
 #include <cstdint>
 #include <span>
@@ -14,13 +15,6 @@
 
 namespace smg
 {
-
-/** A neighbour of a vertex, and the weight of their edge as it is stored. */
-struct RowNeighbour
-{
-  std::int64_t to;
-  float weight;
-};
 
 /** Makes a row of the finest level, its right-hand side and initial value of what is known of the
  * vertex and of its neighbours. */

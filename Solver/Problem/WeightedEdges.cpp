@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Problem/WeightedEdges.h"
+
+#include "Solver/Core/Error.h"
+
+#include <cmath>
+#include <string>
+
+namespace smg
+{
+
+WeightedEdges::WeightedEdges(Pool& pool, const Problem& problem, CellType type)
+  : Type(type)
+  , Kind(problem.weights())
+  , Edges(pool, OpenEdges::usual(type))
+{
+  if (problem.hasCells() && this->Kind == Weights::Clamped)
+  {
+    this->Scales.emplace(pool, OpenEdges::usual(type));
+  }
+}
+
+void WeightedEdges::extend(std::int64_t vertices)
+{
+  this->Edges.extend(vertices);
+  if (this->Scales)
+  {
+    this->Scales->extend(vertices);
+  }
+}
+
+void WeightedEdges::release(std::int64_t first)
+{
+  this->Edges.release(first);
+  if (this->Scales)
+  {
+    this->Scales->release(first);
+  }
+}
+
+void WeightedEdges::take(
+  std::int64_t from, const Ring<double>& points, std::vector<RowNeighbour>& neighbours)
+{
+  this->Edges.take(from, this->Row);
+  if (this->Scales)
+  {
+    this->Scales->take(from, this->RowScales);
+  }
+  for (std::size_t e = 0; e < this->Row.size(); ++e)
+  {
+    const std::int64_t to = this->Row[e].to;
+    double weight = this->Row[e].weight;
+    if (this->Kind == Weights::Clamped)
+    {
+      // 0: flat cells alone have the edge.
+      const double least = this->Scales ? this->RowScales[e].weight : 0.0;
+      const double floor =
+        (least > 0.0 ? least : 1.0) * cotangentFloor(this->Type, points.at(from), points.at(to));
+      this->Clamped += weight < floor ? 1 : 0;
+      weight = std::max(weight, floor);
+    }
+    const auto stored = static_cast<float>(weight);
+    if (!std::isfinite(stored))
+    {
+      throw Error("the weight of the edge between vertices " + std::to_string(from) + " and " +
+                  std::to_string(to) +
+                  " is too large: the cells there are almost flat; use uniform weights");
+    }
+    neighbours.push_back({ to, stored });
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Problem/CellWeights.h"
+#include "Solver/Problem/OpenEdges.h"
+#include "Solver/Problem/Problem.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace smg
+{
+
+/** A neighbour of a vertex, and the weight of their edge as it is stored. */
+struct RowNeighbour
+{
+  std::int64_t to;
+  float weight;
+};
+
+/**
+ * The weights of the edges of open vertices: those of the cells, summed in stream order, and what
+ * Weights makes of the sums.
+ *
+ * The floor of Weights::Clamped scales with the weights of the problem's own. That is a matter of
+ * the edge: at a jump of the conductivity its two sides may differ by orders of magnitude, and the
+ * floor of the strong side would conduct through the weak one.
+ */
+class WeightedEdges
+{
+public:
+  WeightedEdges(Pool& pool, const Problem& problem, CellType type);
+
+  void extend(std::int64_t vertices);
+  void release(std::int64_t first);
+
+  /**
+   * Adds the weights of a cell to those edges for which wanted(a, b) is true. `scale`: of the
+   * cell's weights (see ProblemCells). The edges of a cell without measure are there as well, with
+   * no weight of theirs, if they have a length.
+   */
+  template <class Wanted>
+  void add(const std::int64_t* corners, const double* const* points, const CellWeights& cell,
+    double scale, Wanted&& wanted)
+  {
+    for (int e = 0; e < edgesOf(this->Type); ++e)
+    {
+      const int* ends = edgeCorners(this->Type, e);
+      const std::int64_t a = corners[ends[0]];
+      const std::int64_t b = corners[ends[1]];
+      if (wanted(a, b) && (cell.measure > 0.0 || this->hasLength(points[ends[0]], points[ends[1]])))
+      {
+        this->add(a, b, cell.weight[e], cell.measure > 0.0 ? scale : 0.0);
+      }
+    }
+  }
+
+  /** Appends the neighbours of vertex `from`, the lowest that is open, in ascending order;
+   * `points`: the positions of open vertices. Throws Error if a weight is too large to be stored.
+   */
+  void take(std::int64_t from, const Ring<double>& points, std::vector<RowNeighbour>& neighbours);
+
+  /** Edges that were raised to the floor. */
+  std::int64_t clamped() const { return this->Clamped / 2; }
+
+private:
+  /** Whether an edge has a weight even in a cell without one. */
+  bool hasLength(const double* a, const double* b) const
+  {
+    return this->Kind == Weights::Uniform ||
+           static_cast<float>(cotangentFloor(this->Type, a, b)) > 0.0F;
+  }
+
+  void add(std::int64_t a, std::int64_t b, double weight, double scale)
+  {
+    double& sum = this->Edges.weight(a, b);
+    sum = this->Kind == Weights::Uniform ? 1.0 : sum + weight;
+    if (this->Scales)
+    {
+      double& least = this->Scales->weight(a, b);
+      least = least > 0.0 && scale > 0.0 ? std::min(least, scale) : std::max(least, scale);
+    }
+  }
+
+  CellType Type;
+  Weights Kind;
+  OpenEdges Edges;
+  std::optional<OpenEdges> Scales; // of each edge the least one of its cells
+  std::vector<OpenEdge> Row, RowScales;
+  std::int64_t Clamped = 0; // each edge counts twice
+};
+
+} // namespace smg

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Results/ConditionSums.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace smg
+{
+
+ConditionSums::ConditionSums(CellType type, const ConditionCounts& counts, int columns)
+  : Corners(BoundaryFacet::cornersOf(type))
+  , Columns(static_cast<std::size_t>(columns))
+  , Inflow(this->Columns)
+  , Magnitude(this->Columns)
+{
+  const std::vector<double> zeros(this->Columns);
+  const Sums none{ 0.0, zeros, zeros, zeros, 0 };
+  this->Dirichlet.assign(static_cast<std::size_t>(counts.dirichlet), none);
+  this->Flux.assign(static_cast<std::size_t>(counts.flux), none);
+  this->Robin.assign(static_cast<std::size_t>(counts.robin), none);
+}
+
+void ConditionSums::add(const BoundaryFacet& facet, double area, const OpenVertices& vertices)
+{
+  const double share = area / this->Corners;
+  const std::int32_t first = vertices.dirichlet[facet.corners[0]];
+  bool same = first >= 0;
+  for (int c = 1; c < this->Corners; ++c)
+  {
+    same = same && vertices.dirichlet[facet.corners[c]] == first;
+  }
+  if (same)
+  {
+    this->addMean(this->Dirichlet[static_cast<std::size_t>(first)], facet, area, vertices);
+  }
+  if (facet.flux >= 0)
+  {
+    Sums& sums = this->Flux[static_cast<std::size_t>(facet.flux)];
+    this->addMean(sums, facet, area, vertices);
+    for (std::size_t e = 0; e < static_cast<std::size_t>(this->Corners) * this->Columns; ++e)
+    {
+      this->addFlux(sums, e % this->Columns, share * facet.fluxValue[e]);
+    }
+  }
+  if (facet.robin < 0)
+  {
+    return;
+  }
+  Sums& sums = this->Robin[static_cast<std::size_t>(facet.robin)];
+  this->addMean(sums, facet, area, vertices);
+  const double* ambient = facet.ambient;
+  for (int c = 0; c < this->Corners; ++c)
+  {
+    const double* value = vertices.values.at(facet.corners[c]);
+    for (std::size_t k = 0; k < this->Columns; ++k)
+    {
+      this->addFlux(sums, k, share * facet.coefficient[c] * (*ambient++ - value[k]));
+    }
+  }
+}
+
+void ConditionSums::add(std::int32_t dirichlet, const double* value, const double* reaction)
+{
+  Sums& sums = this->Dirichlet[static_cast<std::size_t>(dirichlet)];
+  ++sums.vertices;
+  for (std::size_t k = 0; k < this->Columns; ++k)
+  {
+    sums.vertexValue[k] += value[k];
+    this->addFlux(sums, k, reaction[k]);
+  }
+}
+
+void ConditionSums::addMean(
+  Sums& sums, const BoundaryFacet& facet, double area, const OpenVertices& vertices)
+{
+  sums.area += area;
+  for (int c = 0; c < this->Corners; ++c)
+  {
+    const double* value = vertices.values.at(facet.corners[c]);
+    for (std::size_t k = 0; k < this->Columns; ++k)
+    {
+      sums.value[k] += area / this->Corners * value[k];
+    }
+  }
+}
+
+void ConditionSums::addFlux(Sums& sums, std::size_t column, double flux)
+{
+  sums.flux[column] += flux;
+  this->Inflow[column] += flux;
+  this->Magnitude[column] += std::fabs(flux);
+}
+
+std::vector<Report::Condition> ConditionSums::conditions() const
+{
+  std::vector<Report::Condition> conditions;
+  this->append("dirichlet", this->Dirichlet, conditions);
+  this->append("flux", this->Flux, conditions);
+  this->append("robin", this->Robin, conditions);
+  return conditions;
+}
+
+void ConditionSums::append(
+  const char* kind, const std::vector<Sums>& all, std::vector<Report::Condition>& conditions) const
+{
+  for (std::size_t number = 0; number < all.size(); ++number)
+  {
+    const Sums& sums = all[number];
+    Report::Condition condition;
+    condition.name = kind + ("[" + std::to_string(number) + "]");
+    condition.area = sums.area;
+    condition.flux = sums.flux;
+    for (std::size_t k = 0; k < this->Columns; ++k)
+    {
+      condition.mean.push_back(sums.area > 0.0 ? sums.value[k] / sums.area
+                               : sums.vertices > 0
+                                 ? sums.vertexValue[k] / static_cast<double>(sums.vertices)
+                                 : std::numeric_limits<double>::quiet_NaN());
+    }
+    conditions.push_back(std::move(condition));
+  }
+}
+
+} // namespace smg

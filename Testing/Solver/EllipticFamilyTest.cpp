@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Solver/EllipticTesting.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+// Each datum of the family of problems, against a system assembled by other code.
+
+namespace smg::testing
+{
+namespace
+{
+
+constexpr int Columns = 2;
+
+double wave(const Point& p, int k)
+{
+  return std::sin(0.7 * p[0] + k) + 0.3 * std::cos(p[1] - 0.5 * p[2]);
+}
+
+struct Datum
+{
+  std::string name;
+  std::function<void(ElementProblem&)> set;
+};
+
+/** One end is held; what else there is differs. */
+void holdOneEnd(ElementProblem& problem)
+{
+  problem.DirichletConditions.push_back({ below(0, 0.6), columnsOf(Columns, wave) });
+}
+
+std::vector<Datum> data()
+{
+  return {
+    { "source at vertices", [](ElementProblem& p) { p.VertexSource = columnsOf(Columns, wave); } },
+    { "source in cells", [](ElementProblem& p) { p.CellSource = columnsOf(Columns, wave); } },
+    { "screening at vertices",
+      [](ElementProblem& p) { p.VertexScreening = [](const Point& x) { return x[1] * x[1]; }; } },
+    { "screening in cells",
+      [](ElementProblem& p)
+      {
+        p.CellScreening = [](const Point& x) { return x[1] > 2 ? 3.0 : 0.0; };
+        p.CellSource = columnsOf(Columns, wave);
+      } },
+    { "two materials",
+      [](ElementProblem& p)
+      {
+        p.Conductivity = [](const Point& x) -> Eigen::Matrix3d
+        { return (x[0] < 3 ? 1.0 : 50.0) * Eigen::Matrix3d::Identity(); };
+        p.VertexSource = columnsOf(Columns, wave);
+      } },
+    { "tensor",
+      [](ElementProblem& p)
+      {
+        p.Conductivity = someTensor;
+        p.VertexSource = columnsOf(Columns, wave);
+      } },
+    { "field",
+      [](ElementProblem& p)
+      {
+        p.CellField = [](const Point& x)
+        {
+          Eigen::MatrixXd q(3, Columns);
+          q << x[1], 2.0, std::sin(x[0]), -1.0, x[2], x[0];
+          return q;
+        };
+      } },
+    { "flux",
+      [](ElementProblem& p)
+      {
+        p.FluxConditions.push_back({ above(0, 4.0), columnsOf(Columns, wave) });
+        p.FluxConditions.push_back(
+          { below(1, 0.7), columnsOf(Columns, [](const Point&, int k) { return 1.0 + k; }) });
+      } },
+    { "heat transfer",
+      [](ElementProblem& p)
+      {
+        p.RobinConditions.push_back({ above(0, 4.0),
+          [](const Point& x) { return 0.5 + 0.1 * std::fabs(x[1]); }, columnsOf(Columns, wave) });
+      } },
+    { "all at once",
+      [](ElementProblem& p)
+      {
+        p.Conductivity = someTensor;
+        p.CellScreening = [](const Point&) { return 0.2; };
+        p.VertexScreening = [](const Point&) { return 0.1; };
+        p.CellSource = p.VertexSource = columnsOf(Columns, wave);
+        p.CellField = [](const Point&) -> Eigen::MatrixXd
+        { return Eigen::MatrixXd::Constant(3, Columns, 0.4); };
+        p.FluxConditions.push_back({ above(0, 4.0), columnsOf(Columns, wave) });
+        p.RobinConditions.push_back(
+          { above(1, 3.0), [](const Point&) { return 2.0; }, columnsOf(Columns, wave) });
+      } },
+  };
+}
+
+std::vector<StreamMesh> meshes()
+{
+  return { patch(), block() };
+}
+
+ElementProblem problemOf(const StreamMesh& mesh, const Datum& datum)
+{
+  ElementProblem problem(mesh);
+  problem.Columns = Columns;
+  holdOneEnd(problem);
+  datum.set(problem);
+  return problem;
+}
+
+} // namespace
+
+TEST(EllipticFamily, agreesWithADirectSolve)
+{
+  for (const StreamMesh& mesh : meshes())
+  {
+    for (const Datum& datum : data())
+    {
+      ElementProblem problem = problemOf(mesh, datum);
+      const Solved solved = solveMesh(mesh, problem, accurate(1e-11));
+      EXPECT_TRUE(solved.report.converged) << datum.name;
+      EXPECT_LT(relativeError(solved.values, DirectElements(problem).solve()), 1e-7) << datum.name;
+    }
+  }
+}
+
+TEST(EllipticFamily, doesNotDependOnBlocksNorThreads)
+{
+  for (const StreamMesh& mesh : meshes())
+  {
+    ElementProblem problem = problemOf(mesh, data().back());
+    SolveOptions options;
+    options.maxCycles = 2;
+    options.tolerance = 1e-12;
+    options.inCore = true;
+    const Solved expected = solveMesh(mesh, problem, options);
+    options.inCore = false;
+    options.coreNodes = 30;
+    for (const std::int64_t cells : { 1, 7, 64, 65, 256, 100000 })
+    {
+      options.threads = cells % 2 == 0 ? 1 : 2;
+      options.blockNodes = 1 + cells % 100;
+      EXPECT_TRUE(sameBits(solveMesh(mesh, problem, options, cells).values, expected.values))
+        << "blocks of " << cells << " cells";
+    }
+  }
+}
+
+TEST(EllipticFamily, doesNotDependOnTheUnits)
+{
+  // Lengths in mm instead of m, and a conductivity in another unit: u is the same.
+  for (StreamMesh mesh : meshes())
+  {
+    const auto solve = [&](double length, double unit)
+    {
+      StreamMesh scaled = mesh;
+      for (double& coordinate : scaled.positions)
+      {
+        coordinate *= length;
+      }
+      ElementProblem problem(scaled);
+      problem.DirichletConditions.push_back({ [=](const Point& p) { return p[0] < 0.6 * length; },
+        columnsOf(1, [=](const Point& p, int) { return p[1] / length; }) });
+      problem.Conductivity = [=](const Point& p) -> Eigen::Matrix3d
+      { return unit * someTensor(p / length); };
+      problem.CellSource =
+        columnsOf(1, [=](const Point&, int) { return unit / (length * length); });
+      const Solved solved = solveMesh(scaled, problem, accurate(1e-11));
+      EXPECT_TRUE(solved.report.converged);
+      EXPECT_TRUE(solved.report.notes.empty());
+      return solved.values;
+    };
+    const Eigen::MatrixXd expected = solve(1.0, 1.0);
+    for (const auto& [length, unit] :
+      { std::pair{ 1e3, 1.0 }, std::pair{ 1e-3, 1e-9 }, std::pair{ 1e-3, 1e9 } })
+    {
+      EXPECT_LT(relativeError(solve(length, unit), expected), 2e-7) << length << " " << unit;
+    }
+  }
+}
+
+TEST(EllipticFamily, aFieldThatIsAGradientGivesItsFunctionBack)
+{
+  for (const StreamMesh& mesh : meshes())
+  {
+    ElementProblem problem(mesh);
+    const Eigen::Vector3d slope(1.0, -2.0, 0.5);
+    problem.Conductivity = someTensor;
+    problem.CellField = [&](const Point& p) -> Eigen::MatrixXd { return someTensor(p) * slope; };
+    problem.Initial = columnsOf(1, [&](const Point& p, int) { return p.dot(slope); });
+    // The function is the initial value; and it is found from zero, but for its mean.
+    const Solved there = solveMesh(mesh, problem, accurate());
+    if (mesh.cellType == CellType::Tetrahedron)
+    {
+      EXPECT_LT(relativeError(there.values, positionsOf(mesh) * slope), 1e-7);
+    }
+    EXPECT_LT(relativeError(there.values, DirectElements(problem).solve()), 1e-7);
+    problem.Initial = {};
+    const Solved found = solveMesh(mesh, problem, accurate(1e-11));
+    EXPECT_LT(relativeError(found.values, DirectElements(problem).solve()), 1e-7);
+  }
+}
+
+TEST(EllipticFamily, aBoundaryThatTransfersHeatDeterminesTheSolution)
+{
+  for (const StreamMesh& mesh : meshes())
+  {
+    ElementProblem problem(mesh);
+    problem.RobinConditions.push_back({ above(0, 4.0), [](const Point&) { return 2.0; },
+      columnsOf(1, [](const Point&, int) { return 7.0; }) });
+    const Solved solved = solveMesh(mesh, problem, accurate());
+    EXPECT_EQ(solved.report.free_components, 0);
+    EXPECT_LT((solved.values.array() - 7.0).abs().maxCoeff(), 1e-8);
+  }
+}
+
+TEST(EllipticFamily, fluxesThatDoNotSumToZeroLoseTheirMeanBySources)
+{
+  for (const StreamMesh& mesh : meshes())
+  {
+    ElementProblem problem(mesh);
+    problem.Columns = Columns;
+    problem.FluxConditions.push_back({ above(0, 4.0), columnsOf(Columns, wave) });
+    problem.Initial = columnsOf(Columns, [](const Point& p, int k) { return p[k]; });
+    const Solved solved = solveMesh(mesh, problem, accurate(1e-11));
+    EXPECT_TRUE(hasNote(solved.report, "do not sum to zero"));
+    const DirectElements direct(problem);
+    EXPECT_LT(relativeError(solved.values, direct.solve()), 1e-7);
+    for (int k = 0; k < Columns; ++k)
+    {
+      EXPECT_NEAR(solved.report.removed_source[k], direct.rightSide.col(k).sum(),
+        1e-12 * direct.rightSide.cwiseAbs().sum());
+    }
+  }
+}
+
+TEST(EllipticFamily, conditionsInsideAreNoBoundary)
+{
+  for (const StreamMesh& mesh : { toStream(shuffled(torus(30, 20, 0.3))), block() })
+  {
+    ElementProblem problem(mesh);
+    problem.Columns = Columns;
+    holdOneEnd(problem);
+    const Solved expected = solveMesh(mesh, problem, accurate());
+    const bool closed = mesh.cellType == CellType::Triangle;
+    // Everywhere on a closed surface, or inside a solid.
+    problem.FluxConditions.push_back({ [=](const Point& p)
+      { return closed || (p.minCoeff() > 0.5 && p[0] < 6.0 && p[1] < 4.5 && p[2] < 6.5); },
+      columnsOf(Columns, wave) });
+    EXPECT_TRUE(sameBits(solveMesh(mesh, problem, accurate()).values, expected.values));
+  }
+}
+
+} // namespace smg::testing
