@@ -25,12 +25,15 @@ data=$SMG_TEST_DATA_DIR
 /usr/bin/python3 Testing/Verification/finite_elements_test.py "$bin/smg" "$data/raptor_tet.vtu" \
   "$data/bunny_tet.mesh" "$data/armadillo_tet.msh" "$data/bunny.ply" "$data/lucy50k.ply"
 /usr/bin/python3 Testing/Verification/convergence.py "$bin/smg" --out "$results"
-for mesh in bunny_tet.mesh head_tet336k.vtk armadillo_tet.msh dragon.ply lucy50k.ply brain168k.vtk; do
-  name=${mesh%.*}
+for mesh in "$data"/*.*; do
+  name=$(basename "${mesh%.*}")
   cells=()
-  [ "$mesh" != bunny_tet.mesh ] || cells=(--cells tets)
-  "$bin/smg" convert "$data/$mesh" "$results/$name.vsm" --quiet "${cells[@]}"
-  "$bin/benchmark_peers" "$results/$name.vsm" --peers smg,hypre --json "$results/peers-$name.json"
+  [ "$name" != bunny_tet ] || cells=(--cells tets)
+  "$bin/smg" convert "$mesh" "$results/$name.vsm" --quiet "${cells[@]}"
+  for tolerance in 1e-6 1e-10; do
+    "$bin/benchmark_peers" "$results/$name.vsm" --peers smg,hypre --tolerance "$tolerance" \
+      --json "$results/peers-$tolerance-$name.json"
+  done
 done
 status=0
 /usr/bin/python3 Testing/Verification/verify.py "$bin/smg" --json "$results/verify.json" archive ||

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """tables.py RESULTS DOCS : writes what was measured into the documentation.
 
-RESULTS is the folder of run.sh: verify.json, convergence.md and .svg, and peers-MESH.json. DOCS/verification
-is given the table of all errors and the plot; in DOCS/verification.md the tables between the lines
-`<!-- NAME -->` and `<!-- end -->` are replaced.
+RESULTS is the folder of run.sh: verify.json, convergence.md and .svg, and
+peers-TOLERANCE-MESH.json. DOCS/verification is given the table of all errors and the plot; in
+DOCS/verification.md the tables between the lines `<!-- NAME -->` and `<!-- end -->` are replaced.
 """
 import json
 import pathlib
@@ -31,8 +31,10 @@ def largest(results, key):
 
 
 def spread(results):
-    cycles = sorted(each["cycles"] for each in results)
-    return f"{cycles[0]} - {cycles[-1]}"
+    """The fewest and the most V-cycles, and how often they were not enough."""
+    cycles = [each["cycles"] for each in results]
+    missing = sum(not each["converged"] for each in results)
+    return f"{min(cycles)} - {max(cycles)}" + (f", {missing} not converged" if missing else "")
 
 
 SUMMARY = ("error, %", "of gradient and flux, %", "of the report, %", "imbalance", "V-cycles")
@@ -67,22 +69,26 @@ def everything(verified):
     for mesh in verified:
         for each in mesh["results"]:
             text += row(mesh["mesh"], each["case"], *(shown(each[key]) for key in KEYS),
-                        each["cycles"])
+                        str(each["cycles"]) + ("" if each["converged"] else ", not converged"))
     return text
 
 
-def peers(files):
-    text = head("mesh", "vertices", "streaming: V-cycles", "CPU us/vertex",
-                "hypre BoomerAMG-PCG: iterations a column", "CPU us/vertex")
-    for file in files:
-        measured = json.loads(file.read_text())
-        ours, theirs = (measured["results"][name] for name in ("smg", "hypre"))
-        cost = [f"{1e6 * each['cpu_total'] / measured['vertices']:.1f}" for each in (ours, theirs)]
-        iterations = f"{theirs['iterations'] / 3:.0f}"
-        if theirs["relative_residual"] > 2 * measured["tolerance"]:
-            iterations = f"none after {iterations}"
-        text += row(measured["mesh"], measured["vertices"], ours["iterations"], cost[0],
-                    iterations, cost[1])
+def iterations(measured, name):
+    """Of a solver, a column; in brackets if it has not reached the tolerance."""
+    found = measured["results"][name]
+    columns = 3 if name == "hypre" else 1  # it solves one after the other
+    text = f"{found['iterations'] / columns:.0f}"
+    return text if found["relative_residual"] <= 1.01 * measured["tolerance"] else f"({text})"
+
+
+def peers(results):
+    text = head("mesh", "vertices", "1e-6: V-cycles", "hypre", "1e-10: V-cycles", "hypre")
+    for file in sorted(results.glob("peers-1e-6-*.json")):
+        usual, accurate = (json.loads(each.read_text()) for each in (
+            file, results / file.name.replace("1e-6", "1e-10")))
+        text += row(file.stem.removeprefix("peers-1e-6-"), usual["vertices"],
+                    *(iterations(measured, name) for measured in (usual, accurate)
+                      for name in ("smg", "hypre")))
     return text
 
 
@@ -95,7 +101,7 @@ def main(results, docs):
     shutil.copy(results / "convergence.svg", docs / "verification")
     tables = {"meshes": by_mesh(verified), "problems": by_problem(verified),
               "orders": (results / "convergence.md").read_text(),
-              "peers": peers(sorted(results.glob("peers-*.json")))}
+              "peers": peers(results)}
     page = docs / "verification.md"
     text = page.read_text()
     for name, table in tables.items():
