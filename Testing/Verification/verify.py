@@ -103,10 +103,10 @@ def failures(row):
 
 def line(row):
     if "failed" in row:
-        return f"  {row['case']:26} failed: {row['failed']}"
+        return f"  {row['case']:27} failed: {row['failed']}"
     numbers = " ".join("        -" if row[key] is None else f"{row[key]:9.1e}"
                        for key in ("error", "output_error", "report_error", "balance"))
-    return f"  {row['case']:26} {row['cycles']:4d} {numbers}  {', '.join(failures(row))}"
+    return f"  {row['case']:27} {row['cycles']:4d} {numbers}  {', '.join(failures(row))}"
 
 
 def verify(program, name):
@@ -118,7 +118,7 @@ def verify(program, name):
         reference = Reference(domain.points, domain.cells, *columns)
         kind = "triangles" if domain.cells.shape[1] == 3 else "tetrahedra"
         print(f"{os.path.basename(name)}: {len(domain.points)} vertices, {len(domain.cells)} {kind}\n"
-              f"  {'':26} cycles  error % output % report %  balance", flush=True)
+              f"  {'':27} cycles  error % output % report %  balance", flush=True)
         rows = []
         for case in domain.cases():
             try:
