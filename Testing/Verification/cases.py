@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from finite_elements import FiniteElements
-from reference import duplicates
+from placed_data import duplicates
 
 MARGIN = 0.02  # share of the length along z that is held at either end
 TENSOR = [2.0, 1.0, 0.5, 0.3, 0.2, 0.1]  # xx, yy, zz, xy, yz, xz
