@@ -26,8 +26,7 @@ struct vtkStreamingMeshDeformation::Internals
   {
     smg::DeformOptions options;
     this->Self.FillOptions(options);
-    options.weights =
-      this->Self.GetWeights() == UNIFORM ? smg::Weights::Uniform : smg::Weights::Clamped;
+    options.weights = this->Self.ChosenWeights();
     options.cycles = this->Self.Cycles;
     return options;
   }
@@ -44,6 +43,7 @@ struct vtkStreamingMeshDeformation::Internals
 vtkStreamingMeshDeformation::vtkStreamingMeshDeformation()
   : Internal(new Internals(*this))
 {
+  this->SetWeights(CLAMPED);
 }
 
 vtkStreamingMeshDeformation::~vtkStreamingMeshDeformation() = default;

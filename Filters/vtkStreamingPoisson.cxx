@@ -64,7 +64,7 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet&)
     .values = arrayName(*this->GetInputArrayInformation(1)),
     .source = arrayName(*this->GetInputArrayInformation(2)),
     .guess = arrayName(*this->GetInputArrayInformation(3)) };
-  task->weights = this->GetWeights() == UNIFORM ? smg::Weights::Uniform : smg::Weights::Clamped;
+  task->weights = this->ChosenWeights();
   task->screening = this->Screening;
   this->FillOptions(task->options);
   task->options.inCore = this->InCore;

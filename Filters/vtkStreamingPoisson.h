@@ -3,9 +3,9 @@
  * @class   vtkStreamingPoisson
  * @brief   Solves a Poisson problem on a gigantic mesh out of core
  *
- * Solves (L + s M) x = M f with x prescribed at constrained points, by streaming multigrid: L is
- * the Laplacian with cotangent or uniform weights of a triangle or tetrahedral mesh, M the lumped
- * areas or volumes, s the Screening, f the source. The input is a mesh in pieces, as
+ * Solves -div grad u + s u = f with u prescribed at constrained points, by linear finite elements
+ * (or clamped or uniform Weights) on a triangle or tetrahedral mesh and streaming multigrid; s is
+ * the Screening, f the source, both lumped at the points. The input is a mesh in pieces, as
  * vtkStreamingMeshReader delivers it; arrays are chosen by name with SetInputArrayToProcess()
  * (point arrays; the number of components of the values is the number of right-hand sides):
  * - 0: Dirichlet mask, not 0 where a point is constrained;

@@ -300,6 +300,13 @@ void vtkStreamingSolver::FillOptions(smg::SolveOptions& options) const
   options.scratch = this->ScratchDirectory ? this->ScratchDirectory : "";
 }
 
+smg::Weights vtkStreamingSolver::ChosenWeights() const
+{
+  return this->Weights == UNIFORM   ? smg::Weights::Uniform
+         : this->Weights == CLAMPED ? smg::Weights::Clamped
+                                    : smg::Weights::Cotangent;
+}
+
 bool vtkStreamingSolver::IsForMemory(vtkPointSet&, bool)
 {
   return false;
@@ -357,7 +364,8 @@ int vtkStreamingSolver::RequestData(
 void vtkStreamingSolver::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Weights: " << (this->Weights == UNIFORM ? "uniform" : "cotangent") << "\n";
+  constexpr const char* names[] = { "uniform", "cotangent", "clamped" };
+  os << indent << "Weights: " << names[this->Weights] << "\n";
   os << indent << "Operators: " << (this->Operators ? this->Operators : "(none)") << "\n";
   os << indent << "Sweeps: " << this->Sweeps << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";

@@ -37,6 +37,7 @@ class vtkPointSet;
 
 namespace smg
 {
+enum class Weights;
 struct SolveOptions;
 struct SolveSummary;
 class StreamedTask;
@@ -52,12 +53,12 @@ public:
   enum WeightTypes
   {
     UNIFORM = 0,   ///< 1 on every edge
-    COTANGENT = 1, ///< the stiffness of linear finite elements
-    CLAMPED = 2    ///< the same, raised to a positive floor
+    COTANGENT = 1, ///< the stiffness of linear finite elements itself
+    CLAMPED = 2    ///< the same, raised to a positive floor: it keeps the maximum principle
   };
 
   ///@{
-  /** The weights of the edges. Default: COTANGENT. */
+  /** The weights of the edges. Default: COTANGENT; of vtkStreamingMeshDeformation: CLAMPED. */
   vtkSetClampMacro(Weights, int, UNIFORM, CLAMPED);
   vtkGetMacro(Weights, int);
   ///@}
@@ -178,6 +179,7 @@ protected:
 
   /** The options that the properties stand for. */
   void FillOptions(smg::SolveOptions& options) const;
+  smg::Weights ChosenWeights() const;
 
   /** What is known of the last solve. */
   const smg::SolveSummary& GetSummary() const;

@@ -23,11 +23,6 @@ void checkOptions(const DeformOptions& options)
   {
     throw Error("the number of V-cycles a step must not be negative");
   }
-  if (options.weights == Weights::Cotangent)
-  {
-    throw Error(
-      "a deformation has uniform or clamped cotangent weights, none of its own and no raw ones");
-  }
 }
 
 std::unique_ptr<Solution> deform(MeshSource& mesh, Handles& handles, const DeformOptions& options)

@@ -7,6 +7,9 @@ install(DIRECTORY Solver IO
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid"
   FILES_MATCHING PATTERN "*.h" PATTERN "*.txx" PATTERN "vtk*" EXCLUDE)
 
+install(FILES docs/problem.schema.json
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/StreamingMultigrid")
+
 configure_package_config_file(cmake/StreamingMultigridConfig.cmake.in
   "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridConfig.cmake"
   INSTALL_DESTINATION "${smg_package_dir}")

@@ -36,8 +36,9 @@ public:
       ->type_name("FILE");
     command
       .add_option("--weights", this->Weights,
-        "Weights of the edges, rather than the file's: cotangent or uniform")
-      ->check(oneOf({ "cotangent", "uniform" }));
+        "Weights of the edges, rather than the file's: clamped, cotangent (finite elements) or "
+        "uniform")
+      ->check(oneOf({ "clamped", "cotangent", "uniform" }));
     CLI::Option* tolerance = addTolerance(command, this->Tolerance);
     command
       .add_option(
@@ -74,7 +75,7 @@ protected:
   bool rewritesInput() const override { return smg::canRewrite(this->In, this->Out); }
 
   std::vector<std::string> write(const smg::VsmReader& mesh, smg::Solution& positions,
-    const smg::ProgressFunction& progress) const override
+    smg::Report& /*report*/, const smg::ProgressFunction& progress) const override
   {
     smg::NormalsOptions normals;
     normals.scratch = this->scratch;

@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SolvingCommand.h"
 
-#include "IO/Conversion/AddedColumn.h"
 #include "IO/Conversion/MeshFile.h"
+#include "IO/Output/SolvedMesh.h"
 #include "IO/Output/WriteMesh.h"
-#include "IO/Problem/RegionProblem.h"
+#include "IO/Problem/ProblemFile.h"
 #include "Solver/Core/Error.h"
+#include "Solver/Description/DescribedProblem.h"
 
 #include <algorithm>
 
 namespace
 {
 
-constexpr const char* SolutionName = "Solution";
-
 /** In the order of smg::AccelerationKind. */
 const std::vector<std::string> Accelerations{ "automatic", "none", "chebyshev", "cg" };
 
-std::vector<std::string> namesWithoutSolution(const std::vector<smg::ColumnSpec>& specs)
+/** What --help says of problem files. */
+std::string problemHelp()
 {
-  std::vector<std::string> names;
-  for (const smg::ColumnSpec& spec : specs)
+  std::string keys;
+  for (const char* key : smg::ProblemKeys)
   {
-    if (spec.name != SolutionName)
-    {
-      names.push_back(spec.name);
-    }
+    keys += (keys.empty() ? "" : ", ") + std::string(key);
   }
-  return names;
+  return "A problem file says -div(K grad u - q) + s u = f. Its keys, each of which may be left "
+         "out: " +
+         keys +
+         ". JSON schema: share/StreamingMultigrid/problem.schema.json of the installation, "
+         "docs/problem.schema.json of the sources; docs/problem.md explains it";
 }
 
 class SolveCommand : public SolvingCommand
@@ -60,6 +61,7 @@ public:
     command.add_option("--problem", this->File, "The problem, a JSON file")
       ->required()
       ->type_name("FILE");
+    command.footer(problemHelp());
   }
 
 protected:
@@ -78,40 +80,48 @@ protected:
   {
     smg::checkOptions(this->Solve);
     smg::checkOperators(this->Solve);
-    this->Data = smg::readProblemFileData(this->File);
+    this->Description = smg::readProblemFile(this->File);
   }
 
   std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) override
   {
     smg::checkOutput(this->Out, mesh.info().cellType);
-    smg::RegionProblem problem(std::move(this->Data), mesh.info(), this->File.string());
-    problem.check(*mesh.source(problem.vertexColumns(), {}));
+    this->Problem =
+      std::make_unique<smg::DescribedProblem>(this->Description, mesh.info(), this->File.string());
+    this->Problem->prepare(*this->sourceOf(mesh), this->scratch);
     this->applyTo(this->Solve, std::move(progress));
-    return smg::solve(
-      *mesh.source(problem.vertexColumns(), problem.cellColumns()), problem, this->Solve);
+    return smg::solve(*this->sourceOf(mesh), *this->Problem, this->Solve);
   }
 
   std::vector<std::string> write(const smg::VsmReader& mesh, smg::Solution& solution,
-    const smg::ProgressFunction& progress) const override
+    smg::Report& report, const smg::ProgressFunction& progress) const override
   {
-    const smg::ColumnSpec spec{ SolutionName, smg::ScalarType::Float64, solution.columns() };
-    smg::AddedColumn source(mesh.source(namesWithoutSolution(mesh.info().vertexColumns),
-                              namesWithoutSolution(mesh.info().cellColumns)),
-      smg::AddedColumn::Vertices, spec,
-      [&solution](const smg::MeshBlock& block, smg::Column& column)
-      { solution.read(block.firstVertex, block.vertices(), column.as<double>()); });
+    smg::ResultOptions results;
+    results.gradient = this->Description.gradientOutput;
+    results.flux = this->Description.fluxOutput;
+    results.memoryLimit = this->Solve.memoryLimit;
+    smg::SolvedMesh source(mesh, *this->Problem, solution, results);
     smg::WriteMeshOptions options;
     options.scratch = this->scratch;
     options.isolatedFrom = mesh.path();
     options.progress = progress;
-    return smg::writeMesh(source, this->Out, options);
+    std::vector<std::string> notes = smg::writeMesh(source, this->Out, options);
+    source.finish(report);
+    return notes;
   }
 
   const smg::SolveOptions& solveOptions() const override { return this->Solve; }
 
 private:
-  smg::RegionProblemData Data; ///< what the file says
+  /** The mesh with the columns of the problem. */
+  std::unique_ptr<smg::MeshSource> sourceOf(const smg::VsmReader& mesh) const
+  {
+    return mesh.source(this->Problem->vertexColumns(), this->Problem->cellColumns());
+  }
+
+  smg::ProblemDescription Description; ///< what the file says
+  std::unique_ptr<smg::DescribedProblem> Problem;
   smg::SolveOptions Solve;
 };
 

@@ -6,7 +6,7 @@
 
 #include "IO/Conversion/MeshFile.h"
 #include "IO/Conversion/PartialProgress.h"
-#include "IO/Formats/StreamConversion.h"
+#include "Solver/Stream/OriginalNumbers.h"
 
 #include <chrono>
 #include <cstdio>
@@ -75,9 +75,9 @@ void SolvingCommand::run()
     const double begin = mesh->conversion() ? 0.2 : 0.0;
     const std::unique_ptr<smg::Solution> solution =
       this->solveOn(mesh->reader(), smg::partOf(bar.function(), begin, 0.9));
-    const std::vector<std::string> notes =
-      this->write(mesh->reader(), *solution, smg::partOf(bar.function(), 0.9, 1.0));
     report = solution->report();
+    const std::vector<std::string> notes =
+      this->write(mesh->reader(), *solution, report, smg::partOf(bar.function(), 0.9, 1.0));
     report.notes.insert(report.notes.end(), notes.begin(), notes.end());
     if (mesh->conversion())
     {
@@ -147,6 +147,24 @@ void SolvingCommand::warn(const smg::Report& report) const
   }
 }
 
+namespace
+{
+
+/** As " 1.5 2", a number a column. */
+std::string listOf(const std::vector<double>& numbers)
+{
+  std::string list;
+  for (const double number : numbers)
+  {
+    char text[32];
+    std::snprintf(text, sizeof text, " %.6g", number);
+    list += text;
+  }
+  return list;
+}
+
+} // namespace
+
 void SolvingCommand::print(const smg::Report& report) const
 {
   std::printf("%lld vertices, %lld cells, %zu levels, %d V-cycles in %d passes, relative residual "
@@ -157,6 +175,11 @@ void SolvingCommand::print(const smg::Report& report) const
   {
     std::printf(
       "  %s: %d V-cycles, relative residual %.3g\n", step.name.c_str(), step.cycles, step.residual);
+  }
+  for (const smg::Report::Condition& condition : report.conditions)
+  {
+    std::printf("  %s: area %.6g, mean%s, flux into the body%s\n", condition.name.c_str(),
+      condition.area, listOf(condition.mean).c_str(), listOf(condition.flux).c_str());
   }
   std::printf("%.2f s (%.2f s of CPU), %.1f MiB of accounted memory, %.1f MiB resident\n",
     report.seconds.total, report.cpu_seconds,

@@ -57,9 +57,9 @@ protected:
     const smg::VsmReader& mesh, smg::ProgressFunction progress) = 0;
   /** Whether write() makes OUT of the file IN, in the order of that. */
   virtual bool rewritesInput() const { return false; }
-  /** Writes the output; answers what a user should know of it. */
+  /** Writes the output; answers what a user should know of it. May add to the report. */
   virtual std::vector<std::string> write(const smg::VsmReader& mesh, smg::Solution& solution,
-    const smg::ProgressFunction& progress) const = 0;
+    smg::Report& report, const smg::ProgressFunction& progress) const = 0;
   /** Those that solveOn() used last. */
   virtual const smg::SolveOptions& solveOptions() const = 0;
 

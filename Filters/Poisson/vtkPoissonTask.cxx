@@ -2,6 +2,7 @@
 #include "Filters/Poisson/vtkPoissonTask.h"
 
 #include "Solver/Core/Error.h"
+#include "Solver/Description/DescribedProblem.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,15 @@ namespace smg
 
 void PoissonTask::check() const
 {
-  ColumnProblem::check(this->arrays);
+  if (this->arrays.mask.empty() != this->arrays.values.empty())
+  {
+    throw Error("A Dirichlet mask and Dirichlet values belong together: choose both arrays, or "
+                "neither.");
+  }
+  if (this->arrays.values.empty() && this->arrays.source.empty() && this->arrays.guess.empty())
+  {
+    throw Error("No array says what to solve: choose a Dirichlet mask with values, or a source.");
+  }
   checkOptions(this->options);
   checkOperators(this->options);
   if (!std::isfinite(this->screening))
@@ -36,10 +45,35 @@ PieceColumns PoissonTask::columns() const
   return columns;
 }
 
+ProblemDescription PoissonTask::describe(const StreamInfo& mesh) const
+{
+  ProblemDescription problem;
+  problem.weights = this->weights;
+  for (const std::string& name : { this->arrays.guess, this->arrays.source, this->arrays.values })
+  {
+    const auto column = std::ranges::find(mesh.vertexColumns, name, &ColumnSpec::name);
+    problem.columns = column == mesh.vertexColumns.end() ? problem.columns : column->components;
+  }
+  problem.screening = this->screening;
+  if (!this->arrays.mask.empty())
+  {
+    problem.dirichlet = { { ColumnMask{ this->arrays.mask }, this->arrays.values } };
+  }
+  if (!this->arrays.source.empty())
+  {
+    problem.source = this->arrays.source;
+  }
+  if (!this->arrays.guess.empty())
+  {
+    problem.initial = this->arrays.guess;
+  }
+  return problem;
+}
+
 std::unique_ptr<Solution> PoissonTask::solve(
   const VsmReader& mesh, const ProgressFunction& progress) const
 {
-  ColumnProblem problem(mesh.info(), this->arrays, this->weights, this->screening);
+  DescribedProblem problem(this->describe(mesh.info()), mesh.info());
   SolveOptions options = this->options;
   options.progress = progress;
   return smg::solve(*mesh.source(), problem, options);

@@ -4,17 +4,13 @@
 #include "Solver/Core/Progress.h"
 #include "Solver/Storage/BlockFile.h"
 #include "Solver/Stream/MeshSource.h"
+#include "Solver/Stream/OriginalNumbers.h"
 
 #include <cstdint>
 #include <filesystem>
 
 namespace smg
 {
-
-/** Names of the columns that a conversion adds: places in the original file, from 0, int64. */
-inline constexpr const char* OriginalIdName = "OriginalId";
-inline const ColumnSpec OriginalIdSpec{ OriginalIdName, ScalarType::Int64, 1 };
-inline constexpr const char* OriginalCellIdName = "OriginalCellId";
 
 struct StreamToVsmOptions
 {

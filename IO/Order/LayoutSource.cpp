@@ -14,8 +14,6 @@ namespace smg
 namespace
 {
 
-const ColumnSpec CellIdSpec{ OriginalCellIdName, ScalarType::Int64, 1 };
-
 /** Adds the specs of the columns, and the one of the original numbers if it is wanted and not among
  * them. */
 bool addSpecs(const std::vector<RawColumn>& columns, const ColumnSpec& numbers, bool wanted,
@@ -60,8 +58,8 @@ LayoutSource::LayoutSource(
   this->Info.cells = layout.cellCount;
   this->Info.doublePositions = mesh.doublePositions;
   this->AddIds = addSpecs(mesh.vertexColumns, OriginalIdSpec, true, this->Info.vertexColumns);
-  this->AddElements =
-    addSpecs(mesh.elementColumns, CellIdSpec, cellIds == WithCellIds, this->Info.cellColumns);
+  this->AddElements = addSpecs(
+    mesh.elementColumns, OriginalCellIdSpec, cellIds == WithCellIds, this->Info.cellColumns);
   if (layout.flags.size() > 0)
   {
     this->Info.cellColumns.push_back({ CellFlagsName, ScalarType::UInt8, 1 });
@@ -148,7 +146,7 @@ void LayoutSource::fillCells(MeshBlock& block, std::int64_t end)
   if (this->AddElements)
   {
     Column& column = block.cellColumns[this->Mesh.elementColumns.size()];
-    column.spec = CellIdSpec;
+    column.spec = OriginalCellIdSpec;
     column.resize(static_cast<std::size_t>(rows));
     this->Numbers.resize(static_cast<std::size_t>(rows));
     this->Elements.next(std::span(this->Numbers));

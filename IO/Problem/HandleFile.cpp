@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Problem/HandleFile.h"
 
+#include "IO/Problem/ParseWhere.h"
 #include "IO/Problem/WeightsName.h"
 
 #include <algorithm>
@@ -93,8 +94,8 @@ void parseHandle(const JsonNode& handle, HandleFileData& data)
 {
   handle.requireObject({ "region", "fixed", "translate", "rotate", "scale", "center" });
   const JsonNode place = handle.member("region");
-  place.requireObject({ "halfspace", "box", "sphere", "vertices" });
-  data.regions.push_back({ Region::parse(place), place.place() });
+  place.requireObject(RegionKeys);
+  data.regions.push_back({ parseRegion(place), place.place() });
 
   const bool moves = handle.has("translate") || handle.has("rotate") || handle.has("scale");
   if (handle.has("fixed"))
@@ -129,7 +130,7 @@ HandleFileData parseHandles(const JsonNode& node)
   {
     handles.fail("must have at least one handle");
   }
-  data.weights = parseWeights(node, false);
+  data.weights = parseWeights(node);
   if (node.has("cycles"))
   {
     data.cycles = static_cast<int>(node.member("cycles").integer(1, MostCycles));

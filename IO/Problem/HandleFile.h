@@ -68,7 +68,7 @@ private:
  *                      "scale": s, "translate": [x, y, z] },
  *                    { "region": { "vertices": [original numbers] },
  *                      "scale": s, "center": [x, y, z] } ],
- *       "weights": "cotangent" | "uniform", "cycles": k }
+ *       "weights": "clamped" | "cotangent" | "uniform", "cycles": k }
  *
  * A handle has a region and is either fixed or moves by one or more of `rotate`, `scale` (from
  * 1e-20 to 1e20) and `translate`: rotation and scale about the same centre first, then translation.
@@ -77,7 +77,7 @@ private:
  * sphere or box, and an error for other regions.
  *
  * `cycles` (V-cycles of each step, 1 to 1000000) or `tolerance` (between 0 and 1), not both, say
- * when to stop; they and `weights` may be left out.
+ * when to stop; they and `weights` (see Weights in Solver/Problem/Problem.h) may be left out.
  * @throws Error naming the file and the place in it
  */
 HandleFileData readHandleFileData(const std::filesystem::path& path);

@@ -18,7 +18,7 @@
 namespace smg
 {
 
-void JsonNode::requireObject(std::initializer_list<const char*> keys) const
+void JsonNode::requireObject(std::span<const char* const> keys) const
 {
   if (!this->Value->is_object())
   {
@@ -68,6 +68,16 @@ std::string JsonNode::string() const
     this->fail("must be a string");
   }
   return this->Value->get<std::string>();
+}
+
+std::string JsonNode::columnName() const
+{
+  const std::string name = this->string();
+  if (name.empty())
+  {
+    this->fail("must be the name of a column");
+  }
+  return name;
 }
 
 double JsonNode::number() const

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,11 @@ public:
   const std::string& place() const { return this->Place; }
 
   /** Throws Error unless the value is an object with no other keys than these. */
-  void requireObject(std::initializer_list<const char*> keys) const;
+  void requireObject(std::span<const char* const> keys) const;
+  void requireObject(std::initializer_list<const char*> keys) const
+  {
+    this->requireObject(std::span<const char* const>(keys.begin(), keys.size()));
+  }
   bool has(const char* key) const { return this->Value->contains(key); }
   /** The member of an object; throws Error if there is none. */
   JsonNode member(const char* key) const;
@@ -41,6 +46,8 @@ public:
   bool isTrue() const { return this->Value->is_boolean() && this->Value->get<bool>(); }
   bool isString() const { return this->Value->is_string(); }
   std::string string() const;
+  /** The name of a column: a string that is not empty. */
+  std::string columnName() const;
   /** A finite number. */
   double number() const;
   /** An integer in [least, most]. */

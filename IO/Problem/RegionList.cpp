@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Problem/RegionList.h"
 
-#include "IO/Formats/StreamConversion.h"
 #include "Solver/Core/Error.h"
+#include "Solver/Stream/OriginalNumbers.h"
 
 #include <algorithm>
 #include <utility>

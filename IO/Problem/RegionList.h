@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Problem/Region.h"
+#include "Solver/Description/Region.h"
 #include "Solver/Stream/MeshSource.h"
 
 #include <cstddef>

@@ -17,7 +17,7 @@ std::optional<Weights> weightsOfName(std::string_view name)
   return name == "uniform" ? std::optional(Weights::Uniform) : std::nullopt;
 }
 
-std::optional<Weights> parseWeights(const JsonNode& object, bool raw)
+std::optional<Weights> parseWeights(const JsonNode& object)
 {
   if (!object.has("weights"))
   {
@@ -25,10 +25,9 @@ std::optional<Weights> parseWeights(const JsonNode& object, bool raw)
   }
   const JsonNode node = object.member("weights");
   const std::optional<Weights> weights = weightsOfName(node.string());
-  if (!weights || (!raw && weights == Weights::Cotangent))
+  if (!weights)
   {
-    node.fail(raw ? "must be \"cotangent\", \"clamped\" or \"uniform\""
-                  : "must be \"clamped\" or \"uniform\"");
+    node.fail("must be \"cotangent\", \"clamped\" or \"uniform\"");
   }
   return weights;
 }

@@ -10,12 +10,11 @@
 namespace smg
 {
 
-/** The weights that users call `cotangent`, `raw-cotangent` and `uniform`; none for any other name.
- */
+/** The weights that users call `cotangent` (formerly `raw-cotangent`), `clamped` and `uniform`;
+ * none for any other name. */
 std::optional<Weights> weightsOfName(std::string_view name);
 
-/** The member `weights` of an object of a file; none if it has none. `raw`: whether it may be
- * `raw-cotangent`. Throws Error. */
-std::optional<Weights> parseWeights(const JsonNode& object, bool raw);
+/** The member `weights` of an object of a file; none if it has none. Throws Error. */
+std::optional<Weights> parseWeights(const JsonNode& object);
 
 } // namespace smg

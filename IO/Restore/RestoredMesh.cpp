@@ -17,7 +17,6 @@ namespace
 {
 
 const ColumnSpec VertexNumbers{ OriginalIdName, ScalarType::Int64, 1 };
-const ColumnSpec CellNumbers{ OriginalCellIdName, ScalarType::Int64, 1 };
 
 /** The columns that are not of the conversion. */
 std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs)
@@ -25,7 +24,7 @@ std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs)
   std::vector<ColumnSpec> own;
   std::copy_if(specs.begin(), specs.end(), std::back_inserter(own),
     [](const ColumnSpec& spec)
-    { return spec != VertexNumbers && spec != CellNumbers && spec.name != CellFlagsName; });
+    { return spec != VertexNumbers && spec != OriginalCellIdSpec && spec.name != CellFlagsName; });
   return own;
 }
 
@@ -94,7 +93,7 @@ void RestoredMesh::readInfo(const VsmReader& reader)
     throw Error(this->Name + ": has " + std::to_string(this->Info.vertices) +
                 " vertices; the original order can be restored of at most 4294967294.");
   }
-  this->KnowsCells = findColumn(stream.cellColumns, CellNumbers) >= 0;
+  this->KnowsCells = findColumn(stream.cellColumns, OriginalCellIdSpec) >= 0;
   if (!this->KnowsCells)
   {
     this->Notes.push_back("The cells are in the order of the mesh stream, since it has no column "

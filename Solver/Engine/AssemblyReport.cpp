@@ -29,9 +29,9 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
   if (assembly.raisedRows() > 0)
   {
     report.notes.push_back(std::to_string(assembly.raisedRows()) +
-                           " vertices have weights whose sum is lost in rounding: they are held "
-                           "near their initial values; there the operator is not that of finite "
-                           "elements");
+                           " vertices have weights whose sum is lost in rounding: a millionth of "
+                           "their magnitudes holds them near their initial values; there the "
+                           "operator is not that of finite elements");
   }
   report.components = components.components();
   report.free_components = components.freeComponents();

@@ -224,7 +224,7 @@ void Assembly::release()
   release(this->FacetLoads);
 }
 
-/** Appends the neighbours of vertex i, with the weights as they are stored, to the batch. */
+/** Appends the neighbours of vertex i to the batch. */
 void Assembly::collectRow(std::int64_t i)
 {
   const std::size_t before = this->Neighbours.size();

@@ -119,20 +119,27 @@ bool isPositiveDefinite(const double* K)
 double flatnessFactor(CellType type, const double* const* corners, const CellWeights& cell)
 {
   constexpr double Limit = 1e5;
-  double square = type == CellType::Triangle ? 1.0 : 0.0;
   double largest = 0.0;
   for (int e = 0; e < edgesOf(type); ++e)
   {
     largest = std::max(largest, std::fabs(cell.weight[e]));
-    if (type == CellType::Tetrahedron)
+  }
+  if (type == CellType::Triangle)
+  {
+    return largest > Limit ? Limit / largest : 1.0;
+  }
+  // Any of the edges tells nearly always that the longest one is long enough.
+  double square = 0.0;
+  for (const int* ends : TetrahedronEdges)
+  {
+    const Vector edge = difference(corners[ends[0]], corners[ends[1]]);
+    square = std::max(square, dot(edge, edge));
+    if (largest * largest <= Limit * Limit * square)
     {
-      const int* ends = TetrahedronEdges[e];
-      const Vector edge = difference(corners[ends[0]], corners[ends[1]]);
-      square = std::max(square, dot(edge, edge));
+      return 1.0;
     }
   }
-  const double limit = Limit * std::sqrt(square);
-  return largest > limit ? limit / largest : 1.0;
+  return Limit * std::sqrt(square) / largest;
 }
 
 double cotangentFloor(CellType type, const double* a, const double* b)

@@ -19,6 +19,7 @@ OpenVertices::OpenVertices(Pool& pool, Problem& problem)
   , mass(pool)
   , Given(problem)
   , Columns(problem.columns())
+  , DirichletCount(problem.conditionCounts().dirichlet)
 {
 }
 
@@ -66,6 +67,13 @@ void OpenVertices::ask(const MeshBlock& block)
       throw Error("the value or source of vertex " +
                   vertex((bad - numbers->begin()) / this->Columns) + " is not a finite number");
     }
+  }
+  const auto strange = std::ranges::find_if(
+    given.dirichlet, [this](std::int32_t number) { return number >= this->DirichletCount; });
+  if (strange != given.dirichlet.end())
+  {
+    throw Error("vertex " + vertex(strange - given.dirichlet.begin()) +
+                " names a Dirichlet condition that the problem does not have: see conditionCounts");
   }
   const auto negative = std::ranges::find_if_not(
     given.screening, [](double s) { return s >= 0.0 && std::isfinite(s); });

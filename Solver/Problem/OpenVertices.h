@@ -33,6 +33,7 @@ private:
 
   Problem& Given;
   int Columns;
+  int DirichletCount;
   VertexConditions Conditions;
 };
 

@@ -129,10 +129,11 @@ struct ConditionCounts
  * w_ij d_ij, which pulls u_i - u_j towards the edge target d_ij. Where nothing else is said,
  * (K grad u - q) . n = 0 on the boundary.
  *
- * A problem is asked block by block, in stream order, once, on the thread that solves: nothing is
- * called for a single vertex, cell or edge; of a block first conditions(), then cells() and
- * facets(). What it answers must not depend on how the stream is cut into blocks and batches; then
- * neither does the solution, to the last bit. What it throws ends the solve.
+ * A problem is asked block by block, in stream order, on the thread that solves, once for a solve
+ * and once more for its results (see Solver/Results/ProblemResults.h), from the first block on:
+ * nothing is called for a single vertex, cell or edge; of a block first conditions(), then cells()
+ * and facets(). What it answers must not depend on how the stream is cut into blocks and batches;
+ * then neither does the solution, to the last bit. What it throws ends the solve.
  */
 class Problem
 {
@@ -153,10 +154,11 @@ public:
    * edge is the sum over its cells, the same in both directions. Weights::Clamped raises it to a
    * positive floor: 5e-4 (triangles) or 1e-4 times the edge's length (tetrahedra), times the scale
    * of the edge's weakest cell, which is the cell's largest weight over the largest it had on
-   * entry. Weights::Uniform does not look at them.
+   * entry. Weights::Cotangent takes them as they are, but for cells that are too flat (see
+   * flatnessFactor()). Weights::Uniform does not look at them.
    *
    * It is an Error if a number is not finite, a measure or screening negative, none of a cell's
-   * weights positive, or the weight of an edge outside 1e-20 to 1e20 in magnitude.
+   * weights positive, or the largest of them outside 1e-20 to 1e20.
    */
   virtual void cells(CellBatch& /*batch*/) {}
 

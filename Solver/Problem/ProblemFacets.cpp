@@ -71,7 +71,7 @@ void ProblemFacets::addCell(const MeshBlock& block, std::size_t first, std::size
   const int corners = cornersOf(this->Type);
   const std::int64_t* corner =
     block.corners.data() + (first + c) * static_cast<std::size_t>(corners);
-  if (hasRepeatedCorner(corner, corners))
+  if (hasRepeatedCorner(corner, corners) || !(this->Asks || this->mayHaveWanted(corner)))
   {
     return;
   }
@@ -114,6 +114,17 @@ void ProblemFacets::addCell(const MeshBlock& block, std::size_t first, std::size
       this->forget(data);
     }
   }
+}
+
+/** Whether all but one of a cell's corners may have the same Dirichlet condition. */
+bool ProblemFacets::mayHaveWanted(const std::int64_t* corner) const
+{
+  std::size_t known = 0;
+  for (int k = 0; k < cornersOf(this->Type); ++k)
+  {
+    known += this->Vertices.dirichlet[corner[k]] >= 0 ? 1 : 0;
+  }
+  return known >= this->Corners;
 }
 
 /** Whether the corners of a facet have the same Dirichlet condition. */

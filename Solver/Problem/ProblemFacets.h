@@ -55,6 +55,7 @@ private:
 
   void ask(const MeshBlock& block, std::size_t first, std::size_t cells);
   void addCell(const MeshBlock& block, std::size_t first, std::size_t c);
+  bool mayHaveWanted(const std::int64_t* corner) const;
   bool isWanted(const std::int64_t* vertex) const;
   std::int32_t keep(const int* order, std::size_t facet, std::int64_t cell);
   void require(std::size_t facet, std::int64_t cell) const;

@@ -85,7 +85,8 @@ void RowAssembly::addNeighbours(
   this->Size = 0;
   for (const RowNeighbour& neighbour : neighbours)
   {
-    const double weight = neighbour.weight;
+    const auto stored = static_cast<float>(neighbour.weight);
+    const double weight = stored;
     const bool known = this->Vertices.dirichlet[neighbour.to] >= 0;
     const double* other = this->Vertices.values.at(neighbour.to);
     const auto term = [&](std::size_t k)
@@ -103,7 +104,7 @@ void RowAssembly::addNeighbours(
     }
     if (!known)
     {
-      this->Row[this->Size++] = { static_cast<std::int32_t>(delta), neighbour.weight };
+      this->Row[this->Size++] = { static_cast<std::int32_t>(delta), stored };
       if (this->Listener && target)
       {
         this->Listener->target(target);
@@ -118,7 +119,7 @@ void RowAssembly::addNeighbours(
       }
       if (this->Listener)
       {
-        this->Listener->link(static_cast<std::int32_t>(delta), neighbour.weight);
+        this->Listener->link(static_cast<std::int32_t>(delta), stored);
       }
     }
     target = target ? target + this->Columns : nullptr;

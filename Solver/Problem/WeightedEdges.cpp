@@ -59,14 +59,13 @@ void WeightedEdges::take(
       this->Clamped += weight < floor ? 1 : 0;
       weight = std::max(weight, floor);
     }
-    const auto stored = static_cast<float>(weight);
-    if (!std::isfinite(stored))
+    if (!std::isfinite(static_cast<float>(weight)))
     {
       throw Error("the weight of the edge between vertices " + std::to_string(from) + " and " +
                   std::to_string(to) +
                   " is too large: the cells there are almost flat; use uniform weights");
     }
-    neighbours.push_back({ to, stored });
+    neighbours.push_back({ to, weight });
   }
 }
 

@@ -13,11 +13,11 @@
 namespace smg
 {
 
-/** A neighbour of a vertex, and the weight of their edge as it is stored. */
+/** A neighbour of a vertex, and the weight of their edge. */
 struct RowNeighbour
 {
   std::int64_t to;
-  float weight;
+  double weight; ///< finite in single precision, too
 };
 
 /**
@@ -58,7 +58,8 @@ public:
   }
 
   /** Appends the neighbours of vertex `from`, the lowest that is open, in ascending order;
-   * `points`: the positions of open vertices. Throws Error if a weight is too large to be stored.
+   * `points`: the positions of open vertices. Throws Error if a weight is too large for single
+   * precision.
    */
   void take(std::int64_t from, const Ring<double>& points, std::vector<RowNeighbour>& neighbours);
 

@@ -30,8 +30,6 @@ ProblemResults::ProblemResults(
   , Memory(options.memoryLimit, ResultMemory)
   , Vertices(this->Memory, problem)
   , Reach(this->Memory)
-  , CellLoads(this->Memory, info.cellType, problem.columns())
-  , FacetLoads(this->Memory, info.cellType, problem.columns())
   , Facets(this->Memory, problem, info.cellType, this->Vertices)
   , Edges(this->Memory, problem, info.cellType)
   , Cells(info.cellType, problem.columns(), options.gradient, options.flux)
@@ -57,6 +55,11 @@ ProblemResults::ProblemResults(
   if (problem.hasCells())
   {
     this->Own.emplace(problem, this->Type, options.flux);
+    this->CellLoads.emplace(this->Memory, this->Type, problem.columns());
+  }
+  if (problem.hasFacets())
+  {
+    this->FacetLoads.emplace(this->Memory, this->Type, problem.columns());
   }
 }
 
@@ -74,10 +77,15 @@ void ProblemResults::addVertices(const MeshBlock& block)
   const std::int64_t begin = this->Vertices.end();
   this->Vertices.add(block);
   const std::int64_t end = this->Vertices.end();
-  this->CellLoads.extend(end);
-  this->FacetLoads.extend(end);
   this->Facets.extend(end);
   this->Edges.extend(end);
+  for (auto* loads : { &this->CellLoads, &this->FacetLoads })
+  {
+    if (*loads)
+    {
+      (*loads)->extend(end);
+    }
+  }
   this->Values.resize(static_cast<std::size_t>(end - begin) * this->Columns);
   this->Solved.read(begin, end - begin, this->Values);
   std::ranges::copy(this->Values, this->Vertices.values.at(begin));
@@ -144,7 +152,7 @@ void ProblemResults::addCell(std::size_t c, const std::int64_t* corners, unsigne
   }
   if (this->Own)
   {
-    this->CellLoads.add(corners, points, *this->Own);
+    this->CellLoads->add(corners, points, *this->Own);
   }
   if (flatness < 1.0)
   {
@@ -182,8 +190,13 @@ void ProblemResults::finalize(std::int64_t end)
     this->closeVertex(this->Final);
   }
   this->Vertices.release(this->Reach.advance(this->Final), this->Final);
-  this->CellLoads.release(this->Final);
-  this->FacetLoads.release(this->Final);
+  for (auto* loads : { &this->CellLoads, &this->FacetLoads })
+  {
+    if (*loads)
+    {
+      (*loads)->release(this->Final);
+    }
+  }
   this->Facets.release(this->Final);
   this->Edges.release(this->Final);
 }
@@ -199,7 +212,10 @@ void ProblemResults::addBoundary(std::int64_t i)
         points[k] = this->Vertices.points.at(facet.corners[k]);
       }
       const double area = facetArea(this->Type, points);
-      this->FacetLoads.add(facet, area);
+      if (this->FacetLoads)
+      {
+        this->FacetLoads->add(facet, area);
+      }
       this->Conditions.add(facet, area, this->Vertices);
     });
 }
@@ -208,13 +224,15 @@ void ProblemResults::addBoundary(std::int64_t i)
 void ProblemResults::closeVertex(std::int64_t i)
 {
   const double mass = this->Vertices.mass[i];
-  const double screening = this->Vertices.screening[i] * mass + this->CellLoads.alpha(i);
+  const double screening =
+    this->Vertices.screening[i] * mass + (this->CellLoads ? this->CellLoads->alpha(i) : 0.0);
   const double* u = this->Vertices.values.at(i);
   this->Mass += mass;
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
-    const double source = mass * this->Vertices.sources.at(i)[k] + this->CellLoads.load(i)[k];
-    this->Load[k] = source + this->FacetLoads.load(i)[k];
+    const double source = mass * this->Vertices.sources.at(i)[k] +
+                          (this->CellLoads ? this->CellLoads->load(i)[k] : 0.0);
+    this->Load[k] = source + (this->FacetLoads ? this->FacetLoads->load(i)[k] : 0.0);
     this->Mean[k] += mass * u[k];
     this->Source[k] += source;
     this->Screening[k] += screening * u[k];
@@ -226,7 +244,7 @@ void ProblemResults::closeVertex(std::int64_t i)
   this->Reach.close(i, this->Neighbours.empty() ? i : std::max(i, this->Neighbours.back().to));
   if (this->Vertices.dirichlet[i] >= 0)
   {
-    this->closeDirichlet(i, screening + this->FacetLoads.alpha(i));
+    this->closeDirichlet(i, screening + (this->FacetLoads ? this->FacetLoads->alpha(i) : 0.0));
   }
 }
 
@@ -239,8 +257,9 @@ void ProblemResults::closeDirichlet(std::int64_t i, double alpha)
     this->Reaction[k] = alpha * u[k] - this->Load[k];
     for (const RowNeighbour& neighbour : this->Neighbours)
     {
-      this->Reaction[k] +=
-        static_cast<double>(neighbour.weight) * (u[k] - this->Vertices.values.at(neighbour.to)[k]);
+      // In single precision, as the rows of its neighbours have it.
+      this->Reaction[k] += static_cast<double>(static_cast<float>(neighbour.weight)) *
+                           (u[k] - this->Vertices.values.at(neighbour.to)[k]);
     }
   }
   this->Conditions.add(this->Vertices.dirichlet[i], u, this->Reaction.data());

@@ -95,7 +95,7 @@ private:
   OpenVertices Vertices; // their values are the solution's
   NeighbourReach Reach;
   std::optional<ProblemCells> Own;
-  VertexLoads CellLoads, FacetLoads;
+  std::optional<VertexLoads> CellLoads, FacetLoads;
   ProblemFacets Facets;
   WeightedEdges Edges; // of Dirichlet vertices to those that are not of the same condition
 

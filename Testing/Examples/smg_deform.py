@@ -77,7 +77,7 @@ def test_rigid_motions():
             (moved, lambda x, y, z: (x + 1, y - 2, z + 0.5)),
             (turned, lambda x, y, z: (1 + 2 * (cos * (x - 1) - sin * y),
                                       2 * (sin * (x - 1) + cos * y), 2 * z + 3))):
-        for weights in ("uniform", "cotangent"):
+        for weights in ("uniform", "clamped", "cotangent"):
             handles({"region": RIGHT, **motion}, {"region": LEFT, **motion}, weights=weights,
                     tolerance=1e-9)
             done = deform("torus.vsm", "out.vsm", "--report", "report.json")

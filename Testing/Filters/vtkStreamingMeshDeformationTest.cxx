@@ -324,7 +324,7 @@ TEST_F(VtkStreamingMeshDeformation, PrintsItsProperties)
 {
   std::ostringstream text;
   this->Deformation->Print(text);
-  for (const char* name : { "Weights: cotangent", "Cycles: 0", "Normals: recompute",
+  for (const char* name : { "Weights: clamped", "Cycles: 0", "Normals: recompute",
          "InteractivePoints: 200000", "NumberOfBuilds: 0" })
   {
     EXPECT_NE(text.str().find(name), std::string::npos) << name;

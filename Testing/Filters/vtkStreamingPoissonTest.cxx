@@ -4,6 +4,8 @@
 #include "IO/vtkStreamingMeshReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
 #include "Testing/IO/vtkPieceTesting.h"
+#include "Testing/Support/ArrayProblem.h"
+#include "Testing/Support/SolveMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include "vtkDoubleArray.h"
@@ -235,7 +237,7 @@ TEST_F(VtkStreamingPoisson, ErrorsNameTheArray)
   this->Ends->Modified();
   EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));
   EXPECT_TRUE(errors.contain("Values")) << errors.text();
-  EXPECT_TRUE(errors.contain("not a finite number")) << errors.text();
+  EXPECT_TRUE(errors.contain("must be finite")) << errors.text();
   this->Ends->Bad = 0.0;
   this->Ends->Modified();
   EXPECT_TRUE(updatePiece(this->Poisson, 0, 1));
@@ -391,6 +393,46 @@ TEST_F(VtkStreamingPoisson, EveryPointHeldIsNoWork)
   }
   EXPECT_EQ(this->Poisson->GetCycles(), 0);
   EXPECT_NE(this->Poisson->GetReport(), std::string());
+}
+
+TEST_F(VtkStreamingPoisson, WeightsAreThoseThatAreChosen)
+{
+  this->open(tetBox(12, 7, 6, 0.1));
+  this->Ends->Left = 0.5;
+  this->Ends->Right = 10.5;
+  ArrayProblem problem;
+  problem.Columns = 3;
+  problem.Value = this->Mesh.positions;
+  for (std::int64_t v = 0; v < this->Mesh.vertices(); ++v)
+  {
+    problem.Prescribed.push_back(this->Ends->isHeld(&problem.Value[3 * v]) ? 1 : 0);
+    std::fill_n(&problem.Value[3 * v], problem.Prescribed.back() ? 0 : 3, 0.0);
+  }
+  SolveOptions options;
+  options.tolerance = 1e-8;
+  EXPECT_EQ(this->Poisson->GetWeights(), vtkStreamingPoisson::COTANGENT);
+  const std::pair<int, Weights> kinds[] = { { vtkStreamingPoisson::COTANGENT, Weights::Cotangent },
+    { vtkStreamingPoisson::CLAMPED, Weights::Clamped },
+    { vtkStreamingPoisson::UNIFORM, Weights::Uniform } };
+  for (const auto& [weights, expected] : kinds)
+  {
+    this->Poisson->SetWeights(weights);
+    problem.EdgeWeights = expected;
+    const Eigen::MatrixXd values = solveMesh(this->Mesh, problem, options).values;
+    for (const auto& [id, value] : this->collectPieces(1).values)
+    {
+      ASSERT_EQ(value[1], values(id, 1)) << weights;
+    }
+  }
+}
+
+TEST_F(VtkStreamingPoisson, ComponentsMustAgree)
+{
+  Errors errors(this->Poisson);
+  this->Poisson->SetInputArrayToProcess(2, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Mask");
+  EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));
+  EXPECT_TRUE(errors.contain("source: the components of the column 'Mask' are 1, but must have 3"))
+    << errors.text();
 }
 
 TEST_F(VtkStreamingPoisson, NotConvergingIsAWarning)

@@ -143,9 +143,11 @@ TEST_F(HandleFileText, SetsWhatTheFileSaysAndNoMore)
   EXPECT_EQ(options.weights, Weights::Uniform);
   EXPECT_EQ(options.cycles, 4);
   EXPECT_EQ(options.tolerance, 0.25);
-  apply(R"(, "weights": "cotangent", "cycles": 7)");
+  apply(R"(, "weights": "clamped", "cycles": 7)");
   EXPECT_EQ(options.weights, Weights::Clamped);
   EXPECT_EQ(options.cycles, 7);
+  apply(R"(, "weights": "cotangent")");
+  EXPECT_EQ(options.weights, Weights::Cotangent);
   apply(R"(, "tolerance": 1e-3, "weights": "uniform")");
   EXPECT_EQ(options.weights, Weights::Uniform);
   EXPECT_EQ(options.cycles, 0);

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Problem/RegionProblem.h"
+#include "IO/Problem/ProblemFile.h"
 
+#include "IO/Problem/ParseWhere.h"
+#include "Solver/Description/DescribedProblem.h"
 #include "Testing/IO/RegionFileFixture.h"
+#include "Testing/Support/DescribedMesh.h"
+#include "Testing/Support/SolveMesh.h"
+
+#include <set>
 
 namespace smg::testing
 {
@@ -11,67 +17,82 @@ namespace
 class ProblemFile : public RegionFile
 {
 protected:
-  std::unique_ptr<RegionProblem> parse(const std::string& json)
+  /** What the problem of a file says of the lattice. */
+  ProblemAnswers ask(const std::string& json)
   {
-    return readProblemFile(this->file(json), this->Source.info());
+    return this->ask(readProblemFile(this->file(json)), this->Source);
+  }
+  static ProblemAnswers ask(const ProblemDescription& description, MemorySource& source)
+  {
+    DescribedProblem problem(description, source.info());
+    source.rewind(BlockCells);
+    problem.prepare(source);
+    source.rewind(BlockCells);
+    return answersOf(problem, source);
   }
 
   std::string errorOf(const std::string& json)
   {
-    return RegionFile::errorOf(readProblemFile, json);
-  }
-
-  /** What the problem says of all vertices. */
-  VertexConditions ask(RegionProblem& problem)
-  {
-    VertexConditions all;
-    this->Source.rewind(7);
-    for (MeshBlock block; this->Source.next(block);)
-    {
-      VertexConditions some;
-      const auto vertices = static_cast<std::size_t>(block.vertices());
-      const auto columns = static_cast<std::size_t>(problem.columns());
-      some.dirichlet.assign(vertices, -1);
-      some.screening.assign(vertices, 0.0);
-      some.value.assign(vertices * columns, 0.0);
-      some.source.assign(vertices * columns, 0.0);
-      problem.conditions(block, some);
-      all.dirichlet.insert(all.dirichlet.end(), some.dirichlet.begin(), some.dirichlet.end());
-      all.screening.insert(all.screening.end(), some.screening.begin(), some.screening.end());
-      all.value.insert(all.value.end(), some.value.begin(), some.value.end());
-      all.source.insert(all.source.end(), some.source.begin(), some.source.end());
-    }
-    return all;
+    const std::string message = messageOf(
+      [&]
+      {
+        const ProblemDescription description = readProblemFile(this->file(json));
+        DescribedProblem problem(description, this->Source.info(), "p.json");
+        this->Source.rewind(BlockCells);
+        problem.prepare(this->Source);
+      });
+    return message.empty() ? "no error" : message;
   }
 };
+
+/** Objects of the schema `docs/problem.schema.json`. */
+nlohmann::json schema()
+{
+  return readJsonFile(SMG_SOURCE_DIR "/docs/problem.schema.json");
+}
+
+std::set<std::string> keysOf(const nlohmann::json& properties)
+{
+  std::set<std::string> keys;
+  for (const auto& item : properties.items())
+  {
+    keys.insert(item.key());
+  }
+  return keys;
+}
 
 } // namespace
 
 TEST_F(ProblemFile, DefaultsAndValues)
 {
-  const auto empty = this->parse("{}");
-  EXPECT_EQ(empty->columns(), 1);
-  EXPECT_EQ(empty->weights(), Weights::Cotangent);
-  EXPECT_EQ(this->ask(*empty).screening[7], 0.0);
-  const auto full =
-    this->parse(R"({"weights": "uniform", "columns": 2, "source": [1, -2.5], "screening": 0.25})");
-  EXPECT_EQ(full->columns(), 2);
-  EXPECT_EQ(full->weights(), Weights::Uniform);
-  const VertexConditions conditions = this->ask(*full);
-  EXPECT_EQ(conditions.source[0], 1.0);
-  EXPECT_EQ(conditions.source[49], -2.5);
-  EXPECT_EQ(conditions.screening[24], 0.25);
-  EXPECT_EQ(conditions.dirichlet[3], -1);
+  const ProblemDescription empty = readProblemFile(this->file("{}"));
+  EXPECT_EQ(empty.columns, 1);
+  EXPECT_EQ(empty.weights, Weights::Cotangent);
+  const ProblemDescription full = readProblemFile(this->file(
+    R"({"weights": "uniform", "columns": 2, "source": [1, -2.5], "screening": 0.25,
+        "outputs": ["flux"]})"));
+  EXPECT_EQ(full.columns, 2);
+  EXPECT_EQ(full.weights, Weights::Uniform);
+  EXPECT_TRUE(full.fluxOutput && !full.gradientOutput);
+  const ProblemAnswers answers = this->ask(full, this->Source);
+  EXPECT_EQ(answers.vertices.screening[24], 0.25);
+  EXPECT_EQ(answers.vertices.source[0], 1.0);
+  EXPECT_EQ(answers.vertices.source[49], -2.5);
+  EXPECT_EQ(answers.vertices.dirichlet[3], -1);
+  EXPECT_EQ(
+    readProblemFile(this->file(R"({"weights": "raw-cotangent"})")).weights, Weights::Cotangent);
+  EXPECT_EQ(readProblemFile(this->file(R"({"weights": "clamped"})")).weights, Weights::Clamped);
 }
 
-TEST_F(ProblemFile, LaterRegionsWin)
+TEST_F(ProblemFile, LaterRegionsWinAndVerticesHaveOriginalNumbers)
 {
-  const auto problem = this->parse(R"({"columns": 1, "dirichlet": [
+  const VertexConditions conditions = this
+                                        ->ask(R"({"columns": 1, "dirichlet": [
     {"halfspace": [1, 0, 0, 2], "value": [1]},
     {"box": [2, 0, 0, 2.6, 9, 0], "value": [2]},
     {"sphere": [0, 0, 0, 0.5], "value": [3]},
-    {"vertices": [1003, 1003], "value": [4]}]})");
-  const VertexConditions conditions = this->ask(*problem);
+    {"vertices": [1003, 1003], "value": [4]}]})")
+                                        .vertices;
   const StreamMesh& mesh = this->Source.mesh();
   for (std::size_t i = 0; i < 25; ++i)
   {
@@ -81,18 +102,19 @@ TEST_F(ProblemFile, LaterRegionsWin)
     expected = x >= 2 && x <= 2.6 ? 2 : expected;
     expected = x * x + y * y <= 0.25 ? 3 : expected;
     expected = i == 21 ? 4 : expected;
-    EXPECT_EQ(conditions.dirichlet[i], expected > 0 ? 0 : -1);
+    EXPECT_EQ(conditions.dirichlet[i], static_cast<int>(expected) - 1);
     EXPECT_EQ(conditions.value[i], expected);
   }
 }
 
 TEST_F(ProblemFile, PositionIsValueAndGuess)
 {
-  const auto problem = this->parse(R"({"columns": 3, "dirichlet": [
-    {"vertices": [1000], "value": "position"}, {"vertices": [1024], "value": [7, 8, 9]}]})");
-  const VertexConditions conditions = this->ask(*problem);
+  const VertexConditions conditions = this
+                                        ->ask(R"({"columns": 3, "dirichlet": [
+    {"vertices": [1000], "value": "position"}, {"vertices": [1024], "value": [7, 8, 9]}]})")
+                                        .vertices;
   EXPECT_EQ(conditions.dirichlet[24], 0);
-  EXPECT_EQ(conditions.dirichlet[0], 0);
+  EXPECT_EQ(conditions.dirichlet[0], 1);
   EXPECT_EQ(conditions.value[1], 8.0);
   for (std::size_t i = 3; i < 75; ++i)
   {
@@ -100,59 +122,96 @@ TEST_F(ProblemFile, PositionIsValueAndGuess)
   }
 }
 
-TEST_F(ProblemFile, ConductivityIsANumberOrACellColumn)
+TEST_F(ProblemFile, EveryDatumSaysTheSameInJsonAndInCxx)
 {
-  StreamMesh mesh = lattice();
-  std::vector<float> factors;
-  for (std::int64_t c = 0; c < mesh.cells(); ++c)
-  {
-    factors.push_back(c == 20 ? -1.0F : 0.5F + static_cast<float>(c));
-  }
-  mesh.cellColumns.push_back(
-    makeColumn<std::uint8_t>(CellFlagsName, std::vector<std::uint8_t>(32)));
-  mesh.cellColumns.push_back(makeColumn<float>("k", factors));
-  MemorySource source(mesh, 32);
-  MeshBlock block;
-  source.next(block);
-  // What becomes of the weights of cells [10, 10 + count).
-  const auto weightsOf = [&](const std::string& json, std::size_t count)
-  {
-    const auto problem = readProblemFile(this->file(json), source.info());
-    EXPECT_TRUE(problem->hasCells());
-    std::vector<double> weight(3 * count, 2.0);
-    std::vector<double> measure(count, 1.0);
-    CellBatch batch{ CellType::Triangle, block, 10, {}, {}, weight, measure, {}, {}, {}, {} };
-    problem->cells(batch);
-    EXPECT_EQ(measure, std::vector<double>(count, 1.0));
-    return weight;
-  };
-  EXPECT_EQ(weightsOf(R"({"conductivity": 0.25})", 1), std::vector<double>(3, 0.5));
-  EXPECT_EQ(
-    weightsOf(R"({"conductivity": "k"})", 2), (std::vector<double>{ 21, 21, 21, 23, 23, 23 }));
-  EXPECT_CONTAINS(messageOf([&] { weightsOf(R"({"conductivity": "k"})", 11); }),
-    "conductivity: it must be a positive number in each cell, but is -1");
-  EXPECT_CONTAINS(
-    messageOf([&] { weightsOf(R"({"conductivity": "k"})", 11); }), "in cell 20 of the stream");
+  const std::string json = R"({ "weights": "clamped", "columns": 3,
+    "conductivity": [ {"value": [2, 3, 4, 0.5, 0.25, 0.125]}, {"tag": ["tag", 3], "value": "K"},
+                      {"box": [1.5, -1, -1, 9, 9, 9], "value": 2.5}, {"mask": "cellMask", "value": "k"} ],
+    "screening": [ {"value": 0.5}, {"nearest": [[1, 1, 1], [2, 0, 0]], "value": "one"} ],
+    "source": [ {"value": [1, 2, 3]}, {"halfspace": [0, 0, 1, 1.5], "value": "three"},
+                {"sphere": [0, 0, 0, 1.5], "value": "position"} ],
+    "field": "q",
+    "initial": "three",
+    "dirichlet": [ {"tag": ["tag", 3], "value": "position"}, {"mask": "mask", "value": "three"},
+                   {"vertices": [3, 7], "value": [4, 5, 6]} ],
+    "flux": [ {"box": [-9, -9, -9, 9, 9, 0.5], "value": [1, 0, 2]}, {"mask": "cellMask", "value": "q"} ],
+    "robin": [ {"halfspace": [1, 0, 0, 2.5], "coefficient": 2, "ambient": [3, 4, 5]},
+               {"mask": "mask", "coefficient": [ {"value": "one"}, {"tag": ["tag", 3], "value": "k"} ],
+                "ambient": "position"} ],
+    "soft": [ {"mask": "mask", "weight": 3, "value": "three"},
+              {"tag": ["tag", 1], "weight": "one", "value": [1, 1, 1]} ],
+    "outputs": ["gradient", "flux"] })";
+  ProblemDescription same;
+  same.weights = Weights::Clamped;
+  same.columns = 3;
+  same.conductivity = { { Everywhere{}, DataValue{ 2, 3, 4, 0.5, 0.25, 0.125 } },
+    { ColumnTag{ "tag", 3 }, "K" }, { Region::Box{ { 1.5, -1, -1 }, { 9, 9, 9 } }, 2.5 },
+    { ColumnMask{ "cellMask" }, "k" } };
+  same.screening = { { Everywhere{}, 0.5 },
+    { NearestVertices{ { { 1, 1, 1 }, { 2, 0, 0 } } }, "one" } };
+  same.source = { { Everywhere{}, DataValue{ 1, 2, 3 } },
+    { Region::HalfSpace{ { 0, 0, 1 }, 1.5 }, "three" }, { Region::Sphere{ {}, 1.5 }, Position{} } };
+  same.field = "q";
+  same.initial = "three";
+  same.dirichlet = { { ColumnTag{ "tag", 3 }, Position{} }, { ColumnMask{ "mask" }, "three" },
+    { Region::Vertices{ { 3, 7 } }, DataValue{ 4, 5, 6 } } };
+  same.flux = { { Region::Box{ { -9, -9, -9 }, { 9, 9, 0.5 } }, DataValue{ 1, 0, 2 } },
+    { ColumnMask{ "cellMask" }, "q" } };
+  same.robin = { { Region::HalfSpace{ { 1, 0, 0 }, 2.5 }, 2.0, DataValue{ 3, 4, 5 } },
+    { ColumnMask{ "mask" }, { { Everywhere{}, "one" }, { ColumnTag{ "tag", 3 }, "k" } },
+      Position{} } };
+  same.soft = { { ColumnMask{ "mask" }, 3.0, "three" },
+    { ColumnTag{ "tag", 1 }, "one", DataValue{ 1, 1, 1 } } };
+  same.gradientOutput = same.fluxOutput = true;
 
-  using Names = std::vector<std::string>;
-  const auto columnsOf = [&](const std::string& json)
-  { return readProblemFile(this->file(json), source.info())->cellColumns(); };
-  EXPECT_EQ(columnsOf(R"({"conductivity": "k"})"), Names{ "k" });
-  EXPECT_EQ(columnsOf(R"({"conductivity": 2})"), Names{});
-  EXPECT_FALSE(this->parse(R"({"conductivity": 1})")->hasCells());
+  const ProblemDescription parsed = readProblemFile(this->file(json));
+  EXPECT_EQ(parsed.weights, same.weights);
+  EXPECT_TRUE(parsed.gradientOutput && parsed.fluxOutput);
+  MemorySource mesh(describedMesh());
+  EXPECT_TRUE(this->ask(parsed, mesh) == this->ask(same, mesh));
+  const auto solved = [&](const ProblemDescription& description)
+  {
+    DescribedProblem problem(description, mesh.info());
+    mesh.rewind(BlockCells);
+    problem.prepare(mesh);
+    mesh.rewind(BlockCells);
+    return solveMesh(mesh, problem, {}).values;
+  };
+  EXPECT_TRUE(sameBits(solved(parsed), solved(same)));
 }
 
-TEST_F(ProblemFile, ErrorsOfTheConductivity)
+TEST_F(ProblemFile, TheSchemaHasTheKeysOfTheParser)
 {
-  for (const char* bad : { "0", "-2", "\"\"", "[1]", "null", "1e999" })
+  const nlohmann::json all = schema();
+  EXPECT_EQ(
+    keysOf(all["properties"]), std::set<std::string>(ProblemKeys.begin(), ProblemKeys.end()));
+  EXPECT_EQ(keysOf(all["$defs"]["regionOrColumn"]["properties"]),
+    std::set<std::string>(WhereKeys.begin(), WhereKeys.end()));
+}
+
+TEST_F(ProblemFile, ErrorsOfCoefficients)
+{
+  for (const char* bad : { "0", "-2", "\"\"", "[1]", "[]", "null", "1e999", "[1, 1, 1, 2, 0, 0]" })
   {
     EXPECT_CONTAINS(this->errorOf(std::string(R"({"conductivity": )") + bad + "}"), "p.json");
   }
   EXPECT_CONTAINS(this->errorOf(R"({"conductivity": 0})"), "conductivity: must be a positive");
+  EXPECT_CONTAINS(this->errorOf(R"({"conductivity": [1]})"), "must be an array of 6 numbers");
   EXPECT_CONTAINS(
-    this->errorOf(R"({"conductivity": "k"})"), "conductivity: the mesh has no cell column 'k'");
+    this->errorOf(R"({"conductivity": "k"})"), "conductivity: the mesh has no column 'k'");
+  EXPECT_CONTAINS(this->errorOf(R"({"conductivity": [{"value": 1}, {"value": 0}]})"),
+    "conductivity[1].value: must be a positive");
+  EXPECT_CONTAINS(this->errorOf(R"({"conductivity": [{"value": [{"value": 1}]}]})"),
+    "conductivity[0].value: must be an array of 6 numbers");
   EXPECT_CONTAINS(this->errorOf(R"({"weights": "uniform", "conductivity": 2})"),
-    "conductivity: can be given with cotangent weights only");
+    "conductivity: goes with cotangent and clamped weights only");
+  EXPECT_CONTAINS(
+    this->errorOf(R"({"screening": -1})"), "screening: must be finite and not negative");
+  EXPECT_CONTAINS(this->errorOf(R"({"screening": [1]})"), "screening: must be a finite number");
+  EXPECT_CONTAINS(this->errorOf(R"({"screening": ""})"), "screening: must be the name of a column");
+  EXPECT_CONTAINS(
+    this->errorOf(R"({"robin": [{"box": [0,0,0,1,1,1], "coefficient": -1, "ambient": [0]}]})"),
+    "robin[0].coefficient: must be finite and not negative");
 }
 
 TEST_F(ProblemFile, ErrorsNameThePlace)
@@ -161,13 +220,26 @@ TEST_F(ProblemFile, ErrorsNameThePlace)
   EXPECT_CONTAINS(this->errorOf(R"({"weights": "heat"})"), "weights: must be");
   EXPECT_CONTAINS(this->errorOf(R"({"columns": 0})"), "columns: must be");
   EXPECT_CONTAINS(this->errorOf(R"({"columns": 1.5})"), "columns: must be");
-  EXPECT_CONTAINS(this->errorOf(R"({"screening": -1})"), "screening: must not");
-  EXPECT_CONTAINS(this->errorOf(R"({"screening": "1"})"), "screening: must be");
   EXPECT_CONTAINS(this->errorOf(R"({"source": 1})"), "source: must be an array of 1 number");
   EXPECT_CONTAINS(this->errorOf(R"({"source": [1e999]})"), "out of range");
+  EXPECT_CONTAINS(
+    this->errorOf(R"({"initial": "position"})"), "initial: can be \"position\" only if");
+  EXPECT_CONTAINS(this->errorOf(R"({"field": [1, 0, 0]})"), "field: must be a string");
+  EXPECT_CONTAINS(this->errorOf(R"({"outputs": ["heat"]})"), "outputs[0]: must be \"gradient\" or");
   EXPECT_CONTAINS(this->errorOf(R"({"dirichlet": {}})"), "dirichlet: must be an array");
-  EXPECT_CONTAINS(this->errorOf(R"({"dirichlet": [{"value": [0]}]})"), "exactly one of");
+  EXPECT_CONTAINS(this->errorOf(R"({"dirichlet": [{"value": [0]}]})"),
+    "dirichlet[0]: must have exactly one of halfspace, box, sphere, vertices, tag, mask and "
+    "nearest");
+  EXPECT_CONTAINS(this->errorOf(R"({"source": [{"mask": "a", "nearest": [], "value": [0]}]})"),
+    "source[0]: must have at most one of halfspace");
   EXPECT_CONTAINS(this->errorOf(R"({"dirichlet": [{"sphere": [0, 0, 0, 9]}]})"), "has no 'value'");
+  EXPECT_CONTAINS(this->errorOf(R"({"soft": [{"mask": "m", "value": [0]}]})"), "has no 'weight'");
+  EXPECT_CONTAINS(this->errorOf(R"({"flux": [{"mask": "m", "value": [0], "ambient": [0]}]})"),
+    "flux[0].ambient: is not known");
+  EXPECT_CONTAINS(this->errorOf(R"({"flux": [{"tag": ["a"], "value": [0]}]})"),
+    "flux[0].tag: must be [\"name of a column\", value]");
+  EXPECT_CONTAINS(this->errorOf(R"({"flux": [{"nearest": [[0, 0]], "value": [0]}]})"),
+    "flux[0].nearest[0]: must be an array of 3 numbers");
   EXPECT_CONTAINS(
     this->errorOf(R"({"dirichlet": [{"sphere": [0, 0, 0, -1], "value": [0]}]})"), "radius");
   EXPECT_CONTAINS(
@@ -191,7 +263,7 @@ TEST_F(ProblemFile, ErrorsNameThePlace)
   EXPECT_CONTAINS(this->errorOf("[]"), "must be an object");
 }
 
-TEST_F(ProblemFile, CheckFindsWhatSelectsNothing)
+TEST_F(ProblemFile, WhatSelectsNothingIsFound)
 {
   EXPECT_EQ(
     this->errorOf(R"({"dirichlet": [{"vertices": [1000, 1024], "value": [0]}]})"), "no error");
@@ -204,10 +276,11 @@ TEST_F(ProblemFile, CheckFindsWhatSelectsNothing)
 TEST_F(ProblemFile, WithoutOriginalNumbersTheStreamCounts)
 {
   MemorySource plain(toStream(grid(4, 4)), 3);
-  writeBytes(this->Folder / "p.json", R"({"dirichlet": [{"vertices": [15], "value": [1]}]})");
-  const auto problem = readProblemFile(this->Folder / "p.json", plain.info());
-  EXPECT_TRUE(problem->vertexColumns().empty());
-  EXPECT_NO_THROW(problem->check(plain));
+  DescribedProblem problem(
+    readProblemFile(this->file(R"({"dirichlet": [{"vertices": [15], "value": [1]}]})")),
+    plain.info());
+  EXPECT_TRUE(problem.vertexColumns().empty());
+  EXPECT_NO_THROW(problem.prepare(plain));
 }
 
 } // namespace smg::testing

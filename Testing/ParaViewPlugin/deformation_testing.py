@@ -6,7 +6,7 @@ import smg_testing as t
 EARS_CENTER, EARS_ANGLE, EARS_SCALE, EARS_SHIFT = [-0.06, 0.17, 0.0], 40.0, 1.1, [0.0, 0.01, 0.0]
 
 # The same for the program smg.
-HANDLE_FILE = {"weights": "cotangent", "handles": [
+HANDLE_FILE = {"weights": "clamped", "handles": [
     {"region": {"halfspace": [0, -1, 0, -t.FEET]}, "fixed": True},
     {"region": {"halfspace": [0, 1, 0, t.EARS]}, "translate": EARS_SHIFT, "scale": EARS_SCALE,
      "rotate": {"axis": [0, 1, 0], "degrees": EARS_ANGLE, "center": EARS_CENTER}}]}

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -217,6 +218,119 @@ TEST(CellWeights, haveAFloorOfAThousandthOfARegularMesh)
   const Point b(0, 3, 4);
   EXPECT_DOUBLE_EQ(cotangentFloor(CellType::Triangle, a.data(), b.data()), 5e-4);
   EXPECT_DOUBLE_EQ(cotangentFloor(CellType::Tetrahedron, a.data(), b.data()), 5e-4);
+}
+
+TEST(CellWeights, ofAConductivityAreTheElementMatrixWithIt)
+{
+  Random random(5);
+  for (int trial = 0; trial < 200; ++trial)
+  {
+    // K = R R^T + something, with eigenvalues of quite different sizes.
+    Eigen::Matrix3d root;
+    for (int k = 0; k < 9; ++k)
+    {
+      root(k / 3, k % 3) = random.uniform(-1, 1);
+    }
+    const Eigen::Matrix3d k = root * root.transpose() + 0.01 * Eigen::Matrix3d::Identity();
+    const double tensor[6] = { k(0, 0), k(1, 1), k(2, 2), k(0, 1), k(1, 2), k(0, 2) };
+    ASSERT_TRUE(isPositiveDefinite(tensor));
+    for (const int corners : { 3, 4 })
+    {
+      const auto type = static_cast<CellType>(corners);
+      std::vector<Point> p;
+      const double* points[4] = {};
+      for (int c = 0; c < corners; ++c)
+      {
+        p.push_back(randomPoint(random));
+      }
+      Eigen::MatrixXd jacobian(3, corners - 1);
+      for (int c = 0; c < corners; ++c)
+      {
+        points[c] = p[static_cast<std::size_t>(c)].data();
+        if (c > 0)
+        {
+          jacobian.col(c - 1) = p[static_cast<std::size_t>(c)] - p[0];
+        }
+      }
+      const Eigen::MatrixXd gram = jacobian.transpose() * jacobian;
+      Eigen::MatrixXd gradients(corners, 3);
+      gradients.bottomRows(corners - 1) = gram.inverse() * jacobian.transpose();
+      gradients.row(0) = -gradients.bottomRows(corners - 1).colwise().sum();
+      const double measure = std::sqrt(gram.determinant()) / (corners == 3 ? 2 : 6);
+      const Eigen::MatrixXd element = measure * gradients * k * gradients.transpose();
+      const smg::CellWeights cell = conductivityWeights(type, points, tensor);
+      EXPECT_NEAR(cell.measure, measure, 1e-10 * measure);
+      for (int e = 0; e < edgesOf(type); ++e)
+      {
+        const int* ends = edgeCorners(type, e);
+        EXPECT_NEAR(cell.weight[e], -element(ends[0], ends[1]), 1e-9 * element.norm());
+      }
+    }
+  }
+}
+
+TEST(CellWeights, ofAScalarConductivityAreItsMultiplesBitForBit)
+{
+  Random random(6);
+  const double tensor[6] = { 0.3, 0.3, 0.3, 0, 0, 0 };
+  for (const int corners : { 3, 4 })
+  {
+    const std::vector<Point> p{ randomPoint(random), randomPoint(random), randomPoint(random),
+      randomPoint(random) };
+    const double* points[4] = { p[0].data(), p[1].data(), p[2].data(), p[3].data() };
+    const auto type = static_cast<CellType>(corners);
+    const smg::CellWeights plain = smg::cellWeights(type, points);
+    const smg::CellWeights scaled = conductivityWeights(type, points, tensor);
+    for (int e = 0; e < edgesOf(type); ++e)
+    {
+      EXPECT_EQ(scaled.weight[e], 0.3 * plain.weight[e]);
+    }
+  }
+}
+
+TEST(CellWeights, aConductivityMustBePositiveDefinite)
+{
+  const double nan = std::nan("");
+  const std::vector<std::vector<double>> bad{ { 0, 1, 1, 0, 0, 0 }, { 1, -1, 1, 0, 0, 0 },
+    { 1, 1, 1, 1, 0, 0 }, { 1, 1, 1, 0, 0, -2 }, { 1, 1, 1, 0.9, 0.9, -0.9 },
+    { -1, -1, -1, 0, 0, 0 }, { 0, 0, 0, 0, 0, 0 }, { nan, 1, 1, 0, 0, 0 }, { 1, 1, 1, nan, 0, 0 },
+    { HUGE_VAL, 1, 1, 0, 0, 0 } };
+  for (const std::vector<double>& tensor : bad)
+  {
+    EXPECT_FALSE(isPositiveDefinite(tensor.data()));
+  }
+  const std::vector<std::vector<double>> good{ { 1, 1, 1, 0, 0, 0 },
+    { 1e-200, 1e-200, 1e-200, 0, 0, 0 }, { 1e200, 1e200, 1e200, 9e199, 0, 0 },
+    { 1, 1e-6, 1, 0, 0, 0 }, { 1, 1, 1, 0.9, 0.9, 0.9 } };
+  for (const std::vector<double>& tensor : good)
+  {
+    EXPECT_TRUE(isPositiveDefinite(tensor.data()));
+  }
+}
+
+TEST(CellWeights, theFlatnessOfACellIsAMatterOfItsShape)
+{
+  for (const int corners : { 3, 4 })
+  {
+    const double flat[4][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0.4, corners == 3 ? 1e-8 : 0.5, 0 },
+      { 0.3, 0.2, 1e-7 } };
+    const auto type = static_cast<CellType>(corners);
+    double expected = 0.0;
+    for (const double unit : { 1.0, 1e-6, 1e6 })
+    {
+      double scaled[4][3];
+      const double* points[4] = {};
+      for (int c = 0; c < 4; ++c)
+      {
+        std::transform(flat[c], flat[c] + 3, scaled[c], [=](double x) { return unit * x; });
+        points[c] = scaled[c];
+      }
+      const double factor = flatnessFactor(type, points, smg::cellWeights(type, points));
+      EXPECT_LT(factor, 1.0);
+      expected = expected == 0.0 ? factor : expected;
+      EXPECT_NEAR(factor, expected, 1e-9 * expected);
+    }
+  }
 }
 
 } // namespace smg::testing

@@ -75,8 +75,7 @@ TEST(CoreCycle, isTheVCycle)
 
 TEST(CoreCycle, contractsTheErrorOnManyLevels)
 {
-  const TestLevel level =
-    finestLevel(toStream(shuffled(grid(40, 40, 0.2))), Weights::Clamped, 90);
+  const TestLevel level = finestLevel(toStream(shuffled(grid(40, 40, 0.2))), Weights::Clamped, 90);
   DenseHierarchy<> h(level, 5, 1, 2);
   CoreCycle<GaussSeidel> cycle;
   cycle.setLevels(levelsOf(h, 5));

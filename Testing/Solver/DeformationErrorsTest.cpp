@@ -140,7 +140,6 @@ TEST(DeformationErrors, optionsOutOfRange)
     [](DeformOptions& o) { o.cycles = -1; },
     [](DeformOptions& o) { o.cycles = std::numeric_limits<int>::min(); },
     [](DeformOptions& o) { o.operators = "none"; },
-    [](DeformOptions& o) { o.weights = Weights::Cotangent; },
     [](DeformOptions& o) { o.sweeps = 0; },
     [](DeformOptions& o) { o.tolerance = 0.0; },
     [](DeformOptions& o) { o.tolerance = NotANumber; },

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Solver/Shi2006Testing.h"
 #include "Testing/Solver/SolveTesting.h"
 
 #include <gtest/gtest.h>
@@ -146,6 +147,47 @@ TEST(OwnWeights, theirScaleDoesNotMatterNotEvenToTheFloor)
       EXPECT_EQ(solved.report.clamped_weights, expected.report.clamped_weights);
     }
   }
+}
+
+TEST(OwnWeights, ofFiniteElementsScaleAlikeHoweverFlatTheCellsAre)
+{
+  for (StreamMesh mesh : meshes())
+  {
+    // One vertex almost in the plane of the others of a cell.
+    const std::int64_t* cell = &mesh.corners[cornersOf(mesh.cellType) * (mesh.cells() / 2)];
+    for (int d = 0; d < 3; ++d)
+    {
+      mesh.positions[3 * cell[0] + d] =
+        0.5 * mesh.positions[3 * cell[1] + d] + 0.5 * mesh.positions[3 * cell[2] + d] + 1e-8 * d;
+    }
+    ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+    AssembledLevel expected(mesh, problem);
+    for (const int power : { -30, 0, 30 })
+    {
+      Weighed own(problem, times(std::ldexp(1.0, power)));
+      own.EdgeWeights = Weights::Cotangent;
+      AssembledLevel level(mesh, own);
+      for (std::int64_t i = 0; i < mesh.vertices(); ++i)
+      {
+        ASSERT_EQ(level.level.edges.size(i), expected.level.edges.size(i));
+        for (std::int64_t e = 0; e < expected.level.edges.size(i); ++e)
+        {
+          EXPECT_EQ(level.level.edges.row(i)[e].weight,
+            std::ldexp(expected.level.edges.row(i)[e].weight, power));
+        }
+      }
+    }
+    EXPECT_TRUE(hasNote(shortSolve(mesh, problem).report, "so flat"));
+  }
+}
+
+TEST(OwnWeights, areNotLookedAtWhereAllAreUniform)
+{
+  const StreamMesh mesh = meshes()[0];
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Uniform);
+  Weighed own(problem, [](CellBatch& batch) { std::ranges::fill(batch.weight, -1e30); });
+  own.EdgeWeights = Weights::Uniform;
+  EXPECT_TRUE(sameBits(shortSolve(mesh, own).values, shortSolve(mesh, problem).values));
 }
 
 TEST(OwnWeights, ofOneHalfOnAClosedSurfaceAreUniform)
@@ -337,6 +379,22 @@ TEST(OwnWeights, thatAreNotValidAreAnError)
         std::string::npos);
     }
     EXPECT_NE(errorOfCell([](CellBatch& batch, std::size_t c) { batch.measure[c] = -1; }), "");
+    for (const double bad : { nan, infinite, -1.0 })
+    {
+      EXPECT_NE(errorOfCell([bad](CellBatch& batch, std::size_t c) { batch.screening[c] = bad; })
+                  .find("screening of cell 700 "),
+        std::string::npos);
+    }
+    for (const double bad : { nan, infinite })
+    {
+      EXPECT_NE(errorOfCell([bad](CellBatch& batch, std::size_t c) { batch.source[c] = bad; })
+                  .find("cell 700 "),
+        std::string::npos);
+      EXPECT_NE(
+        errorOfCell([bad](CellBatch& batch, std::size_t c) { batch.field[3 * c + 2] = bad; })
+          .find("cell 700 "),
+        std::string::npos);
+    }
     EXPECT_NE(errorOfCell([](CellBatch& batch, std::size_t c)
                 { std::ranges::fill(batch.weightsOf(c), -1.0); }),
       "");

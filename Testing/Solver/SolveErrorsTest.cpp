@@ -67,6 +67,22 @@ TEST(SolveErrors, numbersThatAreNotFinite)
   }
 }
 
+TEST(SolveErrors, conditionsThatAreNone)
+{
+  /** All vertices have the Dirichlet condition 3. */
+  class Strange : public ArrayProblem
+  {
+  public:
+    ConditionCounts conditionCounts() const override { return { 3, 0, 0 }; }
+    void conditions(const MeshBlock& /*block*/, VertexConditions& conditions) override
+    {
+      std::ranges::fill(conditions.dirichlet, 3);
+    }
+  };
+  Strange problem;
+  EXPECT_TRUE(contains(errorOfSolve(toStream(torus(10, 10)), problem), "conditionCounts"));
+}
+
 TEST(SolveErrors, valuesWhoseSquaresOverflow)
 {
   const StreamMesh mesh = toStream(torus(30, 20));

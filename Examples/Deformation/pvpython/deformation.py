@@ -107,7 +107,7 @@ def take_handles(mesh, handles):
 def deform(held, options):
     """The deformed mesh, with the options of the handle file."""
     deformation = StreamingMeshDeformation(Input=held)
-    deformation.Weights = options.get("weights", "cotangent").capitalize()
+    deformation.Weights = options.get("weights", "clamped").capitalize()
     deformation.Cycles = options.get("cycles", 0)
     deformation.Tolerance = options.get("tolerance", 1e-6)
     deformation.MemoryLimit = 128

@@ -137,9 +137,10 @@ int main(int argc, char** argv)
     }
     const Json file = Json::parse(in);
     deformation->SetInputConnection(takeHandles(reader, file.at("handles"))->GetOutputPort());
-    deformation->SetWeights(file.value("weights", "cotangent") == "uniform"
-                              ? vtkStreamingMeshDeformation::UNIFORM
-                              : vtkStreamingMeshDeformation::COTANGENT);
+    const std::string weights = file.value("weights", "clamped");
+    deformation->SetWeights(weights == "uniform"     ? vtkStreamingMeshDeformation::UNIFORM
+                            : weights == "cotangent" ? vtkStreamingMeshDeformation::COTANGENT
+                                                     : vtkStreamingMeshDeformation::CLAMPED);
     deformation->SetCycles(file.value("cycles", deformation->GetCycles()));
     deformation->SetTolerance(file.value("tolerance", deformation->GetTolerance()));
   }

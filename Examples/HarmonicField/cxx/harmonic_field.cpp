@@ -9,7 +9,7 @@ file.
 What this lesson shows:
  1. A mesh stream delivers vertices and cells block by block, and says which vertices are final: no
     later cell uses them. A program that forgets these holds a small window of the mesh only.
- 2. A problem is a class that is asked, block by block, what holds at the vertices.
+ 2. A problem is described by what holds where; regions are one way to say where.
  3. solve() reads the stream once, works on scratch files within a memory limit, and gives back a
     solution that is read range by range, here along with the stream.
 
@@ -23,6 +23,7 @@ Run it:
 
 #include "IO/Conversion/OpenMesh.h"
 #include "Solver/Core/Error.h"
+#include "Solver/Description/DescribedProblem.h"
 #include "Solver/Solve.h"
 
 #include <array>
@@ -40,21 +41,13 @@ constexpr double Ears = 0.18;
 constexpr int Bands = 24;
 
 /** The values at feet and ears are given; everything else is left to the solver. */
-class FeetAndEars : public smg::Problem
+smg::ProblemDescription feetAndEars()
 {
-public:
-  int columns() const override { return 1; }
-
-  void conditions(const smg::MeshBlock& block, smg::VertexConditions& conditions) override
-  {
-    for (std::int64_t i = 0; i < block.vertices(); ++i)
-    {
-      const double height = block.positions[3 * i + 1];
-      conditions.dirichlet[i] = height < Feet || height > Ears ? 0 : -1;
-      conditions.value[i] = height > Ears ? 1.0 : 0.0;
-    }
-  }
-};
+  smg::ProblemDescription problem;
+  problem.dirichlet = { { smg::Region::HalfSpace{ { 0, -1, 0 }, -Feet }, 0.0 },
+    { smg::Region::HalfSpace{ { 0, 1, 0 }, Ears }, 1.0 } };
+  return problem;
+}
 
 /** A vertex that a cell to come may use. */
 struct Vertex
@@ -145,7 +138,7 @@ int main(int argc, char** argv)
       throw smg::Error(std::string(argv[1]) + " has tetrahedra: this example needs triangles.");
     }
 
-    FeetAndEars problem;
+    smg::DescribedProblem problem(feetAndEars(), mesh->reader().info());
     smg::SolveOptions options;
     options.memoryLimit = std::int64_t(64) << 20;
     const auto solution = smg::solve(*mesh->reader().source({}, {}), problem, options);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Problem/JsonNode.h"
-
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -35,25 +34,28 @@ public:
     std::array<double, 3> center{};
     double radius = 0;
   };
-  /** Vertices by their original numbers, ascending. */
+  /** Vertices by their original numbers, from 0, in any order. */
   struct Vertices
   {
     std::vector<std::int64_t> ids;
   };
 
-  template <class Shape>
-  explicit Region(Shape shape)
-    : What(std::move(shape))
+  Region(HalfSpace shape)
+    : What(shape)
   {
   }
+  Region(Box shape)
+    : What(shape)
+  {
+  }
+  Region(Sphere shape)
+    : What(shape)
+  {
+  }
+  Region(Vertices shape);
 
-  /**
-   * Reads the one of these members that the object has:
-   * `halfspace` [nx, ny, nz, d], `box` [x0, y0, z0, x1, y1, z1], `sphere` [x, y, z, r],
-   * `vertices` [original numbers]. Throws Error if there is none or more than one, or if it is
-   * wrong: not finite, no direction, inside out, a negative radius, no vertices.
-   */
-  static Region parse(const JsonNode& object);
+  /** What is wrong with the region, as "must have a radius of at least 0"; empty: nothing. */
+  std::string complaint() const;
 
   /** Whether the vertex at `point` (x, y, z) with this original number is selected. */
   bool contains(std::span<const double, 3> point, std::int64_t id) const;
@@ -61,7 +63,7 @@ public:
   /** The middle of a sphere or a box; none of the others. */
   std::optional<std::array<double, 3>> center() const;
 
-  /** The vertices, if the region is a set of these, else null. */
+  /** The vertices, ascending and each once, if the region is a set of these, else null. */
   const Vertices* vertices() const { return std::get_if<Vertices>(&this->What); }
 
 private:

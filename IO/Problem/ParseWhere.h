@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Problem/JsonNode.h"
+#include "Solver/Description/Where.h"
+
+#include <array>
+#include <initializer_list>
+
+namespace smg
+{
+
+/** The keys of a region, and those of all that says where something holds. */
+inline constexpr std::array RegionKeys{ "halfspace", "box", "sphere", "vertices" };
+inline constexpr std::array WhereKeys{ "halfspace", "box", "sphere", "vertices", "tag", "mask",
+  "nearest" };
+
+/**
+ * Reads the one of these members that the object has:
+ * `halfspace` [nx, ny, nz, d], `box` [x0, y0, z0, x1, y1, z1], `sphere` [x, y, z, r],
+ * `vertices` [original numbers]. Throws Error if there is none or more than one, or if it is wrong.
+ */
+Region parseRegion(const JsonNode& object);
+
+/**
+ * The same with `tag` ["column", value], `mask` "column" and `nearest` [[x, y, z], ...].
+ * `everywhere`: whether there may be none.
+ */
+Where parseWhere(const JsonNode& object, bool everywhere = false);
+
+/** Throws Error unless the value is an object with no other keys than WhereKeys and these. */
+void requireWhereAnd(const JsonNode& object, std::initializer_list<const char*> keys);
+
+} // namespace smg

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Description/ColumnTest.h"
+#include "Solver/Description/Selection.h"
+
+namespace smg
+{
+
+/** What a column of the vertices selects. */
+class ColumnSelection : public Selection
+{
+public:
+  ColumnSelection(
+    ColumnTest test, DataPlace place, const std::string& key, const MeshColumns& columns)
+    : Selection(place, key, columns)
+    , Test(std::move(test))
+  {
+  }
+
+protected:
+  void select(const MeshBlock& block, std::span<std::uint8_t> selected) override
+  {
+    this->Test.apply(this->Test.column.in(block), 0, selected);
+  }
+  std::string predicate() const override { return this->Test.predicate(); }
+
+private:
+  ColumnTest Test;
+};
+
+} // namespace smg

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Description/MeshColumns.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace smg
+{
+
+/** Looks for a value in a column of one number, or for all that is not 0. */
+struct ColumnTest
+{
+  NamedColumn column;
+  std::optional<double> value; ///< none: what is not 0
+
+  /** Sets `selected` to 1 where the rows of `values` from `first` on have the value, else to 0. */
+  void apply(const Column& values, std::size_t first, std::span<std::uint8_t> selected) const
+  {
+    dispatch(values.spec.type,
+      [&]<class T>(T)
+      {
+        const std::span<const T> numbers = values.as<T>().subspan(first);
+        for (std::size_t i = 0; i < selected.size(); ++i)
+        {
+          const auto number = static_cast<double>(numbers[i]);
+          selected[i] = (this->value ? number == *this->value : number != 0.0) ? 1 : 0;
+        }
+      });
+  }
+
+  /** What is said of something that is selected. */
+  std::string predicate() const
+  {
+    return this->value ? "has this tag" : "has a mask that is not 0";
+  }
+};
+
+} // namespace smg

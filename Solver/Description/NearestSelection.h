@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Description/Selection.h"
+
+#include <vector>
+
+namespace smg
+{
+
+/** The vertices nearest to points, which are found by reading the stream once before. */
+class NearestSelection : public Selection
+{
+public:
+  NearestSelection(const NearestVertices& nearest, DataPlace place, const std::string& key,
+    const MeshColumns& columns);
+
+  bool needsPreparing() const override { return !this->Distances.empty(); }
+  void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
+  void endPreparing() override;
+
+protected:
+  void select(const MeshBlock& block, std::span<std::uint8_t> selected) override;
+
+private:
+  std::vector<std::array<double, 3>> Points;
+  std::vector<double>
+    Distances; ///< squared, of the nearest vertex so far to each point; empty in the end
+  std::vector<std::int64_t> Vertices; ///< those vertices; ascending, each once, in the end
+};
+
+} // namespace smg

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Description/Selection.h"
+
+#include <vector>
+
+namespace smg
+{
+
+/** What lies in a region, or has the numbers of a set of vertices. */
+class RegionSelection : public Selection
+{
+public:
+  RegionSelection(
+    const Region& region, DataPlace place, const std::string& key, MeshColumns& columns);
+
+  void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
+  void endPreparing() override;
+
+protected:
+  void select(const MeshBlock& block, std::span<std::uint8_t> selected) override;
+  std::string predicate() const override { return "is in this region"; }
+
+private:
+  Region Selected;
+  std::vector<bool> Found; ///< which of the vertices that the region names the mesh has
+};
+
+} // namespace smg

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Description/ValueRules.h"
+
+#include "Solver/Problem/CellWeights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace smg
+{
+
+std::array<double, 6> tensorOf(const double* numbers, int count)
+{
+  std::array<double, 6> tensor{ numbers[0], numbers[0], numbers[0], 0.0, 0.0, 0.0 };
+  std::copy_n(numbers, count == 1 ? 0 : count, tensor.begin());
+  return tensor;
+}
+
+const char* ValueRules::complaint(const double* numbers, int count) const
+{
+  const bool isFinite =
+    std::all_of(numbers, numbers + count, [](double number) { return std::isfinite(number); });
+  switch (this->range)
+  {
+    case ValueRange::Any:
+      return isFinite ? nullptr : "must be finite";
+    case ValueRange::NotNegative:
+      return isFinite && *std::min_element(numbers, numbers + count) >= 0.0
+               ? nullptr
+               : "must be finite and not negative";
+    default:
+      return isFinite && isPositiveDefinite(tensorOf(numbers, count).data())
+               ? nullptr
+               : "must be a positive number or a positive definite tensor";
+  }
+}
+
+} // namespace smg

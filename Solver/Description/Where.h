@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Description/Region.h"
+
+#include <array>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace smg
+{
+
+/** Everywhere. */
+struct Everywhere
+{
+};
+/** Where a column of one number, of the vertices or the cells, has this value. */
+struct ColumnTag
+{
+  std::string column;
+  double value = 0;
+};
+/** Where a column of one number, of the vertices or the cells, is not 0. */
+struct ColumnMask
+{
+  std::string column;
+};
+/** The vertices nearest to these points, one for each; of several, the first in the stream. */
+struct NearestVertices
+{
+  std::vector<std::array<double, 3>> points;
+};
+
+/**
+ * A part of a mesh that something holds for.
+ *
+ * A region, a column of the vertices and points select vertices; cells and facets of the boundary
+ * are selected if all their corners are. A column of the cells selects cells, their vertices and
+ * their facets. Where vertices and cells have a column of the name, the conductivity looks at that
+ * of the cells, everything else at that of the vertices.
+ */
+using Where = std::variant<Everywhere, Region, ColumnTag, ColumnMask, NearestVertices>;
+
+} // namespace smg

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Description/DescribedProblem.h"
+#include "Testing/Support/MemorySource.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace smg::testing
+{
+
+/**
+ * A box of tetrahedra with columns for problem descriptions: of the vertices "one" (one number),
+ * "three" (three), "mask" (1 where y is at most 1) and "nan" (no number); of the cells "k",
+ * "diagonal", "K", "q" (conductivities and a vector), "tag" (3 where all corners have x of at most
+ * 1, else 1) and "cellMask" (1 where "tag" is 3).
+ */
+inline StreamMesh describedMesh()
+{
+  StreamMesh mesh = toStream(tetBox(4, 3, 3, 0.1));
+  Random random(5);
+  const auto numbers = [&random](std::int64_t count, double low, double high)
+  {
+    std::vector<double> values(static_cast<std::size_t>(count));
+    std::ranges::generate(values, [&] { return random.uniform(low, high); });
+    return values;
+  };
+  std::vector<std::uint8_t> mask, cellMask;
+  for (std::int64_t v = 0; v < mesh.vertices(); ++v)
+  {
+    mask.push_back(mesh.positions[3 * v + 1] < 1.5 ? 1 : 0);
+  }
+  std::vector<std::int32_t> tag;
+  std::vector<double> tensor = numbers(6 * mesh.cells(), 0.0, 0.3);
+  for (std::int64_t c = 0; c < mesh.cells(); ++c)
+  {
+    bool isLeft = true;
+    for (int k = 0; k < 4; ++k)
+    {
+      isLeft = isLeft && mesh.positions[3 * mesh.corners[4 * c + k]] < 1.5;
+      tensor[6 * c + k % 3] += 1.0;
+    }
+    tag.push_back(isLeft ? 3 : 1);
+    cellMask.push_back(isLeft ? 1 : 0);
+  }
+  const auto vertices = mesh.vertices(), cells = mesh.cells();
+  mesh.vertexColumns = { makeColumn<double>("one", numbers(vertices, 0.5, 2.0)),
+    makeColumn<double>("three", numbers(3 * vertices, -1.0, 1.0), 3),
+    makeColumn<std::uint8_t>("mask", mask),
+    makeColumn<double>("nan", std::vector<double>(static_cast<std::size_t>(vertices), NAN)) };
+  mesh.cellColumns = { makeColumn<double>("k", numbers(cells, 0.5, 2.0)),
+    makeColumn<double>("diagonal", numbers(3 * cells, 0.5, 2.0), 3),
+    makeColumn<double>("K", tensor, 6), makeColumn<double>("q", numbers(3 * cells, -1.0, 1.0), 3),
+    makeColumn<std::int32_t>("tag", tag), makeColumn<std::uint8_t>("cellMask", cellMask) };
+  return mesh;
+}
+
+/** All that a problem says of a mesh. */
+struct ProblemAnswers
+{
+  VertexConditions vertices;
+  std::vector<double> weight, screening, source, field, conductivity; // of cells
+  std::vector<std::int32_t> flux, robin;                              // of facets
+  std::vector<double> fluxValue, coefficient, ambient;
+
+  bool operator==(const ProblemAnswers& other) const
+  {
+    return this->vertices.dirichlet == other.vertices.dirichlet &&
+           this->vertices.value == other.vertices.value &&
+           this->vertices.source == other.vertices.source &&
+           this->vertices.screening == other.vertices.screening && this->weight == other.weight &&
+           this->screening == other.screening && this->source == other.source &&
+           this->field == other.field && this->conductivity == other.conductivity &&
+           this->flux == other.flux && this->robin == other.robin &&
+           this->fluxValue == other.fluxValue && this->coefficient == other.coefficient &&
+           this->ambient == other.ambient;
+  }
+};
+
+/** Asks a problem as the engine does, for `batch` cells at a time. The weights on entry are 1. */
+ProblemAnswers answersOf(Problem& problem, MeshSource& mesh, std::size_t batch = 5);
+
+} // namespace smg::testing
