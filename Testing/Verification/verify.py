@@ -60,9 +60,9 @@ def report_error(report, conditions, answer, span):
     """In %: the largest error of areas, of means over the span of the solution, of the energy, and of
     fluxes over all that flows."""
     worst = np.max(np.abs(report["mean"] - answer.mean)) / span
-    least = 1e-9 * span * answer.traffic  # a constant has no energy, but its rounding
-    worst = max(worst, np.max(np.abs(report["energy"] - answer.energy)
-                              / np.maximum(answer.energy, least)))
+    if np.ptp(answer.u) > 1e-9 * span:  # else it has none but that of rounding
+        scale = np.maximum(answer.energy, 1e-9 * span * answer.traffic)
+        worst = max(worst, np.max(np.abs(report["energy"] - answer.energy) / scale))
     for name, expected in answer.conditions.items():
         said = conditions[name]
         worst = max(worst, np.max(np.abs(said["flux"] - expected.flux) / answer.traffic))
