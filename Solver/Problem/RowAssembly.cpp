@@ -85,9 +85,9 @@ void RowAssembly::addNeighbours(
   this->Size = 0;
   for (const RowNeighbour& neighbour : neighbours)
   {
-    const auto stored = static_cast<float>(neighbour.weight);
-    const double weight = stored;
     const bool known = this->Vertices.dirichlet[neighbour.to] >= 0;
+    const auto stored = static_cast<float>(neighbour.weight);
+    const double weight = known ? knownWeight(this->Kind, neighbour) : stored;
     const double* other = this->Vertices.values.at(neighbour.to);
     const auto term = [&](std::size_t k)
     { return weight * ((known ? other[k] : 0.0) + (target ? target[k] : 0.0)); };

@@ -20,6 +20,14 @@ struct RowNeighbour
   double weight; ///< finite in single precision, too
 };
 
+/** The weight of an edge to a prescribed vertex as the system has it, where alpha and b are made of
+ * it: finite elements need not round it. */
+inline double knownWeight(Weights weights, const RowNeighbour& neighbour)
+{
+  return weights == Weights::Cotangent ? neighbour.weight
+                                       : static_cast<double>(static_cast<float>(neighbour.weight));
+}
+
 /**
  * The weights of the edges of open vertices: those of the cells, summed in stream order, and what
  * Weights makes of the sums.

@@ -257,9 +257,8 @@ void ProblemResults::closeDirichlet(std::int64_t i, double alpha)
     this->Reaction[k] = alpha * u[k] - this->Load[k];
     for (const RowNeighbour& neighbour : this->Neighbours)
     {
-      // In single precision, as the rows of its neighbours have it.
-      this->Reaction[k] += static_cast<double>(static_cast<float>(neighbour.weight)) *
-                           (u[k] - this->Vertices.values.at(neighbour.to)[k]);
+      this->Reaction[k] +=
+        knownWeight(this->Kind, neighbour) * (u[k] - this->Vertices.values.at(neighbour.to)[k]);
     }
   }
   this->Conditions.add(this->Vertices.dirichlet[i], u, this->Reaction.data());
