@@ -4,6 +4,8 @@
 #include "Solver/Cycle/IterateHistory.h"
 #include "Solver/Cycle/LevelCursors.h"
 #include "Solver/Cycle/LevelWindow.h"
+#include "Solver/Cycle/PatchRelaxation.h"
+#include "Solver/Cycle/SpecialNodes.h"
 #include "Solver/Cycle/Transfer.h"
 
 #include <cstdint>
@@ -364,9 +366,18 @@ private:
     this->At.restricted = end;
   }
 
+  using State = typename LevelWindow<Real>::State;
+
   /** One sweep over nodes [begin, end). */
   template <bool LowerOnly>
-  void sweep(std::int64_t begin, std::int64_t end, typename LevelWindow<Real>::State& state);
+  void sweep(std::int64_t begin, std::int64_t end, State& state);
+  /** The turn of a special node in a sweep. */
+  template <bool LowerOnly, class Arrays>
+  void relaxSpecial(const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node,
+    State& state);
+  template <bool LowerOnly, class Vectors, class Arrays>
+  void relaxPatch(const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node,
+    State& state, int lane);
   void prolongTo(std::int64_t begin, std::int64_t end);
   void restrictTo(std::int64_t end);
 

@@ -3,27 +3,106 @@
 
 #include "Solver/Cycle/Level.h"
 
+#include <algorithm>
+#include <type_traits>
+
 namespace smg
 {
 
+/** One sweep over `nodes`, each by itself. */
+template <bool LowerOnly, class Relaxation, class Real, class Arrays>
+void relaxNodes(const RowBlock::Header& h, const Arrays& a, BlockRange nodes, int stride, Real* x,
+  const Real* b)
+{
+  if (stride == 1)
+  {
+    Relaxation::template sweep<LowerOnly, Lanes<Real, 1>>(h, a, nodes, 1, x, b);
+  }
+  for (int lane = 0; lane + 3 < stride; lane += 4)
+  {
+    Relaxation::template sweep<LowerOnly, Lanes<Real, 4>>(h, a, nodes, stride, x + lane, b + lane);
+  }
+}
+
 template <class Real, class Relaxation>
 template <bool LowerOnly>
-void Level<Real, Relaxation>::sweep(
-  std::int64_t begin, std::int64_t end, typename LevelWindow<Real>::State& state)
+void Level<Real, Relaxation>::sweep(std::int64_t begin, std::int64_t end, State& state)
 {
   const int stride = this->Window.stride();
   this->Window.forRange(begin, end, state,
-    [stride](const auto& h, const auto& a, BlockRange nodes, Real* x, Real* b)
+    [&](const auto& h, const auto& a, BlockRange range, Real* x, Real* b)
     {
-      if (stride == 1)
-      {
-        Relaxation::template sweep<LowerOnly, One>(h, a, nodes, 1, x, b);
-      }
-      for (int lane = 0; lane + 3 < stride; lane += 4)
-      {
-        Relaxation::template sweep<LowerOnly, Four>(h, a, nodes, stride, x + lane, b + lane);
-      }
+      visitNodes(
+        h, a, range,
+        [&](BlockRange nodes) { relaxNodes<LowerOnly, Relaxation>(h, a, nodes, stride, x, b); },
+        [&](const RowBlock::Special& node) { this->relaxSpecial<LowerOnly>(h, a, node, state); });
     });
+}
+
+template <class Real, class Relaxation>
+template <bool LowerOnly, class Arrays>
+void Level<Real, Relaxation>::relaxSpecial(
+  const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node, State& state)
+{
+  const int stride = this->Window.stride();
+  Real* x = state.x.at(h.first);
+  if (node.size == 1)
+  {
+    const Real* b = state.b.at(h.first);
+    visitSpecial<Real>(h, a, node,
+      [&](const auto& arrays)
+      {
+        relaxNodes<LowerOnly, Relaxation>(
+          h, arrays, { node.node, node.node + 1 }, stride, x, b);
+      });
+    return;
+  }
+  if (node.size == 0)
+  {
+    if (LowerOnly)
+    {
+      std::fill_n(x + node.node * static_cast<std::int64_t>(stride), stride, Real{});
+    }
+    return;
+  }
+  if (stride == 1)
+  {
+    this->relaxPatch<LowerOnly, One>(h, a, node, state, 0);
+  }
+  for (int lane = 0; lane + 3 < stride; lane += 4)
+  {
+    this->relaxPatch<LowerOnly, Four>(h, a, node, state, lane);
+  }
+}
+
+/** Relaxes the patch that ends at `node`, the columns from `lane` on. */
+template <class Real, class Relaxation>
+template <bool LowerOnly, class Vectors, class Arrays>
+void Level<Real, Relaxation>::relaxPatch(const RowBlock::Header& h, const Arrays& a,
+  const RowBlock::Special& node, State& state, int lane)
+{
+  const int stride = this->Window.stride();
+  const std::int64_t last = h.first + node.node;
+  const double* distance = a.value + node.value;
+  typename Vectors::Vector residual[PatchMatrix::Most];
+  const auto findResidual = [&](const auto& header, const auto& rows, std::int64_t k, int member)
+  {
+    visitSpecial<Real>(header, rows, specialOf(header, rows, k),
+      [&](const auto& arrays)
+      {
+        residual[member] = rowResidual<LowerOnly, Vectors>(header, arrays, k, last - header.first,
+          stride, state.x.at(header.first) + lane, state.b.at(header.first) + lane);
+      });
+  };
+  for (int k = 0; k + 1 < node.size; ++k)
+  {
+    this->Window.visitRow(last + static_cast<std::int64_t>(distance[k]),
+      [&](const auto& header, const auto& rows, std::int64_t own)
+      { findResidual(header, rows, own, k); });
+  }
+  findResidual(h, a, node.node, node.size - 1);
+  correctPatch<LowerOnly, Vectors>(node.size, distance, distance + node.size - 1, residual, stride,
+    state.x.at(last) + lane);
 }
 
 template <class Real, class Relaxation>
@@ -50,20 +129,37 @@ void Level<Real, Relaxation>::restrictTo(std::int64_t end)
 {
   const int stride = this->Window.stride();
   this->Window.forRange(this->Core ? 0 : this->At.restricted, end, this->Window.down(),
-    [&](const auto& h, const auto& a, BlockRange nodes, Real* x, Real* b)
+    [&](const auto& h, const auto& a, BlockRange range, Real* x, Real* b)
     {
       float* coarse = this->Coarse->window().b().at(h.parentBase);
       Real* squares = this->Squares.data();
-      if (stride == 1)
+      const auto restrictNodes = [&](const auto& arrays, BlockRange nodes)
       {
-        restrictResidual<One, Lanes<float, 1>>(h, a, nodes, 1, x, b, coarse, this->Scale, squares,
-          ResidualKeeper<One>(this->History, h.first, 0));
+        if (stride == 1)
+        {
+          restrictResidual<One, Lanes<float, 1>>(h, arrays, nodes, 1, x, b, coarse, this->Scale,
+            squares, ResidualKeeper<One>(this->History, h.first, 0));
+        }
+        for (int lane = 0; lane + 3 < stride; lane += 4)
+        {
+          restrictResidual<Four, Lanes<float, 4>>(h, arrays, nodes, stride, x + lane, b + lane,
+            coarse + lane, this->Scale, squares + lane,
+            ResidualKeeper<Four>(this->History, h.first, lane));
+        }
+      };
+      if constexpr (!std::is_same_v<Real, double>)
+      {
+        restrictNodes(a, range);
       }
-      for (int lane = 0; lane + 3 < stride; lane += 4)
+      else
       {
-        restrictResidual<Four, Lanes<float, 4>>(h, a, nodes, stride, x + lane, b + lane,
-          coarse + lane, this->Scale, squares + lane,
-          ResidualKeeper<Four>(this->History, h.first, lane));
+        visitNodes(
+          h, a, range, [&](BlockRange nodes) { restrictNodes(a, nodes); },
+          [&](const RowBlock::Special& node)
+          {
+            visitSpecial<Real>(h, a, node,
+              [&](const auto& rows) { restrictNodes(rows, { node.node, node.node + 1 }); });
+          });
       }
     });
 }

@@ -161,6 +161,15 @@ public:
     }
   }
 
+  /** Calls f(header, arrays, k) with the block of node `node`, which has number k there. */
+  template <class F>
+  void visitRow(std::int64_t node, F&& f) const
+  {
+    const RowBlock& block = this->block(node);
+    block.visit<Real>(
+      [&](const auto& arrays) { f(block.header(), arrays, node - block.first()); });
+  }
+
   /** Between passes, after the first one: calls f(block, b) for the b of every block of
    * RowBlock::Nodes nodes, without padding, and keeps what it makes of it. */
   template <class F>

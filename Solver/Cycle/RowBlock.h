@@ -43,20 +43,47 @@ public:
     std::int8_t wide = 0;
     std::int8_t weightBytes = 0;
     std::uint16_t alphaGroups = 0; ///< bit g: some row of group g has a sum that is not zero
-    /** Largest node in rows 0 .. end of the group; the same of children and of parents. */
+    std::int32_t specials = 0;     ///< nodes that are treated by themselves
+    std::int32_t values = 0;       ///< of patches that end here
+    std::int32_t precise = 0;      ///< weights in double precision
+    /**
+     * neighbourReach: the largest node in rows 0 .. end of the group, or the last one of the patch
+     * of such a node of this block, whose value is final only then. childReach, parentReach: the
+     * largest child and parent in these rows.
+     */
     std::array<std::int64_t, Groups> neighbourReach{}, childReach{}, parentReach{};
     /** Where the entries and the parents of the group begin. */
     std::array<std::int32_t, Groups> entryStart{}, parentStart{};
   };
 
   /**
+   * A node whose row is kept in double precision, or that belongs to a patch: a few nodes, coupled
+   * so strongly that they have to be relaxed together, at the last one's turn.
+   */
+  struct Special
+  {
+    std::int16_t node; ///< numbered in the block
+    /** Nodes that are relaxed at this one's turn, itself the last of them; 0: it is a patch's node
+     * before the last. */
+    std::int16_t size;
+    /** Where the patch's values begin: the distances (negative) of the nodes before this one, and
+     * the lower triangle of the inverse of the matrix on the patch. */
+    std::int32_t value;
+    std::int32_t precise; ///< where the row's weights in double precision begin; -1: it has none
+    std::int32_t reserved;
+
+    static constexpr int valuesOf(int size) { return size - 1 + size * (size + 1) / 2; }
+  };
+  static_assert(sizeof(Special) == 16);
+
+  /**
    * The arrays of a block, Index being std::int16_t (narrow) or WideIndex (wide). An index is read
    * where it stands, never from a copy.
    *
    * Weight is float on the finest level. On the coarse ones, which only precondition, it is
-   * BFloat16: the diagonals are made of the rounded weights, so that row sums stay exact. Where
-   * rows may be stiff, weights nearly cancel, and are floats on all levels, as precise as the
-   * coarse operator's entries (CoarseEntry).
+   * BFloat16: the diagonals are made of the rounded weights, so that row sums stay exact. Blocks
+   * of coarse levels with rows whose weights nearly cancel have floats, as precise as the coarse
+   * operator's entries (CoarseEntry); such rows of the finest level have double precision beside.
    */
   template <class Index, class Weight>
   struct Arrays
@@ -68,9 +95,21 @@ public:
     const Index* parent;              // a parent, relative to parentBase
     const Count* entryEnd;            // a node: end of its entries, from the group's start
     const Count* parentEnd;           // a node: end of its parents, from the group's start
-    const std::uint8_t* parentQuanta; // a parent
+    const std::int8_t* parentQuanta;  // a parent
     const double* alpha;              // a node of the groups that have them: the row's sum
+    const Special* special;           // by ascending node
+    const double* value;              // of patches
+    const double* precise;            // of special nodes
     const double* diagonal;           // a node
+
+    /** The same with the weights of a special node's row in double precision, for that row alone,
+     * whose entries begin at `begin`. */
+    Arrays<Index, double> ofPreciseRow(const Special& node, std::int64_t begin) const
+    {
+      return { this->precise + node.precise - begin, this->delta, this->parent, this->entryEnd,
+        this->parentEnd, this->parentQuanta, this->alpha, this->special, this->value, this->precise,
+        this->diagonal };
+    }
   };
 
   RowBlock() = default;
@@ -98,6 +137,9 @@ public:
     take(at, a.parentEnd, h.nodes);
     take(at, a.parentQuanta, h.parents);
     take(at, a.alpha, alphas(h));
+    take(at, a.special, h.specials);
+    take(at, a.value, h.values);
+    take(at, a.precise, h.precise);
     take(at, a.diagonal, h.nodes);
     return a;
   }
@@ -141,7 +183,8 @@ public:
     const auto parents = static_cast<std::size_t>(h.parents);
     return sizeof(Header) + aligned(entries * static_cast<std::size_t>(h.weightBytes)) +
            aligned(entries * index) + aligned(parents * index) + 2 * aligned(nodes * count) +
-           aligned(parents) + static_cast<std::size_t>(alphas(h)) * sizeof(double);
+           aligned(parents) + static_cast<std::size_t>(h.specials) * sizeof(Special) +
+           static_cast<std::size_t>(alphas(h) + h.values + h.precise) * sizeof(double);
   }
 
   /** What is on disk of the block. */
@@ -195,11 +238,22 @@ void RowBlock::sumDiagonals(const Arrays<Index, Weight>& a)
   auto* diagonal = const_cast<double*>(a.diagonal);
   const double* alpha = a.alpha;
   const Weight* weight = a.weight;
+  const Special* special = a.special;
+  const Special* lastSpecial = a.special + h.specials;
   for (std::int32_t k = 0; k < h.nodes; ++k)
   {
     const auto group = static_cast<std::size_t>(k / Group);
     double sum = h.alphaGroups >> group & 1 ? *alpha++ : 0.0;
-    for (const Weight* end = a.weight + h.entryStart[group] + a.entryEnd[k]; weight < end; ++weight)
+    const Weight* end = a.weight + h.entryStart[group] + a.entryEnd[k];
+    special += special != lastSpecial && special->node < k ? 1 : 0;
+    if (special != lastSpecial && special->node == k && special->precise >= 0)
+    {
+      for (const double* precise = a.precise + special->precise; weight < end; ++weight)
+      {
+        sum += *precise++;
+      }
+    }
+    for (; weight < end; ++weight)
     {
       sum += static_cast<float>(*weight);
     }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Cycle/RowBlockPacker.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <limits>
+#include <span>
+#include <vector>
 
 namespace smg
 {
@@ -14,6 +17,74 @@ using Header = RowBlock::Header;
 // What a WideIndex holds.
 static_assert(RowEntry::MostDistance < (1 << 23) && CoarseWindow <= (1 << 23));
 
+/** The inverse of the matrix on a patch must be exact enough for its soft modes. */
+constexpr double LeastPivot = 1e-9;
+
+/** The special nodes of a block, as they go into it. */
+struct Specials
+{
+  std::vector<RowBlock::Special> nodes;
+  std::vector<double> values, precise;
+  /** Some row has weights that nearly cancel. */
+  bool cancelling = false;
+
+  void find(const LevelRows& rows, const Patches* patches, std::int64_t first, std::int64_t nodes)
+  {
+    for (std::int64_t i = first; i < first + nodes; ++i)
+    {
+      const Patch* patch = patches ? patches->of(i) : nullptr;
+      const std::span<const double> weights = rows.precise(i);
+      this->cancelling = this->cancelling || rows.stiff(i);
+      if (!patch && weights.empty())
+      {
+        continue;
+      }
+      RowBlock::Special node{ static_cast<std::int16_t>(i - first), 1, 0, -1, 0 };
+      if (patch)
+      {
+        node.size = this->sizeAt(*patch, i);
+        node.value = static_cast<std::int32_t>(this->values.size());
+        this->addValues(*patch, node.size);
+      }
+      if (!weights.empty())
+      {
+        node.precise = static_cast<std::int32_t>(this->precise.size());
+        this->precise.insert(this->precise.end(), weights.begin(), weights.end());
+      }
+      this->nodes.push_back(node);
+    }
+    this->cancelling = this->cancelling || !this->nodes.empty();
+  }
+
+private:
+  PatchMatrix Inverse;
+
+  /** How many nodes of a patch are relaxed at node i's turn. */
+  std::int16_t sizeAt(const Patch& patch, std::int64_t i)
+  {
+    this->Inverse = patch.matrix;
+    if (!this->Inverse.invert(LeastPivot))
+    {
+      return 1;
+    }
+    return static_cast<std::int16_t>(i == patch.last() ? patch.size : 0);
+  }
+
+  void addValues(const Patch& patch, int size)
+  {
+    if (size < 2)
+    {
+      return;
+    }
+    for (int k = 0; k + 1 < size; ++k)
+    {
+      this->values.push_back(static_cast<double>(patch.member(k) - patch.last()));
+    }
+    this->values.insert(this->values.end(), this->Inverse.entry,
+      this->Inverse.entry + PatchMatrix::entriesOf(size));
+  }
+};
+
 /** Measures the block: its counts, reaches, and whether it fits narrow indices. */
 Header measure(
   const LevelRows& rows, const CoarseningData* coarsening, std::int64_t first, std::int64_t nodes)
@@ -23,6 +94,7 @@ Header measure(
   h.nodes = static_cast<std::int32_t>(nodes);
   std::int64_t largestDelta = 0, largestParent = 0, largestCount = 0;
   bool based = false;
+  std::int64_t settled = -1; // the last node of a patch so far
   for (std::int64_t k = 0; k < nodes; ++k)
   {
     const std::int64_t i = first + k;
@@ -43,7 +115,15 @@ Header measure(
     {
       h.alphaGroups = static_cast<std::uint16_t>(h.alphaGroups | 1U << group);
     }
-    h.neighbourReach[group] = rows.reach(i);
+    if (coarsening)
+    {
+      settled = std::max(settled, coarsening->patches.last(i));
+      for (const RowEntry& entry : row)
+      {
+        settled = std::max(settled, coarsening->patches.last(i + entry.delta()));
+      }
+    }
+    h.neighbourReach[group] = std::max(rows.reach(i), settled);
     h.childReach[group] = rows.childReach(i);
     h.parentReach[group] = -1;
     if (coarsening)
@@ -71,7 +151,8 @@ Header measure(
 }
 
 template <class Index, class Weight>
-void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarsening)
+void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarsening,
+  const Specials& specials)
 {
   const Header& h = block.header();
   const auto a = block.arrays<Index, Weight>();
@@ -83,7 +164,10 @@ void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarseni
   auto* parent = const_cast<Index*>(a.parent);
   auto* entryEnd = const_cast<Count*>(a.entryEnd);
   auto* parentEnd = const_cast<Count*>(a.parentEnd);
-  auto* quanta = const_cast<std::uint8_t*>(a.parentQuanta);
+  auto* quanta = const_cast<std::int8_t*>(a.parentQuanta);
+  std::ranges::copy(specials.nodes, const_cast<RowBlock::Special*>(a.special));
+  std::ranges::copy(specials.values, const_cast<double*>(a.value));
+  std::ranges::copy(specials.precise, const_cast<double*>(a.precise));
   std::int32_t entries = 0, parents = 0;
   for (std::int64_t k = 0; k < h.nodes; ++k)
   {
@@ -106,40 +190,54 @@ void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarseni
       for (; p != end; ++p)
       {
         parent[parents] = static_cast<Index>(p->offset(h.parentBase));
-        quanta[parents++] = static_cast<std::uint8_t>(p->quanta());
+        quanta[parents++] = static_cast<std::int8_t>(p->quanta());
       }
     }
     parentEnd[k] = static_cast<Count>(parents - h.parentStart[group]);
   }
 }
 
+template <class Weight>
+void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarsening,
+  const Specials& specials)
+{
+  if (block.header().wide)
+  {
+    fill<WideIndex, Weight>(block, rows, coarsening, specials);
+  }
+  else
+  {
+    fill<std::int16_t, Weight>(block, rows, coarsening, specials);
+  }
+}
+
 } // namespace
 
-template <class Weight>
 RowBlock packRows(SpareBuffers& buffers, const LevelRows& rows, const CoarseningData* coarsening,
-  std::int64_t first, std::int64_t nodes)
+  std::int64_t first, std::int64_t nodes, bool mayRound)
 {
+  Specials specials;
+  specials.find(rows, coarsening ? &coarsening->patches : nullptr, first, nodes);
+  const bool rounds = mayRound && !specials.cancelling;
   Header header = measure(rows, coarsening, first, nodes);
-  header.weightBytes = sizeof(Weight);
+  header.weightBytes = rounds ? sizeof(BFloat16) : sizeof(float);
+  header.specials = static_cast<std::int32_t>(specials.nodes.size());
+  header.values = static_cast<std::int32_t>(specials.values.size());
+  header.precise = static_cast<std::int32_t>(specials.precise.size());
   Buffer buffer = buffers.take(RowBlock::storedBytes(header) + RowBlock::diagonalBytes(nodes));
   std::fill_n(buffer.data(), buffer.size(), std::byte{});
   *reinterpret_cast<Header*>(buffer.data()) = header;
   RowBlock block(std::move(buffer));
-  if (header.wide)
+  if (rounds)
   {
-    fill<WideIndex, Weight>(block, rows, coarsening);
+    fill<BFloat16>(block, rows, coarsening, specials);
   }
   else
   {
-    fill<std::int16_t, Weight>(block, rows, coarsening);
+    fill<float>(block, rows, coarsening, specials);
   }
   block.sumDiagonals();
   return block;
 }
-
-template RowBlock packRows<float>(
-  SpareBuffers&, const LevelRows&, const CoarseningData*, std::int64_t, std::int64_t);
-template RowBlock packRows<BFloat16>(
-  SpareBuffers&, const LevelRows&, const CoarseningData*, std::int64_t, std::int64_t);
 
 } // namespace smg

@@ -9,11 +9,11 @@ namespace smg
 {
 
 /**
- * Copies the rows [first, first + nodes) of a level, and its interpolation if `coarsening` is not
- * null, to a block whose weights are of type Weight, float or BFloat16, in one of the buffers.
+ * Copies the rows [first, first + nodes) of a level, and its interpolation and patches if
+ * `coarsening` is not null, to a block in one of the buffers. Its weights are floats, or BFloat16
+ * where `mayRound` and no row is special.
  */
-template <class Weight>
 RowBlock packRows(SpareBuffers& buffers, const LevelRows& rows, const CoarseningData* coarsening,
-  std::int64_t first, std::int64_t nodes);
+  std::int64_t first, std::int64_t nodes, bool mayRound);
 
 } // namespace smg

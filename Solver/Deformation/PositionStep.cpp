@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Deformation/PositionStep.h"
 
+#include "Solver/Cycle/SpecialNodes.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -100,10 +102,20 @@ void PositionStep::closeGroup(const RestBlock& block, std::int64_t end)
   this->Window.forRange(this->Done, end, this->Window.down(),
     [&](const auto& h, const auto& a, BlockRange nodes, double*, double*)
     {
-      for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
+      const auto closeRows = [&](const auto& arrays, BlockRange rows)
       {
-        this->closeRow(block, h, a, k);
-      }
+        for (std::int64_t k = rows.begin; k < rows.end; ++k)
+        {
+          this->closeRow(block, h, arrays, k);
+        }
+      };
+      visitNodes(
+        h, a, nodes, [&](BlockRange rows) { closeRows(a, rows); },
+        [&](const RowBlock::Special& node)
+        {
+          visitSpecial<double>(h, a, node,
+            [&](const auto& rows) { closeRows(rows, { node.node, node.node + 1 }); });
+        });
     });
   this->Done = end;
 }

@@ -223,8 +223,7 @@ private:
       const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
       const CoarseningData* data = step ? &step->data() : nullptr;
       this->Ready[static_cast<std::size_t>(l)].push_back(
-        l == 0 || this->Stiff.any() ? packRows<float>(buffers, rows, data, begin, nodes)
-                                    : packRows<BFloat16>(buffers, rows, data, begin, nodes));
+        packRows(buffers, rows, data, begin, nodes, l > 0 && !this->Stiff.any()));
       begin += nodes;
       if (step)
       {

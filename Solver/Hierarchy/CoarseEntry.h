@@ -34,9 +34,8 @@ inline std::int32_t coarseDistance(std::uint32_t bits, std::int64_t near)
 }
 
 /**
- * A coarse node and a number that belongs to it, in six bytes: most of what coarsening keeps in
- * memory are these. The number is a float of which 15 bits of the mantissa are kept; it is an entry
- * of an operator that preconditions and whose row sums are kept by themselves.
+ * A coarse node and a number that belongs to it, in seven bytes: most of what coarsening keeps in
+ * memory are these. Numbers of fewer bits would do for all but slivers, whose rows nearly cancel.
  */
 class CoarseEntry
 {
@@ -44,26 +43,18 @@ public:
   CoarseEntry() = default;
   CoarseEntry(CoarseIndex coarse, float value)
   {
-    const std::uint64_t bits = std::uint64_t(coarse) << 24 | rounded(value);
-    std::memcpy(this->Bytes.data(), &bits, sizeof(*this));
+    const std::uint32_t shifted = coarse << 8;
+    std::memcpy(this->Bytes.data() + 3, &shifted, sizeof(shifted));
+    this->setValue(value);
   }
 
-  float value() const { return std::bit_cast<float>(this->load(0) << 8); }
-  void setValue(float value)
-  {
-    const std::uint32_t bits = rounded(value);
-    std::memcpy(this->Bytes.data(), &bits, 3);
-  }
+  float value() const { return std::bit_cast<float>(this->load(0)); }
+  void setValue(float value) { std::memcpy(this->Bytes.data(), &value, sizeof(value)); }
 
   /** Distance of the coarse node from `near`, which is alive. */
-  std::int32_t offset(std::int64_t near) const { return coarseDistance(this->load(2), near); }
+  std::int32_t offset(std::int64_t near) const { return coarseDistance(this->load(3), near); }
 
 private:
-  /** The upper 24 bits of the nearest number that has no more; the usual NaN stays one. */
-  static std::uint32_t rounded(float value)
-  {
-    return (std::bit_cast<std::uint32_t>(value) + 128) >> 8;
-  }
   std::uint32_t load(std::size_t at) const
   {
     std::uint32_t bits = 0;
@@ -71,8 +62,8 @@ private:
     return bits;
   }
 
-  std::array<std::byte, 6> Bytes; // 24 bits of the number, then 24 of the index
+  std::array<std::byte, 7> Bytes; // the number, then 24 bits of the index
 };
-static_assert(sizeof(CoarseEntry) == 6 && std::endian::native == std::endian::little);
+static_assert(sizeof(CoarseEntry) == 7 && std::endian::native == std::endian::little);
 
 } // namespace smg

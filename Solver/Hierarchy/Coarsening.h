@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace smg
 {
@@ -28,6 +29,7 @@ public:
     Pool& pool, Operators operators, LevelRows& fine, LevelRows& coarse, StiffRows stiff = {})
     : Set(std::move(operators))
     , Data(pool, fine, coarse, stiff)
+    , Relaxed(static_cast<std::size_t>(this->Set.interpolationSweeps()))
   {
   }
 
@@ -65,11 +67,14 @@ public:
   {
     CoarseningData& d = this->Data;
     const LevelRows& rows = d.fine;
-    this->LiftedDone = rows.unreached(this->LiftedDone, this->Initial);
-    this->InitialDone = rows.unreached(this->InitialDone, this->Interpolated);
+    this->RelaxedDone = rows.unreached(this->RelaxedDone, this->Interpolated);
     this->ReachDone = rows.unreached(this->ReachDone, this->Multiplied);
-    d.lifted.release(this->LiftedDone);
-    d.initial.release(this->InitialDone);
+    this->PatchesDone = rows.unreached(this->PatchesDone, this->Packed);
+    d.lifted.release(this->RelaxedDone);
+    d.initial.release(this->RelaxedDone);
+    d.initialSum.release(this->RelaxedDone);
+    d.relaxed.release(this->RelaxedDone);
+    d.patches.release(std::min(this->PatchesDone, this->Multiplied));
     while (
       this->ProductDone < this->Multiplied && d.parentReach[this->ProductDone] < this->Gathered)
     {
@@ -85,7 +90,7 @@ public:
     const std::int64_t nextFine =
       this->Gathered < d.coarseNodes ? d.liftedFrom[this->Gathered] : this->Lifted;
     d.fine.release(std::min(this->Multiplied, this->Packed),
-      std::min({ this->LiftedDone, this->InitialDone, this->ReachDone, nextFine }));
+      std::min({ this->RelaxedDone, this->ReachDone, this->PatchesDone, nextFine }));
     d.liftedFrom.release(this->Gathered);
     d.firstChild.release(this->Gathered);
     d.lastChild.release(this->Finished);
@@ -100,6 +105,7 @@ private:
     d.lifted.extend(this->Rows);
     for (std::int64_t& i = this->Lifted; i < this->Rows; ++i)
     {
+      d.patches.add(d.fine);
       const bool lifted = this->Set.lift(d, i);
       d.lifted[i] = lifted ? static_cast<CoarseIndex>(d.coarseNodes) : CoarseningData::Retained;
       if (lifted)
@@ -126,10 +132,36 @@ private:
     {
       this->Set.interpolateInitial(d, i);
     }
+    this->relax();
     d.rowQuanta.extendRaw(rows);
-    for (std::int64_t& i = this->Interpolated; i < rows && d.fine.reach(i) < this->Initial; ++i)
+    for (std::int64_t& i = this->Interpolated; i < this->Relaxed.back().settled; ++i)
     {
       this->Set.interpolate(d, i);
+    }
+  }
+
+  /** The sweeps over the rows of P, one behind the other. */
+  void relax()
+  {
+    CoarseningData& d = this->Data;
+    for (std::int64_t i = d.relaxed.end(); i < this->Initial; ++i)
+    {
+      d.relaxed.extendRaw(i + 1);
+      d.relaxed[i].size = RelaxedRow::Pending;
+    }
+    std::int64_t before = this->Initial;
+    for (Sweep& sweep : this->Relaxed)
+    {
+      while (sweep.next < this->Rows && d.fine.reach(sweep.next) < before)
+      {
+        this->Set.relaxInterpolation(d, sweep.next++);
+      }
+      // A patch is relaxed at its last node.
+      while (sweep.settled < sweep.next && d.patches.last(sweep.settled) < sweep.next)
+      {
+        ++sweep.settled;
+      }
+      before = sweep.settled;
     }
   }
 
@@ -204,11 +236,19 @@ private:
   CoarseningData Data;
   RowBatch Final;
 
+  /** A sweep over the rows of P: the next row, and up to where all have been relaxed. */
+  struct Sweep
+  {
+    std::int64_t next = 0, settled = 0;
+  };
+
   std::int64_t Rows = 0; // of the fine level, that stages may look at
-  std::int64_t Lifted = 0, Initial = 0, Interpolated = 0, Multiplied = 0; // by fine node
+  std::int64_t Lifted = 0, Initial = 0; // by fine node
+  std::vector<Sweep> Relaxed;
+  std::int64_t Interpolated = 0, Multiplied = 0;
   std::int64_t Gathered = 0, Finished = 0;                                // by coarse node
   std::int64_t Packed = 0;
-  std::int64_t LiftedDone = 0, InitialDone = 0, ReachDone = 0, ProductDone = 0;
+  std::int64_t RelaxedDone = 0, ReachDone = 0, PatchesDone = 0, ProductDone = 0;
 };
 
 } // namespace smg

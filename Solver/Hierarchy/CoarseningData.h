@@ -3,6 +3,7 @@
 
 #include "Solver/Hierarchy/CoarseEntry.h"
 #include "Solver/Hierarchy/LevelRows.h"
+#include "Solver/Hierarchy/Patches.h"
 #include "Solver/Hierarchy/StiffRows.h"
 #include "Solver/Storage/MonotoneRing.h"
 #include "Solver/Storage/RaggedRing.h"
@@ -13,15 +14,23 @@
 namespace smg
 {
 
-/** An entry of a row of the initial interpolation. */
-struct InitialEntry
+/**
+ * A row of the interpolation while it is being relaxed, with the sum of its weights, which is kept
+ * by itself: it is exactly 1 where no constraint reaches.
+ */
+struct RelaxedRow
 {
-  CoarseIndex coarse;
-  float weight;
-};
+  static constexpr int Most = 5;
+  static constexpr std::int8_t Pending = -1;
 
-/** Interpolation weights are multiples of 1/Quanta, so that row sums are exact. */
-inline constexpr int Quanta = 255;
+  float sum;
+  CoarseEntry entry[Most];
+  std::int8_t size; ///< Pending: what holds of the row is the initial interpolation
+};
+static_assert(sizeof(RelaxedRow) == 40);
+
+/** Interpolation weights are multiples of 1/Quanta in [-1, 1], so that row sums are exact. */
+inline constexpr int Quanta = 127;
 inline constexpr float Quantum = 1.0F / Quanta;
 
 /**
@@ -59,12 +68,12 @@ private:
 class InterpolationEntry
 {
 public:
-  InterpolationEntry(CoarseIndex coarse, std::uint32_t quanta)
-    : Bits(coarse << 8 | quanta)
+  InterpolationEntry(CoarseIndex coarse, int quanta)
+    : Bits(coarse << 8 | static_cast<std::uint8_t>(quanta))
   {
   }
 
-  std::uint32_t quanta() const { return this->Bits & 255; }
+  int quanta() const { return static_cast<std::int8_t>(this->Bits & 255); }
   float weight() const { return static_cast<float>(this->quanta()) * Quantum; }
   /** Distance of the coarse node from `near`, which is alive. */
   std::int32_t offset(std::int64_t near) const { return coarseDistance(this->Bits, near); }
@@ -74,7 +83,7 @@ public:
 private:
   std::uint32_t Bits;
 };
-static_assert(sizeof(InterpolationEntry) == 8 && Quanta <= 255);
+static_assert(sizeof(InterpolationEntry) == 8 && Quanta <= 127);
 
 /**
  * Everything that the step from a level (fine) to the next one (coarse) keeps in memory, as
@@ -87,7 +96,10 @@ struct CoarseningData
     , coarse(coarseRows)
     , stiff(stiffRows)
     , lifted(pool)
+    , patches(pool)
     , initial(pool)
+    , initialSum(pool)
+    , relaxed(pool)
     , interpolation(pool)
     , rowQuanta(pool)
     , parentReach(pool, -1)
@@ -99,6 +111,8 @@ struct CoarseningData
     , raw(pool)
     , rawAlpha(pool)
     , rawStrongest(pool)
+    , rawDiagonal(pool)
+    , rawKept(pool)
     , rawLower(pool)
     , rawMirrored(pool)
     , rawSettled(pool)
@@ -115,9 +129,12 @@ struct CoarseningData
   /** Its coarse node by the low 32 bits, or Retained. */
   Ring<CoarseIndex> lifted;
   static constexpr CoarseIndex Retained = ~CoarseIndex(0);
-  RaggedRing<InitialEntry> initial;
+  Patches patches;
+  RaggedRing<CoarseEntry> initial;
+  Ring<float> initialSum; ///< of the row of `initial`
+  Ring<RelaxedRow> relaxed;
   RaggedRing<InterpolationEntry> interpolation;
-  Ring<std::uint16_t> rowQuanta;   ///< sum of the row of P
+  Ring<std::int16_t> rowQuanta;    ///< sum of the row of P
   MonotoneRing parentReach;        ///< largest coarse index in rows 0 .. i of P, or -1
   RaggedRing<CoarseEntry> product; ///< rows of A P
   Ring<float> productSum;          ///< sum of the row of A P
@@ -129,6 +146,9 @@ struct CoarseningData
   RaggedRing<CoarseEntry> raw;
   Ring<double> rawAlpha;
   Ring<float> rawStrongest;    ///< with the sign - if the row is stiff
+  Ring<float> rawDiagonal;
+  /** Whether no entry of the row may be removed. */
+  Ring<std::uint8_t> rawKept;
   Ring<std::int32_t> rawLower; ///< columns below the row
   /** Where the entry is that the last row so far which has one for this row mirrors. */
   Ring<std::int32_t> rawMirrored;
@@ -176,6 +196,8 @@ struct CoarseningData
   {
     this->rawAlpha.extendRaw(end);
     this->rawStrongest.extendRaw(end);
+    this->rawDiagonal.extendRaw(end);
+    this->rawKept.extend(end);
     for (auto* ring : { &this->rawLower, &this->rawMirrored, &this->rawSettled })
     {
       ring->extend(end);
@@ -188,6 +210,8 @@ struct CoarseningData
     this->raw.release(first);
     this->rawAlpha.release(first);
     this->rawStrongest.release(first);
+    this->rawDiagonal.release(first);
+    this->rawKept.release(first);
     for (auto* ring : { &this->rawLower, &this->rawMirrored, &this->rawSettled })
     {
       ring->release(first);

@@ -2,25 +2,55 @@
 #include "Solver/Hierarchy/ExtendedInterpolation.h"
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 namespace smg
 {
+namespace
+{
+
+/** A patch whose matrix is that close to singular is relaxed node by node. */
+constexpr double LeastPivot = 1e-6;
+
+/** A row of P as it is: relaxed, or the initial one. */
+struct NewestRow
+{
+  std::span<const CoarseEntry> entries;
+  float sum;
+};
+
+NewestRow newestRow(const CoarseningData& data, std::int64_t m)
+{
+  const RelaxedRow& row = data.relaxed[m];
+  if (row.size != RelaxedRow::Pending)
+  {
+    return { { row.entry, static_cast<std::size_t>(row.size) }, row.sum };
+  }
+  return { { data.initial.row(m), static_cast<std::size_t>(data.initial.size(m)) },
+    data.initialSum[m] };
+}
+
+} // namespace
 
 void ExtendedInterpolation::initial(CoarseningData& data, std::int64_t i) const
 {
   constexpr CoarseIndex Retained = CoarseningData::Retained;
+  data.initialSum.extendRaw(i + 1);
   const CoarseIndex* lifted = data.lifted.at(i);
   if (*lifted != Retained)
   {
     *data.initial.open(1) = { *lifted, 1.0F };
     data.initial.close(1);
+    data.initialSum[i] = 1.0F;
     return;
   }
   const auto row = data.fine.row(i);
   const float strong = this->lifting.threshold(data, i);
-  InitialEntry* out = data.initial.open(static_cast<std::int64_t>(row.size()));
+  CoarseEntry* out = data.initial.open(static_cast<std::int64_t>(row.size()));
   std::int64_t size = 0;
-  auto sum = static_cast<float>(std::max(0.0, data.fine.alpha(i)));
+  const auto alpha = static_cast<float>(std::max(0.0, data.fine.alpha(i)));
+  float sum = alpha;
   for (const RowEntry& entry : row)
   {
     const CoarseIndex coarse = lifted[entry.delta()];
@@ -32,127 +62,273 @@ void ExtendedInterpolation::initial(CoarseningData& data, std::int64_t i) const
   }
   for (std::int64_t e = 0; e < size; ++e)
   {
-    out[e].weight /= sum;
+    out[e].setValue(out[e].value() / sum);
   }
   data.initial.close(size);
+  data.initialSum[i] = size > 0 ? (sum - alpha) / sum : 0.0F;
 }
 
-void ExtendedInterpolation::gather(CoarseningData& data, std::int64_t i)
+void ExtendedInterpolation::relax(CoarseningData& data, std::int64_t i)
+{
+  if (data.lifted[i] != CoarseningData::Retained)
+  {
+    RelaxedRow& row = data.relaxed[i];
+    row.sum = 1.0F;
+    row.size = 1;
+    row.entry[0] = { data.lifted[i], 1.0F };
+    return;
+  }
+  if (const Patch* patch = data.patches.of(i))
+  {
+    int retained[PatchMatrix::Most];
+    int count = 0;
+    for (int k = 0; k < patch->size; ++k)
+    {
+      if (data.lifted[patch->member(k)] == CoarseningData::Retained)
+      {
+        retained[count++] = k;
+      }
+    }
+    if (count > 1)
+    {
+      if (patch->member(retained[count - 1]) == i)
+      {
+        this->relaxPatch(data, *patch, retained, count);
+      }
+      return;
+    }
+  }
+  this->relaxNode(data, i);
+}
+
+/** The columns that row i may have, with weight 0, in the slots that bear the mark. */
+void ExtendedInterpolation::openPattern(
+  const CoarseningData& data, std::int64_t i, std::uint32_t mark)
+{
+  const std::int64_t near = data.coarseNodes;
+  CoarseningData::Slot* slots = data.slots.at(near);
+  std::size_t size = 0;
+  for (const RowEntry& entry : data.fine.row(i))
+  {
+    const std::int64_t m = i + entry.delta();
+    const CoarseEntry* initial = data.initial.row(m);
+    const std::int64_t count = data.initial.size(m);
+    this->Row.resize(std::max(this->Row.size(), size + static_cast<std::size_t>(count) + 1));
+    Candidate* candidate = this->Row.data();
+    for (const CoarseEntry* end = initial + count; initial != end; ++initial)
+    {
+      const std::int32_t distance = initial->offset(near);
+      candidate[size].distance = distance;
+      size += slots[distance].mark == mark ? 0 : 1;
+      slots[distance] = { mark, 0.0F };
+    }
+  }
+  this->Row.resize(size);
+}
+
+/** The weights of the columns. */
+void ExtendedInterpolation::closePattern(const CoarseningData& data)
+{
+  const CoarseningData::Slot* slots = data.slots.at(data.coarseNodes);
+  for (Candidate& candidate : this->Row)
+  {
+    candidate.weight = slots[candidate.distance].value;
+  }
+}
+
+void ExtendedInterpolation::relaxNode(CoarseningData& data, std::int64_t i)
 {
   const std::int64_t near = data.coarseNodes;
   CoarseningData::Slot* slots = data.slots.at(near);
   const std::uint32_t mark = data.freshMark();
-  std::size_t size = 0;
+  this->openPattern(data, i, mark);
+  const float inverse = 1.0F / data.patches.diagonal(i);
+  double lacking = data.fine.alpha(i);
   for (const RowEntry& entry : data.fine.row(i))
   {
-    const std::int64_t j = i + entry.delta();
-    const InitialEntry* initial = data.initial.row(j);
-    const std::int64_t count = data.initial.size(j);
-    this->Candidates.resize(
-      std::max(this->Candidates.size(), size + static_cast<std::size_t>(count) + 1));
-    Candidate* candidate = this->Candidates.data();
-    for (const InitialEntry* end = initial + count; initial != end; ++initial)
+    const NewestRow row = newestRow(data, i + entry.delta());
+    const float weight = entry.weight() * inverse;
+    lacking += static_cast<double>(entry.weight()) * (1.0F - row.sum);
+    for (const CoarseEntry& p : row.entries)
     {
-      const std::int32_t distance = offset(initial->coarse, near);
-      candidate[size].distance = distance;
-      size += slots[distance].add(mark, entry.weight() * initial->weight) ? 1 : 0;
+      CoarseningData::Slot& slot = slots[p.offset(near)];
+      if (slot.mark == mark)
+      {
+        slot.value += weight * p.value();
+      }
     }
   }
-  this->Candidates.resize(size);
-  const auto inverse = static_cast<float>(1.0 / data.fine.diagonal(i));
-  for (Candidate& candidate : this->Candidates)
-  {
-    candidate.weight = slots[candidate.distance].value * inverse;
-  }
+  this->closePattern(data);
+  this->store(data, i, 1.0 - lacking * static_cast<double>(inverse));
 }
 
-void ExtendedInterpolation::truncate(int entries)
-{
-  auto& list = this->Candidates;
-  const auto most = static_cast<std::size_t>(entries);
-  float sum = 0.0F;
-  std::size_t kept = 0;
-  for (const Candidate candidate : list)
-  {
-    sum += candidate.weight;
-    if (kept == most && !(candidate.weight > list[kept - 1].weight))
-    {
-      continue;
-    }
-    // The largest so far are the first of the list, in descending order.
-    std::size_t place = kept < most ? kept++ : kept - 1;
-    for (; place > 0 && list[place - 1].weight < candidate.weight; --place)
-    {
-      list[place] = list[place - 1];
-    }
-    list[place] = candidate;
-  }
-  list.resize(kept);
-  float keptSum = 0.0F;
-  for (const Candidate& candidate : list)
-  {
-    keptSum += candidate.weight;
-  }
-
-  // Rounding to quanta, where negative weights become 0: the first entry, the largest, takes the
-  // rest.
-  const auto rounded = [](float quanta)
-  { return std::clamp(static_cast<int>(quanta + 0.5F), 0, Quanta); };
-  const float scale = keptSum > 0.0F ? sum / keptSum * Quanta : 0.0F;
-  const int wanted = rounded(sum * Quanta);
-  this->Rounded.resize(kept);
-  int total = 0;
-  for (std::size_t k = kept; k-- > 0;)
-  {
-    const int quanta = rounded(list[k].weight * scale);
-    this->Rounded[k] = static_cast<std::uint32_t>(k > 0 ? quanta : std::max(0, wanted - total));
-    total += quanta;
-  }
-}
-
-void ExtendedInterpolation::operator()(CoarseningData& data, std::int64_t i)
-{
-  const CoarseIndex coarse = data.lifted[i];
-  if (coarse != CoarseningData::Retained)
-  {
-    this->Candidates.assign(1, { offset(coarse, data.coarseNodes), 1.0F });
-    this->Rounded.assign(1, Quanta);
-  }
-  else
-  {
-    this->gather(data, i);
-    const bool finest = data.fine.childReach(i) < 0;
-    this->truncate(finest ? this->finestEntries : this->entries);
-  }
-  this->append(data, i);
-}
-
-void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i)
+void ExtendedInterpolation::gatherOutside(
+  CoarseningData& data, std::int64_t i, const Patch& patch, std::uint8_t inside, Outside& sum)
 {
   const std::int64_t near = data.coarseNodes;
-  InterpolationEntry* out =
-    data.interpolation.open(static_cast<std::int64_t>(this->Candidates.size()));
-  int size = 0;
-  std::int64_t reach = -1;
-  std::uint32_t sum = 0;
-  for (std::size_t k = 0; k < this->Candidates.size(); ++k)
+  CoarseningData::Slot* slots = data.slots.at(near);
+  const std::uint32_t mark = data.freshMark();
+  sum.weights.clear();
+  sum.lacking = data.fine.alpha(i);
+  for (const RowEntry& entry : data.fine.row(i))
   {
-    const std::uint32_t quanta = this->Rounded[k];
-    if (quanta == 0)
+    const std::int64_t m = i + entry.delta();
+    bool outside = true;
+    for (int k = 0; k < patch.size; ++k)
+    {
+      outside = outside && !((inside >> k & 1) != 0 && patch.member(k) == m);
+    }
+    if (!outside)
     {
       continue;
     }
-    const std::int64_t coarse = near + this->Candidates[k].distance;
+    const NewestRow row = newestRow(data, m);
+    sum.lacking += static_cast<double>(entry.weight()) * (1.0F - row.sum);
+    for (const CoarseEntry& p : row.entries)
+    {
+      const std::int32_t distance = p.offset(near);
+      if (slots[distance].add(mark, entry.weight() * p.value()))
+      {
+        sum.weights.push_back({ distance, 0.0F });
+      }
+    }
+  }
+  for (Candidate& candidate : sum.weights)
+  {
+    candidate.weight = slots[candidate.distance].value;
+  }
+}
+
+/** Relaxes these members of a patch, the retained ones, together. */
+void ExtendedInterpolation::relaxPatch(
+  CoarseningData& data, const Patch& patch, const int* members, int count)
+{
+  PatchMatrix inverse = patch.matrix.part(members, count);
+  if (!inverse.invert(LeastPivot))
+  {
+    for (int a = 0; a < count; ++a)
+    {
+      this->relaxNode(data, patch.member(members[a]));
+    }
+    return;
+  }
+  std::uint8_t inside = 0;
+  for (int a = 0; a < count; ++a)
+  {
+    inside = static_cast<std::uint8_t>(inside | 1U << members[a]);
+  }
+  for (int a = 0; a < count; ++a)
+  {
+    gatherOutside(data, patch.member(members[a]), patch, inside, this->Of[static_cast<std::size_t>(a)]);
+  }
+  CoarseningData::Slot* slots = data.slots.at(data.coarseNodes);
+  for (int a = 0; a < count; ++a)
+  {
+    const std::int64_t i = patch.member(members[a]);
+    const std::uint32_t mark = data.freshMark();
+    this->openPattern(data, i, mark);
+    double lacking = 0.0;
+    for (int b = 0; b < count; ++b)
+    {
+      const Outside& sum = this->Of[static_cast<std::size_t>(b)];
+      lacking += inverse.at(a, b) * sum.lacking;
+      const auto factor = static_cast<float>(inverse.at(a, b));
+      for (const Candidate& candidate : sum.weights)
+      {
+        CoarseningData::Slot& slot = slots[candidate.distance];
+        if (slot.mark == mark)
+        {
+          slot.value += factor * candidate.weight;
+        }
+      }
+    }
+    this->closePattern(data);
+    this->store(data, i, 1.0 - lacking);
+  }
+}
+
+/** Makes row i of the largest of the columns, which get this sum. */
+void ExtendedInterpolation::store(CoarseningData& data, std::int64_t i, double sum)
+{
+  const bool finest = data.fine.childReach(i) < 0;
+  const auto most = static_cast<std::size_t>(finest ? this->finestEntries : this->entries);
+  Candidate largest[RelaxedRow::Most];
+  std::size_t kept = 0;
+  for (const Candidate candidate : this->Row)
+  {
+    const float size = std::fabs(candidate.weight);
+    if (kept == most && !(size > std::fabs(largest[kept - 1].weight)))
+    {
+      continue;
+    }
+    // In descending order.
+    std::size_t place = kept < most ? kept++ : kept - 1;
+    for (; place > 0 && std::fabs(largest[place - 1].weight) < size; --place)
+    {
+      largest[place] = largest[place - 1];
+    }
+    largest[place] = candidate;
+  }
+  float keptSum = 0.0F, keptSize = 0.0F;
+  for (std::size_t k = 0; k < kept; ++k)
+  {
+    keptSum += largest[k].weight;
+    keptSize += std::fabs(largest[k].weight);
+  }
+  const auto wanted = static_cast<float>(sum);
+  const float share = keptSize > 0.0F ? (wanted - keptSum) / keptSize : 0.0F;
+  RelaxedRow& row = data.relaxed[i];
+  row.size = keptSize > 0.0F ? static_cast<std::int8_t>(kept) : 0;
+  row.sum = row.size > 0 ? wanted : 0.0F;
+  for (int k = 0; k < row.size; ++k)
+  {
+    const Candidate& from = largest[k];
+    row.entry[k] = { static_cast<CoarseIndex>(data.coarseNodes + from.distance),
+      from.weight + share * std::fabs(from.weight) };
+  }
+}
+
+void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i) const
+{
+  const std::int64_t near = data.coarseNodes;
+  const RelaxedRow& row = data.relaxed[i];
+  int rounded[RelaxedRow::Most];
+  const auto quantaOf = [](float weight)
+  { return std::clamp(static_cast<int>(std::lround(weight * Quanta)), -Quanta, Quanta); };
+  int rest = static_cast<int>(std::lround(row.sum * Quanta));
+  for (int k = 0; k < row.size; ++k)
+  {
+    rounded[k] = quantaOf(row.entry[k].value());
+    rest -= rounded[k];
+  }
+  // The first entry, the largest, takes what is left, as far as it has room.
+  for (int k = 0; k < row.size && rest != 0; ++k)
+  {
+    const int taken = std::clamp(rounded[k] + rest, -Quanta, Quanta) - rounded[k];
+    rounded[k] += taken;
+    rest -= taken;
+  }
+  InterpolationEntry* out = data.interpolation.open(row.size);
+  int size = 0;
+  std::int64_t reach = -1;
+  int sum = 0;
+  for (int k = 0; k < row.size; ++k)
+  {
+    if (rounded[k] == 0)
+    {
+      continue;
+    }
+    const std::int64_t coarse = near + row.entry[k].offset(near);
     const ChildLink link(i, size);
     ChildLink& last = data.lastChild[coarse];
     (last.none() ? data.firstChild[coarse] : data.child(last, i).next) = link;
     last = link;
-    out[size++] = InterpolationEntry(static_cast<CoarseIndex>(coarse), quanta);
+    out[size++] = InterpolationEntry(static_cast<CoarseIndex>(coarse), rounded[k]);
     reach = std::max(reach, coarse);
-    sum += quanta;
+    sum += rounded[k];
   }
   data.interpolation.close(size);
-  data.rowQuanta[i] = static_cast<std::uint16_t>(sum);
+  data.rowQuanta[i] = static_cast<std::int16_t>(sum);
   data.parentReach.append(reach);
 }
 

@@ -6,7 +6,6 @@
 
 namespace smg
 {
-
 std::int32_t* GalerkinProduct::roomFor(std::int64_t columns)
 {
   const auto size = static_cast<std::size_t>(columns);
@@ -31,7 +30,7 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
   std::int64_t size = 0;
   std::int32_t* columns = this->roomFor(own);
 
-  const auto diagonal = static_cast<float>(data.fine.diagonal(i));
+  const float diagonal = data.patches.diagonal(i);
   const InterpolationEntry* p = data.interpolation.row(i);
   for (std::int64_t e = 0; e < own; ++e)
   {
@@ -39,7 +38,7 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
     slots[distance].add(mark, diagonal * p[e].weight());
     columns[size++] = distance;
   }
-  const std::uint16_t* quanta = data.rowQuanta.at(i);
+  const std::int16_t* quanta = data.rowQuanta.at(i);
   const std::int32_t ownQuanta = *quanta;
   double sum = data.fine.alpha(i) * ownQuanta;
   for (const RowEntry& entry : row)
@@ -128,8 +127,8 @@ void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
     }
   }
   this->sort(static_cast<std::size_t>(columns));
-  this->append(data, c);
   data.rawAlpha[c] = alpha;
+  this->append(data, c);
 }
 
 void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
@@ -139,6 +138,7 @@ void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
   std::int32_t lower = 0;
   std::int64_t size = 0;
   float strongest = 0.0F, least = 0.0F;
+  double sum = data.rawAlpha[c], terms = 0.0;
   for (const std::int32_t delta : this->Sorted)
   {
     if (delta != 0)
@@ -148,10 +148,15 @@ void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
       lower += delta < 0 ? 1 : 0;
       strongest = std::max(strongest, weight);
       least = std::min(least, weight);
+      sum += weight;
+      terms += std::fabs(weight);
     }
   }
   data.raw.close(size);
-  data.rawStrongest[c] = data.stiff(least) ? -strongest : strongest;
+  const double diagonal = usableDiagonal(sum);
+  data.rawStrongest[c] = data.stiff(least, diagonal) ? -strongest : strongest;
+  data.rawDiagonal[c] = static_cast<float>(diagonal);
+  data.rawKept[c] = std::signbit(data.rawStrongest[c]) || terms > this->cancelling * sum ? 1 : 0;
   data.rawLower[c] = lower;
   std::int32_t* mirrored = data.rawMirrored.at(c);
   *mirrored = lower - 1;

@@ -20,6 +20,10 @@ namespace smg
 class GalerkinProduct
 {
 public:
+  /** No entry may be removed of a row the magnitudes of whose weights sum up to more than this many
+   * times its diagonal, above 1: its small entries decide its soft modes. */
+  double cancelling = 1.5;
+
   /** Appends row i of A P. The rows of P up to reach(i) are there. */
   void multiply(CoarseningData& data, std::int64_t i);
 

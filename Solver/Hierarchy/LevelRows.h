@@ -22,10 +22,19 @@ inline double usableDiagonal(double sum)
   return sum > 0.0 ? sum : Isolated;
 }
 
-/** The diagonal of a row whose sum is alpha. */
-inline double diagonalOf(std::span<const RowEntry> row, double alpha)
+/** The diagonal of a row whose sum is alpha; `precise`: its weights in double precision, if any. */
+inline double diagonalOf(
+  std::span<const RowEntry> row, double alpha, std::span<const double> precise = {})
 {
   double sum = alpha;
+  if (!precise.empty())
+  {
+    for (const double weight : precise)
+    {
+      sum += weight;
+    }
+    return usableDiagonal(sum);
+  }
   for (const RowEntry& entry : row)
   {
     sum += entry.weight();
@@ -42,6 +51,7 @@ class LevelRows
 public:
   explicit LevelRows(Pool& pool)
     : Entries(pool)
+    , Precise(pool)
     , Alpha(pool)
     , Strongest(pool)
     , Reach(pool, 0)
@@ -58,7 +68,19 @@ public:
   {
     return { this->Entries.row(i), static_cast<std::size_t>(this->Entries.size(i)) };
   }
-  double diagonal(std::int64_t i) const { return diagonalOf(this->row(i), this->alpha(i)); }
+  /** The weights of row i in double precision, if they were given. */
+  std::span<const double> precise(std::int64_t i) const
+  {
+    if (i >= this->Precise.end())
+    {
+      return {};
+    }
+    return { this->Precise.row(i), static_cast<std::size_t>(this->Precise.size(i)) };
+  }
+  double diagonal(std::int64_t i) const
+  {
+    return diagonalOf(this->row(i), this->alpha(i), this->precise(i));
+  }
   double alpha(std::int64_t i) const { return this->Alpha[i]; }
   /** The largest weight of row i, 0 if there is none. */
   float strongest(std::int64_t i) const { return std::fabs(this->Strongest[i]); }
@@ -75,8 +97,9 @@ public:
   RowEntry* open(std::int64_t size) { return this->Entries.open(size); }
 
   /** Ends the row that open() began. `childReach` is that of this node alone; `stiff`: see
-   * StiffRows. */
-  void close(std::int64_t size, double alpha, std::int64_t childReach, bool stiff = false)
+   * StiffRows; `precise`: its weights in double precision, or none. */
+  void close(std::int64_t size, double alpha, std::int64_t childReach, bool stiff = false,
+    std::span<const double> precise = {})
   {
     const std::int64_t i = this->end();
     const RowEntry* entry = this->Entries.opened();
@@ -93,6 +116,7 @@ public:
     this->Strongest[i] = stiff ? -strongest : strongest;
     this->Reach.append(last);
     this->ChildReach.append(childReach);
+    this->keep(precise);
     this->Nonzeros += size + 1;
   }
 
@@ -111,6 +135,8 @@ public:
   void release(std::int64_t row, std::int64_t reach)
   {
     this->Entries.release(row);
+    this->Released = row;
+    this->Precise.release(std::min(row, this->Precise.end()));
     this->Alpha.release(row);
     this->Strongest.release(row);
     this->ChildReach.release(row);
@@ -118,11 +144,29 @@ public:
   }
 
 private:
+  /** Keeps the precise weights of the last row; rows behind the last one with any take no room. */
+  void keep(std::span<const double> precise)
+  {
+    if (precise.empty())
+    {
+      return;
+    }
+    while (this->Precise.end() + 1 < this->end())
+    {
+      this->Precise.open(0);
+      this->Precise.close(0);
+      this->Precise.release(std::min(this->Released, this->Precise.end()));
+    }
+    std::ranges::copy(precise, this->Precise.open(static_cast<std::int64_t>(precise.size())));
+    this->Precise.close(static_cast<std::int64_t>(precise.size()));
+  }
+
   RaggedRing<RowEntry> Entries;
+  RaggedRing<double> Precise;
   Ring<double> Alpha;
   Ring<float> Strongest; // with the sign - if the row is stiff
   MonotoneRing Reach, ChildReach;
-  std::int64_t Nonzeros = 0;
+  std::int64_t Nonzeros = 0, Released = 0;
 };
 
 } // namespace smg

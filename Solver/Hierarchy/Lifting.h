@@ -12,7 +12,7 @@ namespace smg
 /**
  * The lifting rule of the paper on strong edges: a greedy maximal independent set in stream order.
  * Node i is lifted iff none of the lower nodes that it strongly depends on is, or if its row is
- * stiff. A node without edges is never lifted: relaxation solves it exactly.
+ * stiff or exceeds. A node without edges is never lifted: relaxation solves it exactly.
  */
 struct IndependentSetLifting
 {
@@ -24,14 +24,23 @@ struct IndependentSetLifting
     return std::max(this->strength * data.fine.strongest(i), FLT_MIN);
   }
 
+  /**
+   * Whether node i follows its neighbours by so much more than they move that entries of P up to 1
+   * could not say it: beside constrained nodes that repel it, whose weights are negative.
+   */
+  static bool exceeds(const CoarseningData& data, std::int64_t i)
+  {
+    return data.fine.alpha(i) < -0.5 * static_cast<double>(data.patches.diagonal(i));
+  }
+
   /** Whether node i is lifted; the nodes below i are decided. */
   bool operator()(const CoarseningData& data, std::int64_t i) const
   {
-    if (data.fine.stiff(i))
+    const auto row = data.fine.row(i);
+    if (data.fine.stiff(i) || (!row.empty() && this->exceeds(data, i)))
     {
       return true;
     }
-    const auto row = data.fine.row(i);
     const float strong = this->threshold(data, i);
     const CoarseIndex* lifted = data.lifted.at(i);
     for (const RowEntry& entry : row)

@@ -18,8 +18,10 @@ namespace smg
  *   const char* O::name             what it is called
  *   O O::forCells(CellType)         the set with its parameters for that kind of cells
  *   bool o.lift(data, i)            lifting rule: does node i get a parent?
- *   o.interpolateInitial(data, i)   interpolation in two steps, where the second may look at the
- *   o.interpolate(data, i)          first of all neighbours: row i of P
+ *   o.interpolateInitial(data, i)   interpolation in three steps: a first idea of row i of P,
+ *   o.interpolationSweeps()         sweeps that better the rows, at least 1, each with
+ *   o.relaxInterpolation(data, i)   a turn of row i,
+ *   o.interpolate(data, i)          and row i as it is used
  *   o.multiply(data, i)             coarse operator in three steps: row i of A P,
  *   o.gather(data, c)               row c of P^T A P,
  *   o.sparsify(data, c)             and what is left of it
@@ -32,22 +34,24 @@ namespace smg
  * - `lift` may read row i and `lifted` of the nodes below, and answers. A node whose row is stiff
  *   (see StiffRows) should be lifted.
  * - `interpolateInitial` may read row i and `lifted` of its neighbours, and appends row i of
- *   `initial`.
- * - `interpolate` may read row i and `initial` of i and its neighbours. It appends row i of
- *   `interpolation`, chained by columns from `firstChild` to `lastChild`, and sets `rowQuanta` and
- *   `parentReach`.
+ *   `initial` and its `initialSum`.
+ * - `relaxInterpolation` may read row i, and of i and its neighbours `lifted`, `initial` and
+ *   `relaxed`, which is Pending before the first sweep. It sets `relaxed` of i, or of a patch that i
+ *   belongs to, where it may read the same of all its nodes, when its last node's turn comes.
+ * - `interpolate` may read `relaxed` of i. It appends row i of `interpolation`, chained by columns
+ *   from `firstChild` to `lastChild`, and sets `rowQuanta` and `parentReach`.
  * - `multiply` may read row i and `interpolation` of i and its neighbours. It appends row i of
  *   `product` and sets `productSum`.
  * - `gather` may read the chain of column c and `product` of its rows. It appends row c of `raw`,
- *   by ascending column, sets rawAlpha, rawStrongest (with the sign - if `stiff`, asked once, says
- *   so), rawLower and rawMirrored of c and moves rawMirrored of its neighbours above on by one.
+ *   by ascending column, sets rawAlpha, rawDiagonal, rawKept, rawStrongest (with the sign - if
+ *   `stiff`, asked once, says so), rawLower and rawMirrored of c and moves rawMirrored of its
+ *   neighbours above on by one.
  * - `sparsify`, which follows it, may read the rows of `raw` up to c that have neighbours from c
  *   on, and change their upper entries, those with delta > 0; the lower ones take over the
  *   weights of these at last. An entry that is to go gets the weight NaN.
  *
  * What the engine relies on: a node without edges is not lifted; each lifted node has a child; P
- * has entries from 0 to 1 (multiples of 1/Quanta) with row sums of at most 1, from coarse nodes
- * within two rings; the coarse operator is exactly symmetric, with row sums alpha that are zero
+ * has entries from -1 to 1 (multiples of 1/Quanta), from coarse nodes within two rings; the coarse operator is exactly symmetric, with row sums alpha that are zero
  * where no constraint reaches, before and after sparsification; a step depends on what it may read
  * alone, not on when it is called. To exchange one step, derive from Extended and hide that member:
  * see Examples/CustomOperators.
@@ -66,6 +70,10 @@ concept OperatorSet = std::default_initializable<O> && std::copyable<O> &&
     o.lift(data, i)
     } -> std::same_as<bool>;
   o.interpolateInitial(data, i);
+  {
+    o.interpolationSweeps()
+    } -> std::same_as<int>;
+  o.relaxInterpolation(data, i);
   o.interpolate(data, i);
   o.multiply(data, i);
   o.gather(data, i);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace smg
@@ -28,23 +29,28 @@ public:
   }
 
   /** Ends the row that open() began; see LevelRows::close. */
-  void close(std::int64_t size, double alpha, std::int64_t childReach, bool stiff = false)
+  void close(std::int64_t size, double alpha, std::int64_t childReach, bool stiff = false,
+    std::span<const double> precise = {})
   {
     this->Used += static_cast<std::size_t>(size);
-    this->Closed.push_back({ size, alpha, childReach, stiff });
+    this->Closed.push_back({ size, alpha, childReach, stiff, precise.size() });
+    this->Precise.insert(this->Precise.end(), precise.begin(), precise.end());
   }
 
   /** Appends the rows to `rows` and forgets them. */
   void moveTo(LevelRows& rows)
   {
     const RowEntry* entry = this->Entries.data();
+    const double* precise = this->Precise.data();
     for (const Row& row : this->Closed)
     {
       std::copy_n(entry, row.size, rows.open(row.size));
-      rows.close(row.size, row.alpha, row.childReach, row.stiff);
+      rows.close(row.size, row.alpha, row.childReach, row.stiff, { precise, row.precise });
       entry += row.size;
+      precise += row.precise;
     }
     this->Closed.clear();
+    this->Precise.clear();
     this->Used = 0;
   }
 
@@ -55,9 +61,11 @@ private:
     double alpha;
     std::int64_t childReach;
     bool stiff;
+    std::size_t precise; ///< weights in double precision
   };
 
   std::vector<RowEntry> Entries;
+  std::vector<double> Precise;
   std::vector<Row> Closed;
   std::size_t Used = 0;
 };

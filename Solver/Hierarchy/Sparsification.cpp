@@ -38,13 +38,13 @@ struct Sparsification::Candidate
 };
 
 /**
- * The common neighbour m of c and k > c with the largest min(w_cm, w_km) of large weights, those of
- * row k being in the slots that bear the mark.
+ * The common neighbour m of c and k > c with the largest min(w_cm, w_km), above `least`, of large
+ * weights, those of row k being in the slots that bear the mark.
  */
 Sparsification::Candidate Sparsification::strongestCommon(
-  const CoarseningData& data, std::int64_t c, std::uint32_t mark) const
+  const CoarseningData& data, std::int64_t c, std::uint32_t mark, float least) const
 {
-  Candidate best;
+  Candidate best{ -1, least };
   const CoarseningData::Slot* large = data.slots.at(c);
   const CoarseEntry* row = data.raw.row(c);
   // Neighbours of c that are gone are none of k: all neighbours of theirs have come.
@@ -77,8 +77,28 @@ Sparsification::Candidate Sparsification::strongestCommon(
   return best;
 }
 
+/** Notes that no entry of row k and of a lower one may be removed if they are coupled strongly. */
+void Sparsification::keepStronglyCoupled(const CoarseningData& data, std::int64_t k) const
+{
+  constexpr double Strong = Patches::Strong * Patches::Strong;
+  const CoarseEntry* row = data.raw.row(k);
+  const float* diagonal = data.rawDiagonal.at(k);
+  std::uint8_t* kept = data.rawKept.at(k);
+  const double strong = Strong * static_cast<double>(*diagonal);
+  for (std::int32_t e = 0; e < data.rawLower[k]; ++e)
+  {
+    const std::int32_t delta = row[e].offset(k);
+    const double weight = row[e].value();
+    if (weight * weight > strong * static_cast<double>(diagonal[delta]))
+    {
+      kept[0] = kept[delta] = 1;
+    }
+  }
+}
+
 void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
 {
+  this->keepStronglyCoupled(data, k);
   const CoarseEntry* row = data.raw.row(k);
   const std::int32_t lower = data.rawLower[k];
   const std::int64_t size = data.raw.size(k);
@@ -100,6 +120,11 @@ void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
     }
   }
   data.rawLarge[k] = bits;
+  const std::uint8_t* kept = data.rawKept.at(k);
+  if (*kept != 0)
+  {
+    return;
+  }
   for (std::int64_t e = 0; e < lower; ++e)
   {
     const std::int32_t delta = row[e].offset(k);
@@ -110,18 +135,19 @@ void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
     const std::int64_t c = k + delta;
     CoarseEntry& pair = data.raw.row(c)[mirrored[delta]];
     const float weight = pair.value();
-    if (!this->isSmall(weight, *strongest, strongest[delta]))
+    if (kept[delta] != 0 || !this->isSmall(weight, *strongest, strongest[delta]))
     {
       continue;
     }
-    if (weight > 0.0F)
+    const Candidate middle =
+      this->strongestCommon(data, c, mark, std::max(0.0F, -2.0F * weight));
+    if (middle.node < 0 && weight > 0.0F)
     {
-      const Candidate middle = this->strongestCommon(data, c, mark);
-      if (middle.node < 0)
-      {
-        continue;
-      }
-      for (const std::int64_t node : { c, k })
+      continue;
+    }
+    for (const std::int64_t node : { c, k })
+    {
+      if (middle.node >= 0)
       {
         CoarseEntry& taker = upperEntry(data, node, middle.node);
         taker.setValue(taker.value() + weight);

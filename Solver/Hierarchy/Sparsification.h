@@ -12,11 +12,12 @@ namespace smg
 
 /**
  * Removes small entries of a coarse operator without changing its row sums: an edge (c,k) with
- * |w| < tolerance * min(strongest_c, strongest_k) is dropped if w is negative; if positive its
- * weight moves to the two edges (c,m) and (m,k) of the strongest common neighbour m, both large, or
- * it stays if there is none. No entry of a stiff row is dropped. Of a row m that comes later only
- * what those of c and k say counts. Plain dropping weakens the operator and diverges on bad
- * triangles.
+ * |w| < tolerance * min(strongest_c, strongest_k) moves its weight to the two edges (c,m) and (m,k)
+ * of the strongest common neighbour m, both large, and if w is negative larger than 2 |w|. If there
+ * is none, it is dropped if negative and stays if positive. No entry is removed of a row that is
+ * stiff, whose weights cancel, or that is coupled strongly (see Patches) to a row before or after
+ * it: small entries decide its soft modes. Of a row m that comes later only what those of c and k
+ * say counts, and of couplings those to rows that have come.
  */
 struct Sparsification
 {
@@ -29,8 +30,7 @@ struct Sparsification
 private:
   struct Candidate;
 
-  /** Whether a weight is, given the largest ones of its two rows. Beside a stiff row, whose largest
-   * one has the sign -, none is. */
+  /** Whether a weight is, given the largest ones of its two rows. */
   bool isSmall(float weight, float strongest, float otherStrongest) const
   {
     return !(std::fabs(weight) >= this->tolerance * std::min(strongest, otherStrongest));
@@ -44,7 +44,9 @@ private:
     const float other = strongest[std::min(delta, 0)];
     return !this->isSmall(weight, std::fabs(*strongest), std::fabs(other));
   }
-  Candidate strongestCommon(const CoarseningData& data, std::int64_t c, std::uint32_t mark) const;
+  void keepStronglyCoupled(const CoarseningData& data, std::int64_t k) const;
+  Candidate strongestCommon(
+    const CoarseningData& data, std::int64_t c, std::uint32_t mark, float least) const;
 };
 
 } // namespace smg

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Cycle/GaussSeidel.h"
+#include "Solver/Hierarchy/PatchMatrix.h"
+
+#include <cstdint>
+
+namespace smg
+{
+
+/**
+ * b_k - A_kk x_k + sum_j w_kj x_j of node k of a block; with LowerOnly x_k and the nodes from
+ * `limit` on are taken as zero.
+ */
+template <bool LowerOnly, class Vectors, class Real, class Arrays>
+typename Vectors::Vector rowResidual(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
+  std::int64_t limit, std::int64_t stride, const Real* x, const Real* b)
+{
+  const BlockRange row = entriesOf(h, a, k);
+  const Real* xk = x + k * stride;
+  auto sum = Vectors::load(b + k * stride);
+  if (!LowerOnly)
+  {
+    sum -= static_cast<Real>(a.diagonal[k]) * Vectors::load(xk);
+  }
+  for (std::int64_t e = row.begin; e < row.end && !(LowerOnly && k + a.delta[e] >= limit); ++e)
+  {
+    sum += static_cast<Real>(a.weight[e]) * Vectors::load(xk + a.delta[e] * stride);
+  }
+  return sum;
+}
+
+/** x += A_bb^-1 (b - A x) on the `size` nodes of a patch, given the residuals and the inverse; x
+ * is that of the last one, the others are at `distance`. LowerOnly: x was zero. */
+template <bool LowerOnly, class Vectors, class Real>
+void correctPatch(int size, const double* distance, const double* inverse,
+  const typename Vectors::Vector* residual, std::int64_t stride, Real* x)
+{
+  for (int a = 0; a < size; ++a)
+  {
+    typename Vectors::Vector sum{};
+    for (int k = 0; k < size; ++k)
+    {
+      sum += static_cast<Real>(inverse[PatchMatrix::place(a, k)]) * residual[k];
+    }
+    Real* at = x + (a + 1 < size ? static_cast<std::int64_t>(distance[a]) : 0) * stride;
+    if (!LowerOnly || a + 1 < size)
+    {
+      sum += Vectors::load(at);
+    }
+    Vectors::store(at, sum);
+  }
+}
+
+} // namespace smg

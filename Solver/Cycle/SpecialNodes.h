@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Cycle/GaussSeidel.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <type_traits>
+
+namespace smg
+{
+
+/**
+ * Calls plain(range) for the stretches of `nodes` without special nodes, and special(node) for each
+ * of these, in order.
+ */
+template <class Arrays, class Plain, class OfSpecial>
+void visitNodes(const RowBlock::Header& h, const Arrays& a, BlockRange nodes, Plain&& plain,
+  OfSpecial&& special)
+{
+  const RowBlock::Special* last = a.special + h.specials;
+  const RowBlock::Special* next = std::lower_bound(a.special, last, nodes.begin,
+    [](const RowBlock::Special& s, std::int64_t node) { return s.node < node; });
+  std::int64_t begin = nodes.begin;
+  for (; next != last && next->node < nodes.end; ++next)
+  {
+    if (begin < next->node)
+    {
+      plain(BlockRange{ begin, next->node });
+    }
+    special(*next);
+    begin = next->node + 1;
+  }
+  if (begin < nodes.end)
+  {
+    plain(BlockRange{ begin, nodes.end });
+  }
+}
+
+/** The special node with number `node` of a block, which has it. */
+template <class Arrays>
+const RowBlock::Special& specialOf(const RowBlock::Header& h, const Arrays& a, std::int64_t node)
+{
+  return *std::lower_bound(a.special, a.special + h.specials, node,
+    [](const RowBlock::Special& s, std::int64_t n) { return s.node < n; });
+}
+
+/**
+ * Calls f(arrays) with the arrays that node k's row, a special one, has its weights in: on the
+ * finest level, whose numbers are double, they may stand beside in double precision.
+ */
+template <class Real, class Arrays, class F>
+void visitSpecial(
+  const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node, F&& f)
+{
+  if constexpr (std::is_same_v<Real, double>)
+  {
+    if (node.precise >= 0)
+    {
+      f(a.ofPreciseRow(node, entriesOf(h, a, node.node).begin));
+      return;
+    }
+  }
+  f(a);
+}
+
+} // namespace smg

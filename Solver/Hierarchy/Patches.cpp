@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Hierarchy/Patches.h"
+
+namespace smg
+{
+
+void Patches::add(const LevelRows& rows)
+{
+  const std::int64_t j = this->Number.end();
+  this->Number.extend(j + 1);
+  this->Diagonals.extendRaw(j + 1);
+  const double diagonal = rows.diagonal(j);
+  this->Diagonals[j] = static_cast<float>(diagonal);
+  const float* diagonals = this->Diagonals.at(j);
+  const std::uint32_t* numbers = this->Number.at(j);
+  double strongest = Strong * Strong * diagonal;
+  std::int64_t partner = -1;
+  for (const RowEntry& entry : rows.row(j))
+  {
+    const std::int32_t delta = entry.delta();
+    if (delta > 0)
+    {
+      break;
+    }
+    const double weight = entry.weight();
+    const double coupling = weight * weight / static_cast<double>(diagonals[delta]);
+    if (!(coupling > strongest))
+    {
+      continue;
+    }
+    const std::int64_t i = j + delta;
+    const Patch* patch = numbers[delta] == Alone ? nullptr : this->of(i);
+    if (!patch || (patch->size < PatchMatrix::Most && rows.reach(patch->first) >= j))
+    {
+      strongest = coupling;
+      partner = i;
+    }
+  }
+  if (partner >= 0)
+  {
+    this->join(rows, j, partner);
+  }
+}
+
+/** Node j joins the patch of node i, which may be alone. */
+void Patches::join(const LevelRows& rows, std::int64_t j, std::int64_t i)
+{
+  if (this->Number[i] == Alone)
+  {
+    const std::int64_t place = this->Of.end();
+    this->Of.extend(place + 1);
+    Patch& patch = this->Of[place];
+    patch.first = i;
+    append(rows, patch, i, rows.diagonal(i));
+    this->Number[i] = static_cast<std::uint32_t>(place + 1);
+  }
+  this->Number[j] = this->Number[i];
+  append(rows, this->Of[this->Number[i] - 1], j, rows.diagonal(j));
+}
+
+void Patches::append(const LevelRows& rows, Patch& patch, std::int64_t j, double diagonal)
+{
+  const int own = patch.size++;
+  patch.offset[own] = static_cast<std::int32_t>(j - patch.first);
+  patch.matrix.order = patch.size;
+  patch.matrix.at(own, own) = diagonal;
+  const auto row = rows.row(j);
+  const std::span<const double> precise = rows.precise(j);
+  for (int k = 0; k < own; ++k)
+  {
+    const auto delta = static_cast<std::int32_t>(patch.member(k) - j);
+    for (std::size_t e = 0; e < row.size() && row[e].delta() <= delta; ++e)
+    {
+      if (row[e].delta() == delta)
+      {
+        patch.matrix.at(own, k) = precise.empty() ? -static_cast<double>(row[e].weight()) : -precise[e];
+      }
+    }
+  }
+}
+
+void Patches::release(std::int64_t node)
+{
+  this->Number.release(node);
+  this->Diagonals.release(node);
+  while (this->Of.first() < this->Of.end() && this->Of[this->Of.first()].last() < node)
+  {
+    this->Of.release(this->Of.first() + 1);
+  }
+}
+
+} // namespace smg

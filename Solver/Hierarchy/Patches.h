@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Hierarchy/LevelRows.h"
+#include "Solver/Hierarchy/PatchMatrix.h"
+#include "Solver/Storage/Ring.h"
+
+#include <cstdint>
+
+namespace smg
+{
+
+/**
+ * A few nodes of a level that are coupled so strongly that they have to be relaxed together: a
+ * sliver's stiffness is nearly of rank one, so that one of its vertices alone can hardly move.
+ */
+struct Patch
+{
+  std::int64_t first;
+  std::int32_t size;
+  std::int32_t offset[PatchMatrix::Most]; ///< of the members from the first one, ascending
+  PatchMatrix matrix;                     ///< the level's matrix on the members
+
+  std::int64_t member(int k) const { return this->first + this->offset[k]; }
+  std::int64_t last() const { return this->member(this->size - 1); }
+};
+
+/**
+ * Finds the patches of a level as its rows come. Node j joins the patch of the lower neighbour i
+ * with the largest coupling |a_ij| / sqrt(a_ii a_jj) above Strong whose patch has room and whose
+ * first node's row reaches as far as j: so a patch lies within a ring.
+ */
+class Patches
+{
+public:
+  /** Pairs only, or couplings from 0.35 on, converge more slowly. */
+  static constexpr double Strong = 0.5;
+
+  explicit Patches(Pool& pool)
+    : Number(pool)
+    , Of(pool)
+    , Diagonals(pool)
+  {
+  }
+
+  /** Takes the next node, whose row and those before it are there. */
+  void add(const LevelRows& rows);
+
+  /** The patch of node i, or null; complete when all nodes that its first row reaches have come. */
+  const Patch* of(std::int64_t i) const
+  {
+    const std::uint32_t number = this->Number[i];
+    return number == Alone ? nullptr : this->Of.at(number - 1);
+  }
+  /** The last node of the patch of node i, or i. */
+  std::int64_t last(std::int64_t i) const
+  {
+    const Patch* patch = this->of(i);
+    return patch ? patch->last() : i;
+  }
+  /** The diagonal of row i. */
+  float diagonal(std::int64_t i) const { return this->Diagonals[i]; }
+
+  /** Lets go of the nodes below `node` and of the patches that end there. */
+  void release(std::int64_t node);
+
+private:
+  static constexpr std::uint32_t Alone = 0;
+
+  void join(const LevelRows& rows, std::int64_t j, std::int64_t i);
+  static void append(const LevelRows& rows, Patch& patch, std::int64_t j, double diagonal);
+
+  Ring<std::uint32_t> Number; // by node: of its patch, from 1, or Alone
+  Ring<Patch> Of;
+  Ring<float> Diagonals; // by node
+};
+
+} // namespace smg
