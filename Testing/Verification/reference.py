@@ -30,6 +30,7 @@ class Answer(NamedTuple):
     screened: np.ndarray  # (vertices,): what screening takes there, times u
     traffic: np.ndarray   # a column: the magnitudes of all that flows in, by vertex; where nothing
                           # flows, what would flow in from a value of the whole range
+    residual: np.ndarray  # a column: the magnitudes of the residual of the initial values, summed
 
 
 class BoundaryTerm(NamedTuple):
@@ -109,6 +110,13 @@ class System:
         return mass[:, None] * free_means(component, free, self.rhs, mass)
 
 
+    def first_residual(self):
+        """(columns,): the sum of the magnitudes of the residual of the initial values."""
+        matrix_u = self.stiffness @ self.initial + self.diagonal[:, None] * self.initial
+        residual = self.rhs - self.removed() - matrix_u
+        return np.abs(residual[self.owner < 0]).sum(axis=0)
+
+
 class Reference:
     """A mesh with its columns, see StreamedMesh, on which problems are solved directly."""
 
@@ -134,7 +142,7 @@ class Reference:
             u, gradient.reshape(len(flow), -1), flow.reshape(len(flow), -1), conditions,
             0.5 * (np.einsum("vk,vk->k", u, system.stiffness @ u) + system.screened @ u**2),
             mass @ u / mass.sum(), load, system.screened,
-            np.where(traffic > 1e-9 * possible, traffic, possible))
+            np.where(traffic > 1e-9 * possible, traffic, possible), system.first_residual())
 
     def _conditions(self, system, u):
         """The Condition of each by its name, and the magnitudes of all that flows in (columns,)."""
