@@ -36,7 +36,7 @@ public:
   static StiffRows stiffRows(CellType type, Weights weights)
   {
     const bool may = weights == Weights::Cotangent && type == CellType::Triangle;
-    return may ? StiffRows(StiffRows::Triangles) : StiffRows();
+    return may ? StiffRows::ofTriangles() : StiffRows();
   }
 
   /** `listener`, if given, is told what the rows do not keep. */

@@ -5,10 +5,36 @@
 #include "Solver/Problem/RowShortfall.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace smg
 {
+namespace
+{
+
+/**
+ * Whether single precision would show in the solution: where weights nearly cancel, or one of them
+ * is nearly all of the diagonal, soft modes of the size of their rounding matter.
+ */
+bool needsPrecision(std::span<const RowNeighbour> neighbours)
+{
+  constexpr double Cancelling = 1.5;
+  constexpr double Strong = 0.5;
+  double sum = 0.0;
+  double terms = 0.0;
+  double largest = 0.0;
+  for (const RowNeighbour& neighbour : neighbours)
+  {
+    const double size = std::fabs(neighbour.weight);
+    sum += neighbour.weight;
+    terms += size;
+    largest = std::max(largest, size);
+  }
+  return terms > Cancelling * sum || largest > Strong * sum;
+}
+
+} // namespace
 
 RowAssembly::RowAssembly(const OpenVertices& vertices, Problem& problem, AssembledRows& rows,
   Components& components, StiffRows stiff, RowListener* listener)
@@ -49,13 +75,16 @@ void RowAssembly::close(std::int64_t i, std::int32_t label,
   {
     least = std::min(least, this->Row[e].weight());
   }
-  this->Out.rows.close(this->Size, alpha, -1, this->Stiff(least));
+  const double diagonal =
+    diagonalOf({ this->Row, static_cast<std::size_t>(this->Size) }, alpha, this->Precise);
+  this->Out.rows.close(
+    this->Size, alpha, -1, this->Stiff(least, diagonal), this->Precise);
   this->Out.b.insert(this->Out.b.end(), this->B.begin(), this->B.end());
   if (this->Listener)
   {
     this->Listener->constraint(this->Constraint.data());
   }
-  this->count(i, label, alpha);
+  this->count(i, label, diagonal);
 }
 
 /** A vertex that is no unknown: prescribed, or held where it is. */
@@ -83,11 +112,15 @@ void RowAssembly::addNeighbours(
 {
   this->Row = this->Out.rows.open(static_cast<std::int64_t>(neighbours.size()));
   this->Size = 0;
+  this->Precise.clear();
+  const bool precise = needsPrecision(neighbours);
   for (const RowNeighbour& neighbour : neighbours)
   {
     const bool known = this->Vertices.dirichlet[neighbour.to] >= 0;
     const auto stored = static_cast<float>(neighbour.weight);
-    const double weight = known ? knownWeight(this->Kind, neighbour) : stored;
+    const double weight = known     ? knownWeight(this->Kind, neighbour)
+                          : precise ? neighbour.weight
+                                    : stored;
     const double* other = this->Vertices.values.at(neighbour.to);
     const auto term = [&](std::size_t k)
     { return weight * ((known ? other[k] : 0.0) + (target ? target[k] : 0.0)); };
@@ -105,6 +138,10 @@ void RowAssembly::addNeighbours(
     if (!known)
     {
       this->Row[this->Size++] = { static_cast<std::int32_t>(delta), stored };
+      if (precise)
+      {
+        this->Precise.push_back(weight);
+      }
       if (this->Listener && target)
       {
         this->Listener->target(target);
@@ -130,7 +167,8 @@ void RowAssembly::addNeighbours(
 void RowAssembly::raise(std::int64_t i, double& alpha)
 {
   this->Raise = this->Kind == Weights::Cotangent
-                  ? rowShortfall({ this->Row, static_cast<std::size_t>(this->Size) }, alpha)
+                  ? rowShortfall(
+                      { this->Row, static_cast<std::size_t>(this->Size) }, alpha, this->Precise)
                   : 0.0;
   if (this->Raise == 0.0)
   {
@@ -147,18 +185,18 @@ void RowAssembly::raise(std::int64_t i, double& alpha)
 }
 
 /** Adds the row to the sums over all rows and over its component. */
-void RowAssembly::count(std::int64_t i, std::int32_t label, double alpha)
+void RowAssembly::count(std::int64_t i, std::int32_t label, double diagonal)
 {
   const double* x = this->Vertices.values.at(i);
-  const double diagonal = diagonalOf({ this->Row, static_cast<std::size_t>(this->Size) }, alpha);
   double squares[2] = { 0.0, 0.0 };
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     double sum = this->B[k] - diagonal * x[k];
     for (std::int64_t e = 0; e < this->Size; ++e)
     {
-      sum += static_cast<double>(this->Row[e].weight()) *
-             this->Vertices.values.at(i + this->Row[e].delta())[k];
+      const double weight = this->Precise.empty() ? static_cast<double>(this->Row[e].weight())
+                                                  : this->Precise[static_cast<std::size_t>(e)];
+      sum += weight * this->Vertices.values.at(i + this->Row[e].delta())[k];
     }
     this->Residual[k] = sum;
     squares[0] += sum * sum;

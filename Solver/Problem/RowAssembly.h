@@ -45,7 +45,7 @@ private:
   void addNeighbours(
     std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target, double& alpha);
   void raise(std::int64_t i, double& alpha);
-  void count(std::int64_t i, std::int32_t label, double alpha);
+  void count(std::int64_t i, std::int32_t label, double diagonal);
 
   const OpenVertices& Vertices;
   std::size_t Columns;
@@ -59,6 +59,7 @@ private:
   RowEntry* Row = nullptr;
   std::int64_t Size = 0;
   double Raise = 0.0;
+  std::vector<double> Precise;    // weights in double precision, if the row needs them
   std::vector<double> B;          // `Columns` numbers
   std::vector<double> Constraint; // what of b is not of edges to unknowns
   std::vector<double> Residual;

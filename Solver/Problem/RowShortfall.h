@@ -16,15 +16,18 @@ namespace smg
  * every cell's is; where less is left of the sum than its terms' rounding, it is no part of the
  * problem, and a vertex with that much more on its diagonal stays near its initial value.
  */
-inline double rowShortfall(std::span<const RowEntry> row, double alpha)
+inline double rowShortfall(
+  std::span<const RowEntry> row, double alpha, std::span<const double> precise)
 {
-  constexpr double Rounding = 1e-6;
-  double diagonal = alpha;
+  // Of numbers in double precision, too: what is built on the row has single precision.
+  constexpr double Rounding = 1e-8;
   double terms = std::fabs(alpha);
-  for (const RowEntry& entry : row)
+  double diagonal = alpha;
+  for (std::size_t e = 0; e < row.size(); ++e)
   {
-    diagonal += entry.weight();
-    terms += std::fabs(entry.weight());
+    const double weight = precise.empty() ? static_cast<double>(row[e].weight()) : precise[e];
+    diagonal += weight;
+    terms += std::fabs(weight);
   }
   const double least = std::max<double>(Rounding * terms, FLT_MIN);
   return std::max(0.0, least - diagonal);
