@@ -19,8 +19,8 @@ class Condition(NamedTuple):
 class Answer(NamedTuple):
     """A problem's solution by finite elements."""
     u: np.ndarray         # (vertices, columns)
-    gradient: np.ndarray  # (cells, 3 * columns)
-    flux: np.ndarray      # (cells, 3 * columns): -K grad u
+    gradient: np.ndarray  # (cells, 3 * columns) where it is an output, else None
+    flux: np.ndarray      # the same of -K grad u
     conditions: dict      # Condition by name, such as dirichlet[0]
     energy: np.ndarray    # a column: half the integral of grad u . K grad u + s u^2, where the
                           # weights of soft constraints are part of s
@@ -131,18 +131,23 @@ class Reference:
         """The Answer to a problem, given as what its JSON file says."""
         system = System(self.data, problem)
         u = system.solution()
-        gradient = np.stack([self.elements.gradient(column) for column in u.T], axis=1)
-        flow = -np.einsum("cde,cke->ckd", system.conductivity, gradient)
+        gradient, flow = self._outputs(system, u) if "outputs" in problem else (None, None)
         conditions, magnitude = self._conditions(system, u)
         load = system.load - system.removed()
         mass = self.elements.lumped()
         traffic = magnitude + np.abs(load - system.screened[:, None] * u).sum(axis=0)
         possible = system.stiffness.diagonal()[system.owner >= 0].sum() * np.ptp(u)
         return Answer(
-            u, gradient.reshape(len(flow), -1), flow.reshape(len(flow), -1), conditions,
+            u, gradient, flow, conditions,
             0.5 * (np.einsum("vk,vk->k", u, system.stiffness @ u) + system.screened @ u**2),
             mass @ u / mass.sum(), load, system.screened,
             np.where(traffic > 1e-9 * possible, traffic, possible), system.first_residual())
+
+    def _outputs(self, system, u):
+        """Gradient and flux (cells, 3 * columns)."""
+        gradient = np.stack([self.elements.gradient(column) for column in u.T], axis=1)
+        flow = -np.einsum("cde,cke->ckd", system.conductivity, gradient)
+        return gradient.reshape(len(flow), -1), flow.reshape(len(flow), -1)
 
     def _conditions(self, system, u):
         """The Condition of each by its name, and the magnitudes of all that flows in (columns,)."""

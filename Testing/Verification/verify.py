@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""verify.py SMG [--json FILE] [MESH...] : smg beside independent finite elements.
+"""verify.py SMG [--json FILE] [--answers FOLDER] [MESH...] : smg beside independent finite elements.
 
 On each mesh, a file of any format that smg reads, every problem of cases.py is solved by smg with its
 default weights and directly (reference.py); without a MESH on meshes made here. Printed are V-cycles,
@@ -8,14 +8,17 @@ the largest error in % of the range of the solution, the mean one of its columns
 they are asked for, the largest of an area, a mean, a flux or the energy in the report, and by how much
 fluxes and sources miss a balance, over all that flows. Fails where an error exceeds 1e-4 %, what is
 missing the tolerance times all that flows or the residual of the initial values, or smg does not
-converge. A MESH that is no path is one of the archive that
-SMG_TEST_DATA_DIR names; `archive` stands for all of these. Without an archive it is skipped (77).
+converge. A MESH that is no path is one of the archive that SMG_TEST_DATA_DIR names; `archive` stands
+for all of these. Without an archive it is skipped (77). The direct solutions, which take most of the
+time, are kept in FOLDER and taken from there in the next run.
 """
 import argparse
 import json
 import os
+import pickle
 import sys
 import tempfile
+import zlib
 
 try:
     import numpy as np
@@ -118,7 +121,25 @@ def line(row):
     return f"  {row['case']:27} {row['cycles']:4d} {numbers}  {', '.join(failures(row))}"
 
 
-def verify(program, name):
+def direct_answer(reference, problem, folder):
+    """The Answer to a problem, kept in a folder under the checksum of the mesh and the problem."""
+    if folder is None:
+        return reference.solve(problem)
+    mesh = (reference.elements.points, reference.elements.cells)
+    key = repr((*(zlib.crc32(np.ascontiguousarray(each)) for each in mesh), problem))
+    name = os.path.join(folder, f"{zlib.crc32(key.encode()):08x}.pickle")
+    if os.path.exists(name):
+        with open(name, "rb") as file:
+            kept, answer = pickle.load(file)
+            if kept == key:
+                return answer
+    answer = reference.solve(problem)
+    with open(name, "wb") as file:
+        pickle.dump((key, answer), file)
+    return answer
+
+
+def verify(program, name, answers):
     """Prints and answers the results of a mesh."""
     with tempfile.TemporaryDirectory() as folder:
         domain = Domain(*(MADE[name]() if name in MADE else read_with_smg(program, folder, name)))
@@ -132,8 +153,8 @@ def verify(program, name):
         for case in domain.cases():
             try:
                 solution = mesh.solve(case.problem, TOLERANCE)
-                rows.append(result(case, solution, reference.solve(case.problem),
-                                   reference.elements.measure))
+                answer = direct_answer(reference, case.problem, answers)
+                rows.append(result(case, solution, answer, reference.elements.measure))
             except RuntimeError as error:
                 rows.append({"case": case.name, "failed": str(error)})
             print(line(rows[-1]), flush=True)
@@ -158,9 +179,10 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("program")
     parser.add_argument("--json")
+    parser.add_argument("--answers")
     parser.add_argument("mesh", nargs="*")
     options = parser.parse_args()
-    results = [verify(options.program, name) for name in files(options.mesh)]
+    results = [verify(options.program, name, options.answers) for name in files(options.mesh)]
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:
             json.dump(results, file, indent=1)
