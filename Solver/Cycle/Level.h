@@ -373,8 +373,8 @@ private:
   void sweep(std::int64_t begin, std::int64_t end, State& state);
   /** The turn of a special node in a sweep. */
   template <bool LowerOnly, class Arrays>
-  void relaxSpecial(const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node,
-    State& state);
+  void relaxSpecial(
+    const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node, State& state);
   template <bool LowerOnly, class Vectors, class Arrays>
   void relaxPatch(const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node,
     State& state, int lane);

@@ -166,8 +166,7 @@ public:
   void visitRow(std::int64_t node, F&& f) const
   {
     const RowBlock& block = this->block(node);
-    block.visit<Real>(
-      [&](const auto& arrays) { f(block.header(), arrays, node - block.first()); });
+    block.visit<Real>([&](const auto& arrays) { f(block.header(), arrays, node - block.first()); });
   }
 
   /** Between passes, after the first one: calls f(block, b) for the b of every block of

@@ -195,9 +195,9 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem, RowListene
 {
   const CellType type = mesh.info().cellType;
   this->MixedSigns = problem.weights() == Weights::Cotangent;
-  HierarchyBuilder<Operators> builder(this->Memory, Operators::forCells(type), this->Hierarchy,
-    this->FirstCore, Assembly::stiffRows(type, problem.weights()));
   AssembledRows rows;
+  HierarchyBuilder<Operators> builder(this->Memory, Operators::forCells(type), this->Hierarchy,
+    this->FirstCore, Assembly::stiffRows(type, problem.weights(), rows));
   Assembly assembly(this->Memory, mesh.info(), problem, rows, this->Parts, this->Labels, listener);
   this->startPass(true);
   this->readStream(mesh, assembly, rows, builder);

@@ -32,11 +32,11 @@ namespace smg
 class Assembly
 {
 public:
-  /** What finds the stiff rows of a level of a problem on such cells. */
-  static StiffRows stiffRows(CellType type, Weights weights)
+  /** What finds the stiff rows of a level of a problem on such cells, whose `rows` it makes. */
+  static StiffRows stiffRows(CellType type, Weights weights, const AssembledRows& rows)
   {
     const bool may = weights == Weights::Cotangent && type == CellType::Triangle;
-    return may ? StiffRows::ofTriangles() : StiffRows();
+    return may ? StiffRows(StiffRows::Triangles, rows.weightScale) : StiffRows();
   }
 
   /** `listener`, if given, is told what the rows do not keep. */
@@ -83,6 +83,7 @@ private:
   std::size_t Columns;
   Weights Kind;
   bool ConnectsFlat;
+  AssembledRows& Out;
   Components& Parts;
   ComponentLabels& PartLabels;
   RowListener* Listener;
@@ -110,6 +111,7 @@ private:
   std::int64_t Cells = 0, Final = 0;
   std::int64_t Degenerate = 0, Limited = 0;
   double LeastFlatness = 1.0;
+  bool Scaled = false; // the weights' scale is known
 };
 
 } // namespace smg
