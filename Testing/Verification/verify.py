@@ -181,7 +181,7 @@ def main():
     parser.add_argument("--json")
     parser.add_argument("--answers")
     parser.add_argument("mesh", nargs="*")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     results = [verify(options.program, name, options.answers) for name in files(options.mesh)]
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:
