@@ -4,7 +4,8 @@
 #
 # Takes the archive of meshes that the environment variable SMG_TEST_DATA_DIR names; installs what is
 # missing, builds smg and the benchmarks without VTK in build-benchmarks, and leaves the numbers in
-# build-benchmarks/verification. It takes about an hour on two cores, most of it for direct solves.
+# build-benchmarks/verification. The direct solves take half an hour on two cores; in
+# build-benchmarks/verification/answers they are kept for the next run.
 set -euo pipefail
 SMG_TEST_DATA_DIR=$(realpath -e "${SMG_TEST_DATA_DIR:?"must name the unpacked archive of meshes"}")
 export SMG_TEST_DATA_DIR
@@ -18,7 +19,7 @@ cmake --preset benchmarks "${launcher[@]}" > /dev/null
 cmake --build --preset benchmarks --target smg benchmark_peers
 bin=$PWD/build-benchmarks/bin
 results=$PWD/build-benchmarks/verification
-mkdir -p "$results"
+mkdir -p "$results/answers"
 
 # Debian's Python, which is the one that SciPy is installed for.
 data=$SMG_TEST_DATA_DIR
@@ -36,7 +37,8 @@ for mesh in "$data"/*.*; do
   done
 done
 status=0
-/usr/bin/python3 Testing/Verification/verify.py "$bin/smg" --json "$results/verify.json" archive ||
+/usr/bin/python3 Testing/Verification/verify.py "$bin/smg" --json "$results/verify.json" \
+  --answers "$results/answers" archive ||
   status=$?
 /usr/bin/python3 Testing/Verification/tables.py "$results" docs
 exit "$status"
