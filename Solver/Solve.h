@@ -25,7 +25,7 @@ enum class AccelerationKind
   Chebyshev,
   /** Conjugate gradients with the V-cycle as preconditioner, in the form that minimises the
    * residual (conjugate residuals), one pass a step. One vector and, on a sample of the vertices of
-   * a large mesh or on all of a small one or with raw cotangent weights, three more. */
+   * a large mesh or on all of a small one or of one with slivers, three more. */
   ConjugateGradients
 };
 

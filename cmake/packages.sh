@@ -11,9 +11,14 @@ smg_build_packages=(
 # python3-paraview and libopenmpi-dev are needed by paraview-dev, which does not say so.
 smg_paraview_packages=(
   paraview paraview-dev python3-paraview libopenmpi-dev xvfb xauth libqt5svg5)
-smg_test_packages=(libgtest-dev clang-format openmpi-bin xz-utils)
+smg_test_packages=(
+  libgtest-dev clang-format openmpi-bin xz-utils
+  python3 python3-jsonschema python3-numpy python3-scipy python3-getfem)
 smg_benchmark_packages=(
   libbenchmark-dev libhypre-dev libpetsc-real-dev libopenmpi-dev python3 python3-matplotlib)
+smg_verification_packages=(
+  libbenchmark-dev libhypre-dev libopenmpi-dev
+  python3 python3-numpy python3-scipy python3-getfem python3-matplotlib)
 smg_fuzzing_packages=(clang libclang-rt-14-dev)
 
 # As root: directly, or through sudo.

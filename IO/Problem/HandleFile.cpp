@@ -95,7 +95,7 @@ void parseHandle(const JsonNode& handle, HandleFileData& data)
   handle.requireObject({ "region", "fixed", "translate", "rotate", "scale", "center" });
   const JsonNode place = handle.member("region");
   place.requireObject(RegionKeys);
-  data.regions.push_back({ parseRegion(place), place.place() });
+  data.regions.push_back(parseRegion(place));
 
   const bool moves = handle.has("translate") || handle.has("rotate") || handle.has("scale");
   if (handle.has("fixed"))
@@ -114,7 +114,7 @@ void parseHandle(const JsonNode& handle, HandleFileData& data)
   {
     handle.fail("must be fixed, or have at least one of translate, rotate and scale");
   }
-  data.motions.push_back(parseMotion(handle, data.regions.back().region));
+  data.motions.push_back(parseMotion(handle, data.regions.back()));
 }
 
 HandleFileData parseHandles(const JsonNode& node)
@@ -154,31 +154,60 @@ HandleFileData parseHandles(const JsonNode& node)
 } // namespace
 
 HandleFile::HandleFile(HandleFileData data, const StreamInfo& mesh, std::string file)
-  : Regions(std::move(data.regions), mesh, std::move(file))
-  , Data(std::move(data))
+  : Data(std::move(data))
+  , OfMesh(mesh, std::move(file))
 {
+  for (std::size_t k = 0; k < this->Data.regions.size(); ++k)
+  {
+    this->Regions.push_back(Selection::make(this->Data.regions[k], DataPlace::Vertices,
+      ColumnOwner::Vertices, "handles[" + std::to_string(k) + "].region", this->OfMesh));
+  }
 }
 
 void HandleFile::at(const MeshBlock& block, VertexHandles& handles)
 {
   constexpr std::uint8_t Most = std::numeric_limits<std::uint8_t>::max();
-  this->Regions.visit(block,
-    [&](std::size_t i, std::size_t k)
+  for (std::size_t k = 0; k < this->Regions.size(); ++k)
+  {
+    this->Regions[k]->startBlock(block);
+    const std::span<const std::uint8_t> selected = this->Regions[k]->atVertices();
+    const HandleMotion& motion = this->Data.motions[k];
+    for (std::size_t i = 0; i < selected.size(); ++i)
     {
-      const HandleMotion& motion = this->Data.motions[k];
-      const std::span<const double, 3> point(block.positions.data() + 3 * i, 3);
-      const std::array<double, 3> target = motion.apply(point);
-      handles.mask[i] = handles.mask[i] < Most ? handles.mask[i] + 1 : Most;
-      std::copy(target.begin(), target.end(), handles.target.data() + 3 * i);
-      std::copy(
-        motion.rotation().begin(), motion.rotation().end(), handles.rotation.data() + 3 * i);
-      handles.logScale[i] = motion.logScale();
-    });
+      if (selected[i])
+      {
+        const std::span<const double, 3> point(block.positions.data() + 3 * i, 3);
+        const std::array<double, 3> target = motion.apply(point);
+        handles.mask[i] = handles.mask[i] < Most ? handles.mask[i] + 1 : Most;
+        std::ranges::copy(target, handles.target.data() + 3 * i);
+        std::ranges::copy(motion.rotation(), handles.rotation.data() + 3 * i);
+        handles.logScale[i] = motion.logScale();
+      }
+    }
+  }
 }
 
-std::vector<std::string> HandleFile::check(MeshSource& mesh) const
+std::vector<std::string> HandleFile::check(MeshSource& mesh)
 {
-  const std::vector<std::int64_t> following = this->Regions.check(mesh);
+  // How many vertices follow each handle: that no later one holds.
+  std::vector<std::int64_t> following(this->Regions.size(), 0);
+  std::vector<bool> follows;
+  for (MeshBlock block; mesh.next(block);)
+  {
+    follows.assign(static_cast<std::size_t>(block.vertices()), false);
+    for (std::size_t k = this->Regions.size(); k-- > 0;)
+    {
+      this->Regions[k]->prepare(block, {});
+      const std::span<const std::uint8_t> selected = this->Regions[k]->atVertices();
+      for (std::size_t i = 0; i < selected.size(); ++i)
+      {
+        following[k] += selected[i] && !follows[i] ? 1 : 0;
+        follows[i] = follows[i] || selected[i];
+      }
+    }
+  }
+  std::ranges::for_each(
+    this->Regions, [](const std::unique_ptr<Selection>& region) { region->endPreparing(); });
   std::vector<std::string> notes;
   bool moves = false;
   for (std::size_t k = 0; k < following.size(); ++k)

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Problem/RegionList.h"
 #include "Solver/Deform.h"
 #include "Solver/Deformation/HandleMotion.h"
+#include "Solver/Description/Selection.h"
 
 #include <filesystem>
 #include <memory>
@@ -18,7 +18,7 @@ namespace smg
 struct HandleFileData
 {
   /** What each handle holds. A vertex that several hold follows the last one. */
-  std::vector<NamedRegion> regions;
+  std::vector<Region> regions;
   /** How each of them moves. */
   std::vector<HandleMotion> motions;
   /** How to deform, where the file says it; not both of cycles and tolerance. */
@@ -43,7 +43,7 @@ public:
   void applyTo(DeformOptions& options) const;
 
   /** The vertex columns that the mesh source must deliver. */
-  std::vector<std::string> vertexColumns() const { return this->Regions.vertexColumns(); }
+  std::vector<std::string> vertexColumns() const { return this->OfMesh.vertexColumns(); }
 
   /**
    * Reads the stream once and throws Error naming the region if a region selects no vertex, or
@@ -51,11 +51,12 @@ public:
    * @return what a user should know: handles whose vertices all follow later ones, and that nothing
    * moves
    */
-  std::vector<std::string> check(MeshSource& mesh) const;
+  std::vector<std::string> check(MeshSource& mesh);
 
 private:
-  RegionList Regions;  ///< those of the data
-  HandleFileData Data; ///< all but the regions
+  HandleFileData Data;
+  MeshColumns OfMesh;
+  std::vector<std::unique_ptr<Selection>> Regions; ///< those of the data
 };
 
 /**

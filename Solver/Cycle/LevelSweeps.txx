@@ -11,8 +11,8 @@ namespace smg
 
 /** One sweep over `nodes`, each by itself. */
 template <bool LowerOnly, class Relaxation, class Real, class Arrays>
-void relaxNodes(const RowBlock::Header& h, const Arrays& a, BlockRange nodes, int stride, Real* x,
-  const Real* b)
+void relaxNodes(
+  const RowBlock::Header& h, const Arrays& a, BlockRange nodes, int stride, Real* x, const Real* b)
 {
   if (stride == 1)
   {
@@ -50,10 +50,8 @@ void Level<Real, Relaxation>::relaxSpecial(
   {
     const Real* b = state.b.at(h.first);
     visitSpecial<Real>(h, a, node,
-      [&](const auto& arrays)
-      {
-        relaxNodes<LowerOnly, Relaxation>(
-          h, arrays, { node.node, node.node + 1 }, stride, x, b);
+      [&](const auto& arrays) {
+        relaxNodes<LowerOnly, Relaxation>(h, arrays, { node.node, node.node + 1 }, stride, x, b);
       });
     return;
   }
@@ -78,8 +76,8 @@ void Level<Real, Relaxation>::relaxSpecial(
 /** Relaxes the patch that ends at `node`, the columns from `lane` on. */
 template <class Real, class Relaxation>
 template <bool LowerOnly, class Vectors, class Arrays>
-void Level<Real, Relaxation>::relaxPatch(const RowBlock::Header& h, const Arrays& a,
-  const RowBlock::Special& node, State& state, int lane)
+void Level<Real, Relaxation>::relaxPatch(
+  const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node, State& state, int lane)
 {
   const int stride = this->Window.stride();
   const std::int64_t last = h.first + node.node;
@@ -101,8 +99,8 @@ void Level<Real, Relaxation>::relaxPatch(const RowBlock::Header& h, const Arrays
       { findResidual(header, rows, own, k); });
   }
   findResidual(h, a, node.node, node.size - 1);
-  correctPatch<LowerOnly, Vectors>(node.size, distance, distance + node.size - 1, residual, stride,
-    state.x.at(last) + lane);
+  correctPatch<LowerOnly, Vectors>(
+    node.size, distance, distance + node.size - 1, residual, stride, state.x.at(last) + lane);
 }
 
 template <class Real, class Relaxation>
@@ -158,7 +156,9 @@ void Level<Real, Relaxation>::restrictTo(std::int64_t end)
           [&](const RowBlock::Special& node)
           {
             visitSpecial<Real>(h, a, node,
-              [&](const auto& rows) { restrictNodes(rows, { node.node, node.node + 1 }); });
+              [&](const auto& rows) {
+                restrictNodes(rows, { node.node, node.node + 1 });
+              });
           });
       }
     });

@@ -38,9 +38,9 @@ concept RelaxesLevels = RelaxesBlocks<R, Real, 1, std::int16_t, Weight> &&
  * that does nodes [nodes.begin, nodes.end) of a block once. `h` and `a` are the block's rows: see
  * RowBlock, and entriesOf() and neighbourSum() for what is in them. x and b point to node 0 of the
  * block, node k has its values at x + k * stride; they are `double` on the finest level, `float` on
- * the others; weights are double, float or BFloat16, to be made Real by a static_cast. Vectors::load
- * and ::store move the values that are treated at once, 1 or 4 right-hand sides. GaussSeidel is the
- * model.
+ * the others; weights are double, float or BFloat16, to be made Real by a static_cast.
+ * Vectors::load and ::store move the values that are treated at once, 1 or 4 right-hand sides.
+ * GaussSeidel is the model.
  *
  * Patches of strongly coupled nodes the engine relaxes by itself (see PatchRelaxation.h).
  *

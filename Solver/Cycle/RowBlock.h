@@ -90,17 +90,17 @@ public:
   {
     using Count =
       std::conditional_t<std::is_same_v<Index, WideIndex>, std::uint32_t, std::uint16_t>;
-    const Weight* weight;             // an entry
-    const Index* delta;               // an entry
-    const Index* parent;              // a parent, relative to parentBase
-    const Count* entryEnd;            // a node: end of its entries, from the group's start
-    const Count* parentEnd;           // a node: end of its parents, from the group's start
-    const std::int8_t* parentQuanta;  // a parent
-    const double* alpha;              // a node of the groups that have them: the row's sum
-    const Special* special;           // by ascending node
-    const double* value;              // of patches
-    const double* precise;            // of special nodes
-    const double* diagonal;           // a node
+    const Weight* weight;            // an entry
+    const Index* delta;              // an entry
+    const Index* parent;             // a parent, relative to parentBase
+    const Count* entryEnd;           // a node: end of its entries, from the group's start
+    const Count* parentEnd;          // a node: end of its parents, from the group's start
+    const std::int8_t* parentQuanta; // a parent
+    const double* alpha;             // a node of the groups that have them: the row's sum
+    const Special* special;          // by ascending node
+    const double* value;             // of patches
+    const double* precise;           // of special nodes
+    const double* diagonal;          // a node
 
     /** The same with the weights of a special node's row in double precision, for that row alone,
      * whose entries begin at `begin`. */

@@ -80,8 +80,8 @@ private:
     {
       this->values.push_back(static_cast<double>(patch.member(k) - patch.last()));
     }
-    this->values.insert(this->values.end(), this->Inverse.entry,
-      this->Inverse.entry + PatchMatrix::entriesOf(size));
+    this->values.insert(
+      this->values.end(), this->Inverse.entry, this->Inverse.entry + PatchMatrix::entriesOf(size));
   }
 };
 

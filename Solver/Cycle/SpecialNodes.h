@@ -15,8 +15,8 @@ namespace smg
  * of these, in order.
  */
 template <class Arrays, class Plain, class OfSpecial>
-void visitNodes(const RowBlock::Header& h, const Arrays& a, BlockRange nodes, Plain&& plain,
-  OfSpecial&& special)
+void visitNodes(
+  const RowBlock::Header& h, const Arrays& a, BlockRange nodes, Plain&& plain, OfSpecial&& special)
 {
   const RowBlock::Special* last = a.special + h.specials;
   const RowBlock::Special* next = std::lower_bound(a.special, last, nodes.begin,
@@ -50,8 +50,7 @@ const RowBlock::Special& specialOf(const RowBlock::Header& h, const Arrays& a, s
  * finest level, whose numbers are double, they may stand beside in double precision.
  */
 template <class Real, class Arrays, class F>
-void visitSpecial(
-  const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node, F&& f)
+void visitSpecial(const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node, F&& f)
 {
   if constexpr (std::is_same_v<Real, double>)
   {

@@ -114,7 +114,9 @@ void PositionStep::closeGroup(const RestBlock& block, std::int64_t end)
         [&](const RowBlock::Special& node)
         {
           visitSpecial<double>(h, a, node,
-            [&](const auto& rows) { closeRows(rows, { node.node, node.node + 1 }); });
+            [&](const auto& rows) {
+              closeRows(rows, { node.node, node.node + 1 });
+            });
         });
     });
   this->Done = end;

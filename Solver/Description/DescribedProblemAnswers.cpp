@@ -133,7 +133,6 @@ void DescribedProblem::setConductivity(const CellRange& cells, CellBatch& batch)
     }
     const double* numbers = this->Values.data() + 6 * c;
     const int count = this->Conductivity.components(this->Entry[c]);
-    const std::array<double, 6> tensor = tensorOf(numbers, count);
     const std::span<double> weights = batch.weightsOf(c);
     if (count == 1)
     {
@@ -141,6 +140,7 @@ void DescribedProblem::setConductivity(const CellRange& cells, CellBatch& batch)
     }
     else
     {
+      const std::array<double, 6> tensor = tensorOf(numbers, count);
       std::array<const double*, 4> points{};
       for (int k = 0; k < corners; ++k)
       {
@@ -151,7 +151,8 @@ void DescribedProblem::setConductivity(const CellRange& cells, CellBatch& batch)
     }
     if (!batch.conductivity.empty())
     {
-      std::ranges::copy(tensor, batch.conductivity.begin() + static_cast<std::ptrdiff_t>(6 * c));
+      std::ranges::copy(
+        tensorOf(numbers, count), batch.conductivity.begin() + static_cast<std::ptrdiff_t>(6 * c));
     }
   }
 }

@@ -46,6 +46,9 @@ void NearestSelection::prepare(const MeshBlock& block, const std::filesystem::pa
 void NearestSelection::endPreparing()
 {
   this->Distances.clear();
+  std::erase(this->Vertices, -1);
+  this->Count = static_cast<std::int64_t>(this->Vertices.size());
+  this->Selection::endPreparing();
   std::ranges::sort(this->Vertices);
   this->Vertices.erase(
     std::unique(this->Vertices.begin(), this->Vertices.end()), this->Vertices.end());

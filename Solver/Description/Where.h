@@ -37,8 +37,8 @@ struct NearestVertices
  *
  * A region, a column of the vertices and points select vertices; cells and facets of the boundary
  * are selected if all their corners are. A column of the cells selects cells, their vertices and
- * their facets. Where vertices and cells have a column of the name, the conductivity looks at that
- * of the cells, everything else at that of the vertices.
+ * their facets. Where vertices and cells have a column of the name, conductivity and field look at
+ * that of the cells, everything else at that of the vertices.
  */
 using Where = std::variant<Everywhere, Region, ColumnTag, ColumnMask, NearestVertices>;
 

@@ -88,7 +88,8 @@ protected:
   FreeComponents Free;
   Levels<Relaxation> Hierarchy;
   int FirstCore = 0;
-  bool MixedSigns = false; // the finest level may have negative weights
+  /** The slowest errors may sit at a few vertices, of slivers, which a sample does not see. */
+  bool SlowestAreFew = false;
   CoreCycle<Relaxation> Core;
   tbb::task_arena Threads;
   double InitialNorm = 0.0;

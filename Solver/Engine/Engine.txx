@@ -194,10 +194,9 @@ template <OperatorSet Operators>
 void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem, RowListener* listener)
 {
   const CellType type = mesh.info().cellType;
-  this->MixedSigns = problem.weights() == Weights::Cotangent;
-  HierarchyBuilder<Operators> builder(this->Memory, Operators::forCells(type), this->Hierarchy,
-    this->FirstCore, Assembly::stiffRows(type, problem.weights()));
   AssembledRows rows;
+  HierarchyBuilder<Operators> builder(this->Memory, Operators::forCells(type), this->Hierarchy,
+    this->FirstCore, Assembly::stiffRows(type, problem.weights(), rows));
   Assembly assembly(this->Memory, mesh.info(), problem, rows, this->Parts, this->Labels, listener);
   this->startPass(true);
   this->readStream(mesh, assembly, rows, builder);
@@ -212,6 +211,8 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem, RowListene
   }
   this->factorize();
   this->noteAssembly(assembly);
+  this->SlowestAreFew = assembly.stiffRows() > 0 ||
+                        (type == CellType::Tetrahedron && problem.weights() == Weights::Cotangent);
 }
 
 /**

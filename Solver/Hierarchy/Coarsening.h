@@ -242,11 +242,11 @@ private:
     std::int64_t next = 0, settled = 0;
   };
 
-  std::int64_t Rows = 0; // of the fine level, that stages may look at
+  std::int64_t Rows = 0;                // of the fine level, that stages may look at
   std::int64_t Lifted = 0, Initial = 0; // by fine node
   std::vector<Sweep> Relaxed;
   std::int64_t Interpolated = 0, Multiplied = 0;
-  std::int64_t Gathered = 0, Finished = 0;                                // by coarse node
+  std::int64_t Gathered = 0, Finished = 0; // by coarse node
   std::int64_t Packed = 0;
   std::int64_t RelaxedDone = 0, ReachDone = 0, PatchesDone = 0, ProductDone = 0;
 };

@@ -145,7 +145,7 @@ struct CoarseningData
   /** Off-diagonal rows of -P^T A P, before and during sparsification. */
   RaggedRing<CoarseEntry> raw;
   Ring<double> rawAlpha;
-  Ring<float> rawStrongest;    ///< with the sign - if the row is stiff
+  Ring<float> rawStrongest; ///< with the sign - if the row is stiff
   Ring<float> rawDiagonal;
   /** Whether no entry of the row may be removed. */
   Ring<std::uint8_t> rawKept;

@@ -219,7 +219,8 @@ void ExtendedInterpolation::relaxPatch(
   }
   for (int a = 0; a < count; ++a)
   {
-    gatherOutside(data, patch.member(members[a]), patch, inside, this->Of[static_cast<std::size_t>(a)]);
+    gatherOutside(
+      data, patch.member(members[a]), patch, inside, this->Of[static_cast<std::size_t>(a)]);
   }
   CoarseningData::Slot* slots = data.slots.at(data.coarseNodes);
   for (int a = 0; a < count; ++a)

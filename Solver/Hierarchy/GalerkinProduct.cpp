@@ -154,7 +154,7 @@ void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
   }
   data.raw.close(size);
   const double diagonal = usableDiagonal(sum);
-  data.rawStrongest[c] = data.stiff(least, diagonal) ? -strongest : strongest;
+  data.rawStrongest[c] = data.stiff(least) ? -strongest : strongest;
   data.rawDiagonal[c] = static_cast<float>(diagonal);
   data.rawKept[c] = std::signbit(data.rawStrongest[c]) || terms > this->cancelling * sum ? 1 : 0;
   data.rawLower[c] = lower;

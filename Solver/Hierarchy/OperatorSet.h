@@ -36,8 +36,8 @@ namespace smg
  * - `interpolateInitial` may read row i and `lifted` of its neighbours, and appends row i of
  *   `initial` and its `initialSum`.
  * - `relaxInterpolation` may read row i, and of i and its neighbours `lifted`, `initial` and
- *   `relaxed`, which is Pending before the first sweep. It sets `relaxed` of i, or of a patch that i
- *   belongs to, where it may read the same of all its nodes, when its last node's turn comes.
+ *   `relaxed`, which is Pending before the first sweep. It sets `relaxed` of i, or of a patch that
+ * i belongs to, where it may read the same of all its nodes, when its last node's turn comes.
  * - `interpolate` may read `relaxed` of i. It appends row i of `interpolation`, chained by columns
  *   from `firstChild` to `lastChild`, and sets `rowQuanta` and `parentReach`.
  * - `multiply` may read row i and `interpolation` of i and its neighbours. It appends row i of
@@ -51,10 +51,11 @@ namespace smg
  *   weights of these at last. An entry that is to go gets the weight NaN.
  *
  * What the engine relies on: a node without edges is not lifted; each lifted node has a child; P
- * has entries from -1 to 1 (multiples of 1/Quanta), from coarse nodes within two rings; the coarse operator is exactly symmetric, with row sums alpha that are zero
- * where no constraint reaches, before and after sparsification; a step depends on what it may read
- * alone, not on when it is called. To exchange one step, derive from Extended and hide that member:
- * see Examples/CustomOperators.
+ * has entries from -1 to 1 (multiples of 1/Quanta), from coarse nodes within two rings; the coarse
+ * operator is exactly symmetric, with row sums alpha that are zero where no constraint reaches,
+ * before and after sparsification; a step depends on what it may read alone, not on when it is
+ * called. To exchange one step, derive from Extended and hide that member: see
+ * Examples/CustomOperators.
  */
 template <class O>
 concept OperatorSet = std::default_initializable<O> && std::copyable<O> &&

@@ -73,7 +73,8 @@ void Patches::append(const LevelRows& rows, Patch& patch, std::int64_t j, double
     {
       if (row[e].delta() == delta)
       {
-        patch.matrix.at(own, k) = precise.empty() ? -static_cast<double>(row[e].weight()) : -precise[e];
+        patch.matrix.at(own, k) =
+          precise.empty() ? -static_cast<double>(row[e].weight()) : -precise[e];
       }
     }
   }

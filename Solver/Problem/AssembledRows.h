@@ -19,6 +19,9 @@ struct AssembledRows
 {
   RowBatch rows;
   std::vector<double> x, b; ///< `columns` a row
+  /** The size of the problem's weights beside those of finite elements with K = 1, where there is
+   * the first. */
+  double weightScale = 1.0;
 
   void moveTo(LevelRows& level, LevelWindow<double>& window, int columns)
   {

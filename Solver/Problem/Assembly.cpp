@@ -25,6 +25,7 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, Assembl
   , Columns(static_cast<std::size_t>(problem.columns()))
   , Kind(problem.weights())
   , ConnectsFlat(problem.connectsFlatCells())
+  , Out(rows)
   , Parts(components)
   , PartLabels(labels)
   , Listener(listener)
@@ -32,8 +33,8 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, Assembl
   , Labels(pool)
   , Reach(pool)
   , Edges(pool, problem, info.cellType)
-  , Rows(this->Vertices, problem, rows, components, stiffRows(info.cellType, problem.weights()),
-      listener)
+  , Rows(this->Vertices, problem, rows, components,
+      stiffRows(info.cellType, problem.weights(), rows), listener)
   , Load(this->Columns)
 {
   if (problem.hasCells())
@@ -129,6 +130,11 @@ CellWeights Assembly::weightsOf(const double* const* points)
   if (this->Kind != Weights::Cotangent || cell.measure == 0.0)
   {
     return cell;
+  }
+  if (this->Own && !this->Scaled)
+  {
+    this->Out.weightScale = this->Own->scale();
+    this->Scaled = true;
   }
   const double flatness =
     this->Own ? this->Own->flatness() : flatnessFactor(this->Type, points, cell);

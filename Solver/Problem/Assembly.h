@@ -32,11 +32,11 @@ namespace smg
 class Assembly
 {
 public:
-  /** What finds the stiff rows of a level of a problem on such cells. */
-  static StiffRows stiffRows(CellType type, Weights weights)
+  /** What finds the stiff rows of a level of a problem on such cells, whose `rows` it makes. */
+  static StiffRows stiffRows(CellType type, Weights weights, const AssembledRows& rows)
   {
     const bool may = weights == Weights::Cotangent && type == CellType::Triangle;
-    return may ? StiffRows::ofTriangles() : StiffRows();
+    return may ? StiffRows(StiffRows::Triangles, rows.weightScale) : StiffRows();
   }
 
   /** `listener`, if given, is told what the rows do not keep. */
@@ -60,6 +60,8 @@ public:
   double leastFlatness() const { return this->LeastFlatness; }
   /** With cotangent weights: rows that were raised. */
   std::int64_t raisedRows() const { return this->Rows.raised(); }
+  /** See StiffRows. */
+  std::int64_t stiffRows() const { return this->Rows.stiff(); }
   /** ||b - A x_0||^2, and the same of the terms that it is the difference of. */
   double initialSquares() const { return this->Rows.initialSquares(); }
   double termSquares() const { return this->Rows.termSquares(); }
@@ -83,6 +85,7 @@ private:
   std::size_t Columns;
   Weights Kind;
   bool ConnectsFlat;
+  AssembledRows& Out;
   Components& Parts;
   ComponentLabels& PartLabels;
   RowListener* Listener;
@@ -110,6 +113,7 @@ private:
   std::int64_t Cells = 0, Final = 0;
   std::int64_t Degenerate = 0, Limited = 0;
   double LeastFlatness = 1.0;
+  bool Scaled = false; // the weights' scale is known
 };
 
 } // namespace smg

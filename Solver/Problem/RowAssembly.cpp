@@ -77,8 +77,7 @@ void RowAssembly::close(std::int64_t i, std::int32_t label,
   }
   const double diagonal =
     diagonalOf({ this->Row, static_cast<std::size_t>(this->Size) }, alpha, this->Precise);
-  this->Out.rows.close(
-    this->Size, alpha, -1, this->Stiff(least, diagonal), this->Precise);
+  this->Out.rows.close(this->Size, alpha, -1, this->Stiff(least), this->Precise);
   this->Out.b.insert(this->Out.b.end(), this->B.begin(), this->B.end());
   if (this->Listener)
   {
@@ -166,10 +165,10 @@ void RowAssembly::addNeighbours(
 /** Holds the vertex near its initial value where its diagonal is lost in rounding. */
 void RowAssembly::raise(std::int64_t i, double& alpha)
 {
-  this->Raise = this->Kind == Weights::Cotangent
-                  ? rowShortfall(
-                      { this->Row, static_cast<std::size_t>(this->Size) }, alpha, this->Precise)
-                  : 0.0;
+  this->Raise =
+    this->Kind == Weights::Cotangent
+      ? rowShortfall({ this->Row, static_cast<std::size_t>(this->Size) }, alpha, this->Precise)
+      : 0.0;
   if (this->Raise == 0.0)
   {
     return;

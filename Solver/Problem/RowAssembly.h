@@ -37,6 +37,7 @@ public:
   std::int64_t held() const { return this->Held; }
   /** See rowShortfall(). */
   std::int64_t raised() const { return this->Raised; }
+  std::int64_t stiff() const { return this->Stiff.found(); }
   double initialSquares() const { return this->InitialSquares; }
   double termSquares() const { return this->TermSquares; }
 

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/vtkStreamingPoisson.h"
 #include "IO/Container/VsmReader.h"
-#include "IO/vtkStreamingMeshReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
-#include "Testing/IO/vtkPieceTesting.h"
+#include "Testing/Filters/vtkPoissonFixture.h"
 #include "Testing/Support/ArrayProblem.h"
 #include "Testing/Support/SolveMesh.h"
-#include "Testing/Support/TemporaryFolder.h"
 
-#include "vtkDoubleArray.h"
-#include "vtkElevationFilter.h"
 #include "vtkFieldData.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
@@ -20,92 +15,6 @@ namespace smg::testing
 {
 namespace
 {
-
-/** Makes the point arrays Mask and Values: both ends in x are held at their positions. */
-class vtkEndsFilter : public vtkPassInputTypeAlgorithm
-{
-public:
-  static vtkEndsFilter* New() { VTK_STANDARD_NEW_BODY(vtkEndsFilter); }
-  vtkTypeMacro(vtkEndsFilter, vtkPassInputTypeAlgorithm);
-  int Executions = 0;
-  double Bad = 0.0;
-  double Left = -2.5, Right = 2.5;
-
-  bool isHeld(const double* point) const
-  {
-    return point[0] <= this->Left || point[0] >= this->Right;
-  }
-
-protected:
-  int RequestData(vtkInformation*, vtkInformationVector** inputVector,
-    vtkInformationVector* outputVector) override
-  {
-    ++this->Executions;
-    vtkPointSet* output = vtkPointSet::GetData(outputVector);
-    output->ShallowCopy(vtkPointSet::GetData(inputVector[0]));
-    vtkNew<vtkUnsignedCharArray> mask;
-    mask->SetName("Mask");
-    vtkNew<vtkDoubleArray> values;
-    values->SetName("Values");
-    values->SetNumberOfComponents(3);
-    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
-    {
-      const double* point = output->GetPoint(i);
-      mask->InsertNextValue(this->isHeld(point) ? 1 : 0);
-      values->InsertNextTuple3(point[0] + this->Bad, point[1], point[2]);
-    }
-    output->GetPointData()->AddArray(mask);
-    output->GetPointData()->AddArray(values);
-    return 1;
-  }
-};
-
-class VtkStreamingPoisson : public ::testing::Test
-{
-protected:
-  VtkStreamingPoisson()
-  {
-    this->open(torus(60, 30, 0.2));
-    this->Ends->SetInputConnection(this->Reader->GetOutputPort());
-    this->prepare(this->Poisson);
-  }
-
-  void open(const IndexedTestMesh& mesh)
-  {
-    this->Mesh = writeVsm(this->Folder / "mesh.vsm", mesh);
-    this->Reader->SetFileName((this->Folder / "mesh.vsm").c_str());
-  }
-
-  void prepare(vtkStreamingPoisson* poisson)
-  {
-    poisson->SetInputConnection(this->Ends->GetOutputPort());
-    poisson->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Mask");
-    poisson->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Values");
-    poisson->SetNumberOfPieces(5);
-    poisson->SetTolerance(1e-8);
-    poisson->SetScratchDirectory(this->Folder.path().c_str());
-  }
-
-  vtkPointSet* output() { return vtkPointSet::SafeDownCast(this->Poisson->GetOutputDataObject(0)); }
-
-  PieceUnion collectPieces(int pieces)
-  {
-    PieceUnion all;
-    all.watched = "Solution";
-    for (int piece = 0; piece < pieces; ++piece)
-    {
-      EXPECT_TRUE(updatePiece(this->Poisson, piece, pieces));
-      all.add(this->output(), piece);
-    }
-    return all;
-  }
-
-  TemporaryFolder Folder;
-  StreamMesh Mesh;
-  vtkNew<vtkStreamingMeshReader> Reader;
-  vtkNew<vtkEndsFilter> Ends;
-  vtkNew<vtkStreamingPoisson> Poisson;
-};
 
 TEST_F(VtkStreamingPoisson, ServesAnyPieceOfTheSameSolution)
 {
@@ -220,125 +129,6 @@ TEST_F(VtkStreamingPoisson, LeavesNoScratchFiles)
   EXPECT_EQ(this->Folder.entries(), 1);
 }
 
-TEST_F(VtkStreamingPoisson, ErrorsNameTheArray)
-{
-  Errors errors(this->Poisson);
-  this->Poisson->SetInputArrayToProcess(
-    1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Nonsense");
-  EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));
-  EXPECT_TRUE(errors.contain("Nonsense")) << errors.text();
-  errors.clear();
-  this->Poisson->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "None");
-  EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));
-  EXPECT_TRUE(errors.contain("belong together")) << errors.text();
-  errors.clear();
-  this->Poisson->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Values");
-  this->Ends->Bad = std::nan("");
-  this->Ends->Modified();
-  EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));
-  EXPECT_TRUE(errors.contain("Values")) << errors.text();
-  EXPECT_TRUE(errors.contain("must be finite")) << errors.text();
-  this->Ends->Bad = 0.0;
-  this->Ends->Modified();
-  EXPECT_TRUE(updatePiece(this->Poisson, 0, 1));
-}
-
-TEST_F(VtkStreamingPoisson, FailureOfAPieceIsAnError)
-{
-  vtkNew<vtkFaultyFilter> faulty;
-  faulty->SetInputConnection(this->Ends->GetOutputPort());
-  this->Poisson->SetInputConnection(faulty->GetOutputPort());
-  Errors errors(this->Poisson);
-  errors.watch(faulty);
-  for (const int piece : { 0, 3, 4 })
-  {
-    faulty->FailAtPiece = piece;
-    faulty->Modified();
-    EXPECT_FALSE(updatePiece(this->Poisson, 0, 1)) << piece;
-  }
-  faulty->FailAtPiece = -1;
-  faulty->Modified();
-  EXPECT_TRUE(updatePiece(this->Poisson, 0, 1));
-}
-
-TEST_F(VtkStreamingPoisson, FailureEndsStreaming)
-{
-  this->Reader->SetMaximumPointsInMemory(10);
-  vtkNew<vtkFaultyFilter> faulty;
-  faulty->SetInputConnection(this->Reader->GetOutputPort());
-  this->Ends->SetInputConnection(faulty->GetOutputPort());
-  Errors errors(this->Poisson);
-  errors.watch(faulty);
-  const auto expectPreview = [this]
-  {
-    ASSERT_TRUE(updatePiece(this->Reader, 0, 1));
-    EXPECT_TRUE(this->Reader->GetOutputDataObject(0)->GetFieldData()->HasArray("Preview"));
-  };
-  // The input fails, what it gives is refused, and the solve fails.
-  this->Poisson->SetNumberOfPieces(1);
-  faulty->FailAtPiece = 0;
-  EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));
-  expectPreview();
-  faulty->FailAtPiece = -1;
-  faulty->RemoveArray = "GlobalIds";
-  faulty->Modified();
-  EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));
-  expectPreview();
-  faulty->RemoveArray.clear();
-  faulty->Modified();
-  this->Poisson->SetScratchDirectory("/no/such/folder");
-  EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));
-  expectPreview();
-  this->Poisson->SetScratchDirectory(this->Folder.path().c_str());
-  EXPECT_TRUE(updatePiece(this->Poisson, 0, 1));
-  expectPreview();
-
-  // The same when the filter is itself streamed from.
-  faulty->FailAtPiece = 0;
-  faulty->Modified();
-  vtkNew<vtkStreamingMeshWriter> writer;
-  writer->SetInputConnection(this->Poisson->GetOutputPort());
-  writer->SetFileName((this->Folder / "out.vsm").c_str());
-  writer->SetNumberOfStreamedPieces(1);
-  errors.watch(writer);
-  EXPECT_FALSE(writer->Write());
-  expectPreview();
-  faulty->FailAtPiece = -1;
-  faulty->Modified();
-  EXPECT_TRUE(writer->Write());
-  expectPreview();
-}
-
-TEST_F(VtkStreamingPoisson, WhatIsWrongFromTheStartIsToldBeforePulling)
-{
-  vtkNew<vtkFaultyFilter> passing;
-  passing->SetInputConnection(this->Ends->GetOutputPort());
-  this->Poisson->SetInputConnection(passing->GetOutputPort());
-  Errors errors(this->Poisson);
-  const auto expectError = [&](const std::string& words)
-  {
-    errors.clear();
-    passing->Requests.clear();
-    EXPECT_FALSE(updatePiece(this->Poisson, 0, 3));
-    EXPECT_TRUE(errors.contain(words)) << errors.text();
-    EXPECT_LE(passing->Requests.size(), 1U);
-  };
-  this->Poisson->SetOperators("nonsense");
-  expectError("no operator set 'nonsense'");
-  this->Poisson->SetOperators("extended");
-  for (const double tolerance : { 0.0, 1.0, std::nan("") })
-  {
-    this->Poisson->SetTolerance(tolerance);
-    expectError("between 0 and 1");
-  }
-  this->Poisson->SetTolerance(1e-6);
-  const int points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
-  this->Poisson->SetInputArrayToProcess(1, 0, 0, points, "");
-  expectError("belong together");
-  this->Poisson->SetInputArrayToProcess(0, 0, 0, points, "");
-  expectError("No array says what to solve");
-}
-
 TEST_F(VtkStreamingPoisson, SolvesOnTetrahedra)
 {
   this->open(tetBox(12, 7, 6, 0.1));
@@ -424,25 +214,6 @@ TEST_F(VtkStreamingPoisson, WeightsAreThoseThatAreChosen)
       ASSERT_EQ(value[1], values(id, 1)) << weights;
     }
   }
-}
-
-TEST_F(VtkStreamingPoisson, ComponentsMustAgree)
-{
-  Errors errors(this->Poisson);
-  this->Poisson->SetInputArrayToProcess(2, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Mask");
-  EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));
-  EXPECT_TRUE(errors.contain("source: the components of the column 'Mask' are 1, but must have 3"))
-    << errors.text();
-}
-
-TEST_F(VtkStreamingPoisson, NotConvergingIsAWarning)
-{
-  Errors errors(this->Poisson);
-  this->Poisson->SetMaximumCycles(1);
-  this->Poisson->SetTolerance(1e-14);
-  EXPECT_TRUE(updatePiece(this->Poisson, 0, 1));
-  EXPECT_TRUE(errors.contain("did not converge")) << errors.text();
-  EXPECT_EQ(this->Poisson->GetConverged(), 0);
 }
 
 TEST_F(VtkStreamingPoisson, CanBeAborted)

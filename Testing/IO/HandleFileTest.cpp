@@ -181,8 +181,8 @@ TEST_F(HandleFileText, IsReadWithoutAMesh)
     this->file(R"({"handles": [)" + Fixed + R"(, {"region": {"vertices": [7, 3, 7]},
     "translate": [1, 0, 0]}], "cycles": 3})"));
   EXPECT_EQ(data.motions.size(), 2u);
-  ASSERT_TRUE(data.regions[1].region.vertices());
-  EXPECT_EQ(data.regions[1].region.vertices()->ids, (std::vector<std::int64_t>{ 3, 7 }));
+  ASSERT_TRUE(data.regions[1].vertices());
+  EXPECT_EQ(data.regions[1].vertices()->ids, (std::vector<std::int64_t>{ 3, 7 }));
   EXPECT_EQ(data.cycles, 3);
   expectError([&] { readHandleFileData(this->file("{}")); }, "p.json: has no 'handles'");
   expectError([&] { readHandleFileData(this->Folder.path()); }, "this is a folder");

@@ -17,14 +17,14 @@ void checkErrors(const IndexedTestMesh& given, int more = 0)
 {
   const StreamMesh mesh = toStream(given);
   ArrayHandles handles = figureHandles(mesh);
-  for (const Weights weights : BothWeights)
+  for (const Weights weights : { Weights::Uniform, Weights::Clamped, Weights::Cotangent })
   {
     const Eigen::MatrixXd direct = deformDirectly(mesh, handles, weights).positions;
     for (const auto& [cycles, allowed] : { std::pair(3, 2e-3), { 6, 1e-5 }, { 9, 1e-7 } })
     {
       const Solved solved = deformMesh(mesh, handles, withCycles(cycles + more, weights));
       EXPECT_LE(deformationError(mesh, solved.values, direct), allowed)
-        << cycles + more << " cycles, " << (weights == Weights::Uniform ? "uniform" : "cotangent");
+        << cycles + more << " cycles, weights " << static_cast<int>(weights);
     }
   }
 }
