@@ -93,8 +93,8 @@ struct TestLevel
     {
       const auto size = static_cast<std::int64_t>(this->rows[i].size());
       std::copy(this->rows[i].begin(), this->rows[i].end(), to.open(size));
-      to.close(size, this->alpha[i], this->finest ? -1 : 0,
-        stiff(this->least(i), usableDiagonal(this->diagonal(i))), this->preciseOf(i));
+      to.close(
+        size, this->alpha[i], this->finest ? -1 : 0, stiff(this->least(i)), this->preciseOf(i));
     }
   }
   void append(LevelRows& to, std::int64_t begin, std::int64_t end) const
