@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace smg
@@ -42,40 +41,41 @@ struct PatchMatrix
   }
 
   /**
-   * Replaces the matrix by its inverse, by Cholesky's method; false, and the matrix is lost, if it
-   * is not positive definite up to rounding: if a pivot is below `least` times its diagonal entry.
+   * Replaces the matrix by its inverse, by its factors L D L^T: without roots, so that the matrix
+   * times a power of two gives the same bits. False, and the matrix is lost, if it is not positive
+   * definite up to rounding: if a pivot is below `least` times its diagonal entry.
    */
   bool invert(double least)
   {
-    double factor[Most][Most] = {}; // the inverse of Cholesky's lower factor
+    double lower[Most][Most] = {}; // the inverse of L
+    double inverse[Most];          // that of D
     for (int a = 0; a < this->order; ++a)
     {
-      // Row a of the factor times the inverse of what is above it.
-      double row[Most];
+      double row[Most]; // of L
       double pivot = this->at(a, a);
       for (int b = 0; b < a; ++b)
       {
-        row[b] = 0.0;
+        double sum = 0.0;
         for (int k = 0; k <= b; ++k)
         {
-          row[b] += factor[b][k] * this->at(a, k);
+          sum += lower[b][k] * this->at(a, k);
         }
-        pivot -= row[b] * row[b];
+        row[b] = sum * inverse[b];
+        pivot -= sum * row[b];
       }
       if (!(pivot > least * this->at(a, a)))
       {
         return false;
       }
-      const double inverse = 1.0 / std::sqrt(pivot);
+      inverse[a] = 1.0 / pivot;
       for (int b = 0; b < a; ++b)
       {
         for (int k = b; k < a; ++k)
         {
-          factor[a][b] -= row[k] * factor[k][b];
+          lower[a][b] -= row[k] * lower[k][b];
         }
-        factor[a][b] *= inverse;
       }
-      factor[a][a] = inverse;
+      lower[a][a] = 1.0;
     }
     for (int a = 0; a < this->order; ++a)
     {
@@ -84,7 +84,7 @@ struct PatchMatrix
         double sum = 0.0;
         for (int k = a; k < this->order; ++k)
         {
-          sum += factor[k][a] * factor[k][b];
+          sum += lower[k][a] * inverse[k] * lower[k][b];
         }
         this->at(a, b) = sum;
       }

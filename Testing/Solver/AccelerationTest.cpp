@@ -99,8 +99,13 @@ TEST(Acceleration, streamingEqualsInCoreBitForBit)
 
 TEST(Acceleration, needsFewerPassesWhereVCyclesAreSlow)
 {
-  // Raw cotangent weights of tetrahedra of which many are flat.
-  const StreamMesh mesh = toStream(shuffled(tetBox(13, 12, 14, 0.31)));
+  // Tetrahedra of which many are flat, and all are long.
+  IndexedTestMesh indexed = tetBox(13, 12, 14, 0.31);
+  for (std::size_t k = 0; k < indexed.positions.size(); k += 3)
+  {
+    indexed.positions[k] *= 6.0;
+  }
+  const StreamMesh mesh = toStream(shuffled(indexed));
   ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
   const auto solveBy = [&](AccelerationKind kind)
   {

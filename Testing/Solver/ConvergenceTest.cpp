@@ -79,7 +79,7 @@ TEST(Convergence, moreSweepsNeedFewerCycles)
   int before = 1000;
   for (const int sweeps : { 1, 2, 4, 8 })
   {
-    SolveOptions options = accurate();
+    SolveOptions options = accurate(1e-13);
     options.sweeps = sweeps;
     const Report report = solveMesh(mesh, problem, options).report;
     EXPECT_TRUE(report.converged);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace smg::testing
@@ -180,6 +181,17 @@ TEST(PatchMatrix, refusesWhatIsNotPositiveDefiniteUpToRounding)
   EXPECT_FALSE(inverts(1.0 + 1e-7, 1e-6));
   EXPECT_FALSE(inverts(1.0, 0.0));
   EXPECT_FALSE(inverts(0.5, 1e-6));
+}
+
+TEST(PatchMatrix, aPowerOfTwoDoesNotMatter)
+{
+  PatchMatrix matrix;
+  matrix.order = 3;
+  std::ranges::copy(std::vector{ 1.7, -0.9, 1.3, 0.2, -0.7, 1.9 }, matrix.entry);
+  PatchMatrix scaled = matrix;
+  std::ranges::transform(scaled.entry, scaled.entry, [](double a) { return a / 8; });
+  ASSERT_TRUE(matrix.invert(0.0) && scaled.invert(0.0));
+  EXPECT_EQ(8 * denseOf(matrix), denseOf(scaled));
 }
 
 TEST(PatchMatrix, partKeepsRowsAndColumns)
