@@ -15,8 +15,8 @@ namespace
 
 /** A weight is large beside those of regular cells: of triangles, and of tetrahedra for an edge of
  * length 1. */
-constexpr double LargeOfTriangles = 2.0;
-constexpr double LargeOfTetrahedra = 1.0;
+constexpr double LargeOfTriangles = 3.0;
+constexpr double LargeOfTetrahedra = 2.0;
 
 double squaredDistance(const double* a, const double* b)
 {
