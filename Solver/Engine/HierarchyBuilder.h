@@ -71,7 +71,7 @@ public:
     {
       rows = std::min(end, rows + RowBlock::Nodes);
       this->Steps[k]->advance(rows);
-      this->pack(l, true);
+      this->pack(l);
     } while (rows < end);
   }
 
@@ -112,35 +112,42 @@ public:
       this->close(k);
     }
     int l = 1;
-    for (; this->nodes(l) > CoarsestNodes && !this->stalled(l); ++l)
+    for (;; ++l)
     {
-      if (l < this->FirstCore)
+      if (l >= this->FirstCore)
       {
-        continue;
+        this->build(l);
       }
-      this->addStep();
-      for (std::int64_t end = RowBlock::Nodes; this->Packed.back() < this->nodes(l);
-           end += RowBlock::Nodes)
+      if (this->nodes(l) <= CoarsestNodes || this->stalled(l))
       {
-        this->Steps.back()->advance(end);
-        this->pack(l, true);
-        this->Steps.back()->handOver();
-        this->append(l);
+        break;
       }
-      this->close(l);
-      addLevel(l + 1);
-    }
-    if (l >= this->FirstCore)
-    {
-      this->pack(l, false);
-      this->append(l);
-      this->close(l);
+      if (l >= this->FirstCore)
+      {
+        addLevel(l + 1);
+      }
     }
     this->Built.sizes.resize(static_cast<std::size_t>(l + 1));
     return l;
   }
 
 private:
+  /** Builds core level l, whose rows are complete, and the rows of the next one: even if that is
+   * not to be used, so that the coarsest level does not depend on whether it is streamed. */
+  void build(int l)
+  {
+    this->addStep();
+    for (std::int64_t end = RowBlock::Nodes; this->Packed.back() < this->nodes(l);
+         end += RowBlock::Nodes)
+    {
+      this->Steps.back()->advance(end);
+      this->pack(l);
+      this->Steps.back()->handOver();
+      this->append(l);
+    }
+    this->close(l);
+  }
+
   /** Nodes of a level whose rows are complete. */
   std::int64_t nodes(int l) const
   {
@@ -208,29 +215,23 @@ private:
     level.window().giveSpareRows(this->Buffers[static_cast<std::size_t>(l)]);
   }
 
-  /** Packs the blocks of level l that are final, with or without interpolation. */
-  void pack(int l, bool interpolated)
+  /** Packs the blocks of level l that are final. */
+  void pack(int l)
   {
-    const LevelRows& rows = *this->Rows[static_cast<std::size_t>(l)];
-    SpareBuffers& buffers = this->Buffers[static_cast<std::size_t>(l)];
-    Coarsening<Operators>* step =
-      interpolated ? this->Steps[static_cast<std::size_t>(l)].get() : nullptr;
-    const std::int64_t final = step ? step->interpolated() : rows.end();
+    const auto k = static_cast<std::size_t>(l);
+    const LevelRows& rows = *this->Rows[k];
+    Coarsening<Operators>& step = *this->Steps[k];
+    const std::int64_t final = step.interpolated();
     const bool ended = rows.Ended && final == rows.end();
-    std::int64_t begin = step ? this->Packed[static_cast<std::size_t>(l)] : 0;
+    std::int64_t& begin = this->Packed[k];
     while (begin + RowBlock::Nodes <= final || (ended && begin < final))
     {
       const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
-      const CoarseningData* data = step ? &step->data() : nullptr;
-      this->Ready[static_cast<std::size_t>(l)].push_back(
-        packRows(buffers, rows, data, begin, nodes, l > 0 && !this->Stiff.any()));
+      this->Ready[k].push_back(
+        packRows(this->Buffers[k], rows, &step.data(), begin, nodes, l > 0 && !this->Stiff.any()));
       begin += nodes;
-      if (step)
-      {
-        step->packed(begin);
-        step->release();
-        this->Packed[static_cast<std::size_t>(l)] = begin;
-      }
+      step.packed(begin);
+      step.release();
     }
   }
 

@@ -37,7 +37,8 @@ struct KeptRows
       const auto row = this->rows.row(i);
       const auto size = static_cast<std::int64_t>(row.size());
       std::copy(row.begin(), row.end(), to.open(size));
-      to.close(size, this->rows.alpha(i), this->rows.childReach(i));
+      to.close(size, this->rows.alpha(i), this->rows.childReach(i), this->rows.stiff(i),
+        this->rows.precise(i));
     }
   }
 };
@@ -106,7 +107,7 @@ std::int64_t pack(Pool& pool, TimedStep& step, const LevelRows& rows, std::int64
   while (begin + RowBlock::Nodes <= final || (ended && begin < final))
   {
     const std::int64_t nodes = std::min(RowBlock::Nodes, final - begin);
-    RowBlock block = packRows<float>(buffers, rows, &step.data(), begin, nodes);
+    RowBlock block = packRows(buffers, rows, &step.data(), begin, nodes, false);
     ::benchmark::DoNotOptimize(block.stored().data());
     buffers.give(block.takeBuffer());
     begin += nodes;

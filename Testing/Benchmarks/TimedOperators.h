@@ -16,6 +16,7 @@ enum class Stage
 {
   Lift,
   InterpolateInitial,
+  RelaxInterpolation,
   Interpolate,
   Multiply,
   Gather,
@@ -23,7 +24,7 @@ enum class Stage
   None
 };
 inline constexpr std::array<const char*, static_cast<std::size_t>(Stage::None)> StageNames = {
-  "lift", "initial", "interpolate", "multiply", "gather", "pack"
+  "lift", "initial", "relax", "interpolate", "multiply", "gather", "pack"
 };
 
 /**
@@ -97,6 +98,12 @@ public:
   {
     this->Clock->enter(Stage::InterpolateInitial);
     this->Set.interpolateInitial(data, i);
+  }
+  int interpolationSweeps() const { return this->Set.interpolationSweeps(); }
+  void relaxInterpolation(CoarseningData& data, std::int64_t i)
+  {
+    this->Clock->enter(Stage::RelaxInterpolation);
+    this->Set.relaxInterpolation(data, i);
   }
   void interpolate(CoarseningData& data, std::int64_t i)
   {

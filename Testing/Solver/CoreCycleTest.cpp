@@ -31,13 +31,13 @@ Eigen::MatrixXd denseCycle(const DenseHierarchy<>& h, int levels, int l, const E
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(b.rows(), b.cols());
   for (int sweep = 0; sweep < Sweeps; ++sweep)
   {
-    denseSweep(a, b, x);
+    denseSweep(a, h.patches(l), b, x);
   }
   const Eigen::MatrixXd p = h.interpolation(l);
   x += p * denseCycle(h, levels, l + 1, p.transpose() * (b - a * x));
   for (int sweep = 0; sweep < Sweeps; ++sweep)
   {
-    denseSweep(a, b, x);
+    denseSweep(a, h.patches(l), b, x);
   }
   return x;
 }

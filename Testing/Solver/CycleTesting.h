@@ -3,7 +3,7 @@
 
 #include "Solver/Cycle/CoreCycle.h"
 #include "Solver/Cycle/RowBlockPacker.h"
-#include "Testing/Solver/HierarchyTesting.h"
+#include "Testing/Solver/PatchReference.h"
 
 #include <memory>
 #include <vector>
@@ -35,14 +35,22 @@ RowBlock widened(Pool& pool, const RowBlock& narrow)
   copy(from.parentEnd, h.nodes, to.parentEnd);
   copy(from.parentQuanta, h.parents, to.parentQuanta);
   copy(from.alpha, RowBlock::alphas(h), to.alpha);
+  copy(from.special, h.specials, to.special);
+  copy(from.value, h.values, to.value);
+  copy(from.precise, h.precise, to.precise);
   copy(from.diagonal, h.nodes, to.diagonal);
   return wide;
 }
 
-/** The matrix with the off-diagonals of coarse levels, whose row sums are kept. */
-inline Eigen::MatrixXd rounded(Eigen::MatrixXd matrix)
+inline bool roundsWeights(const RowBlock& block)
 {
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+  return block.header().weightBytes == sizeof(BFloat16);
+}
+
+/** Rounds the off-diagonals of the rows of a block as the block does, keeping their sums. */
+inline void roundRows(const RowBlock& block, Eigen::MatrixXd& matrix)
+{
+  for (Eigen::Index i = block.first(); roundsWeights(block) && i < block.end(); ++i)
   {
     for (Eigen::Index j = 0; j < matrix.cols(); ++j)
     {
@@ -54,7 +62,6 @@ inline Eigen::MatrixXd rounded(Eigen::MatrixXd matrix)
       }
     }
   }
-  return matrix;
 }
 
 /**
@@ -87,9 +94,10 @@ public:
     }
     for (int l = 0; l < levels; ++l)
     {
-      const bool rounds = l > 0 || std::is_same_v<Real, float>;
-      this->Matrices.push_back(
-        rounds ? rounded(levelOf(*rows[l]).dense()) : levelOf(*rows[l]).dense());
+      const TestLevel level = l > 0 ? levelOf(*rows[l]) : finest;
+      this->Matrices.push_back(level.dense());
+      // The coarsest level is solved by itself, so nothing is known of its patches.
+      this->PatchLists.push_back(l + 1 < levels ? patchesOf(level) : PatchList{});
       if (l > 0)
       {
         this->Coarse.push_back(
@@ -106,10 +114,14 @@ public:
       for (std::int64_t begin = 0; begin < rows[l]->end(); begin += RowBlock::Nodes)
       {
         const std::int64_t nodes = std::min(RowBlock::Nodes, rows[l]->end() - begin);
-        using Finest = std::is_same<decltype(level), Level<double, GaussSeidel>&>;
-        using Weight = std::conditional_t<Finest::value, float, BFloat16>;
-        RowBlock block = packRows<Weight>(buffers, *rows[l], data, begin, nodes);
-        level.append(wide ? widened<Weight>(this->Memory, block) : std::move(block));
+        RowBlock block = packRows(buffers, *rows[l], data, begin, nodes, mayRound(l));
+        roundRows(block, this->Matrices[l]);
+        if (wide)
+        {
+          block = roundsWeights(block) ? widened<BFloat16>(this->Memory, block)
+                                       : widened<float>(this->Memory, block);
+        }
+        level.append(std::move(block));
       }
       if (data)
       {
@@ -126,12 +138,16 @@ public:
   TestedLevel& finest() { return *this->Finest; }
   CoarserLevel& coarse(int l) { return *this->Coarse[l - 1]; }
   const Eigen::MatrixXd& matrix(int l) const { return this->Matrices[l]; }
+  const PatchList& patches(int l) const { return this->PatchLists[l]; }
   Eigen::MatrixXd interpolation(int l) const { return this->Records[l]->interpolation(); }
 
 private:
+  static bool mayRound(int l) { return l > 0 || std::is_same_v<Real, float>; }
+
   Pool Memory;
   ResidentNodes Resident;
   std::vector<Eigen::MatrixXd> Matrices;
+  std::vector<PatchList> PatchLists;
   std::vector<std::shared_ptr<CoarseningRecord>> Records;
   std::unique_ptr<TestedLevel> Finest;
   std::vector<std::unique_ptr<CoarserLevel>> Coarse;
@@ -165,12 +181,23 @@ void setState(Ring<Real>& state, const Eigen::MatrixXd& values)
   }
 }
 
-/** One forward Gauss-Seidel sweep. */
-inline void denseSweep(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& x)
+/** One forward Gauss-Seidel sweep: a patch is solved at the turn of its last node. */
+inline void denseSweep(
+  const Eigen::MatrixXd& a, const PatchList& patches, const Eigen::MatrixXd& b, Eigen::MatrixXd& x)
 {
   for (Eigen::Index i = 0; i < a.rows(); ++i)
   {
-    x.row(i) += (b.row(i) - a.row(i) * x) / a(i, i);
+    const std::vector<std::int64_t> alone{ i };
+    const auto& patch = patches.empty() ? alone : patches[i];
+    if (patch.size() == 1 || nearlySingular(partOf(a, patch), 1e-9))
+    {
+      x.row(i) += (b.row(i) - a.row(i) * x) / a(i, i);
+    }
+    else if (patch.back() == i)
+    {
+      const Eigen::MatrixXd residual = b(patch, Eigen::all) - a(patch, Eigen::all) * x;
+      x(patch, Eigen::all) += partOf(a, patch).inverse() * residual;
+    }
   }
 }
 

@@ -13,8 +13,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace smg::testing
@@ -25,6 +28,8 @@ struct TestLevel
 {
   std::vector<std::vector<RowEntry>> rows;
   std::vector<double> alpha;
+  /** The weights of some rows in double precision; empty: of none. */
+  std::vector<std::vector<double>> precise;
   bool finest = true; ///< or one that was coarsened from another
 
   std::int64_t nodes() const { return static_cast<std::int64_t>(this->rows.size()); }
@@ -48,30 +53,54 @@ struct TestLevel
     return smallest;
   }
 
+  std::span<const double> preciseOf(std::int64_t i) const
+  {
+    return this->precise.empty() ? std::span<const double>() : this->precise[i];
+  }
+  double weight(std::int64_t i, std::size_t e) const
+  {
+    const auto weights = this->preciseOf(i);
+    return weights.empty() ? static_cast<double>(this->rows[i][e].weight()) : weights[e];
+  }
+  double diagonal(std::int64_t i) const
+  {
+    double sum = this->alpha[i];
+    for (std::size_t e = 0; e < this->rows[i].size(); ++e)
+    {
+      sum += this->weight(i, e);
+    }
+    return sum;
+  }
+
   Eigen::MatrixXd dense() const
   {
     Eigen::MatrixXd a = Eigen::MatrixXd::Zero(this->nodes(), this->nodes());
     for (std::int64_t i = 0; i < this->nodes(); ++i)
     {
-      a(i, i) = this->alpha[i];
-      for (const RowEntry& entry : this->rows[i])
+      a(i, i) = this->diagonal(i);
+      for (std::size_t e = 0; e < this->rows[i].size(); ++e)
       {
-        a(i, i) += entry.weight();
-        a(i, i + entry.delta()) = -static_cast<double>(entry.weight());
+        a(i, i + this->rows[i][e].delta()) = -this->weight(i, e);
       }
     }
     return a;
   }
 
-  /** Appends rows [begin, end) to the level's window. */
-  void append(LevelRows& to, std::int64_t begin, std::int64_t end, StiffRows stiff = {}) const
+  /** Appends rows [begin, end) to the level's window. `stiff` is asked row by row. */
+  void append(LevelRows& to, std::int64_t begin, std::int64_t end, StiffRows& stiff) const
   {
     for (std::int64_t i = begin; i < end; ++i)
     {
       const auto size = static_cast<std::int64_t>(this->rows[i].size());
       std::copy(this->rows[i].begin(), this->rows[i].end(), to.open(size));
-      to.close(size, this->alpha[i], this->finest ? -1 : 0, stiff(this->least(i)));
+      to.close(
+        size, this->alpha[i], this->finest ? -1 : 0, stiff(this->least(i)), this->preciseOf(i));
     }
+  }
+  void append(LevelRows& to, std::int64_t begin, std::int64_t end) const
+  {
+    StiffRows none;
+    this->append(to, begin, end, none);
   }
 };
 
@@ -139,12 +168,20 @@ struct CoarseningRecord
   struct Parent
   {
     std::int64_t coarse;
-    std::uint32_t quanta;
+    int quanta;
     bool operator==(const Parent&) const = default;
   };
-  std::vector<std::int64_t> lifted; ///< of each fine node: its coarse node, or -1
+  /** A row of P while it is relaxed. */
+  struct Relaxed
+  {
+    std::vector<std::pair<std::int64_t, float>> entries; ///< coarse node, weight
+    float sum = 0.0F;
+  };
+  std::vector<std::int64_t> lifted;         ///< of each fine node: its coarse node, or -1
+  std::vector<std::vector<Relaxed>> sweeps; ///< the rows after each sweep, from that of P0
   std::vector<std::vector<Parent>> parents;
   TestLevel raw; ///< P^T A P before sparsification
+  std::vector<bool> rawStiff;
 
   std::int64_t coarseNodes() const { return this->raw.nodes(); }
   Eigen::MatrixXd interpolation() const
@@ -154,7 +191,7 @@ struct CoarseningRecord
     {
       for (const Parent& parent : this->parents[i])
       {
-        p(i, parent.coarse) += parent.quanta / 255.0;
+        p(i, parent.coarse) += parent.quanta / 127.0;
       }
     }
     return p;
@@ -173,6 +210,8 @@ public:
   float strength = 0.1F;
   int finestEntries = 4;
   int entries = 4;
+  int sweeps = 2;
+  double cancelling = 1.5;
   float tolerance = 0.1F; ///< of sparsification; 0: the raw product
   std::shared_ptr<CoarseningRecord> record = std::make_shared<CoarseningRecord>();
 
@@ -181,17 +220,36 @@ public:
     this->Interpolation.lifting.strength = this->strength;
     this->Interpolation.finestEntries = this->finestEntries;
     this->Interpolation.entries = this->entries;
+    this->Product.cancelling = this->cancelling;
     const bool lifted = this->Interpolation.lifting(data, i);
     this->record->lifted.push_back(lifted ? data.coarseNodes : -1);
+    this->Turns.push_back(0);
     return lifted;
   }
   void interpolateInitial(CoarseningData& data, std::int64_t i)
   {
     this->Interpolation.initial(data, i);
+    this->keep(data, data.initial.row(i), data.initial.size(i), data.initialSum[i], 0, i);
+  }
+  int interpolationSweeps() const { return this->sweeps; }
+  void relaxInterpolation(CoarseningData& data, std::int64_t i)
+  {
+    this->Interpolation.relax(data, i);
+    const auto sweep = static_cast<std::size_t>(++this->Turns[i]);
+    const Patch* patch = data.patches.of(i);
+    for (int k = 0; k < (patch ? patch->size : 1); ++k)
+    {
+      const std::int64_t m = patch ? patch->member(k) : i;
+      const RelaxedRow& row = data.relaxed[m];
+      if (m <= i && row.size != RelaxedRow::Pending)
+      {
+        this->keep(data, row.entry, row.size, row.sum, sweep, m);
+      }
+    }
   }
   void interpolate(CoarseningData& data, std::int64_t i)
   {
-    this->Interpolation(data, i);
+    this->Interpolation.append(data, i);
     auto& parents = this->record->parents.emplace_back();
     const InterpolationEntry* entry = data.interpolation.row(i);
     for (std::int64_t e = 0; e < data.interpolation.size(i); ++e)
@@ -211,6 +269,7 @@ public:
       row.push_back({ entry->offset(c), entry->value() });
     }
     this->record->raw.alpha.push_back(data.rawAlpha[c]);
+    this->record->rawStiff.push_back(std::signbit(data.rawStrongest[c]));
   }
   void sparsify(CoarseningData& data, std::int64_t c) const
   {
@@ -218,8 +277,24 @@ public:
   }
 
 private:
+  void keep(const CoarseningData& data, const CoarseEntry* entry, std::int64_t size, float sum,
+    std::size_t sweep, std::int64_t i)
+  {
+    auto& sweeps = this->record->sweeps;
+    sweeps.resize(std::max(sweeps.size(), sweep + 1));
+    sweeps[sweep].resize(std::max(sweeps[sweep].size(), static_cast<std::size_t>(i + 1)));
+    auto& row = sweeps[sweep][i];
+    row = { {}, sum };
+    for (std::int64_t e = 0; e < size; ++e)
+    {
+      const std::int64_t near = data.coarseNodes;
+      row.entries.emplace_back(near + entry[e].offset(near), entry[e].value());
+    }
+  }
+
   ExtendedInterpolation Interpolation;
   GalerkinProduct Product;
+  std::vector<int> Turns; // that each node has had in the sweeps
 };
 
 static_assert(OperatorSet<RecordingOperators>);
@@ -234,14 +309,12 @@ struct CoarsenedLevel
 
 /** Coarsens a level whose rows come `batch` at a time; their copies are kept as a solve does. */
 inline CoarsenedLevel coarsen(const TestLevel& fine, RecordingOperators operators,
-  std::int64_t batch = std::numeric_limits<std::int64_t>::max(),
-  float stiffBelow = -std::numeric_limits<float>::infinity())
+  std::int64_t batch = std::numeric_limits<std::int64_t>::max(), StiffRows stiff = {})
 {
   operators.record = std::make_shared<CoarseningRecord>();
   Pool pool(std::int64_t(1) << 32);
   LevelRows fineRows(pool);
   LevelRows coarseRows(pool);
-  StiffRows stiff(stiffBelow);
   Coarsening<RecordingOperators> step(pool, operators, fineRows, coarseRows, stiff);
   for (std::int64_t begin = 0; begin < fine.nodes();)
   {

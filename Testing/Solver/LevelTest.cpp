@@ -21,6 +21,15 @@ TestLevel solidLevel()
   return finestLevel(toStream(shuffled(tetBox(9, 8, 8, 0.15))), Weights::Clamped, 23);
 }
 
+/** Levels without patches and with many, some of which cross blocks. */
+std::vector<TestLevel> levels()
+{
+  std::vector<TestLevel> levels = levelsWithPatches();
+  levels.push_back(surfaceLevel());
+  levels.push_back(solidLevel());
+  return levels;
+}
+
 template <class Real>
 bool sameState(const Ring<Real>& a, const Ring<Real>& b)
 {
@@ -30,20 +39,22 @@ bool sameState(const Ring<Real>& a, const Ring<Real>& b)
 
 } // namespace
 
-TEST(Level, relaxationIsForwardGaussSeidel)
+TEST(Level, relaxationIsForwardGaussSeidelWithPatchesSolved)
 {
-  for (const TestLevel& level : { surfaceLevel(), solidLevel() })
+  for (const TestLevel& level : levels())
   {
     for (const int columns : { 1, 2, 3, 5, 8 })
     {
-      DenseHierarchy<double> h(level, 2, columns, 3);
+      DenseHierarchy<double> h(level, 2, columns, 3, columns == 5);
       const Eigen::MatrixXd b = randomMatrix(level.nodes(), columns, 1);
       setState(h.finest().window().b(), b);
+      // The first sweep is to take x as zero, whatever is in memory.
+      setState(h.finest().window().x(), randomMatrix(level.nodes(), columns, 7));
       h.finest().relaxDown();
       Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(level.nodes(), columns);
       for (int sweep = 0; sweep < 3; ++sweep)
       {
-        denseSweep(h.matrix(0), b, expected);
+        denseSweep(h.matrix(0), h.patches(0), b, expected);
       }
       EXPECT_LT(
         (stateOf(h.finest().window().x(), columns) - expected).cwiseAbs().maxCoeff(), 1e-12);
@@ -52,7 +63,7 @@ TEST(Level, relaxationIsForwardGaussSeidel)
       h.finest().relaxUp();
       for (int sweep = 0; sweep < 3; ++sweep)
       {
-        denseSweep(h.matrix(0), b, expected);
+        denseSweep(h.matrix(0), h.patches(0), b, expected);
       }
       EXPECT_LT(
         (stateOf(h.finest().window().x(), columns) - expected).cwiseAbs().maxCoeff(), 1e-12);
@@ -62,7 +73,7 @@ TEST(Level, relaxationIsForwardGaussSeidel)
 
 TEST(Level, restrictionIsTheTransposeOfProlongation)
 {
-  for (const TestLevel& level : { surfaceLevel(), solidLevel() })
+  for (const TestLevel& level : levels())
   {
     DenseHierarchy<double> h(level, 2, 1, 1);
     Ring<double>& x = h.finest().window().x();
@@ -96,7 +107,7 @@ TEST(Level, restrictionIsTheTransposeOfProlongation)
 
 TEST(Level, restrictsTheResidualAndMeasuresIt)
 {
-  for (const TestLevel& level : { surfaceLevel(), solidLevel() })
+  for (const TestLevel& level : levels())
   {
     for (const int columns : { 1, 3, 5 })
     {
@@ -121,7 +132,7 @@ TEST(Level, restrictsTheResidualAndMeasuresIt)
 
 TEST(Level, narrowAndWideBlocksGiveTheSameBits)
 {
-  for (const TestLevel& level : { surfaceLevel(), solidLevel() })
+  for (const TestLevel& level : levels())
   {
     for (const int columns : { 1, 5 })
     {
@@ -159,7 +170,7 @@ TEST(RowBlockPacker, turnsWideWhereADistanceOrACountDoesNotFit)
       row[e] = { static_cast<std::int32_t>(distance - entries + 1 + e), 1.0F };
     }
     rows.close(entries, 0.0, -1);
-    return packRows<float>(buffers, rows, nullptr, 0, 1).header().wide != 0;
+    return packRows(buffers, rows, nullptr, 0, 1, false).header().wide != 0;
   };
   EXPECT_FALSE(isWide(32767, 1));
   EXPECT_TRUE(isWide(32768, 1));
@@ -170,28 +181,19 @@ TEST(RowBlockPacker, turnsWideWhereADistanceOrACountDoesNotFit)
 TEST(RowBlockPacker, wideBlocksKeepTheLargestDistances)
 {
   constexpr auto Most = static_cast<std::int32_t>(RowEntry::MostDistance);
-  constexpr std::int64_t Base = std::int64_t(1) << 33;
   const std::vector<RowEntry> expected = { { -Most, 2.0F }, { -1, 3.0F }, { 1, 4.0F },
     { Most, 5.0F } };
-  const std::vector<std::int64_t> parents = { 0, -40000, Most };
   Pool pool(1 << 28);
   SpareBuffers buffers(pool);
-  LevelRows rows(pool), coarse(pool);
-  CoarseningData coarsening(pool, rows, coarse);
-  coarsening.coarseNodes = Base + 100;
-  for (std::uint32_t i = 0; i < 3; ++i)
+  LevelRows rows(pool);
+  for (int i = 0; i < 3; ++i)
   {
     std::ranges::copy(expected, rows.open(4));
     rows.close(4, 1.0, -1);
-    InterpolationEntry* entry = coarsening.interpolation.open(1);
-    *entry = InterpolationEntry(static_cast<CoarseIndex>(Base + parents[i]), 10 + i);
-    coarsening.interpolation.close(1);
-    coarsening.parentReach.append(Base);
   }
-  const RowBlock block = packRows<BFloat16>(buffers, rows, &coarsening, 0, 3);
+  const RowBlock block = packRows(buffers, rows, nullptr, 0, 3, true);
   const RowBlock::Header& h = block.header();
   ASSERT_EQ(h.wide, 1);
-  EXPECT_EQ(h.parentBase, Base);
   const auto a = block.arrays<WideIndex, BFloat16>();
   EXPECT_EQ(reinterpret_cast<const std::byte*>(a.diagonal), std::to_address(block.stored().end()));
   for (std::int64_t k = 0; k < 3; ++k)
@@ -204,10 +206,39 @@ TEST(RowBlockPacker, wideBlocksKeepTheLargestDistances)
       EXPECT_EQ(float(a.weight[row.begin + e]), expected[e].weight());
     }
     EXPECT_EQ(a.diagonal[k], 15.0);
+  }
+}
+
+TEST(RowBlockPacker, wideBlocksKeepTheLargestDistancesOfParents)
+{
+  constexpr std::int64_t Base = std::int64_t(1) << 33;
+  const std::vector<std::int64_t> parents = { 0, -40000, RowEntry::MostDistance };
+  Pool pool(1 << 28);
+  SpareBuffers buffers(pool);
+  LevelRows rows(pool), coarse(pool);
+  CoarseningData coarsening(pool, rows, coarse);
+  coarsening.coarseNodes = Base + 100;
+  for (int i = 0; i < 3; ++i)
+  {
+    rows.open(0);
+    rows.close(0, 1.0, -1);
+    coarsening.patches.add(rows);
+    InterpolationEntry* entry = coarsening.interpolation.open(1);
+    *entry = InterpolationEntry(static_cast<CoarseIndex>(Base + parents[i]), 10 - 20 * i);
+    coarsening.interpolation.close(1);
+    coarsening.parentReach.append(Base);
+  }
+  const RowBlock block = packRows(buffers, rows, &coarsening, 0, 3, true);
+  const RowBlock::Header& h = block.header();
+  ASSERT_EQ(h.wide, 1);
+  EXPECT_EQ(h.parentBase, Base);
+  const auto a = block.arrays<WideIndex, BFloat16>();
+  for (std::int64_t k = 0; k < 3; ++k)
+  {
     const BlockRange parent = parentsOf(h, a, k);
     ASSERT_EQ(parent.end - parent.begin, 1);
     EXPECT_EQ(a.parent[parent.begin], parents[k]);
-    EXPECT_EQ(a.parentQuanta[parent.begin], 10 + k);
+    EXPECT_EQ(a.parentQuanta[parent.begin], 10 - 20 * k);
   }
 }
 
@@ -221,7 +252,7 @@ TEST(RowBlockPacker, keepsRowsAndReaches)
   for (std::int64_t first = 0; first < level.nodes(); first += RowBlock::Nodes)
   {
     const std::int64_t nodes = std::min(RowBlock::Nodes, level.nodes() - first);
-    const RowBlock block = packRows<float>(buffers, rows, nullptr, first, nodes);
+    const RowBlock block = packRows(buffers, rows, nullptr, first, nodes, false);
     const RowBlock::Header& h = block.header();
     const auto a = block.arrays<std::int16_t, float>();
     EXPECT_EQ(
@@ -239,6 +270,126 @@ TEST(RowBlockPacker, keepsRowsAndReaches)
         EXPECT_LE(first + k + a.delta[e], h.neighbourReach[k / RowBlock::Group]);
       }
       EXPECT_EQ(a.diagonal[k], rows.diagonal(first + k));
+    }
+  }
+}
+
+TEST(RowBlockPacker, keepsPatchesAndPreciseRows)
+{
+  TestLevel level = levelsWithPatches()[0];
+  Random random(11);
+  level.precise.resize(level.nodes());
+  for (std::int64_t i = 0; i < level.nodes(); i += 5)
+  {
+    for (const RowEntry& entry : level.rows[i])
+    {
+      level.precise[i].push_back(entry.weight() * (1.0 + 1e-9 * random.uniform(-1.0, 1.0)));
+    }
+  }
+  const PatchList patches = patchesOf(level);
+  const Eigen::MatrixXd matrix = level.dense();
+  Pool pool(1 << 28);
+  SpareBuffers buffers(pool);
+  LevelRows rows(pool), coarse(pool);
+  level.append(rows, 0, level.nodes());
+  rows.Ended = true;
+  Coarsening<RecordingOperators> step(pool, {}, rows, coarse);
+  step.advance();
+  std::int64_t across = 0;
+  for (std::int64_t first = 0; first < level.nodes(); first += RowBlock::Nodes)
+  {
+    const std::int64_t nodes = std::min(RowBlock::Nodes, level.nodes() - first);
+    const RowBlock block = packRows(buffers, rows, &step.data(), first, nodes, true);
+    const RowBlock::Header& h = block.header();
+    EXPECT_EQ(h.weightBytes, 4) << "rows of patches are not to be rounded";
+    const auto a = block.arrays<std::int16_t, float>();
+    EXPECT_EQ(
+      reinterpret_cast<const std::byte*>(a.diagonal), std::to_address(block.stored().end()));
+    const RowBlock::Special* special = a.special;
+    for (std::int64_t i = first; i < block.end(); ++i)
+    {
+      const auto& patch = patches[i];
+      const auto weights = level.preciseOf(i);
+      EXPECT_NEAR(a.diagonal[i - first], matrix(i, i), 1e-14 * matrix(i, i));
+      EXPECT_GE(h.neighbourReach[(i - first) / RowBlock::Group], patch.back());
+      if (patch.size() == 1 && weights.empty())
+      {
+        continue;
+      }
+      ASSERT_LT(special, a.special + h.specials);
+      ASSERT_EQ(special->node, i - first);
+      ASSERT_EQ(special->precise >= 0, !weights.empty());
+      for (std::size_t e = 0; e < weights.size(); ++e)
+      {
+        EXPECT_EQ(a.precise[special->precise + e], weights[e]);
+      }
+      ASSERT_EQ(special->size, patch.size() == 1 ? 1 : patch.back() == i ? patch.size() : 0);
+      if (special->size > 1)
+      {
+        const auto size = static_cast<int>(patch.size());
+        const Eigen::MatrixXd inverse = partOf(matrix, patch).inverse();
+        const double* value = a.value + special->value;
+        for (int k = 0; k < size; ++k)
+        {
+          EXPECT_TRUE(k + 1 == size || value[k] == patch[k] - i);
+          for (int l = 0; l <= k; ++l)
+          {
+            EXPECT_NEAR(value[size - 1 + PatchMatrix::place(k, l)], inverse(k, l),
+              1e-5 * inverse.cwiseAbs().maxCoeff());
+          }
+        }
+        across += patch.front() < first ? 1 : 0;
+      }
+      ++special;
+    }
+    EXPECT_EQ(special, a.special + h.specials);
+  }
+  EXPECT_GT(across, 0);
+}
+
+/** Weights that single precision cannot tell apart. */
+TEST(Level, sweepsAndResidualsUsePreciseWeights)
+{
+  TestLevel level = surfaceLevel();
+  const Eigen::MatrixXd rough = level.dense();
+  // Some rows are precise, and of a patch all or none.
+  const PatchList patches = patchesOf(level);
+  level.precise.resize(level.nodes());
+  for (std::int64_t i = 0; i < level.nodes(); ++i)
+  {
+    for (const RowEntry& entry : level.rows[i])
+    {
+      if (patches[i].front() % 3 != 0)
+      {
+        break;
+      }
+      const auto low = static_cast<double>(std::min(i, i + entry.delta()));
+      level.precise[i].push_back(entry.weight() * (1.0 + 2e-8 * std::sin(low)));
+    }
+  }
+  for (const bool wide : { false, true })
+  {
+    for (const int columns : { 1, 4 })
+    {
+      DenseHierarchy<double> h(level, 2, columns, 1, wide);
+      const Eigen::MatrixXd b = randomMatrix(level.nodes(), columns, 1);
+      Eigen::MatrixXd x = randomMatrix(level.nodes(), columns, 2);
+      setState(h.finest().window().x(), x);
+      setState(h.finest().window().b(), b);
+      h.finest().restrictAll();
+      for (int k = 0; k < columns; ++k)
+      {
+        const double squares = (b - h.matrix(0) * x).col(k).squaredNorm();
+        EXPECT_NEAR(h.finest().squares()[k], squares, 1e-13 * squares);
+        EXPECT_GT(std::fabs((b - rough * x).col(k).squaredNorm() - squares), 1e-11 * squares);
+      }
+      h.finest().relaxUp();
+      Eigen::MatrixXd other = x;
+      denseSweep(h.matrix(0), h.patches(0), b, x);
+      denseSweep(rough, h.patches(0), b, other);
+      const Eigen::MatrixXd found = stateOf(h.finest().window().x(), columns);
+      EXPECT_LT((found - x).cwiseAbs().maxCoeff(), 1e-13);
+      EXPECT_GT((found - other).cwiseAbs().maxCoeff(), 1e-10);
     }
   }
 }

@@ -164,10 +164,13 @@ TEST(RawWeights, flatCellsDoNotSpoilTheRest)
 TEST(RawWeights, aRowThatRoundingHasLeftWithoutDiagonalIsRaised)
 {
   const RowEntry cancelling[] = { { -1, 1e5F }, { 2, -1e5F }, { 5, -0.01F } };
-  EXPECT_DOUBLE_EQ(rowShortfall(cancelling, 0.0) - 0.01F, 1e-6 * (2e5 + 0.01F));
+  EXPECT_DOUBLE_EQ(rowShortfall(cancelling, 0.0, {}) - 0.01F, 1e-8 * (2e5 + 0.01F));
   const RowEntry sound[] = { { -1, 2.0F }, { 2, -1.0F } };
-  EXPECT_EQ(rowShortfall(sound, 0.0), 0.0);
-  EXPECT_GT(rowShortfall({}, 0.0), 0.0);
+  EXPECT_EQ(rowShortfall(sound, 0.0, {}), 0.0);
+  EXPECT_GT(rowShortfall({}, 0.0, {}), 0.0);
+  // Weights in double precision say what their floats have lost.
+  const double precise[] = { 1e5, -1e5, 0.01 };
+  EXPECT_EQ(rowShortfall(cancelling, 0.0, precise), 0.0);
 }
 
 } // namespace smg::testing

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Solver/CoarseningTesting.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace smg::testing
+{
+namespace
+{
+
+/** A row of P in double precision: a weight for each coarse node, and their sum, kept apart. */
+struct Row
+{
+  Eigen::RowVectorXd weights;
+  double sum = 0.0;
+};
+
+/**
+ * Checks the relaxed rows of a recorded interpolation one by one against the formula, given those
+ * rows that the formula says they were made of.
+ */
+class RelaxationCheck
+{
+public:
+  RelaxationCheck(const CoarseningCase& test, const CoarsenedLevel& step)
+    : Test(test)
+    , Step(step)
+    , A(test.level.dense())
+    , PatchOf(patchesOf(test.level))
+  {
+  }
+
+  Row recorded(std::size_t sweep, std::int64_t i) const
+  {
+    const auto& from = this->Step.record.sweeps[sweep][i];
+    Row row{ Eigen::RowVectorXd::Zero(this->Step.coarse.nodes()), from.sum };
+    for (const auto& [coarse, weight] : from.entries)
+    {
+      row.weights[coarse] += weight;
+    }
+    return row;
+  }
+
+  bool lifted(std::int64_t i) const { return this->Step.record.lifted[i] >= 0; }
+
+  /** Row i of P0. */
+  Row initial(std::int64_t i) const
+  {
+    const TestLevel& fine = this->Test.level;
+    Row row{ Eigen::RowVectorXd::Zero(this->Step.coarse.nodes()), 1.0 };
+    if (this->lifted(i))
+    {
+      row.weights[this->Step.record.lifted[i]] = 1.0;
+      return row;
+    }
+    for (const RowEntry& entry : fine.rows[i])
+    {
+      const std::int64_t coarse = this->Step.record.lifted[i + entry.delta()];
+      const bool strong =
+        entry.weight() >= this->Test.operators.strength * fine.strongest(i) && entry.weight() > 0;
+      if (coarse >= 0 && strong)
+      {
+        row.weights[coarse] += entry.weight();
+      }
+    }
+    const double sum = row.weights.sum();
+    row.weights /= sum > 0.0 ? sum + std::max(0.0, fine.alpha[i]) : 1.0;
+    row.sum = row.weights.sum();
+    return row;
+  }
+
+  /** The nodes that are relaxed together with i, a retained one. */
+  std::vector<std::int64_t> together(std::int64_t i) const
+  {
+    std::vector<std::int64_t> nodes;
+    for (const std::int64_t m : this->PatchOf[i])
+    {
+      if (!this->lifted(m))
+      {
+        nodes.push_back(m);
+      }
+    }
+    return nodes;
+  }
+
+  /** The row of m that is the newest one in a sweep at the turn of node `turn`. */
+  Row newest(std::size_t sweep, std::int64_t turn, std::int64_t m) const
+  {
+    const std::int64_t done = this->lifted(m) ? m : this->together(m).back();
+    return this->recorded(done < turn ? sweep : sweep - 1, m);
+  }
+
+  /** Row i after a sweep, of all columns. */
+  Row relaxed(std::size_t sweep, std::int64_t i) const
+  {
+    const std::vector<std::int64_t> nodes = this->together(i);
+    const Eigen::Index count = static_cast<Eigen::Index>(nodes.size());
+    Eigen::MatrixXd outside = Eigen::MatrixXd::Zero(count, this->Step.coarse.nodes());
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(count);
+    for (Eigen::Index k = 0; k < count; ++k)
+    {
+      for (const RowEntry& entry : this->Test.level.rows[nodes[k]])
+      {
+        const std::int64_t m = nodes[k] + entry.delta();
+        if (std::ranges::find(nodes, m) == nodes.end())
+        {
+          const Row row = this->newest(sweep, nodes.back(), m);
+          outside.row(k) += static_cast<double>(entry.weight()) * row.weights;
+          sums[k] += static_cast<double>(entry.weight()) * row.sum;
+        }
+      }
+    }
+    const Eigen::MatrixXd inverse = partOf(this->A, nodes).inverse();
+    const auto own = std::ranges::find(nodes, i) - nodes.begin();
+    return { inverse.row(own) * outside, (inverse.row(own) * sums)[0] };
+  }
+
+  /** The coarse nodes that occur in P0 of a neighbour of i. */
+  std::set<std::int64_t> pattern(std::int64_t i) const
+  {
+    std::set<std::int64_t> columns;
+    for (const RowEntry& entry : this->Test.level.rows[i])
+    {
+      for (const auto& [coarse, weight] : this->Step.record.sweeps[0][i + entry.delta()].entries)
+      {
+        columns.insert(coarse);
+      }
+    }
+    return columns;
+  }
+
+  /** Whether a patch is too close to singular to be relaxed as one. */
+  bool singular(std::int64_t i) const
+  {
+    return nearlySingular(partOf(this->A, this->together(i)), 1e-5);
+  }
+
+private:
+  const CoarseningCase& Test;
+  const CoarsenedLevel& Step;
+  Eigen::MatrixXd A;
+  PatchList PatchOf;
+};
+
+/** What is left of a row when only `most` columns of a pattern stay: they take over what the others
+ * had. Answers the smallest magnitude that stays. */
+double truncate(
+  Row& row, const std::set<std::int64_t>& pattern, int most, const CoarseningRecord::Relaxed& kept)
+{
+  std::vector<double> sizes;
+  for (const std::int64_t coarse : pattern)
+  {
+    sizes.push_back(std::fabs(row.weights[coarse]));
+  }
+  std::ranges::sort(sizes, std::greater<>());
+  sizes.resize(std::min<std::size_t>(sizes.size(), most));
+  // Which of two equal columns stays is open.
+  Eigen::RowVectorXd rest = Eigen::RowVectorXd::Zero(row.weights.size());
+  for (const auto& [coarse, weight] : kept.entries)
+  {
+    rest[coarse] = row.weights[coarse];
+  }
+  const double size = rest.cwiseAbs().sum();
+  const double share = size > 0.0 ? (row.sum - rest.sum()) / size : 0.0;
+  row.weights = rest + share * rest.cwiseAbs();
+  return sizes.empty() ? 0.0 : sizes.back();
+}
+
+} // namespace
+
+TEST(Interpolation, beginsWithTheStrongLiftedNeighbours)
+{
+  for (const CoarseningCase& test : coarseningCases())
+  {
+    const CoarsenedLevel step = coarsen(test.level, test.operators);
+    const RelaxationCheck check(test, step);
+    for (std::int64_t i = 0; i < test.level.nodes(); ++i)
+    {
+      const Row expected = check.initial(i);
+      const Row row = check.recorded(0, i);
+      ASSERT_LT((row.weights - expected.weights).cwiseAbs().sum(), 1e-5) << test.name << ", " << i;
+      ASSERT_NEAR(row.sum, expected.weights.sum(), 1e-5) << test.name;
+    }
+  }
+}
+
+TEST(Interpolation, isRelaxedInPlaceAndTruncated)
+{
+  std::int64_t patched = 0, negative = 0;
+  for (const CoarseningCase& test : coarseningCases())
+  {
+    const CoarsenedLevel step = coarsen(test.level, test.operators);
+    const RelaxationCheck check(test, step);
+    ASSERT_EQ(step.record.sweeps.size(), static_cast<std::size_t>(test.operators.sweeps + 1));
+    for (int sweep = 1; sweep <= test.operators.sweeps; ++sweep)
+    {
+      for (std::int64_t i = 0; i < test.level.nodes(); ++i)
+      {
+        const auto& kept = step.record.sweeps[sweep][i];
+        if (check.lifted(i))
+        {
+          ASSERT_EQ(kept.entries, step.record.sweeps[0][i].entries);
+          continue;
+        }
+        if (test.level.rows[i].empty() || check.singular(i))
+        {
+          continue;
+        }
+        Row expected = check.relaxed(sweep, i);
+        const auto pattern = check.pattern(i);
+        ASSERT_LE(kept.entries.size(), static_cast<std::size_t>(test.operators.entries));
+        const Row all = expected;
+        const double least = truncate(expected, pattern, test.operators.entries, kept);
+        const double size = all.weights.cwiseAbs().maxCoeff();
+        for (const auto& [coarse, weight] : kept.entries)
+        {
+          ASSERT_TRUE(pattern.contains(coarse)) << test.name;
+          ASSERT_GE(std::fabs(all.weights[coarse]), least - 1e-4 * size) << test.name << ", " << i;
+          ASSERT_NEAR(
+            weight, expected.weights[coarse], 2e-4 * expected.weights.cwiseAbs().maxCoeff())
+            << test.name << ", " << i;
+          negative += weight < 0.0F ? 1 : 0;
+        }
+        ASSERT_EQ(kept.entries.size(),
+          std::min(pattern.size(), static_cast<std::size_t>(test.operators.entries)))
+          << test.name << ", " << i;
+        ASSERT_NEAR(kept.sum, all.sum, 1e-4 * std::max(1.0, std::fabs(all.sum)))
+          << test.name << ", " << i;
+        patched += check.together(i).size() > 1 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(patched, 100);
+  EXPECT_GT(negative, 100);
+}
+
+TEST(Interpolation, isRoundedToQuantaThatKeepTheRowSum)
+{
+  for (const CoarseningCase& test : coarseningCases())
+  {
+    const CoarsenedLevel step = coarsen(test.level, test.operators);
+    for (std::int64_t i = 0; i < test.level.nodes(); ++i)
+    {
+      const auto& relaxed = step.record.sweeps.back()[i];
+      const auto& parents = step.record.parents[i];
+      int sum = 0;
+      double size = 0.0;
+      for (const auto& [coarse, weight] : relaxed.entries)
+      {
+        size = std::max(size, std::fabs(static_cast<double>(weight)));
+      }
+      for (const auto& parent : parents)
+      {
+        sum += parent.quanta;
+        EXPECT_NE(parent.quanta, 0);
+        EXPECT_LE(std::abs(parent.quanta), 127);
+        const auto entry =
+          std::ranges::find(relaxed.entries, parent.coarse, [](const auto& e) { return e.first; });
+        ASSERT_NE(entry, relaxed.entries.end());
+        // Rounding moves each by half a quantum, the largest one by that of all others.
+        if (size < 1.0)
+        {
+          EXPECT_NEAR(parent.quanta, 127.0 * entry->second, 0.5 * test.operators.entries)
+            << test.name << ", " << i;
+        }
+      }
+      if (size < 1.0 && std::fabs(relaxed.sum) < 1.0)
+      {
+        EXPECT_NEAR(sum, 127.0 * relaxed.sum, 0.501) << test.name << ", node " << i;
+      }
+    }
+  }
+}
+
+TEST(Interpolation, mayHaveFewerEntriesOnTheFinestLevel)
+{
+  for (CoarseningCase& test : coarseningCases())
+  {
+    test.operators.finestEntries = 2;
+    test.operators.entries = 3;
+    for (const bool finest : { true, false })
+    {
+      test.level.finest = finest;
+      std::size_t most = 0;
+      for (const auto& parents : coarsen(test.level, test.operators).record.parents)
+      {
+        most = std::max(most, parents.size());
+      }
+      EXPECT_EQ(most, finest ? 2U : 3U) << test.name;
+    }
+  }
+}
+
+TEST(Interpolation, reproducesConstantsWhereNothingIsConstrained)
+{
+  for (const CoarseningCase& test : coarseningCases())
+  {
+    if (test.free)
+    {
+      const CoarsenedLevel step = coarsen(test.level, test.operators);
+      for (const auto& parents : step.record.parents)
+      {
+        int quanta = 0;
+        for (const auto& parent : parents)
+        {
+          quanta += parent.quanta;
+        }
+        ASSERT_EQ(quanta, 127) << test.name;
+      }
+    }
+  }
+}
+
+} // namespace smg::testing

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Hierarchy/Patches.h"
+#include "Testing/Solver/CycleTesting.h"
+#include "Testing/Solver/PatchReference.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace smg::testing
+{
+namespace
+{
+
+std::vector<std::int64_t> membersOf(const Patches& patches, std::int64_t i)
+{
+  const Patch* patch = patches.of(i);
+  std::vector<std::int64_t> members;
+  for (int k = 0; patch && k < patch->size; ++k)
+  {
+    members.push_back(patch->member(k));
+  }
+  return patch ? members : std::vector<std::int64_t>{ i };
+}
+
+Eigen::MatrixXd denseOf(const PatchMatrix& matrix)
+{
+  return Eigen::MatrixXd::NullaryExpr(matrix.order, matrix.order,
+    [&](Eigen::Index a, Eigen::Index b)
+    { return matrix.at(static_cast<int>(a), static_cast<int>(b)); });
+}
+
+/** A path of nodes with these weights between one and the next, and alpha on every node. */
+TestLevel path(const std::vector<float>& weights, double alpha)
+{
+  TestLevel level;
+  level.rows.resize(weights.size() + 1);
+  level.alpha.assign(level.rows.size(), alpha);
+  for (std::size_t i = 0; i < weights.size(); ++i)
+  {
+    level.rows[i].push_back({ 1, weights[i] });
+    level.rows[i + 1].insert(level.rows[i + 1].begin(), RowEntry(-1, weights[i]));
+  }
+  return level;
+}
+
+} // namespace
+
+TEST(Patches, joinTheStrongestLowerNeighbourThatHasRoomWithinReach)
+{
+  std::vector<std::size_t> ofSize(5);
+  for (const TestLevel& level : levelsWithPatches())
+  {
+    Pool pool(1 << 28);
+    LevelRows rows(pool);
+    Patches patches(pool);
+    for (std::int64_t i = 0; i < level.nodes(); ++i)
+    {
+      level.append(rows, i, i + 1);
+      patches.add(rows);
+    }
+    const auto expected = patchesOf(level);
+    const Eigen::MatrixXd a = level.dense();
+    for (std::int64_t i = 0; i < level.nodes(); ++i)
+    {
+      const auto members = membersOf(patches, i);
+      ASSERT_EQ(members, expected[i]) << "node " << i;
+      EXPECT_EQ(patches.last(i), members.back());
+      EXPECT_LE(members.back(), rows.reach(members.front()));
+      EXPECT_EQ(patches.diagonal(i), static_cast<float>(rows.diagonal(i)));
+      ++ofSize[members.size()];
+      if (members.size() > 1)
+      {
+        EXPECT_LE((denseOf(patches.of(i)->matrix) - partOf(a, members)).cwiseAbs().maxCoeff(),
+          1e-12 * a(i, i));
+      }
+    }
+  }
+  for (const std::size_t size : { 1, 2, 3, 4 })
+  {
+    EXPECT_GE(ofSize[size], size) << size;
+  }
+}
+
+TEST(Patches, areOfCouplingsAboveAHalf)
+{
+  // With weight 1 and alpha on both nodes the coupling is 1 / (1 + alpha).
+  for (const bool strong : { true, false })
+  {
+    const TestLevel level = path({ 1.0F }, strong ? 0.99 : 1.0);
+    Pool pool(1 << 24);
+    LevelRows rows(pool);
+    Patches patches(pool);
+    for (std::int64_t i = 0; i < 2; ++i)
+    {
+      level.append(rows, i, i + 1);
+      patches.add(rows);
+    }
+    EXPECT_EQ(patches.of(0) != nullptr, strong);
+    EXPECT_EQ(patches.of(1), patches.of(0));
+  }
+}
+
+TEST(Patches, useTheWeightsInDoublePrecision)
+{
+  TestLevel level = path({ 1.0F }, 0.5);
+  level.precise = { { 1.0 + 1e-9 }, { 1.0 + 1e-9 } };
+  Pool pool(1 << 24);
+  LevelRows rows(pool);
+  Patches patches(pool);
+  for (std::int64_t i = 0; i < 2; ++i)
+  {
+    level.append(rows, i, i + 1);
+    patches.add(rows);
+  }
+  ASSERT_NE(patches.of(0), nullptr);
+  EXPECT_EQ(patches.of(0)->matrix.at(0, 1), -(1.0 + 1e-9));
+  EXPECT_EQ(patches.of(0)->matrix.at(0, 0), 1.5 + 1e-9);
+}
+
+TEST(Patches, letGoOfNodesKeepThePatchesOfTheOthers)
+{
+  const TestLevel level = levelsWithPatches()[0];
+  const auto expected = patchesOf(level);
+  Pool pool(1 << 28);
+  LevelRows rows(pool);
+  level.append(rows, 0, level.nodes());
+  Patches all(pool);
+  for (std::int64_t i = 0; i < level.nodes(); ++i)
+  {
+    all.add(rows);
+  }
+  for (std::int64_t first = 0; first < level.nodes(); first += 100)
+  {
+    all.release(first);
+    for (std::int64_t i = first; i < level.nodes(); ++i)
+    {
+      ASSERT_EQ(membersOf(all, i), expected[i]);
+    }
+  }
+}
+
+TEST(PatchMatrix, invertsAsEigenDoes)
+{
+  for (int order = 1; order <= PatchMatrix::Most; ++order)
+  {
+    for (std::uint64_t seed = 1; seed <= 50; ++seed)
+    {
+      const Eigen::MatrixXd root = randomMatrix(order, order, seed);
+      const Eigen::MatrixXd a =
+        root * root.transpose() + 1e-3 * Eigen::MatrixXd::Identity(order, order);
+      PatchMatrix matrix;
+      matrix.order = order;
+      for (int i = 0; i < order; ++i)
+      {
+        for (int j = 0; j <= i; ++j)
+        {
+          matrix.at(i, j) = a(i, j);
+        }
+      }
+      ASSERT_TRUE(matrix.invert(1e-9));
+      const Eigen::MatrixXd expected = a.inverse();
+      EXPECT_LT((denseOf(matrix) - expected).norm(), 1e-10 * expected.norm());
+    }
+  }
+}
+
+TEST(PatchMatrix, refusesWhatIsNotPositiveDefiniteUpToRounding)
+{
+  const auto inverts = [](double last, double least)
+  {
+    PatchMatrix matrix;
+    matrix.order = 2;
+    matrix.at(0, 0) = 1.0;
+    matrix.at(1, 0) = -1.0;
+    matrix.at(1, 1) = last;
+    return matrix.invert(least);
+  };
+  EXPECT_TRUE(inverts(1.0 + 1e-5, 1e-6));
+  EXPECT_FALSE(inverts(1.0 + 1e-7, 1e-6));
+  EXPECT_FALSE(inverts(1.0, 0.0));
+  EXPECT_FALSE(inverts(0.5, 1e-6));
+}
+
+TEST(PatchMatrix, partKeepsRowsAndColumns)
+{
+  PatchMatrix matrix;
+  matrix.order = 4;
+  std::iota(std::begin(matrix.entry), std::end(matrix.entry), 1.0);
+  const int members[] = { 1, 3 };
+  const Eigen::MatrixXd part = denseOf(matrix.part(members, 2));
+  EXPECT_EQ(part, partOf(denseOf(matrix), { 1, 3 }));
+}
+
+} // namespace smg::testing
