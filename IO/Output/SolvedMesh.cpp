@@ -91,6 +91,10 @@ void SolvedMesh::finish(Report& report)
   {
     for (Report::Extreme& extreme : *extremes)
     {
+      if (extreme.vertex < 0)
+      {
+        continue; // no value is a number
+      }
       mesh.readVertexColumn(OriginalIdName, extreme.vertex, 1, id);
       extreme.vertex = id.as<std::int64_t>()[0];
     }

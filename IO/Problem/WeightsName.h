@@ -10,7 +10,7 @@
 namespace smg
 {
 
-/** The weights that users call `cotangent` (formerly `raw-cotangent`), `clamped` and `uniform`;
+/** The weights that users call `cotangent` (or `raw-cotangent`), `clamped` and `uniform`;
  * none for any other name. */
 std::optional<Weights> weightsOfName(std::string_view name);
 

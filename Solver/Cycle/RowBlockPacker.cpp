@@ -17,8 +17,9 @@ using Header = RowBlock::Header;
 // What a WideIndex holds.
 static_assert(RowEntry::MostDistance < (1 << 23) && CoarseWindow <= (1 << 23));
 
-/** The inverse of the matrix on a patch must be exact enough for its soft modes. */
-constexpr double LeastPivot = 1e-9;
+/** The inverse of the matrix on a patch multiplies the rounding of residuals, which are double on
+ * the finest level and float on the others, by up to one over this. */
+constexpr double LeastPivotOfDoubles = 1e-9, LeastPivotOfFloats = 1e-5;
 
 /** The special nodes of a block, as they go into it. */
 struct Specials
@@ -30,6 +31,8 @@ struct Specials
 
   void find(const LevelRows& rows, const Patches* patches, std::int64_t first, std::int64_t nodes)
   {
+    const bool finest = rows.childReach(first) < 0;
+    this->LeastPivot = finest ? LeastPivotOfDoubles : LeastPivotOfFloats;
     for (std::int64_t i = first; i < first + nodes; ++i)
     {
       const Patch* patch = patches ? patches->of(i) : nullptr;
@@ -58,12 +61,13 @@ struct Specials
 
 private:
   PatchMatrix Inverse;
+  double LeastPivot = LeastPivotOfDoubles;
 
   /** How many nodes of a patch are relaxed at node i's turn. */
   std::int16_t sizeAt(const Patch& patch, std::int64_t i)
   {
     this->Inverse = patch.matrix;
-    if (!this->Inverse.invert(LeastPivot))
+    if (!this->Inverse.invert(this->LeastPivot))
     {
       return 1;
     }

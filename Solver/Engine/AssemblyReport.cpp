@@ -29,7 +29,7 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
   if (assembly.raisedRows() > 0)
   {
     report.notes.push_back(std::to_string(assembly.raisedRows()) +
-                           " vertices have weights whose sum is lost in rounding: a millionth of "
+                           " vertices have weights whose sum is lost in rounding: 1e-8 of "
                            "their magnitudes holds them near their initial values; there the "
                            "operator is not that of finite elements");
   }

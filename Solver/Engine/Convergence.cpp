@@ -17,7 +17,7 @@ constexpr double Diverged = 1e4;
 /** A residual that has not lost this share in so many V-cycles will not do much better; where it is
  * of the size of its terms' rounding, fewer tell. */
 constexpr double Stagnating = 0.9;
-constexpr int Patience = 6, RoundingPatience = 2;
+constexpr int Patience = 20, RoundingPatience = 2;
 constexpr double NearRounding = 10.0;
 
 } // namespace
@@ -84,7 +84,7 @@ void Convergence::watch(double relative)
   const int n = this->cycles();
   const double before = n > patience ? this->Residuals[static_cast<std::size_t>(n - patience - 1)]
                                      : this->FirstNorm / this->Reference;
-  if (n >= patience && relative > Stagnating * before)
+  if (n > patience && relative > Stagnating * before)
   {
     this->Done = true;
     this->Converged = rounding;

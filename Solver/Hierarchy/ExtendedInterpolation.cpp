@@ -295,7 +295,7 @@ void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i) const
   const RelaxedRow& row = data.relaxed[i];
   int rounded[RelaxedRow::Most];
   const auto quantaOf = [](float weight)
-  { return std::clamp(static_cast<int>(std::lround(weight * Quanta)), -Quanta, Quanta); };
+  { return static_cast<int>(std::lround(std::clamp(weight, -1.0F, 1.0F) * Quanta)); };
   int rest = static_cast<int>(std::lround(row.sum * Quanta));
   for (int k = 0; k < row.size; ++k)
   {

@@ -36,8 +36,8 @@ namespace smg
  * - `interpolateInitial` may read row i and `lifted` of its neighbours, and appends row i of
  *   `initial` and its `initialSum`.
  * - `relaxInterpolation` may read row i, and of i and its neighbours `lifted`, `initial` and
- *   `relaxed`, which is Pending before the first sweep. It sets `relaxed` of i, or of a patch that
- * i belongs to, where it may read the same of all its nodes, when its last node's turn comes.
+ *   `relaxed`, which is Pending before the first sweep. It sets `relaxed` of i; of a patch, whose
+ *   nodes it may all read in this way, when the last node's turn comes.
  * - `interpolate` may read `relaxed` of i. It appends row i of `interpolation`, chained by columns
  *   from `firstChild` to `lastChild`, and sets `rowQuanta` and `parentReach`.
  * - `multiply` may read row i and `interpolation` of i and its neighbours. It appends row i of

@@ -33,7 +33,8 @@ struct Patch
 class Patches
 {
 public:
-  /** Pairs only, or couplings from 0.35 on, converge more slowly. */
+  /** Patches of up to 8 nodes from 0.35 on save a few V-cycles on slivers; pairs only fail there.
+   */
   static constexpr double Strong = 0.5;
 
   explicit Patches(Pool& pool)

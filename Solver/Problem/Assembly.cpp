@@ -33,7 +33,7 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, Assembl
   , Labels(pool)
   , Reach(pool)
   , Edges(pool, problem, info.cellType)
-  , Rows(this->Vertices, problem, rows, components,
+  , Rows(info.cellType, this->Vertices, problem, rows, components,
       stiffRows(info.cellType, problem.weights(), rows), listener)
   , Load(this->Columns)
 {

@@ -13,33 +13,24 @@ namespace smg
 namespace
 {
 
-/**
- * Whether single precision would show in the solution: where weights nearly cancel, or one of them
- * is nearly all of the diagonal, soft modes of the size of their rounding matter.
- */
-bool needsPrecision(std::span<const RowNeighbour> neighbours)
+/** A weight is large beside those of regular cells: of triangles, and of tetrahedra for an edge of
+ * length 1. */
+constexpr double LargeOfTriangles = 3.0;
+constexpr double LargeOfTetrahedra = 2.0;
+
+double squaredDistance(const double* a, const double* b)
 {
-  constexpr double Cancelling = 1.5;
-  constexpr double Strong = 0.5;
-  double sum = 0.0;
-  double terms = 0.0;
-  double largest = 0.0;
-  for (const RowNeighbour& neighbour : neighbours)
-  {
-    const double size = std::fabs(neighbour.weight);
-    sum += neighbour.weight;
-    terms += size;
-    largest = std::max(largest, size);
-  }
-  return terms > Cancelling * sum || largest > Strong * sum;
+  const double d[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 }
 
 } // namespace
 
-RowAssembly::RowAssembly(const OpenVertices& vertices, Problem& problem, AssembledRows& rows,
-  Components& components, StiffRows stiff, RowListener* listener)
+RowAssembly::RowAssembly(CellType type, const OpenVertices& vertices, Problem& problem,
+  AssembledRows& rows, Components& components, StiffRows stiff, RowListener* listener)
   : Vertices(vertices)
   , Columns(static_cast<std::size_t>(problem.columns()))
+  , Type(type)
   , Kind(problem.weights())
   , Out(rows)
   , Parts(components)
@@ -104,6 +95,27 @@ void RowAssembly::closeKnown(std::int64_t i, std::int32_t label)
   this->Out.rows.close(0, 1.0, -1);
 }
 
+/**
+ * Whether the rounding of a weight to single precision would show in the solution: that of the
+ * large weights of slivers is of the size of other cells' weights. It is a matter of the edge, so
+ * that both of its rows agree and the matrix stays symmetric.
+ */
+bool RowAssembly::needsPrecision(std::int64_t i, const RowNeighbour& neighbour) const
+{
+  if (this->Kind != Weights::Cotangent)
+  {
+    return false;
+  }
+  const double size = neighbour.weight / this->Out.weightScale;
+  if (this->Type == CellType::Triangle)
+  {
+    return std::fabs(size) > LargeOfTriangles;
+  }
+  const double square =
+    squaredDistance(this->Vertices.points.at(i), this->Vertices.points.at(neighbour.to));
+  return size * size > LargeOfTetrahedra * LargeOfTetrahedra * square;
+}
+
 /** Makes the row's entries; adds what the neighbours bring to b, and the weights of those that are
  * prescribed to alpha. */
 void RowAssembly::addNeighbours(
@@ -112,10 +124,11 @@ void RowAssembly::addNeighbours(
   this->Row = this->Out.rows.open(static_cast<std::int64_t>(neighbours.size()));
   this->Size = 0;
   this->Precise.clear();
-  const bool precise = needsPrecision(neighbours);
+  bool anyPrecise = false;
   for (const RowNeighbour& neighbour : neighbours)
   {
     const bool known = this->Vertices.dirichlet[neighbour.to] >= 0;
+    const bool precise = !known && this->needsPrecision(i, neighbour);
     const auto stored = static_cast<float>(neighbour.weight);
     const double weight = known     ? knownWeight(this->Kind, neighbour)
                           : precise ? neighbour.weight
@@ -137,10 +150,8 @@ void RowAssembly::addNeighbours(
     if (!known)
     {
       this->Row[this->Size++] = { static_cast<std::int32_t>(delta), stored };
-      if (precise)
-      {
-        this->Precise.push_back(weight);
-      }
+      this->Precise.push_back(weight);
+      anyPrecise = anyPrecise || precise;
       if (this->Listener && target)
       {
         this->Listener->target(target);
@@ -159,6 +170,10 @@ void RowAssembly::addNeighbours(
       }
     }
     target = target ? target + this->Columns : nullptr;
+  }
+  if (!anyPrecise)
+  {
+    this->Precise.clear();
   }
 }
 

@@ -21,7 +21,7 @@ namespace smg
 class RowAssembly
 {
 public:
-  RowAssembly(const OpenVertices& vertices, Problem& problem, AssembledRows& rows,
+  RowAssembly(CellType type, const OpenVertices& vertices, Problem& problem, AssembledRows& rows,
     Components& components, StiffRows stiff, RowListener* listener);
 
   /**
@@ -43,6 +43,7 @@ public:
 
 private:
   void closeKnown(std::int64_t i, std::int32_t label);
+  bool needsPrecision(std::int64_t i, const RowNeighbour& neighbour) const;
   void addNeighbours(
     std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target, double& alpha);
   void raise(std::int64_t i, double& alpha);
@@ -50,6 +51,7 @@ private:
 
   const OpenVertices& Vertices;
   std::size_t Columns;
+  CellType Type;
   Weights Kind;
   AssembledRows& Out;
   Components& Parts;
