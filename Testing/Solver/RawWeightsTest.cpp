@@ -94,7 +94,7 @@ TEST(RawWeights, ofSliversConvergeHoweverFlatTheyAre)
     options.inCore = true;
     const Solved solved = solveMesh(mesh, problem, options);
     EXPECT_TRUE(solved.report.converged);
-    EXPECT_LE(solved.report.passes, 11) << height;
+    EXPECT_LE(solved.report.passes, 17) << height;
     // Weights are kept in single precision, and nearly cancel here.
     const Eigen::MatrixXd direct = solveDirectly(mesh, problem);
     EXPECT_LT((solved.values - direct).cwiseAbs().maxCoeff(), 1e-5 * direct.cwiseAbs().maxCoeff());

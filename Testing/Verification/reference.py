@@ -30,7 +30,7 @@ class Answer(NamedTuple):
     screened: np.ndarray  # (vertices,): what screening takes there, times u
     traffic: np.ndarray   # a column: the magnitudes of all that flows in, by vertex; where nothing
                           # flows, what would flow in from a value of the whole range
-    residual: np.ndarray  # a column: the magnitudes of the residual of the initial values, summed
+    residual: np.ndarray  # a column: the most that a residual of the initial one's norm sums up to
 
 
 class BoundaryTerm(NamedTuple):
@@ -111,10 +111,12 @@ class System:
 
 
     def first_residual(self):
-        """(columns,): the sum of the magnitudes of the residual of the initial values."""
+        """(columns,): what a residual with the norm of the initial one can sum up to: the norm times
+        the root of the number of its entries (Cauchy and Schwarz)."""
         matrix_u = self.stiffness @ self.initial + self.diagonal[:, None] * self.initial
         residual = self.rhs - self.removed() - matrix_u
-        return np.abs(residual[self.owner < 0]).sum(axis=0)
+        free = residual[self.owner < 0]
+        return np.sqrt(len(free)) * np.linalg.norm(free, axis=0)
 
 
 class Reference:

@@ -7,8 +7,8 @@ default weights and directly (reference.py); without a MESH on meshes made here.
 the largest error in % of the range of the solution, the mean one of its columns Gradient and Flux where
 they are asked for, the largest of an area, a mean, a flux or the energy in the report, and by how much
 fluxes and sources miss a balance, over all that flows. Fails where an error exceeds 1e-4 %, what is
-missing the tolerance times all that flows or the residual of the initial values, or smg does not
-converge. A MESH that is no path is one of the archive that SMG_TEST_DATA_DIR names; `archive` stands
+missing the tolerance times all that flows or what the norm of the initial residual allows, or smg
+does not converge. A MESH that is no path is one of the archive that SMG_TEST_DATA_DIR names; `archive` stands
 for all of these. Without an archive it is skipped (77). The direct solutions, which take most of the
 time, are kept in FOLDER and taken from there in the next run.
 """
