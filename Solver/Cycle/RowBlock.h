@@ -48,7 +48,7 @@ public:
     std::int32_t precise = 0;      ///< weights in double precision
     /**
      * neighbourReach: the largest node in rows 0 .. end of the group, or the last one of the patch
-     * of such a node of this block, whose value is final only then. childReach, parentReach: the
+     * of such a node, whose value is final only then. childReach, parentReach: the
      * largest child and parent in these rows.
      */
     std::array<std::int64_t, Groups> neighbourReach{}, childReach{}, parentReach{};

@@ -98,7 +98,6 @@ Header measure(
   h.nodes = static_cast<std::int32_t>(nodes);
   std::int64_t largestDelta = 0, largestParent = 0, largestCount = 0;
   bool based = false;
-  std::int64_t settled = -1; // the last node of a patch so far
   for (std::int64_t k = 0; k < nodes; ++k)
   {
     const std::int64_t i = first + k;
@@ -119,15 +118,8 @@ Header measure(
     {
       h.alphaGroups = static_cast<std::uint16_t>(h.alphaGroups | 1U << group);
     }
-    if (coarsening)
-    {
-      settled = std::max(settled, coarsening->patches.last(i));
-      for (const RowEntry& entry : row)
-      {
-        settled = std::max(settled, coarsening->patches.last(i + entry.delta()));
-      }
-    }
-    h.neighbourReach[group] = std::max(rows.reach(i), settled);
+    h.neighbourReach[group] =
+      coarsening ? std::max(rows.reach(i), coarsening->settledReach[i]) : rows.reach(i);
     h.childReach[group] = rows.childReach(i);
     h.parentReach[group] = -1;
     if (coarsening)

@@ -86,6 +86,7 @@ public:
       std::min({ this->ReachDone, this->ProductDone, this->Packed });
     d.interpolation.release(interpolationDone);
     d.rowQuanta.release(interpolationDone);
+    d.settledReach.release(this->Packed);
     d.parentReach.release(interpolationDone);
     const std::int64_t nextFine =
       this->Gathered < d.coarseNodes ? d.liftedFrom[this->Gathered] : this->Lifted;
@@ -137,7 +138,18 @@ private:
     for (std::int64_t& i = this->Interpolated; i < this->Relaxed.back().settled; ++i)
     {
       this->Set.interpolate(d, i);
+      d.settledReach.append(settled(d, i));
     }
+  }
+
+  static std::int64_t settled(const CoarseningData& data, std::int64_t i)
+  {
+    std::int64_t last = data.patches.last(i);
+    for (const RowEntry& entry : data.fine.row(i))
+    {
+      last = std::max(last, data.patches.last(i + entry.delta()));
+    }
+    return last;
   }
 
   /** The sweeps over the rows of P, one behind the other. */

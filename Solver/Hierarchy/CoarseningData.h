@@ -103,6 +103,7 @@ struct CoarseningData
     , interpolation(pool)
     , rowQuanta(pool)
     , parentReach(pool, -1)
+    , settledReach(pool, -1)
     , product(pool)
     , productSum(pool)
     , liftedFrom(pool, -1)
@@ -134,8 +135,10 @@ struct CoarseningData
   Ring<float> initialSum; ///< of the row of `initial`
   Ring<RelaxedRow> relaxed;
   RaggedRing<InterpolationEntry> interpolation;
-  Ring<std::int16_t> rowQuanta;    ///< sum of the row of P
-  MonotoneRing parentReach;        ///< largest coarse index in rows 0 .. i of P, or -1
+  Ring<std::int16_t> rowQuanta; ///< sum of the row of P
+  MonotoneRing parentReach;     ///< largest coarse index in rows 0 .. i of P, or -1
+  /** Last node of the patches of the nodes in rows 0 .. i: then all of these are relaxed. */
+  MonotoneRing settledReach;
   RaggedRing<CoarseEntry> product; ///< rows of A P
   Ring<float> productSum;          ///< sum of the row of A P
 

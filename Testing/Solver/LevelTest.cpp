@@ -227,6 +227,7 @@ TEST(RowBlockPacker, wideBlocksKeepTheLargestDistancesOfParents)
     *entry = InterpolationEntry(static_cast<CoarseIndex>(Base + parents[i]), 10 - 20 * i);
     coarsening.interpolation.close(1);
     coarsening.parentReach.append(Base);
+    coarsening.settledReach.append(i);
   }
   const RowBlock block = packRows(buffers, rows, &coarsening, 0, 3, true);
   const RowBlock::Header& h = block.header();

@@ -42,7 +42,7 @@ void ElementProblem::cells(CellBatch& batch)
       {
         points[corner] = batch.point(c, corner);
       }
-      const CellWeights weights = conductivityWeights(batch.type, points, tensor);
+      const smg::CellWeights weights = conductivityWeights(batch.type, points, tensor);
       std::copy_n(weights.weight, edgesOf(batch.type), batch.weightsOf(c).begin());
       if (!batch.conductivity.empty())
       {
