@@ -65,7 +65,7 @@ Told resultsOf(const StreamMesh& mesh, Problem& problem, const SolveOptions& opt
   return told;
 }
 
-std::vector<StreamMesh> meshes()
+std::vector<StreamMesh> meshesOfResults()
 {
   return { patch(), block() };
 }
@@ -90,7 +90,7 @@ void expectSame(const std::vector<double>& a, const std::vector<double>& b)
 TEST(ProblemResults, theGradientOfALinearFunctionIsItsSlopeInTheCell)
 {
   const Eigen::Vector3d slope(1.0, -2.0, 0.5);
-  for (const StreamMesh& mesh : meshes())
+  for (const StreamMesh& mesh : meshesOfResults())
   {
     ElementProblem problem(mesh);
     problem.Columns = Columns;
@@ -123,7 +123,7 @@ TEST(ProblemResults, theGradientOfALinearFunctionIsItsSlopeInTheCell)
 
 TEST(ProblemResults, areThoseOfTheAssembledSystem)
 {
-  for (const StreamMesh& mesh : meshes())
+  for (const StreamMesh& mesh : meshesOfResults())
   {
     ElementProblem problem = wholeFamily(mesh);
     const Told told = resultsOf(mesh, problem, accurate(1e-12));
@@ -200,7 +200,7 @@ TEST(ProblemResults, areThoseOfTheAssembledSystem)
 
 TEST(ProblemResults, fluxesBalanceToTheTolerance)
 {
-  for (const StreamMesh& mesh : meshes())
+  for (const StreamMesh& mesh : meshesOfResults())
   {
     for (const Weights weights : { Weights::Cotangent, Weights::Clamped, Weights::Uniform })
     {
@@ -221,7 +221,7 @@ TEST(ProblemResults, fluxesBalanceToTheTolerance)
 
 TEST(ProblemResults, whatIsTakenFromTheSourcesIsPartOfTheBalance)
 {
-  for (const StreamMesh& mesh : meshes())
+  for (const StreamMesh& mesh : meshesOfResults())
   {
     ElementProblem problem(mesh);
     problem.CellSource = columnsOf(1, [](const Point& p, int) { return p[0]; });
@@ -237,7 +237,7 @@ TEST(ProblemResults, whatIsTakenFromTheSourcesIsPartOfTheBalance)
 
 TEST(ProblemResults, doNotDependOnBlocks)
 {
-  for (const StreamMesh& mesh : meshes())
+  for (const StreamMesh& mesh : meshesOfResults())
   {
     ElementProblem problem = wholeFamily(mesh);
     const Told expected = resultsOf(mesh, problem, accurate(1e-3));
