@@ -11,7 +11,7 @@ namespace smg
 namespace
 {
 
-constexpr std::int64_t MostColumns = 64;
+constexpr std::int64_t MostColumns = ProblemDescription::MostColumns;
 
 /** Whether the value is a list of entries, each with a value. */
 bool isList(const JsonNode& node)

@@ -11,7 +11,7 @@ namespace smg
 namespace
 {
 
-constexpr int MostColumns = 64;
+constexpr int MostColumns = ProblemDescription::MostColumns;
 
 std::string keyOf(const char* list, std::size_t k)
 {

@@ -25,6 +25,9 @@ namespace smg
  */
 struct ProblemDescription
 {
+  /** Most columns of a problem. */
+  static constexpr int MostColumns = 64;
+
   /** (K grad u - q) . n = coefficient * (ambient - u) on a part of the boundary. */
   struct Robin
   {
