@@ -69,12 +69,29 @@ void CoarsestFactor::factorize(const CoarsestMatrix& matrix)
   }
   Eigen::SparseMatrix<double> sparse(nodes, nodes);
   sparse.setFromTriplets(triplets.begin(), triplets.end());
-  this->Factor.compute(sparse);
-  if (this->Factor.info() != Eigen::Success)
+  this->factorize(sparse);
+}
+
+/**
+ * The matrix comes from single precision: what slivers resist hardly at all may be lost in the
+ * rounding of what they resist, so that it is not definite any more. Then the diagonal is raised by
+ * the least of a few shares that helps, the first one about the size of that rounding.
+ */
+void CoarsestFactor::factorize(Eigen::SparseMatrix<double>& matrix)
+{
+  constexpr double LeastShare = 0x1p-21, MostShare = 0x1p-5, Growth = 8.0;
+  this->Factor.cholmod().print = 0; // a failure is no news
+  this->Factor.compute(matrix);
+  for (double share = LeastShare; this->Factor.info() != Eigen::Success; share *= Growth)
   {
-    throw Error(
-      "the coarsest level's matrix could not be factorised: the weights of the mesh span too "
-      "many orders of magnitude; use uniform weights");
+    if (share > MostShare)
+    {
+      throw Error(
+        "the coarsest level's matrix could not be factorised: the weights of the mesh span too "
+        "many orders of magnitude; use uniform weights");
+    }
+    matrix.diagonal() *= 1.0 + share;
+    this->Factor.compute(matrix);
   }
 }
 

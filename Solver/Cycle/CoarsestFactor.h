@@ -26,7 +26,7 @@ struct CoarsestMatrix
 class CoarsestFactor
 {
 public:
-  /** Throws Error if the matrix is not positive definite. */
+  /** Throws Error if the matrix is far from positive definite. */
   void factorize(const CoarsestMatrix& matrix);
   /** Solves for a right-hand side a column. */
   Eigen::MatrixXd solve(Eigen::MatrixXd b) const;
@@ -35,10 +35,11 @@ public:
 
 private:
   void findFloating(const CoarsestMatrix& matrix);
+  void factorize(Eigen::SparseMatrix<double>& matrix);
   bool pinned(Eigen::Index i) const { return this->Floating[static_cast<std::size_t>(i)] == i; }
   void project(Eigen::MatrixXd& b) const;
 
-  Eigen::CholmodSimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> Factor;
+  Eigen::CholmodSimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower> Factor;
   std::vector<Eigen::Index> Floating; // a node: the first one of its component, -1 if anchored
 };
 

@@ -43,11 +43,15 @@ struct Specials
         continue;
       }
       RowBlock::Special node{ static_cast<std::int16_t>(i - first), 1, 0, -1, 0 };
-      if (patch)
+      if (patch && i < patch->last())
       {
-        node.size = this->sizeAt(*patch, i);
+        node.size = 0;
+      }
+      else if (patch)
+      {
+        node.size = static_cast<std::int16_t>(patch->size);
         node.value = static_cast<std::int32_t>(this->values.size());
-        this->addValues(*patch, node.size);
+        this->addValues(*patch);
       }
       if (!weights.empty())
       {
@@ -60,32 +64,19 @@ struct Specials
   }
 
 private:
-  PatchMatrix Inverse;
   double LeastPivot = LeastPivotOfDoubles;
 
-  /** How many nodes of a patch are relaxed at node i's turn. */
-  std::int16_t sizeAt(const Patch& patch, std::int64_t i)
+  /** The values of a patch, at its last node. */
+  void addValues(const Patch& patch)
   {
-    this->Inverse = patch.matrix;
-    if (!this->Inverse.invert(this->LeastPivot))
-    {
-      return 1;
-    }
-    return static_cast<std::int16_t>(i == patch.last() ? patch.size : 0);
-  }
-
-  void addValues(const Patch& patch, int size)
-  {
-    if (size < 2)
-    {
-      return;
-    }
-    for (int k = 0; k + 1 < size; ++k)
+    for (int k = 0; k + 1 < patch.size; ++k)
     {
       this->values.push_back(static_cast<double>(patch.member(k) - patch.last()));
     }
+    PatchMatrix inverse = patch.matrix;
+    inverse.invert(this->LeastPivot);
     this->values.insert(
-      this->values.end(), this->Inverse.entry, this->Inverse.entry + PatchMatrix::entriesOf(size));
+      this->values.end(), inverse.entry, inverse.entry + PatchMatrix::entriesOf(patch.size));
   }
 };
 

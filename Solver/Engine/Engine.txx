@@ -211,7 +211,8 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem, RowListene
   }
   this->factorize();
   this->noteAssembly(assembly);
-  this->SlowestAreFew = assembly.stiffRows() > 0 ||
+  constexpr std::int64_t StiffShare = 512;
+  this->SlowestAreFew = assembly.stiffRows() > assembly.vertices() / StiffShare ||
                         (type == CellType::Tetrahedron && problem.weights() == Weights::Cotangent);
 }
 

@@ -41,12 +41,15 @@ struct PatchMatrix
   }
 
   /**
-   * Replaces the matrix by its inverse, by its factors L D L^T: without roots, so that the matrix
-   * times a power of two gives the same bits. False, and the matrix is lost, if it is not positive
-   * definite up to rounding: if a pivot is below `least` times its diagonal entry.
+   * Replaces the matrix by a generalised inverse, by its factors L D L^T: without roots, so that
+   * the matrix times a power of two gives the same bits. The rows and columns of pivots below
+   * `least` times their diagonal entries are zero: a node whose correction the others determine
+   * up to rounding, as in a patch that is a component of its own, stays where it is. Answers
+   * whether there is none.
    */
   bool invert(double least)
   {
+    bool definite = true;
     double lower[Most][Most] = {}; // the inverse of L
     double inverse[Most];          // that of D
     for (int a = 0; a < this->order; ++a)
@@ -65,7 +68,9 @@ struct PatchMatrix
       }
       if (!(pivot > least * this->at(a, a)))
       {
-        return false;
+        definite = false;
+        inverse[a] = 0.0;
+        continue;
       }
       inverse[a] = 1.0 / pivot;
       for (int b = 0; b < a; ++b)
@@ -89,7 +94,7 @@ struct PatchMatrix
         this->at(a, b) = sum;
       }
     }
-    return true;
+    return definite;
   }
 };
 

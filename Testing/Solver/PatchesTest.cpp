@@ -166,7 +166,23 @@ TEST(PatchMatrix, invertsAsEigenDoes)
   }
 }
 
-TEST(PatchMatrix, refusesWhatIsNotPositiveDefiniteUpToRounding)
+/** A component of its own: a triangle that is nearly a needle. */
+TEST(PatchMatrix, theInverseOfASingularMatrixIsAGeneralisedOne)
+{
+  const double weights[3] = { 1e4, -0.3, 0.7 }; // of the edges 01, 02, 12
+  PatchMatrix matrix;
+  matrix.order = 3;
+  std::ranges::copy(std::vector{ weights[0] + weights[1], -weights[0], weights[0] + weights[2],
+                      -weights[1], -weights[2], weights[1] + weights[2] },
+    matrix.entry);
+  const Eigen::MatrixXd a = denseOf(matrix);
+  EXPECT_FALSE(matrix.invert(1e-9));
+  const Eigen::MatrixXd inverse = denseOf(matrix);
+  EXPECT_EQ(inverse.row(2).norm(), 0.0); // the last node stays where it is
+  EXPECT_LT((a * inverse * a - a).norm(), 1e-9 * a.norm());
+}
+
+TEST(PatchMatrix, tellsWhatIsNotPositiveDefiniteUpToRounding)
 {
   const auto inverts = [](double last, double least)
   {

@@ -110,6 +110,43 @@ TEST(RawWeights, ofSliversConvergeHoweverFlatTheyAre)
   }
 }
 
+/** Scans have crumbs: components of a few needles without anything prescribed. They start from
+ * values of their own, and only the mean of those is kept. */
+TEST(RawWeights, ofFreeComponentsOfNeedlesConvergeAsFast)
+{
+  IndexedTestMesh indexed = torus(60, 20, 0.4);
+  const auto passesOf = [](const IndexedTestMesh& of)
+  {
+    const StreamMesh mesh = toStream(of);
+    ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+    for (std::int64_t v = 0; v < mesh.vertices(); ++v)
+    {
+      problem.Value[v] = problem.Prescribed[v] ? problem.Value[v] : mesh.positions[3 * v + 1];
+    }
+    const Solved solved = solveMesh(mesh, problem, accurate(1e-10));
+    EXPECT_TRUE(solved.report.converged);
+    return solved.report.passes;
+  };
+  const std::int64_t passes = passesOf(indexed);
+  for (int crumb = 0; crumb < 60; ++crumb)
+  {
+    const double height = std::pow(10.0, -1.0 - crumb % 4);
+    const std::int64_t triangles = 1 + crumb % 5;
+    for (std::int64_t v = 0; v < triangles + 2; ++v)
+    {
+      const double at[3] = { 0.05 * crumb - 1.5 + 0.01 * static_cast<double>(v),
+        v % 2 == 0 ? 0.0 : 0.01 * height, 0.0 };
+      indexed.positions.insert(indexed.positions.end(), at, at + 3);
+      if (v >= 2)
+      {
+        const std::int64_t last = indexed.vertices() - 1;
+        indexed.corners.insert(indexed.corners.end(), { last - 2, last - 1, last });
+      }
+    }
+  }
+  EXPECT_LE(passesOf(indexed), passes + 7);
+}
+
 TEST(RawWeights, ofNothingButObtuseTrianglesLeaveASmallCoarsestLevel)
 {
   IndexedTestMesh indexed = grid(220, 200);
