@@ -4,6 +4,7 @@
 #include "Solver/Core/Error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace smg
@@ -47,52 +48,53 @@ void CoarsestFactor::findFloating(const CoarsestMatrix& matrix)
 
 void CoarsestFactor::factorize(const CoarsestMatrix& matrix)
 {
-  const auto nodes = static_cast<Eigen::Index>(matrix.diagonal.size());
   this->findFloating(matrix);
-  if (nodes == 0)
+  if (matrix.diagonal.empty())
   {
     return;
   }
-  std::vector<Eigen::Triplet<double>> triplets;
-  triplets.reserve(matrix.lower.size() + matrix.diagonal.size());
-  for (const auto& entry : matrix.lower)
-  {
-    if (!this->pinned(entry.row()) && !this->pinned(entry.col()))
-    {
-      triplets.push_back(entry);
-    }
-  }
-  for (Eigen::Index i = 0; i < nodes; ++i)
-  {
-    triplets.emplace_back(
-      i, i, this->pinned(i) ? 1.0 : matrix.diagonal[static_cast<std::size_t>(i)]);
-  }
-  Eigen::SparseMatrix<double> sparse(nodes, nodes);
-  sparse.setFromTriplets(triplets.begin(), triplets.end());
-  this->factorize(sparse);
-}
-
-/**
- * The matrix comes from single precision: what slivers resist hardly at all may be lost in the
- * rounding of what they resist, so that it is not definite any more. Then the diagonal is raised by
- * the least of a few shares that helps, the first one about the size of that rounding.
- */
-void CoarsestFactor::factorize(Eigen::SparseMatrix<double>& matrix)
-{
-  constexpr double LeastShare = 0x1p-21, MostShare = 0x1p-5, Growth = 8.0;
   this->Factor.cholmod().print = 0; // a failure is no news
-  this->Factor.compute(matrix);
-  for (double share = LeastShare; this->Factor.info() != Eigen::Success; share *= Growth)
+  constexpr double MostShare = 0x1p-4, Growth = 8.0;
+  double share = matrix.rounding;
+  this->Factor.compute(this->stiffened(matrix, share));
+  while (this->Factor.info() != Eigen::Success)
   {
-    if (share > MostShare)
+    share *= Growth;
+    if (!(share > 0.0 && share <= MostShare))
     {
       throw Error(
         "the coarsest level's matrix could not be factorised: the weights of the mesh span too "
         "many orders of magnitude; use uniform weights");
     }
-    matrix.diagonal() *= 1.0 + share;
-    this->Factor.compute(matrix);
+    this->Factor.compute(this->stiffened(matrix, share));
   }
+}
+
+/** The matrix to factorise: every edge is stiffer by this share of its weight's magnitude. */
+Eigen::SparseMatrix<double> CoarsestFactor::stiffened(
+  const CoarsestMatrix& matrix, double share) const
+{
+  const auto nodes = static_cast<Eigen::Index>(matrix.diagonal.size());
+  std::vector<double> diagonal = matrix.diagonal;
+  std::vector<Eigen::Triplet<double>> triplets;
+  triplets.reserve(matrix.lower.size() + matrix.diagonal.size());
+  for (const auto& entry : matrix.lower)
+  {
+    const double more = share * std::fabs(entry.value());
+    diagonal[static_cast<std::size_t>(entry.row())] += more;
+    diagonal[static_cast<std::size_t>(entry.col())] += more;
+    if (!this->pinned(entry.row()) && !this->pinned(entry.col()))
+    {
+      triplets.emplace_back(entry.row(), entry.col(), entry.value() - more);
+    }
+  }
+  for (Eigen::Index i = 0; i < nodes; ++i)
+  {
+    triplets.emplace_back(i, i, this->pinned(i) ? 1.0 : diagonal[static_cast<std::size_t>(i)]);
+  }
+  Eigen::SparseMatrix<double> sparse(nodes, nodes);
+  sparse.setFromTriplets(triplets.begin(), triplets.end());
+  return sparse;
 }
 
 /** Takes from b the mean over each floating component, and sets it to zero at the pinned node. */

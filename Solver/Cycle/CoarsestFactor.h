@@ -16,12 +16,17 @@ struct CoarsestMatrix
   std::vector<Eigen::Triplet<double>> lower; ///< entries below the diagonal
   std::vector<double> diagonal;
   std::vector<bool> anchored; ///< a node: its row does not sum to zero
+  double rounding = 0.0;      ///< what share of itself an entry below the diagonal may be off
 };
 
 /**
  * The Cholesky factor of the coarsest level's matrix. A component of it none of whose nodes is
  * anchored determines its solution up to a constant only: its first node is pinned to zero, and its
  * right-hand side loses its mean.
+ *
+ * What slivers resist hardly at all may be lost in the rounding of what they resist, so that the
+ * matrix is barely or not definite any more. So every edge is made stiffer by about that rounding,
+ * which leaves alone the level of what little holds; where it does not help, by more.
  */
 class CoarsestFactor
 {
@@ -35,7 +40,7 @@ public:
 
 private:
   void findFloating(const CoarsestMatrix& matrix);
-  void factorize(Eigen::SparseMatrix<double>& matrix);
+  Eigen::SparseMatrix<double> stiffened(const CoarsestMatrix& matrix, double share) const;
   bool pinned(Eigen::Index i) const { return this->Floating[static_cast<std::size_t>(i)] == i; }
   void project(Eigen::MatrixXd& b) const;
 

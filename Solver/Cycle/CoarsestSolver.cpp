@@ -14,6 +14,7 @@ namespace
 CoarsestMatrix matrixOf(LevelWindow<float>& level)
 {
   CoarsestMatrix matrix;
+  matrix.rounding = 2.0 * FLT_EPSILON;
   level.forRange(0, level.nodes(), level.up(),
     [&](const auto& h, const auto& a, BlockRange range, float*, float*)
     {

@@ -9,6 +9,7 @@
 #include "Solver/Cycle/Transfer.h"
 
 #include <cstdint>
+#include <span>
 
 namespace smg
 {
@@ -28,7 +29,7 @@ public:
   Level(Pool& pool, ResidentNodes& resident, int index, int columns, int sweeps)
     : Window(pool, resident, index, columns)
     , At(sweeps)
-    , Squares(static_cast<std::size_t>(strideOf(columns)))
+    , Squares(2 * static_cast<std::size_t>(strideOf(columns)))
   {
   }
 
@@ -234,7 +235,12 @@ public:
   }
 
   /** ||b - A x||^2 of each column, as the last pass's restriction found it. */
-  const std::vector<Real>& squares() const { return this->Squares; }
+  std::span<const Real> squares() const { return std::span(this->Squares).first(this->lanes()); }
+  /** The same of the terms A_ii x_i, on the finest level. */
+  std::span<const Real> termSquares() const
+  {
+    return std::span(this->Squares).subspan(this->lanes());
+  }
 
   // The whole of a core level at once, with the same kernels.
 
@@ -258,6 +264,8 @@ public:
   void prolongAll() { this->prolongTo(0, this->Window.nodes()); }
 
 private:
+  std::size_t lanes() const { return this->Squares.size() / 2; }
+
   using One = Lanes<Real, 1>;
   using Four = Lanes<Real, 4>;
 
@@ -414,7 +422,7 @@ private:
 
   LevelWindow<Real> Window;
   LevelCursors At;
-  std::vector<Real> Squares;
+  std::vector<Real> Squares; // of the residual, then of its terms
   CoarseLevel* Coarse = nullptr;
   const LevelCursors* Fine = nullptr;
   IterateHistory* History = nullptr;

@@ -88,8 +88,17 @@ void Level<Real, Relaxation>::relaxPatch(
     visitSpecial<Real>(header, rows, specialOf(header, rows, k),
       [&](const auto& arrays)
       {
-        residual[member] = rowResidual<LowerOnly, Vectors>(header, arrays, k, last - header.first,
-          stride, state.x.at(header.first) + lane, state.b.at(header.first) + lane);
+        const Real* x = state.x.at(header.first) + lane;
+        const Real* b = state.b.at(header.first) + lane;
+        if constexpr (LowerOnly)
+        {
+          residual[member] =
+            lowerResidual<Vectors>(header, arrays, k, last - header.first, stride, x, b);
+        }
+        else
+        {
+          residual[member] = ResidualOfDifferences::of<Vectors>(header, arrays, k, stride, x, b);
+        }
       });
   };
   for (int k = 0; k + 1 < node.size; ++k)
@@ -131,33 +140,34 @@ void Level<Real, Relaxation>::restrictTo(std::int64_t end)
     {
       float* coarse = this->Coarse->window().b().at(h.parentBase);
       Real* squares = this->Squares.data();
-      const auto restrictNodes = [&](const auto& arrays, BlockRange nodes)
+      Real* terms = squares + stride;
+      const auto restrictNodes = [&]<class Residual>(Residual, const auto& arrays, BlockRange nodes)
       {
         if (stride == 1)
         {
-          restrictResidual<One, Lanes<float, 1>>(h, arrays, nodes, 1, x, b, coarse, this->Scale,
-            squares, ResidualKeeper<One>(this->History, h.first, 0));
+          restrictResidual<Residual, One, Lanes<float, 1>>(h, arrays, nodes, 1, x, b, coarse,
+            this->Scale, squares, terms, ResidualKeeper<One>(this->History, h.first, 0));
         }
         for (int lane = 0; lane + 3 < stride; lane += 4)
         {
-          restrictResidual<Four, Lanes<float, 4>>(h, arrays, nodes, stride, x + lane, b + lane,
-            coarse + lane, this->Scale, squares + lane,
+          restrictResidual<Residual, Four, Lanes<float, 4>>(h, arrays, nodes, stride, x + lane,
+            b + lane, coarse + lane, this->Scale, squares + lane, terms + lane,
             ResidualKeeper<Four>(this->History, h.first, lane));
         }
       };
       if constexpr (!std::is_same_v<Real, double>)
       {
-        restrictNodes(a, range);
+        restrictNodes(PlainResidual{}, a, range);
       }
       else
       {
         visitNodes(
-          h, a, range, [&](BlockRange nodes) { restrictNodes(a, nodes); },
+          h, a, range, [&](BlockRange nodes) { restrictNodes(PlainResidual{}, a, nodes); },
           [&](const RowBlock::Special& node)
           {
             visitSpecial<Real>(h, a, node,
               [&](const auto& rows) {
-                restrictNodes(rows, { node.node, node.node + 1 });
+                restrictNodes(ResidualOfDifferences{}, rows, { node.node, node.node + 1 });
               });
           });
       }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Cycle/GaussSeidel.h"
+#include "Solver/Cycle/Residual.h"
 #include "Solver/Hierarchy/PatchMatrix.h"
 
 #include <cstdint>
@@ -9,24 +10,18 @@
 namespace smg
 {
 
-/**
- * b_k - A_kk x_k + sum_j w_kj x_j of node k of a block; with LowerOnly x_k and the nodes from
- * `limit` on are taken as zero.
+/** b_k + sum_j w_kj x_j of node k of a block, x_k and the nodes from `limit` on being taken as
+ * zero.
  */
-template <bool LowerOnly, class Vectors, class Real, class Arrays>
-typename Vectors::Vector rowResidual(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
+template <class Vectors, class Real, class Arrays>
+typename Vectors::Vector lowerResidual(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
   std::int64_t limit, std::int64_t stride, const Real* x, const Real* b)
 {
   const BlockRange row = entriesOf(h, a, k);
-  const Real* xk = x + k * stride;
   auto sum = Vectors::load(b + k * stride);
-  if (!LowerOnly)
+  for (std::int64_t e = row.begin; e < row.end && k + a.delta[e] < limit; ++e)
   {
-    sum -= static_cast<Real>(a.diagonal[k]) * Vectors::load(xk);
-  }
-  for (std::int64_t e = row.begin; e < row.end && !(LowerOnly && k + a.delta[e] >= limit); ++e)
-  {
-    sum += static_cast<Real>(a.weight[e]) * Vectors::load(xk + a.delta[e] * stride);
+    sum += static_cast<Real>(a.weight[e]) * Vectors::load(x + (k + a.delta[e]) * stride);
   }
   return sum;
 }

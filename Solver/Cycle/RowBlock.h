@@ -158,6 +158,15 @@ public:
     }
   }
 
+  /** The row sum of node k. */
+  template <class Index, class Weight>
+  static double alphaOf(const Header& h, const Arrays<Index, Weight>& a, std::int64_t k)
+  {
+    const auto group = static_cast<unsigned>(k / Group);
+    const unsigned before = h.alphaGroups & ((1U << group) - 1);
+    return h.alphaGroups >> group & 1 ? a.alpha[std::popcount(before) * Group + k % Group] : 0.0;
+  }
+
   /** Nodes of the groups that have alphas; all groups but the last one are full. */
   static std::int32_t alphas(const Header& h)
   {

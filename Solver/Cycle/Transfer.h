@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Cycle/GaussSeidel.h"
+#include "Solver/Cycle/Residual.h"
 #include "Solver/Hierarchy/CoarseningData.h"
+
+#include <type_traits>
 
 namespace smg
 {
@@ -29,35 +31,27 @@ void prolong(const RowBlock::Header& h, const Arrays& a, BlockRange nodes, std::
 }
 
 /**
- * Residual and restriction of a block's nodes: r = b - A x, b_coarse += P^T r. Adds the squares of
- * r to `squares` (`stride` values), in node order, and calls keep(k, r) for each node k. coarseB
- * points to coarse node parentBase.
+ * Residual, as `Residual` has it, and restriction of a block's nodes: r = b - A x,
+ * b_coarse += P^T r. Adds the squares of r to `squares` (`stride` values) and, on the finest level,
+ * those of the terms A_kk x_k to `terms`, in node order, and calls keep(k, r) for each node k.
+ * coarseB points to coarse node parentBase.
  */
-template <class Vectors, class CoarseVectors, class Real, class Arrays, class Keep>
+template <class Residual, class Vectors, class CoarseVectors, class Real, class Arrays, class Keep>
 void restrictResidual(const RowBlock::Header& h, const Arrays& a, BlockRange nodes,
   std::int64_t stride, const Real* x, const Real* b, float* coarseB, Real scale, Real* squares,
-  Keep&& keep)
+  Real* terms, Keep&& keep)
 {
   auto total = Vectors::load(squares);
+  auto termTotal = Vectors::load(terms);
   for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
   {
-    const BlockRange row = entriesOf(h, a, k);
-    const Real* xk = x + k * stride;
-    auto even =
-      Vectors::load(b + k * stride) - static_cast<Real>(a.diagonal[k]) * Vectors::load(xk);
-    typename Vectors::Vector odd{};
-    std::int64_t e = row.begin;
-    for (; e + 1 < row.end; e += 2)
-    {
-      even += static_cast<Real>(a.weight[e]) * Vectors::load(xk + a.delta[e] * stride);
-      odd += static_cast<Real>(a.weight[e + 1]) * Vectors::load(xk + a.delta[e + 1] * stride);
-    }
-    if (e < row.end)
-    {
-      even += static_cast<Real>(a.weight[e]) * Vectors::load(xk + a.delta[e] * stride);
-    }
-    const auto residual = even + odd;
+    const auto residual = Residual::template of<Vectors>(h, a, k, stride, x, b);
     total += residual * residual;
+    if constexpr (std::is_same_v<Real, double>)
+    {
+      const auto term = a.diagonal[k] * Vectors::load(x + k * stride);
+      termTotal += term * term;
+    }
     keep(k, residual);
     const auto coarse = __builtin_convertvector(residual * scale, typename CoarseVectors::Vector);
     const BlockRange parents = parentsOf(h, a, k);
@@ -69,6 +63,7 @@ void restrictResidual(const RowBlock::Header& h, const Arrays& a, BlockRange nod
     }
   }
   Vectors::store(squares, total);
+  Vectors::store(terms, termTotal);
 }
 
 } // namespace smg

@@ -48,7 +48,13 @@ void CellSelection::endPreparing()
 
 void CellSelection::atCells(const CellRange& cells, std::span<std::uint8_t> selected) const
 {
-  this->Test.apply(this->Test.column.in(cells.block), cells.first, selected);
+  const std::size_t valid =
+    this->Test.apply(this->Test.column.in(cells.block), cells.first, selected);
+  if (valid < selected.size())
+  {
+    this->Columns.fail(this->Key + ".mask",
+      "is not a number in " + this->Columns.cellName(cells.block, cells.first + valid));
+  }
 }
 
 void CellSelection::atFacets(const CellRange& cells, std::span<std::uint8_t> selected) const

@@ -21,7 +21,12 @@ public:
 protected:
   void select(const MeshBlock& block, std::span<std::uint8_t> selected) override
   {
-    this->Test.apply(this->Test.column.in(block), 0, selected);
+    const std::size_t valid = this->Test.apply(this->Test.column.in(block), 0, selected);
+    if (valid < selected.size())
+    {
+      this->Columns.fail(
+        this->Key + ".mask", "is not a number at " + this->Columns.vertexName(block, valid));
+    }
   }
   std::string predicate() const override { return this->Test.predicate(); }
 

@@ -3,6 +3,8 @@
 
 #include "Solver/Description/MeshColumns.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -17,9 +19,13 @@ struct ColumnTest
   NamedColumn column;
   std::optional<double> value; ///< none: what is not 0
 
-  /** Sets `selected` to 1 where the rows of `values` from `first` on have the value, else to 0. */
-  void apply(const Column& values, std::size_t first, std::span<std::uint8_t> selected) const
+  /**
+   * Sets `selected` to 1 where the rows of `values` from `first` on have the value, else to 0.
+   * Answers where first a mask is not a number, the size of `selected` if nowhere.
+   */
+  std::size_t apply(const Column& values, std::size_t first, std::span<std::uint8_t> selected) const
   {
+    std::size_t valid = selected.size();
     dispatch(values.spec.type,
       [&]<class T>(T)
       {
@@ -28,8 +34,10 @@ struct ColumnTest
         {
           const auto number = static_cast<double>(numbers[i]);
           selected[i] = (this->value ? number == *this->value : number != 0.0) ? 1 : 0;
+          valid = !this->value && std::isnan(number) ? std::min(valid, i) : valid;
         }
       });
+    return valid;
   }
 
   /** What is said of something that is selected. */

@@ -19,8 +19,9 @@ constexpr double Margin = 1.05, LeastBound = 0.1, LargestBound = 0.98;
 /** V-cycles after which a factor tells of the slowest errors. */
 constexpr int Settling = 2;
 
-/** Accelerated V-cycles that have to make the residual smaller altogether. */
-constexpr int Trial = 5;
+/** Accelerated V-cycles that have to make the residual smaller altogether. Conjugate residuals may
+ * stand still for long before they have found the slowest errors of slivers. */
+constexpr int TrialOfPolynomial = 5, TrialOfDirections = 60;
 
 const char* nameOf(AccelerationKind kind)
 {
@@ -87,7 +88,8 @@ void Acceleration::decide()
   }
   const std::vector<double>& r = this->Watched.residuals();
   const int since = this->Watched.cycles() - this->Begun;
-  if (since > Trial && r.back() >= r[r.size() - 1 - Trial])
+  const int trial = this->Polynomial ? TrialOfPolynomial : TrialOfDirections;
+  if (since > trial && r.back() >= r[r.size() - 1 - static_cast<std::size_t>(trial)])
   {
     this->giveUp("it did not make the residual smaller");
   }

@@ -17,7 +17,7 @@ constexpr double Diverged = 1e4;
 /** A residual that has not lost this share in so many V-cycles will not do much better; where it is
  * of the size of its terms' rounding, fewer tell. */
 constexpr double Stagnating = 0.9;
-constexpr int Patience = 20, RoundingPatience = 2;
+constexpr int Patience = 60, RoundingPatience = 2;
 constexpr double NearRounding = 10.0;
 
 } // namespace
@@ -51,8 +51,9 @@ void Convergence::begin(double norm, bool mayEnd)
   this->Done = this->Converged = mayEnd && !this->Fixed && norm <= this->Goal;
 }
 
-void Convergence::add(double norm)
+void Convergence::add(double norm, double rounding)
 {
+  this->Rounding = std::max(this->Rounding, rounding);
   const double relative = this->Reference > 0.0 ? norm / this->Reference : 0.0;
   this->NormBefore = this->Norm;
   this->Norm = norm;

@@ -33,8 +33,9 @@ public:
    * the right-hand side has been changed since.
    */
   void begin(double norm, bool mayEnd = true);
-  /** After a V-cycle. Throws Error if the residual grows beyond recovery. */
-  void add(double norm);
+  /** After a V-cycle; `rounding`: what of the norm is the rounding of its own terms, if that is
+   * more than at first. Throws Error if the residual grows beyond recovery. */
+  void add(double norm, double rounding = 0.0);
 
   bool done() const { return this->Done; }
   bool converged() const { return this->Converged; }

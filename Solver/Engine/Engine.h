@@ -69,6 +69,8 @@ protected:
   void startPass(bool first);
   void endPass();
   double residualNorm() const;
+  /** What of it is the rounding of its terms. */
+  double roundingNorm() const;
   /** Throws Error unless the vertices exist and there is room for their values. */
   void checkRange(std::int64_t first, std::int64_t count, std::size_t room) const;
   /** Lets go of all but the solution. */

@@ -186,8 +186,15 @@ void Engine<Operators>::endPass()
 template <OperatorSet Operators>
 double Engine<Operators>::residualNorm() const
 {
-  const std::vector<double>& squares = this->Hierarchy.finest->squares();
+  const auto squares = this->Hierarchy.finest->squares();
   return std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0));
+}
+
+template <OperatorSet Operators>
+double Engine<Operators>::roundingNorm() const
+{
+  const auto squares = this->Hierarchy.finest->termSquares();
+  return roundingOf(std::accumulate(squares.begin(), squares.end(), 0.0));
 }
 
 template <OperatorSet Operators>

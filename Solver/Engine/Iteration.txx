@@ -25,7 +25,7 @@ void Engine<Operators>::iterate(Convergence& convergence, bool spareLast, const 
     this->runCore();
     this->pass(
       convergence.norm(), [] {}, [] {}, history ? &*history : nullptr);
-    convergence.add(this->residualNorm());
+    convergence.add(this->residualNorm(), this->roundingNorm());
     this->Progress.endCycle(convergence.cycles(), convergence.residuals().back());
   }
   if (acceleration.used() != std::string("none"))

@@ -156,16 +156,16 @@ private:
   void relax()
   {
     CoarseningData& d = this->Data;
-    for (std::int64_t i = d.relaxed.end(); i < this->Initial; ++i)
-    {
-      d.relaxed.extendRaw(i + 1);
-      d.relaxed[i].size = RelaxedRow::Pending;
-    }
     std::int64_t before = this->Initial;
     for (Sweep& sweep : this->Relaxed)
     {
       while (sweep.next < this->Rows && d.fine.reach(sweep.next) < before)
       {
+        if (sweep.next == d.relaxed.end())
+        {
+          d.relaxed.extendRaw(sweep.next + 1);
+          d.relaxed[sweep.next].size = RelaxedRow::Pending;
+        }
         this->Set.relaxInterpolation(d, sweep.next++);
       }
       // A patch is relaxed at its last node.

@@ -25,7 +25,7 @@ struct RelaxedRow
 
   float sum;
   CoarseEntry entry[Most];
-  std::int8_t size; ///< Pending: what holds of the row is the initial interpolation
+  std::int8_t size; ///< Pending: still the initial interpolation, as are rows that have not come
 };
 static_assert(sizeof(RelaxedRow) == 40);
 

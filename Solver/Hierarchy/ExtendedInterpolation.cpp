@@ -13,6 +13,10 @@ namespace
 /** A patch whose matrix is that close to singular is relaxed node by node. */
 constexpr double LeastPivot = 1e-6;
 
+/** A row is one of slivers if the magnitudes of its weights sum up to more than this many times its
+ * diagonal. */
+constexpr float Cancelling = 1.5F;
+
 /** A row of P as it is: relaxed, or the initial one. */
 struct NewestRow
 {
@@ -22,9 +26,9 @@ struct NewestRow
 
 NewestRow newestRow(const CoarseningData& data, std::int64_t m)
 {
-  const RelaxedRow& row = data.relaxed[m];
-  if (row.size != RelaxedRow::Pending)
+  if (m < data.relaxed.end() && data.relaxed[m].size != RelaxedRow::Pending)
   {
+    const RelaxedRow& row = data.relaxed[m];
     return { { row.entry, static_cast<std::size_t>(row.size) }, row.sum };
   }
   return { { data.initial.row(m), static_cast<std::size_t>(data.initial.size(m)) },
@@ -248,11 +252,25 @@ void ExtendedInterpolation::relaxPatch(
   }
 }
 
+/** Most entries of row i. */
+int ExtendedInterpolation::entriesOf(const CoarseningData& data, std::int64_t i) const
+{
+  if (this->entries == this->finestEntries || data.fine.childReach(i) >= 0)
+  {
+    return this->entries;
+  }
+  float terms = 0.0F;
+  for (const RowEntry& entry : data.fine.row(i))
+  {
+    terms += std::fabs(entry.weight());
+  }
+  return terms > Cancelling * data.patches.diagonal(i) ? this->entries : this->finestEntries;
+}
+
 /** Makes row i of the largest of the columns, which get this sum. */
 void ExtendedInterpolation::store(CoarseningData& data, std::int64_t i, double sum)
 {
-  const bool finest = data.fine.childReach(i) < 0;
-  const auto most = static_cast<std::size_t>(finest ? this->finestEntries : this->entries);
+  const auto most = static_cast<std::size_t>(this->entriesOf(data, i));
   Candidate largest[RelaxedRow::Most];
   std::size_t kept = 0;
   for (const Candidate candidate : this->Row)

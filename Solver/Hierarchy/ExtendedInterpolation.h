@@ -32,7 +32,8 @@ class ExtendedInterpolation
 {
 public:
   IndependentSetLifting lifting;
-  /** Entries kept of a row of the finest level and of the others, 2 to RelaxedRow::Most. */
+  /** Entries kept of a row of the finest level that is not one of slivers, and of all others, 2 to
+   * RelaxedRow::Most. */
   int finestEntries = 4;
   int entries = 4;
   /** Sweeps, at least 1. */
@@ -71,6 +72,7 @@ private:
     CoarseningData& data, std::int64_t i, const Patch& patch, std::uint8_t inside, Outside& sum);
   void openPattern(const CoarseningData& data, std::int64_t i, std::uint32_t mark);
   void closePattern(const CoarseningData& data);
+  int entriesOf(const CoarseningData& data, std::int64_t i) const;
   void store(CoarseningData& data, std::int64_t i, double sum);
 
   Candidates Row; ///< the row that is relaxed

@@ -49,13 +49,15 @@ void VertexLoads::add(
   {
     return;
   }
+  // Scaled as the cell's stiffness is, so that K grad g still gives back g.
+  const double weight = cells.flatness() * measure;
   const CellGradients gradients(this->Type, points);
   for (int c = 0; c < count; ++c)
   {
     double* load = this->Load.at(corners[c]);
     for (int k = 0; k < this->Columns; ++k)
     {
-      load[k] += measure * dot({ field[3 * k], field[3 * k + 1], field[3 * k + 2] }, gradients[c]);
+      load[k] += weight * dot({ field[3 * k], field[3 * k + 1], field[3 * k + 2] }, gradients[c]);
     }
   }
 }

@@ -118,6 +118,14 @@ TEST_F(DescribedErrors, ValuesOfColumnsAreNamedByTheNumbersOfTheFile)
   description.screening = "one";
   EXPECT_SAYS(this->errorOf(description),
     "screening: the column 'one' must be finite and not negative at vertex 507 of the mesh's file");
+
+  mesh.vertexColumns[0].as<double>()[7] = NAN;
+  mesh.cellColumns[0].as<double>()[3] = NAN;
+  this->Source = MemorySource(mesh);
+  EXPECT_SAYS(this->errorOfDirichlet(ColumnMask{ "one" }),
+    "dirichlet[1].mask: is not a number at vertex 507 of the mesh's file");
+  EXPECT_SAYS(this->errorOfConductivity({ { ColumnMask{ "k" }, 2.0 } }),
+    "conductivity[0].mask: is not a number in cell 1003 of the mesh's file");
 }
 
 TEST_F(DescribedErrors, PlacesThatSelectNothing)

@@ -59,6 +59,29 @@ double errorOfLinear(const StreamMesh& mesh, ArrayProblem& problem)
   return (solved.values - positionsOf(mesh)).cwiseAbs().maxCoeff();
 }
 
+/** The mesh and 60 strips of one to five needles, each a component, up to ten thousand times as
+ * long as high. */
+IndexedTestMesh withCrumbs(IndexedTestMesh mesh)
+{
+  for (int crumb = 0; crumb < 60; ++crumb)
+  {
+    const double height = std::pow(10.0, -1.0 - crumb % 4);
+    const std::int64_t triangles = 1 + crumb % 5;
+    for (std::int64_t v = 0; v < triangles + 2; ++v)
+    {
+      const double at[3] = { 0.05 * crumb - 1.5 + 0.01 * static_cast<double>(v),
+        v % 2 == 0 ? 0.0 : 0.01 * height, 0.0 };
+      mesh.positions.insert(mesh.positions.end(), at, at + 3);
+      if (v >= 2)
+      {
+        const std::int64_t last = mesh.vertices() - 1;
+        mesh.corners.insert(mesh.corners.end(), { last - 2, last - 1, last });
+      }
+    }
+  }
+  return mesh;
+}
+
 } // namespace
 
 TEST(RawWeights, keepLinearFunctionsWhichClampedOnesDoNot)
@@ -114,7 +137,7 @@ TEST(RawWeights, ofSliversConvergeHoweverFlatTheyAre)
  * values of their own, and only the mean of those is kept. */
 TEST(RawWeights, ofFreeComponentsOfNeedlesConvergeAsFast)
 {
-  IndexedTestMesh indexed = torus(60, 20, 0.4);
+  const IndexedTestMesh indexed = torus(60, 20, 0.4);
   const auto passesOf = [](const IndexedTestMesh& of)
   {
     const StreamMesh mesh = toStream(of);
@@ -128,23 +151,23 @@ TEST(RawWeights, ofFreeComponentsOfNeedlesConvergeAsFast)
     return solved.report.passes;
   };
   const std::int64_t passes = passesOf(indexed);
-  for (int crumb = 0; crumb < 60; ++crumb)
-  {
-    const double height = std::pow(10.0, -1.0 - crumb % 4);
-    const std::int64_t triangles = 1 + crumb % 5;
-    for (std::int64_t v = 0; v < triangles + 2; ++v)
-    {
-      const double at[3] = { 0.05 * crumb - 1.5 + 0.01 * static_cast<double>(v),
-        v % 2 == 0 ? 0.0 : 0.01 * height, 0.0 };
-      indexed.positions.insert(indexed.positions.end(), at, at + 3);
-      if (v >= 2)
-      {
-        const std::int64_t last = indexed.vertices() - 1;
-        indexed.corners.insert(indexed.corners.end(), { last - 2, last - 1, last });
-      }
-    }
-  }
-  EXPECT_LE(passesOf(indexed), passes + 7);
+  EXPECT_LE(passesOf(withCrumbs(indexed)), passes + 7);
+}
+
+/** What screening brings to the diagonal of a needle is less than the rounding of the diagonal, and
+ * yet alone determines the level of its component: u = f / s. */
+TEST(RawWeights, littleScreeningDeterminesTheLevelOfNeedles)
+{
+  const StreamMesh mesh = toStream(withCrumbs(torus(60, 20, 0.4)));
+  ArrayProblem problem;
+  problem.EdgeWeights = Weights::Cotangent;
+  problem.Screening = 1.0;
+  problem.Prescribed.resize(mesh.vertices());
+  problem.Value.resize(mesh.vertices());
+  problem.Source.assign(mesh.vertices(), 3.0);
+  const Solved solved = solveMesh(mesh, problem, accurate(1e-12));
+  EXPECT_TRUE(solved.report.converged);
+  EXPECT_LT((solved.values.array() - 3.0).abs().maxCoeff(), 1e-7);
 }
 
 TEST(RawWeights, ofNothingButObtuseTrianglesLeaveASmallCoarsestLevel)
