@@ -2,6 +2,7 @@
 #include "Solver/Description/DatumOnMesh.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace smg
 {
@@ -199,8 +200,10 @@ void DatumOnMesh::valuesAtFacets(const CellRange& cells, std::span<const std::in
       if (k != facet % corners)
       {
         given.value.atCorner(cells.first + c, cells.corners[c * corners + k], numbers);
-        this->require(given, numbers,
-          [&] { return " on " + this->Columns->cellName(cells.block, cells.first + c); });
+        if (this->Rules.complaint(numbers, given.value.components()))
+        {
+          std::fill_n(numbers, given.value.components(), std::numeric_limits<double>::quiet_NaN());
+        }
         numbers += stride;
       }
     }

@@ -63,7 +63,8 @@ public:
   /** Likewise in cells. */
   void valuesAtCells(const CellRange& cells, std::span<const std::int32_t> entry, double* values,
     std::size_t stride) const;
-  /** Likewise at the corners of the facets of cells. */
+  /** Likewise at the corners of the facets of cells; where a value is not valid, NaN: most facets
+   * are inside the body, where nobody asks for it. */
   void valuesAtFacets(const CellRange& cells, std::span<const std::int32_t> entry, double* values,
     std::size_t stride) const;
 

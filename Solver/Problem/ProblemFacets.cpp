@@ -23,7 +23,7 @@ ProblemFacets::ProblemFacets(
   , Corners(static_cast<std::size_t>(BoundaryFacet::cornersOf(type)))
   , Counts(problem.conditionCounts())
   , Open(pool)
-  , Kept(pool, static_cast<int>(1 + this->Corners * (1 + 2 * this->Columns)))
+  , Kept(pool, static_cast<int>(2 + this->Corners * (1 + 2 * this->Columns)))
 {
 }
 
@@ -144,11 +144,16 @@ std::int32_t ProblemFacets::keep(const int* order, std::size_t facet, std::int64
   {
     return 0;
   }
-  this->require(facet, cell);
+  if (this->Flux[facet] >= this->Counts.flux || this->Robin[facet] >= this->Counts.robin)
+  {
+    throw Error("a facet of cell " + std::to_string(cell) +
+                " names a condition that the problem does not have: see conditionCounts");
+  }
   const std::int32_t slot = this->Kept.take();
   double* kept = this->Kept.at(slot);
   const std::int32_t conditions[2] = { this->Flux[facet], this->Robin[facet] };
   std::memcpy(kept++, conditions, sizeof(conditions));
+  std::memcpy(kept++, &cell, sizeof(cell));
   const auto copy = [&](const std::vector<double>& values, std::size_t each)
   {
     for (std::size_t e = 0; e < this->Corners; ++e, kept += each)
@@ -163,32 +168,27 @@ std::int32_t ProblemFacets::keep(const int* order, std::size_t facet, std::int64
   return slot;
 }
 
-void ProblemFacets::require(std::size_t facet, std::int64_t cell) const
+/** Of a facet that turns out to be on the boundary: inside the body nobody asks for its values. */
+void ProblemFacets::require(const BoundaryFacet& facet, std::int64_t cell) const
 {
-  const auto finite = [&](const std::vector<double>& values, std::size_t each)
-  {
-    const double* first = values.data() + facet * this->Corners * each;
-    return std::all_of(
-      first, first + this->Corners * each, [](double value) { return std::isfinite(value); });
+  const auto finite = [](const double* values, std::size_t count) {
+    return std::all_of(values, values + count, [](double value) { return std::isfinite(value); });
   };
-  if (this->Flux[facet] >= this->Counts.flux || this->Robin[facet] >= this->Counts.robin)
+  const std::string where = " on the boundary of cell " + std::to_string(cell) + " of the stream";
+  if (facet.flux >= 0 && !finite(facet.fluxValue, this->Corners * this->Columns))
   {
-    throw Error("a facet of cell " + std::to_string(cell) +
-                " names a condition that the problem does not have: see conditionCounts");
+    throw Error("flux[" + std::to_string(facet.flux) + "]: is not a finite number" + where);
   }
-  if (this->Flux[facet] >= 0 && !finite(this->FluxValue, this->Columns))
+  const bool negative =
+    facet.robin >= 0 && std::any_of(facet.coefficient, facet.coefficient + this->Corners,
+                          [](double value) { return !(value >= 0.0); });
+  if (facet.robin >= 0 && (negative || !finite(facet.coefficient, this->Corners) ||
+                            !finite(facet.ambient, this->Corners * this->Columns)))
   {
-    throw Error(
-      "the flux into a facet of cell " + std::to_string(cell) + " is not a finite number");
-  }
-  const double* coefficient = this->Coefficient.data() + facet * this->Corners;
-  const bool negative = std::any_of(
-    coefficient, coefficient + this->Corners, [](double value) { return !(value >= 0.0); });
-  if (this->Robin[facet] >= 0 &&
-      (negative || !finite(this->Coefficient, 1) || !finite(this->Ambient, this->Columns)))
-  {
-    throw Error("the coefficient and the ambient value of a facet of cell " + std::to_string(cell) +
-                " must be finite numbers, the coefficient not negative");
+    throw Error("robin[" + std::to_string(facet.robin) +
+                "]: the coefficient and the ambient value must be finite numbers, the coefficient "
+                "not negative," +
+                where);
   }
 }
 
@@ -201,11 +201,14 @@ BoundaryFacet ProblemFacets::facet(
     const double* kept = this->Kept.at(data);
     std::int32_t conditions[2];
     std::memcpy(conditions, kept, sizeof(conditions));
+    std::int64_t cell = 0;
+    std::memcpy(&cell, kept + 1, sizeof(cell));
     facet.flux = conditions[0];
     facet.robin = conditions[1];
-    facet.fluxValue = kept + 1;
+    facet.fluxValue = kept + 2;
     facet.coefficient = facet.fluxValue + this->Corners * this->Columns;
     facet.ambient = facet.coefficient + this->Corners;
+    this->require(facet, cell);
   }
   return facet;
 }

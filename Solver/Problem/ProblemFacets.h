@@ -38,7 +38,7 @@ public:
   void add(const MeshBlock& block);
 
   /** Calls found(facet) for each boundary facet whose lowest corner is `vertex`, which is final;
-   * what the facet points to holds for the call. */
+   * what the facet points to holds for the call. Throws Error if a value is not valid. */
   template <class Found>
   void take(std::int64_t vertex, Found&& found)
   {
@@ -58,7 +58,7 @@ private:
   bool mayHaveWanted(const std::int64_t* corner) const;
   bool isWanted(const std::int64_t* vertex) const;
   std::int32_t keep(const int* order, std::size_t facet, std::int64_t cell);
-  void require(std::size_t facet, std::int64_t cell) const;
+  void require(const BoundaryFacet& facet, std::int64_t cell) const;
   BoundaryFacet facet(
     std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data) const;
   void forget(std::int32_t data)
@@ -76,7 +76,7 @@ private:
   std::size_t Columns, Corners; // Corners: of a facet
   ConditionCounts Counts;
   OpenFacets Open;
-  Slots<double> Kept; // of a facet: its conditions, flux, coefficients, ambient
+  Slots<double> Kept; // of a facet: its conditions, cell, flux, coefficients, ambient
   // The batch.
   std::vector<std::int32_t> Flux, Robin;
   std::vector<double> FluxValue, Coefficient, Ambient;

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <set>
@@ -217,37 +218,73 @@ TEST(ProblemFacets, ofAProblemThatSaysNothingOfThemAreThoseOfTheSameDirichletCon
     boundaryOf(toStream(tetBox(10, 4, 5)), 100, problem, pool).size(), std::size_t(2 * 2 * 12));
 }
 
-TEST(ProblemFacets, valuesThatAreNotValidNameTheCell)
+TEST(ProblemFacets, valuesThatAreNotValidNameTheCellOnTheBoundaryAndDoNotMatterInside)
 {
-  const StreamMesh mesh = toStream(tetBox(4, 4, 4));
-  const auto errorOf = [&](const std::function<void(FacetBatch&, std::size_t)>& spoil)
+  const StreamMesh mesh = toStream(tetBox(5, 5, 5));
+  const std::vector<Facet> boundary = boundaryOf(mesh);
+  const std::set<Facet> ofBoundary(boundary.begin(), boundary.end());
+  // A cell with a facet on the boundary, and one without.
+  std::int64_t outer = -1, inner = -1;
+  for (std::int64_t c = 0; c < mesh.cells(); ++c)
+  {
+    bool onBoundary = false;
+    for (int k = 0; k < 4; ++k)
+    {
+      Facet facet(mesh.corners.begin() + 4 * c, mesh.corners.begin() + 4 * c + 4);
+      facet.erase(facet.begin() + k);
+      std::ranges::sort(facet);
+      onBoundary = onBoundary || ofBoundary.contains(facet);
+    }
+    (onBoundary ? outer : inner) = c;
+  }
+  ASSERT_TRUE(outer >= 0 && inner >= 0);
+
+  using Spoil = std::function<void(FacetBatch&, std::size_t)>;
+  const auto errorOf = [&](std::int64_t cell, const Spoil& spoil)
   {
     Everywhere problem;
     problem.spoil = [&](FacetBatch& batch)
     {
       const auto first = batch.block.firstCell + static_cast<std::int64_t>(batch.first);
-      if (first <= 70 && 70 < first + static_cast<std::int64_t>(batch.cells()))
+      for (std::size_t k = 0;
+           first <= cell && cell < first + static_cast<std::int64_t>(batch.cells()) && k < 4; ++k)
       {
-        spoil(batch, 4 * static_cast<std::size_t>(70 - first));
+        spoil(batch, 4 * static_cast<std::size_t>(cell - first) + k);
       }
     };
     Pool pool(std::int64_t(1) << 30);
     return messageOf([&] { boundaryOf(mesh, 100, problem, pool); });
   };
-  const auto isNamed = [](const std::string& message)
-  { return message.find("cell 70 ") != std::string::npos; };
+  const auto isNamed = [&](const std::string& message)
+  { return message.find("cell " + std::to_string(outer) + ' ') != std::string::npos; };
+  const auto expectNamed = [&](const Spoil& spoil)
+  {
+    EXPECT_TRUE(isNamed(errorOf(outer, spoil)));
+    EXPECT_EQ(errorOf(inner, spoil), "");
+  };
   for (const double bad : { NotANumber, Infinite })
   {
-    EXPECT_TRUE(isNamed(errorOf([=](FacetBatch& b, std::size_t f) { b.fluxValue[6 * f] = bad; })));
-    EXPECT_TRUE(isNamed(errorOf([=](FacetBatch& b, std::size_t f) { b.ambient[6 * f] = bad; })));
-    EXPECT_TRUE(
-      isNamed(errorOf([=](FacetBatch& b, std::size_t f) { b.coefficient[3 * f] = bad; })));
+    expectNamed([=](FacetBatch& b, std::size_t f) { b.fluxValue[6 * f] = bad; });
+    expectNamed(
+      [=](FacetBatch& b, std::size_t f)
+      {
+        b.robin[f] = 0;
+        b.ambient[6 * f] = bad;
+      });
   }
-  EXPECT_TRUE(isNamed(errorOf([](FacetBatch& b, std::size_t f) { b.coefficient[3 * f] = -1; })));
-  EXPECT_TRUE(isNamed(errorOf([](FacetBatch& b, std::size_t f) { b.flux[f] = 1; })));
-  EXPECT_TRUE(isNamed(errorOf([](FacetBatch& b, std::size_t f) { b.robin[f] = 5; })));
+  for (const double bad : { NotANumber, Infinite, -1.0 })
+  {
+    expectNamed(
+      [=](FacetBatch& b, std::size_t f)
+      {
+        b.robin[f] = 0;
+        b.coefficient[3 * f] = bad;
+      });
+  }
+  EXPECT_TRUE(isNamed(errorOf(outer, [](FacetBatch& b, std::size_t f) { b.flux[f] = 1; })));
+  EXPECT_TRUE(isNamed(errorOf(outer, [](FacetBatch& b, std::size_t f) { b.robin[f] = 5; })));
   // Where no condition holds, values are no one's business.
-  EXPECT_EQ(errorOf(
+  EXPECT_EQ(errorOf(outer,
               [](FacetBatch& b, std::size_t f)
               {
                 b.robin[f] = -1;
