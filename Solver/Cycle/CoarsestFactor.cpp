@@ -54,6 +54,7 @@ void CoarsestFactor::factorize(const CoarsestMatrix& matrix)
     return;
   }
   this->Factor.cholmod().print = 0; // a failure is no news
+  this->Factor.setMode(matrix.rounding > 0.0 ? Eigen::CholmodSimplicialLLt : Eigen::CholmodLDLt);
   constexpr double MostShare = 0x1p-4, Growth = 8.0;
   double share = matrix.rounding;
   this->Factor.compute(this->stiffened(matrix, share));

@@ -24,14 +24,15 @@ struct CoarsestMatrix
  * anchored determines its solution up to a constant only: its first node is pinned to zero, and its
  * right-hand side loses its mean.
  *
- * What slivers resist hardly at all may be lost in the rounding of what they resist, so that the
- * matrix is barely or not definite any more. So every edge is made stiffer by about that rounding,
- * which leaves alone the level of what little holds; where it does not help, by more.
+ * The factor of an exact matrix is its L D L^T, be it definite or not. Of one whose entries are
+ * rounded, it may be lost what slivers resist hardly at all, so that it is barely or not definite
+ * any more. Then every edge is made stiffer by about that rounding, which leaves alone the level of
+ * what little holds, and where that does not make it definite, by more: L L^T is its factor.
  */
 class CoarsestFactor
 {
 public:
-  /** Throws Error if the matrix is far from positive definite. */
+  /** Throws Error if a pivot of an exact matrix is zero, or a rounded one far from definite. */
   void factorize(const CoarsestMatrix& matrix);
   /** Solves for a right-hand side a column. */
   Eigen::MatrixXd solve(Eigen::MatrixXd b) const;
@@ -44,7 +45,7 @@ private:
   bool pinned(Eigen::Index i) const { return this->Floating[static_cast<std::size_t>(i)] == i; }
   void project(Eigen::MatrixXd& b) const;
 
-  Eigen::CholmodSimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower> Factor;
+  Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower> Factor;
   std::vector<Eigen::Index> Floating; // a node: the first one of its component, -1 if anchored
 };
 

@@ -9,7 +9,7 @@ namespace smg
 {
 
 /**
- * The direct solve on the coarsest level: CHOLMOD's simplicial LDL^T, factorised once. One node of
+ * The direct solve on the coarsest level: by a CoarsestFactor, made once. One node of
  * each connected component whose row sums vanish (no constraint reaches it) is held at zero: there
  * the correction is determined up to a constant, and any will do. What such a component cannot
  * answer of b, its mean, is left out.
@@ -22,9 +22,9 @@ public:
   CoarsestSolver(CoarsestSolver&& other) noexcept;
   CoarsestSolver& operator=(CoarsestSolver&& other) noexcept;
 
-  /** Throws Error if the factorisation meets a zero pivot. */
+  /** Throws Error: see CoarsestFactor. */
   void factorize(LevelWindow<float>& level);
-  /** x = A^-1 b on the level that was factorised. */
+  /** x = A^-1 b on the level that was factorised, as precisely as its weights are. */
   void solve(LevelWindow<float>& level) const;
 
 private:

@@ -100,7 +100,8 @@ public:
   /** Takes the next block of rows while the hierarchy is being built. */
   void append(RowBlock block)
   {
-    this->Patched = this->Patched || block.header().values > 0;
+    // Nodes of a patch may come in blocks before that of its last one.
+    this->Patched = this->Patched || block.header().specials > 0;
     this->Window.append(std::move(block));
   }
 

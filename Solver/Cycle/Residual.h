@@ -37,7 +37,8 @@ struct PlainResidual
 /**
  * The same as b_k - alpha_k x_k + sum_j w_kj (x_j - x_k): the large weights of slivers multiply
  * small differences, so that what is rounded is of their size, and the sum over a patch does not
- * lose alpha, which may be smaller than the rounding of the diagonal.
+ * lose alpha, which may be smaller than the rounding of the diagonal. Edges to prescribed nodes are
+ * part of alpha and b, and rounded as these are.
  */
 struct ResidualOfDifferences
 {

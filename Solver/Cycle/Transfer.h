@@ -33,8 +33,8 @@ void prolong(const RowBlock::Header& h, const Arrays& a, BlockRange nodes, std::
 /**
  * Residual, as `Residual` has it, and restriction of a block's nodes: r = b - A x,
  * b_coarse += P^T r. Adds the squares of r to `squares` (`stride` values) and, on the finest level,
- * those of the terms A_kk x_k to `terms`, in node order, and calls keep(k, r) for each node k.
- * coarseB points to coarse node parentBase.
+ * those of the terms A_kk x_k to `terms` (but not of rows without entries: prescribed values), in
+ * node order, and calls keep(k, r) for each node k. coarseB points to coarse node parentBase.
  */
 template <class Residual, class Vectors, class CoarseVectors, class Real, class Arrays, class Keep>
 void restrictResidual(const RowBlock::Header& h, const Arrays& a, BlockRange nodes,
@@ -47,9 +47,10 @@ void restrictResidual(const RowBlock::Header& h, const Arrays& a, BlockRange nod
   {
     const auto residual = Residual::template of<Vectors>(h, a, k, stride, x, b);
     total += residual * residual;
-    if constexpr (std::is_same_v<Real, double>)
+    const BlockRange row = entriesOf(h, a, k);
+    if (std::is_same_v<Real, double> && row.begin < row.end)
     {
-      const auto term = a.diagonal[k] * Vectors::load(x + k * stride);
+      const auto term = static_cast<Real>(a.diagonal[k]) * Vectors::load(x + k * stride);
       termTotal += term * term;
     }
     keep(k, residual);

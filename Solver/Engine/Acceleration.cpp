@@ -19,9 +19,9 @@ constexpr double Margin = 1.05, LeastBound = 0.1, LargestBound = 0.98;
 /** V-cycles after which a factor tells of the slowest errors. */
 constexpr int Settling = 2;
 
-/** Accelerated V-cycles that have to make the residual smaller altogether. Conjugate residuals may
- * stand still for long before they have found the slowest errors of slivers. */
-constexpr int TrialOfPolynomial = 5, TrialOfDirections = 60;
+/** Cycles by a polynomial that have to make the residual smaller altogether. Conjugate residuals
+ * may stand still for longer, before they have found the slowest errors of slivers. */
+constexpr int Trial = 5;
 
 const char* nameOf(AccelerationKind kind)
 {
@@ -88,8 +88,7 @@ void Acceleration::decide()
   }
   const std::vector<double>& r = this->Watched.residuals();
   const int since = this->Watched.cycles() - this->Begun;
-  const int trial = this->Polynomial ? TrialOfPolynomial : TrialOfDirections;
-  if (since > trial && r.back() >= r[r.size() - 1 - static_cast<std::size_t>(trial)])
+  if (this->Polynomial && since > Trial && r.back() >= r[r.size() - 1 - Trial])
   {
     this->giveUp("it did not make the residual smaller");
   }

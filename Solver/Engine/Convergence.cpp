@@ -18,6 +18,8 @@ constexpr double Diverged = 1e4;
  * of the size of its terms' rounding, fewer tell. */
 constexpr double Stagnating = 0.9;
 constexpr int Patience = 60, RoundingPatience = 2;
+/** Patience is half of all V-cycles that are allowed, if that is less, but this at least. */
+constexpr int LeastPatience = 10;
 constexpr double NearRounding = 10.0;
 
 } // namespace
@@ -81,7 +83,8 @@ void Convergence::add(double norm, double rounding)
 void Convergence::watch(double relative)
 {
   const bool rounding = this->Norm <= NearRounding * this->Rounding;
-  const int patience = rounding ? RoundingPatience : Patience;
+  const int patience =
+    rounding ? RoundingPatience : std::clamp(this->Limit / 2, LeastPatience, Patience);
   const int n = this->cycles();
   const double before = n > patience ? this->Residuals[static_cast<std::size_t>(n - patience - 1)]
                                      : this->FirstNorm / this->Reference;

@@ -90,7 +90,7 @@ protected:
   FreeComponents Free;
   Levels<Relaxation> Hierarchy;
   int FirstCore = 0;
-  /** The slowest errors may sit at a few vertices, of slivers, which a sample does not see. */
+  /** The slowest errors may sit at some vertices, of slivers, which a sample sees too few of. */
   bool SlowestAreFew = false;
   CoreCycle<Relaxation> Core;
   tbb::task_arena Threads;

@@ -3,6 +3,7 @@
 
 #include "Solver/Core/Error.h"
 #include "Solver/Problem/CellWeights.h"
+#include "Solver/Stream/OriginalNumbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,9 @@ void ProblemFacets::add(const MeshBlock& block)
 {
   const std::size_t cells = block.corners.size() / static_cast<std::size_t>(cornersOf(this->Type));
   const Column* flags = block.flags();
+  const std::ptrdiff_t ids = findColumn(block.cellColumns, OriginalCellIdSpec);
+  this->CellIds = ids < 0 ? nullptr : &block.cellColumns[static_cast<std::size_t>(ids)];
+  this->FirstCell = block.firstCell;
   for (std::size_t first = 0; first < cells; first += BatchCells)
   {
     const std::size_t count = std::min(BatchCells, cells - first);
@@ -153,7 +157,9 @@ std::int32_t ProblemFacets::keep(const int* order, std::size_t facet, std::int64
   double* kept = this->Kept.at(slot);
   const std::int32_t conditions[2] = { this->Flux[facet], this->Robin[facet] };
   std::memcpy(kept++, conditions, sizeof(conditions));
-  std::memcpy(kept++, &cell, sizeof(cell));
+  const std::int64_t name =
+    this->CellIds ? this->CellIds->as<std::int64_t>()[cell - this->FirstCell] : -1 - cell;
+  std::memcpy(kept++, &name, sizeof(name));
   const auto copy = [&](const std::vector<double>& values, std::size_t each)
   {
     for (std::size_t e = 0; e < this->Corners; ++e, kept += each)
@@ -169,12 +175,14 @@ std::int32_t ProblemFacets::keep(const int* order, std::size_t facet, std::int64
 }
 
 /** Of a facet that turns out to be on the boundary: inside the body nobody asks for its values. */
-void ProblemFacets::require(const BoundaryFacet& facet, std::int64_t cell) const
+void ProblemFacets::require(const BoundaryFacet& facet, std::int64_t name) const
 {
   const auto finite = [](const double* values, std::size_t count) {
     return std::all_of(values, values + count, [](double value) { return std::isfinite(value); });
   };
-  const std::string where = " on the boundary of cell " + std::to_string(cell) + " of the stream";
+  const std::string where =
+    " on the boundary of cell " + (name >= 0 ? std::to_string(name) + " of the mesh's file"
+                                             : std::to_string(-1 - name) + " of the stream");
   if (facet.flux >= 0 && !finite(facet.fluxValue, this->Corners * this->Columns))
   {
     throw Error("flux[" + std::to_string(facet.flux) + "]: is not a finite number" + where);
@@ -201,14 +209,14 @@ BoundaryFacet ProblemFacets::facet(
     const double* kept = this->Kept.at(data);
     std::int32_t conditions[2];
     std::memcpy(conditions, kept, sizeof(conditions));
-    std::int64_t cell = 0;
-    std::memcpy(&cell, kept + 1, sizeof(cell));
+    std::int64_t name = 0;
+    std::memcpy(&name, kept + 1, sizeof(name));
     facet.flux = conditions[0];
     facet.robin = conditions[1];
     facet.fluxValue = kept + 2;
     facet.coefficient = facet.fluxValue + this->Corners * this->Columns;
     facet.ambient = facet.coefficient + this->Corners;
-    this->require(facet, cell);
+    this->require(facet, name);
   }
   return facet;
 }

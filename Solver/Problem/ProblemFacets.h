@@ -58,7 +58,7 @@ private:
   bool mayHaveWanted(const std::int64_t* corner) const;
   bool isWanted(const std::int64_t* vertex) const;
   std::int32_t keep(const int* order, std::size_t facet, std::int64_t cell);
-  void require(const BoundaryFacet& facet, std::int64_t cell) const;
+  void require(const BoundaryFacet& facet, std::int64_t name) const;
   BoundaryFacet facet(
     std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data) const;
   void forget(std::int32_t data)
@@ -76,7 +76,12 @@ private:
   std::size_t Columns, Corners; // Corners: of a facet
   ConditionCounts Counts;
   OpenFacets Open;
-  Slots<double> Kept; // of a facet: its conditions, cell, flux, coefficients, ambient
+  /** Of a facet: its conditions, its cell's name, flux, coefficients, ambient. The name is the
+   * number in the original file, or -1 less that in the stream. */
+  Slots<double> Kept;
+  // The block.
+  const Column* CellIds = nullptr;
+  std::int64_t FirstCell = 0;
   // The batch.
   std::vector<std::int32_t> Flux, Robin;
   std::vector<double> FluxValue, Coefficient, Ambient;

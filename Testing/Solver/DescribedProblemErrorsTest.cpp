@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Description/DescribedProblem.h"
+#include "Solver/Solve.h"
 #include "Solver/Stream/OriginalNumbers.h"
 
 #include "Testing/Support/DescribedMesh.h"
@@ -126,6 +127,27 @@ TEST_F(DescribedErrors, ValuesOfColumnsAreNamedByTheNumbersOfTheFile)
     "dirichlet[1].mask: is not a number at vertex 507 of the mesh's file");
   EXPECT_SAYS(this->errorOfConductivity({ { ColumnMask{ "k" }, 2.0 } }),
     "conductivity[0].mask: is not a number in cell 1003 of the mesh's file");
+}
+
+TEST_F(DescribedErrors, ValuesOfTheBoundaryAreNamedByTheNumbersOfTheFile)
+{
+  StreamMesh mesh = describedMesh();
+  std::vector<std::int64_t> cells;
+  for (std::int64_t c = 0; c < mesh.cells(); ++c)
+  {
+    cells.push_back(1000 + c);
+    mesh.cellColumns[0].as<double>()[c] = NAN;
+  }
+  mesh.cellColumns.push_back(makeColumn<std::int64_t>(OriginalCellIdName, cells));
+  ProblemDescription description;
+  description.flux = { { Everywhere{}, "k" } };
+  MemorySource source(mesh);
+  DescribedProblem problem(description, source.info(), "p.json");
+  problem.prepare(source);
+  source.rewind(7);
+  const std::string error = messageOf([&] { solve(source, problem, {}); });
+  EXPECT_SAYS(error, "flux[0]: is not a finite number on the boundary of cell 10");
+  EXPECT_SAYS(error, "of the mesh's file");
 }
 
 TEST_F(DescribedErrors, PlacesThatSelectNothing)

@@ -278,6 +278,7 @@ TEST(Interpolation, isRoundedToQuantaThatKeepTheRowSum)
 /** Rows whose weights cancel, those of slivers, have as many as on coarse levels. */
 TEST(Interpolation, mayHaveFewerEntriesOnTheFinestLevel)
 {
+  std::size_t mostOfSlivers = 0;
   for (CoarseningCase& test : coarseningCases())
   {
     test.operators.finestEntries = 2;
@@ -299,9 +300,10 @@ TEST(Interpolation, mayHaveFewerEntriesOnTheFinestLevel)
         own = std::max(own, parents[i].size());
       }
       EXPECT_EQ(most[0], finest ? 2U : 3U) << test.name;
-      EXPECT_LE(most[1], 3U) << test.name;
+      mostOfSlivers = finest ? std::max(mostOfSlivers, most[1]) : mostOfSlivers;
     }
   }
+  EXPECT_EQ(mostOfSlivers, 3U);
 }
 
 TEST(Interpolation, reproducesConstantsWhereNothingIsConstrained)

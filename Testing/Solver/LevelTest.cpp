@@ -154,6 +154,7 @@ TEST(Level, narrowAndWideBlocksGiveTheSameBits)
       EXPECT_TRUE(sameState(narrow.finest().window().x(), wide.finest().window().x()));
       EXPECT_TRUE(sameState(narrow.coarse(1).window().b(), wide.coarse(1).window().b()));
       EXPECT_TRUE(std::ranges::equal(narrow.finest().squares(), wide.finest().squares()));
+      EXPECT_TRUE(std::ranges::equal(narrow.finest().termSquares(), wide.finest().termSquares()));
     }
   }
 }
