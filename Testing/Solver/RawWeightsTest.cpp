@@ -133,6 +133,24 @@ TEST(RawWeights, ofSliversConvergeHoweverFlatTheyAre)
   }
 }
 
+/** With one sweep a patch may end in a block that comes after its first nodes were relaxed. */
+TEST(RawWeights, ofSliversStreamWithOneSweep)
+{
+  const StreamMesh mesh = toStream(sliverChains(60, 48, 2e-3));
+  ArrayProblem problem = heldEnds(mesh, 2, Weights::Cotangent);
+  SolveOptions options = accurate();
+  options.sweeps = 1;
+  options.inCore = true;
+  const Solved solved = solveMesh(mesh, problem, options);
+  options.inCore = false;
+  options.coreNodes = 300;
+  for (const std::int64_t blockNodes : { 64, 1000 })
+  {
+    options.blockNodes = blockNodes;
+    EXPECT_TRUE(sameBits(solveMesh(mesh, problem, options).values, solved.values));
+  }
+}
+
 /** Scans have crumbs: components of a few needles without anything prescribed. They start from
  * values of their own, and only the mean of those is kept. */
 TEST(RawWeights, ofFreeComponentsOfNeedlesConvergeAsFast)
