@@ -278,7 +278,21 @@ void ProblemResults::finish(Report& report)
   report.minimum = this->Minimum;
   report.maximum = this->Maximum;
   this->reportBalance(report);
+  noteConditionsWithoutFacets(report);
   this->noteFlatCells(report);
+}
+
+void ProblemResults::noteConditionsWithoutFacets(Report& report)
+{
+  for (const Report::Condition& condition : report.conditions)
+  {
+    if (condition.area == 0.0 && !condition.name.starts_with("dirichlet"))
+    {
+      report.notes.push_back(
+        condition.name + " has no effect: " +
+        "no facet of the boundary is where it holds, or later ones hold there");
+    }
+  }
 }
 
 void ProblemResults::reportBalance(Report& report) const

@@ -272,6 +272,7 @@ TEST(ProblemResults, aConditionWithoutFacetsHasTheMeanOfItsVertices)
   EXPECT_DOUBLE_EQ(report.conditions[0].mean[0], 4.0);
   EXPECT_EQ(report.conditions[1].area, 0.0);
   EXPECT_TRUE(std::isnan(report.conditions[1].mean[0]));
+  EXPECT_EQ(report.notes.back().find("flux[0] has no effect"), 0u);
   EXPECT_NE(report.json().find("\"mean\": [\n        null\n"), std::string::npos);
 }
 

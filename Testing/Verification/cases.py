@@ -62,7 +62,12 @@ class Domain:
         facets, _ = elements.boundary(~duplicates(cells))
         self.isClosed = len(facets) == 0
         if not self.isClosed:
-            self.facetHeight = np.median(x[facets][:, :, 2].min(axis=1))
+            # Half of the boundary, along z unless all of it is cut by a plane across z.
+            least = x[facets].min(axis=1)
+            axis = 2 if np.ptp(least[:, 2]) > MARGIN * self.length else np.argmax(np.ptp(least, axis=0))
+            self.halfBoundary = {"halfspace": [*(np.arange(3) == axis).astype(int).tolist(),
+                                               np.median(least[:, axis])]}
+            self.boundaryIsBelow = np.median(least[:, 2]) <= lo
 
     def _held_heights(self):
         margin = MARGIN * (self.high[2] - self.low[2])
@@ -94,7 +99,7 @@ class Domain:
         yield Case("tensor column", {**outputs, "dirichlet": cold, "conductivity": "Tensor",
                                      "source": [unit]})
         if not self.isClosed:
-            yield from self._boundary_cases(bottom)
+            yield from self._boundary_cases(top if self.boundaryIsBelow else bottom)
         yield Case("field", {"dirichlet": cold, "field": "Swirl"})
         yield Case("field of a gradient", {"field": "WaveGradient", "initial": "Wave"})
         yield Case("soft", {"soft": [{"tag": ["Ends", 2], "weight": 1e3 * unit, "value": [1]},
@@ -103,11 +108,11 @@ class Domain:
         yield Case("Neumann, source with a mean", {"source": "Density"})
         yield Case("Neumann, constant source", {"source": [unit], "initial": [2]}, scale=1.0)
 
-    def _boundary_cases(self, bottom):
-        above = {"halfspace": [0, 0, 1, self.facetHeight]}
+    def _boundary_cases(self, held):
+        half = self.halfBoundary
         everywhere = {"box": [*(self.low - self.length), *(self.high + self.length)]}
-        yield Case("flux", {"dirichlet": [{**bottom, "value": [0]}],
-                            "flux": [{**above, "value": [1 / self.length]}]})
+        yield Case("flux", {"dirichlet": [{**held, "value": [0]}],
+                            "flux": [{**half, "value": [1 / self.length]}]})
         yield Case("Robin", {"robin": [
             {**everywhere, "coefficient": 1 / self.length, "ambient": [0]},
-            {**above, "coefficient": 5 / self.length, "ambient": [1]}]})
+            {**half, "coefficient": 5 / self.length, "ambient": [1]}]})
