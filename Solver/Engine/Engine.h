@@ -90,7 +90,8 @@ protected:
   FreeComponents Free;
   Levels<Relaxation> Hierarchy;
   int FirstCore = 0;
-  /** The slowest errors may sit at some vertices, of slivers, which a sample sees too few of. */
+  /** The slowest errors may sit at some vertices, of slivers, which a sample sees too few of: so on
+   * dragon.ply, 0.7 % of whose rows are stiff; with a tenth of that a sample served as well. */
   bool SlowestAreFew = false;
   CoreCycle<Relaxation> Core;
   tbb::task_arena Threads;

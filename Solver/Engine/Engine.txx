@@ -219,8 +219,7 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem, RowListene
   this->factorize();
   this->noteAssembly(assembly);
   constexpr std::int64_t StiffShare = 512;
-  this->SlowestAreFew = assembly.stiffRows() > assembly.vertices() / StiffShare ||
-                        (type == CellType::Tetrahedron && problem.weights() == Weights::Cotangent);
+  this->SlowestAreFew = assembly.stiffRows() > assembly.vertices() / StiffShare;
 }
 
 /**

@@ -107,6 +107,7 @@ private:
   std::int64_t Final = 0;
   double Mass = 0.0;
   std::vector<double> Mean, Source, Screening, ScreeningEnergy, Magnitude; // sums
+  std::vector<double> ReactionTerms; // magnitudes of what the reactions are summed of
   std::vector<Report::Extreme> Minimum, Maximum;
 };
 

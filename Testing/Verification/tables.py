@@ -82,6 +82,8 @@ def our_cycles(measured):
 def their_iterations(measured):
     """Of hypre, which solves one of the three columns after the other: a column, likewise."""
     theirs = measured["results"]["hypre"]
+    if "failed" in theirs:
+        return "fails"
     text = f"{theirs['iterations'] / 3:.0f}"
     return text if theirs["relative_residual"] <= measured["tolerance"] else f"({text})"
 
