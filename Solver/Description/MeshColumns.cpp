@@ -48,9 +48,8 @@ std::string nameOf(
 {
   const std::ptrdiff_t place = findColumn(columns, numbers);
   return place < 0
-           ? std::to_string(first + static_cast<std::int64_t>(i)) + " of the stream"
-           : std::to_string(columns[static_cast<std::size_t>(place)].as<std::int64_t>()[i]) +
-               " of the mesh's file";
+           ? nameOfRow(first + static_cast<std::int64_t>(i), false)
+           : nameOfRow(columns[static_cast<std::size_t>(place)].as<std::int64_t>()[i], true);
 }
 
 } // namespace

@@ -92,7 +92,7 @@ protected:
   int FirstCore = 0;
   /** The slowest errors may sit at some vertices, of slivers, which a sample sees too few of: so on
    * dragon.ply, 0.7 % of whose rows are stiff; with a tenth of that a sample served as well. */
-  bool SlowestAreFew = false;
+  bool SlowestAreAtSlivers = false;
   CoreCycle<Relaxation> Core;
   tbb::task_arena Threads;
   double InitialNorm = 0.0;

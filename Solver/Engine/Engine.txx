@@ -219,7 +219,7 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem, RowListene
   this->factorize();
   this->noteAssembly(assembly);
   constexpr std::int64_t StiffShare = 512;
-  this->SlowestAreFew = assembly.stiffRows() > assembly.vertices() / StiffShare;
+  this->SlowestAreAtSlivers = assembly.stiffRows() > assembly.vertices() / StiffShare;
 }
 
 /**

@@ -43,8 +43,8 @@ void Engine<Operators>::addHistory(
   LevelWindow<double>& window = this->Hierarchy.finest->window();
   const KeptResiduals residuals = acceleration.kind() != AccelerationKind::ConjugateGradients
                                     ? KeptResiduals::None
-                                  : this->SlowestAreFew ? KeptResiduals::All
-                                                        : KeptResiduals::Sampled;
+                                  : this->SlowestAreAtSlivers ? KeptResiduals::All
+                                                              : KeptResiduals::Sampled;
   if (acceleration.kind() != AccelerationKind::None && !history)
   {
     const std::int64_t nodes =

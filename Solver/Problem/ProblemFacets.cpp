@@ -181,8 +181,7 @@ void ProblemFacets::require(const BoundaryFacet& facet, std::int64_t name) const
     return std::all_of(values, values + count, [](double value) { return std::isfinite(value); });
   };
   const std::string where =
-    " on the boundary of cell " + (name >= 0 ? std::to_string(name) + " of the mesh's file"
-                                             : std::to_string(-1 - name) + " of the stream");
+    " on the boundary of cell " + (name >= 0 ? nameOfRow(name, true) : nameOfRow(-1 - name, false));
   if (facet.flux >= 0 && !finite(facet.fluxValue, this->Corners * this->Columns))
   {
     throw Error("flux[" + std::to_string(facet.flux) + "]: is not a finite number" + where);
