@@ -26,17 +26,20 @@ public:
   /**
    * The parameters that were best by trial. A strength of 0.2 instead of 0.1 on surfaces costs 5 to
    * 10 % of memory and time a V-cycle and saves up to a third of the V-cycles on real scans; on
-   * tetrahedra one of 0 takes the small weights of slivers for strong ones, one above 0.05 fails to
-   * pay on the worst of them. A second sweep of the interpolation saves V-cycles on tetrahedra
-   * alone, and keeping rows that cancel little on surfaces alone.
+   * tetrahedra one of 0 takes the small weights of slivers for strong ones, one above 0.1 takes more
+   * memory than it saves V-cycles. Keeping rows that cancel little pays on surfaces alone.
    *
    * Most of the set-up's work is the product from the finest level to the next one. Fewer entries
-   * there save some of it, and one V-cycle more at most pays for that on tetrahedra.
+   * there save some of it where slivers do not need them. A second sweep of the interpolation saves
+   * an eighth of the V-cycles on slivers at most, and takes a ring more of every window.
    */
   static Extended forCells(CellType type)
   {
     Extended set = forFewCycles(type);
-    set.Interpolation.finestEntries = type == CellType::Triangle ? 4 : 3;
+    const bool surface = type == CellType::Triangle;
+    set.Interpolation.lifting.strength = surface ? 0.2F : 0.08F;
+    set.Interpolation.finestEntries = 3;
+    set.Interpolation.sweeps = 1;
     return set;
   }
 
@@ -48,6 +51,7 @@ public:
     set.Interpolation.lifting.strength = surface ? 0.2F : 0.05F;
     set.Interpolation.entries = surface ? 4 : 5;
     set.Interpolation.finestEntries = set.Interpolation.entries;
+    set.Interpolation.cancelling = surface ? 1.2F : 1.5F;
     set.Interpolation.sweeps = surface ? 1 : 2;
     set.Product.cancelling = surface ? 1.1 : 1.5;
     return set;

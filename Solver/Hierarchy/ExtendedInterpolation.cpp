@@ -13,10 +13,6 @@ namespace
 /** A patch whose matrix is that close to singular is relaxed node by node. */
 constexpr double LeastPivot = 1e-6;
 
-/** A row is one of slivers if the magnitudes of its weights sum up to more than this many times its
- * diagonal. */
-constexpr float Cancelling = 1.5F;
-
 /** A row of P as it is: relaxed, or the initial one. */
 struct NewestRow
 {
@@ -264,7 +260,7 @@ int ExtendedInterpolation::entriesOf(const CoarseningData& data, std::int64_t i)
   {
     terms += std::fabs(entry.weight());
   }
-  return terms > Cancelling * data.patches.diagonal(i) ? this->entries : this->finestEntries;
+  return terms > this->cancelling * data.patches.diagonal(i) ? this->entries : this->finestEntries;
 }
 
 /** Makes row i of the largest of the columns, which get this sum. */

@@ -36,6 +36,9 @@ public:
    * RelaxedRow::Most. */
   int finestEntries = 4;
   int entries = 4;
+  /** A row is one of slivers if the magnitudes of its weights sum up to more than this many times
+   * its diagonal; at least 1. */
+  float cancelling = 1.2F;
   /** Sweeps, at least 1. */
   int sweeps = 2;
 

@@ -278,6 +278,7 @@ TEST(Interpolation, isRoundedToQuantaThatKeepTheRowSum)
 /** Rows whose weights cancel, those of slivers, have as many as on coarse levels. */
 TEST(Interpolation, mayHaveFewerEntriesOnTheFinestLevel)
 {
+  const double cancelling = ExtendedInterpolation().cancelling;
   std::size_t mostOfSlivers = 0;
   for (CoarseningCase& test : coarseningCases())
   {
@@ -296,7 +297,7 @@ TEST(Interpolation, mayHaveFewerEntriesOnTheFinestLevel)
           terms += std::fabs(entry.weight());
           diagonal += entry.weight();
         }
-        std::size_t& own = most[terms > 1.5 * diagonal ? 1 : 0];
+        std::size_t& own = most[terms > cancelling * diagonal ? 1 : 0];
         own = std::max(own, parents[i].size());
       }
       EXPECT_EQ(most[0], finest ? 2U : 3U) << test.name;
