@@ -30,7 +30,7 @@ class PulledMesh : public smg::MeshSource
 {
 public:
   PulledMesh(smg::PieceInput& input, int pieces, const smg::ProgressFunction& progress)
-    : Stream(input, pieces, { .all = true, .points = {}, .cells = {} })
+    : Stream(input, pieces, { .all = true, .required = {}, .optional = {} })
     , Done(progress)
   {
   }

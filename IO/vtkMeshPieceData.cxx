@@ -10,6 +10,7 @@
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
@@ -76,6 +77,11 @@ void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
     { return isGhost ? vtkDataSetAttributes::DUPLICATEPOINT : 0; }));
   points.AddArray(arrayOf<vtkUnsignedCharArray>(
     StreamFinalizedName, 1, piece.finalized, [](std::uint8_t isFinal) { return isFinal; }));
+  // No user chooses these for a mask or a source: ParaView does not offer them.
+  for (const char* name : { GlobalIdsName, GhostTypeName, StreamFinalizedName })
+  {
+    points.GetArray(name)->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
+  }
   for (const Column& column : piece.vertexColumns)
   {
     points.AddArray(makeArray(column));

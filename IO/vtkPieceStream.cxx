@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace smg
 {
@@ -30,17 +31,23 @@ bool isDuplicate(vtkUnsignedCharArray* ghosts, vtkIdType i)
   return ghosts && (ghosts->GetValue(i) & vtkDataSetAttributes::DUPLICATEPOINT);
 }
 
-std::vector<ColumnSpec> named(vtkDataSetAttributes& arrays, const std::vector<std::string>& names)
+bool contains(const std::vector<std::string>& names, const std::string& name)
 {
-  std::vector<ColumnSpec> specs;
-  for (const ColumnSpec& spec : columnSpecs(arrays))
+  return std::ranges::find(names, name) != names.end();
+}
+
+/** " (it has A, B)", of the points and the cells. */
+std::string namesOf(const StreamInfo& info)
+{
+  std::string names;
+  for (const auto* specs : { &info.vertexColumns, &info.cellColumns })
   {
-    if (std::find(names.begin(), names.end(), spec.name) != names.end())
+    for (const ColumnSpec& spec : *specs)
     {
-      specs.push_back(spec);
+      names += (names.empty() ? " (it has " : ", ") + spec.name;
     }
   }
-  return specs;
+  return names.empty() ? " (it has none)" : names + ")";
 }
 
 } // namespace
@@ -101,14 +108,24 @@ void PieceStream::learn(vtkPointSet& piece)
     this->Info.cellColumns = columnSpecs(*piece.GetCellData());
     return;
   }
-  this->Info.vertexColumns = named(*piece.GetPointData(), this->Columns.points);
-  this->Info.cellColumns = named(*piece.GetCellData(), this->Columns.cells);
-  for (const std::string& name : this->Columns.points)
+  const auto isWanted = [this](const ColumnSpec& spec)
   {
-    if (std::none_of(this->Info.vertexColumns.begin(), this->Info.vertexColumns.end(),
-          [&name](const ColumnSpec& spec) { return spec.name == name; }))
+    return contains(this->Columns.required, spec.name) ||
+           contains(this->Columns.optional, spec.name);
+  };
+  this->Info.vertexColumns = columnSpecs(*piece.GetPointData());
+  this->Info.cellColumns = columnSpecs(*piece.GetCellData());
+  const std::string offered = namesOf(this->Info);
+  std::erase_if(this->Info.vertexColumns, std::not_fn(isWanted));
+  std::erase_if(this->Info.cellColumns, std::not_fn(isWanted));
+  for (const std::string& name : this->Columns.required)
+  {
+    const auto isNamed = [&name](const ColumnSpec& spec) { return spec.name == name; };
+    if (std::ranges::none_of(this->Info.vertexColumns, isNamed) &&
+        std::ranges::none_of(this->Info.cellColumns, isNamed))
     {
-      throw Error("The input has no numeric point array " + name + ": choose one that it has.");
+      throw Error("The input has no numeric array " + name + " of its points or cells" + offered +
+                  ": choose one that it has.");
     }
   }
 }

@@ -18,12 +18,14 @@ class vtkPointSet;
 namespace smg
 {
 
-/** Which arrays of the pieces become columns of the mesh stream. */
+/** Which arrays of the pieces, of the points and of the cells, become columns of the mesh stream.
+ */
 struct PieceColumns
 {
-  bool all = false;                ///< every numeric array that has a name
-  std::vector<std::string> points; ///< else these point arrays; each must exist
-  std::vector<std::string> cells;  ///< else these cell arrays, as far as they exist
+  bool all = false; ///< every numeric array that has a name
+  /** Else those of these names; the points or the cells must have each. */
+  std::vector<std::string> required;
+  std::vector<std::string> optional; ///< and those of these names, as far as they exist
 };
 
 /**

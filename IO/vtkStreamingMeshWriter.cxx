@@ -57,7 +57,7 @@ using Notes = std::vector<std::string>;
 Notes writeContainerFile(
   smg::PieceInput& input, int pieces, const std::filesystem::path& path, smg::Progress& progress)
 {
-  smg::PieceStream stream(input, pieces, { .all = true, .points = {}, .cells = {} });
+  smg::PieceStream stream(input, pieces, { .all = true, .required = {}, .optional = {} });
   smg::writeContainer(stream, path, false, progress);
   return {};
 }
@@ -68,7 +68,7 @@ Notes writeThroughContainer(
 {
   const smg::ScratchFolder scratch(std::filesystem::absolute(path).parent_path());
   const std::filesystem::path container = scratch.path() / "mesh.vsm";
-  smg::PieceStream stream(input, pieces, { .all = true, .points = {}, .cells = {} });
+  smg::PieceStream stream(input, pieces, { .all = true, .required = {}, .optional = {} });
   smg::checkOutput(path, stream.info().cellType);
   const smg::ProgressFunction whole = [&progress](double done)
   {
@@ -91,7 +91,7 @@ Notes writeInOriginalOrder(smg::PieceInput& input, int pieces, const std::filesy
   };
   smg::Workspace workspace(std::filesystem::absolute(path).parent_path(),
     smg::ConversionOptions::DefaultMemory, smg::partOf(whole, 0.5, 1.0));
-  smg::PieceStream stream(input, pieces, { .all = true, .points = {}, .cells = {} });
+  smg::PieceStream stream(input, pieces, { .all = true, .required = {}, .optional = {} });
   smg::checkRestoredPath(path, stream.info().cellType);
   std::filesystem::path container = workspace.folder() / "mesh.vsm";
   smg::Progress half(smg::partOf(whole, 0.0, 0.5));

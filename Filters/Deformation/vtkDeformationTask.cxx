@@ -25,11 +25,13 @@ void DeformationTask::check() const
 PieceColumns DeformationTask::columns() const
 {
   const auto& names = ColumnHandles::names();
-  return { .all = false, .points = { names.begin(), names.end() }, .cells = { CellFlagsName } };
+  return {
+    .all = false, .required = { names.begin(), names.end() }, .optional = { CellFlagsName }
+  };
 }
 
 std::unique_ptr<Solution> DeformationTask::solve(
-  const VsmReader& mesh, const ProgressFunction& progress) const
+  const VsmReader& mesh, const ProgressFunction& progress, Report& report) const
 {
   const bool hasNormals = this->needsNormals && mesh.info().cellType == CellType::Triangle;
   ColumnHandles handles(mesh.info().vertexColumns);
@@ -44,6 +46,7 @@ std::unique_ptr<Solution> DeformationTask::solve(
     normals.progress = partOf(progress, SolveShare, 1.0);
     moved->addNormals(mesh.source({}, {}), normals);
   }
+  report = moved->report();
   return moved;
 }
 

@@ -17,7 +17,7 @@ public:
   void check() const override;
   PieceColumns columns() const override;
   std::unique_ptr<Solution> solve(
-    const VsmReader& mesh, const ProgressFunction& progress) const override;
+    const VsmReader& mesh, const ProgressFunction& progress, Report& report) const override;
 };
 
 } // namespace smg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Filters/Handles/vtkHeldPoints.h"
+#include "Filters/Regions/vtkHeldPoints.h"
 #include "Solver/Deformation/HandleMotion.h"
 
 #include <vector>

@@ -1,82 +1,67 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Poisson/vtkPoissonTask.h"
 
+#include "IO/Conversion/PartialProgress.h"
+#include "IO/Output/SolvedMesh.h"
 #include "Solver/Core/Error.h"
+#include "Solver/Description/ComposeDescriptions.h"
 #include "Solver/Description/DescribedProblem.h"
-
-#include <algorithm>
-#include <cmath>
+#include "Solver/Stream/OriginalNumbers.h"
 
 namespace smg
 {
+namespace
+{
+
+/** The share of the progress that solving has; what is read of the solution has the rest. */
+constexpr double SolveShare = 0.9;
+
+} // namespace
 
 void PoissonTask::check() const
 {
-  if (this->arrays.mask.empty() != this->arrays.values.empty())
+  if (!isPosed(this->problem))
   {
-    throw Error("A Dirichlet mask and Dirichlet values belong together: choose both arrays, or "
-                "neither.");
-  }
-  if (this->arrays.values.empty() && this->arrays.source.empty() && this->arrays.guess.empty())
-  {
-    throw Error("No array says what to solve: choose a Dirichlet mask with values, or a source.");
+    throw Error(
+      "Nothing says what to solve: choose a Dirichlet mask with values or a source, put a "
+      "Mesh Condition before this filter, or name a problem file.");
   }
   checkOptions(this->options);
   checkOperators(this->options);
-  if (!std::isfinite(this->screening))
-  {
-    throw Error("The screening is not a finite number: use one that is at least 0.");
-  }
 }
 
 PieceColumns PoissonTask::columns() const
 {
-  PieceColumns columns;
-  for (const std::string& name :
-    { this->arrays.mask, this->arrays.values, this->arrays.source, this->arrays.guess })
-  {
-    if (!name.empty() &&
-        std::find(columns.points.begin(), columns.points.end(), name) == columns.points.end())
-    {
-      columns.points.push_back(name);
-    }
-  }
-  columns.cells.push_back(CellFlagsName);
-  return columns;
-}
-
-ProblemDescription PoissonTask::describe(const StreamInfo& mesh) const
-{
-  ProblemDescription problem;
-  problem.weights = this->weights;
-  for (const std::string& name : { this->arrays.guess, this->arrays.source, this->arrays.values })
-  {
-    const auto column = std::ranges::find(mesh.vertexColumns, name, &ColumnSpec::name);
-    problem.columns = column == mesh.vertexColumns.end() ? problem.columns : column->components;
-  }
-  problem.screening = this->screening;
-  if (!this->arrays.mask.empty())
-  {
-    problem.dirichlet = { { ColumnMask{ this->arrays.mask }, this->arrays.values } };
-  }
-  if (!this->arrays.source.empty())
-  {
-    problem.source = this->arrays.source;
-  }
-  if (!this->arrays.guess.empty())
-  {
-    problem.initial = this->arrays.guess;
-  }
-  return problem;
+  const std::set<std::string> names = namedColumns(this->problem);
+  // The original numbers are for complaints and for vertices that the problem names by them.
+  return { .all = false,
+    .required = { names.begin(), names.end() },
+    .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
 }
 
 std::unique_ptr<Solution> PoissonTask::solve(
-  const VsmReader& mesh, const ProgressFunction& progress) const
+  const VsmReader& mesh, const ProgressFunction& progress, Report& report) const
 {
-  DescribedProblem problem(this->describe(mesh.info()), mesh.info());
+  DescribedProblem problem(this->problem, mesh.info());
+  const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
+  problem.prepare(*source(), this->options.scratch);
   SolveOptions options = this->options;
-  options.progress = progress;
-  return smg::solve(*mesh.source(), problem, options);
+  options.progress = partOf(progress, 0.0, SolveShare);
+  std::unique_ptr<Solution> solution = smg::solve(*source(), problem, options);
+
+  report = solution->report();
+  const auto goOn = partOf(progress, SolveShare, 1.0);
+  SolvedMesh solved(mesh, problem, *solution, { .memoryLimit = options.memoryLimit });
+  MeshBlock block;
+  for (std::int64_t done = 0; solved.next(block); done += block.vertices())
+  {
+    if (!goOn(static_cast<double>(done) / static_cast<double>(mesh.info().vertices)))
+    {
+      throw Cancelled();
+    }
+  }
+  solved.finish(report);
+  return solution;
 }
 
 } // namespace smg

@@ -56,8 +56,8 @@ void StreamedSolve::pullAndSolve(
   }
   const std::chrono::duration<double> pulled = std::chrono::steady_clock::now() - start;
 
-  this->Result = task.solve(VsmReader(container), partOf(whole, PullShare, 1.0));
-  Report report = this->Result->report();
+  Report report;
+  this->Result = task.solve(VsmReader(container), partOf(whole, PullShare, 1.0), report);
   report.seconds.convert = pulled.count();
   report.seconds.total += pulled.count();
   this->Summary = SolveSummary::of(report, this->Result->columns());

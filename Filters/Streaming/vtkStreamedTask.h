@@ -24,10 +24,10 @@ public:
 
   /**
    * Computes on the whole mesh, which has these columns; nothing of `mesh` is needed afterwards.
-   * Throws Error and Cancelled.
+   * `report` gets the solution's report and what else there is to say. Throws Error and Cancelled.
    */
   virtual std::unique_ptr<Solution> solve(
-    const VsmReader& mesh, const ProgressFunction& progress) const = 0;
+    const VsmReader& mesh, const ProgressFunction& progress, Report& report) const = 0;
 };
 
 } // namespace smg

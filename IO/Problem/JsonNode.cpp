@@ -223,13 +223,18 @@ nlohmann::json readJsonFile(const std::string& path)
     throw Error(path + (text.empty() ? ": the file is empty or cannot be read."
                                      : ": the file cannot be read."));
   }
+  return readJsonText(text, path);
+}
+
+nlohmann::json readJsonText(const std::string& text, const std::string& name)
+{
   try
   {
-    return nlohmann::json::parse(text, UniqueKeys(path));
+    return nlohmann::json::parse(text, UniqueKeys(name));
   }
   catch (const nlohmann::json::exception&)
   {
-    throw Error(path + ", " + jsonComplaint(text) + '.');
+    throw Error(name + ", " + jsonComplaint(text) + '.');
   }
 }
 

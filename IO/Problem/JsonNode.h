@@ -72,5 +72,7 @@ private:
 
 /** Reads a JSON file; throws Error naming file, line and column if it is none. */
 nlohmann::json readJsonFile(const std::string& path);
+/** The same of a text; errors call it `name`. */
+nlohmann::json readJsonText(const std::string& text, const std::string& name);
 
 } // namespace smg

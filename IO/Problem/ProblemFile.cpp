@@ -136,10 +136,9 @@ void parseOutputs(const JsonNode& node, ProblemDescription& problem)
   }
 }
 
-ProblemDescription parseProblem(const JsonNode& node)
+ProblemDescription parseProblem(const JsonNode& node, ProblemDescription problem)
 {
   node.requireObject(ProblemKeys);
-  ProblemDescription problem;
   problem.weights = parseWeights(node).value_or(problem.weights);
   if (node.has("columns"))
   {
@@ -176,10 +175,18 @@ ProblemDescription parseProblem(const JsonNode& node)
 
 } // namespace
 
-ProblemDescription readProblemFile(const std::filesystem::path& path)
+ProblemDescription readProblemFile(
+  const std::filesystem::path& path, const ProblemDescription& defaults)
 {
   const nlohmann::json json = readJsonFile(path.string());
-  return parseProblem(JsonNode(json, path.string()));
+  return parseProblem(JsonNode(json, path.string()), defaults);
+}
+
+ProblemDescription readProblemText(
+  const std::string& text, const std::string& name, const ProblemDescription& defaults)
+{
+  const nlohmann::json json = readJsonText(text, name);
+  return parseProblem(JsonNode(json, name), defaults);
 }
 
 } // namespace smg

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
 
 namespace smg
 {
@@ -35,8 +36,14 @@ inline constexpr std::array ProblemKeys{ "weights", "columns", "conductivity", "
  * Every key may be left out; ProblemDescription says what it means and what holds without it. The
  * entries of a list in C have no lists themselves. `raw-cotangent` is an old name of `cotangent`.
  * docs/problem.schema.json says the same as a JSON schema.
+ * What the file does not say is as in `defaults`; conditions are added to theirs.
  * @throws Error naming the file and the place in it
  */
-ProblemDescription readProblemFile(const std::filesystem::path& path);
+ProblemDescription readProblemFile(
+  const std::filesystem::path& path, const ProblemDescription& defaults = {});
+
+/** The same from the text of such a file; errors call it `name`. */
+ProblemDescription readProblemText(
+  const std::string& text, const std::string& name, const ProblemDescription& defaults = {});
 
 } // namespace smg

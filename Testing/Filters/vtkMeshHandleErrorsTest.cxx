@@ -67,7 +67,7 @@ TEST_F(VtkMeshHandle, SaysWhatIsWrongInOneSentence)
   this->Handle->AddId(1800);
   expectFailure("no point with the id 1800");
   this->Handle->AddId(-2);
-  expectFailure("The id -2 of the handle is negative");
+  expectFailure("The id -2 of the region is negative");
   this->Handle->SetRegion(vtkMeshHandle::POINTS);
   expectFailure("no points");
   this->Handle->AddPoint(0.0, NaN, 0.0);
@@ -75,7 +75,7 @@ TEST_F(VtkMeshHandle, SaysWhatIsWrongInOneSentence)
   this->Handle->RemoveAllPoints();
   this->Handle->AddPoint(3.0, 0.0, 0.0);
   this->Handle->SetRadius(NaN);
-  expectFailure("The radius of the handle is not a finite number");
+  expectFailure("The radius of the region is not a finite number");
   this->Handle->SetRadius(0.0);
   this->Handle->AddPointTarget(0.0, 0.0, NaN);
   expectFailure("A point target of the handle is not a finite number");
@@ -127,12 +127,12 @@ TEST_F(VtkMeshHandle, AFunctionMustMakeSense)
   for (const double radius : { -1.0, 0.0, NaN })
   {
     this->Ball->SetRadius(radius);
-    expectFailure("The sphere of the handle has the radius");
+    expectFailure("The sphere of the region has the radius");
   }
   vtkNew<vtkCylinder> cylinder;
   cylinder->SetRadius(-1.0);
   this->Handle->SetRegionFunction(cylinder);
-  expectFailure("The cylinder of the handle has the radius -1");
+  expectFailure("The cylinder of the region has the radius -1");
   vtkNew<vtkPlane> plane;
   plane->SetOrigin(NaN, 0.0, 0.0);
   this->Handle->SetRegionFunction(plane);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Container/VsmReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
+#include "Testing/Filters/vtkHandleTesting.h"
 #include "Testing/Filters/vtkPoissonFixture.h"
 #include "Testing/Support/ArrayProblem.h"
 #include "Testing/Support/SolveMesh.h"
@@ -55,9 +56,10 @@ TEST_F(VtkStreamingPoisson, NumberOfPiecesAndInCoreDoNotMatter)
   EXPECT_EQ(this->collectPieces(3).values, first.values);
 }
 
-TEST_F(VtkStreamingPoisson, PreviewCarriesTheTrueSolution)
+TEST_F(VtkStreamingPoisson, PreviewCarriesTheTrueSolutionIfThatIsWanted)
 {
   const PieceUnion whole = this->collectPieces(1);
+  this->Poisson->SetSolveFullMesh(true);
   this->Reader->SetMaximumPointsInMemory(100);
   this->Reader->SetPreviewPoints(300);
   ASSERT_TRUE(updatePiece(this->Poisson, 0, 1));
@@ -70,6 +72,42 @@ TEST_F(VtkStreamingPoisson, PreviewCarriesTheTrueSolution)
   {
     const auto id = static_cast<std::int64_t>(ids->GetTuple1(i));
     EXPECT_EQ(solution->GetComponent(i, 2), whole.values.at(id)[2]);
+  }
+}
+
+/** At once, and the report says that it is no more than that. */
+TEST_F(VtkStreamingPoisson, SolvesOnAPreviewInItsPlace)
+{
+  const PieceUnion whole = this->collectPieces(1);
+  this->Reader->SetMaximumPointsInMemory(100);
+  this->Reader->SetPreviewPoints(1200);
+  const int executions = this->Ends->Executions;
+  ASSERT_TRUE(updatePiece(this->Poisson, 0, 1));
+  EXPECT_EQ(this->Ends->Executions, executions + 1);
+  EXPECT_NE(
+    std::string(this->Poisson->GetReport()).find("solution on the preview"), std::string::npos);
+  EXPECT_EQ(this->Poisson->GetConverged(), 1);
+  vtkPointSet* preview = this->output();
+  auto* ids = preview->GetPointData()->GetGlobalIds();
+  auto* solution = preview->GetPointData()->GetArray("Solution");
+  double worst = 0.0;
+  for (vtkIdType i = 0; i < preview->GetNumberOfPoints(); ++i)
+  {
+    const std::vector<double>& exact =
+      whole.values.at(static_cast<std::int64_t>(ids->GetTuple1(i)));
+    worst = std::max(worst, std::fabs(solution->GetComponent(i, 0) - exact[0]));
+  }
+  // Of a range of 5; more than rounding, since the preview is another mesh.
+  EXPECT_LT(worst, 0.5);
+  EXPECT_GT(worst, 1e-6);
+
+  // What is streamed is the solution on the mesh.
+  ASSERT_TRUE(streamPiece(this->Poisson, 0, 1));
+  EXPECT_EQ(this->output()->GetNumberOfPoints(), this->Mesh.vertices());
+  for (vtkIdType i = 0; i < this->Mesh.vertices(); ++i)
+  {
+    ASSERT_EQ(this->output()->GetPointData()->GetArray("Solution")->GetComponent(i, 0),
+      whole.values.at(i)[0]);
   }
 }
 

@@ -40,7 +40,7 @@ protected:
     try
     {
       PieceInput input(*this->Sink, 0);
-      PieceStream stream(input, pieces, { .all = true, .points = {}, .cells = {} });
+      PieceStream stream(input, pieces, { .all = true, .required = {}, .optional = {} });
       Progress progress;
       this->Info = writeContainer(stream, this->Folder / "out.vsm", true, progress);
       return {};

@@ -30,7 +30,7 @@ deformation = StreamingMeshDeformation(Input=handles)
 algorithm = t.client_object(deformation)
 hints = deformation.SMProxy.GetHints().FindNestedElementByName("ShowInMenu")
 assert hints.GetAttribute("category") == "Streaming Multigrid"
-defaults = {"Weights": "Clamped", "Operators": "extended", "Sweeps": 2, "Tolerance": 1e-6,
+defaults = {"Weights": "Clamped", "Sweeps": 2, "Tolerance": 1e-6,
             "Cycles": 0, "MaximumCycles": 50, "MemoryLimit": 1024, "ScratchDirectory": "",
             "NumberOfPieces": 64, "NumberOfThreads": 0, "Normals": "Recompute",
             "KeepHandleArrays": 0, "InteractivePoints": 200000}

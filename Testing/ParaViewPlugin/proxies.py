@@ -16,7 +16,7 @@ assert reader.SMProxy.GetXMLName() == "StreamingMeshReader"
 assert reader.MaximumPointsInMemory == 2000000
 assert reader.PointArrayStatus == ["OriginalId"], reader.PointArrayStatus
 poisson = StreamingPoisson(Input=reader)
-defaults = {"Weights": "Cotangent", "Operators": "extended", "Sweeps": 2, "Tolerance": 1e-6,
+defaults = {"Weights": "Cotangent", "Sweeps": 2, "Tolerance": 1e-6,
             "MaximumCycles": 50, "MemoryLimit": 1024, "ScratchDirectory": "", "NumberOfPieces": 64,
             "NumberOfThreads": 0, "Screening": 0.0, "InCore": 0, "ResultArrayName": "Solution",
             "DirichletMask": ["POINTS", "None"], "Source": ["POINTS", "None"]}

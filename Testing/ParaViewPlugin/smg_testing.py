@@ -88,3 +88,9 @@ def run_smg(*arguments):
     if not program:
         skip("the program smg is not built")
     subprocess.run([program, *map(str, arguments)], check=True, timeout=500)
+
+
+def points_of(proxy, array):
+    """A point array of the output as (points, components)."""
+    values = vtk_to_numpy(servermanager.Fetch(proxy).GetPointData().GetArray(array))
+    return values.reshape(len(values), -1)

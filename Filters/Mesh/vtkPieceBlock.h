@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Stream/MeshSource.h"
+
+#include <memory>
+#include <set>
+#include <string>
+
+class vtkPointSet;
+
+namespace smg
+{
+
+/**
+ * A piece of a mesh, or a preview, by itself: a mesh stream of one block, whose vertices are the
+ * points of the piece in their order. Its columns are the arrays of certain names as far as they
+ * exist, and what users call its points and cells.
+ */
+class PieceBlock
+{
+public:
+  /** `names`: of the arrays. The piece must have cells. Throws Error if these are neither triangles
+   * nor tetrahedra. */
+  PieceBlock(vtkPointSet& piece, std::set<std::string> names);
+
+  const StreamInfo& info() const { return this->Info; }
+  const MeshBlock& block() const { return this->Block; }
+  /** The stream; *this must outlive it. */
+  std::unique_ptr<MeshSource> source() const;
+
+private:
+  StreamInfo Info;
+  MeshBlock Block;
+};
+
+} // namespace smg

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+class vtkAlgorithm;
+class vtkPointSet;
+
+namespace smg
+{
+
+/** The arrays that were chosen with SetInputArrayToProcess() of a filter; an empty name: none. */
+class ChosenArrays
+{
+public:
+  /** Both must live as long. */
+  ChosenArrays(vtkAlgorithm& filter, vtkPointSet& input)
+    : Filter(filter)
+    , Input(input)
+  {
+  }
+
+  /** Array `index`; throws Error if it was chosen from the cells. */
+  std::string ofPoints(int index) const;
+  /** Array `index`, of the points or the cells; throws Error if both have one of that name. */
+  std::string any(int index) const;
+  /** Components of an array of the input; `otherwise` if there is none of that name. */
+  int components(const std::string& name, int otherwise) const;
+
+private:
+  vtkAlgorithm& Filter;
+  vtkPointSet& Input;
+};
+
+} // namespace smg

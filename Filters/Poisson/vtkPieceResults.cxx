@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Poisson/vtkPieceResults.h"
+
+#include "Filters/Mesh/vtkPieceBlock.h"
+#include "IO/Output/SolvedMesh.h"
+#include "Solver/Core/Error.h"
+#include "Solver/Description/ComposeDescriptions.h"
+#include "Solver/Description/DescribedProblem.h"
+#include "Solver/Results/ProblemResults.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPointSet.h"
+
+#include <algorithm>
+
+namespace smg
+{
+namespace
+{
+
+/** The values at the points of a piece. */
+class PieceSolution : public Solution
+{
+public:
+  PieceSolution(std::span<const double> values, int columns)
+    : Values(values)
+    , Columns(columns)
+  {
+  }
+
+  std::int64_t vertices() const override
+  {
+    return static_cast<std::int64_t>(this->Values.size()) / this->Columns;
+  }
+  int columns() const override { return this->Columns; }
+  void read(std::int64_t first, std::int64_t count, std::span<double> values) override
+  {
+    std::ranges::copy(this->Values.subspan(static_cast<std::size_t>(first * this->Columns),
+                        static_cast<std::size_t>(count * this->Columns)),
+      values.begin());
+  }
+  const Report& report() const override { return this->Nothing; }
+
+private:
+  std::span<const double> Values;
+  int Columns;
+  Report Nothing;
+};
+
+/** What of a problem the results of the cells depend on. */
+ProblemDescription ofCells(const ProblemDescription& problem)
+{
+  ProblemDescription part;
+  part.weights = problem.weights;
+  part.columns = problem.columns;
+  if (problem.fluxOutput)
+  {
+    part.conductivity = problem.conductivity;
+  }
+  for (const PlacedValue& entry : part.conductivity.entries)
+  {
+    if (std::holds_alternative<NearestVertices>(entry.where))
+    {
+      throw Error(
+        "The cell array Flux needs a conductivity that a cell knows by itself: choose its "
+        "cells by a region, a tag or a mask instead of the nearest points.");
+    }
+  }
+  return part;
+}
+
+void addArray(vtkPointSet& piece, const char* name, int columns, std::span<const double> numbers)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(3 * columns);
+  array->SetNumberOfTuples(piece.GetNumberOfCells());
+  std::ranges::copy(numbers, array->GetPointer(0));
+  piece.GetCellData()->AddArray(array);
+}
+
+} // namespace
+
+void addCellResults(
+  vtkPointSet& piece, const ProblemDescription& problem, std::span<const double> values)
+{
+  if (piece.GetNumberOfCells() == 0 || !(problem.gradientOutput || problem.fluxOutput))
+  {
+    return;
+  }
+  const ProblemDescription part = ofCells(problem);
+  const PieceBlock mesh(piece, namedColumns(part));
+  DescribedProblem described(part, mesh.info());
+  PieceSolution solution(values, problem.columns);
+  ProblemResults results(mesh.info(), described, solution,
+    { .gradient = problem.gradientOutput, .flux = problem.fluxOutput });
+  results.add(mesh.block());
+  if (problem.gradientOutput)
+  {
+    addArray(piece, GradientName, problem.columns, results.gradient());
+  }
+  if (problem.fluxOutput)
+  {
+    addArray(piece, FluxName, problem.columns, results.flux());
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Filters/Poisson/vtkPoissonTask.h"
+#include "Filters/Streaming/SolveSummary.h"
+
+#include <vector>
+
+class vtkPointSet;
+
+namespace smg
+{
+
+/**
+ * Solves a problem in memory on the preview of a mesh, in its place, and gives the values at the
+ * points of the preview; the report says that it is one. Throws Error and Cancelled.
+ */
+SolveSummary solveOnPreview(
+  vtkPointSet& preview, const PoissonTask& task, std::vector<double>& values);
+
+} // namespace smg

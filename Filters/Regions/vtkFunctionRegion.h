@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Filters/Regions/vtkHeldPoints.h"
+
+class vtkImplicitFunction;
+class vtkPointSet;
+
+namespace smg
+{
+
+/**
+ * Holds the points where the function is at most 0, or (`isInsideOut`) at least 0. Throws Error if
+ * there is no function, it is a sphere or a cylinder whose radius is not greater than 0, or it has
+ * no finite value at a point.
+ */
+HeldPoints heldByFunction(vtkImplicitFunction* function, bool isInsideOut, vtkPointSet& piece);
+
+} // namespace smg

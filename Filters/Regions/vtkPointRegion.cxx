@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Regions/vtkPointRegion.h"
+
+#include "Filters/Regions/vtkRegionPoints.h"
+#include "Filters/Regions/vtkSelectedPoints.h"
+#include "IO/vtkMeshPieceData.h"
+
+#include "vtkPointSet.h"
+
+namespace smg
+{
+
+bool PointRegion::set(const PointRegionSettings& settings)
+{
+  if (this->Asked == settings)
+  {
+    return false;
+  }
+  this->Asked = settings;
+  this->Ids = SoughtIds(settings.ids);
+  this->OnDisplay.set(settings);
+  this->OnMesh.set(settings);
+  return true;
+}
+
+bool PointRegion::isDisplayed(const PieceRequest& request, const RegionContext& context) const
+{
+  if (request.IsStreamed || request.Pieces == 1)
+  {
+    return !request.IsStreamed;
+  }
+  // Of several processes each displays a piece, and numbers are those in that.
+  return hasSeveralProcesses() && this->Asked.kind == PointRegionSettings::Kind::Selection &&
+         (this->Asked.isAlone() || isByNumber(*context.selection));
+}
+
+vtkPointSet& PointRegion::bring(
+  const PieceRequest& request, const RegionContext& context, HeldPoints& held)
+{
+  this->Asked.check(context.selection != nullptr);
+  const auto update = [&context, &request]
+  {
+    return vtkPointSet::SafeDownCast(
+      context.input.update(request.Piece, request.Pieces, request.IsStreamed));
+  };
+  vtkPointSet* piece = update();
+  const bool isPreview = smg::isPreview(*piece);
+  if (piece->GetNumberOfPoints() == 0)
+  {
+    held = {};
+  }
+  else if (isPreview || this->isDisplayed(request, context))
+  {
+    std::vector<double> places;
+    if (isPreview && this->Asked.kind == PointRegionSettings::Kind::Ids)
+    {
+      places = this->OnMesh.placesOfIds(context);
+      piece = update();
+    }
+    held = this->OnDisplay.hold(*piece, request, places, context);
+  }
+  else if (this->Asked.isSoughtById())
+  {
+    held = heldByIds(idsOf(*piece, this->Asked), this->Ids);
+  }
+  else
+  {
+    this->OnMesh.find(context);
+    piece = update();
+    held = this->OnMesh.hold(*piece);
+  }
+  return *piece;
+}
+
+void PointRegion::checkHolders(const std::vector<char>& isHolding) const
+{
+  // Ids that hold what is around them may hold less than that, where another one is nearer.
+  if (this->Asked.isSoughtById())
+  {
+    checkIds(this->Ids, isHolding);
+  }
+}
+
+} // namespace smg

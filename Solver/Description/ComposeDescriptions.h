@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Description/ProblemDescription.h"
+
+#include <set>
+#include <string>
+
+namespace smg
+{
+
+/**
+ * Adds what `more` says to `problem`, as later entries, which win. Of the two numbers of columns
+ * the larger one counts; the weights, and the field if both have one, are those of `more`.
+ */
+void append(ProblemDescription& problem, const ProblemDescription& more);
+
+/** The names of all columns of the mesh that a description names. */
+std::set<std::string> namedColumns(const ProblemDescription& problem);
+
+/** Whether a description says anything to solve for: more than a conductivity and a screening,
+ * which alone have the solution 0. */
+bool isPosed(const ProblemDescription& problem);
+
+} // namespace smg

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkMeshCondition.h"
+
+#include "Filters/vtkStreamingPoisson.h"
+#include "IO/Container/VsmReader.h"
+#include "IO/Output/SolvedMesh.h"
+#include "IO/Problem/ProblemFile.h"
+#include "IO/vtkStreamingMeshReader.h"
+#include "Solver/Description/DescribedProblem.h"
+#include "Testing/Filters/vtkHandleTesting.h"
+#include "Testing/IO/vtkPieceTesting.h"
+#include "Testing/Support/DescribedMesh.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include "vtkBox.h"
+#include "vtkCellData.h"
+#include "vtkPlane.h"
+#include "vtkSphere.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+
+namespace smg::testing
+{
+namespace
+{
+
+/** Values of an array of the points that are no ghosts, and of the cells, piece after piece. */
+struct Results
+{
+  std::vector<double> solution, gradient, flux;
+  bool operator==(const Results&) const = default;
+};
+
+void append(vtkDataArray* array, vtkIdType tuple, std::vector<double>& values)
+{
+  for (int k = 0; k < array->GetNumberOfComponents(); ++k)
+  {
+    values.push_back(array->GetComponent(tuple, k));
+  }
+}
+
+/** A mesh of tetrahedra with columns of every kind, in pieces. */
+class VtkMeshCondition : public ::testing::Test
+{
+protected:
+  VtkMeshCondition()
+  {
+    StreamMesh mesh = describedMesh();
+    std::vector<std::uint8_t> outside; // of the sphere of radius 1.5
+    for (auto p = mesh.positions.begin(); p != mesh.positions.end(); p += 3)
+    {
+      outside.push_back(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] >= 2.25 ? 1 : 0);
+    }
+    mesh.vertexColumns.push_back(makeColumn<std::uint8_t>("outside", outside));
+    writeMesh(this->Folder / "mesh.vsm", mesh);
+    this->Reader->SetFileName((this->Folder / "mesh.vsm").c_str());
+    this->Poisson->SetInputConnection(this->Reader->GetOutputPort());
+    this->Poisson->SetNumberOfPieces(4);
+    this->Poisson->SetTolerance(Tolerance);
+    this->Poisson->SetGradient(true);
+    this->Poisson->SetFlux(true);
+  }
+
+  /** What the command line makes of a problem. */
+  Results solve(const std::string& json)
+  {
+    VsmReader mesh(this->Folder / "mesh.vsm");
+    DescribedProblem problem(readProblemText(json, "problem"), mesh.info());
+    const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
+    problem.prepare(*source());
+    SolveOptions options;
+    options.tolerance = Tolerance;
+    const auto solution = smg::solve(*source(), problem, options);
+    SolvedMesh solved(mesh, problem, *solution, { .gradient = true, .flux = true });
+    StreamMesh all = collect(solved);
+    this->Report = solution->report();
+    solved.finish(this->Report);
+    const auto numbers = [](const Column& column)
+    {
+      const auto values = column.as<double>();
+      return std::vector<double>(values.begin(), values.end());
+    };
+    return { numbers(all.vertexColumns.back()), numbers(all.cellColumns.end()[-2]),
+      numbers(all.cellColumns.back()) };
+  }
+
+  /** What the filter makes of its problem, in so many pieces. */
+  Results filter(int pieces = 3)
+  {
+    Results results;
+    for (int piece = 0; piece < pieces; ++piece)
+    {
+      EXPECT_EQ(updatePiece(this->Poisson, piece, pieces), 1);
+      auto* output = vtkPointSet::SafeDownCast(this->Poisson->GetOutputDataObject(0));
+      auto* solution = output->GetPointData()->GetArray("Solution");
+      auto* gradient = output->GetCellData()->GetArray("Gradient");
+      auto* flux = output->GetCellData()->GetArray("Flux");
+      if (!solution || !gradient || !flux)
+      {
+        ADD_FAILURE() << "a result is missing";
+        return {};
+      }
+      for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+      {
+        if ((output->GetPointGhostArray()->GetValue(i) & vtkDataSetAttributes::DUPLICATEPOINT) == 0)
+        {
+          append(solution, i, results.solution);
+        }
+      }
+      for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
+      {
+        append(gradient, c, results.gradient);
+        append(flux, c, results.flux);
+      }
+    }
+    return results;
+  }
+
+  vtkMeshCondition& add(int condition, std::vector<double> values)
+  {
+    auto added = vtkSmartPointer<vtkMeshCondition>::New();
+    added->SetInputConnection(
+      this->Chain.empty() ? this->Reader->GetOutputPort() : this->Chain.back()->GetOutputPort());
+    added->SetCondition(condition);
+    added->RemoveAllValues();
+    for (const double value : values)
+    {
+      added->AddValue(value);
+    }
+    this->Chain.push_back(added);
+    this->Poisson->SetInputConnection(added->GetOutputPort());
+    return *added;
+  }
+
+  void choose(int index, int association, const char* name)
+  {
+    this->Poisson->SetInputArrayToProcess(index, 0, 0, association, name);
+  }
+
+  static constexpr double Tolerance = 1e-9;
+  TemporaryFolder Folder;
+  smg::Report Report;
+  vtkNew<vtkStreamingMeshReader> Reader;
+  std::vector<vtkSmartPointer<vtkMeshCondition>> Chain;
+  vtkNew<vtkStreamingPoisson> Poisson;
+};
+
+constexpr const char* EveryDatum = R"({ "weights": "clamped", "columns": 3,
+  "conductivity": [ {"value": [2, 3, 4, 0.5, 0.25, 0.125]}, {"tag": ["tag", 3], "value": "K"},
+                    {"box": [1.5, -1, -1, 9, 9, 9], "value": 2.5}, {"mask": "cellMask", "value": "k"} ],
+  "screening": [ {"value": 0.5}, {"nearest": [[1, 1, 1], [2, 0, 0]], "value": "one"} ],
+  "source": [ {"value": [1, 2, 3]}, {"halfspace": [0, 0, 1, 1.5], "value": "three"},
+              {"sphere": [0, 0, 0, 1.5], "value": "position"} ],
+  "field": "q",
+  "initial": "three",
+  "dirichlet": [ {"tag": ["tag", 3], "value": "position"}, {"mask": "mask", "value": "three"},
+                 {"vertices": [3, 7], "value": [4, 5, 6]} ],
+  "flux": [ {"box": [-9, -9, -9, 9, 9, 0.5], "value": [1, 0, 2]}, {"mask": "cellMask", "value": "q"} ],
+  "robin": [ {"halfspace": [1, 0, 0, 2.5], "coefficient": 2, "ambient": [3, 4, 5]},
+             {"mask": "mask", "coefficient": [ {"value": "one"}, {"tag": ["tag", 3], "value": "k"} ],
+              "ambient": "position"} ],
+  "soft": [ {"mask": "mask", "weight": 3, "value": "three"},
+            {"tag": ["tag", 1], "weight": "one", "value": [1, 1, 1]} ] })";
+
+} // namespace
+
+TEST_F(VtkMeshCondition, AProblemTextAndFileSayToTheFilterWhatTheySayToTheCommandLine)
+{
+  const Results expected = this->solve(EveryDatum);
+  this->Poisson->SetProblem(EveryDatum);
+  EXPECT_TRUE(this->filter() == expected);
+  const auto report = nlohmann::json::parse(this->Poisson->GetReport());
+  ASSERT_EQ(report["conditions"].size(), this->Report.conditions.size());
+  for (std::size_t k = 0; k < this->Report.conditions.size(); ++k)
+  {
+    EXPECT_EQ(report["conditions"][k]["name"], this->Report.conditions[k].name);
+    EXPECT_EQ(report["conditions"][k]["flux"], this->Report.conditions[k].flux);
+  }
+  EXPECT_EQ(report["energy"], this->Report.energy);
+  EXPECT_EQ(report["mean"], this->Report.mean);
+
+  std::ofstream(this->Folder / "problem.json") << EveryDatum;
+  this->Poisson->SetProblem(nullptr);
+  this->Poisson->SetProblemFileName((this->Folder / "problem.json").c_str());
+  EXPECT_TRUE(this->filter(1) == expected);
+}
+
+TEST_F(VtkMeshCondition, ArraysSayWhatAProblemSays)
+{
+  const int points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  const int cells = vtkDataObject::FIELD_ASSOCIATION_CELLS;
+  this->choose(vtkStreamingPoisson::DIRICHLET_MASK, points, "mask");
+  this->choose(vtkStreamingPoisson::DIRICHLET_VALUES, points, "three");
+  this->choose(vtkStreamingPoisson::SOURCE, cells, "diagonal");
+  this->choose(vtkStreamingPoisson::INITIAL_GUESS, points, "three");
+  this->choose(vtkStreamingPoisson::SCREENING_ARRAY, cells, "k");
+  this->choose(vtkStreamingPoisson::CONDUCTIVITY_ARRAY, cells, "K");
+  this->choose(vtkStreamingPoisson::FIELD_ARRAY, cells, "q");
+  EXPECT_TRUE(
+    this->filter() == this->solve(R"({ "columns": 3, "conductivity": "K", "screening": "k",
+    "source": "diagonal", "field": "q", "initial": "three",
+    "dirichlet": [ {"mask": "mask", "value": "three"} ] })"));
+}
+
+TEST_F(VtkMeshCondition, NumbersSayWhatAProblemSays)
+{
+  this->Poisson->SetConductivity(3.0);
+  this->Poisson->SetScreening(0.25);
+  this->Poisson->SetProblem(R"({"source": [2]})");
+  EXPECT_TRUE(
+    this->filter() == this->solve(R"({"conductivity": 3, "screening": 0.25, "source": [2]})"));
+}
+
+TEST_F(VtkMeshCondition, AChainHoldsWhatTheRegionsOfAProblemHold)
+{
+  vtkNew<vtkPlane> plane; // the inside is away from its normal
+  plane->SetNormal(-1, 0, 0);
+  plane->SetOrigin(2.5, 0, 0);
+  vtkNew<vtkBox> box;
+  box->SetBounds(-9, 9, -9, 9, -9, 0.5);
+  vtkNew<vtkSphere> sphere;
+  sphere->SetRadius(1.5);
+
+  this->add(vtkMeshCondition::CONDUCTIVITY, { 2 }).SetRegion(vtkMeshCondition::EVERYWHERE);
+  vtkMeshCondition& tagged = this->add(vtkMeshCondition::CONDUCTIVITY, { 10, 5, 1 });
+  tagged.SetRegion(vtkMeshCondition::TAG);
+  tagged.SetTagArray("tag");
+  tagged.SetTag(3);
+  this->add(vtkMeshCondition::SOURCE, { 4 }).SetRegionFunction(sphere);
+  this->add(vtkMeshCondition::SCREENING, { 0.5 }).SetRegion(vtkMeshCondition::EVERYWHERE);
+  this->add(vtkMeshCondition::FLUX, { -3 }).SetRegionFunction(box);
+  vtkMeshCondition& robin = this->add(vtkMeshCondition::ROBIN, { 7 });
+  robin.SetRegionFunction(plane);
+  robin.SetCoefficient(2.5);
+  vtkMeshCondition& soft = this->add(vtkMeshCondition::SOFT, { -1 });
+  soft.SetRegionFunction(sphere);
+  soft.SetInsideOut(true);
+  soft.SetCoefficient(0.125);
+  vtkMeshCondition& held = this->add(vtkMeshCondition::DIRICHLET, { 1.5 });
+  held.SetRegion(vtkMeshCondition::IDS);
+  held.AddId(3);
+  held.AddId(17);
+  vtkMeshCondition& nearest = this->add(vtkMeshCondition::DIRICHLET, { 2 });
+  nearest.SetRegion(vtkMeshCondition::POINTS);
+  nearest.AddPoint(3, 2, 2);
+
+  const Results expected = this->solve(R"({
+    "conductivity": [ {"value": 2}, {"tag": ["tag", 3], "value": [10, 5, 1, 0, 0, 0]} ],
+    "source": [ {"sphere": [0, 0, 0, 1.5], "value": [4]} ], "screening": 0.5,
+    "flux": [ {"box": [-9, -9, -9, 9, 9, 0.5], "value": [-3]} ],
+    "robin": [ {"halfspace": [1, 0, 0, 2.5], "coefficient": 2.5, "ambient": [7]} ],
+    "soft": [ {"mask": "outside", "weight": 0.125, "value": [-1]} ],
+    "dirichlet": [ {"vertices": [3, 17], "value": [1.5]}, {"nearest": [[3, 2, 2]], "value": [2]} ] })");
+  for (const int pieces : { 1, 3 })
+  {
+    EXPECT_TRUE(this->filter(pieces) == expected) << pieces;
+  }
+  EXPECT_EQ(updatePiece(&held, 0, 1), 1);
+  EXPECT_EQ(held.GetNumberOfHeldPoints(), 2);
+}
+
+TEST_F(VtkMeshCondition, SaysWhatIsWrongInOneSentence)
+{
+  vtkMeshCondition& condition = this->add(vtkMeshCondition::DIRICHLET, { 0 });
+  Errors errors(&condition);
+  const auto expectError = [&](const std::string& words)
+  {
+    errors.clear();
+    EXPECT_EQ(updatePiece(&condition, 0, 1), 0);
+    EXPECT_TRUE(errors.contain(words)) << errors.text();
+  };
+  expectError("The region has no implicit function");
+  condition.SetRegion(vtkMeshCondition::TAG);
+  expectError("The condition has no tag array");
+  condition.SetRegion(vtkMeshCondition::EVERYWHERE);
+  condition.RemoveAllValues();
+  expectError("The condition has no value");
+  condition.AddValue(std::nan(""));
+  expectError("The value of the condition is not a finite number");
+  condition.RemoveAllValues();
+  condition.AddValue(1);
+  condition.AddValue(2);
+  condition.SetCondition(vtkMeshCondition::SCREENING);
+  expectError("A screening has 1 number");
+  condition.SetCondition(vtkMeshCondition::CONDUCTIVITY);
+  expectError("A conductivity has 1 number, 3");
+
+  condition.RemoveAllValues();
+  condition.AddValue(-1);
+  Errors solving(this->Poisson);
+  this->Poisson->SetProblem(R"({"source": [1]})");
+  EXPECT_EQ(updatePiece(this->Poisson, 0, 1), 0);
+  EXPECT_TRUE(
+    solving.contain("condition 1 of the input: conductivity[0].value: must be a positive"))
+    << solving.text();
+}
+
+TEST_F(VtkMeshCondition, ArraysThatAreMissingOrMeanTwoThingsAreNamed)
+{
+  Errors errors(this->Poisson);
+  this->Poisson->SetProblem(R"({"source": "heating"})");
+  EXPECT_EQ(updatePiece(this->Poisson, 0, 1), 0);
+  EXPECT_TRUE(errors.contain("no numeric array heating of its points or cells (it has one, three"))
+    << errors.text();
+  errors.clear();
+  this->Poisson->SetProblem("{");
+  EXPECT_EQ(updatePiece(this->Poisson, 0, 1), 0);
+  EXPECT_TRUE(errors.contain("Problem, line 1")) << errors.text();
+}
+
+/** On the preview of a surface and on the surface itself, and where JSON says the same. */
+TEST_F(VtkMeshCondition, HoldsOnAPreviewWhatItHoldsOnTheMesh)
+{
+  const StreamMesh mesh = writeVsm(this->Folder / "torus.vsm", torus(60, 30, 0.2));
+  this->Reader->SetFileName((this->Folder / "torus.vsm").c_str());
+  vtkNew<vtkSphere> sphere;
+  sphere->SetCenter(2.5, 0, 0);
+  sphere->SetRadius(1.2);
+  vtkMeshCondition& condition = this->add(vtkMeshCondition::DIRICHLET, { 1 });
+  condition.SetRegionFunction(sphere);
+  ASSERT_EQ(updatePiece(&condition, 0, 1), 1);
+  auto* whole = vtkPointSet::SafeDownCast(condition.GetOutputDataObject(0));
+  std::vector<bool> isHeld;
+  for (vtkIdType i = 0; i < whole->GetNumberOfPoints(); ++i)
+  {
+    isHeld.push_back(whole->GetPointData()->GetArray("Condition1")->GetTuple1(i) != 0.0);
+    const double* p = whole->GetPoint(i);
+    EXPECT_EQ(isHeld.back(), (p[0] - 2.5) * (p[0] - 2.5) + p[1] * p[1] + p[2] * p[2] <= 1.44);
+  }
+  this->Reader->SetMaximumPointsInMemory(100);
+  this->Reader->SetPreviewPoints(500);
+  ASSERT_EQ(updatePiece(&condition, 0, 1), 1);
+  auto* preview = vtkPointSet::SafeDownCast(condition.GetOutputDataObject(0));
+  ASSERT_LT(preview->GetNumberOfPoints(), mesh.vertices());
+  ASSERT_GT(condition.GetNumberOfHeldPoints(), 0);
+  for (vtkIdType i = 0; i < preview->GetNumberOfPoints(); ++i)
+  {
+    const auto id = static_cast<std::size_t>(preview->GetPointData()->GetGlobalIds()->GetTuple1(i));
+    EXPECT_EQ(preview->GetPointData()->GetArray("Condition1")->GetTuple1(i) != 0.0, isHeld[id]);
+  }
+}
+
+} // namespace smg::testing
