@@ -46,7 +46,8 @@ scaled.UpdatePipeline()
 poisson = t.make_poisson(t.make_problem(scaled, low=1000 * t.FEET, high=1000 * t.EARS))
 poisson.UpdatePipeline()
 values = t.points_of(poisson, "Solution")
-assert poisson.Converged == 1
+poisson.UpdatePropertyInformation()
+assert poisson.GetPropertyValue("Converged") == 1
 for axis, (low, high) in enumerate(zip(*[iter(scaled.GetDataInformation().GetBounds())] * 2)):
     margin = 0.05 * (high - low)
     assert low - margin < values[:, axis].min() and values[:, axis].max() < high + margin, axis
