@@ -30,14 +30,15 @@ struct vtkMeshCondition::Internals
   {
     smg::Condition condition;
     condition.kind = static_cast<smg::ConditionKind>(this->Self.Condition);
-    condition.values = this->Values;
+    condition.values =
+      this->Values.empty() ? std::vector<double>{ this->Self.Value } : this->Values;
     condition.isPosition = this->Self.ValueIsPosition;
     condition.coefficient = this->Self.Coefficient;
     return condition;
   }
 
   vtkMeshCondition& Self;
-  std::vector<double> Values{ 0.0 };
+  std::vector<double> Values;
 };
 
 vtkMeshCondition::vtkMeshCondition()
@@ -117,6 +118,7 @@ void vtkMeshCondition::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TagArray: " << (this->TagArray ? this->TagArray : "(none)") << "\n";
   os << indent << "Tag: " << this->Tag << "\n";
   os << indent << "Condition: " << this->Condition << "\n";
+  os << indent << "Value: " << this->Value << "\n";
   os << indent << "NumberOfValues: " << this->GetNumberOfValues() << "\n";
   os << indent << "ValueIsPosition: " << this->ValueIsPosition << "\n";
   os << indent << "Coefficient: " << this->Coefficient << "\n";

@@ -73,8 +73,14 @@ public:
   ///@}
 
   ///@{
-  /** The numbers of the value: one for each right-hand side, which is as many as there are.
-   * Default: 0. */
+  /** The value, where one number is enough: with one right-hand side. Default: 0. */
+  vtkSetMacro(Value, double);
+  vtkGetMacro(Value, double);
+  ///@}
+
+  ///@{
+  /** The numbers of the value, one for each right-hand side, or those of a tensor; if there are any,
+   * they count instead of Value. Default: none. */
   void AddValue(double value);
   void RemoveAllValues();
   int GetNumberOfValues();
@@ -110,6 +116,7 @@ private:
   char* TagArray = nullptr;
   double Tag = 0.0;
   int Condition = DIRICHLET;
+  double Value = 0.0;
   bool ValueIsPosition = false;
   double Coefficient = 1.0;
 

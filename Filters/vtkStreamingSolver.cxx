@@ -284,6 +284,11 @@ int vtkStreamingSolver::GetConverged()
   return this->GetSummary().converged ? 1 : 0;
 }
 
+const char* vtkStreamingSolver::GetNotes()
+{
+  return this->GetSummary().notes.c_str();
+}
+
 const char* vtkStreamingSolver::GetReport()
 {
   return this->GetSummary().report.c_str();

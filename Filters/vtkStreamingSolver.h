@@ -132,12 +132,14 @@ public:
   ///@{
   /**
    * What the last solve came to: relative residual, passes over the mesh, most memory that the
-   * solver used (bytes), whether it converged, and the whole report as JSON ("" before a solve).
+   * solver used (bytes), whether it converged, what else there is to say (a line a note), and the
+   * whole report as JSON ("" before a solve).
    */
   double GetResidual();
   int GetPasses();
   vtkIdType GetPeakMemory();
   int GetConverged();
+  const char* GetNotes();
   const char* GetReport();
   ///@}
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkMeshPieceData.h"
 
+#include "IO/Container/AttributeNames.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceNames.h"
@@ -85,6 +86,11 @@ void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
   for (const Column& column : piece.vertexColumns)
   {
     points.AddArray(makeArray(column));
+  }
+  if (!piece.normals.empty() && !points.HasArray(NormalsName))
+  {
+    points.SetNormals(
+      arrayOf<vtkFloatArray>(NormalsName, 3, piece.normals, [](float number) { return number; }));
   }
   for (const Column& column : piece.cellColumns)
   {

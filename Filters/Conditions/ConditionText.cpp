@@ -17,10 +17,6 @@ using Json = nlohmann::json;
 
 void requireFinite(const std::vector<double>& numbers, const char* name)
 {
-  if (numbers.empty())
-  {
-    throw Error(std::string("The condition has no ") + name + ": give at least one number.");
-  }
   if (!std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); }))
   {
     throw Error(std::string("The ") + name + " of the condition is not a finite number.");

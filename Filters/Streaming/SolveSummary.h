@@ -15,6 +15,7 @@ struct SolveSummary
   std::string error;        ///< empty: the solve succeeded
   bool isCancelled = false; ///< whether that is no error, but what was asked for
   std::string report;
+  std::string notes; ///< of the report, a line each
   int columns = 0;
   double residual = 0.0;
   int cycles = 0, passes = 0;
@@ -26,6 +27,10 @@ struct SolveSummary
   {
     SolveSummary summary;
     summary.report = report.json();
+    for (const std::string& note : report.notes)
+    {
+      summary.notes += (summary.notes.empty() ? "" : "\n") + note;
+    }
     summary.columns = columns;
     summary.residual = report.residual();
     summary.cycles = report.cycles;

@@ -95,6 +95,7 @@ void SolutionExchange::share(SolveSummary& summary)
   }
   this->shareText(summary.error);
   this->shareText(summary.report);
+  this->shareText(summary.notes);
   double numbers[] = { double(summary.columns), summary.residual, double(summary.cycles),
     double(summary.passes), double(summary.converged), double(summary.peakMemory),
     double(summary.isCancelled) };

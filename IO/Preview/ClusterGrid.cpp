@@ -23,6 +23,11 @@ std::uint64_t keyOfTriple(int a, int b, int c)
   return (sorted[0] << (2 * ClusterBits)) | (sorted[1] << ClusterBits) | sorted[2];
 }
 
+std::array<double, 3> sum(const std::array<double, 3>& a, const std::array<double, 3>& b)
+{
+  return { a[0] + b[0], a[1] + b[1], a[2] + b[2] };
+}
+
 } // namespace
 
 ClusterGrid::ClusterGrid(
@@ -95,10 +100,15 @@ int ClusterGrid::find(const Representative& candidate)
   {
     this->Clusters.push_back(candidate);
   }
-  else if (Representative& present = this->Clusters[entry->second];
-           this->distanceToCentre(candidate.point) < this->distanceToCentre(present.point))
+  else
   {
-    present = candidate;
+    Representative& present = this->Clusters[entry->second];
+    const std::array<double, 3> normal = sum(present.normal, candidate.normal);
+    if (this->distanceToCentre(candidate.point) < this->distanceToCentre(present.point))
+    {
+      present = candidate;
+    }
+    present.normal = normal;
   }
   return entry->second;
 }
@@ -109,7 +119,7 @@ int ClusterGrid::cluster(std::int64_t id, const std::array<double, 3>& point)
   {
     this->coarsen(2.0 * this->Side);
   }
-  return this->find({ id, point });
+  return this->find({ id, point, {} });
 }
 
 void ClusterGrid::keep(int a, int b, int c)
@@ -120,9 +130,13 @@ void ClusterGrid::keep(int a, int b, int c)
   }
 }
 
-void ClusterGrid::addTriangle(int a, int b, int c)
+void ClusterGrid::addTriangle(int a, int b, int c, const std::array<double, 3>& normal)
 {
   this->keep(a, b, c);
+  for (const int cluster : { a, b, c })
+  {
+    this->Clusters[cluster].normal = sum(this->Clusters[cluster].normal, normal);
+  }
   // A surface has about two triangles a vertex; a soup that has many more must stay bounded, too.
   while (this->canGrow() &&
          (this->Clusters.size() > this->Capacity || this->Triangles.size() > 4 * this->Capacity))

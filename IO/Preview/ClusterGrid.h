@@ -29,6 +29,9 @@ public:
   {
     std::int64_t id = 0; ///< stream index
     std::array<double, 3> point{};
+    /** Sum of the normals of the triangles at the cluster's vertices, each as long as it is large.
+     */
+    std::array<double, 3> normal{};
   };
 
   /**
@@ -47,8 +50,9 @@ public:
    */
   int cluster(std::int64_t id, const std::array<double, 3>& point);
 
-  /** Adds the triangle of three clusters. May make the grid coarser. */
-  void addTriangle(int a, int b, int c);
+  /** Adds the triangle of three clusters, whose normal is as long as it is large. May make the grid
+   * coarser. */
+  void addTriangle(int a, int b, int c, const std::array<double, 3>& normal);
 
   /** After the last triangle: leaves no more clusters than wanted. */
   void finish();

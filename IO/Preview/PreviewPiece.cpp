@@ -41,6 +41,7 @@ MeshPiece pieceOf(StreamPreview preview)
   MeshPiece piece;
   piece.ids = std::move(preview.ids);
   piece.positions = std::move(preview.positions);
+  piece.normals = std::move(preview.normals);
   piece.corners = std::move(preview.triangles);
   piece.vertexColumns = std::move(preview.vertexColumns);
   piece.ghost.assign(piece.ids.size(), 0);

@@ -6,7 +6,9 @@
 #include "IO/Preview/OpenFaces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
+#include <numeric>
 #include <unordered_set>
 
 namespace smg
@@ -83,6 +85,37 @@ private:
     return vertex.cluster;
   }
 
+  using Vector = std::array<double, 3>;
+
+  /** Normal to a triangle, as long as that is large. */
+  static Vector normalOf(const Vector& a, const Vector& b, const Vector& c)
+  {
+    const double u[3] = { b[0] - a[0], b[1] - a[1], b[2] - a[2] };
+    const double v[3] = { c[0] - a[0], c[1] - a[1], c[2] - a[2] };
+    return { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
+  }
+  Vector normalOf(const OpenFaces::Face& face) const
+  {
+    const auto point = [&](std::size_t k) -> const Vector&
+    { return this->Window[face[k] - this->First].point; };
+    return normalOf(point(0), point(1), point(2));
+  }
+
+  /** Whether the triangle of these clusters looks away from where the mesh there does. */
+  bool isTurned(const std::array<int, 3>& triangle) const
+  {
+    const auto cluster = [&](int k) -> const ClusterGrid::Representative&
+    { return this->Grid.clusters()[triangle[k]]; };
+    const Vector own = normalOf(cluster(0).point, cluster(1).point, cluster(2).point);
+    double along = 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vector& normal = cluster(k).normal;
+      along += std::inner_product(own.begin(), own.end(), normal.begin(), 0.0);
+    }
+    return along < 0.0;
+  }
+
   void triangle(const OpenFaces::Face& face)
   {
     // A corner that makes the grid grow makes the clusters of the others void.
@@ -95,7 +128,7 @@ private:
         clusters[k] = this->clusterOf(face[k]);
       }
     }
-    this->Grid.addTriangle(clusters[0], clusters[1], clusters[2]);
+    this->Grid.addTriangle(clusters[0], clusters[1], clusters[2], this->normalOf(face));
   }
 
   /** Forgets the rows of vertices that represent their cluster no longer, once they are many. */
@@ -156,10 +189,19 @@ private:
       preview.ids.push_back(clusters[cluster].id);
       const auto& point = clusters[cluster].point;
       preview.positions.insert(preview.positions.end(), point.begin(), point.end());
+      const auto& normal = clusters[cluster].normal;
+      const double length = std::hypot(normal[0], normal[1], normal[2]);
+      for (const double component : normal)
+      {
+        preview.normals.push_back(length > 0.0 ? static_cast<float>(component / length) : 0.0F);
+      }
     }
     for (const auto& [a, b, c] : this->Grid.triangles())
     {
-      preview.triangles.insert(preview.triangles.end(), { number[a], number[b], number[c] });
+      // Between the representatives a triangle may be turned over.
+      const bool isTurned = this->isTurned({ a, b, c });
+      preview.triangles.insert(
+        preview.triangles.end(), { number[a], number[isTurned ? c : b], number[isTurned ? b : c] });
     }
     preview.vertexColumns = this->Rows.gather(preview.ids);
     return preview;

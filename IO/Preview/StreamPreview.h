@@ -16,7 +16,10 @@ struct StreamPreview
 {
   /** Stream indices of the preview's points, ascending: each point is a vertex of the mesh. */
   std::vector<std::int64_t> ids;
-  std::vector<double> positions;       ///< x, y, z of each point
+  std::vector<double> positions; ///< x, y, z of each point
+  /** x, y, z of each point's unit normal: the mean of the mesh around it, which shades the preview
+   * as the mesh. */
+  std::vector<float> normals;
   std::vector<std::int64_t> triangles; ///< three points (numbers in `ids`) a triangle
   std::vector<Column> vertexColumns;   ///< those of the mesh stream, a tuple a point
 };

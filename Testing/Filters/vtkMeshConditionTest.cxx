@@ -126,8 +126,8 @@ protected:
     added->SetInputConnection(
       this->Chain.empty() ? this->Reader->GetOutputPort() : this->Chain.back()->GetOutputPort());
     added->SetCondition(condition);
-    added->RemoveAllValues();
-    for (const double value : values)
+    added->SetValue(values[0]);
+    for (const double value : values.size() > 1 ? values : std::vector<double>())
     {
       added->AddValue(value);
     }
@@ -278,10 +278,8 @@ TEST_F(VtkMeshCondition, SaysWhatIsWrongInOneSentence)
   expectError("The condition has no tag array");
   condition.SetRegion(vtkMeshCondition::EVERYWHERE);
   condition.RemoveAllValues();
-  expectError("The condition has no value");
-  condition.AddValue(std::nan(""));
+  condition.SetValue(std::nan(""));
   expectError("The value of the condition is not a finite number");
-  condition.RemoveAllValues();
   condition.AddValue(1);
   condition.AddValue(2);
   condition.SetCondition(vtkMeshCondition::SCREENING);
@@ -290,7 +288,7 @@ TEST_F(VtkMeshCondition, SaysWhatIsWrongInOneSentence)
   expectError("A conductivity has 1 number, 3");
 
   condition.RemoveAllValues();
-  condition.AddValue(-1);
+  condition.SetValue(-1);
   Errors solving(this->Poisson);
   this->Poisson->SetProblem(R"({"source": [1]})");
   EXPECT_EQ(updatePiece(this->Poisson, 0, 1), 0);

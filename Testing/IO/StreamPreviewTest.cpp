@@ -3,6 +3,7 @@
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/TestMeshes.h"
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,6 +46,29 @@ void expectProperTriangles(const StreamPreview& preview)
     EXPECT_TRUE(known.insert(triangle).second);
   }
   EXPECT_EQ(used.size(), preview.ids.size());
+}
+
+/** Normals of a sphere, which stay near those of the mesh, and triangles that look outwards. */
+TEST(StreamPreview, IsShadedAsTheMesh)
+{
+  MemorySource source(toStream(sphere(5)));
+  const StreamPreview preview = makePreview(source, 800);
+  ASSERT_LT(preview.ids.size(), 801U);
+  ASSERT_EQ(preview.normals.size(), preview.positions.size());
+  const auto point = [&](std::int64_t i)
+  { return Eigen::Vector3d(preview.positions.data() + 3 * i); };
+  for (std::size_t i = 0; i < preview.ids.size(); ++i)
+  {
+    const Eigen::Vector3d normal = Eigen::Vector3f(preview.normals.data() + 3 * i).cast<double>();
+    EXPECT_NEAR(normal.norm(), 1.0, 1e-6);
+    EXPECT_GT(normal.dot(point(static_cast<std::int64_t>(i)).normalized()), 0.99);
+  }
+  for (std::size_t t = 0; t < preview.triangles.size(); t += 3)
+  {
+    const Eigen::Vector3d a = point(preview.triangles[t]);
+    const Eigen::Vector3d b = point(preview.triangles[t + 1]);
+    EXPECT_GT((b - a).cross(point(preview.triangles[t + 2]) - a).dot(a + b), 0.0);
+  }
 }
 
 TEST(StreamPreview, IsBoundedAndMadeOfVertices)
