@@ -72,6 +72,10 @@ struct ValueParser
 
   DataValue operator()(const JsonNode& node) const
   {
+    if (this->columns == 1 && node.value().is_number())
+    {
+      return std::vector{ node.number() };
+    }
     if (!node.isString())
     {
       return node.numbers(static_cast<std::size_t>(this->columns));

@@ -28,10 +28,10 @@ inline constexpr std::array ProblemKeys{ "weights", "columns", "conductivity", "
  *
  *     C = number | tensor [xx, yy, zz, xy, yz, xz] (conductivity alone) | "column"
  *         | [ { "value": C }, { WHERE, "value": C }, ... ]
- *     D = [n numbers] | "column" | "position"; of source and initial also a list as of C
- *     WHERE = "halfspace": [nx, ny, nz, d] | "box": [x0, y0, z0, x1, y1, z1]
- *             | "sphere": [x, y, z, r] | "vertices": [original numbers]
- *             | "tag": ["column", value] | "mask": "column" | "nearest": [[x, y, z], ...]
+ *     D = [n numbers] | number, if n is 1 | "column" | "position"; of source and initial also a
+ * list as of C WHERE = "halfspace": [nx, ny, nz, d] | "box": [x0, y0, z0, x1, y1, z1] | "sphere":
+ * [x, y, z, r] | "vertices": [original numbers] | "tag": ["column", value] | "mask": "column" |
+ * "nearest": [[x, y, z], ...]
  *
  * Every key may be left out; ProblemDescription says what it means and what holds without it. The
  * entries of a list in C have no lists themselves. `raw-cotangent` is an old name of `cotangent`.

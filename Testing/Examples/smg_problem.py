@@ -135,6 +135,7 @@ def test_boundary():
 
 def test_densities():
     expect(lambda x, y, z: 2, screening=2, source=[4])
+    expect(lambda x, y, z: 2, screening=2, source=4)
     expect(lambda x, y, z: 2, screening="two", source="four")
     expect(lambda x, y, z: 2, screening=[{"value": 9}, {"tag": ["layer", 1], "value": 2},
                                          {"tag": ["layer", 2], "value": "two"},
@@ -184,7 +185,8 @@ def test_errors():
 
 
 GOOD = [
-    {}, {"weights": "raw-cotangent", "columns": 1, "source": [0], "screening": 0, "conductivity": 2},
+    {}, {"source": 0, "initial": [{"value": 1}], "dirichlet": [{"mask": "bottom", "value": 2}]},
+    {"weights": "raw-cotangent", "columns": 1, "source": [0], "screening": 0, "conductivity": 2},
     {"conductivity": [1, 1, 1, 0, 0, 0.5]},
     {"conductivity": [{"value": 1}, {"tag": ["layer", 2], "value": "K"}]},
     {"columns": 3, "dirichlet": [{"mask": "bottom", "value": "position"}], "initial": "position"},
@@ -192,7 +194,7 @@ GOOD = [
     {"soft": [{"nearest": [[0, 0, 0]], "weight": [{"value": 2}], "value": "four"}]},
     {"source": [{"value": [1]}, {"mask": "upper", "value": "two"}], "field": "q"}]
 BAD = [
-    [], {"weight": "uniform"}, {"weights": "heat"}, {"columns": 0}, {"columns": 65}, {"source": 1},
+    [], {"weight": "uniform"}, {"weights": "heat"}, {"columns": 0}, {"columns": 65}, {"source": True},
     {"screening": -1}, {"screening": [1]}, {"conductivity": []}, {"conductivity": ""}, {"field": [1, 0, 0]},
     {"conductivity": 0}, {"conductivity": [1, 1, 1]}, {"conductivity": [{"tag": ["layer", 2]}]},
     {"dirichlet": [{"value": [0]}]}, {"dirichlet": [{"mask": "bottom"}]}, {"outputs": ["heat"]},

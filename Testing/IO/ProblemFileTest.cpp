@@ -220,7 +220,9 @@ TEST_F(ProblemFile, ErrorsNameThePlace)
   EXPECT_CONTAINS(this->errorOf(R"({"weights": "heat"})"), "weights: must be");
   EXPECT_CONTAINS(this->errorOf(R"({"columns": 0})"), "columns: must be");
   EXPECT_CONTAINS(this->errorOf(R"({"columns": 1.5})"), "columns: must be");
-  EXPECT_CONTAINS(this->errorOf(R"({"source": 1})"), "source: must be an array of 1 number");
+  EXPECT_CONTAINS(
+    this->errorOf(R"({"columns": 2, "source": 1})"), "source: must be an array of 2 numbers");
+  EXPECT_CONTAINS(this->errorOf(R"({"source": true})"), "source: must be an array of 1 number");
   EXPECT_CONTAINS(this->errorOf(R"({"source": [1e999]})"), "out of range");
   EXPECT_CONTAINS(
     this->errorOf(R"({"initial": "position"})"), "initial: can be \"position\" only if");
