@@ -9,6 +9,14 @@
 namespace smg
 {
 
+namespace
+{
+
+/** Norms are sums of squares: those of larger numbers overflow. */
+constexpr double MostMagnitude = 1e150;
+
+} // namespace
+
 std::array<double, 6> tensorOf(const double* numbers, int count)
 {
   std::array<double, 6> tensor{ numbers[0], numbers[0], numbers[0], 0.0, 0.0, 0.0 };
@@ -20,6 +28,11 @@ const char* ValueRules::complaint(const double* numbers, int count) const
 {
   const bool isFinite =
     std::all_of(numbers, numbers + count, [](double number) { return std::isfinite(number); });
+  if (isFinite && std::any_of(numbers, numbers + count,
+                    [](double number) { return std::abs(number) > MostMagnitude; }))
+  {
+    return "must not be above 1e150 in magnitude, since its square would overflow";
+  }
   switch (this->range)
   {
     case ValueRange::Any:

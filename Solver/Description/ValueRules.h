@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** What numbers a datum may have, beside that they are finite. */
+/** What numbers a datum may have, beside that they are finite, and their squares, too. */
 enum class ValueRange
 {
   Any,

@@ -37,8 +37,8 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
   report.free_components = components.freeComponents();
   if (!std::isfinite(assembly.termSquares()))
   {
-    throw Error(
-      "the squares of the values overflow: scale the mesh, the prescribed values or the sources");
+    throw Error("the squares of the values overflow: scale the mesh, the prescribed values, the "
+                "sources or the screening");
   }
 }
 

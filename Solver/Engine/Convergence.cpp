@@ -61,7 +61,14 @@ void Convergence::add(double norm, double rounding)
   this->Norm = norm;
   this->Residuals.push_back(relative);
   this->Converged = norm <= this->Goal;
-  if (!std::isfinite(norm) || (norm > Diverged * this->FirstNorm && !this->Converged))
+  if (!std::isfinite(norm))
+  {
+    throw Error("the numbers of the solve overflow in V-cycle " + std::to_string(this->cycles()) +
+                ", from a residual of " + scientific(this->Reference) +
+                ": coarse levels compute in single precision, up to 3e38; scale the prescribed "
+                "values, the sources or the screening");
+  }
+  if (norm > Diverged * this->FirstNorm && !this->Converged)
   {
     throw Error("the solve diverges (relative residual " + scientific(relative) + " after " +
                 std::to_string(this->cycles()) +

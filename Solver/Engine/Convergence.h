@@ -34,7 +34,7 @@ public:
    */
   void begin(double norm, bool mayEnd = true);
   /** After a V-cycle; `rounding`: what of the norm is the rounding of its own terms, if that is
-   * more than at first. Throws Error if the residual grows beyond recovery. */
+   * more than at first. Throws Error if the residual grows beyond recovery or overflows. */
   void add(double norm, double rounding = 0.0);
 
   bool done() const { return this->Done; }

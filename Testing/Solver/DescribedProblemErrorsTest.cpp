@@ -78,6 +78,10 @@ TEST_F(DescribedErrors, ValuesOutOfRange)
   ProblemDescription description;
   description.screening = -1.0;
   EXPECT_SAYS(this->errorOf(description), "screening: must be finite and not negative");
+  description.screening = 1e308;
+  EXPECT_SAYS(this->errorOf(description), "p.json: screening: must not be above 1e150");
+  EXPECT_SAYS(
+    this->errorOfDirichlet(Everywhere{}, -1e200), "dirichlet[1].value: must not be above");
   description = {};
   description.robin = { { Everywhere{}, -1.0, 0.0 } };
   EXPECT_SAYS(this->errorOf(description), "robin[0].coefficient: must be finite and not negative");

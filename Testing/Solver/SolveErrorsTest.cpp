@@ -94,6 +94,19 @@ TEST(SolveErrors, valuesWhoseSquaresOverflow)
   EXPECT_NE(errorOfSolve(mesh, problem), "");
 }
 
+TEST(SolveErrors, valuesThatOverflowTheCoarseLevels)
+{
+  const StreamMesh mesh = toStream(torus(60, 40));
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
+  for (double& value : problem.Value)
+  {
+    value *= 1e40;
+  }
+  const std::string sentence = errorOfSolve(mesh, problem);
+  EXPECT_TRUE(contains(sentence, "overflow")) << sentence;
+  EXPECT_TRUE(contains(sentence, "scale the prescribed values")) << sentence;
+}
+
 TEST(SolveErrors, validBlocksAreNone)
 {
   EXPECT_EQ(errorOfBlocks(twoBlocks()), "");
