@@ -94,6 +94,10 @@ DescribedProblem::DescribedProblem(
   this->StartsAtPosition = !this->Initial.isGiven() &&
                            std::ranges::any_of(description.dirichlet,
                              [](const PlacedValue& entry) { return entry.value.isPosition(); });
+  if (DescribedProblem::hasCells() || DescribedProblem::hasFacets())
+  {
+    this->OfMesh.requireCellIds(); // for the complaints of the solver
+  }
 }
 
 DataPlace DescribedProblem::placeOf(const Datum& density) const

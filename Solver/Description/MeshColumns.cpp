@@ -42,16 +42,6 @@ std::vector<std::string> withNumbers(std::vector<std::string> names, bool isNeed
   return names;
 }
 
-/** What a user calls row `i` of a block that begins with row `first`. */
-std::string nameOf(
-  const std::vector<Column>& columns, const ColumnSpec& numbers, std::int64_t first, std::size_t i)
-{
-  const std::ptrdiff_t place = findColumn(columns, numbers);
-  return place < 0
-           ? nameOfRow(first + static_cast<std::int64_t>(i), false)
-           : nameOfRow(columns[static_cast<std::size_t>(place)].as<std::int64_t>()[i], true);
-}
-
 } // namespace
 
 const Column& NamedColumn::in(const MeshBlock& block) const
@@ -107,7 +97,8 @@ std::vector<std::string> MeshColumns::vertexColumns() const
 
 std::vector<std::string> MeshColumns::cellColumns() const
 {
-  return withNumbers(this->Cells, !this->Cells.empty(), this->Info.cellColumns, OriginalCellIdSpec);
+  return withNumbers(this->Cells, this->NeedsCellIds || !this->Cells.empty(),
+    this->Info.cellColumns, OriginalCellIdSpec);
 }
 
 const Column* MeshColumns::ids(const MeshBlock& block) const
@@ -123,12 +114,12 @@ const Column* MeshColumns::ids(const MeshBlock& block) const
 
 std::string MeshColumns::vertexName(const MeshBlock& block, std::size_t i) const
 {
-  return "vertex " + nameOf(block.vertexColumns, OriginalIdSpec, block.firstVertex, i);
+  return "vertex " + nameOfRow(block.vertexColumns, OriginalIdSpec, block.firstVertex, i);
 }
 
 std::string MeshColumns::cellName(const MeshBlock& block, std::size_t c) const
 {
-  return "cell " + nameOf(block.cellColumns, OriginalCellIdSpec, block.firstCell, c);
+  return "cell " + nameOfRow(block.cellColumns, OriginalCellIdSpec, block.firstCell, c);
 }
 
 void MeshColumns::fail(const std::string& key, const std::string& sentence) const

@@ -51,6 +51,8 @@ public:
   NamedColumn require(const std::string& name, ColumnOwner preferred, const std::string& key);
   /** Has the original numbers of the vertices delivered, if there are any. */
   void requireIds() { this->NeedsIds = true; }
+  /** The same of the cells. */
+  void requireCellIds() { this->NeedsCellIds = true; }
 
   /** The columns that the mesh source must deliver: those that were required and, beside these, the
    * original numbers, for complaints. */
@@ -70,7 +72,7 @@ private:
   StreamInfo Info;
   std::string Description;
   std::vector<std::string> Vertices, Cells; ///< names of those that were required
-  bool NeedsIds = false;
+  bool NeedsIds = false, NeedsCellIds = false;
 };
 
 } // namespace smg

@@ -2,6 +2,7 @@
 #include "Solver/Problem/OpenVertices.h"
 
 #include "Solver/Core/Error.h"
+#include "Solver/Stream/OriginalNumbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,8 +58,11 @@ void OpenVertices::ask(const MeshBlock& block)
   given.screening.assign(count, 0.0);
   this->Given.conditions(block, given);
 
-  const auto vertex = [this](std::ptrdiff_t k)
-  { return std::to_string(this->end() + static_cast<std::int64_t>(k)); };
+  const auto vertex = [&block](std::ptrdiff_t k)
+  {
+    return nameOfRow(
+      block.vertexColumns, OriginalIdSpec, block.firstVertex, static_cast<std::size_t>(k));
+  };
   for (const auto* numbers : { &given.value, &given.source })
   {
     const auto bad = std::ranges::find_if_not(*numbers, [](double v) { return std::isfinite(v); });

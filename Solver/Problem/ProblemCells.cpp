@@ -2,6 +2,7 @@
 #include "Solver/Problem/ProblemCells.h"
 
 #include "Solver/Core/Error.h"
+#include "Solver/Stream/OriginalNumbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,11 @@ double largest(const CellWeights& cell, int edges)
 bool allFinite(const double* values, std::size_t count)
 {
   return std::all_of(values, values + count, [](double value) { return std::isfinite(value); });
+}
+
+std::string nameOf(const MeshBlock& block, std::size_t c)
+{
+  return "cell " + nameOfRow(block.cellColumns, OriginalCellIdSpec, block.firstCell, c);
 }
 
 } // namespace
@@ -44,7 +50,7 @@ void ProblemCells::ask(const MeshBlock& block, std::size_t first, const Ring<dou
   this->Given.cells(batch);
   for (std::size_t k = 0; k < this->Cells.size(); ++k)
   {
-    this->take(k, block.firstCell + static_cast<std::int64_t>(first + k));
+    this->take(k, block, first + k);
   }
 }
 
@@ -85,8 +91,8 @@ void ProblemCells::gather(const MeshBlock& block, std::size_t first, const Ring<
   }
 }
 
-/** Takes what the problem says of cell k of the batch, number `number` of the stream. */
-void ProblemCells::take(std::size_t k, std::int64_t number)
+/** Takes what the problem says of cell k of the batch, cell c of the block. */
+void ProblemCells::take(std::size_t k, const MeshBlock& block, std::size_t c)
 {
   CellWeights& cell = this->Cells[k].weights;
   const double measure = this->Measure[k];
@@ -95,11 +101,11 @@ void ProblemCells::take(std::size_t k, std::int64_t number)
     cell = {};
     return;
   }
-  this->takeWeights(k, number);
-  this->requireFinite(k, number);
+  this->takeWeights(k, block, c);
+  this->requireFinite(k, block, c);
 }
 
-void ProblemCells::takeWeights(std::size_t k, std::int64_t number)
+void ProblemCells::takeWeights(std::size_t k, const MeshBlock& block, std::size_t c)
 {
   CellWeights& cell = this->Cells[k].weights;
   const auto edges = static_cast<std::size_t>(edgesOf(this->Type));
@@ -111,7 +117,7 @@ void ProblemCells::takeWeights(std::size_t k, std::int64_t number)
   if (!std::isfinite(cell.measure) || cell.measure < 0.0 ||
       (seen && !(allFinite(weight, edges) && after > 0.0)))
   {
-    throw Error("the problem's weights of cell " + std::to_string(number) +
+    throw Error("the problem's weights of " + nameOf(block, c) +
                 " are not valid: they must be finite, at least one of them positive, and the "
                 "measure not negative");
   }
@@ -119,26 +125,25 @@ void ProblemCells::takeWeights(std::size_t k, std::int64_t number)
   // inverse.
   if (seen && !(after >= 1e-20 && after <= 1e20))
   {
-    throw Error("the weights of cell " + std::to_string(number) +
+    throw Error("the weights of " + nameOf(block, c) +
                 " are outside 1e-20 to 1e20: scale the conductivity or the weights of the problem");
   }
   std::copy_n(weight, edges, cell.weight);
   this->Cells[k].scale = after / before;
 }
 
-void ProblemCells::requireFinite(std::size_t k, std::int64_t number) const
+void ProblemCells::requireFinite(std::size_t k, const MeshBlock& block, std::size_t c) const
 {
   const double screening = this->Screening[k];
   if (!(screening >= 0.0 && std::isfinite(screening)))
   {
-    throw Error("the screening of cell " + std::to_string(number) +
-                " must be a finite number that is not negative");
+    throw Error(
+      "the screening of " + nameOf(block, c) + " must be a finite number that is not negative");
   }
   if (!allFinite(this->Source.data() + k * this->Columns, this->Columns) ||
       !allFinite(this->Field.data() + 3 * k * this->Columns, 3 * this->Columns))
   {
-    throw Error(
-      "the source or the field of cell " + std::to_string(number) + " is not a finite number");
+    throw Error("the source or the field of " + nameOf(block, c) + " is not a finite number");
   }
 }
 

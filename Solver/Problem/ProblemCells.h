@@ -59,9 +59,9 @@ private:
 
   void ask(const MeshBlock& block, std::size_t first, const Ring<double>& points);
   void gather(const MeshBlock& block, std::size_t first, const Ring<double>& points);
-  void take(std::size_t k, std::int64_t cell);
-  void takeWeights(std::size_t k, std::int64_t cell);
-  void requireFinite(std::size_t k, std::int64_t cell) const;
+  void take(std::size_t k, const MeshBlock& block, std::size_t c);
+  void takeWeights(std::size_t k, const MeshBlock& block, std::size_t c);
+  void requireFinite(std::size_t k, const MeshBlock& block, std::size_t c) const;
 
   Problem& Given;
   CellType Type;

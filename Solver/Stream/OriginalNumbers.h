@@ -3,8 +3,10 @@
 
 #include "Solver/Stream/Column.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace smg
 {
@@ -19,6 +21,17 @@ inline const ColumnSpec OriginalCellIdSpec{ OriginalCellIdName, ScalarType::Int6
 inline std::string nameOfRow(std::int64_t number, bool original)
 {
   return std::to_string(number) + (original ? " of the mesh's file" : " of the stream");
+}
+
+/** The same of row `i` of a block that begins with row `first`: by its column of original numbers,
+ * if it has that. */
+inline std::string nameOfRow(
+  const std::vector<Column>& columns, const ColumnSpec& numbers, std::int64_t first, std::size_t i)
+{
+  const std::ptrdiff_t place = findColumn(columns, numbers);
+  return place < 0
+           ? nameOfRow(first + static_cast<std::int64_t>(i), false)
+           : nameOfRow(columns[static_cast<std::size_t>(place)].as<std::int64_t>()[i], true);
 }
 
 } // namespace smg
