@@ -17,6 +17,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 #include <string>
 #include <vector>
@@ -37,6 +38,14 @@ int fail(std::string sentence)
   }
   std::fprintf(stderr, "smg: %s\n", sentence.c_str());
   return 1;
+}
+
+/** The exit code of a program that did what it was asked to, if what it said has arrived. */
+int succeed()
+{
+  const bool said = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  return said ? 0
+              : fail("standard output cannot be written: make room there, or send it elsewhere");
 }
 
 } // namespace
@@ -62,7 +71,8 @@ int main(int argc, char** argv)
     // Help and version are answers; everything else is one line, like the other errors.
     if (error.get_exit_code() == 0)
     {
-      return program.exit(error);
+      program.exit(error);
+      return succeed();
     }
     const std::vector<std::string> rest = program.remaining();
     const std::vector<CLI::App*> commands = program.get_subcommands();
@@ -77,7 +87,7 @@ int main(int argc, char** argv)
   try
   {
     action();
-    return 0;
+    return succeed();
   }
   catch (const std::bad_alloc&)
   {

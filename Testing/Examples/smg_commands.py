@@ -159,6 +159,19 @@ def test_reports_go_where_they_are_wanted():
     assert os.path.islink("here.json") and load("there.json")["vertices"] == 7200
 
 
+def test_what_cannot_be_said_is_an_error():
+    name = problem(dirichlet=[{"sphere": [0, 0, 0, 9], "value": [0]}])
+    for command in (("info", "torus.vsm"), ("convert", "torus.obj", "o4.vsm"), ("solve", "--help"),
+                    ("solve", "torus.vsm", "o4.vsm", "--problem", name), ("--version",),
+                    ("preview", "torus.vsm", "o4.vtp")):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run([SMG, *command], stdout=full, stderr=subprocess.PIPE, text=True,
+                                  check=False)
+        assert done.returncode == 1 and "standard output" in done.stderr, (command, done)
+    error = run("info", "torus.vsm", "--report", "/dev/full", code=1).stderr
+    assert "/dev/full" in error and "space" in error, error
+
+
 def test_interrupt_cleans_up():
     os.makedirs("scratch", exist_ok=True)
     write_torus("large.obj", 900, 500)
@@ -182,7 +195,7 @@ def test_interrupt_cleans_up():
 
 for each in (test_convert_and_info, test_vtk_xml, test_solve, test_errors,
              test_files_of_the_command_are_not_overwritten, test_reports_go_where_they_are_wanted,
-             test_interrupt_cleans_up):
+             test_what_cannot_be_said_is_an_error, test_interrupt_cleans_up):
     each()
     print("passed", each.__name__)
 sys.exit(0)
