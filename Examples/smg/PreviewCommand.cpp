@@ -43,6 +43,7 @@ void PreviewOptions::run() const
 {
   const auto start = std::chrono::steady_clock::now();
   this->checkOutputName();
+  smg::checkIsNotInput(this->in, this->out);
   this->checkReport({ this->in, this->out });
   nlohmann::ordered_json report;
   std::vector<std::string> notes;

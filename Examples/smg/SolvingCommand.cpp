@@ -64,6 +64,7 @@ void SolvingCommand::run()
   { return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count(); };
   this->checkOutputName();
   smg::checkIsNotInput(this->In, this->Out);
+  smg::checkIsNotInput(this->File, this->Out, "the file that says what to do");
   this->checkReport({ this->In, this->Out, this->File });
   this->readTask();
   smg::Report report;

@@ -58,6 +58,7 @@ ConversionReport convert(const std::filesystem::path& in, const std::filesystem:
   const ConversionOptions& options)
 {
   checkIsNotInput(in, out);
+  checkOutputPlace(out);
   if (isCompressedStream(in))
   {
     return convertCompressedStream(in, out, options);

@@ -89,23 +89,7 @@ void checkOutput(const std::filesystem::path& path)
                                 "or .vtu: choose a name that ends so. Other formats come of a "
                                 ".vsm file by smg convert --restore-order.");
   }
-  // A folder that cannot be looked into is told of below.
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored))
-  {
-    throw Error(path.string() + ": this is a folder: choose the name of a file.");
-  }
-  const std::filesystem::path folder =
-    path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  if (!std::filesystem::is_directory(folder, ignored))
-  {
-    throw Error(path.string() + ": there is no folder " + folder.string() + '.');
-  }
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-  {
-    throw Error(path.string() + ": no file can be made in the folder " + folder.string() + ": " +
-                std::strerror(errno) + '.');
-  }
+  checkOutputPlace(path);
 }
 
 void checkOutput(const std::filesystem::path& path, CellType cellType)
@@ -127,12 +111,34 @@ void checkOutput(const std::filesystem::path& path, CellType cellType)
   }
 }
 
-void checkIsNotInput(const std::filesystem::path& in, const std::filesystem::path& out)
+void checkOutputPlace(const std::filesystem::path& path)
+{
+  // A folder that cannot be looked into is told of below.
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+  {
+    throw Error(path.string() + ": this is a folder: choose the name of a file.");
+  }
+  const std::filesystem::path parent = path.parent_path();
+  const std::filesystem::path folder = parent.empty() ? std::filesystem::path(".") : parent;
+  if (!std::filesystem::is_directory(folder, ignored))
+  {
+    throw Error(path.string() + ": there is no folder " + folder.string() + '.');
+  }
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+  {
+    throw Error(path.string() + ": no file can be made in the folder " + folder.string() + ": " +
+                std::strerror(errno) + '.');
+  }
+}
+
+void checkIsNotInput(
+  const std::filesystem::path& in, const std::filesystem::path& out, const std::string& what)
 {
   std::error_code absent;
   if (std::filesystem::equivalent(in, out, absent))
   {
-    throw Error(out.string() + " is the mesh itself: choose another name for the result.");
+    throw Error(out.string() + " is " + what + ": choose another name for the result.");
   }
 }
 

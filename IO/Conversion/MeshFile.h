@@ -4,6 +4,7 @@
 #include "Solver/Stream/MeshSource.h"
 
 #include <filesystem>
+#include <string>
 
 namespace smg
 {
@@ -37,7 +38,15 @@ void checkOutput(const std::filesystem::path& path, CellType cellType);
 /** The same as far as it can be known before the mesh is. */
 void checkOutput(const std::filesystem::path& path);
 
-/** Throws Error if the output is the input, by whatever name or link. */
-void checkIsNotInput(const std::filesystem::path& in, const std::filesystem::path& out);
+/** Throws Error if a file cannot be made there whatever its format: the path is a folder, or its
+ * folder does not exist or cannot be written to. */
+void checkOutputPlace(const std::filesystem::path& path);
+
+/**
+ * Throws Error if the output is an input, by whatever name or link. `what`: what the input is, as
+ * "the mesh itself".
+ */
+void checkIsNotInput(const std::filesystem::path& in, const std::filesystem::path& out,
+  const std::string& what = "the mesh itself");
 
 } // namespace smg

@@ -4,6 +4,7 @@
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -119,6 +120,12 @@ def test_errors():
     assert "1 MiB" in done.stderr, done.stderr
     assert "no room for a solution" in run(
         "solve", "torus.vsm", "o2.smb", "--problem", name, code=1).stderr
+    # The folder of OUT is looked at before anything is read.
+    for command in (("convert", "empty.vsm", "nowhere/o.vsm"), ("preview", "empty.vsm", "nowhere/o.vtp"),
+                    ("convert", "empty.vsm", "nowhere/o.obj", "--restore-order"),
+                    ("solve", "empty.vsm", "nowhere/o.vtp", "--problem", name),
+                    ("deform", "empty.vsm", "nowhere/o.ply", "--handles", name)):
+        assert "there is no folder nowhere" in run(*command, code=1).stderr, command
     # The problem is read before the mesh.
     for file in ("missing.json", "scratch"):
         os.makedirs("scratch", exist_ok=True)
@@ -137,14 +144,19 @@ def link(target, name):
 def test_files_of_the_command_are_not_overwritten():
     name = problem(dirichlet=[{"sphere": [0, 0, 0, 9], "value": [0]}])
     link("torus.vsm", "link.vsm")
-    before = {file: open(file, "rb").read() for file in ("torus.obj", "torus.vsm", name)}
+    shutil.copy(name, "problem.vsm")
+    before = {file: open(file, "rb").read() for file in ("torus.obj", "torus.vsm", name, "problem.vsm")}
     solve = ("--problem", name)
     for command in (("info", "torus.obj", "--report", "torus.obj"),
                     ("info", "torus.vsm", "--report", "link.vsm"),
                     ("convert", "torus.obj", "o3.vsm", "--report", "o3.vsm"),
                     ("preview", "torus.obj", "o3.vsm", "--report", "./o3.vsm"),
                     ("solve", "torus.vsm", "o3.vsm", *solve, "--report", name),
+                    ("preview", "torus.vsm", "link.vsm"),
+                    ("convert", "torus.vsm", "torus.vsm", "--order", "keep"),
                     ("solve", "torus.vsm", "torus.vsm", *solve),
+                    ("solve", "torus.vsm", "problem.vsm", "--problem", "problem.vsm"),
+                    ("deform", "torus.vsm", "problem.vsm", "--handles", "problem.vsm"),
                     ("solve", "torus.vsm", "link.vsm", *solve)):
         assert "choose another name" in run(*command, code=1).stderr
     for file, content in before.items():
