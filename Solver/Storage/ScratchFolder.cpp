@@ -61,12 +61,13 @@ void removeAbandoned(const std::filesystem::path& base)
 ScratchFolder::ScratchFolder(const std::filesystem::path& parent)
 {
   std::error_code failed;
-  const std::filesystem::path base = std::filesystem::absolute(
-    parent.empty() ? std::filesystem::temp_directory_path(failed) : parent);
+  const std::filesystem::path place =
+    parent.empty() ? std::filesystem::temp_directory_path(failed) : parent;
   if (failed)
   {
     throw Error("there is no temporary folder (" + failed.message() + "): name a scratch folder");
   }
+  const std::filesystem::path base = std::filesystem::absolute(place);
   removeAbandoned(base);
   // It gets the name by which others look for abandoned ones when it is locked.
   std::string made = (base / (std::string(".") + Prefix + "XXXXXX")).string();

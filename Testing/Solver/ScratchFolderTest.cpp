@@ -2,6 +2,7 @@
 #include "Solver/Storage/ScratchFolder.h"
 
 #include "Solver/Core/Error.h"
+#include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 
@@ -41,6 +43,17 @@ TEST(ScratchFolder, inAPlaceThatDoesNotExistIsAnErrorThatNamesIt)
   {
     EXPECT_NE(std::string(error.what()).find((folder / "nowhere").string()), std::string::npos);
   }
+}
+
+TEST(ScratchFolder, withoutATemporaryFolderIsAnErrorThatAsksForAnother)
+{
+  const char* const before = std::getenv("TMPDIR");
+  const std::string kept = before ? before : "";
+  ::setenv("TMPDIR", "/nowhere", 1);
+  const std::string message = messageOf([] { const ScratchFolder scratch({}); });
+  before ? ::setenv("TMPDIR", kept.c_str(), 1) : ::unsetenv("TMPDIR");
+  EXPECT_NE(message.find("no temporary folder"), std::string::npos) << message;
+  EXPECT_NE(message.find("name a scratch folder"), std::string::npos) << message;
 }
 
 TEST(ScratchFolder, whatAKilledProgramLeftIsRemovedByTheNextAndNothingElse)
