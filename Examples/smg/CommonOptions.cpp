@@ -2,6 +2,7 @@
 #include "CommonOptions.h"
 
 #include "Solver/Core/Error.h"
+#include "Solver/Storage/FileDescriptor.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -59,10 +60,10 @@ std::filesystem::path temporaryOf(const std::filesystem::path& report)
 /** Whether both name the same file, which need not be there. */
 bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b)
 {
-  // Links are equivalent; what is not there yet has no more than its name.
+  // What is not there yet has no more than its name.
   std::error_code absent;
   const auto named = [](const std::filesystem::path& file)
-  { return std::filesystem::absolute(file).lexically_normal(); };
+  { return std::filesystem::absolute(smg::FileDescriptor::targetOf(file)).lexically_normal(); };
   return std::filesystem::equivalent(a, b, absent) || named(a) == named(b);
 }
 

@@ -9,6 +9,7 @@
 #include "IO/Output/WriteVtkXml.h"
 #include "Solver/Core/Error.h"
 #include "Solver/Storage/BlockFile.h"
+#include "Solver/Storage/FileDescriptor.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -119,7 +120,7 @@ void checkOutputPlace(const std::filesystem::path& path)
   {
     throw Error(path.string() + ": this is a folder: choose the name of a file.");
   }
-  const std::filesystem::path parent = path.parent_path();
+  const std::filesystem::path parent = FileDescriptor::targetOf(path).parent_path();
   const std::filesystem::path folder = parent.empty() ? std::filesystem::path(".") : parent;
   if (!std::filesystem::is_directory(folder, ignored))
   {

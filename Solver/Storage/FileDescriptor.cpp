@@ -77,12 +77,30 @@ FileDescriptor FileDescriptor::openForReading(const std::filesystem::path& path)
   return file;
 }
 
+std::filesystem::path FileDescriptor::targetOf(const std::filesystem::path& path)
+{
+  constexpr int MostLinks = 40; // as the system has it
+  std::filesystem::path target = path;
+  std::error_code none;
+  for (int links = 0; std::filesystem::is_symlink(target, none); ++links)
+  {
+    if (links == MostLinks)
+    {
+      throwWriteError(path, ELOOP);
+    }
+    // A link that says a full path replaces all of this one.
+    target = target.parent_path() / std::filesystem::read_symlink(target, none);
+  }
+  return target;
+}
+
 FileDescriptor FileDescriptor::createBeside(const std::filesystem::path& path)
 {
+  const std::filesystem::path target = targetOf(path);
   FileDescriptor file;
   do
   {
-    file.Path = temporaryName(path);
+    file.Path = temporaryName(target);
     file.Number = openNew(file.Path);
   } while (!file.isOpen() && errno == EEXIST);
   if (!file.isOpen())
@@ -244,13 +262,14 @@ void FileDescriptor::renameTo(const std::filesystem::path& path)
     this->remove();
     throw;
   }
-  if (::rename(this->Path.c_str(), path.c_str()) != 0)
+  const std::filesystem::path target = targetOf(path);
+  if (::rename(this->Path.c_str(), target.c_str()) != 0)
   {
     const int error = errno;
     this->remove();
     throwWriteError(path, error);
   }
-  this->Path = path;
+  this->Path = target;
 }
 
 void FileDescriptor::remove() noexcept

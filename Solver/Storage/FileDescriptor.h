@@ -24,8 +24,13 @@ public:
   /** Opens an existing regular file for reading. */
   static FileDescriptor openForReading(const std::filesystem::path& path);
   /**
-   * Makes a new file with a temporary name beside `path`; path() tells it. Whoever makes it renames
-   * or removes it.
+   * The file that a name stands for: what a symbolic link leads to, also if nothing is there yet.
+   * Throws Error if links lead in a circle.
+   */
+  static std::filesystem::path targetOf(const std::filesystem::path& path);
+  /**
+   * Makes a new file with a temporary name beside the target of `path`; path() tells it. Whoever
+   * makes it renames or removes it.
    */
   static FileDescriptor createBeside(const std::filesystem::path& path);
   /** Makes a file without a name in `folder`: it is gone when it is closed, or the program ends. */
@@ -55,8 +60,9 @@ public:
   /** Closes the file; some systems tell only now that a write failed. */
   void close();
   /**
-   * Closes the file and gives it the name `path`, in one step, in place of what has that name.
-   * If that fails, the file is removed: Error.
+   * Closes the file and gives it the name `path`, in one step, in place of what has that name; a
+   * symbolic link stays, and what it leads to is replaced. If that fails, the file is removed:
+   * Error.
    */
   void renameTo(const std::filesystem::path& path);
   /** Closes and removes the file. */

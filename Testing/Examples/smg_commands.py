@@ -144,6 +144,7 @@ def link(target, name):
 def test_files_of_the_command_are_not_overwritten():
     name = problem(dirichlet=[{"sphere": [0, 0, 0, 9], "value": [0]}])
     link("torus.vsm", "link.vsm")
+    link("o3.vsm", "to_be_made.vsm")
     shutil.copy(name, "problem.vsm")
     before = {file: open(file, "rb").read() for file in ("torus.obj", "torus.vsm", name, "problem.vsm")}
     solve = ("--problem", name)
@@ -151,6 +152,7 @@ def test_files_of_the_command_are_not_overwritten():
                     ("info", "torus.vsm", "--report", "link.vsm"),
                     ("convert", "torus.obj", "o3.vsm", "--report", "o3.vsm"),
                     ("preview", "torus.obj", "o3.vsm", "--report", "./o3.vsm"),
+                    ("convert", "torus.obj", "o3.vsm", "--report", "to_be_made.vsm"),
                     ("solve", "torus.vsm", "o3.vsm", *solve, "--report", name),
                     ("preview", "torus.vsm", "link.vsm"),
                     ("convert", "torus.vsm", "torus.vsm", "--order", "keep"),
@@ -169,6 +171,28 @@ def test_reports_go_where_they_are_wanted():
     link("there.json", "here.json")
     run("info", "torus.vsm", "--report", "here.json", "--quiet")
     assert os.path.islink("here.json") and load("there.json")["vertices"] == 7200
+
+
+def test_outputs_go_where_links_lead():
+    name = problem(dirichlet=[{"sphere": [0, 0, 0, 9], "value": [0]}])
+    with open("handles.json", "w", encoding="utf-8") as file:
+        json.dump({"handles": [{"region": {"vertices": [0]}, "fixed": True}]}, file)
+    os.makedirs("there", exist_ok=True)
+    for command in (("convert", "torus.obj", "here.vsm"), ("convert", "torus.obj", "here.smb"),
+                    ("convert", "torus.vsm", "here.obj", "--restore-order"),
+                    ("preview", "torus.vsm", "here.vtp"),
+                    ("solve", "torus.vsm", "here.ply", "--problem", name),
+                    ("deform", "torus.vsm", "here.vtu", "--handles", "handles.json")):
+        out = command[2]
+        target = os.path.join("there", out)
+        if os.path.exists(target):
+            os.remove(target)
+        link(target, out)
+        run(*command, "--quiet")
+        assert os.path.islink(out) and not os.path.islink(target), command
+        assert os.path.getsize(target) > 1000, command
+    link(os.path.join("nowhere", "o.vsm"), "here.vsm")
+    assert "no folder nowhere" in run("convert", "torus.obj", "here.vsm", code=1).stderr
 
 
 def test_what_cannot_be_said_is_an_error():
@@ -207,7 +231,7 @@ def test_interrupt_cleans_up():
 
 for each in (test_convert_and_info, test_vtk_xml, test_solve, test_errors,
              test_files_of_the_command_are_not_overwritten, test_reports_go_where_they_are_wanted,
-             test_what_cannot_be_said_is_an_error, test_interrupt_cleans_up):
+             test_outputs_go_where_links_lead, test_what_cannot_be_said_is_an_error, test_interrupt_cleans_up):
     each()
     print("passed", each.__name__)
 sys.exit(0)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/FileDescriptor.h"
+#include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +8,9 @@
 #include <cstdint>
 #include <fcntl.h>
 #include <filesystem>
+#include <fstream>
 #include <span>
+#include <string>
 #include <unistd.h>
 #include <vector>
 
@@ -55,6 +58,30 @@ TEST(FileDescriptor, saysThatAFileEndsBefore)
   std::vector<std::byte> read(101);
   std::int64_t waited = 0;
   EXPECT_EQ(file.tryRead(0, read, waited), -1);
+}
+
+TEST(FileDescriptor, writesThroughLinks)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "elsewhere");
+  std::filesystem::create_symlink("elsewhere/second", folder / "link");
+  std::filesystem::create_symlink(folder / "elsewhere" / "file", folder / "elsewhere" / "second");
+  for (const char* text : { "once", "again" })
+  {
+    FileDescriptor file = FileDescriptor::createBeside(folder / "link");
+    EXPECT_EQ(file.path().parent_path(), folder / "elsewhere");
+    file.write(0, std::as_bytes(std::span(text, 4)));
+    file.renameTo(folder / "link");
+    std::string written;
+    std::ifstream(folder / "elsewhere" / "file") >> written;
+    EXPECT_EQ(written, std::string(text, 4));
+  }
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "elsewhere" / "second"));
+  EXPECT_EQ(folder.entries(), 2);
+
+  std::filesystem::create_symlink("circle", folder / "circle");
+  EXPECT_NE(messageOf([&] { FileDescriptor::createBeside(folder / "circle"); }), "");
 }
 
 } // namespace smg::testing
