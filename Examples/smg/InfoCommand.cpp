@@ -2,6 +2,10 @@
 #include "OpenInput.h"
 #include "ProgressBar.h"
 
+#include "IO/Container/CheckVsm.h"
+#include "IO/Conversion/MeshFile.h"
+#include "Solver/Core/Error.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cstdio>
@@ -94,19 +98,35 @@ void print(const std::filesystem::path& file, smg::OpenedMesh& mesh)
 struct InfoOptions : CommonOptions
 {
   std::filesystem::path file;
+  bool check = false;
 
   void run() const
   {
     this->checkReport({ this->file });
+    if (this->check && smg::kindOfInput(this->file) != smg::MeshFileKind::Vsm)
+    {
+      throw smg::Error(
+        this->file.string() +
+        ": only .vsm files have checksums: leave --check out; this one is read as a whole anyhow.");
+    }
     ProgressBar bar("reading", this->quiet);
     // The order of the file itself is what the figures are about.
     const std::unique_ptr<smg::OpenedMesh> mesh =
       openInput(this->file, *this, bar.function(), smg::StreamOrder::Keep);
-    this->writeReport(describe(this->file, *mesh)
-                        .dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    nlohmann::ordered_json report = describe(this->file, *mesh);
+    if (this->check)
+    {
+      report["checked_blocks"] = smg::checkVsm(this->file, bar.function());
+    }
+    this->writeReport(report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     if (!this->quiet)
     {
       print(this->file, *mesh);
+    }
+    if (!this->quiet && this->check)
+    {
+      std::printf("  checksums   those of all %lld blocks are right\n",
+        report["checked_blocks"].get<long long>());
     }
   }
 };
@@ -118,6 +138,9 @@ void addInfoCommand(CLI::App& program, Action& action)
   auto options = std::make_shared<InfoOptions>();
   CLI::App* command = program.add_subcommand("info", "Say what a mesh file holds");
   command->add_option("FILE", options->file, "The mesh")->required();
+  command->add_flag("--check", options->check,
+    "Read all of a .vsm file and check its checksums: an error names the first block that is "
+    "damaged");
   options->addTo(*command);
   options->addThreadsTo(*command);
   command->callback([options, &action] { action = [options] { options->run(); }; });

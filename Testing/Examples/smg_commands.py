@@ -195,6 +195,27 @@ def test_outputs_go_where_links_lead():
     assert "no folder nowhere" in run("convert", "torus.obj", "here.vsm", code=1).stderr
 
 
+def test_check():
+    """Every block of a file is looked at, and damage has a place."""
+    assert "checksums" not in run("info", "torus.vsm").stdout
+    done = run("info", "torus.vsm", "--check", "--report", "info.json")
+    blocks = load("info.json")["checked_blocks"]
+    assert "those of all %d blocks are right" % blocks in done.stdout and blocks > 3, done.stdout
+    with open("torus.vsm", "rb") as file:
+        data = bytearray(file.read())
+    damaged = set()
+    for at in range(17000, len(data) - 2000, len(data) // 20):
+        wrong = data[:at] + bytes([data[at] ^ 1]) + data[at + 1:]
+        with open("damaged.vsm", "wb") as file:
+            file.write(wrong)
+        error = run("info", "damaged.vsm", "--check", code=1).stderr
+        assert "damaged.vsm: table '" in error and "', block " in error, error
+        damaged.add(error)
+    assert len(damaged) > 3, damaged
+    run("info", "damaged.vsm")
+    assert "only .vsm files" in run("info", "torus.obj", "--check", code=1).stderr
+
+
 def test_what_cannot_be_said_is_an_error():
     name = problem(dirichlet=[{"sphere": [0, 0, 0, 9], "value": [0]}])
     for command in (("info", "torus.vsm"), ("convert", "torus.obj", "o4.vsm"), ("solve", "--help"),
@@ -231,7 +252,7 @@ def test_interrupt_cleans_up():
 
 for each in (test_convert_and_info, test_vtk_xml, test_solve, test_errors,
              test_files_of_the_command_are_not_overwritten, test_reports_go_where_they_are_wanted,
-             test_outputs_go_where_links_lead, test_what_cannot_be_said_is_an_error, test_interrupt_cleans_up):
+             test_outputs_go_where_links_lead, test_check, test_what_cannot_be_said_is_an_error, test_interrupt_cleans_up):
     each()
     print("passed", each.__name__)
 sys.exit(0)

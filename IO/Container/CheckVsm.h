@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Progress.h"
+
+#include <cstdint>
+#include <filesystem>
+
+namespace smg
+{
+
+/**
+ * Reads all of a .vsm file, which nothing else does, and checks the checksum of every column of
+ * every block.
+ * @return the number of blocks
+ * @throws Error naming the file, the table and the block if one is wrong; Cancelled
+ */
+std::int64_t checkVsm(const std::filesystem::path& path, const ProgressFunction& progress = {});
+
+} // namespace smg
