@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommonOptions.h"
+#include "InputOptions.h"
 #include "ProgressBar.h"
 #include "VtkBridge.h"
 
@@ -7,7 +8,6 @@
 #include "IO/Conversion/Convert.h"
 
 #include <cstdio>
-#include <optional>
 
 namespace
 {
@@ -64,8 +64,7 @@ struct ConvertOptions : CommonOptions
   std::filesystem::path in, out;
   std::string order = "bfs";
   std::string codec = "zstd";
-  std::string cells;
-  std::optional<double> weld;
+  InputOptions input;
   bool restoreOrder = false;
   bool dryRun = false;
 
@@ -77,10 +76,7 @@ struct ConvertOptions : CommonOptions
     options.codec = this->codec == "zstd"  ? smg::Codec::Zstd
                     : this->codec == "lz4" ? smg::Codec::Lz4
                                            : smg::Codec::None;
-    options.cells = this->cells.empty()          ? smg::CellChoice::Only
-                    : this->cells == "triangles" ? smg::CellChoice::Triangles
-                                                 : smg::CellChoice::Tetrahedra;
-    options.weld = this->weld;
+    this->input.applyTo(options);
     options.restoreOrder = this->restoreOrder;
     options.scratch = this->scratch;
     return options;
@@ -133,15 +129,7 @@ void addConvertCommand(CLI::App& program, Action& action)
   command->add_option("--codec", options->codec, "Compression of .vsm files: zstd, lz4 or none")
     ->check(oneOf({ "zstd", "lz4", "none" }))
     ->capture_default_str();
-  command
-    ->add_option(
-      "--cells", options->cells, "Which cells to keep of a mesh that has both: triangles or tets")
-    ->check(oneOf({ "triangles", "tets" }));
-  command
-    ->add_option("--weld", options->weld,
-      "Merge points within this distance of each other; 0: equal coordinates")
-    ->check(CLI::NonNegativeNumber)
-    ->type_name("DISTANCE");
+  options->input.addTo(*command);
   command
     ->add_flag("--restore-order", options->restoreOrder,
       "Write vertices and cells in the order of the file that the .vsm file IN was made of, to a "

@@ -72,7 +72,11 @@ protected:
     return smg::deform(*mesh.source(handles.vertexColumns(), {}), handles, this->Deform);
   }
 
-  bool rewritesInput() const override { return smg::canRewrite(this->In, this->Out); }
+  /** Of points that are merged only one moves: then IN cannot be written again. */
+  bool rewritesInput() const override
+  {
+    return !this->Input.welds() && smg::canRewrite(this->In, this->Out);
+  }
 
   std::vector<std::string> write(const smg::VsmReader& mesh, smg::Solution& positions,
     smg::Report& /*report*/, const smg::ProgressFunction& progress) const override

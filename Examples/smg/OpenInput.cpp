@@ -6,11 +6,14 @@
 #include <utility>
 
 std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
-  const CommonOptions& common, smg::ProgressFunction progress, smg::StreamOrder order)
+  const CommonOptions& common, smg::ProgressFunction progress, smg::StreamOrder order,
+  const InputOptions& input)
 {
+  input.checkIsConverted(path);
   loadVtkFor(path);
   smg::ConversionOptions options;
   options.order = order;
+  input.applyTo(options);
   options.memoryLimit = common.memoryBytes(0);
   options.codec = smg::Codec::Lz4;
   options.scratch = common.scratch;

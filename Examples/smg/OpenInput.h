@@ -2,13 +2,14 @@
 #pragma once
 
 #include "CommonOptions.h"
+#include "InputOptions.h"
 
 #include "IO/Conversion/OpenMesh.h"
 
 /**
  * Opens a mesh file of any kind. What is no stream is converted on the way, into `order`, within
- * the memory limit of the options. Throws smg::Error.
+ * the memory limit of the options, and as `input` says. Throws smg::Error.
  */
 std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
   const CommonOptions& common, smg::ProgressFunction progress,
-  smg::StreamOrder order = smg::StreamOrder::BreadthFirst);
+  smg::StreamOrder order = smg::StreamOrder::BreadthFirst, const InputOptions& input = {});

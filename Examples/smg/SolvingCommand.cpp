@@ -43,6 +43,7 @@ void SolvingCommand::addSolverOptions(CLI::App& command, const std::string& resu
   // For experiments and tests: they change the speed, not the result.
   command.add_option("--block-nodes", options.blockNodes)->group("");
   command.add_option("--core-nodes", options.coreNodes)->group("");
+  this->Input.addTo(command);
   this->addTo(command, std::to_string(options.memoryLimit >> 20));
   command.get_option("--memory")
     ->description("Memory limit in MiB; unless given, 256 MiB to convert IN");
@@ -70,8 +71,8 @@ void SolvingCommand::run()
   smg::Report report;
   {
     ProgressBar bar(this->Title, this->quiet);
-    const std::unique_ptr<smg::OpenedMesh> mesh =
-      openInput(this->In, *this, smg::partOf(bar.function(), 0.0, 0.2));
+    const std::unique_ptr<smg::OpenedMesh> mesh = openInput(this->In, *this,
+      smg::partOf(bar.function(), 0.0, 0.2), smg::StreamOrder::BreadthFirst, this->Input);
     const double convertSeconds = mesh->conversion() ? secondsSince(start) : 0.0;
     const double begin = mesh->conversion() ? 0.2 : 0.0;
     const std::unique_ptr<smg::Solution> solution =

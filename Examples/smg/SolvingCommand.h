@@ -2,6 +2,7 @@
 #pragma once
 
 #include "CommonOptions.h"
+#include "InputOptions.h"
 
 #include "IO/Container/VsmReader.h"
 #include "IO/Conversion/ConversionReport.h"
@@ -64,6 +65,7 @@ protected:
   virtual const smg::SolveOptions& solveOptions() const = 0;
 
   std::filesystem::path In, Out;
+  InputOptions Input;         ///< of what is no .vsm file
   std::filesystem::path File; ///< says what to do
 
 private:

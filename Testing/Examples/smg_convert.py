@@ -205,6 +205,21 @@ def test_weld():
             assert report["isolated_vertices"] == 0, report
             assert report["components"] == 1 and report["boundary_edges"] == 0, report
             assert report["nonmanifold_edges"] == 0 and report["degenerate_cells"] == 0, report
+    # So they do on the way to a solution or a deformation.
+    with open("problem.json", "w", encoding="utf-8") as file:
+        json.dump({"screening": 1, "source": 1}, file)
+    with open("handles.json", "w", encoding="utf-8") as file:
+        json.dump({"handles": [{"region": {"sphere": [0, 0, 0, 9]}, "translate": [1, 0, 0]}]}, file)
+    for command in (("solve", "soup.ply", "o.vsm", "--problem", "problem.json"),
+                    ("deform", "soup.ply", "o.vsm", "--handles", "handles.json"),
+                    ("deform", "soup.ply", "moved_soup.ply", "--handles", "handles.json")):
+        run(*command, "--weld", 0, "--report", "report.json", "--quiet")
+        report = load("report.json")
+        assert report["vertices"] == 1800 and report["cells"] == 3600, report
+        error = run(command[0], "welded.vsm", *command[2:], "--weld", 0, code=1).stderr
+        assert "welded.vsm" in error and "smg convert" in error, error
+    # Of the points that are merged none stays where it was.
+    assert min(x for x, _, _ in read_mesh("moved_soup.ply").points) > -2.1
     report = convert("loose.ply", "welded.vsm", "--weld", 0)
     assert report["vertices"] > 1800 and report["boundary_edges"] > 0, report
     run("convert", "soup.ply", "o.vsm", "--weld", -1, code=2)
@@ -215,7 +230,7 @@ def test_cells_of_both_kinds():
     faces = [(0, 1, 5), (1, 5, 6), (5, 6, 10)]
     write_medit("both.mesh", points, solids, faces)
     with open("problem.json", "w", encoding="utf-8") as file:
-        json.dump({"dirichlet": [{"halfspace": [1, 0, 0, 2.6], "value": [1]}]}, file)
+        json.dump({"screening": 1, "source": 1}, file)
     for command in (("convert", "both.mesh", "o.vsm"), ("info", "both.mesh"),
                     ("solve", "both.mesh", "o.vsm", "--problem", "problem.json"),
                     ("preview", "both.mesh", "o.vsm")):
@@ -224,6 +239,10 @@ def test_cells_of_both_kinds():
         assert command[0] == "convert" or "smg convert" in error, error
     report = convert("both.mesh", "o.vsm", "--cells", "tets")
     assert report["cells"] == len(solids) and report["dropped_cells"] == 3
+    for cells, count in (("tets", len(solids)), ("triangles", 3)):
+        run("solve", "both.mesh", "o.vsm", "--problem", "problem.json", "--cells", cells,
+            "--report", "report.json", "--quiet")
+        assert load("report.json")["cells"] == count
     report = convert("both.mesh", "o.vsm", "--cells", "triangles")
     assert report["cells"] == 3 and report["dropped_cells"] == len(solids)
     assert report["vertices"] == 5 and report["isolated_vertices"] == 120
