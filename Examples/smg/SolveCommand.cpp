@@ -2,13 +2,17 @@
 #include "SolvingCommand.h"
 
 #include "IO/Conversion/MeshFile.h"
+#include "IO/Conversion/PartialProgress.h"
+#include "IO/External/Workspace.h"
 #include "IO/Output/SolvedMesh.h"
 #include "IO/Output/WriteMesh.h"
 #include "IO/Problem/ProblemFile.h"
+#include "IO/Restore/WriteRestored.h"
 #include "Solver/Core/Error.h"
 #include "Solver/Description/DescribedProblem.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace
 {
@@ -41,7 +45,10 @@ public:
 
   void addOptions(CLI::App& command)
   {
-    this->addSolverOptions(command, "The mesh with its solution: .vsm, .ply, .vtp or .vtu",
+    this->addSolverOptions(command,
+      "The mesh with its solution: .vsm, .ply, .vtp or .vtu. The last three have the order of IN, "
+      "unless that has numbers OriginalId of its own or points are welded: then the vertices come "
+      "in stream order",
       this->Solve, { "extended", "shi2006" });
     command.get_option("--operators")
       ->description("Operator set; shi2006: the paper's printed equations, biased, --in-core only");
@@ -102,6 +109,24 @@ protected:
     results.flux = this->Description.fluxOutput;
     results.memoryLimit = this->Solve.memoryLimit;
     smg::SolvedMesh source(mesh, *this->Problem, solution, results);
+    return this->keepsOrder() ? this->writeInOrder(mesh, source, report, progress)
+                              : this->writeStream(mesh, source, report, progress);
+  }
+
+  bool keepsOrder() const override
+  {
+    const smg::MeshFileKind kind = smg::kindOfOutput(this->Out);
+    return (kind == smg::MeshFileKind::Ply || kind == smg::MeshFileKind::VtkXml) &&
+           this->Conversion && smg::kindOfInput(this->In) == smg::MeshFileKind::Indexed &&
+           !this->Conversion->keeps_numbers && !this->Input.welds();
+  }
+
+  const smg::SolveOptions& solveOptions() const override { return this->Solve; }
+
+private:
+  std::vector<std::string> writeStream(const smg::VsmReader& mesh, smg::SolvedMesh& source,
+    smg::Report& report, const smg::ProgressFunction& progress) const
+  {
     smg::WriteMeshOptions options;
     options.scratch = this->scratch;
     options.isolatedFrom = mesh.path();
@@ -111,9 +136,26 @@ protected:
     return notes;
   }
 
-  const smg::SolveOptions& solveOptions() const override { return this->Solve; }
+  /** With the vertices and cells of IN in their order, through a .vsm file, which is sorted. */
+  std::vector<std::string> writeInOrder(const smg::VsmReader& mesh, smg::SolvedMesh& source,
+    smg::Report& report, const smg::ProgressFunction& progress) const
+  {
+    // What the solver holds is still there.
+    constexpr std::int64_t MostMemory = std::int64_t(64) << 20;
+    smg::Workspace space(this->scratch,
+      std::clamp(this->Solve.memoryLimit / 4, smg::Workspace::LeastMemory, MostMemory),
+      smg::partOf(progress, 0.4, 1.0));
+    smg::WriteMeshOptions options;
+    options.codec = smg::Codec::Lz4;
+    options.isolatedFrom = mesh.path();
+    options.progress = smg::partOf(progress, 0.0, 0.4);
+    const std::filesystem::path solved = space.folder() / "solved.vsm";
+    smg::writeMesh(source, solved, options);
+    source.finish(report);
+    space.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
+    return smg::writeRestored(solved, this->Out, space);
+  }
 
-private:
   /** The mesh with the columns of the problem. */
   std::unique_ptr<smg::MeshSource> sourceOf(const smg::VsmReader& mesh) const
   {

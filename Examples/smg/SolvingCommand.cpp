@@ -73,17 +73,18 @@ void SolvingCommand::run()
     ProgressBar bar(this->Title, this->quiet);
     const std::unique_ptr<smg::OpenedMesh> mesh = openInput(this->In, *this,
       smg::partOf(bar.function(), 0.0, 0.2), smg::StreamOrder::BreadthFirst, this->Input);
-    const double convertSeconds = mesh->conversion() ? secondsSince(start) : 0.0;
-    const double begin = mesh->conversion() ? 0.2 : 0.0;
+    this->Conversion = mesh->conversion();
+    const double convertSeconds = this->Conversion ? secondsSince(start) : 0.0;
+    const double begin = this->Conversion ? 0.2 : 0.0;
     const std::unique_ptr<smg::Solution> solution =
       this->solveOn(mesh->reader(), smg::partOf(bar.function(), begin, 0.9));
     report = solution->report();
     const std::vector<std::string> notes =
       this->write(mesh->reader(), *solution, report, smg::partOf(bar.function(), 0.9, 1.0));
     report.notes.insert(report.notes.end(), notes.begin(), notes.end());
-    if (mesh->conversion())
+    if (this->Conversion)
     {
-      const std::vector<std::string> more = this->notesOn(*mesh->conversion());
+      const std::vector<std::string> more = this->notesOn(*this->Conversion);
       report.notes.insert(report.notes.end(), more.begin(), more.end());
     }
     report.seconds.convert = convertSeconds;
@@ -99,8 +100,8 @@ void SolvingCommand::run()
 
 std::vector<std::string> SolvingCommand::notesOn(const smg::ConversionReport& conversion) const
 {
-  const bool rewritten = this->rewritesInput();
-  const bool whole = rewritten || smg::kindOfOutput(this->Out) == smg::MeshFileKind::Vsm;
+  const bool ordered = this->keepsOrder();
+  const bool whole = ordered || smg::kindOfOutput(this->Out) == smg::MeshFileKind::Vsm;
   std::vector<std::string> notes;
   if (const std::int64_t isolated = conversion.isolated_vertices; isolated > 0)
   {
@@ -111,14 +112,14 @@ std::vector<std::string> SolvingCommand::notesOn(const smg::ConversionReport& co
         : isolated == 1 ? "is left out."
                         : "are left out."));
   }
-  if (rewritten)
+  if (!this->rewritesInput())
   {
-    return notes;
+    notes.insert(notes.end(), conversion.notes.begin(), conversion.notes.end());
   }
-  notes.insert(notes.end(), conversion.notes.begin(), conversion.notes.end());
-  if (smg::kindOfInput(this->In) == smg::MeshFileKind::Indexed)
+  if (!ordered && smg::kindOfInput(this->In) == smg::MeshFileKind::Indexed)
   {
-    const bool hasIds = smg::kindOfOutput(this->Out) != smg::MeshFileKind::Stream;
+    const bool hasIds =
+      smg::kindOfOutput(this->Out) != smg::MeshFileKind::Stream && !conversion.keeps_numbers;
     notes.push_back(hasIds
                       ? std::string("The vertices are in stream order; ") + smg::OriginalIdName +
                           " names their places in " + this->In.string() + '.'

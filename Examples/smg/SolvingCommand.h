@@ -9,6 +9,7 @@
 #include "Solver/Solve.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,8 @@ protected:
     const smg::VsmReader& mesh, smg::ProgressFunction progress) = 0;
   /** Whether write() makes OUT of the file IN, in the order of that. */
   virtual bool rewritesInput() const { return false; }
+  /** Whether write() brings OUT into the order of IN. */
+  virtual bool keepsOrder() const { return this->rewritesInput(); }
   /** Writes the output; answers what a user should know of it. May add to the report. */
   virtual std::vector<std::string> write(const smg::VsmReader& mesh, smg::Solution& solution,
     smg::Report& report, const smg::ProgressFunction& progress) const = 0;
@@ -67,6 +70,8 @@ protected:
   std::filesystem::path In, Out;
   InputOptions Input;         ///< of what is no .vsm file
   std::filesystem::path File; ///< says what to do
+  /** What was done to IN, once it is open; none: it is a .vsm file. */
+  std::optional<smg::ConversionReport> Conversion;
 
 private:
   /** CLI::Range includes its ends and takes nan. */

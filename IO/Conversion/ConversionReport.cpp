@@ -25,6 +25,7 @@ std::string ConversionReport::json(int indent) const
   json["boundary_edges"] = this->boundary_edges;
   json["nonmanifold_edges"] = this->nonmanifold_edges;
   json["nonmanifold_vertices"] = this->nonmanifold_vertices;
+  json["keeps_numbers"] = this->keeps_numbers;
   json["width"] = this->width;
   json["span"] = this->span;
   json["mean_width"] = this->mean_width;

@@ -31,8 +31,10 @@ struct ConversionReport
   std::int64_t boundary_edges = -1;       ///< of one triangle
   std::int64_t nonmanifold_edges = -1;    ///< of more than two triangles
   std::int64_t nonmanifold_vertices = -1; ///< whose triangles are not one fan or one disc
-  std::int64_t width = -1;                ///< most vertices alive at once
-  std::int64_t span = -1;                 ///< largest index distance between vertices of a cell
+  /** Whether OriginalId or OriginalCellId are the file's own columns, not the places in it. */
+  bool keeps_numbers = false;
+  std::int64_t width = -1; ///< most vertices alive at once
+  std::int64_t span = -1;  ///< largest index distance between vertices of a cell
   double mean_width = 0;
   std::int64_t pool_bytes_peak = 0; ///< accounted memory
   std::int64_t rss_bytes_peak = 0;  ///< of the process

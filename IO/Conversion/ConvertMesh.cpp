@@ -92,6 +92,7 @@ void convertMesh(Conversion& conversion)
   const std::optional<double>& weld = conversion.options().weld;
   const std::int64_t welded = weld ? weldPoints(mesh, *weld, space) : 0;
   freeNumberNames(mesh, report.notes);
+  report.keeps_numbers = isNumbered(mesh);
   report.seconds.import = conversion.lap();
 
   LayOutCounts counts;

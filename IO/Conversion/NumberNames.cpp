@@ -45,4 +45,14 @@ void freeNumberNames(RawMesh& mesh, std::vector<std::string>& notes)
   freeName(mesh.elementColumns, OriginalCellIdName, notes);
 }
 
+bool isNumbered(const RawMesh& mesh)
+{
+  const auto has = [](const std::vector<RawColumn>& columns, const ColumnSpec& numbers)
+  {
+    return std::ranges::any_of(
+      columns, [&numbers](const RawColumn& column) { return column.spec == numbers; });
+  };
+  return has(mesh.vertexColumns, OriginalIdSpec) || has(mesh.elementColumns, OriginalCellIdSpec);
+}
+
 } // namespace smg

@@ -16,4 +16,7 @@ namespace smg
  */
 void freeNumberNames(RawMesh& mesh, std::vector<std::string>& notes);
 
+/** Whether the mesh has columns of original numbers of its own. */
+bool isNumbered(const RawMesh& mesh);
+
 } // namespace smg

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 
+from mesh_files import read_mesh, same_points
 from program import READS_VTK, SMG, load, read_vtk_xml, run, write_torus
 
 
@@ -68,12 +69,8 @@ def test_solve():
     assert "OriginalId" in columns
     run("solve", "torus.obj", "solved.vtp", "--problem", name, "--quiet", "--report", "solve.json")
     assert load("solve.json")["seconds"]["convert"] > 0
-    run("convert", "solved.vsm", "streamed.vtp", "--order", "keep", "--quiet")
-    assert read_vtk_xml("solved.vtp") == read_vtk_xml("streamed.vtp")
-    done = run("solve", "torus.obj", "solved.ply", "--problem", name)
-    assert "OriginalId names their places in torus.obj" in done.stdout, done.stdout
-    run("info", "solved.ply", "--report", "info.json", "--quiet")
-    assert "Solution_2" in [c["name"] for c in load("info.json")["columns"]["vertices"]]
+    run("convert", "solved.vsm", "restored.vtp", "--restore-order", "--quiet")
+    assert read_vtk_xml("solved.vtp") == read_vtk_xml("restored.vtp")
     run("solve", "solved.vsm", "again.vsm", "--problem", name, "--in-core", "--threads", 1,
         "--block-nodes", 333, "--core-nodes", 100, "--quiet")
     with open("solved.vsm", "rb") as streamed, open("again.vsm", "rb") as core:
@@ -88,6 +85,35 @@ def test_solve():
     done = run("solve", "torus.vsm", "o.vsm", "--problem", name, "--operators", "shi2006", code=1)
     assert "in core only" in done.stderr, done.stderr
     assert "shi2006" not in run("deform", "--help").stdout
+
+
+def test_solutions_have_the_order_of_their_mesh():
+    name = problem(dirichlet=[{"halfspace": [1, 0, 0, 2.8], "value": 1},
+                              {"halfspace": [-1, 0, 0, 2.8], "value": 0}])
+    mesh = read_mesh("torus.obj")
+    run("convert", "torus.vsm", "torus.ply", "--restore-order", "--quiet")
+    run("convert", "torus.vsm", "numbered.vtu", "--order", "keep", "--quiet")
+    run("solve", "torus.vsm", "stream.vtp", "--problem", name, "--quiet")
+    stream = read_vtk_xml("stream.vtp")
+    solution = {id: value for (id,), value in zip(stream["OriginalId"], stream["Solution"])}
+    for source, out in (("torus.obj", "o5.vtp"), ("torus.ply", "o5.ply"), ("torus.ply", "o5.vtu")):
+        done = run("solve", source, out, "--problem", name)
+        assert "stream order" not in done.stdout, done.stdout
+        solved = read_mesh(out)
+        assert same_points(solved.points, mesh.points), (source, out)
+        assert solved.cells == mesh.cells, (source, out)
+        if out != "o5.ply":
+            arrays = read_vtk_xml(out)
+            assert arrays["Solution"] == [solution[i] for i in range(7200)], (source, out)
+            assert "OriginalId" not in arrays and "OriginalCellId" not in arrays
+    run("info", "o5.ply", "--report", "info.json", "--quiet")
+    assert "Solution" in [c["name"] for c in load("info.json")["columns"]["vertices"]]
+    # What is numbered by another file, or has merged points, keeps the order of the stream.
+    done = run("solve", "numbered.vtu", "o5.vtu", "--problem", name)
+    assert "The vertices are in stream order.\n" in done.stdout, done.stdout
+    assert sorted(read_vtk_xml("o5.vtu")["OriginalId"]) == [(i,) for i in range(7200)]
+    done = run("solve", "torus.obj", "o5.ply", "--problem", name, "--weld", 0)
+    assert "OriginalId names their places in torus.obj" in done.stdout, done.stdout
 
 
 def test_errors():
@@ -250,9 +276,11 @@ def test_interrupt_cleans_up():
         assert sorted(os.listdir(".")) == before and os.listdir("scratch") == []
 
 
-for each in (test_convert_and_info, test_vtk_xml, test_solve, test_errors,
+for each in (test_convert_and_info, test_vtk_xml, test_solve,
+             test_solutions_have_the_order_of_their_mesh, test_errors,
              test_files_of_the_command_are_not_overwritten, test_reports_go_where_they_are_wanted,
-             test_outputs_go_where_links_lead, test_check, test_what_cannot_be_said_is_an_error, test_interrupt_cleans_up):
+             test_outputs_go_where_links_lead, test_check, test_what_cannot_be_said_is_an_error,
+             test_interrupt_cleans_up):
     each()
     print("passed", each.__name__)
 sys.exit(0)
