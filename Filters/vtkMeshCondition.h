@@ -79,8 +79,8 @@ public:
   ///@}
 
   ///@{
-  /** The numbers of the value, one for each right-hand side, or those of a tensor; if there are any,
-   * they count instead of Value. Default: none. */
+  /** The numbers of the value, one for each right-hand side, or those of a tensor; if there are
+   * any, they count instead of Value. Default: none. */
   void AddValue(double value);
   void RemoveAllValues();
   int GetNumberOfValues();

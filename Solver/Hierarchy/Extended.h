@@ -26,8 +26,8 @@ public:
   /**
    * The parameters that were best by trial. A strength of 0.2 instead of 0.1 on surfaces costs 5 to
    * 10 % of memory and time a V-cycle and saves up to a third of the V-cycles on real scans; on
-   * tetrahedra one of 0 takes the small weights of slivers for strong ones, one above 0.1 takes more
-   * memory than it saves V-cycles. Keeping rows that cancel little pays on surfaces alone.
+   * tetrahedra one of 0 takes the small weights of slivers for strong ones, one above 0.1 takes
+   * more memory than it saves V-cycles. Keeping rows that cancel little pays on surfaces alone.
    *
    * Most of the set-up's work is the product from the finest level to the next one. Fewer entries
    * there save some of it where slivers do not need them. A second sweep of the interpolation saves
