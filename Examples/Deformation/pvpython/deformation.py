@@ -76,7 +76,9 @@ def hold(mesh, region):
     if shape == "box":
         handle = MeshHandle(Input=mesh, RegionFunction="Box")
         handle.RegionFunction.UseReferenceBounds = 1
+        # Reference bounds are moved by the position and multiplied by the length.
         handle.RegionFunction.Position = [0, 0, 0]
+        handle.RegionFunction.Length = [1, 1, 1]
         handle.RegionFunction.Bounds = [numbers[k] for k in (0, 3, 1, 4, 2, 5)]
         return handle, [(numbers[k] + numbers[k + 3]) / 2 for k in range(3)]
     # A half-space: n x >= d. The inside of a plane is the side away from its normal.
