@@ -56,10 +56,10 @@ def parse_arguments():
 def solve(mesh, feet, ears):
     """The mesh with the harmonic field as its point array Solution."""
     # y points up. The inside of a plane is the side away from its normal.
-    low = MeshCondition(Input=mesh, RegionFunction="Plane", Condition="Dirichlet", Value=[0])
+    low = MeshCondition(Input=mesh, RegionFunction="Plane", Condition="Dirichlet", Value=0)
     low.RegionFunction.Origin = [0, feet, 0]
     low.RegionFunction.Normal = [0, 1, 0]
-    high = MeshCondition(Input=low, RegionFunction="Plane", Condition="Dirichlet", Value=[1])
+    high = MeshCondition(Input=low, RegionFunction="Plane", Condition="Dirichlet", Value=1)
     high.RegionFunction.Origin = [0, ears, 0]
     high.RegionFunction.Normal = [0, -1, 0]
 

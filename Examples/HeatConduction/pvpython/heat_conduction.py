@@ -57,14 +57,14 @@ def parse_arguments():
 
 def conditions(mesh):
     """One Mesh Condition after the other; the last one has them all."""
-    ceramic = MeshCondition(Input=mesh, Region="Everywhere", Condition="Conductivity", Value=[25])
-    aluminium = MeshCondition(Input=ceramic, Region="Tag", Condition="Conductivity", Value=[200])
+    ceramic = MeshCondition(Input=mesh, Region="Everywhere", Condition="Conductivity", Value=25)
+    aluminium = MeshCondition(Input=ceramic, Region="Tag", Condition="Conductivity", Value=200)
     aluminium.TagArray, aluminium.Tag = "Material", 2
     # Lengths are in metres; z points up. The inside of a plane is the side away from its normal.
-    heating = MeshCondition(Input=aluminium, RegionFunction="Plane", Condition="Flux", Value=[100000])
+    heating = MeshCondition(Input=aluminium, RegionFunction="Plane", Condition="Flux", Value=100000)
     heating.RegionFunction.Origin = [0, 0, 0.001]
     heating.RegionFunction.Normal = [0, 0, 1]
-    air = MeshCondition(Input=heating, RegionFunction="Plane", Condition="Robin", Value=[20])
+    air = MeshCondition(Input=heating, RegionFunction="Plane", Condition="Robin", Value=20)
     air.Coefficient = 100
     air.RegionFunction.Origin = [0, 0, 0.005]
     air.RegionFunction.Normal = [0, 0, -1]
