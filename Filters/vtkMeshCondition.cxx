@@ -80,7 +80,8 @@ int vtkMeshCondition::GetNumberOfValues()
 
 void vtkMeshCondition::Check()
 {
-  if (this->Region == TAG && (!this->TagArray || !*this->TagArray))
+  if (this->Region == TAG &&
+      (!this->TagArray || !*this->TagArray || std::string(this->TagArray) == "None"))
   {
     throw smg::Error("The condition has no tag array: choose TagArray, or another Region.");
   }
@@ -98,7 +99,7 @@ void vtkMeshCondition::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, 
   }
   else if (this->Region != EVERYWHERE || !condition.mayHoldEverywhere())
   {
-    condition.mask = "Condition" + std::to_string(smg::countConditions(piece) + 1);
+    condition.mask = smg::conditionMaskName(smg::countConditions(piece) + 1);
     vtkNew<vtkUnsignedCharArray> mask;
     mask->SetName(condition.mask.c_str());
     mask->SetNumberOfTuples(piece.GetNumberOfPoints());

@@ -6,6 +6,7 @@
 #include "Filters/Poisson/vtkPieceResults.h"
 #include "Filters/Poisson/vtkPoissonTask.h"
 #include "Filters/Poisson/vtkPreviewSolve.h"
+#include "Filters/Regions/vtkWarnOnce.h"
 #include "Filters/Streaming/SolveSummary.h"
 #include "IO/Problem/ProblemFile.h"
 #include "IO/vtkMeshPieceData.h"
@@ -27,6 +28,7 @@ struct vtkStreamingPoisson::Internals
 {
   explicit Internals(vtkStreamingPoisson& self)
     : Self(self)
+    , NoCells(self)
   {
   }
 
@@ -110,7 +112,39 @@ struct vtkStreamingPoisson::Internals
     return task;
   }
 
+  /** Adds Gradient and Flux to the output, which is the input with the solution. A preview may lack
+   * what they are made of; then it goes without. */
+  void addCellResults(vtkPointSet& output, const std::vector<double>& values)
+  {
+    const smg::ProblemDescription problem = this->describe(output);
+    if (!smg::isPreview(output))
+    {
+      smg::addCellResults(output, problem, values);
+      return;
+    }
+    if (!problem.gradientOutput && !problem.fluxOutput)
+    {
+      return;
+    }
+    try
+    {
+      if (!vtkPolyData::SafeDownCast(&output))
+      {
+        throw smg::Error("the preview of a solid has none of its cells.");
+      }
+      smg::addCellResults(output, problem, values);
+      this->NoCells.forget();
+    }
+    catch (const smg::Error& error)
+    {
+      this->NoCells.warn(
+        "What is saved has Gradient and Flux, but the preview does not show them: " +
+        std::string(error.what()));
+    }
+  }
+
   vtkStreamingPoisson& Self;
+  smg::WarnOnce NoCells;
 };
 
 vtkStreamingPoisson::vtkStreamingPoisson()
@@ -138,7 +172,18 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& in
 
 bool vtkStreamingPoisson::IsForMemory(vtkPointSet& input, bool)
 {
-  return !this->SolveFullMesh && smg::isPreview(input) && vtkPolyData::SafeDownCast(&input);
+  if (this->SolveFullMesh || !smg::isPreview(input))
+  {
+    return false;
+  }
+  try
+  {
+    return smg::isPosedOn(input, this->Internal->describe(input));
+  }
+  catch (const smg::Error&)
+  {
+    return false; // what is wrong is told where the mesh is to be solved on
+  }
 }
 
 smg::SolveSummary vtkStreamingPoisson::SolveInMemory(
@@ -162,8 +207,9 @@ void vtkStreamingPoisson::Deliver(
   output.GetPointData()->SetActiveScalars(solution->GetName());
   if (piece.GetNumberOfCells() > 0)
   {
-    smg::addCellResults(output, this->Internal->describe(piece), values);
+    this->Internal->addCellResults(output, values);
   }
+  smg::removeConditions(output);
 }
 
 void vtkStreamingPoisson::PrintSelf(ostream& os, vtkIndent indent)

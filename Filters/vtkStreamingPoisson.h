@@ -20,8 +20,9 @@
  * reader that answers with the preview of a surface is answered by a solve on that preview, in
  * memory and at once; that is an approximation, and the report says so. Streamed requests get the
  * solution on the mesh itself, and so do all with SolveFullMesh: then the preview has the true
- * solution at its points. The preview of a solid is its surface, on which nothing can be solved in
- * its place: it always gets the true solution.
+ * solution at its points. So it has where it lacks what the problem needs, arrays of the cells or a
+ * point in a region, and where the mesh is a solid, whose preview is its surface; that has neither
+ * Gradient nor Flux.
  *
  * @sa vtkMeshCondition vtkStreamingSolver vtkStreamingMeshReader vtkStreamingMeshWriter
  */

@@ -6,6 +6,7 @@
 
 #include "vtkFieldData.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkStringArray.h"
 
@@ -21,6 +22,11 @@ vtkStringArray* conditionsOf(vtkPointSet& mesh)
 
 } // namespace
 
+std::string conditionMaskName(int number)
+{
+  return "Condition" + std::to_string(number);
+}
+
 void addCondition(vtkPointSet& mesh, const std::string& text)
 {
   vtkNew<vtkStringArray> conditions;
@@ -31,6 +37,15 @@ void addCondition(vtkPointSet& mesh, const std::string& text)
   conditions->SetName(MeshConditionsName);
   conditions->InsertNextValue(text);
   mesh.GetFieldData()->AddArray(conditions);
+}
+
+void removeConditions(vtkPointSet& mesh)
+{
+  for (int number = countConditions(mesh); number > 0; --number)
+  {
+    mesh.GetPointData()->RemoveArray(conditionMaskName(number).c_str());
+  }
+  mesh.GetFieldData()->RemoveArray(MeshConditionsName);
 }
 
 int countConditions(vtkPointSet& mesh)

@@ -16,8 +16,14 @@ namespace smg
  */
 inline constexpr const char* MeshConditionsName = "MeshConditions";
 
+/** Name of the point array of condition `number`, from 1, which is not 0 where it holds. */
+std::string conditionMaskName(int number);
+
 /** Adds a condition behind those that the mesh has. */
 void addCondition(vtkPointSet& mesh, const std::string& text);
+
+/** Takes all conditions away, with their masks. */
+void removeConditions(vtkPointSet& mesh);
 
 /** How many conditions the mesh has. */
 int countConditions(vtkPointSet& mesh);

@@ -2,16 +2,39 @@
 #include "Filters/Poisson/vtkPreviewSolve.h"
 
 #include "Filters/Mesh/vtkPieceBlock.h"
+#include "Solver/Core/Error.h"
 #include "Solver/Description/ComposeDescriptions.h"
 #include "Solver/Description/DescribedProblem.h"
 #include "Solver/Results/ProblemResults.h"
 
-#include "vtkPointSet.h"
+#include "vtkPolyData.h"
 
 #include <string>
 
 namespace smg
 {
+
+bool isPosedOn(vtkPointSet& preview, const ProblemDescription& problem)
+{
+  if (!vtkPolyData::SafeDownCast(&preview))
+  {
+    return false;
+  }
+  if (preview.GetNumberOfCells() == 0)
+  {
+    return true;
+  }
+  try
+  {
+    const PieceBlock mesh(preview, namedColumns(problem));
+    DescribedProblem(problem, mesh.info()).prepare(*mesh.source());
+    return true;
+  }
+  catch (const Error&)
+  {
+    return false;
+  }
+}
 
 SolveSummary solveOnPreview(
   vtkPointSet& preview, const PoissonTask& task, std::vector<double>& values)

@@ -12,6 +12,12 @@ namespace smg
 {
 
 /**
+ * Whether a problem can be solved on the preview of a mesh in its place: the preview is that of a
+ * surface, it has all arrays that the problem names, and a point in each of its regions.
+ */
+bool isPosedOn(vtkPointSet& preview, const ProblemDescription& problem);
+
+/**
  * Solves a problem in memory on the preview of a mesh, in its place, and gives the values at the
  * points of the preview; the report says that it is one. Throws Error and Cancelled.
  */

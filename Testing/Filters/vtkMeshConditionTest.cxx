@@ -14,6 +14,7 @@
 
 #include "vtkBox.h"
 #include "vtkCellData.h"
+#include "vtkFieldData.h"
 #include "vtkPlane.h"
 #include "vtkSphere.h"
 
@@ -339,6 +340,81 @@ TEST_F(VtkMeshCondition, HoldsOnAPreviewWhatItHoldsOnTheMesh)
   {
     const auto id = static_cast<std::size_t>(preview->GetPointData()->GetGlobalIds()->GetTuple1(i));
     EXPECT_EQ(preview->GetPointData()->GetArray("Condition1")->GetTuple1(i) != 0.0, isHeld[id]);
+  }
+}
+
+/** So that a second problem can be said behind the first. */
+TEST_F(VtkMeshCondition, ConditionsGoWithTheProblemThatTheySay)
+{
+  this->add(vtkMeshCondition::SOURCE, { 4 }).SetRegion(vtkMeshCondition::EVERYWHERE);
+  vtkMeshCondition& held = this->add(vtkMeshCondition::DIRICHLET, { 1 });
+  held.SetRegion(vtkMeshCondition::IDS);
+  held.AddId(3);
+  ASSERT_EQ(updatePiece(&held, 0, 1), 1);
+  auto* before = vtkPointSet::SafeDownCast(held.GetOutputDataObject(0));
+  EXPECT_TRUE(before->GetPointData()->HasArray("Condition2"));
+  EXPECT_TRUE(before->GetFieldData()->HasArray("MeshConditions"));
+  ASSERT_EQ(updatePiece(this->Poisson, 0, 1), 1);
+  auto* after = vtkPointSet::SafeDownCast(this->Poisson->GetOutputDataObject(0));
+  EXPECT_FALSE(after->GetPointData()->HasArray("Condition2"));
+  EXPECT_FALSE(after->GetFieldData()->HasArray("MeshConditions"));
+  EXPECT_TRUE(after->GetFieldData()->HasArray("Report"));
+  EXPECT_TRUE(before->GetPointData()->HasArray("Condition2"));
+}
+
+/** A preview has no arrays of the cells, and no point in a small region. */
+TEST_F(VtkMeshCondition, AProblemThatAPreviewCannotHoldIsSolvedOnTheMesh)
+{
+  const StreamMesh mesh = writeVsm(this->Folder / "torus.vsm", torus(60, 30, 0.2));
+  this->Reader->SetFileName((this->Folder / "torus.vsm").c_str());
+  this->Reader->SetMaximumPointsInMemory(100);
+  this->Reader->SetPreviewPoints(300);
+  const auto solvedOn = [&](const std::string& problem)
+  {
+    this->Poisson->SetProblem(problem.c_str());
+    EXPECT_EQ(updatePiece(this->Poisson, 0, 1), 1);
+    return nlohmann::json::parse(this->Poisson->GetReport())["vertices"].get<std::int64_t>();
+  };
+  Errors errors(this->Poisson);
+  EXPECT_LE(solvedOn(R"({"source": [1], "screening": 1})"), 300);
+  EXPECT_EQ(errors.text(), "");
+  EXPECT_EQ(solvedOn(R"({"source": [1], "screening": 1,
+    "conductivity": [{"tag": ["OriginalCellId", 1000003], "value": 2}]})"),
+    mesh.vertices());
+  EXPECT_TRUE(errors.contain("but the preview does not show them: problem: conductivity[0].tag"))
+    << errors.text();
+
+  ASSERT_EQ(updatePiece(this->Reader, 0, 1), 1);
+  auto* preview = vtkPointSet::SafeDownCast(this->Reader->GetOutputDataObject(0));
+  std::vector<bool> isShown(static_cast<std::size_t>(mesh.vertices()), false);
+  for (vtkIdType i = 0; i < preview->GetNumberOfPoints(); ++i)
+  {
+    isShown[static_cast<std::size_t>(preview->GetPointData()->GetGlobalIds()->GetTuple1(i))] = true;
+  }
+  const auto hidden = std::ranges::find(isShown, false) - isShown.begin();
+  const nlohmann::json at = { mesh.positions[3 * hidden], mesh.positions[3 * hidden + 1],
+    mesh.positions[3 * hidden + 2], 1e-6 };
+  EXPECT_EQ(
+    solvedOn(R"({"screening": 1, "dirichlet": [{"sphere": )" + at.dump() + R"(, "value": [1]}]})"),
+    mesh.vertices());
+}
+
+TEST_F(VtkMeshCondition, ThePreviewOfASolidHasTheTrueSolutionAndNoGradient)
+{
+  this->Poisson->SetProblem(R"({"source": [1], "screening": 1})");
+  const Results whole = this->filter(1);
+  this->Reader->SetMaximumPointsInMemory(10);
+  this->Reader->SetPreviewPoints(40);
+  Errors errors(this->Poisson);
+  ASSERT_EQ(updatePiece(this->Poisson, 0, 1), 1);
+  EXPECT_TRUE(errors.contain("the preview of a solid has none of its cells")) << errors.text();
+  auto* preview = vtkPointSet::SafeDownCast(this->Poisson->GetOutputDataObject(0));
+  ASSERT_LE(preview->GetNumberOfPoints(), 40);
+  EXPECT_FALSE(preview->GetCellData()->HasArray("Gradient"));
+  for (vtkIdType i = 0; i < preview->GetNumberOfPoints(); ++i)
+  {
+    const auto id = static_cast<std::size_t>(preview->GetPointData()->GetGlobalIds()->GetTuple1(i));
+    EXPECT_EQ(preview->GetPointData()->GetArray("Solution")->GetTuple1(i), whole.solution[id]);
   }
 }
 

@@ -139,6 +139,7 @@ int main(int argc, char** argv)
     }
 
     smg::DescribedProblem problem(feetAndEars(), mesh->reader().info());
+    problem.prepare(*mesh->reader().source({}, {})); // fails if a region holds nothing
     smg::SolveOptions options;
     options.memoryLimit = std::int64_t(64) << 20;
     const auto solution = smg::solve(*mesh->reader().source({}, {}), problem, options);
