@@ -54,6 +54,7 @@ def play(arguments):
     session.checkpoint("opened")
     hold(session, FEET, 0, False)
     hold(session, EARS, 1, True)
+    session.picture("condition")
     session.filter("StreamingPoisson")
     session.apply()
     session.checkpoint("solved")
