@@ -100,6 +100,9 @@ def held():
     condition.UpdatePropertyInformation()
     count = condition.GetPropertyValue("NumberOfHeldPoints")
     assert 0 < count < condition.GetDataInformation().GetNumberOfPoints() / 4, count
+    # Another array is shown, and active, when the next filter is made.
+    ColorBy(GetDisplayProperties(condition), ("POINTS", "Condition1"))
+    Render()
 
 
 def between_the_ends(source):
@@ -110,6 +113,9 @@ def between_the_ends(source):
 def solved():
     poisson = GetActiveSource()
     notes.poisson = poisson
+    for name in ("DirichletMask", "DirichletValues", "Source", "InitialGuess", "ScreeningArray",
+                 "ConductivityArray", "FieldArray"):
+        assert list(poisson.GetPropertyValue(name))[-1] == "None", name
     assert between_the_ends(poisson), poisson.PointData["Solution"].GetRange()
     assert report(poisson)["converged"] and report(poisson)["vertices"] < 30000
     assert any("preview" in note for note in report(poisson)["notes"])
