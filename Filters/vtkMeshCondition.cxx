@@ -3,6 +3,7 @@
 
 #include "Filters/Conditions/ConditionText.h"
 #include "Filters/Conditions/vtkConditionList.h"
+#include "Filters/Mesh/vtkNamedArray.h"
 #include "Filters/Regions/vtkHeldPoints.h"
 #include "Solver/Core/Error.h"
 
@@ -94,12 +95,13 @@ void vtkMeshCondition::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, 
   smg::Condition condition = this->Internal->condition();
   if (this->Region == TAG)
   {
+    smg::requireOneArray(piece, this->TagArray);
     condition.tagged = this->TagArray;
     condition.tag = this->Tag;
   }
   else if (this->Region != EVERYWHERE || !condition.mayHoldEverywhere())
   {
-    condition.mask = smg::conditionMaskName(smg::countConditions(piece) + 1);
+    condition.mask = smg::newMaskName(piece);
     vtkNew<vtkUnsignedCharArray> mask;
     mask->SetName(condition.mask.c_str());
     mask->SetNumberOfTuples(piece.GetNumberOfPoints());

@@ -7,8 +7,8 @@
 #include "Filters/Regions/vtkRegionChain.h"
 #include "Filters/Regions/vtkRegionPoints.h"
 #include "Filters/Regions/vtkSelectedPoints.h"
-#include "Filters/Regions/vtkWarnOnce.h"
 #include "Filters/Streaming/vtkPieceRequest.h"
+#include "Filters/Streaming/vtkWarnOnce.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceInput.h"
@@ -115,8 +115,8 @@ struct vtkMeshRegion::Internals
     {
       if (this->Count.points() == 0)
       {
-        this->NoPoint.warn("No point of the preview lies in the region, though points of the mesh "
-                           "may: the preview does not show what the filter does.");
+        this->NoPoint.warn(
+          "No point of the preview lies in the region, though points of the mesh may.");
       }
       else
       {

@@ -81,12 +81,7 @@ smg::SolveSummary vtkStreamingMeshDeformation::SolveInMemory(
 {
   if (smg::isPreview(input) && input.GetNumberOfPoints() == 0)
   {
-    // A piece other than the first: nothing of what is known changes.
-    smg::SolveSummary summary = this->GetSummary();
-    summary.error.clear();
-    summary.columns = 3;
-    summary.converged = summary.converged || summary.report.empty();
-    return summary;
+    return this->SummaryOfNothing(3);
   }
   smg::DeformOptions options = this->Internal->options();
   options.progress = progress;

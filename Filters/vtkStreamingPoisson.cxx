@@ -2,12 +2,14 @@
 #include "Filters/vtkStreamingPoisson.h"
 
 #include "Filters/Conditions/vtkConditionList.h"
+#include "Filters/Mesh/vtkNamedArray.h"
 #include "Filters/Poisson/vtkChosenArrays.h"
 #include "Filters/Poisson/vtkPieceResults.h"
 #include "Filters/Poisson/vtkPoissonTask.h"
 #include "Filters/Poisson/vtkPreviewSolve.h"
-#include "Filters/Regions/vtkWarnOnce.h"
 #include "Filters/Streaming/SolveSummary.h"
+#include "Filters/Streaming/vtkWarnOnce.h"
+#include "IO/Container/ReservedNames.h"
 #include "IO/Problem/ProblemFile.h"
 #include "IO/vtkMeshPieceData.h"
 #include "Solver/Core/Error.h"
@@ -20,6 +22,8 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 #include <string>
 
 vtkStandardNewMacro(vtkStreamingPoisson);
@@ -46,12 +50,18 @@ struct vtkStreamingPoisson::Internals
       problem.screening = this->Self.Screening;
     }
     this->addArrays(input, problem);
+    // What a text does not say of weights and right-hand sides is as before.
     smg::ProblemDescription defaults;
-    defaults.weights = problem.weights;
+    const auto goOn = [&]
+    {
+      defaults.weights = problem.weights;
+      defaults.columns = problem.columns;
+    };
+    goOn();
     if (const char* file = this->Self.ProblemFileName; file && *file)
     {
       append(problem, smg::readProblemFile(file, defaults));
-      defaults.weights = problem.weights;
+      goOn();
     }
     if (const char* text = this->Self.Problem; text && *text)
     {
@@ -77,7 +87,8 @@ struct vtkStreamingPoisson::Internals
     const std::string source = arrays.any(SOURCE);
     for (const std::string& name : { guess, source, values })
     {
-      problem.columns = name.empty() ? problem.columns : arrays.components(name, problem.columns);
+      problem.columns =
+        name.empty() ? problem.columns : smg::componentsOf(input, name, problem.columns);
     }
     if (!mask.empty())
     {
@@ -106,33 +117,36 @@ struct vtkStreamingPoisson::Internals
   {
     smg::PoissonTask task;
     task.problem = this->describe(input);
+    const smg::ChosenArrays arrays(this->Self, input);
+    task.values = { arrays.any(INITIAL_GUESS), arrays.any(SOURCE), arrays.any(DIRICHLET_VALUES) };
     this->Self.FillOptions(task.options);
     task.options.inCore = this->Self.InCore;
     task.options.acceleration = static_cast<smg::AccelerationKind>(this->Self.Acceleration);
     return task;
   }
 
-  /** Adds Gradient and Flux to the output, which is the input with the solution. A preview may lack
-   * what they are made of; then it goes without. */
-  void addCellResults(vtkPointSet& output, const std::vector<double>& values)
+  /** Gives the output Gradient and Flux. A preview may lack what they are made of; then it goes
+   * without. */
+  void addCellResults(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output)
   {
-    const smg::ProblemDescription problem = this->describe(output);
-    if (!smg::isPreview(output))
-    {
-      smg::addCellResults(output, problem, values);
-      return;
-    }
+    smg::ProblemDescription problem = this->Solved ? *this->Solved : this->describe(piece);
+    problem.columns = this->Self.GetSummary().columns;
     if (!problem.gradientOutput && !problem.fluxOutput)
     {
       return;
     }
+    if (!smg::isPreview(piece))
+    {
+      smg::addCellResults(piece, problem, values, output);
+      return;
+    }
     try
     {
-      if (!vtkPolyData::SafeDownCast(&output))
+      if (!vtkPolyData::SafeDownCast(&piece))
       {
         throw smg::Error("the preview of a solid has none of its cells.");
       }
-      smg::addCellResults(output, problem, values);
+      smg::addCellResults(piece, problem, values, output);
       this->NoCells.forget();
     }
     catch (const smg::Error& error)
@@ -143,8 +157,18 @@ struct vtkStreamingPoisson::Internals
     }
   }
 
+  const char* resultName() const
+  {
+    const char* name = this->Self.ResultArrayName;
+    return name && *name ? name : "Solution";
+  }
+
   vtkStreamingPoisson& Self;
   smg::WarnOnce NoCells;
+  /** The problem that was solved last, in the process that solves. */
+  std::optional<smg::ProblemDescription> Solved;
+  std::string WhyNotOnPreview; ///< if a preview is shown
+  std::filesystem::file_time_type FileTime;
 };
 
 vtkStreamingPoisson::vtkStreamingPoisson()
@@ -165,20 +189,48 @@ int vtkStreamingPoisson::GetCycles()
   return this->GetSummary().cycles;
 }
 
+vtkMTimeType vtkStreamingPoisson::GetMTime()
+{
+  std::error_code absent;
+  const auto time = this->ProblemFileName && *this->ProblemFileName
+                      ? std::filesystem::last_write_time(this->ProblemFileName, absent)
+                      : std::filesystem::file_time_type();
+  if (time != this->Internal->FileTime)
+  {
+    this->Internal->FileTime = time;
+    this->Modified();
+  }
+  return this->Superclass::GetMTime();
+}
+
 std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& input)
 {
-  return std::make_unique<smg::PoissonTask>(this->Internal->task(input));
+  if (smg::isReservedColumn(this->Internal->resultName()))
+  {
+    throw smg::Error(std::string("The name ") + this->Internal->resultName() +
+                     " is that of an array that every piece has: choose another ResultArrayName.");
+  }
+  auto task = std::make_unique<smg::PoissonTask>(this->Internal->task(input));
+  if (!this->Internal->WhyNotOnPreview.empty())
+  {
+    task->note = "the full mesh was solved on, since the preview does not do: " +
+                 this->Internal->WhyNotOnPreview;
+  }
+  this->Internal->Solved = task->problem;
+  return task;
 }
 
 bool vtkStreamingPoisson::IsForMemory(vtkPointSet& input, bool)
 {
+  this->Internal->WhyNotOnPreview.clear();
   if (this->SolveFullMesh || !smg::isPreview(input))
   {
     return false;
   }
   try
   {
-    return smg::isPosedOn(input, this->Internal->describe(input));
+    this->Internal->WhyNotOnPreview = smg::whyNotOn(input, this->Internal->task(input));
+    return this->Internal->WhyNotOnPreview.empty();
   }
   catch (const smg::Error&)
   {
@@ -189,8 +241,13 @@ bool vtkStreamingPoisson::IsForMemory(vtkPointSet& input, bool)
 smg::SolveSummary vtkStreamingPoisson::SolveInMemory(
   vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values)
 {
+  if (input.GetNumberOfPoints() == 0)
+  {
+    return this->SummaryOfNothing(1);
+  }
   smg::PoissonTask task = this->Internal->task(input);
   task.options.progress = progress;
+  this->Internal->Solved = task.problem;
   return smg::solveOnPreview(input, task, values);
 }
 
@@ -199,7 +256,7 @@ void vtkStreamingPoisson::Deliver(
 {
   output.ShallowCopy(&piece);
   vtkNew<vtkDoubleArray> solution;
-  solution->SetName(this->ResultArrayName ? this->ResultArrayName : "Solution");
+  solution->SetName(this->Internal->resultName());
   solution->SetNumberOfComponents(this->GetSummary().columns);
   solution->SetNumberOfTuples(piece.GetNumberOfPoints());
   std::copy(values.begin(), values.end(), solution->GetPointer(0));
@@ -207,7 +264,7 @@ void vtkStreamingPoisson::Deliver(
   output.GetPointData()->SetActiveScalars(solution->GetName());
   if (piece.GetNumberOfCells() > 0)
   {
-    this->Internal->addCellResults(output, values);
+    this->Internal->addCellResults(piece, values, output);
   }
   smg::removeConditions(output);
 }

@@ -129,6 +129,9 @@ public:
   /** V-cycles of the last solve. */
   int GetCycles();
 
+  /** A change of the problem file is one of the filter. */
+  vtkMTimeType GetMTime() override;
+
 protected:
   vtkStreamingPoisson();
   ~vtkStreamingPoisson() override;

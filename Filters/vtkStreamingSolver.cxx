@@ -312,6 +312,15 @@ smg::Weights vtkStreamingSolver::ChosenWeights() const
                                     : smg::Weights::Cotangent;
 }
 
+smg::SolveSummary vtkStreamingSolver::SummaryOfNothing(int columns) const
+{
+  smg::SolveSummary summary = this->GetSummary();
+  summary.error.clear();
+  summary.columns = columns;
+  summary.converged = summary.converged || summary.report.empty();
+  return summary;
+}
+
 bool vtkStreamingSolver::IsForMemory(vtkPointSet&, bool)
 {
   return false;

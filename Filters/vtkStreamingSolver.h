@@ -176,6 +176,10 @@ protected:
   virtual smg::SolveSummary SolveInMemory(
     vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values);
 
+  /** Of a piece without points of what was solved on in memory, with so many values a point:
+   * nothing of what is known changes. */
+  smg::SolveSummary SummaryOfNothing(int columns) const;
+
   /** Whether a solve that does not reach the tolerance is worth a warning. Default: yes. */
   virtual bool IsToConverge() { return true; }
 

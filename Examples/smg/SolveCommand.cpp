@@ -121,6 +121,12 @@ protected:
            !this->Conversion->keeps_numbers && !this->Input.welds();
   }
 
+  std::string fateOfIsolated(std::int64_t vertices) const override
+  {
+    return this->keepsOrder() ? vertices == 1 ? "has the Solution 0." : "have the Solution 0."
+                              : this->SolvingCommand::fateOfIsolated(vertices);
+  }
+
   const smg::SolveOptions& solveOptions() const override { return this->Solve; }
 
 private:

@@ -108,7 +108,7 @@ std::vector<std::string> SolvingCommand::notesOn(const smg::ConversionReport& co
     notes.push_back(
       std::to_string(isolated) +
       (isolated == 1 ? " vertex belongs to no cell: it " : " vertices belong to no cell: they ") +
-      (whole            ? isolated == 1 ? "stays where it is." : "stay where they are."
+      (whole            ? this->fateOfIsolated(isolated)
         : isolated == 1 ? "is left out."
                         : "are left out."));
   }

@@ -61,6 +61,12 @@ protected:
   virtual bool rewritesInput() const { return false; }
   /** Whether write() brings OUT into the order of IN. */
   virtual bool keepsOrder() const { return this->rewritesInput(); }
+  /** What becomes of so many vertices of no cell in an output that has all of IN, as the end of a
+   * sentence. */
+  virtual std::string fateOfIsolated(std::int64_t vertices) const
+  {
+    return vertices == 1 ? "stays where it is." : "stay where they are.";
+  }
   /** Writes the output; answers what a user should know of it. May add to the report. */
   virtual std::vector<std::string> write(const smg::VsmReader& mesh, smg::Solution& solution,
     smg::Report& report, const smg::ProgressFunction& progress) const = 0;

@@ -4,11 +4,15 @@
 #include "IO/Problem/ProblemFile.h"
 #include "Solver/Description/ComposeDescriptions.h"
 
+#include "vtkCellData.h"
 #include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkStringArray.h"
+
+#include <algorithm>
+#include <vector>
 
 namespace smg
 {
@@ -20,11 +24,47 @@ vtkStringArray* conditionsOf(vtkPointSet& mesh)
   return vtkStringArray::SafeDownCast(mesh.GetFieldData()->GetAbstractArray(MeshConditionsName));
 }
 
+ProblemDescription conditionAt(vtkPointSet& mesh, int k, const ProblemDescription& defaults)
+{
+  return readProblemText(conditionsOf(mesh)->GetValue(k),
+    "condition " + std::to_string(k + 1) + " of the input", defaults);
+}
+
+/** The arrays that say where a condition holds, as Mesh Conditions make them. */
+std::vector<std::string> masksOf(const ProblemDescription& condition)
+{
+  std::vector<std::string> masks;
+  const auto add = [&masks](const Where& where)
+  {
+    if (const auto* mask = std::get_if<ColumnMask>(&where))
+    {
+      masks.push_back(mask->column);
+    }
+  };
+  const auto addAll = [&add](const auto& entries)
+  { std::ranges::for_each(entries, [&add](const auto& entry) { add(entry.where); }); };
+  addAll(condition.conductivity.entries);
+  addAll(condition.screening.entries);
+  addAll(condition.source.entries);
+  addAll(condition.dirichlet);
+  addAll(condition.flux);
+  addAll(condition.robin);
+  addAll(condition.soft);
+  return masks;
+}
+
 } // namespace
 
-std::string conditionMaskName(int number)
+std::string newMaskName(vtkPointSet& mesh)
 {
-  return "Condition" + std::to_string(number);
+  for (int number = countConditions(mesh) + 1;; ++number)
+  {
+    const std::string name = "Condition" + std::to_string(number);
+    if (!mesh.GetPointData()->HasArray(name.c_str()) && !mesh.GetCellData()->HasArray(name.c_str()))
+    {
+      return name;
+    }
+  }
 }
 
 void addCondition(vtkPointSet& mesh, const std::string& text)
@@ -41,9 +81,12 @@ void addCondition(vtkPointSet& mesh, const std::string& text)
 
 void removeConditions(vtkPointSet& mesh)
 {
-  for (int number = countConditions(mesh); number > 0; --number)
+  for (int k = 0; k < countConditions(mesh); ++k)
   {
-    mesh.GetPointData()->RemoveArray(conditionMaskName(number).c_str());
+    for (const std::string& mask : masksOf(conditionAt(mesh, k, {})))
+    {
+      mesh.GetPointData()->RemoveArray(mask.c_str());
+    }
   }
   mesh.GetFieldData()->RemoveArray(MeshConditionsName);
 }
@@ -60,8 +103,7 @@ void applyConditions(vtkPointSet& mesh, ProblemDescription& problem)
   {
     ProblemDescription defaults;
     defaults.weights = problem.weights;
-    append(problem, readProblemText(conditionsOf(mesh)->GetValue(k),
-                      "condition " + std::to_string(k + 1) + " of the input", defaults));
+    append(problem, conditionAt(mesh, k, defaults));
   }
 }
 

@@ -16,13 +16,14 @@ namespace smg
  */
 inline constexpr const char* MeshConditionsName = "MeshConditions";
 
-/** Name of the point array of condition `number`, from 1, which is not 0 where it holds. */
-std::string conditionMaskName(int number);
+/** A name that no array of the mesh has, for the point array of one more condition, which is not 0
+ * where that holds. */
+std::string newMaskName(vtkPointSet& mesh);
 
 /** Adds a condition behind those that the mesh has. */
 void addCondition(vtkPointSet& mesh, const std::string& text);
 
-/** Takes all conditions away, with their masks. */
+/** Takes all conditions away, with the arrays that are their masks. */
 void removeConditions(vtkPointSet& mesh);
 
 /** How many conditions the mesh has. */

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Poisson/vtkChosenArrays.h"
 
+#include "Filters/Mesh/vtkNamedArray.h"
 #include "Solver/Core/Error.h"
 
 #include "vtkAlgorithm.h"
-#include "vtkCellData.h"
-#include "vtkDataArray.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
-#include "vtkPointData.h"
 #include "vtkPointSet.h"
 
 namespace smg
@@ -24,12 +22,7 @@ std::string ChosenArrays::any(int index) const
   {
     return {};
   }
-  if (this->Input.GetPointData()->HasArray(name.c_str()) &&
-      this->Input.GetCellData()->HasArray(name.c_str()))
-  {
-    throw Error("The points and the cells of the input both have an array " + name +
-                ": rename one of them, so that it is clear which one is meant.");
-  }
+  requireOneArray(this->Input, name);
   return name;
 }
 
@@ -45,13 +38,6 @@ std::string ChosenArrays::ofPoints(int index) const
                 "data into point data.");
   }
   return name;
-}
-
-int ChosenArrays::components(const std::string& name, int otherwise) const
-{
-  vtkDataArray* array = this->Input.GetPointData()->GetArray(name.c_str());
-  array = array ? array : this->Input.GetCellData()->GetArray(name.c_str());
-  return array ? array->GetNumberOfComponents() : otherwise;
 }
 
 } // namespace smg

@@ -24,8 +24,6 @@ public:
   std::string ofPoints(int index) const;
   /** Array `index`, of the points or the cells; throws Error if both have one of that name. */
   std::string any(int index) const;
-  /** Components of an array of the input; `otherwise` if there is none of that name. */
-  int components(const std::string& name, int otherwise) const;
 
 private:
   vtkAlgorithm& Filter;

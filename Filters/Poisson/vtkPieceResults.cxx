@@ -59,15 +59,6 @@ ProblemDescription ofCells(const ProblemDescription& problem)
   {
     part.conductivity = problem.conductivity;
   }
-  for (const PlacedValue& entry : part.conductivity.entries)
-  {
-    if (std::holds_alternative<NearestVertices>(entry.where))
-    {
-      throw Error(
-        "The cell array Flux needs a conductivity that a cell knows by itself: choose its "
-        "cells by a region, a tag or a mask instead of the nearest points.");
-    }
-  }
   return part;
 }
 
@@ -83,8 +74,21 @@ void addArray(vtkPointSet& piece, const char* name, int columns, std::span<const
 
 } // namespace
 
-void addCellResults(
-  vtkPointSet& piece, const ProblemDescription& problem, std::span<const double> values)
+void checkCellResults(const ProblemDescription& problem)
+{
+  for (const PlacedValue& entry : problem.conductivity.entries)
+  {
+    if (problem.fluxOutput && std::holds_alternative<NearestVertices>(entry.where))
+    {
+      throw Error(
+        "The cell array Flux needs a conductivity that a cell knows by itself: choose its "
+        "cells by a region, a tag or a mask instead of the nearest points.");
+    }
+  }
+}
+
+void addCellResults(vtkPointSet& piece, const ProblemDescription& problem,
+  std::span<const double> values, vtkPointSet& output)
 {
   if (piece.GetNumberOfCells() == 0 || !(problem.gradientOutput || problem.fluxOutput))
   {
@@ -99,11 +103,11 @@ void addCellResults(
   results.add(mesh.block());
   if (problem.gradientOutput)
   {
-    addArray(piece, GradientName, problem.columns, results.gradient());
+    addArray(output, GradientName, problem.columns, results.gradient());
   }
   if (problem.fluxOutput)
   {
-    addArray(piece, FluxName, problem.columns, results.flux());
+    addArray(output, FluxName, problem.columns, results.flux());
   }
 }
 

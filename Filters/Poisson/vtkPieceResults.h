@@ -10,12 +10,15 @@ class vtkPointSet;
 namespace smg
 {
 
+/** Throws Error if the cell results that the description wants need more than the cell itself. */
+void checkCellResults(const ProblemDescription& problem);
+
 /**
- * Adds the cell arrays Gradient and Flux that the description wants to a piece of a mesh, or to its
- * preview, at whose points the solution is `values`. They need nothing but the cell itself. Throws
- * Error if the piece lacks what the conductivity is made of.
+ * Gives the output the cell arrays Gradient and Flux that the description wants, of a piece of a
+ * mesh or its preview, at whose points the solution is `values`. Throws Error if the piece lacks
+ * what the conductivity is made of.
  */
-void addCellResults(
-  vtkPointSet& piece, const ProblemDescription& problem, std::span<const double> values);
+void addCellResults(vtkPointSet& piece, const ProblemDescription& problem,
+  std::span<const double> values, vtkPointSet& output);
 
 } // namespace smg

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Poisson/vtkPoissonTask.h"
 
+#include "Filters/Poisson/vtkPieceResults.h"
 #include "IO/Conversion/PartialProgress.h"
 #include "IO/Output/SolvedMesh.h"
 #include "Solver/Core/Error.h"
 #include "Solver/Description/ComposeDescriptions.h"
 #include "Solver/Description/DescribedProblem.h"
 #include "Solver/Stream/OriginalNumbers.h"
+
+#include <algorithm>
 
 namespace smg
 {
@@ -26,6 +29,7 @@ void PoissonTask::check() const
       "Nothing says what to solve: choose a Dirichlet mask with values or a source, put a "
       "Mesh Condition before this filter, or name a problem file.");
   }
+  checkCellResults(this->problem);
   checkOptions(this->options);
   checkOperators(this->options);
 }
@@ -42,7 +46,18 @@ PieceColumns PoissonTask::columns() const
 std::unique_ptr<Solution> PoissonTask::solve(
   const VsmReader& mesh, const ProgressFunction& progress, Report& report) const
 {
-  DescribedProblem problem(this->problem, mesh.info());
+  ProblemDescription description = this->problem;
+  for (const std::string& name : this->values)
+  {
+    for (const auto* specs : { &mesh.info().vertexColumns, &mesh.info().cellColumns })
+    {
+      const auto found = std::ranges::find(*specs, name, &ColumnSpec::name);
+      description.columns = found == specs->end()
+                              ? description.columns
+                              : std::max(description.columns, found->components);
+    }
+  }
+  DescribedProblem problem(description, mesh.info());
   const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
   problem.prepare(*source(), this->options.scratch);
   SolveOptions options = this->options;
@@ -61,6 +76,10 @@ std::unique_ptr<Solution> PoissonTask::solve(
     }
   }
   solved.finish(report);
+  if (!this->note.empty())
+  {
+    report.notes.push_back(this->note);
+  }
   return solution;
 }
 

@@ -4,6 +4,9 @@
 #include "Filters/Streaming/vtkStreamedTask.h"
 #include "Solver/Description/ProblemDescription.h"
 
+#include <string>
+#include <vector>
+
 namespace smg
 {
 
@@ -12,7 +15,11 @@ class PoissonTask : public StreamedTask
 {
 public:
   ProblemDescription problem;
+  /** Arrays whose number of components is that of the right-hand sides, as far as the problem has
+   * fewer. */
+  std::vector<std::string> values;
   SolveOptions options; ///< but for the progress
+  std::string note;     ///< for the report, if any
 
   void check() const override;
   PieceColumns columns() const override;

@@ -14,25 +14,24 @@
 namespace smg
 {
 
-bool isPosedOn(vtkPointSet& preview, const ProblemDescription& problem)
+std::string whyNotOn(vtkPointSet& preview, const PoissonTask& task)
 {
   if (!vtkPolyData::SafeDownCast(&preview))
   {
-    return false;
-  }
-  if (preview.GetNumberOfCells() == 0)
-  {
-    return true;
+    return "the preview of a solid is its surface";
   }
   try
   {
-    const PieceBlock mesh(preview, namedColumns(problem));
-    DescribedProblem(problem, mesh.info()).prepare(*mesh.source());
-    return true;
+    if (preview.GetNumberOfCells() > 0)
+    {
+      const PieceBlock mesh(preview, namedColumns(task.problem));
+      DescribedProblem(task.problem, mesh.info()).prepare(*mesh.source(), task.options.scratch);
+    }
+    return {};
   }
-  catch (const Error&)
+  catch (const Error& error)
   {
-    return false;
+    return error.what();
   }
 }
 
@@ -41,17 +40,9 @@ SolveSummary solveOnPreview(
 {
   task.check();
   values.clear();
-  if (preview.GetNumberOfCells() == 0)
-  {
-    // A piece other than the first.
-    SolveSummary nothing;
-    nothing.columns = task.problem.columns;
-    nothing.converged = true;
-    return nothing;
-  }
   const PieceBlock mesh(preview, namedColumns(task.problem));
   DescribedProblem problem(task.problem, mesh.info());
-  problem.prepare(*mesh.source());
+  problem.prepare(*mesh.source(), task.options.scratch);
   SolveOptions options = task.options;
   options.inCore = true;
   const std::unique_ptr<Solution> solution = solve(*mesh.source(), problem, options);

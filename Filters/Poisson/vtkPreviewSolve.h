@@ -4,6 +4,7 @@
 #include "Filters/Poisson/vtkPoissonTask.h"
 #include "Filters/Streaming/SolveSummary.h"
 
+#include <string>
 #include <vector>
 
 class vtkPointSet;
@@ -12,10 +13,11 @@ namespace smg
 {
 
 /**
- * Whether a problem can be solved on the preview of a mesh in its place: the preview is that of a
- * surface, it has all arrays that the problem names, and a point in each of its regions.
+ * Why a task cannot be solved on the preview of a mesh in its place; empty if it can: the preview
+ * is that of a surface, it has all arrays that the problem names, and a point in each of its
+ * regions.
  */
-bool isPosedOn(vtkPointSet& preview, const ProblemDescription& problem);
+std::string whyNotOn(vtkPointSet& preview, const PoissonTask& task);
 
 /**
  * Solves a problem in memory on the preview of a mesh, in its place, and gives the values at the

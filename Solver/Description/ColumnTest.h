@@ -43,7 +43,8 @@ struct ColumnTest
   /** What is said of something that is selected. */
   std::string predicate() const
   {
-    return this->value ? "has this tag" : "has a mask that is not 0";
+    return (this->value ? "has this tag in '" : "has a value other than 0 in '") +
+           this->column.name + "'";
   }
 };
 

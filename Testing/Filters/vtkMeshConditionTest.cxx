@@ -22,6 +22,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <filesystem>
 #include <fstream>
 
 namespace smg::testing
@@ -383,6 +385,9 @@ TEST_F(VtkMeshCondition, AProblemThatAPreviewCannotHoldIsSolvedOnTheMesh)
     mesh.vertices());
   EXPECT_TRUE(errors.contain("but the preview does not show them: problem: conductivity[0].tag"))
     << errors.text();
+  EXPECT_NE(std::string(this->Poisson->GetNotes()).find("since the preview does not do: problem: "),
+    std::string::npos)
+    << this->Poisson->GetNotes();
 
   ASSERT_EQ(updatePiece(this->Reader, 0, 1), 1);
   auto* preview = vtkPointSet::SafeDownCast(this->Reader->GetOutputDataObject(0));
@@ -416,6 +421,83 @@ TEST_F(VtkMeshCondition, ThePreviewOfASolidHasTheTrueSolutionAndNoGradient)
     const auto id = static_cast<std::size_t>(preview->GetPointData()->GetGlobalIds()->GetTuple1(i));
     EXPECT_EQ(preview->GetPointData()->GetArray("Solution")->GetTuple1(i), whole.solution[id]);
   }
+}
+
+/** Results of the cells are those of the problem that was solved, whatever has happened since. */
+TEST_F(VtkMeshCondition, SolutionAndFluxAreOfOneProblem)
+{
+  const std::filesystem::path file = this->Folder / "problem.json";
+  const auto write = [&](double conductivity)
+  {
+    std::ofstream(file) << R"({"source": [1], "screening": 1, "conductivity": )" << conductivity
+                        << "}";
+  };
+  write(1.0);
+  this->Poisson->SetProblemFileName(file.c_str());
+  const Results before = this->filter(1);
+  const auto time = std::filesystem::last_write_time(file);
+  write(100.0);
+  std::filesystem::last_write_time(file, time + std::chrono::seconds(2));
+  const Results after = this->filter(1);
+  EXPECT_NE(after.solution, before.solution);
+  EXPECT_TRUE(after == this->solve(R"({"source": [1], "screening": 1, "conductivity": 100})"));
+}
+
+/** As of an earlier solve, which has the name of the result. */
+TEST_F(VtkMeshCondition, AnInputArrayMayHaveTheNameOfTheResult)
+{
+  const int points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  this->choose(vtkStreamingPoisson::CONDUCTIVITY_ARRAY, points, "one");
+  this->Poisson->SetProblem(R"({"source": [1], "screening": 1})");
+  this->Poisson->SetFlux(true);
+  const Results expected = this->filter(1);
+  this->Poisson->SetResultArrayName("one");
+  ASSERT_EQ(updatePiece(this->Poisson, 0, 1), 1);
+  auto* output = vtkPointSet::SafeDownCast(this->Poisson->GetOutputDataObject(0));
+  std::vector<double> flux;
+  for (vtkIdType c = 0; c < output->GetNumberOfCells(); ++c)
+  {
+    append(output->GetCellData()->GetArray("Flux"), c, flux);
+  }
+  EXPECT_EQ(flux, expected.flux);
+
+  Errors errors(this->Poisson);
+  this->Poisson->SetResultArrayName("GlobalIds");
+  EXPECT_EQ(updatePiece(this->Poisson, 0, 1), 0);
+  EXPECT_TRUE(errors.contain("GlobalIds is that of an array that every piece has"))
+    << errors.text();
+  this->Poisson->SetResultArrayName("");
+  EXPECT_EQ(updatePiece(this->Poisson, 0, 1), 1);
+  EXPECT_TRUE(output->GetPointData()->HasArray("Solution"));
+}
+
+/** Arrays that are there already are neither overwritten nor taken away. */
+TEST_F(VtkMeshCondition, LeavesArraysOfTheUserAlone)
+{
+  StreamMesh mesh = describedMesh();
+  mesh.vertexColumns[0].spec.name = "Condition1";
+  mesh.cellColumns[0].spec.name = "Condition2";
+  writeMesh(this->Folder / "own.vsm", mesh);
+  this->Reader->SetFileName((this->Folder / "own.vsm").c_str());
+  vtkMeshCondition& condition = this->add(vtkMeshCondition::DIRICHLET, { 1 });
+  condition.SetRegion(vtkMeshCondition::IDS);
+  condition.AddId(3);
+  ASSERT_EQ(updatePiece(&condition, 0, 1), 1);
+  auto* held = vtkPointSet::SafeDownCast(condition.GetOutputDataObject(0));
+  EXPECT_TRUE(held->GetPointData()->HasArray("Condition3"));
+  ASSERT_EQ(updatePiece(this->Poisson, 0, 1), 1);
+  auto* output = vtkPointSet::SafeDownCast(this->Poisson->GetOutputDataObject(0));
+  EXPECT_TRUE(output->GetPointData()->HasArray("Condition1"));
+  EXPECT_FALSE(output->GetPointData()->HasArray("Condition3"));
+
+  condition.SetRegion(vtkMeshCondition::TAG);
+  condition.SetTagArray("both");
+  mesh.cellColumns[1].spec.name = mesh.vertexColumns[0].spec.name = "both";
+  writeMesh(this->Folder / "both.vsm", mesh);
+  this->Reader->SetFileName((this->Folder / "both.vsm").c_str());
+  Errors errors(&condition);
+  EXPECT_EQ(updatePiece(&condition, 0, 1), 0);
+  EXPECT_TRUE(errors.contain("both have an array both")) << errors.text();
 }
 
 } // namespace smg::testing

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+class vtkPointSet;
+
+namespace smg
+{
+
+/** Throws Error if the points and the cells of a mesh both have an array of that name. */
+void requireOneArray(vtkPointSet& mesh, const std::string& name);
+
+/** Components of the array of that name of the points or the cells; `otherwise` if there is none.
+ */
+int componentsOf(vtkPointSet& mesh, const std::string& name, int otherwise);
+
+} // namespace smg
