@@ -28,15 +28,16 @@ inline constexpr std::array ProblemKeys{ "weights", "columns", "conductivity", "
  *
  *     C = number | tensor [xx, yy, zz, xy, yz, xz] (conductivity alone) | "column"
  *         | [ { "value": C }, { WHERE, "value": C }, ... ]
- *     D = [n numbers] | number, if n is 1 | "column" | "position"; of source and initial also a
- * list as of C WHERE = "halfspace": [nx, ny, nz, d] | "box": [x0, y0, z0, x1, y1, z1] | "sphere":
- * [x, y, z, r] | "vertices": [original numbers] | "tag": ["column", value] | "mask": "column" |
- * "nearest": [[x, y, z], ...]
+ *     D = [n numbers] | number, if n is 1 | "column" | "position"
+ *         | of source and initial also a list as of C
+ *     WHERE = "halfspace": [nx, ny, nz, d] | "box": [x0, y0, z0, x1, y1, z1]
+ *             | "sphere": [x, y, z, r] | "vertices": [original numbers]
+ *             | "tag": ["column", value] | "mask": "column" | "nearest": [[x, y, z], ...]
  *
  * Every key may be left out; ProblemDescription says what it means and what holds without it. The
  * entries of a list in C have no lists themselves. `raw-cotangent` is an old name of `cotangent`.
- * docs/problem.schema.json says the same as a JSON schema.
- * What the file does not say is as in `defaults`; conditions are added to theirs.
+ * docs/problem.schema.json says the same as a JSON schema. What the file does not say is as in
+ * `defaults`; conditions are added to theirs.
  * @throws Error naming the file and the place in it
  */
 ProblemDescription readProblemFile(

@@ -22,7 +22,8 @@ def check(source, when):
                 assert chosen in ("None", "", None), (when, name, value)
                 offered = {domain.GetString(i) for i in range(domain.GetNumberOfStrings())}
                 assert "None" in offered, (when, name, offered)
-                assert not offered & {"GlobalIds", "vtkGhostType", "StreamFinalized"}, (when, name, offered)
+                unwanted = {"GlobalIds", "vtkGhostType", "StreamFinalized", "MeshConditions", "Normals"}
+                assert not offered & unwanted, (when, name, offered)
                 checked += 1
         assert checked == (7 if proxy.SMProxy.GetXMLName() == "StreamingPoisson" else 1), checked
 
@@ -38,6 +39,12 @@ check(calculators, "behind two calculators that were updated")
 display = Show(calculators, CreateView("RenderView"))
 ColorBy(display, ("POINTS", "Mask"))
 check(calculators, "while it is coloured by another array")
+
+check(MeshCondition(Input=calculators, Region="Everywhere"), "behind a condition")
+reader.MaximumPointsInMemory = 1000
+reader.UpdatePipeline()
+check(reader, "behind a preview")
+reader.MaximumPointsInMemory = 2000000
 
 # A scan in millimetres, scripted as people do: the harmonic field stays between its ends.
 scaled = Transform(Input=reader)

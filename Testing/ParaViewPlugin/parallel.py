@@ -8,7 +8,7 @@ import sys
 import numpy
 import smg_testing as t
 from paraview.simple import *
-from paraview.vtk import vtkMultiProcessController
+from paraview.vtk import vtkMultiProcessController, vtkPlane
 from streamingmultigrid import vtkStreamingMultigridFilters, vtkStreamingMultigridIO
 
 LoadPlugin(sys.argv[1], ns=globals())
@@ -67,5 +67,36 @@ written = OpenDataFile(path)
 written.UpdatePipeline()
 written.UpdatePropertyInformation()
 assert written.GetPropertyValue("FullNumberOfPoints") == t.BUNNY_POINTS
+
+# Conditions, and the fluxes of each process's own cells.
+ENDS = ((t.FEET, 1.0, 0.0), (t.EARS, -1.0, 1.0))
+chain, last_alone = reader, alone
+for height, normal, value in ENDS:
+    chain = MeshCondition(Input=chain, RegionFunction="Plane", Value=value)
+    chain.RegionFunction.Origin, chain.RegionFunction.Normal = [0, height, 0], [0, normal, 0]
+    plane = vtkPlane()
+    plane.SetOrigin(0, height, 0)
+    plane.SetNormal(0, normal, 0)
+    condition = vtkStreamingMultigridFilters.vtkMeshCondition()
+    condition.SetInputConnection(last_alone.GetOutputPort())
+    condition.SetRegionFunction(plane)
+    condition.SetValue(value)
+    algorithms.append(condition)
+    last_alone = condition
+field = StreamingPoisson(Input=chain, Flux=1, Conductivity=3)
+field.UpdatePipeline()
+data = t.client_object(field).GetOutputDataObject(0)
+solver = vtkStreamingMultigridFilters.vtkStreamingPoisson()
+solver.SetController(None)
+solver.SetInputConnection(last_alone.GetOutputPort())
+solver.SetConductivity(3)
+solver.SetFlux(True)
+solver.Update()
+whole = solver.GetOutputDataObject(0)
+values = t.vtk_to_numpy(data.GetPointData().GetArray("Solution"))
+assert values.min() >= -0.05 and values.max() <= 1.05
+assert (values == t.vtk_to_numpy(whole.GetPointData().GetArray("Solution"))[ids]).all()
+flux = t.vtk_to_numpy(data.GetCellData().GetArray("Flux"))
+assert (flux == t.vtk_to_numpy(whole.GetCellData().GetArray("Flux"))[first:last]).all()
 controller.Barrier()
 print("passed in process", rank)
