@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Mesh/vtkMeshInMemory.h"
 
+#include "Filters/Mesh/OneBlockSource.h"
 #include "IO/vtkPieceCells.h"
 #include "Solver/Core/Error.h"
 
@@ -18,52 +19,6 @@ namespace
 {
 
 constexpr const char* Where = "The input";
-
-/** Delivers everything in one block. */
-class WholeSource : public MeshSource
-{
-public:
-  WholeSource(StreamInfo info, const std::vector<double>& positions,
-    const std::vector<std::int64_t>& corners, const std::vector<std::uint8_t>& flags)
-    : Info(std::move(info))
-    , Positions(positions)
-    , Corners(corners)
-    , Flags(flags)
-  {
-  }
-
-  const StreamInfo& info() const override { return this->Info; }
-
-  bool next(MeshBlock& block) override
-  {
-    if (this->IsDone)
-    {
-      return false;
-    }
-    block.firstVertex = block.firstCell = 0;
-    block.positions = this->Positions;
-    block.corners = this->Corners;
-    block.vertexColumns.clear();
-    block.cellColumns.clear();
-    for (const ColumnSpec& spec : this->Info.cellColumns)
-    {
-      block.cellColumns.push_back({ spec, {} });
-      block.cellColumns.back().resize(this->Flags.size());
-      std::copy(this->Flags.begin(), this->Flags.end(),
-        block.cellColumns.back().as<std::uint8_t>().begin());
-    }
-    block.finalized = this->Info.vertices;
-    this->IsDone = true;
-    return true;
-  }
-
-private:
-  StreamInfo Info;
-  const std::vector<double>& Positions;
-  const std::vector<std::int64_t>& Corners;
-  const std::vector<std::uint8_t>& Flags;
-  bool IsDone = false;
-};
 
 } // namespace
 
@@ -154,12 +109,19 @@ std::unique_ptr<MeshSource> MeshInMemory::source() const
       high = std::max(high, this->Positions[i]);
     }
   }
+  MeshBlock block;
+  block.positions = this->Positions;
+  block.corners = this->Corners;
+  block.finalized = info.vertices;
   if (!this->Flags.empty())
   {
     info.cellColumns.push_back({ CellFlagsName, ScalarType::UInt8, 1 });
+    Column flags{ info.cellColumns.back(), {} };
+    flags.resize(this->Flags.size());
+    std::ranges::copy(this->Flags, flags.as<std::uint8_t>().begin());
+    block.cellColumns.push_back(std::move(flags));
   }
-  return std::make_unique<WholeSource>(
-    std::move(info), this->Positions, this->Corners, this->Flags);
+  return std::make_unique<OneBlockSource>(std::move(info), std::move(block));
 }
 
 } // namespace smg

@@ -34,7 +34,7 @@ public:
   const std::vector<std::int64_t>& points() const { return this->Points; }
   std::int64_t vertices() const { return static_cast<std::int64_t>(this->Points.size()); }
 
-  /** The mesh stream, with the CellFlags of the mesh; *this must outlive it. */
+  /** The mesh stream, with the CellFlags of the mesh. */
   std::unique_ptr<MeshSource> source() const;
 
 private:

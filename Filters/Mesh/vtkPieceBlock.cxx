@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Mesh/vtkPieceBlock.h"
 
+#include "Filters/Mesh/OneBlockSource.h"
 #include "IO/Container/Columns.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 namespace smg
@@ -60,34 +60,6 @@ Column numbersOf(vtkPointSet& piece)
   return column;
 }
 
-/** Delivers one block. */
-class BlockSource : public MeshSource
-{
-public:
-  BlockSource(const StreamInfo& info, const MeshBlock& block)
-    : Info(info)
-    , Block(block)
-  {
-  }
-
-  const StreamInfo& info() const override { return this->Info; }
-
-  bool next(MeshBlock& block) override
-  {
-    if (std::exchange(this->IsDone, true))
-    {
-      return false;
-    }
-    block = this->Block;
-    return true;
-  }
-
-private:
-  const StreamInfo& Info;
-  const MeshBlock& Block;
-  bool IsDone = false;
-};
-
 } // namespace
 
 PieceBlock::PieceBlock(vtkPointSet& piece, std::set<std::string> names)
@@ -120,7 +92,7 @@ PieceBlock::PieceBlock(vtkPointSet& piece, std::set<std::string> names)
 
 std::unique_ptr<MeshSource> PieceBlock::source() const
 {
-  return std::make_unique<BlockSource>(this->Info, this->Block);
+  return std::make_unique<OneBlockSource>(this->Info, this->Block);
 }
 
 } // namespace smg

@@ -26,7 +26,7 @@ public:
 
   const StreamInfo& info() const { return this->Info; }
   const MeshBlock& block() const { return this->Block; }
-  /** The stream; *this must outlive it. */
+  /** The stream. */
   std::unique_ptr<MeshSource> source() const;
 
 private:
