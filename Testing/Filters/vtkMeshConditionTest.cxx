@@ -152,29 +152,12 @@ protected:
   vtkNew<vtkStreamingPoisson> Poisson;
 };
 
-constexpr const char* EveryDatum = R"({ "weights": "clamped", "columns": 3,
-  "conductivity": [ {"value": [2, 3, 4, 0.5, 0.25, 0.125]}, {"tag": ["tag", 3], "value": "K"},
-                    {"box": [1.5, -1, -1, 9, 9, 9], "value": 2.5}, {"mask": "cellMask", "value": "k"} ],
-  "screening": [ {"value": 0.5}, {"nearest": [[1, 1, 1], [2, 0, 0]], "value": "one"} ],
-  "source": [ {"value": [1, 2, 3]}, {"halfspace": [0, 0, 1, 1.5], "value": "three"},
-              {"sphere": [0, 0, 0, 1.5], "value": "position"} ],
-  "field": "q",
-  "initial": "three",
-  "dirichlet": [ {"tag": ["tag", 3], "value": "position"}, {"mask": "mask", "value": "three"},
-                 {"vertices": [3, 7], "value": [4, 5, 6]} ],
-  "flux": [ {"box": [-9, -9, -9, 9, 9, 0.5], "value": [1, 0, 2]}, {"mask": "cellMask", "value": "q"} ],
-  "robin": [ {"halfspace": [1, 0, 0, 2.5], "coefficient": 2, "ambient": [3, 4, 5]},
-             {"mask": "mask", "coefficient": [ {"value": "one"}, {"tag": ["tag", 3], "value": "k"} ],
-              "ambient": "position"} ],
-  "soft": [ {"mask": "mask", "weight": 3, "value": "three"},
-            {"tag": ["tag", 1], "weight": "one", "value": [1, 1, 1]} ] })";
-
 } // namespace
 
 TEST_F(VtkMeshCondition, AProblemTextAndFileSayToTheFilterWhatTheySayToTheCommandLine)
 {
-  const Results expected = this->solve(EveryDatum);
-  this->Poisson->SetProblem(EveryDatum);
+  const Results expected = this->solve(EveryDatumOfDescribedMesh);
+  this->Poisson->SetProblem(EveryDatumOfDescribedMesh);
   EXPECT_TRUE(this->filter() == expected);
   const auto report = nlohmann::json::parse(this->Poisson->GetReport());
   ASSERT_EQ(report["conditions"].size(), this->Report.conditions.size());
@@ -186,7 +169,7 @@ TEST_F(VtkMeshCondition, AProblemTextAndFileSayToTheFilterWhatTheySayToTheComman
   EXPECT_EQ(report["energy"], this->Report.energy);
   EXPECT_EQ(report["mean"], this->Report.mean);
 
-  std::ofstream(this->Folder / "problem.json") << EveryDatum;
+  std::ofstream(this->Folder / "problem.json") << EveryDatumOfDescribedMesh;
   this->Poisson->SetProblem(nullptr);
   this->Poisson->SetProblemFileName((this->Folder / "problem.json").c_str());
   EXPECT_TRUE(this->filter(1) == expected);

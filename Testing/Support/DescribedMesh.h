@@ -59,6 +59,25 @@ inline StreamMesh describedMesh()
   return mesh;
 }
 
+/** A problem on it with every datum, every kind of value and every way to say where. */
+inline constexpr const char* EveryDatumOfDescribedMesh = R"({ "weights": "clamped", "columns": 3,
+  "conductivity": [ {"value": [2, 3, 4, 0.5, 0.25, 0.125]}, {"tag": ["tag", 3], "value": "K"},
+                    {"box": [1.5, -1, -1, 9, 9, 9], "value": 2.5}, {"mask": "cellMask", "value": "k"} ],
+  "screening": [ {"value": 0.5}, {"nearest": [[1, 1, 1], [2, 0, 0]], "value": "one"} ],
+  "source": [ {"value": [1, 2, 3]}, {"halfspace": [0, 0, 1, 1.5], "value": "three"},
+              {"sphere": [0, 0, 0, 1.5], "value": "position"} ],
+  "field": "q",
+  "initial": "three",
+  "dirichlet": [ {"tag": ["tag", 3], "value": "position"}, {"mask": "mask", "value": "three"},
+                 {"vertices": [3, 7], "value": [4, 5, 6]} ],
+  "flux": [ {"box": [-9, -9, -9, 9, 9, 0.5], "value": [1, 0, 2]}, {"mask": "cellMask", "value": "q"} ],
+  "robin": [ {"halfspace": [1, 0, 0, 2.5], "coefficient": 2, "ambient": [3, 4, 5]},
+             {"mask": "mask", "coefficient": [ {"value": "one"}, {"tag": ["tag", 3], "value": "k"} ],
+              "ambient": "position"} ],
+  "soft": [ {"mask": "mask", "weight": 3, "value": "three"},
+            {"tag": ["tag", 1], "weight": "one", "value": [1, 1, 1]} ],
+  "outputs": ["gradient", "flux"] })";
+
 /** All that a problem says of a mesh. */
 struct ProblemAnswers
 {
