@@ -14,6 +14,7 @@
 #include "IO/vtkMeshPieceData.h"
 #include "Solver/Core/Error.h"
 #include "Solver/Description/ComposeDescriptions.h"
+#include "Solver/Stream/OriginalNumbers.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
@@ -205,9 +206,10 @@ vtkMTimeType vtkStreamingPoisson::GetMTime()
 
 std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& input)
 {
-  if (smg::isReservedColumn(this->Internal->resultName()))
+  const std::string name = this->Internal->resultName();
+  if (smg::isReservedColumn(name) || name == smg::OriginalIdName)
   {
-    throw smg::Error(std::string("The name ") + this->Internal->resultName() +
+    throw smg::Error("The name " + name +
                      " is that of an array that every piece has: choose another ResultArrayName.");
   }
   auto task = std::make_unique<smg::PoissonTask>(this->Internal->task(input));

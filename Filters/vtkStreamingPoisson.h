@@ -68,7 +68,7 @@ public:
 
   ///@{
   /** The screening s, at least 0: larger values keep the effect of sources local. Default: 0. */
-  vtkSetClampMacro(Screening, double, 0.0, VTK_DOUBLE_MAX);
+  vtkSetMacro(Screening, double);
   vtkGetMacro(Screening, double);
   ///@}
 

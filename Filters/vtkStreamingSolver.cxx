@@ -10,6 +10,7 @@
 #include "IO/vtkPieceStream.h"
 #include "Solver/Core/Error.h"
 
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -233,7 +234,16 @@ struct vtkStreamingSolver::Internals
     bool operator==(const Answered&) const = default;
   };
 
+  /** When the pipeline was changed last, as far as it has been looked at. */
+  vtkMTimeType pipelineTime() const
+  {
+    return vtkDemandDrivenPipeline::SafeDownCast(this->Self.GetExecutive())->GetPipelineMTime();
+  }
+  /** Whether the last answer is that to the pipeline as it is. */
+  bool isUpToDate() const { return this->pipelineTime() <= this->AnsweredAt; }
+
   vtkStreamingSolver& Self;
+  vtkMTimeType AnsweredAt = 0;
   smg::StreamedSolve Streamed;
   smg::SolveSummary Summary; ///< of the last answer
   /** The last request that all processes answered together. */
@@ -281,7 +291,8 @@ vtkIdType vtkStreamingSolver::GetPeakMemory()
 
 int vtkStreamingSolver::GetConverged()
 {
-  return this->GetSummary().converged ? 1 : 0;
+  // If a filter before this one fails, nothing is asked of this one.
+  return this->GetSummary().converged && this->Internal->isUpToDate() ? 1 : 0;
 }
 
 const char* vtkStreamingSolver::GetNotes()
@@ -372,6 +383,7 @@ int vtkStreamingSolver::RequestData(
       vtkInformation* info = outputVector->GetInformationObject(0);
       this->Internal->answer(
         smg::PieceRequest(info), inputVector[0]->GetInformationObject(0), info);
+      this->Internal->AnsweredAt = this->Internal->pipelineTime();
     });
 }
 

@@ -132,8 +132,9 @@ public:
   ///@{
   /**
    * What the last solve came to: relative residual, passes over the mesh, most memory that the
-   * solver used (bytes), whether it converged, what else there is to say (a line a note), and the
-   * whole report as JSON ("" before a solve).
+   * solver used (bytes), whether it converged (0 also if what is asked for since could not be
+   * solved), what else there is to say (a line a note), and the whole report as JSON ("" before a
+   * solve).
    */
   double GetResidual();
   int GetPasses();

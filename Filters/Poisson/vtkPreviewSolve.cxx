@@ -6,6 +6,7 @@
 #include "Solver/Description/ComposeDescriptions.h"
 #include "Solver/Description/DescribedProblem.h"
 #include "Solver/Results/ProblemResults.h"
+#include "Solver/Stream/OriginalNumbers.h"
 
 #include "vtkPolyData.h"
 
@@ -35,6 +36,28 @@ std::string whyNotOn(vtkPointSet& preview, const PoissonTask& task)
   }
 }
 
+namespace
+{
+
+/** Gives the vertices of extremes their numbers in the user's file, or in the stream. */
+void nameByFile(const MeshBlock& block, Report& report)
+{
+  const std::ptrdiff_t column = findColumn(block.vertexColumns, OriginalIdSpec);
+  for (std::vector<Report::Extreme>* extremes : { &report.minimum, &report.maximum })
+  {
+    for (Report::Extreme& extreme : *extremes)
+    {
+      if (extreme.vertex >= 0 && column >= 0)
+      {
+        const Column& ids = block.vertexColumns[static_cast<std::size_t>(column)];
+        extreme.vertex = ids.as<std::int64_t>()[static_cast<std::size_t>(extreme.vertex)];
+      }
+    }
+  }
+}
+
+} // namespace
+
 SolveSummary solveOnPreview(
   vtkPointSet& preview, const PoissonTask& task, std::vector<double>& values)
 {
@@ -53,6 +76,7 @@ SolveSummary solveOnPreview(
   ProblemResults results(mesh.info(), problem, *solution);
   results.add(mesh.block());
   results.finish(report);
+  nameByFile(mesh.block(), report);
   report.notes.push_back(
     "this is the solution on the preview, a mesh of " + std::to_string(mesh.info().vertices) +
     " vertices: it approximates that on the full mesh, which is solved on when "

@@ -5,6 +5,8 @@
 
 #include "vtkCylinder.h"
 #include "vtkImplicitFunction.h"
+#include "vtkMath.h"
+#include "vtkPlane.h"
 #include "vtkPointSet.h"
 #include "vtkSphere.h"
 
@@ -35,6 +37,11 @@ void check(vtkImplicitFunction* function)
   {
     throw Error(
       "The region has no implicit function: set RegionFunction, or choose another Region.");
+  }
+  if (auto* plane = vtkPlane::SafeDownCast(function);
+      plane && vtkMath::Norm(plane->GetNormal()) == 0.0)
+  {
+    throw Error("The plane of the region has no direction: set Normal.");
   }
   if (auto* sphere = vtkSphere::SafeDownCast(function))
   {

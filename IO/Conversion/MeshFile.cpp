@@ -120,7 +120,13 @@ void checkOutputPlace(const std::filesystem::path& path)
   {
     throw Error(path.string() + ": this is a folder: choose the name of a file.");
   }
-  const std::filesystem::path parent = FileDescriptor::targetOf(path).parent_path();
+  const std::filesystem::path target = FileDescriptor::targetOf(path);
+  if (std::filesystem::exists(target, ignored) &&
+      !std::filesystem::is_regular_file(target, ignored))
+  {
+    throw Error(path.string() + ": this is a device or a pipe: choose the name of a file.");
+  }
+  const std::filesystem::path parent = target.parent_path();
   const std::filesystem::path folder = parent.empty() ? std::filesystem::path(".") : parent;
   if (!std::filesystem::is_directory(folder, ignored))
   {

@@ -38,8 +38,8 @@ void checkOutput(const std::filesystem::path& path, CellType cellType);
 /** The same as far as it can be known before the mesh is. */
 void checkOutput(const std::filesystem::path& path);
 
-/** Throws Error if a file cannot be made there whatever its format: the path is a folder, or its
- * folder does not exist or cannot be written to. */
+/** Throws Error if a file cannot be made there whatever its format: the path is a folder, a device
+ * or a pipe, or its folder does not exist or cannot be written to. */
 void checkOutputPlace(const std::filesystem::path& path);
 
 /**

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 
 namespace smg
 {
@@ -33,11 +34,19 @@ struct ColumnTest
         for (std::size_t i = 0; i < selected.size(); ++i)
         {
           const auto number = static_cast<double>(numbers[i]);
-          selected[i] = (this->value ? number == *this->value : number != 0.0) ? 1 : 0;
+          selected[i] = (this->value ? number == this->valueAs<T>() : number != 0.0) ? 1 : 0;
           valid = !this->value && std::isnan(number) ? std::min(valid, i) : valid;
         }
       });
     return valid;
+  }
+
+  /** The value as a column of T has it: 0.1 in single precision is another number. */
+  template <class T>
+  double valueAs() const
+  {
+    return std::is_same_v<T, float> ? static_cast<double>(static_cast<float>(*this->value))
+                                    : *this->value;
   }
 
   /** What is said of something that is selected. */

@@ -13,6 +13,7 @@ ConditionSums::ConditionSums(CellType type, const ConditionCounts& counts, int c
   , Columns(static_cast<std::size_t>(columns))
   , Inflow(this->Columns)
   , Magnitude(this->Columns)
+  , RobinTerms(this->Columns)
 {
   const std::vector<double> zeros(this->Columns);
   const Sums none{ 0.0, zeros, zeros, zeros, 0 };
@@ -55,7 +56,9 @@ void ConditionSums::add(const BoundaryFacet& facet, double area, const OpenVerti
     const double* value = vertices.values.at(facet.corners[c]);
     for (std::size_t k = 0; k < this->Columns; ++k)
     {
-      this->addFlux(sums, k, share * facet.coefficient[c] * (*ambient++ - value[k]));
+      const double factor = share * facet.coefficient[c];
+      this->addFlux(sums, k, factor * (*ambient - value[k]));
+      this->RobinTerms[k] += factor * (std::fabs(*ambient++) + std::fabs(value[k]));
     }
   }
 }

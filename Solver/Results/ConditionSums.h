@@ -27,6 +27,8 @@ public:
   /** Per column: what flows in through all of them, and the sum of the magnitudes of that. */
   const std::vector<double>& inflow() const { return this->Inflow; }
   const std::vector<double>& magnitude() const { return this->Magnitude; }
+  /** Per column: the magnitudes of what Robin fluxes are the differences of. */
+  const std::vector<double>& robinTerms() const { return this->RobinTerms; }
 
 private:
   struct Sums
@@ -44,7 +46,7 @@ private:
   int Corners; // of a facet
   std::size_t Columns;
   std::vector<Sums> Dirichlet, Flux, Robin;
-  std::vector<double> Inflow, Magnitude;
+  std::vector<double> Inflow, Magnitude, RobinTerms;
 };
 
 } // namespace smg

@@ -288,15 +288,20 @@ void ProblemResults::finish(Report& report)
   report.minimum = this->Minimum;
   report.maximum = this->Maximum;
   this->reportBalance(report);
-  noteConditionsWithoutFacets(report);
+  noteConditionsWithoutEffect(report);
   this->noteFlatCells(report);
 }
 
-void ProblemResults::noteConditionsWithoutFacets(Report& report)
+void ProblemResults::noteConditionsWithoutEffect(Report& report)
 {
   for (const Report::Condition& condition : report.conditions)
   {
-    if (condition.area == 0.0 && !condition.name.starts_with("dirichlet"))
+    const bool isDirichlet = condition.name.starts_with("dirichlet");
+    if (isDirichlet && std::isnan(condition.mean.front()))
+    {
+      report.notes.push_back(condition.name + " has no effect: others hold wherever it does");
+    }
+    if (condition.area == 0.0 && !isDirichlet)
     {
       report.notes.push_back(
         condition.name + " has no effect: " +
@@ -307,8 +312,9 @@ void ProblemResults::noteConditionsWithoutFacets(Report& report)
 
 void ProblemResults::reportBalance(Report& report) const
 {
-  // Less than this share of the terms of the reactions is rounding: nothing flows.
-  constexpr double Rounding = 1e-12;
+  // Less than this share of what the fluxes are the differences of is rounding, or what the solve
+  // has left: nothing flows.
+  const double noise = std::max(1e-12, report.residual());
   constexpr double Noted = 1e-3;
   double largest = 0.0;
   report.source = this->Source;
@@ -322,7 +328,8 @@ void ProblemResults::reportBalance(Report& report) const
     }
     const double rest = this->Conditions.inflow()[k] + report.source[k] - report.screening[k];
     const double all = this->Conditions.magnitude()[k] + this->Magnitude[k];
-    report.balance[k] = all > Rounding * this->ReactionTerms[k] ? rest / all : 0.0;
+    const double terms = this->ReactionTerms[k] + this->Conditions.robinTerms()[k];
+    report.balance[k] = all > noise * terms ? rest / all : 0.0;
     largest = std::max(largest, std::fabs(report.balance[k]));
   }
   if (largest > Noted && report.converged)

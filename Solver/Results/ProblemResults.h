@@ -81,7 +81,7 @@ private:
   void closeVertex(std::int64_t i);
   void closeDirichlet(std::int64_t i, double alpha);
   void reportBalance(Report& report) const;
-  static void noteConditionsWithoutFacets(Report& report);
+  static void noteConditionsWithoutEffect(Report& report);
   void noteFlatCells(Report& report) const;
 
   CellType Type;

@@ -6,6 +6,7 @@ import json
 import os
 import shutil
 import signal
+import stat
 import subprocess
 import sys
 import time
@@ -221,6 +222,16 @@ def test_outputs_go_where_links_lead():
     assert "no folder nowhere" in run("convert", "torus.obj", "here.vsm", code=1).stderr
 
 
+def test_devices_and_pipes_are_no_outputs():
+    os.mkfifo("pipe.vsm")
+    link("pipe.vsm", "to-pipe.vsm")
+    name = problem(dirichlet=[{"sphere": [0, 0, 0, 9], "value": [0]}])
+    for out in ("pipe.vsm", "to-pipe.vsm"):
+        for command in (("convert", "torus.obj", out), ("solve", "torus.vsm", out, "--problem", name)):
+            assert f"{out}: this is a device or a pipe" in run(*command, code=1).stderr, command
+    assert stat.S_ISFIFO(os.stat("pipe.vsm").st_mode)
+
+
 def test_check():
     """Every block of a file is looked at, and damage has a place."""
     assert "checksums" not in run("info", "torus.vsm").stdout
@@ -279,8 +290,8 @@ def test_interrupt_cleans_up():
 for each in (test_convert_and_info, test_vtk_xml, test_solve,
              test_solutions_have_the_order_of_their_mesh, test_errors,
              test_files_of_the_command_are_not_overwritten, test_reports_go_where_they_are_wanted,
-             test_outputs_go_where_links_lead, test_check, test_what_cannot_be_said_is_an_error,
-             test_interrupt_cleans_up):
+             test_outputs_go_where_links_lead, test_devices_and_pipes_are_no_outputs, test_check,
+             test_what_cannot_be_said_is_an_error, test_interrupt_cleans_up):
     each()
     print("passed", each.__name__)
 sys.exit(0)

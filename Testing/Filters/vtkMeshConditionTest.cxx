@@ -483,4 +483,52 @@ TEST_F(VtkMeshCondition, LeavesArraysOfTheUserAlone)
   EXPECT_TRUE(errors.contain("both have an array both")) << errors.text();
 }
 
+/** Nothing is asked of the filter then, and its last answer is to another question. */
+TEST_F(VtkMeshCondition, HasNotConvergedIfAConditionFails)
+{
+  vtkNew<vtkPlane> plane;
+  plane->SetNormal(-1, 0, 0);
+  plane->SetOrigin(2.5, 0, 0);
+  vtkMeshCondition& held = this->add(vtkMeshCondition::DIRICHLET, { 1 });
+  held.SetRegionFunction(plane);
+  ASSERT_EQ(updatePiece(this->Poisson, 0, 1), 1);
+  EXPECT_EQ(this->Poisson->GetConverged(), 1);
+  ASSERT_EQ(updatePiece(this->Poisson, 0, 1), 1);
+  EXPECT_EQ(this->Poisson->GetConverged(), 1);
+  Errors errors(&held);
+  plane->SetNormal(0, 0, 0);
+  EXPECT_EQ(updatePiece(this->Poisson, 0, 1), 0);
+  EXPECT_TRUE(errors.contain("The plane of the region has no direction")) << errors.text();
+  EXPECT_EQ(this->Poisson->GetConverged(), 0);
+  plane->SetNormal(-1, 0, 0);
+  ASSERT_EQ(updatePiece(this->Poisson, 0, 1), 1);
+  EXPECT_EQ(this->Poisson->GetConverged(), 1);
+  Errors solving(this->Poisson);
+  this->Poisson->SetScreening(-1.0);
+  EXPECT_EQ(updatePiece(this->Poisson, 0, 1), 0);
+  EXPECT_TRUE(solving.contain("screening: must be finite and not negative")) << solving.text();
+  EXPECT_EQ(this->Poisson->GetConverged(), 0);
+}
+
+TEST_F(VtkMeshCondition, TheReportOfAPreviewNamesVerticesOfTheFile)
+{
+  writeVsm(this->Folder / "torus.vsm", torus(60, 30, 0.2));
+  this->Reader->SetFileName((this->Folder / "torus.vsm").c_str());
+  this->Reader->SetMaximumPointsInMemory(100);
+  this->Reader->SetPreviewPoints(300);
+  this->Poisson->SetProblem(
+    R"({"screening": 1, "source": [{"sphere": [3, 0, 0, 1.5], "value": 1}]})");
+  ASSERT_EQ(updatePiece(this->Poisson, 0, 1), 1);
+  const auto report = nlohmann::json::parse(this->Poisson->GetReport());
+  const auto& maximum = report["maximum"][0];
+  auto* output = vtkPointSet::SafeDownCast(this->Poisson->GetOutputDataObject(0));
+  auto* ids = output->GetPointData()->GetArray("OriginalId");
+  for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+  {
+    const bool isLargest =
+      output->GetPointData()->GetArray("Solution")->GetTuple1(i) == maximum["value"].get<double>();
+    EXPECT_EQ(isLargest, ids->GetTuple1(i) == maximum["vertex"].get<double>()) << i;
+  }
+}
+
 } // namespace smg::testing

@@ -151,6 +151,22 @@ TEST_F(Described, TensorsAreGivenByTheirNumbersOrTheirDiagonals)
   }
 }
 
+/** 0.1 in single precision is not 0.1, but nobody else calls it anything else. */
+TEST_F(Described, ATagIsComparedInThePrecisionOfItsColumn)
+{
+  std::vector<float> tenths(static_cast<std::size_t>(this->Mesh.vertices()), 0.2F);
+  tenths[5] = 0.1F;
+  this->Mesh.vertexColumns.push_back(makeColumn<float>("tenths", tenths));
+  this->Source = MemorySource(this->Mesh);
+  ProblemDescription description;
+  description.dirichlet = { { ColumnTag{ "tenths", 0.1 }, 1.0 } };
+  const ProblemAnswers answers = this->ask(description);
+  for (std::size_t v = 0; v < tenths.size(); ++v)
+  {
+    EXPECT_EQ(answers.vertices.dirichlet[v], v == 5 ? 0 : -1);
+  }
+}
+
 TEST_F(Described, DensitiesAreOfVerticesUnlessAColumnOfCellsIsNamed)
 {
   ProblemDescription description;

@@ -219,6 +219,44 @@ TEST(ProblemResults, fluxesBalanceToTheTolerance)
   }
 }
 
+/** What a loose solve leaves is no flow that could miss its balance. */
+TEST(ProblemResults, balanceWhereNothingFlows)
+{
+  for (const StreamMesh& mesh : meshesOfResults())
+  {
+    for (const double tolerance : { 1e-3, 1e-6, 1e-10 })
+    {
+      ElementProblem held(mesh), cooled(mesh);
+      const auto seven = columnsOf(1, [](const Point&, int) { return 7.0; });
+      held.DirichletConditions.push_back({ above(0, 1.0), seven });
+      held.DirichletConditions.push_back({ above(0, 2.0), seven });
+      cooled.RobinConditions.push_back({ above(0, 1.0), [](const Point&) { return 2.0; }, seven });
+      for (ElementProblem* problem : { &held, &cooled })
+      {
+        const Report report = resultsOf(mesh, *problem, accurate(tolerance)).report;
+        EXPECT_EQ(report.balance[0], 0.0) << tolerance;
+        for (const std::string& note : report.notes)
+        {
+          EXPECT_EQ(note.find("miss their balance"), std::string::npos) << note;
+        }
+      }
+    }
+  }
+}
+
+TEST(ProblemResults, aConditionThatOthersHideIsNoted)
+{
+  const StreamMesh mesh = meshesOfResults().front();
+  ElementProblem problem(mesh);
+  const auto one = columnsOf(1, [](const Point&, int) { return 1.0; });
+  // Here the first one counts.
+  problem.DirichletConditions.push_back({ above(0, 1.0), one });
+  problem.DirichletConditions.push_back({ above(0, 2.0), one });
+  const Report report = resultsOf(mesh, problem, accurate()).report;
+  EXPECT_TRUE(std::ranges::any_of(report.notes, [](const std::string& note)
+    { return note.ends_with("has no effect: others hold wherever it does"); }));
+}
+
 TEST(ProblemResults, whatIsTakenFromTheSourcesIsPartOfTheBalance)
 {
   for (const StreamMesh& mesh : meshesOfResults())
