@@ -111,6 +111,8 @@ void vtkMeshCondition::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, 
       mask->SetValue(static_cast<vtkIdType>(i), held.by[i] >= 0 ? 1 : 0);
     }
     output.GetPointData()->AddArray(mask);
+    // A view shows where the condition holds.
+    output.GetPointData()->SetActiveScalars(condition.mask.c_str());
   }
   smg::addCondition(output, condition.text());
 }

@@ -16,9 +16,9 @@
  *
  * The output is the input with the condition in the field array `MeshConditions`, in the words of
  * `smg solve --problem`, and the point array `Condition1`, `Condition2` ... (unsigned char, by the
- * place in the chain) which is 1 where it holds; there is no such array for TAG, nor for a source,
- * a conductivity or a screening EVERYWHERE, and NumberOfHeldPoints is 0 then. vtkStreamingPoisson
- * takes the conditions and their arrays away.
+ * place in the chain) which is 1 where it holds, the active scalars of the output; there is no such
+ * array for TAG, nor for a source, a conductivity or a screening EVERYWHERE, and NumberOfHeldPoints
+ * is 0 then. vtkStreamingPoisson takes the conditions and their arrays away.
  *
  * @sa vtkMeshRegion vtkStreamingPoisson
  */
