@@ -11,9 +11,6 @@
 #include "vtkPointSet.h"
 #include "vtkStringArray.h"
 
-#include <algorithm>
-#include <vector>
-
 namespace smg
 {
 namespace
@@ -28,29 +25,6 @@ ProblemDescription conditionAt(vtkPointSet& mesh, int k, const ProblemDescriptio
 {
   return readProblemText(conditionsOf(mesh)->GetValue(k),
     "condition " + std::to_string(k + 1) + " of the input", defaults);
-}
-
-/** The arrays that say where a condition holds, as Mesh Conditions make them. */
-std::vector<std::string> masksOf(const ProblemDescription& condition)
-{
-  std::vector<std::string> masks;
-  const auto add = [&masks](const Where& where)
-  {
-    if (const auto* mask = std::get_if<ColumnMask>(&where))
-    {
-      masks.push_back(mask->column);
-    }
-  };
-  const auto addAll = [&add](const auto& entries)
-  { std::ranges::for_each(entries, [&add](const auto& entry) { add(entry.where); }); };
-  addAll(condition.conductivity.entries);
-  addAll(condition.screening.entries);
-  addAll(condition.source.entries);
-  addAll(condition.dirichlet);
-  addAll(condition.flux);
-  addAll(condition.robin);
-  addAll(condition.soft);
-  return masks;
 }
 
 } // namespace
@@ -83,7 +57,7 @@ void removeConditions(vtkPointSet& mesh)
 {
   for (int k = 0; k < countConditions(mesh); ++k)
   {
-    for (const std::string& mask : masksOf(conditionAt(mesh, k, {})))
+    for (const std::string& mask : namedMasks(conditionAt(mesh, k, {})))
     {
       mesh.GetPointData()->RemoveArray(mask.c_str());
     }

@@ -6,6 +6,7 @@
 #include "Solver/Description/ComposeDescriptions.h"
 #include "Solver/Description/DescribedProblem.h"
 #include "Solver/Results/ProblemResults.h"
+#include "Solver/Results/RenumberExtremes.h"
 #include "Solver/Stream/OriginalNumbers.h"
 
 #include "vtkPolyData.h"
@@ -36,28 +37,6 @@ std::string whyNotOn(vtkPointSet& preview, const PoissonTask& task)
   }
 }
 
-namespace
-{
-
-/** Gives the vertices of extremes their numbers in the user's file, or in the stream. */
-void nameByFile(const MeshBlock& block, Report& report)
-{
-  const std::ptrdiff_t column = findColumn(block.vertexColumns, OriginalIdSpec);
-  for (std::vector<Report::Extreme>* extremes : { &report.minimum, &report.maximum })
-  {
-    for (Report::Extreme& extreme : *extremes)
-    {
-      if (extreme.vertex >= 0 && column >= 0)
-      {
-        const Column& ids = block.vertexColumns[static_cast<std::size_t>(column)];
-        extreme.vertex = ids.as<std::int64_t>()[static_cast<std::size_t>(extreme.vertex)];
-      }
-    }
-  }
-}
-
-} // namespace
-
 SolveSummary solveOnPreview(
   vtkPointSet& preview, const PoissonTask& task, std::vector<double>& values)
 {
@@ -76,7 +55,13 @@ SolveSummary solveOnPreview(
   ProblemResults results(mesh.info(), problem, *solution);
   results.add(mesh.block());
   results.finish(report);
-  nameByFile(mesh.block(), report);
+  const std::vector<Column>& columns = mesh.block().vertexColumns;
+  if (const std::ptrdiff_t ids = findColumn(columns, OriginalIdSpec); ids >= 0)
+  {
+    const auto numbers = columns[static_cast<std::size_t>(ids)].as<std::int64_t>();
+    renumberExtremes(
+      report, [&](std::int64_t vertex) { return numbers[static_cast<std::size_t>(vertex)]; });
+  }
   report.notes.push_back(
     "this is the solution on the preview, a mesh of " + std::to_string(mesh.info().vertices) +
     " vertices: it approximates that on the full mesh, which is solved on when "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Output/SolvedMesh.h"
 
+#include "Solver/Results/RenumberExtremes.h"
 #include "Solver/Stream/OriginalNumbers.h"
 
 #include <algorithm>
@@ -87,18 +88,12 @@ void SolvedMesh::finish(Report& report)
   }
   VsmReader mesh(this->File);
   Column id;
-  for (std::vector<Report::Extreme>* extremes : { &report.minimum, &report.maximum })
-  {
-    for (Report::Extreme& extreme : *extremes)
+  renumberExtremes(report,
+    [&](std::int64_t vertex)
     {
-      if (extreme.vertex < 0)
-      {
-        continue; // no value is a number
-      }
-      mesh.readVertexColumn(OriginalIdName, extreme.vertex, 1, id);
-      extreme.vertex = id.as<std::int64_t>()[0];
-    }
-  }
+      mesh.readVertexColumn(OriginalIdName, vertex, 1, id);
+      return id.as<std::int64_t>()[0];
+    });
 }
 
 } // namespace smg

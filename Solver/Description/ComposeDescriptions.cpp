@@ -14,38 +14,38 @@ void append(std::vector<T>& entries, const std::vector<T>& more)
   entries.insert(entries.end(), more.begin(), more.end());
 }
 
-/** Collects the names of columns. */
-struct NameCollector
+/** Calls onWhere(where) and onValue(value) with all parts and values of a description. */
+template <class OnWhere, class OnValue>
+void visit(const ProblemDescription& problem, OnWhere onWhere, OnValue onValue)
 {
-  std::set<std::string> names;
-
-  void add(const Where& where)
-  {
-    if (const auto* tag = std::get_if<ColumnTag>(&where))
-    {
-      this->names.insert(tag->column);
-    }
-    if (const auto* mask = std::get_if<ColumnMask>(&where))
-    {
-      this->names.insert(mask->column);
-    }
-  }
-  void add(const DataValue& value)
-  {
-    if (value.column())
-    {
-      this->names.insert(*value.column());
-    }
-  }
-  void add(const std::vector<PlacedValue>& entries)
+  const auto visitAll = [&](const std::vector<PlacedValue>& entries)
   {
     for (const PlacedValue& entry : entries)
     {
-      this->add(entry.where);
-      this->add(entry.value);
+      onWhere(entry.where);
+      onValue(entry.value);
     }
+  };
+  for (const Datum* datum :
+    { &problem.conductivity, &problem.screening, &problem.source, &problem.initial })
+  {
+    visitAll(datum->entries);
   }
-};
+  visitAll(problem.dirichlet);
+  visitAll(problem.flux);
+  for (const ProblemDescription::Robin& robin : problem.robin)
+  {
+    onWhere(robin.where);
+    visitAll(robin.coefficient.entries);
+    onValue(robin.ambient);
+  }
+  for (const ProblemDescription::Soft& soft : problem.soft)
+  {
+    onWhere(soft.where);
+    visitAll(soft.weight.entries);
+    onValue(soft.value);
+  }
+}
 
 } // namespace
 
@@ -68,31 +68,44 @@ void append(ProblemDescription& problem, const ProblemDescription& more)
 
 std::set<std::string> namedColumns(const ProblemDescription& problem)
 {
-  NameCollector collector;
-  for (const Datum* datum :
-    { &problem.conductivity, &problem.screening, &problem.source, &problem.initial })
-  {
-    collector.add(datum->entries);
-  }
+  std::set<std::string> names = namedMasks(problem);
   if (!problem.field.empty())
   {
-    collector.names.insert(problem.field);
+    names.insert(problem.field);
   }
-  collector.add(problem.dirichlet);
-  collector.add(problem.flux);
-  for (const ProblemDescription::Robin& robin : problem.robin)
-  {
-    collector.add(robin.where);
-    collector.add(robin.coefficient.entries);
-    collector.add(robin.ambient);
-  }
-  for (const ProblemDescription::Soft& soft : problem.soft)
-  {
-    collector.add(soft.where);
-    collector.add(soft.weight.entries);
-    collector.add(soft.value);
-  }
-  return collector.names;
+  visit(
+    problem,
+    [&names](const Where& where)
+    {
+      if (const auto* tag = std::get_if<ColumnTag>(&where))
+      {
+        names.insert(tag->column);
+      }
+    },
+    [&names](const DataValue& value)
+    {
+      if (value.column())
+      {
+        names.insert(*value.column());
+      }
+    });
+  return names;
+}
+
+std::set<std::string> namedMasks(const ProblemDescription& problem)
+{
+  std::set<std::string> names;
+  visit(
+    problem,
+    [&names](const Where& where)
+    {
+      if (const auto* mask = std::get_if<ColumnMask>(&where))
+      {
+        names.insert(mask->column);
+      }
+    },
+    [](const DataValue&) {});
+  return names;
 }
 
 bool isPosed(const ProblemDescription& problem)

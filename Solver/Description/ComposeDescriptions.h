@@ -18,6 +18,9 @@ void append(ProblemDescription& problem, const ProblemDescription& more);
 /** The names of all columns of the mesh that a description names. */
 std::set<std::string> namedColumns(const ProblemDescription& problem);
 
+/** The names of the columns that are masks (see ColumnMask) in a description. */
+std::set<std::string> namedMasks(const ProblemDescription& problem);
+
 /** Whether a description says anything to solve for: more than a conductivity and a screening,
  * which alone have the solution 0. */
 bool isPosed(const ProblemDescription& problem);
