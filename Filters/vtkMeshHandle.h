@@ -14,7 +14,7 @@
  * PointTargets, which say for each of their points where it goes; then the motion says only how it
  * turns and grows.
  *
- * What a region is, and how it is found on a mesh of any size, is told at vtkMeshRegion.
+ * Regions, and how they are found on a mesh of any size, are described at vtkMeshRegion.
  *
  * @sa vtkMeshRegion vtkStreamingMeshDeformation vtkStreamingMeshReader
  */

@@ -236,7 +236,7 @@ bool vtkStreamingPoisson::IsForMemory(vtkPointSet& input, bool)
   }
   catch (const smg::Error&)
   {
-    return false; // what is wrong is told where the mesh is to be solved on
+    return false; // the solve on the full mesh reports it
   }
 }
 

@@ -16,7 +16,7 @@
  * array `Solution` (ResultArrayName) and, if wanted, the cell arrays `Gradient` and `Flux`. The
  * report also says what flows through each condition (docs/problem.md).
  *
- * How it pulls, solves and answers is told at vtkStreamingSolver. A request for the whole mesh of a
+ * vtkStreamingSolver describes how it pulls, solves and answers. A request for the whole mesh of a
  * reader that answers with the preview of a surface is answered by a solve on that preview, in
  * memory and at once; that is an approximation, and the report says so. Streamed requests get the
  * solution on the mesh itself, and so do all with SolveFullMesh: then the preview has the true

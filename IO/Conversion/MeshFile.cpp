@@ -114,7 +114,7 @@ void checkOutput(const std::filesystem::path& path, CellType cellType)
 
 void checkOutputPlace(const std::filesystem::path& path)
 {
-  // A folder that cannot be looked into is told of below.
+  // A folder that cannot be searched is reported below.
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
   {
