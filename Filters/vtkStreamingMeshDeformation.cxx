@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingMeshDeformation.h"
 
-#include "Filters/Deformation/ColumnHandles.h"
 #include "Filters/Deformation/vtkDeformationTask.h"
 #include "Filters/Deformation/vtkInteractiveMesh.h"
 #include "Filters/Deformation/vtkMovedPiece.h"
+#include "Filters/Handles/vtkHandleArrays.h"
 #include "Filters/Streaming/SolveSummary.h"
 #include "IO/vtkMeshPieceData.h"
-#include "IO/vtkPieceColumns.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -57,7 +56,7 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeTask(vtkPoin
 {
   if (input.GetNumberOfPoints() > 0)
   {
-    smg::ColumnHandles{ smg::columnSpecs(*input.GetPointData()) };
+    smg::HandleArrays::require(*input.GetPointData());
   }
   auto task = std::make_unique<smg::DeformationTask>();
   task->options = this->Internal->options();
@@ -100,7 +99,7 @@ void vtkStreamingMeshDeformation::Deliver(
     output);
   if (!this->KeepHandleArrays)
   {
-    for (const std::string& name : smg::ColumnHandles::names())
+    for (const std::string& name : smg::HandleArrays::names())
     {
       output.GetPointData()->RemoveArray(name.c_str());
     }

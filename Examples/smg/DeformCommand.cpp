@@ -8,6 +8,7 @@
 #include "IO/Output/WriteMesh.h"
 #include "IO/Problem/HandleFile.h"
 #include "IO/Problem/WeightsName.h"
+#include "Solver/Deformation/DescribedHandles.h"
 
 #include <algorithm>
 #include <optional>
@@ -50,26 +51,30 @@ public:
         "Columns Normals of IN: recompute (left out of tetrahedra) or drop")
       ->check(oneOf({ "recompute", "drop" }))
       ->capture_default_str();
-    command.footer("Keys of a handle file: handles [region {sphere | box | halfspace | vertices}, "
-                   "fixed | translate, rotate {axis, degrees, center}, scale, center], weights, "
-                   "cycles | tolerance");
+    command.footer(
+      "Keys of a handle file: handles [region {sphere | box | halfspace | vertices | tag "
+      "| mask | nearest}, fixed | translate, rotate {axis, degrees, center}, scale, "
+      "center | target, rotation, logScale], weights, cycles | tolerance");
   }
 
 protected:
   void checkOutputName() const override { smg::checkOutput(this->Out); }
 
-  void readTask() override { this->Data = smg::readHandleFileData(this->File); }
+  void readTask() override { this->Description = smg::readHandleFile(this->File); }
 
   std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) override
   {
     smg::checkOutput(this->Out, mesh.info().cellType);
-    smg::HandleFile handles(std::move(this->Data), mesh.info(), this->File.string());
-    this->Notes = handles.check(*mesh.source(handles.vertexColumns(), {}));
+    smg::DescribedHandles handles(this->Description, mesh.info(), this->File.string());
+    const auto source = [&] { return mesh.source(handles.vertexColumns(), handles.cellColumns()); };
+    handles.prepare(*source(), this->scratch);
     this->applyTo(this->Deform, std::move(progress));
-    handles.applyTo(this->Deform);
+    this->Description.applyTo(this->Deform);
     this->applyCommandLine();
-    return smg::deform(*mesh.source(handles.vertexColumns(), {}), handles, this->Deform);
+    auto positions = smg::deform(*source(), handles, this->Deform);
+    this->Notes = handles.notes();
+    return positions;
   }
 
   /** Of points that are merged only one moves: then IN cannot be written again. */
@@ -135,8 +140,8 @@ private:
     return std::min(this->Deform.memoryLimit / 4, smg::NormalsOptions().memory);
   }
 
-  smg::HandleFileData Data; ///< what the file says
-  std::string Weights;      ///< empty: those of the file
+  smg::DeformationDescription Description; ///< what the file says
+  std::string Weights;                     ///< empty: those of the file
   std::optional<int> Cycles;
   std::optional<double> Tolerance;
   std::string Normals = "recompute";

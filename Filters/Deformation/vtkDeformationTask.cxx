@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/vtkDeformationTask.h"
 
-#include "Filters/Deformation/ColumnHandles.h"
 #include "Filters/Deformation/DeformedVertices.h"
+#include "Filters/Handles/vtkHandleArrays.h"
 #include "IO/Conversion/PartialProgress.h"
+#include "Solver/Deformation/DescribedHandles.h"
 
 #include <algorithm>
 
@@ -24,7 +25,7 @@ void DeformationTask::check() const
 
 PieceColumns DeformationTask::columns() const
 {
-  const auto& names = ColumnHandles::names();
+  const auto& names = HandleArrays::names();
   return {
     .all = false, .required = { names.begin(), names.end() }, .optional = { CellFlagsName }
   };
@@ -34,7 +35,7 @@ std::unique_ptr<Solution> DeformationTask::solve(
   const VsmReader& mesh, const ProgressFunction& progress, Report& report) const
 {
   const bool hasNormals = this->needsNormals && mesh.info().cellType == CellType::Triangle;
-  ColumnHandles handles(mesh.info().vertexColumns);
+  DescribedHandles handles(DeformationDescription::byColumns(), mesh.info());
   DeformOptions options = this->options;
   options.progress = partOf(progress, 0.0, hasNormals ? SolveShare : 1.0);
   auto moved = std::make_unique<DeformedVertices>(deform(*mesh.source(), handles, options));

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/vtkInteractiveMesh.h"
 
-#include "Filters/Deformation/ColumnHandles.h"
 #include "Filters/Deformation/DeformedVertices.h"
 #include "Filters/Deformation/vtkMovedPiece.h"
+#include "Filters/Handles/vtkHandleArrays.h"
 #include "IO/Motion/MovedPoints.h"
 #include "IO/vtkPieceColumns.h"
+#include "Solver/Deformation/DescribedHandles.h"
 
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
@@ -44,20 +45,21 @@ private:
 /** What the arrays of the mesh say at the points, in their order. */
 VertexHandles handlesAt(vtkPointSet& mesh, const std::vector<std::int64_t>& points)
 {
-  const std::vector<ColumnSpec> specs = columnSpecs(*mesh.GetPointData());
-  ColumnHandles columns(specs);
+  HandleArrays::require(*mesh.GetPointData());
+  StreamInfo info;
+  info.vertexColumns = columnSpecs(*mesh.GetPointData());
+  DescribedHandles described(DeformationDescription::byColumns(), info, "The input");
   MeshBlock block;
-  for (const ColumnSpec& spec : specs)
+  block.positions.resize(3 * points.size()); // the arrays say it all
+  for (const std::string& name : described.vertexColumns())
   {
-    block.vertexColumns.push_back({ spec, {} });
-    if (ColumnHandles::isName(spec.name))
-    {
-      copyColumn(*mesh.GetPointData(), points, "The input", block.vertexColumns.back());
-    }
+    const auto spec = std::ranges::find(info.vertexColumns, name, &ColumnSpec::name);
+    block.vertexColumns.push_back({ *spec, {} });
+    copyColumn(*mesh.GetPointData(), points, "The input", block.vertexColumns.back());
   }
   VertexHandles handles;
   handles.clear(points.size());
-  columns.at(block, handles);
+  described.at(block, handles);
   return handles;
 }
 

@@ -16,11 +16,14 @@ namespace smg
 namespace
 {
 
-/** Makes `array` a copy of the input's array of that name, or fills it with 0. */
-void begin(
-  vtkDataArray& array, const char* name, int components, vtkPointData& input, vtkIdType points)
+constexpr std::array<int, 4> Components{ 1, 3, 3, 1 }; // of HandleArrays::names()
+
+/** Makes `array` a copy of the input's array of that place in the names, or fills it with 0. */
+void begin(vtkDataArray& array, std::size_t place, vtkPointData& input, vtkIdType points)
 {
-  vtkDataArray* present = input.GetArray(name);
+  const std::string& name = HandleArrays::names()[place];
+  const int components = Components[place];
+  vtkDataArray* present = input.GetArray(name.c_str());
   if (!present)
   {
     array.SetNumberOfComponents(components);
@@ -29,7 +32,7 @@ void begin(
   }
   else if (present->GetNumberOfComponents() != components || present->GetNumberOfTuples() != points)
   {
-    throw Error(std::string("The point array ") + name + " of the input does not have " +
+    throw Error("The point array " + name + " of the input does not have " +
                 std::to_string(components) +
                 " components a point, so no Mesh Handle made it: take it away or rename it.");
   }
@@ -37,17 +40,44 @@ void begin(
   {
     array.DeepCopy(present);
   }
-  array.SetName(name);
+  array.SetName(name.c_str());
 }
 
 } // namespace
 
+const std::array<std::string, 4>& HandleArrays::names()
+{
+  static const std::array<std::string, 4> names{ HandleMaskName, HandleTargetName,
+    HandleRotationName, HandleLogScaleName };
+  return names;
+}
+
+void HandleArrays::require(vtkPointData& points)
+{
+  for (std::size_t i = 0; i < Components.size(); ++i)
+  {
+    const std::string& name = names()[i];
+    vtkDataArray* array = points.GetArray(name.c_str());
+    if (!array)
+    {
+      throw Error("The mesh has no numeric point array " + name +
+                  ", so it has no handles to deform it by: put a Mesh Handle before this filter.");
+    }
+    if (const int components = array->GetNumberOfComponents(); components != Components[i])
+    {
+      throw Error("The point array " + name + " has " + std::to_string(components) +
+                  " components instead of " + std::to_string(Components[i]) +
+                  ": let a Mesh Handle make it.");
+    }
+  }
+}
+
 HandleArrays::HandleArrays(vtkPointData& input, vtkIdType points)
 {
-  begin(*this->Mask, HandleMaskName, 1, input, points);
-  begin(*this->Target, HandleTargetName, 3, input, points);
-  begin(*this->Rotation, HandleRotationName, 3, input, points);
-  begin(*this->LogScale, HandleLogScaleName, 1, input, points);
+  begin(*this->Mask, 0, input, points);
+  begin(*this->Target, 1, input, points);
+  begin(*this->Rotation, 2, input, points);
+  begin(*this->LogScale, 3, input, points);
 }
 
 HandleArrays::~HandleArrays() = default;

@@ -5,6 +5,7 @@
 #include "vtkType.h"
 
 #include <array>
+#include <string>
 
 class vtkDoubleArray;
 class vtkPointData;
@@ -17,6 +18,11 @@ namespace smg
 class HandleArrays
 {
 public:
+  /** The names of the four arrays. */
+  static const std::array<std::string, 4>& names();
+  /** Throws Error unless the points have the four, and with the right number of components. */
+  static void require(vtkPointData& points);
+
   /**
    * Begins with those that the points have, else with free points. Throws Error if one of them has
    * another number of components.

@@ -5,8 +5,7 @@
 #include "IO/Problem/WeightsName.h"
 
 #include <algorithm>
-#include <limits>
-#include <utility>
+#include <array>
 
 namespace smg
 {
@@ -15,6 +14,14 @@ namespace
 {
 
 constexpr std::int64_t MostCycles = 1000000;
+/** What makes a handle move as a whole, and what says vertex by vertex where it goes. */
+constexpr std::array MotionKeys{ "translate", "rotate", "scale" };
+constexpr std::array ValueKeys{ "target", "rotation", "logScale" };
+
+bool hasOneOf(const JsonNode& object, const std::array<const char*, 3>& keys)
+{
+  return std::ranges::any_of(keys, [&object](const char* key) { return object.has(key); });
+}
 
 std::array<double, 3> parseVector(const JsonNode& node)
 {
@@ -40,7 +47,7 @@ void parseRotation(const JsonNode& node, HandleMotion::Parameters& motion)
 }
 
 /** What a handle turns and grows about. */
-std::array<double, 3> parseCenter(const JsonNode& handle, const Region& region)
+std::array<double, 3> parseCenter(const JsonNode& handle, const Where& where)
 {
   const bool inRotation = handle.has("rotate") && handle.member("rotate").has("center");
   if (inRotation && handle.has("center"))
@@ -51,7 +58,8 @@ std::array<double, 3> parseCenter(const JsonNode& handle, const Region& region)
   {
     return parseVector((inRotation ? handle.member("rotate") : handle).member("center"));
   }
-  const std::optional<std::array<double, 3>> middle = region.center();
+  const auto* region = std::get_if<Region>(&where);
+  const std::optional<std::array<double, 3>> middle = region ? region->center() : std::nullopt;
   if (!middle)
   {
     handle.fail("turns or grows about no point: add \"center\": [x, y, z]");
@@ -59,7 +67,7 @@ std::array<double, 3> parseCenter(const JsonNode& handle, const Region& region)
   return *middle;
 }
 
-HandleMotion parseMotion(const JsonNode& handle, const Region& region)
+HandleMotion parseMotion(const JsonNode& handle, const Where& where)
 {
   HandleMotion::Parameters motion;
   if (handle.has("translate"))
@@ -81,7 +89,7 @@ HandleMotion parseMotion(const JsonNode& handle, const Region& region)
   }
   if (handle.has("rotate") || handle.has("scale"))
   {
-    motion.center = parseCenter(handle, region);
+    motion.center = parseCenter(handle, where);
   }
   else if (handle.has("center"))
   {
@@ -90,14 +98,52 @@ HandleMotion parseMotion(const JsonNode& handle, const Region& region)
   return HandleMotion(motion);
 }
 
-void parseHandle(const JsonNode& handle, HandleFileData& data)
+DataValue parseValue(const JsonNode& node, bool position)
 {
-  handle.requireObject({ "region", "fixed", "translate", "rotate", "scale", "center" });
-  const JsonNode place = handle.member("region");
-  place.requireObject(RegionKeys);
-  data.regions.push_back(parseRegion(place));
+  if (!node.isString())
+  {
+    return node.numbers(3);
+  }
+  if (position && node.string() == "position")
+  {
+    return Position{};
+  }
+  return node.columnName();
+}
 
-  const bool moves = handle.has("translate") || handle.has("rotate") || handle.has("scale");
+HandleDescription::Values parseValues(const JsonNode& handle)
+{
+  HandleDescription::Values values;
+  values.target = parseValue(handle.member("target"), true);
+  if (handle.has("rotation"))
+  {
+    values.rotation = parseValue(handle.member("rotation"), false);
+  }
+  if (handle.has("logScale"))
+  {
+    const JsonNode logScale = handle.member("logScale");
+    if (logScale.isString())
+    {
+      values.logScale = logScale.columnName();
+    }
+    else
+    {
+      values.logScale = logScale.number();
+    }
+  }
+  return values;
+}
+
+HandleDescription parseHandle(const JsonNode& handle)
+{
+  handle.requireObject({ "region", "fixed", "translate", "rotate", "scale", "center", "target",
+    "rotation", "logScale" });
+  const JsonNode place = handle.member("region");
+  place.requireObject(WhereKeys);
+  const Where where = parseWhere(place);
+
+  const bool moves = hasOneOf(handle, MotionKeys);
+  const bool hasValues = hasOneOf(handle, ValueKeys);
   if (handle.has("fixed"))
   {
     const JsonNode fixed = handle.member("fixed");
@@ -105,28 +151,38 @@ void parseHandle(const JsonNode& handle, HandleFileData& data)
     {
       fixed.fail("can only be true: leave it out for a handle that moves");
     }
-    if (moves)
+    if (moves || hasValues)
     {
-      fixed.fail("goes with no translate, rotate or scale: leave it or these out");
+      fixed.fail(std::string("goes with no ") +
+                 (moves ? "translate, rotate or scale" : "target, rotation or logScale") +
+                 ": leave it or these out");
     }
   }
-  else if (!moves)
+  else if (!moves && !hasValues)
   {
-    handle.fail("must be fixed, or have at least one of translate, rotate and scale");
+    handle.fail("must be fixed, or have at least one of translate, rotate and scale, or a target");
   }
-  data.motions.push_back(parseMotion(handle, data.regions.back()));
+  if (!hasValues)
+  {
+    return { where, parseMotion(handle, where) };
+  }
+  if (moves || handle.has("center"))
+  {
+    handle.fail("goes by its target: leave out translate, rotate, scale and center");
+  }
+  return { where, parseValues(handle) };
 }
 
-HandleFileData parseHandles(const JsonNode& node)
+DeformationDescription parseDeformation(const JsonNode& node)
 {
   node.requireObject({ "handles", "weights", "cycles", "tolerance" });
-  HandleFileData data;
+  DeformationDescription data;
   const JsonNode handles = node.member("handles");
   for (const JsonNode& handle : handles.elements())
   {
-    parseHandle(handle, data);
+    data.handles.push_back(parseHandle(handle));
   }
-  if (data.regions.empty())
+  if (data.handles.empty())
   {
     handles.fail("must have at least one handle");
   }
@@ -153,106 +209,10 @@ HandleFileData parseHandles(const JsonNode& node)
 
 } // namespace
 
-HandleFile::HandleFile(HandleFileData data, const StreamInfo& mesh, std::string file)
-  : Data(std::move(data))
-  , OfMesh(mesh, std::move(file))
-{
-  for (std::size_t k = 0; k < this->Data.regions.size(); ++k)
-  {
-    this->Regions.push_back(Selection::make(this->Data.regions[k], DataPlace::Vertices,
-      ColumnOwner::Vertices, "handles[" + std::to_string(k) + "].region", this->OfMesh));
-  }
-}
-
-void HandleFile::at(const MeshBlock& block, VertexHandles& handles)
-{
-  constexpr std::uint8_t Most = std::numeric_limits<std::uint8_t>::max();
-  for (std::size_t k = 0; k < this->Regions.size(); ++k)
-  {
-    this->Regions[k]->startBlock(block);
-    const std::span<const std::uint8_t> selected = this->Regions[k]->atVertices();
-    const HandleMotion& motion = this->Data.motions[k];
-    for (std::size_t i = 0; i < selected.size(); ++i)
-    {
-      if (selected[i])
-      {
-        const std::span<const double, 3> point(block.positions.data() + 3 * i, 3);
-        const std::array<double, 3> target = motion.apply(point);
-        handles.mask[i] = handles.mask[i] < Most ? handles.mask[i] + 1 : Most;
-        std::ranges::copy(target, handles.target.data() + 3 * i);
-        std::ranges::copy(motion.rotation(), handles.rotation.data() + 3 * i);
-        handles.logScale[i] = motion.logScale();
-      }
-    }
-  }
-}
-
-std::vector<std::string> HandleFile::check(MeshSource& mesh)
-{
-  // How many vertices follow each handle: that no later one holds.
-  std::vector<std::int64_t> following(this->Regions.size(), 0);
-  std::vector<bool> follows;
-  for (MeshBlock block; mesh.next(block);)
-  {
-    follows.assign(static_cast<std::size_t>(block.vertices()), false);
-    for (std::size_t k = this->Regions.size(); k-- > 0;)
-    {
-      this->Regions[k]->prepare(block, {});
-      const std::span<const std::uint8_t> selected = this->Regions[k]->atVertices();
-      for (std::size_t i = 0; i < selected.size(); ++i)
-      {
-        following[k] += selected[i] && !follows[i] ? 1 : 0;
-        follows[i] = follows[i] || selected[i];
-      }
-    }
-  }
-  std::ranges::for_each(
-    this->Regions, [](const std::unique_ptr<Selection>& region) { region->endPreparing(); });
-  std::vector<std::string> notes;
-  bool moves = false;
-  for (std::size_t k = 0; k < following.size(); ++k)
-  {
-    if (following[k] == 0)
-    {
-      notes.push_back(
-        "handles[" + std::to_string(k) + "] holds nothing that a later handle does not hold.");
-    }
-    else
-    {
-      moves = moves || !this->Data.motions[k].isIdentity();
-    }
-  }
-  if (!moves)
-  {
-    notes.emplace_back("No handle moves anything: OUT is IN.");
-  }
-  return notes;
-}
-
-void HandleFile::applyTo(DeformOptions& options) const
-{
-  options.weights = this->Data.weights.value_or(options.weights);
-  if (this->Data.cycles)
-  {
-    options.cycles = *this->Data.cycles;
-  }
-  if (this->Data.tolerance)
-  {
-    options.cycles = 0;
-    options.tolerance = *this->Data.tolerance;
-  }
-}
-
-HandleFileData readHandleFileData(const std::filesystem::path& path)
+DeformationDescription readHandleFile(const std::filesystem::path& path)
 {
   const nlohmann::json json = readJsonFile(path.string());
-  return parseHandles(JsonNode(json, path.string()));
-}
-
-std::unique_ptr<HandleFile> readHandleFile(
-  const std::filesystem::path& path, const StreamInfo& mesh)
-{
-  return std::make_unique<HandleFile>(readHandleFileData(path), mesh, path.string());
+  return parseDeformation(JsonNode(json, path.string()));
 }
 
 } // namespace smg

@@ -270,7 +270,7 @@ TEST_F(VtkStreamingMeshDeformation, ErrorsSayWhatToDo)
   expectError("HandleTarget has 2 components instead of 3");
   this->Handles->TargetComponents = 3;
   this->Handles->Ends.bad = std::nan("");
-  expectError("HandleTarget has a value that is not a finite number");
+  expectError("the column 'HandleTarget' is not a finite number at vertex 0");
   this->Handles->Ends.bad = 0.0;
   this->Handles->Ends.left = -100.0;
   this->Handles->Ends.right = 100.0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Problem/HandleFile.h"
+#include "Solver/Deformation/DescribedHandles.h"
 
 #include "Testing/IO/RegionFileFixture.h"
 
@@ -16,12 +17,23 @@ const std::string Fixed = R"({"region": {"sphere": [0, 0, 0, 9]}, "fixed": true}
 class HandleFileText : public RegionFile
 {
 protected:
-  std::unique_ptr<HandleFile> parse(const std::string& json)
+  /** The handles of a file, prepared on the mesh. */
+  std::unique_ptr<DescribedHandles> parse(const std::string& json)
   {
-    return readHandleFile(this->file(json), this->Source.info());
+    const auto file = this->file(json);
+    auto handles =
+      std::make_unique<DescribedHandles>(readHandleFile(file), this->Source.info(), file.string());
+    this->Source.rewind(BlockCells);
+    handles->prepare(this->Source);
+    return handles;
   }
 
-  std::string errorOf(const std::string& json) { return RegionFile::errorOf(readHandleFile, json); }
+  /** What is wrong with the text, when it is read and when it is prepared on the mesh. */
+  std::string errorOf(const std::string& json)
+  {
+    const std::string message = messageOf([&] { this->parse(json); });
+    return message.empty() ? "no error" : message;
+  }
   /** What is wrong with a file of a sound handle and this one. */
   std::string errorOfHandle(const std::string& handle)
   {
@@ -29,7 +41,7 @@ protected:
   }
 
   /** What the handles say of all vertices. */
-  VertexHandles ask(HandleFile& file)
+  VertexHandles ask(DescribedHandles& handles)
   {
     VertexHandles all;
     this->Source.rewind(BlockCells);
@@ -37,7 +49,7 @@ protected:
     {
       VertexHandles some;
       some.clear(static_cast<std::size_t>(block.vertices()));
-      file.at(block, some);
+      handles.at(block, some);
       all.mask.insert(all.mask.end(), some.mask.begin(), some.mask.end());
       all.target.insert(all.target.end(), some.target.begin(), some.target.end());
       all.rotation.insert(all.rotation.end(), some.rotation.begin(), some.rotation.end());
@@ -137,8 +149,9 @@ TEST_F(HandleFileText, SetsWhatTheFileSaysAndNoMore)
   options.weights = Weights::Uniform;
   options.cycles = 4;
   options.tolerance = 0.25;
-  const auto apply = [&](const std::string& members)
-  { this->parse(R"({"handles": [)" + Fixed + "]" + members + "}")->applyTo(options); };
+  const auto apply = [&](const std::string& members) {
+    readHandleFile(this->file(R"({"handles": [)" + Fixed + "]" + members + "}")).applyTo(options);
+  };
   apply("");
   EXPECT_EQ(options.weights, Weights::Uniform);
   EXPECT_EQ(options.cycles, 4);
@@ -177,23 +190,26 @@ TEST_F(HandleFileText, ErrorsNameThePlace)
 
 TEST_F(HandleFileText, IsReadWithoutAMesh)
 {
-  const HandleFileData data = readHandleFileData(
-    this->file(R"({"handles": [)" + Fixed + R"(, {"region": {"vertices": [7, 3, 7]},
+  const DeformationDescription data =
+    readHandleFile(this->file(R"({"handles": [)" + Fixed + R"(, {"region": {"vertices": [7, 3, 7]},
     "translate": [1, 0, 0]}], "cycles": 3})"));
-  EXPECT_EQ(data.motions.size(), 2u);
-  ASSERT_TRUE(data.regions[1].vertices());
-  EXPECT_EQ(data.regions[1].vertices()->ids, (std::vector<std::int64_t>{ 3, 7 }));
+  ASSERT_EQ(data.handles.size(), 2u);
+  const auto& region = std::get<Region>(data.handles[1].where);
+  ASSERT_TRUE(region.vertices());
+  EXPECT_EQ(region.vertices()->ids, (std::vector<std::int64_t>{ 3, 7 }));
   EXPECT_EQ(data.cycles, 3);
-  expectError([&] { readHandleFileData(this->file("{}")); }, "p.json: has no 'handles'");
-  expectError([&] { readHandleFileData(this->Folder.path()); }, "this is a folder");
+  expectError([&] { readHandleFile(this->file("{}")); }, "p.json: has no 'handles'");
+  expectError([&] { readHandleFile(this->Folder.path()); }, "this is a folder");
 }
 
 TEST_F(HandleFileText, NotesSayWhatHandlesDoNotDo)
 {
   const auto notesOn = [this](const std::string& handles)
   {
-    this->Source.rewind(BlockCells);
-    return this->parse(R"({"handles": [)" + handles + "]}")->check(this->Source);
+    const std::unique_ptr<DescribedHandles> described =
+      this->parse(R"({"handles": [)" + handles + "]}");
+    this->ask(*described);
+    return described->notes();
   };
   using Notes = std::vector<std::string>;
   const std::string right = R"({"region": {"halfspace": [1, 0, 0, 2]}, )";
@@ -206,6 +222,46 @@ TEST_F(HandleFileText, NotesSayWhatHandlesDoNotDo)
       "No handle moves anything: OUT is IN." }));
   EXPECT_EQ(notesOn(Fixed + ", " + right + R"("fixed": true}, )" + moving),
     Notes{ "handles[1] holds nothing that a later handle does not hold." });
+}
+
+TEST_F(HandleFileText, HandlesStandInColumnsToo)
+{
+  StreamMesh mesh = lattice();
+  std::vector<double> targets;
+  std::vector<std::uint8_t> mask;
+  for (int i = 0; i < 25; ++i)
+  {
+    mask.push_back(i % 5 == 0 ? 2 : 0);
+    targets.insert(targets.end(), { 1.0 * i, 2.0, 3.0 });
+  }
+  mesh.vertexColumns.push_back(makeColumn<std::uint8_t>("held", mask));
+  mesh.vertexColumns.push_back(makeColumn<double>("goal", targets, 3));
+  this->Source = MemorySource(mesh, BlockCells);
+  const std::string middle =
+    std::to_string(this->position(12, 0)) + ", " + std::to_string(this->position(12, 1));
+  const VertexHandles handles = this->ask(R"({"handles": [
+    {"region": {"mask": "held"}, "target": "goal", "rotation": [0, 0, 1], "logScale": 0.5},
+    {"region": {"nearest": [[)" + middle + R"(, 0]]}, "target": "position"}]})");
+  for (std::size_t i = 0; i < 25; ++i)
+  {
+    const bool near = i == 12;
+    const bool held = i % 5 == 0;
+    ASSERT_EQ(int(handles.mask[i]), (held ? 2 : 0) + (near ? 1 : 0));
+    EXPECT_EQ(handles.target[3 * i], near   ? this->position(12, 0)
+                                     : held ? 1.0 * static_cast<double>(i)
+                                            : 0.0);
+    EXPECT_EQ(handles.rotation[3 * i + 2], held && !near ? 1.0 : 0.0);
+    EXPECT_EQ(handles.logScale[i], held && !near ? 0.5 : 0.0);
+  }
+  EXPECT_CONTAINS(this->errorOfHandle(R"({"region": {"mask": "hold"}, "fixed": true})"),
+    "handles[1].region.mask: the mesh has no column 'hold'");
+  EXPECT_CONTAINS(this->errorOfHandle(R"({"region": {"mask": "held"}, "target": "held"})"),
+    "handles[1].target: the components of the column 'held' are 1, but must have 3");
+  EXPECT_CONTAINS(this->errorOfHandle(R"({"region": {"mask": "held"}, "logScale": 1})"),
+    "handles[1]: has no 'target'");
+  EXPECT_CONTAINS(
+    this->errorOfHandle(R"({"region": {"mask": "held"}, "target": "goal", "scale": 2})"),
+    "handles[1]: goes by its target");
 }
 
 TEST_F(HandleFileText, ErrorsOfHandlesNameThePlace)

@@ -49,19 +49,6 @@ protected:
     return this->Folder / "p.json";
   }
 
-  /** What is wrong with the text, when it is read and when it is checked on the mesh. */
-  std::string errorOf(auto readFile, const std::string& json)
-  {
-    const std::string message = messageOf(
-      [&]
-      {
-        const auto regions = readFile(this->file(json), this->Source.info());
-        this->Source.rewind(BlockCells);
-        regions->check(this->Source);
-      });
-    return message.empty() ? "no error" : message;
-  }
-
   TemporaryFolder Folder;
   MemorySource Source;
 };

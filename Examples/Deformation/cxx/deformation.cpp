@@ -8,7 +8,8 @@ a handle file, the same that the program smg takes: smg deform MESH OUT --handle
 
 What this lesson shows:
  1. Handles are a class that is asked, block by block, which vertices are held, where they go, and
-    how they turn and grow. HandleFile is one that reads all that from a file.
+    how they turn and grow. DescribedHandles is one that takes all that from a description, which
+    a program fills by itself or a file fills.
  2. deform() reads the mesh stream once, works on scratch files within a memory limit, and gives
     back the new positions, which are read range by range. Two problems are solved on one hierarchy:
     how the mesh turns and grows between the handles, then where its vertices go.
@@ -29,6 +30,7 @@ Run it:
 #include "IO/Output/WriteMesh.h"
 #include "IO/Problem/HandleFile.h"
 #include "Solver/Deform.h"
+#include "Solver/Deformation/DescribedHandles.h"
 
 #include <iostream>
 
@@ -38,16 +40,17 @@ namespace
 /** Where the vertices of the mesh go. */
 std::unique_ptr<smg::Solution> deform(const smg::VsmReader& mesh, const char* handleFile)
 {
-  const auto handles = smg::readHandleFile(handleFile, mesh.info());
-  // Of all columns of the mesh, regions may need the vertices' original numbers.
-  const auto source = [&] { return mesh.source(handles->vertexColumns(), {}); };
-  // A region without a vertex is an error, before the work.
-  handles->check(*source());
+  const smg::DeformationDescription description = smg::readHandleFile(handleFile);
+  smg::DescribedHandles handles(description, mesh.info(), handleFile);
+  // Only the columns of the mesh that the handles need are read.
+  const auto source = [&] { return mesh.source(handles.vertexColumns(), handles.cellColumns()); };
+  // A handle that holds no vertex is an error, before the work.
+  handles.prepare(*source());
 
   smg::DeformOptions options;
   options.memoryLimit = std::int64_t(128) << 20;
-  handles->applyTo(options);
-  return smg::deform(*source(), *handles, options);
+  description.applyTo(options); // weights, cycles or tolerance of the file
+  return smg::deform(*source(), handles, options);
 }
 
 void print(const smg::Report& report)

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Deformation/DeformationDescription.h"
+#include "Solver/Deformation/Handles.h"
+#include "Solver/Description/Selection.h"
+#include "Solver/Description/ValueOnMesh.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * The handles of a description on a mesh stream.
+ *
+ *     DescribedHandles handles(description, mesh.info());
+ *     handles.prepare(*mesh.source(handles.vertexColumns(), handles.cellColumns()));
+ *     deform(*mesh.source(handles.vertexColumns(), handles.cellColumns()), handles, options);
+ *
+ * Vertices are named by the column OriginalId, or by their stream index if the mesh has no such
+ * column.
+ */
+class DescribedHandles : public Handles
+{
+public:
+  /**
+   * `mesh` is the mesh the handles are for. `name` is what errors call the description: its file.
+   * Throws Error naming the place in the description if the mesh has no such column, or one of
+   * another number of components.
+   */
+  DescribedHandles(const DeformationDescription& description, const StreamInfo& mesh,
+    const std::string& name = "deformation");
+
+  /** The columns that the mesh source must deliver. */
+  std::vector<std::string> vertexColumns() const { return this->OfMesh.vertexColumns(); }
+  std::vector<std::string> cellColumns() const { return this->OfMesh.cellColumns(); }
+
+  /**
+   * Reads the stream once and throws Error naming the handle if one selects no vertex, or names a
+   * vertex that the mesh does not have. May be left out, but where vertices are selected by a
+   * column of the cells, or as the nearest ones: this is known only then. Scratch files are as told
+   * at DescribedProblem::prepare().
+   */
+  void prepare(MeshSource& mesh, const std::filesystem::path& scratch = {});
+
+  /** Throws Error naming the column and the vertex if a number there is not finite. */
+  void at(const MeshBlock& block, VertexHandles& handles) override;
+
+  /**
+   * What a user should know when all blocks have been asked for: handles whose vertices all follow
+   * later ones, and that nothing moves.
+   */
+  std::vector<std::string> notes() const;
+
+private:
+  /** The values of a handle at each vertex. */
+  struct Values
+  {
+    ValueOnMesh target, rotation, logScale;
+  };
+  struct Handle
+  {
+    std::unique_ptr<Selection> where;  ///< null: everywhere
+    std::optional<NamedColumn> counts; ///< the mask that selects, which counts
+    HandleMotion motion;               ///< if there are no values
+    std::optional<Values> values;
+    std::string key;
+    std::int64_t following = 0; ///< vertices so far that no later handle holds
+  };
+
+  Handle compile(const HandleDescription& handle, const std::string& key);
+  /** Begins a block; answers whether the handle holds each of its vertices. */
+  std::span<const std::uint8_t> startBlock(Handle& handle, const MeshBlock& block);
+  /** Says what the handle says at held vertex `i` of the block. */
+  void hold(const Handle& handle, const MeshBlock& block, std::size_t i, VertexHandles& to) const;
+  void read(const ValueOnMesh& value, const Handle& handle, const MeshBlock& block, std::size_t i,
+    double* numbers) const;
+
+  MeshColumns OfMesh;
+  std::vector<Handle> All;
+  bool Moves = false;                   ///< whether a vertex so far is to go or turn or grow
+  std::vector<std::uint8_t> Everywhere; ///< 1 at each vertex of a block
+  std::vector<Handle*> Followed;        ///< by each vertex of a block; null: it is free
+};
+
+} // namespace smg
