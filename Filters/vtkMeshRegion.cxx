@@ -135,6 +135,7 @@ struct vtkMeshRegion::Internals
   }
 
   vtkMeshRegion& Self;
+  smg::Failures Failures;
   std::vector<std::int64_t> Ids;
   std::vector<double> Points;
   smg::PointRegion Region;
@@ -245,7 +246,7 @@ int vtkMeshRegion::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->NumberOfHeldPoints = 0;
-  return smg::answer(*this, *outputVector,
+  return smg::answer(*this, this->Internal->Failures, *outputVector,
     [&]
     {
       const smg::PieceRequest request(outputVector->GetInformationObject(0));

@@ -86,7 +86,14 @@ smg::SolveSummary vtkStreamingMeshDeformation::SolveInMemory(
   options.progress = progress;
   smg::InteractiveMesh& interactive = this->Internal->Interactive;
   values = interactive.deform(input, options, this->Internal->needsNormals(input));
-  return smg::SolveSummary::of(interactive.report(), interactive.columns());
+  smg::Report report = interactive.report();
+  if (smg::isPreview(input))
+  {
+    report.notes.push_back("this is the deformed preview, a mesh of " +
+                           std::to_string(report.vertices) +
+                           " vertices: the full mesh is deformed when it is saved");
+  }
+  return smg::SolveSummary::of(report, interactive.columns());
 }
 
 void vtkStreamingMeshDeformation::Deliver(

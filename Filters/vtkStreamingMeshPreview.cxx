@@ -117,6 +117,7 @@ struct vtkStreamingMeshPreview::Internals
   }
 
   vtkStreamingMeshPreview& Self;
+  smg::Failures Failures;
   std::optional<smg::MeshPiece> Preview;
   smg::StreamInfo Full; ///< of the mesh that the preview shows
   smg::InputStamp MadeFor;
@@ -175,7 +176,7 @@ int vtkStreamingMeshPreview::RequestUpdateExtent(
 int vtkStreamingMeshPreview::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return smg::answer(*this, *outputVector,
+  return smg::answer(*this, this->Internal->Failures, *outputVector,
     [&]
     {
       vtkInformation* inputInfo = inputVector[0]->GetInformationObject(0);

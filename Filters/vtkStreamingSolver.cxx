@@ -22,6 +22,7 @@
 
 #include <exception>
 #include <optional>
+#include <string>
 
 vtkCxxSetObjectMacro(vtkStreamingSolver, Controller, vtkMultiProcessController);
 
@@ -243,9 +244,11 @@ struct vtkStreamingSolver::Internals
   bool isUpToDate() const { return this->pipelineTime() <= this->AnsweredAt; }
 
   vtkStreamingSolver& Self;
+  smg::Failures Failures;
   vtkMTimeType AnsweredAt = 0;
   smg::StreamedSolve Streamed;
   smg::SolveSummary Summary; ///< of the last answer
+  std::string Outcome;       ///< its line, for a caller to look at
   /** The last request that all processes answered together. */
   std::optional<Answered> Shared;
   /**
@@ -293,6 +296,12 @@ int vtkStreamingSolver::GetConverged()
 {
   // If a filter before this one fails, nothing is asked of this one.
   return this->GetSummary().converged && this->Internal->isUpToDate() ? 1 : 0;
+}
+
+const char* vtkStreamingSolver::GetOutcome()
+{
+  this->Internal->Outcome = this->GetSummary().outcome();
+  return this->Internal->Outcome.c_str();
 }
 
 const char* vtkStreamingSolver::GetNotes()
@@ -377,7 +386,7 @@ int vtkStreamingSolver::RequestUpdateExtent(
 int vtkStreamingSolver::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return smg::answer(*this, *outputVector,
+  return smg::answer(*this, this->Internal->Failures, *outputVector,
     [&]
     {
       vtkInformation* info = outputVector->GetInformationObject(0);

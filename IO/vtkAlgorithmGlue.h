@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/vtkFailures.h"
 #include "Solver/Core/Progress.h"
 
 #include "vtkAlgorithm.h"
@@ -60,12 +61,12 @@ inline void leaveUndone(vtkInformationVector& outputs)
 }
 
 /**
- * Does the work of RequestData: 1. What is thrown becomes an error of the algorithm, and the answer
- * is 0. If it is Cancelled, nothing is reported, and nothing is done again before the algorithm or
- * its input is modified.
+ * Does the work of RequestData: 1. What is thrown becomes an error of the algorithm, which is shown
+ * once, and the answer is 0. If it is Cancelled, nothing is reported, and nothing is done again
+ * before the algorithm or its input is modified.
  */
 template <class Work>
-int answer(vtkAlgorithm& algorithm, vtkInformationVector& outputs, Work work)
+int answer(vtkAlgorithm& algorithm, Failures& failures, vtkInformationVector& outputs, Work work)
 {
   try
   {
@@ -75,10 +76,11 @@ int answer(vtkAlgorithm& algorithm, vtkInformationVector& outputs, Work work)
   catch (const Cancelled&)
   {
     algorithm.SetAbortExecute(0);
+    failures.quieten(algorithm);
   }
   catch (const std::exception& error)
   {
-    vtkErrorWithObjectMacro(&algorithm, << error.what());
+    failures.show(algorithm, error.what());
     leaveUndone(outputs);
   }
   return 0;

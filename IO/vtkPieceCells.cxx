@@ -3,8 +3,10 @@
 
 #include "Solver/Core/Error.h"
 
+#include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"
 #include "vtkCellType.h"
+#include "vtkDataArrayRange.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -53,10 +55,19 @@ bool areAllOf(vtkPointSet& piece, int vtkType)
   {
     return vtkType == VTK_TRIANGLE;
   }
-  vtkUnsignedCharArray* types = grid->GetCellTypesArray();
-  const unsigned char* first = types->GetPointer(0);
-  return std::all_of(first, first + types->GetNumberOfValues(),
-    [vtkType](unsigned char type) { return type == vtkType; });
+  return grid->IsHomogeneous() && grid->GetCellType(0) == vtkType;
+}
+
+/** Copies the numbers if they lie in memory as an array of T; answers whether they do. */
+template <class T>
+bool copyPlain(vtkDataArray& numbers, std::vector<std::int64_t>& to)
+{
+  auto* plain = vtkAOSDataArrayTemplate<T>::FastDownCast(&numbers);
+  if (plain)
+  {
+    std::copy_n(plain->GetPointer(0), to.size(), to.begin());
+  }
+  return plain != nullptr;
 }
 
 } // namespace
@@ -88,13 +99,14 @@ std::vector<std::int64_t> cellCorners(vtkPointSet& piece, CellType type, const s
     throw Error(where + " has cells of another kind than the pieces before.");
   }
   std::vector<std::int64_t> corners(cells->GetNumberOfConnectivityIds());
-  if (cells->IsStorage64Bit())
+  vtkDataArray& connectivity = *cells->GetConnectivityArray();
+  if (!copyPlain<vtkTypeInt64>(connectivity, corners) &&
+      !copyPlain<vtkTypeInt32>(connectivity, corners))
   {
-    std::copy_n(cells->GetConnectivityArray64()->GetPointer(0), corners.size(), corners.begin());
-  }
-  else
-  {
-    std::copy_n(cells->GetConnectivityArray32()->GetPointer(0), corners.size(), corners.begin());
+    // Some other kind of array, as newer releases have them.
+    const auto values = vtk::DataArrayValueRange<1>(&connectivity);
+    std::transform(values.begin(), values.end(), corners.begin(),
+      [](double id) { return static_cast<std::int64_t>(id); });
   }
   return corners;
 }

@@ -6,8 +6,11 @@
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace smg
@@ -20,6 +23,26 @@ int vtkTypeOf(ScalarType type)
   constexpr int types[] = { VTK_TYPE_INT8, VTK_TYPE_UINT8, VTK_TYPE_INT16, VTK_TYPE_UINT16,
     VTK_TYPE_INT32, VTK_TYPE_UINT32, VTK_TYPE_INT64, VTK_TYPE_UINT64, VTK_FLOAT, VTK_DOUBLE };
   return types[static_cast<int>(type)];
+}
+
+/** Copies tuples of an array that does not lie in memory tuple by tuple, without making one of all of
+ * it that does. */
+void copyRows(vtkDataArray& array, std::span<const std::int64_t> rows, Column& column)
+{
+  constexpr std::size_t AtOnce = 4096;
+  const auto plain = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(array.GetDataType()));
+  plain->SetNumberOfComponents(array.GetNumberOfComponents());
+  vtkNew<vtkIdList> ids;
+  for (std::size_t first = 0; first < rows.size(); first += AtOnce)
+  {
+    const std::size_t count = std::min(AtOnce, rows.size() - first);
+    ids->SetNumberOfIds(static_cast<vtkIdType>(count));
+    std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(first), count, ids->begin());
+    plain->SetNumberOfTuples(static_cast<vtkIdType>(count));
+    array.GetTuples(ids, plain);
+    const std::size_t size = column.spec.tupleBytes();
+    std::memcpy(column.bytes.data() + first * size, plain->GetVoidPointer(0), count * size);
+  }
 }
 
 } // namespace
@@ -79,6 +102,11 @@ void copyColumn(vtkDataSetAttributes& arrays, std::span<const std::int64_t> rows
                 ", unlike the first piece: every piece must have the same arrays.");
   }
   column.resize(rows.size());
+  if (!array->HasStandardMemoryLayout())
+  {
+    copyRows(*array, rows, column);
+    return;
+  }
   const std::size_t size = column.spec.tupleBytes();
   const auto* from = static_cast<const std::byte*>(array->GetVoidPointer(0));
   std::byte* to = column.bytes.data();

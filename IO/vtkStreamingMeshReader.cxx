@@ -45,6 +45,7 @@ struct vtkStreamingMeshReader::Internals
     bool operator==(const Stamp&) const = default;
   };
 
+  smg::Failures Failures;
   vtkNew<vtkDataArraySelection> PointArrays;
   vtkNew<vtkDataArraySelection> CellArrays;
   std::string Name, Scratch;
@@ -355,7 +356,7 @@ int vtkStreamingMeshReader::RequestDataObject(
   catch (const std::exception& error)
   {
     this->Internal->noteFailure(*this);
-    vtkErrorMacro(<< error.what());
+    this->Internal->Failures.show(*this, error.what());
     return 0;
   }
 }
@@ -376,7 +377,7 @@ int vtkStreamingMeshReader::RequestInformation(
 int vtkStreamingMeshReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  return smg::answer(*this, *outputVector,
+  return smg::answer(*this, this->Internal->Failures, *outputVector,
     [&]
     {
       vtkInformation* request = outputVector->GetInformationObject(0);

@@ -9,6 +9,7 @@
 #include "IO/Problem/ProblemFile.h"
 #include "IO/Restore/WriteRestored.h"
 #include "Solver/Core/Error.h"
+#include "Solver/Description/ComposeDescriptions.h"
 #include "Solver/Description/DescribedProblem.h"
 
 #include <algorithm>
@@ -88,6 +89,12 @@ protected:
     smg::checkOptions(this->Solve);
     smg::checkOperators(this->Solve);
     this->Description = smg::readProblemFile(this->File);
+    if (!smg::isPosed(this->Description))
+    {
+      throw smg::Error(this->File.string() +
+                       ": says nothing to solve for: give it dirichlet, source, flux, robin, soft, "
+                       "field or initial.");
+    }
   }
 
   std::unique_ptr<smg::Solution> solveOn(

@@ -23,30 +23,12 @@ struct SolveSummary
   std::int64_t peakMemory = 0;
 
   /** Of a solve that succeeded, with `columns` values a vertex. */
-  static SolveSummary of(const Report& report, int columns)
-  {
-    SolveSummary summary;
-    summary.report = report.json();
-    for (const std::string& note : report.notes)
-    {
-      summary.notes += (summary.notes.empty() ? "" : "\n") + note;
-    }
-    summary.columns = columns;
-    summary.residual = report.residual();
-    summary.cycles = report.cycles;
-    summary.passes = report.passes;
-    summary.converged = report.converged;
-    summary.peakMemory = report.pool_bytes_peak;
-    return summary;
-  }
-
+  static SolveSummary of(const Report& report, int columns);
   /** Of a solve that failed. */
-  static SolveSummary failed(const std::string& sentence)
-  {
-    SolveSummary summary;
-    summary.error = sentence;
-    return summary;
-  }
+  static SolveSummary failed(const std::string& sentence);
+
+  /** In a line; empty before a solve. */
+  std::string outcome() const;
 };
 
 } // namespace smg

@@ -28,7 +28,7 @@ void VsmFile::fail(const std::string& what) const
 
 void VsmFile::readHeader()
 {
-  const nlohmann::json& header = this->Blocks.header();
+  const nlohmann::json header = nlohmann::json::parse(this->Blocks.header());
   if (!header.is_object() || header.value("kind", nlohmann::json()) != VsmFormat::Kind)
   {
     this->fail("is a block file, but not a mesh stream.");

@@ -93,7 +93,7 @@ double VsmReader::meanWidth() const
   return this->Self->File.MeanWidth;
 }
 
-const nlohmann::json& VsmReader::header() const
+const std::string& VsmReader::header() const
 {
   return this->Self->File.Blocks.header();
 }

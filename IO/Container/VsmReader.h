@@ -6,7 +6,6 @@
 #include "Solver/Storage/BlockFile.h"
 #include "Solver/Stream/MeshSource.h"
 
-#include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -36,7 +35,7 @@ public:
   /** The mean over the cells of the number of vertices alive. */
   double meanWidth() const;
   /** The statistics as they stand in the file. */
-  const nlohmann::json& header() const;
+  const std::string& header() const;
   Codec codec() const;
   std::int64_t vertexBlocks() const;
   std::int64_t cellBlocks() const;

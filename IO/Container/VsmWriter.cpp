@@ -377,7 +377,7 @@ StreamInfo VsmWriter::finish(const std::string& origin)
   {
     header["origin"] = origin;
   }
-  self.File.finish(header);
+  self.File.finish(header.dump());
   return info;
 }
 

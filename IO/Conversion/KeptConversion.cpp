@@ -94,7 +94,7 @@ std::string toldOrigin(const std::filesystem::path& path)
 {
   try
   {
-    return VsmReader(path).header().value("origin", std::string());
+    return nlohmann::json::parse(VsmReader(path).header()).value("origin", std::string());
   }
   catch (const std::exception&)
   {

@@ -4,7 +4,6 @@
 #include "Solver/Storage/IoStatistics.h"
 #include "Solver/Stream/Column.h"
 
-#include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -58,8 +57,9 @@ public:
   /** Appends `rows` rows to table `table`; one span of bytes a column, copied. */
   void append(int table, std::int64_t rows, std::span<const std::span<const std::byte>> columns);
 
-  /** Writes index and header (at most about 16,000 bytes of JSON), closes, renames. */
-  void finish(const nlohmann::json& header);
+  /** Writes index and header (the text of a JSON value, at most about 16,000 bytes), closes,
+   * renames. */
+  void finish(const std::string& header);
 
 private:
   struct Implementation;
@@ -79,7 +79,8 @@ public:
   BlockFileReader(const BlockFileReader&) = delete;
   BlockFileReader& operator=(const BlockFileReader&) = delete;
 
-  const nlohmann::json& header() const;
+  /** The text of a JSON value. */
+  const std::string& header() const;
   const std::vector<TableSpec>& tables() const;
   Codec codec() const;
 

@@ -94,9 +94,8 @@ struct BlockFileReader::Implementation
     {
       this->fail("the checksum of the header is wrong: the file is damaged; make it anew.");
     }
-    const char* text = reinterpret_cast<const char*>(header.data());
-    this->Header = nlohmann::json::parse(text, text + header.size(), nullptr, false);
-    if (this->Header.is_discarded())
+    this->Header.assign(reinterpret_cast<const char*>(header.data()), header.size());
+    if (!nlohmann::json::accept(this->Header))
     {
       this->fail("the header is not JSON: the file is damaged; make it anew.");
     }
@@ -173,7 +172,7 @@ struct BlockFileReader::Implementation
   std::string Name;
   IoStatistics* Statistics;
   FileDescriptor File;
-  nlohmann::json Header;
+  std::string Header;
   BlockFileIndex Index;
   std::unique_ptr<ColumnCodec> Coder;
   std::vector<std::byte> Stored;
@@ -188,7 +187,7 @@ BlockFileReader::BlockFileReader(std::filesystem::path path, IoStatistics* stati
 
 BlockFileReader::~BlockFileReader() = default;
 
-const nlohmann::json& BlockFileReader::header() const
+const std::string& BlockFileReader::header() const
 {
   return this->Self->Header;
 }

@@ -8,7 +8,6 @@
 #include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/WriteBehind.h"
 
-#include <nlohmann/json.hpp>
 
 #include <cstddef>
 #include <cstring>
@@ -155,14 +154,13 @@ void BlockFileWriter::append(
   }
 }
 
-void BlockFileWriter::finish(const nlohmann::json& header)
+void BlockFileWriter::finish(const std::string& header)
 {
   Implementation& self = *this->Self;
-  const std::string text = header.dump();
   constexpr std::size_t most = BlockFileHeaderBytes - sizeof(BlockFileFront);
-  if (text.size() > most)
+  if (header.size() > most)
   {
-    throw Error(self.Path.string() + ": the header has " + std::to_string(text.size()) +
+    throw Error(self.Path.string() + ": the header has " + std::to_string(header.size()) +
                 " bytes, but a block file has room for " + std::to_string(most) + ".");
   }
   const std::int64_t tailOffset = self.Behind->offset();
@@ -172,7 +170,7 @@ void BlockFileWriter::finish(const nlohmann::json& header)
   self.Behind->flush();
   self.count(0, self.Behind->waitNanoseconds() - waited);
   self.checkWritten();
-  self.writeFront(text, tail, tailOffset);
+  self.writeFront(header, tail, tailOffset);
   self.Behind.reset();
   try
   {

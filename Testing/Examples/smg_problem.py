@@ -165,7 +165,10 @@ def test_earlier_solves():
 
 
 def test_errors():
-    error = solve(conductivity="c", code=1)
+    # A conductivity alone has the solution 0, which nobody asks for.
+    error = solve(conductivity=2, code=1)
+    assert "says nothing to solve for" in error, error
+    error = solve(conductivity="c", dirichlet=[BOTTOM], code=1)
     assert "conductivity: the mesh has no column 'c'; its vertices have 'bottom', 'z'" in error, error
     assert "'K' (6)" in error, error
     tensors = [(4, 2, 1, 0, 0, 0)] * len(CELLS)
@@ -176,7 +179,7 @@ def test_errors():
     error = solve(conductivity=1e30, dirichlet=[BOTTOM], code=1)
     assert "the weights of cell " in error and " of the mesh's file are outside" in error, error
     for members, words in (
-            ({"conductivity": [{"tag": ["layer", 3], "value": 1}]}, "conductivity[0]: no cell"),
+            ({"conductivity": [{"tag": ["layer", 3], "value": 1}], "source": [1]}, "conductivity[0]: no cell"),
             ({"dirichlet": [{"tag": ["layer", 3], "value": [0]}]}, "dirichlet[0]: no vertex"),
             ({"dirichlet": [{"mask": "q", "value": [0]}]}, "dirichlet[0].mask: the column 'q' has 3"),
             ({"initial": "k"}, "initial: 'k' is a column of the cells"),
@@ -187,16 +190,16 @@ def test_errors():
 
 
 GOOD = [
-    {}, {"source": 0, "initial": [{"value": 1}], "dirichlet": [{"mask": "bottom", "value": 2}]},
+    {"source": 0, "initial": [{"value": 1}], "dirichlet": [{"mask": "bottom", "value": 2}]},
     {"weights": "raw-cotangent", "columns": 1, "source": [0], "screening": 0, "conductivity": 2},
-    {"conductivity": [1, 1, 1, 0, 0, 0.5]},
-    {"conductivity": [{"value": 1}, {"tag": ["layer", 2], "value": "K"}]},
+    {"conductivity": [1, 1, 1, 0, 0, 0.5], "source": 1},
+    {"conductivity": [{"value": 1}, {"tag": ["layer", 2], "value": "K"}], "initial": 1},
     {"columns": 3, "dirichlet": [{"mask": "bottom", "value": "position"}], "initial": "position"},
     {"robin": [{"sphere": [0, 0, 0, 2], "coefficient": 1, "ambient": [0]}], "outputs": []},
     {"soft": [{"nearest": [[0, 0, 0]], "weight": [{"value": 2}], "value": "four"}]},
     {"source": [{"value": [1]}, {"mask": "upper", "value": "two"}], "field": "q"}]
 BAD = [
-    [], {"weight": "uniform"}, {"weights": "heat"}, {"columns": 0}, {"columns": 65}, {"source": True},
+    [], {}, {"conductivity": 2, "screening": 1, "weights": "uniform"}, {"weight": "uniform"}, {"weights": "heat"}, {"columns": 0}, {"columns": 65}, {"source": True},
     {"screening": -1}, {"screening": [1]}, {"conductivity": []}, {"conductivity": ""}, {"field": [1, 0, 0]},
     {"conductivity": 0}, {"conductivity": [1, 1, 1]}, {"conductivity": [{"tag": ["layer", 2]}]},
     {"dirichlet": [{"value": [0]}]}, {"dirichlet": [{"mask": "bottom"}]}, {"outputs": ["heat"]},

@@ -89,6 +89,17 @@ result = t.pull(t.client_object(written), 1)[0]
 for k in (0, 2, 4):
     assert (result[k] == whole[k]).all(), k
 
+# A mesh that is saved with its handles is deformed by the program, too.
+held = os.path.join(folder, "held.vsm")
+SaveData(held, proxy=handles)
+with open(handle_file, "w", encoding="utf-8") as file:
+    json.dump({"handles": [{"region": {"mask": "HandleMask"}, "target": "HandleTarget",
+                            "rotation": "HandleRotation", "logScale": "HandleLogScale"}]}, file)
+t.run_smg("deform", held, program, "--handles", handle_file)
+by_columns = StreamingMeshReader(FileName=program)
+by_columns.UpdatePipeline()
+assert (t.pull(t.client_object(by_columns), 1)[0][2] == whole[2]).all()
+
 # The filter that makes a preview.
 preview = StreamingMeshPreview(Input=deformation)
 assert preview.PreviewPoints == 10000

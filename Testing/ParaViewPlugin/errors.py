@@ -46,6 +46,26 @@ poisson = t.make_poisson(t.make_problem(sphere))
 poisson.UpdatePipeline()
 assert "GlobalIds" in said()
 
+# However often a view asks, a failure is one message, until something changes.
+reader = OpenDataFile(t.BUNNY)
+poisson = StreamingPoisson(Input=reader, Problem='{"dirichlet": [{"sphere": [9, 9, 9, 1], "value": 1}]}')
+Show(poisson, CreateView("RenderView"))
+Render()
+Render()
+text = said()
+assert text.count("no vertex of the mesh is in this region") == 1, text
+assert "Algorithm vtkStreaming" not in text, text
+poisson.UpdatePipeline()
+assert said() == ""
+poisson.Tolerance = 1e-5
+poisson.UpdatePipeline()
+text = said()
+assert text.count("no vertex of the mesh is in this region") == 1 and text.count("ERROR") == 1, text
+poisson.Problem = '{"dirichlet": [{"halfspace": [0, 1, 0, 0.1], "value": 1}]}'
+Render()
+assert said() == "" and "Solution" in poisson.PointData.keys()
+Delete(poisson)
+
 # A data set of several blocks.
 blocks = GroupDatasets(Input=[Sphere(), Sphere()])
 for make in (MeshHandle, StreamingMeshDeformation, StreamingMeshPreview, StreamingPoisson):

@@ -26,8 +26,8 @@ if rank == 0:
 controller.Barrier()
 
 reader = StreamingMeshReader(FileName=path)
-for make in (lambda: StreamingMeshDeformation(Input=d.make_handles(reader, MeshHandle)),
-             lambda: t.make_poisson(t.make_problem(reader))):
+for first, make in ((True, lambda: StreamingMeshDeformation(Input=d.make_handles(reader, MeshHandle))),
+                    (False, lambda: t.make_poisson(t.make_problem(reader)))):
     messages = vtkStringOutputWindow()
     vtkOutputWindow.SetInstance(messages)
     failing = make()
@@ -37,7 +37,8 @@ for make in (lambda: StreamingMeshDeformation(Input=d.make_handles(reader, MeshH
     text = messages.GetOutput()
     vtkOutputWindow.SetInstance(None)
     assert ("Another process failed" in text) == (rank < ranks - 1), text
-    assert ("checksum" in text) == (rank == ranks - 1), text
+    # The reader has not changed since, and says what is wrong once.
+    assert text.count("checksum") == (1 if first and rank == ranks - 1 else 0), text
 
 # Nothing is left over of what was said between the processes.
 whole = StreamingMeshDeformation(Input=d.make_handles(OpenDataFile(t.BUNNY), MeshHandle))

@@ -24,8 +24,11 @@ for name, value in defaults.items():
     found = poisson.GetPropertyValue(name)
     found = list(found) if isinstance(value, list) else found
     assert found == value, (name, found)
-for name in ("Residual", "Cycles", "Passes", "PeakMemory", "Converged", "Report"):
+for name in ("Residual", "Cycles", "Passes", "PeakMemory", "Converged", "Outcome", "Notes", "Report"):
     assert poisson.SMProxy.GetProperty(name).GetInformationOnly(), name
+    # The panel shows the line that has it all, and the notes.
+    is_shown = poisson.SMProxy.GetProperty(name).GetPanelVisibility() == "default"
+    assert is_shown == (name in ("Outcome", "Notes")), name
 
 # A label is the name with spaces, so that the Python name is the name.
 for proxy in (reader, poisson, MeshHandle(Input=reader)):

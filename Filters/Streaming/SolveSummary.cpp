@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Streaming/SolveSummary.h"
+
+#include <iomanip>
+#include <sstream>
+
+namespace smg
+{
+
+SolveSummary SolveSummary::of(const Report& report, int columns)
+{
+  SolveSummary summary;
+  summary.report = report.json();
+  for (const std::string& note : report.notes)
+  {
+    summary.notes += (summary.notes.empty() ? "" : "\n") + note;
+  }
+  summary.columns = columns;
+  summary.residual = report.residual();
+  summary.cycles = report.cycles;
+  summary.passes = report.passes;
+  summary.converged = report.converged;
+  summary.peakMemory = report.pool_bytes_peak;
+  return summary;
+}
+
+SolveSummary SolveSummary::failed(const std::string& sentence)
+{
+  SolveSummary summary;
+  summary.error = sentence;
+  return summary;
+}
+
+std::string SolveSummary::outcome() const
+{
+  if (this->isCancelled)
+  {
+    return "Cancelled.";
+  }
+  if (!this->error.empty())
+  {
+    return "Failed: " + this->error;
+  }
+  if (this->report.empty())
+  {
+    return "";
+  }
+  constexpr double MiB = 1 << 20;
+  std::ostringstream text;
+  text << (this->converged ? "Converged" : "Not converged") << " after " << this->cycles
+       << " V-cycles in " << this->passes << " passes, relative residual " << std::setprecision(3)
+       << this->residual << ", " << std::fixed << std::setprecision(1)
+       << static_cast<double>(this->peakMemory) / MiB << " MiB";
+  return text.str();
+}
+
+} // namespace smg
