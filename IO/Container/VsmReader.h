@@ -6,7 +6,6 @@
 #include "Solver/Storage/BlockFile.h"
 #include "Solver/Stream/MeshSource.h"
 
-
 #include <cstdint>
 #include <filesystem>
 #include <memory>

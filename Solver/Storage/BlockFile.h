@@ -4,7 +4,6 @@
 #include "Solver/Storage/IoStatistics.h"
 #include "Solver/Stream/Column.h"
 
-
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>

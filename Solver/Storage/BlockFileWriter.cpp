@@ -8,7 +8,6 @@
 #include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/WriteBehind.h"
 
-
 #include <cstddef>
 #include <cstring>
 #include <utility>

@@ -120,8 +120,9 @@ TEST_F(VtkStreamingMeshDeformation, PreviewIsDeformedByItselfAndAtOnce)
     }
     EXPECT_TRUE(this->output()->GetFieldData()->HasArray("Preview"));
     EXPECT_TRUE(this->output()->GetPointData()->GetGlobalIds());
-    EXPECT_TRUE(std::string(this->Deformation->GetNotes()).find("this is the deformed preview, a mesh of ") !=
-                std::string::npos)
+    EXPECT_TRUE(
+      std::string(this->Deformation->GetNotes()).find("this is the deformed preview, a mesh of ") !=
+      std::string::npos)
       << this->Deformation->GetNotes();
     EXPECT_EQ(std::string(this->Deformation->GetOutcome()).find("Converged after "), 0u);
   }
