@@ -1,25 +1,35 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds libraries, ParaView plugin and the program smg on a Debian 12 machine (as root, or as a user
-# with sudo) and lets pvpython deform the Stanford bunny, out of core. Leaves in Examples/output:
-# bunny-deformed.png (before and after), .vsm and .ply (the deformed mesh), .json (the report).
+# Builds the ParaView plugin on a Debian 12 or 13 machine (as root, or as a user with sudo) and lets
+# pvpython deform the Stanford bunny, out of core; then builds the rest, the program smg and all the
+# lessons. Leaves in Examples/output: bunny-deformed.png (before and after), .vsm and .ply (the
+# deformed mesh), .json (the report).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source cmake/packages.sh
 smg_install "${smg_build_packages[@]}" "${smg_paraview_packages[@]}"
 
-# A tree that is configured already, for instance by Testing/run.sh, is only brought up to date.
+# A tree that is configured already, for instance by Testing/run.sh, is only brought up to date. A new
+# one begins without what the picture does not need: the solver's second build, and Python.
+rest=(-DSMG_BUILD_X86_64_V3=ON -DSMG_BUILD_PYTHON=ON)
 if [ ! -e build/build.ninja ]; then
   launcher=()
   ! command -v ccache > /dev/null || launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-  cmake --preset examples "${launcher[@]}"
+  smg_say_so cmake --preset examples "${launcher[@]}" "${rest[@]/%ON/OFF}"
 fi
-cmake --build build
+smg_say_so cmake --build build --target StreamingMultigrid
 
 mkdir -p Examples/output
 plugin=$(find "$PWD/build" -name StreamingMultigrid.so | head -n 1)
-xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython Examples/Deformation/pvpython/deformation.py \
-  --plugin "$plugin" --output Examples/output
+smg_say_so xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython \
+  Examples/Deformation/pvpython/deformation.py --plugin "$plugin" --output Examples/output
 echo "The picture: $PWD/Examples/output/bunny-deformed.png"
 echo "The mesh:    $PWD/Examples/output/bunny-deformed.vsm and .ply"
 echo "The report:  $PWD/Examples/output/bunny-deformed.json"
+
+if grep -q '^SMG_BUILD_PYTHON:BOOL=OFF' build/CMakeCache.txt; then
+  echo "Building the rest: the program smg, the lessons, the Python package"
+  smg_say_so cmake -S . -B build "${rest[@]}"
+fi
+smg_say_so cmake --build build
+echo "The program: $PWD/build/bin/smg"

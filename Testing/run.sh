@@ -1,15 +1,16 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds and tests everything on a Debian 12 machine (as root, or as a user with sudo):
-#   main        build/             ParaView 5.11's VTK, plugin, Python; all tests but the long ones
-#   vtk91       build-vtk91/       Debian's standalone VTK 9.1; the tests of what is built on VTK
-#   asan-ubsan  build-asan-ubsan/  Solver, IO and smg without VTK, under two sanitizers, several
+# Builds and tests everything on a Debian 12 or 13 machine (as root, or as a user with sudo):
+#   main        build/             ParaView's VTK, plugin, Python; all tests but the long ones; several
 #                                  sources compiled as one: the names in their unnamed namespaces differ
+#   vtk         build-vtk/         Debian's standalone VTK; the tests of what is built on VTK; source by
+#                                  source: each includes what it needs
+#   asan-ubsan  build-asan-ubsan/  Solver, IO and smg without VTK, under two sanitizers
 # Stops at the first configuration that fails, with ctest's summary as its last lines.
 #
 # Environment:
 #   SMG_TEST_DATA_DIR   the unpacked archive of test meshes; without it tests that need it are skipped
-#   SMG_CONFIGURATIONS  which of the above, "main vtk91 asan-ubsan" unless set
+#   SMG_CONFIGURATIONS  which of the above, "main vtk asan-ubsan" unless set
 #   SMG_JOBS            parallel compilations and tests, one a core unless set
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -30,12 +31,12 @@ configure_build_test() {
 }
 
 smg_install "${smg_build_packages[@]}" "${smg_paraview_packages[@]}" "${smg_test_packages[@]}"
-for configuration in ${SMG_CONFIGURATIONS:-main vtk91 asan-ubsan}; do
+for configuration in ${SMG_CONFIGURATIONS:-main vtk asan-ubsan}; do
   case $configuration in
     main) configure_build_test release ;;
-    vtk91)
-      bash cmake/vtk91-prefix.sh build-vtk91/vtk
-      configure_build_test vtk91
+    vtk)
+      bash cmake/vtk-prefix.sh build-vtk/vtk
+      configure_build_test vtk
       ;;
     asan-ubsan) configure_build_test asan-ubsan ;;
     *)

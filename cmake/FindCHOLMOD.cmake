@@ -5,8 +5,14 @@ find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
 find_library(CHOLMOD_LIBRARY cholmod)
 
 if (CHOLMOD_INCLUDE_DIR)
-  file(STRINGS "${CHOLMOD_INCLUDE_DIR}/cholmod_core.h" CHOLMOD_VERSION
-    REGEX "^#define CHOLMOD_(MAIN|SUB|SUBSUB)_VERSION[ \t]+[0-9]+")
+  # The version stands in cholmod_core.h, but in cholmod.h from SuiteSparse 7 on.
+  file(GLOB cholmod_headers
+    "${CHOLMOD_INCLUDE_DIR}/cholmod.h" "${CHOLMOD_INCLUDE_DIR}/cholmod_core.h")
+  set(CHOLMOD_VERSION "")
+  foreach (header IN LISTS cholmod_headers)
+    file(STRINGS "${header}" numbers REGEX "^#define CHOLMOD_(MAIN|SUB|SUBSUB)_VERSION[ \t]+[0-9]+")
+    list(APPEND CHOLMOD_VERSION ${numbers})
+  endforeach ()
   list(TRANSFORM CHOLMOD_VERSION REPLACE "^.*[ \t]([0-9]+).*$" "\\1")
   list(JOIN CHOLMOD_VERSION "." CHOLMOD_VERSION)
 endif ()

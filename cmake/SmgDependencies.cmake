@@ -3,7 +3,7 @@
 
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
-find_package(Eigen3 3.3 REQUIRED NO_MODULE)
+find_package(Eigen3 REQUIRED NO_MODULE) # 3.3 or newer; Eigen 5 refuses a request for 3
 find_package(CHOLMOD REQUIRED)
 find_package(TBB REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED)
@@ -25,8 +25,10 @@ if (SMG_BUILD_PYTHON)
   list(APPEND smg_vtk_components Python WrappingPythonCore)
 endif ()
 if (SMG_BUILD_PARAVIEW_PLUGIN)
+  include(SmgParaViewPrefix)
   find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore)
 endif ()
+file(GLOB smg_paraview_vtk "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/paraview-*/vtk")
 find_package(VTK 9.1 REQUIRED COMPONENTS ${smg_vtk_components}
-  HINTS "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/paraview-5.11/vtk")
+  HINTS "${ParaView_DIR}/vtk" ${smg_paraview_vtk})
 message(STATUS "StreamingMultigrid: VTK ${VTK_VERSION} in ${VTK_DIR}")

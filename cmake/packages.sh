@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # shellcheck shell=bash
-# The Debian 12 packages that this project needs, and their installation; for the run scripts:
+# The Debian packages that this project needs, and their installation; for the run scripts:
 #   source cmake/packages.sh
 #   smg_install "${smg_build_packages[@]}"
+# NAME|OTHER|...: the first of these that the release has.
 
 smg_build_packages=(
   build-essential cmake ninja-build pkg-config ccache
   libeigen3-dev libsuitesparse-dev libtbb-dev libzstd-dev liblz4-dev libxxhash-dev zlib1g-dev
   nlohmann-json3-dev libcli11-dev libfast-float-dev)
-# python3-paraview and libopenmpi-dev are needed by paraview-dev, which does not say so.
+# python3-paraview, libopenmpi-dev and libpython3-dev are needed by paraview-dev, which does not say so.
 smg_paraview_packages=(
-  paraview paraview-dev python3-paraview libopenmpi-dev xvfb xauth libqt5svg5)
+  paraview paraview-dev python3-paraview libopenmpi-dev libpython3-dev xvfb xauth
+  "qt6-svg-plugins|libqt5svg5")
 smg_test_packages=(
   libgtest-dev clang-format openmpi-bin xz-utils
   python3 python3-jsonschema python3-numpy python3-scipy python3-getfem)
@@ -19,7 +21,7 @@ smg_benchmark_packages=(
 smg_verification_packages=(
   libbenchmark-dev libhypre-dev libopenmpi-dev
   python3 python3-numpy python3-scipy python3-getfem python3-matplotlib)
-smg_fuzzing_packages=(clang libclang-rt-14-dev)
+smg_fuzzing_packages=(clang "libclang-rt-14-dev|libclang-rt-dev")
 
 # As root: directly, or through sudo.
 smg_as_root() {
@@ -33,20 +35,69 @@ smg_as_root() {
   fi
 }
 
+# smg_is_installed PACKAGE
+smg_is_installed() {
+  [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2> /dev/null)" = installed ]
+}
+
+# smg_choose NAME|OTHER|... : prints the first that apt knows, of its lists or as installed.
+smg_choose() {
+  local package names
+  IFS='|' read -r -a names <<< "$1"
+  for package in "${names[@]}"; do
+    if [ ${#names[@]} -eq 1 ] || apt-cache show "$package" > /dev/null 2>&1; then
+      echo "$package"
+      return
+    fi
+  done
+  echo "${names[0]}"
+}
+
+# smg_say_so COMMAND... : the lines of the command, and one every few seconds while it says nothing.
+smg_say_so() {
+  local start=$SECONDS line status
+  "$@" 2>&1 | while :; do
+    status=0
+    IFS= read -r -t 5 line || status=$?
+    if [ "$status" = 0 ]; then
+      echo "$line"
+    elif [ "$status" -gt 128 ]; then
+      echo "... $((SECONDS - start)) s"
+    else
+      break
+    fi
+  done
+  return "${PIPESTATUS[0]}"
+}
+
+# Of what apt and dpkg say: every twentieth package, and errors.
+smg_shorten() {
+  awk '/^(Unpacking|Setting up) / { if (++n % 20 == 0) { print n " steps: " $0; fflush() } }
+       /^(E:|W:|dpkg: error)/ || /^Need to get / || / newly installed/ { print; fflush() }'
+}
+
 # smg_install PACKAGE... : installs the ones that are missing; never removes one. Without a missing
 # one nothing is asked of apt or the network.
 smg_install() {
-  local package missing=()
-  for package in "$@"; do
-    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2> /dev/null)" = installed ] ||
-      missing+=("$package")
-  done
-  [ ${#missing[@]} -gt 0 ] || return 0
-  echo "Installing: ${missing[*]}"
+  local names=("$@") package missing=()
   local apt=(env DEBIAN_FRONTEND=noninteractive apt-get)
-  local install=("${apt[@]}" install -y --no-install-recommends --no-remove "${missing[@]}")
-  # Package lists may be absent or out of date: then they are fetched, and it is tried once more.
-  smg_as_root "${install[@]}" > /dev/null 2>&1 && return 0
-  smg_as_root "${apt[@]}" update || true
-  smg_as_root "${install[@]}"
+  local lists_are_new=
+  while :; do
+    missing=()
+    for package in "${names[@]}"; do
+      package=$(smg_choose "$package")
+      smg_is_installed "$package" || missing+=("$package")
+    done
+    [ ${#missing[@]} -gt 0 ] || return 0
+    # Package lists may be absent or out of date: then they are fetched, and it is tried once more.
+    if [ -n "$lists_are_new" ] || apt-cache show "${missing[@]}" > /dev/null 2>&1; then
+      echo "Installing: ${missing[*]}"
+      smg_as_root "${apt[@]}" install -y --no-install-recommends --no-remove "${missing[@]}" |
+        smg_say_so smg_shorten && return 0
+      [ -z "$lists_are_new" ] || return 1
+    fi
+    echo "Fetching the lists of packages"
+    smg_as_root "${apt[@]}" update -qq || true
+    lists_are_new=1
+  done
 }

@@ -18,7 +18,7 @@ namespace smg
 namespace
 {
 
-constexpr const char* Where = "The input";
+constexpr const char* Input = "The input";
 
 } // namespace
 
@@ -39,8 +39,8 @@ MeshInMemory::MeshInMemory(vtkPointSet& mesh)
 
 void MeshInMemory::copyCells(vtkPointSet& mesh)
 {
-  this->Type = cellTypeOf(mesh, Where);
-  this->Corners = smg::cellCorners(mesh, this->Type, Where);
+  this->Type = cellTypeOf(mesh, Input);
+  this->Corners = smg::cellCorners(mesh, this->Type, Input);
   this->copyFlags(mesh, keepOwnCells(mesh, cornersOf(this->Type), this->Corners));
 }
 

@@ -48,10 +48,10 @@ const char* keyOf(const JsonNode& object, std::span<const char* const> keys, boo
   if (count > 1 || (count == 0 && !none))
   {
     std::string list;
-    for (const char* key : keys)
+    for (std::size_t k = 0; k < keys.size(); ++k)
     {
-      list += list.empty() ? "" : key == keys.back() ? " and " : ", ";
-      list += key;
+      list += k == 0 ? "" : k + 1 == keys.size() ? " and " : ", ";
+      list += keys[k];
     }
     object.fail((none ? "must have at most one of " : "must have exactly one of ") + list);
   }

@@ -282,9 +282,9 @@ def test_help():
     assert all(key in shown.strip().splitlines()[-1]
                for key in ("handles", "region", "halfspace", "degrees", "tolerance")), shown
     for command in ("deform", "solve"):
-        assert "=1024" in run(command, "--help").stdout
+        assert "1024" in run(command, "--help").stdout
     for command in ("convert", "info", "preview"):
-        assert "=256" in run(command, "--help").stdout
+        assert "256" in run(command, "--help").stdout
 
 
 def test_errors():

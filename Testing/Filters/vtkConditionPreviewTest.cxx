@@ -4,6 +4,9 @@
 #include "vtkSphere.h"
 
 #include <algorithm>
+#include <iomanip>
+#include <iterator>
+#include <sstream>
 
 namespace smg::testing
 {
@@ -51,7 +54,7 @@ TEST_F(VtkConditionPreview, AProblemThatAPreviewCannotHoldIsSolvedOnTheMesh)
   {
     this->Poisson->SetProblem(problem.c_str());
     EXPECT_EQ(updatePiece(this->Poisson, 0, 1), 1);
-    return nlohmann::json::parse(this->Poisson->GetReport())["vertices"].get<std::int64_t>();
+    return static_cast<std::int64_t>(numberAt(this->Poisson->GetReport(), "/vertices"));
   };
   Errors errors(this->Poisson);
   EXPECT_LE(solvedOn(R"({"source": [1], "screening": 1})"), 300);
@@ -73,10 +76,11 @@ TEST_F(VtkConditionPreview, AProblemThatAPreviewCannotHoldIsSolvedOnTheMesh)
     isShown[static_cast<std::size_t>(preview->GetPointData()->GetGlobalIds()->GetTuple1(i))] = true;
   }
   const auto hidden = std::ranges::find(isShown, false) - isShown.begin();
-  const nlohmann::json at = { mesh.positions[3 * hidden], mesh.positions[3 * hidden + 1],
-    mesh.positions[3 * hidden + 2], 1e-6 };
-  EXPECT_EQ(
-    solvedOn(R"({"screening": 1, "dirichlet": [{"sphere": )" + at.dump() + R"(, "value": [1]}]})"),
+  std::ostringstream at;
+  at << std::setprecision(17);
+  std::copy_n(mesh.positions.begin() + 3 * hidden, 3, std::ostream_iterator<double>(at, ", "));
+  EXPECT_EQ(solvedOn(R"({"screening": 1, "dirichlet": [{"sphere": [)" + at.str() +
+                     R"(1e-6], "value": [1]}]})"),
     mesh.vertices());
 }
 
@@ -108,15 +112,14 @@ TEST_F(VtkConditionPreview, TheReportOfAPreviewNamesVerticesOfTheFile)
   this->Poisson->SetProblem(
     R"({"screening": 1, "source": [{"sphere": [3, 0, 0, 1.5], "value": 1}]})");
   ASSERT_EQ(updatePiece(this->Poisson, 0, 1), 1);
-  const auto report = nlohmann::json::parse(this->Poisson->GetReport());
-  const auto& maximum = report["maximum"][0];
+  const double maximum = numberAt(this->Poisson->GetReport(), "/maximum/0/value");
+  const double vertex = numberAt(this->Poisson->GetReport(), "/maximum/0/vertex");
   auto* output = vtkPointSet::SafeDownCast(this->Poisson->GetOutputDataObject(0));
   auto* ids = output->GetPointData()->GetArray("OriginalId");
   for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
   {
-    const bool isLargest =
-      output->GetPointData()->GetArray("Solution")->GetTuple1(i) == maximum["value"].get<double>();
-    EXPECT_EQ(isLargest, ids->GetTuple1(i) == maximum["vertex"].get<double>()) << i;
+    const bool isLargest = output->GetPointData()->GetArray("Solution")->GetTuple1(i) == maximum;
+    EXPECT_EQ(isLargest, ids->GetTuple1(i) == vertex) << i;
   }
 }
 

@@ -10,13 +10,12 @@
 #include "Solver/Description/DescribedProblem.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/DescribedMesh.h"
+#include "Testing/Support/JsonAt.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include "vtkCellData.h"
 #include "vtkFieldData.h"
 #include "vtkSmartPointer.h"
-
-#include <nlohmann/json.hpp>
 
 #include <string>
 #include <vector>

@@ -116,12 +116,14 @@ def deform(held, options):
     return deformation
 
 
-def show(mesh, view):
-    """The surface; what is held has the colour of the angle by which it turns."""
-    turned = Calculator(Input=ExtractSurface(Input=mesh))
+def show(mesh, view, aside):
+    """The surface, moved aside; what is held has the colour of the angle by which it turns."""
+    moved = Transform(Input=ExtractSurface(Input=mesh))
+    moved.Transform.Translate = aside
+    turned = Calculator(Input=moved)
     turned.ResultArrayName = "Turned"
     turned.Function = "if(HandleMask > 0, mag(HandleRotation), -1)"
-    smooth = GenerateSurfaceNormals(Input=turned)
+    smooth = (globals().get("SurfaceNormals") or GenerateSurfaceNormals)(Input=turned)
     # Triangles keep their orientation: a preview is no manifold on which it could be found.
     smooth.Splitting = smooth.Consistency = 0
     surface = Show(smooth, view)
@@ -160,8 +162,8 @@ def draw(before, after, direction, size, path):
     heights = extent(before, up) + extent(after, up)
     low, high = min(heights), max(heights)
     gap = 0.05 * (high - low)
-    show(before, view)
-    show(after, view).Position = (middle + gap - begin) * right
+    show(before, view, [0, 0, 0])
+    show(after, view, (middle + gap - begin) * right)
     width, height = middle - left + gap + end - begin, high - low
 
     view.CameraParallelProjection = 1

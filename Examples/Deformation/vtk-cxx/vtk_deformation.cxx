@@ -3,8 +3,7 @@
 The Stanford bunny turns its head, out of core, in C++ with a VTK pipeline.
 
 Its base is held where it is, its head turned by 70 degrees and scaled by 1.3, an ear turned by 90
-degrees; the rest of the mesh follows and keeps its details. What is held and how it moves stands in
-a handle file, the same that the program smg takes: smg deform MESH OUT --handles bunny.json.
+degrees; the rest of the mesh follows and keeps its details.
 
 What this lesson shows:
  1. A handle is a filter: vtkMeshHandle takes hold of the points where an implicit function is at
@@ -15,7 +14,7 @@ What this lesson shows:
 
 Run it:
 
-    vtk_deformation ../../Data/bunny.smb ../bunny.json bunny-deformed.vsm
+    vtk_deformation ../../Data/bunny.smb bunny-deformed.vsm
 
     34834 points: converged in 14 passes, relative residual 5.50654e-07
 */
@@ -25,134 +24,73 @@ Run it:
 #include "vtkStreamingMeshReader.h"
 #include "vtkStreamingMeshWriter.h"
 
-#include "vtkBox.h"
 #include "vtkNew.h"
 #include "vtkPlane.h"
-#include "vtkSmartPointer.h"
 #include "vtkSphere.h"
 
-#include <nlohmann/json.hpp>
-
-#include <array>
-#include <fstream>
 #include <iostream>
-#include <stdexcept>
-#include <vector>
 
 namespace
 {
 
-using Json = nlohmann::json;
-using Vector = std::array<double, 3>;
-
-/** Lets the handle hold a region of the file; answers the middle of spheres and boxes. */
-Vector setRegion(vtkMeshHandle& handle, const Json& region)
+/** Lets the handle hold what lies in a sphere. */
+void holdSphere(vtkMeshHandle& handle, double x, double y, double z, double radius)
 {
-  if (region.contains("vertices"))
-  {
-    handle.SetRegion(vtkMeshHandle::IDS);
-    handle.SetIdType(vtkMeshHandle::ORIGINAL_IDS);
-    for (const Json& id : region["vertices"])
-    {
-      handle.AddId(id.get<vtkIdType>());
-    }
-    return {};
-  }
-  const auto n = region.front().get<std::vector<double>>();
-  if (region.contains("sphere"))
-  {
-    vtkNew<vtkSphere> sphere;
-    sphere->SetCenter(n.at(0), n.at(1), n.at(2));
-    sphere->SetRadius(n.at(3));
-    handle.SetRegionFunction(sphere);
-    return { n[0], n[1], n[2] };
-  }
-  if (region.contains("box"))
-  {
-    vtkNew<vtkBox> box;
-    box->SetXMin(n.at(0), n.at(1), n.at(2));
-    box->SetXMax(n.at(3), n.at(4), n.at(5));
-    handle.SetRegionFunction(box);
-    return { (n[0] + n[3]) / 2, (n[1] + n[4]) / 2, (n[2] + n[5]) / 2 };
-  }
-  // A half-space: n x >= d. Inside of a plane is the side away from its normal.
-  const auto half = region.at("halfspace").get<std::array<double, 4>>();
-  const double scale = half[3] / (half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
-  vtkNew<vtkPlane> plane;
-  plane->SetNormal(-half[0], -half[1], -half[2]);
-  plane->SetOrigin(scale * half[0], scale * half[1], scale * half[2]);
-  handle.SetRegionFunction(plane);
-  return {};
-}
-
-/** Rotation and scale about the centre, then translation. */
-void setMotion(vtkMeshHandle& handle, const Json& entry, const Vector& middle)
-{
-  const Json rotate = entry.value("rotate", Json::object());
-  handle.SetMotion(vtkMeshHandle::SIMILARITY);
-  handle.SetRotationAxis(rotate.value("axis", Vector{ 0.0, 0.0, 1.0 }).data());
-  handle.SetRotationAngle(rotate.value("degrees", 0.0));
-  handle.SetCenter(rotate.value("center", entry.value("center", middle)).data());
-  handle.SetScale(entry.value("scale", 1.0));
-  handle.SetTranslation(entry.value("translate", Vector{}).data());
-}
-
-/** One handle after the other; the last one has them all. */
-vtkSmartPointer<vtkAlgorithm> takeHandles(vtkAlgorithm* mesh, const Json& handles)
-{
-  vtkSmartPointer<vtkAlgorithm> last = mesh;
-  for (const Json& entry : handles)
-  {
-    vtkNew<vtkMeshHandle> handle;
-    handle->SetInputConnection(last->GetOutputPort());
-    const Vector middle = setRegion(*handle, entry.at("region"));
-    if (!entry.value("fixed", false))
-    {
-      setMotion(*handle, entry, middle);
-    }
-    last = handle;
-  }
-  return last;
+  vtkNew<vtkSphere> sphere;
+  sphere->SetCenter(x, y, z);
+  sphere->SetRadius(radius);
+  handle.SetRegionFunction(sphere);
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-  if (argc != 4)
+  if (argc != 3)
   {
-    std::cerr << "usage: vtk_deformation MESH HANDLES.json DEFORMED.vsm|.ply|.vtp|.vtu\n";
+    std::cerr << "usage: vtk_deformation BUNNY DEFORMED.vsm|.ply|.vtp|.vtu\n";
     return 2;
   }
   vtkNew<vtkStreamingMeshReader> reader;
   reader->SetFileName(argv[1]);
+
+  // Lengths are those of the mesh: the bunny is 15 cm high, y points up. The base stays. Inside of
+  // a plane is the side away from its normal.
+  vtkNew<vtkPlane> ground;
+  ground->SetOrigin(0, 0.05, 0);
+  ground->SetNormal(0, 1, 0);
+  vtkNew<vtkMeshHandle> base;
+  base->SetInputConnection(reader->GetOutputPort());
+  base->SetRegionFunction(ground);
+
+  // Rotation and scale are about the centre, then comes the translation.
+  vtkNew<vtkMeshHandle> head;
+  head->SetInputConnection(base->GetOutputPort());
+  holdSphere(*head, -0.068, 0.134, 0.027, 0.034);
+  head->SetMotion(vtkMeshHandle::SIMILARITY);
+  head->SetRotationAxis(0, 1, 0);
+  head->SetRotationAngle(70);
+  head->SetCenter(-0.065, 0.11, 0.01);
+  head->SetScale(1.3);
+  head->SetTranslation(-0.015, 0.012, 0.01);
+
+  vtkNew<vtkMeshHandle> ear;
+  ear->SetInputConnection(head->GetOutputPort());
+  holdSphere(*ear, -0.068, 0.175, -0.055, 0.025);
+  ear->SetMotion(vtkMeshHandle::SIMILARITY);
+  ear->SetRotationAxis(-0.4, 0.8, 0.45);
+  ear->SetRotationAngle(90);
+  ear->SetCenter(-0.065, 0.152, -0.008);
+  ear->SetScale(1.3);
+  ear->SetTranslation(-0.037, 0.025, 0.02);
+
   vtkNew<vtkStreamingMeshDeformation> deformation;
-  deformation->SetMemoryLimit(128);
-  try
-  {
-    std::ifstream in(argv[2]);
-    if (!in)
-    {
-      throw std::runtime_error("cannot be opened");
-    }
-    const Json file = Json::parse(in);
-    deformation->SetInputConnection(takeHandles(reader, file.at("handles"))->GetOutputPort());
-    const std::string weights = file.value("weights", "clamped");
-    deformation->SetWeights(weights == "uniform"     ? vtkStreamingMeshDeformation::UNIFORM
-                            : weights == "cotangent" ? vtkStreamingMeshDeformation::COTANGENT
-                                                     : vtkStreamingMeshDeformation::CLAMPED);
-    deformation->SetCycles(file.value("cycles", deformation->GetCycles()));
-    deformation->SetTolerance(file.value("tolerance", deformation->GetTolerance()));
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << argv[2] << ": " << error.what() << "\n";
-    return 1;
-  }
+  deformation->SetInputConnection(ear->GetOutputPort());
+  deformation->SetMemoryLimit(128); // MiB
 
   vtkNew<vtkStreamingMeshWriter> writer;
   writer->SetInputConnection(deformation->GetOutputPort());
-  writer->SetFileName(argv[3]);
+  writer->SetFileName(argv[2]);
   if (!writer->Write())
   {
     // The filters have said what is wrong.

@@ -81,7 +81,7 @@ def draw(field, path):
     view.Background2 = [0.72, 0.78, 0.85]
 
     bands = 24
-    smooth = GenerateSurfaceNormals(Input=field)
+    smooth = (globals().get("SurfaceNormals") or GenerateSurfaceNormals)(Input=field)
     smooth.FeatureAngle = 180.0
     surface = Show(smooth, view)
     ColorBy(surface, ("POINTS", "Solution"))

@@ -31,7 +31,7 @@ def play(arguments):
     result = stem + "-deformed.vsm"
     session = Session(arguments.folder, arguments.plugin, __file__, arguments.pictures)
 
-    session.menu("Sources/Streaming Multigrid", "StreamingMeshConverter")
+    session.source("StreamingMeshConverter")
     session.name_file("FileName", arguments.mesh)
     session.name_file("OutputFileName", stem + ".vsm")
     session.write("MaximumPointsInMemory/LineEdit0", arguments.guard)

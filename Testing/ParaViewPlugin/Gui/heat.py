@@ -32,7 +32,7 @@ def play(arguments):
     folder = os.path.abspath(arguments.folder)
     result = os.path.join(folder, "heat.vsm")
     session = Session(folder, arguments.plugin, __file__, arguments.pictures)
-    session.menu("Sources/Streaming Multigrid", "StreamingMeshConverter")
+    session.source("StreamingMeshConverter")
     session.name_file("FileName", arguments.mesh)
     session.name_file("OutputFileName", os.path.join(folder, "heat_sink.vsm"))
     session.apply()

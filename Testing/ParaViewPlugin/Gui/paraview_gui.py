@@ -15,6 +15,13 @@ import sys
 import zlib
 from xml.sax.saxutils import quoteattr
 
+
+def paraview_version():
+    """As "5.11"."""
+    import paraview
+    return ".".join(paraview.__version__.split(".")[:2])
+
+
 WINDOW = "pqClientMainWindow"
 PANEL = WINDOW + "/propertiesDock/propertiesPanel"
 PROPERTIES = PANEL + ("/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetContents"
@@ -22,8 +29,9 @@ PROPERTIES = PANEL + ("/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetConten
 VIEW = WINDOW + ("/centralwidget/MultiViewWidget/CoreWidget/qt_tabwidget_stackedwidget"
                  "/MultiViewWidget1/Container/Frame.0/CentralWidgetFrame/Viewport"
                  "/1QVTKOpenGLNativeWidget0")
-# Buttons have no names: Auto Apply, and Select Points On.
-AUTO_APPLY = WINDOW + "/MainControlsToolbar/1QToolButton10"
+# Buttons that have no names: Auto Apply, where it is none, and Select Points On.
+AUTO_APPLY = WINDOW + "/MainControlsToolbar/" + (
+    "1QToolButton10" if paraview_version() == "5.11" else "actionAutoApply")
 SELECT_POINTS = VIEW.split("/CentralWidgetFrame")[0] + "/TitleBar/ToolBar/1QToolButton9"
 SCREEN = (1400, 900)
 
@@ -51,7 +59,19 @@ class Session:
         self.event("/".join([WINDOW, "menubar", *menus]), "activate", action)
 
     def filter(self, name):
-        self.menu("Filters/Streaming Multigrid", name)
+        self.proxy("Filters", name)
+
+    def source(self, name):
+        self.proxy("Sources", name)
+
+    def proxy(self, menu, name):
+        """Of the category Streaming Multigrid of a menu."""
+        if paraview_version() == "5.11":
+            self.menu(menu + "/Streaming Multigrid", name)
+        else:
+            # A menu that opens looks which of its entries can be chosen.
+            self.event(f"{WINDOW}/menubar", "activate", "menu" + menu)
+            self.event(f"{WINDOW}/menubar/menu{menu}/pqProxyGroupMenuManager0/{name}", "activate")
 
     def apply(self):
         self.event(PANEL + "/Accept", "activate")
@@ -123,10 +143,10 @@ class Session:
         for name, text in self.macros.items():
             with open(os.path.join(macros, name + ".py"), "w") as file:
                 file.write(text)
-        # A wide panel, and no welcome dialog; for every ParaView 5.11.
-        for patch in range(5):
+        # A wide panel, and no welcome dialog; for every release of this ParaView.
+        for patch in range(9):
             shutil.copy(os.path.join(os.path.dirname(__file__), "layout.ini"),
-                        os.path.join(settings, "ParaView", f"ParaView5.11.{patch}.ini"))
+                        os.path.join(settings, "ParaView", f"ParaView{paraview_version()}.{patch}.ini"))
         script = os.path.join(self.folder, "session.xml")
         with open(script, "w") as file:
             file.write("<?xml version=\"1.0\" ?>\n<pqevents>\n" + "\n".join(self.events) +

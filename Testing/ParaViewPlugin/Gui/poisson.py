@@ -46,7 +46,7 @@ def play(arguments):
     scan, mesh, result = (os.path.join(folder, name) for name in ("scan.ply", "scan.vsm", "field.vsm"))
     write_scan(arguments.plugin, arguments.mesh, scan)
     session = Session(arguments.folder, arguments.plugin, __file__, arguments.pictures)
-    session.menu("Sources/Streaming Multigrid", "StreamingMeshConverter")
+    session.source("StreamingMeshConverter")
     session.name_file("FileName", scan)
     session.name_file("OutputFileName", mesh)
     session.write("MaximumPointsInMemory/LineEdit0", arguments.guard)

@@ -1,13 +1,16 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# vtk91-prefix.sh PREFIX : makes a private development prefix of Debian's standalone VTK 9.1.
+# vtk-prefix.sh PREFIX : makes a private development prefix of Debian's standalone VTK.
 # Its runtime libraries come from apt; the development packages cannot be installed beside
 # ParaView's, so they are unpacked in PREFIX. Does nothing when PREFIX is complete.
 set -euo pipefail
-prefix=$(realpath -m "${1:?usage: vtk91-prefix.sh PREFIX}")
+prefix=$(realpath -m "${1:?usage: vtk-prefix.sh PREFIX}")
 source "$(dirname "${BASH_SOURCE[0]}")/packages.sh"
 
-smg_install libvtk9.1 libtbb-dev libopenmpi-dev
+# The runtime's package has the version in its name: libvtk9.1, libvtk9.3.
+runtime_of() { apt-cache depends libvtk9-dev 2> /dev/null | grep -oE '\blibvtk9\.[0-9]+[a-z0-9]*$' | head -n 1; }
+runtime=$(runtime_of) || { smg_as_root apt-get update -qq && runtime=$(runtime_of); }
+smg_install "$runtime" libtbb-dev libopenmpi-dev
 if [ -e "$prefix/complete" ]; then
   exit 0
 fi
@@ -29,9 +32,9 @@ done
 
 # The development links and the class hierarchies refer to the runtime package's files.
 machine=$(gcc -print-multiarch)
-for library in /usr/lib/"$machine"/libvtk*-9.1.so.1 /usr/lib/"$machine"/libvtk*-9.1.so.9.1.0; do
+for library in /usr/lib/"$machine"/libvtk*-9.*.so.*; do
   ln -sf "$library" "$prefix/usr/lib/$machine/"
 done
 ln -sfn "/usr/lib/$machine/vtk" "$prefix/usr/lib/$machine/vtk"
 touch "$prefix/complete"
-echo "VTK 9.1: -DVTK_DIR=$prefix/usr/lib/$machine/cmake/vtk-9.1"
+echo "VTK: -DVTK_ROOT=$prefix/usr"
