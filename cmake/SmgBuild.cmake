@@ -45,5 +45,6 @@ function (smg_library target exportName)
     SOVERSION ${PROJECT_VERSION_MAJOR})
   install(TARGETS ${target} EXPORT StreamingMultigrid
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+      COMPONENT libraries NAMELINK_COMPONENT development
+    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT libraries)
 endfunction ()

@@ -4,11 +4,11 @@ include(CMakePackageConfigHelpers)
 
 set(smg_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/StreamingMultigrid")
 install(DIRECTORY Solver IO
-  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid"
+  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid" COMPONENT development
   FILES_MATCHING PATTERN "*.h" PATTERN "*.txx" PATTERN "vtk*" EXCLUDE)
 
 install(FILES docs/problem.schema.json
-  DESTINATION "${CMAKE_INSTALL_DATADIR}/StreamingMultigrid")
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/StreamingMultigrid" COMPONENT libraries)
 
 configure_package_config_file(cmake/StreamingMultigridConfig.cmake.in
   "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridConfig.cmake"
@@ -19,9 +19,9 @@ write_basic_package_version_file(
 install(FILES
   "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridConfig.cmake"
   "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridConfigVersion.cmake"
-  DESTINATION "${smg_package_dir}")
+  DESTINATION "${smg_package_dir}" COMPONENT development)
 
 export(EXPORT StreamingMultigrid NAMESPACE StreamingMultigrid::
   FILE "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridTargets.cmake")
 install(EXPORT StreamingMultigrid NAMESPACE StreamingMultigrid::
-  DESTINATION "${smg_package_dir}" FILE StreamingMultigridTargets.cmake)
+  DESTINATION "${smg_package_dir}" FILE StreamingMultigridTargets.cmake COMPONENT development)

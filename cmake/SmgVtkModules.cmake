@@ -23,12 +23,14 @@ vtk_module_build(
   VERSION "${PROJECT_VERSION}"
   SOVERSION "${PROJECT_VERSION_MAJOR}")
 
+# Where Debian's Python looks below /usr, whatever the folder of libraries is called.
+set(SMG_PYTHON_DIR "lib/python3/dist-packages")
 if (SMG_BUILD_PYTHON)
   vtk_module_wrap_python(
     MODULES ${smg_vtk_modules}
     TARGET StreamingMultigrid::wrapped_python
     PYTHON_PACKAGE streamingmultigrid
-    MODULE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/python3/dist-packages"
+    MODULE_DESTINATION "${SMG_PYTHON_DIR}"
     CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/StreamingMultigrid"
     BUILD_STATIC OFF
     INSTALL_HEADERS OFF)

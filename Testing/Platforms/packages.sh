@@ -1,0 +1,51 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# packages.sh : makes the Debian packages, installs them on this machine, uses them, removes them. For a
+# system of its own: bash Testing/Platforms/run.sh SUITE bash Testing/Platforms/packages.sh
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+tree=$PWD
+source cmake/packages.sh
+smg_install "${smg_build_packages[@]}" "${smg_paraview_packages[@]}" dpkg-dev file
+smg_say_so cmake --preset packages
+smg_say_so cmake --build --preset packages
+(cd build-packages && rm -f ./*.deb && smg_say_so cpack)
+
+work=$(mktemp -d)
+installed=
+clean() {
+  rm -rf "$work"
+  [ -z "$installed" ] || smg_as_root apt-get remove -y -qq streaming-multigrid > /dev/null
+}
+trap clean EXIT
+cp build-packages/*.deb "$work"
+installed=1
+smg_as_root apt-get install -y -qq "$work"/*.deb
+
+cd "$work"
+smg --version
+smg convert "$tree/Examples/Data/bunny.smb" bunny.vtp --quiet
+smg info bunny.vtp --quiet --report info.json
+grep -q '"vertices": *34834' info.json
+
+cat > plugin.py << 'END'
+from paraview.simple import *
+
+LoadDistributedPlugin("StreamingMultigrid", ns=globals())
+mesh = StreamingMeshReader(FileName="bunny.vtp")
+held = MeshHandle(Input=mesh, RegionFunction="Plane")
+held.RegionFunction.Origin, held.RegionFunction.Normal = [0, 0.05, 0], [0, 1, 0]
+SaveData("deformed.vsm", StreamingMeshDeformation(Input=held))
+END
+xvfb-run -a pvpython plugin.py
+smg info deformed.vsm --check
+
+cmake -S "$tree/Testing/Install/Solver" -B project -DCMAKE_BUILD_TYPE=Release > project.log
+cmake --build project >> project.log
+(cd project && ctest --output-on-failure > ctest.log)
+
+smg_as_root apt-get remove -y -qq streaming-multigrid > /dev/null
+installed=
+! command -v smg || exit 1
+echo "The packages install, work and go:"
+ls "$tree"/build-packages/*.deb

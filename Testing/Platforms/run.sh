@@ -1,0 +1,74 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# run.sh SUITE [COMMAND] : runs a command, "bash Examples/run.sh && bash Testing/run.sh" unless another
+# is given, in a fresh clone of the last commit of this tree, in a fresh Debian of that release
+# (bookworm, trixie, forky), and removes both. Needs root, and the network for the packages.
+#
+# At the end it says how long it took, and whether what Examples/run.sh left has the bits of what it
+# left here.
+#
+# Environment:
+#   SMG_PLATFORM_DIR   folder for the system, about 8 GB; /var/tmp unless set
+#   SMG_KEEP           1: leave it there, and say where
+#   SMG_TEST_DATA_DIR  the unpacked archive of test meshes, for the tests; none unless set
+set -euo pipefail
+suite=${1:?usage: run.sh SUITE [COMMAND]}
+shift
+command=${*:-bash Examples/run.sh && bash Testing/run.sh}
+tree=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+if [ "$(id -u)" != 0 ]; then
+  echo "$0: a system of its own needs root: sudo bash $0 $suite" >&2
+  exit 1
+fi
+source "$tree/cmake/packages.sh"
+smg_install debootstrap git
+
+root=$(mktemp -d "${SMG_PLATFORM_DIR:-/var/tmp}/smg-$suite-XXXXXX")
+# Never into what is mounted: this machine's devices are among it.
+clean() {
+  local mounted
+  for mounted in tree/data sys dev proc; do
+    ! mountpoint -q "$root/$mounted" || umount -R -l "$root/$mounted"
+  done
+  if [ "${SMG_KEEP:-}" = 1 ]; then
+    echo "The system: $root"
+  else
+    rm -rf --one-file-system "$root"
+  fi
+}
+trap clean EXIT
+
+# From where this machine has its own packages.
+archive=$(cat /etc/apt/sources.list /etc/apt/sources.list.d/* 2> /dev/null |
+  grep -oE '(https?|file):[^ ]*/debian/?( |$)' | head -n 1 | tr -d ' ')
+smg_say_so debootstrap --variant=minbase --include=git,ca-certificates,sudo "$suite" "$root" \
+  "${archive:-http://deb.debian.org/debian}" | grep -E '^(I: (Base|Retrieving InRelease)|E:|W:|\.\.\.)'
+cp /etc/resolv.conf "$root/etc/"
+for settings in /etc/apt/apt.conf.d/*; do
+  ! grep -qE 'Acquire::|Proxy' "$settings" || cp "$settings" "$root/etc/apt/apt.conf.d/"
+done
+for mounted in proc dev sys; do
+  mount --rbind "/$mounted" "$root/$mounted"
+  mount --make-rslave "$root/$mounted"
+done
+git clone -q "$tree" "$root/tree"
+data=
+if [ -n "${SMG_TEST_DATA_DIR:-}" ]; then
+  mkdir "$root/tree/data"
+  mount --bind "$SMG_TEST_DATA_DIR" "$root/tree/data"
+  data=/tree/data
+fi
+
+start=$SECONDS
+status=0
+chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 \
+  SMG_TEST_DATA_DIR="$data" bash -c "cd /tree && $command" || status=$?
+echo "$suite: ended with $status after $((SECONDS - start)) s: $command"
+for name in bunny-deformed.vsm bunny-deformed.ply; do
+  here=$tree/Examples/output/$name
+  there=$root/tree/Examples/output/$name
+  if [ -f "$here" ] && [ -f "$there" ]; then
+    cmp -s "$here" "$there" && echo "$name: the bits of this machine" || echo "$name: other bits"
+  fi
+done
+exit "$status"
