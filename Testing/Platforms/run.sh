@@ -39,8 +39,8 @@ clean() {
 trap clean EXIT
 
 # From where this machine has its own packages.
-archive=$(cat /etc/apt/sources.list /etc/apt/sources.list.d/* 2> /dev/null |
-  grep -oE '(https?|file):[^ ]*/debian/?( |$)' | head -n 1 | tr -d ' ')
+archive=$(grep -ohE '(https?|file):[^ ]*/debian/?( |$)' \
+  /etc/apt/sources.list /etc/apt/sources.list.d/* 2> /dev/null | head -n 1 | tr -d ' ' || true)
 smg_say_so debootstrap --variant=minbase --include=git,ca-certificates,sudo "$suite" "$root" \
   "${archive:-http://deb.debian.org/debian}" | grep -E '^(I: (Base|Retrieving InRelease)|E:|W:|\.\.\.)'
 cp /etc/resolv.conf "$root/etc/"
