@@ -23,7 +23,7 @@ mkdir -p Examples/output
 plugin=$(find "$PWD/build" -name StreamingMultigrid.so | head -n 1)
 smg_say_so xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython \
   Examples/Deformation/pvpython/deformation.py --plugin "$plugin" --output Examples/output
-echo "The picture: $PWD/Examples/output/bunny-deformed.png"
+echo "The picture, after $SECONDS s: $PWD/Examples/output/bunny-deformed.png"
 echo "The mesh:    $PWD/Examples/output/bunny-deformed.vsm and .ply"
 echo "The report:  $PWD/Examples/output/bunny-deformed.json"
 

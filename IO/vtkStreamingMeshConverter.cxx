@@ -1,12 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkStreamingMeshConverter.h"
 
+#include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/KeptConversion.h"
+#include "IO/Conversion/MeshFile.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshImport.h"
 #include "Solver/Core/Error.h"
 
 #include "vtkObjectFactory.h"
+#include "vtksys/SystemTools.hxx"
+
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+
+namespace
+{
+
+/** Of a mesh file that is no stream; none if its format is not known. */
+std::optional<smg::ConversionEstimate> estimateOf(const char* name)
+{
+  try
+  {
+    if (!name || smg::kindOfInput(name) != smg::MeshFileKind::Indexed)
+    {
+      return std::nullopt;
+    }
+    return smg::estimateConversion(name);
+  }
+  catch (const std::exception&)
+  {
+    return std::nullopt;
+  }
+}
+
+/** Whether VTK has a reader for files whose names end so. */
+bool isReadByVtk(const std::filesystem::path& name)
+{
+  constexpr std::array endings{ ".ply", ".obj", ".stl", ".vtk", ".vtp", ".vtu", ".pvtp", ".pvtu" };
+  const std::string ending = vtksys::SystemTools::LowerCase(name.extension().string());
+  return std::ranges::find(endings, ending) != endings.end();
+}
+
+/** As "5.3 million". */
+std::string rounded(std::int64_t count)
+{
+  constexpr double Million = 1e6;
+  std::ostringstream text;
+  text.precision(2);
+  count < Million ? text << count
+                  : text << std::fixed << static_cast<double>(count) / Million << " million";
+  return text.str();
+}
+
+/** GB of the points and cells in VTK's own data sets. */
+double gigabytes(const smg::ConversionEstimate& estimate)
+{
+  constexpr double PointBytes = 3 * sizeof(float), IdBytes = sizeof(vtkIdType);
+  // A surface has two triangles a vertex, a solid five to six tetrahedra.
+  const double corners = estimate.cells > 3 * estimate.vertices ? 4.0 : 3.0;
+  return 1e-9 * (static_cast<double>(estimate.vertices) * PointBytes +
+                  static_cast<double>(estimate.cells) * (corners + 1.0) * IdBytes);
+}
+
+} // namespace
 
 vtkStandardNewMacro(vtkStreamingMeshConverter);
 
@@ -20,6 +81,32 @@ vtkStreamingMeshConverter::~vtkStreamingMeshConverter()
 const char* vtkStreamingMeshConverter::GetReport()
 {
   return this->Report.c_str();
+}
+
+int vtkStreamingMeshConverter::CanReadFile(const char* name)
+{
+  const auto estimate = estimateOf(name);
+  if (!estimate)
+  {
+    return 0;
+  }
+  return !isReadByVtk(name) || estimate->vertices > this->GetMaximumPointsInMemory() ? 1 : 0;
+}
+
+const char* vtkStreamingMeshConverter::GetEstimate()
+{
+  this->Estimate.clear();
+  if (const auto estimate = estimateOf(this->GetFileName()))
+  {
+    std::ostringstream text;
+    text.precision(2);
+    text << "About " << rounded(estimate->vertices) << " points and " << rounded(estimate->cells)
+         << " cells" << (estimate->counted ? "" : ", as guessed from the size of the file")
+         << ": a reader that reads all of it takes at least " << std::fixed << gigabytes(*estimate)
+         << " GB, the conversion " << (estimate->memory_bytes >> 20) << " MiB";
+    this->Estimate = text.str();
+  }
+  return this->Estimate.c_str();
 }
 
 std::string vtkStreamingMeshConverter::GetContainerName()

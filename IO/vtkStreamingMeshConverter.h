@@ -108,6 +108,19 @@ public:
   ///@}
 
   /**
+   * Whether the file is a mesh of a format that is no stream. One of a format that VTK reads must
+   * have, or by its size seem to have, more points than MaximumPointsInMemory: smaller ones are
+   * left to VTK's readers. So ParaView's File > Open offers the converter beside these.
+   */
+  int CanReadFile(const char* name);
+
+  /**
+   * What FileName seems to hold, and what memory a reader that reads all of it would take, in a
+   * line. Empty if it is no mesh that can be converted.
+   */
+  const char* GetEstimate();
+
+  /**
    * The report of the conversion to OutputFileName, as JSON. Empty if this object has made none,
    * since the container was up to date.
    */
@@ -131,7 +144,7 @@ private:
   double WeldDistance = 0.0;
   bool Overwrite = false;
   int MemoryLimit = 0;
-  std::string Report;
+  std::string Report, Estimate;
   std::string ReportedName; ///< of the container that the report is about
 };
 

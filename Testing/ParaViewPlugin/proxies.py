@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The proxies: names, labels, defaults, categories, readers and writers by extension."""
 
+import os
 import re
 import sys
 
@@ -46,4 +47,32 @@ writers = sm.vtkSMProxyManager.GetProxyManager().GetWriterFactory()
 names = writers.GetSupportedFileTypes(reader.SMProxy, 0)
 for extension in ("vsm", "sma", "smb", "sva", "svb"):
     assert "*." + extension in names, names
+
+# File > Open offers the converter for formats that ParaView does not read, and for large meshes.
+folder = t.make_folder()
+off, small, large = (os.path.join(folder, name) for name in ("mesh.off", "small.ply", "large.ply"))
+with open(off, "w", encoding="utf-8") as file:
+    file.write("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+SaveData(small, Sphere())
+header = ("ply\nformat binary_little_endian 1.0\nelement vertex 3000000\nproperty float x\nproperty float y\n"
+          "property float z\nelement face 6000000\nproperty list uchar int vertex_indices\nend_header\n")
+with open(large, "wb") as file:
+    file.write(header.encode())
+    file.truncate(len(header) + 3000000 * 12 + 6000000 * 13)
+factory = sm.vtkSMProxyManager.GetProxyManager().GetReaderFactory()
+
+
+def readers_of(path):
+    found = factory.GetReaders(path, sm.ActiveConnection.Session)
+    return [found.GetString(i) for i in range(1, found.GetNumberOfStrings(), 3)]
+
+
+assert readers_of(off) == ["streaminglargemesh"], readers_of(off)
+assert readers_of(small) == ["PLYReader"], readers_of(small)
+# Scripts take the first one.
+assert readers_of(large) == ["PLYReader", "streaminglargemesh"], readers_of(large)
+converter = StreamingMeshConverter(FileName=large)
+converter.UpdatePropertyInformation()
+estimate = converter.GetPropertyValue("Estimate")
+assert estimate.startswith("About 3.00 million points and 6.00 million cells: "), estimate
 print("passed")
