@@ -4,7 +4,7 @@
 #   main        build/             ParaView's VTK, plugin, Python; all tests but the long ones; several
 #                                  sources compiled as one: the names in their unnamed namespaces differ
 #   vtk         build-vtk/         Debian's standalone VTK; the tests of what is built on VTK; source by
-#                                  source: each includes what it needs
+#                                  source, since each includes what it needs; with assertions
 #   asan-ubsan  build-asan-ubsan/  Solver, IO and smg without VTK, under two sanitizers
 # Stops at the first configuration that fails, with ctest's summary as its last lines.
 #
