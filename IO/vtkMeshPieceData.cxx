@@ -91,7 +91,6 @@ void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
   {
     points.SetNormals(
       arrayOf<vtkFloatArray>(NormalsName, 3, piece.normals, [](float number) { return number; }));
-    points.GetNormals()->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
   }
   for (const Column& column : piece.cellColumns)
   {

@@ -22,7 +22,7 @@ def check(source, when):
                 assert chosen in ("None", "", None), (when, name, value)
                 offered = {domain.GetString(i) for i in range(domain.GetNumberOfStrings())}
                 assert "None" in offered, (when, name, offered)
-                unwanted = {"GlobalIds", "vtkGhostType", "StreamFinalized", "MeshConditions", "Normals"}
+                unwanted = {"GlobalIds", "vtkGhostType", "StreamFinalized", "MeshConditions"}
                 assert not offered & unwanted, (when, name, offered)
                 checked += 1
         assert checked == (7 if proxy.SMProxy.GetXMLName() == "StreamingPoisson" else 1), checked
@@ -44,6 +44,8 @@ check(MeshCondition(Input=calculators, Region="Everywhere"), "behind a condition
 reader.MaximumPointsInMemory = 1000
 reader.UpdatePipeline()
 check(reader, "behind a preview")
+# Its shading is that of the mesh.
+assert Show(reader, GetActiveView()).SelectNormalArray == "Normals"
 reader.MaximumPointsInMemory = 2000000
 
 # A scan in millimetres, scripted as people do: the harmonic field stays between its ends.
