@@ -55,16 +55,17 @@ smg_choose() {
 
 # smg_say_so COMMAND... : the lines of the command, and one every few seconds while it says nothing.
 smg_say_so() {
-  local start=$SECONDS line status
+  local start=$SECONDS line begun= status
   "$@" 2>&1 | while :; do
     status=0
     IFS= read -r -t 5 line || status=$?
-    if [ "$status" = 0 ]; then
-      echo "$line"
-    elif [ "$status" -gt 128 ]; then
+    begun+=$line
+    if [ "$status" -gt 128 ]; then
       echo "... $((SECONDS - start)) s"
     else
-      break
+      [ "$status" != 0 ] && [ -z "$begun" ] || echo "$begun"
+      begun=
+      [ "$status" = 0 ] || break
     fi
   done
   return "${PIPESTATUS[0]}"

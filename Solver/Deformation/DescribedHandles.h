@@ -35,6 +35,8 @@ public:
    */
   DescribedHandles(const DeformationDescription& description, const StreamInfo& mesh,
     const std::string& name = "deformation");
+  DescribedHandles(const DescribedHandles&) = delete;
+  DescribedHandles& operator=(const DescribedHandles&) = delete;
 
   /** The columns that the mesh source must deliver. */
   std::vector<std::string> vertexColumns() const { return this->OfMesh.vertexColumns(); }

@@ -5,7 +5,7 @@
 # (bookworm, trixie, forky), and removes both. Needs root, and the network for the packages.
 #
 # At the end it says how long it took, and whether what Examples/run.sh left has the bits of what it
-# left here.
+# left here; other bits are a failure.
 #
 # Environment:
 #   SMG_PLATFORM_DIR   folder for the system, about 8 GB; /var/tmp unless set
@@ -13,13 +13,17 @@
 #   SMG_TEST_DATA_DIR  the unpacked archive of test meshes, for the tests; none unless set
 set -euo pipefail
 suite=${1:?usage: run.sh SUITE [COMMAND]}
-shift
-command=${*:-bash Examples/run.sh && bash Testing/run.sh}
-tree=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 if [ "$(id -u)" != 0 ]; then
   echo "$0: a system of its own needs root: sudo bash $0 $suite" >&2
   exit 1
 fi
+# What is mounted below is seen by this process and its children only, and goes with them.
+if [ -z "${SMG_PLATFORM_MOUNTS:-}" ]; then
+  SMG_PLATFORM_MOUNTS=private exec unshare --mount --propagation private bash "$0" "$@"
+fi
+shift
+command=${*:-bash Examples/run.sh && bash Testing/run.sh}
+tree=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 source "$tree/cmake/packages.sh"
 smg_install debootstrap git
 
@@ -27,7 +31,7 @@ root=$(mktemp -d "${SMG_PLATFORM_DIR:-/var/tmp}/smg-$suite-XXXXXX")
 # Never into what is mounted: this machine's devices are among it.
 clean() {
   local mounted
-  for mounted in tree/data sys dev proc; do
+  for mounted in data sys dev proc; do
     ! mountpoint -q "$root/$mounted" || umount -R -l "$root/$mounted"
   done
   if [ "${SMG_KEEP:-}" = 1 ]; then
@@ -38,37 +42,45 @@ clean() {
 }
 trap clean EXIT
 
-# From where this machine has its own packages.
-archive=$(grep -ohE '(https?|file):[^ ]*/debian/?( |$)' \
-  /etc/apt/sources.list /etc/apt/sources.list.d/* 2> /dev/null | head -n 1 | tr -d ' ' || true)
+# From where this machine has its own packages. Releases that debootstrap does not know are made as sid.
+archive=$(grep -hE '^(deb|URIs:)' /etc/apt/sources.list /etc/apt/sources.list.d/* 2> /dev/null |
+  grep -oE 'https?:[^ ]*/debian/?( |$)' | head -n 1 | tr -d ' ' || true)
+scripts=/usr/share/debootstrap/scripts
+script=$scripts/$suite
+[ -e "$script" ] || script=$scripts/sid
 smg_say_so debootstrap --variant=minbase --include=git,ca-certificates,sudo "$suite" "$root" \
-  "${archive:-http://deb.debian.org/debian}" | grep -E '^(I: (Base|Retrieving InRelease)|E:|W:|\.\.\.)'
+  "${archive:-http://deb.debian.org/debian}" "$script" |
+  grep -E '^(I: (Base|Retrieving InRelease)|E:|W:|\.\.\.)'
 cp /etc/resolv.conf "$root/etc/"
 for settings in /etc/apt/apt.conf.d/*; do
   ! grep -qE 'Acquire::|Proxy' "$settings" || cp "$settings" "$root/etc/apt/apt.conf.d/"
 done
 for mounted in proc dev sys; do
   mount --rbind "/$mounted" "$root/$mounted"
-  mount --make-rslave "$root/$mounted"
 done
 git clone -q "$tree" "$root/tree"
 data=
 if [ -n "${SMG_TEST_DATA_DIR:-}" ]; then
-  mkdir "$root/tree/data"
-  mount --bind "$SMG_TEST_DATA_DIR" "$root/tree/data"
-  data=/tree/data
+  mkdir "$root/data"
+  mount -o bind,ro "$SMG_TEST_DATA_DIR" "$root/data"
+  data=/data
 fi
 
 start=$SECONDS
 status=0
 chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 \
-  SMG_TEST_DATA_DIR="$data" bash -c "cd /tree && $command" || status=$?
+  SMG_TEST_DATA_DIR="$data" bash -c "cd /tree && { $command; }" || status=$?
 echo "$suite: ended with $status after $((SECONDS - start)) s: $command"
 for name in bunny-deformed.vsm bunny-deformed.ply; do
   here=$tree/Examples/output/$name
   there=$root/tree/Examples/output/$name
-  if [ -f "$here" ] && [ -f "$there" ]; then
-    cmp -s "$here" "$there" && echo "$name: the bits of this machine" || echo "$name: other bits"
+  if [ ! -f "$here" ] || [ ! -f "$there" ]; then
+    echo "$name: not compared, since it is not there and here"
+  elif cmp -s "$here" "$there"; then
+    echo "$name: the bits of this machine"
+  else
+    echo "$name: other bits"
+    status=1
   fi
 done
 exit "$status"
