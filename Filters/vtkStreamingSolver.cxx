@@ -300,7 +300,11 @@ int vtkStreamingSolver::GetConverged()
 
 const char* vtkStreamingSolver::GetOutcome()
 {
-  this->Internal->Outcome = this->GetSummary().outcome();
+  const smg::SolveSummary& summary = this->GetSummary();
+  const bool isPast =
+    summary.error.empty() && !summary.report.empty() && !this->Internal->isUpToDate();
+  this->Internal->Outcome =
+    isPast ? "Not solved: a filter before this one failed." : summary.outcome();
   return this->Internal->Outcome.c_str();
 }
 
@@ -416,4 +420,5 @@ void vtkStreamingSolver::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Passes: " << this->GetPasses() << "\n";
   os << indent << "PeakMemory: " << this->GetPeakMemory() << "\n";
   os << indent << "Converged: " << this->GetConverged() << "\n";
+  os << indent << "Outcome: " << this->GetOutcome() << "\n";
 }

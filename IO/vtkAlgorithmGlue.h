@@ -71,6 +71,7 @@ int answer(vtkAlgorithm& algorithm, Failures& failures, vtkInformationVector& ou
   try
   {
     work();
+    failures.clear();
     return 1;
   }
   catch (const Cancelled&)

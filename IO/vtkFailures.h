@@ -25,6 +25,9 @@ public:
    */
   void show(vtkAlgorithm& algorithm, const std::string& sentence);
 
+  /** The algorithm has succeeded: its next failure is shown, whatever it is. */
+  void clear() { this->Last.clear(); }
+
   /** Keeps the executive from saying, too, that the algorithm failed, where nobody observes it. */
   void quieten(vtkAlgorithm& algorithm);
 

@@ -15,18 +15,29 @@
 #include <array>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <sstream>
 
 namespace
 {
 
+/** Whether a legacy VTK file has an image or another grid of rows and columns. */
+bool isStructured(const std::filesystem::path& name)
+{
+  std::string beginning(1024, '\0');
+  std::ifstream(name).read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  return beginning.starts_with("# vtk DataFile") &&
+         (beginning.find("DATASET STRUCTURED_") != std::string::npos ||
+           beginning.find("DATASET RECTILINEAR_GRID") != std::string::npos);
+}
+
 /** Of a mesh file that is no stream; none if its format is not known. */
 std::optional<smg::ConversionEstimate> estimateOf(const char* name)
 {
   try
   {
-    if (!name || smg::kindOfInput(name) != smg::MeshFileKind::Indexed)
+    if (!name || smg::kindOfInput(name) != smg::MeshFileKind::Indexed || isStructured(name))
     {
       return std::nullopt;
     }
@@ -46,7 +57,7 @@ bool isReadByVtk(const std::filesystem::path& name)
   return std::ranges::find(endings, ending) != endings.end();
 }
 
-/** As "5.3 million". */
+/** As "5.30 million". */
 std::string rounded(std::int64_t count)
 {
   constexpr double Million = 1e6;

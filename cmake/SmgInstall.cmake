@@ -10,13 +10,17 @@ install(DIRECTORY Solver IO
 install(FILES docs/problem.schema.json
   DESTINATION "${CMAKE_INSTALL_DATADIR}/StreamingMultigrid" COMPONENT libraries)
 
+# Of the folder that SmgParaViewPrefix made in the build folder, the original.
+string(REPLACE "${CMAKE_BINARY_DIR}/paraview/" "/usr/" smg_vtk_dir "${VTK_DIR}")
 configure_package_config_file(cmake/StreamingMultigridConfig.cmake.in
   "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridConfig.cmake"
   INSTALL_DESTINATION "${smg_package_dir}")
 write_basic_package_version_file(
   "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridConfigVersion.cmake"
   COMPATIBILITY SameMinorVersion)
+file(COPY cmake/SmgParaViewPrefix.cmake DESTINATION "${CMAKE_BINARY_DIR}/${smg_package_dir}")
 install(FILES
+  cmake/SmgParaViewPrefix.cmake
   "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridConfig.cmake"
   "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridConfigVersion.cmake"
   DESTINATION "${smg_package_dir}" COMPONENT development)

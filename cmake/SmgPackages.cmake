@@ -50,9 +50,9 @@ set(CPACK_DEBIAN_LIBRARIES_PACKAGE_NAME streaming-multigrid)
 set(CPACK_DEBIAN_LIBRARIES_PACKAGE_RECOMMENDS paraview-streaming-multigrid)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME streaming-multigrid-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "streaming-multigrid ${version}, nlohmann-json3-dev, libtbb-dev")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS paraview-streaming-multigrid)
+string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+  "streaming-multigrid ${version}, paraview-streaming-multigrid ${version}, nlohmann-json3-dev, "
+  "libtbb-dev, paraview-dev, libopenmpi-dev, libpython3-dev")
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_NAME paraview-streaming-multigrid)
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_DEPENDS "streaming-multigrid ${version}, ${paraview}")
 set(CPACK_COMPONENT_LIBRARIES_DESCRIPTION "Libraries without VTK, and the program smg")

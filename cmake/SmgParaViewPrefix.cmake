@@ -1,11 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Debian 13's package of ParaView says that its Python modules are files that do not exist:
 # vtkCommonCore.so, where vtkCommonCore.cpython-313-x86_64-linux-gnu.so is. Then a folder is made with
-# links to all of ParaView's files, and with links of these names, and ParaView_DIR is there.
+# links to all of ParaView's files, and with links of these names, and ParaView_DIR is there. Not where
+# the user names another ParaView.
 
-if (ParaView_DIR)
+if (ParaView_DIR OR DEFINED ParaView_ROOT OR DEFINED ENV{ParaView_ROOT})
   return()
 endif ()
+foreach (folder IN LISTS CMAKE_PREFIX_PATH)
+  file(GLOB smg_paraview
+    "${folder}/lib*/cmake/paraview-*/paraview-config.cmake"
+    "${folder}/lib/*/cmake/paraview-*/paraview-config.cmake")
+  if (smg_paraview)
+    return()
+  endif ()
+endforeach ()
 set(smg_libraries "lib/${CMAKE_LIBRARY_ARCHITECTURE}")
 file(GLOB smg_paraview "/usr/${smg_libraries}/cmake/paraview-*/paraview-config.cmake")
 if (NOT smg_paraview)
@@ -43,9 +52,11 @@ endfunction ()
 
 set(smg_prefix "${CMAKE_BINARY_DIR}/paraview")
 cmake_path(GET smg_paraview FILENAME smg_name)
-set(smg_copy "${smg_prefix}/${smg_libraries}/cmake/${smg_name}")
-if (NOT EXISTS "${smg_copy}")
-  file(MAKE_DIRECTORY "${smg_prefix}/${smg_libraries}/cmake")
+set(smg_packages "${smg_prefix}/${smg_libraries}/cmake")
+if (NOT EXISTS "${smg_packages}/${smg_name}")
+  # Whoever is cut off before the last step begins anew.
+  file(REMOVE_RECURSE "${smg_prefix}")
+  file(MAKE_DIRECTORY "${smg_packages}/part")
   foreach (folder bin include share)
     file(CREATE_LINK "/usr/${folder}" "${smg_prefix}/${folder}" SYMBOLIC)
   endforeach ()
@@ -57,10 +68,15 @@ if (NOT EXISTS "${smg_copy}")
       smg_link_all("${folder}")
     endif ()
     string(REGEX REPLACE "[.]so$" "" stem "${name}")
-    file(GLOB module "/usr/${stem}.cpython-*.so")
+    file(GLOB modules "/usr/${stem}.cpython-*.so")
+    if (NOT modules)
+      message(FATAL_ERROR "${smg_paraview} names /usr/${name}, which is not there: reinstall ParaView.")
+    endif ()
+    list(GET modules 0 module)
     file(CREATE_LINK "${module}" "${smg_prefix}/${name}" SYMBOLIC)
   endforeach ()
-  # The last step: whoever is cut off before begins anew.
-  file(COPY "${smg_paraview}" DESTINATION "${smg_prefix}/${smg_libraries}/cmake")
+  file(COPY "${smg_paraview}" DESTINATION "${smg_packages}/part")
+  file(RENAME "${smg_packages}/part/${smg_name}" "${smg_packages}/${smg_name}")
 endif ()
-set(ParaView_DIR "${smg_copy}" CACHE PATH "ParaView's own, but for names of Python modules" FORCE)
+set(ParaView_DIR "${smg_packages}/${smg_name}" CACHE PATH
+  "ParaView's own, but for names of Python modules" FORCE)

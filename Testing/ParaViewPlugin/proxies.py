@@ -68,6 +68,11 @@ def readers_of(path):
 
 
 assert readers_of(off) == ["streaminglargemesh"], readers_of(off)
+image = os.path.join(folder, "image.vtk")
+with open(image, "wb") as file:
+    file.write(b"# vtk DataFile Version 3.0\nan image\nBINARY\nDATASET STRUCTURED_POINTS\n")
+    file.truncate(200 << 20)
+assert readers_of(image) == ["LegacyVTKFileReader"], readers_of(image)
 assert readers_of(small) == ["PLYReader"], readers_of(small)
 # Scripts take the first one.
 assert readers_of(large) == ["PLYReader", "streaminglargemesh"], readers_of(large)
