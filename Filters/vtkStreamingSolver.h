@@ -133,8 +133,8 @@ public:
   /**
    * What the last solve came to: relative residual, passes over the mesh, most memory that the
    * solver used (bytes), whether it converged (0 also if what is asked for since could not be
-   * solved), all that in a line, or why there is none, what else there is to say (a line a note), and
-   * the whole report as JSON (the last three are "" before a solve).
+   * solved), all that in a line, or why there is none, what else there is to say (a line a note),
+   * and the whole report as JSON (the last three are "" before a solve).
    */
   double GetResidual();
   int GetPasses();
