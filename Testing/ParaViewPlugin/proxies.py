@@ -50,9 +50,10 @@ for extension in ("vsm", "sma", "smb", "sva", "svb"):
 
 # File > Open offers the converter for formats that ParaView does not read, and for large meshes.
 folder = t.make_folder()
-off, small, large = (os.path.join(folder, name) for name in ("mesh.off", "small.ply", "large.ply"))
-with open(off, "w", encoding="utf-8") as file:
-    file.write("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+medit, small, large = (os.path.join(folder, name) for name in ("m.mesh", "small.ply", "large.ply"))
+with open(medit, "w", encoding="utf-8") as file:
+    file.write("MeshVersionFormatted 1\nDimension 3\nVertices\n3\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+               "Triangles\n1\n1 2 3 0\nEnd\n")
 SaveData(small, Sphere())
 header = ("ply\nformat binary_little_endian 1.0\nelement vertex 3000000\nproperty float x\nproperty float y\n"
           "property float z\nelement face 6000000\nproperty list uchar int vertex_indices\nend_header\n")
@@ -67,7 +68,7 @@ def readers_of(path):
     return [found.GetString(i) for i in range(1, found.GetNumberOfStrings(), 3)]
 
 
-assert readers_of(off) == ["streaminglargemesh"], readers_of(off)
+assert readers_of(medit) == ["streaminglargemesh"], readers_of(medit)
 image = os.path.join(folder, "image.vtk")
 with open(image, "wb") as file:
     file.write(b"# vtk DataFile Version 3.0\nan image\nBINARY\nDATASET STRUCTURED_POINTS\n")
