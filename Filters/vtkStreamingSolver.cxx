@@ -301,10 +301,9 @@ int vtkStreamingSolver::GetConverged()
 const char* vtkStreamingSolver::GetOutcome()
 {
   const smg::SolveSummary& summary = this->GetSummary();
-  const bool isPast =
-    summary.error.empty() && !summary.report.empty() && !this->Internal->isUpToDate();
+  const bool isPast = summary.error.empty() && !this->Internal->isUpToDate();
   this->Internal->Outcome =
-    isPast ? "Not solved: a filter before this one failed." : summary.outcome();
+    isPast ? "Not solved: not applied yet, or a filter before this one failed." : summary.outcome();
   return this->Internal->Outcome.c_str();
 }
 

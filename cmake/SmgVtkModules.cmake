@@ -26,6 +26,8 @@ vtk_module_build(
 # Where Debian's Python looks below /usr, whatever the folder of libraries is called.
 set(SMG_PYTHON_DIR "lib/python3/dist-packages")
 if (SMG_BUILD_PYTHON)
+  # From the modules to the libraries beside lib/python3.
+  list(APPEND CMAKE_INSTALL_RPATH "$ORIGIN/../../..")
   vtk_module_wrap_python(
     MODULES ${smg_vtk_modules}
     TARGET StreamingMultigrid::wrapped_python

@@ -105,7 +105,7 @@ void parseConditions(const JsonNode& node, ValueParser parseValue, ProblemDescri
   const auto placedValue = [&](const JsonNode& entry) -> PlacedValue
   {
     requireWhereAnd(entry, { "value" });
-    return { parseWhere(entry), parseValue(entry.member("value")) };
+    return { parseWhere(entry, true), parseValue(entry.member("value")) };
   };
   forEach(
     "dirichlet", [&](const JsonNode& entry) { problem.dirichlet.push_back(placedValue(entry)); });
@@ -115,14 +115,14 @@ void parseConditions(const JsonNode& node, ValueParser parseValue, ProblemDescri
     {
       requireWhereAnd(entry, { "coefficient", "ambient" });
       problem.robin.push_back(
-        { parseWhere(entry), parseDatum(entry.member("coefficient"), parseCoefficient),
+        { parseWhere(entry, true), parseDatum(entry.member("coefficient"), parseCoefficient),
           parseValue(entry.member("ambient")) });
     });
   forEach("soft",
     [&](const JsonNode& entry)
     {
       requireWhereAnd(entry, { "weight", "value" });
-      problem.soft.push_back({ parseWhere(entry),
+      problem.soft.push_back({ parseWhere(entry, true),
         parseDatum(entry.member("weight"), parseCoefficient), parseValue(entry.member("value")) });
     });
 }

@@ -34,10 +34,10 @@ inline constexpr std::array ProblemKeys{ "weights", "columns", "conductivity", "
  *             | "sphere": [x, y, z, r] | "vertices": [original numbers]
  *             | "tag": ["column", value] | "mask": "column" | "nearest": [[x, y, z], ...]
  *
- * Every key may be left out; ProblemDescription says what it means and what holds without it. The
- * entries of a list in C have no lists themselves. `raw-cotangent` is an old name of `cotangent`.
- * docs/problem.schema.json says the same as a JSON schema. What the file does not say is as in
- * `defaults`; conditions are added to theirs.
+ * An entry without WHERE holds everywhere. Every key may be left out; ProblemDescription says what
+ * it means and what holds without it. The entries of a list in C have no lists themselves.
+ * `raw-cotangent` is an old name of `cotangent`. docs/problem.schema.json says the same as a JSON
+ * schema. What the file does not say is as in `defaults`; conditions are added to theirs.
  * @throws Error naming the file and the place in it
  */
 ProblemDescription readProblemFile(

@@ -133,6 +133,15 @@ def test_boundary():
         assert [c["area"] for c in report["conditions"]] == [SIDE ** 2, 0, SIDE ** 2]
 
 
+def test_everywhere():
+    """An entry that says no place holds everywhere, as the filters' conditions do."""
+    expect(lambda x, y, z: 2, robin=[{"coefficient": 1, "ambient": 2}])
+    expect(lambda x, y, z: 5, soft=[{"weight": 3, "value": 5}])
+    expect(lambda x, y, z: 7, dirichlet=[{"value": 4}, {"value": 7}])
+    report = solve(dirichlet=[BOTTOM], flux=[{"value": 1}])
+    assert abs(report["conditions"][1]["area"] - 6 * SIDE ** 2) < 1e-9, report["conditions"]
+
+
 def test_densities():
     expect(lambda x, y, z: 2, screening=2, source=[4])
     expect(lambda x, y, z: 2, screening=2, source=4)
@@ -190,6 +199,7 @@ def test_errors():
 
 
 GOOD = [
+    {"dirichlet": [{"value": 3}]}, {"soft": [{"weight": 1, "value": 2}]},
     {"source": 0, "initial": [{"value": 1}], "dirichlet": [{"mask": "bottom", "value": 2}]},
     {"weights": "raw-cotangent", "columns": 1, "source": [0], "screening": 0, "conductivity": 2},
     {"conductivity": [1, 1, 1, 0, 0, 0.5], "source": 1},
@@ -202,7 +212,7 @@ BAD = [
     [], {}, {"conductivity": 2, "screening": 1, "weights": "uniform"}, {"weight": "uniform"}, {"weights": "heat"}, {"columns": 0}, {"columns": 65}, {"source": True},
     {"screening": -1}, {"screening": [1]}, {"conductivity": []}, {"conductivity": ""}, {"field": [1, 0, 0]},
     {"conductivity": 0}, {"conductivity": [1, 1, 1]}, {"conductivity": [{"tag": ["layer", 2]}]},
-    {"dirichlet": [{"value": [0]}]}, {"dirichlet": [{"mask": "bottom"}]}, {"outputs": ["heat"]},
+    {"dirichlet": [{"mask": "bottom"}]}, {"outputs": ["heat"]},
     {"dirichlet": [{"mask": "bottom", "box": [0, 0, 0, 1, 1, 1], "value": [0]}]},
     {"flux": [{"mask": "bottom", "value": [0], "ambient": [0]}]}, {"flux": {}},
     {"flux": [{"tag": ["layer"], "value": [0]}]}, {"flux": [{"nearest": [], "value": [0]}]},
@@ -241,7 +251,7 @@ run("convert", "cube.vtk", "cube.vsm", "--quiet")
 # K applied to the unit vectors, a vector for each of three columns.
 write_vtk("fields.vtk", eye=[(4, 0, 0, 0, 2, 0, 0, 0, 1)] * len(CELLS))
 run("convert", "fields.vtk", "fields.vsm", "--quiet")
-for each in (test_two_materials, test_where, test_boundary, test_densities, test_earlier_solves,
+for each in (test_two_materials, test_where, test_boundary, test_everywhere, test_densities, test_earlier_solves,
              test_errors, test_schema):
     each()
     print("passed", each.__name__)

@@ -212,8 +212,9 @@ TEST_F(ProblemFile, ErrorsNameThePlace)
   EXPECT_CONTAINS(this->errorOf(R"({"field": [1, 0, 0]})"), "field: must be a string");
   EXPECT_CONTAINS(this->errorOf(R"({"outputs": ["heat"]})"), "outputs[0]: must be \"gradient\" or");
   EXPECT_CONTAINS(this->errorOf(R"({"dirichlet": {}})"), "dirichlet: must be an array");
-  EXPECT_CONTAINS(this->errorOf(R"({"dirichlet": [{"value": [0]}]})"),
-    "dirichlet[0]: must have exactly one of halfspace, box, sphere, vertices, tag, mask and "
+  EXPECT_CONTAINS(
+    this->errorOf(R"({"dirichlet": [{"mask": "a", "box": [0, 0, 0, 1, 1, 1], "value": [0]}]})"),
+    "dirichlet[0]: must have at most one of halfspace, box, sphere, vertices, tag, mask and "
     "nearest");
   EXPECT_CONTAINS(this->errorOf(R"({"source": [{"mask": "a", "nearest": [], "value": [0]}]})"),
     "source[0]: must have at most one of halfspace");
