@@ -40,6 +40,12 @@ smg_is_installed() {
   [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2> /dev/null)" = installed ]
 }
 
+# smg_fetch_lists : of the packages that there are
+smg_fetch_lists() {
+  echo "Fetching the lists of packages"
+  smg_as_root apt-get update -qq
+}
+
 # smg_choose NAME|OTHER|... : prints the first that apt knows, of its lists or as installed.
 smg_choose() {
   local package names
@@ -81,7 +87,6 @@ smg_shorten() {
 # one nothing is asked of apt or the network.
 smg_install() {
   local names=("$@") package missing=()
-  local apt=(env DEBIAN_FRONTEND=noninteractive apt-get)
   local lists_are_new=
   while :; do
     missing=()
@@ -93,12 +98,12 @@ smg_install() {
     # Package lists may be absent or out of date: then they are fetched, and it is tried once more.
     if [ -n "$lists_are_new" ] || apt-cache show "${missing[@]}" > /dev/null 2>&1; then
       echo "Installing: ${missing[*]}"
-      smg_as_root "${apt[@]}" install -y --no-install-recommends --no-remove "${missing[@]}" |
+      smg_as_root env DEBIAN_FRONTEND=noninteractive \
+        apt-get install -y --no-install-recommends --no-remove "${missing[@]}" |
         smg_say_so smg_shorten && return 0
       [ -z "$lists_are_new" ] || return 1
     fi
-    echo "Fetching the lists of packages"
-    smg_as_root "${apt[@]}" update -qq || true
+    smg_fetch_lists || true
     lists_are_new=1
   done
 }

@@ -9,7 +9,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/packages.sh"
 
 # The runtime's package has the version in its name: libvtk9.1, libvtk9.3.
 runtime_of() { apt-cache depends libvtk9-dev 2> /dev/null | grep -oE '\blibvtk9\.[0-9]+[a-z0-9]*$' | head -n 1; }
-runtime=$(runtime_of) || { smg_as_root apt-get update -qq && runtime=$(runtime_of); }
+runtime=$(runtime_of) || { smg_fetch_lists && runtime=$(runtime_of); }
 smg_install "$runtime" libtbb-dev libopenmpi-dev
 if [ -e "$prefix/complete" ]; then
   exit 0
@@ -22,7 +22,7 @@ options=()
 [ "$(id -u)" != 0 ] || options=(-o APT::Sandbox::User=root)
 packages=(libvtk9-dev vtk9 python3-vtk9)
 apt-get "${options[@]}" download "${packages[@]}" || {
-  smg_as_root apt-get update
+  smg_fetch_lists
   apt-get "${options[@]}" download "${packages[@]}"
 }
 mkdir -p "$prefix"

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <span>
 
 namespace smg
 {
@@ -40,22 +39,22 @@ Region verticesOf(const JsonNode& node)
   return Region::Vertices{ node.integers(0, std::numeric_limits<std::int64_t>::max()) };
 }
 
-/** The one of these keys that the object has; null: none, if that may be. */
-const char* keyOf(const JsonNode& object, std::span<const char* const> keys, bool none)
+/** The one of WhereKeys that the object has; null: none, if that may be. */
+const char* keyOf(const JsonNode& object, bool none)
 {
   const auto given = [&object](const char* key) { return object.has(key); };
-  const auto count = std::ranges::count_if(keys, given);
+  const auto count = std::ranges::count_if(WhereKeys, given);
   if (count > 1 || (count == 0 && !none))
   {
     std::string list;
-    for (std::size_t k = 0; k < keys.size(); ++k)
+    for (std::size_t k = 0; k < WhereKeys.size(); ++k)
     {
-      list += k == 0 ? "" : k + 1 == keys.size() ? " and " : ", ";
-      list += keys[k];
+      list += k == 0 ? "" : k + 1 == WhereKeys.size() ? " and " : ", ";
+      list += WhereKeys[k];
     }
     object.fail((none ? "must have at most one of " : "must have exactly one of ") + list);
   }
-  return count == 0 ? nullptr : *std::ranges::find_if(keys, given);
+  return count == 0 ? nullptr : *std::ranges::find_if(WhereKeys, given);
 }
 
 Region regionOf(const JsonNode& object, std::string_view key)
@@ -98,14 +97,9 @@ NearestVertices nearestOf(const JsonNode& node)
 
 } // namespace
 
-Region parseRegion(const JsonNode& object)
-{
-  return regionOf(object, keyOf(object, RegionKeys, false));
-}
-
 Where parseWhere(const JsonNode& object, bool everywhere)
 {
-  const char* given = keyOf(object, WhereKeys, everywhere);
+  const char* given = keyOf(object, everywhere);
   if (!given)
   {
     return Everywhere{};

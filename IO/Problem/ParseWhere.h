@@ -10,20 +10,15 @@
 namespace smg
 {
 
-/** The keys of a region, and those of all that says where something holds. */
-inline constexpr std::array RegionKeys{ "halfspace", "box", "sphere", "vertices" };
+/** The keys of all that says where something holds. */
 inline constexpr std::array WhereKeys{ "halfspace", "box", "sphere", "vertices", "tag", "mask",
   "nearest" };
 
 /**
  * Reads the one of these members that the object has:
  * `halfspace` [nx, ny, nz, d], `box` [x0, y0, z0, x1, y1, z1], `sphere` [x, y, z, r],
- * `vertices` [original numbers]. Throws Error if there is none or more than one, or if it is wrong.
- */
-Region parseRegion(const JsonNode& object);
-
-/**
- * The same with `tag` ["column", value], `mask` "column" and `nearest` [[x, y, z], ...].
+ * `vertices` [original numbers], `tag` ["column", value], `mask` "column" and
+ * `nearest` [[x, y, z], ...]. Throws Error if there is more than one, or if it is wrong.
  * `everywhere`: whether there may be none.
  */
 Where parseWhere(const JsonNode& object, bool everywhere = false);

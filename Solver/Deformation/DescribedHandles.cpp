@@ -48,15 +48,12 @@ DescribedHandles::Handle DescribedHandles::compile(
 {
   Handle handle;
   handle.key = key;
-  if (!std::holds_alternative<smg::Everywhere>(description.where))
-  {
-    handle.where = Selection::make(
-      description.where, DataPlace::Vertices, ColumnOwner::Vertices, key + ".region", this->OfMesh);
-  }
+  handle.where = Selection::make(
+    description.where, DataPlace::Vertices, ColumnOwner::Vertices, key + ".region", this->OfMesh);
   const auto* mask = std::get_if<ColumnMask>(&description.where);
   if (mask && !this->OfMesh.isOfCells(mask->column, ColumnOwner::Vertices))
   {
-    handle.counts = this->OfMesh.require(mask->column, ColumnOwner::Vertices, key + ".region.mask");
+    handle.mask = this->OfMesh.require(mask->column, ColumnOwner::Vertices, key + ".region.mask");
   }
   if (const auto* values = std::get_if<HandleDescription::Values>(&description.motion))
   {
@@ -69,6 +66,7 @@ DescribedHandles::Handle DescribedHandles::compile(
   else
   {
     handle.motion = std::get<HandleMotion>(description.motion);
+    handle.moves = !handle.motion.isIdentity();
   }
   return handle;
 }
@@ -81,6 +79,7 @@ std::span<const std::uint8_t> DescribedHandles::startBlock(Handle& handle, const
     handle.values->rotation.startBlock(block);
     handle.values->logScale.startBlock(block);
   }
+  handle.counts = handle.mask ? &handle.mask->in(block) : nullptr;
   if (!handle.where)
   {
     this->Everywhere.assign(static_cast<std::size_t>(block.vertices()), 1);
@@ -113,10 +112,10 @@ void DescribedHandles::at(const MeshBlock& block, VertexHandles& handles)
   }
   for (std::size_t i = 0; i < this->Followed.size(); ++i)
   {
-    if (this->Followed[i])
+    if (Handle* handle = this->Followed[i])
     {
-      ++this->Followed[i]->following;
-      this->Moves = this->Moves || moves(block, i, handles);
+      ++handle->following;
+      handle->moves = handle->moves || (handle->values && moves(block, i, handles));
     }
   }
 }
@@ -124,8 +123,7 @@ void DescribedHandles::at(const MeshBlock& block, VertexHandles& handles)
 void DescribedHandles::hold(
   const Handle& handle, const MeshBlock& block, std::size_t i, VertexHandles& to) const
 {
-  const double count =
-    handle.counts ? std::max(1.0, std::ceil(handle.counts->in(block).value(i))) : 1.0;
+  const double count = handle.counts ? std::max(1.0, std::ceil(handle.counts->value(i))) : 1.0;
   to.mask[i] = static_cast<std::uint8_t>(std::min(to.mask[i] + count, MostHandles));
   if (handle.values)
   {
@@ -183,7 +181,8 @@ std::vector<std::string> DescribedHandles::notes() const
       notes.push_back(handle.key + " holds nothing that a later handle does not hold.");
     }
   }
-  if (!this->Moves)
+  const auto isMoving = [](const Handle& handle) { return handle.following > 0 && handle.moves; };
+  if (std::ranges::none_of(this->All, isMoving))
   {
     notes.emplace_back("No handle moves anything: OUT is IN.");
   }

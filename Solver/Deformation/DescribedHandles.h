@@ -67,12 +67,15 @@ private:
   };
   struct Handle
   {
-    std::unique_ptr<Selection> where;  ///< null: everywhere
-    std::optional<NamedColumn> counts; ///< the mask that selects, which counts
-    HandleMotion motion;               ///< if there are no values
+    std::unique_ptr<Selection> where; ///< null: everywhere
+    std::optional<NamedColumn> mask;  ///< that selects, and counts
+    const Column* counts = nullptr;   ///< the mask in the block that was started; null: none
+    HandleMotion motion;              ///< if there are no values
     std::optional<Values> values;
     std::string key;
     std::int64_t following = 0; ///< vertices so far that no later handle holds
+    bool moves =
+      false; ///< whether one that follows it is to go or turn or grow, as far as is known
   };
 
   Handle compile(const HandleDescription& handle, const std::string& key);
@@ -85,7 +88,6 @@ private:
 
   MeshColumns OfMesh;
   std::vector<Handle> All;
-  bool Moves = false;                   ///< whether a vertex so far is to go or turn or grow
   std::vector<std::uint8_t> Everywhere; ///< 1 at each vertex of a block
   std::vector<Handle*> Followed;        ///< by each vertex of a block; null: it is free
 };

@@ -10,10 +10,7 @@ namespace smg
 void DatumOnMesh::add(
   const Where& where, const DataValue& value, const std::string& key, const std::string& valueKey)
 {
-  auto selection =
-    std::holds_alternative<Everywhere>(where)
-      ? nullptr
-      : Selection::make(where, this->Place, this->Rules.preferred, key, *this->Columns);
+  auto selection = Selection::make(where, this->Place, this->Rules.preferred, key, *this->Columns);
   this->Entries.push_back({ std::move(selection),
     ValueOnMesh(value, this->Place, this->Rules, valueKey, *this->Columns), valueKey });
 }

@@ -37,6 +37,10 @@ void forCorners(
 std::unique_ptr<Selection> Selection::make(const Where& where, DataPlace place,
   ColumnOwner preferred, const std::string& key, MeshColumns& columns)
 {
+  if (std::holds_alternative<Everywhere>(where))
+  {
+    return nullptr;
+  }
   if (const auto* region = std::get_if<Region>(&where))
   {
     return std::make_unique<RegionSelection>(*region, place, key, columns);

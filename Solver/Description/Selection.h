@@ -37,8 +37,8 @@ struct CellRange
 class Selection
 {
 public:
-  /** `place`: of what it is asked. `key` is its place in the description. Throws Error if the mesh
-   * has no such column or the region is wrong. */
+  /** Null: everywhere. `place`: of what it is asked. `key` is its place in the description. Throws
+   * Error if the mesh has no such column or the region is wrong. */
   static std::unique_ptr<Selection> make(const Where& where, DataPlace place, ColumnOwner preferred,
     const std::string& key, MeshColumns& columns);
   virtual ~Selection() = default;
