@@ -9,6 +9,7 @@
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerRequestKey.h"
+#include "vtkInformationStringKey.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
@@ -86,6 +87,13 @@ void PieceInput::release()
 bool PieceInput::isData() const
 {
   return this->Producer->IsA("vtkTrivialProducer");
+}
+
+std::filesystem::path PieceInput::streamFile() const
+{
+  const char* name = this->Executive->GetOutputInformation(this->ProducerPort)
+                       ->Get(vtkStreamingMeshKeys::STREAM_FILE());
+  return name ? name : "";
 }
 
 unsigned long long PieceInput::modifiedTime()

@@ -3,6 +3,8 @@
 
 #include "vtkStreamingMultigridIOModule.h" // For export macro
 
+#include <filesystem>
+
 class vtkAlgorithm;
 class vtkDataObject;
 class vtkStreamingDemandDrivenPipeline;
@@ -40,6 +42,9 @@ public:
 
   /** The time at which something upstream was last modified, as far as the pipeline knows. */
   unsigned long long modifiedTime();
+
+  /** What vtkStreamingMeshKeys::STREAM_FILE() says, after a piece was asked for; else empty. */
+  std::filesystem::path streamFile() const;
 
   vtkAlgorithm& producer() const { return *this->Producer; }
 

@@ -3,6 +3,7 @@
 
 #include "IO/Container/Columns.h"
 #include "IO/Container/VsmWriter.h"
+#include "IO/Output/WriteVsm.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
@@ -338,8 +339,8 @@ std::vector<std::int64_t> globalIdsOf(vtkPointSet& piece, const std::string& whe
   return ids;
 }
 
-StreamInfo writeContainer(
-  PieceStream& stream, const std::filesystem::path& path, bool forScratch, Progress& progress)
+StreamInfo writeContainer(PieceStream& stream, const std::filesystem::path& path, bool forScratch,
+  Progress& progress, const std::filesystem::path& isolatedFrom)
 {
   VsmWriter writer(path, stream.info(), forScratch ? Codec::Lz4 : Codec::Zstd);
   MeshBlock block;
@@ -347,6 +348,10 @@ StreamInfo writeContainer(
   {
     writer.append(block);
     progress.update(stream.fraction());
+  }
+  if (!isolatedFrom.empty())
+  {
+    copyIsolated(isolatedFrom, stream.info(), writer);
   }
   return writer.finish();
 }

@@ -92,9 +92,11 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<std::int64_t> globalIdsOf(
 
 /**
  * Pulls the whole stream into the container `path` (see VsmWriter); `forScratch` compresses
- * lightly. Throws Error and Cancelled; then no file is left.
+ * lightly. `isolatedFrom`: a .vsm file whose vertices of no cell it gets (see copyIsolated());
+ * empty: none. Throws Error and Cancelled; then no file is left.
  */
-VTKSTREAMINGMULTIGRIDIO_EXPORT StreamInfo writeContainer(
-  PieceStream& stream, const std::filesystem::path& path, bool forScratch, Progress& progress);
+VTKSTREAMINGMULTIGRIDIO_EXPORT StreamInfo writeContainer(PieceStream& stream,
+  const std::filesystem::path& path, bool forScratch, Progress& progress,
+  const std::filesystem::path& isolatedFrom = {});
 
 } // namespace smg

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkStreamingMeshKeys.h"
 
+#include "vtkDemandDrivenPipeline.h"
 #include "vtkInformation.h"
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationIntegerRequestKey.h"
+#include "vtkInformationStringKey.h"
 #include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
@@ -21,6 +23,22 @@ public:
   }
 };
 
+/** Filters pass it on, whether they know it or not. */
+class PassedStringKey : public vtkInformationStringKey
+{
+public:
+  using vtkInformationStringKey::vtkInformationStringKey;
+
+  void CopyDefaultInformation(
+    vtkInformation* request, vtkInformation* from, vtkInformation* to) override
+  {
+    if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
+    {
+      this->ShallowCopy(from, to);
+    }
+  }
+};
+
 } // namespace
 
 vtkStandardNewMacro(vtkStreamingMeshKeys);
@@ -32,6 +50,14 @@ static vtkInformationIntegerRequestKey* vtkStreamingMeshKeys_STREAMED =
 vtkInformationIntegerRequestKey* vtkStreamingMeshKeys::STREAMED()
 {
   return vtkStreamingMeshKeys_STREAMED;
+}
+
+static vtkInformationStringKey* vtkStreamingMeshKeys_STREAM_FILE =
+  new PassedStringKey("STREAM_FILE", "vtkStreamingMeshKeys");
+
+vtkInformationStringKey* vtkStreamingMeshKeys::STREAM_FILE()
+{
+  return vtkStreamingMeshKeys_STREAM_FILE;
 }
 
 bool vtkStreamingMeshKeys::IsStreamed(vtkInformation* info)

@@ -7,6 +7,9 @@
  * view never loads such a mesh by accident. A filter that pulls its input piece by piece is no
  * accident: it says so by setting STREAMED() to the number of pieces it asks for.
  *
+ * Pieces have only points that cells use. STREAM_FILE() says where the others are, through all
+ * filters that come after the reader.
+ *
  * The executive keeps request keys where they were last set. Therefore STREAMED() counts only if
  * its value equals UPDATE_NUMBER_OF_PIECES() of the same request: see IsStreamed().
  *
@@ -21,6 +24,7 @@
 class vtkInformation;
 class vtkInformationIntegerKey;
 class vtkInformationIntegerRequestKey;
+class vtkInformationStringKey;
 
 class VTKSTREAMINGMULTIGRIDIO_EXPORT vtkStreamingMeshKeys : public vtkObject
 {
@@ -37,6 +41,12 @@ public:
 
   /** The value of STREAMED() that a data object was made for, in its information. */
   static vtkInformationIntegerKey* STREAMED_DATA();
+
+  /**
+   * Pipeline information: the .vsm file that the pieces come from, if it has points that no cell
+   * uses, which no piece has; else empty.
+   */
+  static vtkInformationStringKey* STREAM_FILE();
 
   /** Whether the request in the pipeline information `info` comes from a streaming consumer. */
   static bool IsStreamed(vtkInformation* info);

@@ -17,6 +17,7 @@
 
 #include "vtkDataArraySelection.h"
 #include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
@@ -368,7 +369,11 @@ int vtkStreamingMeshReader::RequestInformation(
   {
     return this->GetContainerName().empty() ? 1 : 0;
   }
-  const smg::StreamInfo& info = this->Internal->Mesh->reader().info();
+  const smg::VsmReader& reader = this->Internal->Mesh->reader();
+  const smg::StreamInfo& info = reader.info();
+  // Also if it is empty: what filters passed on of a file before would stay.
+  outputVector->GetInformationObject(0)->Set(vtkStreamingMeshKeys::STREAM_FILE(),
+    reader.isolatedVertices() > 0 ? reader.path().c_str() : "");
   Internals::offer(*this->Internal->PointArrays, info.vertexColumns);
   Internals::offer(*this->Internal->CellArrays, info.cellColumns);
   return smg::offerPieces(*outputVector);

@@ -8,7 +8,6 @@
 #include "IO/External/Workspace.h"
 #include "IO/Formats/Suffix.h"
 #include "IO/Output/WriteMesh.h"
-#include "IO/Output/WriteVsm.h"
 #include "IO/Restore/WriteRestored.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkPieceFiles.h"
@@ -27,7 +26,6 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 vtkStandardNewMacro(vtkStreamingMeshWriter);
@@ -54,68 +52,97 @@ int chooseNumberOfPieces(smg::PieceInput& input)
 /** What a user should know of what was written. */
 using Notes = std::vector<std::string>;
 
-Notes writeContainerFile(
-  smg::PieceInput& input, int pieces, const std::filesystem::path& path, smg::Progress& progress)
+/** What is to be written, and whereto. */
+struct Job
 {
-  smg::PieceStream stream(input, pieces, { .all = true, .required = {}, .optional = {} });
-  smg::writeContainer(stream, path, false, progress);
+  smg::PieceInput& input;
+  int pieces;
+  std::filesystem::path path;
+  /** The .vsm file with the points of no cell; empty: what the input says. */
+  std::filesystem::path streamFile;
+  smg::Progress& progress;
+
+  smg::PieceStream stream() const
+  {
+    return { this->input, this->pieces, { .all = true, .required = {}, .optional = {} } };
+  }
+
+  /** After a piece was asked for. */
+  std::filesystem::path isolatedFrom() const
+  {
+    return this->streamFile.empty() ? this->input.streamFile() : this->streamFile;
+  }
+
+  /** The progress of a part of it. */
+  smg::ProgressFunction part(double from, double to) const
+  {
+    return smg::partOf(
+      [this](double done)
+      {
+        this->progress.update(done);
+        return true;
+      },
+      from, to);
+  }
+};
+
+/** For formats that have no place for them. */
+void noteIsolated(const Job& job, Notes& notes)
+{
+  const std::filesystem::path from = job.isolatedFrom();
+  const std::int64_t count = from.empty() ? 0 : smg::VsmReader(from).isolatedVertices();
+  if (count > 0)
+  {
+    notes.push_back("The " + std::to_string(count) +
+                    " points of no cell are left out: a .vsm file keeps them, and so does "
+                    "RestoreOrder.");
+  }
+}
+
+Notes writeContainerFile(const Job& job)
+{
+  smg::PieceStream stream = job.stream();
+  smg::writeContainer(stream, job.path, false, job.progress, job.isolatedFrom());
   return {};
 }
 
 /** For formats that need counts, or last uses, first: the pieces go through a container. */
-Notes writeThroughContainer(
-  smg::PieceInput& input, int pieces, const std::filesystem::path& path, smg::Progress& progress)
+Notes writeThroughContainer(const Job& job)
 {
-  const smg::ScratchFolder scratch(std::filesystem::absolute(path).parent_path());
+  const smg::ScratchFolder scratch(std::filesystem::absolute(job.path).parent_path());
   const std::filesystem::path container = scratch.path() / "mesh.vsm";
-  smg::PieceStream stream(input, pieces, { .all = true, .required = {}, .optional = {} });
-  smg::checkOutput(path, stream.info().cellType);
-  const smg::ProgressFunction whole = [&progress](double done)
-  {
-    progress.update(done);
-    return true;
-  };
-  smg::Progress half(smg::partOf(whole, 0.0, 0.5));
+  smg::PieceStream stream = job.stream();
+  smg::checkOutput(job.path, stream.info().cellType);
+  smg::Progress half(job.part(0.0, 0.5));
   smg::writeContainer(stream, container, true, half);
-  return smg::writeFromVsm(container, path, smg::partOf(whole, 0.5, 1.0));
+  Notes notes = smg::writeFromVsm(container, job.path, job.part(0.5, 1.0));
+  noteIsolated(job, notes);
+  return notes;
 }
 
-/** In the order of the file that the mesh was made of; isolated points come from `streamFile`. */
-Notes writeInOriginalOrder(smg::PieceInput& input, int pieces, const std::filesystem::path& path,
-  const std::filesystem::path& streamFile, smg::Progress& progress)
+/** In the order of the file that the mesh was made of. */
+Notes writeInOriginalOrder(const Job& job)
 {
-  const smg::ProgressFunction whole = [&progress](double done)
-  {
-    progress.update(done);
-    return true;
-  };
-  smg::Workspace workspace(std::filesystem::absolute(path).parent_path(),
-    smg::ConversionOptions::DefaultMemory, smg::partOf(whole, 0.5, 1.0));
-  smg::PieceStream stream(input, pieces, { .all = true, .required = {}, .optional = {} });
-  smg::checkRestoredPath(path, stream.info().cellType);
-  std::filesystem::path container = workspace.folder() / "mesh.vsm";
-  smg::Progress half(smg::partOf(whole, 0.0, 0.5));
-  smg::writeContainer(stream, container, true, half);
-  if (!streamFile.empty())
-  {
-    const std::filesystem::path pieced = std::exchange(container, workspace.folder() / "all.vsm");
-    const auto source = smg::VsmReader(pieced).source();
-    smg::writeVsm(*source, container, smg::Codec::Lz4, {}, {},
-      [&](smg::VsmWriter& writer) { smg::copyIsolated(streamFile, source->info(), writer); });
-  }
+  smg::Workspace workspace(std::filesystem::absolute(job.path).parent_path(),
+    smg::ConversionOptions::DefaultMemory, job.part(0.5, 1.0));
+  smg::PieceStream stream = job.stream();
+  smg::checkRestoredPath(job.path, stream.info().cellType);
+  const std::filesystem::path container = workspace.folder() / "mesh.vsm";
+  smg::Progress half(job.part(0.0, 0.5));
+  smg::writeContainer(stream, container, true, half, job.isolatedFrom());
   workspace.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
-  return smg::writeRestored(container, path, workspace);
+  return smg::writeRestored(container, job.path, workspace);
 }
 
-Notes writeIndexedPieces(
-  smg::PieceInput& input, int pieces, const std::filesystem::path& path, smg::Progress& progress)
+Notes writeIndexedPieces(const Job& job)
 {
-  smg::writePieceFiles(input, pieces, path, progress);
-  return {};
+  smg::writePieceFiles(job.input, job.pieces, job.path, job.progress);
+  Notes notes;
+  noteIsolated(job, notes);
+  return notes;
 }
 
-using WriteFunction = Notes (*)(
-  smg::PieceInput&, int pieces, const std::filesystem::path&, smg::Progress&);
+using WriteFunction = Notes (*)(const Job& job);
 
 /** Who writes a file of that name. Throws Error if nobody does. */
 WriteFunction writerOf(const std::filesystem::path& path)
@@ -161,14 +188,13 @@ bool vtkStreamingMeshWriter::WriteFile()
       throw smg::Error("No file is named: set FileName.");
     }
     const std::filesystem::path path = this->FileName;
-    const WriteFunction write = this->RestoreOrder ? nullptr : writerOf(path);
+    const WriteFunction write = this->RestoreOrder ? writeInOriginalOrder : writerOf(path);
     smg::Progress progress(smg::progressOf(*this));
     smg::PieceInput input(*this, 0);
     const int pieces =
       this->NumberOfStreamedPieces ? this->NumberOfStreamedPieces : chooseNumberOfPieces(input);
     const std::filesystem::path streamFile = this->StreamFileName ? this->StreamFileName : "";
-    const Notes notes = write ? write(input, pieces, path, progress)
-                              : writeInOriginalOrder(input, pieces, path, streamFile, progress);
+    const Notes notes = write({ input, pieces, path, streamFile, progress });
     for (const std::string& note : notes)
     {
       vtkWarningMacro(<< path.string() << ": " << note);

@@ -4,7 +4,8 @@
  * @brief   Writes a gigantic mesh piece by piece
  *
  * Pulls the pieces of its input one after the other, each once, and writes them to one of
- * - .vsm: all point and cell arrays become columns;
+ * - .vsm: all point and cell arrays become columns; the points that no cell uses, which no piece
+ *   has, come along from the .vsm file that the pieces come from, where they were;
  * - .ply, .vtp (triangles), .vtu: one file with all point and cell arrays; how they are called in
  *   PLY, smg::writePly tells;
  * - .sma, .smb (triangles), .sva, .svb (tetrahedra): positions in single precision and cells;
@@ -63,8 +64,9 @@ public:
 
   ///@{
   /**
-   * With RestoreOrder, the .vsm file that the input comes from: pieces do not carry the points of
-   * no cell, which are taken from it. Default: none, for a mesh file that has no such points.
+   * The .vsm file that has the points of no cell. Default: none, which is the one that the input
+   * says it comes from, if it says so (see vtkStreamingMeshKeys::STREAM_FILE()): needed for data
+   * that came another way.
    */
   vtkSetFilePathMacro(StreamFileName);
   vtkGetFilePathMacro(StreamFileName);

@@ -38,8 +38,7 @@ void VertexRestorer::fail(const std::string& what) const
   throw Error(
     this->Name + ": " + what +
     ", so the original order cannot be restored: take the whole mesh that was converted, "
-    "with its column OriginalId, and the .vsm file that has its points of no cell (in VTK, "
-    "StreamFileName of the writer).");
+    "with its column OriginalId, or the .vsm file of it that has its points of no cell, too.");
 }
 
 void VertexRestorer::put(std::span<const std::int64_t> ids, std::span<const double> positions,

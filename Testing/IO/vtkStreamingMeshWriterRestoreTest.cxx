@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Container/Columns.h"
+#include "IO/Container/VsmReader.h"
 #include "IO/Conversion/Convert.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
@@ -6,6 +8,8 @@
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
+
+#include "vtkElevationFilter.h"
 
 namespace smg::testing
 {
@@ -64,15 +68,65 @@ TEST_F(VtkStreamingMeshWriterRestore, GivesTetrahedraBack)
   }
 }
 
-TEST_F(VtkStreamingMeshWriterRestore, TakesIsolatedPointsFromTheStream)
+/** A grid with a point of no cell first and two last. */
+IndexedTestMesh gridWithIsolatedPoints()
 {
   IndexedTestMesh mesh = grid(6, 6);
   mesh.positions.insert(mesh.positions.begin(), { 7, 8, 9 });
+  mesh.positions.insert(mesh.positions.end(), { 1, 2, 3, 4, 5, 6 });
   for (std::int64_t& corner : mesh.corners)
   {
     ++corner;
   }
+  return mesh;
+}
+
+TEST_F(VtkStreamingMeshWriterRestore, KeepsIsolatedPointsBehindAnyFilter)
+{
+  const IndexedTestMesh mesh = gridWithIsolatedPoints();
   this->start(mesh, "in.off");
+  const vtkNew<vtkElevationFilter> filter;
+  filter->SetInputConnection(this->Reader->GetOutputPort());
+  this->Writer->SetInputConnection(filter->GetOutputPort());
+  ASSERT_TRUE(this->write("out.ply"));
+  EXPECT_EQ(importWhole(this->Folder / "out.ply").positions, mesh.positions);
+
+  this->Writer->RestoreOrderOff();
+  ASSERT_TRUE(this->write("saved.vsm"));
+  const VsmReader saved(this->Folder / "saved.vsm");
+  EXPECT_EQ(saved.isolatedVertices(), 3);
+  EXPECT_GE(findColumn(saved.info().vertexColumns, { "Elevation", ScalarType::Float32, 1 }), 0);
+
+  // Another file, without such points: what the filter passed on of the one before is gone.
+  convert(this->Folder / "in.off", this->Folder / "other.vsm");
+  writeBytes(this->Folder / "whole.off", meshText(grid(4, 4)));
+  convert(this->Folder / "whole.off", this->Folder / "other.vsm");
+  this->Reader->SetFileName((this->Folder / "other.vsm").c_str());
+  ASSERT_TRUE(this->write("saved.vsm"));
+  EXPECT_EQ(VsmReader(this->Folder / "saved.vsm").isolatedVertices(), 0);
+}
+
+TEST_F(VtkStreamingMeshWriterRestore, SaysThatIsolatedPointsAreLeftOut)
+{
+  this->start(gridWithIsolatedPoints(), "in.off");
+  this->Writer->RestoreOrderOff();
+  for (const char* name : { "out.ply", "out.pvtp" })
+  {
+    const Errors warnings(this->Writer);
+    ASSERT_TRUE(this->write(name)) << name;
+    EXPECT_TRUE(warnings.contain("The 3 points of no cell are left out")) << warnings.text();
+  }
+}
+
+/** Data that came by hand say nothing of a file. */
+TEST_F(VtkStreamingMeshWriterRestore, TakesIsolatedPointsFromTheStreamThatIsNamed)
+{
+  const IndexedTestMesh mesh = gridWithIsolatedPoints();
+  this->start(mesh, "in.off");
+  this->Reader->SetMaximumPointsInMemory(1000);
+  this->Reader->Update();
+  this->Writer->SetInputData(this->Reader->GetOutput());
+  this->Writer->SetNumberOfStreamedPieces(1);
   const Errors errors(this->Writer);
   EXPECT_FALSE(this->write("out.ply"));
   EXPECT_FALSE(std::filesystem::exists(this->Folder / "out.ply"));
