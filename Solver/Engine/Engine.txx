@@ -292,8 +292,12 @@ void Engine<Operators>::noteAssembly(const Assembly& assembly)
 {
   reportAssembly(assembly, this->Parts, this->Result);
   this->RoundingNorm = roundingOf(assembly.termSquares());
-  this->InitialNorm =
-    std::sqrt(std::max(0.0, assembly.initialSquares() + this->Parts.shiftedSquares()));
+  const double whole = assembly.initialSquares();
+  const double shifted = std::max(0.0, whole + this->Parts.shiftedSquares());
+  // Where the sources are all mean, what is left of them is the rounding of this difference of
+  // squares, and no measure of the residual: then it is that of the sources themselves.
+  constexpr double LeastShare = 1e-14;
+  this->InitialNorm = std::sqrt(shifted < LeastShare * whole ? whole : shifted);
 }
 
 template <OperatorSet Operators>
