@@ -166,6 +166,21 @@ std::string listOf(const std::vector<double>& numbers)
   return list;
 }
 
+/** As "vertices 7, area 1.5, ": Dirichlet vertices need not have a facet between them. */
+std::string extentOf(const smg::Report::Condition& condition)
+{
+  std::string extent;
+  if (condition.vertices > 0)
+  {
+    extent = "vertices " + std::to_string(condition.vertices) + ", ";
+  }
+  if (condition.area > 0.0 || extent.empty())
+  {
+    extent += "area" + listOf({ condition.area }) + ", ";
+  }
+  return extent;
+}
+
 } // namespace
 
 void SolvingCommand::print(const smg::Report& report) const
@@ -181,8 +196,8 @@ void SolvingCommand::print(const smg::Report& report) const
   }
   for (const smg::Report::Condition& condition : report.conditions)
   {
-    std::printf("  %s: area %.6g, mean%s, flux into the body%s\n", condition.name.c_str(),
-      condition.area, listOf(condition.mean).c_str(), listOf(condition.flux).c_str());
+    std::printf("  %s: %smean%s, flux into the body%s\n", condition.name.c_str(),
+      extentOf(condition).c_str(), listOf(condition.mean).c_str(), listOf(condition.flux).c_str());
   }
   std::printf("%.2f s (%.2f s of CPU), %.1f MiB of accounted memory, %.1f MiB resident\n",
     report.seconds.total, report.cpu_seconds,

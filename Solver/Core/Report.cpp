@@ -24,8 +24,8 @@ void addResults(const Report& report, nlohmann::ordered_json& out)
   out["conditions"] = nlohmann::ordered_json::array();
   for (const Report::Condition& condition : report.conditions)
   {
-    out["conditions"].push_back({ { "name", condition.name }, { "area", condition.area },
-      { "mean", condition.mean }, { "flux", condition.flux } });
+    out["conditions"].push_back({ { "name", condition.name }, { "vertices", condition.vertices },
+      { "area", condition.area }, { "mean", condition.mean }, { "flux", condition.flux } });
   }
   out["energy"] = report.energy;
   out["mean"] = report.mean;

@@ -46,6 +46,8 @@ struct Report
   struct Condition
   {
     std::string name; ///< "dirichlet[0]", by the problem's numbers
+    /** Of a Dirichlet condition: those that it holds; else 0. */
+    std::int64_t vertices = 0;
     /** Length (of a surface's open edges) or area of its boundary facets; of a Dirichlet condition
      * those whose corners all have it. */
     double area = 0;

@@ -112,6 +112,7 @@ void ConditionSums::append(
     const Sums& sums = all[number];
     Report::Condition condition;
     condition.name = kind + ("[" + std::to_string(number) + "]");
+    condition.vertices = sums.vertices;
     condition.area = sums.area;
     condition.flux = sums.flux;
     for (std::size_t k = 0; k < this->Columns; ++k)

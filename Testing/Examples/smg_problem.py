@@ -88,6 +88,7 @@ def test_two_materials():
                         outputs=["gradient", "flux"])
         bottom, top = report["conditions"]
         assert bottom["name"] == "dirichlet[0]" and top["area"] == SIDE ** 2
+        assert bottom["vertices"] == sum(point[2] == 0 for point in POINTS)
         assert abs(top["flux"][0] - flux) < 1e-7 and abs(bottom["flux"][0] + flux) < 1e-7
         assert abs(top["mean"][0] - 1) < 1e-12
         arrays = read_vtk_xml("out.vtu")
