@@ -9,6 +9,7 @@
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
+#include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Core/Error.h"
 
 #include "vtkInformation.h"
@@ -160,6 +161,7 @@ int vtkStreamingMeshPreview::FillInputPortInformation(int, vtkInformation* info)
 int vtkStreamingMeshPreview::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
+  outputVector->GetInformationObject(0)->Set(vtkStreamingMeshKeys::PREVIEWED(), 1);
   return smg::offerPieces(*outputVector);
 }
 

@@ -4,7 +4,7 @@
 #include "IO/Import/InputFile.h"
 #include "IO/Import/RecodedImport.h"
 #include "IO/Import/XmlTags.h"
-#include "IO/vtkReaderComplaints.h"
+#include "IO/vtkRawXml.h"
 #include "Solver/Core/Error.h"
 
 #include <vtkCommand.h>
@@ -45,22 +45,13 @@ void recode(const std::filesystem::path& from, const std::filesystem::path& to)
   reader->SetReaderErrorObserver(complaints.command());
   reader->SetParserErrorObserver(complaints.command());
   reader->SetFileName(from.c_str());
-  vtkNew<Writer> writer;
-  writer->AddObserver(vtkCommand::ErrorEvent, complaints.command());
-  writer->SetFileName(to.c_str());
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToNone();
-  writer->SetHeaderTypeToUInt64();
+  bool isRecoded = false;
   try
   {
     reader->Update();
     // What the reader has complained of is not a mesh to be written.
-    if (complaints.text().empty() && reader->GetErrorCode() == 0)
-    {
-      writer->SetInputData(reader->GetOutput());
-      writer->Write();
-    }
+    isRecoded = complaints.text().empty() && reader->GetErrorCode() == 0 &&
+                writeRawXml<Writer>(*reader->GetOutput(), to, complaints);
   }
   catch (const std::exception& exception)
   {
@@ -68,7 +59,7 @@ void recode(const std::filesystem::path& from, const std::filesystem::path& to)
     throw Error(from.string() + ": VTK cannot read the file (" + exception.what() +
                 "): it is damaged, or too large for the memory.");
   }
-  if (!complaints.text().empty() || reader->GetErrorCode() != 0 || writer->GetErrorCode() != 0)
+  if (!isRecoded)
   {
     throw Error(from.string() + ": VTK cannot read the file, or not write it elsewhere: " +
                 (complaints.text().empty() ? "unknown error" : complaints.text()) +

@@ -8,6 +8,7 @@
 #include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
+#include "vtkInformationIntegerKey.h"
 #include "vtkInformationIntegerRequestKey.h"
 #include "vtkInformationStringKey.h"
 #include "vtkInformationVector.h"
@@ -94,6 +95,12 @@ std::filesystem::path PieceInput::streamFile() const
   const char* name = this->Executive->GetOutputInformation(this->ProducerPort)
                        ->Get(vtkStreamingMeshKeys::STREAM_FILE());
   return name ? name : "";
+}
+
+bool PieceInput::isPreviewed() const
+{
+  return this->Executive->GetOutputInformation(this->ProducerPort)
+    ->Get(vtkStreamingMeshKeys::PREVIEWED());
 }
 
 unsigned long long PieceInput::modifiedTime()

@@ -46,6 +46,9 @@ public:
   /** What vtkStreamingMeshKeys::STREAM_FILE() says, after a piece was asked for; else empty. */
   std::filesystem::path streamFile() const;
 
+  /** What vtkStreamingMeshKeys::PREVIEWED() says, as well. */
+  bool isPreviewed() const;
+
   vtkAlgorithm& producer() const { return *this->Producer; }
 
   /** Whether the input is somebody's mesh set as data: it is the same for every piece. */

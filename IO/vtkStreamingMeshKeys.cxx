@@ -24,10 +24,11 @@ public:
 };
 
 /** Filters pass it on, whether they know it or not. */
-class PassedStringKey : public vtkInformationStringKey
+template <class Key>
+class PassedKey : public Key
 {
 public:
-  using vtkInformationStringKey::vtkInformationStringKey;
+  using Key::Key;
 
   void CopyDefaultInformation(
     vtkInformation* request, vtkInformation* from, vtkInformation* to) override
@@ -53,11 +54,18 @@ vtkInformationIntegerRequestKey* vtkStreamingMeshKeys::STREAMED()
 }
 
 static vtkInformationStringKey* vtkStreamingMeshKeys_STREAM_FILE =
-  new PassedStringKey("STREAM_FILE", "vtkStreamingMeshKeys");
+  new PassedKey<vtkInformationStringKey>("STREAM_FILE", "vtkStreamingMeshKeys");
+static vtkInformationIntegerKey* vtkStreamingMeshKeys_PREVIEWED =
+  new PassedKey<vtkInformationIntegerKey>("PREVIEWED", "vtkStreamingMeshKeys");
 
 vtkInformationStringKey* vtkStreamingMeshKeys::STREAM_FILE()
 {
   return vtkStreamingMeshKeys_STREAM_FILE;
+}
+
+vtkInformationIntegerKey* vtkStreamingMeshKeys::PREVIEWED()
+{
+  return vtkStreamingMeshKeys_PREVIEWED;
 }
 
 bool vtkStreamingMeshKeys::IsStreamed(vtkInformation* info)

@@ -7,8 +7,9 @@
  * view never loads such a mesh by accident. A filter that pulls its input piece by piece is no
  * accident: it says so by setting STREAMED() to the number of pieces it asks for.
  *
- * Pieces have only points that cells use. STREAM_FILE() says where the others are, through all
- * filters that come after the reader.
+ * Pieces have only points that cells use. STREAM_FILE() says where the others are, and PREVIEWED()
+ * that the whole is a preview, through all filters that come after the reader, also those that keep
+ * none of its arrays.
  *
  * The executive keeps request keys where they were last set. Therefore STREAMED() counts only if
  * its value equals UPDATE_NUMBER_OF_PIECES() of the same request: see IsStreamed().
@@ -47,6 +48,9 @@ public:
    * uses, which no piece has; else empty.
    */
   static vtkInformationStringKey* STREAM_FILE();
+
+  /** Pipeline information: 1 if who asks for the whole, not streamed, gets a preview; else 0. */
+  static vtkInformationIntegerKey* PREVIEWED();
 
   /** Whether the request in the pipeline information `info` comes from a streaming consumer. */
   static bool IsStreamed(vtkInformation* info);

@@ -372,8 +372,11 @@ int vtkStreamingMeshReader::RequestInformation(
   const smg::VsmReader& reader = this->Internal->Mesh->reader();
   const smg::StreamInfo& info = reader.info();
   // Also if it is empty: what filters passed on of a file before would stay.
-  outputVector->GetInformationObject(0)->Set(vtkStreamingMeshKeys::STREAM_FILE(),
+  vtkInformation* output = outputVector->GetInformationObject(0);
+  output->Set(vtkStreamingMeshKeys::STREAM_FILE(),
     reader.isolatedVertices() > 0 ? reader.path().c_str() : "");
+  output->Set(
+    vtkStreamingMeshKeys::PREVIEWED(), info.vertices > this->MaximumPointsInMemory ? 1 : 0);
   Internals::offer(*this->Internal->PointArrays, info.vertexColumns);
   Internals::offer(*this->Internal->CellArrays, info.cellColumns);
   return smg::offerPieces(*outputVector);

@@ -10,6 +10,8 @@
 #include "IO/Output/WriteMesh.h"
 #include "IO/Restore/WriteRestored.h"
 #include "IO/vtkAlgorithmGlue.h"
+#include "IO/vtkMeshPieceData.h"
+#include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceFiles.h"
 #include "IO/vtkPieceStream.h"
 #include "Solver/Core/Error.h"
@@ -21,6 +23,7 @@
 #include "vtkInformation.h"
 #include "vtkMultiProcessController.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -35,18 +38,35 @@ namespace
 
 constexpr int CellsOfPiece = 65536;
 
-/** A number of pieces that gives each about CellsOfPiece cells, from the size of a trial piece. */
-int chooseNumberOfPieces(smg::PieceInput& input)
+/** What a first piece tells of an input. */
+struct Trial
 {
-  if (input.isData())
+  bool isOrdinary = false; ///< see smg::isOrdinaryMesh()
+  int pieces = 1;          ///< as many as give each about CellsOfPiece cells
+};
+
+Trial tryPiece(smg::PieceInput& input)
+{
+  constexpr int pieces = 64;
+  const auto cellsOf = [](vtkDataObject* data)
   {
-    return 1;
+    auto* mesh = vtkDataSet::SafeDownCast(data);
+    return mesh ? mesh->GetNumberOfCells() : 0;
+  };
+  Trial trial;
+  if (!input.isData())
+  {
+    vtkDataObject* piece = input.update(0, pieces, true);
+    if (const vtkIdType cells = cellsOf(piece))
+    {
+      const vtkIdType wanted = (cells * pieces + CellsOfPiece - 1) / CellsOfPiece;
+      trial.pieces = static_cast<int>(std::clamp<vtkIdType>(wanted, 1, 1000000));
+      trial.isOrdinary = smg::isOrdinaryMesh(*piece);
+      return trial;
+    }
   }
-  constexpr int trial = 64;
-  const auto* piece = vtkDataSet::SafeDownCast(input.update(0, trial, true));
-  const vtkIdType cells = piece ? const_cast<vtkDataSet*>(piece)->GetNumberOfCells() : 0;
-  const vtkIdType pieces = (cells * trial + CellsOfPiece - 1) / CellsOfPiece;
-  return static_cast<int>(std::clamp<vtkIdType>(pieces, 1, 1000000));
+  trial.isOrdinary = smg::isOrdinaryMesh(*input.update(0, 1, false));
+  return trial;
 }
 
 /** What a user should know of what was written. */
@@ -142,6 +162,24 @@ Notes writeIndexedPieces(const Job& job)
   return notes;
 }
 
+/** Of any other source, as far as it fits into memory: it gets an order, as `smg convert` does. */
+Notes writeOrdinary(const Job& job, bool restoreOrder)
+{
+  auto* mesh = vtkPointSet::SafeDownCast(job.input.update(0, 1, false));
+  if (job.input.isPreviewed() || smg::isPreview(*mesh))
+  {
+    throw smg::Error(
+      "The input has lost the point GlobalIds of the StreamingMeshReader, and is too large to be "
+      "read as a whole: what it gives is its preview. Keep GlobalIds in the filters between, or "
+      "raise MaximumPointsInMemory.");
+  }
+  smg::ConversionOptions options;
+  options.scratch = std::filesystem::absolute(job.path).parent_path();
+  options.restoreOrder = restoreOrder;
+  options.progress = job.part(0.0, 1.0);
+  return smg::writeOrdinaryMesh(*mesh, job.path, options).notes;
+}
+
 using WriteFunction = Notes (*)(const Job& job);
 
 /** Who writes a file of that name. Throws Error if nobody does. */
@@ -191,10 +229,13 @@ bool vtkStreamingMeshWriter::WriteFile()
     const WriteFunction write = this->RestoreOrder ? writeInOriginalOrder : writerOf(path);
     smg::Progress progress(smg::progressOf(*this));
     smg::PieceInput input(*this, 0);
-    const int pieces =
-      this->NumberOfStreamedPieces ? this->NumberOfStreamedPieces : chooseNumberOfPieces(input);
+    const Trial trial = tryPiece(input);
+    const int pieces = this->NumberOfStreamedPieces ? this->NumberOfStreamedPieces : trial.pieces;
     const std::filesystem::path streamFile = this->StreamFileName ? this->StreamFileName : "";
-    const Notes notes = write({ input, pieces, path, streamFile, progress });
+    const Job job{ input, pieces, path, streamFile, progress };
+    const Notes notes = trial.isOrdinary && write != writeIndexedPieces
+                          ? writeOrdinary(job, this->RestoreOrder)
+                          : write(job);
     for (const std::string& note : notes)
     {
       vtkWarningMacro(<< path.string() << ": " << note);

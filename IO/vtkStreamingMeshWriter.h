@@ -14,8 +14,10 @@
  * What the format does not hold is left out or rounded with a warning. Never more than a piece is
  * in memory (with RestoreOrder 256 MiB at most). The input must keep the piece contract described
  * at vtkStreamingMeshReader, also for piece files: points that no cell uses, or that are not
- * numbered by first use, are refused. It is always asked for its real pieces, not for previews. The
- * file gets its name when it is complete; after an error or an abort nothing new is left.
+ * numbered by first use, are refused. A mesh of any other source, whose points have no GlobalIds,
+ * is taken whole from memory and gets an order as smg::convert() gives it. The input is always
+ * asked for its real pieces, not for previews. The file gets its name when it is complete; after an
+ * error or an abort nothing new is left.
  *
  * With more than one process, process 0 writes and the others wait for it.
  *

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkStreamingMeshWriter.h"
+#include "IO/Container/Columns.h"
 #include "IO/Container/VsmReader.h"
 #include "IO/Conversion/OpenMesh.h"
 #include "IO/vtkStreamingMeshReader.h"
@@ -7,14 +8,25 @@
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
 
+#include "vtkContourFilter.h"
+#include "vtkDataSetTriangleFilter.h"
 #include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkPassSelectedArrays.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkSOADataArrayTemplate.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
 #include "vtkXMLPPolyDataReader.h"
 #include "vtkXMLPUnstructuredGridReader.h"
 #include "vtkXMLPolyDataReader.h"
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 namespace smg::testing
 {
@@ -221,6 +233,92 @@ TEST_F(VtkStreamingMeshWriter, MeshGivenDirectlyStaysWhole)
     std::filesystem::remove(this->Folder / name);
     std::filesystem::remove_all(this->Folder / "out");
   }
+}
+
+/** An image of a wavy function, whose values are not stored as VTK stores most arrays. */
+vtkSmartPointer<vtkImageData> waves()
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(14, 13, 12);
+  vtkNew<vtkSOADataArrayTemplate<double>> heights;
+  heights->SetName("Height");
+  heights->SetNumberOfComponents(2);
+  heights->SetNumberOfTuples(image->GetNumberOfPoints());
+  vtkNew<vtkFloatArray> values;
+  values->SetName("Value");
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    const double* p = image->GetPoint(i);
+    values->InsertNextValue(static_cast<float>(p[2] + std::sin(p[0]) - std::cos(p[1])));
+    heights->SetTypedComponent(i, 0, p[2]);
+    heights->SetTypedComponent(i, 1, -p[2]);
+  }
+  image->GetPointData()->SetScalars(values);
+  image->GetPointData()->AddArray(heights);
+  return image;
+}
+
+/** That `Height` is z and -z at the points of the container. */
+void expectHeights(const std::filesystem::path& container)
+{
+  VsmReader reader(container);
+  const StreamMesh mesh = collect(*reader.source());
+  const std::ptrdiff_t height =
+    findColumn(reader.info().vertexColumns, { "Height", ScalarType::Float64, 2 });
+  ASSERT_GE(height, 0);
+  const std::span<const double> values = std::as_const(mesh.vertexColumns[height]).as<double>();
+  for (std::size_t i = 0; i < values.size() / 2; ++i)
+  {
+    ASSERT_NEAR(values[2 * i], mesh.positions[3 * i + 2], 1e-5);
+    ASSERT_EQ(values[2 * i + 1], -values[2 * i]);
+  }
+}
+
+TEST_F(VtkStreamingMeshWriter, MeshesOfOtherSourcesGetAnOrder)
+{
+  vtkNew<vtkContourFilter> contour;
+  contour->SetInputData(waves());
+  contour->SetValue(0, 5.0);
+  vtkNew<vtkDataSetTriangleFilter> tetrahedra;
+  tetrahedra->SetInputData(waves());
+  for (vtkAlgorithm* source :
+    { static_cast<vtkAlgorithm*>(contour), static_cast<vtkAlgorithm*>(tetrahedra) })
+  {
+    source->Update();
+    auto* whole = vtkDataSet::SafeDownCast(source->GetOutputDataObject(0));
+    const vtkIdType points = whole->GetNumberOfPoints(), cells = whole->GetNumberOfCells();
+    ASSERT_GT(cells, 100);
+    this->Writer->SetInputConnection(source->GetOutputPort());
+    Errors errors(this->Writer);
+    for (const int pieces : { 0, 1, 5 })
+    {
+      this->Writer->SetNumberOfStreamedPieces(pieces);
+      ASSERT_TRUE(this->write("out.vsm")) << errors.text();
+      const VsmReader reader(this->Folder / "out.vsm");
+      EXPECT_EQ(reader.info().vertices, points);
+      EXPECT_EQ(reader.info().cells, cells);
+      expectHeights(this->Folder / "out.vsm");
+    }
+    EXPECT_TRUE(errors.text().empty()) << errors.text();
+    EXPECT_FALSE(this->write("out.pvtp"));
+    EXPECT_TRUE(errors.contain("GlobalIds")) << errors.text();
+    EXPECT_EQ(this->Folder.entries(), 1);
+  }
+}
+
+/** What no reader gave ids to, and is larger than what may be in memory, is not there. */
+TEST_F(VtkStreamingMeshWriter, PreviewsWithoutIdsAreRefused)
+{
+  this->start(torus(60, 30));
+  vtkNew<vtkPassSelectedArrays> nothing;
+  nothing->SetInputConnection(this->Reader->GetOutputPort());
+  this->Writer->SetInputConnection(nothing->GetOutputPort());
+  const Errors errors(this->Writer);
+  EXPECT_FALSE(this->write("out.vsm"));
+  EXPECT_TRUE(errors.contain("MaximumPointsInMemory")) << errors.text();
+  this->Reader->SetMaximumPointsInMemory(10000);
+  ASSERT_TRUE(this->write("out.vsm")) << errors.text();
+  EXPECT_EQ(VsmReader(this->Folder / "out.vsm").info().cells, 3600);
 }
 
 TEST_F(VtkStreamingMeshWriter, PreviewsAreRefused)

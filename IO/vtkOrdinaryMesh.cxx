@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/vtkOrdinaryMesh.h"
+
+#include "IO/vtkPieceNames.h"
+#include "IO/vtkRawXml.h"
+#include "Solver/Core/Error.h"
+#include "Solver/Storage/ScratchFolder.h"
+
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkXMLPolyDataWriter.h"
+#include "vtkXMLUnstructuredGridWriter.h"
+
+#include <string>
+
+namespace smg
+{
+namespace
+{
+
+template <class Writer>
+void writeRaw(vtkPointSet& mesh, const std::filesystem::path& path)
+{
+  vtkReaderComplaints complaints;
+  if (!writeRawXml<Writer>(mesh, path, complaints))
+  {
+    throw Error(path.string() + ": VTK cannot write the mesh there: " +
+                (complaints.text().empty() ? "unknown error" : complaints.text()) + '.');
+  }
+}
+
+} // namespace
+
+bool isOrdinaryMesh(vtkDataObject& data)
+{
+  auto* mesh = vtkPointSet::SafeDownCast(&data);
+  const bool isMesh = vtkPolyData::SafeDownCast(mesh) || vtkUnstructuredGrid::SafeDownCast(mesh);
+  return isMesh && mesh->GetNumberOfCells() > 0 && !mesh->GetPointData()->GetGlobalIds() &&
+         !mesh->GetPointData()->HasArray(GlobalIdsName);
+}
+
+ConversionReport writeOrdinaryMesh(
+  vtkPointSet& mesh, const std::filesystem::path& path, const ConversionOptions& options)
+{
+  const ScratchFolder scratch(options.scratch);
+  const bool isSurface = vtkPolyData::SafeDownCast(&mesh) != nullptr;
+  const std::filesystem::path file = scratch / (isSurface ? "mesh.vtp" : "mesh.vtu");
+  isSurface ? writeRaw<vtkXMLPolyDataWriter>(mesh, file)
+            : writeRaw<vtkXMLUnstructuredGridWriter>(mesh, file);
+  try
+  {
+    return convert(file, path, options);
+  }
+  catch (const Cancelled&)
+  {
+    throw;
+  }
+  catch (const Error& error)
+  {
+    // The user knows no such file.
+    std::string message = error.what();
+    for (std::size_t at; (at = message.find(file.string())) != std::string::npos;)
+    {
+      message.replace(at, file.string().size(), "The input");
+    }
+    throw Error(message);
+  }
+}
+
+} // namespace smg
