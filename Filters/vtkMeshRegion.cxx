@@ -246,7 +246,7 @@ int vtkMeshRegion::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
   this->NumberOfHeldPoints = 0;
-  return smg::answer(*this, this->Internal->Failures, *outputVector,
+  return smg::answer(*this, this->Internal->Failures, inputVector, *outputVector,
     [&]
     {
       const smg::PieceRequest request(outputVector->GetInformationObject(0));

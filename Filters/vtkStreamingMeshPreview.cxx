@@ -8,10 +8,12 @@
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceInput.h"
+#include "IO/vtkPieceNames.h"
 #include "IO/vtkPieceStream.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Core/Error.h"
 
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -115,6 +117,8 @@ struct vtkStreamingMeshPreview::Internals
     info.cellType = smg::CellType::Triangle;
     smg::setPiece(output, piece, info);
     smg::markAsPreview(output, this->Full);
+    // The pipeline passes field data on: this preview is all that there is of it.
+    output.GetFieldData()->RemoveArray(smg::PreviewOfReaderName);
   }
 
   vtkStreamingMeshPreview& Self;
@@ -178,7 +182,7 @@ int vtkStreamingMeshPreview::RequestUpdateExtent(
 int vtkStreamingMeshPreview::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return smg::answer(*this, this->Internal->Failures, *outputVector,
+  return smg::answer(*this, this->Internal->Failures, inputVector, *outputVector,
     [&]
     {
       vtkInformation* inputInfo = inputVector[0]->GetInformationObject(0);

@@ -389,7 +389,7 @@ int vtkStreamingSolver::RequestUpdateExtent(
 int vtkStreamingSolver::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return smg::answer(*this, this->Internal->Failures, *outputVector,
+  return smg::answer(*this, this->Internal->Failures, inputVector, *outputVector,
     [&]
     {
       vtkInformation* info = outputVector->GetInformationObject(0);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/vtkFailures.h"
+#include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Core/Progress.h"
 
 #include "vtkAlgorithm.h"
@@ -46,45 +47,54 @@ inline int offerPieces(vtkInformationVector& outputs)
   return 1;
 }
 
-/** Lets the executive ask again the next time, whereas it would go on with empty outputs. */
-inline void leaveUndone(vtkInformationVector& outputs)
-{
-  for (int port = 0; port < outputs.GetNumberOfInformationObjects(); ++port)
-  {
-    vtkInformation* info = outputs.GetInformationObject(port);
-    if (vtkDataObject* data = vtkDataObject::GetData(info))
-    {
-      data->ReleaseData();
-    }
-    info->Set(vtkDemandDrivenPipeline::DATA_NOT_GENERATED(), 1);
-  }
-}
-
 /**
  * Does the work of RequestData: 1. What is thrown becomes an error of the algorithm, which is shown
- * once, and the answer is 0. If it is Cancelled, nothing is reported, and nothing is done again
- * before the algorithm or its input is modified.
+ * once; of a failed input nothing more is said than has been. The answer to a
+ * streamed request, which somebody made who looks at it, is 0 then, and it is tried again whenever
+ * that is asked for. Any other request gets an empty output that says so (isFailed()), and 1: views
+ * of ParaView that get 0 never ask again. If it is Cancelled, nothing is reported, the answer is 0,
+ * and nothing is done again before the algorithm or its input is modified.
+ * `inputs`: null if there are none.
  */
 template <class Work>
-int answer(vtkAlgorithm& algorithm, Failures& failures, vtkInformationVector& outputs, Work work)
+int answer(vtkAlgorithm& algorithm, Failures& failures, vtkInformationVector** inputs,
+  vtkInformationVector& outputs, Work work)
 {
+  vtkInformation* output = outputs.GetInformationObject(0);
   try
   {
+    if (inputs && isFailed(vtkDataObject::GetData(inputs[0])))
+    {
+      throw InputFailed("The input has failed: see the error of the filter before this one.");
+    }
     work();
-    failures.clear();
     return 1;
   }
   catch (const Cancelled&)
   {
     algorithm.SetAbortExecute(0);
     failures.quieten(algorithm);
+    return 0;
+  }
+  catch (const InputFailed& error)
+  {
+    failures.showToObservers(algorithm, error.what());
   }
   catch (const std::exception& error)
   {
     failures.show(algorithm, error.what());
-    leaveUndone(outputs);
   }
-  return 0;
+  vtkDataObject* data = vtkDataObject::GetData(output);
+  if (vtkStreamingMeshKeys::IsStreamed(output))
+  {
+    // Else the executive would go on with what there is.
+    data->ReleaseData();
+    output->Set(vtkDemandDrivenPipeline::DATA_NOT_GENERATED(), 1);
+    return 0;
+  }
+  data->Initialize();
+  markAsFailed(*data);
+  return 1;
 }
 
 } // namespace smg

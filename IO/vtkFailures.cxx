@@ -3,9 +3,12 @@
 
 #include "vtkAlgorithm.h"
 #include "vtkCallbackCommand.h"
+#include "vtkDataObject.h"
 #include "vtkDemandDrivenPipeline.h"
+#include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkOutputWindow.h"
+#include "vtkUnsignedCharArray.h"
 
 #include <string_view>
 
@@ -13,6 +16,8 @@ namespace smg
 {
 namespace
 {
+
+constexpr const char* FailedName = "Failed";
 
 void showAllButFailedRequests(vtkObject*, unsigned long, void*, void* text)
 {
@@ -31,6 +36,19 @@ vtkMTimeType pipelineTimeOf(vtkAlgorithm& algorithm)
 
 } // namespace
 
+void markAsFailed(vtkDataObject& data)
+{
+  vtkNew<vtkUnsignedCharArray> mark;
+  mark->SetName(FailedName);
+  mark->InsertNextValue(1);
+  data.GetFieldData()->AddArray(mark);
+}
+
+bool isFailed(vtkDataObject* data)
+{
+  return data && data->GetFieldData() && data->GetFieldData()->HasArray(FailedName);
+}
+
 void Failures::show(vtkAlgorithm& algorithm, const std::string& sentence)
 {
   this->quieten(algorithm);
@@ -43,6 +61,15 @@ void Failures::show(vtkAlgorithm& algorithm, const std::string& sentence)
   this->Last = sentence;
   this->PipelineTime = now;
   vtkErrorWithObjectMacro(&algorithm, << sentence);
+}
+
+void Failures::showToObservers(vtkAlgorithm& algorithm, const std::string& sentence)
+{
+  this->quieten(algorithm);
+  if (algorithm.HasObserver(vtkCommand::ErrorEvent))
+  {
+    vtkErrorWithObjectMacro(&algorithm, << sentence);
+  }
 }
 
 void Failures::quieten(vtkAlgorithm& algorithm)

@@ -1,16 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/Error.h"
+
 #include "vtkType.h"
 #include "vtkWeakPointer.h"
 
 #include <string>
 
 class vtkAlgorithm;
+class vtkDataObject;
 class vtkExecutive;
 
 namespace smg
 {
+
+/** What an algorithm asks for could not be made by those before it, which have said why. */
+class InputFailed : public Error
+{
+public:
+  using Error::Error;
+};
+
+/** Says in the field data that these data are empty since what should be here has failed; filters
+ * pass it on. */
+void markAsFailed(vtkDataObject& data);
+/** Whether they say so; null does not. */
+bool isFailed(vtkDataObject* data);
 
 /**
  * The failures of an algorithm, each of which is shown once: a view asks several times for what
@@ -25,8 +41,8 @@ public:
    */
   void show(vtkAlgorithm& algorithm, const std::string& sentence);
 
-  /** The algorithm has succeeded: its next failure is shown, whatever it is. */
-  void clear() { this->Last.clear(); }
+  /** Makes the sentence an error of the algorithm if somebody observes its errors. */
+  void showToObservers(vtkAlgorithm& algorithm, const std::string& sentence);
 
   /** Keeps the executive from saying, too, that the algorithm failed, where nobody observes it. */
   void quieten(vtkAlgorithm& algorithm);

@@ -108,6 +108,16 @@ void markAsPreview(vtkPointSet& mesh, const StreamInfo& full)
   addCount(*mesh.GetFieldData(), FullNumberOfCellsName, full.cells);
 }
 
+void markAsReaders(vtkPointSet& preview)
+{
+  vtkNew<vtkUnsignedCharArray> mark;
+  mark->SetName(PreviewOfReaderName);
+  mark->SetNumberOfComponents(PreviewOfReaderComponents);
+  mark->SetNumberOfTuples(1);
+  mark->Fill(1);
+  preview.GetFieldData()->AddArray(mark);
+}
+
 bool isPreview(vtkPointSet& mesh)
 {
   vtkDataArray* mark = mesh.GetFieldData()->GetArray(PreviewName);

@@ -15,6 +15,9 @@ void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
 /** Says in the field data that the mesh is a preview of another. */
 void markAsPreview(vtkPointSet& mesh, const StreamInfo& full);
 
+/** Says that the preview is a reader's: who pulls its pieces gets the mesh itself. */
+void markAsReaders(vtkPointSet& preview);
+
 /** Whether the field data say that the mesh is a preview. */
 bool isPreview(vtkPointSet& mesh);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkPieceInput.h"
 
+#include "IO/vtkFailures.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Core/Error.h"
 
@@ -64,11 +65,11 @@ vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed)
   {
     data = this->Producer->GetOutputDataObject(this->ProducerPort);
   }
-  if (!data)
+  if (!data || isFailed(data))
   {
-    throw Error("Piece " + std::to_string(piece) + " of " + std::to_string(pieces) +
-                " of the input could not be made: see the error that " +
-                this->Producer->GetClassName() + " or the pipeline before it reported.");
+    throw InputFailed("Piece " + std::to_string(piece) + " of " + std::to_string(pieces) +
+                      " of the input could not be made: see the error that " +
+                      this->Producer->GetClassName() + " or the pipeline before it reported.");
   }
   return data;
 }

@@ -33,7 +33,7 @@ public:
 
   /**
    * Brings the input to piece `piece` of `pieces`; `streamed` demands the real piece whatever its
-   * size (see vtkStreamingMeshKeys), else it may be a preview. Throws Error if that fails.
+   * size (see vtkStreamingMeshKeys), else it may be a preview. Throws InputFailed.
    */
   vtkDataObject* update(int piece, int pieces, bool streamed);
 

@@ -226,6 +226,7 @@ struct vtkStreamingMeshReader::Internals
     info.cellType = smg::CellType::Triangle;
     smg::setPiece(output, piece, info);
     smg::markAsPreview(output, full);
+    smg::markAsReaders(output);
   }
 };
 
@@ -385,7 +386,7 @@ int vtkStreamingMeshReader::RequestInformation(
 int vtkStreamingMeshReader::RequestData(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  return smg::answer(*this, this->Internal->Failures, *outputVector,
+  return smg::answer(*this, this->Internal->Failures, nullptr, *outputVector,
     [&]
     {
       vtkInformation* request = outputVector->GetInformationObject(0);

@@ -195,9 +195,11 @@ WriteFunction writerOf(const std::filesystem::path& path)
     case smg::MeshFileKind::Vsm:
       return writeContainerFile;
     case smg::MeshFileKind::Unknown:
-      throw smg::Error(path.string() +
-                       " has a suffix that cannot be written: use .vsm, .ply, .sma, "
-                       ".smb, .sva, .svb, .vtp, .vtu, .pvtp or .pvtu.");
+      throw smg::Error(
+        path.string() +
+        " has a suffix that cannot be written: use .vsm, .ply, .sma, "
+        ".smb, .sva, .svb, .vtp, .vtu, .pvtp or .pvtu. (Of a gigantic mesh, ParaView's own "
+        "writers have the preview only: to save that, take a Streaming Mesh Preview.)");
     default:
       return writeThroughContainer;
   }

@@ -202,23 +202,27 @@ TEST_F(VtkMeshHandle, AnEmptyInputIsCalledSo)
   EXPECT_TRUE(errors.contain("The input has no points")) << errors.text();
 }
 
-TEST_F(VtkMeshHandle, WhatFailedIsTriedAgainAndNotTakenForAnEmptyMesh)
+TEST_F(VtkMeshHandle, WhatFailedIsNotTakenForAnEmptyMesh)
 {
   vtkNew<vtkStreamingMeshDeformation> deformation;
   deformation->SetInputConnection(this->Handle->GetOutputPort());
   Errors errors(this->Handle);
   Errors later(deformation);
   this->Handle->SetMotion(vtkMeshHandle::SIMILARITY);
-  this->Handle->SetScale(-1.0);
   for (int i = 0; i < 3; ++i)
   {
+    this->Handle->SetScale(-1.0 - i);
     errors.clear();
-    EXPECT_EQ(updatePiece(deformation, 0, 1), 0);
+    EXPECT_FALSE(updatePiece(deformation, 0, 1));
     EXPECT_TRUE(errors.contain("The scale")) << errors.text();
     EXPECT_FALSE(later.contain("no cells")) << later.text();
+    // Nothing has changed: it is neither asked again nor taken for a mesh.
+    errors.clear();
+    EXPECT_FALSE(updatePiece(deformation, 0, 1));
+    EXPECT_EQ(errors.text(), "");
+    this->Handle->SetScale(1.0);
+    EXPECT_TRUE(updatePiece(deformation, 0, 1));
   }
-  this->Handle->SetScale(1.0);
-  EXPECT_EQ(updatePiece(deformation, 0, 1), 1);
 }
 
 } // namespace

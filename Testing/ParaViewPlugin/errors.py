@@ -64,7 +64,48 @@ assert text.count("no vertex of the mesh is in this region") == 1 and text.count
 poisson.Problem = '{"dirichlet": [{"halfspace": [0, 1, 0, 0.1], "value": 1}]}'
 Render()
 assert said() == "" and "Solution" in poisson.PointData.keys()
+# A view asks again after a failure, wherever it was.
+condition = MeshCondition(Input=reader, Region="Ids", Ids=[0])
+other = MeshCondition(Input=condition, Region="Ids", Ids=[9], Value=1)
+poisson.Input = other
+poisson.Problem = ""
+Render()
+
+
+def largest():
+    data = poisson.SMProxy.GetClientSideObject().GetOutputDataObject(0)
+    solution = data.GetPointData().GetArray("Solution")
+    return solution.GetRange()[1] if solution else None
+
+
+assert abs(largest() - 1.0) < 1e-6, said()
+for break_it, mend_it in ((lambda: setattr(poisson, "Conductivity", 0), lambda: setattr(poisson, "Conductivity", 2)),
+                          (lambda: setattr(condition, "Ids", [10 ** 9]), lambda: setattr(condition, "Ids", [1]))):
+    break_it()
+    Render()
+    text = said()
+    assert text.count("ERR") == 1, text
+    assert largest() is None
+    for value in 3, 4:
+        mend_it()
+        other.Value = value
+        Render()
+        assert abs(largest() - value) < 1e-6, said()
 Delete(poisson)
+Delete(other)
+Delete(condition)
+
+# What is written by pieces or not at all: nobody takes the preview in another format for the mesh.
+folder = t.make_folder()
+reader.MaximumPointsInMemory = 1000
+calculator = Calculator(Input=reader, Function="coordsX", ResultArrayName="X")
+calculator.UpdatePipeline()
+for name in ("shown.csv", "shown.stl", "shown.vtk"):
+    SaveData(os.path.join(folder, name), proxy=calculator)
+    text = said()
+    assert "Streaming Mesh Preview" in text and not os.path.exists(os.path.join(folder, name)), text
+Delete(calculator)
+reader.MaximumPointsInMemory = 2000000
 
 # A data set of several blocks.
 blocks = GroupDatasets(Input=[Sphere(), Sphere()])

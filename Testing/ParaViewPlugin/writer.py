@@ -42,4 +42,23 @@ SaveData(ball, proxy=Sphere(), DataMode="Binary")
 ball = OpenDataFile(ball)
 ball.UpdatePipeline()
 assert ball.GetDataInformation().GetNumberOfCells() == 96
+
+# Where a preview is shown, Save Data saves the mesh, behind Calculators and solves, too.
+calculator = Calculator(Input=reader, Function="coordsX", ResultArrayName="X")
+calculator.UpdatePipeline()
+assert calculator.GetDataInformation().GetNumberOfPoints() < 10000
+for name in ("whole.ply", "whole.vtp", "whole.pvtp"):
+    for source, array in (calculator, "X"), (poisson, "Solution"):
+        SaveData(os.path.join(folder, name), proxy=source)
+        whole = OpenDataFile(os.path.join(folder, name))
+        whole.UpdatePipeline()
+        assert whole.GetDataInformation().GetNumberOfCells() == t.BUNNY_CELLS, name
+        assert name.endswith("ply") or array in whole.PointData.keys(), whole.PointData.keys()
+        Delete(whole)
+# A preview that the user has asked for is saved as one.
+preview = StreamingMeshPreview(Input=calculator)
+SaveData(os.path.join(folder, "preview.stl"), proxy=preview)
+shown = OpenDataFile(os.path.join(folder, "preview.stl"))
+shown.UpdatePipeline()
+assert 0 < shown.GetDataInformation().GetNumberOfPoints() < 10001
 print("passed")
