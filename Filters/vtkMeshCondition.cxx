@@ -95,7 +95,6 @@ void vtkMeshCondition::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, 
   smg::Condition condition = this->Internal->condition();
   if (this->Region == TAG)
   {
-    smg::requireOneArray(piece, this->TagArray);
     condition.tagged = this->TagArray;
     condition.tag = this->Tag;
   }

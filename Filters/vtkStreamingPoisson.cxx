@@ -107,11 +107,11 @@ struct vtkStreamingPoisson::Internals
     {
       problem.screening = screening;
     }
-    if (const std::string conductivity = arrays.any(CONDUCTIVITY_ARRAY); !conductivity.empty())
+    if (const std::string conductivity = arrays.named(CONDUCTIVITY_ARRAY); !conductivity.empty())
     {
       problem.conductivity = conductivity;
     }
-    problem.field = arrays.any(FIELD_ARRAY);
+    problem.field = arrays.named(FIELD_ARRAY);
   }
 
   smg::PoissonTask task(vtkPointSet& input) const
@@ -119,7 +119,7 @@ struct vtkStreamingPoisson::Internals
     smg::PoissonTask task;
     task.problem = this->describe(input);
     const smg::ChosenArrays arrays(this->Self, input);
-    task.values = { arrays.any(INITIAL_GUESS), arrays.any(SOURCE), arrays.any(DIRICHLET_VALUES) };
+    task.values = { arrays.named(INITIAL_GUESS), arrays.named(SOURCE), arrays.named(DIRICHLET_VALUES) };
     this->Self.FillOptions(task.options);
     task.options.inCore = this->Self.InCore;
     task.options.acceleration = static_cast<smg::AccelerationKind>(this->Self.Acceleration);

@@ -96,6 +96,11 @@ void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
   {
     mesh.GetCellData()->AddArray(makeArray(column));
   }
+  // Nor the marks of the conversion.
+  if (vtkDataArray* flags = mesh.GetCellData()->GetArray(CellFlagsName))
+  {
+    flags->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
+  }
 }
 
 void markAsPreview(vtkPointSet& mesh, const StreamInfo& full)
@@ -106,6 +111,11 @@ void markAsPreview(vtkPointSet& mesh, const StreamInfo& full)
   mesh.GetFieldData()->AddArray(mark);
   addCount(*mesh.GetFieldData(), FullNumberOfPointsName, full.vertices);
   addCount(*mesh.GetFieldData(), FullNumberOfCellsName, full.cells);
+  for (const char* name : { PreviewName, FullNumberOfPointsName, FullNumberOfCellsName })
+  {
+    mesh.GetFieldData()->GetAbstractArray(name)->GetInformation()->Set(
+      vtkAbstractArray::GUI_HIDE(), 1);
+  }
 }
 
 void markAsReaders(vtkPointSet& preview)
@@ -115,6 +125,7 @@ void markAsReaders(vtkPointSet& preview)
   mark->SetNumberOfComponents(PreviewOfReaderComponents);
   mark->SetNumberOfTuples(1);
   mark->Fill(1);
+  mark->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
   preview.GetFieldData()->AddArray(mark);
 }
 

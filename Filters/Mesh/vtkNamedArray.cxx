@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Mesh/vtkNamedArray.h"
 
-#include "Solver/Core/Error.h"
-
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkPointData.h"
@@ -10,15 +8,6 @@
 
 namespace smg
 {
-
-void requireOneArray(vtkPointSet& mesh, const std::string& name)
-{
-  if (mesh.GetPointData()->HasArray(name.c_str()) && mesh.GetCellData()->HasArray(name.c_str()))
-  {
-    throw Error("The points and the cells of the input both have an array " + name +
-                ": rename one of them, so that it is clear which one is meant.");
-  }
-}
 
 int componentsOf(vtkPointSet& mesh, const std::string& name, int otherwise)
 {

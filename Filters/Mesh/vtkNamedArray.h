@@ -8,9 +8,6 @@ class vtkPointSet;
 namespace smg
 {
 
-/** Throws Error if the points and the cells of a mesh both have an array of that name. */
-void requireOneArray(vtkPointSet& mesh, const std::string& name);
-
 /** Components of the array of that name of the points or the cells; `otherwise` if there is none.
  */
 int componentsOf(vtkPointSet& mesh, const std::string& name, int otherwise);

@@ -1,35 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Poisson/vtkChosenArrays.h"
 
-#include "Filters/Mesh/vtkNamedArray.h"
 #include "Solver/Core/Error.h"
 
 #include "vtkAlgorithm.h"
+#include "vtkCellData.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
+#include "vtkPointData.h"
 #include "vtkPointSet.h"
 
 namespace smg
 {
 
-std::string ChosenArrays::any(int index) const
+std::string ChosenArrays::named(int index) const
 {
   vtkInformation& info = *this->Filter.GetInputArrayInformation(index);
   const char* chosen =
     info.Has(vtkDataObject::FIELD_NAME()) ? info.Get(vtkDataObject::FIELD_NAME()) : nullptr;
   const std::string name = chosen ? chosen : "";
-  if (name.empty() || name == "None")
+  return name == "None" ? "" : name;
+}
+
+std::string ChosenArrays::any(int index) const
+{
+  const std::string name = this->named(index);
+  if (!name.empty() && this->Input.GetPointData()->HasArray(name.c_str()) &&
+      this->Input.GetCellData()->HasArray(name.c_str()))
   {
-    return {};
+    throw Error("The points and the cells of the input both have an array " + name +
+                ": rename one of them, so that it is clear which one is meant. (In pvpython a name "
+                "alone means the points, for which ParaView makes an array out of that of the "
+                "cells: say [\"CELLS\", \"" +
+                name + "\"].)");
   }
-  requireOneArray(this->Input, name);
   return name;
 }
 
 std::string ChosenArrays::ofPoints(int index) const
 {
   vtkInformation& info = *this->Filter.GetInputArrayInformation(index);
-  std::string name = this->any(index);
+  const std::string name = this->named(index);
   if (!name.empty() && info.Has(vtkDataObject::FIELD_ASSOCIATION()) &&
       info.Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS)
   {

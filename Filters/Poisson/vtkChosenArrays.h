@@ -20,6 +20,8 @@ public:
   {
   }
 
+  /** The name of array `index`, whosever it is. */
+  std::string named(int index) const;
   /** Array `index`; throws Error if it was chosen from the cells. */
   std::string ofPoints(int index) const;
   /** Array `index`, of the points or the cells; throws Error if both have one of that name. */

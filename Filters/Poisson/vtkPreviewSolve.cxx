@@ -22,6 +22,10 @@ std::string whyNotOn(vtkPointSet& preview, const PoissonTask& task)
   {
     return "the preview of a solid is its surface";
   }
+  if (!task.problem.flux.empty() || !task.problem.robin.empty())
+  {
+    return "the preview has open edges that the mesh has not, where flux and exchange would act";
+  }
   try
   {
     if (preview.GetNumberOfCells() > 0)

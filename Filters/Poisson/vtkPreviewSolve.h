@@ -14,8 +14,8 @@ namespace smg
 
 /**
  * Why a task cannot be solved on the preview of a mesh in its place; empty if it can: the preview
- * is that of a surface, it has all arrays that the problem names, and a point in each of its
- * regions.
+ * is that of a surface, the problem has no conditions of the boundary, which clustering does not
+ * keep, it has all arrays that the problem names, and a point in each of its regions.
  */
 std::string whyNotOn(vtkPointSet& preview, const PoissonTask& task);
 

@@ -39,6 +39,7 @@ public:
     VtkLayout layout;
     layout.files.push_back(this->File.path());
     layout.pieces.push_back(std::move(this->Piece));
+    layout.otherArrays = std::move(this->OtherArrays);
     return layout;
   }
 
@@ -299,13 +300,14 @@ private:
     std::int64_t components, std::int64_t tuples)
   {
     const std::int64_t values = this->product(tuples, components);
-    if (type == "bit")
+    const bool areBits = type == "bit", areTexts = type == "string" || type == "utf8_string";
+    if (areBits || areTexts)
     {
-      this->Scanner.skipBits(values);
-    }
-    else if (type == "string" || type == "utf8_string")
-    {
-      this->Scanner.skipTexts(values);
+      areBits ? this->Scanner.skipBits(values) : this->Scanner.skipTexts(values);
+      if (arrays && arrays == this->Arrays && this->OtherArrays.size() < MostOtherArrays)
+      {
+        this->OtherArrays.insert(name);
+      }
     }
     else
     {
@@ -375,6 +377,7 @@ private:
   InputFile& File;
   LegacyVtkScanner Scanner;
   VtkPiece Piece;
+  std::set<std::string> OtherArrays; ///< see VtkLayout
   bool IsGrid = false;
   bool OfPoints = false;
   std::vector<VtkArray>* Arrays = nullptr; ///< of the points or cells, where attributes go now

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -63,11 +64,15 @@ void forEachArray(auto& piece, const auto& visit)
   }
 }
 
+/** So many names of arrays that are not read are kept. */
+inline constexpr std::size_t MostOtherArrays = 20;
+
 /** Where everything of a mesh stands in its files. */
 struct VtkLayout
 {
   std::vector<std::filesystem::path> files;
   std::vector<VtkPiece> pieces;
+  std::set<std::string> otherArrays; ///< those of texts and bits, of the points and cells
   std::int64_t bytes = 0; ///< of memory that the pieces take, about
 };
 

@@ -66,6 +66,7 @@ public:
     }
     this->readColumns(&VtkPiece::pointArrays);
     this->readColumns(&VtkPiece::cellArrays);
+    this->noteOtherArrays();
   }
 
 private:
@@ -258,6 +259,19 @@ private:
       const ColumnSpec spec{ name, array.columnType, array.components };
       ofPoints ? this->readPointColumn(array.name, this->Builder.addVertexColumn(spec))
                : this->readCellColumn(array.name, this->Builder.addElementColumn(spec));
+    }
+  }
+
+  void noteOtherArrays()
+  {
+    std::string names;
+    for (const std::string& name : this->Layout.otherArrays)
+    {
+      names += (names.empty() ? "" : ", ") + inQuotes(name);
+    }
+    if (!names.empty())
+    {
+      this->Builder.note("Arrays of texts or bits are left out: " + names + ".");
     }
   }
 

@@ -106,6 +106,10 @@ private:
     {
       this->addArray(tag);
     }
+    else if (tag.name == "Array" && this->isOfAttributes())
+    {
+      this->noteOther(tag);
+    }
   }
 
   void openPiece(const XmlTag& tag)
@@ -153,15 +157,30 @@ private:
     }
   }
 
+  bool isOfAttributes() const
+  {
+    return this->Section == "PointData" || this->Section == "CellData";
+  }
+
+  /** An array that is not read. */
+  void noteOther(const XmlTag& tag)
+  {
+    if (this->Layout.otherArrays.size() < MostOtherArrays)
+    {
+      this->Layout.otherArrays.insert(tag.value("Name"));
+    }
+  }
+
   /** Puts an array to where its section wants it. */
   void addArray(const XmlTag& tag)
   {
     const std::string type = tag.value("type");
     const auto* const known =
       std::ranges::find(XmlTypeNames, type, &std::pair<std::string_view, ScalarType>::first);
-    const bool attribute = this->Section == "PointData" || this->Section == "CellData";
+    const bool attribute = this->isOfAttributes();
     if (known == std::end(XmlTypeNames) && attribute && (type == "String" || type == "Bit"))
     {
+      this->noteOther(tag);
       return;
     }
     if (known == std::end(XmlTypeNames) || this->Layout.pieces.size() == this->FirstPiece)

@@ -63,6 +63,7 @@ void RowAssembly::close(std::int64_t i, std::int32_t label,
   }
   this->B.assign(load, load + this->Columns);
   this->Constraint = this->B;
+  const double own = alpha;
   this->addNeighbours(i, neighbours, target, alpha);
   this->raise(i, alpha);
   float least = 0.0F;
@@ -78,7 +79,7 @@ void RowAssembly::close(std::int64_t i, std::int32_t label,
   {
     this->Listener->constraint(this->Constraint.data());
   }
-  this->count(i, label, diagonal);
+  this->count(i, label, diagonal, this->commonShare(own));
 }
 
 /** A vertex that is no unknown: prescribed, or held where it is. */
@@ -127,6 +128,7 @@ void RowAssembly::addNeighbours(
 {
   this->Row = this->Out.rows.open(static_cast<std::int64_t>(neighbours.size()));
   this->Size = 0;
+  this->Known = 0.0;
   this->Precise.clear();
   bool anyPrecise = false;
   for (const RowNeighbour& neighbour : neighbours)
@@ -164,6 +166,7 @@ void RowAssembly::addNeighbours(
     else
     {
       alpha += weight;
+      this->Known += std::fabs(weight);
       for (std::size_t k = 0; this->Listener && k < this->Columns; ++k)
       {
         this->Constraint[k] += term(k);
@@ -202,8 +205,24 @@ void RowAssembly::raise(std::int64_t i, double& alpha)
   }
 }
 
+/**
+ * Where `own`, what screening, Robin and soft conditions bring to the diagonal, outweighs the
+ * edges, the row determines its unknown by itself, at once, and its first residual is as large as
+ * `own` is: in the measure that all other rows are to meet it counts as if it had only the weight
+ * of its edges. In (0, 1]; 0 without edges.
+ */
+double RowAssembly::commonShare(double own) const
+{
+  double edges = this->Known;
+  for (std::int64_t e = 0; e < this->Size; ++e)
+  {
+    edges += std::fabs(static_cast<double>(this->Row[e].weight()));
+  }
+  return own > edges ? edges / own : 1.0;
+}
+
 /** Adds the row to the sums over all rows and over its component. */
-void RowAssembly::count(std::int64_t i, std::int32_t label, double diagonal)
+void RowAssembly::count(std::int64_t i, std::int32_t label, double diagonal, double share)
 {
   const double* x = this->Vertices.values.at(i);
   double squares[2] = { 0.0, 0.0 };
@@ -220,7 +239,7 @@ void RowAssembly::count(std::int64_t i, std::int32_t label, double diagonal)
     squares[0] += sum * sum;
     squares[1] += this->B[k] * this->B[k] + diagonal * diagonal * x[k] * x[k];
   }
-  this->InitialSquares += squares[0];
+  this->InitialSquares += share * share * squares[0];
   this->TermSquares += squares[1];
   if (this->Raise > 0.0)
   {

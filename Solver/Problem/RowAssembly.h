@@ -38,6 +38,7 @@ public:
   /** See rowShortfall(). */
   std::int64_t raised() const { return this->Raised; }
   std::int64_t stiff() const { return this->Stiff.found(); }
+  /** Of the first residual, rows that are dominated by screening and the like as by their edges. */
   double initialSquares() const { return this->InitialSquares; }
   double termSquares() const { return this->TermSquares; }
 
@@ -47,7 +48,8 @@ private:
   void addNeighbours(
     std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target, double& alpha);
   void raise(std::int64_t i, double& alpha);
-  void count(std::int64_t i, std::int32_t label, double diagonal);
+  double commonShare(double own) const;
+  void count(std::int64_t i, std::int32_t label, double diagonal, double share);
 
   const OpenVertices& Vertices;
   std::size_t Columns;
@@ -61,6 +63,7 @@ private:
   // The row that is being made.
   RowEntry* Row = nullptr;
   std::int64_t Size = 0;
+  double Known = 0.0; // magnitudes of the weights of edges to prescribed vertices
   double Raise = 0.0;
   std::vector<double> Precise;    // weights in double precision, if the row needs them
   std::vector<double> B;          // `Columns` numbers

@@ -37,6 +37,7 @@ ProblemResults::ProblemResults(
   , Memory(options.memoryLimit, ResultMemory)
   , Vertices(this->Memory, problem)
   , Reach(this->Memory)
+  , EdgeWeights(this->Memory)
   , Facets(this->Memory, problem, info.cellType, this->Vertices)
   , Edges(this->Memory, problem, info.cellType)
   , Cells(info.cellType, problem.columns(), options.gradient, options.flux)
@@ -49,6 +50,7 @@ ProblemResults::ProblemResults(
   , ScreeningEnergy(this->Columns)
   , Magnitude(this->Columns)
   , ReactionTerms(this->Columns)
+  , RobinTerms(this->Columns)
   , Minimum(this->Columns, { std::numeric_limits<double>::infinity(), -1 })
   , Maximum(this->Columns, { -std::numeric_limits<double>::infinity(), -1 })
 {
@@ -87,6 +89,10 @@ void ProblemResults::addVertices(const MeshBlock& block)
   const std::int64_t end = this->Vertices.end();
   this->Facets.extend(end);
   this->Edges.extend(end);
+  if (this->FacetLoads)
+  {
+    this->EdgeWeights.extend(end);
+  }
   for (auto* loads : { &this->CellLoads, &this->FacetLoads })
   {
     if (*loads)
@@ -176,6 +182,10 @@ void ProblemResults::addCell(std::size_t c, const std::int64_t* corners, unsigne
 void ProblemResults::connect(
   const std::int64_t* corners, const double* const* points, const CellWeights& cell)
 {
+  if (this->FacetLoads)
+  {
+    this->weighEdges(corners, cell);
+  }
   const Ring<std::int32_t>& dirichlet = this->Vertices.dirichlet;
   const std::int32_t first = dirichlet[corners[0]];
   bool same = true;
@@ -187,6 +197,17 @@ void ProblemResults::connect(
   {
     this->Edges.add(corners, points, cell, this->Own ? this->Own->scale() : 1.0,
       [&](std::int64_t a, std::int64_t b) { return dirichlet[a] != dirichlet[b]; });
+  }
+}
+
+void ProblemResults::weighEdges(const std::int64_t* corners, const CellWeights& cell)
+{
+  for (int e = 0; e < edgesOf(this->Type); ++e)
+  {
+    for (const int k : { edgeCorners(this->Type, e)[0], edgeCorners(this->Type, e)[1] })
+    {
+      this->EdgeWeights[corners[k]] += std::fabs(cell.weight[e]);
+    }
   }
 }
 
@@ -205,6 +226,7 @@ void ProblemResults::finalize(std::int64_t end)
       (*loads)->release(this->Final);
     }
   }
+  this->EdgeWeights.release(this->Final);
   this->Facets.release(this->Final);
   this->Edges.release(this->Final);
 }
@@ -246,6 +268,16 @@ void ProblemResults::closeVertex(std::int64_t i)
     this->Screening[k] += screening * u[k];
     this->ScreeningEnergy[k] += 0.5 * screening * u[k] * u[k];
     this->Magnitude[k] += std::fabs(source) + std::fabs(screening * u[k]);
+  }
+  if (this->FacetLoads)
+  {
+    const double alpha = this->FacetLoads->alpha(i);
+    const double share = alpha > this->EdgeWeights[i] ? this->EdgeWeights[i] / alpha : 1.0;
+    for (std::size_t k = 0; k < this->Columns; ++k)
+    {
+      this->RobinTerms[k] +=
+        share * (std::fabs(this->FacetLoads->load(i)[k]) + alpha * std::fabs(u[k]));
+    }
   }
   this->Neighbours.clear();
   this->Edges.take(i, this->Vertices.points, this->Neighbours);
@@ -312,10 +344,9 @@ void ProblemResults::noteConditionsWithoutEffect(Report& report)
 
 void ProblemResults::reportBalance(Report& report) const
 {
-  // Less than this share of what the fluxes are the differences of is rounding, or what the solve
+  // Less than these shares of what the fluxes are the differences of is rounding, or what the solve
   // has left: nothing flows.
-  const double noise = std::max(1e-12, report.residual());
-  constexpr double Noted = 1e-3;
+  constexpr double Rounding = 1e-12, Noted = 1e-3;
   double largest = 0.0;
   report.source = this->Source;
   report.screening = this->Screening;
@@ -328,8 +359,10 @@ void ProblemResults::reportBalance(Report& report) const
     }
     const double rest = this->Conditions.inflow()[k] + report.source[k] - report.screening[k];
     const double all = this->Conditions.magnitude()[k] + this->Magnitude[k];
-    const double terms = this->ReactionTerms[k] + this->Conditions.robinTerms()[k];
-    report.balance[k] = all > noise * terms ? rest / all : 0.0;
+    const double noise =
+      std::max(Rounding * (this->ReactionTerms[k] + this->Conditions.robinTerms()[k]),
+        report.residual() * (this->ReactionTerms[k] + this->RobinTerms[k]));
+    report.balance[k] = all > noise ? rest / all : 0.0;
     largest = std::max(largest, std::fabs(report.balance[k]));
   }
   if (largest > Noted && report.converged)

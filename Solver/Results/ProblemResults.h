@@ -76,6 +76,7 @@ private:
   void addCells(const MeshBlock& block);
   void addCell(std::size_t c, const std::int64_t* corners, unsigned flags);
   void connect(const std::int64_t* corners, const double* const* points, const CellWeights& cell);
+  void weighEdges(const std::int64_t* corners, const CellWeights& cell);
   void finalize(std::int64_t end);
   void addBoundary(std::int64_t i);
   void closeVertex(std::int64_t i);
@@ -97,6 +98,7 @@ private:
   NeighbourReach Reach;
   std::optional<ProblemCells> Own;
   std::optional<VertexLoads> CellLoads, FacetLoads;
+  Ring<double> EdgeWeights; // magnitudes of the weights of the edges, if there are facets' loads
   ProblemFacets Facets;
   WeightedEdges Edges; // of Dirichlet vertices to those that are not of the same condition
 
@@ -108,6 +110,8 @@ private:
   double Mass = 0.0;
   std::vector<double> Mean, Source, Screening, ScreeningEnergy, Magnitude; // sums
   std::vector<double> ReactionTerms; // magnitudes of what the reactions are summed of
+  // Those of Robin conditions that the solve's residual may have left, see RowAssembly.
+  std::vector<double> RobinTerms;
   std::vector<Report::Extreme> Minimum, Maximum;
 };
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 namespace smg::testing
 {
@@ -244,9 +245,16 @@ TEST_F(VtkMeshCondition, LeavesArraysOfTheUserAlone)
   mesh.cellColumns[1].spec.name = mesh.vertexColumns[0].spec.name = "both";
   writeMesh(this->Folder / "both.vsm", mesh);
   this->Reader->SetFileName((this->Folder / "both.vsm").c_str());
-  Errors errors(&condition);
-  EXPECT_EQ(updatePiece(&condition, 0, 1), 0);
-  EXPECT_TRUE(errors.contain("both have an array both")) << errors.text();
+  // As in JSON, the tag of a Dirichlet condition is that of the points then.
+  const double tag = mesh.vertexColumns[0].value(3);
+  condition.SetTag(tag);
+  const Results byCondition = this->filter(1);
+  this->Poisson->SetInputConnection(this->Reader->GetOutputPort());
+  std::ostringstream problem;
+  problem.precision(17);
+  problem << R"({"dirichlet": [{"tag": ["both", )" << tag << R"(], "value": 1}]})";
+  this->Poisson->SetProblem(problem.str().c_str());
+  EXPECT_EQ(this->filter(1).solution, byCondition.solution);
 }
 
 /** Nothing is asked of the filter then, and its last answer is to another question. */

@@ -135,6 +135,8 @@ TEST_F(ImportLegacyVtk, AllLayoutsAreTheSameMesh)
       EXPECT_EQ(mesh.elementColumns[0].spec, (ColumnSpec{ "part", ScalarType::Int16, 2 }));
       EXPECT_EQ(mesh.elementColumns[0].value(0, 1), -2);
       EXPECT_EQ(mesh.elementColumns[0].value(1, 1), 400);
+      ASSERT_EQ(mesh.counts.notes.size(), 1u);
+      EXPECT_EQ(mesh.counts.notes[0], "Arrays of texts or bits are left out: 'words'.");
     }
   }
 }

@@ -143,6 +143,8 @@ TEST_F(ImportVtkXml, AllWaysOfWritingAreTheSameMesh)
         writer.bigEndian = (flags & 1) != 0;
         writer.wideHeader = (flags & 2) != 0;
         const ReadMesh mesh = this->read(tetrahedra(writer));
+        ASSERT_EQ(mesh.counts.notes.size(), 1u);
+        EXPECT_EQ(mesh.counts.notes[0], "Arrays of texts or bits are left out: 's'.");
         EXPECT_EQ(mesh.cellType, CellType::Tetrahedron);
         EXPECT_TRUE(mesh.doublePositions);
         EXPECT_EQ(mesh.positions, FivePoints);

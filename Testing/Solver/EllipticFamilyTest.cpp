@@ -216,6 +216,37 @@ TEST(EllipticFamily, aBoundaryThatTransfersHeatDeterminesTheSolution)
   }
 }
 
+/** Their first residual is as large as they are, and no measure of what is left. */
+TEST(EllipticFamily, stiffConditionsAreSolvedLikeOthers)
+{
+  for (const StreamMesh& mesh : meshes())
+  {
+    for (const double stiffness : { 1e3, 1e6, 1e9 })
+    {
+      ElementProblem robin(mesh);
+      robin.CellSource = columnsOf(1, wave);
+      robin.RobinConditions.push_back(
+        { [](const Point&) { return true; }, [=](const Point&) { return stiffness; },
+          columnsOf(1, [](const Point&, int) { return 3.0; }) });
+      ElementProblem screened(mesh);
+      holdOneEnd(screened);
+      screened.Columns = Columns;
+      screened.VertexScreening = [=](const Point& p) { return p[0] > 4.0 ? stiffness : 0.0; };
+      screened.VertexSource = columnsOf(
+        Columns, [=](const Point& p, int k) { return p[0] > 4.0 ? stiffness * (1.0 + k) : 0.0; });
+      for (ElementProblem* problem : { &robin, &screened })
+      {
+        SolveOptions options;
+        options.tolerance = 1e-8;
+        const Solved solved = solveMesh(mesh, *problem, options);
+        EXPECT_TRUE(solved.report.converged) << stiffness;
+        const Eigen::MatrixXd direct = DirectElements(*problem).solve();
+        EXPECT_LT(relativeError(solved.values, direct), 1e-6) << stiffness;
+      }
+    }
+  }
+}
+
 TEST(EllipticFamily, fluxesThatDoNotSumToZeroLoseTheirMeanBySources)
 {
   for (const StreamMesh& mesh : meshes())

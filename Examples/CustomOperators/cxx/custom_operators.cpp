@@ -19,10 +19,10 @@ Run it:
 
     custom_operators ../../Data/bunny.smb
 
-    sheet, extended: converged after 12 cycles, relative residual 8.40062e-11
-    sheet, over-relaxed: converged after 11 cycles, relative residual 3.30247e-11
-    wires, extended: converged after 9 cycles, relative residual 3.60376e-11
-    wires, over-relaxed: converged after 8 cycles, relative residual 6.08347e-11
+    sheet, extended: converged after 8 cycles, relative residual 4.1165e-11
+    sheet, over-relaxed: converged after 8 cycles, relative residual 2.02182e-11
+    wires, extended: converged after 7 cycles, relative residual 9.34023e-11
+    wires, over-relaxed: converged after 7 cycles, relative residual 2.73623e-11
 */
 
 #include "IO/Conversion/OpenMesh.h"

@@ -20,9 +20,9 @@ Run it:
 
     deformation ../../Data/bunny.smb ../bunny.json bunny-deformed.vsm
 
-    34834 vertices, 69451 cells: converged in 14 passes
-      rotation: 7 cycles, relative residual 1.75945e-07
-      position: 6 cycles, relative residual 5.50654e-07
+    34834 vertices, 69451 cells: converged in 12 passes
+      rotation: 6 cycles, relative residual 4.16723e-08
+      position: 5 cycles, relative residual 1.7581e-07
 */
 
 #include "IO/Conversion/OpenMesh.h"

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""said_output.py SOURCE COMMAND... : a lesson prints what the comment at its beginning says."""
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+source, *command = sys.argv[1:]
+said = Path(source).read_text(encoding="utf-8").split("*/")[0]
+with tempfile.TemporaryDirectory() as folder:
+    printed = subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True).stdout
+for line in printed.splitlines():
+    assert line.strip() in said, f"{source} does not say: {line}"
+assert printed, command
