@@ -119,7 +119,8 @@ struct vtkStreamingPoisson::Internals
     smg::PoissonTask task;
     task.problem = this->describe(input);
     const smg::ChosenArrays arrays(this->Self, input);
-    task.values = { arrays.named(INITIAL_GUESS), arrays.named(SOURCE), arrays.named(DIRICHLET_VALUES) };
+    task.values = { arrays.named(INITIAL_GUESS), arrays.named(SOURCE),
+      arrays.named(DIRICHLET_VALUES) };
     this->Self.FillOptions(task.options);
     task.options.inCore = this->Self.InCore;
     task.options.acceleration = static_cast<smg::AccelerationKind>(this->Self.Acceleration);

@@ -21,9 +21,9 @@
  * memory and at once; that is an approximation, and the report says so. Streamed requests get the
  * solution on the mesh itself, and so do all with SolveFullMesh: then the preview has the true
  * solution at its points. So it has where it lacks what the problem needs, arrays of the cells or a
- * point in a region, where there are conditions of the boundary, since a preview has open edges that
- * the mesh has not, and where the mesh is a solid, whose preview is its surface; that has neither
- * Gradient nor Flux.
+ * point in a region, where there are conditions of the boundary, since a preview has open edges
+ * that the mesh has not, and where the mesh is a solid, whose preview is its surface; that has
+ * neither Gradient nor Flux.
  *
  * @sa vtkMeshCondition vtkStreamingSolver vtkStreamingMeshReader vtkStreamingMeshWriter
  */

@@ -73,7 +73,7 @@ struct VtkLayout
   std::vector<std::filesystem::path> files;
   std::vector<VtkPiece> pieces;
   std::set<std::string> otherArrays; ///< those of texts and bits, of the points and cells
-  std::int64_t bytes = 0; ///< of memory that the pieces take, about
+  std::int64_t bytes = 0;            ///< of memory that the pieces take, about
 };
 
 /** Types of cells in VTK, which are the same in its files. */
