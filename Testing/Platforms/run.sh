@@ -28,6 +28,8 @@ source "$tree/cmake/packages.sh"
 smg_install debootstrap git
 
 root=$(mktemp -d "${SMG_PLATFORM_DIR:-/var/tmp}/smg-$suite-XXXXXX")
+# In it everybody may look around, as in any system.
+chmod 755 "$root"
 # Never into what is mounted: this machine's devices are among it.
 clean() {
   local mounted
