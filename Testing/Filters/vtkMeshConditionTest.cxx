@@ -152,7 +152,6 @@ TEST_F(VtkMeshCondition, ArraysThatAreMissingOrMeanTwoThingsAreNamed)
   EXPECT_TRUE(errors.contain("Problem, line 1")) << errors.text();
 }
 
-/** On the preview of a surface and on the surface itself, and where JSON says the same. */
 /** So that a second problem can be said behind the first. */
 TEST_F(VtkMeshCondition, ConditionsGoWithTheProblemThatTheySay)
 {
@@ -172,7 +171,6 @@ TEST_F(VtkMeshCondition, ConditionsGoWithTheProblemThatTheySay)
   EXPECT_TRUE(before->GetPointData()->HasArray("Condition2"));
 }
 
-/** A preview has no arrays of the cells, and no point in a small region. */
 /** Results of the cells are those of the problem that was solved, whatever has happened since. */
 TEST_F(VtkMeshCondition, SolutionAndFluxAreOfOneProblem)
 {
