@@ -89,9 +89,9 @@ smg::SolveSummary vtkStreamingMeshDeformation::SolveInMemory(
   smg::Report report = interactive.report();
   if (smg::isPreview(input))
   {
-    report.notes.push_back(
-      "this is the deformed preview, a mesh of " + std::to_string(report.vertices) +
-      " vertices: the full mesh is deformed when it is saved as .vsm or a stream");
+    report.notes.push_back("this is the deformed preview, a mesh of " +
+                           std::to_string(report.vertices) +
+                           " vertices: the full mesh is deformed when it is saved");
   }
   return smg::SolveSummary::of(report, interactive.columns());
 }

@@ -69,7 +69,7 @@ SolveSummary solveOnPreview(
   report.notes.push_back(
     "this is the solution on the preview, a mesh of " + std::to_string(mesh.info().vertices) +
     " vertices: it approximates that on the full mesh, which is solved on when "
-    "it is saved as .vsm or a stream, or with SolveFullMesh");
+    "it is saved, or with SolveFullMesh");
   return SolveSummary::of(report, problem.columns());
 }
 
