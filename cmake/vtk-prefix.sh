@@ -35,6 +35,8 @@ machine=$(gcc -print-multiarch)
 for library in /usr/lib/"$machine"/libvtk*-9.*.so.*; do
   ln -sf "$library" "$prefix/usr/lib/$machine/"
 done
-ln -sfn "/usr/lib/$machine/vtk" "$prefix/usr/lib/$machine/vtk"
+for folder in /usr/lib/"$machine"/vtk /usr/lib/"$machine"/vtk-9.*; do
+  [ ! -d "$folder/hierarchy" ] || ln -sfn "$folder" "$prefix/usr/lib/$machine/"
+done
 touch "$prefix/complete"
 echo "VTK: -DVTK_ROOT=$prefix/usr"
