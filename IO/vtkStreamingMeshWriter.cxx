@@ -170,8 +170,9 @@ Notes writeOrdinary(const Job& job, bool restoreOrder)
   {
     throw smg::Error(
       "The input has lost the point GlobalIds of the StreamingMeshReader, and is too large to be "
-      "read as a whole: what it gives is its preview. Keep GlobalIds in the filters between, or "
-      "raise MaximumPointsInMemory.");
+      "read as a whole: what it gives is its preview. Keep GlobalIds in the filters between, raise "
+      "MaximumPointsInMemory, or, to save what is shown, put a Streaming Mesh Preview before "
+      "them.");
   }
   smg::ConversionOptions options;
   options.scratch = std::filesystem::absolute(job.path).parent_path();

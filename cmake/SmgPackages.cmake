@@ -27,6 +27,15 @@ else ()
     DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT paraview_plugins)
 endif ()
 
+foreach (pair libraries:streaming-multigrid development:streaming-multigrid-dev
+    paraview_plugins:paraview-streaming-multigrid)
+  string(REPLACE ":" ";" pair "${pair}")
+  list(GET pair 0 component)
+  list(GET pair 1 package)
+  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE"
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${package}" RENAME copyright COMPONENT ${component})
+endforeach ()
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME streaming-multigrid)
 set(CPACK_PACKAGE_CONTACT "The Streaming Multigrid developers <streaming-multigrid@localhost>")

@@ -4,10 +4,17 @@
 # links to all of ParaView's files, and with links of these names, and ParaView_DIR is there. Not where
 # the user names another ParaView.
 
+# One that is gone, as after an upgrade of the system, is looked for anew.
+if (ParaView_DIR AND NOT EXISTS "${ParaView_DIR}")
+  unset(ParaView_DIR CACHE)
+endif ()
 if (ParaView_DIR OR DEFINED ParaView_ROOT OR DEFINED ENV{ParaView_ROOT})
   return()
 endif ()
-foreach (folder IN LISTS CMAKE_PREFIX_PATH)
+string(REPLACE ":" ";" smg_prefixes "$ENV{CMAKE_PREFIX_PATH}")
+list(PREPEND smg_prefixes ${CMAKE_PREFIX_PATH})
+list(REMOVE_ITEM smg_prefixes /usr "")
+foreach (folder IN LISTS smg_prefixes)
   file(GLOB smg_paraview
     "${folder}/lib*/cmake/paraview-*/paraview-config.cmake"
     "${folder}/lib/*/cmake/paraview-*/paraview-config.cmake")

@@ -37,7 +37,8 @@ smg_as_root() {
 
 # smg_is_installed PACKAGE
 smg_is_installed() {
-  [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2> /dev/null)" = installed ]
+  # A package of two architectures has two lines.
+  dpkg-query -W -f='${db:Status-Status}\n' "$1" 2> /dev/null | grep -q '^installed$'
 }
 
 # smg_fetch_lists : of the packages that there are

@@ -9,7 +9,11 @@ source "$(dirname "${BASH_SOURCE[0]}")/packages.sh"
 
 # The runtime's package has the version in its name: libvtk9.1, libvtk9.3.
 runtime_of() { apt-cache depends libvtk9-dev 2> /dev/null | grep -oE '\blibvtk9\.[0-9]+[a-z0-9]*$' | head -n 1; }
-runtime=$(runtime_of) || { smg_fetch_lists && runtime=$(runtime_of); }
+runtime=$(runtime_of) || { smg_fetch_lists && runtime=$(runtime_of); } || true
+[ -n "$runtime" ] || {
+  echo "apt knows no libvtk9-dev: is Debian's main archive among its sources?" >&2
+  exit 1
+}
 smg_install "$runtime" libtbb-dev libopenmpi-dev
 if [ -e "$prefix/complete" ]; then
   exit 0

@@ -12,6 +12,7 @@
 #include "vtkDataSetTriangleFilter.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
+#include "vtkFlyingEdges3D.h"
 #include "vtkImageData.h"
 #include "vtkPassSelectedArrays.h"
 #include "vtkPointData.h"
@@ -279,10 +280,13 @@ TEST_F(VtkStreamingMeshWriter, MeshesOfOtherSourcesGetAnOrder)
   vtkNew<vtkContourFilter> contour;
   contour->SetInputData(waves());
   contour->SetValue(0, 5.0);
+  vtkNew<vtkFlyingEdges3D> edges;
+  edges->SetInputData(waves());
+  edges->SetValue(0, 5.0);
+  edges->InterpolateAttributesOn();
   vtkNew<vtkDataSetTriangleFilter> tetrahedra;
   tetrahedra->SetInputData(waves());
-  for (vtkAlgorithm* source :
-    { static_cast<vtkAlgorithm*>(contour), static_cast<vtkAlgorithm*>(tetrahedra) })
+  for (vtkAlgorithm* source : std::initializer_list<vtkAlgorithm*>{ contour, edges, tetrahedra })
   {
     source->Update();
     auto* whole = vtkDataSet::SafeDownCast(source->GetOutputDataObject(0));

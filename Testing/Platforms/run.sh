@@ -4,8 +4,8 @@
 # is given, in a fresh clone of the last commit of this tree, in a fresh Debian of that release
 # (bookworm, trixie, forky), and removes both. Needs root, and the network for the packages.
 #
-# At the end it says how long it took, and whether what Examples/run.sh left has the bits of what it
-# left here; other bits are a failure.
+# At the end it says how long it took, and, if the command has left it, whether the deformed bunny of
+# Examples/run.sh has the bits of the one made here, by the same script; other bits are a failure.
 #
 # Environment:
 #   SMG_PLATFORM_DIR   folder for the system, about 8 GB; /var/tmp unless set
@@ -70,9 +70,16 @@ fi
 
 start=$SECONDS
 status=0
-chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 \
+proxies=()
+for variable in http_proxy https_proxy no_proxy; do
+  [ -z "${!variable:-}" ] || proxies+=("$variable=${!variable}")
+done
+chroot "$root" env -i "${proxies[@]}" HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 \
   SMG_TEST_DATA_DIR="$data" bash -c "cd /tree && { $command; }" || status=$?
 echo "$suite: ended with $status after $((SECONDS - start)) s: $command"
+if [ -d "$root/tree/Examples/output" ]; then
+  bash "$tree/Examples/run.sh" > /dev/null
+fi
 for name in bunny-deformed.vsm bunny-deformed.ply; do
   here=$tree/Examples/output/$name
   there=$root/tree/Examples/output/$name

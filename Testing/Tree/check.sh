@@ -42,6 +42,9 @@ layers() {
     grep -vE '(^|/)vtk[^/]*$' | includes '([^<>"]*/)?vtk[^/"<>]*[">]')
   [ -z "$found" ] || fail "VTK headers in files whose name does not begin with vtk:
 $found"
+  found=$(files 'IO/vtk*' 'Filters/*' | grep -E '(^|/)vtk[^/]*\.(h|cxx)$' | includes 'nlohmann/')
+  [ -z "$found" ] || fail "JSON in files that see VTK, whose own JSON library has its names:
+$found"
   found=$({
     files 'Solver/*' | includes '(IO|Filters|ParaViewPlugin|Examples|Testing)/'
     files 'IO/*' | includes '(Filters|ParaViewPlugin|Examples|Testing)/'
