@@ -87,10 +87,15 @@ smg_shorten() {
 # smg_install PACKAGE... : installs the ones that are missing; never removes one. Without a missing
 # one nothing is asked of apt or the network.
 smg_install() {
-  local names=("$@") package missing=()
+  local names package missing
   local lists_are_new=
   while :; do
-    missing=()
+    missing=() names=("$@")
+    # A ParaView that is built on the release's VTK needs its headers, too, which paraview-dev does not say.
+    if [[ " $* " == *" paraview-dev "* ]] &&
+      apt-cache depends paraview 2> /dev/null | grep -q 'Depends: libvtk'; then
+      names+=(libvtk9-dev)
+    fi
     for package in "${names[@]}"; do
       package=$(smg_choose "$package")
       smg_is_installed "$package" || missing+=("$package")
