@@ -92,8 +92,8 @@ smg_install() {
   while :; do
     missing=() names=("$@")
     # A ParaView that is built on the release's VTK needs its headers, too, which paraview-dev does not say.
-    if [[ " $* " == *" paraview-dev "* ]] &&
-      apt-cache depends paraview 2> /dev/null | grep -q 'Depends: libvtk'; then
+    if [[ " $* " == *" paraview-dev "* &&
+      $(apt-cache depends paraview 2> /dev/null) == *"Depends: libvtk"* ]]; then
       names+=(libvtk9-dev)
     fi
     for package in "${names[@]}"; do
