@@ -37,8 +37,8 @@ smg_as_root() {
 
 # smg_is_installed PACKAGE
 smg_is_installed() {
-  # A package of two architectures has two lines.
-  dpkg-query -W -f='${db:Status-Status}\n' "$1" 2> /dev/null | grep -q '^installed$'
+  # One for each architecture.
+  [[ " $(dpkg-query -W -f='${db:Status-Status} ' "$1" 2> /dev/null)" == *" installed "* ]]
 }
 
 # smg_fetch_lists : of the packages that there are
