@@ -4,6 +4,7 @@
 #include "Solver/Cycle/CoreCycle.h"
 #include "Solver/Cycle/RowBlockPacker.h"
 #include "Testing/Solver/PatchReference.h"
+#include "Testing/Support/AllIndices.h"
 
 #include <memory>
 #include <vector>
@@ -195,8 +196,8 @@ inline void denseSweep(
     }
     else if (patch.back() == i)
     {
-      const Eigen::MatrixXd residual = b(patch, Eigen::all) - a(patch, Eigen::all) * x;
-      x(patch, Eigen::all) += partOf(a, patch).inverse() * residual;
+      const Eigen::MatrixXd residual = b(patch, AllIndices) - a(patch, AllIndices) * x;
+      x(patch, AllIndices) += partOf(a, patch).inverse() * residual;
     }
   }
 }

@@ -2,6 +2,7 @@
 #include "Solver/Shi2006/Prolongation.h"
 #include "Solver/Shi2006/Relaxation.h"
 #include "Testing/Solver/Shi2006Testing.h"
+#include "Testing/Support/AllIndices.h"
 #include "Testing/Support/EdgeWeights.h"
 
 #include <gtest/gtest.h>
@@ -200,7 +201,7 @@ TEST(Shi2006Operators, theCoarseRightSideIsThatOfTheTruncatedSystem)
       const Eigen::MatrixXd retained = a(split.retained, split.retained);
       const Eigen::MatrixXd between = a(split.lifted, split.retained);
       const Eigen::MatrixXd expected =
-        r(split.lifted, Eigen::all) - between * retained.inverse() * r(split.retained, Eigen::all);
+        r(split.lifted, AllIndices) - between * retained.inverse() * r(split.retained, AllIndices);
       const Eigen::MatrixXd b = rowsOf(coarse.rightSide);
       EXPECT_LT(largest(b - expected), 1e-13 * largest(expected));
       const Eigen::MatrixXd restricted =
@@ -262,7 +263,7 @@ TEST(Shi2006Operators, theConstraintsAreHandedOnAsInEquation10)
         xi.row(i) -= fine.node[i].alpha * v.row(i);
       }
       const Split split(fine);
-      Eigen::MatrixXd expected = xi(split.lifted, Eigen::all);
+      Eigen::MatrixXd expected = xi(split.lifted, AllIndices);
       Eigen::VectorXd alpha(coarse.nodes());
       for (std::int64_t c = 0; c < coarse.nodes(); ++c)
       {
@@ -360,7 +361,7 @@ TEST(Shi2006Operators, theFinestLevelIsTheProblem)
     const auto& free = direct.freeVertices;
     const Eigen::MatrixXd a = denseMatrix(level)(free, free);
     EXPECT_LT(largest(a - Eigen::MatrixXd(direct.matrix)), 1e-13 * largest(a));
-    const Eigen::MatrixXd b = rowsOf(level.rightSide)(free, Eigen::all);
+    const Eigen::MatrixXd b = rowsOf(level.rightSide)(free, AllIndices);
     EXPECT_LT(largest(b - direct.rightSide), 1e-13 * largest(b));
     // Each edge has the target that the problem says.
     forEdges(level,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Support/DirectSystem.h"
 
+#include "Testing/Support/AllIndices.h"
 #include "Testing/Support/EdgeWeights.h"
 
 #include <algorithm>
@@ -259,13 +260,13 @@ Eigen::MatrixXd DirectSystem::initial() const
 
 Eigen::MatrixXd DirectSystem::gather(const Eigen::MatrixXd& allVertices) const
 {
-  return allVertices(this->freeVertices, Eigen::all);
+  return allVertices(this->freeVertices, AllIndices);
 }
 
 Eigen::MatrixXd DirectSystem::scatter(const Eigen::MatrixXd& unknowns) const
 {
   Eigen::MatrixXd all = this->values;
-  all(this->freeVertices, Eigen::all) = unknowns;
+  all(this->freeVertices, AllIndices) = unknowns;
   return all;
 }
 
