@@ -19,6 +19,7 @@
 #include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
+#include "vtkTimeStamp.h"
 
 #include <exception>
 #include <optional>
@@ -241,11 +242,11 @@ struct vtkStreamingSolver::Internals
     return vtkDemandDrivenPipeline::SafeDownCast(this->Self.GetExecutive())->GetPipelineMTime();
   }
   /** Whether the last answer is that to the pipeline as it is. */
-  bool isUpToDate() const { return this->pipelineTime() <= this->AnsweredAt; }
+  bool isUpToDate() const { return this->pipelineTime() <= this->AnsweredAt.GetMTime(); }
 
   vtkStreamingSolver& Self;
   smg::Failures Failures;
-  vtkMTimeType AnsweredAt = 0;
+  vtkTimeStamp AnsweredAt; ///< what was modified meanwhile, as by asking it, is not newer
   smg::StreamedSolve Streamed;
   smg::SolveSummary Summary; ///< of the last answer
   std::string Outcome;       ///< its line, for a caller to look at
@@ -395,7 +396,7 @@ int vtkStreamingSolver::RequestData(
       vtkInformation* info = outputVector->GetInformationObject(0);
       this->Internal->answer(
         smg::PieceRequest(info), inputVector[0]->GetInformationObject(0), info);
-      this->Internal->AnsweredAt = this->Internal->pipelineTime();
+      this->Internal->AnsweredAt.Modified();
     });
 }
 

@@ -132,7 +132,7 @@ TEST_F(VtkMeshHandle, AFunctionMustMakeSense)
   vtkNew<vtkCylinder> cylinder;
   cylinder->SetRadius(-1.0);
   this->Handle->SetRegionFunction(cylinder);
-  expectFailure("The cylinder of the region has the radius -1");
+  expectFailure("The cylinder of the region has the radius"); // -1, or what newer VTK makes of it
   vtkNew<vtkPlane> plane;
   plane->SetOrigin(NaN, 0.0, 0.0);
   this->Handle->SetRegionFunction(plane);
