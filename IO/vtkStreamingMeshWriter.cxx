@@ -38,16 +38,18 @@ namespace
 
 constexpr int CellsOfPiece = 65536;
 
-/** What a first piece tells of an input. */
+/** What a first piece tells of an input. It is one of as many as are given, so that it
+ * need not be made again. */
 struct Trial
 {
   bool isOrdinary = false; ///< see smg::isOrdinaryMesh()
   int pieces = 1;          ///< as many as give each about CellsOfPiece cells
 };
 
-Trial tryPiece(smg::PieceInput& input)
+Trial tryPiece(smg::PieceInput& input, int given)
 {
-  constexpr int pieces = 64;
+  constexpr int Usual = 64;
+  const int pieces = given ? given : Usual;
   const auto cellsOf = [](vtkDataObject* data)
   {
     auto* mesh = vtkDataSet::SafeDownCast(data);
@@ -232,7 +234,7 @@ bool vtkStreamingMeshWriter::WriteFile()
     const WriteFunction write = this->RestoreOrder ? writeInOriginalOrder : writerOf(path);
     smg::Progress progress(smg::progressOf(*this));
     smg::PieceInput input(*this, 0);
-    const Trial trial = tryPiece(input);
+    const Trial trial = tryPiece(input, this->NumberOfStreamedPieces);
     const int pieces = this->NumberOfStreamedPieces ? this->NumberOfStreamedPieces : trial.pieces;
     const std::filesystem::path streamFile = this->StreamFileName ? this->StreamFileName : "";
     const Job job{ input, pieces, path, streamFile, progress };

@@ -2,6 +2,7 @@
 #include "Solver/Problem/RowAssembly.h"
 
 #include "Solver/Core/Error.h"
+#include "Solver/Problem/CommonShare.h"
 #include "Solver/Problem/RowShortfall.h"
 
 #include <algorithm>
@@ -79,7 +80,7 @@ void RowAssembly::close(std::int64_t i, std::int32_t label,
   {
     this->Listener->constraint(this->Constraint.data());
   }
-  this->count(i, label, diagonal, this->commonShare(own));
+  this->count(i, label, diagonal, commonShare(own, this->edgeWeights()));
 }
 
 /** A vertex that is no unknown: prescribed, or held where it is. */
@@ -205,20 +206,15 @@ void RowAssembly::raise(std::int64_t i, double& alpha)
   }
 }
 
-/**
- * Where `own`, what screening, Robin and soft conditions bring to the diagonal, outweighs the
- * edges, the row determines its unknown by itself, at once, and its first residual is as large as
- * `own` is: in the measure that all other rows are to meet it counts as if it had only the weight
- * of its edges. In (0, 1]; 0 without edges.
- */
-double RowAssembly::commonShare(double own) const
+/** The magnitudes of the weights of the row's edges, to prescribed vertices, too. */
+double RowAssembly::edgeWeights() const
 {
-  double edges = this->Known;
+  double weights = this->Known;
   for (std::int64_t e = 0; e < this->Size; ++e)
   {
-    edges += std::fabs(static_cast<double>(this->Row[e].weight()));
+    weights += std::fabs(static_cast<double>(this->Row[e].weight()));
   }
-  return own > edges ? edges / own : 1.0;
+  return weights;
 }
 
 /** Adds the row to the sums over all rows and over its component. */

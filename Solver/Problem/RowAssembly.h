@@ -48,7 +48,7 @@ private:
   void addNeighbours(
     std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target, double& alpha);
   void raise(std::int64_t i, double& alpha);
-  double commonShare(double own) const;
+  double edgeWeights() const;
   void count(std::int64_t i, std::int32_t label, double diagonal, double share);
 
   const OpenVertices& Vertices;

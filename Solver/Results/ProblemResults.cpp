@@ -2,6 +2,7 @@
 #include "Solver/Results/ProblemResults.h"
 
 #include "Solver/Core/Error.h"
+#include "Solver/Problem/CommonShare.h"
 
 #include <algorithm>
 #include <cmath>
@@ -272,7 +273,7 @@ void ProblemResults::closeVertex(std::int64_t i)
   if (this->FacetLoads)
   {
     const double alpha = this->FacetLoads->alpha(i);
-    const double share = alpha > this->EdgeWeights[i] ? this->EdgeWeights[i] / alpha : 1.0;
+    const double share = commonShare(alpha, this->EdgeWeights[i]);
     for (std::size_t k = 0; k < this->Columns; ++k)
     {
       this->RobinTerms[k] +=

@@ -110,7 +110,7 @@ private:
   double Mass = 0.0;
   std::vector<double> Mean, Source, Screening, ScreeningEnergy, Magnitude; // sums
   std::vector<double> ReactionTerms; // magnitudes of what the reactions are summed of
-  // Those of Robin conditions that the solve's residual may have left, see RowAssembly.
+  // Those of Robin conditions that the solve's residual may have left, see commonShare().
   std::vector<double> RobinTerms;
   std::vector<Report::Extreme> Minimum, Maximum;
 };
