@@ -10,6 +10,7 @@
 
 #include "vtkContourFilter.h"
 #include "vtkDataSetTriangleFilter.h"
+#include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
 #include "vtkFlyingEdges3D.h"
@@ -236,12 +237,13 @@ TEST_F(VtkStreamingMeshWriter, MeshGivenDirectlyStaysWhole)
   }
 }
 
-/** An image of a wavy function, whose values are not stored as VTK stores most arrays. */
+/** An image of a wavy function, with heights in an array of a class. */
+template <class Heights>
 vtkSmartPointer<vtkImageData> waves()
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(14, 13, 12);
-  vtkNew<vtkSOADataArrayTemplate<double>> heights;
+  vtkNew<Heights> heights;
   heights->SetName("Height");
   heights->SetNumberOfComponents(2);
   heights->SetNumberOfTuples(image->GetNumberOfPoints());
@@ -277,15 +279,17 @@ void expectHeights(const std::filesystem::path& container)
 
 TEST_F(VtkStreamingMeshWriter, MeshesOfOtherSourcesGetAnOrder)
 {
+  using NotAsUsual = vtkSOADataArrayTemplate<double>;
   vtkNew<vtkContourFilter> contour;
-  contour->SetInputData(waves());
+  contour->SetInputData(waves<NotAsUsual>());
   contour->SetValue(0, 5.0);
+  // VTK 9.1 interpolates arrays in flying edges wrongly that are not stored as usual.
   vtkNew<vtkFlyingEdges3D> edges;
-  edges->SetInputData(waves());
+  edges->SetInputData(waves<vtkDoubleArray>());
   edges->SetValue(0, 5.0);
   edges->InterpolateAttributesOn();
   vtkNew<vtkDataSetTriangleFilter> tetrahedra;
-  tetrahedra->SetInputData(waves());
+  tetrahedra->SetInputData(waves<NotAsUsual>());
   for (vtkAlgorithm* source : std::initializer_list<vtkAlgorithm*>{ contour, edges, tetrahedra })
   {
     source->Update();
