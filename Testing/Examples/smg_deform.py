@@ -280,7 +280,8 @@ def test_notes_on_handles():
 
 def test_help():
     shown = run("deform", "--help").stdout
-    assert all(key in shown.strip().splitlines()[-1]
+    footer = shown.strip().split("\n\n")[-1]
+    assert all(key in footer
                for key in ("handles", "region", "halfspace", "degrees", "tolerance")), shown
     for command in ("deform", "solve"):
         assert re.search(r"[=\[]1024", run(command, "--help").stdout)

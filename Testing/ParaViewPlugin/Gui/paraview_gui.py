@@ -143,10 +143,10 @@ class Session:
         for name, text in self.macros.items():
             with open(os.path.join(macros, name + ".py"), "w") as file:
                 file.write(text)
-        # A wide panel, and no welcome dialog; for every release of this ParaView.
-        for patch in range(9):
+        # A wide panel, and no welcome dialog; the name is without a release from 6.1 on.
+        for release in ("", *(f"{paraview_version()}.{patch}" for patch in range(9))):
             shutil.copy(os.path.join(os.path.dirname(__file__), "layout.ini"),
-                        os.path.join(settings, "ParaView", f"ParaView{paraview_version()}.{patch}.ini"))
+                        os.path.join(settings, "ParaView", f"ParaView{release}.ini"))
         script = os.path.join(self.folder, "session.xml")
         with open(script, "w") as file:
             file.write("<?xml version=\"1.0\" ?>\n<pqevents>\n" + "\n".join(self.events) +
