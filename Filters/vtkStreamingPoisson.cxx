@@ -9,7 +9,7 @@
 #include "Filters/Poisson/vtkPreviewSolve.h"
 #include "Filters/Streaming/SolveSummary.h"
 #include "Filters/Streaming/vtkWarnOnce.h"
-#include "IO/Container/ReservedNames.h"
+#include "IO/Formats/Vsm/ReservedNames.h"
 #include "IO/Problem/ProblemFile.h"
 #include "IO/vtkMeshPieceData.h"
 #include "Solver/Core/Error.h"

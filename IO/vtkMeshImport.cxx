@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkMeshImport.h"
 
-#include "IO/Import/InputFile.h"
-#include "IO/Import/RecodedImport.h"
-#include "IO/Import/XmlTags.h"
+#include "IO/Files/InputFile.h"
+#include "IO/Formats/Vtk/RecodedImport.h"
+#include "IO/Formats/Vtk/XmlTags.h"
 #include "IO/vtkRawXml.h"
 #include "Solver/Core/Error.h"
 
@@ -81,9 +81,9 @@ void recodeVtkFile(const std::filesystem::path& from, const std::filesystem::pat
 
 void registerVtkImporter()
 {
-  setVtkImporter([](const std::filesystem::path& path, MeshFormat format, RawMeshBuilder& builder,
+  setVtkImporter([](const std::filesystem::path& path, VtkXmlKind kind, RawMeshBuilder& builder,
                    const ProgressFunction& progress)
-    { importRecoded(recodeVtkFile, path, format, builder, progress); });
+    { importRecoded(recodeVtkFile, path, kind, builder, progress); });
 }
 
 } // namespace smg

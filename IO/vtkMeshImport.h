@@ -2,7 +2,7 @@
 #ifndef vtkMeshImport_h
 #define vtkMeshImport_h
 
-#include "IO/Import/Importer.h"
+#include "IO/AnyFormat/Importer.h"
 #include "vtkStreamingMultigridIOModule.h"
 
 #include <filesystem>

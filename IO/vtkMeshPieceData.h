@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Container/MeshPiece.h"
+#include "IO/Formats/Vsm/MeshPiece.h"
 #include "Solver/Stream/MeshSource.h"
 
 class vtkPointSet;

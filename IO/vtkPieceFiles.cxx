@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkPieceFiles.h"
 
-#include "IO/Formats/VtkXml.h"
+#include "IO/Formats/Vtk/VtkXml.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceStream.h"
 #include "Solver/Core/Error.h"

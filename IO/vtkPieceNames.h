@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Container/ReservedNames.h"
+#include "IO/Formats/Vsm/ReservedNames.h"
 
 namespace smg
 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkPieceStream.h"
 
-#include "IO/Container/Columns.h"
-#include "IO/Container/VsmWriter.h"
-#include "IO/Output/WriteVsm.h"
+#include "IO/Formats/Vsm/Columns.h"
+#include "IO/Formats/Vsm/VsmWriter.h"
+#include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"

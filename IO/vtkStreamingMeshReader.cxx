@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkStreamingMeshReader.h"
 
-#include "IO/Container/VsmReader.h"
-#include "IO/Conversion/MeshFile.h"
+#include "IO/AnyFormat/FormatTable.h"
+#include "IO/AnyFormat/MeshFile.h"
 #include "IO/Conversion/OpenMesh.h"
-#include "IO/Formats/StreamFile.h"
-#include "IO/Import/Importer.h"
+#include "IO/Formats/Streams/StreamFile.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Preview/PreviewPiece.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshImport.h"
@@ -313,7 +313,7 @@ int vtkStreamingMeshReader::CanReadFile(const char* name)
         smg::detectStreamFormat(name);
         return 1;
       case smg::MeshFileKind::Indexed:
-        return smg::meshFormat(name) != smg::MeshFormat::Unknown ? 1 : 0;
+        return smg::formatOfFile(name) ? 1 : 0;
       default:
         return 0;
     }

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkStreamingMeshWriter.h"
 
-#include "IO/Container/VsmReader.h"
+#include "IO/AnyFormat/FormatTable.h"
+#include "IO/AnyFormat/MeshFile.h"
+#include "IO/AnyFormat/WriteMesh.h"
+#include "IO/AnyFormat/WriteRestored.h"
 #include "IO/Conversion/Convert.h"
-#include "IO/Conversion/MeshFile.h"
-#include "IO/Conversion/PartialProgress.h"
 #include "IO/External/Workspace.h"
-#include "IO/Formats/Suffix.h"
-#include "IO/Output/WriteMesh.h"
-#include "IO/Restore/WriteRestored.h"
+#include "IO/Files/PartialProgress.h"
+#include "IO/Files/Suffix.h"
+#include "IO/Formats/Vsm/VsmReader.h"
+#include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
@@ -188,8 +190,8 @@ using WriteFunction = Notes (*)(const Job& job);
 /** Who writes a file of that name. Throws Error if nobody does. */
 WriteFunction writerOf(const std::filesystem::path& path)
 {
-  const std::string suffix = smg::lowerSuffix(path);
-  if (suffix == ".pvtp" || suffix == ".pvtu")
+  const smg::Format& inPieces = smg::ParallelVtkXmlFormat;
+  if (smg::formatOfSuffix(smg::lowerSuffix(path)) == &inPieces)
   {
     return writeIndexedPieces;
   }
@@ -199,10 +201,11 @@ WriteFunction writerOf(const std::filesystem::path& path)
       return writeContainerFile;
     case smg::MeshFileKind::Unknown:
       throw smg::Error(
-        path.string() +
-        " has a suffix that cannot be written: use .vsm, .ply, .sma, "
-        ".smb, .sva, .svb, .vtp, .vtu, .pvtp or .pvtu. (Of a gigantic mesh, ParaView's own "
-        "writers have the preview only: to save that, take a Streaming Mesh Preview.)");
+        path.string() + " has a suffix that cannot be written: use " +
+        smg::suffixList(smg::FormatUse::Write, "or") + ", or in pieces " +
+        smg::suffixList(inPieces, "or") +
+        ". (Of a gigantic mesh, ParaView's own writers have the preview only: to save that, take a "
+        "Streaming Mesh Preview.)");
     default:
       return writeThroughContainer;
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SolvingCommand.h"
 
-#include "IO/Conversion/MeshFile.h"
-#include "IO/Conversion/PartialProgress.h"
+#include "IO/AnyFormat/MeshFile.h"
+#include "IO/AnyFormat/RewriteMesh.h"
+#include "IO/AnyFormat/WriteMesh.h"
+#include "IO/Files/PartialProgress.h"
 #include "IO/Motion/MovedMesh.h"
-#include "IO/Motion/RewriteMesh.h"
-#include "IO/Output/WriteMesh.h"
 #include "IO/Problem/HandleFile.h"
 #include "IO/Problem/WeightsName.h"
 #include "Solver/Deformation/DescribedHandles.h"

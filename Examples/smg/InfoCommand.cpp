@@ -2,8 +2,8 @@
 #include "OpenInput.h"
 #include "ProgressBar.h"
 
-#include "IO/Container/CheckVsm.h"
-#include "IO/Conversion/MeshFile.h"
+#include "IO/AnyFormat/MeshFile.h"
+#include "IO/Formats/Vsm/CheckVsm.h"
 #include "Solver/Core/Error.h"
 
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 
 #include "CommonOptions.h"
 
-#include "IO/Conversion/MeshFile.h"
+#include "IO/AnyFormat/MeshFile.h"
 #include "Solver/Core/Error.h"
 
 void InputOptions::addTo(CLI::App& command)

@@ -2,9 +2,9 @@
 #include "OpenInput.h"
 #include "ProgressBar.h"
 
-#include "IO/Conversion/MeshFile.h"
-#include "IO/Conversion/PartialProgress.h"
-#include "IO/Output/WriteMesh.h"
+#include "IO/AnyFormat/MeshFile.h"
+#include "IO/AnyFormat/WriteMesh.h"
+#include "IO/Files/PartialProgress.h"
 #include "IO/Preview/PreviewSource.h"
 #include "Solver/Core/Error.h"
 

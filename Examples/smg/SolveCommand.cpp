@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SolvingCommand.h"
 
-#include "IO/Conversion/MeshFile.h"
-#include "IO/Conversion/PartialProgress.h"
+#include "IO/AnyFormat/MeshFile.h"
+#include "IO/AnyFormat/WriteMesh.h"
+#include "IO/AnyFormat/WriteRestored.h"
 #include "IO/External/Workspace.h"
+#include "IO/Files/PartialProgress.h"
 #include "IO/Output/SolvedMesh.h"
-#include "IO/Output/WriteMesh.h"
 #include "IO/Problem/ProblemFile.h"
-#include "IO/Restore/WriteRestored.h"
 #include "Solver/Core/Error.h"
 #include "Solver/Description/ComposeDescriptions.h"
 #include "Solver/Description/DescribedProblem.h"
@@ -123,8 +123,8 @@ protected:
   bool keepsOrder() const override
   {
     const smg::MeshFileKind kind = smg::kindOfOutput(this->Out);
-    return (kind == smg::MeshFileKind::Ply || kind == smg::MeshFileKind::VtkXml) &&
-           this->Conversion && smg::kindOfInput(this->In) == smg::MeshFileKind::Indexed &&
+    return kind == smg::MeshFileKind::Indexed && this->Conversion &&
+           smg::kindOfInput(this->In) == smg::MeshFileKind::Indexed &&
            !this->Conversion->keeps_numbers && !this->Input.welds();
   }
 

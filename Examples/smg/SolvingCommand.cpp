@@ -4,8 +4,8 @@
 #include "OpenInput.h"
 #include "ProgressBar.h"
 
-#include "IO/Conversion/MeshFile.h"
-#include "IO/Conversion/PartialProgress.h"
+#include "IO/AnyFormat/MeshFile.h"
+#include "IO/Files/PartialProgress.h"
 #include "Solver/Stream/OriginalNumbers.h"
 
 #include <chrono>

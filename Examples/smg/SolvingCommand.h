@@ -4,8 +4,8 @@
 #include "CommonOptions.h"
 #include "InputOptions.h"
 
-#include "IO/Container/VsmReader.h"
 #include "IO/Conversion/ConversionReport.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Solver/Solve.h"
 
 #include <memory>

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "VtkBridge.h"
 
-#include "IO/Import/Importer.h"
+#include "IO/AnyFormat/FormatTable.h"
+#include "IO/Formats/Vtk/VtkFormats.h"
+#include "IO/Formats/Vtk/VtkImporter.h"
 #include "Solver/Core/Error.h"
 
 #include <string>
@@ -12,7 +14,7 @@ namespace
 {
 
 /** Loads the library, which sets an importer in this one's place, and lets that import. */
-void importWithLibrary(const std::filesystem::path& path, smg::MeshFormat format,
+void importWithLibrary(const std::filesystem::path& path, smg::VtkXmlKind kind,
   smg::RawMeshBuilder& builder, const smg::ProgressFunction& progress)
 {
   // Found by the program's RUNPATH. Never unloaded: VTK's singletons do not survive that.
@@ -32,15 +34,15 @@ void importWithLibrary(const std::filesystem::path& path, smg::MeshFormat format
       path.string() + ": the library " SMG_VTK_BRIDGE " does not belong to this program.");
   }
   registerImporter();
-  smg::vtkImporter()(path, format, builder, progress);
+  smg::vtkImporter()(path, kind, builder, progress);
 }
 
 } // namespace
 
 void loadVtkFor(const std::filesystem::path& path)
 {
-  const smg::MeshFormat format = smg::meshFormat(path);
-  if (format == smg::MeshFormat::VtkXml || format == smg::MeshFormat::VtkParallelXml)
+  const smg::Format* const format = smg::formatOfFile(path);
+  if (format == &smg::VtkXmlFormat || format == &smg::ParallelVtkXmlFormat)
   {
     smg::setVtkImporter(importWithLibrary);
   }

@@ -3,7 +3,7 @@
 
 #include "Filters/Deformation/DeformedVertices.h"
 #include "Filters/Handles/vtkHandleArrays.h"
-#include "IO/Conversion/PartialProgress.h"
+#include "IO/Files/PartialProgress.h"
 #include "Solver/Deformation/DescribedHandles.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "Filters/Deformation/vtkMovedPiece.h"
 
 #include "Filters/Deformation/DeformedVertices.h"
-#include "IO/Formats/SinglePrecision.h"
+#include "IO/Files/SinglePrecision.h"
 #include "IO/Motion/CellNormals.h"
 #include "IO/vtkPieceCells.h"
 

@@ -2,7 +2,7 @@
 #include "Filters/Mesh/vtkPieceBlock.h"
 
 #include "Filters/Mesh/OneBlockSource.h"
-#include "IO/Container/Columns.h"
+#include "IO/Formats/Vsm/Columns.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceStream.h"

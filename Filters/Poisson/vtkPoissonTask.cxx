@@ -2,7 +2,7 @@
 #include "Filters/Poisson/vtkPoissonTask.h"
 
 #include "Filters/Poisson/vtkPieceResults.h"
-#include "IO/Conversion/PartialProgress.h"
+#include "IO/Files/PartialProgress.h"
 #include "IO/Output/SolvedMesh.h"
 #include "Solver/Core/Error.h"
 #include "Solver/Description/ComposeDescriptions.h"

@@ -3,7 +3,7 @@
 
 #include "Filters/Regions/EdgeLength.h"
 #include "Filters/Regions/vtkSelectedPoints.h"
-#include "IO/Formats/StreamConversion.h"
+#include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/vtkPieceStream.h"
 #include "Solver/Core/Error.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Streaming/vtkStreamedSolve.h"
 
-#include "IO/Conversion/PartialProgress.h"
+#include "IO/Files/PartialProgress.h"
 #include "Solver/Core/Error.h"
 #include "Solver/Storage/ScratchFolder.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/CompressedStream.h"
 
-#include "IO/Conversion/MeshFile.h"
+#include "IO/AnyFormat/MeshFile.h"
 #include "IO/External/Workspace.h"
-#include "IO/Formats/StreamFile.h"
-#include "IO/Import/Inflate.h"
-#include "IO/Import/InputFile.h"
+#include "IO/Files/Inflate.h"
+#include "IO/Files/InputFile.h"
+#include "IO/Formats/Streams/StreamFile.h"
 #include "Solver/Core/Error.h"
 
 #include <string>

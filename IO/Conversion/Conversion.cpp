@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/Conversion.h"
 
-#include "IO/Conversion/PartialProgress.h"
-#include "IO/Formats/StreamConversion.h"
-#include "IO/Output/WriteMesh.h"
-#include "IO/Output/WriteVsm.h"
+#include "IO/AnyFormat/WriteMesh.h"
+#include "IO/Files/PartialProgress.h"
+#include "IO/Formats/Streams/StreamConversion.h"
+#include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Raw/Weld.h"
 #include "Solver/Core/Error.h"
 

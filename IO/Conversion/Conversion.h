@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Container/VsmReader.h"
-#include "IO/Container/VsmWriter.h"
+#include "IO/AnyFormat/MeshFile.h"
 #include "IO/Conversion/Convert.h"
-#include "IO/Conversion/MeshFile.h"
 #include "IO/External/Workspace.h"
+#include "IO/Formats/Vsm/VsmReader.h"
+#include "IO/Formats/Vsm/VsmWriter.h"
 
 #include <chrono>
 #include <cstdint>

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/ConversionEstimate.h"
 
-#include "IO/Container/VsmReader.h"
-#include "IO/Conversion/MeshFile.h"
-#include "IO/Formats/StreamFile.h"
-#include "IO/Import/Importer.h"
-#include "IO/Import/Inflate.h"
-#include "IO/Import/OffHeader.h"
-#include "IO/Import/PlyHeader.h"
+#include "IO/AnyFormat/FormatTable.h"
+#include "IO/AnyFormat/MeshFile.h"
+#include "IO/Files/Inflate.h"
+#include "IO/Files/InputFile.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Solver/Core/Error.h"
 
 #include <nlohmann/json.hpp>
@@ -20,41 +18,6 @@ namespace smg
 
 namespace
 {
-
-/** What a file says, or its size lets guess. */
-struct Counts
-{
-  std::int64_t vertices = 0, cells = 0;
-  int corners = 3;
-  std::int64_t columnBytes = 0; ///< of all columns of the mesh
-  bool counted = false;
-  std::int64_t inflatedBytes = 0; ///< of the file, if it is compressed
-};
-
-/** Bytes that a vertex takes in a file, with the cells that come to it: two triangles, six tets. */
-struct Share
-{
-  std::int64_t bytes;
-  int corners;
-};
-
-Share shareOf(MeshFormat format)
-{
-  switch (format)
-  {
-    case MeshFormat::Stl:
-      return { 100, 3 };
-    case MeshFormat::Medit:
-    case MeshFormat::TetGen:
-      return { 200, 4 };
-    case MeshFormat::Gmsh:
-      return { 250, 4 };
-    case MeshFormat::VtkLegacy:
-      return { 45, 3 };
-    default:
-      return { 75, 3 };
-  }
-}
 
 std::int64_t columnBytes(const StreamInfo& info)
 {
@@ -84,12 +47,16 @@ std::int64_t inflatedSize(InputFile& file)
   return said + (std::max<std::int64_t>(least - said, 0) + Modulus - 1) / Modulus * Modulus;
 }
 
-Counts guess(const std::filesystem::path& path)
+/** What a file says, or its size lets guess. */
+struct Counts : FileCounts
 {
-  const Share share = shareOf(meshFormat(path));
-  InputFile file(path);
+  std::int64_t inflatedBytes = 0; ///< of the file, if it is compressed
+};
+
+Counts guess(InputFile& file, bool compressed, const VertexShare& share)
+{
   Counts counts;
-  if (file.size() >= 18 && isGzip(file.at(0, 2)))
+  if (compressed && file.size() >= 18)
   {
     counts.inflatedBytes = inflatedSize(file);
   }
@@ -101,80 +68,29 @@ Counts guess(const std::filesystem::path& path)
   return counts;
 }
 
-Counts countsOfOff(InputFile& file)
-{
-  TextScanner scanner(file, '#');
-  const OffHeader header = readOffHeader(scanner);
-  return { header.vertices, header.faces, 3, 0, true, 0 };
-}
-
-/** What a PLY file says, unless it is too short for that. */
-Counts countsOfPly(InputFile& file, const std::filesystem::path& path)
-{
-  Counts counts;
-  counts.counted = true;
-  double least = 0;
-  for (const PlyElement& element : readPlyHeader(file).elements)
-  {
-    std::int64_t bytes = 0;
-    for (const PlyProperty& property : element.properties)
-    {
-      bytes += property.list ? 0 : static_cast<std::int64_t>(sizeOf(property.type));
-    }
-    // No property takes less than a byte, with a list's length or the space after a number.
-    least += static_cast<double>(element.count) * static_cast<double>(element.properties.size());
-    if (least > static_cast<double>(file.size()))
-    {
-      return guess(path);
-    }
-    if (element.name == "vertex")
-    {
-      counts.vertices = element.count;
-      counts.columnBytes += element.count * std::max<std::int64_t>(bytes - 12, 0);
-    }
-    else if (element.name == "face")
-    {
-      counts.cells = element.count;
-      counts.columnBytes += element.count * bytes;
-    }
-  }
-  return counts;
-}
-
-Counts countsOfIndexed(const std::filesystem::path& path)
-{
-  InputFile file(path);
-  if (isGzip(file.at(0, 2)))
-  {
-    return guess(path);
-  }
-  switch (meshFormat(path))
-  {
-    case MeshFormat::Ply:
-      return countsOfPly(file, path);
-    case MeshFormat::Off:
-      return countsOfOff(file);
-    default:
-      return guess(path);
-  }
-}
-
 Counts countsOf(const std::filesystem::path& path)
 {
-  switch (kindOfInput(path))
+  const MeshFileKind kind = kindOfInput(path);
+  if (kind == MeshFileKind::Vsm)
   {
-    case MeshFileKind::Vsm:
-    {
-      const StreamInfo info = VsmReader(path).info();
-      return { info.vertices, info.cells, cornersOf(info.cellType), columnBytes(info), true, 0 };
-    }
-    case MeshFileKind::Indexed:
-      return countsOfIndexed(path);
-    case MeshFileKind::Stream:
-      return guess(path);
-    default:
-      throw Error(path.string() + ": the format is not known by its content or suffix.");
+    const StreamInfo info = VsmReader(path).info();
+    return { { info.vertices, info.cells, cornersOf(info.cellType), columnBytes(info), true }, 0 };
   }
+  if (kind == MeshFileKind::Unknown)
+  {
+    throw Error(path.string() + ": the format is not known by its content or suffix.");
+  }
+  const Format* const format = formatOfFile(path);
+  InputFile file(path);
+  const bool compressed = isGzip(file.at(0, 2));
+  if (kind == MeshFileKind::Indexed && !compressed && format->counts)
+  {
+    if (const std::optional<FileCounts> counts = format->counts(file))
+    {
+      return { *counts, 0 };
+    }
+  }
+  return guess(file, compressed, format ? format->share : VertexShare{});
 }
 
 std::filesystem::path scratchFolder(const std::filesystem::path& folder)

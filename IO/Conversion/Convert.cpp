@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/Convert.h"
 
+#include "IO/AnyFormat/MeshFile.h"
+#include "IO/AnyFormat/WriteRestored.h"
 #include "IO/Conversion/CompressedStream.h"
 #include "IO/Conversion/Conversion.h"
 #include "IO/Conversion/ConvertMesh.h"
 #include "IO/Conversion/CopyStream.h"
-#include "IO/Conversion/MeshFile.h"
-#include "IO/Restore/WriteRestored.h"
 #include "Solver/Core/Error.h"
 #include "Solver/Core/Timer.h"
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/ConvertMesh.h"
 
+#include "IO/AnyFormat/Importer.h"
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/NumberNames.h"
-#include "IO/Formats/InQuotes.h"
-#include "IO/Import/Importer.h"
+#include "IO/Files/InQuotes.h"
+#include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Order/LayOut.h"
 #include "IO/Order/LayoutSource.h"
 #include "IO/Order/TakeIsolated.h"
-#include "IO/Output/WriteVsm.h"
 #include "IO/Raw/ReadStream.h"
 #include "IO/Raw/Weld.h"
 

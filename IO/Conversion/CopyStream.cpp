@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/CopyStream.h"
 
-#include "IO/Conversion/AddedColumn.h"
+#include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Order/CellFlagger.h"
-#include "IO/Output/WriteVsm.h"
+#include "Solver/Stream/AddedColumn.h"
 
 #include <cstring>
 #include <limits>

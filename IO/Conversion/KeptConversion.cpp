@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/KeptConversion.h"
 
-#include "IO/Container/VsmReader.h"
-#include "IO/Conversion/MeshFile.h"
-#include "IO/Formats/Suffix.h"
+#include "IO/AnyFormat/MeshFile.h"
+#include "IO/Files/Suffix.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Solver/Core/Error.h"
 #include "Solver/Core/Progress.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/NumberNames.h"
 
-#include "IO/Formats/InQuotes.h"
-#include "IO/Formats/StreamConversion.h"
+#include "IO/Files/InQuotes.h"
+#include "Solver/Stream/OriginalNumbers.h"
 
 #include <algorithm>
 

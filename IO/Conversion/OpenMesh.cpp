@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/OpenMesh.h"
 
-#include "IO/Conversion/MeshFile.h"
+#include "IO/AnyFormat/MeshFile.h"
 
 namespace smg
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Container/VsmReader.h"
 #include "IO/Conversion/Convert.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Solver/Storage/ScratchFolder.h"
 
 #include <filesystem>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Container/PagedArray.h"
+#include "IO/Formats/Vsm/PagedArray.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "Solver/Stream/MeshSource.h"
 

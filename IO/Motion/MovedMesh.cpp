@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Motion/MovedMesh.h"
 
-#include "IO/Conversion/AddedColumn.h"
 #include "IO/Motion/CellNormals.h"
 #include "IO/Motion/MovedPoints.h"
+#include "Solver/Stream/AddedColumn.h"
 
 #include <algorithm>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Motion/MovedPoints.h"
 
-#include "IO/Formats/SinglePrecision.h"
+#include "IO/Files/SinglePrecision.h"
 
 #include <algorithm>
 #include <utility>

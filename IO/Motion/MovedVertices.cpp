@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Motion/MovedVertices.h"
 
-#include "IO/Container/AttributeNames.h"
-#include "IO/Formats/StreamConversion.h"
+#include "IO/Formats/Vsm/AttributeNames.h"
 #include "Solver/Core/Error.h"
+#include "Solver/Stream/OriginalNumbers.h"
 
 #include <algorithm>
 

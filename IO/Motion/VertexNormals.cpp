@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Motion/VertexNormals.h"
 
-#include "IO/Container/PagedArray.h"
+#include "IO/Formats/Vsm/PagedArray.h"
 #include "IO/Motion/CellNormals.h"
 #include "Solver/Core/Error.h"
 #include "Solver/Storage/ScratchFolder.h"

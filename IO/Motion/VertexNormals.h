@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Container/AttributeNames.h"
+#include "IO/Formats/Vsm/AttributeNames.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Stream/MeshSource.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Container/PagedArray.h"
 #include "IO/External/Relabelling.h"
 #include "IO/External/Reservation.h"
+#include "IO/Formats/Vsm/PagedArray.h"
 #include "IO/Order/OrderedVertices.h"
 #include "IO/Order/StreamAssembly.h"
 

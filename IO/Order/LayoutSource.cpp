@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/LayoutSource.h"
 
-#include "IO/Container/ReservedNames.h"
-#include "IO/Formats/StreamConversion.h"
+#include "IO/Formats/Vsm/ReservedNames.h"
+#include "Solver/Stream/OriginalNumbers.h"
 
 #include <algorithm>
 #include <cstring>

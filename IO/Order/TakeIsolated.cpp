@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/TakeIsolated.h"
 
-#include "IO/Formats/StreamConversion.h"
 #include "IO/Order/OrderedVertices.h"
+#include "Solver/Stream/OriginalNumbers.h"
 
 #include <algorithm>
 #include <cstddef>

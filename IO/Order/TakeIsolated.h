@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Container/IsolatedVertices.h"
+#include "IO/Formats/Vsm/IsolatedVertices.h"
 #include "IO/Order/StreamAssembly.h"
 #include "IO/Raw/RawMesh.h"
 

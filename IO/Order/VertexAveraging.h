@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Container/PagedArray.h"
+#include "IO/Formats/Vsm/PagedArray.h"
 #include "IO/Order/PageStretch.h"
 
 #include <cstdint>

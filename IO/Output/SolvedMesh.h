@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Container/VsmReader.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Solver/Results/ProblemResults.h"
 
 #include <memory>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Container/MeshPiece.h"
-#include "IO/Container/VsmReader.h"
+#include "IO/Formats/Vsm/MeshPiece.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Preview/StreamPreview.h"
 
 namespace smg

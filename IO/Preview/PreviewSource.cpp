@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Preview/PreviewSource.h"
 
-#include "IO/Conversion/PartialProgress.h"
-#include "IO/Formats/StreamConversion.h"
+#include "IO/Files/PartialProgress.h"
+#include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Order/LayOut.h"
 #include "IO/Raw/RawMeshBuilder.h"
 #include "Solver/Core/Error.h"

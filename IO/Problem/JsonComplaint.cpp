@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Problem/JsonComplaint.h"
 
-#include "IO/Formats/InQuotes.h"
+#include "IO/Files/InQuotes.h"
 
 #include <nlohmann/json.hpp>
 

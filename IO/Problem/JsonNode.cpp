@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Problem/JsonNode.h"
 
-#include "IO/Formats/InQuotes.h"
+#include "IO/Files/InQuotes.h"
 #include "IO/Problem/JsonComplaint.h"
 #include "Solver/Core/Error.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Raw/RawMeshBuilder.h"
 
-#include "IO/Container/ReservedNames.h"
-#include "IO/Formats/InQuotes.h"
+#include "IO/Files/InQuotes.h"
+#include "IO/Formats/Vsm/ReservedNames.h"
 #include "IO/Raw/SolidSplit.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/InQuotes.h"
+#include "IO/Files/InQuotes.h"
 #include "IO/Restore/RestoredChunks.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Restore/RestoredMesh.h"
 
-#include "IO/Container/VsmFormat.h"
-#include "IO/Container/VsmReader.h"
-#include "IO/Formats/StreamConversion.h"
+#include "IO/Formats/Vsm/VsmFormat.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Solver/Core/Error.h"
+#include "Solver/Stream/OriginalNumbers.h"
 
 #include <algorithm>
 #include <limits>

@@ -37,6 +37,8 @@ public:
   RestoredMesh& operator=(const RestoredMesh&) = delete;
 
   const RestoredInfo& info() const { return this->Info; }
+  /** Where it was sorted, for what else has to be. */
+  Workspace& workspace() const { return this->Space; }
   /** What a user should know of the restored mesh, a sentence each. */
   const std::vector<std::string>& notes() const { return this->Notes; }
 

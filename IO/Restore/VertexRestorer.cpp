@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Restore/VertexRestorer.h"
 
-#include "IO/Container/Columns.h"
+#include "IO/Formats/Vsm/Columns.h"
 #include "Solver/Core/Error.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Benchmarks/AssembledTask.h"
 
-#include "IO/Container/VsmReader.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Solver/Core/Error.h"
 #include "Testing/Benchmarks/FixedEndsProblem.h"
 

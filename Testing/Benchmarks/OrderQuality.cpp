@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Benchmarks/OrderQuality.h"
 
-#include "IO/Container/VsmReader.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/Benchmarks/StreamOrderMeasure.h"
 #include "Testing/Support/InCoreOrder.h"
 

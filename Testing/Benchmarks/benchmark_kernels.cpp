@@ -15,7 +15,7 @@
 // `nonzeros` (a node).
 // Takes the options of Google Benchmark (--help).
 
-#include "IO/Container/VsmReader.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/Benchmarks/Kernels.h"
 
 #include <exception>

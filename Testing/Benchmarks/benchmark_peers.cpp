@@ -9,7 +9,7 @@
 // prints a Markdown table and writes the numbers. Everything runs on one thread unless --threads
 // says otherwise for smg.
 
-#include "IO/Container/VsmReader.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/Benchmarks/ChildProcess.h"
 #include "Testing/Benchmarks/Output.h"
 #include "Testing/Benchmarks/Peers.h"

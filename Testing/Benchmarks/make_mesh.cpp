@@ -11,7 +11,7 @@
 // in the order that the mesh is made in, or with --shuffle in a random one, the worst case for a
 // conversion.
 
-#include "IO/Container/VsmWriter.h"
+#include "IO/Formats/Vsm/VsmWriter.h"
 #include "Solver/Core/Error.h"
 #include "Testing/Benchmarks/FinerTetrahedra.h"
 #include "Testing/Benchmarks/IndexedFile.h"

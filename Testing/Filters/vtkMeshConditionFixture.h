@@ -3,7 +3,7 @@
 
 #include "Filters/vtkMeshCondition.h"
 #include "Filters/vtkStreamingPoisson.h"
-#include "IO/Container/VsmReader.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Output/SolvedMesh.h"
 #include "IO/Problem/ProblemFile.h"
 #include "IO/vtkStreamingMeshReader.h"

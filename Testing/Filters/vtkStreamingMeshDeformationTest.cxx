@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Container/VsmReader.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
 #include "Testing/Filters/vtkDeformationFixture.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Fuzzing/MeshChecks.h"
 
-#include "IO/Container/VsmReader.h"
-#include "IO/Formats/StreamFile.h"
+#include "IO/Formats/Streams/StreamFile.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/Fuzzing/Finding.h"
 #include "Testing/Support/RawMeshReading.h"
 

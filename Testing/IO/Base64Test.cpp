@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Base64.h"
+#include "IO/Files/Base64.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Container/VsmWriter.h"
+#include "IO/Formats/Vsm/VsmWriter.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TestMeshes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Container/VsmReader.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"

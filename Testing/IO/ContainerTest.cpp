@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Container/VsmReader.h"
-#include "IO/Container/VsmWriter.h"
+#include "IO/Formats/Vsm/VsmReader.h"
+#include "IO/Formats/Vsm/VsmWriter.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"

@@ -2,9 +2,9 @@
 #include "IO/Conversion/Convert.h"
 #include "IO/Conversion/OpenMesh.h"
 
-#include "IO/Container/VsmReader.h"
-#include "IO/Conversion/MeshFile.h"
-#include "IO/Formats/StreamConversion.h"
+#include "IO/AnyFormat/MeshFile.h"
+#include "IO/Formats/Streams/StreamConversion.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Order/CellFlagger.h"
 #include "Solver/Core/Error.h"
 #include "Testing/IO/MeshText.h"

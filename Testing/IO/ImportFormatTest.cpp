@@ -1,5 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Import/InputFile.h"
+#include "IO/AnyFormat/FormatTable.h"
+#include "IO/Files/InputFile.h"
+#include "IO/Formats/Gmsh/GmshFormat.h"
+#include "IO/Formats/Medit/MeditFormat.h"
+#include "IO/Formats/Obj/ObjFormat.h"
+#include "IO/Formats/Off/OffFormat.h"
+#include "IO/Formats/Ply/PlyFormat.h"
+#include "IO/Formats/Stl/StlFormat.h"
+#include "IO/Formats/TetGen/TetGenFormat.h"
+#include "IO/Formats/Vtk/VtkFormats.h"
 #include "Testing/IO/ImportFixture.h"
 
 #include <zlib.h>
@@ -16,10 +25,10 @@ namespace
 class ImportFormat : public ImportFixture
 {
 protected:
-  MeshFormat format(const std::string& name, std::string_view bytes)
+  const Format* format(const std::string& name, std::string_view bytes)
   {
     writeBytes(this->Folder / name, bytes);
-    return meshFormat(this->Folder / name);
+    return formatOfFile(this->Folder / name);
   }
 };
 
@@ -47,19 +56,19 @@ std::string gzip(std::string_view bytes)
 
 TEST_F(ImportFormat, IsKnownByContentWhateverTheSuffix)
 {
-  const std::pair<const char*, MeshFormat> files[] = { { "ply\nformat", MeshFormat::Ply },
-    { "ply\r\nformat", MeshFormat::Ply }, { "OFF\n", MeshFormat::Off },
-    { "# a comment\nCNOFF 3 1 0", MeshFormat::Off }, { "OFF# comment\n", MeshFormat::Off },
-    { "STCN4nOFF\n", MeshFormat::Off }, { "# vtk DataFile Version 5.1\n", MeshFormat::VtkLegacy },
-    { "<VTKFile type=\"PolyData\">", MeshFormat::VtkXml },
+  const std::pair<const char*, const Format*> files[] = { { "ply\nformat", &PlyFormat },
+    { "ply\r\nformat", &PlyFormat }, { "OFF\n", &OffFormat },
+    { "# a comment\nCNOFF 3 1 0", &OffFormat }, { "OFF# comment\n", &OffFormat },
+    { "STCN4nOFF\n", &OffFormat }, { "# vtk DataFile Version 5.1\n", &LegacyVtkFormat },
+    { "<VTKFile type=\"PolyData\">", &VtkXmlFormat },
     { "<?xml version=\"1.0\"?>\n<VTKFile version='1.0' type='PUnstructuredGrid'>",
-      MeshFormat::VtkParallelXml },
-    { "<VTKFile type=\"PPolyData\">", MeshFormat::VtkParallelXml },
-    { "$MeshFormat\n4.1 0 8\n", MeshFormat::Gmsh },
-    { "# comment\n\n MeshVersionFormatted 2\n", MeshFormat::Medit },
-    { "solid x\n facet normal 0 0 1\n", MeshFormat::Stl }, { "solid\nendsolid\n", MeshFormat::Stl },
-    { "# c\n\nmtllib a.mtl\nv 0 0 0\n", MeshFormat::Obj },
-    { "g a \\\n b\nvn 0 0 1\nv 1 1 1", MeshFormat::Obj } };
+      &ParallelVtkXmlFormat },
+    { "<VTKFile type=\"PPolyData\">", &ParallelVtkXmlFormat },
+    { "$MeshFormat\n4.1 0 8\n", &GmshFormat },
+    { "# comment\n\n MeshVersionFormatted 2\n", &MeditFormat },
+    { "solid x\n facet normal 0 0 1\n", &StlFormat }, { "solid\nendsolid\n", &StlFormat },
+    { "# c\n\nmtllib a.mtl\nv 0 0 0\n", &ObjFormat },
+    { "g a \\\n b\nvn 0 0 1\nv 1 1 1", &ObjFormat } };
   for (const auto& [content, format] : files)
   {
     for (const char* name : { "noSuffix", "a.xyz", "a.ply", "a.OBJ", "a.stl", "a.msh", "a.node" })
@@ -76,39 +85,38 @@ TEST_F(ImportFormat, LongContentIsToldByItsBeginning)
   {
     obj += TriangleObj;
   }
-  EXPECT_EQ(this->format("a", obj), MeshFormat::Obj);
-  EXPECT_EQ(this->format("a", obj.replace(1000, 9, "\nnot obj\n")), MeshFormat::Unknown);
+  EXPECT_EQ(this->format("a", obj), &ObjFormat);
+  EXPECT_EQ(this->format("a", obj.replace(1000, 9, "\nnot obj\n")), nullptr);
   std::string stl(84 + 50 * 1000, 'x');
   const std::uint32_t triangles = 1000;
   std::memcpy(stl.data() + 80, &triangles, sizeof(triangles));
-  EXPECT_EQ(this->format("a.ply", stl), MeshFormat::Stl);
-  EXPECT_EQ(this->format("a", stl + 'x'), MeshFormat::Unknown);
+  EXPECT_EQ(this->format("a.ply", stl), &StlFormat);
+  EXPECT_EQ(this->format("a", stl + 'x'), nullptr);
 }
 
 TEST_F(ImportFormat, IsKnownBySuffixWhereContentSaysNothing)
 {
-  const std::pair<const char*, MeshFormat> files[] = { { "a.node", MeshFormat::TetGen },
-    { "a.ELE", MeshFormat::TetGen }, { "a.off", MeshFormat::Off }, { "a.mesh", MeshFormat::Medit },
-    { "a.pvtu", MeshFormat::VtkParallelXml }, { "a.xyz", MeshFormat::Unknown },
-    { "a", MeshFormat::Unknown } };
+  const std::pair<const char*, const Format*> files[] = { { "a.node", &TetGenFormat },
+    { "a.ELE", &TetGenFormat }, { "a.off", &OffFormat }, { "a.mesh", &MeditFormat },
+    { "a.pvtu", &ParallelVtkXmlFormat }, { "a.xyz", nullptr }, { "a", nullptr } };
   for (const auto& [name, format] : files)
   {
     EXPECT_EQ(this->format(name, "3 1 0\n"), format) << name;
     EXPECT_EQ(this->format(name + std::string(".gz"), gzip("3 1 0\n")), format) << name;
   }
-  EXPECT_EQ(meshFormat(this->Folder / "missing.off"), MeshFormat::Off);
+  EXPECT_EQ(formatOfFile(this->Folder / "missing.off"), &OffFormat);
 }
 
 TEST_F(ImportFormat, ContentAloneIsSureOfWhatHasASign)
 {
   this->format("a", Off);
-  EXPECT_EQ(meshFormatOfContent(this->Folder / "a"), MeshFormat::Off);
+  EXPECT_EQ(formatOfContent(this->Folder / "a"), &OffFormat);
   this->format("a", gzip(Off));
-  EXPECT_EQ(meshFormatOfContent(this->Folder / "a"), MeshFormat::Off);
+  EXPECT_EQ(formatOfContent(this->Folder / "a"), &OffFormat);
   // A streaming format in text looks the same.
   this->format("a.obj", TriangleObj);
-  EXPECT_EQ(meshFormatOfContent(this->Folder / "a.obj"), MeshFormat::Unknown);
-  EXPECT_EQ(meshFormatOfContent(this->Folder / "missing"), MeshFormat::Unknown);
+  EXPECT_EQ(formatOfContent(this->Folder / "a.obj"), nullptr);
+  EXPECT_EQ(formatOfContent(this->Folder / "missing"), nullptr);
 }
 
 TEST_F(ImportFormat, MeshesAreReadWhateverTheSuffix)

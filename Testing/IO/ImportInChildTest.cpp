@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Import/ImportInChild.h"
+#include "IO/Formats/Vtk/ImportInChild.h"
 
 #include "Solver/Core/Error.h"
 #include "Testing/IO/MeshText.h"
@@ -70,12 +70,12 @@ class ImportInChild : public ::testing::Test
 protected:
   ImportInChild() { writeBytes(this->File, TriangleVtp); }
 
-  ReadMesh import(const VtkRecoder& recode, MeshFormat format = MeshFormat::VtkXml,
+  ReadMesh import(const VtkRecoder& recode, VtkXmlKind kind = VtkXmlKind::Whole,
     const ProgressFunction& progress = {})
   {
     Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
     RawMeshBuilder builder(workspace, CellChoice::Only);
-    importInChild(recode, this->File, format, builder, progress);
+    importInChild(recode, this->File, kind, builder, progress);
     return readRaw(builder.finish());
   }
 
@@ -102,7 +102,7 @@ TEST_F(ImportInChild, GivesThePiecesOfAParallelFile)
   writeBytes(this->Folder / "piece.vtp", TriangleVtp);
   writeBytes(this->File, "<VTKFile type=\"PPolyData\"><PPolyData><Piece Source=\"piece.vtp\"/>"
                          "<Piece Source=\"piece.vtp\"/></PPolyData></VTKFile>");
-  const ReadMesh mesh = this->import(copyFile, MeshFormat::VtkParallelXml);
+  const ReadMesh mesh = this->import(copyFile, VtkXmlKind::InPieces);
   EXPECT_EQ(mesh.vertices(), 6);
   EXPECT_EQ(mesh.corners, (std::vector<std::int64_t>{ 2, 0, 1, 5, 3, 4 }));
 }
@@ -120,7 +120,7 @@ TEST_F(ImportInChild, FailuresAreErrors)
 
 TEST_F(ImportInChild, CancelEndsAReaderThatHangs)
 {
-  EXPECT_THROW(this->import(hang, MeshFormat::VtkXml, [](double) { return false; }), Cancelled);
+  EXPECT_THROW(this->import(hang, VtkXmlKind::Whole, [](double) { return false; }), Cancelled);
 }
 
 } // namespace smg::testing

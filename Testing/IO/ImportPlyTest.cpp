@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Import/InputFile.h"
+#include "IO/Files/InputFile.h"
 #include "Testing/IO/ImportFixture.h"
 
 #include <array>

@@ -1,5 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Import/Formats.h"
+#include "IO/Files/InputFile.h"
+#include "IO/Formats/Gmsh/GmshFormat.h"
+#include "IO/Formats/Medit/MeditFormat.h"
+#include "IO/Formats/Obj/ObjFormat.h"
+#include "IO/Formats/Off/OffFormat.h"
+#include "IO/Formats/Ply/PlyFormat.h"
+#include "IO/Formats/Stl/StlFormat.h"
+#include "IO/Formats/TetGen/TetGenFormat.h"
+#include "IO/Formats/Vtk/VtkFormats.h"
+#include "IO/Raw/RawMeshBuilder.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/IO/VtkXmlWriter.h"
 #include "Testing/Support/ErrorMessage.h"
@@ -287,7 +296,7 @@ TEST_F(ImportVtkXml, WhatOnlyVtkReadsIsRefusedBeforeItIsRead)
   expectError([&] { this->read(text); }, "without compression");
   static int calls = 0;
   setVtkImporter(
-    [](const std::filesystem::path&, MeshFormat, RawMeshBuilder& builder, const ProgressFunction&)
+    [](const std::filesystem::path&, VtkXmlKind, RawMeshBuilder& builder, const ProgressFunction&)
     {
       ++calls;
       builder.vertex(0, 0, 0);

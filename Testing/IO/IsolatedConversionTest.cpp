@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/Convert.h"
 
-#include "IO/Container/VsmReader.h"
 #include "IO/External/Reservation.h"
-#include "IO/Formats/StreamConversion.h"
+#include "IO/Formats/Streams/StreamConversion.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Order/FirstUseOrder.h"
 #include "IO/Order/TakeIsolated.h"
 #include "Testing/IO/MeshText.h"

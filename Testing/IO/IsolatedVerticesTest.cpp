@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Container/IsolatedVertices.h"
+#include "IO/Formats/Vsm/IsolatedVertices.h"
 
-#include "IO/Container/VsmFormat.h"
-#include "IO/Container/VsmReader.h"
-#include "IO/Output/WriteVsm.h"
+#include "IO/Formats/Vsm/VsmFormat.h"
+#include "IO/Formats/Vsm/VsmReader.h"
+#include "IO/Formats/Vsm/WriteVsm.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"

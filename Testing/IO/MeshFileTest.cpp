@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Conversion/MeshFile.h"
+#include "IO/AnyFormat/MeshFile.h"
 
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Motion/MovedMesh.h"
 
-#include "IO/Output/WriteVsm.h"
+#include "IO/Formats/Vsm/WriteVsm.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/PrecisionSource.h"

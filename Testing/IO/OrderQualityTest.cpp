@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Container/VsmReader.h"
 #include "IO/Conversion/Convert.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/InCoreOrder.h"
 #include "Testing/Support/RawMeshReading.h"

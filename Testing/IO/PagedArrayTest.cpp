@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Container/PagedArray.h"
-#include "IO/Container/PackedIntegers.h"
+#include "IO/Formats/Vsm/PagedArray.h"
+#include "IO/Formats/Vsm/PackedIntegers.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Preview/PreviewSource.h"
 
-#include "IO/Formats/StreamConversion.h"
-#include "IO/Output/WriteVsm.h"
+#include "IO/Formats/Streams/StreamConversion.h"
+#include "IO/Formats/Vsm/WriteVsm.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/TemporaryFolder.h"

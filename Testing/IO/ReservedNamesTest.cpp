@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Container/ReservedNames.h"
+#include "IO/Formats/Vsm/ReservedNames.h"
 
-#include "IO/Container/VsmReader.h"
 #include "IO/Conversion/Convert.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Motion/RewriteMesh.h"
+#include "IO/AnyFormat/RewriteMesh.h"
 
-#include "IO/Container/VsmReader.h"
-#include "IO/Conversion/AddedColumn.h"
 #include "IO/Conversion/Convert.h"
+#include "IO/Formats/Ply/WritePly.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Motion/VertexNormals.h"
-#include "IO/Output/WritePly.h"
+#include "Solver/Stream/AddedColumn.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/IO/ShiftedSource.h"
 #include "Testing/IO/StreamFormatsFixture.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Motion/RewriteMesh.h"
+#include "IO/AnyFormat/RewriteMesh.h"
 
-#include "IO/Formats/StreamFile.h"
+#include "IO/Formats/Streams/StreamFile.h"
 #include "Testing/IO/ShiftedSource.h"
 #include "Testing/IO/StreamFormatsFixture.h"
 #include "Testing/IO/StreamFormatsSamples.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/StreamAssembly.h"
 
-#include "IO/Formats/StreamConversion.h"
+#include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Order/FirstUseOrder.h"
 #include "IO/Order/LayoutSource.h"
 #include "IO/Order/TakeIsolated.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/StreamConversion.h"
-#include "IO/Formats/StreamFile.h"
+#include "IO/Formats/Streams/StreamConversion.h"
+#include "IO/Formats/Streams/StreamFile.h"
 #include "Testing/IO/StreamFormatsFixture.h"
 
 #include <gtest/gtest.h>

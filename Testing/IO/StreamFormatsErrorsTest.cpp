@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/StreamFile.h"
+#include "IO/Formats/Streams/StreamFile.h"
 #include "Testing/IO/StreamFormatsFixture.h"
 #include "Testing/IO/StreamFormatsSamples.h"
 #include "Testing/Support/TestMeshes.h"

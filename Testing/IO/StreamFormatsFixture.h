@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Container/VsmReader.h"
-#include "IO/Formats/StreamConversion.h"
+#include "IO/Formats/Streams/StreamConversion.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"

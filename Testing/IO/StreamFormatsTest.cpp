@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/StreamConversion.h"
-#include "IO/Formats/StreamFile.h"
-#include "IO/Formats/StreamFileWriter.h"
+#include "IO/Formats/Streams/StreamConversion.h"
+#include "IO/Formats/Streams/StreamFile.h"
+#include "IO/Formats/Streams/StreamFileWriter.h"
 #include "Testing/IO/StreamFormatsFixture.h"
 #include "Testing/IO/StreamFormatsSamples.h"
 #include "Testing/IO/WriteStream.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Import/TextScanner.h"
+#include "IO/Files/TextScanner.h"
 
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"

@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Import/Formats.h"
+#include "IO/Files/InputFile.h"
+#include "IO/Formats/Gmsh/GmshFormat.h"
+#include "IO/Formats/Medit/MeditFormat.h"
+#include "IO/Formats/Obj/ObjFormat.h"
+#include "IO/Formats/Off/OffFormat.h"
+#include "IO/Formats/Ply/PlyFormat.h"
+#include "IO/Formats/Stl/StlFormat.h"
+#include "IO/Formats/TetGen/TetGenFormat.h"
+#include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Raw/RawMeshBuilder.h"
 #include "Solver/Core/Error.h"
 #include "Testing/IO/MeshText.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/Base64.h"
+#include "IO/Files/Base64.h"
 
 #include <algorithm>
 #include <bit>

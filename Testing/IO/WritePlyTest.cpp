@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Output/WritePly.h"
+#include "IO/Formats/Ply/WritePly.h"
 
-#include "IO/Container/VsmReader.h"
 #include "IO/Conversion/Convert.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/IO/StreamFormatsFixture.h"
 #include "Testing/Support/RawMeshReading.h"
@@ -197,7 +197,7 @@ TEST_F(WritePly, RefusesWhatItCannotHold)
   const auto contains = [](const std::string& message, const std::string& part)
   { EXPECT_NE(message.find(part), std::string::npos) << message; };
   MemorySource tets(toStream(tetBox(3, 3, 3)));
-  contains(refusal(tets, "out.ply"), "PLY holds no tetrahedra");
+  contains(refusal(tets, "out.ply"), "a .ply file holds no tetrahedra");
   MemorySource good(toStream(sphere(1)));
   contains(refusal(good, "out.plx"), "must end with .ply");
   LyingSource gigantic(good.mesh(), std::int64_t(1) << 31, 0);
@@ -226,7 +226,7 @@ TEST_F(WritePly, IsAFormatOfConversion)
   EXPECT_NE(report.notes[0].find("column 'x'"), std::string::npos) << report.notes[0];
   write(this->Folder / "tets.vsm", toStream(tetBox(3, 3, 3)));
   expectError([this] { convert(this->Folder / "tets.vsm", this->Folder / "tets.ply"); },
-    "PLY holds no tetrahedra");
+    "a .ply file holds no tetrahedra");
   EXPECT_FALSE(std::filesystem::exists(this->Folder / "tets.ply"));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/StreamFileWriter.h"
+#include "IO/Formats/Streams/StreamFileWriter.h"
 #include "Testing/Support/StreamMesh.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkMeshImport.h"
 
-#include "IO/Container/AttributeNames.h"
+#include "IO/Formats/Vsm/AttributeNames.h"
 #include "Solver/Core/Error.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"

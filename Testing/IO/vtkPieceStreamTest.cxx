@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkPieceStream.h"
-#include "IO/Container/VsmReader.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "Solver/Core/Error.h"
 #include "Testing/IO/vtkPieceTesting.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Container/Columns.h"
-#include "IO/Container/VsmReader.h"
 #include "IO/Conversion/Convert.h"
+#include "IO/Formats/Vsm/Columns.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
 #include "Testing/IO/MeshText.h"

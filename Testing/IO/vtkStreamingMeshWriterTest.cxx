@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkStreamingMeshWriter.h"
-#include "IO/Container/Columns.h"
-#include "IO/Container/VsmReader.h"
 #include "IO/Conversion/OpenMesh.h"
+#include "IO/Formats/Vsm/Columns.h"
+#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/RawMeshReading.h"
@@ -167,7 +167,7 @@ TEST_F(VtkStreamingMeshWriter, PlyHasNoTetrahedra)
   this->start(tetBox(9, 8, 7, 0.1));
   Errors errors(this->Writer);
   EXPECT_FALSE(this->write("out.ply"));
-  EXPECT_TRUE(errors.contain("PLY holds no tetrahedra")) << errors.text();
+  EXPECT_TRUE(errors.contain("a .ply file holds no tetrahedra")) << errors.text();
   EXPECT_EQ(this->Folder.entries(), 1);
 }
 

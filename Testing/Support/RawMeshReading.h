@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Import/Importer.h"
+#include "IO/AnyFormat/Importer.h"
 #include "IO/Raw/RawMesh.h"
 #include "Solver/Stream/Column.h"
 

@@ -25,9 +25,9 @@ Run it:
       position: 5 cycles, relative residual 1.7581e-07
 */
 
+#include "IO/AnyFormat/WriteMesh.h"
 #include "IO/Conversion/OpenMesh.h"
 #include "IO/Motion/MovedMesh.h"
-#include "IO/Output/WriteMesh.h"
 #include "IO/Problem/HandleFile.h"
 #include "Solver/Deform.h"
 #include "Solver/Deformation/DescribedHandles.h"

@@ -27,9 +27,9 @@ Run it:
     what is missing in the balance of all: -1.04355e-09
 */
 
+#include "IO/AnyFormat/WriteMesh.h"
 #include "IO/Conversion/OpenMesh.h"
 #include "IO/Output/SolvedMesh.h"
-#include "IO/Output/WriteMesh.h"
 #include "Solver/Description/DescribedProblem.h"
 #include "Solver/Solve.h"
 

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/AnyFormat/FormatTable.h"
+
+#include "IO/Files/Inflate.h"
+#include "IO/Files/Suffix.h"
+#include "IO/Formats/Gmsh/GmshFormat.h"
+#include "IO/Formats/Medit/MeditFormat.h"
+#include "IO/Formats/Obj/ObjFormat.h"
+#include "IO/Formats/Off/OffFormat.h"
+#include "IO/Formats/Ply/PlyFormat.h"
+#include "IO/Formats/Stl/StlFormat.h"
+#include "IO/Formats/Streams/StreamsFormat.h"
+#include "IO/Formats/TetGen/TetGenFormat.h"
+#include "IO/Formats/Vsm/VsmFileFormat.h"
+#include "IO/Formats/Vtk/VtkFormats.h"
+
+#include <algorithm>
+#include <fstream>
+#include <system_error>
+#include <vector>
+
+namespace smg
+{
+
+namespace
+{
+
+// Of formats without a sign, those come first that are less easily mistaken for another.
+constexpr const Format* Formats[] = {
+  &VsmFileFormat,
+  &StreamsFormat,
+  &PlyFormat,
+  &StlFormat,
+  &ObjFormat,
+  &OffFormat,
+  &MeditFormat,
+  &GmshFormat,
+  &TetGenFormat,
+  &LegacyVtkFormat,
+  &VtkXmlFormat,
+  &ParallelVtkXmlFormat,
+};
+
+/** What the first bytes of a file are, without compression. */
+struct FileStart
+{
+  std::string bytes;
+  std::optional<std::uint64_t> size; ///< of the file; none if it is compressed
+};
+
+/** Of a file that cannot be read, nothing. */
+FileStart startOf(const std::filesystem::path& path)
+{
+  FileStart start{ std::string(FormatBytes, '\0'), {} };
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(start.bytes.data(), static_cast<std::streamsize>(FormatBytes));
+  start.bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+  if (isGzip(start.bytes))
+  {
+    start.bytes = inflateStart(start.bytes, FormatBytes);
+    return start;
+  }
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!error)
+  {
+    start.size = size;
+  }
+  return start;
+}
+
+template <class Test>
+const Format* firstOf(Test&& test)
+{
+  const auto* const found =
+    std::ranges::find_if(Formats, [&](const Format* format) { return test(*format); });
+  return found == std::end(Formats) ? nullptr : *found;
+}
+
+const Format* formatOfSign(std::string_view start)
+{
+  return firstOf([&](const Format& format) { return format.hasSign && format.hasSign(start); });
+}
+
+bool canBeUsed(const Format& format, FormatUse use)
+{
+  return use == FormatUse::Read    ? format.parse || format.kind != MeshFileKind::Indexed
+         : use == FormatUse::Write ? format.write != nullptr
+                                   : format.restore != nullptr;
+}
+
+/** As "a, b or c". */
+std::string listOf(const std::vector<std::string_view>& words, std::string_view conjunction)
+{
+  std::string list;
+  for (std::size_t i = 0; i < words.size(); ++i)
+  {
+    list += i == 0 ? "" : i + 1 < words.size() ? ", " : ' ' + std::string(conjunction) + ' ';
+    list += words[i];
+  }
+  return list;
+}
+
+template <class Test>
+std::string suffixesOf(FormatUse use, std::string_view conjunction, Test&& test)
+{
+  std::vector<std::string_view> suffixes;
+  for (const Format* format : Formats)
+  {
+    for (const FileSuffix& suffix : format->suffixes)
+    {
+      if (canBeUsed(*format, use) && test(suffix))
+      {
+        suffixes.push_back(suffix.text);
+      }
+    }
+  }
+  return listOf(suffixes, conjunction);
+}
+
+} // namespace
+
+std::span<const Format* const> formats()
+{
+  return Formats;
+}
+
+const Format* formatOfSuffix(std::string_view suffix)
+{
+  return firstOf(
+    [&](const Format& format) {
+      return std::ranges::find(format.suffixes, suffix, &FileSuffix::text) != format.suffixes.end();
+    });
+}
+
+const Format* formatOfName(const std::filesystem::path& path)
+{
+  const std::string suffix = lowerSuffix(path);
+  return formatOfSuffix(suffix == ".gz" ? lowerSuffix(path.stem()) : suffix);
+}
+
+const Format* formatOfContent(const std::filesystem::path& path)
+{
+  return formatOfSign(startOf(path).bytes);
+}
+
+const Format* formatOfStart(
+  std::string_view start, std::optional<std::uint64_t> size, const std::filesystem::path& path)
+{
+  if (const Format* format = formatOfSign(start))
+  {
+    return format;
+  }
+  const Format* format = firstOf([&](const Format& candidate)
+    { return candidate.looksRight && candidate.looksRight(start, size); });
+  format = format ? format : formatOfName(path);
+  return format && format->kind == MeshFileKind::Indexed ? format : nullptr;
+}
+
+const Format* formatOfFile(const std::filesystem::path& path)
+{
+  const FileStart start = startOf(path);
+  return formatOfStart(start.bytes, start.size, path);
+}
+
+const FileSuffix* suffixFor(FormatUse use, const std::filesystem::path& path)
+{
+  const std::string text = lowerSuffix(path);
+  const Format* const format = formatOfSuffix(text);
+  return format && canBeUsed(*format, use)
+           ? &*std::ranges::find(format->suffixes, std::string_view(text), &FileSuffix::text)
+           : nullptr;
+}
+
+std::string suffixList(const Format& format, std::string_view conjunction)
+{
+  std::vector<std::string_view> suffixes;
+  for (const FileSuffix& suffix : format.suffixes)
+  {
+    suffixes.push_back(suffix.text);
+  }
+  return listOf(suffixes, conjunction);
+}
+
+std::string suffixList(FormatUse use, std::string_view conjunction)
+{
+  return suffixesOf(use, conjunction, [](const FileSuffix&) { return true; });
+}
+
+std::string suffixList(FormatUse use, CellType cells, std::string_view conjunction)
+{
+  return suffixesOf(
+    use, conjunction, [cells](const FileSuffix& suffix) { return suffix.holds(cells); });
+}
+
+std::string holdsNo(const FileSuffix& suffix, CellType cells, FormatUse use)
+{
+  return "a " + std::string(suffix.text) + " file holds no " +
+         (cells == CellType::Triangle ? "triangles" : "tetrahedra") + ": choose " +
+         suffixList(use, cells, "or") + '.';
+}
+
+} // namespace smg

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Formats/Format.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace smg
+{
+
+/** All formats. */
+std::span<const Format* const> formats();
+
+/** The format of that suffix, in any case; null if there is none. */
+const Format* formatOfSuffix(std::string_view suffix);
+/** The format of a file name's suffix; .gz at its end is left out of account. */
+const Format* formatOfName(const std::filesystem::path& path);
+
+/**
+ * The format by the sign that the file begins with; null for formats that have none, as STL, OBJ
+ * and TetGen. Of a file that gzip compressed, it is the format of what it holds.
+ */
+const Format* formatOfContent(const std::filesystem::path& path);
+/**
+ * The format of an indexed mesh: by the sign that the file begins with, else by its first bytes if
+ * they look like one, else by its suffix; null if nothing says it.
+ */
+const Format* formatOfFile(const std::filesystem::path& path);
+/** The same of a file whose first bytes are known. `size`: none if it is compressed. */
+const Format* formatOfStart(
+  std::string_view start, std::optional<std::uint64_t> size, const std::filesystem::path& path);
+
+/** What formats can do. */
+enum class FormatUse
+{
+  Read,
+  Write,  ///< in stream order
+  Restore ///< in the order of the file that the mesh was made of
+};
+
+/** The suffix of the path, if its files can be written so; null otherwise. */
+const FileSuffix* suffixFor(FormatUse use, const std::filesystem::path& path);
+
+/** Those of a format. */
+std::string suffixList(const Format& format, std::string_view conjunction);
+/** The suffixes that can be used so, as ".ply, .obj or .off". */
+std::string suffixList(FormatUse use, std::string_view conjunction);
+/** Those of them under which such cells are written. */
+std::string suffixList(FormatUse use, CellType cells, std::string_view conjunction);
+
+/** What to tell who wants such cells under a suffix that does not hold them. */
+std::string holdsNo(const FileSuffix& suffix, CellType cells, FormatUse use);
+
+} // namespace smg

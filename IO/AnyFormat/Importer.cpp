@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/AnyFormat/Importer.h"
+
+#include "IO/AnyFormat/FormatTable.h"
+#include "IO/Files/Inflate.h"
+#include "IO/Files/PartialProgress.h"
+#include "Solver/Core/Error.h"
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace smg
+{
+
+namespace
+{
+
+void import(
+  InputFile& file, const Format* format, RawMeshBuilder& builder, const ProgressFunction& progress)
+{
+  if (!format)
+  {
+    throw Error(file.name() + ": the format is not known by its content or suffix: meshes are " +
+                "read from " + suffixList(FormatUse::Read, "and") +
+                " files, which may be compressed by gzip.");
+  }
+  format->parse(file, builder, progress);
+}
+
+RawMesh importInflated(
+  InputFile& file, Workspace& workspace, CellChoice cells, const ProgressFunction& progress)
+{
+  // The name is the one that the file had before it was inflated, and has its suffix.
+  const Format* const format = formatOfStart(
+    std::string(file.at(0, FormatBytes).substr(0, FormatBytes)), file.size(), file.name());
+  try
+  {
+    RawMeshBuilder builder(workspace, cells);
+    import(file, format, builder, progress);
+    return builder.finish();
+  }
+  catch (const MeshError& error)
+  {
+    throw Error(file.name() + ": " + error.what() + '.');
+  }
+}
+
+} // namespace
+
+RawMesh importMesh(
+  const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options)
+{
+  constexpr double inflatingShare = 0.3;
+  std::optional<InflatedFile> inflated;
+  {
+    InputFile file(path, partOf(options.progress, 0.0, inflatingShare));
+    if (isGzip(file.at(0, 2)))
+    {
+      inflated.emplace(file, workspace, "inflated");
+    }
+  }
+  const ProgressFunction progress =
+    inflated ? partOf(options.progress, inflatingShare, 1.0) : options.progress;
+  InputFile file(inflated ? inflated->path() : path, progress, path.string());
+  return importInflated(file, workspace, options.cells, progress);
+}
+
+} // namespace smg

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Raw/RawMeshBuilder.h"
+#include "Solver/Core/Progress.h"
+
+#include <filesystem>
+
+namespace smg
+{
+
+/** How to read a mesh. */
+struct ImportOptions
+{
+  CellChoice cells = CellChoice::Only;
+  ProgressFunction progress;
+};
+
+/**
+ * Parses a mesh file of any format: PLY, OBJ, OFF, STL, Medit, Gmsh, TetGen, legacy VTK, VTK XML,
+ * or one of them compressed by gzip. The format is told by the content, by the suffix only where
+ * the content says nothing.
+ * @throws Error naming the file and the line, record or byte: the format is not known, the file is
+ * empty, truncated or contradicts itself, a coordinate is not finite, a corner is no vertex, there
+ * are no cells, or both triangles and tetrahedra; Cancelled.
+ */
+RawMesh importMesh(
+  const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options = {});
+
+} // namespace smg

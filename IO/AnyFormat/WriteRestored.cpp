@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/AnyFormat/WriteRestored.h"
+
+#include "IO/AnyFormat/FormatTable.h"
+#include "IO/Formats/Vsm/VsmReader.h"
+#include "IO/Restore/RestoredMesh.h"
+#include "Solver/Core/Error.h"
+
+namespace smg
+{
+
+void checkRestoredPath(const std::filesystem::path& path, CellType cellType)
+{
+  const FileSuffix* const suffix = suffixFor(FormatUse::Restore, path);
+  if (!suffix)
+  {
+    throw Error(path.string() + ": the original order can be restored in " +
+                suffixList(FormatUse::Restore, "and") +
+                " files; a mesh stream has an order of its own.");
+  }
+  if (!suffix->holds(cellType))
+  {
+    throw Error(path.string() + ": " + holdsNo(*suffix, cellType, FormatUse::Restore));
+  }
+}
+
+std::vector<std::string> writeRestored(
+  const std::filesystem::path& vsm, const std::filesystem::path& out, Workspace& workspace)
+{
+  checkRestoredPath(out, VsmReader(vsm).info().cellType);
+  RestoredMesh mesh(vsm, workspace);
+  std::vector<std::string> notes = mesh.notes();
+  const WriteNotes more = formatOfName(out)->restore(mesh, out);
+  notes.insert(notes.end(), more.begin(), more.end());
+  workspace.tell(1.0);
+  return notes;
+}
+
+} // namespace smg

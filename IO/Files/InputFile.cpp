@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Files/InputFile.h"
+
+#include "Solver/Core/Error.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace smg
+{
+
+InputFile::InputFile(std::filesystem::path path, ProgressFunction progress, std::string name)
+  : Path(std::move(path))
+  , Name(name.empty() ? this->Path.string() : std::move(name))
+  , File(FileDescriptor::openForReading(this->Path))
+  , Size(static_cast<std::size_t>(this->File.size()))
+  , Reported(std::move(progress))
+{
+  if (this->Size == 0)
+  {
+    throw Error(this->Name + ": the file is empty.");
+  }
+}
+
+std::string_view InputFile::move(std::size_t offset, std::size_t least)
+{
+  const std::size_t begin = std::min(offset, this->Size);
+  const std::size_t wanted = std::min(std::max(least, WindowBytes), this->Size - begin);
+  this->Window.resize(std::max(this->Window.size(), wanted));
+  std::size_t kept = 0;
+  if (begin >= this->Begin && begin < this->Begin + this->Used)
+  {
+    kept = std::min(this->Begin + this->Used - begin, wanted);
+    std::memmove(this->Window.data(), this->Window.data() + (begin - this->Begin), kept);
+  }
+  this->File.read(static_cast<std::int64_t>(begin + kept),
+    std::as_writable_bytes(std::span(this->Window).subspan(kept, wanted - kept)));
+  this->Begin = begin;
+  this->Used = wanted;
+  this->Reported.update(static_cast<double>(begin) / static_cast<double>(this->Size));
+  return { this->Window.data(), wanted };
+}
+
+void InputFile::fail(std::size_t offset, const std::string& sentence) const
+{
+  throw Error(this->Name + ", byte " + std::to_string(offset) + ": " + sentence);
+}
+
+} // namespace smg

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Files/TextNumbers.h"
+
+#include "IO/Files/InQuotes.h"
+
+#include <fast_float/fast_float.h>
+
+#include <algorithm>
+#include <charconv>
+#include <string>
+#include <system_error>
+#include <type_traits>
+
+namespace smg
+{
+
+namespace
+{
+
+bool isTextBlank(char c)
+{
+  return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+bool endsWord(char c)
+{
+  return isTextBlank(c) || c == '<';
+}
+
+/** Parses a number; null if there is none or the type does not have it. */
+template <class T>
+const char* parse(const char* begin, const char* end, T& value)
+{
+  // The parsers know no leading plus sign, files do.
+  begin += end - begin > 1 && begin[0] == '+' && begin[1] != '-' ? 1 : 0;
+  if constexpr (std::is_floating_point_v<T>)
+  {
+    const auto result = fast_float::from_chars(begin, end, value);
+    return result.ec == std::errc::invalid_argument ? nullptr : result.ptr;
+  }
+  else
+  {
+    const auto result = std::from_chars(begin, end, value);
+    return result.ec != std::errc() ? nullptr : result.ptr;
+  }
+}
+
+} // namespace
+
+std::string_view TextNumbers::rest()
+{
+  for (;;)
+  {
+    const std::string_view text = this->File.at(this->At, MostLetters);
+    const auto* const word = std::find_if_not(text.begin(), text.end(), isTextBlank);
+    this->At += static_cast<std::size_t>(word - text.begin());
+    const std::string_view rest(word, static_cast<std::size_t>(text.end() - word));
+    const bool all = this->At + rest.size() >= this->File.size();
+    if (rest.size() >= MostLetters || all)
+    {
+      return !rest.empty() && rest.front() == '<' ? std::string_view() : rest;
+    }
+  }
+}
+
+template <class T>
+std::size_t TextNumbers::readAs(T* values, std::size_t count)
+{
+  std::size_t done = 0;
+  while (done < count)
+  {
+    const std::string_view text = this->rest();
+    if (text.empty())
+    {
+      break;
+    }
+    // Words that may be cut off at the end of what is in memory are left to the next turn.
+    const bool all = this->At + text.size() >= this->File.size();
+    const char* const end = text.data() + text.size();
+    const char* const last = all ? end : end - MostLetters + 1;
+    const char* at = text.data();
+    while (done < count && at < last && *at != '<')
+    {
+      const char* const stop = parse(at, end, values[done]);
+      if (!stop || (stop < end ? !endsWord(*stop) : !all))
+      {
+        const char* const wordEnd = std::find_if(at, end, endsWord);
+        this->File.fail(this->At + static_cast<std::size_t>(at - text.data()),
+          inQuotes({ at, static_cast<std::size_t>(wordEnd - at) }) + " is no number of type " +
+            std::string(nameOf(scalarTypeOf<T>())) + ", where one should be");
+      }
+      ++done;
+      at = std::find_if_not(stop, end, isTextBlank);
+    }
+    this->At += static_cast<std::size_t>(at - text.data());
+  }
+  return done;
+}
+
+std::size_t TextNumbers::read(ScalarType type, std::byte* values, std::size_t count)
+{
+  return dispatch(
+    type, [&]<class T>(T) { return this->readAs(reinterpret_cast<T*>(values), count); });
+}
+
+std::int64_t TextNumbers::skip(std::int64_t count)
+{
+  std::int64_t done = 0;
+  bool inWord = false;
+  while (done < count || inWord)
+  {
+    const std::string_view text = this->File.at(this->At);
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (; at < end && *at != '<'; ++at)
+    {
+      const bool letter = !isTextBlank(*at);
+      if (letter && !inWord)
+      {
+        if (done == count)
+        {
+          break;
+        }
+        ++done;
+      }
+      else if (!letter && inWord && done == count)
+      {
+        inWord = false;
+        break;
+      }
+      inWord = letter;
+    }
+    this->At += static_cast<std::size_t>(at - text.data());
+    if (at < end || text.empty())
+    {
+      break;
+    }
+  }
+  return done;
+}
+
+} // namespace smg

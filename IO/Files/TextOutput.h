@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Files/SequentialOutput.h"
+#include "Solver/Stream/Column.h"
+
+#include <charconv>
+#include <concepts>
+#include <cstddef>
+#include <cstring>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Writes a text file. Numbers are as short as they can be to read back exactly. The file gets its
+ * name by finish(); without it nothing is left.
+ */
+class TextOutput
+{
+public:
+  explicit TextOutput(const std::filesystem::path& path)
+    : Out(path)
+    , Text(BufferBytes)
+  {
+  }
+
+  TextOutput& operator<<(std::string_view text)
+  {
+    if (text.size() > this->Text.size() - this->Used)
+    {
+      this->flush();
+    }
+    if (text.size() > this->Text.size())
+    {
+      this->Out.put(text);
+      return *this;
+    }
+    std::memcpy(this->Text.data() + this->Used, text.data(), text.size());
+    this->Used += text.size();
+    return *this;
+  }
+  TextOutput& operator<<(char c) { return *this << std::string_view(&c, 1); }
+
+  template <class Number>
+  requires(std::integral<Number> || std::floating_point<Number>) TextOutput& operator<<(
+    Number number)
+  {
+    if (this->Text.size() - this->Used < MostDigits)
+    {
+      this->flush();
+    }
+    char* const begin = this->Text.data() + this->Used;
+    this->Used +=
+      static_cast<std::size_t>(std::to_chars(begin, begin + MostDigits, number).ptr - begin);
+    return *this;
+  }
+
+  /** Writes three coordinates with blanks between them, in this precision. */
+  void position(std::span<const double> xyz, bool isDouble)
+  {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      if (axis > 0)
+      {
+        *this << ' ';
+      }
+      isDouble ? *this << xyz[axis] : *this << static_cast<float>(xyz[axis]);
+    }
+  }
+
+  /** Writes a tuple of a column with a blank before each number; without a column `otherwise`. */
+  void tuple(const std::vector<Column>& columns, std::ptrdiff_t column, std::size_t tuple,
+    std::string_view otherwise = "")
+  {
+    if (column < 0)
+    {
+      *this << otherwise;
+      return;
+    }
+    const Column& values = columns[static_cast<std::size_t>(column)];
+    dispatch(values.spec.type,
+      [&]<class T>(T)
+      {
+        const auto components = static_cast<std::size_t>(values.spec.components);
+        for (const T value : values.as<T>().subspan(tuple * components, components))
+        {
+          *this << ' ' << value;
+        }
+      });
+  }
+
+  /** Writes all to the disk, so that only the name is missing. */
+  void write()
+  {
+    this->flush();
+    this->Out.flush();
+  }
+  void finish()
+  {
+    this->flush();
+    this->Out.finish();
+  }
+
+private:
+  static constexpr std::size_t BufferBytes = std::size_t(64) << 10;
+  /** More characters than any number has. */
+  static constexpr std::size_t MostDigits = 32;
+
+  void flush()
+  {
+    this->Out.put(std::string_view(this->Text.data(), this->Used));
+    this->Used = 0;
+  }
+
+  SequentialOutput Out;
+  std::vector<char> Text;
+  std::size_t Used = 0;
+};
+
+} // namespace smg

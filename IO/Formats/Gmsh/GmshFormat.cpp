@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Gmsh/GmshFormat.h"
+
+#include "IO/Files/TextStart.h"
+
+namespace smg
+{
+
+namespace
+{
+
+bool isGmsh(std::string_view start)
+{
+  return textStart(start).starts_with("$MeshFormat");
+}
+
+constexpr FileSuffix GmshSuffixes[] = { { ".msh" } };
+
+} // namespace
+
+const Format GmshFormat{
+  .name = "Gmsh",
+  .suffixes = GmshSuffixes,
+  .attributes = "tags of cells",
+  .hasSign = isGmsh,
+  .parse = parseWith<importGmsh>,
+  .share = { 250, 4 },
+  .restore = writeRestoredGmsh,
+};
+
+} // namespace smg

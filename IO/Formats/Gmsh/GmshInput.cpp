@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Gmsh/GmshInput.h"
+
+#include <charconv>
+#include <string_view>
+
+namespace smg
+{
+
+void GmshInput::readFormat()
+{
+  if (this->hasFormat())
+  {
+    this->fail("there are two sections $MeshFormat");
+  }
+  const double version = this->Scanner.number("the version");
+  if (version != 4.1 && (version < 2.0 || version >= 3.0))
+  {
+    this->fail("this version of the format is not read: save the mesh as 2.2 or 4.1");
+  }
+  const std::int64_t kind = this->Scanner.integer("the kind of file");
+  if (kind != 0 && kind != 1)
+  {
+    this->fail("the kind of file must be 0 (text) or 1 (binary), not " + std::to_string(kind));
+  }
+  const std::int64_t size = this->Scanner.integer("the size of a number");
+  if (kind == 1)
+  {
+    if (size != 8)
+    {
+      this->fail("numbers of " + std::to_string(size) + " bytes are not read, only of 8");
+    }
+    this->Binary = true;
+    this->beginNumbers();
+    const auto one = this->binary<std::uint32_t>("the number one");
+    this->Swapped = one == 0x01000000U;
+    if (one != 1 && !this->Swapped)
+    {
+      this->fail("the byte order is not known: the number one should be here");
+    }
+    this->endNumbers();
+  }
+  this->Version = version == 4.1 ? 4 : 2;
+}
+
+std::string GmshInput::sectionName()
+{
+  if (this->Scanner.atEnd())
+  {
+    return {};
+  }
+  std::string name(this->Scanner.token());
+  if (name[0] != '$' || name.size() == 1)
+  {
+    this->fail(inQuotes(name) + " stands where a section should begin");
+  }
+  return name;
+}
+
+void GmshInput::endSection(const std::string& end)
+{
+  const std::string_view token = this->Scanner.token();
+  if (token.empty())
+  {
+    this->fail("the file is truncated: " + inQuotes(end) + " is missing");
+  }
+  if (token != end)
+  {
+    this->fail(inQuotes(token) + " stands where " + inQuotes(end) +
+               " should be: the section is longer than its numbers of entries say");
+  }
+}
+
+void GmshInput::skipSection(const std::string& end)
+{
+  if (!this->Binary)
+  {
+    while (this->Scanner.peek() != end)
+    {
+      if (this->Scanner.atEnd())
+      {
+        this->fail("the file is truncated: " + inQuotes(end) + " is missing");
+      }
+      this->Scanner.skipLine();
+    }
+    this->Scanner.token();
+    return;
+  }
+  for (std::size_t offset = this->Scanner.offset();;)
+  {
+    const std::string_view bytes = this->File.at(offset, end.size());
+    const std::size_t place = bytes.find(end);
+    if (place != std::string_view::npos)
+    {
+      this->Scanner.moveTo(offset + place + end.size());
+      return;
+    }
+    if (offset + bytes.size() >= this->File.size())
+    {
+      this->File.fail(this->File.size(), "the file is truncated: " + inQuotes(end) + " is missing");
+    }
+    offset += bytes.size() - (end.size() - 1);
+  }
+}
+
+std::int64_t GmshInput::lineCount(const char* what, std::size_t leastText, std::size_t leastBinary)
+{
+  if (!this->Binary)
+  {
+    return this->Scanner.count(what, leastText);
+  }
+  const std::string_view token = this->Scanner.token();
+  std::int64_t count = 0;
+  const auto result = std::from_chars(token.data(), token.data() + token.size(), count);
+  if (token.empty() || result.ec != std::errc() || result.ptr != token.data() + token.size())
+  {
+    this->fail(inQuotes(token) + " is no integer, where " + what + " should be");
+  }
+  this->checkCount(count, what, leastBinary);
+  return count;
+}
+
+void GmshInput::beginNumbers()
+{
+  if (this->Binary)
+  {
+    this->Scanner.skipLine();
+    this->Offset = this->Scanner.offset();
+    this->InNumbers = true;
+  }
+}
+
+void GmshInput::endNumbers()
+{
+  if (this->Binary)
+  {
+    this->Scanner.moveTo(this->Offset);
+    this->InNumbers = false;
+  }
+}
+
+std::int64_t GmshInput::count(const char* what, std::size_t leastText, std::size_t leastBinary)
+{
+  if (!this->Binary)
+  {
+    return this->Scanner.count(what, leastText);
+  }
+  const auto count = this->binary<std::int64_t>(what);
+  this->checkCount(count, what, leastBinary);
+  return count;
+}
+
+void GmshInput::checkCount(std::int64_t count, const char* what, std::size_t leastBytes) const
+{
+  const std::size_t offset = this->InNumbers ? this->Offset : this->Scanner.offset();
+  const std::size_t left = this->File.size() - std::min(offset, this->File.size());
+  if (count < 0 || static_cast<std::uint64_t>(count) > left / leastBytes)
+  {
+    this->fail(std::to_string(count) + " cannot be " + what + ": the file has " +
+               std::to_string(left) + " more bytes, it is truncated or the number is wrong");
+  }
+}
+
+void GmshInput::fail(const std::string& sentence) const
+{
+  if (this->Binary)
+  {
+    this->File.fail(this->InNumbers ? this->Offset : this->Scanner.offset(), sentence);
+  }
+  this->Scanner.fail(sentence);
+}
+
+} // namespace smg

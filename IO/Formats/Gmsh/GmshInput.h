@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Files/InputFile.h"
+#include "IO/Files/TextScanner.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+namespace smg
+{
+
+/**
+ * Reads the numbers of a Gmsh file, the same way whether they are text or binary. Around the
+ * numbers there are lines of text in both. Errors name the line, or the byte of a binary file.
+ */
+class GmshInput
+{
+public:
+  explicit GmshInput(InputFile& file)
+    : File(file)
+    , Scanner(file)
+  {
+  }
+
+  /** Reads what $MeshFormat says. Only 2.x and 4.1 are read. */
+  void readFormat();
+  bool hasFormat() const { return this->Version != 0; }
+  /** Whether the version is 4.1, with blocks of nodes and elements. */
+  bool hasBlocks() const { return this->Version == 4; }
+  bool isBinary() const { return this->Binary; }
+
+  /** The next line's first word, "$..."; empty at the end of the file. */
+  std::string sectionName();
+  /** Passes the line that ends a section, which comes next. */
+  void endSection(const std::string& end);
+  /** Passes all up to this line, and the line. */
+  void skipSection(const std::string& end);
+
+  /** A number of things in a line of text, each of at least so many bytes. */
+  std::int64_t lineCount(const char* what, std::size_t leastText, std::size_t leastBinary);
+  /** Numbers follow. */
+  void beginNumbers();
+  /** Lines follow. */
+  void endNumbers();
+
+  // The next number: 32 bits, 64 bits or double precision in a binary file.
+  std::int64_t integer(const char* what)
+  {
+    return this->Binary ? this->binary<std::int32_t>(what) : this->Scanner.integer(what);
+  }
+  std::int64_t longInteger(const char* what)
+  {
+    return this->Binary ? this->binary<std::int64_t>(what) : this->Scanner.integer(what);
+  }
+  double number(const char* what)
+  {
+    return this->Binary ? this->binary<double>(what) : this->Scanner.number(what);
+  }
+  /** A number of things that follow, 64 bits, refused if the file cannot hold them. */
+  std::int64_t count(const char* what, std::size_t leastText, std::size_t leastBinary);
+  /** The same of a number that has been read, whatever its kind. */
+  void checkCount(std::int64_t count, const char* what, std::size_t leastBytes) const;
+
+  /** Throws Error with the place. */
+  [[noreturn]] void fail(const std::string& sentence) const;
+
+private:
+  template <class T>
+  T binary(const char* what)
+  {
+    const std::string_view bytes =
+      this->File.at(std::min(this->Offset, this->File.size()), sizeof(T));
+    if (bytes.size() < sizeof(T))
+    {
+      this->fail(std::string("the file ends where ") + what + " should be");
+    }
+    std::array<char, sizeof(T)> raw;
+    std::memcpy(raw.data(), bytes.data(), sizeof(T));
+    if (this->Swapped)
+    {
+      std::ranges::reverse(raw);
+    }
+    T value;
+    std::memcpy(&value, raw.data(), sizeof(T));
+    this->Offset += sizeof(T);
+    return value;
+  }
+
+  InputFile& File;
+  TextScanner Scanner;
+  std::size_t Offset = 0; ///< of the next binary number
+  int Version = 0;        ///< 2 or 4; 0: not known yet
+  bool Binary = false;
+  bool Swapped = false;   ///< whether the bytes of numbers are in the other order
+  bool InNumbers = false; ///< of a binary file
+};
+
+} // namespace smg

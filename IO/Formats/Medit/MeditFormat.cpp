@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Medit/MeditFormat.h"
+#include "IO/Files/InputFile.h"
+#include "IO/Files/TextScanner.h"
+#include "IO/Files/TextStart.h"
+#include "IO/Formats/Shared/LabelColumn.h"
+#include "IO/Formats/Vsm/AttributeNames.h"
+#include "IO/Raw/RawMeshBuilder.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Sections of elements that become cells, and their corners. */
+struct Section
+{
+  std::string_view keyword;
+  std::size_t corners;
+};
+constexpr std::array<Section, 6> Sections{ { { "Triangles", 3 }, { "Quadrilaterals", 4 },
+  { "Tetrahedra", 4 }, { "Hexahedra", 8 }, { "Prisms", 6 }, { "Pyramids", 5 } } };
+
+/** Whether the section has cells of higher order, as TetrahedraP2 and HexahedraQ2. */
+bool isOfHigherOrder(std::string_view keyword)
+{
+  return std::ranges::any_of(Sections,
+    [keyword](const Section& section)
+    {
+      const std::string_view order =
+        keyword.substr(std::min(section.keyword.size(), keyword.size()));
+      return keyword.starts_with(section.keyword) && order.size() == 2 &&
+             (order[0] == 'P' || order[0] == 'Q');
+    });
+}
+
+/** Reads the sections of a Medit file. */
+class MeditReader
+{
+public:
+  MeditReader(InputFile& file, RawMeshBuilder& builder)
+    : Scanner(file, '#')
+    , Builder(builder)
+    , VertexReferences(builder, ImportColumn::Of::Vertices, ReferenceName)
+    , ElementReferences(builder, ImportColumn::Of::Elements, ReferenceName)
+  {
+  }
+
+  void read()
+  {
+    try
+    {
+      while (!this->Scanner.atEnd())
+      {
+        const std::string keyword(this->Scanner.token());
+        if (keyword == "End")
+        {
+          break;
+        }
+        this->readSection(keyword);
+      }
+    }
+    catch (const MeshError& error)
+    {
+      this->Scanner.fail(error.what());
+    }
+    this->finish();
+  }
+
+private:
+  void readSection(const std::string& keyword)
+  {
+    if (keyword == "MeshVersionFormatted")
+    {
+      this->Scanner.integer("the version");
+      return;
+    }
+    if (keyword == "Dimension")
+    {
+      this->readDimension();
+      return;
+    }
+    if (keyword == "Vertices")
+    {
+      this->readVertices();
+      return;
+    }
+    for (const Section& section : Sections)
+    {
+      if (keyword == section.keyword)
+      {
+        this->readElements(section);
+        return;
+      }
+    }
+    if (!std::isalpha(static_cast<unsigned char>(keyword[0])))
+    {
+      this->Scanner.fail(inQuotes(keyword) + " stands where a keyword should be: a section is "
+                                             "longer than its number of entries");
+    }
+    if (isOfHigherOrder(keyword))
+    {
+      this->Scanner.fail("cells of higher order, as the section " + inQuotes(keyword) +
+                         " has them, are not read: save the mesh with straight cells");
+    }
+    this->skipSection();
+  }
+
+  /** Passes the numbers of a section that is of no interest. */
+  void skipSection()
+  {
+    std::string_view next = this->Scanner.peek();
+    while (!next.empty() && !std::isalpha(static_cast<unsigned char>(next[0])))
+    {
+      this->Scanner.skipLine();
+      next = this->Scanner.peek();
+    }
+  }
+
+  void readDimension()
+  {
+    this->Dimension = this->Scanner.integer("the dimension");
+    if (this->Dimension != 2 && this->Dimension != 3)
+    {
+      this->Scanner.fail("the dimension must be 2 or 3");
+    }
+  }
+
+  void readVertices()
+  {
+    if (this->Builder.vertices() > 0)
+    {
+      this->Scanner.fail("there are two sections 'Vertices'");
+    }
+    const std::int64_t count = this->Scanner.count("the number of vertices", 4);
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      std::array<double, 3> point{};
+      for (std::size_t axis = 0; axis < static_cast<std::size_t>(this->Dimension); ++axis)
+      {
+        point[axis] = this->Scanner.number("a coordinate of a vertex");
+      }
+      this->Builder.vertex(point[0], point[1], point[2]);
+      this->VertexReferences.add(this->reference());
+    }
+  }
+
+  void readElements(const Section& section)
+  {
+    const std::int64_t count = this->Scanner.count("the number of elements", 2 * section.corners);
+    std::array<std::int64_t, 8> storage{};
+    const std::span<std::int64_t> corners = std::span(storage).first(section.corners);
+    for (std::int64_t i = 0; i < count; ++i)
+    {
+      for (std::int64_t& corner : corners)
+      {
+        corner = this->corner();
+      }
+      this->add(section, corners);
+      this->ElementReferences.add(this->reference());
+    }
+  }
+
+  void add(const Section& section, std::span<const std::int64_t> corners)
+  {
+    switch (section.keyword[0])
+    {
+      case 'Q':
+        this->Builder.polygon(corners);
+        break;
+      case 'T':
+        corners.size() == 3
+          ? this->Builder.triangle(corners[0], corners[1], corners[2])
+          : this->Builder.tetrahedron(corners[0], corners[1], corners[2], corners[3]);
+        break;
+      default:
+        corners.size() == 6
+          // The first triangle of a prism faces in here, and out in VTK.
+          ? this->Builder.solid(std::array<std::int64_t, 6>{
+              corners[0], corners[2], corners[1], corners[3], corners[5], corners[4] })
+          : this->Builder.solid(corners);
+    }
+  }
+
+  std::int64_t corner()
+  {
+    const std::int64_t number = this->Scanner.integer("a vertex of an element");
+    if (number < 1)
+    {
+      this->Scanner.fail(
+        "an element names vertex " + std::to_string(number) + ", they count from 1");
+    }
+    if (number > this->LargestCorner)
+    {
+      this->LargestCorner = number;
+      this->LargestLine = this->Scanner.line();
+    }
+    return number - 1;
+  }
+
+  /** The label at the end of an entry's line; some writers leave it out. */
+  std::int64_t reference()
+  {
+    const std::string_view token = this->Scanner.tokenInLine();
+    return token.empty() ? 0 : this->Scanner.toInteger(token, "a label");
+  }
+
+  void finish()
+  {
+    // Only now: the vertices may come after the elements.
+    if (this->LargestCorner > this->Builder.vertices())
+    {
+      this->Scanner.failAt(
+        this->LargestLine, "the element names vertex " + std::to_string(this->LargestCorner) +
+                             ", but the file has " + std::to_string(this->Builder.vertices()));
+    }
+    this->VertexReferences.finish();
+    this->ElementReferences.finish();
+  }
+
+  TextScanner Scanner;
+  RawMeshBuilder& Builder;
+  LabelColumn VertexReferences, ElementReferences;
+  std::int64_t Dimension = 3;
+  std::int64_t LargestCorner = 0;
+  std::int64_t LargestLine = 0;
+};
+
+} // namespace
+
+void importMedit(InputFile& file, RawMeshBuilder& builder)
+{
+  MeditReader(file, builder).read();
+}
+
+namespace
+{
+
+bool isMedit(std::string_view start)
+{
+  return textAfterComments(start).starts_with("MeshVersionFormatted");
+}
+
+constexpr FileSuffix MeditSuffixes[] = { { ".mesh" } };
+
+} // namespace
+
+const Format MeditFormat{
+  .name = "Medit",
+  .suffixes = MeditSuffixes,
+  .attributes = "references of vertices and cells",
+  .hasSign = isMedit,
+  .parse = parseWith<importMedit>,
+  .share = { 200, 4 },
+  .restore = writeRestoredMedit,
+};
+
+} // namespace smg

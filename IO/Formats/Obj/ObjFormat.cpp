@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Obj/ObjFormat.h"
+#include "IO/Files/InputFile.h"
+#include "IO/Files/TextScanner.h"
+#include "IO/Files/TextStart.h"
+#include "IO/Formats/Shared/TextColors.h"
+#include "IO/Formats/Shared/TriangleRuns.h"
+#include "IO/Raw/RawMeshBuilder.h"
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Reads the lines of an OBJ file. */
+class ObjReader
+{
+public:
+  ObjReader(InputFile& file, RawMeshBuilder& builder)
+    : Scanner(file, '#')
+    , Builder(builder)
+    , Fan(builder)
+    , Colors(builder, ImportColumn::Of::Vertices)
+  {
+  }
+
+  void read()
+  {
+    try
+    {
+      while (!this->Scanner.atEnd())
+      {
+        const std::string_view keyword = this->Scanner.tokenInLine();
+        if (keyword == "v")
+        {
+          this->readVertex();
+        }
+        else if (keyword == "f")
+        {
+          this->readFace();
+        }
+        else if (keyword == "vn" || keyword == "vt")
+        {
+          this->HasCornerAttributes = true;
+        }
+        this->Scanner.skipLine();
+      }
+      this->Colors.finish();
+    }
+    catch (const MeshError& error)
+    {
+      this->Scanner.fail(error.what());
+    }
+    if (this->LargestCorner >= this->Builder.vertices())
+    {
+      this->Scanner.failAt(
+        this->LargestLine, "the face names vertex " + std::to_string(this->LargestCorner + 1) +
+                             ", but the file has " + std::to_string(this->Builder.vertices()));
+    }
+    if (this->HasCornerAttributes)
+    {
+      this->Builder.note("Normals and texture coordinates are left out, since in OBJ files they "
+                         "belong to corners of faces: save the mesh as PLY to have them of "
+                         "vertices.");
+    }
+  }
+
+private:
+  /** A token of a line; a backslash at the end of a line continues it. */
+  std::string_view nextToken()
+  {
+    while (true)
+    {
+      if (this->Continues)
+      {
+        if (!this->Scanner.tokenInLine().empty())
+        {
+          this->Scanner.fail("there is a backslash that is not at the end of its line");
+        }
+        this->Scanner.skipLine();
+        this->Continues = false;
+      }
+      std::string_view token = this->Scanner.tokenInLine();
+      if (token.ends_with('\\'))
+      {
+        this->Continues = true;
+        token.remove_suffix(1);
+      }
+      if (!token.empty() || !this->Continues)
+      {
+        return token;
+      }
+    }
+  }
+
+  void readVertex()
+  {
+    const double x = this->Scanner.toNumber(this->nextToken(), "the coordinate x");
+    const double y = this->Scanner.toNumber(this->nextToken(), "the coordinate y");
+    const double z = this->Scanner.toNumber(this->nextToken(), "the coordinate z");
+    this->Builder.vertex(x, y, z);
+    std::array<double, 5> others{}; // a weight or a colour
+    std::size_t count = 0;
+    for (std::string_view token = this->nextToken(); !token.empty(); token = this->nextToken())
+    {
+      const std::optional<double> number = TextScanner::finiteNumber(token);
+      if (number && count < others.size())
+      {
+        others[count++] = *number;
+      }
+    }
+    this->Colors.add(std::span(others).first(count));
+  }
+
+  void readFace()
+  {
+    for (std::string_view token = this->nextToken(); !token.empty(); token = this->nextToken())
+    {
+      this->Fan.corner(this->corner(token));
+    }
+    if (this->Fan.corners() < 3)
+    {
+      this->Scanner.fail("a face has fewer than three vertices");
+    }
+    this->Fan.end();
+  }
+
+  /** The vertex that a token as 7, 7/1, 7//2 or -1/2/3 names. */
+  std::int64_t corner(std::string_view token)
+  {
+    const std::int64_t vertices = this->Builder.vertices();
+    const std::int64_t number =
+      this->Scanner.toInteger(token.substr(0, token.find('/')), "a vertex of a face");
+    const std::int64_t corner = number < 0 ? vertices + number : number - 1;
+    if (number == 0 || corner < 0)
+    {
+      this->Scanner.fail("a face names vertex " + std::to_string(number) + ", where " +
+                         std::to_string(vertices) + " vertices have come so far");
+    }
+    if (corner > this->LargestCorner)
+    {
+      this->LargestCorner = corner;
+      this->LargestLine = this->Scanner.line();
+    }
+    return corner;
+  }
+
+  TextScanner Scanner;
+  RawMeshBuilder& Builder;
+  TriangleFan Fan;
+  TextColors Colors;
+  bool HasCornerAttributes = false;
+  bool Continues = false; ///< the line ends here and goes on in the next one
+  std::int64_t LargestCorner = -1;
+  std::int64_t LargestLine = 0;
+};
+
+} // namespace
+
+void importObj(InputFile& file, RawMeshBuilder& builder)
+{
+  ObjReader(file, builder).read();
+}
+
+namespace
+{
+
+bool isObjKeyword(std::string_view word)
+{
+  constexpr std::string_view keywords[] = { "v", "vn", "vt", "vp", "f", "l", "p", "o", "g", "s",
+    "mg", "mtllib", "usemtl", "usemap", "maplib", "bevel", "c_interp", "d_interp", "lod",
+    "shadow_obj", "trace_obj", "cstype", "deg" };
+  return std::ranges::find(keywords, word) != std::end(keywords);
+}
+
+/** Whether every whole line is one of an OBJ file, and there is one. */
+bool looksLikeObj(std::string_view start, std::optional<std::uint64_t> size)
+{
+  const bool whole = size && start.size() == *size;
+  std::string_view text = withoutMark(start);
+  bool known = false;
+  bool continued = false;
+  while (!text.empty())
+  {
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos && !whole)
+    {
+      break;
+    }
+    const std::string_view line = trimmed(text.substr(0, end));
+    const std::string_view word = line.substr(0, std::min(line.find_first_of(Blanks), line.size()));
+    if (!word.empty() && !word.starts_with('#') && !continued)
+    {
+      if (!isObjKeyword(word))
+      {
+        return false;
+      }
+      known = true;
+    }
+    const std::size_t last = line.find_last_not_of(Blanks);
+    continued = last != std::string_view::npos && line[last] == '\\';
+    text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+  }
+  return known;
+}
+
+constexpr FileSuffix ObjSuffixes[] = { { ".obj", true, false } };
+
+} // namespace
+
+const Format ObjFormat{
+  .name = "OBJ",
+  .suffixes = ObjSuffixes,
+  .attributes = "colours of vertices",
+  .looksRight = looksLikeObj,
+  .parse = parseWith<importObj>,
+  .restore = writeRestoredObj,
+};
+
+} // namespace smg

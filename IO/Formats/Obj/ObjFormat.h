@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Formats/Format.h"
+
+namespace smg
+{
+
+/** OBJ: `v` and `f` lines; references to textures and normals, and everything else, are ignored. */
+extern const Format ObjFormat;
+
+void importObj(InputFile& file, RawMeshBuilder& builder);
+/** Polygons; vertices with their colours. */
+WriteNotes writeRestoredObj(RestoredMesh& mesh, const std::filesystem::path& path);
+
+} // namespace smg

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Off/OffFormat.h"
+#include "IO/Files/InputFile.h"
+#include "IO/Files/TextScanner.h"
+#include "IO/Files/TextStart.h"
+#include "IO/Formats/Off/OffAttributes.h"
+#include "IO/Formats/Off/OffHeader.h"
+#include "IO/Formats/Shared/TextColors.h"
+#include "IO/Formats/Shared/TriangleRuns.h"
+#include "IO/Raw/RawMeshBuilder.h"
+
+#include <string>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Reads the keyword, if there is one, and refuses what is not a text in three dimensions. */
+void readKeyword(TextScanner& scanner, OffHeader& header)
+{
+  const std::string keyword(scanner.peek());
+  if (!keyword.ends_with("OFF"))
+  {
+    return;
+  }
+  if (keyword.find_first_of("4n") != std::string::npos)
+  {
+    scanner.fail("the vertices of a " + inQuotes(keyword) + " file are not points of space");
+  }
+  scanner.tokenInLine();
+  if (scanner.peek() == "BINARY")
+  {
+    scanner.fail("binary OFF files are not read: write it as text, or as PLY");
+  }
+  header.textureCoordinates = keyword.starts_with("ST");
+  header.colors = keyword.find('C') != std::string::npos;
+  header.normals = keyword.find('N') != std::string::npos;
+}
+
+void readVertices(TextScanner& scanner, const OffHeader& header, RawMeshBuilder& builder)
+{
+  OffAttributes attributes(header, builder);
+  LineNumbers numbers;
+  for (std::int64_t i = 0; i < header.vertices; ++i)
+  {
+    const double x = scanner.number("the coordinate x of a vertex");
+    const double y = scanner.number("the coordinate y of a vertex");
+    const double z = scanner.number("the coordinate z of a vertex");
+    builder.vertex(x, y, z);
+    if (attributes.any() || i == 0)
+    {
+      numbers.read(scanner);
+      attributes.add(numbers.all());
+    }
+    scanner.skipLine();
+  }
+  attributes.finish();
+}
+
+void readFaces(
+  TextScanner& scanner, std::int64_t faces, std::int64_t vertices, RawMeshBuilder& builder)
+{
+  TriangleFan fan(builder);
+  TextColors colors(builder, ImportColumn::Of::Elements);
+  LineNumbers numbers;
+  for (std::int64_t i = 0; i < faces; ++i)
+  {
+    const std::int64_t corners = scanner.count("the number of corners of a face", 2);
+    for (std::int64_t k = 0; k < corners; ++k)
+    {
+      const std::int64_t corner = scanner.integer("a corner of a face");
+      if (corner < 0 || corner >= vertices)
+      {
+        scanner.fail("the corner " + std::to_string(corner) + " is none of the " +
+                     std::to_string(vertices) + " vertices");
+      }
+      fan.corner(corner);
+    }
+    fan.end();
+    numbers.read(scanner);
+    colors.add(numbers.all());
+    scanner.skipLine();
+  }
+  colors.finish();
+}
+
+} // namespace
+
+OffHeader readOffHeader(TextScanner& scanner)
+{
+  OffHeader header;
+  readKeyword(scanner, header);
+  header.vertices = scanner.count("the number of vertices", 6);
+  header.faces = scanner.count("the number of faces", 2);
+  scanner.integer("the number of edges");
+  return header;
+}
+
+void importOff(InputFile& file, RawMeshBuilder& builder)
+{
+  TextScanner scanner(file, '#');
+  const OffHeader header = readOffHeader(scanner);
+  try
+  {
+    readVertices(scanner, header, builder);
+    readFaces(scanner, header.faces, header.vertices, builder);
+    if (!scanner.atEnd())
+    {
+      scanner.fail("there is more after the last face: the counts at the beginning are wrong");
+    }
+  }
+  catch (const MeshError& error)
+  {
+    scanner.fail(error.what());
+  }
+}
+
+namespace
+{
+
+/** Whether the file begins with the word OFF or one of its variants, as COFF or STN4OFF. */
+bool isOff(std::string_view start)
+{
+  const std::string_view text = textAfterComments(start);
+  const std::size_t at = text.find("OFF");
+  return at <= 6 && text.substr(0, at).find_first_not_of("STCN4n") == std::string_view::npos &&
+         (at + 3 == text.size() || isBlank(text[at + 3]) || text[at + 3] == '#');
+}
+
+std::optional<FileCounts> countsOfOff(InputFile& file)
+{
+  TextScanner scanner(file, '#');
+  const OffHeader header = readOffHeader(scanner);
+  return FileCounts{ header.vertices, header.faces, 3, 0, true };
+}
+
+constexpr FileSuffix OffSuffixes[] = { { ".off", true, false } };
+
+} // namespace
+
+const Format OffFormat{
+  .name = "OFF",
+  .suffixes = OffSuffixes,
+  .attributes = "normals, colours and texture coordinates of vertices, colours of faces",
+  .hasSign = isOff,
+  .parse = parseWith<importOff>,
+  .counts = countsOfOff,
+  .restore = writeRestoredOff,
+};
+
+} // namespace smg

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Formats/Format.h"
+
+namespace smg
+{
+
+/** OFF as text, with or without colours, normals and texture coordinates. */
+extern const Format OffFormat;
+
+void importOff(InputFile& file, RawMeshBuilder& builder);
+/** Polygons with their colours; vertices with normals, colours and texture coordinates. */
+WriteNotes writeRestoredOff(RestoredMesh& mesh, const std::filesystem::path& path);
+
+} // namespace smg

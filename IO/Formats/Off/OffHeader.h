@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Files/TextScanner.h"
+
+#include <cstdint>
+
+namespace smg
+{
+
+/** What an OFF file says of itself at its beginning. */
+struct OffHeader
+{
+  std::int64_t vertices = 0, faces = 0;
+  /** What its keyword says to stand behind the coordinates of a vertex. */
+  bool normals = false, colors = false, textureCoordinates = false;
+};
+
+/** Reads a text up to its first vertex. Throws Error if it is no OFF file of points in space, or
+ * too short for its counts. */
+OffHeader readOffHeader(TextScanner& scanner);
+
+} // namespace smg

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Ply/PlyHeader.h"
+
+#include "IO/Files/TextScanner.h"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+
+namespace smg
+{
+
+namespace
+{
+
+std::optional<ScalarType> scalarType(std::string_view name)
+{
+  constexpr std::pair<std::string_view, ScalarType> names[] = { { "char", ScalarType::Int8 },
+    { "int8", ScalarType::Int8 }, { "uchar", ScalarType::UInt8 }, { "uint8", ScalarType::UInt8 },
+    { "short", ScalarType::Int16 }, { "int16", ScalarType::Int16 },
+    { "ushort", ScalarType::UInt16 }, { "uint16", ScalarType::UInt16 },
+    { "int", ScalarType::Int32 }, { "int32", ScalarType::Int32 }, { "uint", ScalarType::UInt32 },
+    { "uint32", ScalarType::UInt32 }, { "float", ScalarType::Float32 },
+    { "float32", ScalarType::Float32 }, { "double", ScalarType::Float64 },
+    { "float64", ScalarType::Float64 } };
+  for (const auto& [text, type] : names)
+  {
+    if (name == text)
+    {
+      return type;
+    }
+  }
+  return std::nullopt;
+}
+
+ScalarType typeToken(TextScanner& scanner)
+{
+  const std::string_view token = scanner.tokenInLine();
+  const std::optional<ScalarType> type = scalarType(token);
+  if (!type)
+  {
+    scanner.fail(inQuotes(token) + " is not a PLY type");
+  }
+  return *type;
+}
+
+PlyEncoding readEncoding(TextScanner& scanner)
+{
+  const std::string_view format = scanner.tokenInLine();
+  if (format == "ascii")
+  {
+    return PlyEncoding::Ascii;
+  }
+  if (format == "binary_little_endian")
+  {
+    return PlyEncoding::LittleEndian;
+  }
+  if (format == "binary_big_endian")
+  {
+    return PlyEncoding::BigEndian;
+  }
+  scanner.fail(inQuotes(format) + " is not a PLY format: it must be ascii, binary_little_endian or "
+                                  "binary_big_endian");
+}
+
+PlyElement readElement(TextScanner& scanner)
+{
+  PlyElement element;
+  element.name = scanner.tokenInLine();
+  element.count = scanner.toInteger(scanner.tokenInLine(), "the number of records of an element");
+  if (element.count < 0)
+  {
+    scanner.fail("an element has a negative number of records");
+  }
+  return element;
+}
+
+PlyProperty readProperty(TextScanner& scanner, const std::vector<PlyElement>& elements)
+{
+  if (elements.empty())
+  {
+    scanner.fail("a property comes before the first element");
+  }
+  PlyProperty property;
+  std::string_view token = scanner.tokenInLine();
+  if (token == "list")
+  {
+    property.list = true;
+    property.lengthType = typeToken(scanner);
+    if (property.lengthType >= ScalarType::Float32)
+    {
+      scanner.fail("the length of a list must be an integer");
+    }
+    property.type = typeToken(scanner);
+  }
+  else if (const std::optional<ScalarType> type = scalarType(token))
+  {
+    property.type = *type;
+  }
+  else
+  {
+    scanner.fail(inQuotes(token) + " is not a PLY type");
+  }
+  property.name = scanner.tokenInLine();
+  const std::vector<PlyProperty>& others = elements.back().properties;
+  const bool again = std::any_of(others.begin(), others.end(),
+    [&property](const PlyProperty& other) { return other.name == property.name; });
+  if (property.name.empty() || again)
+  {
+    scanner.fail(again ? "the property " + inQuotes(property.name) + " comes twice"
+                       : std::string("a property has no name"));
+  }
+  return property;
+}
+
+} // namespace
+
+std::size_t PlyElement::leastBytes(bool ascii) const
+{
+  std::size_t bytes = 0;
+  for (const PlyProperty& property : this->properties)
+  {
+    // A number in text and the blank or line end after it.
+    bytes += ascii ? 2 : sizeOf(property.list ? property.lengthType : property.type);
+  }
+  return bytes;
+}
+
+PlyHeader readPlyHeader(InputFile& file)
+{
+  TextScanner scanner(file);
+  PlyHeader header;
+  // A header is held in memory.
+  constexpr int MostLines = 4096;
+  int lines = 0;
+  if (scanner.tokenInLine() != "ply")
+  {
+    scanner.fail("a PLY file must begin with the line 'ply'");
+  }
+  bool formatKnown = false;
+  while (true)
+  {
+    scanner.skipLine();
+    const std::string_view keyword = scanner.tokenInLine();
+    if (keyword == "end_header")
+    {
+      break;
+    }
+    if ((keyword == "element" || keyword == "property") && ++lines > MostLines)
+    {
+      scanner.fail(
+        "the header has more than " + std::to_string(MostLines) + " elements and properties");
+    }
+    if (keyword == "format")
+    {
+      header.encoding = readEncoding(scanner);
+      formatKnown = true;
+    }
+    else if (keyword == "element")
+    {
+      header.elements.push_back(readElement(scanner));
+    }
+    else if (keyword == "property")
+    {
+      PlyProperty property = readProperty(scanner, header.elements);
+      header.elements.back().properties.push_back(std::move(property));
+    }
+    else if (scanner.offset() >= file.size())
+    {
+      scanner.fail("the file ends in its header");
+    }
+    else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info")
+    {
+      scanner.fail(inQuotes(keyword) + " is not a keyword of a PLY header");
+    }
+  }
+  if (!formatKnown)
+  {
+    scanner.fail("the header has no format line");
+  }
+  scanner.skipLine();
+  header.bodyOffset = scanner.offset();
+  header.bodyLine = scanner.line();
+  return header;
+}
+
+} // namespace smg

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Formats/Ply/PlyHeader.h"
+#include "Solver/Stream/Column.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+namespace smg
+{
+
+/** What is done with the next property of a record, or the next ones. */
+struct PlyStep
+{
+  enum Kind
+  {
+    Skip,       ///< passes `count` numbers
+    Coordinate, ///< a coordinate, along axis `place`
+    Attribute,  ///< goes to byte `place` of the record's attributes
+    SkipList,   ///< passes a list
+    Corners     ///< the list of a cell's vertices
+  };
+  Kind kind = Skip;
+  ScalarType type = ScalarType::Float32;
+  ScalarType lengthType = ScalarType::UInt8; ///< of a list
+  std::size_t place = 0;
+  std::int64_t count = 1;
+};
+
+/** The bytes of a record's attributes that are a tuple of a column. */
+struct PlyTuple
+{
+  int column = 0;
+  std::size_t begin = 0;
+  std::size_t bytes = 0;
+};
+
+/** How the records of an element are read. */
+struct PlyPlan
+{
+  std::vector<PlyStep> steps;
+  std::vector<PlyTuple> tuples;
+  std::size_t attributeBytes = 0;
+};
+
+/** What the records of an element are. */
+enum class PlyRole
+{
+  Vertices,
+  Cells,
+  Others
+};
+
+/**
+ * Compiles an element's properties. Attributes become columns: nx ny nz are `Normals`, red green
+ * blue (alpha) are `Colors`. `addColumn` answers a column's number, or -1 to leave it out; without
+ * it there are none.
+ */
+PlyPlan planOf(const PlyElement& element, PlyRole role,
+  const std::function<int(const ColumnSpec&)>& addColumn = {});
+
+/** The property of this name that is a number; null: there is none. */
+const PlyProperty* findNumber(const PlyElement& element, std::string_view name);
+
+} // namespace smg

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Ply/PlyRecords.h"
+
+#include "IO/Formats/Ply/PlyHeader.h"
+#include "IO/Formats/Vsm/AttributeNames.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace smg
+{
+
+namespace
+{
+
+bool isLongInteger(ScalarType type)
+{
+  return type == ScalarType::Int64 || type == ScalarType::UInt64;
+}
+
+/** The names of the properties of a column. */
+std::vector<std::string> namesOf(const ColumnSpec& spec)
+{
+  if (isNormals(spec))
+  {
+    return { "nx", "ny", "nz" };
+  }
+  if (spec.name == ColorsName && spec.components == 3)
+  {
+    return { "red", "green", "blue" };
+  }
+  if (spec.name == ColorsName && spec.components == 4)
+  {
+    return { "red", "green", "blue", "alpha" };
+  }
+  std::string name = spec.name;
+  std::replace_if(
+    name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c >= 127; }, '_');
+  if (spec.components == 1)
+  {
+    return { name };
+  }
+  std::vector<std::string> names;
+  for (int k = 0; k < spec.components; ++k)
+  {
+    names.push_back(name + '_' + std::to_string(k));
+  }
+  return names;
+}
+
+/** Whether a 64-bit integer is one that a double can be. */
+template <class T>
+bool isExact(T value, double converted)
+{
+  // 2^63 and 2^64 are what the largest integers are rounded to.
+  constexpr double end = std::is_signed_v<T> ? 0x1p63 : 0x1p64;
+  return converted < end && static_cast<T>(converted) == value;
+}
+
+} // namespace
+
+std::string plyFormatLines()
+{
+  const bool little = std::endian::native == std::endian::little;
+  return std::string("ply\nformat binary_") + (little ? "little" : "big") + "_endian 1.0\n";
+}
+
+PlyRecords::PlyRecords(const std::string& name, std::int64_t count)
+  : Header("element " + name + ' ' + std::to_string(count) + '\n')
+{
+}
+
+std::ptrdiff_t PlyRecords::add(const ColumnSpec& spec)
+{
+  const std::vector<std::string> names = namesOf(spec);
+  for (const std::string& name : names)
+  {
+    if (name.empty() ||
+        std::find(this->Names.begin(), this->Names.end(), name) != this->Names.end())
+    {
+      return -1;
+    }
+  }
+  const ScalarType type = isLongInteger(spec.type) ? ScalarType::Float64 : spec.type;
+  const auto place = static_cast<std::ptrdiff_t>(this->RecordBytes);
+  for (const std::string& name : names)
+  {
+    this->add(std::string(plyTypeName(type)) + ' ' + name, sizeOf(type));
+  }
+  return place;
+}
+
+std::ptrdiff_t PlyRecords::add(const std::string& property, std::size_t bytes)
+{
+  this->Header += "property " + property + '\n';
+  this->Names.push_back(property.substr(property.rfind(' ') + 1));
+  this->RecordBytes += bytes;
+  return static_cast<std::ptrdiff_t>(this->RecordBytes - bytes);
+}
+
+void PlyRecords::begin(std::size_t count)
+{
+  this->Records.resize(count * this->RecordBytes);
+}
+
+void PlyRecords::fill(std::ptrdiff_t place, std::span<const std::byte> tuples, std::size_t bytes)
+{
+  const std::byte* from = tuples.data();
+  std::byte* const end = this->Records.data() + this->Records.size();
+  for (std::byte* record = this->Records.data(); record < end; record += this->RecordBytes)
+  {
+    std::memcpy(record + place, from, bytes);
+    from += bytes;
+  }
+}
+
+bool PlyRecords::fill(std::ptrdiff_t place, const Column& column)
+{
+  if (!isLongInteger(column.spec.type))
+  {
+    this->fill(place, column.bytes, column.spec.tupleBytes());
+    return false;
+  }
+  bool exact = true;
+  const auto convert = [this, &exact]<class T>(std::span<const T> values)
+  {
+    this->Doubles.assign(values.begin(), values.end());
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      exact = exact && isExact(values[i], this->Doubles[i]);
+    }
+  };
+  column.spec.type == ScalarType::Int64 ? convert(column.as<std::int64_t>())
+                                        : convert(column.as<std::uint64_t>());
+  this->fill(place, std::as_bytes(std::span(this->Doubles)),
+    sizeof(double) * static_cast<std::size_t>(column.spec.components));
+  return !exact;
+}
+
+} // namespace smg

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Files/SequentialOutput.h"
+#include "IO/Formats/Ply/PlyColumns.h"
+#include "IO/Formats/Ply/PlyFormat.h"
+#include "IO/Formats/Ply/PlyRecords.h"
+#include "IO/Restore/RestoredMesh.h"
+
+#include <array>
+#include <cstring>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Writes the vertices, then the faces, whose records are of different sizes. */
+class RestoredPlyWriter
+{
+public:
+  RestoredPlyWriter(const RestoredInfo& info, const std::filesystem::path& path)
+    : Info(info)
+    , Out(path)
+    , Vertices("vertex", info.vertices)
+    , Faces("face", info.elements)
+    , ManyCorners(info.mostCorners > UINT8_MAX)
+    , PositionBytes(0)
+  {
+    const ScalarType real = info.doublePositions ? ScalarType::Float64 : ScalarType::Float32;
+    for (const char* name : { "x", "y", "z" })
+    {
+      this->Vertices.add({ name, real, 1 });
+    }
+    this->PositionBytes = this->Vertices.recordBytes();
+    // The list stands before each record and is no part of it.
+    this->Faces.add(
+      this->ManyCorners ? "list int int vertex_indices" : "list uchar int vertex_indices", 0);
+  }
+
+  WrittenPly write(RestoredMesh& mesh)
+  {
+    WrittenPly written;
+    const PlyColumns pointData(this->Vertices, this->Info.vertexColumns, written);
+    const PlyColumns cellData(this->Faces, this->Info.elementColumns, written);
+    this->Out.put(
+      plyFormatLines() + this->Vertices.header() + this->Faces.header() + "end_header\n");
+    for (RestoredVertices vertices; mesh.next(vertices);)
+    {
+      this->Vertices.begin(static_cast<std::size_t>(vertices.count()));
+      this->fillPositions(vertices.positions);
+      pointData.fill(this->Vertices, vertices.columns, written);
+      this->Out.put(this->Vertices.records());
+    }
+    for (RestoredElements elements; mesh.next(elements);)
+    {
+      this->Faces.begin(elements.sizes.size());
+      cellData.fill(this->Faces, elements.columns, written);
+      this->writeFaces(elements);
+    }
+    this->Out.finish();
+    return written;
+  }
+
+private:
+  void fillPositions(const std::vector<double>& positions)
+  {
+    if (this->Info.doublePositions)
+    {
+      this->Vertices.fill(0, std::as_bytes(std::span(positions)), this->PositionBytes);
+      return;
+    }
+    this->Single.assign(positions.begin(), positions.end());
+    this->Vertices.fill(0, std::as_bytes(std::span(this->Single)), this->PositionBytes);
+  }
+
+  void writeFaces(const RestoredElements& elements)
+  {
+    this->Bytes.clear();
+    elements.forEach(
+      [&](std::span<const std::int64_t> corners, std::size_t face)
+      {
+        const auto count = static_cast<std::int32_t>(corners.size());
+        this->ManyCorners ? this->add(&count, sizeof(count))
+                          : this->add(std::array{ static_cast<std::uint8_t>(count) }.data(), 1);
+        for (const std::int64_t corner : corners)
+        {
+          const auto number = static_cast<std::int32_t>(corner);
+          this->add(&number, sizeof(number));
+        }
+        const std::size_t bytes = this->Faces.recordBytes();
+        this->add(this->Faces.records().data() + bytes * face, bytes);
+      });
+    this->Out.put(this->Bytes);
+  }
+
+  void add(const void* bytes, std::size_t count)
+  {
+    const auto* const first = static_cast<const std::byte*>(bytes);
+    this->Bytes.insert(this->Bytes.end(), first, first + count);
+  }
+
+  const RestoredInfo& Info;
+  SequentialOutput Out;
+  PlyRecords Vertices, Faces;
+  const bool ManyCorners; ///< a face has more than a byte can count
+  std::size_t PositionBytes;
+  std::vector<float> Single;
+  std::vector<std::byte> Bytes;
+};
+
+} // namespace
+
+WriteNotes writeRestoredPly(RestoredMesh& mesh, const std::filesystem::path& path)
+{
+  checkPlyPath(path, mesh.info().cellType, mesh.info().vertices);
+  return notesOn(RestoredPlyWriter(mesh.info(), path).write(mesh));
+}
+
+} // namespace smg

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Ply/WritePly.h"
+
+#include "IO/Files/InQuotes.h"
+#include "IO/Files/PositionedFile.h"
+#include "IO/Files/Suffix.h"
+#include "IO/Formats/Ply/PlyColumns.h"
+#include "IO/Formats/Ply/PlyRecords.h"
+#include "Solver/Core/Error.h"
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Writes the stream; as all records of an element have one size, each has its place at once. */
+class PlyWriter
+{
+public:
+  PlyWriter(const StreamInfo& info, const std::filesystem::path& path)
+    : Info(info)
+    , File(path)
+    , Vertices("vertex", info.vertices)
+    , Faces("face", info.cells)
+  {
+    for (const char* name : { "x", "y", "z" })
+    {
+      this->Vertices.add(
+        { name, info.doublePositions ? ScalarType::Float64 : ScalarType::Float32, 1 });
+    }
+    this->Faces.add("list uchar int vertex_indices", 1 + 3 * sizeof(std::int32_t));
+    this->PointData.emplace(this->Vertices, info.vertexColumns, this->Written);
+    this->CellData.emplace(this->Faces, info.cellColumns, this->Written);
+    const std::string header =
+      plyFormatLines() + this->Vertices.header() + this->Faces.header() + "end_header\n";
+    this->File.write(0, std::as_bytes(std::span(header)));
+    this->VertexEnd = static_cast<std::int64_t>(header.size());
+    this->FirstFace = this->FaceEnd =
+      this->VertexEnd + info.vertices * static_cast<std::int64_t>(this->Vertices.recordBytes());
+  }
+
+  void append(const MeshBlock& block)
+  {
+    this->Vertices.begin(static_cast<std::size_t>(block.vertices()));
+    if (this->Info.doublePositions)
+    {
+      this->Vertices.fill(0, std::as_bytes(std::span(block.positions)), 3 * sizeof(double));
+    }
+    else
+    {
+      this->Single.assign(block.positions.begin(), block.positions.end());
+      this->Vertices.fill(0, std::as_bytes(std::span(this->Single)), 3 * sizeof(float));
+    }
+    this->PointData->fill(this->Vertices, block.vertexColumns, this->Written);
+    this->write(this->Vertices, this->VertexEnd);
+
+    this->Corners.assign(block.corners.begin(), block.corners.end());
+    this->Counts.assign(this->Corners.size() / 3, std::byte(3));
+    this->Faces.begin(this->Counts.size());
+    this->Faces.fill(0, this->Counts, 1);
+    this->Faces.fill(1, std::as_bytes(std::span(this->Corners)), 3 * sizeof(std::int32_t));
+    this->CellData->fill(this->Faces, block.cellColumns, this->Written);
+    this->write(this->Faces, this->FaceEnd);
+  }
+
+  WrittenPly finish(const std::filesystem::path& path)
+  {
+    const std::int64_t end =
+      this->FirstFace + this->Info.cells * static_cast<std::int64_t>(this->Faces.recordBytes());
+    if (this->VertexEnd != this->FirstFace || this->FaceEnd != end)
+    {
+      throw Error(path.string() + ": the mesh stream has not the " +
+                  std::to_string(this->Info.vertices) + " vertices and " +
+                  std::to_string(this->Info.cells) +
+                  " cells that it says: write it to a .vsm file first.");
+    }
+    this->File.finish();
+    return this->Written;
+  }
+
+private:
+  void write(const PlyRecords& records, std::int64_t& at)
+  {
+    this->File.write(at, records.records());
+    at += static_cast<std::int64_t>(records.records().size());
+  }
+
+  const StreamInfo& Info;
+  PositionedFile File;
+  PlyRecords Vertices, Faces;
+  std::optional<PlyColumns> PointData, CellData;
+  std::int64_t VertexEnd = 0, FirstFace = 0, FaceEnd = 0;
+  std::vector<float> Single;
+  std::vector<std::int32_t> Corners;
+  std::vector<std::byte> Counts; ///< of corners, each 3
+  WrittenPly Written;
+};
+
+} // namespace
+
+std::vector<std::string> notesOn(const WrittenPly& written)
+{
+  std::vector<std::string> notes;
+  for (const std::string& name : written.droppedColumns)
+  {
+    notes.push_back("The column " + inQuotes(name) +
+                    " was left out, since PLY has another property of that name.");
+  }
+  for (const std::string& name : written.roundedColumns)
+  {
+    notes.push_back("Values of the column " + inQuotes(name) +
+                    " were rounded to double, since PLY has no 64-bit integers.");
+  }
+  return notes;
+}
+
+void checkPlyPath(const std::filesystem::path& path, CellType cellType, std::int64_t vertices)
+{
+  if (lowerSuffix(path) != ".ply")
+  {
+    throw Error(path.string() + ": the name of a PLY file must end with .ply.");
+  }
+  if (cellType != CellType::Triangle)
+  {
+    throw Error(path.string() + ": PLY holds no tetrahedra: choose .vsm or .vtu.");
+  }
+  constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
+  if (vertices > most)
+  {
+    throw Error(path.string() + ": PLY has room for " + std::to_string(most) +
+                " vertices, but there are " + std::to_string(vertices) + ": choose .vsm or .vtp.");
+  }
+}
+
+WrittenPly writePly(
+  MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress)
+{
+  const StreamInfo& info = source.info();
+  checkPlyPath(path, info.cellType, info.vertices);
+  Progress reported(progress);
+  PlyWriter writer(info, path);
+  for (MeshBlock block; source.next(block);)
+  {
+    writer.append(block);
+    const auto end =
+      static_cast<double>(block.firstCell) + static_cast<double>(block.corners.size()) / 3.0;
+    reported.update(end / static_cast<double>(info.cells));
+  }
+  return writer.finish(path);
+}
+
+} // namespace smg

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Formats/Streams/StreamFile.h"
+#include "IO/Formats/Vsm/IsolatedVertices.h"
+#include "IO/Formats/Vsm/PagedArray.h"
+#include "IO/Formats/Vsm/VsmWriter.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Makes of the elements of a streaming mesh file a compact mesh stream: cells in the order of the
+ * file, each as soon as all of its vertices have come, vertices numbered by first use. Vertices of
+ * no cell go to the table of the isolated ones.
+ *
+ * What is known of the vertices and the cells that wait is kept in pages (PagedArray.h), which are
+ * forgotten as soon as they are not needed: when their vertices are final.
+ */
+class StreamAssembler
+{
+public:
+  /** `memory`: bytes for the pages. */
+  StreamAssembler(const StreamFileReader& reader, VsmWriter& writer,
+    const std::filesystem::path& scratch, std::int64_t memory);
+
+  /** What the columns of the stream are: to make the writer with. */
+  static StreamInfo infoOf(const StreamFileHeader& header);
+
+  /** Takes the next element of the file. */
+  void take(const StreamEvent& event);
+  /** To be called at the end of the file. */
+  void finish();
+
+  std::int64_t isolatedVertices() const { return this->Vertices - this->Used; }
+
+private:
+  static constexpr std::int64_t Never = std::numeric_limits<std::int64_t>::max();
+
+  /** A vertex of the file. */
+  struct Vertex
+  {
+    std::array<float, 3> position;
+    std::uint32_t unused;
+    std::int64_t number; ///< its stream index + 1, or 0 if no delivered cell uses it
+    std::int64_t until;  ///< it is needed until this many cells are delivered, or for ever
+  };
+  static_assert(sizeof(Vertex) == 32);
+
+  [[noreturn]] void fail(const std::string& what) const;
+  void takeVertex(const StreamEvent& event);
+  void takeCell(const StreamEvent& event);
+  void finalize(std::int64_t vertex);
+  /** Delivers the cells at the head of the queue whose vertices have come. */
+  void deliver();
+  void deliverCell(const std::array<std::int64_t, 4>& corners);
+  std::int64_t introduce(std::int64_t vertex);
+  /** Appends the place of a vertex in the file and its further values to the columns. */
+  void pushValues(std::int64_t vertex, std::vector<Column>& columns);
+  /** Forgets what is not needed any more. */
+  void forget();
+  /** A vertex that no cell uses. */
+  void setAside(std::int64_t vertex);
+  void flushIsolated();
+  void flush();
+
+  const StreamFileReader& Reader;
+  const StreamFileHeader& Header;
+  VsmWriter& Writer;
+  int Corners;
+
+  std::int64_t Vertices = 0;  ///< that have come
+  std::int64_t Cells = 0;     ///< that have come
+  std::int64_t Delivered = 0; ///< cells delivered
+  std::int64_t Used = 0;      ///< vertices delivered
+
+  PagedArray<Vertex> FileVertices;               ///< by place in the file
+  PagedArray<std::int32_t> Values;               ///< further values of these, bits of floats too
+  PagedArray<std::array<std::int64_t, 4>> Queue; ///< corners of the cells, by place in the file
+  PagedArray<std::int32_t> CellValues;
+  PagedArray<std::int64_t> Until;   ///< as Vertex::until, by stream index
+  std::int64_t FirstFileVertex = 0; ///< all vertices before it are not needed any more
+  std::int64_t FirstStreamVertex = 0;
+
+  MeshBlock Block; ///< that is being filled
+  IsolatedVertices Aside;
+  std::int64_t AsideCount = 0; ///< vertices that have been set aside
+};
+
+} // namespace smg

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Formats/Streams/StreamFile.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+namespace smg
+{
+
+/** How a streaming mesh file is written, where the formats leave a choice. */
+struct StreamFileStyle
+{
+  enum Finalization
+  {
+    None,    ///< not at all
+    InCell,  ///< by a negative, relative index in the last cell
+    Explicit ///< by a line of its own (text formats only)
+  };
+  Finalization finalization = InCell;
+  bool bigEndian = false; ///< byte order of the data of the binary formats
+  /** The byte that should tell the order: 0 little, 1 big; -1: the true one. Some writers lie. */
+  int endianFlag = -1;
+};
+
+/**
+ * Writes a streaming mesh file element by element. The header says what the file will have: format,
+ * counts and bounds (written if given), order, further values. The file gets its name by finish();
+ * without it nothing is left. Every failure is an Error with the file's name.
+ */
+class StreamFileWriter
+{
+public:
+  virtual ~StreamFileWriter() = default;
+
+  /** Writes the next vertex, with as many further values as the header says. */
+  virtual void vertex(std::span<const float, 3> position, std::span<const float> floats = {},
+    std::span<const std::int32_t> ints = {}) = 0;
+  /**
+   * Writes a cell. `corners` count the vertices from 0; bit k of `finalMask` says that no later
+   * cell uses corners[k] (set it for one of two equal corners only).
+   */
+  virtual void cell(std::span<const std::int64_t> corners, unsigned finalMask = 0,
+    std::span<const std::int32_t> ints = {}) = 0;
+  /**
+   * Says that no later cell uses the vertex, where a cell cannot say it: in text formats in
+   * pre-order. In the others there is no room for it, and nothing is written.
+   */
+  virtual void finalization(std::int64_t vertex) = 0;
+  /** Completes the file. Throws Error if the counts are not those of the header. */
+  virtual void finish() = 0;
+};
+
+/** Begins a file. Throws Error for counts beyond the 31 bits that the formats have. */
+std::unique_ptr<StreamFileWriter> createStreamFile(
+  std::filesystem::path path, const StreamFileHeader& header, const StreamFileStyle& style = {});
+
+} // namespace smg

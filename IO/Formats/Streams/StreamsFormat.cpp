@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Streams/StreamsFormat.h"
+
+#include "IO/Files/PartialProgress.h"
+#include "IO/Formats/Streams/StreamConversion.h"
+#include "IO/Formats/Vsm/WriteVsm.h"
+#include "Solver/Storage/ScratchFolder.h"
+
+namespace smg
+{
+
+namespace
+{
+
+/** These formats need the last cell of each vertex first: through a .vsm file. */
+WriteNotes write(
+  MeshSource& source, const std::filesystem::path& path, const WriteMeshOptions& options)
+{
+  const ScratchFolder scratch(options.scratch);
+  const std::filesystem::path whole = scratch / "mesh.vsm";
+  writeVsm(source, whole, Codec::Lz4, partOf(options.progress, 0.0, 0.6));
+  return notesOnRounded(vsmToStream(whole, path, partOf(options.progress, 0.6, 1.0)));
+}
+
+constexpr FileSuffix StreamSuffixes[] = { { ".sma", true, false }, { ".smb", true, false },
+  { ".sva", false, true }, { ".svb", false, true } };
+
+} // namespace
+
+const Format StreamsFormat{
+  .name = "mesh stream",
+  .suffixes = StreamSuffixes,
+  .attributes = "a scalar of the vertices of tetrahedra",
+  .kind = MeshFileKind::Stream,
+  .write = write,
+};
+
+} // namespace smg

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/TetGen/TetGenFormat.h"
+#include "IO/Files/Inflate.h"
+#include "IO/Files/InputFile.h"
+#include "IO/Files/Suffix.h"
+#include "IO/Files/TextScanner.h"
+#include "IO/Formats/Vsm/AttributeNames.h"
+#include "IO/Raw/RawMeshBuilder.h"
+#include "Solver/Core/Error.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Most attributes of a node or element: more are a damaged file. */
+constexpr std::int64_t MostAttributes = 1024;
+
+/** Reads the nodes and then the elements. */
+class TetGenReader
+{
+public:
+  explicit TetGenReader(RawMeshBuilder& builder)
+    : Builder(builder)
+  {
+  }
+
+  void readNodes(InputFile& file)
+  {
+    TextScanner scanner(file, '#');
+    this->guarded(scanner,
+      [&]
+      {
+        const std::int64_t count = scanner.count("the number of nodes", 6);
+        const std::int64_t dimension = scanner.integer("the dimension");
+        if (dimension != 2 && dimension != 3)
+        {
+          scanner.fail("the dimension must be 2 or 3");
+        }
+        this->beginAttributes(scanner, &RawMeshBuilder::addVertexColumn);
+        const std::int64_t markers = numberInLine(scanner, "the number of boundary markers");
+        if (markers != 0 && markers != 1)
+        {
+          scanner.fail("the number of boundary markers must be 0 or 1");
+        }
+        const int markerColumn =
+          markers ? this->Builder.addVertexColumn({ MarkerName, ScalarType::Int64, 1 }) : -1;
+        for (std::int64_t i = 0; i < count; ++i)
+        {
+          this->readNode(scanner, i, static_cast<std::size_t>(dimension));
+          this->Builder.vertexTuples(this->Column, this->readAttributes(scanner));
+          if (markers)
+          {
+            const std::int64_t marker = scanner.integer("the boundary marker of a node");
+            this->Builder.vertexTuples(markerColumn, std::as_bytes(std::span(&marker, 1)));
+          }
+        }
+        checkEnd(scanner);
+      });
+  }
+
+  void readElements(InputFile& file)
+  {
+    TextScanner scanner(file, '#');
+    this->guarded(scanner,
+      [&]
+      {
+        const std::int64_t count = scanner.count("the number of elements", 8);
+        const std::int64_t nodes = scanner.integer("the number of nodes of an element");
+        if (nodes != 3 && nodes != 6 && nodes != 4 && nodes != 10)
+        {
+          scanner.fail("elements of " + std::to_string(nodes) +
+                       " nodes are not read, only tetrahedra of 4 or 10 and triangles of 3 or 6");
+        }
+        this->beginAttributes(scanner, &RawMeshBuilder::addElementColumn);
+        for (std::int64_t i = 0; i < count; ++i)
+        {
+          this->readIndex(scanner, i, "an element");
+          this->readElement(scanner, static_cast<std::size_t>(nodes));
+          this->Builder.elementTuples(this->Column, this->readAttributes(scanner));
+        }
+        checkEnd(scanner);
+      });
+  }
+
+private:
+  static void guarded(TextScanner& scanner, const auto& read)
+  {
+    try
+    {
+      read();
+    }
+    catch (const MeshError& error)
+    {
+      scanner.fail(error.what());
+    }
+  }
+
+  /** A number at the end of a first line, which may be left out: 0. */
+  static std::int64_t numberInLine(TextScanner& scanner, const char* what)
+  {
+    const std::string_view token = scanner.tokenInLine();
+    return token.empty() ? 0 : scanner.toInteger(token, what);
+  }
+
+  static void checkEnd(TextScanner& scanner)
+  {
+    if (!scanner.atEnd())
+    {
+      scanner.fail(inQuotes(scanner.peek()) +
+                   " stands after the last entry: the number in the first line is wrong");
+    }
+  }
+
+  void beginAttributes(TextScanner& scanner, int (RawMeshBuilder::*addColumn)(const ColumnSpec&))
+  {
+    const std::int64_t attributes = numberInLine(scanner, "the number of attributes");
+    if (attributes < 0 || attributes > MostAttributes)
+    {
+      scanner.fail("the number of attributes must be 0 to " + std::to_string(MostAttributes) +
+                   ", not " + std::to_string(attributes));
+    }
+    this->Attributes.resize(static_cast<std::size_t>(attributes));
+    this->Column = attributes == 0 ? -1
+                                   : (this->Builder.*addColumn)({ AttributeName,
+                                       ScalarType::Float64, static_cast<int>(attributes) });
+  }
+
+  std::span<const std::byte> readAttributes(TextScanner& scanner)
+  {
+    for (double& attribute : this->Attributes)
+    {
+      attribute = scanner.number("an attribute");
+    }
+    return std::as_bytes(std::span<const double>(this->Attributes));
+  }
+
+  /** The number that an entry begins with: they count from that of the first node, 0 or 1. */
+  void readIndex(TextScanner& scanner, std::int64_t place, const char* what)
+  {
+    const std::int64_t index = scanner.integer(what);
+    if (index != this->First + place)
+    {
+      scanner.fail(std::string(what) + " has the number " + std::to_string(index) +
+                   ", where number " + std::to_string(this->First + place) + " should be");
+    }
+  }
+
+  void readNode(TextScanner& scanner, std::int64_t place, std::size_t dimension)
+  {
+    if (place == 0)
+    {
+      const std::string_view token = scanner.peek();
+      this->First = token == "0" ? 0 : 1;
+    }
+    this->readIndex(scanner, place, "a node");
+    std::array<double, 3> point{};
+    for (double& coordinate : std::span(point).first(dimension))
+    {
+      coordinate = scanner.number("a coordinate of a node");
+    }
+    this->Builder.vertex(point[0], point[1], point[2]);
+  }
+
+  /** The nodes of an element, corners first. */
+  void readElement(TextScanner& scanner, std::size_t nodes)
+  {
+    std::array<std::int64_t, 10> corners{};
+    for (std::int64_t& corner : std::span(corners).first(nodes))
+    {
+      const std::int64_t index = scanner.integer("a node of an element");
+      const std::int64_t end = this->First + this->Builder.vertices();
+      if (index < this->First || index >= end)
+      {
+        scanner.fail("the element names node " + std::to_string(index) + ", but the nodes are " +
+                     std::to_string(this->First) + " to " + std::to_string(end - 1));
+      }
+      corner = index - this->First;
+    }
+    const bool flat = nodes == 3 || nodes == 6;
+    const std::int64_t before = this->Builder.cells();
+    flat ? this->Builder.triangle(corners[0], corners[1], corners[2])
+         : this->Builder.tetrahedron(corners[0], corners[1], corners[2], corners[3]);
+    if (nodes > (flat ? 3U : 4U) && this->Builder.cells() > before)
+    {
+      this->Builder.noteHigherOrder();
+    }
+  }
+
+  RawMeshBuilder& Builder;
+  std::int64_t First = 1; ///< number of the first node and element
+  int Column = -1;        ///< of the attributes
+  std::vector<double> Attributes;
+};
+
+/** What the file is called, or was before gzip compressed it. */
+std::filesystem::path plainName(const InputFile& file)
+{
+  std::filesystem::path name(file.name());
+  return lowerSuffix(name) == ".gz" ? name.replace_extension() : name;
+}
+
+/** The other file of the two, which gzip may have compressed as well. */
+std::filesystem::path otherFile(const InputFile& file, bool isElements)
+{
+  const std::filesystem::path plain =
+    plainName(file).replace_extension(isElements ? ".node" : ".ele");
+  const std::filesystem::path compressed = plain.string() + ".gz";
+  for (const std::filesystem::path& other : { plain, compressed })
+  {
+    if (std::filesystem::exists(other))
+    {
+      return other;
+    }
+  }
+  throw Error(file.name() + ": the file " + inQuotes(plain.string()) + ", which has the " +
+              (isElements ? "nodes" : "elements") + ", must lie beside it.");
+}
+
+} // namespace
+
+void importTetGen(InputFile& file, RawMeshBuilder& builder)
+{
+  const bool isElements = lowerSuffix(plainName(file)) == ".ele";
+  const std::filesystem::path otherPath = otherFile(file, isElements);
+  std::optional<InflatedFile> inflated;
+  {
+    InputFile start(otherPath);
+    if (isGzip(start.at(0, 2)))
+    {
+      inflated.emplace(start, builder.workspace(), "inflated-other");
+    }
+  }
+  InputFile other(inflated ? inflated->path() : otherPath, {}, otherPath.string());
+  TetGenReader reader(builder);
+  reader.readNodes(isElements ? other : file);
+  reader.readElements(isElements ? file : other);
+}
+
+namespace
+{
+
+constexpr FileSuffix TetGenSuffixes[] = { { ".node" }, { ".ele" } };
+
+} // namespace
+
+const Format TetGenFormat{
+  .name = "TetGen",
+  .suffixes = TetGenSuffixes,
+  .attributes = "attributes and markers of vertices, attributes of cells",
+  .parse = parseWith<importTetGen>,
+  .share = { 200, 4 },
+  .restore = writeRestoredTetGen,
+};
+
+} // namespace smg

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Vsm/PageFile.h"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+#include <utility>
+
+namespace smg
+{
+
+PageFile::PageFile(std::filesystem::path folder, std::int64_t memory)
+  : Folder(std::move(folder))
+  , MaxSlots(std::max<std::int64_t>(4, memory / std::int64_t(PageBytes)))
+{
+}
+
+std::byte* PageFile::page(std::int64_t page, bool change)
+{
+  if (page >= static_cast<std::int64_t>(this->SlotOfPage.size()))
+  {
+    this->SlotOfPage.resize(page + 1, Untouched);
+  }
+  const std::int32_t state = this->SlotOfPage[page];
+  if (state < 0)
+  {
+    const std::int32_t number = this->makeRoom();
+    Slot& slot = this->Slots[number];
+    if (state == OnDisk)
+    {
+      this->File.read(page * std::int64_t(PageBytes), std::span(slot.bytes.get(), PageBytes));
+    }
+    else
+    {
+      std::memset(slot.bytes.get(), 0, PageBytes);
+    }
+    slot.page = page;
+    // A page that never went to the file must go there even if it is only looked at.
+    slot.changed = state != OnDisk;
+    this->SlotOfPage[page] = number;
+  }
+  Slot& slot = this->Slots[this->SlotOfPage[page]];
+  slot.used = true;
+  slot.changed = slot.changed || change;
+  return slot.bytes.get();
+}
+
+std::int32_t PageFile::makeRoom()
+{
+  if (!this->Vacant.empty())
+  {
+    const std::int32_t number = this->Vacant.back();
+    this->Vacant.pop_back();
+    return number;
+  }
+  if (this->Slots.size() < this->MaxSlots)
+  {
+    this->Slots.emplace_back().bytes = std::make_unique<std::byte[]>(PageBytes);
+    return static_cast<std::int32_t>(this->Slots.size()) - 1;
+  }
+  while (std::exchange(this->Slots[this->Hand].used, false))
+  {
+    this->Hand = (this->Hand + 1) % this->Slots.size();
+  }
+  const auto number = static_cast<std::int32_t>(this->Hand);
+  this->Hand = (this->Hand + 1) % this->Slots.size();
+  Slot& slot = this->Slots[number];
+  if (slot.changed)
+  {
+    if (!this->File.isOpen())
+    {
+      this->File = FileDescriptor::createNameless(this->Folder);
+    }
+    this->File.write(slot.page * std::int64_t(PageBytes), std::span(slot.bytes.get(), PageBytes));
+  }
+  this->SlotOfPage[slot.page] = OnDisk;
+  return number;
+}
+
+void PageFile::discardBelow(std::int64_t page)
+{
+  const auto end = std::min(page, static_cast<std::int64_t>(this->SlotOfPage.size()));
+  for (; this->FirstKept < end; this->FirstKept++)
+  {
+    const std::int32_t state = std::exchange(this->SlotOfPage[this->FirstKept], Discarded);
+    if (state >= 0)
+    {
+      this->Slots[state].changed = false;
+      this->Slots[state].used = false;
+      this->Vacant.push_back(state);
+    }
+  }
+}
+
+} // namespace smg

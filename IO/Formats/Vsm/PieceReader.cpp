@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Vsm/PieceReader.h"
+
+#include <algorithm>
+
+namespace smg
+{
+
+namespace
+{
+
+std::vector<int> vertexNumbers(const VsmFile& file, const std::vector<std::string>& names)
+{
+  std::vector<int> numbers;
+  for (const std::string& name : names)
+  {
+    numbers.push_back(file.vertexColumn(name));
+  }
+  return numbers;
+}
+
+} // namespace
+
+PieceReader::PieceReader(VsmFile& file, const std::vector<std::string>& vertexColumns,
+  const std::vector<std::string>& cellColumns)
+  : File(file)
+  , Corners(cornersOf(file.Info.cellType))
+  , InOrder(file, vertexNumbers(file, vertexColumns))
+  , Anywhere(file, vertexNumbers(file, vertexColumns))
+{
+  for (const int column : vertexNumbers(file, vertexColumns))
+  {
+    this->VertexSpecs.push_back(file.Info.vertexColumns[column - 1]);
+  }
+  for (const std::string& name : cellColumns)
+  {
+    const int column = file.cellColumn(name);
+    this->CellSpecs.push_back(file.Info.cellColumns[column - 1]);
+    this->CellColumns.emplace_back(file.Blocks, VsmFormat::Cells, column);
+  }
+  this->Alive.reset(this->VertexSpecs);
+}
+
+void PieceReader::read(std::int64_t firstCell, std::int64_t endCell, MeshPiece& piece)
+{
+  if (firstCell < 0 || endCell < firstCell || endCell > this->File.Info.cells)
+  {
+    this->File.fail("has no cells from " + std::to_string(firstCell) + " to " +
+                    std::to_string(endCell) + ", but " + std::to_string(this->File.Info.cells) +
+                    " in all.");
+  }
+  // In this order: so the blocks of the cells at both ends are read once.
+  const std::int64_t begin = firstCell < endCell ? this->introducedBefore(firstCell) : 0;
+  this->readCells(firstCell, endCell, piece);
+  const std::int64_t end = firstCell < endCell ? this->introducedBefore(endCell) : 0;
+
+  this->Ghosts.clear();
+  std::copy_if(piece.corners.begin(), piece.corners.end(), std::back_inserter(this->Ghosts),
+    [begin](std::int64_t v) { return v < begin; });
+  std::sort(this->Ghosts.begin(), this->Ghosts.end());
+  this->Ghosts.erase(std::unique(this->Ghosts.begin(), this->Ghosts.end()), this->Ghosts.end());
+  const auto ghosts = static_cast<std::int64_t>(this->Ghosts.size());
+  for (std::int64_t& v : piece.corners)
+  {
+    v = v >= begin
+          ? ghosts + v - begin
+          : std::lower_bound(this->Ghosts.begin(), this->Ghosts.end(), v) - this->Ghosts.begin();
+  }
+
+  this->collect(this->Ghosts, begin, end);
+  if (firstCell < endCell)
+  {
+    this->remember(end, endCell);
+  }
+  piece.firstCell = firstCell;
+  piece.ghost.assign(this->Rows.size(), 0);
+  std::fill_n(piece.ghost.begin(), ghosts, 1);
+  piece.finalized.resize(this->Rows.size());
+  std::transform(this->Rows.lastCells.begin(), this->Rows.lastCells.end(), piece.finalized.begin(),
+    [endCell](std::int64_t last) { return last < endCell ? 1 : 0; });
+  std::swap(piece.ids, this->Rows.ids);
+  std::swap(piece.positions, this->Rows.positions);
+  std::swap(piece.vertexColumns, this->Rows.columns);
+}
+
+void PieceReader::readCells(std::int64_t firstCell, std::int64_t endCell, MeshPiece& piece)
+{
+  piece.corners.clear();
+  for (std::int64_t cell = firstCell; cell < endCell;)
+  {
+    const std::int64_t block = this->File.Blocks.blockOf(VsmFormat::Cells, cell);
+    const std::int64_t first = this->File.Blocks.firstRow(VsmFormat::Cells, block);
+    const std::int64_t end =
+      std::min(endCell, first + this->File.Blocks.blockRows(VsmFormat::Cells, block));
+    const auto corners = this->cornersOfBlock(block).begin();
+    piece.corners.insert(piece.corners.end(), corners + (cell - first) * this->Corners,
+      corners + (end - first) * this->Corners);
+    cell = end;
+  }
+  piece.cellColumns.resize(this->CellSpecs.size());
+  for (std::size_t c = 0; c < this->CellSpecs.size(); c++)
+  {
+    Column& column = piece.cellColumns[c];
+    column.spec = this->CellSpecs[c];
+    column.resize(endCell - firstCell);
+    this->CellColumns[c].read(firstCell, endCell - firstCell, column.bytes.data());
+  }
+}
+
+const std::vector<std::int64_t>& PieceReader::cornersOfBlock(std::int64_t block)
+{
+  if (block != this->Block)
+  {
+    this->Block = -1;
+    this->File.readCorners(block, this->BlockCorners);
+    this->Block = block;
+  }
+  return this->BlockCorners;
+}
+
+std::int64_t PieceReader::introducedBefore(std::int64_t cell)
+{
+  if (cell == this->File.Info.cells)
+  {
+    return this->File.Info.vertices;
+  }
+  const std::int64_t block = this->File.Blocks.blockOf(VsmFormat::Cells, cell);
+  const std::int64_t before = cell - this->File.Blocks.firstRow(VsmFormat::Cells, block);
+  std::int64_t introduced = this->File.firstVertex(block);
+  if (before > 0)
+  {
+    // In a compact stream, the vertices introduced so far are those up to the largest one used.
+    const auto corners = this->cornersOfBlock(block).begin();
+    introduced =
+      std::max(introduced, *std::max_element(corners, corners + before * this->Corners) + 1);
+  }
+  return introduced;
+}
+
+void PieceReader::collect(
+  std::span<const std::int64_t> ghosts, std::int64_t begin, std::int64_t end)
+{
+  this->Missing.clear();
+  std::set_difference(ghosts.begin(), ghosts.end(), this->Alive.ids.begin(), this->Alive.ids.end(),
+    std::back_inserter(this->Missing));
+  this->Fetched.reset(this->VertexSpecs);
+  this->Anywhere.gather(this->Missing, this->Fetched);
+  this->Rows.reset(this->VertexSpecs);
+  std::int64_t fetched = 0;
+  auto alive = this->Alive.ids.begin();
+  for (const std::int64_t ghost : ghosts)
+  {
+    if (fetched < this->Fetched.size() && this->Fetched.ids[fetched] == ghost)
+    {
+      this->Rows.append(this->Fetched, fetched++);
+    }
+    else
+    {
+      alive = std::lower_bound(alive, this->Alive.ids.end(), ghost);
+      this->Rows.append(this->Alive, alive - this->Alive.ids.begin());
+    }
+  }
+  this->InOrder.read(begin, end - begin, this->Rows);
+}
+
+void PieceReader::remember(std::int64_t end, std::int64_t endCell)
+{
+  this->NextAlive.reset(this->VertexSpecs);
+  std::int64_t a = 0;
+  std::int64_t b = 0;
+  while (a < this->Alive.size() || b < this->Rows.size())
+  {
+    const bool old =
+      b == this->Rows.size() || (a < this->Alive.size() && this->Alive.ids[a] < this->Rows.ids[b]);
+    const VertexRows& from = old ? this->Alive : this->Rows;
+    const std::int64_t row = old ? a : b;
+    if (from.lastCells[row] >= endCell && from.ids[row] < end)
+    {
+      this->NextAlive.append(from, row);
+    }
+    a += old || (a < this->Alive.size() && this->Alive.ids[a] == from.ids[row]) ? 1 : 0;
+    b += old ? 0 : 1;
+  }
+  std::swap(this->Alive, this->NextAlive);
+}
+
+} // namespace smg

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Formats/Vsm/VsmFile.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/** Reads positions of vertices as double precision numbers, whatever precision they have. */
+class PositionReader
+{
+public:
+  /** `column` of `table` has them. */
+  explicit PositionReader(VsmFile& file, int table = VsmFormat::Vertices, int column = 0)
+    : Rows(file.Blocks, table, column)
+  {
+  }
+
+  /** Reads the positions of the vertices [first, first + count). */
+  void read(std::int64_t first, std::int64_t count, double* positions)
+  {
+    this->convert(count, positions, [&](std::byte* to) { this->Rows.read(first, count, to); });
+  }
+
+  /** Reads the positions of the vertices `vertices`, which ascend. */
+  void gather(std::span<const std::int64_t> vertices, double* positions)
+  {
+    this->convert(static_cast<std::int64_t>(vertices.size()), positions,
+      [&](std::byte* to) { this->Rows.gather(vertices, to); });
+  }
+
+private:
+  template <class Read>
+  void convert(std::int64_t count, double* positions, Read read)
+  {
+    if (this->Rows.tupleBytes() == 3 * sizeof(double))
+    {
+      read(reinterpret_cast<std::byte*>(positions));
+      return;
+    }
+    this->Floats.resize(3 * count);
+    read(reinterpret_cast<std::byte*>(this->Floats.data()));
+    std::copy(this->Floats.begin(), this->Floats.end(), positions);
+  }
+
+  RowReader Rows;
+  std::vector<float> Floats;
+};
+
+} // namespace smg

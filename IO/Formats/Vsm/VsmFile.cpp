@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Vsm/VsmFile.h"
+
+#include "IO/Formats/Vsm/IsolatedWriter.h"
+#include "IO/Formats/Vsm/PackedIntegers.h"
+#include "Solver/Core/Error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace smg
+{
+
+VsmFile::VsmFile(const std::filesystem::path& path, IoStatistics* statistics)
+  : Blocks(path, statistics)
+  , Name(path.string())
+{
+  this->readHeader();
+  this->readTables();
+  this->readBlockTable();
+}
+
+void VsmFile::fail(const std::string& what) const
+{
+  throw Error(this->Name + ": " + what);
+}
+
+void VsmFile::readHeader()
+{
+  const nlohmann::json header = nlohmann::json::parse(this->Blocks.header());
+  if (!header.is_object() || header.value("kind", nlohmann::json()) != VsmFormat::Kind)
+  {
+    this->fail("is a block file, but not a mesh stream.");
+  }
+  try
+  {
+    const std::string cell = header.at("cell");
+    const std::string precision = header.at("precision");
+    if ((cell != "triangle" && cell != "tetrahedron") ||
+        (precision != "float32" && precision != "float64"))
+    {
+      this->fail("has cells or coordinates of an unknown kind: " + cell + ", " + precision + ".");
+    }
+    this->Info.cellType = cell == "triangle" ? CellType::Triangle : CellType::Tetrahedron;
+    this->Info.doublePositions = precision == "float64";
+    this->Info.vertices = header.at("vertices");
+    this->Info.cells = header.at("cells");
+    this->Info.bounds = header.at("bounds");
+    this->Info.width = header.at("width");
+    this->Info.span = header.at("span");
+    this->MeanWidth = header.at("mean_width");
+  }
+  catch (const nlohmann::json::exception& error)
+  {
+    this->fail(std::string("has an incomplete header (") + error.what() + "); make it anew.");
+  }
+}
+
+void VsmFile::readTables()
+{
+  const std::vector<TableSpec>& tables = this->Blocks.tables();
+  const auto first = [&](int table) -> ColumnSpec
+  { return tables[table].columns.empty() ? ColumnSpec{} : tables[table].columns[0]; };
+  const ScalarType real = this->Info.doublePositions ? ScalarType::Float64 : ScalarType::Float32;
+  const std::vector<ColumnSpec> blockColumns{ { "FirstVertex", ScalarType::Int64, 1 },
+    { "Finalized", ScalarType::Int64, 1 } };
+  const std::size_t most = VsmFormat::LeastTables + 1;
+  if (tables.size() < VsmFormat::LeastTables || tables.size() > most ||
+      first(VsmFormat::Vertices) != ColumnSpec{ "Position", real, 3 } ||
+      first(VsmFormat::Last) != ColumnSpec{ "LastCell", ScalarType::UInt8, 0 } ||
+      first(VsmFormat::Cells) != ColumnSpec{ "Corners", ScalarType::UInt8, 0 } ||
+      tables[VsmFormat::Blocks].columns != blockColumns)
+  {
+    this->fail("does not have the tables of a mesh stream; make it anew.");
+  }
+  const BlockFileReader& blocks = this->Blocks;
+  const bool good = blocks.rows(VsmFormat::Vertices) == this->Info.vertices &&
+                    blocks.rows(VsmFormat::Last) == this->Info.vertices &&
+                    blocks.rows(VsmFormat::Cells) == this->Info.cells &&
+                    blocks.rows(VsmFormat::Blocks) == blocks.blocks(VsmFormat::Cells) &&
+                    this->Info.cells > 0;
+  if (!good)
+  {
+    this->fail("has tables that are not as long as the header says; make it anew.");
+  }
+  const auto attributes = [&](int table)
+  { return std::vector(tables[table].columns.begin() + 1, tables[table].columns.end()); };
+  this->Info.vertexColumns = attributes(VsmFormat::Vertices);
+  this->Info.cellColumns = attributes(VsmFormat::Cells);
+  this->HasIsolated = tables.size() == most;
+  if (this->HasIsolated && tables[VsmFormat::Isolated] != IsolatedWriter::table(this->Info))
+  {
+    this->fail("has isolated vertices that are not like the others; make it anew.");
+  }
+  this->checkColumns();
+}
+
+void VsmFile::checkColumns() const
+{
+  for (const auto* columns : { &this->Info.vertexColumns, &this->Info.cellColumns })
+  {
+    if (std::any_of(columns->begin(), columns->end(),
+          [](const ColumnSpec& column) { return column.components < 1; }))
+    {
+      this->fail("has a column without components; make it anew.");
+    }
+  }
+  if (std::any_of(this->Info.cellColumns.begin(), this->Info.cellColumns.end(),
+        [](const ColumnSpec& column)
+        {
+          return column.name == CellFlagsName &&
+                 column != ColumnSpec{ CellFlagsName, ScalarType::UInt8, 1 };
+        }))
+  {
+    this->fail("has a column CellFlags that is not of one uint8 a cell; make it anew.");
+  }
+}
+
+void VsmFile::readBlockTable()
+{
+  const std::int64_t count = this->cellBlocks();
+  this->FirstVertex.resize(count);
+  this->Finalized.resize(count);
+  RowReader(this->Blocks, VsmFormat::Blocks, 0)
+    .read(0, count, reinterpret_cast<std::byte*>(this->FirstVertex.data()));
+  RowReader(this->Blocks, VsmFormat::Blocks, 1)
+    .read(0, count, reinterpret_cast<std::byte*>(this->Finalized.data()));
+  this->FirstVertex.push_back(this->Info.vertices);
+  bool good = this->FirstVertex[0] == 0 && this->Finalized[count - 1] == this->Info.vertices;
+  for (std::int64_t b = 0; b < count; b++)
+  {
+    good = good && this->FirstVertex[b] <= this->FirstVertex[b + 1] && this->Finalized[b] >= 0 &&
+           this->Finalized[b] <= this->FirstVertex[b + 1];
+  }
+  if (!good)
+  {
+    this->fail("has a table of blocks that makes no sense; make it anew.");
+  }
+}
+
+void VsmFile::readPacked(int table, std::int64_t block, std::size_t count)
+{
+  this->Packed.resize(this->Blocks.columnBytes(table, block, 0));
+  this->Blocks.read(table, block, 0, this->Packed);
+  this->Numbers.resize(count);
+  if (!unpackIntegers(this->Packed, this->Numbers))
+  {
+    this->fail("table '" + this->Blocks.tables()[table].name + "', block " + std::to_string(block) +
+               " has not the right length; make the file anew.");
+  }
+}
+
+void VsmFile::readCorners(std::int64_t block, std::vector<std::int64_t>& corners)
+{
+  const std::int64_t rows = this->Blocks.blockRows(VsmFormat::Cells, block);
+  this->readPacked(VsmFormat::Cells, block, rows * cornersOf(this->Info.cellType));
+  corners.resize(this->Numbers.size());
+  std::int64_t introduced = this->FirstVertex[block];
+  bool good = true;
+  for (std::size_t i = 0; i < corners.size(); i++)
+  {
+    const auto distance = static_cast<std::int64_t>(this->Numbers[i]);
+    good = good && distance >= 0 && distance <= introduced;
+    corners[i] = introduced - distance;
+    introduced += distance == 0 ? 1 : 0;
+  }
+  if (!good || introduced != this->FirstVertex[block + 1])
+  {
+    this->fail("block " + std::to_string(block) +
+               " of the cells does not go with its vertices; make the file anew.");
+  }
+}
+
+void VsmFile::readLastCells(std::int64_t block, std::vector<std::int64_t>& cells)
+{
+  this->readPacked(VsmFormat::Last, block, this->Blocks.blockRows(VsmFormat::Last, block));
+  cells.resize(this->Numbers.size());
+  std::uint64_t last = 0;
+  for (std::size_t i = 0; i < cells.size(); i++)
+  {
+    last += static_cast<std::uint64_t>(unzigzag(this->Numbers[i]));
+    cells[i] = static_cast<std::int64_t>(last);
+  }
+}
+
+int VsmFile::find(
+  const std::vector<ColumnSpec>& columns, const std::string& name, const char* kind) const
+{
+  std::string known;
+  for (std::size_t c = 0; c < columns.size(); c++)
+  {
+    if (columns[c].name == name)
+    {
+      return static_cast<int>(c) + 1;
+    }
+    known += (c > 0 ? ", '" : " '") + columns[c].name + "'";
+  }
+  this->fail(std::string("has no ") + kind + " column '" + name + "'; it has" +
+             (known.empty() ? " none." : known + "."));
+}
+
+int VsmFile::vertexColumn(const std::string& name) const
+{
+  return this->find(this->Info.vertexColumns, name, "vertex");
+}
+
+int VsmFile::cellColumn(const std::string& name) const
+{
+  return this->find(this->Info.cellColumns, name, "cell");
+}
+
+} // namespace smg

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Formats/Vsm/RowReader.h"
+#include "IO/Formats/Vsm/VsmFormat.h"
+#include "Solver/Storage/BlockFile.h"
+#include "Solver/Stream/MeshSource.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** An open .vsm file: its header, checked, and the decoding of its blocks. */
+class VsmFile
+{
+public:
+  VsmFile(const std::filesystem::path& path, IoStatistics* statistics);
+
+  [[noreturn]] void fail(const std::string& what) const;
+
+  /** Vertices introduced before a block of the cells; also for the block after the last one. */
+  std::int64_t firstVertex(std::int64_t block) const { return this->FirstVertex[block]; }
+  /** No cell after the block uses a vertex below this. */
+  std::int64_t finalized(std::int64_t block) const { return this->Finalized[block]; }
+  std::int64_t cellBlocks() const { return this->Blocks.blocks(VsmFormat::Cells); }
+
+  /** Reads the corners of a block of the cells as stream indices, and checks them. */
+  void readCorners(std::int64_t block, std::vector<std::int64_t>& corners);
+  /** Reads the last cells of the vertices of a block of the vertices. */
+  void readLastCells(std::int64_t block, std::vector<std::int64_t>& cells);
+
+  /** Vertices of no cell, which are kept beside the stream. */
+  std::int64_t isolatedVertices() const
+  {
+    return this->HasIsolated ? this->Blocks.rows(VsmFormat::Isolated) : 0;
+  }
+
+  /** The number that a column of that name has in its table. */
+  int vertexColumn(const std::string& name) const;
+  int cellColumn(const std::string& name) const;
+
+  StreamInfo Info;
+  double MeanWidth = 0;
+  BlockFileReader Blocks;
+
+private:
+  void readHeader();
+  void readTables();
+  void checkColumns() const;
+  void readBlockTable();
+  int find(const std::vector<ColumnSpec>& columns, const std::string& name, const char* kind) const;
+  void readPacked(int table, std::int64_t block, std::size_t count);
+
+  std::string Name;
+  bool HasIsolated = false; ///< the table, if only without rows
+  std::vector<std::int64_t> FirstVertex;
+  std::vector<std::int64_t> Finalized;
+  std::vector<std::byte> Packed;
+  std::vector<std::uint64_t> Numbers;
+};
+
+} // namespace smg

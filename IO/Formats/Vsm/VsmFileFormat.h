@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Formats/Format.h"
+
+namespace smg
+{
+
+/** The container of this library. */
+extern const Format VsmFileFormat;
+
+} // namespace smg

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Vsm/VsmReader.h"
+
+#include "IO/Formats/Vsm/Columns.h"
+#include "IO/Formats/Vsm/PieceReader.h"
+#include "IO/Formats/Vsm/PositionReader.h"
+#include "IO/Formats/Vsm/RowReader.h"
+#include "IO/Formats/Vsm/VertexReader.h"
+#include "IO/Formats/Vsm/VsmFile.h"
+#include "IO/Formats/Vsm/VsmSource.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+std::vector<std::string> namesOf(const std::vector<ColumnSpec>& columns)
+{
+  std::vector<std::string> names;
+  for (const ColumnSpec& column : columns)
+  {
+    names.push_back(column.name);
+  }
+  return names;
+}
+
+/** The chosen columns of the cells, and their flags, without which no cell is what it is. */
+std::vector<std::string> withFlags(
+  std::vector<std::string> chosen, const std::vector<ColumnSpec>& columns)
+{
+  const bool given = std::find(chosen.begin(), chosen.end(), CellFlagsName) != chosen.end();
+  const bool there = std::any_of(columns.begin(), columns.end(),
+    [](const ColumnSpec& column) { return column.name == CellFlagsName; });
+  if (there && !given)
+  {
+    chosen.emplace_back(CellFlagsName);
+  }
+  return chosen;
+}
+
+} // namespace
+
+struct VsmReader::Implementation
+{
+  Implementation(std::filesystem::path path, IoStatistics* statistics)
+    : Path(std::move(path))
+    , Statistics(statistics)
+    , File(this->Path, statistics)
+    , LastCells(this->File)
+  {
+  }
+
+  void checkVertices(std::int64_t first, std::int64_t count) const
+  {
+    if (first < 0 || count < 0 || first > this->File.Info.vertices - count)
+    {
+      this->File.fail("has no " + std::to_string(count) + " vertices from " +
+                      std::to_string(first) + " on, but " +
+                      std::to_string(this->File.Info.vertices) + " in all.");
+    }
+  }
+
+  std::filesystem::path Path;
+  IoStatistics* Statistics;
+  VsmFile File;
+  LastCellReader LastCells;
+  std::unique_ptr<PieceReader> Pieces; ///< made when the columns are chosen or a piece is read
+};
+
+VsmReader::VsmReader(std::filesystem::path path, IoStatistics* statistics)
+  : Self(std::make_unique<Implementation>(std::move(path), statistics))
+{
+}
+
+VsmReader::~VsmReader() = default;
+
+const std::filesystem::path& VsmReader::path() const
+{
+  return this->Self->Path;
+}
+
+const StreamInfo& VsmReader::info() const
+{
+  return this->Self->File.Info;
+}
+
+double VsmReader::meanWidth() const
+{
+  return this->Self->File.MeanWidth;
+}
+
+const std::string& VsmReader::header() const
+{
+  return this->Self->File.Blocks.header();
+}
+
+Codec VsmReader::codec() const
+{
+  return this->Self->File.Blocks.codec();
+}
+
+std::int64_t VsmReader::vertexBlocks() const
+{
+  return this->Self->File.Blocks.blocks(VsmFormat::Vertices);
+}
+
+std::int64_t VsmReader::cellBlocks() const
+{
+  return this->Self->File.cellBlocks();
+}
+
+std::int64_t VsmReader::storedBytes() const
+{
+  return static_cast<std::int64_t>(std::filesystem::file_size(this->Self->Path));
+}
+
+std::int64_t VsmReader::plainBytes() const
+{
+  const BlockFileReader& blocks = this->Self->File.Blocks;
+  std::int64_t bytes = 0;
+  for (int table = 0; table < static_cast<int>(blocks.tables().size()); table++)
+  {
+    const int columns = static_cast<int>(blocks.tables()[table].columns.size());
+    for (std::int64_t block = 0; block < blocks.blocks(table); block++)
+    {
+      for (int column = 0; column < columns; column++)
+      {
+        bytes += static_cast<std::int64_t>(blocks.columnBytes(table, block, column));
+      }
+    }
+  }
+  return bytes;
+}
+
+std::unique_ptr<MeshSource> VsmReader::source() const
+{
+  const StreamInfo& info = this->info();
+  return this->source(namesOf(info.vertexColumns), namesOf(info.cellColumns));
+}
+
+std::unique_ptr<MeshSource> VsmReader::source(
+  std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const
+{
+  return std::make_unique<VsmSource>(this->Self->Path, vertexColumns,
+    withFlags(std::move(cellColumns), this->info().cellColumns), this->Self->Statistics);
+}
+
+void VsmReader::selectColumns(
+  const std::vector<std::string>& vertexColumns, const std::vector<std::string>& cellColumns)
+{
+  this->Self->Pieces = std::make_unique<PieceReader>(
+    this->Self->File, vertexColumns, withFlags(cellColumns, this->info().cellColumns));
+}
+
+void VsmReader::readPiece(std::int64_t firstCell, std::int64_t endCell, MeshPiece& piece)
+{
+  Implementation& self = *this->Self;
+  if (!self.Pieces)
+  {
+    this->selectColumns(namesOf(self.File.Info.vertexColumns), namesOf(self.File.Info.cellColumns));
+  }
+  self.Pieces->read(firstCell, endCell, piece);
+}
+
+void VsmReader::readVertexColumn(
+  const std::string& name, std::int64_t first, std::int64_t count, Column& column)
+{
+  Implementation& self = *this->Self;
+  const int number = self.File.vertexColumn(name);
+  self.checkVertices(first, count);
+  column.spec = self.File.Info.vertexColumns[number - 1];
+  column.resize(count);
+  RowReader(self.File.Blocks, VsmFormat::Vertices, number).read(first, count, column.bytes.data());
+}
+
+void VsmReader::readLastCells(std::int64_t first, std::span<std::int64_t> cells)
+{
+  this->Self->checkVertices(first, static_cast<std::int64_t>(cells.size()));
+  this->Self->LastCells.read(first, cells);
+}
+
+std::int64_t VsmReader::isolatedVertices() const
+{
+  return this->Self->File.isolatedVertices();
+}
+
+void VsmReader::readIsolated(std::int64_t first, std::int64_t count, IsolatedVertices& vertices)
+{
+  VsmFile& file = this->Self->File;
+  if (first < 0 || count < 0 || first > file.isolatedVertices() - count)
+  {
+    file.fail("has no " + std::to_string(count) + " isolated vertices from " +
+              std::to_string(first) + " on, but " + std::to_string(file.isolatedVertices()) +
+              " in all.");
+  }
+  vertices.ids.resize(static_cast<std::size_t>(count));
+  vertices.positions.resize(static_cast<std::size_t>(3 * count));
+  vertices.columns = emptyColumns(file.Info.vertexColumns);
+  if (count == 0)
+  {
+    return;
+  }
+  RowReader(file.Blocks, VsmFormat::Isolated, 0)
+    .read(first, count, reinterpret_cast<std::byte*>(vertices.ids.data()));
+  PositionReader(file, VsmFormat::Isolated, 1).read(first, count, vertices.positions.data());
+  int number = 2;
+  for (Column& column : vertices.columns)
+  {
+    column.resize(static_cast<std::size_t>(count));
+    RowReader(file.Blocks, VsmFormat::Isolated, number++).read(first, count, column.bytes.data());
+  }
+}
+
+} // namespace smg

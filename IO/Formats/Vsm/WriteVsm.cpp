@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Vsm/WriteVsm.h"
+
+#include "IO/Formats/Vsm/Columns.h"
+#include "IO/Formats/Vsm/VsmFormat.h"
+#include "IO/Formats/Vsm/VsmReader.h"
+#include "IO/Formats/Vsm/VsmWriter.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Rounds the coordinates to numbers of single precision. */
+void roundToSingle(std::vector<double>& positions)
+{
+  for (double& x : positions)
+  {
+    x = static_cast<float>(x);
+  }
+}
+
+} // namespace
+
+void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer)
+{
+  VsmReader reader(from);
+  IsolatedVertices chunk;
+  for (std::int64_t first = 0; first < reader.isolatedVertices(); first += VsmFormat::BlockRows)
+  {
+    reader.readIsolated(
+      first, std::min(VsmFormat::BlockRows, reader.isolatedVertices() - first), chunk);
+    if (!info.doublePositions)
+    {
+      roundToSingle(chunk.positions);
+    }
+    std::vector<Column> columns = emptyColumns(info.vertexColumns);
+    for (Column& column : columns)
+    {
+      const std::ptrdiff_t same = findColumn(chunk.columns, column.spec);
+      column.resize(chunk.ids.size());
+      if (same >= 0)
+      {
+        column.bytes = chunk.columns[static_cast<std::size_t>(same)].bytes;
+      }
+    }
+    writer.isolated(chunk.ids, chunk.positions, columns);
+  }
+}
+
+WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path, Codec codec,
+  const ProgressFunction& progress, const std::string& origin,
+  const std::function<void(VsmWriter&)>& add)
+{
+  Progress reported(progress);
+  VsmWriter writer(path, source.info(), codec);
+  const auto cells = static_cast<double>(source.info().cells);
+  const auto corners = static_cast<std::size_t>(cornersOf(source.info().cellType));
+  for (MeshBlock block; source.next(block);)
+  {
+    writer.append(block);
+    reported.update(
+      (static_cast<double>(block.firstCell) + static_cast<double>(block.corners.size() / corners)) /
+      cells);
+  }
+  if (add)
+  {
+    add(writer);
+  }
+  WrittenVsm written{ writer.finish(origin), 0.0 };
+  written.meanWidth = writer.meanWidth();
+  return written;
+}
+
+} // namespace smg

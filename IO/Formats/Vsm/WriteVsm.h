@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Formats/Vsm/VsmWriter.h"
+#include "Solver/Core/Progress.h"
+#include "Solver/Storage/BlockFile.h"
+#include "Solver/Stream/MeshSource.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace smg
+{
+
+struct WrittenVsm
+{
+  StreamInfo info;
+  double meanWidth = 0; ///< mean over the cells of the number of vertices alive
+};
+
+/**
+ * Writes a mesh stream, which says its number of cells, to a .vsm file.
+ * @param origin see VsmWriter::finish()
+ * @param add adds what a stream does not deliver, before the file is finished; none: nothing
+ * @throws Error if the stream is not valid or the file cannot be written; Cancelled. Nothing is
+ * left of the file then.
+ */
+WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path,
+  Codec codec = Codec::Zstd, const ProgressFunction& progress = {}, const std::string& origin = {},
+  const std::function<void(VsmWriter&)>& add = {});
+
+/**
+ * Gives the isolated vertices of a .vsm file, with the columns that both have, to the writer of a
+ * stream like `info`: a stream that was made of a .vsm file does not carry them.
+ */
+void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer);
+
+} // namespace smg

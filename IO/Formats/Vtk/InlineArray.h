@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Files/Base64.h"
+#include "IO/Files/PositionedFile.h"
+#include "Solver/Stream/Column.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace smg
+{
+
+/**
+ * An array of a VTK XML file that is written part by part at its place within its element: its
+ * number of bytes as UInt64, then its bytes, each a unit of base64. Of the data no more is kept
+ * than two bytes.
+ */
+class InlineArray
+{
+public:
+  /** An array of `tuples` tuples. */
+  InlineArray(ColumnSpec spec, std::int64_t tuples);
+
+  /** The first tag of the array's element. */
+  std::string tag() const;
+
+  /** Writes the number of bytes at this place of the file; returns where the array will end. */
+  std::int64_t begin(PositionedFile& file, std::int64_t at);
+
+  /** Writes the next tuples. Throws Error. */
+  void append(PositionedFile& file, std::span<const std::byte> bytes);
+
+  /** Writes the last characters, once all tuples have come. Throws Error. */
+  void finish(PositionedFile& file);
+
+private:
+  void write(PositionedFile& file, const std::string& text);
+
+  ColumnSpec Spec;
+  std::int64_t Bytes;
+  std::int64_t At = 0; ///< where the next characters go
+  Base64Encoder Encoder;
+};
+
+} // namespace smg

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Files/InputFile.h"
+#include "IO/Formats/Vtk/VtkArray.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace smg
+{
+
+/** Reads the words of a legacy VTK file and passes the arrays between them. */
+class LegacyVtkScanner
+{
+public:
+  explicit LegacyVtkScanner(InputFile& file)
+    : File(file)
+  {
+  }
+
+  /** Reads the three lines before the data. Throws Error if they are not those of such a file. */
+  void readTitle();
+  int majorVersion() const { return this->Version; }
+  bool isBinary() const { return this->Binary; }
+
+  /** The next word; empty at the end of the file. */
+  std::string word();
+  /** The next word in capital letters. */
+  std::string keyword();
+  /** The next word as a name, in which % and two hexadecimal digits stand for a character. */
+  std::string name();
+  /** The next word without passing it. */
+  std::string peek();
+  /** The rest of the line, which is passed. */
+  std::string line();
+  /** The next word as a number of things, not negative. */
+  std::int64_t count(const char* what);
+
+  /**
+   * Takes the array that begins after this line, of `values` numbers of the type that the file
+   * calls `type`, and passes it. Throws Error if the type is not known or the file ends before.
+   */
+  VtkArray array(
+    const std::string& name, const std::string& type, int components, std::int64_t values);
+  /** Passes so many texts. */
+  void skipTexts(std::int64_t texts);
+  /** Passes so many bits. */
+  void skipBits(std::int64_t bits);
+
+  [[noreturn]] void fail(const std::string& sentence) const { this->File.fail(this->At, sentence); }
+  std::size_t offset() const { return this->At; }
+
+private:
+  void skipBlanks();
+  void skipBytes(std::int64_t count, std::size_t size);
+
+  InputFile& File;
+  std::size_t At = 0;
+  int Version = 0;
+  bool Binary = false;
+};
+
+} // namespace smg

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Vtk/VtkCell.h"
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+namespace smg
+{
+
+namespace
+{
+
+enum class Shape : std::uint8_t
+{
+  Unknown,
+  PointOrLine,
+  Polygon,
+  QuadraticPolygon,
+  Pixel,
+  Strip,
+  Tetrahedron,
+  Voxel,
+  Solid
+};
+
+/** What a type of VTK is: the corners come first; of other points there may be any number. */
+struct TypeOfCell
+{
+  Shape shape = Shape::Unknown;
+  std::uint8_t corners = 0; ///< 0: any number
+  bool higherOrder = false;
+};
+
+constexpr std::array<TypeOfCell, 82> makeVtkTypes()
+{
+  std::array<TypeOfCell, 82> types{};
+  for (const int type : { 1, 2, 3, 4, 21, 35, 60, 68, 75 })
+  {
+    types[type] = { Shape::PointOrLine, 0, false };
+  }
+  types[5] = { Shape::Polygon, 3, false };
+  types[6] = { Shape::Strip, 0, false };
+  types[7] = { Shape::Polygon, 0, false };
+  types[8] = { Shape::Pixel, 4, false };
+  types[9] = { Shape::Polygon, 4, false };
+  types[10] = { Shape::Tetrahedron, 4, false };
+  types[11] = { Shape::Voxel, 8, false };
+  types[12] = { Shape::Solid, 8, false };
+  types[13] = { Shape::Solid, 6, false };
+  types[14] = { Shape::Solid, 5, false };
+  types[36] = { Shape::QuadraticPolygon, 0, true };
+  // Quadratic ones, those of any order, Lagrange's and Bezier's.
+  for (const int type : { 22, 34, 61, 69, 76 })
+  {
+    types[type] = { Shape::Polygon, 3, true };
+  }
+  for (const int type : { 23, 28, 30, 62, 70, 77 })
+  {
+    types[type] = { Shape::Polygon, 4, true };
+  }
+  for (const int type : { 24, 64, 71, 78 })
+  {
+    types[type] = { Shape::Tetrahedron, 4, true };
+  }
+  for (const int type : { 25, 29, 33, 67, 72, 79 })
+  {
+    types[type] = { Shape::Solid, 8, true };
+  }
+  for (const int type : { 26, 31, 32, 65, 73, 80 })
+  {
+    types[type] = { Shape::Solid, 6, true };
+  }
+  for (const int type : { 27, 37, 66, 74, 81 })
+  {
+    types[type] = { Shape::Solid, 5, true };
+  }
+  return types;
+}
+
+constexpr std::array<TypeOfCell, 82> VtkTypes = makeVtkTypes();
+
+const TypeOfCell& typeOf(int type)
+{
+  static constexpr TypeOfCell Unknown;
+  return type >= 0 && type < static_cast<int>(VtkTypes.size()) ? VtkTypes[std::size_t(type)]
+                                                               : Unknown;
+}
+
+[[noreturn]] void failForType(int type)
+{
+  throw MeshError("its type is VTK's type " + std::to_string(type) +
+                  ", which is not read: cut the mesh into triangles or tetrahedra first");
+}
+
+} // namespace
+
+bool isPointOrLine(int type)
+{
+  return typeOf(type).shape == Shape::PointOrLine;
+}
+
+void takeVtkCell(int type, std::span<const std::int64_t> points, RawMeshBuilder& builder)
+{
+  constexpr int Tetrahedron = 10;
+  if (type == Tetrahedron && points.size() == 4)
+  {
+    // Most cells of a volume are these.
+    builder.tetrahedron(points[0], points[1], points[2], points[3]);
+    return;
+  }
+  const TypeOfCell& cell = typeOf(type);
+  const bool sound = cell.higherOrder ? points.size() >= cell.corners
+                                      : cell.corners == 0 || points.size() == cell.corners;
+  if (!sound)
+  {
+    throw MeshError("it has " + std::to_string(points.size()) + " points, which its type, VTK's " +
+                    std::to_string(type) + ", cannot have");
+  }
+  const auto corners = cell.corners > 0 ? points.first(cell.corners) : points;
+  const auto& p = corners;
+  const std::int64_t before = builder.cells();
+  switch (cell.shape)
+  {
+    case Shape::Tetrahedron:
+      builder.tetrahedron(p[0], p[1], p[2], p[3]);
+      break;
+    case Shape::Polygon:
+      p.size() == 3 ? builder.triangle(p[0], p[1], p[2]) : builder.polygon(p);
+      break;
+    case Shape::QuadraticPolygon:
+      builder.polygon(p.first(p.size() / 2));
+      break;
+    case Shape::Pixel:
+      builder.polygon(std::array{ p[0], p[1], p[3], p[2] });
+      break;
+    case Shape::Strip:
+      builder.strip(p);
+      break;
+    case Shape::Voxel:
+      builder.solid(std::array{ p[0], p[1], p[3], p[2], p[4], p[5], p[7], p[6] });
+      break;
+    case Shape::Solid:
+      builder.solid(p);
+      break;
+    case Shape::PointOrLine:
+      builder.dropped();
+      break;
+    default:
+      failForType(type);
+  }
+  if (cell.higherOrder && builder.cells() > before)
+  {
+    builder.noteHigherOrder();
+  }
+}
+
+} // namespace smg

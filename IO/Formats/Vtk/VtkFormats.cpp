@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Vtk/VtkFormats.h"
+
+#include "IO/Files/TextStart.h"
+#include "IO/Formats/Vtk/WriteVtkXml.h"
+
+#include <algorithm>
+
+namespace smg
+{
+
+namespace
+{
+
+bool isLegacyVtk(std::string_view start)
+{
+  return textStart(start).starts_with("# vtk DataFile");
+}
+
+/** What the element VTKFile says of its type; empty: it is no such file. */
+std::optional<std::string_view> typeOfXml(std::string_view start)
+{
+  const std::string_view text = textStart(start);
+  const std::size_t at = text.find("<VTKFile");
+  if (!text.starts_with('<') || at == std::string_view::npos)
+  {
+    return {};
+  }
+  const std::string_view tag = text.substr(at, text.find('>', at) - at);
+  const std::size_t type = tag.find(" type=");
+  constexpr std::size_t beforeValue = 7; // blank, name, equals sign and quotation mark
+  return tag.substr(
+    type == std::string_view::npos ? tag.size() : std::min(type + beforeValue, tag.size()));
+}
+
+bool isParallelVtkXml(std::string_view start)
+{
+  const std::optional<std::string_view> type = typeOfXml(start);
+  return type && (type->starts_with("PPolyData") || type->starts_with("PUnstructuredGrid"));
+}
+
+bool isVtkXml(std::string_view start)
+{
+  return typeOfXml(start) && !isParallelVtkXml(start);
+}
+
+WriteNotes writeXml(
+  MeshSource& source, const std::filesystem::path& path, const WriteMeshOptions& options)
+{
+  writeVtkXml(source, path, options.progress);
+  return {};
+}
+
+constexpr FileSuffix LegacySuffixes[] = { { ".vtk" } };
+constexpr FileSuffix XmlSuffixes[] = { { ".vtp", true, false }, { ".vtu" } };
+constexpr FileSuffix ParallelSuffixes[] = { { ".pvtp", true, false }, { ".pvtu" } };
+constexpr std::string_view AllColumns = "all columns";
+
+} // namespace
+
+const Format LegacyVtkFormat{
+  .name = "legacy VTK",
+  .suffixes = LegacySuffixes,
+  .attributes = AllColumns,
+  .hasSign = isLegacyVtk,
+  .parse = parseWith<importLegacyVtk>,
+  .share = { 45, 3 },
+  .restore = writeRestoredVtk,
+};
+
+const Format VtkXmlFormat{
+  .name = "VTK XML",
+  .suffixes = XmlSuffixes,
+  .attributes = AllColumns,
+  .hasSign = isVtkXml,
+  .parse = importVtkXml,
+  .write = writeXml,
+  .restore = writeRestoredVtkXml,
+};
+
+const Format ParallelVtkXmlFormat{
+  .name = "VTK XML in pieces",
+  .suffixes = ParallelSuffixes,
+  .attributes = AllColumns,
+  .hasSign = isParallelVtkXml,
+  .parse = importParallelVtkXml,
+};
+
+} // namespace smg

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Formats/Vtk/VtkArray.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** A list of cells in a VTK file. */
+struct VtkCellList
+{
+  std::int64_t cells = 0;
+  /** VTK's type of all cells, where there are no `types`. */
+  int type = 0;
+  std::optional<VtkArray> types;
+  /** The points of the cells, one cell after the other; those of a cell are led by their number
+   * where there are no `offsets`. */
+  std::optional<VtkArray> points;
+  /** Where in `points` each cell ends, with a leading 0 if it has one number more than cells. */
+  std::optional<VtkArray> offsets;
+};
+
+/** Points and cells that stand together, with their attributes. */
+struct VtkPiece
+{
+  std::size_t file = 0; ///< place in VtkLayout::files
+  std::int64_t points = 0;
+  std::int64_t cells = 0; ///< of all lists
+  std::optional<VtkArray> positions;
+  /** In the order in which VTK numbers the cells. All pieces of a layout have the same lists. */
+  std::vector<VtkCellList> lists;
+  std::vector<VtkArray> pointArrays, cellArrays;
+  /** Names of the arrays that are the normals and the global numbers of points; may be empty. */
+  std::string pointNormals, cellNormals, globalIds;
+};
+
+/** Calls `visit` with each array of a piece. */
+void forEachArray(auto& piece, const auto& visit)
+{
+  const auto visitOne = [&visit](auto& array)
+  {
+    if (array)
+    {
+      visit(*array);
+    }
+  };
+  visitOne(piece.positions);
+  std::ranges::for_each(piece.pointArrays, visit);
+  std::ranges::for_each(piece.cellArrays, visit);
+  for (auto& list : piece.lists)
+  {
+    visitOne(list.points);
+    visitOne(list.offsets);
+    visitOne(list.types);
+  }
+}
+
+/** So many names of arrays that are not read are kept. */
+inline constexpr std::size_t MostOtherArrays = 20;
+
+/** Where everything of a mesh stands in its files. */
+struct VtkLayout
+{
+  std::vector<std::filesystem::path> files;
+  std::vector<VtkPiece> pieces;
+  std::set<std::string> otherArrays; ///< those of texts and bits, of the points and cells
+  std::int64_t bytes = 0;            ///< of memory that the pieces take, about
+};
+
+/** Types of cells in VTK, which are the same in its files. */
+namespace VtkCellTypes
+{
+inline constexpr int PolyVertex = 2, PolyLine = 4, TriangleStrip = 6, Polygon = 7;
+}
+
+} // namespace smg

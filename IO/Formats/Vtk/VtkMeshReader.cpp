@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Vtk/VtkMeshReader.h"
+
+#include "IO/External/Reservation.h"
+#include "IO/Files/InQuotes.h"
+#include "IO/Formats/Vsm/AttributeNames.h"
+#include "IO/Formats/Vsm/ReservedNames.h"
+#include "IO/Formats/Vtk/VtkArrayReader.h"
+#include "IO/Formats/Vtk/VtkCell.h"
+#include "IO/Formats/Vtk/VtkCellReader.h"
+#include "IO/Formats/Vtk/VtkFiles.h"
+#include "IO/Formats/Vtk/VtkPointMerger.h"
+#include "IO/Formats/Vtk/VtkTuples.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace smg
+{
+
+namespace
+{
+
+const VtkArray* find(const std::vector<VtkArray>& arrays, const std::string& name)
+{
+  const auto found = std::ranges::find(arrays, name, &VtkArray::name);
+  return found == arrays.end() ? nullptr : &*found;
+}
+
+bool isSame(const VtkArray& a, const VtkArray& b)
+{
+  return a.columnType == b.columnType && a.components == b.components;
+}
+
+class MeshReader
+{
+public:
+  MeshReader(VtkFiles& files, const VtkLayout& layout, RawMeshBuilder& builder)
+    : Files(files)
+    , Layout(layout)
+    , Builder(builder)
+    , MemoryPool(builder.workspace().pool())
+  {
+  }
+
+  void read()
+  {
+    if (VtkPointMerger::applies(this->Layout))
+    {
+      this->Merger = std::make_unique<VtkPointMerger>(this->Files, this->Layout, this->Builder);
+    }
+    this->readPoints();
+    for (std::size_t list = 0; list < this->lists(); ++list)
+    {
+      std::int64_t base = 0;
+      for (const VtkPiece& piece : this->Layout.pieces)
+      {
+        this->readCells(piece, list, base);
+        base += piece.points;
+        this->advance();
+      }
+    }
+    this->readColumns(&VtkPiece::pointArrays);
+    this->readColumns(&VtkPiece::cellArrays);
+    this->noteOtherArrays();
+  }
+
+private:
+  std::size_t lists() const
+  {
+    return this->Layout.pieces.empty() ? 0 : this->Layout.pieces.front().lists.size();
+  }
+
+  /** A step of a piece is done. */
+  void advance()
+  {
+    // How many columns there will be is not known yet; each takes less than points and cells.
+    ++this->Steps;
+    this->Files.progress(1.0 - 1.0 / (1.0 + static_cast<double>(this->Steps) /
+                                              static_cast<double>(this->Layout.pieces.size())));
+  }
+
+  InputFile& open(const VtkPiece& piece) { return this->Files.open(piece.file, VtkFiles::Main); }
+
+  [[noreturn]] void failAt(
+    const VtkPiece& piece, const char* what, std::int64_t number, const char* sentence)
+  {
+    const std::string text = std::string(what) + ' ' + std::to_string(number) +
+                             (this->Layout.pieces.size() > 1 ? " of its piece" : "") + ": " +
+                             sentence;
+    throw Error(this->open(piece).name() + ", " + text + '.');
+  }
+
+  void readPoints()
+  {
+    const bool isDouble = std::ranges::any_of(this->Layout.pieces, [](const VtkPiece& piece)
+      { return piece.points > 0 && piece.positions->type != ScalarType::Float32; });
+    if (!isDouble)
+    {
+      this->Builder.useSinglePrecision();
+    }
+    std::optional<VtkPointMerger::Walk> walk;
+    if (this->Merger)
+    {
+      walk.emplace(*this->Merger);
+    }
+    for (const VtkPiece& piece : this->Layout.pieces)
+    {
+      if (piece.points > 0)
+      {
+        this->readPoints(piece, walk ? &*walk : nullptr);
+      }
+      this->advance();
+    }
+  }
+
+  void readPoints(const VtkPiece& piece, VtkPointMerger::Walk* walk)
+  {
+    VtkArray array = *piece.positions;
+    array.columnType = ScalarType::Float64;
+    VtkArrayReader reader(this->open(piece), array, this->MemoryPool);
+    std::int64_t point = 0;
+    copyVtkTuples(
+      reader, piece.points, [] { return true; }, true,
+      [&](std::span<const std::byte> bytes)
+      {
+        const auto* p = reinterpret_cast<const double*>(bytes.data());
+        for (std::size_t i = 0; i < bytes.size() / 24; ++i, ++point, p += 3)
+        {
+          if (walk && !walk->next())
+          {
+            continue;
+          }
+          try
+          {
+            this->Builder.vertex(p[0], p[1], p[2]);
+          }
+          catch (const MeshError& error)
+          {
+            this->failAt(piece, "point", point, error.what());
+          }
+        }
+      });
+  }
+
+  /** The ghost types of the cells of a piece from cell `first` on, where they matter. */
+  std::optional<VtkIndexReader> ghosts(const VtkPiece& piece, std::int64_t first)
+  {
+    std::optional<VtkIndexReader> reader;
+    const VtkArray* array = find(piece.cellArrays, GhostTypeName);
+    if (array && array->components == 1 && this->Layout.pieces.size() > 1)
+    {
+      reader.emplace(this->Files.open(piece.file, VtkFiles::Ghosts), *array, this->MemoryPool);
+      reader->skip(first);
+    }
+    return reader;
+  }
+
+  /** Bit of a ghost type: another piece has the cell, too. */
+  static constexpr std::int64_t DuplicateCell = 1;
+
+  static bool stays(std::optional<VtkIndexReader>& ghosts)
+  {
+    return !ghosts || (ghosts->next() & DuplicateCell) == 0;
+  }
+
+  /** Cells of a piece in the lists before `list`. */
+  static std::int64_t cellsBefore(const VtkPiece& piece, std::size_t list)
+  {
+    std::int64_t cells = 0;
+    for (std::size_t i = 0; i < list; ++i)
+    {
+      cells += piece.lists[i].cells;
+    }
+    return cells;
+  }
+
+  void readCells(const VtkPiece& piece, std::size_t list, std::int64_t base)
+  {
+    const VtkCellList& cells = piece.lists[list];
+    if (cells.cells == 0)
+    {
+      return;
+    }
+    const std::int64_t first = cellsBefore(piece, list);
+    VtkCellReader reader(this->Files, piece.file, cells, this->MemoryPool);
+    std::optional<VtkIndexReader> ghosts = this->ghosts(piece, first);
+    std::vector<std::int64_t> corners;
+    std::int64_t cell = 0;
+    try
+    {
+      for (; cell < cells.cells; ++cell)
+      {
+        const std::span<const std::int64_t> points = reader.next();
+        corners.resize(points.size());
+        for (std::size_t k = 0; k < points.size(); ++k)
+        {
+          if (static_cast<std::uint64_t>(points[k]) >= static_cast<std::uint64_t>(piece.points))
+          {
+            throw MeshError("it names point " + std::to_string(points[k]) +
+                            ", counted from 0, but there are only " + std::to_string(piece.points) +
+                            " points");
+          }
+          corners[k] = points[k] + base;
+        }
+        if (!stays(ghosts))
+        {
+          continue;
+        }
+        takeVtkCell(reader.type(), corners, this->Builder);
+      }
+    }
+    catch (const MeshError& error)
+    {
+      this->failAt(piece, "cell", first + cell, error.what());
+    }
+    reader.finish();
+  }
+
+  /** The name of the column: normals have theirs, unless another array has it. */
+  static std::string columnName(
+    const VtkArray& array, const std::vector<VtkArray>& arrays, const std::string& normals)
+  {
+    const bool areNormals = array.name == normals && array.components == 3;
+    return areNormals && !find(arrays, NormalsName) ? NormalsName : array.name;
+  }
+
+  void readColumns(std::vector<VtkArray> VtkPiece::*arrays)
+  {
+    const bool ofPoints = arrays == &VtkPiece::pointArrays;
+    const auto size = [ofPoints](const VtkPiece& piece)
+    { return ofPoints ? piece.points : piece.cells; };
+    const auto full = std::ranges::find_if(
+      this->Layout.pieces, [&](const VtkPiece& piece) { return size(piece) > 0; });
+    if (full == this->Layout.pieces.end())
+    {
+      return;
+    }
+    for (const VtkArray& array : (*full).*arrays)
+    {
+      const bool everywhere = std::ranges::all_of(this->Layout.pieces,
+        [&](const VtkPiece& piece)
+        {
+          const VtkArray* own = find(piece.*arrays, array.name);
+          return size(piece) == 0 || (own && isSame(*own, array));
+        });
+      if (!everywhere)
+      {
+        this->Builder.note("The array " + inQuotes(array.name) +
+                           " is left out, since not all pieces have it in the same type.");
+        continue;
+      }
+      const std::string name =
+        columnName(array, (*full).*arrays, ofPoints ? (*full).pointNormals : (*full).cellNormals);
+      const ColumnSpec spec{ name, array.columnType, array.components };
+      ofPoints ? this->readPointColumn(array.name, this->Builder.addVertexColumn(spec))
+               : this->readCellColumn(array.name, this->Builder.addElementColumn(spec));
+    }
+  }
+
+  void noteOtherArrays()
+  {
+    std::string names;
+    for (const std::string& name : this->Layout.otherArrays)
+    {
+      names += (names.empty() ? "" : ", ") + inQuotes(name);
+    }
+    if (!names.empty())
+    {
+      this->Builder.note("Arrays of texts or bits are left out: " + names + ".");
+    }
+  }
+
+  void readPointColumn(const std::string& name, int column)
+  {
+    if (column < 0)
+    {
+      return;
+    }
+    std::optional<VtkPointMerger::Walk> walk;
+    if (this->Merger)
+    {
+      walk.emplace(*this->Merger);
+    }
+    for (const VtkPiece& piece : this->Layout.pieces)
+    {
+      if (piece.points == 0)
+      {
+        continue;
+      }
+      VtkArrayReader reader(this->open(piece), *find(piece.pointArrays, name), this->MemoryPool);
+      copyVtkTuples(
+        reader, piece.points, [&walk] { return walk->next(); }, !walk,
+        [&](std::span<const std::byte> tuples) { this->Builder.vertexTuples(column, tuples); });
+      this->advance();
+    }
+    this->Builder.endVertexColumn(column);
+  }
+
+  void readCellColumn(const std::string& name, int column)
+  {
+    if (column < 0)
+    {
+      return;
+    }
+    for (std::size_t list = 0; list < this->lists(); ++list)
+    {
+      for (const VtkPiece& piece : this->Layout.pieces)
+      {
+        if (piece.lists[list].cells == 0)
+        {
+          continue;
+        }
+        const VtkArray& array = *find(piece.cellArrays, name);
+        const std::int64_t first = cellsBefore(piece, list);
+        VtkArrayReader reader(this->open(piece), array, this->MemoryPool);
+        reader.skip(first * array.components);
+        std::optional<VtkIndexReader> ghosts = this->ghosts(piece, first);
+        copyVtkTuples(
+          reader, piece.lists[list].cells, [&ghosts] { return stays(ghosts); }, !ghosts,
+          [&](std::span<const std::byte> tuples) { this->Builder.elementTuples(column, tuples); });
+        this->advance();
+      }
+    }
+    this->Builder.endElementColumn(column);
+  }
+
+  VtkFiles& Files;
+  const VtkLayout& Layout;
+  RawMeshBuilder& Builder;
+  Pool& MemoryPool;
+  std::unique_ptr<VtkPointMerger> Merger;
+  std::int64_t Steps = 0;
+};
+
+} // namespace
+
+void readVtkMesh(InputFile& file, const VtkLayout& layout, RawMeshBuilder& builder,
+  const ProgressFunction& progress)
+{
+  if (layout.pieces.size() > 1 && !VtkPointMerger::applies(layout))
+  {
+    builder.note("The pieces of " + file.name() +
+                 " have no global numbers of points (GlobalIds): points that pieces share stay "
+                 "separate, and the mesh is open where pieces meet.");
+  }
+  const Reservation reserved(builder.workspace().pool(), layout.bytes);
+  VtkFiles files(file, layout, progress);
+  MeshReader(files, layout, builder).read();
+}
+
+} // namespace smg

@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Vtk/VtkXmlLayout.h"
+
+#include "IO/Files/InQuotes.h"
+#include "IO/Formats/Vsm/ReservedNames.h"
+#include "IO/Formats/Vtk/VtkXmlRoot.h"
+#include "IO/Formats/Vtk/XmlTags.h"
+
+#include <algorithm>
+#include <charconv>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+/** No file has more points, cells or bytes. */
+constexpr std::int64_t MostThings = std::int64_t(1) << 48;
+
+constexpr std::pair<std::string_view, ScalarType> XmlTypeNames[] = { { "Int8", ScalarType::Int8 },
+  { "UInt8", ScalarType::UInt8 }, { "Int16", ScalarType::Int16 }, { "UInt16", ScalarType::UInt16 },
+  { "Int32", ScalarType::Int32 }, { "UInt32", ScalarType::UInt32 }, { "Int64", ScalarType::Int64 },
+  { "UInt64", ScalarType::UInt64 }, { "Float32", ScalarType::Float32 },
+  { "Float64", ScalarType::Float64 } };
+
+/** Reads the tags of a file into the pieces of a layout. */
+class XmlLayoutReader
+{
+public:
+  XmlLayoutReader(InputFile& file, VtkLayout& layout, std::int64_t mostBytes)
+    : File(file)
+    , Tags(file)
+    , Layout(layout)
+    , MostBytes(mostBytes)
+    , FirstPiece(layout.pieces.size())
+  {
+  }
+
+  void read()
+  {
+    this->readRoot();
+    this->Layout.files.push_back(this->File.path());
+    for (XmlTag tag; this->Tags.next(tag);)
+    {
+      if (tag.name == "AppendedData")
+      {
+        this->placeAppended(tag);
+        break;
+      }
+      tag.closes ? this->close(tag) : this->open(tag);
+    }
+    if (this->Layout.pieces.size() > this->FirstPiece)
+    {
+      this->check();
+    }
+  }
+
+private:
+  void readRoot()
+  {
+    const XmlTag root = vtkXmlRoot(this->File, this->Tags);
+    const std::string kind = root.value("type");
+    this->IsGrid = kind == "UnstructuredGrid";
+    if (!this->IsGrid && kind != "PolyData")
+    {
+      this->File.fail(root.begin, "the file is neither polygonal data nor an unstructured grid of "
+                                  "VTK, which are the kinds that hold meshes");
+    }
+    this->BigEndian = root.value("byte_order") == "BigEndian";
+    this->HeaderBytes = root.value("header_type", "UInt32") == "UInt64" ? 8 : 4;
+    const std::string compressor = root.value("compressor");
+    this->Compression = compressor.empty()                      ? VtkCompression::None
+                        : compressor == "vtkZLibDataCompressor" ? VtkCompression::Zlib
+                        : compressor == "vtkLZ4DataCompressor"  ? VtkCompression::Lz4
+                                                                : VtkCompression::Other;
+  }
+
+  void close(const XmlTag& tag)
+  {
+    if (tag.name == this->Section)
+    {
+      this->Section.clear();
+    }
+  }
+
+  void open(const XmlTag& tag)
+  {
+    static constexpr std::string_view Sections[] = { "Points", "PointData", "CellData", "Cells",
+      "Verts", "Lines", "Polys", "Strips", "FieldData" };
+    if (tag.name == "Piece")
+    {
+      this->openPiece(tag);
+    }
+    else if (std::ranges::find(Sections, tag.name) != std::end(Sections))
+    {
+      this->Section = tag.alone ? "" : tag.name;
+      this->noteActive(tag);
+    }
+    else if (tag.name == "DataArray" && !this->Section.empty() && this->Section != "FieldData")
+    {
+      this->addArray(tag);
+    }
+    else if (tag.name == "Array" && this->isOfAttributes())
+    {
+      this->noteOther(tag);
+    }
+  }
+
+  void openPiece(const XmlTag& tag)
+  {
+    VtkPiece piece;
+    piece.file = this->Layout.files.size() - 1;
+    piece.points = this->count(tag, "NumberOfPoints");
+    piece.globalIds = GlobalIdsName;
+    using namespace VtkCellTypes;
+    static constexpr std::pair<const char*, int> Counts[] = { { "NumberOfVerts", PolyVertex },
+      { "NumberOfLines", PolyLine }, { "NumberOfPolys", Polygon },
+      { "NumberOfStrips", VtkCellTypes::TriangleStrip } };
+    for (const auto& [name, type] : Counts)
+    {
+      VtkCellList& list = piece.lists.emplace_back();
+      list.cells = this->count(tag, this->IsGrid ? "NumberOfCells" : name);
+      list.type = type;
+      piece.cells += list.cells;
+      if (this->IsGrid)
+      {
+        break;
+      }
+    }
+    this->account(tag, sizeof(piece) + piece.lists.size() * sizeof(VtkCellList));
+    this->Layout.pieces.push_back(std::move(piece));
+    this->Section.clear();
+  }
+
+  /** The names of arrays that mean more than others. */
+  void noteActive(const XmlTag& tag)
+  {
+    if (this->Layout.pieces.size() == this->FirstPiece)
+    {
+      return;
+    }
+    VtkPiece& piece = this->Layout.pieces.back();
+    if (tag.name == "PointData")
+    {
+      piece.pointNormals = tag.value("Normals");
+      piece.globalIds = tag.value("GlobalIds", GlobalIdsName);
+    }
+    else if (tag.name == "CellData")
+    {
+      piece.cellNormals = tag.value("Normals");
+    }
+  }
+
+  bool isOfAttributes() const
+  {
+    return this->Section == "PointData" || this->Section == "CellData";
+  }
+
+  /** An array that is not read. */
+  void noteOther(const XmlTag& tag)
+  {
+    if (this->Layout.otherArrays.size() < MostOtherArrays)
+    {
+      this->Layout.otherArrays.insert(tag.value("Name"));
+    }
+  }
+
+  /** Puts an array to where its section wants it. */
+  void addArray(const XmlTag& tag)
+  {
+    const std::string type = tag.value("type");
+    const auto* const known =
+      std::ranges::find(XmlTypeNames, type, &std::pair<std::string_view, ScalarType>::first);
+    const bool attribute = this->isOfAttributes();
+    if (known == std::end(XmlTypeNames) && attribute && (type == "String" || type == "Bit"))
+    {
+      this->noteOther(tag);
+      return;
+    }
+    if (known == std::end(XmlTypeNames) || this->Layout.pieces.size() == this->FirstPiece)
+    {
+      this->File.fail(tag.begin, "the array here has the type " + inQuotes(type) +
+                                   ", or stands outside a piece, and cannot be read");
+    }
+    VtkPiece& piece = this->Layout.pieces.back();
+    VtkArray array = this->arrayOf(tag, known->second);
+    if (attribute)
+    {
+      const bool ofPoints = this->Section == "PointData";
+      array.values = this->product(tag, ofPoints ? piece.points : piece.cells, array.components);
+      auto& arrays = ofPoints ? piece.pointArrays : piece.cellArrays;
+      // Of the same array at several time steps the first one is taken.
+      if (!array.name.empty() &&
+          std::ranges::find(arrays, array.name, &VtkArray::name) == arrays.end())
+      {
+        this->account(tag, sizeof(array) + array.name.size());
+        arrays.push_back(std::move(array));
+      }
+    }
+    else if (this->Section == "Points" && !piece.positions)
+    {
+      array.components = 3;
+      array.values = this->product(tag, piece.points, 3);
+      piece.positions = std::move(array);
+    }
+    else if (this->Section != "Points")
+    {
+      this->addCellArray(piece, std::move(array));
+    }
+  }
+
+  void addCellArray(VtkPiece& piece, VtkArray array)
+  {
+    static constexpr std::string_view Lists[] = { "Verts", "Lines", "Polys", "Strips" };
+    const auto* const place = std::ranges::find(Lists, this->Section);
+    const bool isList = this->IsGrid ? this->Section == "Cells" : place != std::end(Lists);
+    if (!isList)
+    {
+      return;
+    }
+    VtkCellList& list =
+      piece.lists[this->IsGrid ? 0 : static_cast<std::size_t>(place - std::begin(Lists))];
+    array.components = 1;
+    const bool areCorners = array.name == "connectivity";
+    if (!areCorners && array.name != "offsets" && array.name != "types")
+    {
+      return;
+    }
+    std::optional<VtkArray>& own = areCorners              ? list.points
+                                   : array.name == "types" ? list.types
+                                                           : list.offsets;
+    // As of other arrays, of several time steps the first one is taken.
+    if (own)
+    {
+      return;
+    }
+    if (!areCorners)
+    {
+      array.values = list.cells;
+    }
+    own = std::move(array);
+  }
+
+  VtkArray arrayOf(const XmlTag& tag, ScalarType type)
+  {
+    VtkArray array;
+    array.name = tag.value("Name");
+    array.type = array.columnType = type;
+    array.begin = tag.end;
+    array.bigEndian = this->BigEndian;
+    const std::int64_t components =
+      tag.attribute("NumberOfComponents") ? this->count(tag, "NumberOfComponents") : 1;
+    if (components < 1 || components > std::numeric_limits<std::int16_t>::max())
+    {
+      this->File.fail(
+        tag.begin, "an array cannot have " + std::to_string(components) + " components");
+    }
+    array.components = static_cast<int>(components);
+    const std::string format = tag.value("format", "ascii");
+    if (format != "ascii" && format != "binary" && format != "appended")
+    {
+      this->File.fail(tag.begin,
+        "the array here has the format " + inQuotes(format) + ", not ascii, binary or appended");
+    }
+    if (format == "ascii")
+    {
+      return array;
+    }
+    array.headerBytes = this->HeaderBytes;
+    array.compression = this->Compression;
+    array.encoding = VtkEncoding::Base64;
+    if (format == "appended")
+    {
+      // Where the appended data begin and how they are written is told after all arrays.
+      array.encoding = VtkEncoding::Raw;
+      array.begin = static_cast<std::size_t>(this->count(tag, "offset"));
+    }
+    return array;
+  }
+
+  void account(const XmlTag& tag, std::size_t bytes)
+  {
+    this->Layout.bytes += static_cast<std::int64_t>(bytes);
+    if (this->Layout.bytes > this->MostBytes)
+    {
+      this->File.fail(tag.begin, "there are more pieces and arrays than fit into the memory: raise "
+                                 "its limit (option --memory), or join pieces first");
+    }
+  }
+
+  /** Tells the arrays that are appended where and how that is. */
+  void placeAppended(const XmlTag& tag)
+  {
+    const bool base64 = tag.value("encoding", "base64") != "raw";
+    std::size_t begin = tag.end;
+    for (std::string_view text = this->File.at(begin); !text.empty() && text.front() != '_';
+         text = this->File.at(++begin))
+    {
+    }
+    ++begin;
+    this->forEachArray(
+      [&](VtkArray& array)
+      {
+        if (array.encoding != VtkEncoding::Raw)
+        {
+          return;
+        }
+        if (begin >= this->File.size() || array.begin > this->File.size() - begin)
+        {
+          this->File.fail(tag.begin, "the array " + inQuotes(array.name) +
+                                       " begins behind the end of the file: it is truncated or an "
+                                       "offset is wrong");
+        }
+        array.begin += begin;
+        array.encoding = base64 ? VtkEncoding::Base64 : VtkEncoding::Raw;
+      });
+    this->HasAppended = true;
+  }
+
+  void forEachArray(const auto& visit)
+  {
+    for (std::size_t i = this->FirstPiece; i < this->Layout.pieces.size(); ++i)
+    {
+      smg::forEachArray(this->Layout.pieces[i], visit);
+    }
+  }
+
+  /** Whether what the pieces need is there. */
+  void check()
+  {
+    if (this->Layout.pieces.front().lists.size() != (this->IsGrid ? 1u : 4u))
+    {
+      this->File.fail(0, "the pieces are not all of the same kind of data");
+    }
+    for (std::size_t i = this->FirstPiece; i < this->Layout.pieces.size(); ++i)
+    {
+      const VtkPiece& piece = this->Layout.pieces[i];
+      if (piece.points > 0 && !piece.positions)
+      {
+        this->File.fail(0, "a piece has no array of its points");
+      }
+      for (const VtkCellList& list : piece.lists)
+      {
+        if (list.cells > 0 && (!list.points || !list.offsets || (this->IsGrid && !list.types)))
+        {
+          this->File.fail(0, "a piece lacks an array of its cells: connectivity, offsets or types");
+        }
+      }
+    }
+    this->forEachArray(
+      [this](const VtkArray& array)
+      {
+        if (array.encoding == VtkEncoding::Raw && !this->HasAppended)
+        {
+          this->File.fail(0, "the data of the array " + inQuotes(array.name) +
+                               " should be appended, but the file has no <AppendedData>");
+        }
+      });
+  }
+
+  std::int64_t count(const XmlTag& tag, const char* name)
+  {
+    const std::string text = tag.value(name, "0");
+    std::string_view digits = text;
+    digits.remove_prefix(std::min(digits.find_first_not_of(" \t\r\n"), digits.size()));
+    digits = digits.substr(0, digits.find_first_of(" \t\r\n"));
+    std::int64_t value = -1;
+    const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc() || stop != digits.data() + digits.size() || value < 0 ||
+        value > MostThings)
+    {
+      this->File.fail(tag.begin, inQuotes(text) + " cannot be the " + name + " of the tag here");
+    }
+    return value;
+  }
+
+  std::int64_t product(const XmlTag& tag, std::int64_t count, std::int64_t components)
+  {
+    std::int64_t values = 0;
+    // The array in bytes shall be a number, too.
+    if (__builtin_mul_overflow(count, components * 8, &values))
+    {
+      this->File.fail(tag.begin, "the array here cannot have " + std::to_string(count) + " tuples");
+    }
+    return values / 8;
+  }
+
+  InputFile& File;
+  XmlTags Tags;
+  VtkLayout& Layout;
+  const std::int64_t MostBytes;
+  const std::size_t FirstPiece;
+  bool IsGrid = false, BigEndian = false, HasAppended = false;
+  int HeaderBytes = 4;
+  VtkCompression Compression = VtkCompression::None;
+  std::string Section; ///< where arrays belong to now
+};
+
+} // namespace
+
+void addVtkXmlLayout(InputFile& file, VtkLayout& layout, std::int64_t mostBytes)
+{
+  XmlLayoutReader(file, layout, mostBytes).read();
+}
+
+} // namespace smg

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Files/InputFile.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace smg
+{
+
+/** A tag of an XML file. */
+struct XmlTag
+{
+  std::string name;
+  bool closes = false; ///< </name>
+  bool alone = false;  ///< <name/>
+  std::vector<std::pair<std::string, std::string>> attributes;
+  std::size_t begin = 0; ///< byte of the '<'
+  std::size_t end = 0;   ///< byte after the '>'
+
+  /** The value of an attribute; null without. */
+  const std::string* attribute(const char* name) const;
+  /** The value of an attribute, or `otherwise` without. */
+  std::string value(const char* name, const char* otherwise = "") const
+  {
+    const std::string* value = this->attribute(name);
+    return value ? *value : otherwise;
+  }
+};
+
+/**
+ * Goes from tag to tag of an XML file, over text, comments and declarations. It is no parser of all
+ * of XML and needs none of the file in memory but the tag, so that it also reads what precedes data
+ * that are no XML.
+ */
+class XmlTags
+{
+public:
+  explicit XmlTags(InputFile& file)
+    : File(file)
+  {
+  }
+
+  /** The next tag; false at the end of the file. Throws Error where a tag does not end. */
+  bool next(XmlTag& tag);
+
+private:
+  /** The '<' at or after `At`; false without. */
+  bool find();
+  /** Goes behind the next `text`. */
+  void skipPast(std::string_view text);
+  void parse(std::string_view text, XmlTag& tag) const;
+
+  InputFile& File;
+  std::size_t At = 0;
+};
+
+} // namespace smg
