@@ -5,7 +5,6 @@
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/KeptConversion.h"
 #include "IO/vtkAlgorithmGlue.h"
-#include "IO/vtkMeshImport.h"
 #include "Solver/Core/Error.h"
 
 #include "vtkObjectFactory.h"
@@ -148,7 +147,6 @@ void vtkStreamingMeshConverter::UpdateContainer()
   options.memoryLimit = std::int64_t(this->MemoryLimit) << 20;
   options.scratch = scratch ? scratch : "";
   options.progress = smg::progressOf(*this);
-  smg::registerVtkImporter();
   const auto report = smg::convertToKeep(this->GetFileName(), out, options, this->Overwrite);
   if (report || this->ReportedName != out)
   {

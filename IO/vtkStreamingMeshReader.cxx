@@ -8,7 +8,6 @@
 #include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Preview/PreviewPiece.h"
 #include "IO/vtkAlgorithmGlue.h"
-#include "IO/vtkMeshImport.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceNames.h"
 #include "IO/vtkStreamingMeshKeys.h"
@@ -89,7 +88,6 @@ struct vtkStreamingMeshReader::Internals
       smg::ConversionOptions options;
       options.scratch = folder;
       options.progress = smg::progressOf(self);
-      smg::registerVtkImporter();
       this->Mesh = smg::openMesh(name, options);
       if (this->Name != name && !this->Name.empty())
       {

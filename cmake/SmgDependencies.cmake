@@ -9,6 +9,7 @@ find_package(TBB REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED)
 find_package(FastFloat REQUIRED CONFIG)
 find_package(ZLIB REQUIRED)
+find_package(LibLZMA REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(SMG_COMPRESSION REQUIRED IMPORTED_TARGET libzstd liblz4 libxxhash)
 

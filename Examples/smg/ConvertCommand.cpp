@@ -2,7 +2,6 @@
 #include "CommonOptions.h"
 #include "InputOptions.h"
 #include "ProgressBar.h"
-#include "VtkBridge.h"
 
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/Convert.h"
@@ -96,7 +95,6 @@ struct ConvertOptions : CommonOptions
     smg::ConversionReport report;
     {
       ProgressBar bar("converting", this->quiet, this->in);
-      loadVtkFor(this->in);
       options.progress = bar.function();
       report = smg::convert(this->in, this->out, options);
     }

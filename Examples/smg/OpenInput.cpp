@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "OpenInput.h"
 
-#include "VtkBridge.h"
-
 #include <utility>
 
 std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
@@ -10,7 +8,6 @@ std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
   const InputOptions& input)
 {
   input.checkIsConverted(path);
-  loadVtkFor(path);
   smg::ConversionOptions options;
   options.order = order;
   input.applyTo(options);

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "IO/Conversion/OpenMesh.h"
-#include "IO/vtkMeshImport.h"
 #include "Testing/Support/Refinement.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -22,7 +21,6 @@ inline const std::filesystem::path Archive = SMG_TEST_DATA_DIR;
 /** The mesh in breadth-first order. */
 inline StreamMesh archiveMesh(const std::string& name)
 {
-  registerVtkImporter();
   const TemporaryFolder scratch;
   ConversionOptions options;
   options.scratch = scratch.path();

@@ -11,7 +11,6 @@ import xml.etree.ElementTree as xml
 from torus import torus
 
 SMG = os.environ["SMG_PROGRAM"]
-READS_VTK = os.environ["SMG_READS_VTK"] == "1"
 
 
 def run(*arguments, code=0):

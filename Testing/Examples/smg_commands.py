@@ -12,7 +12,7 @@ import sys
 import time
 
 from mesh_files import read_mesh, same_points
-from program import READS_VTK, SMG, load, read_vtk_xml, run, write_torus
+from program import SMG, load, read_vtk_xml, run, write_torus
 
 
 def test_convert_and_info():
@@ -44,7 +44,7 @@ def test_vtk_xml():
     assert surface == grid
     assert surface["offsets"] == [(3 * i + 3,) for i in range(14400)]
     assert surface["Points"] == [points[id] for id, in surface["OriginalId"]]
-    for name in ("torus.vtp", "torus.vtu") if READS_VTK else ():
+    for name in ("torus.vtp", "torus.vtu"):
         run("convert", name, "back.vsm", "--order", "keep", "--quiet")
         run("convert", "back.vsm", "back.vtp", "--order", "keep", "--quiet")
         assert read_vtk_xml("back.vtp") == surface, name

@@ -81,8 +81,7 @@ bool runTetGen(std::string_view bytes, CellChoice cells)
 
 bool runVtkXml(std::string_view bytes, CellChoice cells)
 {
-  return parse(FuzzPlace::instance().write("mesh.vtu", bytes), cells,
-    [](InputFile& file, RawMeshBuilder& builder) { importVtkXml(file, builder, {}); });
+  return parse(FuzzPlace::instance().write("mesh.vtu", bytes), cells, importVtkXml);
 }
 
 /** The file, then its pieces, which are called 0.vtu, 1.vtu and 2.vtu. */

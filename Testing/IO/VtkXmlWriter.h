@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 #include <lz4.h>
+#include <lzma.h>
 #include <zlib.h>
 
 namespace smg::testing
@@ -119,6 +120,16 @@ private:
     {
       to.resize(static_cast<std::size_t>(LZ4_compress_default(
         block.data(), to.data(), static_cast<int>(block.size()), static_cast<int>(to.size()))));
+      return to;
+    }
+    if (this->compressor == "vtkLZMADataCompressor")
+    {
+      std::size_t written = 0;
+      EXPECT_EQ(lzma_easy_buffer_encode(5, LZMA_CHECK_CRC32, nullptr,
+                  reinterpret_cast<const std::uint8_t*>(block.data()), block.size(),
+                  reinterpret_cast<std::uint8_t*>(to.data()), &written, to.size()),
+        LZMA_OK);
+      to.resize(written);
       return to;
     }
     uLongf size = to.size();

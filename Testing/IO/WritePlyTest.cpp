@@ -197,7 +197,7 @@ TEST_F(WritePly, RefusesWhatItCannotHold)
   const auto contains = [](const std::string& message, const std::string& part)
   { EXPECT_NE(message.find(part), std::string::npos) << message; };
   MemorySource tets(toStream(tetBox(3, 3, 3)));
-  contains(refusal(tets, "out.ply"), "a .ply file holds no tetrahedra");
+  contains(refusal(tets, "out.ply"), "PLY holds no tetrahedra");
   MemorySource good(toStream(sphere(1)));
   contains(refusal(good, "out.plx"), "must end with .ply");
   LyingSource gigantic(good.mesh(), std::int64_t(1) << 31, 0);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include <lz4.h>
+#include <lzma.h>
 #include <zlib.h>
 
 namespace smg
@@ -51,6 +52,16 @@ bool uncompress(
       reinterpret_cast<char*>(to.data()), static_cast<int>(from.size()),
       static_cast<int>(to.size()));
     return bytes == static_cast<int>(to.size());
+  }
+  if (compression == VtkCompression::Lzma)
+  {
+    // What the highest level of compression takes, whatever a damaged file asks for.
+    std::uint64_t memory = std::uint64_t(100) << 20;
+    std::size_t read = 0, written = 0;
+    return lzma_stream_buffer_decode(&memory, 0, nullptr,
+             reinterpret_cast<const std::uint8_t*>(from.data()), &read, from.size(),
+             reinterpret_cast<std::uint8_t*>(to.data()), &written, to.size()) == LZMA_OK &&
+           written == to.size();
   }
   uLongf bytes = to.size();
   const int result = ::uncompress(reinterpret_cast<Bytef*>(to.data()), &bytes,

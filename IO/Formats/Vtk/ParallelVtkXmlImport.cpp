@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/InQuotes.h"
 #include "IO/Files/InputFile.h"
-#include "IO/Formats/Vtk/VtkFallback.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Formats/Vtk/VtkMeshReader.h"
 #include "IO/Formats/Vtk/VtkXmlLayout.h"
@@ -30,11 +29,6 @@ void importParallelVtkXml(
     }
     InputFile piece(path);
     addVtkXmlLayout(piece, layout, mostBytes);
-  }
-  if (needsVtk(layout))
-  {
-    importWithVtk(file, VtkXmlKind::InPieces, layout, builder, progress);
-    return;
   }
   readVtkMesh(file, layout, builder, progress);
 }

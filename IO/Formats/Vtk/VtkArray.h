@@ -24,7 +24,7 @@ enum class VtkCompression : std::uint8_t
   None,
   Zlib,
   Lz4,
-  Other ///< one that is left to VTK
+  Lzma
 };
 
 /** An array of numbers in a VTK file: what it is, where it stands and how it is written. */

@@ -73,7 +73,7 @@ const Format VtkXmlFormat{
   .suffixes = XmlSuffixes,
   .attributes = AllColumns,
   .hasSign = isVtkXml,
-  .parse = importVtkXml,
+  .parse = parseWith<importVtkXml>,
   .write = writeXml,
   .restore = writeRestoredVtkXml,
 };

@@ -10,14 +10,14 @@ namespace smg
 extern const Format LegacyVtkFormat;
 /**
  * VTK XML (.vtp, .vtu): appended and inline data, as text, base64 or raw, plain or compressed by
- * zlib or LZ4. What is compressed otherwise goes to the VtkImporter.
+ * zlib, LZ4 or LZMA.
  */
 extern const Format VtkXmlFormat;
 /** The pieces that a .pvtp or .pvtu file names, one after the other. */
 extern const Format ParallelVtkXmlFormat;
 
 void importLegacyVtk(InputFile& file, RawMeshBuilder& builder);
-void importVtkXml(InputFile& file, RawMeshBuilder& builder, const ProgressFunction& progress);
+void importVtkXml(InputFile& file, RawMeshBuilder& builder);
 void importParallelVtkXml(
   InputFile& file, RawMeshBuilder& builder, const ProgressFunction& progress);
 

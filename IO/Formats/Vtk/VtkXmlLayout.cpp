@@ -78,7 +78,11 @@ private:
     this->Compression = compressor.empty()                      ? VtkCompression::None
                         : compressor == "vtkZLibDataCompressor" ? VtkCompression::Zlib
                         : compressor == "vtkLZ4DataCompressor"  ? VtkCompression::Lz4
-                                                                : VtkCompression::Other;
+                                                                : VtkCompression::Lzma;
+    if (this->Compression == VtkCompression::Lzma && compressor != "vtkLZMADataCompressor")
+    {
+      this->File.fail(root.begin, "the compressor " + inQuotes(compressor) + " is not known");
+    }
   }
 
   void close(const XmlTag& tag)
