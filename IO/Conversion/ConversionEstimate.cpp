@@ -3,8 +3,10 @@
 
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
+#include "IO/Conversion/CompressedStream.h"
 #include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
+#include "IO/Formats/Streams/StreamsFormat.h"
 #include "IO/Formats/Vsm/VsmReader.h"
 #include "Solver/Core/Error.h"
 
@@ -76,14 +78,15 @@ Counts countsOf(const std::filesystem::path& path)
     const StreamInfo info = VsmReader(path).info();
     return { { info.vertices, info.cells, cornersOf(info.cellType), columnBytes(info), true }, 0 };
   }
-  if (kind == MeshFileKind::Unknown)
+  const bool compressedStream = isCompressedStream(path);
+  if (kind == MeshFileKind::Unknown && !compressedStream)
   {
     throw Error(path.string() + ": the format is not known by its content or suffix.");
   }
-  const Format* const format = formatOfFile(path);
+  const Format* const format = kind == MeshFileKind::Stream ? &StreamsFormat : formatOfFile(path);
   InputFile file(path);
   const bool compressed = isGzip(file.at(0, 2));
-  if (kind == MeshFileKind::Indexed && !compressed && format->counts)
+  if (format && format->counts && !compressed && !compressedStream)
   {
     if (const std::optional<FileCounts> counts = format->counts(file))
     {

@@ -113,7 +113,6 @@ TEST_F(ImportOff, ErrorsNameFileAndPlace)
   this->expectError("a.off", "OFF\n3 1 0\n" + points + "3 0 1", "line 6");
   this->expectError("a.off", "OFF\n3 1 0\n" + points + "900 0 1 2\n", "line 6: 900 cannot be");
   this->expectError("a.off", "OFF\n3 1 0\n0 0 0\n1 inf 0\n0 1 0\n3 0 1 2\n", "line 4: 'inf'");
-  this->expectError("a.off", "OFF BINARY\n3 1 0\n", "line 1: binary OFF files");
   this->expectError("a.off", "4OFF\n3 1 0\n", "line 1: the vertices of a '4OFF'");
   this->expectError("a.off", "OFF\n3 0 0\n" + points, "no triangles");
 }
@@ -121,6 +120,86 @@ TEST_F(ImportOff, ErrorsNameFileAndPlace)
 TEST_F(ImportOff, DamageIsFound)
 {
   this->expectDamageIsFound("a.off", CoffOff);
+}
+
+namespace
+{
+
+/** The number, most significant byte first. */
+template <class T>
+std::string bigEndian(T value)
+{
+  std::string bytes(reinterpret_cast<const char*>(&value), sizeof(T));
+  std::ranges::reverse(bytes);
+  return bytes;
+}
+
+std::string integers(std::initializer_list<std::int32_t> values)
+{
+  std::string bytes;
+  for (const std::int32_t value : values)
+  {
+    bytes += bigEndian(value);
+  }
+  return bytes;
+}
+
+std::string reals(std::initializer_list<float> values)
+{
+  std::string bytes;
+  for (const float value : values)
+  {
+    bytes += bigEndian(value);
+  }
+  return bytes;
+}
+
+/** Three vertices with normals, colours and texture coordinates, a triangle and a line. */
+std::string binaryOff()
+{
+  std::string file = "# a comment\nSTCNOFF BINARY\n" + integers({ 3, 2, 0 });
+  file += reals({ 0, 0, 0, 0, 0, 1, 0.25F, 1, 0, 1, 0.5F, 0.125F });
+  file += reals({ 1, 0, 0, 0, 0, 1, 1, 1, 1, 1, 0.5F, 1 });
+  file += reals({ 0, 0.1F, 0, 1, 0, 0, 0, 0, 0.5F, 0, 0, 0 });
+  file += integers({ 3, 0, 1, 2, 3 }) + reals({ 1, 0, 0.5F });
+  return file + integers({ 2, 1, 0, 3 }) + reals({ 0, 0, 0.25F });
+}
+
+} // namespace
+
+TEST_F(ImportOff, BinaryFilesAreTheSameMeshes)
+{
+  const ReadMesh mesh = this->read("a.off", binaryOff());
+  EXPECT_EQ(
+    mesh.positions, (std::vector<double>{ 0, 0, 0, 1, 0, 0, 0, static_cast<double>(0.1F), 0 }));
+  EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2 }));
+  EXPECT_EQ(mesh.counts.droppedCells, 1);
+  ASSERT_EQ(mesh.vertexColumns.size(), 3u);
+  EXPECT_EQ(valuesOf(mesh.vertexColumns[0]), (std::vector<double>{ 0, 0, 1, 0, 0, 1, 1, 0, 0 }));
+  EXPECT_EQ(valuesOf(mesh.vertexColumns[1]), (std::vector<double>{ 0.5, 0.125, 0.5, 1, 0, 0 }));
+  EXPECT_EQ(mesh.vertexColumns[2].spec, (ColumnSpec{ "Colors", ScalarType::Float32, 4 }));
+  EXPECT_EQ(valuesOf(mesh.vertexColumns[2]),
+    (std::vector<double>{ 0.25, 1, 0, 1, 1, 1, 1, 1, 0, 0, 0.5, 0 }));
+  ASSERT_EQ(mesh.elementColumns.size(), 1u);
+  EXPECT_EQ(valuesOf(mesh.elementColumns[0]), (std::vector<double>{ 1, 0, 0.5, 0, 0, 0.25 }));
+}
+
+TEST_F(ImportOff, ErrorsOfBinaryFilesNameTheByte)
+{
+  const std::string head = "OFF BINARY\n";
+  const std::string points = reals({ 0, 0, 0, 1, 0, 0, 0, 1, 0 });
+  const auto expectRefused = [this](const std::string& file, const std::string& part)
+  { this->expectError("a.off", file, part); };
+  expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ 3, 0, 1, 3, 0 }),
+    "a.off, byte 71: the corner 3 is none of the 3 vertices");
+  expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ 3, 0, 1, 2 }), "byte 75");
+  expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ 3, 0, 1, 2, 0, 0 }),
+    "more after the last face");
+  expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ 3, 0, 1, 2, 5 }), "colour");
+  expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ -3, 0, 1, 2, 0 }), "negative");
+  expectRefused(head + integers({ 3, 1 << 24, 0 }) + points, "do not fit the size");
+  expectRefused(head + std::string("\3\0\0\0\1\0\0\0\0\0\0\0", 12) + points, "significant byte");
+  this->expectDamageIsFound("a.off", binaryOff());
 }
 
 TEST(ImportOffData, ArchiveMeshHasItsCounts)

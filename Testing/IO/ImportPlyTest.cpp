@@ -234,6 +234,20 @@ TEST_F(ImportPly, ListsThatAreSkippedMayBeLong)
   EXPECT_EQ(this->read("a.ply", bytes).corners, (Numbers{ 0, 1, 2 }));
 }
 
+TEST_F(ImportPly, UnknownLinesOfTheHeaderAreNoted)
+{
+  const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";
+  std::string text = ThreeVertices + face + ThreePoints + "3 0 1 2\n";
+  text.replace(text.find("element vertex"), 0, "obj_note made by hand\n");
+  const ReadMesh mesh = this->read("a.ply", text);
+  EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2 }));
+  ASSERT_EQ(mesh.counts.notes.size(), 1u);
+  EXPECT_NE(mesh.counts.notes[0].find("'obj_note'"), std::string::npos) << mesh.counts.notes[0];
+  // What has properties is an element.
+  text.replace(text.find("element face"), 7, "elment");
+  this->expectError("a.ply", text, "line 8: 'elment' is not a keyword of a PLY header");
+}
+
 TEST_F(ImportPly, ErrorsNameFileAndPlace)
 {
   const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";

@@ -3,6 +3,7 @@
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextScanner.h"
 #include "IO/Files/TextStart.h"
+#include "IO/Formats/Off/BinaryOff.h"
 #include "IO/Formats/Off/OffAttributes.h"
 #include "IO/Formats/Off/OffHeader.h"
 #include "IO/Formats/Shared/TextColors.h"
@@ -17,7 +18,7 @@ namespace smg
 namespace
 {
 
-/** Reads the keyword, if there is one, and refuses what is not a text in three dimensions. */
+/** Reads the keyword, if there is one, and refuses what is not in three dimensions. */
 void readKeyword(TextScanner& scanner, OffHeader& header)
 {
   const std::string keyword(scanner.peek());
@@ -32,7 +33,10 @@ void readKeyword(TextScanner& scanner, OffHeader& header)
   scanner.tokenInLine();
   if (scanner.peek() == "BINARY")
   {
-    scanner.fail("binary OFF files are not read: write it as text, or as PLY");
+    header.binary = true;
+    scanner.tokenInLine();
+    scanner.skipLine();
+    header.body = scanner.offset();
   }
   header.textureCoordinates = keyword.starts_with("ST");
   header.colors = keyword.find('C') != std::string::npos;
@@ -88,10 +92,15 @@ void readFaces(
 
 } // namespace
 
-OffHeader readOffHeader(TextScanner& scanner)
+OffHeader readOffHeader(InputFile& file, TextScanner& scanner)
 {
   OffHeader header;
   readKeyword(scanner, header);
+  if (header.binary)
+  {
+    readBinaryOffCounts(file, header);
+    return header;
+  }
   header.vertices = scanner.count("the number of vertices", 6);
   header.faces = scanner.count("the number of faces", 2);
   scanner.integer("the number of edges");
@@ -101,7 +110,12 @@ OffHeader readOffHeader(TextScanner& scanner)
 void importOff(InputFile& file, RawMeshBuilder& builder)
 {
   TextScanner scanner(file, '#');
-  const OffHeader header = readOffHeader(scanner);
+  const OffHeader header = readOffHeader(file, scanner);
+  if (header.binary)
+  {
+    readBinaryOff(file, header, builder);
+    return;
+  }
   try
   {
     readVertices(scanner, header, builder);
@@ -132,7 +146,7 @@ bool isOff(std::string_view start)
 std::optional<FileCounts> countsOfOff(InputFile& file)
 {
   TextScanner scanner(file, '#');
-  const OffHeader header = readOffHeader(scanner);
+  const OffHeader header = readOffHeader(file, scanner);
   return FileCounts{ header.vertices, header.faces, 3, 0, true };
 }
 

@@ -6,7 +6,7 @@
 namespace smg
 {
 
-/** OFF as text, with or without colours, normals and texture coordinates. */
+/** OFF, text or binary, with or without colours, normals and texture coordinates. */
 extern const Format OffFormat;
 
 void importOff(InputFile& file, RawMeshBuilder& builder);

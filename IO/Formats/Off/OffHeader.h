@@ -3,6 +3,7 @@
 
 #include "IO/Files/TextScanner.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace smg
@@ -14,10 +15,12 @@ struct OffHeader
   std::int64_t vertices = 0, faces = 0;
   /** What its keyword says to stand behind the coordinates of a vertex. */
   bool normals = false, colors = false, textureCoordinates = false;
+  bool binary = false;
+  std::size_t body = 0; ///< of a binary file: the byte at which its vertices begin
 };
 
-/** Reads a text up to its first vertex. Throws Error if it is no OFF file of points in space, or
- * too short for its counts. */
-OffHeader readOffHeader(TextScanner& scanner);
+/** Reads a file up to its first vertex: a text by the scanner, which is at its beginning. Throws
+ * Error if it is no OFF file of points in space, or too short for its counts. */
+OffHeader readOffHeader(InputFile& file, TextScanner& scanner);
 
 } // namespace smg

@@ -138,6 +138,8 @@ PlyHeader readPlyHeader(InputFile& file)
     scanner.fail("a PLY file must begin with the line 'ply'");
   }
   bool formatKnown = false;
+  // A line that is none of PLY; what has properties is an element by another name.
+  std::int64_t unknownLine = 0;
   while (true)
   {
     scanner.skipLine();
@@ -162,6 +164,11 @@ PlyHeader readPlyHeader(InputFile& file)
     }
     else if (keyword == "property")
     {
+      if (unknownLine == scanner.line() - 1)
+      {
+        scanner.failAt(
+          unknownLine, inQuotes(header.unknown.back()) + " is not a keyword of a PLY header");
+      }
       PlyProperty property = readProperty(scanner, header.elements);
       header.elements.back().properties.push_back(std::move(property));
     }
@@ -171,7 +178,13 @@ PlyHeader readPlyHeader(InputFile& file)
     }
     else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info")
     {
-      scanner.fail(inQuotes(keyword) + " is not a keyword of a PLY header");
+      if (++lines > MostLines)
+      {
+        scanner.fail("the header has more than " + std::to_string(MostLines) + " lines");
+      }
+      constexpr std::size_t KeptBytes = 80;
+      header.unknown.emplace_back(keyword.substr(0, KeptBytes));
+      unknownLine = scanner.line();
     }
   }
   if (!formatKnown)

@@ -300,6 +300,11 @@ void importPly(InputFile& file, RawMeshBuilder& builder)
 {
   const PlyHeader header = readPlyHeader(file);
   checkLength(file, header);
+  for (const std::string& keyword : header.unknown)
+  {
+    builder.note("The line of the header that begins with " + inQuotes(keyword) +
+                 " is none of PLY and is left out.");
+  }
   withPlyBody(
     file, header, [&](auto cursor) { BodyReader(header, std::move(cursor), builder).read(); });
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Streams/StreamsFormat.h"
 
+#include "IO/Files/InputFile.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/Streams/StreamConversion.h"
+#include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "Solver/Storage/ScratchFolder.h"
 
@@ -22,6 +24,19 @@ WriteNotes write(
   return notesOnRounded(vsmToStream(whole, path, partOf(options.progress, 0.6, 1.0)));
 }
 
+std::optional<FileCounts> countsOfStream(InputFile& file)
+{
+  const StreamFileHeader header = openStreamFile(file.path())->header();
+  if (header.vertices < 0 || header.cells < 0)
+  {
+    return {};
+  }
+  const std::int64_t columnBytes = header.vertices * 4 * (header.vertexFloats + header.vertexInts) +
+                                   header.cells * 4 * header.cellInts;
+  return FileCounts{ header.vertices, header.cells, cornersOf(cellTypeOf(header.format)),
+    columnBytes, true };
+}
+
 constexpr FileSuffix StreamSuffixes[] = { { ".sma", true, false }, { ".smb", true, false },
   { ".sva", false, true }, { ".svb", false, true } };
 
@@ -32,6 +47,7 @@ const Format StreamsFormat{
   .suffixes = StreamSuffixes,
   .attributes = "a scalar of the vertices of tetrahedra",
   .kind = MeshFileKind::Stream,
+  .counts = countsOfStream,
   .write = write,
 };
 

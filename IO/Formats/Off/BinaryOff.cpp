@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/Off/BinaryOff.h"
+
+#include "IO/Files/InputFile.h"
+#include "IO/Formats/Off/OffAttributes.h"
+#include "IO/Formats/Shared/TextColors.h"
+#include "IO/Formats/Shared/TriangleRuns.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace smg
+{
+
+namespace
+{
+
+constexpr std::size_t NumberBytes = 4;
+
+/** The numbers of a file, one after the other. */
+class BigEndianNumbers
+{
+public:
+  BigEndianNumbers(InputFile& file, std::size_t begin)
+    : File(file)
+    , At(begin)
+  {
+  }
+
+  std::int32_t integer() { return std::bit_cast<std::int32_t>(this->bits()); }
+  double real() { return static_cast<double>(std::bit_cast<float>(this->bits())); }
+  /** Place of the next number. */
+  std::size_t offset() const { return this->At; }
+  /** Refuses what stands before it. */
+  [[noreturn]] void fail(const std::string& sentence) const
+  {
+    this->File.fail(this->At - NumberBytes, sentence);
+  }
+
+private:
+  std::uint32_t bits()
+  {
+    const std::string_view bytes = this->File.at(this->At, NumberBytes);
+    if (bytes.size() < NumberBytes)
+    {
+      this->File.fail(this->At, "the file is truncated here");
+    }
+    this->At += NumberBytes;
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < NumberBytes; ++i)
+    {
+      value = value << 8 | static_cast<unsigned char>(bytes[i]);
+    }
+    return value;
+  }
+
+  InputFile& File;
+  std::size_t At;
+};
+
+/** Numbers behind the coordinates of a vertex. */
+std::size_t furtherNumbers(const OffHeader& header)
+{
+  return (header.normals ? 3 : 0) + (header.colors ? 4 : 0) + (header.textureCoordinates ? 2 : 0);
+}
+
+void readVertices(BigEndianNumbers& numbers, const OffHeader& header, RawMeshBuilder& builder)
+{
+  OffAttributes attributes(header, builder);
+  std::array<double, 9> further{};
+  const std::span used = std::span(further).first(furtherNumbers(header));
+  builder.useSinglePrecision();
+  for (std::int64_t i = 0; i < header.vertices; ++i)
+  {
+    const double x = numbers.real();
+    const double y = numbers.real();
+    const double z = numbers.real();
+    builder.vertex(x, y, z);
+    for (double& number : used)
+    {
+      number = numbers.real();
+    }
+    attributes.add(used);
+  }
+  attributes.finish();
+}
+
+void readFaces(BigEndianNumbers& numbers, const OffHeader& header, RawMeshBuilder& builder)
+{
+  TriangleFan fan(builder);
+  TextColors colors(builder, ImportColumn::Of::Elements);
+  std::array<double, 4> color{};
+  for (std::int64_t i = 0; i < header.faces; ++i)
+  {
+    const std::int32_t corners = numbers.integer();
+    if (corners < 0)
+    {
+      numbers.fail("the number of corners of a face is negative");
+    }
+    for (std::int32_t k = 0; k < corners; ++k)
+    {
+      const std::int32_t corner = numbers.integer();
+      if (corner < 0 || corner >= header.vertices)
+      {
+        numbers.fail("the corner " + std::to_string(corner) + " is none of the " +
+                     std::to_string(header.vertices) + " vertices");
+      }
+      fan.corner(corner);
+    }
+    fan.end();
+    const std::int32_t components = numbers.integer();
+    if (components < 0 || components > 4)
+    {
+      numbers.fail("a colour has at most 4 numbers, not " + std::to_string(components));
+    }
+    const std::span used = std::span(color).first(static_cast<std::size_t>(components));
+    for (double& number : used)
+    {
+      number = numbers.real();
+    }
+    colors.add(used);
+  }
+  colors.finish();
+}
+
+} // namespace
+
+void readBinaryOffCounts(InputFile& file, OffHeader& header)
+{
+  BigEndianNumbers numbers(file, header.body);
+  header.vertices = numbers.integer();
+  header.faces = numbers.integer();
+  numbers.integer(); // edges
+  header.body = numbers.offset();
+  const auto left = static_cast<std::int64_t>((file.size() - header.body) / NumberBytes);
+  const auto vertexNumbers = static_cast<std::int64_t>(3 + furtherNumbers(header));
+  if (header.vertices < 0 || header.faces < 0 || header.vertices > left / vertexNumbers ||
+      2 * header.faces > left - header.vertices * vertexNumbers)
+  {
+    numbers.fail("the counts of " + std::to_string(header.vertices) + " vertices and " +
+                 std::to_string(header.faces) +
+                 " faces do not fit the size of the file: it is truncated, or its numbers do not "
+                 "begin with the most significant byte");
+  }
+}
+
+void readBinaryOff(InputFile& file, const OffHeader& header, RawMeshBuilder& builder)
+{
+  BigEndianNumbers numbers(file, header.body);
+  try
+  {
+    readVertices(numbers, header, builder);
+    readFaces(numbers, header, builder);
+  }
+  catch (const MeshError& error)
+  {
+    numbers.fail(error.what());
+  }
+  if (numbers.offset() < file.size())
+  {
+    file.fail(
+      numbers.offset(), "there is more after the last face: the counts at the beginning are wrong");
+  }
+}
+
+} // namespace smg
