@@ -9,4 +9,4 @@ smg_library(smgIOCore IOCore)
 
 target_link_libraries(smgIOCore
   PUBLIC StreamingMultigrid::Solver
-  PRIVATE Eigen3::Eigen FastFloat::fast_float ZLIB::ZLIB LibLZMA::LibLZMA Threads::Threads ${CMAKE_DL_LIBS})
+  PRIVATE Eigen3::Eigen FastFloat::fast_float ZLIB::ZLIB LibLZMA::LibLZMA PkgConfig::SMG_HDF5 Threads::Threads ${CMAKE_DL_LIBS})

@@ -12,6 +12,7 @@ find_package(ZLIB REQUIRED)
 find_package(LibLZMA REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(SMG_COMPRESSION REQUIRED IMPORTED_TARGET libzstd liblz4 libxxhash)
+pkg_check_modules(SMG_HDF5 REQUIRED IMPORTED_TARGET hdf5-serial) # not the one that needs MPI
 
 if (NOT SMG_BUILD_VTK)
   set(SMG_BUILD_PARAVIEW_PLUGIN OFF)

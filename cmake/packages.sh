@@ -8,7 +8,7 @@
 smg_build_packages=(
   build-essential cmake ninja-build pkg-config ccache
   libeigen3-dev libsuitesparse-dev libtbb-dev libzstd-dev liblz4-dev libxxhash-dev zlib1g-dev
-  liblzma-dev
+  liblzma-dev libhdf5-dev
   nlohmann-json3-dev libcli11-dev libfast-float-dev)
 # python3-paraview, libopenmpi-dev and libpython3-dev are needed by paraview-dev, which does not say so.
 smg_paraview_packages=(

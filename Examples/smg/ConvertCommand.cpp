@@ -3,6 +3,7 @@
 #include "InputOptions.h"
 #include "ProgressBar.h"
 
+#include "IO/AnyFormat/FormatTable.h"
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/Convert.h"
 
@@ -115,8 +116,8 @@ void addConvertCommand(CLI::App& program, Action& action)
     program.add_subcommand("convert", "Bring a mesh into a stream order and write it");
   command->add_option("IN", options->in, "The mesh")->required();
   command
-    ->add_option(
-      "OUT", options->out, "The stream: .vsm, .sma, .smb, .sva or .svb; or .ply, .vtp, .vtu")
+    ->add_option("OUT", options->out,
+      "The mesh in stream order: " + smg::suffixList(smg::FormatUse::Write, "or"))
     ->required();
   command
     ->add_option("--order", options->order,
@@ -130,8 +131,8 @@ void addConvertCommand(CLI::App& program, Action& action)
   options->input.addTo(*command);
   command
     ->add_flag("--restore-order", options->restoreOrder,
-      "Write vertices and cells in the order of the file that the .vsm file IN was made of, to a "
-      ".ply, .vtp, .vtu, .vtk, .obj, .off, .stl, .mesh, .msh or .ele file")
+      "Write vertices and cells in the order of the file that the .vsm file IN was made of, to a " +
+        smg::suffixList(smg::FormatUse::Restore, "or") + " file")
     ->excludes("--order", "--weld", "--cells", "--codec");
   command->add_flag("--dry-run", options->dryRun,
     "Only say how large the mesh is and what the conversion will take");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SolvingCommand.h"
 
+#include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/AnyFormat/RewriteMesh.h"
 #include "IO/AnyFormat/WriteMesh.h"
@@ -27,9 +28,10 @@ public:
   void addOptions(CLI::App& command)
   {
     this->addSolverOptions(command,
-      "The deformed mesh: .vsm, .ply, .vtp or .vtu with all columns of IN; or .sma, .smb, .sva, "
-      ".svb. The order of IN is kept from .vsm to any of these, from a streaming format to a "
-      "streaming format, and from PLY to PLY; else the vertices come in stream order",
+      "The deformed mesh: " + smg::suffixList(smg::FormatUse::WriteColumns, "or") +
+        " with all columns of IN; or .sma, .smb, .sva, .svb. The order of IN is kept from .vsm to "
+        "any of these, from a streaming format to a "
+        "streaming format, and from PLY to PLY; else the vertices come in stream order",
       this->Deform);
     command.get_option("--max-cycles")->description("Most V-cycles of each of the two steps");
     command.add_option("--handles", this->File, "The handles, a JSON file")

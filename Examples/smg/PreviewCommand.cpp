@@ -2,6 +2,7 @@
 #include "OpenInput.h"
 #include "ProgressBar.h"
 
+#include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/AnyFormat/WriteMesh.h"
 #include "IO/Files/PartialProgress.h"
@@ -32,9 +33,10 @@ void PreviewOptions::checkOutputName() const
 {
   if (smg::kindOfOutput(this->out) == smg::MeshFileKind::Stream)
   {
-    throw smg::Error(this->out.string() +
-                     ": this format has no room for what a preview says of its points: write it as "
-                     ".vsm, .ply, .vtp or .vtu.");
+    throw smg::Error(
+      this->out.string() +
+      ": this format has no room for what a preview says of its points: write it as " +
+      smg::suffixList(smg::FormatUse::WriteColumns, smg::CellType::Triangle, "or") + '.');
   }
   smg::checkOutput(this->out, smg::CellType::Triangle);
 }
@@ -90,8 +92,10 @@ void addPreviewCommand(CLI::App& program, Action& action)
   command->add_option("IN", options->in, "The mesh")->required();
   command
     ->add_option("OUT", options->out,
-      "The preview: .vsm, .ply, .vtp or .vtu, with the columns of the vertices of IN; StreamIndex "
-      "and OriginalId number them in the stream and in the original file")
+      "The preview: " +
+        smg::suffixList(smg::FormatUse::WriteColumns, smg::CellType::Triangle, "or") +
+        ", with the columns of the vertices of IN; StreamIndex "
+        "and OriginalId number them in the stream and in the original file")
     ->required();
   command->add_option("--points", options->points, "Most points of the preview")
     ->check(CLI::Range(smg::LeastPreviewPoints, smg::MostPreviewPoints))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SolvingCommand.h"
 
+#include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/AnyFormat/WriteMesh.h"
 #include "IO/AnyFormat/WriteRestored.h"
@@ -47,9 +48,11 @@ public:
   void addOptions(CLI::App& command)
   {
     this->addSolverOptions(command,
-      "The mesh with its solution: .vsm, .ply, .vtp or .vtu. The last three have the order of IN, "
-      "unless that has numbers OriginalId of its own or points are welded: then the vertices come "
-      "in stream order",
+      "The mesh with its solution: " + smg::suffixList(smg::FormatUse::WriteColumns, "or") +
+        ". Of these .ply, .vtp and .vtu have the order of IN, "
+        "unless that has numbers OriginalId of its own or points are welded: then the vertices "
+        "come "
+        "in stream order",
       this->Solve, { "extended", "shi2006" });
     command.get_option("--operators")
       ->description("Operator set; shi2006: the paper's printed equations, biased, --in-core only");
@@ -78,8 +81,8 @@ protected:
     if (smg::kindOfOutput(this->Out) == smg::MeshFileKind::Stream)
     {
       throw smg::Error(this->Out.string() +
-                       ": this format has no room for a solution: write it as .vsm, .ply, .vtp or "
-                       ".vtu.");
+                       ": this format has no room for a solution: write it as " +
+                       smg::suffixList(smg::FormatUse::WriteColumns, "or") + '.');
     }
     smg::checkOutput(this->Out);
   }
@@ -122,8 +125,9 @@ protected:
 
   bool keepsOrder() const override
   {
-    const smg::MeshFileKind kind = smg::kindOfOutput(this->Out);
-    return kind == smg::MeshFileKind::Indexed && this->Conversion &&
+    const bool canKeep = smg::suffixFor(smg::FormatUse::Write, this->Out) &&
+                         smg::suffixFor(smg::FormatUse::Restore, this->Out);
+    return canKeep && this->Conversion &&
            smg::kindOfInput(this->In) == smg::MeshFileKind::Indexed &&
            !this->Conversion->keeps_numbers && !this->Input.welds();
   }

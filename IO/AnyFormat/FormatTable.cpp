@@ -13,6 +13,7 @@
 #include "IO/Formats/TetGen/TetGenFormat.h"
 #include "IO/Formats/Vsm/VsmFileFormat.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
+#include "IO/Formats/VtkHdf/VtkHdfFormat.h"
 
 #include <algorithm>
 #include <fstream>
@@ -39,6 +40,7 @@ constexpr const Format* Formats[] = {
   &LegacyVtkFormat,
   &VtkXmlFormat,
   &ParallelVtkXmlFormat,
+  &VtkHdfFormat,
 };
 
 /** What the first bytes of a file are, without compression. */
@@ -84,9 +86,19 @@ const Format* formatOfSign(std::string_view start)
 
 bool canBeUsed(const Format& format, FormatUse use)
 {
-  return use == FormatUse::Read    ? format.parse || format.kind != MeshFileKind::Indexed
-         : use == FormatUse::Write ? format.write != nullptr
-                                   : format.restore != nullptr;
+  const bool writes = format.write || format.writeVsm;
+  switch (use)
+  {
+    case FormatUse::Read:
+      return format.parse || format.kind != MeshFileKind::Indexed;
+    case FormatUse::Write:
+      return writes;
+    case FormatUse::WriteColumns:
+      return writes && format.kind != MeshFileKind::Stream;
+    case FormatUse::Restore:
+      return format.restore != nullptr;
+  }
+  return false;
 }
 
 /** As "a, b or c". */

@@ -37,8 +37,9 @@ const Format* formatOfStart(
 enum class FormatUse
 {
   Read,
-  Write,  ///< in stream order
-  Restore ///< in the order of the file that the mesh was made of
+  Write,        ///< in stream order
+  WriteColumns, ///< the same with all columns
+  Restore       ///< in the order of the file that the mesh was made of
 };
 
 /** The suffix of the path, if its files can be written so; null otherwise. */

@@ -3,9 +3,11 @@
 
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
+#include "IO/Files/PartialProgress.h"
 #include "IO/Files/Suffix.h"
-#include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Vsm/VsmReader.h"
+#include "IO/Formats/Vsm/WriteVsm.h"
+#include "Solver/Storage/ScratchFolder.h"
 
 namespace smg
 {
@@ -14,20 +16,31 @@ std::vector<std::string> writeMesh(
   MeshSource& source, const std::filesystem::path& path, const WriteMeshOptions& options)
 {
   checkOutput(path, source.info().cellType);
-  return formatOfSuffix(lowerSuffix(path))->write(source, path, options);
+  const Format& format = *formatOfSuffix(lowerSuffix(path));
+  if (format.write)
+  {
+    return format.write(source, path, options);
+  }
+  const ScratchFolder scratch(options.scratch);
+  const std::filesystem::path whole = scratch / "mesh.vsm";
+  writeVsm(source, whole, Codec::Lz4, partOf(options.progress, 0.0, 0.6));
+  return format.writeVsm(whole, path, partOf(options.progress, 0.6, 1.0));
 }
 
 std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
   const std::filesystem::path& path, const ProgressFunction& progress)
 {
-  if (kindOfOutput(path) != MeshFileKind::Stream)
+  VsmReader reader(vsm);
+  checkOutput(path, reader.info().cellType);
+  const Format& format = *formatOfSuffix(lowerSuffix(path));
+  if (format.writeVsm)
   {
-    WriteMeshOptions options;
-    options.isolatedFrom = vsm;
-    options.progress = progress;
-    return writeMesh(*VsmReader(vsm).source(), path, options);
+    return format.writeVsm(vsm, path, progress);
   }
-  return notesOnRounded(vsmToStream(vsm, path, progress));
+  WriteMeshOptions options;
+  options.isolatedFrom = vsm;
+  options.progress = progress;
+  return writeMesh(*reader.source(), path, options);
 }
 
 } // namespace smg

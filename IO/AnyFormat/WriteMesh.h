@@ -12,7 +12,7 @@ namespace smg
 
 /**
  * Writes a mesh stream, which says its numbers of vertices and cells, in the format of the suffix:
- * .vsm, .ply, .vtp or .vtu with all its columns, or .sma, .smb, .sva or .svb.
+ * .vsm, .ply, .vtp, .vtu or .vtkhdf with all its columns, or .sma, .smb, .sva or .svb.
  * @return a sentence for each thing that the format does not hold as the mesh has it
  * @throws Error as checkOutput() in MeshFile.h, if the stream is not valid, or the file cannot be
  * written; Cancelled. Nothing is left of the file then.

@@ -42,6 +42,12 @@ std::string_view InputFile::move(std::size_t offset, std::size_t least)
   return { this->Window.data(), wanted };
 }
 
+void InputFile::passed(std::size_t bytes)
+{
+  this->Passed = std::min(this->Size, this->Passed + bytes);
+  this->Reported.update(static_cast<double>(this->Passed) / static_cast<double>(this->Size));
+}
+
 void InputFile::fail(std::size_t offset, const std::string& sentence) const
 {
   throw Error(this->Name + ", byte " + std::to_string(offset) + ": " + sentence);

@@ -48,6 +48,9 @@ public:
     return this->move(offset, least);
   }
 
+  /** Tells progress by bytes of the file that others have read. Throws Cancelled. */
+  void passed(std::size_t bytes);
+
   /** Throws Error: "NAME, byte OFFSET: SENTENCE" */
   [[noreturn]] void fail(std::size_t offset, const std::string& sentence) const;
 
@@ -62,6 +65,7 @@ private:
   std::vector<char> Window;
   std::size_t Begin = 0; ///< place of the window in the file
   std::size_t Used = 0;  ///< bytes of the window
+  std::size_t Passed = 0;
 };
 
 } // namespace smg

@@ -108,9 +108,12 @@ struct Format
   /** What its size lets guess otherwise. */
   VertexShare share = {};
 
-  /** Writes a mesh stream in its order. The suffix is one of the format that holds the cells. */
+  /** Writes a mesh stream in its order, in one pass. The suffix is one that holds the cells. */
   WriteNotes (*write)(MeshSource& source, const std::filesystem::path& path,
     const WriteMeshOptions& options) = nullptr;
+  /** The same of a .vsm file, for a format that needs to read the mesh otherwise than once. */
+  WriteNotes (*writeVsm)(const std::filesystem::path& vsm, const std::filesystem::path& path,
+    const ProgressFunction& progress) = nullptr;
   /**
    * Writes a mesh in the order of the file that it was made of: reads it once. The file gets its
    * name when it is complete.

@@ -2,11 +2,8 @@
 #include "IO/Formats/Streams/StreamsFormat.h"
 
 #include "IO/Files/InputFile.h"
-#include "IO/Files/PartialProgress.h"
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Streams/StreamFile.h"
-#include "IO/Formats/Vsm/WriteVsm.h"
-#include "Solver/Storage/ScratchFolder.h"
 
 namespace smg
 {
@@ -14,14 +11,11 @@ namespace smg
 namespace
 {
 
-/** These formats need the last cell of each vertex first: through a .vsm file. */
-WriteNotes write(
-  MeshSource& source, const std::filesystem::path& path, const WriteMeshOptions& options)
+/** These formats need the last cell of each vertex first. */
+WriteNotes write(const std::filesystem::path& vsm, const std::filesystem::path& path,
+  const ProgressFunction& progress)
 {
-  const ScratchFolder scratch(options.scratch);
-  const std::filesystem::path whole = scratch / "mesh.vsm";
-  writeVsm(source, whole, Codec::Lz4, partOf(options.progress, 0.0, 0.6));
-  return notesOnRounded(vsmToStream(whole, path, partOf(options.progress, 0.6, 1.0)));
+  return notesOnRounded(vsmToStream(vsm, path, progress));
 }
 
 std::optional<FileCounts> countsOfStream(InputFile& file)
@@ -48,7 +42,7 @@ const Format StreamsFormat{
   .attributes = "a scalar of the vertices of tetrahedra",
   .kind = MeshFileKind::Stream,
   .counts = countsOfStream,
-  .write = write,
+  .writeVsm = write,
 };
 
 } // namespace smg

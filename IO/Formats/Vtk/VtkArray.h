@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 
 namespace smg
@@ -27,6 +28,21 @@ enum class VtkCompression : std::uint8_t
   Lzma
 };
 
+class ByteSource;
+class InputFile;
+class Pool;
+struct VtkArray;
+
+/** Opens arrays whose numbers do not stand in the file one after the other. */
+class VtkArrayOpener
+{
+public:
+  virtual ~VtkArrayOpener() = default;
+  /** The numbers from `array.begin` on, as `array.type` in the machine's byte order. */
+  virtual std::unique_ptr<ByteSource> open(
+    InputFile& file, const VtkArray& array, Pool& pool) const = 0;
+};
+
 /** An array of numbers in a VTK file: what it is, where it stands and how it is written. */
 struct VtkArray
 {
@@ -41,6 +57,8 @@ struct VtkArray
   bool bigEndian = false;
   /** Bytes of a number of the header that leads what is not text; 0: there is no header. */
   int headerBytes = 0;
+  /** Who opens it; null: it stands in the file as said above. Then `begin` counts numbers. */
+  const VtkArrayOpener* opener = nullptr;
   bool isFractions = false; ///< numbers from 0 to 1 that stand for bytes from 0 to 255
 };
 

@@ -2,6 +2,7 @@
 #include "IO/Formats/Vtk/VtkArrayReader.h"
 
 #include "IO/Files/InQuotes.h"
+#include "Solver/Core/Error.h"
 
 #include <algorithm>
 #include <bit>
@@ -59,6 +60,11 @@ VtkArrayReader::VtkArrayReader(InputFile& file, const VtkArray& array, Pool& poo
   , Array(array)
   , Left(array.values)
 {
+  if (array.opener)
+  {
+    this->Bytes = array.opener->open(file, this->Array, pool);
+    return;
+  }
   if (array.encoding == VtkEncoding::Text)
   {
     this->Text.emplace(file, array.begin);
@@ -103,8 +109,13 @@ std::int64_t VtkArrayReader::bytes() const
 
 void VtkArrayReader::fail(const std::string& sentence) const
 {
-  this->File.fail(this->Text ? this->Text->offset() : this->Array.begin,
-    "the array " + (this->Array.name.empty() ? "" : inQuotes(this->Array.name) + ' ') + sentence);
+  const std::string what =
+    "the array " + (this->Array.name.empty() ? "" : inQuotes(this->Array.name) + ' ') + sentence;
+  if (this->Array.opener)
+  {
+    throw Error(this->File.name() + ": " + what + '.');
+  }
+  this->File.fail(this->Text ? this->Text->offset() : this->Array.begin, what);
 }
 
 std::size_t VtkArrayReader::readSome(std::byte* values, std::size_t count)

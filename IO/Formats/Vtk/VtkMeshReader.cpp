@@ -242,6 +242,12 @@ private:
     }
     for (const VtkArray& array : (*full).*arrays)
     {
+      // What the pieces were joined by is no data.
+      if (this->Layout.pieces.size() > 1 &&
+          (array.name == GhostTypeName || (ofPoints && array.name == (*full).globalIds)))
+      {
+        continue;
+      }
       const bool everywhere = std::ranges::all_of(this->Layout.pieces,
         [&](const VtkPiece& piece)
         {

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/VtkHdf/Hdf5File.h"
+
+#include "IO/Files/InQuotes.h"
+#include "IO/Formats/VtkHdf/Hdf5Handle.h"
+#include "Solver/Core/Error.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+/** The type of numbers, or none. */
+std::optional<ScalarType> scalarTypeOf(hid_t type)
+{
+  const std::size_t size = H5Tget_size(type);
+  if (H5Tget_class(type) == H5T_FLOAT)
+  {
+    return size == 4   ? std::optional(ScalarType::Float32)
+           : size == 8 ? std::optional(ScalarType::Float64)
+                       : std::nullopt;
+  }
+  if (H5Tget_class(type) != H5T_INTEGER)
+  {
+    return {};
+  }
+  const bool isSigned = H5Tget_sign(type) == H5T_SGN_2;
+  switch (size)
+  {
+    case 1:
+      return isSigned ? ScalarType::Int8 : ScalarType::UInt8;
+    case 2:
+      return isSigned ? ScalarType::Int16 : ScalarType::UInt16;
+    case 4:
+      return isSigned ? ScalarType::Int32 : ScalarType::UInt32;
+    case 8:
+      return isSigned ? ScalarType::Int64 : ScalarType::UInt64;
+    default:
+      return {};
+  }
+}
+
+std::uint64_t chunkBytesOf(hid_t set, std::size_t numberBytes)
+{
+  const Hdf5Handle<H5Pclose> properties(H5Dget_create_plist(set));
+  if (!properties.valid() || H5Pget_layout(properties.id()) != H5D_CHUNKED)
+  {
+    return 0;
+  }
+  std::array<hsize_t, H5S_MAX_RANK> extents{};
+  const int rank = H5Pget_chunk(properties.id(), H5S_MAX_RANK, extents.data());
+  std::uint64_t bytes = numberBytes;
+  for (int i = 0; i < rank; ++i)
+  {
+    if (__builtin_mul_overflow(bytes, extents[static_cast<std::size_t>(i)], &bytes))
+    {
+      return UINT64_MAX;
+    }
+  }
+  return bytes;
+}
+
+} // namespace
+
+std::int64_t Hdf5Shape::components() const
+{
+  std::int64_t numbers = 1;
+  for (std::size_t i = 1; i < this->extents.size(); ++i)
+  {
+    numbers *= static_cast<std::int64_t>(this->extents[i]);
+  }
+  return numbers;
+}
+
+Hdf5File::Hdf5File(const std::filesystem::path& path, std::string name)
+  : Name(std::move(name))
+{
+  const Hdf5Silence silence;
+  this->File = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (this->File < 0)
+  {
+    this->fail("the HDF5 library cannot open the file: it is truncated or damaged");
+  }
+}
+
+Hdf5File::~Hdf5File()
+{
+  const Hdf5Silence silence;
+  H5Fclose(this->File);
+}
+
+void Hdf5File::fail(const std::string& sentence) const
+{
+  throw Error(this->Name + ": " + sentence + '.');
+}
+
+bool Hdf5File::exists(const std::string& object) const
+{
+  const Hdf5Silence silence;
+  // Each group on the way must be asked for.
+  for (std::size_t at = object.find('/', 1); at != std::string::npos; at = object.find('/', at + 1))
+  {
+    if (H5Lexists(this->File, object.substr(0, at).c_str(), H5P_DEFAULT) <= 0)
+    {
+      return false;
+    }
+  }
+  return H5Lexists(this->File, object.c_str(), H5P_DEFAULT) > 0 &&
+         H5Oexists_by_name(this->File, object.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::vector<std::string> Hdf5File::datasets(const std::string& group) const
+{
+  const Hdf5Silence silence;
+  std::vector<std::string> names;
+  const Hdf5Handle<H5Gclose> handle(H5Gopen2(this->File, group.c_str(), H5P_DEFAULT));
+  H5G_info_t info{};
+  if (!handle.valid() || H5Gget_info(handle.id(), &info) < 0)
+  {
+    return names;
+  }
+  for (hsize_t i = 0; i < info.nlinks; ++i)
+  {
+    const ssize_t length =
+      H5Lget_name_by_idx(handle.id(), ".", H5_INDEX_NAME, H5_ITER_INC, i, nullptr, 0, H5P_DEFAULT);
+    if (length <= 0)
+    {
+      continue;
+    }
+    std::string name(static_cast<std::size_t>(length) + 1, '\0');
+    H5Lget_name_by_idx(
+      handle.id(), ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(), H5P_DEFAULT);
+    name.pop_back();
+    const Hdf5Handle<H5Dclose> set(H5Dopen2(handle.id(), name.c_str(), H5P_DEFAULT));
+    if (set.valid())
+    {
+      names.push_back(std::move(name));
+    }
+  }
+  return names;
+}
+
+Hdf5Shape Hdf5File::shape(const std::string& dataset) const
+{
+  const Hdf5Silence silence;
+  const Hdf5Handle<H5Dclose> set(H5Dopen2(this->File, dataset.c_str(), H5P_DEFAULT));
+  if (!set.valid())
+  {
+    this->fail("the dataset " + inQuotes(dataset) + " is missing");
+  }
+  const Hdf5Handle<H5Tclose> type(H5Dget_type(set.id()));
+  const Hdf5Handle<H5Sclose> space(H5Dget_space(set.id()));
+  Hdf5Shape shape;
+  shape.type = scalarTypeOf(type.id());
+  std::array<hsize_t, H5S_MAX_RANK> extents{};
+  const int rank = H5Sget_simple_extent_dims(space.id(), extents.data(), nullptr);
+  if (rank < 0)
+  {
+    this->fail("the dataset " + inQuotes(dataset) + " has no extents");
+  }
+  std::uint64_t numbers = 1;
+  for (int i = 0; i < rank; ++i)
+  {
+    shape.extents.push_back(extents[static_cast<std::size_t>(i)]);
+    if (__builtin_mul_overflow(numbers, shape.extents.back(), &numbers) ||
+        numbers > std::uint64_t(INT64_MAX) / 8)
+    {
+      this->fail("the extents of the dataset " + inQuotes(dataset) + " cannot be right");
+    }
+  }
+  shape.chunkBytes = chunkBytesOf(set.id(), H5Tget_size(type.id()));
+  return shape;
+}
+
+std::optional<std::string> Hdf5File::text(const std::string& object, const char* attribute) const
+{
+  const Hdf5Silence silence;
+  const Hdf5Handle<H5Aclose> handle(
+    H5Aopen_by_name(this->File, object.c_str(), attribute, H5P_DEFAULT, H5P_DEFAULT));
+  if (!handle.valid())
+  {
+    return {};
+  }
+  const Hdf5Handle<H5Tclose> type(H5Aget_type(handle.id()));
+  if (H5Tget_class(type.id()) != H5T_STRING)
+  {
+    return {};
+  }
+  if (H5Tis_variable_str(type.id()) > 0)
+  {
+    char* value = nullptr;
+    if (H5Aread(handle.id(), type.id(), &value) < 0 || !value)
+    {
+      return {};
+    }
+    std::string text(value);
+    H5free_memory(value);
+    return text;
+  }
+  constexpr std::size_t MostBytes = 4096;
+  std::string text(std::min(H5Tget_size(type.id()), MostBytes), '\0');
+  if (H5Tget_size(type.id()) > MostBytes || H5Aread(handle.id(), type.id(), text.data()) < 0)
+  {
+    return {};
+  }
+  text.resize(std::strlen(text.c_str()));
+  return text;
+}
+
+std::optional<std::int64_t> Hdf5File::integer(
+  const std::string& object, const char* attribute) const
+{
+  const Hdf5Silence silence;
+  const Hdf5Handle<H5Aclose> handle(
+    H5Aopen_by_name(this->File, object.c_str(), attribute, H5P_DEFAULT, H5P_DEFAULT));
+  if (!handle.valid())
+  {
+    return {};
+  }
+  const Hdf5Handle<H5Sclose> space(H5Aget_space(handle.id()));
+  const Hdf5Handle<H5Tclose> type(H5Aget_type(handle.id()));
+  std::int64_t value = 0;
+  if (H5Sget_simple_extent_npoints(space.id()) != 1 || H5Tget_class(type.id()) != H5T_INTEGER ||
+      H5Aread(handle.id(), H5T_NATIVE_INT64, &value) < 0)
+  {
+    return {};
+  }
+  return value;
+}
+
+std::vector<std::int64_t> Hdf5File::integers(const std::string& dataset) const
+{
+  const Hdf5Shape shape = this->shape(dataset);
+  constexpr std::int64_t Most = std::int64_t(1) << 24;
+  const std::int64_t count = shape.rows() * shape.components();
+  if (!shape.type || *shape.type >= ScalarType::Float32 || count > Most)
+  {
+    this->fail("the dataset " + inQuotes(dataset) + " should be a short list of integers");
+  }
+  std::vector<std::int64_t> values(static_cast<std::size_t>(count));
+  Hdf5Numbers(*this, dataset, ScalarType::Int64, 0)
+    .read(reinterpret_cast<std::byte*>(values.data()), values.size() * sizeof(values[0]));
+  return values;
+}
+
+Hdf5Numbers::Hdf5Numbers(
+  const Hdf5File& file, std::string dataset, ScalarType type, std::int64_t begin)
+  : File(file)
+  , Name(std::move(dataset))
+  , Type(type)
+  , At(begin)
+  , Shape(file.shape(this->Name))
+{
+  const Hdf5Silence silence;
+  const Hdf5Handle<H5Pclose> access(H5Pcreate(H5P_DATASET_ACCESS));
+  // Rows are read once, from first to last: one chunk is enough.
+  constexpr std::size_t Slots = 101;
+  H5Pset_chunk_cache(access.id(), Slots, this->Shape.chunkBytes + 1, 1.0);
+  this->Set = H5Dopen2(file.handle(), this->Name.c_str(), access.id());
+  this->Space = this->Set < 0 ? -1 : H5Dget_space(this->Set);
+  if (this->Space < 0)
+  {
+    H5Dclose(this->Set);
+    file.fail("the dataset " + inQuotes(this->Name) + " cannot be opened");
+  }
+}
+
+Hdf5Numbers::~Hdf5Numbers()
+{
+  const Hdf5Silence silence;
+  H5Sclose(this->Space);
+  H5Dclose(this->Set);
+}
+
+void Hdf5Numbers::readRows(std::byte* values, std::int64_t first, std::int64_t count)
+{
+  const Hdf5Silence silence;
+  std::array<hsize_t, H5S_MAX_RANK> begin{}, extents{};
+  std::copy(this->Shape.extents.begin(), this->Shape.extents.end(), extents.begin());
+  if (!this->Shape.extents.empty())
+  {
+    begin[0] = static_cast<hsize_t>(first);
+    extents[0] = static_cast<hsize_t>(count);
+    H5Sselect_hyperslab(
+      this->Space, H5S_SELECT_SET, begin.data(), nullptr, extents.data(), nullptr);
+  }
+  const auto numbers = static_cast<hsize_t>(count * this->Shape.components());
+  const Hdf5Handle<H5Sclose> memory(H5Screate_simple(1, &numbers, nullptr));
+  if (H5Dread(this->Set, nativeType(this->Type), memory.id(), this->Space, H5P_DEFAULT, values) < 0)
+  {
+    this->File.fail("the dataset " + inQuotes(this->Name) + " cannot be read from row " +
+                    std::to_string(first) + " on: the file is damaged");
+  }
+}
+
+void Hdf5Numbers::read(std::byte* values, std::size_t bytes)
+{
+  const auto size = static_cast<std::int64_t>(sizeOf(this->Type));
+  auto left = static_cast<std::int64_t>(bytes) / size;
+  const std::int64_t width = this->Shape.components();
+  if (this->At + left > this->Shape.rows() * width)
+  {
+    this->File.fail("the dataset " + inQuotes(this->Name) + " ends before it should, after " +
+                    std::to_string(this->Shape.rows()) + " rows");
+  }
+  while (left > 0)
+  {
+    const std::int64_t row = this->At / width, within = this->At % width;
+    std::int64_t taken = left / width * width;
+    if (within == 0 && taken > 0)
+    {
+      this->readRows(values, row, taken / width);
+    }
+    else
+    {
+      this->Row.resize(static_cast<std::size_t>(width * size));
+      this->readRows(this->Row.data(), row, 1);
+      taken = std::min(left, width - within);
+      std::memcpy(values, this->Row.data() + within * size, static_cast<std::size_t>(taken * size));
+    }
+    values += taken * size;
+    this->At += taken;
+    left -= taken;
+  }
+}
+
+} // namespace smg

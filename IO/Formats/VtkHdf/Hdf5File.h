@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/ScalarType.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** A dataset of an HDF5 file. */
+struct Hdf5Shape
+{
+  /** Of its numbers; none if it holds texts or anything else. */
+  std::optional<ScalarType> type;
+  std::vector<std::uint64_t> extents;
+  /** Bytes of a chunk, 0 if it is not stored in chunks. */
+  std::uint64_t chunkBytes = 0;
+
+  std::int64_t rows() const
+  {
+    return this->extents.empty() ? 1 : static_cast<std::int64_t>(this->extents[0]);
+  }
+  /** Numbers of a row. */
+  std::int64_t components() const;
+};
+
+/**
+ * An HDF5 file that is read, by the C library. Errors are those of this project: they name the file
+ * and the object. Objects are named by their paths, as "/VTKHDF/Points".
+ */
+class Hdf5File
+{
+public:
+  /** Throws Error if it is none, or truncated. `name`: what errors call it. */
+  Hdf5File(const std::filesystem::path& path, std::string name);
+  ~Hdf5File();
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+
+  const std::string& name() const { return this->Name; }
+  bool exists(const std::string& object) const;
+  /** Names of the datasets of a group, in the order of the alphabet. */
+  std::vector<std::string> datasets(const std::string& group) const;
+  Hdf5Shape shape(const std::string& dataset) const;
+
+  /** An attribute of an object: a text, or none. */
+  std::optional<std::string> text(const std::string& object, const char* attribute) const;
+  /** An attribute of an object: an integer, or none. */
+  std::optional<std::int64_t> integer(const std::string& object, const char* attribute) const;
+  /** All of a short dataset of integers, row after row. */
+  std::vector<std::int64_t> integers(const std::string& dataset) const;
+
+  /** Throws Error: "NAME: SENTENCE". */
+  [[noreturn]] void fail(const std::string& sentence) const;
+
+  /** The library's handle of the file. */
+  std::int64_t handle() const { return this->File; }
+
+private:
+  std::string Name;
+  std::int64_t File = -1;
+};
+
+/** Reads the numbers of a dataset one after the other, a range of whole rows at a time. */
+class Hdf5Numbers
+{
+public:
+  /** Begins at a number. A chunk is kept in memory. Throws Error. */
+  Hdf5Numbers(const Hdf5File& file, std::string dataset, ScalarType type, std::int64_t begin);
+  ~Hdf5Numbers();
+  Hdf5Numbers(const Hdf5Numbers&) = delete;
+  Hdf5Numbers& operator=(const Hdf5Numbers&) = delete;
+
+  /** Fills with the next numbers, as many bytes of them. Throws Error if there are fewer. */
+  void read(std::byte* values, std::size_t bytes);
+
+private:
+  void readRows(std::byte* values, std::int64_t first, std::int64_t count);
+
+  const Hdf5File& File;
+  std::string Name;
+  ScalarType Type;
+  std::int64_t At;
+  Hdf5Shape Shape;
+  std::int64_t Set = -1, Space = -1;
+  std::vector<std::byte> Row; ///< of a row that is read in parts
+};
+
+} // namespace smg

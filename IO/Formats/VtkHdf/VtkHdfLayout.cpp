@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/VtkHdf/VtkHdfLayout.h"
+
+#include "IO/External/Reservation.h"
+#include "IO/Files/InQuotes.h"
+#include "IO/Files/InputFile.h"
+#include "IO/Formats/Vtk/ByteSource.h"
+#include "IO/Formats/VtkHdf/Hdf5File.h"
+#include "IO/Formats/VtkHdf/VtkHdfRoot.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace smg
+{
+
+namespace
+{
+
+/** The numbers of a dataset as a VtkArrayReader takes them. */
+class DatasetBytes : public ByteSource
+{
+public:
+  DatasetBytes(const Hdf5File& hdf, const std::string& name, InputFile& file, const VtkArray& array,
+    Pool& pool)
+    : Chunk(pool, static_cast<std::int64_t>(hdf.shape(name).chunkBytes))
+    , Numbers(hdf, name, array.type, static_cast<std::int64_t>(array.begin))
+    , File(file)
+  {
+  }
+
+  void read(std::span<std::byte> bytes) override
+  {
+    this->Numbers.read(bytes.data(), bytes.size());
+    this->File.passed(bytes.size());
+  }
+
+private:
+  Reservation Chunk;
+  Hdf5Numbers Numbers;
+  InputFile& File;
+};
+
+class DatasetOpener : public VtkArrayOpener
+{
+public:
+  DatasetOpener(const Hdf5File& file, std::string name)
+    : Hdf(file)
+    , Name(std::move(name))
+  {
+  }
+
+  std::unique_ptr<ByteSource> open(
+    InputFile& file, const VtkArray& array, Pool& pool) const override
+  {
+    return std::make_unique<DatasetBytes>(this->Hdf, this->Name, file, array, pool);
+  }
+
+private:
+  const Hdf5File& Hdf;
+  std::string Name;
+};
+
+class LayoutReader
+{
+public:
+  LayoutReader(const Hdf5File& file, std::int64_t mostBytes)
+    : File(file)
+    , MostBytes(mostBytes)
+  {
+  }
+
+  VtkHdfLayout read()
+  {
+    const std::string type = this->File.text("/VTKHDF", "Type").value_or("");
+    if (type != "UnstructuredGrid" && type != "PolyData")
+    {
+      this->File.fail("the file holds " + (type.empty() ? "no mesh of VTK" : inQuotes(type)) +
+                      "; VTKHDF files of the types UnstructuredGrid and PolyData are read");
+    }
+    this->readTimeSteps();
+    this->Points = this->File.integers(VtkHdfRoot + "NumberOfPoints");
+    this->choosePartitions();
+    this->readAttributes("PointData", this->PointArrays);
+    this->readAttributes("CellData", this->CellArrays);
+    if (type == "PolyData")
+    {
+      this->addLists(
+        { { "Vertices", VtkCellTypes::PolyVertex }, { "Lines", VtkCellTypes::PolyLine },
+          { "Polygons", VtkCellTypes::Polygon }, { "Strips", VtkCellTypes::TriangleStrip } });
+    }
+    else
+    {
+      this->addLists({ { "", 0 } });
+    }
+    this->addPieces();
+    return std::move(this->Layout);
+  }
+
+private:
+  /** Cells of one kind, of all partitions. */
+  struct Cells
+  {
+    std::string group; ///< with a slash at its end
+    int type;          ///< 0: each has its own
+    std::vector<std::int64_t> cells, points;
+    std::int64_t firstCell = 0, firstPoint = 0; ///< of the time step
+  };
+  struct Attribute
+  {
+    VtkArray array;
+    std::int64_t first = 0; ///< row of the time step
+    std::int64_t rows = 0;
+  };
+
+  void readTimeSteps()
+  {
+    this->Layout.timeSteps = this->File.exists(VtkHdfRoot + "Steps")
+                               ? this->File.integer(VtkHdfRoot + "Steps", "NSteps").value_or(0)
+                               : 0;
+  }
+
+  /** What the first time step says of a count or a place; `otherwise` if there are no time steps.
+   */
+  std::int64_t ofStep(const std::string& name, std::int64_t otherwise, std::size_t column = 0) const
+  {
+    const std::string dataset = VtkHdfRoot + "Steps/" + name;
+    if (this->Layout.timeSteps == 0 || !this->File.exists(dataset))
+    {
+      return otherwise;
+    }
+    const std::vector<std::int64_t> values = this->File.integers(dataset);
+    if (column >= values.size() || values[column] < 0)
+    {
+      this->File.fail("the dataset " + inQuotes(dataset) + " is too short or negative");
+    }
+    return values[column];
+  }
+
+  void choosePartitions()
+  {
+    const auto all = static_cast<std::int64_t>(this->Points.size());
+    this->FirstPart = this->ofStep("PartOffsets", 0);
+    const std::int64_t usual = this->Layout.timeSteps > 1 ? all / this->Layout.timeSteps : all;
+    this->Parts = this->ofStep("NumberOfParts", std::max<std::int64_t>(1, usual));
+    this->FirstPoint = this->ofStep("PointOffsets", 0);
+    if (all == 0 || this->FirstPart > all || this->Parts > all - this->FirstPart)
+    {
+      this->File.fail("the file has " + std::to_string(all) + " partitions, fewer than it says");
+    }
+    constexpr std::int64_t PieceBytes = 2000;
+    this->Layout.bytes = this->Parts * PieceBytes;
+    if (this->Layout.bytes > this->MostBytes)
+    {
+      this->File.fail(std::to_string(this->Parts) + " partitions take more memory than is allowed");
+    }
+    this->Points = this->part(this->Points, "NumberOfPoints");
+  }
+
+  /** The counts of the partitions of the time step. */
+  std::vector<std::int64_t> part(const std::vector<std::int64_t>& counts, const std::string& name)
+  {
+    const auto needed = static_cast<std::size_t>(this->FirstPart + this->Parts);
+    if (counts.size() < needed)
+    {
+      this->File.fail("the dataset " + inQuotes(VtkHdfRoot + name) + " should have " +
+                      std::to_string(needed) + " numbers");
+    }
+    std::vector<std::int64_t> chosen(
+      counts.begin() + this->FirstPart, counts.begin() + static_cast<std::ptrdiff_t>(needed));
+    if (std::ranges::any_of(chosen, [](std::int64_t count) { return count < 0 || count > Most; }))
+    {
+      this->File.fail(
+        "a number of the dataset " + inQuotes(VtkHdfRoot + name) + " cannot be right");
+    }
+    return chosen;
+  }
+
+  std::vector<std::int64_t> counts(const std::string& name)
+  {
+    return this->part(this->File.integers(VtkHdfRoot + name), name);
+  }
+
+  /** An array of a dataset whose rows have `components` numbers, 0: any number of them. */
+  VtkArray arrayOf(const std::string& dataset, std::int64_t components)
+  {
+    const Hdf5Shape shape = this->File.shape(dataset);
+    if (!shape.type || shape.extents.size() > 2 ||
+        (components > 0 && shape.components() != components))
+    {
+      this->File.fail("the dataset " + inQuotes(dataset) + " should have rows of " +
+                      std::to_string(components) + " numbers");
+    }
+    std::unique_ptr<VtkArrayOpener>& opener = this->Openers[dataset];
+    if (!opener)
+    {
+      opener = std::make_unique<DatasetOpener>(this->File, dataset);
+    }
+    VtkArray array;
+    array.name = dataset.substr(dataset.rfind('/') + 1);
+    array.type = *shape.type;
+    array.columnType = *shape.type;
+    array.components = static_cast<int>(shape.components());
+    array.encoding = VtkEncoding::Raw;
+    array.opener = opener.get();
+    return array;
+  }
+
+  /** The rows [first, first + count) of an array, which the dataset must have. */
+  VtkArray rowsOf(
+    VtkArray array, const std::string& dataset, std::int64_t first, std::int64_t count)
+  {
+    if (first > this->Rows[dataset] - count)
+    {
+      this->File.fail("the dataset " + inQuotes(dataset) + " has " +
+                      std::to_string(this->Rows[dataset]) + " rows, " +
+                      std::to_string(first + count) + " are needed");
+    }
+    array.begin = static_cast<std::size_t>(first * array.components);
+    array.values = count * array.components;
+    return array;
+  }
+
+  void addLists(std::initializer_list<std::pair<const char*, int>> kinds)
+  {
+    std::size_t kind = 0;
+    for (const auto& [group, type] : kinds)
+    {
+      Cells cells{ group, type, {}, {} };
+      cells.group += cells.group.empty() ? "" : "/";
+      cells.cells = this->counts(cells.group + "NumberOfCells");
+      cells.points = this->counts(cells.group + "NumberOfConnectivityIds");
+      cells.firstCell = this->ofStep("CellOffsets", 0, kind);
+      cells.firstPoint = this->ofStep("ConnectivityIdOffsets", 0, kind);
+      ++kind;
+      this->Lists.push_back(std::move(cells));
+    }
+  }
+
+  void readAttributes(const std::string& group, std::vector<Attribute>& attributes)
+  {
+    if (!this->File.exists(VtkHdfRoot + group))
+    {
+      return;
+    }
+    for (const std::string& name : this->File.datasets(VtkHdfRoot + group))
+    {
+      const std::string dataset = VtkHdfRoot + group + '/' + name;
+      const Hdf5Shape shape = this->File.shape(dataset);
+      if (!shape.type || shape.extents.empty() || shape.extents.size() > 2 ||
+          shape.components() > MostComponents)
+      {
+        if (this->Layout.otherArrays.size() < MostOtherArrays)
+        {
+          this->Layout.otherArrays.insert(name);
+        }
+        continue;
+      }
+      Attribute attribute;
+      attribute.array = this->arrayOf(dataset, 0);
+      attribute.rows = shape.rows();
+      attribute.first = this->ofStep(group + "Offsets/" + name, -1);
+      attributes.push_back(std::move(attribute));
+    }
+  }
+
+  /** The arrays of a piece; `first`: of its rows, from the time step's first on. */
+  std::vector<VtkArray> attributesOf(const std::vector<Attribute>& attributes,
+    const std::string& group, std::int64_t stepFirst, std::int64_t first, std::int64_t count)
+  {
+    std::vector<VtkArray> arrays;
+    for (const Attribute& attribute : attributes)
+    {
+      const std::string dataset = VtkHdfRoot + group + '/' + attribute.array.name;
+      this->Rows[dataset] = attribute.rows;
+      arrays.push_back(this->rowsOf(attribute.array, dataset,
+        (attribute.first >= 0 ? attribute.first : stepFirst) + first, count));
+    }
+    return arrays;
+  }
+
+  VtkArray dataset(
+    const std::string& name, std::int64_t components, std::int64_t first, std::int64_t count)
+  {
+    const std::string path = VtkHdfRoot + name;
+    const VtkArray array = this->arrayOf(path, components);
+    this->Rows[path] = this->File.shape(path).rows();
+    return this->rowsOf(array, path, first, count);
+  }
+
+  /** A list of the partition, and behind it the next partition's. */
+  VtkCellList listOf(Cells& list, std::size_t part, std::int64_t partsBefore)
+  {
+    VtkCellList cells;
+    cells.cells = list.cells[part];
+    cells.type = list.type;
+    if (cells.cells > 0)
+    {
+      // A partition has a 0 before the ends of its cells.
+      const std::int64_t firstOffset = list.firstCell + partsBefore;
+      cells.points =
+        this->dataset(list.group + "Connectivity", 1, list.firstPoint, list.points[part]);
+      cells.offsets = this->dataset(list.group + "Offsets", 1, firstOffset, cells.cells + 1);
+      if (list.type == 0)
+      {
+        cells.types = this->dataset("Types", 1, list.firstCell, cells.cells);
+      }
+    }
+    list.firstCell += cells.cells;
+    list.firstPoint += list.points[part];
+    return cells;
+  }
+
+  void addPieces()
+  {
+    this->Layout.files.emplace_back();
+    std::int64_t firstPoint = 0, firstCell = 0;
+    const std::int64_t stepCell = std::accumulate(this->Lists.begin(), this->Lists.end(),
+      std::int64_t(0), [](std::int64_t sum, const Cells& list) { return sum + list.firstCell; });
+    const std::string pointNormals =
+      this->File.text(VtkHdfRoot + "PointData", "Normals").value_or("");
+    const std::string cellNormals =
+      this->File.text(VtkHdfRoot + "CellData", "Normals").value_or("");
+    for (std::size_t p = 0; p < this->Points.size(); ++p)
+    {
+      VtkPiece piece;
+      piece.points = this->Points[p];
+      if (piece.points > 0)
+      {
+        piece.positions = this->dataset("Points", 3, this->FirstPoint + firstPoint, piece.points);
+      }
+      for (Cells& list : this->Lists)
+      {
+        piece.lists.push_back(
+          this->listOf(list, p, this->FirstPart + static_cast<std::int64_t>(p)));
+        piece.cells += piece.lists.back().cells;
+      }
+      piece.pointArrays = this->attributesOf(
+        this->PointArrays, "PointData", this->FirstPoint, firstPoint, piece.points);
+      piece.cellArrays =
+        this->attributesOf(this->CellArrays, "CellData", stepCell, firstCell, piece.cells);
+      piece.pointNormals = pointNormals;
+      piece.cellNormals = cellNormals;
+      piece.globalIds = this->globalIds();
+      firstPoint += piece.points;
+      firstCell += piece.cells;
+      this->Layout.pieces.push_back(std::move(piece));
+    }
+    for (auto& [name, opener] : this->Openers)
+    {
+      this->Layout.openers.push_back(std::move(opener));
+    }
+  }
+
+  /** The array that the file says to be the points' global numbers, or one that is called so. */
+  std::string globalIds() const
+  {
+    const std::string said = this->File.text(VtkHdfRoot + "PointData", "GlobalIds").value_or("");
+    if (!said.empty())
+    {
+      return said;
+    }
+    for (const char* name : { "GlobalIds", "GlobalPointIds" })
+    {
+      if (this->File.exists(VtkHdfRoot + "PointData/" + name))
+      {
+        return name;
+      }
+    }
+    return {};
+  }
+
+  static constexpr std::int64_t Most = std::int64_t(1) << 48;
+  static constexpr std::int64_t MostComponents = 4096;
+
+  const Hdf5File& File;
+  std::int64_t MostBytes;
+  VtkHdfLayout Layout;
+  std::vector<std::int64_t> Points; ///< of each partition
+  std::int64_t FirstPart = 0, Parts = 0, FirstPoint = 0;
+  std::vector<Cells> Lists;
+  std::vector<Attribute> PointArrays, CellArrays;
+  std::map<std::string, std::unique_ptr<VtkArrayOpener>> Openers;
+  std::map<std::string, std::int64_t> Rows; ///< of the datasets
+};
+
+} // namespace
+
+VtkHdfLayout vtkHdfLayout(const Hdf5File& file, std::int64_t mostBytes)
+{
+  return LayoutReader(file, mostBytes).read();
+}
+
+} // namespace smg

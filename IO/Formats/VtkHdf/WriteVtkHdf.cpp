@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/VtkHdf/WriteVtkHdf.h"
+
+#include "IO/Formats/Vsm/MeshPiece.h"
+#include "IO/Formats/Vsm/ReservedNames.h"
+#include "IO/Formats/Vsm/VsmReader.h"
+#include "IO/Formats/VtkHdf/Hdf5Output.h"
+#include "IO/Formats/VtkHdf/VtkHdfRoot.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+namespace
+{
+
+class GridWriter
+{
+public:
+  GridWriter(VsmReader& reader, const std::filesystem::path& path)
+    : Reader(reader)
+    , Out(path)
+  {
+    const StreamInfo& info = reader.info();
+    this->Out.addGroup("/VTKHDF");
+    constexpr std::array<std::int64_t, 2> version{ 1, 0 };
+    this->Out.addIntegers("/VTKHDF", "Version", version);
+    this->Out.addText("/VTKHDF", "Type", "UnstructuredGrid");
+    for (const char* name :
+      { "NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds", "Connectivity", "Offsets" })
+    {
+      this->Out.addDataset(VtkHdfRoot + name, ScalarType::Int64, 0);
+    }
+    this->Out.addDataset(VtkHdfRoot + "Types", ScalarType::UInt8, 0);
+    this->Out.addDataset(
+      VtkHdfRoot + "Points", info.doublePositions ? ScalarType::Float64 : ScalarType::Float32, 3);
+    this->Out.addGroup(this->PointData);
+    this->Out.addText(this->PointData, "GlobalIds", GlobalIdsName);
+    this->Out.addGroup(this->CellData);
+    this->Out.addDataset(this->PointData + '/' + GlobalIdsName, ScalarType::Int64, 0);
+    this->Out.addDataset(this->PointData + '/' + GhostTypeName, ScalarType::UInt8, 0);
+    this->addColumns(this->PointData, info.vertexColumns);
+    this->addColumns(this->CellData, info.cellColumns);
+  }
+
+  void write(const MeshPiece& piece)
+  {
+    const auto corners = static_cast<std::size_t>(cornersOf(this->Reader.info().cellType));
+    const std::size_t cells = piece.corners.size() / corners;
+    this->append("NumberOfPoints", piece.ids.size());
+    this->append("NumberOfCells", cells);
+    this->append("NumberOfConnectivityIds", piece.corners.size());
+    this->Out.append(VtkHdfRoot + "Connectivity", std::span<const std::int64_t>(piece.corners));
+    this->Ends.resize(cells + 1);
+    for (std::size_t i = 0; i <= cells; ++i)
+    {
+      this->Ends[i] = static_cast<std::int64_t>(i * corners);
+    }
+    this->Out.append(VtkHdfRoot + "Offsets", std::span<const std::int64_t>(this->Ends));
+    constexpr std::uint8_t Triangle = 5, Tetrahedron = 10; // types of VTK
+    this->Bytes.assign(cells, corners == 3 ? Triangle : Tetrahedron);
+    this->Out.append(VtkHdfRoot + "Types", std::span<const std::uint8_t>(this->Bytes));
+    this->writePoints(piece);
+    this->Out.append(
+      this->PointData + '/' + GlobalIdsName, std::span<const std::int64_t>(piece.ids));
+    this->Out.append(
+      this->PointData + '/' + GhostTypeName, std::span<const std::uint8_t>(piece.ghost));
+    this->writeColumns(this->PointData, piece.vertexColumns);
+    this->writeColumns(this->CellData, piece.cellColumns);
+  }
+
+  void finish() { this->Out.finish(); }
+
+private:
+  void addColumns(const std::string& group, const std::vector<ColumnSpec>& columns)
+  {
+    for (const ColumnSpec& column : columns)
+    {
+      this->Out.addDataset(
+        group + '/' + nameOf(column), column.type, column.components > 1 ? column.components : 0);
+    }
+  }
+
+  /** A slash would make a group of its own. */
+  static std::string nameOf(const ColumnSpec& column)
+  {
+    std::string name = column.name;
+    std::ranges::replace(name, '/', '_');
+    return name;
+  }
+
+  void append(const char* dataset, std::size_t number)
+  {
+    const auto value = static_cast<std::int64_t>(number);
+    this->Out.append(VtkHdfRoot + dataset, std::span(&value, 1));
+  }
+
+  void writePoints(const MeshPiece& piece)
+  {
+    if (this->Reader.info().doublePositions)
+    {
+      this->Out.append(VtkHdfRoot + "Points", std::span<const double>(piece.positions));
+      return;
+    }
+    this->Singles.assign(piece.positions.begin(), piece.positions.end());
+    this->Out.append(VtkHdfRoot + "Points", std::span<const float>(this->Singles));
+  }
+
+  void writeColumns(const std::string& group, const std::vector<Column>& columns)
+  {
+    for (const Column& column : columns)
+    {
+      this->Out.append(group + '/' + nameOf(column.spec), std::span<const std::byte>(column.bytes));
+    }
+  }
+
+  VsmReader& Reader;
+  Hdf5Output Out;
+  const std::string PointData = VtkHdfRoot + "PointData", CellData = VtkHdfRoot + "CellData";
+  std::vector<std::int64_t> Ends;
+  std::vector<std::uint8_t> Bytes;
+  std::vector<float> Singles;
+};
+
+} // namespace
+
+WriteNotes writeVtkHdf(const std::filesystem::path& vsm, const std::filesystem::path& path,
+  const ProgressFunction& progressFunction, std::int64_t cells)
+{
+  Progress progress(progressFunction);
+  VsmReader reader(vsm);
+  GridWriter writer(reader, path);
+  MeshPiece piece;
+  const std::int64_t all = reader.info().cells;
+  for (std::int64_t first = 0; first < all; first += cells)
+  {
+    const std::int64_t end = std::min(all, first + cells);
+    reader.readPiece(first, end, piece);
+    writer.write(piece);
+    progress.update(static_cast<double>(end) / static_cast<double>(all));
+  }
+  writer.finish();
+  return {};
+}
+
+} // namespace smg

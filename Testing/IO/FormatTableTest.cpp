@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/AnyFormat/FormatTable.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <string>
+
+namespace smg::testing
+{
+namespace
+{
+
+std::string textOf(const std::string& file)
+{
+  std::ifstream stream(std::string(SMG_SOURCE_DIR) + '/' + file);
+  EXPECT_TRUE(stream) << file;
+  return { std::istreambuf_iterator<char>(stream), {} };
+}
+
+/** The suffixes, with their dots, that a hint of a proxy of the plugin names. */
+std::set<std::string> suffixesOfProxy(const std::string& file, const std::string& hint)
+{
+  const std::string text = textOf("ParaViewPlugin/StreamingMultigrid/" + file);
+  const std::string begin = "<" + hint + " extensions=\"";
+  const std::size_t at = text.find(begin);
+  EXPECT_NE(at, std::string::npos) << file;
+  std::istringstream words(
+    text.substr(at + begin.size(), text.find('"', at + begin.size()) - at - begin.size()));
+  std::set<std::string> suffixes;
+  for (std::string word; words >> word;)
+  {
+    suffixes.insert('.' + word);
+  }
+  return suffixes;
+}
+
+template <class Test>
+std::set<std::string> suffixesWhere(Test&& test)
+{
+  std::set<std::string> suffixes;
+  for (const Format* format : formats())
+  {
+    for (const FileSuffix& suffix : format->suffixes)
+    {
+      if (test(*format))
+      {
+        suffixes.emplace(suffix.text);
+      }
+    }
+  }
+  return suffixes;
+}
+
+} // namespace
+
+TEST(FormatTable, SuffixesAreOfOneFormatEach)
+{
+  std::set<std::string_view> seen;
+  for (const Format* format : formats())
+  {
+    EXPECT_FALSE(format->name.empty() || format->attributes.empty());
+    for (const FileSuffix& suffix : format->suffixes)
+    {
+      EXPECT_TRUE(seen.insert(suffix.text).second) << suffix.text;
+      EXPECT_EQ(formatOfSuffix(suffix.text), format);
+      EXPECT_TRUE(suffix.triangles || suffix.tetrahedra);
+    }
+    EXPECT_TRUE(format->parse || format->kind != MeshFileKind::Indexed) << format->name;
+    EXPECT_FALSE(format->write && format->writeVsm) << format->name;
+  }
+  EXPECT_EQ(formatOfName("A.PLY.gz"), formatOfSuffix(".ply"));
+  EXPECT_EQ(formatOfName("a.xyz"), nullptr);
+}
+
+TEST(FormatTable, ListsFollowFromIt)
+{
+  EXPECT_EQ(suffixList(FormatUse::Write, CellType::Tetrahedron, "or"),
+    ".vsm, .sva, .svb, .vtu, .vtkhdf or .hdf");
+  EXPECT_EQ(suffixFor(FormatUse::Write, "a.obj"), nullptr);
+  EXPECT_EQ(suffixFor(FormatUse::Write, "a.ply.gz"), nullptr);
+  EXPECT_EQ(suffixFor(FormatUse::Restore, "A.OBJ")->text, ".obj");
+  EXPECT_EQ(suffixFor(FormatUse::WriteColumns, "a.sma"), nullptr);
+}
+
+TEST(FormatTable, ParaViewOffersItsFormats)
+{
+  const auto isOwn = [](const Format& format) { return format.kind != MeshFileKind::Indexed; };
+  EXPECT_EQ(suffixesOfProxy("StreamingMeshReader.xml", "ReaderFactory"), suffixesWhere(isOwn));
+  EXPECT_EQ(suffixesOfProxy("StreamingMeshWriter.xml", "WriterFactory"), suffixesWhere(isOwn));
+  // Of TetGen one file is opened; .hdf may be anything; pieces are ParaView's to read.
+  std::set<std::string> parsed = suffixesWhere([](const Format& format) { return format.parse; });
+  std::set<std::string> offered = suffixesOfProxy("StreamingMeshConverter.xml", "ReaderFactory");
+  for (const char* suffix : { ".ele", ".hdf", ".pvtp", ".pvtu" })
+  {
+    EXPECT_EQ(parsed.erase(suffix), 1u);
+  }
+  std::erase_if(offered, [](const std::string& suffix) { return suffix.ends_with(".gz"); });
+  EXPECT_EQ(offered, parsed);
+  std::set<std::string> written = suffixesWhere(
+    [&](const Format& format) { return !isOwn(format) && (format.write || format.writeVsm); });
+  EXPECT_EQ(written.erase(".hdf"), 1u);
+  written.insert({ ".pvtp", ".pvtu" });
+  EXPECT_EQ(suffixesOfProxy("BigMeshWriter.xml", "WriterFactory"), written);
+}
+
+TEST(FormatTable, DocumentsNameItsFormats)
+{
+  const std::string text = textOf("docs/formats.md");
+  for (const Format* format : formats())
+  {
+    const bool named =
+      text.find(format->name) != std::string::npos ||
+      std::ranges::all_of(format->suffixes, [&](const FileSuffix& suffix)
+        { return text.find('`' + std::string(suffix.text) + '`') != std::string::npos; });
+    EXPECT_TRUE(named) << format->name;
+  }
+}
+
+} // namespace smg::testing

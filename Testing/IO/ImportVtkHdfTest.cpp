@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Conversion/Convert.h"
+#include "IO/Formats/Vsm/AttributeNames.h"
+#include "IO/Formats/Vsm/Columns.h"
+#include "IO/Formats/Vsm/VsmReader.h"
+#include "IO/Formats/VtkHdf/Hdf5Output.h"
+#include "IO/Formats/VtkHdf/VtkHdfFormat.h"
+#include "IO/Formats/VtkHdf/WriteVtkHdf.h"
+#include "Testing/IO/ContainerMeshes.h"
+#include "Testing/IO/ImportFixture.h"
+#include "Testing/Support/ColumnValues.h"
+#include "Testing/Support/StreamMesh.h"
+#include "Testing/Support/TestMeshes.h"
+
+#include <initializer_list>
+
+namespace smg::testing
+{
+namespace
+{
+
+using Integers = std::initializer_list<std::int64_t>;
+
+/** Writes the parts of a VTKHDF file by hand. */
+class HdfFile
+{
+public:
+  HdfFile(const std::filesystem::path& path, const std::string& type)
+    : Out(path)
+  {
+    this->Out.addGroup("/VTKHDF");
+    this->Out.addText("/VTKHDF", "Type", type);
+    this->Out.addIntegers("/VTKHDF", "Version", std::vector<std::int64_t>{ 2, 0 });
+  }
+
+  void group(const std::string& name) { this->Out.addGroup("/VTKHDF/" + name); }
+  void integers(const std::string& name, Integers values)
+  {
+    this->add(name, ScalarType::Int64, 0, std::vector<std::int64_t>(values));
+  }
+  void bytes(const std::string& name, std::initializer_list<std::uint8_t> values)
+  {
+    this->add(name, ScalarType::UInt8, 0, std::vector<std::uint8_t>(values));
+  }
+  void reals(const std::string& name, int components, std::initializer_list<float> values)
+  {
+    this->add(name, ScalarType::Float32, components, std::vector<float>(values));
+  }
+  /** The counts and cells of one kind of cells in polygonal data. */
+  void cells(const std::string& name, Integers cells, Integers ids, Integers points, Integers ends)
+  {
+    this->group(name);
+    this->integers(name + "/NumberOfCells", cells);
+    this->integers(name + "/NumberOfConnectivityIds", ids);
+    this->integers(name + "/Connectivity", points);
+    this->integers(name + "/Offsets", ends);
+  }
+  void normals(const std::string& name) { this->Out.addText("/VTKHDF/PointData", "Normals", name); }
+  void finish() { this->Out.finish(); }
+  Hdf5Output& out() { return this->Out; }
+
+private:
+  template <class T>
+  void add(const std::string& name, ScalarType type, int components, const std::vector<T>& values)
+  {
+    this->Out.addDataset("/VTKHDF/" + name, type, components);
+    this->Out.append("/VTKHDF/" + name, std::span<const T>(values));
+  }
+
+  Hdf5Output Out;
+};
+
+class ImportVtkHdf : public ImportFixture
+{
+protected:
+  ReadMesh readHdf(const std::string& name = "a.vtkhdf")
+  {
+    Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+    return readRaw(importMesh(this->Folder / name, workspace));
+  }
+
+  /** A square in two partitions, which share an edge. */
+  void writeSquare(HdfFile& file)
+  {
+    file.integers("NumberOfPoints", { 3, 3 });
+    file.reals("Points", 3, { 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 });
+    file.group("PointData");
+    file.integers("PointData/GlobalIds", { 0, 1, 2, 1, 3, 2 });
+    file.reals("PointData/Height", 0, { 5, 6, 7, 6, 8, 7 });
+    file.reals("PointData/Directions", 3, { 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1 });
+    file.normals("Directions");
+    file.group("CellData");
+    file.integers("CellData/Part", { 10, 20 });
+  }
+
+  void expectSquare(const ReadMesh& mesh)
+  {
+    EXPECT_EQ(mesh.positions, (std::vector<double>{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0 }));
+    EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2, 1, 3, 2 }));
+    const std::ptrdiff_t height =
+      findColumn(mesh.vertexColumns, { "Height", ScalarType::Float32, 1 });
+    ASSERT_GE(height, 0);
+    EXPECT_EQ(valuesOf(mesh.vertexColumns[static_cast<std::size_t>(height)]),
+      (std::vector<double>{ 5, 6, 7, 8 }));
+    EXPECT_GE(findColumn(mesh.vertexColumns, { NormalsName, ScalarType::Float32, 3 }), 0);
+    ASSERT_EQ(mesh.elementColumns.size(), 1u);
+    EXPECT_EQ(valuesOf(mesh.elementColumns[0]), (std::vector<double>{ 10, 20 }));
+  }
+};
+
+} // namespace
+
+TEST_F(ImportVtkHdf, PartitionsOfAGridAreOneMesh)
+{
+  HdfFile file(this->Folder / "a.vtkhdf", "UnstructuredGrid");
+  this->writeSquare(file);
+  file.integers("NumberOfCells", { 1, 1 });
+  file.integers("NumberOfConnectivityIds", { 3, 3 });
+  file.integers("Connectivity", { 0, 1, 2, 0, 1, 2 });
+  file.integers("Offsets", { 0, 3, 0, 3 });
+  file.bytes("Types", { 5, 5 });
+  file.finish();
+  this->expectSquare(this->readHdf());
+}
+
+TEST_F(ImportVtkHdf, PolygonalDataHasCellsOfFourKinds)
+{
+  HdfFile file(this->Folder / "a.vtkhdf", "PolyData");
+  this->writeSquare(file);
+  file.cells("Vertices", { 0, 0 }, { 0, 0 }, {}, { 0, 0 });
+  file.cells("Lines", { 0, 0 }, { 0, 0 }, {}, { 0, 0 });
+  file.cells("Polygons", { 1, 0 }, { 3, 0 }, { 0, 1, 2 }, { 0, 3, 0 });
+  file.cells("Strips", { 0, 1 }, { 0, 3 }, { 0, 1, 2 }, { 0, 0, 3 });
+  file.finish();
+  this->expectSquare(this->readHdf());
+}
+
+TEST_F(ImportVtkHdf, OfSeveralTimeStepsTheFirstIsRead)
+{
+  HdfFile file(this->Folder / "a.vtkhdf", "UnstructuredGrid");
+  file.integers("NumberOfPoints", { 3, 3 });
+  file.reals("Points", 3, { 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 });
+  file.integers("NumberOfCells", { 1, 1 });
+  file.integers("NumberOfConnectivityIds", { 3, 3 });
+  file.integers("Connectivity", { 0, 1, 2, 2, 1, 0 });
+  file.integers("Offsets", { 0, 3, 0, 3 });
+  file.bytes("Types", { 5, 5 });
+  file.group("Steps");
+  file.out().addIntegers("/VTKHDF/Steps", "NSteps", std::vector<std::int64_t>{ 2 });
+  file.integers("Steps/PartOffsets", { 1, 0 });
+  file.integers("Steps/NumberOfParts", { 1, 1 });
+  file.integers("Steps/PointOffsets", { 3, 0 });
+  file.integers("Steps/CellOffsets", { 1, 0 });
+  file.integers("Steps/ConnectivityIdOffsets", { 3, 0 });
+  file.finish();
+  const ReadMesh mesh = this->readHdf();
+  EXPECT_EQ(mesh.positions, (std::vector<double>{ 1, 0, 0, 1, 1, 0, 0, 1, 0 }));
+  EXPECT_EQ(mesh.corners, (Numbers{ 2, 1, 0 }));
+  ASSERT_EQ(mesh.counts.notes.size(), 1u);
+  EXPECT_NE(mesh.counts.notes[0].find("2 time steps"), std::string::npos);
+}
+
+TEST_F(ImportVtkHdf, WhatIsWrongIsSaid)
+{
+  const auto write = [this](Integers points, Integers ids, const char* type = "UnstructuredGrid")
+  {
+    HdfFile file(this->Folder / "a.vtkhdf", type);
+    file.integers("NumberOfPoints", points);
+    file.reals("Points", 3, { 0, 0, 0, 1, 0, 0, 0, 1, 0 });
+    file.integers("NumberOfCells", { 1 });
+    file.integers("NumberOfConnectivityIds", ids);
+    file.integers("Connectivity", { 0, 1, 2 });
+    file.integers("Offsets", { 0, 3 });
+    file.bytes("Types", { 5 });
+    file.finish();
+  };
+  const auto expectRefused = [this](const std::string& part)
+  {
+    const std::string message = messageOf([this] { this->readHdf(); });
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+    EXPECT_NE(message.find("a.vtkhdf"), std::string::npos) << message;
+  };
+  write({ 3 }, { 3 });
+  EXPECT_EQ(this->readHdf().corners, (Numbers{ 0, 1, 2 }));
+  write({ 4 }, { 3 });
+  expectRefused("/VTKHDF/Points' has 3 rows, 4 are needed");
+  write({ 2 }, { 3 });
+  expectRefused("names point 2");
+  write({ 3 }, { 4 });
+  expectRefused("Connectivity' has 3 rows");
+  write({ -3 }, { 3 });
+  expectRefused("cannot be right");
+  write({ 3 }, {});
+  expectRefused("NumberOfConnectivityIds' should have 1 numbers");
+  write({ 3 }, { 3 }, "ImageData");
+  expectRefused("'ImageData'");
+  writeBytes(this->Folder / "a.vtkhdf", "\x89HDF\r\n\x1a\nand nothing else");
+  expectRefused("truncated or damaged");
+}
+
+namespace
+{
+
+/** Converts, writes in partitions of so many cells, and reads again. */
+void expectRoundTrip(const TemporaryFolder& folder, const StreamMesh& mesh, std::int64_t cells)
+{
+  const std::filesystem::path vsm = folder / "mesh.vsm", hdf = folder / "out.vtkhdf";
+  write(vsm, mesh);
+  EXPECT_TRUE(writeVtkHdf(vsm, hdf, {}, cells).empty());
+  ConversionOptions keep;
+  keep.order = StreamOrder::Keep;
+  convert(hdf, folder / "back.vsm", keep);
+  const StreamMesh expected = collect(*VsmReader(vsm).source());
+  const VsmReader reader(folder / "back.vsm");
+  const StreamMesh back = collect(*reader.source());
+  EXPECT_EQ(back.positions, expected.positions);
+  EXPECT_EQ(back.corners, expected.corners);
+}
+
+} // namespace
+
+TEST_F(ImportVtkHdf, WrittenFilesComeBack)
+{
+  for (const std::int64_t cells : { std::int64_t(7), std::int64_t(100), VtkHdfPartitionCells })
+  {
+    expectRoundTrip(this->Folder, toStream(torus(20, 10)), cells);
+    expectRoundTrip(this->Folder, toStream(tetBox(3, 4, 5)), cells);
+  }
+}
+
+TEST_F(ImportVtkHdf, ColumnsTravel)
+{
+  HdfFile file(this->Folder / "a.vtkhdf", "UnstructuredGrid");
+  this->writeSquare(file);
+  file.integers("NumberOfCells", { 1, 1 });
+  file.integers("NumberOfConnectivityIds", { 3, 3 });
+  file.integers("Connectivity", { 0, 1, 2, 0, 1, 2 });
+  file.integers("Offsets", { 0, 3, 0, 3 });
+  file.bytes("Types", { 5, 5 });
+  file.finish();
+  convert(this->Folder / "a.vtkhdf", this->Folder / "b.vtkhdf");
+  convert(this->Folder / "b.vtkhdf", this->Folder / "c.vsm");
+  const VsmReader reader(this->Folder / "c.vsm");
+  EXPECT_GE(findColumn(reader.info().vertexColumns, { "Height", ScalarType::Float32, 1 }), 0);
+  EXPECT_GE(findColumn(reader.info().vertexColumns, { NormalsName, ScalarType::Float32, 3 }), 0);
+  EXPECT_GE(findColumn(reader.info().cellColumns, { "Part", ScalarType::Int64, 1 }), 0);
+}
+
+} // namespace smg::testing
