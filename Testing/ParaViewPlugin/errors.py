@@ -104,7 +104,7 @@ calculator.UpdatePipeline()
 # Every other writer that ParaView has for it is named in BigMeshWriter.xml.
 factory = servermanager.vtkSMProxyManager.GetProxyManager().GetWriterFactory()
 suffixes = re.findall(r"\*\.(\w+)", factory.GetSupportedFileTypes(calculator.SMProxy, 0))
-written = {"vsm", "sma", "smb", "sva", "svb", "ply", "vtp", "vtu", "pvtp", "pvtu"}
+written = {"vsm", "sma", "smb", "sva", "svb", "ply", "vtp", "vtu", "vtkhdf", "pvtp", "pvtu"}
 assert "stl" in suffixes and "csv" in suffixes, suffixes
 for name in ("shown." + suffix for suffix in sorted(set(suffixes) - written)):
     SaveData(os.path.join(folder, name), proxy=calculator)

@@ -47,10 +47,12 @@ assert ball.GetDataInformation().GetNumberOfCells() == 96
 calculator = Calculator(Input=reader, Function="coordsX", ResultArrayName="X")
 calculator.UpdatePipeline()
 assert calculator.GetDataInformation().GetNumberOfPoints() < 10000
-for name in ("whole.ply", "whole.vtp", "whole.pvtp"):
+for name in ("whole.ply", "whole.vtp", "whole.vtkhdf", "whole.pvtp"):
     for source, array in (calculator, "X"), (poisson, "Solution"):
         SaveData(os.path.join(folder, name), proxy=source)
-        whole = OpenDataFile(os.path.join(folder, name))
+        path = os.path.join(folder, name)
+        # Before 5.12 ParaView opens VTKHDF by the suffix .hdf alone.
+        whole = VTKHDFReader(FileName=[path]) if name.endswith("hdf") else OpenDataFile(path)
         whole.UpdatePipeline()
         assert whole.GetDataInformation().GetNumberOfCells() == t.BUNNY_CELLS, name
         assert name.endswith("ply") or array in whole.PointData.keys(), whole.PointData.keys()
