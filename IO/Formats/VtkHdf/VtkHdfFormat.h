@@ -8,15 +8,9 @@ namespace smg
 
 /**
  * VTKHDF: unstructured grids and polygonal data, any number of partitions, of several time steps
- * the first. Written is an unstructured grid of version 1.0, which every reader since VTK 9.1
- * knows.
+ * the first. Partitions whose points have global numbers become one mesh, without duplicate cells.
+ * Written is an unstructured grid of version 1.0, which every reader since VTK 9.1 knows.
  */
 extern const Format VtkHdfFormat;
-
-/**
- * Partitions whose points have global numbers become one mesh, without duplicate cells; see
- * importVtkXml() for the rest.
- */
-void importVtkHdf(InputFile& file, RawMeshBuilder& builder);
 
 } // namespace smg

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/VtkHdf/Hdf5File.h"
+#include "IO/Formats/VtkHdf/Hdf5/Hdf5File.h"
 
 #include "IO/Files/InQuotes.h"
-#include "IO/Formats/VtkHdf/Hdf5Handle.h"
+#include "IO/Formats/VtkHdf/Hdf5/Hdf5Handle.h"
 #include "Solver/Core/Error.h"
 
 #include <algorithm>

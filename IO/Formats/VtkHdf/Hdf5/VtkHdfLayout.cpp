@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/VtkHdf/VtkHdfLayout.h"
+#include "IO/Formats/VtkHdf/Hdf5/VtkHdfLayout.h"
 
 #include "IO/External/Reservation.h"
 #include "IO/Files/InQuotes.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/Vtk/ByteSource.h"
-#include "IO/Formats/VtkHdf/Hdf5File.h"
-#include "IO/Formats/VtkHdf/VtkHdfRoot.h"
+#include "IO/Formats/VtkHdf/Hdf5/Hdf5File.h"
+#include "IO/Formats/VtkHdf/Hdf5/VtkHdfRoot.h"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/VtkHdf/WriteVtkHdf.h"
+#include "IO/Formats/VtkHdf/Hdf5/WriteVtkHdf.h"
 
 #include "IO/Formats/Vsm/MeshPiece.h"
 #include "IO/Formats/Vsm/ReservedNames.h"
 #include "IO/Formats/Vsm/VsmReader.h"
-#include "IO/Formats/VtkHdf/Hdf5Output.h"
-#include "IO/Formats/VtkHdf/VtkHdfRoot.h"
+#include "IO/Formats/VtkHdf/Hdf5/Hdf5Output.h"
+#include "IO/Formats/VtkHdf/Hdf5/VtkHdfRoot.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/VtkHdf/Hdf5/ImportVtkHdf.h"
+
+#include "IO/Files/InputFile.h"
+#include "IO/Formats/Vtk/VtkMeshReader.h"
+#include "IO/Formats/VtkHdf/Hdf5/Hdf5File.h"
+#include "IO/Formats/VtkHdf/Hdf5/VtkHdfLayout.h"
+#include "IO/Raw/RawMeshBuilder.h"
+
+#include <limits>
+#include <string>
+
+namespace smg
+{
+
+void importVtkHdf(InputFile& file, RawMeshBuilder& builder)
+{
+  const Hdf5File hdf(file.path(), file.name());
+  VtkHdfLayout layout = vtkHdfLayout(hdf, builder.workspace().available() / 2);
+  layout.files.front() = file.path();
+  if (layout.timeSteps > 1)
+  {
+    builder.note("The file has " + std::to_string(layout.timeSteps) +
+                 " time steps, of which the first is read.");
+  }
+  readVtkMesh(file, layout, builder);
+}
+
+std::optional<FileCounts> countsOfVtkHdf(InputFile& file)
+{
+  const Hdf5File hdf(file.path(), file.name());
+  const VtkHdfLayout layout = vtkHdfLayout(hdf, std::numeric_limits<std::int64_t>::max());
+  FileCounts counts;
+  counts.counted = true;
+  for (const VtkPiece& piece : layout.pieces)
+  {
+    counts.vertices += piece.points;
+    counts.cells += piece.cells;
+    for (const auto* arrays : { &piece.pointArrays, &piece.cellArrays })
+    {
+      for (const VtkArray& array : *arrays)
+      {
+        counts.columnBytes += array.values * static_cast<std::int64_t>(sizeOf(array.type));
+      }
+    }
+  }
+  // A surface has about two triangles a vertex, a solid five to six tetrahedra.
+  counts.corners = counts.cells > 3 * counts.vertices ? 4 : 3;
+  return counts;
+}
+
+} // namespace smg

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Formats/Format.h"
+
+namespace smg
+{
+
+void importVtkHdf(InputFile& file, RawMeshBuilder& builder);
+std::optional<FileCounts> countsOfVtkHdf(InputFile& file);
+
+} // namespace smg

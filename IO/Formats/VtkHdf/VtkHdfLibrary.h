@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Formats/Format.h"
+
+namespace smg
+{
+
+/**
+ * What needs the HDF5 library, which takes long to load, with thirty others: it is a library of its
+ * own (the folder Hdf5), which is loaded when a file of the format is read or written.
+ */
+struct VtkHdfLibrary
+{
+  void (*import)(InputFile& file, RawMeshBuilder& builder);
+  std::optional<FileCounts> (*counts)(InputFile& file);
+  WriteNotes (*write)(const std::filesystem::path& vsm, const std::filesystem::path& path,
+    const ProgressFunction& progress);
+};
+
+} // namespace smg
+
+/** The library's only symbol that is looked up. */
+extern "C" const smg::VtkHdfLibrary* smgVtkHdfLibrary();
