@@ -6,6 +6,7 @@
 #include "Solver/Deformation/InteractiveDeformation.h"
 #include "Solver/Deformation/InteractiveEngine.h"
 #include "Solver/Shi2006/Shi2006.h"
+#include "Solver/Solve.h"
 
 namespace smg
 {

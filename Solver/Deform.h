@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Deformation/DeformOptions.h"
 #include "Solver/Deformation/Handles.h"
-#include "Solver/Problem/Problem.h"
-#include "Solver/Solve.h"
+#include "Solver/Engine/Solution.h"
 
 #include <memory>
 
 namespace smg
 {
-
-/** How to deform. */
-struct DeformOptions : SolveOptions
-{
-  Weights weights = Weights::Clamped;
-  /** V-cycles of each of the two steps, at least 1; 0: until the step reaches the tolerance. */
-  int cycles = 0;
-};
 
 /** Throws Error if an option is out of range; deform() does so, too. */
 void checkOptions(const DeformOptions& options);

@@ -2,7 +2,7 @@
 #include "Solver/Solve.h"
 
 #include "Solver/Core/Error.h"
-#include "Solver/Hierarchy/Extended.h"
+#include "Solver/Operators/Extended.h"
 #include "Solver/Shi2006/Shi2006.h"
 #include "Solver/SolveWith.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Engine/Engine.txx"
-#include "Solver/Hierarchy/OperatorSet.h"
+#include "Solver/Operators/OperatorSet.h"
 #include "Solver/Solve.h"
 
 #include <memory>

@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set(smg_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/StreamingMultigrid")
 install(DIRECTORY Solver IO
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid" COMPONENT development
-  FILES_MATCHING PATTERN "*.h" PATTERN "*.txx" PATTERN "vtk*" EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" PATTERN "*.txx" PATTERN "*.hxx" PATTERN "vtk*" EXCLUDE)
 
 install(FILES docs/problem.schema.json
   DESTINATION "${CMAKE_INSTALL_DATADIR}/StreamingMultigrid" COMPONENT libraries)

@@ -9,6 +9,7 @@
 #include "IO/Motion/MovedMesh.h"
 #include "IO/Problem/HandleFile.h"
 #include "IO/Problem/WeightsName.h"
+#include "Solver/Deform.h"
 #include "Solver/Deformation/DescribedHandles.h"
 
 #include <algorithm>

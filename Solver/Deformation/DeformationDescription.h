@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Deform.h"
+#include "Solver/Deformation/DeformOptions.h"
 #include "Solver/Deformation/HandleMotion.h"
+#include "Solver/Deformation/Handles.h"
 #include "Solver/Description/Datum.h"
+#include "Solver/Engine/Solution.h"
 
 #include <optional>
 #include <variant>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Hierarchy/Extended.h"
+#include "Solver/Operators/Extended.h"
 
 namespace smg
 {

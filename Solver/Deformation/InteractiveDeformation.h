@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Deform.h"
+#include "Solver/Deformation/DeformOptions.h"
+#include "Solver/Deformation/Handles.h"
+#include "Solver/Engine/Solution.h"
 
 #include <memory>
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/Report.h"
 #include "Solver/Engine/Chebyshev.h"
 #include "Solver/Engine/ConjugateResiduals.h"
 #include "Solver/Engine/Convergence.h"
-#include "Solver/Solve.h"
+#include "Solver/Engine/SolveOptions.h"
 
 #include <optional>
 #include <string>

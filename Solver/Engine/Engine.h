@@ -10,10 +10,12 @@
 #include "Solver/Engine/FreeComponents.h"
 #include "Solver/Engine/HierarchyBuilder.h"
 #include "Solver/Engine/MemoryEstimate.h"
+#include "Solver/Engine/Solution.h"
+#include "Solver/Engine/SolveOptions.h"
 #include "Solver/Engine/SolveProgress.h"
 #include "Solver/Engine/VertexRange.h"
 #include "Solver/Problem/Assembly.h"
-#include "Solver/Solve.h"
+#include "Solver/Problem/Problem.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "Solver/Storage/ScratchTraffic.h"
 

@@ -4,7 +4,7 @@
 #include "Solver/Core/Report.h"
 #include "Solver/Cycle/Level.h"
 #include "Solver/Cycle/RowBlockPacker.h"
-#include "Solver/Hierarchy/Coarsening.h"
+#include "Solver/Operators/Coarsening.h"
 
 #include <cstdint>
 #include <memory>

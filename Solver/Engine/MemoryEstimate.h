@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Solve.h"
+#include "Solver/Engine/SolveOptions.h"
+#include "Solver/Problem/Problem.h"
 
 #include <cstdint>
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "Solver/Engine/FreeComponents.h"
+#include "Solver/Engine/Solution.h"
+#include "Solver/Engine/SolveOptions.h"
 #include "Solver/Engine/SolveProgress.h"
+#include "Solver/Problem/Problem.h"
 #include "Solver/Shi2006/VCycle.h"
-#include "Solver/Solve.h"
 
 namespace smg
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Core/Timer.h"
 #include "Solver/Cycle/RowBlockPacker.h"
-#include "Solver/Hierarchy/Coarsening.h"
-#include "Solver/Hierarchy/Extended.h"
+#include "Solver/Operators/Coarsening.h"
+#include "Solver/Operators/Extended.h"
 #include "Solver/Problem/Assembly.h"
 #include "Testing/Benchmarks/FixedEndsProblem.h"
 #include "Testing/Benchmarks/Kernels.h"

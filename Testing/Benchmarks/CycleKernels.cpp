@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Core/Timer.h"
 #include "Solver/Engine/Engine.txx"
-#include "Solver/Hierarchy/Extended.h"
+#include "Solver/Operators/Extended.h"
 #include "Testing/Benchmarks/FixedEndsProblem.h"
 #include "Testing/Benchmarks/Kernels.h"
 #include "Testing/Support/MemorySource.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Core/Timer.h"
-#include "Solver/Hierarchy/OperatorSet.h"
+#include "Solver/Operators/OperatorSet.h"
 
 #include <array>
 #include <cstddef>

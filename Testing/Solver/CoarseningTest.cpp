@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Hierarchy/Coarsening.h"
+#include "Solver/Operators/Coarsening.h"
 #include "Testing/Solver/CoarseningTesting.h"
 
 #include <gtest/gtest.h>

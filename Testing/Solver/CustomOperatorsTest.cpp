@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Hierarchy/Extended.h"
+#include "Solver/Operators/Extended.h"
 #include "Solver/SolveWith.h"
 #include "Testing/Solver/SolveTesting.h"
 

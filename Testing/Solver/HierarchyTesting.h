@@ -2,10 +2,10 @@
 #pragma once
 
 #include "Solver/Cycle/GaussSeidel.h"
-#include "Solver/Hierarchy/Coarsening.h"
 #include "Solver/Hierarchy/ExtendedInterpolation.h"
 #include "Solver/Hierarchy/GalerkinProduct.h"
 #include "Solver/Hierarchy/Sparsification.h"
+#include "Solver/Operators/Coarsening.h"
 #include "Testing/Support/EdgeWeights.h"
 #include "Testing/Support/MemorySource.h"
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # check.sh RULE : looks whether the files of the tree keep a rule; prints the ones that do not.
 #   layers   VTK only in files named vtk*, dependencies from Filters to IO to Solver only
+#   cycles   no folder of Solver, IO or Filters depends on one that depends on it
 #   format   C++ is formatted as .clang-format says (skipped without clang-format 14)
 #   licence  every source file begins with its SPDX line
 #   sizes    no file above 2 MB, no source file above 450 lines
@@ -38,7 +39,7 @@ includes() { xargs -r grep -nHE "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<
 
 layers() {
   local found
-  found=$(files 'Solver/*' 'IO/*' 'Filters/*' | grep -E '\.(h|cpp|cxx|txx)$' |
+  found=$(files 'Solver/*' 'IO/*' 'Filters/*' | grep -E '\.(h|cpp|cxx|txx|hxx)$' |
     grep -vE '(^|/)vtk[^/]*$' | includes '([^<>"]*/)?vtk[^/"<>]*[">]')
   [ -z "$found" ] || fail "VTK headers in files whose name does not begin with vtk:
 $found"
@@ -54,6 +55,17 @@ $found"
 $found"
 }
 
+# As tsort knows them: a line for each folder that includes a file of another.
+cycles() {
+  local found
+  found=$(files 'Solver/*' 'IO/*' 'Filters/*' | grep -E '\.(h|cpp|cxx|txx|hxx)$' |
+    includes '(Solver|IO|Filters)/' |
+    sed -nE 's,^(.*)/[^/]*:[0-9]+:[^"]*"([^"]*)/[^"/]*".*,\1 \2,p' | awk '$1 != $2' | sort -u |
+    tsort 2>&1 > /dev/null)
+  [ -z "$found" ] || fail "folders that depend on each other in a circle:
+$found"
+}
+
 format() {
   local program
   for program in clang-format-14 clang-format; do
@@ -64,13 +76,13 @@ format() {
     echo "SKIPPED: clang-format 14 is not installed"
     exit 77
   fi
-  files '*.h' '*.cpp' '*.cxx' '*.txx' | xargs -r "$program" --dry-run -Werror ||
+  files '*.h' '*.cpp' '*.cxx' '*.txx' '*.hxx' | xargs -r "$program" --dry-run -Werror ||
     fail "not formatted: run $program -i on the files above"
 }
 
 licence() {
   local found
-  found=$(files '*.h' '*.cpp' '*.cxx' '*.txx' '*.py' '*.sh' '*.cmake' '*.in' '*CMakeLists.txt' '.ci/run' |
+  found=$(files '*.h' '*.cpp' '*.cxx' '*.txx' '*.hxx' '*.py' '*.sh' '*.cmake' '*.in' '*CMakeLists.txt' '.ci/run' |
     while read -r file; do
       head -n 3 "$file" | grep -q 'SPDX-License-Identifier: BSD-3-Clause' || echo "$file"
     done)
@@ -94,9 +106,9 @@ $found"
 }
 
 case "${1:-}" in
-  layers | format | licence | sizes) "$1" ;;
+  layers | cycles | format | licence | sizes) "$1" ;;
   *)
-    sed -n '3,7s/^# //p' "$0" >&2
+    sed -n '3,8s/^# //p' "$0" >&2
     exit 2
     ;;
 esac

@@ -26,7 +26,7 @@ Run it:
 */
 
 #include "IO/Conversion/OpenMesh.h"
-#include "Solver/Hierarchy/Extended.h"
+#include "Solver/Operators/Extended.h"
 #include "Solver/SolveWith.h"
 
 #include <cmath>

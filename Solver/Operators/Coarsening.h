@@ -3,8 +3,8 @@
 
 #include "Solver/Core/Error.h"
 #include "Solver/Hierarchy/CoarseningData.h"
-#include "Solver/Hierarchy/OperatorSet.h"
 #include "Solver/Hierarchy/RowBatch.h"
+#include "Solver/Operators/OperatorSet.h"
 
 #include <algorithm>
 #include <cmath>

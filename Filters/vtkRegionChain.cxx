@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Filters/Regions/vtkRegionChain.h"
+#include "Filters/vtkRegionChain.h"
 
 #include "Filters/vtkMeshRegion.h"
 

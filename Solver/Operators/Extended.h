@@ -5,8 +5,8 @@
 #include "Solver/Hierarchy/ExtendedInterpolation.h"
 #include "Solver/Hierarchy/GalerkinProduct.h"
 #include "Solver/Hierarchy/Lifting.h"
-#include "Solver/Hierarchy/OperatorSet.h"
 #include "Solver/Hierarchy/Sparsification.h"
+#include "Solver/Operators/OperatorSet.h"
 
 namespace smg
 {
