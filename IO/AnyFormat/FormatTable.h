@@ -3,7 +3,9 @@
 
 #include "IO/Formats/Format.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,7 +16,7 @@ namespace smg
 /** All formats. */
 std::span<const Format* const> formats();
 
-/** The format of that suffix, in any case; null if there is none. */
+/** The format of a suffix, which is in lower case; null if there is none. */
 const Format* formatOfSuffix(std::string_view suffix);
 /** The format of a file name's suffix; .gz at its end is left out of account. */
 const Format* formatOfName(const std::filesystem::path& path);
@@ -29,7 +31,7 @@ const Format* formatOfContent(const std::filesystem::path& path);
  * they look like one, else by its suffix; null if nothing says it.
  */
 const Format* formatOfFile(const std::filesystem::path& path);
-/** The same of a file whose first bytes are known. `size`: none if it is compressed. */
+/** As formatOfFile(), of a file that begins with `start`. `size`: none if it is not known. */
 const Format* formatOfStart(
   std::string_view start, std::optional<std::uint64_t> size, const std::filesystem::path& path);
 
@@ -38,18 +40,18 @@ enum class FormatUse
 {
   Read,
   Write,        ///< in stream order
-  WriteColumns, ///< the same with all columns
+  WriteColumns, ///< in stream order with all columns
   Restore       ///< in the order of the file that the mesh was made of
 };
 
 /** The suffix of the path, if its files can be written so; null otherwise. */
 const FileSuffix* suffixFor(FormatUse use, const std::filesystem::path& path);
 
-/** Those of a format. */
+/** The suffixes of a format. */
 std::string suffixList(const Format& format, std::string_view conjunction);
 /** The suffixes that can be used so, as ".ply, .obj or .off". */
 std::string suffixList(FormatUse use, std::string_view conjunction);
-/** Those of them under which such cells are written. */
+/** The suffixes that can be used so and hold such cells. */
 std::string suffixList(FormatUse use, CellType cells, std::string_view conjunction);
 
 /** What to tell who wants such cells under a suffix that does not hold them. */

@@ -93,7 +93,7 @@ struct Format
   bool (*hasSign)(std::string_view start) = nullptr;
   /**
    * Whether the first bytes look like it, for a format without a sign.
-   * @param size of the file; none: it is compressed
+   * @param size of the file, if it is known
    */
   bool (*looksRight)(std::string_view start, std::optional<std::uint64_t> size) = nullptr;
 
@@ -111,7 +111,7 @@ struct Format
   /** Writes a mesh stream in its order, in one pass. The suffix is one that holds the cells. */
   WriteNotes (*write)(MeshSource& source, const std::filesystem::path& path,
     const WriteMeshOptions& options) = nullptr;
-  /** The same of a .vsm file, for a format that needs to read the mesh otherwise than once. */
+  /** Instead of `write`, of a .vsm file: for a format that has to read the mesh more than once. */
   WriteNotes (*writeVsm)(const std::filesystem::path& vsm, const std::filesystem::path& path,
     const ProgressFunction& progress) = nullptr;
   /**

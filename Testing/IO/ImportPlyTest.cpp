@@ -246,6 +246,9 @@ TEST_F(ImportPly, UnknownLinesOfTheHeaderAreNoted)
   // What has properties is an element.
   text.replace(text.find("element face"), 7, "elment");
   this->expectError("a.ply", text, "line 8: 'elment' is not a keyword of a PLY header");
+  text.replace(text.find("elment face 1"), 13, "elment face 1\ncomment between");
+  this->expectError("a.ply", text, "line 8: 'elment' is not a keyword of a PLY header");
+  this->expectError("a.ply", "ply\nformat ascii 1.0\nElement vertex 3\n", "'Element' is not");
 }
 
 TEST_F(ImportPly, ErrorsNameFileAndPlace)

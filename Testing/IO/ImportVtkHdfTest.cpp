@@ -159,6 +159,32 @@ TEST_F(ImportVtkHdf, OfSeveralTimeStepsTheFirstIsRead)
   EXPECT_NE(mesh.counts.notes[0].find("2 time steps"), std::string::npos);
 }
 
+TEST_F(ImportVtkHdf, AMeshThatDoesNotChangeHasAllItsPartitionsInEachTimeStep)
+{
+  HdfFile file(this->Folder / "a.vtkhdf", "UnstructuredGrid");
+  this->writeSquare(file);
+  file.integers("NumberOfCells", { 1, 1 });
+  file.integers("NumberOfConnectivityIds", { 3, 3 });
+  file.integers("Connectivity", { 0, 1, 2, 0, 1, 2 });
+  file.integers("Offsets", { 0, 3, 0, 3 });
+  file.bytes("Types", { 5, 5 });
+  file.group("Steps");
+  file.out().addIntegers("/VTKHDF/Steps", "NSteps", std::vector<std::int64_t>{ 2 });
+  file.integers("Steps/PartOffsets", { 0, 0 });
+  file.finish();
+  this->expectSquare(this->readHdf());
+}
+
+TEST_F(ImportVtkHdf, AttributesThatAreListsAreNoTexts)
+{
+  HdfFile file(this->Folder / "a.vtkhdf", "UnstructuredGrid");
+  file.integers("NumberOfPoints", { 3 });
+  file.group("PointData");
+  file.out().addIntegers("/VTKHDF/PointData", "Normals", std::vector<std::int64_t>(3000, 65));
+  file.finish();
+  EXPECT_NE(messageOf([this] { this->readHdf(); }).find("is missing"), std::string::npos);
+}
+
 TEST_F(ImportVtkHdf, WhatIsWrongIsSaid)
 {
   const auto write = [this](Integers points, Integers ids, const char* type = "UnstructuredGrid")

@@ -4,6 +4,7 @@
 #include "IO/Files/TextScanner.h"
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
 #include <string_view>
 
@@ -113,6 +114,15 @@ PlyProperty readProperty(TextScanner& scanner, const std::vector<PlyElement>& el
   return property;
 }
 
+/** Whether it is a keyword but for the case of its letters. */
+bool isMisspelt(std::string_view word)
+{
+  constexpr std::string_view keywords[] = { "ply", "format", "element", "property", "end_header" };
+  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+  return std::ranges::any_of(
+    keywords, [&](std::string_view keyword) { return std::ranges::equal(word, keyword, same); });
+}
+
 } // namespace
 
 std::size_t PlyElement::leastBytes(bool ascii) const
@@ -140,6 +150,7 @@ PlyHeader readPlyHeader(InputFile& file)
   bool formatKnown = false;
   // A line that is none of PLY; what has properties is an element by another name.
   std::int64_t unknownLine = 0;
+  std::string unknownKeyword;
   while (true)
   {
     scanner.skipLine();
@@ -161,13 +172,13 @@ PlyHeader readPlyHeader(InputFile& file)
     else if (keyword == "element")
     {
       header.elements.push_back(readElement(scanner));
+      unknownLine = 0;
     }
     else if (keyword == "property")
     {
-      if (unknownLine == scanner.line() - 1)
+      if (unknownLine > 0)
       {
-        scanner.failAt(
-          unknownLine, inQuotes(header.unknown.back()) + " is not a keyword of a PLY header");
+        scanner.failAt(unknownLine, inQuotes(unknownKeyword) + " is not a keyword of a PLY header");
       }
       PlyProperty property = readProperty(scanner, header.elements);
       header.elements.back().properties.push_back(std::move(property));
@@ -178,12 +189,17 @@ PlyHeader readPlyHeader(InputFile& file)
     }
     else if (!keyword.empty() && keyword != "comment" && keyword != "obj_info")
     {
-      if (++lines > MostLines)
+      if (isMisspelt(keyword))
       {
-        scanner.fail("the header has more than " + std::to_string(MostLines) + " lines");
+        scanner.fail(inQuotes(keyword) + " is not a keyword of a PLY header");
       }
-      constexpr std::size_t KeptBytes = 80;
-      header.unknown.emplace_back(keyword.substr(0, KeptBytes));
+      constexpr std::size_t KeptBytes = 80, KeptKeywords = 10;
+      unknownKeyword = keyword.substr(0, KeptBytes);
+      if (header.unknown.size() < KeptKeywords &&
+          std::ranges::find(header.unknown, unknownKeyword) == header.unknown.end())
+      {
+        header.unknown.push_back(unknownKeyword);
+      }
       unknownLine = scanner.line();
     }
   }

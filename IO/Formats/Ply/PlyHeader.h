@@ -52,7 +52,7 @@ struct PlyHeader
 {
   PlyEncoding encoding = PlyEncoding::Ascii;
   std::vector<PlyElement> elements;
-  /** How lines begin that are none of PLY, at most 80 bytes of each. */
+  /** How lines begin that are none of PLY: ten different ones at most, 80 bytes of each. */
   std::vector<std::string> unknown;
   std::size_t bodyOffset = 0;
   std::int64_t bodyLine = 1;

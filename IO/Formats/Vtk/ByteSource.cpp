@@ -61,7 +61,7 @@ bool uncompress(
     return lzma_stream_buffer_decode(&memory, 0, nullptr,
              reinterpret_cast<const std::uint8_t*>(from.data()), &read, from.size(),
              reinterpret_cast<std::uint8_t*>(to.data()), &written, to.size()) == LZMA_OK &&
-           written == to.size();
+           read == from.size() && written == to.size();
   }
   uLongf bytes = to.size();
   const int result = ::uncompress(reinterpret_cast<Bytef*>(to.data()), &bytes,

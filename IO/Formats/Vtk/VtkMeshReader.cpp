@@ -243,8 +243,8 @@ private:
     for (const VtkArray& array : (*full).*arrays)
     {
       // What the pieces were joined by is no data.
-      if (this->Layout.pieces.size() > 1 &&
-          (array.name == GhostTypeName || (ofPoints && array.name == (*full).globalIds)))
+      if (array.name == GhostTypeName ||
+          (ofPoints && array.name == (*full).globalIds && array.name == GlobalIdsName))
       {
         continue;
       }

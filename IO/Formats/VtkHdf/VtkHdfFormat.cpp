@@ -22,8 +22,10 @@ const VtkHdfLibrary& library()
     void* const symbol = handle ? ::dlsym(handle, "smgVtkHdfLibrary") : nullptr;
     if (!symbol)
     {
+      const char* const reason = ::dlerror();
       throw Error("VTKHDF files cannot be read or written, since the library " +
-                  std::string(SMG_VTKHDF_LIBRARY) + " cannot be loaded (" + ::dlerror() + ").");
+                  std::string(SMG_VTKHDF_LIBRARY) + " cannot be loaded (" +
+                  (reason ? reason : "unknown error") + ").");
     }
     return reinterpret_cast<decltype(&smgVtkHdfLibrary)>(symbol)();
   }();

@@ -82,10 +82,13 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, std::string name)
   : Name(std::move(name))
 {
   const Hdf5Silence silence;
-  this->File = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const Hdf5Handle<H5Pclose> access(H5Pcreate(H5P_FILE_ACCESS));
+  // Some file systems have no locks, and nobody else's lock matters to a reader.
+  H5Pset_file_locking(access.id(), false, true);
+  this->File = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id());
   if (this->File < 0)
   {
-    this->fail("the HDF5 library cannot open the file: it is truncated or damaged");
+    this->fail("the HDF5 library cannot open the file: it is no HDF5 file, truncated or damaged");
   }
 }
 
@@ -188,7 +191,8 @@ std::optional<std::string> Hdf5File::text(const std::string& object, const char*
     return {};
   }
   const Hdf5Handle<H5Tclose> type(H5Aget_type(handle.id()));
-  if (H5Tget_class(type.id()) != H5T_STRING)
+  const Hdf5Handle<H5Sclose> space(H5Aget_space(handle.id()));
+  if (H5Tget_class(type.id()) != H5T_STRING || H5Sget_simple_extent_npoints(space.id()) != 1)
   {
     return {};
   }
@@ -237,9 +241,11 @@ std::optional<std::int64_t> Hdf5File::integer(
 std::vector<std::int64_t> Hdf5File::integers(const std::string& dataset) const
 {
   const Hdf5Shape shape = this->shape(dataset);
-  constexpr std::int64_t Most = std::int64_t(1) << 24;
+  constexpr std::int64_t Most = std::int64_t(1) << 20;
+  constexpr std::uint64_t MostChunkBytes = std::uint64_t(16) << 20;
   const std::int64_t count = shape.rows() * shape.components();
-  if (!shape.type || *shape.type >= ScalarType::Float32 || count > Most)
+  if (!shape.type || *shape.type >= ScalarType::Float32 || count > Most ||
+      shape.chunkBytes > MostChunkBytes)
   {
     this->fail("the dataset " + inQuotes(dataset) + " should be a short list of integers");
   }
@@ -287,8 +293,12 @@ void Hdf5Numbers::readRows(std::byte* values, std::int64_t first, std::int64_t c
   {
     begin[0] = static_cast<hsize_t>(first);
     extents[0] = static_cast<hsize_t>(count);
-    H5Sselect_hyperslab(
-      this->Space, H5S_SELECT_SET, begin.data(), nullptr, extents.data(), nullptr);
+    if (H5Sselect_hyperslab(
+          this->Space, H5S_SELECT_SET, begin.data(), nullptr, extents.data(), nullptr) < 0)
+    {
+      this->File.fail(
+        "the dataset " + inQuotes(this->Name) + " has no row " + std::to_string(first));
+    }
   }
   const auto numbers = static_cast<hsize_t>(count * this->Shape.components());
   const Hdf5Handle<H5Sclose> memory(H5Screate_simple(1, &numbers, nullptr));

@@ -37,19 +37,21 @@ void Hdf5Output::fail() const
   throw Error(this->Path.string() + ": the file cannot be written: is there room for it?");
 }
 
-void Hdf5Output::close() noexcept
+bool Hdf5Output::close() noexcept
 {
   const Hdf5Silence silence;
+  bool closed = true;
   for (auto& [name, set] : this->Sets)
   {
-    H5Dclose(set.handle);
+    closed = H5Dclose(set.handle) >= 0 && closed;
   }
   this->Sets.clear();
   if (this->File >= 0)
   {
-    H5Fclose(this->File);
+    closed = H5Fclose(this->File) >= 0 && closed;
     this->File = -1;
   }
+  return closed;
 }
 
 void Hdf5Output::addGroup(const std::string& name)
@@ -92,15 +94,19 @@ void Hdf5Output::addIntegers(
   }
 }
 
-void Hdf5Output::addDataset(const std::string& name, ScalarType type, int components)
+void Hdf5Output::addDataset(
+  const std::string& name, ScalarType type, int components, std::int64_t rows)
 {
   const Hdf5Silence silence;
   constexpr hsize_t ChunkBytes = hsize_t(1) << 18;
+  constexpr std::int64_t LeastRows = 64;
   const auto width = static_cast<hsize_t>(std::max(1, components));
   const int rank = components > 0 ? 2 : 1;
   const std::array<hsize_t, 2> none{ 0, width };
   const std::array<hsize_t, 2> most{ H5S_UNLIMITED, width };
-  const std::array<hsize_t, 2> chunk{ std::max<hsize_t>(1, ChunkBytes / (width * sizeOf(type))),
+  const auto expected = static_cast<hsize_t>(std::max(rows, LeastRows));
+  const std::array<hsize_t, 2> chunk{ std::clamp<hsize_t>(expected, 1,
+                                        std::max<hsize_t>(1, ChunkBytes / (width * sizeOf(type)))),
     width };
   const Hdf5Handle<H5Sclose> space(H5Screate_simple(rank, none.data(), most.data()));
   const Hdf5Handle<H5Pclose> properties(H5Pcreate(H5P_DATASET_CREATE));
@@ -146,8 +152,7 @@ void Hdf5Output::finish()
 {
   const Hdf5Silence silence;
   const bool flushed = H5Fflush(this->File, H5F_SCOPE_LOCAL) >= 0;
-  this->close();
-  if (!flushed)
+  if (!this->close() || !flushed)
   {
     this->fail();
   }

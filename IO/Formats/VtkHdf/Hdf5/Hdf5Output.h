@@ -30,8 +30,9 @@ public:
   void addText(const std::string& object, const char* attribute, const std::string& text);
   void addIntegers(
     const std::string& object, const char* attribute, std::span<const std::int64_t> values);
-  /** A dataset without rows, of `components` numbers each; 0: a list of numbers. */
-  void addDataset(const std::string& name, ScalarType type, int components);
+  /** A dataset without rows, of `components` numbers each; 0: a list of numbers. About `rows` will
+   * be appended. */
+  void addDataset(const std::string& name, ScalarType type, int components, std::int64_t rows = 0);
 
   /** Appends rows of the dataset's type. */
   void append(const std::string& dataset, std::span<const std::byte> rows);
@@ -52,7 +53,8 @@ private:
     std::uint64_t rows = 0;
   };
 
-  void close() noexcept;
+  /** Returns whether all could be closed. */
+  bool close() noexcept;
   [[noreturn]] void fail() const;
 
   std::filesystem::path Path;

@@ -6,8 +6,8 @@
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5File.h"
 #include "IO/Formats/VtkHdf/Hdf5/VtkHdfLayout.h"
 #include "IO/Raw/RawMeshBuilder.h"
+#include "Solver/Core/Error.h"
 
-#include <limits>
 #include <string>
 
 namespace smg
@@ -26,12 +26,17 @@ void importVtkHdf(InputFile& file, RawMeshBuilder& builder)
   readVtkMesh(file, layout, builder);
 }
 
-std::optional<FileCounts> countsOfVtkHdf(InputFile& file)
+namespace
+{
+
+FileCounts readCounts(InputFile& file)
 {
   const Hdf5File hdf(file.path(), file.name());
-  const VtkHdfLayout layout = vtkHdfLayout(hdf, std::numeric_limits<std::int64_t>::max());
+  constexpr std::int64_t MostBytes = std::int64_t(16) << 20;
+  const VtkHdfLayout layout = vtkHdfLayout(hdf, MostBytes);
   FileCounts counts;
-  counts.counted = true;
+  // Points that partitions share are counted with each.
+  counts.counted = layout.pieces.size() == 1;
   for (const VtkPiece& piece : layout.pieces)
   {
     counts.vertices += piece.points;
@@ -47,6 +52,21 @@ std::optional<FileCounts> countsOfVtkHdf(InputFile& file)
   // A surface has about two triangles a vertex, a solid five to six tetrahedra.
   counts.corners = counts.cells > 3 * counts.vertices ? 4 : 3;
   return counts;
+}
+
+} // namespace
+
+std::optional<FileCounts> countsOfVtkHdf(InputFile& file)
+{
+  try
+  {
+    return readCounts(file);
+  }
+  catch (const Error&)
+  {
+    // What is wrong is said when the mesh is read.
+    return {};
+  }
 }
 
 } // namespace smg

@@ -26,7 +26,7 @@ class DatasetBytes : public ByteSource
 public:
   DatasetBytes(const Hdf5File& hdf, const std::string& name, InputFile& file, const VtkArray& array,
     Pool& pool)
-    : Chunk(pool, static_cast<std::int64_t>(hdf.shape(name).chunkBytes))
+    : Chunk(pool, chunkBytes(hdf, name))
     , Numbers(hdf, name, array.type, static_cast<std::int64_t>(array.begin))
     , File(file)
   {
@@ -39,6 +39,13 @@ public:
   }
 
 private:
+  /** A chunk, and once more while it is decompressed. */
+  static std::int64_t chunkBytes(const Hdf5File& hdf, const std::string& name)
+  {
+    constexpr std::uint64_t Most = std::uint64_t(1) << 60;
+    return static_cast<std::int64_t>(2 * std::min(hdf.shape(name).chunkBytes, Most));
+  }
+
   Reservation Chunk;
   Hdf5Numbers Numbers;
   InputFile& File;
@@ -86,6 +93,7 @@ public:
     this->choosePartitions();
     this->readAttributes("PointData", this->PointArrays);
     this->readAttributes("CellData", this->CellArrays);
+    this->checkMemory();
     if (type == "PolyData")
     {
       this->addLists(
@@ -113,7 +121,6 @@ private:
   {
     VtkArray array;
     std::int64_t first = 0; ///< row of the time step
-    std::int64_t rows = 0;
   };
 
   void readTimeSteps()
@@ -133,9 +140,10 @@ private:
       return otherwise;
     }
     const std::vector<std::int64_t> values = this->File.integers(dataset);
-    if (column >= values.size() || values[column] < 0)
+    if (column >= values.size() || values[column] < 0 || values[column] > Most)
     {
-      this->File.fail("the dataset " + inQuotes(dataset) + " is too short or negative");
+      this->File.fail(
+        "the dataset " + inQuotes(dataset) + " is too short, or its numbers cannot be right");
     }
     return values[column];
   }
@@ -144,20 +152,44 @@ private:
   {
     const auto all = static_cast<std::int64_t>(this->Points.size());
     this->FirstPart = this->ofStep("PartOffsets", 0);
-    const std::int64_t usual = this->Layout.timeSteps > 1 ? all / this->Layout.timeSteps : all;
-    this->Parts = this->ofStep("NumberOfParts", std::max<std::int64_t>(1, usual));
+    this->Parts = this->ofStep("NumberOfParts", this->nextPart(all) - this->FirstPart);
     this->FirstPoint = this->ofStep("PointOffsets", 0);
     if (all == 0 || this->FirstPart > all || this->Parts > all - this->FirstPart)
     {
       this->File.fail("the file has " + std::to_string(all) + " partitions, fewer than it says");
     }
-    constexpr std::int64_t PieceBytes = 2000;
-    this->Layout.bytes = this->Parts * PieceBytes;
+    this->Points = this->part(this->Points, "NumberOfPoints");
+  }
+
+  /** Where the partitions of another time step begin, behind those of the first; or the end. */
+  std::int64_t nextPart(std::int64_t all) const
+  {
+    const std::string offsets = VtkHdfRoot + "Steps/PartOffsets";
+    std::int64_t next = all;
+    if (this->Layout.timeSteps > 1 && this->File.exists(offsets))
+    {
+      for (const std::int64_t offset : this->File.integers(offsets))
+      {
+        next = offset > this->FirstPart ? std::min(next, offset) : next;
+      }
+    }
+    return next;
+  }
+
+  /** Refuses more partitions than there is memory for. */
+  void checkMemory()
+  {
+    constexpr std::int64_t PieceBytes = 2000, ArrayBytes = 300;
+    const auto arrays =
+      static_cast<std::int64_t>(this->PointArrays.size() + this->CellArrays.size());
+    this->Layout.bytes = this->Parts * (PieceBytes + ArrayBytes * arrays);
     if (this->Layout.bytes > this->MostBytes)
     {
-      this->File.fail(std::to_string(this->Parts) + " partitions take more memory than is allowed");
+      this->File.fail(std::to_string(this->Parts) + " partitions take " +
+                      std::to_string((this->Layout.bytes >> 20) + 1) +
+                      " MiB, more than is allowed for what the file says of itself: allow more "
+                      "memory");
     }
-    this->Points = this->part(this->Points, "NumberOfPoints");
   }
 
   /** The counts of the partitions of the time step. */
@@ -171,10 +203,15 @@ private:
     }
     std::vector<std::int64_t> chosen(
       counts.begin() + this->FirstPart, counts.begin() + static_cast<std::ptrdiff_t>(needed));
-    if (std::ranges::any_of(chosen, [](std::int64_t count) { return count < 0 || count > Most; }))
+    std::int64_t sum = 0;
+    for (const std::int64_t count : chosen)
     {
-      this->File.fail(
-        "a number of the dataset " + inQuotes(VtkHdfRoot + name) + " cannot be right");
+      if (count < 0 || count > Most - sum)
+      {
+        this->File.fail(
+          "a number of the dataset " + inQuotes(VtkHdfRoot + name) + " cannot be right");
+      }
+      sum += count;
     }
     return chosen;
   }
@@ -184,10 +221,19 @@ private:
     return this->part(this->File.integers(VtkHdfRoot + name), name);
   }
 
+  /** The shape of a dataset, which is asked for once. */
+  const Hdf5Shape& shapeOf(const std::string& dataset)
+  {
+    const auto found = this->Shapes.find(dataset);
+    return found != this->Shapes.end()
+             ? found->second
+             : this->Shapes.emplace(dataset, this->File.shape(dataset)).first->second;
+  }
+
   /** An array of a dataset whose rows have `components` numbers, 0: any number of them. */
   VtkArray arrayOf(const std::string& dataset, std::int64_t components)
   {
-    const Hdf5Shape shape = this->File.shape(dataset);
+    const Hdf5Shape& shape = this->shapeOf(dataset);
     if (!shape.type || shape.extents.size() > 2 ||
         (components > 0 && shape.components() != components))
     {
@@ -213,11 +259,11 @@ private:
   VtkArray rowsOf(
     VtkArray array, const std::string& dataset, std::int64_t first, std::int64_t count)
   {
-    if (first > this->Rows[dataset] - count)
+    const std::int64_t rows = this->shapeOf(dataset).rows();
+    if (first > rows - count)
     {
-      this->File.fail("the dataset " + inQuotes(dataset) + " has " +
-                      std::to_string(this->Rows[dataset]) + " rows, " +
-                      std::to_string(first + count) + " are needed");
+      this->File.fail("the dataset " + inQuotes(dataset) + " has " + std::to_string(rows) +
+                      " rows, " + std::to_string(first + count) + " are needed");
     }
     array.begin = static_cast<std::size_t>(first * array.components);
     array.values = count * array.components;
@@ -249,7 +295,7 @@ private:
     for (const std::string& name : this->File.datasets(VtkHdfRoot + group))
     {
       const std::string dataset = VtkHdfRoot + group + '/' + name;
-      const Hdf5Shape shape = this->File.shape(dataset);
+      const Hdf5Shape& shape = this->shapeOf(dataset);
       if (!shape.type || shape.extents.empty() || shape.extents.size() > 2 ||
           shape.components() > MostComponents)
       {
@@ -261,7 +307,6 @@ private:
       }
       Attribute attribute;
       attribute.array = this->arrayOf(dataset, 0);
-      attribute.rows = shape.rows();
       attribute.first = this->ofStep(group + "Offsets/" + name, -1);
       attributes.push_back(std::move(attribute));
     }
@@ -275,7 +320,6 @@ private:
     for (const Attribute& attribute : attributes)
     {
       const std::string dataset = VtkHdfRoot + group + '/' + attribute.array.name;
-      this->Rows[dataset] = attribute.rows;
       arrays.push_back(this->rowsOf(attribute.array, dataset,
         (attribute.first >= 0 ? attribute.first : stepFirst) + first, count));
     }
@@ -287,7 +331,6 @@ private:
   {
     const std::string path = VtkHdfRoot + name;
     const VtkArray array = this->arrayOf(path, components);
-    this->Rows[path] = this->File.shape(path).rows();
     return this->rowsOf(array, path, first, count);
   }
 
@@ -324,6 +367,7 @@ private:
       this->File.text(VtkHdfRoot + "PointData", "Normals").value_or("");
     const std::string cellNormals =
       this->File.text(VtkHdfRoot + "CellData", "Normals").value_or("");
+    const std::string globalIds = this->globalIds();
     for (std::size_t p = 0; p < this->Points.size(); ++p)
     {
       VtkPiece piece;
@@ -344,7 +388,7 @@ private:
         this->attributesOf(this->CellArrays, "CellData", stepCell, firstCell, piece.cells);
       piece.pointNormals = pointNormals;
       piece.cellNormals = cellNormals;
-      piece.globalIds = this->globalIds();
+      piece.globalIds = globalIds;
       firstPoint += piece.points;
       firstCell += piece.cells;
       this->Layout.pieces.push_back(std::move(piece));
@@ -384,7 +428,7 @@ private:
   std::vector<Cells> Lists;
   std::vector<Attribute> PointArrays, CellArrays;
   std::map<std::string, std::unique_ptr<VtkArrayOpener>> Openers;
-  std::map<std::string, std::int64_t> Rows; ///< of the datasets
+  std::map<std::string, Hdf5Shape> Shapes;
 };
 
 } // namespace

@@ -4,8 +4,12 @@
 #include "IO/Formats/VtkHdf/Hdf5/ImportVtkHdf.h"
 #include "IO/Formats/VtkHdf/Hdf5/WriteVtkHdf.h"
 
+#include <hdf5.h>
+
 extern "C" const smg::VtkHdfLibrary* smgVtkHdfLibrary()
 {
+  // What the library does with files that it could not close, at the end of a program, may crash.
+  H5dont_atexit();
   static constexpr smg::VtkHdfLibrary library{ smg::importVtkHdf, smg::countsOfVtkHdf,
     [](const std::filesystem::path& vsm, const std::filesystem::path& path,
       const smg::ProgressFunction& progress) { return smg::writeVtkHdf(vsm, path, progress); } };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/VtkHdf/Hdf5/WriteVtkHdf.h"
 
+#include "IO/Files/InQuotes.h"
 #include "IO/Formats/Vsm/MeshPiece.h"
 #include "IO/Formats/Vsm/ReservedNames.h"
 #include "IO/Formats/Vsm/VsmReader.h"
@@ -21,7 +22,7 @@ namespace
 class GridWriter
 {
 public:
-  GridWriter(VsmReader& reader, const std::filesystem::path& path)
+  GridWriter(VsmReader& reader, const std::filesystem::path& path, std::int64_t partitions)
     : Reader(reader)
     , Out(path)
   {
@@ -30,21 +31,25 @@ public:
     constexpr std::array<std::int64_t, 2> version{ 1, 0 };
     this->Out.addIntegers("/VTKHDF", "Version", version);
     this->Out.addText("/VTKHDF", "Type", "UnstructuredGrid");
-    for (const char* name :
-      { "NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds", "Connectivity", "Offsets" })
+    for (const char* name : { "NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds" })
     {
-      this->Out.addDataset(VtkHdfRoot + name, ScalarType::Int64, 0);
+      this->Out.addDataset(VtkHdfRoot + name, ScalarType::Int64, 0, partitions);
     }
-    this->Out.addDataset(VtkHdfRoot + "Types", ScalarType::UInt8, 0);
     this->Out.addDataset(
-      VtkHdfRoot + "Points", info.doublePositions ? ScalarType::Float64 : ScalarType::Float32, 3);
+      VtkHdfRoot + "Connectivity", ScalarType::Int64, 0, info.cells * cornersOf(info.cellType));
+    this->Out.addDataset(VtkHdfRoot + "Offsets", ScalarType::Int64, 0, info.cells + partitions);
+    this->Out.addDataset(VtkHdfRoot + "Types", ScalarType::UInt8, 0, info.cells);
+    this->Out.addDataset(VtkHdfRoot + "Points",
+      info.doublePositions ? ScalarType::Float64 : ScalarType::Float32, 3, info.vertices);
     this->Out.addGroup(this->PointData);
     this->Out.addText(this->PointData, "GlobalIds", GlobalIdsName);
     this->Out.addGroup(this->CellData);
-    this->Out.addDataset(this->PointData + '/' + GlobalIdsName, ScalarType::Int64, 0);
-    this->Out.addDataset(this->PointData + '/' + GhostTypeName, ScalarType::UInt8, 0);
-    this->addColumns(this->PointData, info.vertexColumns);
-    this->addColumns(this->CellData, info.cellColumns);
+    this->Out.addDataset(
+      this->PointData + '/' + GlobalIdsName, ScalarType::Int64, 0, info.vertices);
+    this->Out.addDataset(
+      this->PointData + '/' + GhostTypeName, ScalarType::UInt8, 0, info.vertices);
+    this->addColumns(this->PointData, info.vertexColumns, info.vertices, this->PointNames);
+    this->addColumns(this->CellData, info.cellColumns, info.cells, this->CellNames);
   }
 
   void write(const MeshPiece& piece)
@@ -69,28 +74,37 @@ public:
       this->PointData + '/' + GlobalIdsName, std::span<const std::int64_t>(piece.ids));
     this->Out.append(
       this->PointData + '/' + GhostTypeName, std::span<const std::uint8_t>(piece.ghost));
-    this->writeColumns(this->PointData, piece.vertexColumns);
-    this->writeColumns(this->CellData, piece.cellColumns);
+    this->writeColumns(this->PointNames, piece.vertexColumns);
+    this->writeColumns(this->CellNames, piece.cellColumns);
   }
 
   void finish() { this->Out.finish(); }
+  const WriteNotes& notes() const { return this->Notes; }
 
 private:
-  void addColumns(const std::string& group, const std::vector<ColumnSpec>& columns)
+  /** Adds a dataset for each column; `names`: theirs. */
+  void addColumns(const std::string& group, const std::vector<ColumnSpec>& columns,
+    std::int64_t rows, std::vector<std::string>& names)
   {
     for (const ColumnSpec& column : columns)
     {
+      std::string name = column.name;
+      // A slash would make a group of its own, and a point is the group itself.
+      std::ranges::replace(name, '/', '_');
+      name = name == "." ? "_" : name;
+      while (std::ranges::find(names, group + '/' + name) != names.end())
+      {
+        name += '_';
+      }
+      if (name != column.name)
+      {
+        this->Notes.push_back(
+          "The column " + inQuotes(column.name) + " is called " + inQuotes(name) + " in the file.");
+      }
+      names.push_back(group + '/' + name);
       this->Out.addDataset(
-        group + '/' + nameOf(column), column.type, column.components > 1 ? column.components : 0);
+        names.back(), column.type, column.components > 1 ? column.components : 0, rows);
     }
-  }
-
-  /** A slash would make a group of its own. */
-  static std::string nameOf(const ColumnSpec& column)
-  {
-    std::string name = column.name;
-    std::ranges::replace(name, '/', '_');
-    return name;
   }
 
   void append(const char* dataset, std::size_t number)
@@ -110,17 +124,19 @@ private:
     this->Out.append(VtkHdfRoot + "Points", std::span<const float>(this->Singles));
   }
 
-  void writeColumns(const std::string& group, const std::vector<Column>& columns)
+  void writeColumns(const std::vector<std::string>& names, const std::vector<Column>& columns)
   {
-    for (const Column& column : columns)
+    for (std::size_t i = 0; i < columns.size(); ++i)
     {
-      this->Out.append(group + '/' + nameOf(column.spec), std::span<const std::byte>(column.bytes));
+      this->Out.append(names[i], std::span<const std::byte>(columns[i].bytes));
     }
   }
 
   VsmReader& Reader;
   Hdf5Output Out;
   const std::string PointData = VtkHdfRoot + "PointData", CellData = VtkHdfRoot + "CellData";
+  std::vector<std::string> PointNames, CellNames;
+  WriteNotes Notes;
   std::vector<std::int64_t> Ends;
   std::vector<std::uint8_t> Bytes;
   std::vector<float> Singles;
@@ -133,9 +149,9 @@ WriteNotes writeVtkHdf(const std::filesystem::path& vsm, const std::filesystem::
 {
   Progress progress(progressFunction);
   VsmReader reader(vsm);
-  GridWriter writer(reader, path);
-  MeshPiece piece;
   const std::int64_t all = reader.info().cells;
+  GridWriter writer(reader, path, (all + cells - 1) / cells);
+  MeshPiece piece;
   for (std::int64_t first = 0; first < all; first += cells)
   {
     const std::int64_t end = std::min(all, first + cells);
@@ -144,7 +160,7 @@ WriteNotes writeVtkHdf(const std::filesystem::path& vsm, const std::filesystem::
     progress.update(static_cast<double>(end) / static_cast<double>(all));
   }
   writer.finish();
-  return {};
+  return writer.notes();
 }
 
 } // namespace smg
