@@ -6,13 +6,8 @@
 #include "IO/Files/PartialProgress.h"
 #include "Solver/Core/Error.h"
 
-#include <algorithm>
-#include <atomic>
-#include <fstream>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <system_error>
 
 namespace smg
 {

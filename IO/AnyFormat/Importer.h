@@ -17,9 +17,9 @@ struct ImportOptions
 };
 
 /**
- * Parses a mesh file of any format: PLY, OBJ, OFF, STL, Medit, Gmsh, TetGen, legacy VTK, VTK XML,
- * or one of them compressed by gzip. The format is told by the content, by the suffix only where
- * the content says nothing.
+ * Parses a mesh file of any format that formats() has a parser for, or one of them compressed by
+ * gzip. The format is recognised by the content, by the suffix only where the content leaves it
+ * open.
  * @throws Error naming the file and the line, record or byte: the format is not known, the file is
  * empty, truncated or contradicts itself, a coordinate is not finite, a corner is no vertex, there
  * are no cells, or both triangles and tetrahedra; Cancelled.

@@ -8,7 +8,6 @@
 #include "Solver/Storage/BlockFile.h"
 #include "Solver/Storage/FileDescriptor.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>

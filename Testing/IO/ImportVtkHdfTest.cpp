@@ -92,6 +92,17 @@ protected:
     file.integers("CellData/Part", { 10, 20 });
   }
 
+  /** The same with its cells, as an unstructured grid. */
+  void writeSquareGrid(HdfFile& file)
+  {
+    this->writeSquare(file);
+    file.integers("NumberOfCells", { 1, 1 });
+    file.integers("NumberOfConnectivityIds", { 3, 3 });
+    file.integers("Connectivity", { 0, 1, 2, 0, 1, 2 });
+    file.integers("Offsets", { 0, 3, 0, 3 });
+    file.bytes("Types", { 5, 5 });
+  }
+
   void expectSquare(const ReadMesh& mesh)
   {
     EXPECT_EQ(mesh.positions, (std::vector<double>{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0 }));
@@ -112,12 +123,7 @@ protected:
 TEST_F(ImportVtkHdf, PartitionsOfAGridAreOneMesh)
 {
   HdfFile file(this->Folder / "a.vtkhdf", "UnstructuredGrid");
-  this->writeSquare(file);
-  file.integers("NumberOfCells", { 1, 1 });
-  file.integers("NumberOfConnectivityIds", { 3, 3 });
-  file.integers("Connectivity", { 0, 1, 2, 0, 1, 2 });
-  file.integers("Offsets", { 0, 3, 0, 3 });
-  file.bytes("Types", { 5, 5 });
+  this->writeSquareGrid(file);
   file.finish();
   this->expectSquare(this->readHdf());
 }
@@ -162,12 +168,7 @@ TEST_F(ImportVtkHdf, OfSeveralTimeStepsTheFirstIsRead)
 TEST_F(ImportVtkHdf, AMeshThatDoesNotChangeHasAllItsPartitionsInEachTimeStep)
 {
   HdfFile file(this->Folder / "a.vtkhdf", "UnstructuredGrid");
-  this->writeSquare(file);
-  file.integers("NumberOfCells", { 1, 1 });
-  file.integers("NumberOfConnectivityIds", { 3, 3 });
-  file.integers("Connectivity", { 0, 1, 2, 0, 1, 2 });
-  file.integers("Offsets", { 0, 3, 0, 3 });
-  file.bytes("Types", { 5, 5 });
+  this->writeSquareGrid(file);
   file.group("Steps");
   file.out().addIntegers("/VTKHDF/Steps", "NSteps", std::vector<std::int64_t>{ 2 });
   file.integers("Steps/PartOffsets", { 0, 0 });
@@ -256,12 +257,7 @@ TEST_F(ImportVtkHdf, WrittenFilesComeBack)
 TEST_F(ImportVtkHdf, ColumnsTravel)
 {
   HdfFile file(this->Folder / "a.vtkhdf", "UnstructuredGrid");
-  this->writeSquare(file);
-  file.integers("NumberOfCells", { 1, 1 });
-  file.integers("NumberOfConnectivityIds", { 3, 3 });
-  file.integers("Connectivity", { 0, 1, 2, 0, 1, 2 });
-  file.integers("Offsets", { 0, 3, 0, 3 });
-  file.bytes("Types", { 5, 5 });
+  this->writeSquareGrid(file);
   file.finish();
   convert(this->Folder / "a.vtkhdf", this->Folder / "b.vtkhdf");
   convert(this->Folder / "b.vtkhdf", this->Folder / "c.vsm");

@@ -77,6 +77,9 @@ public:
   Hdf5Numbers(const Hdf5Numbers&) = delete;
   Hdf5Numbers& operator=(const Hdf5Numbers&) = delete;
 
+  /** Bytes of a chunk, see Hdf5Shape. */
+  std::uint64_t chunkBytes() const { return this->Shape.chunkBytes; }
+
   /** Fills with the next numbers, as many bytes of them. Throws Error if there are fewer. */
   void read(std::byte* values, std::size_t bytes);
 

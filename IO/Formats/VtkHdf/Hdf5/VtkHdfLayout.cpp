@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/VtkHdf/Hdf5/VtkHdfLayout.h"
 
-#include "IO/External/Reservation.h"
 #include "IO/Files/InQuotes.h"
-#include "IO/Files/InputFile.h"
-#include "IO/Formats/Vtk/ByteSource.h"
+#include "IO/Formats/VtkHdf/Hdf5/DatasetOpener.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5File.h"
 #include "IO/Formats/VtkHdf/Hdf5/VtkHdfRoot.h"
 
@@ -19,57 +17,6 @@ namespace smg
 
 namespace
 {
-
-/** The numbers of a dataset as a VtkArrayReader takes them. */
-class DatasetBytes : public ByteSource
-{
-public:
-  DatasetBytes(const Hdf5File& hdf, const std::string& name, InputFile& file, const VtkArray& array,
-    Pool& pool)
-    : Chunk(pool, chunkBytes(hdf, name))
-    , Numbers(hdf, name, array.type, static_cast<std::int64_t>(array.begin))
-    , File(file)
-  {
-  }
-
-  void read(std::span<std::byte> bytes) override
-  {
-    this->Numbers.read(bytes.data(), bytes.size());
-    this->File.passed(bytes.size());
-  }
-
-private:
-  /** A chunk, and once more while it is decompressed. */
-  static std::int64_t chunkBytes(const Hdf5File& hdf, const std::string& name)
-  {
-    constexpr std::uint64_t Most = std::uint64_t(1) << 60;
-    return static_cast<std::int64_t>(2 * std::min(hdf.shape(name).chunkBytes, Most));
-  }
-
-  Reservation Chunk;
-  Hdf5Numbers Numbers;
-  InputFile& File;
-};
-
-class DatasetOpener : public VtkArrayOpener
-{
-public:
-  DatasetOpener(const Hdf5File& file, std::string name)
-    : Hdf(file)
-    , Name(std::move(name))
-  {
-  }
-
-  std::unique_ptr<ByteSource> open(
-    InputFile& file, const VtkArray& array, Pool& pool) const override
-  {
-    return std::make_unique<DatasetBytes>(this->Hdf, this->Name, file, array, pool);
-  }
-
-private:
-  const Hdf5File& Hdf;
-  std::string Name;
-};
 
 class LayoutReader
 {
