@@ -47,7 +47,7 @@ public:
   /**
    * The target positions of the points of a selection (in the order of their ids), of the ids, or
    * of the positions: as many as these. The neighbourhood held with a point moves with it. Default:
-   * none: the motion defines the targets.
+   * none (the motion defines the targets).
    */
   void AddPointTarget(double x, double y, double z);
   void RemoveAllPointTargets();

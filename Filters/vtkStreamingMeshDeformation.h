@@ -44,8 +44,8 @@ public:
   };
 
   ///@{
-  /** V-cycles of each of the two steps. Default: 0: as many as Tolerance needs, at most
-   * MaximumCycles. */
+  /** V-cycles of each of the two steps. Default: 0 (as many as Tolerance needs, at most
+   * MaximumCycles). */
   vtkSetClampMacro(Cycles, int, 0, VTK_INT_MAX);
   vtkGetMacro(Cycles, int);
   ///@}

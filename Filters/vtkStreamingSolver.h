@@ -98,7 +98,7 @@ public:
   ///@}
 
   ///@{
-  /** The folder for scratch files. Default: none: the system's folder for temporary files. */
+  /** The folder for scratch files. Default: none (the system's folder for temporary files). */
   vtkSetFilePathMacro(ScratchDirectory);
   vtkGetFilePathMacro(ScratchDirectory);
   ///@}

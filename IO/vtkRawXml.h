@@ -12,8 +12,9 @@ namespace smg
 {
 
 /**
- * Has VTK's `Writer` of .vtp or .vtu files write the mesh as it is parsed as a stream: with raw
- * appended data, not compressed. Answers whether it could; what it complains of is in `complaints`.
+ * Writes the mesh with VTK's `Writer` of .vtp or .vtu files in a form that can be parsed as a
+ * stream: raw appended data without compression. Returns whether it succeeded; error messages are
+ * in `complaints`.
  */
 template <class Writer>
 bool writeRawXml(

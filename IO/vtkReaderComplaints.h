@@ -17,9 +17,8 @@ namespace smg
 {
 
 /**
- * Collects what VTK's readers complain of, as long as it lives, instead of having it printed. Some
- * complaints come as events, some only as texts for VTK's output window, which is replaced for so
- * long.
+ * Collects the error messages of VTK readers during its lifetime instead of printing them. Some are
+ * sent as events, others only as text to VTK's output window, which is replaced for this time.
  */
 class vtkReaderComplaints
 {
@@ -40,7 +39,7 @@ public:
 
   /** An observer for ErrorEvent. */
   vtkCommand* command() { return this->Command; }
-  /** The first complaint, in a line; empty if there is none. */
+  /** The first message, in one line; empty if there is none. */
   const std::string& text() const { return this->Text; }
 
 private:
@@ -57,7 +56,7 @@ private:
     vtkReaderComplaints* Complaints = nullptr;
 
   private:
-    /** That numbers are missing, the readers of the legacy format only warn of. */
+    /** For missing numbers, the readers of the legacy format only issue a warning. */
     void noteMissing(const char* text)
     {
       if (text && std::strstr(text, "Error reading"))
