@@ -14,7 +14,7 @@
  *   the whole mesh is deformed once, out of core, as described at vtkStreamingSolver.
  * - For other requests, if the input is a preview, the preview itself is deformed in memory. Its
  *   hierarchy is kept as long as only the motion of the handles changes, so that the preview
- * follows a dragged handle immediately.
+ *   follows a dragged handle immediately.
  * - Other requests for the whole of a mesh of at most InteractivePoints points are treated like
  *   previews; those for larger meshes, or with several processes, like streamed requests.
  *

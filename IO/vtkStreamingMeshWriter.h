@@ -6,11 +6,11 @@
  * Requests the pieces of its input one after the other, each once, and writes them to one of
  * - .vsm: all point and cell arrays become columns; the points that no cell uses, which no piece
  *   has, are copied from the .vsm file of the pieces;
- * - .ply, .vtp (triangles), .vtu, .vtkhdf: one file with all point and cell arrays (see
- * smg::writePly for their names in PLY);
+ * - .ply, .vtp (triangles), .vtu, .vtkhdf: one file with all point and cell arrays; for their names
+ *   in PLY see smg::writePly;
  * - .sma, .smb (triangles), .sva, .svb (tetrahedra): positions in single precision and cells;
  * - .pvtp, .pvtu: an index and a folder of that name with one file per piece, with the GlobalIds
- * and ghost arrays that make them valid input of all streaming filters.
+ *   and ghost arrays that make them valid input of all streaming filters.
  *
  * Data that the format cannot hold are omitted or rounded with a warning. At most one piece is in
  * memory (with RestoreOrder at most 256 MiB). The input must fulfil the piece contract described at
