@@ -10,8 +10,8 @@ vtk_module_scan(
   WANT_BY_DEFAULT ON
   ENABLE_TESTS OFF)
 
-# The modules come as a package of their own, so that StreamingMultigrid::Solver and ::IOCore can be
-# found without VTK. Their headers lie flat beside the folder Solver, as VTK's own do.
+# The modules are a separate package, so that StreamingMultigrid::Solver and ::IOCore can be found
+# without VTK. Their headers are installed flat beside the folder Solver, like those of VTK.
 vtk_module_build(
   MODULES ${smg_vtk_modules}
   PACKAGE StreamingMultigridVTK
@@ -23,7 +23,7 @@ vtk_module_build(
   VERSION "${PROJECT_VERSION}"
   SOVERSION "${PROJECT_VERSION_MAJOR}")
 
-# Where Debian's Python looks below /usr, whatever the folder of libraries is called.
+# The folder below /usr that Python on Debian searches, independent of the library folder.
 set(SMG_PYTHON_DIR "lib/python3/dist-packages")
 if (SMG_BUILD_PYTHON)
   # From the modules to the libraries beside lib/python3.
