@@ -43,7 +43,7 @@ TEST(DirectDeformation, handlesThatMoveAlikeMoveTheMeshAlike)
 
 TEST(DirectDeformation, theFieldsAreHarmonic)
 {
-  // In a straight beam whose ends are held they are linear.
+  // In a straight beam with held ends they are linear.
   const StreamMesh mesh = toStream(tetBox(21, 4, 4));
   ArrayHandles handles(mesh.vertices());
   Motion motion = turn(200.0, { 1, 2, 3 });

@@ -18,14 +18,14 @@ DirectSystem assemble(const StreamMesh& mesh, Problem& problem)
   return assembleDirect(source, problem);
 }
 
-/** The positions of all vertices, a row each. */
+/** The positions of all vertices, one row per vertex. */
 Eigen::MatrixXd positionsOf(const StreamMesh& mesh)
 {
   return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(
     mesh.positions.data(), mesh.vertices(), 3);
 }
 
-/** The positions as initial values, prescribed where `isFixed` says so of x, y, z. */
+/** The positions as initial values, prescribed where `isFixed(x, y, z)`. */
 template <class Predicate>
 ArrayProblem positionProblem(const StreamMesh& mesh, Predicate isFixed)
 {
@@ -72,7 +72,7 @@ TEST(DirectSolve, stiffnessReproducesLinearFunctionsInTetrahedra)
 
 TEST(DirectSolve, eigenfunctionOfTheSphere)
 {
-  // On the unit sphere -Laplace(z) = 2 z, so the source 2 z + s z answers with z.
+  // On the unit sphere -Laplace(z) = 2 z, so the solution for the source 2 z + s z is z.
   const StreamMesh mesh = toStream(sphere(4));
   for (const double screening : { 0.0, 3.0 })
   {

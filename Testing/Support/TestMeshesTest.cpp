@@ -29,7 +29,7 @@ double totalSize(const IndexedTestMesh& mesh)
   return sum;
 }
 
-/** V - E + F of triangles; fails when an edge is used twice in the same direction. */
+/** V - E + F of triangles; fails if an edge is used twice in the same direction. */
 std::int64_t eulerNumber(const IndexedTestMesh& mesh)
 {
   std::set<std::pair<std::int64_t, std::int64_t>> directed;
