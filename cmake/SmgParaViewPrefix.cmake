@@ -86,4 +86,4 @@ if (NOT EXISTS "${smg_packages}/${smg_name}")
   file(RENAME "${smg_packages}/part/${smg_name}" "${smg_packages}/${smg_name}")
 endif ()
 set(ParaView_DIR "${smg_packages}/${smg_name}" CACHE PATH
-  "ParaView's own, but for names of Python modules" FORCE)
+  "ParaView's own, except for names of Python modules" FORCE)
