@@ -8,9 +8,9 @@ namespace smg
 {
 
 /**
- * The one exception of the library. Its text is a sentence that a user can act on: it names the
- * file or parameter, the place, what is wrong and, where there is something to do, what to do.
- * It is caught once, at the boundary: the command line or a VTK class.
+ * The exception of the library. Its message is meant for users: it names the file or parameter, the
+ * location, the error and, if possible, a remedy. It is caught once, at the boundary: the command
+ * line or a VTK class.
  */
 class Error : public std::runtime_error
 {
@@ -21,7 +21,7 @@ public:
   }
 };
 
-/** Thrown when the progress callback asked to stop. Nothing is left behind. */
+/** Thrown if the progress callback cancels the operation. No files are left behind. */
 class Cancelled : public Error
 {
 public:

@@ -9,13 +9,11 @@
 namespace smg
 {
 
-/**
- * A progress callback: called with the fraction done (0 to 1, never decreasing over a whole
- * operation); answers whether to go on. False ends the operation with `Cancelled`.
- */
+/** A progress callback: called with the completed fraction (0 to 1, never decreasing during an
+ * operation); returns whether to continue. False ends the operation with `Cancelled`. */
 using ProgressFunction = std::function<bool(double)>;
 
-/** Keeps the fractions monotone and turns a refusal into `Cancelled`. */
+/** Keeps the fractions monotone and throws `Cancelled` if the callback returns false. */
 class Progress
 {
 public:

@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** The scalar types a column may have. The values are part of the file format. */
+/** The scalar types of columns. The values are part of the file format. */
 enum class ScalarType : std::uint8_t
 {
   Int8 = 0,
