@@ -20,17 +20,17 @@ namespace smg
  *     problem.prepare(*mesh.source(problem.vertexColumns(), problem.cellColumns()));
  *     solve(*mesh.source(problem.vertexColumns(), problem.cellColumns()), problem);
  *
- * Vertices are named by the column OriginalId, or by their stream index if the mesh has no such
- * column. In memory are the values of columns, and what is selected, at the vertices that a cell to
- * come may use. The stream may be gone through again, from its first block.
+ * Vertices are identified by the column OriginalId, or by their stream index if the mesh has no
+ * such column. The values of columns and the selections are held in memory only at vertices that a
+ * later cell may use. The stream may be read repeatedly, from its first block.
  */
 class DescribedProblem : public Problem
 {
 public:
   /**
-   * `mesh` is the mesh the problem is for. `name` is what errors call the description: its file.
-   * Throws Error naming the place in the description if something is out of range, or the mesh has
-   * no such column.
+   * `mesh` is the mesh of the problem; `name` is the name of the description in error messages: its
+   * file. Throws Error, which names the place in the description, if a value is out of range or the
+   * mesh lacks a column.
    */
   DescribedProblem(const ProblemDescription& description, const StreamInfo& mesh,
     const std::string& name = "problem");
@@ -42,11 +42,11 @@ public:
   std::vector<std::string> cellColumns() const { return this->OfMesh.cellColumns(); }
 
   /**
-   * Reads the stream once, unless the description selects no part of the mesh. Throws Error naming
-   * the place in the description if such a part is empty, or has a vertex that the mesh lacks. May
-   * be left out, but where vertices are selected by a column of the cells, or as the nearest ones:
-   * this is known only then. A scratch file without a name, one bit a vertex for each such column,
-   * goes to `scratch`; empty: to the system's temporary folder.
+   * Reads the stream once if the description selects parts of the mesh. Throws Error, which names
+   * the place in the description, if such a part is empty or refers to a vertex that the mesh
+   * lacks. May be omitted unless vertices are selected by a column of the cells or as nearest
+   * vertices, which is determined here. An unnamed scratch file, with one bit per vertex for each
+   * such column, is created in `scratch`; empty: the system's temporary folder.
    */
   void prepare(MeshSource& mesh, const std::filesystem::path& scratch = {});
 
@@ -65,7 +65,7 @@ private:
     DatumOnMesh value, weight;
   };
 
-  /** The place of a density: at the vertices, unless an entry names a column of the cells. */
+  /** The place of a density: the vertices, unless an entry names a column of the cells. */
   DataPlace placeOf(const Datum& density) const;
   void addRobin(const ProblemDescription& description);
   void addSoft(const ProblemDescription& description);
@@ -77,7 +77,7 @@ private:
   void setConductivity(const CellRange& cells, CellBatch& batch);
   void setField(const CellRange& cells, CellBatch& batch);
   void setRobin(const CellRange& cells, FacetBatch& batch);
-  /** What a density says at the vertices of a block, or in cells. */
+  /** Evaluates a density at the vertices of a block, or in cells. */
   void setDensity(const DatumOnMesh& datum, const MeshBlock& block, std::vector<double>& density);
   void setDensity(const DatumOnMesh& datum, const CellRange& cells, std::span<double> density);
 
@@ -90,8 +90,9 @@ private:
   DatumOnMesh Ambient;                   ///< of the Robin conditions
   std::vector<DatumOnMesh> Coefficients; ///< of each of them
   std::vector<Soft> Softs;
-  std::vector<std::int32_t> Entry, Other; ///< what counts at vertices, in cells, or on facets
-  std::vector<double> Values;             ///< what it says
+  std::vector<std::int32_t> Entry,
+    Other;                    ///< applicable entries at vertices, in cells, or on facets
+  std::vector<double> Values; ///< their values
 };
 
 } // namespace smg

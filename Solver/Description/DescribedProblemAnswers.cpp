@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the problem of a description says of a block of its mesh.
+// Evaluation of a described problem on a block of its mesh.
 #include "Solver/Core/Error.h"
 #include "Solver/Description/DescribedProblem.h"
 
@@ -14,8 +14,9 @@ void DescribedProblem::conditions(const MeshBlock& block, VertexConditions& cond
   {
     if (datum->needsPreparing())
     {
-      throw Error("Nearest vertices and the vertices of cells are found by reading the mesh "
-                  "before: call DescribedProblem::prepare().");
+      throw Error(
+        "Nearest vertices and the vertices of cells are found by a previous reading of the "
+        "mesh: call DescribedProblem::prepare().");
     }
     datum->startBlock(block);
   }
@@ -40,7 +41,7 @@ void DescribedProblem::setValues(const MeshBlock& block, VertexConditions& condi
   this->Dirichlet.entriesAtVertices(conditions.dirichlet);
   this->Entry.assign(conditions.dirichlet.size(), -1);
   this->Initial.entriesAtVertices(this->Entry);
-  // Initial values of constrained vertices are nobody's business: they may be anything, also NaN.
+  // Initial values of constrained vertices are not used and may be anything, also NaN.
   for (std::size_t i = 0; i < this->Entry.size(); ++i)
   {
     this->Entry[i] = conditions.dirichlet[i] >= 0 ? -1 : this->Entry[i];
