@@ -10,26 +10,23 @@
 namespace smg
 {
 
-/**
- * Vertex column of a preview, int64: which vertex of the mesh a point is, by its stream index. (The
- * name GlobalIds belongs to VTK's pieces, where it means the same.)
- */
+/** Vertex column of a preview, int64: the stream index of each point in the mesh. (The name
+ * GlobalIds is reserved for VTK pieces, where it has the same meaning.) */
 inline constexpr const char* StreamIndexName = "StreamIndex";
 
 /**
  * The preview of a mesh (see makePreviewPiece()) as a mesh stream of triangles, compact and in
- * breadth-first order, to be written as a file. It has all vertex columns of the mesh, of which
- * OriginalId names the mesh's vertices in their file, and the column StreamIndex.
+ * breadth-first order, to be written to a file. It has all vertex columns of the mesh, including
+ * OriginalId with the indices in the original file, and the column StreamIndex.
  */
 class PreviewSource : public MeshSource
 {
 public:
   /**
-   * Reads the mesh once, and its vertex columns once. Errors call the mesh `name`, or by its file
-   * if that is empty. Scratch files, if the preview is so large that it needs any, go to `scratch`;
-   * empty: the system's temporary folder.
-   * @throws Error if the preview is empty, since every triangle has its corners in one place;
-   * Cancelled
+   * Reads the mesh once, and its vertex columns once. Error messages name the mesh `name`, or its
+   * file if that is empty. A large preview creates scratch files in `scratch`; empty: the system's
+   * temporary folder.
+   * @throws Error if the preview is empty because every triangle collapses; Cancelled
    */
   explicit PreviewSource(VsmReader& mesh, std::int64_t maximumPoints = DefaultPreviewPoints,
     const ProgressFunction& progress = {}, const std::string& name = {},

@@ -22,19 +22,20 @@ namespace smg
  *                      "rotation": "HandleRotation", "logScale": "HandleLogScale" } ],
  *       "weights": "clamped" | "cotangent" | "uniform", "cycles": k }
  *
- * A region is any WHERE of a problem file (see ProblemFile.h): beside those above, vertices by
- * `tag`, `mask` and `nearest`. A handle has a region and one of three:
+ * A region is any WHERE of a problem file (see ProblemFile.h), including `tag`, `mask` and
+ * `nearest`. A handle has a region and one of three:
  * - `fixed`;
  * - one or more of `rotate`, `scale` (from 1e-20 to 1e20) and `translate`: rotation and scale about
- *   the same centre first, then translation. The axis has any length but 0, the angle is from -1e6
- *   to 1e6 degrees: 200 are not -160. The centre stands in the rotation or in the handle; without
- *   one it is the middle of the handle's sphere or box, and an error for other regions;
- * - `target`, where each vertex goes: the name of a vertex column, [x, y, z] or "position"; with
- *   it, if they are not 0, `rotation` (the unit axis times the angle in radians: a column or three
- *   numbers) and `logScale` (the natural logarithm of the scale: a column or a number).
+ *   the same centre first, then translation. The axis has any length except 0, the angle is from
+ *   -1e6 to 1e6 degrees: 200 is not the same as -160. The centre is part of the rotation or of the
+ *   handle; the default is the centre of the sphere or box, and an error for other regions;
+ * - `target`, the target of each vertex: the name of a vertex column, [x, y, z] or "position"; with
+ *   it optionally `rotation` (the unit axis times the angle in radians: a column or three numbers)
+ *   and `logScale` (the natural logarithm of the scale: a column or a number), both by default 0.
  *
- * `cycles` (V-cycles of each step, 1 to 1000000) or `tolerance` (between 0 and 1), not both, say
- * when to stop; they and `weights` (see Weights in Solver/Problem/Problem.h) may be left out.
+ * `cycles` (V-cycles of each step, 1 to 1000000) or `tolerance` (between 0 and 1), but not both,
+ * define the stopping criterion; these and `weights` (see Weights in Solver/Problem/Problem.h) are
+ * optional.
  * @throws Error naming the file and the place in it
  */
 DeformationDescription readHandleFile(const std::filesystem::path& path);

@@ -34,16 +34,16 @@ inline constexpr std::array ProblemKeys{ "weights", "columns", "conductivity", "
  *             | "sphere": [x, y, z, r] | "vertices": [original numbers]
  *             | "tag": ["column", value] | "mask": "column" | "nearest": [[x, y, z], ...]
  *
- * An entry without WHERE holds everywhere. Every key may be left out; ProblemDescription says what
- * it means and what holds without it. The entries of a list in C have no lists themselves.
- * `raw-cotangent` is an old name of `cotangent`. docs/problem.schema.json says the same as a JSON
- * schema. What the file does not say is as in `defaults`; conditions are added to theirs.
+ * An entry without WHERE holds everywhere. All keys are optional; ProblemDescription documents
+ * their meaning and defaults. The entries of a list in C are not lists themselves. `raw-cotangent`
+ * is an alias of `cotangent`. docs/problem.schema.json is the corresponding JSON schema. Missing
+ * data are taken from `defaults`; conditions are appended to theirs.
  * @throws Error naming the file and the place in it
  */
 ProblemDescription readProblemFile(
   const std::filesystem::path& path, const ProblemDescription& defaults = {});
 
-/** The same from the text of such a file; errors call it `name`. */
+/** The same from the text of such a file, named `name` in error messages. */
 ProblemDescription readProblemText(
   const std::string& text, const std::string& name, const ProblemDescription& defaults = {});
 

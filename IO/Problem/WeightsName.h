@@ -10,11 +10,11 @@
 namespace smg
 {
 
-/** The weights that users call `cotangent` (or `raw-cotangent`), `clamped` and `uniform`;
- * none for any other name. */
+/** The weights named `cotangent` (or `raw-cotangent`), `clamped` and `uniform`; none for other
+ * names. */
 std::optional<Weights> weightsOfName(std::string_view name);
 
-/** The member `weights` of an object of a file; none if it has none. Throws Error. */
+/** The member `weights` of an object, if any. Throws Error. */
 std::optional<Weights> parseWeights(const JsonNode& object);
 
 } // namespace smg
