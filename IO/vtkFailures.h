@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Error.h"
+#include "vtkStreamingMultigridIOModule.h" // For export macro
+
+#include "smg/Error.h"
 
 #include "vtkType.h"
 #include "vtkWeakPointer.h"
@@ -24,15 +26,15 @@ public:
 
 /** Says in the field data that these data are empty since what should be here has failed; filters
  * pass it on. */
-void markAsFailed(vtkDataObject& data);
+VTKSTREAMINGMULTIGRIDIO_EXPORT void markAsFailed(vtkDataObject& data);
 /** Whether they say so; null does not. */
-bool isFailed(vtkDataObject* data);
+VTKSTREAMINGMULTIGRIDIO_EXPORT bool isFailed(vtkDataObject* data);
 
 /**
  * The failures of an algorithm, each of which is shown once: a view asks several times for what
  * cannot be made, and the executive adds a message of its own to each answer that is 0.
  */
-class Failures
+class VTKSTREAMINGMULTIGRIDIO_EXPORT Failures
 {
 public:
   /**

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/Vsm/MeshPiece.h"
-#include "Solver/Stream/MeshSource.h"
+#include "vtkStreamingMultigridIOModule.h" // For export macro
+
+#include "smg/MeshSource.h"
+#include "smg/VsmReader.h"
 
 class vtkPointSet;
 
@@ -10,15 +12,16 @@ namespace smg
 {
 
 /** Gives the points, cells, arrays and contract arrays of a piece to an empty VTK mesh. */
-void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info);
+VTKSTREAMINGMULTIGRIDIO_EXPORT void setPiece(
+  vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info);
 
 /** Says in the field data that the mesh is a preview of another. */
-void markAsPreview(vtkPointSet& mesh, const StreamInfo& full);
+VTKSTREAMINGMULTIGRIDIO_EXPORT void markAsPreview(vtkPointSet& mesh, const StreamInfo& full);
 
 /** Says that the preview is a reader's: who pulls its pieces gets the mesh itself. */
 void markAsReaders(vtkPointSet& preview);
 
 /** Whether the field data say that the mesh is a preview. */
-bool isPreview(vtkPointSet& mesh);
+VTKSTREAMINGMULTIGRIDIO_EXPORT bool isPreview(vtkPointSet& mesh);
 
 } // namespace smg

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Stream/MeshSource.h"
+#include "vtkStreamingMultigridIOModule.h" // For export macro
+
+#include "smg/MeshSource.h"
 
 #include <cstdint>
 #include <span>
@@ -20,16 +22,17 @@ namespace smg
  * The kind of the cells of a vtkPolyData or vtkUnstructuredGrid that has some. Throws Error, which
  * begins with `where`, if they are anything but triangles, or tetrahedra.
  */
-CellType cellTypeOf(vtkPointSet& piece, const std::string& where);
+VTKSTREAMINGMULTIGRIDIO_EXPORT CellType cellTypeOf(vtkPointSet& piece, const std::string& where);
 
 /** The corners of all cells, as point numbers. Throws Error if they are not of the type `type`. */
-std::vector<std::int64_t> cellCorners(vtkPointSet& piece, CellType type, const std::string& where);
+VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<std::int64_t> cellCorners(
+  vtkPointSet& piece, CellType type, const std::string& where);
 
 /**
  * Takes the cells that are marked as duplicates out of `corners`, which are those of all cells of
  * the piece, `cornersOfCell` each. Answers the numbers of the others.
  */
-std::vector<std::int64_t> keepOwnCells(
+VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<std::int64_t> keepOwnCells(
   vtkPointSet& piece, int cornersOfCell, std::vector<std::int64_t>& corners);
 
 /** The cells with the given corners, `cornersOfCell` each. */

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Stream/Column.h"
+#include "vtkStreamingMultigridIOModule.h" // For export macro
+
+#include "smg/Column.h"
 
 #include <cstdint>
 #include <optional>
@@ -24,10 +26,10 @@ std::optional<ScalarType> scalarTypeOf(vtkDataArray& array);
 vtkSmartPointer<vtkDataArray> makeArray(const Column& column);
 
 /** What columns the numeric, named arrays make, without those that the piece contract makes. */
-std::vector<ColumnSpec> columnSpecs(vtkDataSetAttributes& arrays);
+VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<ColumnSpec> columnSpecs(vtkDataSetAttributes& arrays);
 
 /** The tuples `rows` of the array `column.spec.name`. Throws Error if it is absent or differs. */
-void copyColumn(vtkDataSetAttributes& arrays, std::span<const std::int64_t> rows,
-  const std::string& where, Column& column);
+VTKSTREAMINGMULTIGRIDIO_EXPORT void copyColumn(vtkDataSetAttributes& arrays,
+  std::span<const std::int64_t> rows, const std::string& where, Column& column);
 
 } // namespace smg

@@ -10,6 +10,10 @@ vtk_module_scan(
   WANT_BY_DEFAULT ON
   ENABLE_TESTS OFF)
 
+# As VTK's own modules, these export what their macros mark.
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
 # The modules come as a package of their own, so that StreamingMultigrid::Solver and ::IOCore can be
 # found without VTK. Their headers lie flat beside the folder Solver, as VTK's own do.
 vtk_module_build(
@@ -22,6 +26,8 @@ vtk_module_build(
   CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/StreamingMultigrid"
   VERSION "${PROJECT_VERSION}"
   SOVERSION "${PROJECT_VERSION_MAJOR}")
+unset(CMAKE_CXX_VISIBILITY_PRESET)
+unset(CMAKE_VISIBILITY_INLINES_HIDDEN)
 
 # Where Debian's Python looks below /usr, whatever the folder of libraries is called.
 set(SMG_PYTHON_DIR "lib/python3/dist-packages")

@@ -4,7 +4,7 @@
 #include "CommonOptions.h"
 #include "InputOptions.h"
 
-#include "IO/Conversion/OpenMesh.h"
+#include "smg/OpenMesh.h"
 
 /**
  * Opens a mesh file of any kind. What is no stream is converted on the way, into `order`, within

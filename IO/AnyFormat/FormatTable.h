@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Formats/Format.h"
+#include "smg/Export.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,7 +18,7 @@ namespace smg
 std::span<const Format* const> formats();
 
 /** The format of a suffix, which is in lower case; null if there is none. */
-const Format* formatOfSuffix(std::string_view suffix);
+SMG_EXPORT const Format* formatOfSuffix(std::string_view suffix);
 /** The format of a file name's suffix; .gz at its end is left out of account. */
 const Format* formatOfName(const std::filesystem::path& path);
 
@@ -30,7 +31,7 @@ const Format* formatOfContent(const std::filesystem::path& path);
  * The format of an indexed mesh: by the sign that the file begins with, else by its first bytes if
  * they look like one, else by its suffix; null if nothing says it.
  */
-const Format* formatOfFile(const std::filesystem::path& path);
+SMG_EXPORT const Format* formatOfFile(const std::filesystem::path& path);
 /** As formatOfFile(), of a file that begins with `start`. `size`: none if it is not known. */
 const Format* formatOfStart(
   std::string_view start, std::optional<std::uint64_t> size, const std::filesystem::path& path);
@@ -45,14 +46,14 @@ enum class FormatUse
 };
 
 /** The suffix of the path, if its files can be written so; null otherwise. */
-const FileSuffix* suffixFor(FormatUse use, const std::filesystem::path& path);
+SMG_EXPORT const FileSuffix* suffixFor(FormatUse use, const std::filesystem::path& path);
 
 /** The suffixes of a format. */
-std::string suffixList(const Format& format, std::string_view conjunction);
+SMG_EXPORT std::string suffixList(const Format& format, std::string_view conjunction);
 /** The suffixes that can be used so, as ".ply, .obj or .off". */
-std::string suffixList(FormatUse use, std::string_view conjunction);
+SMG_EXPORT std::string suffixList(FormatUse use, std::string_view conjunction);
 /** The suffixes that can be used so and hold such cells. */
-std::string suffixList(FormatUse use, CellType cells, std::string_view conjunction);
+SMG_EXPORT std::string suffixList(FormatUse use, CellType cells, std::string_view conjunction);
 
 /** What to tell who wants such cells under a suffix that does not hold them. */
 std::string holdsNo(const FileSuffix& suffix, CellType cells, FormatUse use);

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "IO/Problem/JsonNode.h"
-#include "Solver/Problem/Problem.h"
+#include "smg/Export.h"
+#include "smg/Problem.h"
 
 #include <optional>
 #include <string_view>
@@ -12,7 +13,7 @@ namespace smg
 
 /** The weights that users call `cotangent` (or `raw-cotangent`), `clamped` and `uniform`;
  * none for any other name. */
-std::optional<Weights> weightsOfName(std::string_view name);
+SMG_EXPORT std::optional<Weights> weightsOfName(std::string_view name);
 
 /** The member `weights` of an object of a file; none if it has none. Throws Error. */
 std::optional<Weights> parseWeights(const JsonNode& object);

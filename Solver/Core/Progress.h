@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <functional>
 
 namespace smg
 {
-
-/**
- * A progress callback: called with the fraction done (0 to 1, never decreasing over a whole
- * operation); answers whether to go on. False ends the operation with `Cancelled`.
- */
-using ProgressFunction = std::function<bool(double)>;
 
 /** Keeps the fractions monotone and turns a refusal into `Cancelled`. */
 class Progress

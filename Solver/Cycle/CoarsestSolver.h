@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Cycle/LevelWindow.h"
+#include "smg/Export.h"
 
 #include <memory>
 
@@ -14,7 +15,7 @@ namespace smg
  * the correction is determined up to a constant, and any will do. What such a component cannot
  * answer of b, its mean, is left out.
  */
-class CoarsestSolver
+class SMG_EXPORT CoarsestSolver
 {
 public:
   CoarsestSolver();

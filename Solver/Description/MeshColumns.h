@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Stream/MeshSource.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -33,7 +34,7 @@ struct NamedColumn
  * The columns of a mesh for what a problem description says: finds them, knows which ones the mesh
  * source must deliver, and words the complaints.
  */
-class MeshColumns
+class SMG_EXPORT MeshColumns
 {
 public:
   /** `description` is what errors call the description: its file. */

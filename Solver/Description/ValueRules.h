@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Description/MeshColumns.h"
+#include "smg/Export.h"
 
 #include <array>
 #include <vector>
@@ -18,7 +19,7 @@ enum class ValueRange
 };
 
 /** What values a datum may have. */
-struct ValueRules
+struct SMG_EXPORT ValueRules
 {
   std::vector<int> components; ///< the numbers of numbers that it may have
   ValueRange range = ValueRange::Any;

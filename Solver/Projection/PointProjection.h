@@ -4,8 +4,9 @@
 #include "Solver/Core/Progress.h"
 #include "Solver/Projection/PointTree.h"
 #include "Solver/Projection/RingWindow.h"
-#include "Solver/Stream/MeshSource.h"
 #include "Solver/Stream/StreamCheck.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
 
 #include <array>
 #include <cstdint>
@@ -25,7 +26,7 @@ namespace smg
  * Besides what it keeps for each point, memory is that of about 65,000 vertices, or of a block if
  * that is larger, and with rings that of a RingWindow, for which there is a limit.
  */
-class PointProjection
+class SMG_EXPORT PointProjection
 {
 public:
   /** How far the influence of a point reaches, from the vertex nearest to it. Both add up. */

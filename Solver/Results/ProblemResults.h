@@ -9,8 +9,9 @@
 #include "Solver/Problem/WeightedEdges.h"
 #include "Solver/Results/CellResults.h"
 #include "Solver/Results/ConditionSums.h"
-#include "Solver/Solve.h"
 #include "Solver/Stream/StreamCheck.h"
+#include "smg/Export.h"
+#include "smg/Solve.h"
 
 #include <cstdint>
 #include <optional>
@@ -19,15 +20,6 @@
 
 namespace smg
 {
-
-/** What to make of a solution. */
-struct ResultOptions
-{
-  bool gradient = false; ///< grad u of each cell
-  bool flux = false;     ///< -K grad u of each cell
-  /** Promise on the accounted memory, bytes. */
-  std::int64_t memoryLimit = std::int64_t(1) << 30;
-};
 
 /**
  * What users quote of a solution: gradients and fluxes of the cells, and, for the report, what
@@ -41,7 +33,7 @@ struct ResultOptions
  * The window of open vertices alone is in memory. The numbers do not depend on the blocks, to the
  * last bit.
  */
-class ProblemResults
+class SMG_EXPORT ProblemResults
 {
 public:
   /**

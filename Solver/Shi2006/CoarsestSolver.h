@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Shi2006/Level.h"
+#include "smg/Export.h"
 
 #include <memory>
 
@@ -14,7 +15,7 @@ namespace smg::shi2006
  * is left out. There are such parts even where every component of the mesh is constrained: lifting
  * may tear a component.
  */
-class CoarsestSolver
+class SMG_EXPORT CoarsestSolver
 {
 public:
   CoarsestSolver();

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "Solver/Storage/IoStatistics.h"
-#include "Solver/Stream/Column.h"
+#include "smg/Column.h"
+#include "smg/Export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,14 +15,6 @@
 
 namespace smg
 {
-
-/** How the columns of a block file are compressed. The values are part of the file format. */
-enum class Codec : std::uint8_t
-{
-  None = 0,
-  Lz4 = 1,
-  Zstd = 2
-};
 
 /** A table of a block file: rows that all have the same columns. */
 struct TableSpec
@@ -42,7 +35,7 @@ struct TableSpec
  * at most `WriteBehindBytes` wait in memory. A failed write (disk full) is thrown as Error, with
  * the path, by the next append() or by finish().
  */
-class BlockFileWriter
+class SMG_EXPORT BlockFileWriter
 {
 public:
   static constexpr std::size_t WriteBehindBytes = std::size_t(192) << 10;
@@ -70,7 +63,7 @@ private:
  * that the file's length is exactly what the index says; reading a block checks its checksums.
  * Every failure is an Error that names the file, the table and the block. One thread at a time.
  */
-class BlockFileReader
+class SMG_EXPORT BlockFileReader
 {
 public:
   explicit BlockFileReader(std::filesystem::path path, IoStatistics* statistics = nullptr);
@@ -108,6 +101,6 @@ private:
 };
 
 /** Whether the file begins like a block file. */
-bool isBlockFile(const std::filesystem::path& path);
+SMG_EXPORT bool isBlockFile(const std::filesystem::path& path);
 
 } // namespace smg

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Export.h"
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -13,7 +14,7 @@ namespace smg
  * An open file that is read and written at given places. Reads and writes go on after interruptions
  * and partial transfers; every failure is an Error that names the file and the system's reason.
  */
-class FileDescriptor
+class SMG_EXPORT FileDescriptor
 {
 public:
   FileDescriptor() = default;

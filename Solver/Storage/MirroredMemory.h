@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Storage/Pool.h"
+#include "smg/Export.h"
 
 #include <cstddef>
 
@@ -14,7 +15,7 @@ namespace smg
  * A page counts as resident once for each image in which it was touched: whoever stays in the
  * middle one, but for what runs over its ends, has most of them counted once.
  */
-class MirroredMemory
+class SMG_EXPORT MirroredMemory
 {
 public:
   static constexpr std::size_t PageBytes = 4096;

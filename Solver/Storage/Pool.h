@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Export.h"
 #include <cstdint>
 #include <mutex>
 #include <string>
@@ -25,7 +26,7 @@ inline constexpr PoolUse SolveMemory{ "the solve",
  * The pool counts; the memory itself comes from Ring and Buffer. Any thread may acquire and
  * release.
  */
-class Pool
+class SMG_EXPORT Pool
 {
 public:
   /** `limit` in bytes. */
@@ -53,7 +54,7 @@ private:
 };
 
 /** "the solve needs at least ... MiB of memory but the limit is ... MiB: ..." */
-std::string memoryLimitSentence(
+SMG_EXPORT std::string memoryLimitSentence(
   std::int64_t needed, std::int64_t allowed, const PoolUse& use = SolveMemory);
 
 } // namespace smg

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Export.h"
 #include <filesystem>
 
 namespace smg
@@ -11,7 +12,7 @@ namespace smg
  * program that was killed has left behind is removed by the next ScratchFolder in the same place: a
  * folder is locked as long as its program lives.
  */
-class ScratchFolder
+class SMG_EXPORT ScratchFolder
 {
 public:
   /** Makes it in `parent`; empty: in the system's temporary folder. Throws Error. */

@@ -3,6 +3,7 @@
 
 #include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/IoStatistics.h"
+#include "smg/Export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +25,7 @@ namespace smg
  * The file has no name: it is gone with the stream or the program. What is read is checked by what
  * was written (XXH3).
  */
-class ScratchStream
+class SMG_EXPORT ScratchStream
 {
 public:
   /** `path` tells the folder, and the name in messages. */

@@ -3,6 +3,7 @@
 
 #include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/IoThread.h"
+#include "smg/Export.h"
 
 #include <array>
 #include <condition_variable>
@@ -18,7 +19,7 @@ namespace smg
  * Writes bytes to a file one after the other, on a thread of its own. The bytes are copied into a
  * few chunks of memory, and whoever brings them waits only when all chunks are on their way.
  */
-class WriteBehind
+class SMG_EXPORT WriteBehind
 {
 public:
   /** Writes from `offset` on with chunks of `bytes` bytes in all. The file must outlive it. */

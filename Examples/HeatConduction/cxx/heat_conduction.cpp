@@ -27,11 +27,11 @@ Run it:
     what is missing in the balance of all: -1.04355e-09
 */
 
-#include "IO/AnyFormat/WriteMesh.h"
-#include "IO/Conversion/OpenMesh.h"
-#include "IO/Output/SolvedMesh.h"
-#include "Solver/Description/DescribedProblem.h"
-#include "Solver/Solve.h"
+#include <smg/DescribedProblem.h>
+#include <smg/OpenMesh.h>
+#include <smg/Solve.h>
+#include <smg/SolvedMesh.h>
+#include <smg/WriteMesh.h>
 
 #include <iostream>
 
