@@ -5,7 +5,7 @@
 #include "Filters/Conditions/vtkConditionList.h"
 #include "Filters/Mesh/vtkNamedArray.h"
 #include "Filters/Regions/vtkHeldPoints.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"

@@ -2,8 +2,8 @@
 #include "Filters/vtkMeshHandle.h"
 
 #include "Filters/Handles/vtkHandleDelivery.h"
-#include "Solver/Core/Error.h"
-#include "Solver/Deformation/HandleMotion.h"
+#include "smg/DeformationDescription.h"
+#include "smg/Error.h"
 
 #include "vtkLinearTransform.h"
 #include "vtkMatrix4x4.h"

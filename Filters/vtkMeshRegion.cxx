@@ -12,7 +12,7 @@
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceInput.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkImplicitFunction.h"
 #include "vtkInformation.h"

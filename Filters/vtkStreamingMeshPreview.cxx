@@ -11,7 +11,7 @@
 #include "IO/vtkPieceNames.h"
 #include "IO/vtkPieceStream.h"
 #include "IO/vtkStreamingMeshKeys.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkFieldData.h"
 #include "vtkInformation.h"

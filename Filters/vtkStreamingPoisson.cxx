@@ -10,11 +10,11 @@
 #include "Filters/Streaming/SolveSummary.h"
 #include "Filters/Streaming/vtkWarnOnce.h"
 #include "IO/Formats/Vsm/ReservedNames.h"
-#include "IO/Problem/ProblemFile.h"
 #include "IO/vtkMeshPieceData.h"
-#include "Solver/Core/Error.h"
 #include "Solver/Description/ComposeDescriptions.h"
 #include "Solver/Stream/OriginalNumbers.h"
+#include "smg/DescriptionFiles.h"
+#include "smg/Error.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"

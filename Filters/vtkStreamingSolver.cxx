@@ -8,7 +8,7 @@
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkFieldData.h"

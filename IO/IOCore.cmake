@@ -6,20 +6,28 @@ set(smg_hdf5_sources ${smg_iocore_sources})
 list(FILTER smg_hdf5_sources INCLUDE REGEX "/VtkHdf/Hdf5/")
 list(REMOVE_ITEM smg_iocore_sources ${smg_hdf5_sources})
 
-add_library(smgIOCore SHARED ${smg_iocore_sources})
-add_library(StreamingMultigrid::IOCore ALIAS smgIOCore)
-smg_library(smgIOCore IOCore)
-target_compile_definitions(smgIOCore PRIVATE
+add_library(smgIOCoreObjects OBJECT ${smg_iocore_sources})
+set(smg_iocore_dependencies nlohmann_json::nlohmann_json
+  Eigen3::Eigen FastFloat::fast_float ZLIB::ZLIB LibLZMA::LibLZMA Threads::Threads ${CMAKE_DL_LIBS})
+target_compile_definitions(smgIOCoreObjects PRIVATE
   SMG_VTKHDF_LIBRARY="libsmgVtkHdf.so.${PROJECT_VERSION_MAJOR}")
-target_link_libraries(smgIOCore
-  PUBLIC StreamingMultigrid::Solver
-  PRIVATE Eigen3::Eigen FastFloat::fast_float ZLIB::ZLIB LibLZMA::LibLZMA Threads::Threads
-    ${CMAKE_DL_LIBS})
+target_include_directories(smgIOCoreObjects PUBLIC
+  "${PROJECT_SOURCE_DIR}/Solver/include" "${PROJECT_SOURCE_DIR}/IO/include")
+target_link_libraries(smgIOCoreObjects PRIVATE ${smg_iocore_dependencies})
+smg_hide_symbols(smgIOCoreObjects)
+smg_library(smgIOCore IOCore "${PROJECT_SOURCE_DIR}/IO/include"
+  OBJECTS smgIOCoreObjects DEPENDENCIES ${smg_iocore_dependencies} PUBLIC StreamingMultigrid::Solver)
+target_link_libraries(smgIOCoreStatic INTERFACE smgSolverStatic)
 
 # Loaded by the other one when it is needed.
-add_library(smgVtkHdf SHARED ${smg_hdf5_sources})
+add_library(smgVtkHdfObjects OBJECT ${smg_hdf5_sources})
+target_include_directories(smgVtkHdfObjects PUBLIC
+  "${PROJECT_SOURCE_DIR}/Solver/include" "${PROJECT_SOURCE_DIR}/IO/include")
+target_link_libraries(smgVtkHdfObjects PUBLIC PkgConfig::SMG_HDF5)
+smg_hide_symbols(smgVtkHdfObjects)
+add_library(smgVtkHdf SHARED $<TARGET_OBJECTS:smgVtkHdfObjects>)
 set_target_properties(smgVtkHdf PROPERTIES
-  VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+  LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
 target_link_libraries(smgVtkHdf PUBLIC smgIOCore PRIVATE PkgConfig::SMG_HDF5)
 install(TARGETS smgVtkHdf
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT libraries NAMELINK_SKIP)

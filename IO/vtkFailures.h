@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Error.h"
+#include "vtkStreamingMultigridIOModule.h" // For export macro
+
+#include "smg/Error.h"
 
 #include "vtkType.h"
 #include "vtkWeakPointer.h"
@@ -22,14 +24,17 @@ public:
   using Error::Error;
 };
 
-/** Marks the data, in their field data, as empty because of a failure; filters pass the mark. */
-void markAsFailed(vtkDataObject& data);
-/** Whether the data are marked as failed; false for null. */
-bool isFailed(vtkDataObject* data);
+/** Says in the field data that these data are empty since what should be here has failed; filters
+ * pass it on. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT void markAsFailed(vtkDataObject& data);
+/** Whether they say so; null does not. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT bool isFailed(vtkDataObject* data);
 
-/** The failures of an algorithm, each of which is shown once: a view repeats failing requests, and
- * the executive adds its own message whenever 0 is returned. */
-class Failures
+/**
+ * The failures of an algorithm, each of which is shown once: a view asks several times for what
+ * cannot be made, and the executive adds a message of its own to each answer that is 0.
+ */
+class VTKSTREAMINGMULTIGRIDIO_EXPORT Failures
 {
 public:
   /** Reports the sentence as an error of the algorithm, unless it was the last one and the upstream

@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/Vsm/MeshPiece.h"
-#include "Solver/Stream/MeshSource.h"
+#include "vtkStreamingMultigridIOModule.h" // For export macro
+
+#include "smg/MeshSource.h"
+#include "smg/VsmReader.h"
 
 class vtkPointSet;
 
 namespace smg
 {
 
-/** Fills an empty VTK mesh with the points, cells, arrays and contract arrays of a piece. */
-void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info);
+/** Gives the points, cells, arrays and contract arrays of a piece to an empty VTK mesh. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT void setPiece(
+  vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info);
 
-/** Marks the mesh, in its field data, as a preview of another. */
-void markAsPreview(vtkPointSet& mesh, const StreamInfo& full);
+/** Says in the field data that the mesh is a preview of another. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT void markAsPreview(vtkPointSet& mesh, const StreamInfo& full);
 
 /** Marks the preview as that of a reader: streamed requests return the mesh itself. */
 void markAsReaders(vtkPointSet& preview);
 
-/** Whether the mesh is marked as a preview. */
-bool isPreview(vtkPointSet& mesh);
+/** Whether the field data say that the mesh is a preview. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT bool isPreview(vtkPointSet& mesh);
 
 } // namespace smg

@@ -3,8 +3,8 @@
 
 #include "IO/vtkPieceNames.h"
 #include "IO/vtkRawXml.h"
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/ScratchFolder.h"
+#include "smg/Error.h"
 
 #include "vtkPointData.h"
 #include "vtkPointSet.h"

@@ -2,7 +2,7 @@
 #ifndef vtkOrdinaryMesh_h
 #define vtkOrdinaryMesh_h
 
-#include "IO/Conversion/Convert.h"
+#include "smg/Convert.h"
 
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkPieceCells.h"
 
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkAOSDataArrayTemplate.h"
 #include "vtkCellArray.h"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Stream/MeshSource.h"
+#include "vtkStreamingMultigridIOModule.h" // For export macro
+
+#include "smg/MeshSource.h"
 
 #include <cstdint>
 #include <span>
@@ -16,16 +18,21 @@ class vtkSmartPointer;
 namespace smg
 {
 
-/** The cell type of a vtkPolyData or vtkUnstructuredGrid with cells. Throws Error, which begins
- * with `where`, unless they are all triangles or all tetrahedra. */
-CellType cellTypeOf(vtkPointSet& piece, const std::string& where);
+/**
+ * The kind of the cells of a vtkPolyData or vtkUnstructuredGrid that has some. Throws Error, which
+ * begins with `where`, if they are anything but triangles, or tetrahedra.
+ */
+VTKSTREAMINGMULTIGRIDIO_EXPORT CellType cellTypeOf(vtkPointSet& piece, const std::string& where);
 
-/** The corners of all cells, as point indices. Throws Error if they are not of type `type`. */
-std::vector<std::int64_t> cellCorners(vtkPointSet& piece, CellType type, const std::string& where);
+/** The corners of all cells, as point numbers. Throws Error if they are not of the type `type`. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<std::int64_t> cellCorners(
+  vtkPointSet& piece, CellType type, const std::string& where);
 
-/** Removes duplicate cells from `corners`, which are those of all cells of the piece,
- * `cornersOfCell` each. Returns the indices of the remaining cells. */
-std::vector<std::int64_t> keepOwnCells(
+/**
+ * Takes the cells that are marked as duplicates out of `corners`, which are those of all cells of
+ * the piece, `cornersOfCell` each. Answers the numbers of the others.
+ */
+VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<std::int64_t> keepOwnCells(
   vtkPointSet& piece, int cornersOfCell, std::vector<std::int64_t>& corners);
 
 /** The cells with the given corners, `cornersOfCell` each. */

@@ -2,7 +2,7 @@
 #include "IO/vtkPieceColumns.h"
 
 #include "IO/vtkPieceNames.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"

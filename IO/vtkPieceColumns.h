@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Stream/Column.h"
+#include "vtkStreamingMultigridIOModule.h" // For export macro
+
+#include "smg/Column.h"
 
 #include <cstdint>
 #include <optional>
@@ -23,11 +25,11 @@ std::optional<ScalarType> scalarTypeOf(vtkDataArray& array);
 /** Creates a named VTK array with the type and the values of the column. */
 vtkSmartPointer<vtkDataArray> makeArray(const Column& column);
 
-/** The columns of the named numeric arrays, without those of the piece contract. */
-std::vector<ColumnSpec> columnSpecs(vtkDataSetAttributes& arrays);
+/** What columns the numeric, named arrays make, without those that the piece contract makes. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<ColumnSpec> columnSpecs(vtkDataSetAttributes& arrays);
 
 /** The tuples `rows` of the array `column.spec.name`. Throws Error if it is absent or differs. */
-void copyColumn(vtkDataSetAttributes& arrays, std::span<const std::int64_t> rows,
-  const std::string& where, Column& column);
+VTKSTREAMINGMULTIGRIDIO_EXPORT void copyColumn(vtkDataSetAttributes& arrays,
+  std::span<const std::int64_t> rows, const std::string& where, Column& column);
 
 } // namespace smg

@@ -4,8 +4,8 @@
 #include "IO/Formats/Vtk/VtkXml.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceStream.h"
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/ScratchFolder.h"
+#include "smg/Error.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

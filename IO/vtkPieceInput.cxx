@@ -3,7 +3,7 @@
 
 #include "IO/vtkFailures.h"
 #include "IO/vtkStreamingMeshKeys.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCompositeDataSet.h"

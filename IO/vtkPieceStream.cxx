@@ -8,7 +8,7 @@
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceNames.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"

@@ -3,7 +3,7 @@
 
 #include "IO/vtkPieceInput.h"
 #include "Solver/Core/Progress.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/MeshSource.h"
 
 #include "vtkStreamingMultigridIOModule.h" // For export macro
 

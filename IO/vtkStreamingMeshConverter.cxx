@@ -5,7 +5,7 @@
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/KeptConversion.h"
 #include "IO/vtkAlgorithmGlue.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkObjectFactory.h"
 #include "vtksys/SystemTools.hxx"

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Deform.h"
+#include "smg/Deform.h"
 
-#include "Solver/Core/Error.h"
 #include "Solver/Deformation/DeformationOperators.h"
 #include "Solver/Deformation/InteractiveDeformation.h"
 #include "Solver/Deformation/InteractiveEngine.h"
+#include "Solver/Engine/CheckOptions.h"
 #include "Solver/Shi2006/Shi2006.h"
-#include "Solver/Solve.h"
+#include "smg/Error.h"
+#include "smg/Solve.h"
 
 namespace smg
 {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Solve.h"
+#include "smg/Solve.h"
 
-#include "Solver/Core/Error.h"
+#include "Solver/Engine/CheckOptions.h"
 #include "Solver/Operators/Extended.h"
 #include "Solver/Shi2006/Shi2006.h"
-#include "Solver/SolveWith.h"
+#include "smg/Error.h"
+#include "smg/SolveWith.h"
 
 #include <string>
 

@@ -34,18 +34,46 @@ if (SMG_SANITIZE)
   endif ()
 endif ()
 
-# Common settings of the plain libraries: include paths from the top of the tree, version, export.
-function (smg_library target exportName)
+# -ffp-contract=off: every kernel rounds alike on every machine, so results are bit-identical.
+# -Wno-psabi: vectors are passed between inline functions only.
+set(smg_kernel_options -ffp-contract=off -Wno-psabi)
+
+# Inside the tree every header is found by its path from the top.
+include_directories("${PROJECT_SOURCE_DIR}")
+
+# Only what is marked SMG_EXPORT is exported.
+function (smg_hide_symbols target)
+  set_target_properties(${target} PROPERTIES
+    CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON
+    POSITION_INDEPENDENT_CODE ON)
+endfunction ()
+
+# smg_library(<target> <name> <public headers> OBJECTS <target> DEPENDENCIES <target>...
+#   [PUBLIC <target>...])
+# The shared library StreamingMultigrid::<name>, and <target>Static of the same objects for tests and
+# benchmarks, which look at what the shared one hides.
+function (smg_library target name headers)
+  cmake_parse_arguments(PARSE_ARGV 3 arg "" "OBJECTS" "DEPENDENCIES;PUBLIC")
+  add_library(${target} SHARED $<TARGET_OBJECTS:${arg_OBJECTS}>)
+  add_library(StreamingMultigrid::${name} ALIAS ${target})
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<BUILD_INTERFACE:${headers}>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid>)
+  target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_DEPENDENCIES})
   set_target_properties(${target} PROPERTIES
-    EXPORT_NAME ${exportName}
+    EXPORT_NAME ${name}
+    LINKER_LANGUAGE CXX
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR})
   install(TARGETS ${target} EXPORT StreamingMultigrid
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
       COMPONENT libraries NAMELINK_COMPONENT development
     RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT libraries)
+
+  add_library(${target}Static STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:${arg_OBJECTS}>)
+  set_target_properties(${target}Static PROPERTIES LINKER_LANGUAGE CXX)
+  target_include_directories(${target}Static INTERFACE "${headers}")
+  target_link_libraries(${target}Static INTERFACE ${arg_DEPENDENCIES})
 endfunction ()

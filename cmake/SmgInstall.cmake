@@ -3,9 +3,14 @@
 include(CMakePackageConfigHelpers)
 
 set(smg_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/StreamingMultigrid")
-install(DIRECTORY Solver IO
-  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid" COMPONENT development
-  FILES_MATCHING PATTERN "*.h" PATTERN "*.txx" PATTERN "*.hxx" PATTERN "vtk*" EXCLUDE)
+install(DIRECTORY Solver/include/smg IO/include/smg
+  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid" COMPONENT development)
+# What smg/SolveWith.h compiles: on the path of StreamingMultigrid::Engine alone.
+foreach (folder Core Cycle Engine Hierarchy Operators Problem Storage Stream)
+  install(DIRECTORY Solver/${folder}
+    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid/engine/Solver" COMPONENT development
+    FILES_MATCHING PATTERN "*.h" PATTERN "*.txx")
+endforeach ()
 
 install(FILES docs/problem.schema.json
   DESTINATION "${CMAKE_INSTALL_DATADIR}/StreamingMultigrid" COMPONENT libraries)

@@ -60,7 +60,7 @@ set(CPACK_DEBIAN_LIBRARIES_PACKAGE_RECOMMENDS paraview-streaming-multigrid)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME streaming-multigrid-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "streaming-multigrid ${version}, paraview-streaming-multigrid ${version}, nlohmann-json3-dev, "
+  "streaming-multigrid ${version}, paraview-streaming-multigrid ${version}, "
   "libtbb-dev, paraview-dev, libopenmpi-dev, libpython3-dev")
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_NAME paraview-streaming-multigrid)
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_DEPENDS "streaming-multigrid ${version}, ${paraview}")

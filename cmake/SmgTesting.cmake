@@ -18,7 +18,7 @@ endif ()
 function (smg_add_gtest name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LABELS;SOURCES;LIBRARIES")
   add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE ${arg_LIBRARIES} smgTesting GTest::gtest_main)
+  target_link_libraries(${name} PRIVATE smgTesting ${arg_LIBRARIES} GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE
     SMG_TEST_DATA_DIR="${smg_test_data}"
     SMG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

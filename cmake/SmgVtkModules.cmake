@@ -10,8 +10,12 @@ vtk_module_scan(
   WANT_BY_DEFAULT ON
   ENABLE_TESTS OFF)
 
-# The modules are a separate package, so that StreamingMultigrid::Solver and ::IOCore can be found
-# without VTK. Their headers are installed flat beside the folder Solver, like those of VTK.
+# As VTK's own modules, these export what their macros mark.
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
+# The modules come as a package of their own, so that StreamingMultigrid::Solver and ::IOCore can be
+# found without VTK. Their headers lie flat beside the folder Solver, as VTK's own do.
 vtk_module_build(
   MODULES ${smg_vtk_modules}
   PACKAGE StreamingMultigridVTK
@@ -22,6 +26,8 @@ vtk_module_build(
   CMAKE_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/StreamingMultigrid"
   VERSION "${PROJECT_VERSION}"
   SOVERSION "${PROJECT_VERSION_MAJOR}")
+unset(CMAKE_CXX_VISIBILITY_PRESET)
+unset(CMAKE_VISIBILITY_INLINES_HIDDEN)
 
 # The folder below /usr that Python on Debian searches, independent of the library folder.
 set(SMG_PYTHON_DIR "lib/python3/dist-packages")

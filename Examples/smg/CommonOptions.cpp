@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommonOptions.h"
 
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/FileDescriptor.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cerrno>

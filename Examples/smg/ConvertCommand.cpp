@@ -5,7 +5,7 @@
 
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/Conversion/ConversionEstimate.h"
-#include "IO/Conversion/Convert.h"
+#include "smg/Convert.h"
 
 #include <cstdio>
 

@@ -3,14 +3,13 @@
 
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
-#include "IO/AnyFormat/RewriteMesh.h"
-#include "IO/AnyFormat/WriteMesh.h"
 #include "IO/Files/PartialProgress.h"
-#include "IO/Motion/MovedMesh.h"
-#include "IO/Problem/HandleFile.h"
 #include "IO/Problem/WeightsName.h"
-#include "Solver/Deform.h"
-#include "Solver/Deformation/DescribedHandles.h"
+#include "smg/Deform.h"
+#include "smg/DescribedHandles.h"
+#include "smg/DescriptionFiles.h"
+#include "smg/MovedMesh.h"
+#include "smg/WriteMesh.h"
 
 #include <algorithm>
 #include <optional>

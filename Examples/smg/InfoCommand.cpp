@@ -4,7 +4,7 @@
 
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/Formats/Vsm/CheckVsm.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <nlohmann/json.hpp>
 

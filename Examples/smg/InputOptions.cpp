@@ -4,7 +4,7 @@
 #include "CommonOptions.h"
 
 #include "IO/AnyFormat/MeshFile.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 void InputOptions::addTo(CLI::App& command)
 {

@@ -4,10 +4,10 @@
 
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
-#include "IO/AnyFormat/WriteMesh.h"
 #include "IO/Files/PartialProgress.h"
-#include "IO/Preview/PreviewSource.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
+#include "smg/Preview.h"
+#include "smg/WriteMesh.h"
 
 #include <nlohmann/json.hpp>
 

@@ -3,15 +3,17 @@
 
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
-#include "IO/AnyFormat/WriteMesh.h"
 #include "IO/AnyFormat/WriteRestored.h"
 #include "IO/External/Workspace.h"
 #include "IO/Files/PartialProgress.h"
-#include "IO/Output/SolvedMesh.h"
-#include "IO/Problem/ProblemFile.h"
-#include "Solver/Core/Error.h"
+#include "IO/Problem/ProblemKeys.h"
 #include "Solver/Description/ComposeDescriptions.h"
-#include "Solver/Description/DescribedProblem.h"
+#include "Solver/Engine/CheckOptions.h"
+#include "smg/DescribedProblem.h"
+#include "smg/DescriptionFiles.h"
+#include "smg/Error.h"
+#include "smg/SolvedMesh.h"
+#include "smg/WriteMesh.h"
 
 #include <algorithm>
 #include <limits>

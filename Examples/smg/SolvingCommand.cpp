@@ -74,7 +74,10 @@ void SolvingCommand::run()
     ProgressBar bar(this->Title, this->quiet);
     const std::unique_ptr<smg::OpenedMesh> mesh = openInput(this->In, *this,
       smg::partOf(bar.function(), 0.0, 0.2), smg::StreamOrder::BreadthFirst, this->Input);
-    this->Conversion = mesh->conversion();
+    if (mesh->conversion())
+    {
+      this->Conversion = *mesh->conversion();
+    }
     const double convertSeconds = this->Conversion ? secondsSince(start) : 0.0;
     const double begin = this->Conversion ? 0.2 : 0.0;
     const std::unique_ptr<smg::Solution> solution =

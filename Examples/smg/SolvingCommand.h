@@ -4,9 +4,9 @@
 #include "CommonOptions.h"
 #include "InputOptions.h"
 
-#include "IO/Conversion/ConversionReport.h"
-#include "IO/Formats/Vsm/VsmReader.h"
-#include "Solver/Solve.h"
+#include "smg/Convert.h"
+#include "smg/Solve.h"
+#include "smg/VsmReader.h"
 
 #include <memory>
 #include <optional>

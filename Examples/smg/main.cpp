@@ -13,7 +13,7 @@
 #include "CommonOptions.h"
 #include "Interrupt.h"
 
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <cstdio>
 #include <exception>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Conditions/ConditionText.h"
 
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Conditions/vtkConditionList.h"
 
-#include "IO/Problem/ProblemFile.h"
 #include "Solver/Description/ComposeDescriptions.h"
+#include "smg/DescriptionFiles.h"
 
 #include "vtkCellData.h"
 #include "vtkFieldData.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Description/ProblemDescription.h"
+#include "smg/ProblemDescription.h"
 
 #include <string>
 

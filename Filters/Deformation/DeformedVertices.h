@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/Motion/VertexNormals.h"
-#include "Solver/Solve.h"
+#include "smg/Solve.h"
 
 #include <memory>
 #include <optional>

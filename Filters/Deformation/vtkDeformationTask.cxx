@@ -4,7 +4,8 @@
 #include "Filters/Deformation/DeformedVertices.h"
 #include "Filters/Handles/vtkHandleArrays.h"
 #include "IO/Files/PartialProgress.h"
-#include "Solver/Deformation/DescribedHandles.h"
+#include "Solver/Engine/CheckOptions.h"
+#include "smg/DescribedHandles.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Filters/Streaming/vtkStreamedTask.h"
-#include "Solver/Deform.h"
+#include "smg/Deform.h"
 
 namespace smg
 {

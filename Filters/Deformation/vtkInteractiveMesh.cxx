@@ -6,7 +6,7 @@
 #include "Filters/Handles/vtkHandleArrays.h"
 #include "IO/Motion/MovedPoints.h"
 #include "IO/vtkPieceColumns.h"
-#include "Solver/Deformation/DescribedHandles.h"
+#include "smg/DescribedHandles.h"
 
 #include "vtkDataArray.h"
 #include "vtkPointData.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Handles/vtkHandleArrays.h"
 
-#include "Solver/Core/Error.h"
-#include "Solver/Deformation/Handles.h"
+#include "smg/Error.h"
+#include "smg/Handles.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkPointData.h"

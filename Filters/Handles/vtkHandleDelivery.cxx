@@ -2,7 +2,7 @@
 #include "Filters/Handles/vtkHandleDelivery.h"
 
 #include "Filters/Handles/vtkHandleArrays.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkPointData.h"
 #include "vtkPointSet.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Filters/Regions/vtkHeldPoints.h"
-#include "Solver/Deformation/HandleMotion.h"
+#include "smg/DeformationDescription.h"
 
 #include <vector>
 

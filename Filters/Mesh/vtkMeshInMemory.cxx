@@ -3,7 +3,7 @@
 
 #include "Filters/Mesh/OneBlockSource.h"
 #include "IO/vtkPieceCells.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

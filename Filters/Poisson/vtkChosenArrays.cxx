@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Poisson/vtkChosenArrays.h"
 
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCellData.h"

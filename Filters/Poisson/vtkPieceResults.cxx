@@ -2,11 +2,11 @@
 #include "Filters/Poisson/vtkPieceResults.h"
 
 #include "Filters/Mesh/vtkPieceBlock.h"
-#include "IO/Output/SolvedMesh.h"
-#include "Solver/Core/Error.h"
 #include "Solver/Description/ComposeDescriptions.h"
-#include "Solver/Description/DescribedProblem.h"
 #include "Solver/Results/ProblemResults.h"
+#include "smg/DescribedProblem.h"
+#include "smg/Error.h"
+#include "smg/SolvedMesh.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"

@@ -3,11 +3,12 @@
 
 #include "Filters/Poisson/vtkPieceResults.h"
 #include "IO/Files/PartialProgress.h"
-#include "IO/Output/SolvedMesh.h"
-#include "Solver/Core/Error.h"
 #include "Solver/Description/ComposeDescriptions.h"
-#include "Solver/Description/DescribedProblem.h"
+#include "Solver/Engine/CheckOptions.h"
 #include "Solver/Stream/OriginalNumbers.h"
+#include "smg/DescribedProblem.h"
+#include "smg/Error.h"
+#include "smg/SolvedMesh.h"
 
 #include <algorithm>
 

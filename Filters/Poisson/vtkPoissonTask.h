@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Filters/Streaming/vtkStreamedTask.h"
-#include "Solver/Description/ProblemDescription.h"
+#include "smg/ProblemDescription.h"
 
 #include <string>
 #include <vector>

@@ -2,12 +2,12 @@
 #include "Filters/Poisson/vtkPreviewSolve.h"
 
 #include "Filters/Mesh/vtkPieceBlock.h"
-#include "Solver/Core/Error.h"
 #include "Solver/Description/ComposeDescriptions.h"
-#include "Solver/Description/DescribedProblem.h"
 #include "Solver/Results/ProblemResults.h"
 #include "Solver/Results/RenumberExtremes.h"
 #include "Solver/Stream/OriginalNumbers.h"
+#include "smg/DescribedProblem.h"
+#include "smg/Error.h"
 
 #include "vtkPolyData.h"
 

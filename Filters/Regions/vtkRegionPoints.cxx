@@ -5,7 +5,7 @@
 #include "Filters/Regions/vtkSelectedPoints.h"
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/vtkPieceStream.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkDataArray.h"
 #include "vtkMultiProcessController.h"

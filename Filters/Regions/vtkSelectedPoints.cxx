@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Regions/vtkSelectedPoints.h"
 
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"

@@ -6,7 +6,7 @@
 #include "Filters/Regions/vtkSelectedPoints.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceStream.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkPointSet.h"
 

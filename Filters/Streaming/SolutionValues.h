@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Solve.h"
+#include "smg/Solve.h"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Report.h"
+#include "smg/Report.h"
 
 #include <cstdint>
 #include <string>

@@ -2,7 +2,7 @@
 #include "Filters/Streaming/vtkSolutionExchange.h"
 
 #include "Filters/Streaming/SolutionValues.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include "vtkCommunicator.h"
 #include "vtkMultiProcessController.h"

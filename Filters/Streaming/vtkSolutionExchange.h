@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Filters/Streaming/SolveSummary.h"
-#include "Solver/Solve.h"
+#include "smg/Solve.h"
 
 #include <cstdint>
 #include <functional>

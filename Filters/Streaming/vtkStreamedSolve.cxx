@@ -2,8 +2,8 @@
 #include "Filters/Streaming/vtkStreamedSolve.h"
 
 #include "IO/Files/PartialProgress.h"
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/ScratchFolder.h"
+#include "smg/Error.h"
 
 #include <chrono>
 

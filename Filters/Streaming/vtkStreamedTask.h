@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/vtkPieceStream.h"
-#include "Solver/Solve.h"
+#include "smg/Solve.h"
+#include "smg/VsmReader.h"
 
 #include <memory>
 

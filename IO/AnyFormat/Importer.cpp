@@ -4,7 +4,7 @@
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/Files/Inflate.h"
 #include "IO/Files/PartialProgress.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <optional>
 #include <string>

@@ -3,6 +3,7 @@
 
 #include "IO/Raw/RawMeshBuilder.h"
 #include "Solver/Core/Progress.h"
+#include "smg/Export.h"
 
 #include <filesystem>
 
@@ -23,7 +24,7 @@ struct ImportOptions
  * empty, truncated or inconsistent, a coordinate is not finite, a corner is not a vertex, there are
  * no cells, or both triangles and tetrahedra; Cancelled.
  */
-RawMesh importMesh(
+SMG_EXPORT RawMesh importMesh(
   const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options = {});
 
 } // namespace smg

@@ -4,9 +4,9 @@
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/Files/Suffix.h"
 #include "IO/Formats/Streams/StreamFile.h"
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/BlockFile.h"
 #include "Solver/Storage/FileDescriptor.h"
+#include "smg/Error.h"
 
 #include <cerrno>
 #include <cstring>

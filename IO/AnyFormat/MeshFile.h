@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Formats/Format.h"
+#include "smg/Export.h"
 
 #include <filesystem>
 #include <string>
@@ -9,30 +10,34 @@
 namespace smg
 {
 
-/** The kind of an input file, by its content if possible, else by its suffix: Vsm, Stream, Indexed,
- * or Unknown. The file may still be damaged or not exist. */
-MeshFileKind kindOfInput(const std::filesystem::path& path);
+/**
+ * The kind of an input file, by content where that says it, else by suffix: Vsm, Stream, Indexed,
+ * or Unknown if neither says anything. The file may be damaged all the same, or not exist.
+ */
+SMG_EXPORT MeshFileKind kindOfInput(const std::filesystem::path& path);
 
-/** The kind of an output file, by suffix; Unknown if meshes cannot be written with it. */
-MeshFileKind kindOfOutput(const std::filesystem::path& path);
+/** The kind of an output file, by suffix; Unknown if meshes are not written so. */
+SMG_EXPORT MeshFileKind kindOfOutput(const std::filesystem::path& path);
 
 /**
  * Checks an output file before the work: throws Error if meshes cannot be written with its suffix,
  * its format cannot hold these cells, it is a folder, or its folder does not exist or is not
  * writable.
  */
-void checkOutput(const std::filesystem::path& path, CellType cellType);
+SMG_EXPORT void checkOutput(const std::filesystem::path& path, CellType cellType);
 
-/** The same, before the mesh is known. */
-void checkOutput(const std::filesystem::path& path);
+/** The same as far as it can be known before the mesh is. */
+SMG_EXPORT void checkOutput(const std::filesystem::path& path);
 
 /** Throws Error if a file of any format cannot be created there: the path is a folder, a device or
  * a pipe, or its folder does not exist or is not writable. */
 void checkOutputPlace(const std::filesystem::path& path);
 
-/** Throws Error if the output is an input, also by another name or link. `what` describes the
- * input, for example "the mesh itself". */
-void checkIsNotInput(const std::filesystem::path& in, const std::filesystem::path& out,
+/**
+ * Throws Error if the output is an input, by whatever name or link. `what`: what the input is, as
+ * "the mesh itself".
+ */
+SMG_EXPORT void checkIsNotInput(const std::filesystem::path& in, const std::filesystem::path& out,
   const std::string& what = "the mesh itself");
 
 } // namespace smg

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/AnyFormat/RewriteMesh.h"
+#include "smg/WriteMesh.h"
 
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
@@ -11,7 +11,7 @@
 #include "IO/Formats/Streams/RewriteStream.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Motion/MovedVertices.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 namespace smg
 {

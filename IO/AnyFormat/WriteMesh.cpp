@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/AnyFormat/WriteMesh.h"
+#include "smg/WriteMesh.h"
 
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Files/Suffix.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "Solver/Storage/ScratchFolder.h"
+#include "smg/VsmReader.h"
 
 namespace smg
 {

@@ -2,9 +2,9 @@
 #include "IO/AnyFormat/WriteRestored.h"
 
 #include "IO/AnyFormat/FormatTable.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Restore/RestoredMesh.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
+#include "smg/VsmReader.h"
 
 namespace smg
 {

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "IO/External/Workspace.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
 
 #include <filesystem>
 #include <string>
@@ -24,10 +25,10 @@ namespace smg
  * @throws Error if checkRestoredPath() does, the original order is unknown (see RestoredMesh), or a
  * file cannot be read or written; Cancelled. No part of the output is left then.
  */
-std::vector<std::string> writeRestored(
+SMG_EXPORT std::vector<std::string> writeRestored(
   const std::filesystem::path& vsm, const std::filesystem::path& out, Workspace& workspace);
 
-/** Throws Error unless writeRestored() can write files of this name with these cells. */
-void checkRestoredPath(const std::filesystem::path& path, CellType cellType);
+/** Throws Error unless writeRestored() writes files of this name with these cells. */
+SMG_EXPORT void checkRestoredPath(const std::filesystem::path& path, CellType cellType);
 
 } // namespace smg

@@ -6,7 +6,7 @@
 #include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/Streams/StreamFile.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Conversion/Convert.h"
+#include "smg/Convert.h"
 
 #include <filesystem>
 

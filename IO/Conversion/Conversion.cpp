@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/Conversion.h"
 
-#include "IO/AnyFormat/WriteMesh.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Raw/Weld.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
+#include "smg/WriteMesh.h"
 
 #include <algorithm>
 #include <string>

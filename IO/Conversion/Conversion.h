@@ -2,10 +2,10 @@
 #pragma once
 
 #include "IO/AnyFormat/MeshFile.h"
-#include "IO/Conversion/Convert.h"
 #include "IO/External/Workspace.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
+#include "smg/Convert.h"
+#include "smg/VsmReader.h"
 
 #include <chrono>
 #include <cstdint>

@@ -7,8 +7,8 @@
 #include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/Streams/StreamsFormat.h"
-#include "IO/Formats/Vsm/VsmReader.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
+#include "smg/VsmReader.h"
 
 #include <nlohmann/json.hpp>
 

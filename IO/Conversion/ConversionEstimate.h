@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Conversion/Convert.h"
+#include "IO/Raw/RawMesh.h"
+#include "smg/Convert.h"
+#include "smg/Export.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -11,7 +13,7 @@ namespace smg
 {
 
 /** What a conversion will take, known before the mesh is read. */
-struct ConversionEstimate
+struct SMG_EXPORT ConversionEstimate
 {
   std::int64_t vertices = 0, cells = 0;
   /** Whether the file says its counts; else they are guessed from its size. */
@@ -30,7 +32,7 @@ struct ConversionEstimate
  * Estimates the conversion of a mesh file from what its beginning says, or from its size. Throws
  * Error if the file cannot be opened or its format is not known.
  */
-ConversionEstimate estimateConversion(
+SMG_EXPORT ConversionEstimate estimateConversion(
   const std::filesystem::path& in, const ConversionOptions& options = {});
 
 /** Most bytes that the scratch files of a mesh take at once. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Conversion/ConversionReport.h"
+#include "smg/Convert.h"
 
 #include <nlohmann/json.hpp>
 

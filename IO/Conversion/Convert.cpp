@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Conversion/Convert.h"
+#include "smg/Convert.h"
 
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/AnyFormat/WriteRestored.h"
@@ -7,8 +7,8 @@
 #include "IO/Conversion/Conversion.h"
 #include "IO/Conversion/ConvertMesh.h"
 #include "IO/Conversion/CopyStream.h"
-#include "Solver/Core/Error.h"
 #include "Solver/Core/Timer.h"
+#include "smg/Error.h"
 
 #include <limits>
 

@@ -3,9 +3,9 @@
 
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/Files/Suffix.h"
-#include "IO/Formats/Vsm/VsmReader.h"
-#include "Solver/Core/Error.h"
 #include "Solver/Core/Progress.h"
+#include "smg/Error.h"
+#include "smg/VsmReader.h"
 
 #include <nlohmann/json.hpp>
 

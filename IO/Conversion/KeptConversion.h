@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Conversion/Convert.h"
+#include "smg/Convert.h"
+#include "smg/Export.h"
 
 #include <filesystem>
 #include <optional>
@@ -22,7 +23,7 @@ namespace smg
  * @throws Error as convert(), and if `out` does not end in .vsm, is the input, or would be
  * overwritten without leave; Cancelled. A file that was there before is still there then.
  */
-std::optional<ConversionReport> convertToKeep(const std::filesystem::path& in,
+SMG_EXPORT std::optional<ConversionReport> convertToKeep(const std::filesystem::path& in,
   const std::filesystem::path& out, const ConversionOptions& options, bool overwrite = false);
 
 } // namespace smg

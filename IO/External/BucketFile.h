@@ -4,6 +4,7 @@
 #include "IO/External/Workspace.h"
 #include "Solver/Storage/Buffer.h"
 #include "Solver/Storage/FileDescriptor.h"
+#include "smg/Export.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -20,7 +21,7 @@ namespace smg
  * buckets, and each bucket is read from its front to its back, any number of times. Of a bucket
  * only the last chunk is in memory; no file is made as long as no chunk is full.
  */
-class BucketFile
+class SMG_EXPORT BucketFile
 {
 public:
   static constexpr std::size_t ChunkBytes = std::size_t(256) << 10;

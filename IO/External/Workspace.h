@@ -5,6 +5,7 @@
 #include "Solver/Storage/BlockFile.h"
 #include "Solver/Storage/Pool.h"
 #include "Solver/Storage/ScratchFolder.h"
+#include "smg/Export.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -13,7 +14,7 @@ namespace smg
 {
 
 /** Where an out-of-core operation works: an accounted pool of memory and a folder for files. */
-class Workspace
+class SMG_EXPORT Workspace
 {
 public:
   /** Least memory that out-of-core operations are made for, in bytes. */

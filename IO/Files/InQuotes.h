@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Export.h"
 #include <string>
 #include <string_view>
 
@@ -8,6 +9,6 @@ namespace smg
 {
 
 /** `text`, shortened and with unprintable characters replaced, in quotes: for errors. */
-std::string inQuotes(std::string_view text);
+SMG_EXPORT std::string inQuotes(std::string_view text);
 
 } // namespace smg

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/Inflate.h"
 
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/Buffer.h"
 #include "Solver/Storage/FileDescriptor.h"
+#include "smg/Error.h"
 
 #include <zlib.h>
 

@@ -3,6 +3,7 @@
 
 #include "Solver/Core/Progress.h"
 #include "Solver/Storage/FileDescriptor.h"
+#include "smg/Export.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -17,7 +18,7 @@ namespace smg
  * A file that is parsed: a window of it is in memory, which goes wherever it is asked for. Reading
  * from front to back is what it is quick at.
  */
-class InputFile
+class SMG_EXPORT InputFile
 {
 public:
   /** Bytes that are read at once. */

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/Files/SequentialOutput.h"
-#include "Solver/Stream/Column.h"
+#include "smg/Column.h"
 
 #include <charconv>
 #include <concepts>

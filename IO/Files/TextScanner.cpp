@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/TextScanner.h"
 
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <fast_float/fast_float.h>
 

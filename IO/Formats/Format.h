@@ -2,8 +2,8 @@
 #pragma once
 
 #include "Solver/Core/Progress.h"
-#include "Solver/Storage/BlockFile.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/MeshSource.h"
+#include "smg/WriteMesh.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -57,17 +57,6 @@ struct VertexShare
 {
   std::int64_t bytes = 75;
   int corners = 3;
-};
-
-struct WriteMeshOptions
-{
-  /** How a .vsm file is compressed. */
-  Codec codec = Codec::Zstd;
-  /** Folder for scratch files; empty: the system's temporary folder. */
-  std::filesystem::path scratch;
-  /** A .vsm file whose isolated vertices a new .vsm file keeps; empty: none. See writeVsm(). */
-  std::filesystem::path isolatedFrom;
-  ProgressFunction progress;
 };
 
 /** A sentence for each thing that a written file does not hold as the mesh has it. */

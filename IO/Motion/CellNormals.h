@@ -3,7 +3,8 @@
 
 #include "IO/Formats/Vsm/PagedArray.h"
 #include "Solver/Storage/ScratchFolder.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
 
 #include <array>
 #include <cstdint>
@@ -21,7 +22,7 @@ struct TriangleShape
 };
 
 /** The shape of a triangle; its normal is that of (b - a) x (c - a). */
-TriangleShape shapeOfTriangle(
+SMG_EXPORT TriangleShape shapeOfTriangle(
   std::span<const double, 3> a, std::span<const double, 3> b, std::span<const double, 3> c);
 
 /**

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Motion/MovedMesh.h"
+#include "smg/MovedMesh.h"
 
 #include "IO/Motion/CellNormals.h"
 #include "IO/Motion/MovedPoints.h"
+#include "IO/Motion/VertexNormals.h"
 #include "Solver/Stream/AddedColumn.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,45 +40,55 @@ std::vector<std::string> namesWithoutNormals(const std::vector<ColumnSpec>& spec
 
 } // namespace
 
+struct MovedMesh::Implementation
+{
+  const VsmReader& mesh;
+  Solution& positions;
+  NormalsOptions options;
+  std::optional<VertexNormals> ofVertices; ///< if the stream has these
+  bool ofCells = false;                    ///< whether the stream has these
+
+  std::unique_ptr<MeshSource> withoutNormals() const
+  {
+    const StreamInfo& info = this->mesh.info();
+    return std::make_unique<MovedPoints>(this->mesh.source(namesWithoutNormals(info.vertexColumns),
+                                           namesWithoutNormals(info.cellColumns)),
+      this->positions);
+  }
+};
+
 MovedMesh::MovedMesh(
   const VsmReader& mesh, Solution& positions, MovedNormals normals, const NormalsOptions& options)
-  : Mesh(mesh)
-  , Positions(positions)
-  , Options(options)
+  : Self(new Implementation{ mesh, positions, options, {} })
 {
   const StreamInfo& info = mesh.info();
   if (normals == MovedNormals::Drop || info.cellType != CellType::Triangle)
   {
     return;
   }
-  this->OfCells = hasNormals(info.cellColumns);
+  this->Self->ofCells = hasNormals(info.cellColumns);
   if (hasNormals(info.vertexColumns))
   {
     MovedPoints moved(mesh.source({}, {}), positions);
-    this->OfVertices.emplace(moved, options);
+    this->Self->ofVertices.emplace(moved, options);
   }
 }
 
-std::unique_ptr<MeshSource> MovedMesh::withoutNormals() const
-{
-  const StreamInfo& info = this->Mesh.info();
-  return std::make_unique<MovedPoints>(this->Mesh.source(namesWithoutNormals(info.vertexColumns),
-                                         namesWithoutNormals(info.cellColumns)),
-    this->Positions);
-}
+MovedMesh::~MovedMesh() = default;
 
 std::unique_ptr<MeshSource> MovedMesh::source() const
 {
-  std::unique_ptr<MeshSource> source = this->withoutNormals();
-  if (this->OfVertices)
+  const Implementation* self = this->Self.get();
+  std::unique_ptr<MeshSource> source = self->withoutNormals();
+  if (self->ofVertices)
   {
     source = std::make_unique<AddedColumn>(std::move(source), AddedColumn::Vertices, NormalsSpec,
-      [this](const MeshBlock& block, Column& column)
-      { this->OfVertices->read(block.firstVertex, block.vertices(), column.as<float>()); });
+      [self](const MeshBlock& block, Column& column)
+      { self->ofVertices->read(block.firstVertex, block.vertices(), column.as<float>()); });
   }
-  if (this->OfCells)
+  if (self->ofCells)
   {
-    const auto normals = std::make_shared<CellNormals>(this->Options.scratch, this->Options.memory);
+    const auto normals = std::make_shared<CellNormals>(self->options.scratch, self->options.memory);
     source = std::make_unique<AddedColumn>(std::move(source), AddedColumn::Cells, NormalsSpec,
       [normals](const MeshBlock& block, Column& column)
       {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Solve.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
+#include "smg/Solve.h"
 
 #include <memory>
 
@@ -13,7 +14,7 @@ namespace smg
  * A mesh stream with its vertices where a solution of three columns says, rounded to the precision
  * of the stream. The bounds of its info are not known.
  */
-class MovedPoints : public MeshSource
+class SMG_EXPORT MovedPoints : public MeshSource
 {
 public:
   /** The positions must live as long as this. */

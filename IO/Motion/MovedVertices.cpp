@@ -2,8 +2,8 @@
 #include "IO/Motion/MovedVertices.h"
 
 #include "IO/Formats/Vsm/AttributeNames.h"
-#include "Solver/Core/Error.h"
 #include "Solver/Stream/OriginalNumbers.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 #include "IO/Motion/OriginalOrder.h"
 #include "Solver/Core/Progress.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/MeshSource.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Motion/OriginalOrder.h"
 
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/ScratchFolder.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cassert>

@@ -3,8 +3,8 @@
 
 #include "IO/Formats/Vsm/PagedArray.h"
 #include "IO/Motion/CellNormals.h"
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/ScratchFolder.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <array>

@@ -2,26 +2,16 @@
 #pragma once
 
 #include "IO/Formats/Vsm/AttributeNames.h"
-#include "Solver/Core/Progress.h"
 #include "Solver/Storage/FileDescriptor.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
+#include "smg/MovedMesh.h"
 
 #include <cstdint>
-#include <filesystem>
 #include <span>
 
 namespace smg
 {
-
-/** How normals are computed. */
-struct NormalsOptions
-{
-  /** Folder for the scratch file; empty: the system's temporary folder. */
-  std::filesystem::path scratch;
-  /** Bytes of memory for the vertices that are not final; what exceeds it goes to scratch files. */
-  std::int64_t memory = std::int64_t(64) << 20;
-  ProgressFunction progress;
-};
 
 /**
  * The unit normals at the vertices of a mesh stream of triangles, on disk: the normals of a
@@ -32,7 +22,7 @@ struct NormalsOptions
  * They are computed in one pass; a vertex is let go as soon as it is final. The result does not
  * depend on the blocks of the stream.
  */
-class VertexNormals
+class SMG_EXPORT VertexNormals
 {
 public:
   /**

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/CellShape.h"
 
-#include "Solver/Problem/CellWeights.h"
+#include "smg/CellWeights.h"
 
 namespace smg
 {

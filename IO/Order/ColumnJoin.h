@@ -4,7 +4,7 @@
 #include "IO/External/ExternalSort.h"
 #include "IO/External/RowScatter.h"
 #include "IO/Raw/RawMesh.h"
-#include "Solver/Stream/Column.h"
+#include "smg/Column.h"
 
 #include <cstdint>
 #include <optional>

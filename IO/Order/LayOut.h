@@ -4,8 +4,8 @@
 #include "IO/Order/BreadthFirstOrder.h"
 #include "IO/Order/MeshCounts.h"
 #include "IO/Order/StreamAssembly.h"
-#include "IO/Order/StreamOrder.h"
 #include "IO/Raw/RawMesh.h"
+#include "smg/Convert.h"
 
 #include <string>
 #include <vector>

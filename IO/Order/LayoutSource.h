@@ -5,7 +5,7 @@
 #include "IO/Order/ColumnJoin.h"
 #include "IO/Order/StreamAssembly.h"
 #include "IO/Raw/RawMesh.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/MeshSource.h"
 
 #include <optional>
 

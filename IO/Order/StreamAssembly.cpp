@@ -4,7 +4,7 @@
 #include "IO/Order/CellShape.h"
 #include "IO/Order/CellWindow.h"
 #include "IO/Order/PlacedCells.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/MeshSource.h"
 
 #include <algorithm>
 #include <utility>

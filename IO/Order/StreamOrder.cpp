@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Order/StreamOrder.h"
+#include "smg/Convert.h"
 
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 namespace smg
 {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/Vsm/IsolatedVertices.h"
 #include "IO/Order/StreamAssembly.h"
 #include "IO/Raw/RawMesh.h"
+#include "smg/VsmReader.h"
 
 #include <functional>
 

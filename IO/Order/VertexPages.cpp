@@ -2,7 +2,7 @@
 #include "IO/Order/VertexPages.h"
 
 #include "IO/External/Relabelling.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cassert>

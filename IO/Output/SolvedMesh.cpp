@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Output/SolvedMesh.h"
+#include "smg/SolvedMesh.h"
 
+#include "Solver/Results/ProblemResults.h"
 #include "Solver/Results/RenumberExtremes.h"
 #include "Solver/Stream/OriginalNumbers.h"
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <utility>
+#include <vector>
 
 namespace smg
 {
@@ -30,63 +33,85 @@ void append(
 
 } // namespace
 
+struct SolvedMesh::Implementation
+{
+  Implementation(
+    const VsmReader& mesh, Problem& problem, Solution& solution, const ResultOptions& options)
+    : source(mesh.source())
+    , results(source->info(), problem, solution, options)
+    , wanted(options)
+    , info(source->info())
+    , file(mesh.path())
+  {
+    const int columns = problem.columns();
+    for (std::vector<ColumnSpec>* specs : { &this->info.vertexColumns, &this->info.cellColumns })
+    {
+      std::erase_if(*specs, [](const ColumnSpec& spec) { return isOfSolve(spec.name); });
+    }
+    this->info.vertexColumns.push_back({ SolutionName, ScalarType::Float64, columns });
+    if (options.gradient)
+    {
+      this->info.cellColumns.push_back({ GradientName, ScalarType::Float64, 3 * columns });
+    }
+    if (options.flux)
+    {
+      this->info.cellColumns.push_back({ FluxName, ScalarType::Float64, 3 * columns });
+    }
+  }
+
+  std::unique_ptr<MeshSource> source;
+  ProblemResults results;
+  ResultOptions wanted;
+  StreamInfo info;
+  std::filesystem::path file;
+};
+
 SolvedMesh::SolvedMesh(
   const VsmReader& mesh, Problem& problem, Solution& solution, const ResultOptions& options)
-  : Source(mesh.source())
-  , Results(this->Source->info(), problem, solution, options)
-  , Options(options)
-  , Info(this->Source->info())
-  , File(mesh.path())
+  : Self(std::make_unique<Implementation>(mesh, problem, solution, options))
 {
-  const int columns = problem.columns();
-  for (std::vector<ColumnSpec>* specs : { &this->Info.vertexColumns, &this->Info.cellColumns })
-  {
-    std::erase_if(*specs, [](const ColumnSpec& spec) { return isOfSolve(spec.name); });
-  }
-  this->Info.vertexColumns.push_back({ SolutionName, ScalarType::Float64, columns });
-  if (options.gradient)
-  {
-    this->Info.cellColumns.push_back({ GradientName, ScalarType::Float64, 3 * columns });
-  }
-  if (options.flux)
-  {
-    this->Info.cellColumns.push_back({ FluxName, ScalarType::Float64, 3 * columns });
-  }
+}
+
+SolvedMesh::~SolvedMesh() = default;
+
+const StreamInfo& SolvedMesh::info() const
+{
+  return this->Self->info;
 }
 
 bool SolvedMesh::next(MeshBlock& block)
 {
-  if (!this->Source->next(block))
+  if (!this->Self->source->next(block))
   {
     return false;
   }
-  // The problem may use the columns of an earlier solve.
-  this->Results.add(block);
+  // The problem may ask for the columns of an earlier solve.
+  this->Self->results.add(block);
   for (std::vector<Column>* columns : { &block.vertexColumns, &block.cellColumns })
   {
     std::erase_if(*columns, [](const Column& column) { return isOfSolve(column.spec.name); });
   }
-  const int columns = this->Info.vertexColumns.back().components;
-  append(SolutionName, columns, this->Results.values(), block.vertexColumns);
-  if (this->Options.gradient)
+  const int columns = this->Self->info.vertexColumns.back().components;
+  append(SolutionName, columns, this->Self->results.values(), block.vertexColumns);
+  if (this->Self->wanted.gradient)
   {
-    append(GradientName, 3 * columns, this->Results.gradient(), block.cellColumns);
+    append(GradientName, 3 * columns, this->Self->results.gradient(), block.cellColumns);
   }
-  if (this->Options.flux)
+  if (this->Self->wanted.flux)
   {
-    append(FluxName, 3 * columns, this->Results.flux(), block.cellColumns);
+    append(FluxName, 3 * columns, this->Self->results.flux(), block.cellColumns);
   }
   return true;
 }
 
 void SolvedMesh::finish(Report& report)
 {
-  this->Results.finish(report);
-  if (findColumn(this->Info.vertexColumns, OriginalIdSpec) < 0)
+  this->Self->results.finish(report);
+  if (findColumn(this->Self->info.vertexColumns, OriginalIdSpec) < 0)
   {
     return;
   }
-  VsmReader mesh(this->File);
+  VsmReader mesh(this->Self->file);
   Column id;
   renumberExtremes(report,
     [&](std::int64_t vertex)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Stream/MeshSource.h"
+#include "smg/MeshSource.h"
 
 #include <cstddef>
 #include <cstdint>

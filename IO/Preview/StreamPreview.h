@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Progress.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
+#include "smg/Preview.h"
 
 #include <cstdint>
 #include <string>
@@ -24,12 +25,6 @@ struct StreamPreview
   std::vector<Column> vertexColumns;   ///< those of the mesh stream, a tuple per point
 };
 
-/** The default number of points of a preview. */
-inline constexpr std::int64_t DefaultPreviewPoints = 10000;
-/** The range of the number of points. */
-inline constexpr std::int64_t LeastPreviewPoints = 8;
-inline constexpr std::int64_t MostPreviewPoints = 1000000;
-
 /**
  * Reads the mesh stream once and creates a preview of at most `maximumPoints` points
  * (LeastPreviewPoints to MostPreviewPoints; typically 70 to 100 % of it, above 500,000 at least
@@ -39,10 +34,10 @@ inline constexpr std::int64_t MostPreviewPoints = 1000000;
  *
  * Memory is bounded by the preview and by the window of the stream. Throws Error and Cancelled.
  */
-StreamPreview makePreview(MeshSource& mesh, std::int64_t maximumPoints = DefaultPreviewPoints,
-  const ProgressFunction& progress = {});
+SMG_EXPORT StreamPreview makePreview(MeshSource& mesh,
+  std::int64_t maximumPoints = DefaultPreviewPoints, const ProgressFunction& progress = {});
 
-/** The error message for an empty preview of a mesh that is not empty. */
-std::string emptyPreview(std::int64_t maximumPoints);
+/** What to say of a preview without a triangle that was made of more than nothing. */
+SMG_EXPORT std::string emptyPreview(std::int64_t maximumPoints);
 
 } // namespace smg

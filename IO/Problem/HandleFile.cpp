@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Problem/HandleFile.h"
+#include "smg/DescriptionFiles.h"
 
 #include "IO/Problem/ParseWhere.h"
 #include "IO/Problem/WeightsName.h"

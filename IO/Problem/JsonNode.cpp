@@ -3,7 +3,7 @@
 
 #include "IO/Files/InQuotes.h"
 #include "IO/Problem/JsonComplaint.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cerrno>

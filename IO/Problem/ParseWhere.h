@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/Problem/JsonNode.h"
-#include "Solver/Description/Where.h"
+#include "smg/Region.h"
 
 #include <array>
 #include <initializer_list>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Problem/ProblemFile.h"
+#include "IO/Problem/ProblemKeys.h"
+#include "smg/DescriptionFiles.h"
 
 #include "IO/Problem/ParseWhere.h"
 #include "IO/Problem/WeightsName.h"

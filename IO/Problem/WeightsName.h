@@ -2,7 +2,8 @@
 #pragma once
 
 #include "IO/Problem/JsonNode.h"
-#include "Solver/Problem/Problem.h"
+#include "smg/Export.h"
+#include "smg/Problem.h"
 
 #include <optional>
 #include <string_view>
@@ -10,9 +11,9 @@
 namespace smg
 {
 
-/** The weights named `cotangent` (or `raw-cotangent`), `clamped` and `uniform`; none for other
- * names. */
-std::optional<Weights> weightsOfName(std::string_view name);
+/** The weights that users call `cotangent` (or `raw-cotangent`), `clamped` and `uniform`;
+ * none for any other name. */
+SMG_EXPORT std::optional<Weights> weightsOfName(std::string_view name);
 
 /** The member `weights` of an object, if any. Throws Error. */
 std::optional<Weights> parseWeights(const JsonNode& object);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "IO/External/BucketFile.h"
-#include "Solver/Stream/Column.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/Column.h"
+#include "smg/MeshSource.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -3,6 +3,7 @@
 
 #include "IO/External/Relabelling.h"
 #include "IO/Raw/RawMesh.h"
+#include "smg/Convert.h"
 
 #include <array>
 #include <cstddef>
@@ -21,14 +22,6 @@ class MeshError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;
-};
-
-/** Which cells of a file become the cells of the stream. */
-enum class CellChoice
-{
-  Only,      ///< the kind that there is; a file with both kinds is refused
-  Triangles, ///< polygons; volume cells are left out
-  Tetrahedra ///< volume cells; polygons are left out
 };
 
 /**

@@ -2,7 +2,7 @@
 #include "IO/Raw/ReadStream.h"
 
 #include "IO/Raw/RawMeshBuilder.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <string>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/Raw/RawMesh.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/MeshSource.h"
 
 #include <string>
 

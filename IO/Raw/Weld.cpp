@@ -4,7 +4,7 @@
 #include "IO/External/ExternalSort.h"
 #include "IO/External/Relabelling.h"
 #include "IO/External/Reservation.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <array>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Stream/Column.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/Column.h"
+#include "smg/MeshSource.h"
 
 #include <array>
 #include <cstddef>

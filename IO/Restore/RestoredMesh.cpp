@@ -2,9 +2,9 @@
 #include "IO/Restore/RestoredMesh.h"
 
 #include "IO/Formats/Vsm/VsmFormat.h"
-#include "IO/Formats/Vsm/VsmReader.h"
-#include "Solver/Core/Error.h"
 #include "Solver/Stream/OriginalNumbers.h"
+#include "smg/Error.h"
+#include "smg/VsmReader.h"
 
 #include <algorithm>
 #include <limits>

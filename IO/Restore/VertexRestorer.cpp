@@ -2,7 +2,7 @@
 #include "IO/Restore/VertexRestorer.h"
 
 #include "IO/Formats/Vsm/Columns.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <functional>
@@ -9,11 +9,7 @@
 namespace smg
 {
 
-/** A progress callback: called with the completed fraction (0 to 1, never decreasing during an
- * operation); returns whether to continue. False ends the operation with `Cancelled`. */
-using ProgressFunction = std::function<bool(double)>;
-
-/** Keeps the fractions monotone and throws `Cancelled` if the callback returns false. */
+/** Keeps the fractions monotone and turns a refusal into `Cancelled`. */
 class Progress
 {
 public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Core/Report.h"
+#include "smg/Report.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Cycle/LevelWindow.h"
+#include "smg/Export.h"
 
 #include <memory>
 
@@ -14,7 +15,7 @@ namespace smg
  * up to a constant, which is arbitrary. The part of b outside the range of the matrix, the mean
  * over such a component, is omitted.
  */
-class CoarsestSolver
+class SMG_EXPORT CoarsestSolver
 {
 public:
   CoarsestSolver();

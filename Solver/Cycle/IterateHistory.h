@@ -7,6 +7,7 @@
 #include "Solver/Storage/Ring.h"
 #include "Solver/Storage/ScratchStream.h"
 #include "Solver/Storage/SpareBuffers.h"
+#include "smg/Export.h"
 
 #include <algorithm>
 #include <bit>
@@ -60,7 +61,7 @@ enum class KeptResiduals
  * determines the two weights of a step well enough: residuals differ between regions, so the groups
  * are small and distributed over the mesh.
  */
-class IterateHistory
+class SMG_EXPORT IterateHistory
 {
 public:
   /** For a level of `nodes` nodes with `columns` right-hand sides. */

@@ -10,6 +10,7 @@
 #include "Solver/Storage/ScratchStream.h"
 #include "Solver/Storage/ScratchTraffic.h"
 #include "Solver/Storage/SpareBuffers.h"
+#include "smg/Export.h"
 
 #include <cstdint>
 #include <deque>
@@ -27,7 +28,7 @@ namespace smg
  * the whole level stays in memory, and loading, writing and releasing do nothing.
  */
 template <class Real>
-class LevelWindow
+class SMG_EXPORT LevelWindow
 {
 public:
   /** The unknowns and the right-hand side of the nodes in memory. */

@@ -4,6 +4,7 @@
 #include "Solver/Cycle/RowBlock.h"
 #include "Solver/Hierarchy/CoarseningData.h"
 #include "Solver/Storage/SpareBuffers.h"
+#include "smg/Export.h"
 
 namespace smg
 {
@@ -13,7 +14,7 @@ namespace smg
  * `coarsening` is not null, to a block in one of the buffers. Its weights are floats, or BFloat16
  * if `mayRound` and no row is special.
  */
-RowBlock packRows(SpareBuffers& buffers, const LevelRows& rows, const CoarseningData* coarsening,
-  std::int64_t first, std::int64_t nodes, bool mayRound);
+SMG_EXPORT RowBlock packRows(SpareBuffers& buffers, const LevelRows& rows,
+  const CoarseningData* coarsening, std::int64_t first, std::int64_t nodes, bool mayRound);
 
 } // namespace smg

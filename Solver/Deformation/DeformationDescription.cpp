@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Deformation/DeformationDescription.h"
+#include "smg/DeformationDescription.h"
 
-#include "Solver/Deformation/Handles.h"
+#include "smg/Handles.h"
 
 namespace smg
 {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Deformation/DeformOptions.h"
-#include "Solver/Deformation/Handles.h"
 #include "Solver/Deformation/PositionStep.h"
 #include "Solver/Deformation/RestShape.h"
 #include "Solver/Deformation/RotationProblem.h"
 #include "Solver/Engine/Engine.txx"
-#include "Solver/Engine/Solution.h"
+#include "smg/Deform.h"
+#include "smg/Handles.h"
+#include "smg/Solution.h"
 
 #include <cstdint>
 #include <span>

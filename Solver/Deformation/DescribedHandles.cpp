@@ -1,192 +1,42 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Deformation/DescribedHandles.h"
+#include "smg/DescribedHandles.h"
 
-#include "Solver/Core/Error.h"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "Solver/Deformation/HandlesOnMesh.h"
 
 namespace smg
 {
 
-namespace
-{
-
-constexpr double MostHandles = std::numeric_limits<std::uint8_t>::max();
-
-ValueRules vectorRules(bool positions)
-{
-  return { .components = { 3 }, .positions = positions };
-}
-
-/** Whether what is said at held vertex `i` changes anything. */
-bool moves(const MeshBlock& block, std::size_t i, const VertexHandles& handles)
-{
-  const double* point = block.positions.data() + 3 * i;
-  const double* turn = handles.rotation.data() + 3 * i;
-  return !std::equal(point, point + 3, handles.target.data() + 3 * i) ||
-         std::any_of(turn, turn + 3, [](double number) { return number != 0.0; }) ||
-         handles.logScale[i] != 0.0;
-}
-
-} // namespace
-
 DescribedHandles::DescribedHandles(
   const DeformationDescription& description, const StreamInfo& mesh, const std::string& name)
-  : OfMesh(mesh, name)
+  : OnMesh(std::make_unique<HandlesOnMesh>(description, mesh, name))
 {
-  for (std::size_t k = 0; k < description.handles.size(); ++k)
-  {
-    this->All.push_back(
-      this->compile(description.handles[k], "handles[" + std::to_string(k) + "]"));
-  }
 }
 
-DescribedHandles::Handle DescribedHandles::compile(
-  const HandleDescription& description, const std::string& key)
+DescribedHandles::~DescribedHandles() = default;
+
+std::vector<std::string> DescribedHandles::vertexColumns() const
 {
-  Handle handle;
-  handle.key = key;
-  handle.where = Selection::make(
-    description.where, DataPlace::Vertices, ColumnOwner::Vertices, key + ".region", this->OfMesh);
-  const auto* mask = std::get_if<ColumnMask>(&description.where);
-  if (mask && !this->OfMesh.isOfCells(mask->column, ColumnOwner::Vertices))
-  {
-    handle.mask = this->OfMesh.require(mask->column, ColumnOwner::Vertices, key + ".region.mask");
-  }
-  if (const auto* values = std::get_if<HandleDescription::Values>(&description.motion))
-  {
-    const auto valueOf = [&](const DataValue& value, const ValueRules& rules, const char* member)
-    { return ValueOnMesh(value, DataPlace::Vertices, rules, key + member, this->OfMesh); };
-    handle.values.emplace(Values{ valueOf(values->target, vectorRules(true), ".target"),
-      valueOf(values->rotation, vectorRules(false), ".rotation"),
-      valueOf(values->logScale, { .components = { 1 } }, ".logScale") });
-  }
-  else
-  {
-    handle.motion = std::get<HandleMotion>(description.motion);
-    handle.moves = !handle.motion.isIdentity();
-  }
-  return handle;
+  return this->OnMesh->vertexColumns();
 }
 
-std::span<const std::uint8_t> DescribedHandles::startBlock(Handle& handle, const MeshBlock& block)
+std::vector<std::string> DescribedHandles::cellColumns() const
 {
-  if (handle.values)
-  {
-    handle.values->target.startBlock(block);
-    handle.values->rotation.startBlock(block);
-    handle.values->logScale.startBlock(block);
-  }
-  handle.counts = handle.mask ? &handle.mask->in(block) : nullptr;
-  if (!handle.where)
-  {
-    this->Everywhere.assign(static_cast<std::size_t>(block.vertices()), 1);
-    return this->Everywhere;
-  }
-  if (handle.where->needsPreparing())
-  {
-    throw Error("What " + handle.key +
-                " holds is known only when the mesh has been read once before: call "
-                "DescribedHandles::prepare().");
-  }
-  handle.where->startBlock(block);
-  return handle.where->atVertices();
-}
-
-void DescribedHandles::at(const MeshBlock& block, VertexHandles& handles)
-{
-  this->Followed.assign(static_cast<std::size_t>(block.vertices()), nullptr);
-  for (Handle& handle : this->All)
-  {
-    const std::span<const std::uint8_t> selected = this->startBlock(handle, block);
-    for (std::size_t i = 0; i < selected.size(); ++i)
-    {
-      if (selected[i])
-      {
-        this->hold(handle, block, i, handles);
-        this->Followed[i] = &handle;
-      }
-    }
-  }
-  for (std::size_t i = 0; i < this->Followed.size(); ++i)
-  {
-    if (Handle* handle = this->Followed[i])
-    {
-      ++handle->following;
-      handle->moves = handle->moves || (handle->values && moves(block, i, handles));
-    }
-  }
-}
-
-void DescribedHandles::hold(
-  const Handle& handle, const MeshBlock& block, std::size_t i, VertexHandles& to) const
-{
-  const double count = handle.counts ? std::max(1.0, std::ceil(handle.counts->value(i))) : 1.0;
-  to.mask[i] = static_cast<std::uint8_t>(std::min(to.mask[i] + count, MostHandles));
-  if (handle.values)
-  {
-    this->read(handle.values->target, handle, block, i, to.target.data() + 3 * i);
-    this->read(handle.values->rotation, handle, block, i, to.rotation.data() + 3 * i);
-    this->read(handle.values->logScale, handle, block, i, &to.logScale[i]);
-    return;
-  }
-  const std::span<const double, 3> point(block.positions.data() + 3 * i, 3);
-  std::ranges::copy(handle.motion.apply(point), to.target.data() + 3 * i);
-  std::ranges::copy(handle.motion.rotation(), to.rotation.data() + 3 * i);
-  to.logScale[i] = handle.motion.logScale();
-}
-
-void DescribedHandles::read(const ValueOnMesh& value, const Handle& handle, const MeshBlock& block,
-  std::size_t i, double* numbers) const
-{
-  value.atVertex(block, i, numbers);
-  if (!std::all_of(
-        numbers, numbers + value.components(), [](double number) { return std::isfinite(number); }))
-  {
-    this->OfMesh.fail(handle.key, value.name() + " is not a finite number at " +
-                                    this->OfMesh.vertexName(block, i) + ", which is held");
-  }
+  return this->OnMesh->cellColumns();
 }
 
 void DescribedHandles::prepare(MeshSource& mesh, const std::filesystem::path& scratch)
 {
-  for (MeshBlock block; mesh.next(block);)
-  {
-    for (Handle& handle : this->All)
-    {
-      if (handle.where)
-      {
-        handle.where->prepare(block, scratch);
-      }
-    }
-  }
-  for (Handle& handle : this->All)
-  {
-    if (handle.where)
-    {
-      handle.where->endPreparing();
-    }
-  }
+  this->OnMesh->prepare(mesh, scratch);
+}
+
+void DescribedHandles::at(const MeshBlock& block, VertexHandles& handles)
+{
+  this->OnMesh->at(block, handles);
 }
 
 std::vector<std::string> DescribedHandles::notes() const
 {
-  std::vector<std::string> notes;
-  for (const Handle& handle : this->All)
-  {
-    if (handle.following == 0)
-    {
-      notes.push_back(handle.key + " holds nothing that a later handle does not hold.");
-    }
-  }
-  const auto isMoving = [](const Handle& handle) { return handle.following > 0 && handle.moves; };
-  if (std::ranges::none_of(this->All, isMoving))
-  {
-    notes.emplace_back("No handle moves anything: OUT is IN.");
-  }
-  return notes;
+  return this->OnMesh->notes();
 }
 
 } // namespace smg

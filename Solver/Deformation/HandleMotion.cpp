@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Deformation/HandleMotion.h"
+#include "smg/DeformationDescription.h"
 
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Deformation/DeformOptions.h"
-#include "Solver/Deformation/Handles.h"
-#include "Solver/Engine/Solution.h"
+#include "smg/Deform.h"
+#include "smg/Export.h"
+#include "smg/Handles.h"
+#include "smg/Solution.h"
 
 #include <memory>
 
@@ -15,7 +16,7 @@ namespace smg
  * kept as long as the same vertices are held. Every result is, bit for bit, that of deform() with
  * the same handles: it does not depend on what came before.
  */
-class InteractiveDeformation : public Solution
+class SMG_EXPORT InteractiveDeformation : public Solution
 {
 public:
   /** Builds the hierarchy and deforms once. Throws Error as deform(); options.inCore is implied. */

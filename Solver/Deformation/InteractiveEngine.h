@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Deformation/DeformationEngine.h"
+#include "Solver/Deformation/HandleChecks.h"
 
 #include <algorithm>
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Deformation/RotationProblem.h"
 
+#include "Solver/Deformation/HandleChecks.h"
+
 #include <algorithm>
 
 namespace smg

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Deformation/Handles.h"
 #include "Solver/Deformation/RestShape.h"
-#include "Solver/Problem/Problem.h"
+#include "smg/Handles.h"
+#include "smg/Problem.h"
 
 namespace smg
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Description/MeshColumns.h"
 
-#include "Solver/Core/Error.h"
 #include "Solver/Stream/OriginalNumbers.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <utility>

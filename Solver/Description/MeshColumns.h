@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Stream/MeshSource.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -29,9 +30,11 @@ struct NamedColumn
   const Column& in(const MeshBlock& block) const;
 };
 
-/** The columns of a mesh that a problem description names: finds them, collects those that the mesh
- * source must deliver, and reports errors. */
-class MeshColumns
+/**
+ * The columns of a mesh for what a problem description says: finds them, knows which ones the mesh
+ * source must deliver, and words the complaints.
+ */
+class SMG_EXPORT MeshColumns
 {
 public:
   /** `description` is the name of the description in error messages: its file. */

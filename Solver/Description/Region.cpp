@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Description/Region.h"
+#include "smg/Region.h"
 
 #include <algorithm>
 #include <numeric>

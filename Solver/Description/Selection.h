@@ -3,7 +3,7 @@
 
 #include "Solver/Description/MeshColumns.h"
 #include "Solver/Description/OpenValues.h"
-#include "Solver/Description/Where.h"
+#include "smg/Region.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Description/Datum.h"
 #include "Solver/Description/OpenValues.h"
 #include "Solver/Description/Selection.h"
 #include "Solver/Description/ValueRules.h"
+#include "smg/ProblemDescription.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Description/ValueRules.h"
 
-#include "Solver/Problem/CellWeights.h"
+#include "smg/CellWeights.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Description/MeshColumns.h"
+#include "smg/Export.h"
 
 #include <array>
 #include <vector>
@@ -17,8 +18,8 @@ enum class ValueRange
   PositiveDefinite ///< a positive number, three (a diagonal), or a tensor of six
 };
 
-/** The admissible values of a datum. */
-struct ValueRules
+/** What values a datum may have. */
+struct SMG_EXPORT ValueRules
 {
   std::vector<int> components; ///< the admissible numbers of components
   ValueRange range = ValueRange::Any;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Report.h"
 #include "Solver/Engine/Chebyshev.h"
 #include "Solver/Engine/ConjugateResiduals.h"
 #include "Solver/Engine/Convergence.h"
-#include "Solver/Engine/SolveOptions.h"
+#include "smg/Export.h"
+#include "smg/Report.h"
+#include "smg/Solve.h"
 
 #include <optional>
 #include <string>
@@ -18,7 +19,7 @@ namespace smg
  * Decides from V-cycle to V-cycle whether and how the next one is accelerated. A solve of a fixed
  * number of V-cycles is not.
  */
-class Acceleration
+class SMG_EXPORT Acceleration
 {
 public:
   /** `convergence` has begun and outlives this. */

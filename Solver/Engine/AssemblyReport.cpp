@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Engine/AssemblyReport.h"
 
-#include "Solver/Core/Error.h"
 #include "Solver/Engine/Convergence.h"
+#include "smg/Error.h"
 
 #include <cmath>
 #include <string>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Report.h"
+#include "smg/Export.h"
+#include "smg/Report.h"
 
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@ struct Stopping
 };
 
 /** Watches the residual of a problem from V-cycle to V-cycle and decides when to stop. */
-class Convergence
+class SMG_EXPORT Convergence
 {
 public:
   /**
@@ -67,7 +68,7 @@ private:
 };
 
 /** The norm that the rounding of the terms of b - A x has, given the sum of their squares. */
-double roundingOf(double termSquares);
+SMG_EXPORT double roundingOf(double termSquares);
 
 /** "1.23e-07" */
 std::string scientific(double value);

@@ -10,14 +10,14 @@
 #include "Solver/Engine/FreeComponents.h"
 #include "Solver/Engine/HierarchyBuilder.h"
 #include "Solver/Engine/MemoryEstimate.h"
-#include "Solver/Engine/Solution.h"
-#include "Solver/Engine/SolveOptions.h"
 #include "Solver/Engine/SolveProgress.h"
 #include "Solver/Engine/VertexRange.h"
 #include "Solver/Problem/Assembly.h"
-#include "Solver/Problem/Problem.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "Solver/Storage/ScratchTraffic.h"
+#include "smg/Problem.h"
+#include "smg/Solution.h"
+#include "smg/Solve.h"
 
 #include <cmath>
 #include <memory>

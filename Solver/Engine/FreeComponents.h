@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Report.h"
 #include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Problem/Components.h"
+#include "smg/Export.h"
+#include "smg/Report.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -20,7 +21,7 @@ namespace smg
  * they keep the mean of their initial values, both weighted with the lumped masses. The finest
  * level's State is told by nodes(), rewriteB() and readX(), as LevelWindow has them.
  */
-class FreeComponents
+class SMG_EXPORT FreeComponents
 {
 public:
   FreeComponents(Components& components, ComponentLabels& labels, int columns)

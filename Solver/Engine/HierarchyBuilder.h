@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Report.h"
 #include "Solver/Cycle/Level.h"
 #include "Solver/Cycle/RowBlockPacker.h"
 #include "Solver/Operators/Coarsening.h"
+#include "smg/Report.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Engine/SolveOptions.h"
-#include "Solver/Problem/Problem.h"
+#include "smg/Export.h"
+#include "smg/Problem.h"
+#include "smg/Solve.h"
 
 #include <cstdint>
 
@@ -14,7 +15,7 @@ namespace smg
  * windows of all levels hold a number of nodes proportional to the stream's span; in core
  * everything stays, and `furtherCoreBytes` more a vertex. 0 when the span is not known.
  */
-std::int64_t estimateMemory(const StreamInfo& info, const Problem& problem,
+SMG_EXPORT std::int64_t estimateMemory(const StreamInfo& info, const Problem& problem,
   const SolveOptions& options, std::int64_t furtherCoreBytes = 0);
 
 } // namespace smg

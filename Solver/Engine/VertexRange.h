@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Export.h"
 #include <cstddef>
 #include <cstdint>
 
@@ -11,7 +12,7 @@ namespace smg
  * Throws Error unless a solution of `vertices` vertices has those from `first` on, `count` of them,
  * and there is room for the values of as many.
  */
-void checkVertexRange(
+SMG_EXPORT void checkVertexRange(
   std::int64_t first, std::int64_t count, std::size_t room, std::int64_t vertices);
 
 } // namespace smg

@@ -3,6 +3,7 @@
 
 #include "Solver/Hierarchy/CoarseningData.h"
 #include "Solver/Hierarchy/Lifting.h"
+#include "smg/Export.h"
 
 #include <array>
 #include <vector>
@@ -28,7 +29,7 @@ namespace smg
  *
  * At last weights are rounded to multiples of 1/Quanta, and the largest one takes the rest.
  */
-class ExtendedInterpolation
+class SMG_EXPORT ExtendedInterpolation
 {
 public:
   IndependentSetLifting lifting;

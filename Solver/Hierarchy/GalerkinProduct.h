@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Hierarchy/CoarseningData.h"
+#include "smg/Export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +18,7 @@ namespace smg
  * of exactly zero on every level. Of the two weights of a pair the one in the upper of its rows
  * counts: so the product is exactly symmetric.
  */
-class GalerkinProduct
+class SMG_EXPORT GalerkinProduct
 {
 public:
   /** No entry may be removed of a row the magnitudes of whose weights sum up to more than this many

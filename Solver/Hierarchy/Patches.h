@@ -4,6 +4,7 @@
 #include "Solver/Hierarchy/LevelRows.h"
 #include "Solver/Hierarchy/PatchMatrix.h"
 #include "Solver/Storage/Ring.h"
+#include "smg/Export.h"
 
 #include <cstdint>
 
@@ -30,7 +31,7 @@ struct Patch
  * with the largest coupling |a_ij| / sqrt(a_ii a_jj) above Strong whose patch has room and whose
  * first node's row reaches as far as j: so a patch lies within a ring.
  */
-class Patches
+class SMG_EXPORT Patches
 {
 public:
   /** Patches of up to 8 nodes from 0.35 on save a few V-cycles on slivers; pairs only fail there.

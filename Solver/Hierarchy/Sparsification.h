@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Hierarchy/CoarseningData.h"
+#include "smg/Export.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ namespace smg
  * it: small entries decide its soft modes. Of a row m that comes later only what those of c and k
  * say counts, and of couplings those to rows that have come.
  */
-struct Sparsification
+struct SMG_EXPORT Sparsification
 {
   /** 0 (nothing is removed) to 0.1; above that cycles diverge. */
   float tolerance = 0.1F;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Error.h"
 #include "Solver/Hierarchy/CoarseningData.h"
 #include "Solver/Hierarchy/RowBatch.h"
 #include "Solver/Operators/OperatorSet.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cmath>

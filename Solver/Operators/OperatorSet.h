@@ -3,7 +3,7 @@
 
 #include "Solver/Cycle/Relaxation.h"
 #include "Solver/Hierarchy/CoarseningData.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/MeshSource.h"
 
 #include <concepts>
 #include <cstdint>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/Assembly.h"
 
-#include "Solver/Core/Error.h"
+#include "Solver/Problem/FlatCells.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,12 +3,10 @@
 
 #include "Solver/Hierarchy/StiffRows.h"
 #include "Solver/Problem/AssembledRows.h"
-#include "Solver/Problem/CellWeights.h"
 #include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Problem/Components.h"
 #include "Solver/Problem/NeighbourReach.h"
 #include "Solver/Problem/OpenVertices.h"
-#include "Solver/Problem/Problem.h"
 #include "Solver/Problem/ProblemCells.h"
 #include "Solver/Problem/ProblemFacets.h"
 #include "Solver/Problem/RowAssembly.h"
@@ -16,6 +14,9 @@
 #include "Solver/Problem/VertexLoads.h"
 #include "Solver/Problem/WeightedEdges.h"
 #include "Solver/Stream/StreamCheck.h"
+#include "smg/CellWeights.h"
+#include "smg/Export.h"
+#include "smg/Problem.h"
 
 #include <cstdint>
 #include <optional>
@@ -29,7 +30,7 @@ namespace smg
  * come; when a vertex is final its row, right-hand side and initial value go to `rows`.
  * Constrained vertices are nodes with an empty row; their neighbours carry them in alpha and b.
  */
-class Assembly
+class SMG_EXPORT Assembly
 {
 public:
   /** What finds the stiff rows of a level of a problem on such cells, whose `rows` it makes. */

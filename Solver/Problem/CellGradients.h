@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Problem/Vector.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/MeshSource.h"
 
 #include <cstddef>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Problem/CellWeights.h"
+#include "smg/CellWeights.h"
 
 #include "Solver/Problem/CellGradients.h"
 #include "Solver/Problem/Vector.h"
@@ -114,42 +114,6 @@ bool isPositiveDefinite(const double* K)
   const double determinant =
     xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
   return xx > 0.0 && minor > 0.0 && determinant > 0.0;
-}
-
-double flatnessFactor(CellType type, const double* const* corners, const CellWeights& cell)
-{
-  constexpr double Limit = 1e5;
-  double largest = 0.0;
-  for (int e = 0; e < edgesOf(type); ++e)
-  {
-    largest = std::max(largest, std::fabs(cell.weight[e]));
-  }
-  if (type == CellType::Triangle)
-  {
-    return largest > Limit ? Limit / largest : 1.0;
-  }
-  // Any of the edges tells nearly always that the longest one is long enough.
-  double square = 0.0;
-  for (const int* ends : TetrahedronEdges)
-  {
-    const Vector edge = difference(corners[ends[0]], corners[ends[1]]);
-    square = std::max(square, dot(edge, edge));
-    if (largest * largest <= Limit * Limit * square)
-    {
-      return 1.0;
-    }
-  }
-  return Limit * std::sqrt(square) / largest;
-}
-
-double cotangentFloor(CellType type, const double* a, const double* b)
-{
-  if (type == CellType::Triangle)
-  {
-    return 5e-4;
-  }
-  const Vector ab = difference(a, b);
-  return 1e-4 * std::sqrt(dot(ab, ab));
 }
 
 } // namespace smg

@@ -3,6 +3,7 @@
 
 #include "Solver/Problem/Components.h"
 #include "Solver/Storage/ScratchStream.h"
+#include "smg/Export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +19,7 @@ namespace smg
  * The component label of every vertex, and its mass where a component may turn out to be free, in
  * memory or in a scratch file, written once.
  */
-class ComponentLabels
+class SMG_EXPORT ComponentLabels
 {
 public:
   /** Vertices of a block; the last one may be shorter. */

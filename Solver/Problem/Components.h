@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Storage/Pool.h"
+#include "smg/Export.h"
 
 #include <cstdint>
 #include <span>
@@ -18,7 +19,7 @@ namespace smg
  * the vertices, so that what is taken from the right-hand side is a constant source; where none has
  * any, with 1.
  */
-class Components
+class SMG_EXPORT Components
 {
 public:
   /** `pool`, if given, accounts for the memory. */

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/Ring.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/Error.h"
+#include "smg/MeshSource.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/OpenVertices.h"
 
-#include "Solver/Core/Error.h"
 #include "Solver/Stream/OriginalNumbers.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Problem/Problem.h"
 #include "Solver/Storage/Ring.h"
+#include "smg/Problem.h"
 
 #include <cstdint>
 

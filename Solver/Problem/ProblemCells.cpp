@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/ProblemCells.h"
 
-#include "Solver/Core/Error.h"
+#include "Solver/Problem/FlatCells.h"
 #include "Solver/Stream/OriginalNumbers.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Problem/CellWeights.h"
-#include "Solver/Problem/Problem.h"
 #include "Solver/Storage/Ring.h"
+#include "smg/CellWeights.h"
+#include "smg/Problem.h"
 
 #include <cstddef>
 #include <cstdint>

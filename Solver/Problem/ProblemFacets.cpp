@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/ProblemFacets.h"
 
-#include "Solver/Core/Error.h"
-#include "Solver/Problem/CellWeights.h"
+#include "Solver/Problem/FlatCells.h"
 #include "Solver/Stream/OriginalNumbers.h"
+#include "smg/CellWeights.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cmath>

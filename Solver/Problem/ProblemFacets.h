@@ -4,7 +4,7 @@
 #include "Solver/Problem/BoundaryFacet.h"
 #include "Solver/Problem/OpenFacets.h"
 #include "Solver/Problem/OpenVertices.h"
-#include "Solver/Problem/Problem.h"
+#include "smg/Problem.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/RowAssembly.h"
 
-#include "Solver/Core/Error.h"
 #include "Solver/Problem/CommonShare.h"
 #include "Solver/Problem/RowShortfall.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,9 @@
 #include "Solver/Problem/AssembledRows.h"
 #include "Solver/Problem/Components.h"
 #include "Solver/Problem/OpenVertices.h"
-#include "Solver/Problem/Problem.h"
 #include "Solver/Problem/RowListener.h"
 #include "Solver/Problem/WeightedEdges.h"
+#include "smg/Problem.h"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/WeightedEdges.h"
 
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <cmath>
 #include <string>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Problem/CellWeights.h"
+#include "Solver/Problem/FlatCells.h"
 #include "Solver/Problem/OpenEdges.h"
-#include "Solver/Problem/Problem.h"
+#include "smg/CellWeights.h"
+#include "smg/Problem.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -4,8 +4,9 @@
 #include "Solver/Core/Progress.h"
 #include "Solver/Projection/PointTree.h"
 #include "Solver/Projection/RingWindow.h"
-#include "Solver/Stream/MeshSource.h"
 #include "Solver/Stream/StreamCheck.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
 
 #include <array>
 #include <cstdint>
@@ -25,7 +26,7 @@ namespace smg
  * Besides the data of each point, it holds about 65,000 vertices, or a block if that is larger, and
  * with rings a RingWindow of limited size.
  */
-class PointProjection
+class SMG_EXPORT PointProjection
 {
 public:
   /** The range of influence of a point around its nearest vertex: the union of radius and rings. */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Projection/RingWindow.h"
 
-#include "Solver/Core/Error.h"
 #include "Solver/Projection/PointTree.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <iterator>

@@ -3,7 +3,7 @@
 
 #include "Solver/Core/Progress.h"
 #include "Solver/Projection/VertexGraph.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/MeshSource.h"
 
 #include <cstdint>
 #include <span>

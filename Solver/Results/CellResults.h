@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Problem/CellWeights.h"
+#include "smg/CellWeights.h"
 
 #include <cstddef>
 #include <span>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Report.h"
 #include "Solver/Problem/BoundaryFacet.h"
 #include "Solver/Problem/OpenVertices.h"
+#include "smg/Report.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -9,8 +9,9 @@
 #include "Solver/Problem/WeightedEdges.h"
 #include "Solver/Results/CellResults.h"
 #include "Solver/Results/ConditionSums.h"
-#include "Solver/Solve.h"
 #include "Solver/Stream/StreamCheck.h"
+#include "smg/Export.h"
+#include "smg/Solve.h"
 
 #include <cstdint>
 #include <optional>
@@ -19,15 +20,6 @@
 
 namespace smg
 {
-
-/** The requested results of a solution. */
-struct ResultOptions
-{
-  bool gradient = false; ///< grad u of each cell
-  bool flux = false;     ///< -K grad u of each cell
-  /** The limit of the accounted memory in bytes. */
-  std::int64_t memoryLimit = std::int64_t(1) << 30;
-};
 
 /**
  * The derived results of a solution: gradients and fluxes of the cells, and, for the report, the
@@ -41,7 +33,7 @@ struct ResultOptions
  * Only the window of open vertices is in memory. The results do not depend on the blocks, bit for
  * bit.
  */
-class ProblemResults
+class SMG_EXPORT ProblemResults
 {
 public:
   /**

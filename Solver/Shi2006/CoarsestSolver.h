@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Shi2006/Level.h"
+#include "smg/Export.h"
 
 #include <memory>
 
@@ -14,7 +15,7 @@ namespace smg::shi2006
  * the range of the matrix, is omitted. Such parts occur even if every component of the mesh is
  * constrained, since lifting may disconnect a component.
  */
-class CoarsestSolver
+class SMG_EXPORT CoarsestSolver
 {
 public:
   CoarsestSolver();

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Shi2006/Shi2006.h"
 
-#include "Solver/Core/Error.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Engine/AssemblyReport.h"
 #include "Solver/Engine/VertexRange.h"
@@ -9,6 +8,7 @@
 #include "Solver/Shi2006/Relaxation.h"
 #include "Solver/Shi2006/RightSideTransfer.h"
 #include "Solver/Shi2006/VCycle.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "Solver/Engine/FreeComponents.h"
-#include "Solver/Engine/Solution.h"
-#include "Solver/Engine/SolveOptions.h"
 #include "Solver/Engine/SolveProgress.h"
-#include "Solver/Problem/Problem.h"
 #include "Solver/Shi2006/VCycle.h"
+#include "smg/Problem.h"
+#include "smg/Solution.h"
+#include "smg/Solve.h"
 
 namespace smg
 {

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "Solver/Storage/IoStatistics.h"
-#include "Solver/Stream/Column.h"
+#include "smg/Column.h"
+#include "smg/Export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,15 +16,7 @@
 namespace smg
 {
 
-/** The compression of the columns of a block file. The values are part of the file format. */
-enum class Codec : std::uint8_t
-{
-  None = 0,
-  Lz4 = 1,
-  Zstd = 2
-};
-
-/** A table of a block file: rows with the same columns. */
+/** A table of a block file: rows that all have the same columns. */
 struct TableSpec
 {
   std::string name;
@@ -43,7 +36,7 @@ struct TableSpec
  * `WriteBehindBytes` wait in memory. A failed write (disk full) is thrown as Error, with the path,
  * by the next append() or by finish().
  */
-class BlockFileWriter
+class SMG_EXPORT BlockFileWriter
 {
 public:
   static constexpr std::size_t WriteBehindBytes = std::size_t(192) << 10;
@@ -72,7 +65,7 @@ private:
  * checksums. Every failure is an Error that names the file, the table and the block. One thread at
  * a time.
  */
-class BlockFileReader
+class SMG_EXPORT BlockFileReader
 {
 public:
   explicit BlockFileReader(std::filesystem::path path, IoStatistics* statistics = nullptr);
@@ -109,7 +102,7 @@ private:
   std::unique_ptr<Implementation> Self;
 };
 
-/** Whether the file begins with the magic of a block file. */
-bool isBlockFile(const std::filesystem::path& path);
+/** Whether the file begins like a block file. */
+SMG_EXPORT bool isBlockFile(const std::filesystem::path& path);
 
 } // namespace smg

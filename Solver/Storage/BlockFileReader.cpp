@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/BlockFile.h"
 
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/BlockFileLayout.h"
 #include "Solver/Storage/Checksum.h"
 #include "Solver/Storage/Codec.h"
 #include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/ReadAhead.h"
+#include "smg/Error.h"
 
 #include <nlohmann/json.hpp>
 

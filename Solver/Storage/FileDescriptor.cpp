@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/FileDescriptor.h"
 
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/WaitClock.h"
+#include "smg/Error.h"
 
 #include <atomic>
 #include <cerrno>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Export.h"
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -14,7 +15,7 @@ namespace smg
  * interruptions and partial transfers; every failure is an Error that names the file and the reason
  * of the system.
  */
-class FileDescriptor
+class SMG_EXPORT FileDescriptor
 {
 public:
   FileDescriptor() = default;

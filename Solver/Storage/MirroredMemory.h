@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Storage/Pool.h"
+#include "smg/Export.h"
 
 #include <cstddef>
 
@@ -14,7 +15,7 @@ namespace smg
  * without a wrap test. A page counts as resident once for each image in which it is touched:
  * accesses should start in the middle image, so that most pages count once.
  */
-class MirroredMemory
+class SMG_EXPORT MirroredMemory
 {
 public:
   static constexpr std::size_t PageBytes = 4096;

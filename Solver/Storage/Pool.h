@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Export.h"
 #include <cstdint>
 #include <mutex>
 #include <string>
@@ -24,7 +25,7 @@ inline constexpr PoolUse SolveMemory{ "the solve",
  *
  * The pool only counts; Ring and Buffer allocate the memory. Any thread may acquire and release.
  */
-class Pool
+class SMG_EXPORT Pool
 {
 public:
   /** `limit` in bytes. */
@@ -52,7 +53,7 @@ private:
 };
 
 /** "the solve needs at least ... MiB of memory but the limit is ... MiB: ..." */
-std::string memoryLimitSentence(
+SMG_EXPORT std::string memoryLimitSentence(
   std::int64_t needed, std::int64_t allowed, const PoolUse& use = SolveMemory);
 
 } // namespace smg

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/Buffer.h"
 #include "Solver/Storage/Ring.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Export.h"
 #include <filesystem>
 
 namespace smg
@@ -11,7 +12,7 @@ namespace smg
  * killed programs are removed by the next ScratchFolder in the same parent: a folder is locked as
  * long as its program runs.
  */
-class ScratchFolder
+class SMG_EXPORT ScratchFolder
 {
 public:
   /** Creates it in `parent`; empty: in the system's temporary folder. Throws Error. */

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/ScratchStream.h"
 
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/Checksum.h"
 #include "Solver/Storage/WaitClock.h"
+#include "smg/Error.h"
 
 #include <string>
 

@@ -3,6 +3,7 @@
 
 #include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/IoStatistics.h"
+#include "smg/Export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +25,7 @@ namespace smg
  * The file is unnamed: it is removed with the stream or the program. Checksums (XXH3) verify that
  * the bytes read are those written.
  */
-class ScratchStream
+class SMG_EXPORT ScratchStream
 {
 public:
   /** `path` is the folder, and the name in messages. */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/Buffer.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -3,6 +3,7 @@
 
 #include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/IoThread.h"
+#include "smg/Export.h"
 
 #include <array>
 #include <condition_variable>
@@ -14,9 +15,11 @@
 namespace smg
 {
 
-/** Writes bytes to a file sequentially, on a separate thread. The bytes are copied into a few
- * chunks of memory; the caller waits only if all chunks are pending. */
-class WriteBehind
+/**
+ * Writes bytes to a file one after the other, on a thread of its own. The bytes are copied into a
+ * few chunks of memory, and whoever brings them waits only when all chunks are on their way.
+ */
+class SMG_EXPORT WriteBehind
 {
 public:
   /** Writes from `offset` on, with chunks of `bytes` bytes in total. The file must outlive it. */

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Conversion/OpenMesh.h"
 #include "Testing/Support/Refinement.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/OpenMesh.h"
 
 #include <gtest/gtest.h>
 

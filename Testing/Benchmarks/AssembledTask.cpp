@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Benchmarks/AssembledTask.h"
 
-#include "IO/Formats/Vsm/VsmReader.h"
-#include "Solver/Core/Error.h"
 #include "Testing/Benchmarks/FixedEndsProblem.h"
+#include "smg/Error.h"
+#include "smg/VsmReader.h"
 
 #include <algorithm>
 #include <fstream>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Benchmarks/Bandwidth.h"
 
-#include "Solver/Core/Error.h"
 #include "Solver/Core/Timer.h"
+#include "smg/Error.h"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Benchmarks/ChildProcess.h"
 
-#include "Solver/Core/Error.h"
 #include "Testing/Benchmarks/Usage.h"
+#include "smg/Error.h"
 
 #include <sys/wait.h>
 #include <unistd.h>

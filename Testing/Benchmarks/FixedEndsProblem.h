@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Problem/Problem.h"
+#include "smg/Problem.h"
 
 namespace smg::benchmark
 {

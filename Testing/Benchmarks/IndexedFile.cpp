@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Benchmarks/IndexedFile.h"
 
-#include "Solver/Core/Error.h"
 #include "Testing/Support/RawMeshReading.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Benchmarks/MeasuredConversion.h"
 
-#include "IO/Conversion/Convert.h"
-#include "Solver/Core/Error.h"
 #include "Testing/Benchmarks/ChildProcess.h"
 #include "Testing/Benchmarks/ScratchSampler.h"
 #include "Testing/Benchmarks/Usage.h"
+#include "smg/Convert.h"
+#include "smg/Error.h"
 
 #include <sys/resource.h>
 

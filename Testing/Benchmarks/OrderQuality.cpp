@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Benchmarks/OrderQuality.h"
 
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/Benchmarks/StreamOrderMeasure.h"
 #include "Testing/Support/InCoreOrder.h"
+#include "smg/VsmReader.h"
 
 #include <algorithm>
 #include <numeric>

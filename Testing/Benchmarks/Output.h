@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <nlohmann/json.hpp>
 

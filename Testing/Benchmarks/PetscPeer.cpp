@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Core/Error.h"
 #include "Testing/Benchmarks/AssembledTask.h"
 #include "Testing/Benchmarks/Usage.h"
+#include "smg/Error.h"
 
 #include <petscksp.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Vsm/VsmReader.h"
-#include "Solver/Core/Error.h"
 #include "Solver/Core/Timer.h"
-#include "Solver/Solve.h"
 #include "Testing/Benchmarks/FixedEndsProblem.h"
 #include "Testing/Benchmarks/Peers.h"
 #include "Testing/Benchmarks/Usage.h"
+#include "smg/Error.h"
+#include "smg/Solve.h"
+#include "smg/VsmReader.h"
 
 #include <algorithm>
 #include <fstream>

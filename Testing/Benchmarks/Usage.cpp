@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Benchmarks/Usage.h"
 
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <malloc.h>
 #include <sys/resource.h>

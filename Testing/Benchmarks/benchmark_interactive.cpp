@@ -8,11 +8,11 @@
 // without a mesh a torus of 10,000 vertices. An update should take at most bound_ms milliseconds,
 // so that a handle can be dragged. Takes the options of Google Benchmark (--help).
 
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Preview/StreamPreview.h"
 #include "Solver/Deformation/InteractiveDeformation.h"
 #include "Testing/Support/ArrayHandles.h"
 #include "Testing/Support/MemorySource.h"
+#include "smg/VsmReader.h"
 
 #include <benchmark/benchmark.h>
 

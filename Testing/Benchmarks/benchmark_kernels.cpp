@@ -15,8 +15,8 @@
 // `nonzeros` (a node).
 // Takes the options of Google Benchmark (--help).
 
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/Benchmarks/Kernels.h"
+#include "smg/VsmReader.h"
 
 #include <exception>
 #include <iostream>

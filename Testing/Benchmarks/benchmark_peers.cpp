@@ -9,11 +9,11 @@
 // prints a Markdown table and writes the numbers. Everything runs on one thread unless --threads
 // says otherwise for smg.
 
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/Benchmarks/ChildProcess.h"
 #include "Testing/Benchmarks/Output.h"
 #include "Testing/Benchmarks/Peers.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/VsmReader.h"
 
 #include <CLI/CLI.hpp>
 

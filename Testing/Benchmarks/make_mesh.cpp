@@ -12,12 +12,12 @@
 // conversion.
 
 #include "IO/Formats/Vsm/VsmWriter.h"
-#include "Solver/Core/Error.h"
 #include "Testing/Benchmarks/FinerTetrahedra.h"
 #include "Testing/Benchmarks/IndexedFile.h"
 #include "Testing/Support/Bumps.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/Refinement.h"
+#include "smg/Error.h"
 
 #include <CLI/CLI.hpp>
 

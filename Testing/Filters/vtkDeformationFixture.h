@@ -3,9 +3,9 @@
 
 #include "Filters/vtkStreamingMeshDeformation.h"
 #include "IO/vtkStreamingMeshReader.h"
-#include "Solver/Deform.h"
 #include "Testing/Filters/vtkEndHandles.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/Deform.h"
 
 #include <string>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Deformation/HandleMotion.h"
-#include "Solver/Deformation/Handles.h"
 #include "Testing/IO/vtkPieceTesting.h"
+#include "smg/DeformationDescription.h"
+#include "smg/Handles.h"
 
 #include "vtkDoubleArray.h"
 

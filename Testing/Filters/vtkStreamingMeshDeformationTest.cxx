@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
 #include "Testing/Filters/vtkDeformationFixture.h"
+#include "smg/VsmReader.h"
 
 #include "vtkCellArray.h"
 #include "vtkFieldData.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
 #include "Testing/Filters/vtkHandleTesting.h"
 #include "Testing/Filters/vtkPoissonFixture.h"
 #include "Testing/Support/ArrayProblem.h"
 #include "Testing/Support/SolveMesh.h"
+#include "smg/VsmReader.h"
 
 #include "vtkFieldData.h"
 #include "vtkPolyData.h"

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "IO/External/Workspace.h"
-#include "Solver/Core/Error.h"
 #include "Testing/Fuzzing/Finding.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -13,10 +13,10 @@
 #include "IO/Formats/TetGen/TetGenFormat.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Raw/RawMeshBuilder.h"
-#include "Solver/Core/Error.h"
 #include "Testing/Fuzzing/FuzzPlace.h"
 #include "Testing/Fuzzing/MeshChecks.h"
 #include "Testing/Fuzzing/SealedVsm.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,9 @@
 #include "Testing/Fuzzing/MeshChecks.h"
 
 #include "IO/Formats/Streams/StreamFile.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/Fuzzing/Finding.h"
 #include "Testing/Support/RawMeshReading.h"
+#include "smg/VsmReader.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Fuzzing/SealedVsm.h"
 
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/BlockFileLayout.h"
 #include "Solver/Storage/Checksum.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/VsmReader.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Conversion/Convert.h"
-#include "IO/Conversion/OpenMesh.h"
+#include "smg/Convert.h"
+#include "smg/OpenMesh.h"
 
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/Formats/Streams/StreamConversion.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Order/CellFlagger.h"
-#include "Solver/Core/Error.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/Error.h"
+#include "smg/VsmReader.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

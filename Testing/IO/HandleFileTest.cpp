@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Problem/HandleFile.h"
-#include "Solver/Deformation/DescribedHandles.h"
+#include "smg/DescribedHandles.h"
+#include "smg/DescriptionFiles.h"
 
 #include "Testing/IO/RegionFileFixture.h"
 

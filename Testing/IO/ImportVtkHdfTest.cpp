@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Conversion/Convert.h"
 #include "IO/Formats/Vsm/AttributeNames.h"
 #include "IO/Formats/Vsm/Columns.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Output.h"
 #include "IO/Formats/VtkHdf/Hdf5/WriteVtkHdf.h"
 #include "Testing/IO/ContainerMeshes.h"
@@ -10,6 +8,8 @@
 #include "Testing/Support/ColumnValues.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TestMeshes.h"
+#include "smg/Convert.h"
+#include "smg/VsmReader.h"
 
 #include <initializer_list>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Conversion/Convert.h"
+#include "smg/Convert.h"
 
 #include "IO/External/Reservation.h"
 #include "IO/Formats/Streams/StreamConversion.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Order/FirstUseOrder.h"
 #include "IO/Order/TakeIsolated.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/VsmReader.h"
 
 #include <gtest/gtest.h>
 

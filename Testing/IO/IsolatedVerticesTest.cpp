@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Vsm/IsolatedVertices.h"
+#include "smg/VsmReader.h"
 
 #include "IO/Formats/Vsm/VsmFormat.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/Support/ErrorMessage.h"

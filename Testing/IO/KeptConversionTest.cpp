@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/KeptConversion.h"
 
-#include "IO/Formats/Vsm/VsmReader.h"
-#include "Solver/Core/Error.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/Error.h"
+#include "smg/VsmReader.h"
 
 #include <gtest/gtest.h>
 

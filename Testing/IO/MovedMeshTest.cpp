@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Motion/MovedMesh.h"
+#include "smg/MovedMesh.h"
+#include "IO/Formats/Vsm/AttributeNames.h"
 
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "Testing/Support/ErrorMessage.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Conversion/Convert.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/InCoreOrder.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/Refinement.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/Convert.h"
+#include "smg/VsmReader.h"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include "IO/Order/GroupPages.h"
 #include "IO/Order/UsedVertices.h"
 #include "IO/Raw/RawMeshBuilder.h"
-#include "Solver/Core/Error.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
+#include "smg/Error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Preview/PreviewSource.h"
+#include "smg/Preview.h"
 
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Vsm/WriteVsm.h"

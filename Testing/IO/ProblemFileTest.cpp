@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Problem/ProblemFile.h"
+#include "IO/Problem/ProblemKeys.h"
+#include "smg/DescriptionFiles.h"
 
 #include "IO/Problem/ParseWhere.h"
-#include "Solver/Description/DescribedProblem.h"
 #include "Testing/IO/RegionFileFixture.h"
 #include "Testing/Support/DescribedMesh.h"
 #include "Testing/Support/SolveMesh.h"
+#include "smg/DescribedProblem.h"
 
 #include <set>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/ReservedNames.h"
 
-#include "IO/Conversion/Convert.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/Convert.h"
+#include "smg/VsmReader.h"
 
 #include <gtest/gtest.h>
 

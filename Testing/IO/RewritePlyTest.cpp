@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/AnyFormat/RewriteMesh.h"
+#include "smg/WriteMesh.h"
 
-#include "IO/Conversion/Convert.h"
 #include "IO/Formats/Ply/WritePly.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Motion/VertexNormals.h"
 #include "Solver/Stream/AddedColumn.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/IO/ShiftedSource.h"
 #include "Testing/IO/StreamFormatsFixture.h"
 #include "Testing/Support/RawMeshReading.h"
+#include "smg/Convert.h"
+#include "smg/VsmReader.h"
 
 #include <gtest/gtest.h>
 

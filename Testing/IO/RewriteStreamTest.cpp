@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/AnyFormat/RewriteMesh.h"
+#include "smg/WriteMesh.h"
 
 #include "IO/Formats/Streams/StreamFile.h"
 #include "Testing/IO/ShiftedSource.h"

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "IO/Formats/Streams/StreamConversion.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/VsmReader.h"
 
 #include <gtest/gtest.h>
 

@@ -11,12 +11,12 @@
 #include "IO/Formats/TetGen/TetGenFormat.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Raw/RawMeshBuilder.h"
-#include "Solver/Core/Error.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
+#include "smg/Error.h"
 
 #include <gtest/gtest.h>
 

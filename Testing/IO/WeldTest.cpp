@@ -2,9 +2,9 @@
 #include "IO/Raw/Weld.h"
 
 #include "IO/Raw/RawMeshBuilder.h"
-#include "Solver/Core/Error.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/Error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Ply/WritePly.h"
 
-#include "IO/Conversion/Convert.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "Testing/IO/ContainerMeshes.h"
 #include "Testing/IO/StreamFormatsFixture.h"
 #include "Testing/Support/RawMeshReading.h"
+#include "smg/Convert.h"
+#include "smg/VsmReader.h"
 
 #include <gtest/gtest.h>
 

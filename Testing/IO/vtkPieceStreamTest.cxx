@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkPieceStream.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/vtkStreamingMeshReader.h"
-#include "Solver/Core/Error.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/Error.h"
+#include "smg/VsmReader.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkElevationFilter.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Conversion/Convert.h"
 #include "IO/Formats/Vsm/Columns.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/Convert.h"
+#include "smg/VsmReader.h"
 
 #include "vtkElevationFilter.h"
 

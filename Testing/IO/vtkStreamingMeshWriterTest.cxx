@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkStreamingMeshWriter.h"
-#include "IO/Conversion/OpenMesh.h"
 #include "IO/Formats/Vsm/Columns.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/OpenMesh.h"
+#include "smg/VsmReader.h"
 
 #include "vtkContourFilter.h"
 #include "vtkDataSetTriangleFilter.h"

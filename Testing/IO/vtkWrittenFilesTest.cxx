@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include "IO/Formats/Vsm/AttributeNames.h"
-#include "Solver/Core/Error.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/Error.h"
 
 #include <vtkCellType.h>
 #include <vtkFloatArray.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/BlockFile.h"
-#include "Solver/Core/Error.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
+#include "smg/Error.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

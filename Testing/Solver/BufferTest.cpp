@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/Buffer.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Problem/CellWeights.h"
+#include "smg/CellWeights.h"
+#include "Solver/Problem/FlatCells.h"
 #include "Testing/Support/TestMeshes.h"
 
 #include <Eigen/Dense>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Operators/Extended.h"
-#include "Solver/SolveWith.h"
 #include "Testing/Solver/SolveTesting.h"
+#include "smg/SolveWith.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Deformation/DescribedHandles.h"
+#include "smg/DescribedHandles.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/StreamMesh.h"
 

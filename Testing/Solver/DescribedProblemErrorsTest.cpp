@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Description/DescribedProblem.h"
-#include "Solver/Solve.h"
 #include "Solver/Stream/OriginalNumbers.h"
+#include "smg/DescribedProblem.h"
+#include "smg/Solve.h"
 
 #include "Testing/Support/DescribedMesh.h"
 #include "Testing/Support/ErrorMessage.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Description/DescribedProblem.h"
+#include "smg/DescribedProblem.h"
 
 #include "Testing/Support/DescribedMesh.h"
 #include "Testing/Support/ErrorMessage.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Deformation/HandleMotion.h"
+#include "smg/DeformationDescription.h"
 
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/NotNumbers.h"

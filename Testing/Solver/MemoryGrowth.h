@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Report.h"
 #include "Testing/Support/StreamMesh.h"
+#include "smg/Report.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Report.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/ScratchError.h"
+#include "smg/Report.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/Pool.h"
-#include "Solver/Core/Error.h"
 #include "Solver/Storage/Buffer.h"
 #include "Testing/Solver/SolveTesting.h"
+#include "smg/Error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Problem/Problem.h"
+#include "smg/Problem.h"
 #include "Testing/Solver/SolveTesting.h"
 
 #include <gtest/gtest.h>

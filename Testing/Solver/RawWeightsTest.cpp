@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Problem/CellWeights.h"
+#include "Solver/Problem/FlatCells.h"
 #include "Solver/Problem/RowShortfall.h"
 #include "Testing/Solver/SolveTesting.h"
+#include "smg/CellWeights.h"
 
 #include <gtest/gtest.h>
 

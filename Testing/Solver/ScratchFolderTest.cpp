@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/ScratchFolder.h"
 
-#include "Solver/Core/Error.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/Error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Deform.h"
+#include "Solver/Engine/CheckOptions.h"
 #include "Solver/Shi2006/Shi2006.h"
 #include "Testing/Solver/MemoryLimits.h"
 #include "Testing/Solver/Shi2006Testing.h"
 #include "Testing/Support/ArrayHandles.h"
+#include "smg/Deform.h"
 
 #include <gtest/gtest.h>
 

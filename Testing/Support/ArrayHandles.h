@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Deformation/Handles.h"
 #include "Testing/Support/StreamMesh.h"
+#include "smg/Handles.h"
 
 #include <Eigen/Core>
 

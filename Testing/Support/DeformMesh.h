@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Deform.h"
 #include "Testing/Support/SolveMesh.h"
+#include "smg/Deform.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Description/DescribedProblem.h"
 #include "Testing/Support/MemorySource.h"
+#include "smg/DescribedProblem.h"
 
 #include <algorithm>
 #include <cmath>

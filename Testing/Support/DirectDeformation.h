@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Deformation/Handles.h"
-#include "Solver/Problem/Problem.h"
 #include "Testing/Support/StreamMesh.h"
+#include "smg/Handles.h"
+#include "smg/Problem.h"
 
 #include <Eigen/Core>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Support/EdgeWeights.h"
 
-#include "Solver/Core/Error.h"
 #include "Testing/Support/CellWeights.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Problem/Problem.h"
 #include "Testing/Support/StreamMesh.h"
+#include "smg/Problem.h"
 
 #include <Eigen/Core>
 

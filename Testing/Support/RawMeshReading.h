@@ -3,7 +3,7 @@
 
 #include "IO/AnyFormat/Importer.h"
 #include "IO/Raw/RawMesh.h"
-#include "Solver/Stream/Column.h"
+#include "smg/Column.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Solve.h"
 #include "Testing/Support/MemorySource.h"
+#include "smg/Solve.h"
 
 #include <Eigen/Core>
 

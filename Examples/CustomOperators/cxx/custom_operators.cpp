@@ -26,9 +26,8 @@ Run it:
     wires, over-relaxed: converged after 7 cycles, relative residual 2.73623e-11
 */
 
-#include "IO/Conversion/OpenMesh.h"
-#include "Solver/Operators/Extended.h"
-#include "Solver/SolveWith.h"
+#include <smg/OpenMesh.h>
+#include <smg/SolveWith.h>
 
 #include <cmath>
 #include <iostream>

@@ -25,12 +25,12 @@ Run it:
       position: 5 cycles, relative residual 1.7581e-07
 */
 
-#include "IO/AnyFormat/WriteMesh.h"
-#include "IO/Conversion/OpenMesh.h"
-#include "IO/Motion/MovedMesh.h"
-#include "IO/Problem/HandleFile.h"
-#include "Solver/Deform.h"
-#include "Solver/Deformation/DescribedHandles.h"
+#include <smg/Deform.h>
+#include <smg/DescribedHandles.h>
+#include <smg/DescriptionFiles.h>
+#include <smg/MovedMesh.h>
+#include <smg/OpenMesh.h>
+#include <smg/WriteMesh.h>
 
 #include <iostream>
 

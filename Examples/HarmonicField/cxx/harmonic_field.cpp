@@ -21,10 +21,10 @@ Run it:
     isolines.obj: 7378 segments of 23 isolines
 */
 
-#include "IO/Conversion/OpenMesh.h"
-#include "Solver/Core/Error.h"
-#include "Solver/Description/DescribedProblem.h"
-#include "Solver/Solve.h"
+#include <smg/DescribedProblem.h>
+#include <smg/Error.h>
+#include <smg/OpenMesh.h>
+#include <smg/Solve.h>
 
 #include <array>
 #include <deque>

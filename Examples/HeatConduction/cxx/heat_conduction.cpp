@@ -27,11 +27,11 @@ Run it:
     relative imbalance of all flows: -1.04355e-09
 */
 
-#include "IO/AnyFormat/WriteMesh.h"
-#include "IO/Conversion/OpenMesh.h"
-#include "IO/Output/SolvedMesh.h"
-#include "Solver/Description/DescribedProblem.h"
-#include "Solver/Solve.h"
+#include <smg/DescribedProblem.h>
+#include <smg/OpenMesh.h>
+#include <smg/Solve.h>
+#include <smg/SolvedMesh.h>
+#include <smg/WriteMesh.h>
 
 #include <iostream>
 

@@ -4,7 +4,7 @@
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextScanner.h"
 #include "IO/Formats/Ply/PlyHeader.h"
-#include "Solver/Core/ScalarType.h"
+#include "smg/Column.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/Files/InputFile.h"
-#include "Solver/Core/ScalarType.h"
+#include "smg/Column.h"
 
 #include <cstdint>
 #include <string>

@@ -6,7 +6,7 @@
 #include "IO/Formats/Ply/PlyPlan.h"
 #include "IO/Formats/Shared/TriangleRuns.h"
 #include "IO/Raw/RawMeshBuilder.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/Formats/Ply/PlyHeader.h"
-#include "Solver/Stream/Column.h"
+#include "smg/Column.h"
 
 #include <cstddef>
 #include <cstdint>

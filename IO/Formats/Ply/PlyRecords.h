@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Stream/Column.h"
+#include "smg/Column.h"
 
 #include <cstddef>
 #include <cstdint>

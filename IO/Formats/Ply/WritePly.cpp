@@ -6,7 +6,7 @@
 #include "IO/Files/Suffix.h"
 #include "IO/Formats/Ply/PlyColumns.h"
 #include "IO/Formats/Ply/PlyRecords.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <cstddef>
 #include <limits>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Core/Progress.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/MeshSource.h"
 
 #include <cstdint>
 #include <filesystem>

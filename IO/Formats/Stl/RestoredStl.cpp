@@ -5,7 +5,7 @@
 #include "IO/Restore/PlacedColumns.h"
 #include "IO/Restore/RestoredMesh.h"
 #include "IO/Restore/RowSort.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include "IO/Formats/Shared/TriangleRuns.h"
 #include "IO/Formats/Stl/StlLayout.h"
 #include "IO/Raw/RawMeshBuilder.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <bit>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Vsm/Columns.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "IO/Formats/Streams/StreamFile.h"
-#include "IO/Formats/Vsm/IsolatedVertices.h"
 #include "IO/Formats/Vsm/PagedArray.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
+#include "smg/VsmReader.h"
 
 #include <array>
 #include <cstdint>

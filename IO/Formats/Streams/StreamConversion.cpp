@@ -6,8 +6,8 @@
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Streams/StreamFileWriter.h"
 #include "IO/Formats/Vsm/PagedArray.h"
-#include "IO/Formats/Vsm/VsmReader.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
+#include "smg/VsmReader.h"
 
 #include <algorithm>
 #include <limits>

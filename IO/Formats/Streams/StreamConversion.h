@@ -3,8 +3,8 @@
 
 #include "Solver/Core/Progress.h"
 #include "Solver/Storage/BlockFile.h"
-#include "Solver/Stream/MeshSource.h"
 #include "Solver/Stream/OriginalNumbers.h"
+#include "smg/MeshSource.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -7,7 +7,7 @@
 #include "IO/Formats/Streams/BinaryStreamHeader.h"
 #include "IO/Formats/Streams/BinaryStreamReader.h"
 #include "IO/Formats/Streams/TextStreamReader.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Stream/MeshSource.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
 
 #include <array>
 #include <cstdint>
@@ -52,7 +53,7 @@ bool isStreamSuffix(std::string_view suffix);
  * Finds the format of a streaming mesh file by its content, by its suffix where the content leaves
  * it open. Throws Error if it is none of the four, by name for SMC, SMD, SVC and gzip.
  */
-StreamFormat detectStreamFormat(const std::filesystem::path& path);
+SMG_EXPORT StreamFormat detectStreamFormat(const std::filesystem::path& path);
 
 /** Vertex columns that the values of a SVA or SVB vertex beyond its three coordinates become. */
 inline constexpr const char* StreamScalarName = "Scalar";         ///< float32

@@ -6,7 +6,7 @@
 #include "IO/Files/TextScanner.h"
 #include "IO/Formats/Vsm/AttributeNames.h"
 #include "IO/Raw/RawMeshBuilder.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <array>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Core/Progress.h"
+#include "smg/Export.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -15,6 +16,7 @@ namespace smg
  * @return the number of blocks
  * @throws Error naming the file, the table and the block if one is wrong; Cancelled
  */
-std::int64_t checkVsm(const std::filesystem::path& path, const ProgressFunction& progress = {});
+SMG_EXPORT std::int64_t checkVsm(
+  const std::filesystem::path& path, const ProgressFunction& progress = {});
 
 } // namespace smg

@@ -2,7 +2,7 @@
 #include "IO/Formats/Vsm/IsolatedWriter.h"
 
 #include "IO/Formats/Vsm/VsmFormat.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <utility>
 

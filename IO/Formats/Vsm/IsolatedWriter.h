@@ -4,7 +4,7 @@
 #include "IO/Formats/Vsm/PositionBuffer.h"
 #include "IO/Formats/Vsm/RowBuffer.h"
 #include "Solver/Storage/BlockFile.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/MeshSource.h"
 
 #include <cstdint>
 #include <span>

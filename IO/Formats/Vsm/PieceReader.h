@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/Vsm/MeshPiece.h"
 #include "IO/Formats/Vsm/VertexReader.h"
 #include "IO/Formats/Vsm/VsmFile.h"
+#include "smg/VsmReader.h"
 
 #include <cstdint>
 #include <string>

@@ -3,7 +3,7 @@
 
 #include "IO/Formats/Vsm/IsolatedWriter.h"
 #include "IO/Formats/Vsm/PackedIntegers.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <nlohmann/json.hpp>
 

@@ -4,7 +4,7 @@
 #include "IO/Formats/Vsm/RowReader.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
 #include "Solver/Storage/BlockFile.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/MeshSource.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Formats/Vsm/VsmReader.h"
+#include "smg/VsmReader.h"
 
 #include "IO/Formats/Vsm/Columns.h"
 #include "IO/Formats/Vsm/PieceReader.h"

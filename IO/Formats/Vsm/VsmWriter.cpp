@@ -9,7 +9,7 @@
 #include "IO/Formats/Vsm/RowBuffer.h"
 #include "IO/Formats/Vsm/StreamStatistics.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <nlohmann/json.hpp>
 

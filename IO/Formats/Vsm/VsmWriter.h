@@ -2,7 +2,8 @@
 #pragma once
 
 #include "Solver/Storage/BlockFile.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -22,7 +23,7 @@ namespace smg
  * is kept in pages, which go to a scratch file beside `path` if they are too many. A stream whose
  * `MeshBlock::finalized` advances needs next to no pages; one that leaves it at 0 is legal.
  */
-class VsmWriter
+class SMG_EXPORT VsmWriter
 {
 public:
   /**

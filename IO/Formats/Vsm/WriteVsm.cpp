@@ -3,8 +3,8 @@
 
 #include "IO/Formats/Vsm/Columns.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
+#include "smg/VsmReader.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -4,7 +4,8 @@
 #include "IO/Formats/Vsm/VsmWriter.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Storage/BlockFile.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
 
 #include <filesystem>
 #include <functional>
@@ -34,6 +35,7 @@ WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path,
  * Gives the isolated vertices of a .vsm file, with the columns that both have, to the writer of a
  * stream like `info`: a stream that was made of a .vsm file does not carry them.
  */
-void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer);
+SMG_EXPORT void copyIsolated(
+  const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer);
 
 } // namespace smg

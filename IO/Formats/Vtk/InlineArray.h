@@ -3,7 +3,7 @@
 
 #include "IO/Files/Base64.h"
 #include "IO/Files/PositionedFile.h"
-#include "Solver/Stream/Column.h"
+#include "smg/Column.h"
 
 #include <cstdint>
 #include <span>

@@ -6,7 +6,7 @@
 #include "IO/Formats/Vtk/VtkXmlLayout.h"
 #include "IO/Formats/Vtk/VtkXmlPieces.h"
 #include "IO/Raw/RawMeshBuilder.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <filesystem>
 #include <system_error>

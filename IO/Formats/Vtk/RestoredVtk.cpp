@@ -3,7 +3,7 @@
 #include "IO/Files/PositionedFile.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Restore/RestoredMesh.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <limits>
 #include <string_view>

@@ -2,7 +2,7 @@
 #include "IO/Formats/Vtk/VtkArrayReader.h"
 
 #include "IO/Files/InQuotes.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <bit>

@@ -14,7 +14,7 @@ extern const Format LegacyVtkFormat;
  */
 extern const Format VtkXmlFormat;
 /** The pieces that a .pvtp or .pvtu file names, one after the other. */
-extern const Format ParallelVtkXmlFormat;
+SMG_EXPORT extern const Format ParallelVtkXmlFormat;
 
 void importLegacyVtk(InputFile& file, RawMeshBuilder& builder);
 void importVtkXml(InputFile& file, RawMeshBuilder& builder);

@@ -5,6 +5,7 @@
 #include "IO/Formats/Vtk/VtkLayout.h"
 #include "IO/Raw/RawMeshBuilder.h"
 #include "Solver/Core/Progress.h"
+#include "smg/Export.h"
 
 namespace smg
 {
@@ -17,7 +18,7 @@ namespace smg
  * @param progress where there are several files; else `file` tells it
  * @throws Error with the place in a file; Cancelled
  */
-void readVtkMesh(InputFile& file, const VtkLayout& layout, RawMeshBuilder& builder,
+SMG_EXPORT void readVtkMesh(InputFile& file, const VtkLayout& layout, RawMeshBuilder& builder,
   const ProgressFunction& progress = {});
 
 } // namespace smg

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/ScalarType.h"
+#include "smg/Column.h"
+#include "smg/Export.h"
 
 #include <string>
 
@@ -9,9 +10,9 @@ namespace smg
 {
 
 /** The name of a scalar type in VTK's XML files: "Int8", "UInt8" ... "Float64". */
-std::string vtkXmlTypeName(ScalarType type);
+SMG_EXPORT std::string vtkXmlTypeName(ScalarType type);
 
 /** The text with the characters that mean something in XML written as entities. */
-std::string xmlEscaped(const std::string& text);
+SMG_EXPORT std::string xmlEscaped(const std::string& text);
 
 } // namespace smg

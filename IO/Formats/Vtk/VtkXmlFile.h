@@ -3,7 +3,7 @@
 
 #include "IO/Files/PositionedFile.h"
 #include "IO/Formats/Vtk/InlineArray.h"
-#include "Solver/Stream/Column.h"
+#include "smg/Column.h"
 
 #include <cstdint>
 #include <filesystem>

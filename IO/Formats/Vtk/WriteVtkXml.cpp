@@ -3,7 +3,7 @@
 
 #include "IO/Files/Suffix.h"
 #include "IO/Formats/Vtk/VtkXmlFile.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <cstdint>
 #include <string>

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "Solver/Core/Progress.h"
-#include "Solver/Stream/MeshSource.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
 
 #include <filesystem>
 
@@ -17,7 +18,7 @@ namespace smg
  * @throws Error if the suffix does not go with the cells or the file cannot be written; Cancelled.
  * Nothing is left of the file then.
  */
-void writeVtkXml(
+SMG_EXPORT void writeVtkXml(
   MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress = {});
 
 /** Throws Error unless `path` ends with .vtu, or with .vtp and the cells are triangles. */

@@ -2,7 +2,7 @@
 #include "IO/Formats/VtkHdf/VtkHdfFormat.h"
 
 #include "IO/Formats/VtkHdf/VtkHdfLibrary.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <dlfcn.h>
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Formats/Format.h"
+#include "smg/Export.h"
 
 namespace smg
 {
@@ -21,4 +22,4 @@ struct VtkHdfLibrary
 } // namespace smg
 
 /** The library's only symbol that is looked up. */
-extern "C" const smg::VtkHdfLibrary* smgVtkHdfLibrary();
+extern "C" SMG_EXPORT const smg::VtkHdfLibrary* smgVtkHdfLibrary();

@@ -3,7 +3,7 @@
 
 #include "IO/Files/InQuotes.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Handle.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/ScalarType.h"
+#include "smg/Column.h"
 
 #include <hdf5.h>
 

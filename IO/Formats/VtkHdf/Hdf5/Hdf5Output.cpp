@@ -2,7 +2,7 @@
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Output.h"
 
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Handle.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <array>

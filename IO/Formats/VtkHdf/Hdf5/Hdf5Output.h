@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/ScalarType.h"
 #include "Solver/Storage/FileDescriptor.h"
+#include "smg/Column.h"
 
 #include <cstddef>
 #include <cstdint>

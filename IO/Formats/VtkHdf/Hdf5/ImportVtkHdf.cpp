@@ -6,7 +6,7 @@
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5File.h"
 #include "IO/Formats/VtkHdf/Hdf5/VtkHdfLayout.h"
 #include "IO/Raw/RawMeshBuilder.h"
-#include "Solver/Core/Error.h"
+#include "smg/Error.h"
 
 #include <string>
 

@@ -2,11 +2,10 @@
 #include "IO/Formats/VtkHdf/Hdf5/WriteVtkHdf.h"
 
 #include "IO/Files/InQuotes.h"
-#include "IO/Formats/Vsm/MeshPiece.h"
 #include "IO/Formats/Vsm/ReservedNames.h"
-#include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Output.h"
 #include "IO/Formats/VtkHdf/Hdf5/VtkHdfRoot.h"
+#include "smg/VsmReader.h"
 
 #include <algorithm>
 #include <array>

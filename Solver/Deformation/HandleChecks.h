@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "smg/Handles.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace smg
+{
+
+/** Throws Error unless the arrays are those of so many vertices. */
+void checkSize(const VertexHandles& handles, std::int64_t vertices);
+
+/**
+ * Throws Error if what is said at held vertex `k` of the arrays, vertex `i` of the mesh, is not
+ * finite or beyond all reason.
+ */
+void checkHeld(const VertexHandles& handles, std::size_t k, std::int64_t i);
+
+} // namespace smg

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Description/Selection.h"
+#include "Solver/Description/ValueOnMesh.h"
+#include "smg/DeformationDescription.h"
+#include "smg/Handles.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** What DescribedHandles hides: the handles of a description, compiled for a mesh. */
+class HandlesOnMesh : public Handles
+{
+public:
+  /** As DescribedHandles. */
+  HandlesOnMesh(
+    const DeformationDescription& description, const StreamInfo& mesh, const std::string& name);
+  HandlesOnMesh(const HandlesOnMesh&) = delete;
+  HandlesOnMesh& operator=(const HandlesOnMesh&) = delete;
+
+  /** The columns that the mesh source must deliver. */
+  std::vector<std::string> vertexColumns() const { return this->OfMesh.vertexColumns(); }
+  std::vector<std::string> cellColumns() const { return this->OfMesh.cellColumns(); }
+
+  /** As DescribedHandles::prepare(). */
+  void prepare(MeshSource& mesh, const std::filesystem::path& scratch);
+
+  /** Throws Error naming the column and the vertex if a number there is not finite. */
+  void at(const MeshBlock& block, VertexHandles& handles) override;
+
+  /**
+   * What a user should know when all blocks have been asked for: handles whose vertices all follow
+   * later ones, and that nothing moves.
+   */
+  std::vector<std::string> notes() const;
+
+private:
+  /** The values of a handle at each vertex. */
+  struct Values
+  {
+    ValueOnMesh target, rotation, logScale;
+  };
+  struct Handle
+  {
+    std::unique_ptr<Selection> where; ///< null: everywhere
+    std::optional<NamedColumn> mask;  ///< that selects, and counts
+    const Column* counts = nullptr;   ///< the mask in the block that was started; null: none
+    HandleMotion motion;              ///< if there are no values
+    std::optional<Values> values;
+    std::string key;
+    std::int64_t following = 0; ///< vertices so far that no later handle holds
+    bool moves =
+      false; ///< whether one that follows it is to go or turn or grow, as far as is known
+  };
+
+  Handle compile(const HandleDescription& handle, const std::string& key);
+  /** Begins a block; answers whether the handle holds each of its vertices. */
+  std::span<const std::uint8_t> startBlock(Handle& handle, const MeshBlock& block);
+  /** Says what the handle says at held vertex `i` of the block. */
+  void hold(const Handle& handle, const MeshBlock& block, std::size_t i, VertexHandles& to) const;
+  void read(const ValueOnMesh& value, const Handle& handle, const MeshBlock& block, std::size_t i,
+    double* numbers) const;
+
+  MeshColumns OfMesh;
+  std::vector<Handle> All;
+  std::vector<std::uint8_t> Everywhere; ///< 1 at each vertex of a block
+  std::vector<Handle*> Followed;        ///< by each vertex of a block; null: it is free
+};
+
+} // namespace smg

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "smg/Deform.h"
+#include "smg/Solve.h"
+
+namespace smg
+{
+
+/** Throws Error if an option is out of range, but for the operator set's name; solve() does so, too. */
+SMG_EXPORT void checkOptions(const SolveOptions& options);
+/** The same of the options of a deformation, with the operator set's name; deform() does so, too. */
+SMG_EXPORT void checkOptions(const DeformOptions& options);
+/**
+ * Throws Error unless the library has an operator set of that name, which goes with the other
+ * options; solve() does so, too.
+ */
+SMG_EXPORT void checkOperators(const SolveOptions& options);
+/** Throws Error if the problem has no column; solve() does so, too. */
+SMG_EXPORT void checkProblem(const Problem& problem);
+
+} // namespace smg
