@@ -27,7 +27,7 @@ struct MeshOfFile
   std::vector<std::vector<std::int64_t>> cells;
   std::vector<std::int64_t> numbers; ///< OriginalCellId of each cell, ascending
   std::vector<Column> vertexColumns; ///< a tuple a point
-  std::vector<Column> cellColumns;   ///< a tuple a cell
+  std::vector<Column> cellColumns;   ///< a tuple per cell
 
   std::int64_t vertices() const { return static_cast<std::int64_t>(this->points.size() / 3); }
 };

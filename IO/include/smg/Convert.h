@@ -18,7 +18,7 @@ namespace smg
 /** The order that a conversion brings a mesh into. */
 enum class StreamOrder
 {
-  BreadthFirst, ///< from planned starts, component after component: `bfs`
+  BreadthFirst, ///< from chosen starting vertices, component by component: `bfs`
   Axis,         ///< along the longest side of the bounds: `axis`
   Keep,         ///< the order of the cells in the file: `keep`
   Spectral      ///< by the Fiedler vector: `spectral`
@@ -124,7 +124,7 @@ struct SMG_EXPORT ConversionReport
  * little room for the scratch files (told before they are written); Cancelled. No output and no
  * scratch file is left behind then.
  */
-SMG_EXPORT ConversionReport convert(const std::filesystem::path& in, const std::filesystem::path& out,
-  const ConversionOptions& options = {});
+SMG_EXPORT ConversionReport convert(const std::filesystem::path& in,
+  const std::filesystem::path& out, const ConversionOptions& options = {});
 
 } // namespace smg

@@ -31,16 +31,16 @@ namespace smg
  *             | "sphere": [x, y, z, r] | "vertices": [original numbers]
  *             | "tag": ["column", value] | "mask": "column" | "nearest": [[x, y, z], ...]
  *
- * An entry without WHERE holds everywhere. Every key may be left out; ProblemDescription says what
- * it means and what holds without it. The entries of a list in C have no lists themselves.
- * `raw-cotangent` is an old name of `cotangent`. docs/problem.schema.json says the same as a JSON
- * schema. What the file does not say is as in `defaults`; conditions are added to theirs.
+ * An entry without WHERE holds everywhere. All keys are optional; ProblemDescription documents
+ * their meaning and defaults. The entries of a list in C are not lists themselves. `raw-cotangent`
+ * is an alias of `cotangent`. docs/problem.schema.json is the corresponding JSON schema. Missing
+ * data are taken from `defaults`; conditions are appended to theirs.
  * @throws Error naming the file and the place in it
  */
 SMG_EXPORT ProblemDescription readProblemFile(
   const std::filesystem::path& path, const ProblemDescription& defaults = {});
 
-/** The same from the text of such a file; errors call it `name`. */
+/** The same from the text of such a file, named `name` in error messages. */
 SMG_EXPORT ProblemDescription readProblemText(
   const std::string& text, const std::string& name, const ProblemDescription& defaults = {});
 
@@ -62,12 +62,13 @@ SMG_EXPORT ProblemDescription readProblemText(
  * `tag`, `mask` and `nearest`. A handle has a region and one of three:
  * - `fixed`;
  * - one or more of `rotate`, `scale` (from 1e-20 to 1e20) and `translate`: rotation and scale about
- *   the same centre first, then translation. The axis has any length but 0, the angle is from -1e6
- *   to 1e6 degrees: 200 are not -160. The centre stands in the rotation or in the handle; without
- *   one it is the middle of the handle's sphere or box, and an error for other regions;
- * - `target`, where each vertex goes: the name of a vertex column, [x, y, z] or "position"; with
- *   it, if they are not 0, `rotation` (the unit axis times the angle in radians: a column or three
- *   numbers) and `logScale` (the natural logarithm of the scale: a column or a number).
+ *   the same centre first, then translation. The axis has any length except 0, the angle is from
+ *   -1e6 to 1e6 degrees: 200 is not the same as -160. The centre is part of the rotation or of the
+ *   handle; the default is the centre of the sphere or box, and an error for other regions;
+ * - `target`, the target of each vertex: the name of a vertex column, [x, y, z] or "position"; with
+ *   it optionally `rotation` (the unit axis times the angle in radians: a column or three numbers;
+ *   default 0) and `logScale` (the natural logarithm of the scale: a column or a number; default
+ * 0).
  *
  * `cycles` (V-cycles of each step, 1 to 1000000) or `tolerance` (between 0 and 1), not both, say
  * when to stop; they and `weights` (see Weights in smg/Problem.h) may be left out.

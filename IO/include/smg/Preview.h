@@ -14,16 +14,14 @@
 namespace smg
 {
 
-/** Number of points of a preview where nothing else is asked for. */
+/** The default number of points of a preview. */
 inline constexpr std::int64_t DefaultPreviewPoints = 10000;
-/** What can be asked for. */
+/** The range of the number of points. */
 inline constexpr std::int64_t LeastPreviewPoints = 8;
 inline constexpr std::int64_t MostPreviewPoints = 1000000;
 
-/**
- * Vertex column of a preview, int64: which vertex of the mesh a point is, by its stream index. (The
- * name GlobalIds belongs to VTK's pieces, where it means the same.)
- */
+/** Vertex column of a preview, int64: the stream index of each point in the mesh. (The name
+ * GlobalIds is reserved for VTK pieces, where it has the same meaning.) */
 inline constexpr const char* StreamIndexName = "StreamIndex";
 
 /**

@@ -27,16 +27,16 @@ struct WriteMeshOptions
 };
 
 /**
- * Writes a mesh stream, which says its numbers of vertices and cells, in the format of the suffix:
- * .vsm, .ply, .vtp, .vtu or .vtkhdf with all its columns, or .sma, .smb, .sva or .svb.
- * @return a sentence for each thing that the format does not hold as the mesh has it
- * @throws Error as checkOutput() in MeshFile.h, if the stream is not valid, or the file cannot be
- * written; Cancelled. Nothing is left of the file then.
+ * Writes a mesh stream with known numbers of vertices and cells in the format of the suffix: .vsm,
+ * .ply, .vtp, .vtu or .vtkhdf with all its columns, or .sma, .smb, .sva or .svb.
+ * @return a note for each part of the mesh that the format cannot represent exactly
+ * @throws Error like checkOutput() in MeshFile.h, if the stream is invalid, or if the file cannot
+ * be written; Cancelled. No part of the file is left then.
  */
 SMG_EXPORT std::vector<std::string> writeMesh(
   MeshSource& source, const std::filesystem::path& path, const WriteMeshOptions& options = {});
 
-/** The same of a .vsm file. */
+/** The same for a .vsm file. */
 SMG_EXPORT std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
   const std::filesystem::path& path, const ProgressFunction& progress = {});
 
@@ -50,11 +50,8 @@ struct RewriteOptions
   ProgressFunction progress;
 };
 
-/**
- * Whether rewriteMesh() writes `out` from `in`: both names or contents are those of streaming
- * formats (SMA, SMB, SVA, SVB) of the same cells, or both of PLY. Throws Error if `in` cannot be
- * read.
- */
+/** Whether rewriteMesh() can write `out` from `in`: both are streaming formats (SMA, SMB, SVA, SVB)
+ * of the same cells by name or content, or both are PLY. Throws Error if `in` cannot be read. */
 SMG_EXPORT bool canRewrite(const std::filesystem::path& in, const std::filesystem::path& out);
 
 /**

@@ -14,7 +14,7 @@
 namespace smg
 {
 
-/** The scalar types a column may have. The values are part of the file format. */
+/** The scalar types of columns. The values are part of the file format. */
 enum class ScalarType : std::uint8_t
 {
   Int8 = 0,
@@ -97,7 +97,7 @@ enum class Codec : std::uint8_t
   Zstd = 2
 };
 
-/** What a column is: its name, scalar type and number of components of a tuple. */
+/** The name, scalar type and number of components of a column. */
 struct ColumnSpec
 {
   std::string name;

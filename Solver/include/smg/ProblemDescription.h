@@ -14,12 +14,12 @@
 namespace smg
 {
 
-/** The vertex's own coordinates, for three columns. */
+/** The coordinates of the vertex, for three columns. */
 struct Position
 {
 };
 
-/** Numbers, the column of the mesh of a name, or the position. */
+/** Numbers, the name of a column of the mesh, or the position. */
 class DataValue
 {
 public:
@@ -48,12 +48,12 @@ public:
   {
   }
 
-  /** The numbers; null: it is something else. */
+  /** The numbers; null for other values. */
   const std::vector<double>* numbers() const
   {
     return std::get_if<std::vector<double>>(&this->What);
   }
-  /** The name of the column; null: it is something else. */
+  /** The name of the column; null for other values. */
   const std::string* column() const { return std::get_if<std::string>(&this->What); }
   bool isPosition() const { return std::holds_alternative<Position>(this->What); }
 
@@ -68,10 +68,8 @@ struct PlacedValue
   DataValue value;
 };
 
-/**
- * A datum of a problem, part by part: of the entries that hold somewhere the last one counts. One
- * without entries is not given.
- */
+/** A datum of a problem, piecewise: the last of the entries that apply at a place counts. Without
+ * entries, the datum is not given. */
 struct Datum
 {
   std::vector<PlacedValue> entries;

@@ -14,8 +14,7 @@
 namespace smg
 {
 
-/** A part of space, or a set of vertices: selects the vertices of a mesh that something holds for.
- */
+/** A part of space, or a set of vertices, which selects vertices of a mesh. */
 class SMG_EXPORT Region
 {
 public:
@@ -88,19 +87,19 @@ struct ColumnMask
 {
   std::string column;
 };
-/** The vertices nearest to these points, one for each; of several, the first in the stream. */
+/** The nearest vertex to each of these points; of several, the first in the stream. */
 struct NearestVertices
 {
   std::vector<std::array<double, 3>> points;
 };
 
 /**
- * A part of a mesh that something holds for.
+ * A part of a mesh on which a datum is defined.
  *
  * A region, a column of the vertices and points select vertices; cells and facets of the boundary
  * are selected if all their corners are. A column of the cells selects cells, their vertices and
- * their facets. Where vertices and cells have a column of the name, conductivity and field look at
- * that of the cells, everything else at that of the vertices.
+ * their facets. If both vertices and cells have a column of the name, conductivity and field refer
+ * to that of the cells, all other data to that of the vertices.
  */
 using Where = std::variant<Everywhere, Region, ColumnTag, ColumnMask, NearestVertices>;
 

@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** What a solve did and needed. The same in C++, on the command line and in VTK field data. */
+/** The report of a solve, the same in C++, on the command line and in VTK field data. */
 struct SMG_EXPORT Report
 {
   struct Level
