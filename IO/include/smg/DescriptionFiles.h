@@ -66,9 +66,8 @@ SMG_EXPORT ProblemDescription readProblemText(
  *   -1e6 to 1e6 degrees: 200 is not the same as -160. The centre is part of the rotation or of the
  *   handle; the default is the centre of the sphere or box, and an error for other regions;
  * - `target`, the target of each vertex: the name of a vertex column, [x, y, z] or "position"; with
- *   it optionally `rotation` (the unit axis times the angle in radians: a column or three numbers;
- *   default 0) and `logScale` (the natural logarithm of the scale: a column or a number; default
- * 0).
+ *   it optionally `rotation` (the unit axis times the angle in radians: a column or three numbers)
+ *   and `logScale` (the natural logarithm of the scale: a column or a number), both by default 0.
  *
  * `cycles` (V-cycles of each step, 1 to 1000000) or `tolerance` (between 0 and 1), not both, say
  * when to stop; they and `weights` (see Weights in smg/Problem.h) may be left out.
