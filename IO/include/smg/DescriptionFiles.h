@@ -58,8 +58,8 @@ SMG_EXPORT ProblemDescription readProblemText(
  *                      "rotation": "HandleRotation", "logScale": "HandleLogScale" } ],
  *       "weights": "clamped" | "cotangent" | "uniform", "cycles": k }
  *
- * A region is any WHERE of a problem file (see readProblemFile()): beside those above, vertices by
- * `tag`, `mask` and `nearest`. A handle has a region and one of three:
+ * A region is any WHERE of a problem file (see readProblemFile()), including `tag`, `mask` and
+ * `nearest`. A handle has a region and one of three:
  * - `fixed`;
  * - one or more of `rotate`, `scale` (from 1e-20 to 1e20) and `translate`: rotation and scale about
  *   the same centre first, then translation. The axis has any length except 0, the angle is from
@@ -69,8 +69,8 @@ SMG_EXPORT ProblemDescription readProblemText(
  *   it optionally `rotation` (the unit axis times the angle in radians: a column or three numbers)
  *   and `logScale` (the natural logarithm of the scale: a column or a number), both by default 0.
  *
- * `cycles` (V-cycles of each step, 1 to 1000000) or `tolerance` (between 0 and 1), not both, say
- * when to stop; they and `weights` (see Weights in smg/Problem.h) may be left out.
+ * `cycles` (V-cycles of each step, 1 to 1000000) or `tolerance` (between 0 and 1), but not both,
+ * define the stopping criterion; these and `weights` (see Weights in smg/Problem.h) are optional.
  * @throws Error naming the file and the place in it
  */
 SMG_EXPORT DeformationDescription readHandleFile(const std::filesystem::path& path);

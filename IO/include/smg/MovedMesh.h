@@ -14,33 +14,31 @@
 namespace smg
 {
 
-/** What becomes of the columns `Normals` of a mesh whose vertices move. */
+/** The treatment of the columns `Normals` of a mesh with moved vertices. */
 enum class MovedNormals
 {
-  Recompute, ///< computed anew where the mesh has them, of triangles; left out of tetrahedra
-  Drop       ///< left out
+  Recompute, ///< existing normals of triangles are recomputed, those of tetrahedra omitted
+  Drop       ///< omitted
 };
 
-/** How normals are computed. */
+/** Options of the computation of normals. */
 struct NormalsOptions
 {
   /** Folder for the scratch file; empty: the system's temporary folder. */
   std::filesystem::path scratch;
-  /** Bytes of memory for the vertices that are not final; what exceeds it goes to scratch files. */
+  /** Bytes of memory for vertices that are not final; the excess is stored in scratch files. */
   std::int64_t memory = std::int64_t(64) << 20;
   ProgressFunction progress;
 };
 
-/**
- * A mesh with its vertices moved: the same stream with all its columns, with the positions, in the
- * precision of the mesh, that a solution of three columns says, and with normals that fit.
- */
+/** A mesh with moved vertices: the same stream with all its columns, with the positions of a
+ * solution of three columns in the precision of the mesh, and with matching normals. */
 class SMG_EXPORT MovedMesh
 {
 public:
   /**
-   * Mesh and positions must live as long as this. Reads the mesh once if normals are computed.
-   * @throws Error if a new position is not finite in the mesh's precision, or a file fails;
+   * Mesh and positions must outlive the object. Reads the mesh once if normals are computed.
+   * @throws Error if a new position is not finite in the precision of the mesh, or a file fails;
    * Cancelled
    */
   MovedMesh(const VsmReader& mesh, Solution& positions, MovedNormals normals,
@@ -48,7 +46,7 @@ public:
 
   ~MovedMesh();
 
-  /** The moved stream, from its first block; of its info, the bounds are not known. */
+  /** The moved stream, from its first block; the bounds in its info are unknown. */
   std::unique_ptr<MeshSource> source() const;
 
 private:

@@ -11,14 +11,14 @@
 namespace smg
 {
 
-/** A mesh file of any kind, open as a .vsm file. */
+/** A mesh file of any format, open as a .vsm file. */
 class SMG_EXPORT OpenedMesh
 {
 public:
   ~OpenedMesh();
 
   VsmReader& reader();
-  /** What the conversion did; null if the file is a .vsm file. */
+  /** The report of the conversion; null if the file is a .vsm file. */
   const ConversionReport* conversion() const;
 
 private:
@@ -31,10 +31,10 @@ private:
 };
 
 /**
- * Opens a mesh file of any kind that convert() reads. A .vsm file is read as it is; all others are
- * converted to a .vsm file in the scratch folder, which is removed with the OpenedMesh: streaming
- * formats in the order they have, all others in the order of the options.
- * @throws Error, Cancelled as convert()
+ * Opens a mesh file of any format that convert() reads. A .vsm file is read directly; all others
+ * are converted to a .vsm file in the scratch folder, which is removed with the OpenedMesh:
+ * streaming formats in their order, all others in the order of the options.
+ * @throws Error, Cancelled like convert()
  */
 SMG_EXPORT std::unique_ptr<OpenedMesh> openMesh(
   const std::filesystem::path& path, const ConversionOptions& options = {});

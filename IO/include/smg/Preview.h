@@ -25,9 +25,9 @@ inline constexpr std::int64_t MostPreviewPoints = 1000000;
 inline constexpr const char* StreamIndexName = "StreamIndex";
 
 /**
- * The preview of a mesh as a mesh stream of triangles, compact and in
- * breadth-first order, to be written as a file. It has all vertex columns of the mesh, of which
- * OriginalId names the mesh's vertices in their file, and the column StreamIndex.
+ * The preview of a mesh as a mesh stream of triangles, compact and in breadth-first order, to be
+ * written to a file. It has all vertex columns of the mesh, including OriginalId with the indices
+ * in the original file, and the column StreamIndex.
  */
 class SMG_EXPORT PreviewSource : public MeshSource
 {

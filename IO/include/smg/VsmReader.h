@@ -17,36 +17,34 @@ namespace smg
 
 struct IoStatistics;
 
-/** A stretch of consecutive cells of a mesh stream with all the vertices that these cells use. */
+/** A range of consecutive cells of a mesh stream with all vertices that these cells use. */
 struct MeshPiece
 {
-  std::int64_t firstCell = 0;          ///< stream index of the piece's first cell
+  std::int64_t firstCell = 0;          ///< stream index of the first cell of the piece
   std::vector<std::int64_t> ids;       ///< stream indices of the vertices, ascending
   std::vector<double> positions;       ///< x, y, z of each vertex
-  std::vector<float> normals;          ///< x, y, z of each; of previews, else empty
+  std::vector<float> normals;          ///< x, y, z per vertex of previews, else empty
   std::vector<std::uint8_t> ghost;     ///< 1: introduced by a cell before the piece
   std::vector<std::uint8_t> finalized; ///< 1: no cell after the piece uses the vertex
-  std::vector<std::int64_t> corners;   ///< places in `ids`, cornersOf(cellType) a cell
-  std::vector<Column> vertexColumns;   ///< a tuple a vertex
-  std::vector<Column> cellColumns;     ///< a tuple a cell
+  std::vector<std::int64_t> corners;   ///< indices in `ids`, cornersOf(cellType) per cell
+  std::vector<Column> vertexColumns;   ///< a tuple per vertex
+  std::vector<Column> cellColumns;     ///< a tuple per cell
 
   std::int64_t vertices() const { return static_cast<std::int64_t>(this->ids.size()); }
 };
 
-/**
- * Vertices of no cell. A mesh stream has none; its container keeps them beside it, for whoever
- * writes the mesh as its original file had it.
- */
+/** Vertices of no cell. A mesh stream has none; its container stores them separately, to restore
+ * the original file. */
 struct IsolatedVertices
 {
-  std::vector<std::int64_t> ids; ///< places in the original file
+  std::vector<std::int64_t> ids; ///< indices in the original file
   std::vector<double> positions; ///< x, y, z of each vertex
-  std::vector<Column> columns;   ///< a tuple a vertex, of the columns that the stream has
+  std::vector<Column> columns;   ///< the columns of the stream, a tuple per vertex
 };
 
 /**
- * Reads a .vsm file: as a stream from first block to last, or any piece by itself. Every failure is
- * an Error that names the file. One thread at a time; sources may be used by other threads.
+ * Reads a .vsm file as a stream from first block to last, or any piece independently. Every failure
+ * is an Error that names the file. One thread at a time; sources may be used by other threads.
  */
 class SMG_EXPORT VsmReader
 {
@@ -59,53 +57,46 @@ public:
   const std::filesystem::path& path() const;
   /** Counts, bounds, width, span, precision and the names of all columns. */
   const StreamInfo& info() const;
-  /** The mean over the cells of the number of vertices alive. */
+  /** The mean over the cells of the number of active vertices. */
   double meanWidth() const;
-  /** The statistics as they stand in the file. */
+  /** The statistics in the header of the file. */
   const std::string& header() const;
   Codec codec() const;
   std::int64_t vertexBlocks() const;
   std::int64_t cellBlocks() const;
-  /** Bytes of the file, and bytes that its columns have uncompressed. */
+  /** The bytes of the file, and the uncompressed bytes of its columns. */
   std::int64_t storedBytes() const;
   std::int64_t plainBytes() const;
 
-  /**
-   * The mesh stream, read anew from its first block, with prefetch; one block of the stream a cell
-   * block. The source opens the file for itself and may outlive the reader.
-   */
+  /** The mesh stream from its first block, with prefetch; one block of the stream per cell block.
+   * The source opens the file separately and may outlive the reader. */
   std::unique_ptr<MeshSource> source() const;
-  /**
-   * The same with only the named columns, in this order, and CellFlags if the file has it: without
-   * it, cells would count that are to have no weight. Throws Error if a column does not exist.
-   */
+  /** The same with only the named columns, in this order, and CellFlags if the file has it, since
+   * flagged cells must have no weight. Throws Error if a column does not exist. */
   std::unique_ptr<MeshSource> source(
     std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const;
 
-  /**
-   * Says which columns readPiece delivers, and in which order, beside CellFlags as above; at first,
-   * all. Throws Error if one does not exist.
-   */
+  /** Selects the columns of readPiece() and their order, in addition to CellFlags as above;
+   * initially all. Throws Error if one does not exist. */
   void selectColumns(
     const std::vector<std::string>& vertexColumns, const std::vector<std::string>& cellColumns);
 
   /**
-   * Fills `piece` with the cells [firstCell, endCell), which may be empty, and their vertices. Its
-   * vectors' memory is reused. A piece that follows the one before costs the piece alone: the
-   * vertices that are still alive are remembered. Any other piece costs the blocks that hold its
-   * rows.
+   * Fills `piece` with the cells [firstCell, endCell), which may be empty, and their vertices,
+   * reusing the memory of its vectors. A piece that follows the previous one reads only the piece,
+   * since active vertices are cached. Any other piece reads the blocks with its rows.
    */
   void readPiece(std::int64_t firstCell, std::int64_t endCell, MeshPiece& piece);
 
   /** Reads column `name` of the vertices [first, first + count) into `column`. */
   void readVertexColumn(
     const std::string& name, std::int64_t first, std::int64_t count, Column& column);
-  /** For each of the vertices from `first` on, the last cell that uses it. */
+  /** The last cell that uses each of the vertices from `first` on. */
   void readLastCells(std::int64_t first, std::span<std::int64_t> cells);
 
-  /** Vertices of no cell, which are no part of the stream. */
+  /** The number of vertices of no cell, which are not part of the stream. */
   std::int64_t isolatedVertices() const;
-  /** Reads `count` of them from number `first` on, with all columns, in the order of the file. */
+  /** Reads `count` of them from index `first` on, with all columns, in the order of the file. */
   void readIsolated(std::int64_t first, std::int64_t count, IsolatedVertices& vertices);
 
 private:

@@ -14,14 +14,14 @@
 namespace smg
 {
 
-/** How to write a mesh. */
+/** Options of writeMesh(). */
 struct WriteMeshOptions
 {
-  /** How a .vsm file is compressed. */
+  /** The compression of a .vsm file. */
   Codec codec = Codec::Zstd;
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
-  /** A .vsm file whose isolated vertices a new .vsm file keeps; empty: none. See writeVsm(). */
+  /** A .vsm file whose isolated vertices are copied to a .vsm file; empty: none. See writeVsm(). */
   std::filesystem::path isolatedFrom;
   ProgressFunction progress;
 };
@@ -40,7 +40,7 @@ SMG_EXPORT std::vector<std::string> writeMesh(
 SMG_EXPORT std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
   const std::filesystem::path& path, const ProgressFunction& progress = {});
 
-/** How to write a mesh file anew. */
+/** Options of rewriteMesh(). */
 struct RewriteOptions
 {
   /** Folder for scratch files; empty: the system's temporary folder. */

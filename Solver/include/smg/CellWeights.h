@@ -17,8 +17,7 @@ struct CellWeights
   double weight[6] = {};
 };
 
-/** Corners of the edges in the order of CellWeights::weight; a triangle has the first three of its
- * own list. */
+/** Corners of the edges in the order of CellWeights::weight. */
 inline constexpr int TriangleEdges[3][2] = { { 0, 1 }, { 0, 2 }, { 1, 2 } };
 inline constexpr int TetrahedronEdges[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 },
   { 2, 3 } };
@@ -43,9 +42,10 @@ SMG_EXPORT CellWeights triangleWeights(const double* a, const double* b, const d
  * The stiffness of linear finite elements on a tetrahedron, off-diagonals negated: a sixth of the
  * length of the opposite edge times the cotangent of the dihedral angle there.
  */
-SMG_EXPORT CellWeights tetrahedronWeights(const double* a, const double* b, const double* c, const double* d);
+SMG_EXPORT CellWeights tetrahedronWeights(
+  const double* a, const double* b, const double* c, const double* d);
 
-/** Either of them: of a cell with the given corners. */
+/** The weights of a cell of either type with the given corners. */
 inline CellWeights cellWeights(CellType type, const double* const* points)
 {
   return type == CellType::Triangle
@@ -53,11 +53,10 @@ inline CellWeights cellWeights(CellType type, const double* const* points)
            : tetrahedronWeights(points[0], points[1], points[2], points[3]);
 }
 
-/**
- * The same with a conductivity, a symmetric tensor K = [xx, yy, zz, xy, yz, xz]: weight_ij =
- * -measure * grad phi_i . K grad phi_j. On a triangle the gradients lie in its plane.
- */
-SMG_EXPORT CellWeights conductivityWeights(CellType type, const double* const* points, const double* K);
+/** The same with a conductivity: a symmetric tensor K = [xx, yy, zz, xy, yz, xz]: weight_ij =
+ * -measure * grad phi_i . K grad phi_j. On a triangle the gradients lie in its plane. */
+SMG_EXPORT CellWeights conductivityWeights(
+  CellType type, const double* const* points, const double* K);
 
 /** Whether all six numbers of K are finite and the tensor is positive definite. */
 SMG_EXPORT bool isPositiveDefinite(const double* K);

@@ -89,7 +89,7 @@ decltype(auto) dispatch(ScalarType type, F&& f)
   }
 }
 
-/** How the values of columns are compressed in a file. The values are part of the file format. */
+/** The compression of columns in a file. The values are part of the file format. */
 enum class Codec : std::uint8_t
 {
   None = 0,

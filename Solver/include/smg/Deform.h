@@ -13,7 +13,7 @@
 namespace smg
 {
 
-/** How to deform. */
+/** Options of deform(). */
 struct DeformOptions : SolveOptions
 {
   Weights weights = Weights::Clamped;
@@ -24,17 +24,17 @@ struct DeformOptions : SolveOptions
 /**
  * Deforms a mesh by handles and keeps its details: two Poisson problems on one hierarchy.
  *
- * The first spreads the handles' rotation vectors and logarithms of scale harmonically over the
- * mesh; the second finds the positions whose edges come closest to the edges at rest, turned and
- * scaled: (div d)_i = sum_j w_ij d_ij, d_ij = (s_i R_i + s_j R_j) / 2 (p_i - p_j). With k V-cycles
- * a step that takes 2 k + 1 passes: the first problem's last prolongation and the second one's
- * first restriction share a pass.
+ * The first interpolates the rotation vectors and logarithms of scale of the handles harmonically
+ * over the mesh; the second computes the positions whose edges are closest to the edges at rest,
+ * rotated and scaled: (div d)_i = sum_j w_ij d_ij, d_ij = (s_i R_i + s_j R_j) / 2 (p_i - p_j). With
+ * k V-cycles per step this takes 2 k + 1 passes: the last prolongation of the first problem and the
+ * first restriction of the second problem share a pass.
  *
- * Components of the mesh without a held vertex, and vertices without a weighted cell, stay exactly
- * as they are.
+ * Components of the mesh without a held vertex, and vertices without a weighted cell, are not
+ * modified.
  *
- * @return the positions, three columns; report().steps tells the two steps apart
- * @throws Error as solve(), and if no vertex is held; Cancelled
+ * @return the positions, three columns; report().steps describes the two steps
+ * @throws Error like solve(), and if no vertex is held; Cancelled
  */
 SMG_EXPORT std::unique_ptr<Solution> deform(
   MeshSource& mesh, Handles& handles, const DeformOptions& options = {});

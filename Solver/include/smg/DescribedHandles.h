@@ -23,16 +23,16 @@ class HandlesOnMesh;
  *     handles.prepare(*mesh.source(handles.vertexColumns(), handles.cellColumns()));
  *     deform(*mesh.source(handles.vertexColumns(), handles.cellColumns()), handles, options);
  *
- * Vertices are named by the column OriginalId, or by their stream index if the mesh has no such
- * column.
+ * Vertices are identified by the column OriginalId, or by their stream index if the mesh has no
+ * such column.
  */
 class SMG_EXPORT DescribedHandles : public Handles
 {
 public:
   /**
-   * @param mesh the mesh that the handles are for
-   * @param name what errors call the description: its file
-   * @throws Error naming the place in the description if the mesh has no such column, or one of
+   * @param mesh the mesh of the handles
+   * @param name the name of the description in error messages: its file
+   * @throws Error with the place in the description if the mesh has no such column, or one with
    * another number of components
    */
   DescribedHandles(const DeformationDescription& description, const StreamInfo& mesh,
@@ -44,22 +44,20 @@ public:
   std::vector<std::string> cellColumns() const;
 
   /**
-   * Reads the stream once. Optional, except where vertices are selected by a column of the cells or
-   * as the nearest ones, which only this finds. Writes a nameless scratch file of one bit a vertex
-   * for each such column.
+   * Reads the stream once. Optional unless vertices are selected by a column of the cells or as
+   * nearest vertices, which is determined here. Writes an unnamed scratch file with one bit per
+   * vertex for each such column.
    * @param scratch folder for scratch files; empty: the system's temporary folder
-   * @throws Error naming the handle if one selects no vertex, or names a vertex that the mesh does
-   * not have
+   * @throws Error with the handle if one selects no vertex, or refers to a vertex that the mesh
+   * lacks
    */
   void prepare(MeshSource& mesh, const std::filesystem::path& scratch = {});
 
-  /** Throws Error naming the column and the vertex if a number there is not finite. */
+  /** Throws Error, which names the column and the vertex, if a number is not finite. */
   void at(const MeshBlock& block, VertexHandles& handles) override;
 
-  /**
-   * What a user should know, after all blocks have been asked for: handles whose vertices all
-   * follow later ones, and that nothing moves.
-   */
+  /** Notes for the user, after all blocks have been queried: handles whose vertices all follow
+   * later ones, and a deformation without motion. */
   std::vector<std::string> notes() const;
 
 private:

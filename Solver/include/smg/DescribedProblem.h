@@ -23,18 +23,18 @@ class ProblemOnMesh;
  *     problem.prepare(*mesh.source(problem.vertexColumns(), problem.cellColumns()));
  *     solve(*mesh.source(problem.vertexColumns(), problem.cellColumns()), problem);
  *
- * Vertices are named by the column OriginalId, or by their stream index if the mesh has no such
- * column. Memory holds the column values and the selections at the vertices that later cells may
- * use. The stream may be read again, from its first block.
+ * Vertices are identified by the column OriginalId, or by their stream index if the mesh has no
+ * such column. The column values and the selections are held in memory only at vertices that later
+ * cells may use. The stream may be read repeatedly, from its first block.
  */
 class SMG_EXPORT DescribedProblem : public Problem
 {
 public:
   /**
-   * @param mesh the mesh that the problem is for
-   * @param name what errors call the description: its file
-   * @throws Error naming the place in the description if something is out of range, or the mesh has
-   * no such column
+   * @param mesh the mesh of the problem
+   * @param name the name of the description in error messages: its file
+   * @throws Error with the place in the description if a value is out of range, or the mesh has no
+   * such column
    */
   DescribedProblem(const ProblemDescription& description, const StreamInfo& mesh,
     const std::string& name = "problem");
@@ -45,11 +45,11 @@ public:
   std::vector<std::string> cellColumns() const;
 
   /**
-   * Reads the stream once, unless the description selects no part of the mesh. Optional, except
-   * where vertices are selected by a column of the cells or as the nearest ones, which only this
-   * finds. Writes a nameless scratch file of one bit a vertex for each such column.
+   * Reads the stream once if the description selects parts of the mesh. Optional unless vertices
+   * are selected by a column of the cells or as nearest vertices, which is determined here. Writes
+   * an unnamed scratch file with one bit per vertex for each such column.
    * @param scratch folder for scratch files; empty: the system's temporary folder
-   * @throws Error naming the place in the description if a part that it selects is empty or has a
+   * @throws Error with the place in the description if a selected part is empty or refers to a
    * vertex that the mesh lacks
    */
   void prepare(MeshSource& mesh, const std::filesystem::path& scratch = {});

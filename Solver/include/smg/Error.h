@@ -10,10 +10,8 @@
 namespace smg
 {
 
-/**
- * The exception of the library. Its text is a sentence that a user can act on: it names the file or
- * parameter, the place, what is wrong and, where there is something to do, what to do.
- */
+/** The exception of the library. Its message is meant for users: it names the file or parameter,
+ * the location, the error and, if possible, a remedy. */
 class SMG_EXPORT Error : public std::runtime_error
 {
 public:
@@ -23,7 +21,7 @@ public:
   }
 };
 
-/** Thrown when the progress callback asks to stop. Nothing is left behind. */
+/** Thrown if the progress callback cancels the operation. No files are left behind. */
 class SMG_EXPORT Cancelled : public Error
 {
 public:
@@ -33,10 +31,8 @@ public:
   }
 };
 
-/**
- * A progress callback: called with the fraction done (0 to 1, never decreasing over a whole
- * operation); returns whether to continue. False ends the operation with Cancelled.
- */
+/** A progress callback: called with the completed fraction (0 to 1, never decreasing during an
+ * operation); returns whether to continue. False ends the operation with Cancelled. */
 using ProgressFunction = std::function<bool(double)>;
 
 } // namespace smg

@@ -10,25 +10,25 @@
 namespace smg
 {
 
-/** Names of the vertex columns, and of the VTK point arrays, that hold handles. */
+/** Names of the vertex columns, and of the VTK point arrays, that store handles. */
 inline constexpr const char* HandleMaskName = "HandleMask";         ///< uint8
 inline constexpr const char* HandleTargetName = "HandleTarget";     ///< 3 double
 inline constexpr const char* HandleRotationName = "HandleRotation"; ///< 3 double
 inline constexpr const char* HandleLogScaleName = "HandleLogScale"; ///< double
 
-/** What the handles say at a stretch of vertices: one entry, or three numbers, a vertex. */
+/** The handles at a range of vertices: one entry, or three numbers, per vertex. */
 struct VertexHandles
 {
-  /** How many handles hold the vertex; the last one counts. 0: the vertex is free. */
+  /** The number of handles that hold the vertex; the last one counts. 0: the vertex is free. */
   std::vector<std::uint8_t> mask;
-  /** Where a held vertex goes: x, y, z. Not looked at where the vertex is free. */
+  /** The target (x, y, z) of a held vertex. Not used at free vertices. */
   std::vector<double> target;
-  /** How a held vertex turns: the unit axis times the angle in radians, of any size. */
+  /** The rotation of a held vertex: the unit axis times the unbounded angle in radians. */
   std::vector<double> rotation;
-  /** How a held vertex grows: the natural logarithm of the scale. */
+  /** The natural logarithm of the scale of a held vertex. */
   std::vector<double> logScale;
 
-  /** `vertices` free vertices. */
+  /** Resets to `vertices` free vertices. */
   void clear(std::size_t vertices)
   {
     this->mask.assign(vertices, 0);
@@ -38,17 +38,14 @@ struct VertexHandles
   }
 };
 
-/** The handles by which a mesh is deformed. They are asked block by block, in stream order, once.
- */
+/** The handles of a deformation. They are queried once, block by block, in stream order. */
 class SMG_EXPORT Handles
 {
 public:
   virtual ~Handles() = default;
 
-  /**
-   * Says what holds at the vertices of the block; `handles` is clear. What is not finite at a held
-   * vertex is an error.
-   */
+  /** Sets the handles at the vertices of the block; on entry, `handles` has only free vertices.
+   * Values at held vertices must be finite. */
   virtual void at(const MeshBlock& block, VertexHandles& handles) = 0;
 };
 

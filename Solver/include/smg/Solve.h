@@ -15,58 +15,64 @@
 namespace smg
 {
 
-/** How V-cycles are made to converge faster: each takes what the ones before it have found. */
+/** The acceleration of V-cycles by the results of previous ones. */
 enum class AccelerationKind
 {
-  /** Conjugate gradients where four V-cycles or more are to be expected, and not for a fixed number
-   * of V-cycles. */
+  /** Conjugate gradients if four or more V-cycles are expected; none for a fixed number of
+   * V-cycles. */
   Automatic,
   None,
-  /** Chebyshev polynomials for a rate measured on the way. One vector in memory and on disk. */
+  /**
+   * Chebyshev polynomials for the measured rate of convergence. One vector in memory and on disk.
+   */
   Chebyshev,
-  /** Conjugate gradients with the V-cycle as preconditioner, in the form that minimises the
-   * residual (conjugate residuals), one pass a step. One vector and, on a sample of the vertices of
-   * a large mesh or on all of a small one or of one with slivers, three more. */
+  /**
+   * Conjugate gradients with the V-cycle as preconditioner, in the form that minimises the residual
+   * (conjugate residuals), one pass per step. One vector and three more at a sample of the vertices
+   * (at all vertices of small meshes or meshes with slivers).
+   */
   ConjugateGradients
 };
 
-/** How to solve. The defaults suit a mesh of any size. */
+/** Options of solve(). The defaults suit meshes of any size. */
 struct SolveOptions
 {
   /**
-   * Name of the operator set of the library: "extended", or
-   * "shi2006", the paper's own equations, whose result is no solution and which works in core only,
-   * for comparison. A program's own set has no name here: see SolveWith.h.
+   * The name of the operator set of the library: "extended", or "shi2006": the equations of the
+   * paper for comparison, whose result is not the solution and which work in core only. For
+   * user-defined sets see SolveWith.h.
    */
   std::string operators = "extended";
-  /** Gauss-Seidel sweeps before and after each coarse-level correction, 1 to 20. */
+  /** Gauss-Seidel sweeps before and after each coarse-grid correction, 1 to 20. */
   int sweeps = 2;
   /** Stop when ||b - A x|| <= tolerance ||b - A x_0||; in (0, 1). */
   double tolerance = 1e-6;
-  /** Most V-cycles, at least 1. */
+  /** The maximum number of V-cycles, at least 1. */
   int maxCycles = 50;
   AccelerationKind acceleration = AccelerationKind::Automatic;
-  /** Promise on the accounted memory, bytes. */
+  /** The limit of the accounted memory in bytes. */
   std::int64_t memoryLimit = std::int64_t(1) << 30;
-  /** Compute threads, at least 1; 0: one a core. The result does not depend on it. */
+  /** Compute threads, at least 1; 0: one per core. The result does not depend on it. */
   int threads = 0;
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
-  /** Keep every level in memory and write no file: the reference. */
+  /** Whether to keep all levels in memory and write no files: the reference. */
   bool inCore = false;
-  /** Nodes a stage advances by before the next stage follows. Does not change the result. */
+  /** The number of nodes by which a stage advances before the next stage follows. The result does
+   * not depend on it. */
   std::int64_t blockNodes = 4096;
-  /** Levels that are expected to have at most this many nodes live in memory. Does not change the
-   * result. */
+  /** Levels with at most this many expected nodes are kept in memory. The result does not depend on
+   * it. */
   std::int64_t coreNodes = 50000;
   ProgressFunction progress;
 };
 
 /**
  * Solves the problem on the mesh stream, which is read once.
- * @throws Error when an option is out of range, the stream or the problem is not valid, the memory
- * limit is below the need (at once, with both figures), or a scratch file fails; Cancelled when the
- * progress callback says so. No scratch file is left behind by a throw or by ~Solution.
+ * @throws Error if an option is out of range, the stream or the problem is invalid, the memory
+ * limit is too low (immediately, with the required and the allowed memory), or a scratch file
+ * fails; Cancelled by the progress callback. Neither an exception nor ~Solution leaves scratch
+ * files behind.
  */
 SMG_EXPORT std::unique_ptr<Solution> solve(
   MeshSource& mesh, Problem& problem, const SolveOptions& options = {});

@@ -13,16 +13,16 @@ namespace smg
 {
 
 /**
- * Solves as solve() does, with an operator set of the program's own: a type that satisfies the
- * concept OperatorSet (see Solver/Operators/OperatorSet.h), for which the multigrid is compiled
- * here. `options.operators` is ignored.
+ * Like solve(), with a user-defined operator set: a type that satisfies the concept OperatorSet
+ * (see Solver/Operators/OperatorSet.h), for which the multigrid is compiled here.
+ * `options.operators` is ignored.
  *
  * A program that includes this file needs GCC or Clang and links StreamingMultigrid::Engine, which
- * brings the sources of the engine, whose names may change with any version, and the flags by which
- * every machine computes the same bits.
+ * provides the sources of the engine, whose names may change with any version, and the compiler
+ * flags for identical bits on all machines.
  *
- * @return the solution, `problem.columns()` values a vertex
- * @throws Error, Cancelled as solve()
+ * @return the solution, `problem.columns()` values per vertex
+ * @throws Error, Cancelled like solve()
  */
 template <OperatorSet Operators>
 std::unique_ptr<Solution> solveWith(
