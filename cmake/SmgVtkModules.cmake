@@ -10,7 +10,7 @@ vtk_module_scan(
   WANT_BY_DEFAULT ON
   ENABLE_TESTS OFF)
 
-# As VTK's own modules, these export what their macros mark.
+# Like the modules of VTK, these export only symbols marked by their macros.
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 

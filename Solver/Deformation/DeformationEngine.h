@@ -18,9 +18,9 @@ namespace smg
 {
 
 /**
- * Two problems on one hierarchy: the rotations, then the positions. The first pass builds and
- * begins the rotations' first V-cycle; the shared pass finishes their last one and begins the
- * positions' first one.
+ * Two problems on one hierarchy: first the rotations, then the positions. The first pass builds the
+ * hierarchy and begins the first V-cycle of the rotations; the shared pass finishes their last
+ * V-cycle and begins the first one of the positions.
  */
 template <OperatorSet Operators>
 class DeformationEngine : public Engine<Operators>
@@ -41,7 +41,7 @@ public:
 
   void deform(MeshSource& mesh, Handles& handles);
 
-  /** The positions: where displacements begin, and these. */
+  /** The positions: the start of the displacements plus the displacements. */
   int columns() const override { return PositionStep::Columns; }
   void read(std::int64_t first, std::int64_t count, std::span<double> values) override;
 
@@ -52,11 +52,11 @@ protected:
   {
     return { this->Options.tolerance, this->Options.maxCycles, this->Cycles };
   }
-  /** Both steps, after the pass that has begun the first V-cycle of the first one. */
+  /** Performs both steps, after the pass that has begun the first V-cycle of the first one. */
   void solveSteps();
 
   Weights EdgeWeights;
-  int Cycles; // a step; 0: by the tolerance
+  int Cycles; // per step; 0: by the tolerance
   CellType Cells;
   RestShape Rest;
 
@@ -115,7 +115,7 @@ void DeformationEngine<Operators>::solveSteps()
   this->finishReport();
 }
 
-/** Answers the norm of the positions' residual after their first sweeps. */
+/** Returns the norm of the residual of the positions after their first sweeps. */
 template <OperatorSet Operators>
 double DeformationEngine<Operators>::sharedPass(PositionStep& step)
 {
@@ -138,8 +138,8 @@ double DeformationEngine<Operators>::sharedPass(PositionStep& step)
   return this->residualNorm();
 }
 
-/** About how large the positions' residuals can be: weights are of the size of 1 on surfaces, of
- * lengths in volumes. */
+/** An estimate of the largest residual of the positions: weights are of order 1 on surfaces, and of
+ * the order of lengths in volumes. */
 template <OperatorSet Operators>
 double DeformationEngine<Operators>::positionScale() const
 {

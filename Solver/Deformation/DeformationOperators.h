@@ -6,10 +6,8 @@
 namespace smg
 {
 
-/**
- * The operator set of a deformation: Extended with the best V-cycles, since whoever gives the
- * number of them for a step relies on what few achieve.
- */
+/** The operator set of a deformation: Extended with the most effective V-cycles, since a fixed
+ * number of V-cycles per step is usually small. */
 struct DeformationOperators : Extended
 {
   static DeformationOperators forCells(CellType type) { return { Extended::forFewCycles(type) }; }

@@ -9,14 +9,14 @@
 namespace smg
 {
 
-/** A deformation in core that can be done again for other motions of the same held vertices. */
+/** A deformation in core that can be repeated for other motions of the same held vertices. */
 template <OperatorSet Operators>
 class InteractiveEngine : public DeformationEngine<Operators>
 {
 public:
   using DeformationEngine<Operators>::DeformationEngine;
 
-  /** After deform(). False, and nothing has changed, if other vertices are held. */
+  /** After deform(). Returns false, without any change, if other vertices are held. */
   bool deformAgain(const VertexHandles& handles);
 
   void read(std::int64_t first, std::int64_t count, std::span<double> values) override
@@ -35,7 +35,7 @@ private:
   void take(const VertexHandles& handles);
   void beginRotations();
 
-  /** Whether an update ended by a throw. */
+  /** Whether an update ended with an exception. */
   bool Broken = false;
 };
 
@@ -90,7 +90,7 @@ bool InteractiveEngine<Operators>::holdsTheSame(const VertexHandles& handles)
   return same;
 }
 
-/** Takes the targets, and the rotations where they begin. */
+/** Sets the targets, and the initial rotations. */
 template <OperatorSet Operators>
 void InteractiveEngine<Operators>::take(const VertexHandles& handles)
 {
@@ -110,7 +110,7 @@ void InteractiveEngine<Operators>::take(const VertexHandles& handles)
     });
 }
 
-/** Right-hand side and first sweeps of the rotations, as Assembly and the first pass make them. */
+/** Computes right-hand side and first sweeps of the rotations, like Assembly and the first pass. */
 template <OperatorSet Operators>
 void InteractiveEngine<Operators>::beginRotations()
 {
