@@ -9,8 +9,7 @@
 namespace smg
 {
 
-/** Brings scalars of `size` bytes, one after the other, from this machine's byte order to another.
- */
+/** Converts consecutive scalars of `size` bytes from the byte order of this machine to another. */
 inline void toByteOrder(std::endian order, std::span<std::byte> scalars, std::size_t size)
 {
   if (order == std::endian::native || size == 1)
