@@ -104,8 +104,8 @@ std::filesystem::path scratchFolder(const std::filesystem::path& folder)
 std::int64_t scratchBytes(
   std::int64_t vertices, std::int64_t cells, int corners, std::int64_t columnBytes)
 {
-  // The mesh as it was parsed, pages, and cells by their places, of which the last two do not
-  // overlap with all that comes before them; columns twice while they are brought into order.
+  // The parsed mesh, the pages and the cells by their places, the last two of which do not overlap
+  // with everything before them; columns twice while they are reordered.
   constexpr std::int64_t VertexBytes = 95;
   constexpr std::int64_t CornerBytes = 15;
   return vertices * VertexBytes + cells * corners * CornerBytes + 2 * columnBytes;
