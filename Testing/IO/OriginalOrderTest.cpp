@@ -53,7 +53,7 @@ void put(OriginalOrder& order, const std::vector<std::int64_t>& ids, std::size_t
   }
 }
 
-/** Reads a range and expects the tuple of each number that `has` says was put. */
+/** Reads a range and expects the tuple of each number for which `has` is true. */
 void expectRange(OriginalOrder& order, std::int64_t first, std::int64_t count, const auto& has)
 {
   std::vector<Tuple> tuples(count, Tuple{ -1, -1, -1 });
@@ -101,7 +101,7 @@ TEST(OriginalOrder, KnowsWhatIsMissingAndLetsTheLastCount)
   const auto has = [](std::int64_t id)
   { return id < 500000 && id % 3 != 1 && !(id > 50000 && id < 120000); };
   expectRange(order, 0, 550000, has);
-  // Far beyond all that was put, without a bucket.
+  // Far beyond all stored tuples, without a bucket.
   expectRange(order, std::int64_t(1) << 60, 10, has);
 }
 
