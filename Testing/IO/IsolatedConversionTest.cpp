@@ -89,7 +89,7 @@ protected:
   TemporaryFolder Folder;
 };
 
-/** Leaves the order only the memory for one bit per vertex. */
+/** The order of first use with 2 MiB of available memory. */
 OrderedVertices firstUseInLittleMemory(const RawMesh& mesh, Workspace& space)
 {
   const Reservation most(space.pool(), space.available() - (std::int64_t(2) << 20));
