@@ -124,7 +124,7 @@ struct SMG_EXPORT ConversionReport
  * little room for the scratch files (told before they are written); Cancelled. No output and no
  * scratch file is left behind then.
  */
-SMG_EXPORT ConversionReport convert(const std::filesystem::path& in, const std::filesystem::path& out,
-  const ConversionOptions& options = {});
+SMG_EXPORT ConversionReport convert(const std::filesystem::path& in,
+  const std::filesystem::path& out, const ConversionOptions& options = {});
 
 } // namespace smg

@@ -43,7 +43,8 @@ SMG_EXPORT CellWeights triangleWeights(const double* a, const double* b, const d
  * The stiffness of linear finite elements on a tetrahedron, off-diagonals negated: a sixth of the
  * length of the opposite edge times the cotangent of the dihedral angle there.
  */
-SMG_EXPORT CellWeights tetrahedronWeights(const double* a, const double* b, const double* c, const double* d);
+SMG_EXPORT CellWeights tetrahedronWeights(
+  const double* a, const double* b, const double* c, const double* d);
 
 /** Either of them: of a cell with the given corners. */
 inline CellWeights cellWeights(CellType type, const double* const* points)
@@ -57,7 +58,8 @@ inline CellWeights cellWeights(CellType type, const double* const* points)
  * The same with a conductivity, a symmetric tensor K = [xx, yy, zz, xy, yz, xz]: weight_ij =
  * -measure * grad phi_i . K grad phi_j. On a triangle the gradients lie in its plane.
  */
-SMG_EXPORT CellWeights conductivityWeights(CellType type, const double* const* points, const double* K);
+SMG_EXPORT CellWeights conductivityWeights(
+  CellType type, const double* const* points, const double* K);
 
 /** Whether all six numbers of K are finite and the tensor is positive definite. */
 SMG_EXPORT bool isPositiveDefinite(const double* K);
