@@ -43,12 +43,12 @@ namespace smg
  * - `multiply` may read row i and `interpolation` of i and its neighbours. It appends row i of
  *   `product` and sets `productSum`.
  * - `gather` may read the chain of column c and `product` of its rows. It appends row c of `raw`,
- *   by ascending column, sets rawAlpha, rawDiagonal, rawKept, rawStrongest (with the sign - if
- *   `stiff`, asked once, says so), rawLower and rawMirrored of c and moves rawMirrored of its
+ *   by ascending column, sets rawAlpha, rawDiagonal, rawKept, rawStrongest (stiff if
+ *   `data.stiff`, asked once, says so), rawLower and rawMirrored of c and moves rawMirrored of its
  *   neighbours above on by one.
  * - `sparsify`, which follows it, may read the rows of `raw` up to c that have neighbours from c
  *   on, and change their upper entries, those with delta > 0; the lower ones take over the
- *   weights of these at last. An entry that is to go gets the weight NaN.
+ *   weights of these at last. An entry that is to go is marked by CoarseEntry::remove().
  *
  * What the engine relies on: a node without edges is not lifted; each lifted node has a child; P
  * has entries from -1 to 1 (multiples of 1/Quanta), from coarse nodes within two rings; the coarse
