@@ -2,9 +2,9 @@
 #include "Solver/Deform.h"
 
 #include "Solver/Core/Error.h"
-#include "Solver/Deformation/DeformationOperators.h"
 #include "Solver/Deformation/InteractiveDeformation.h"
 #include "Solver/Deformation/InteractiveEngine.h"
+#include "Solver/Operators/Extended.h"
 #include "Solver/Shi2006/Shi2006.h"
 #include "Solver/Solve.h"
 
@@ -26,11 +26,22 @@ void checkOptions(const DeformOptions& options)
   }
 }
 
+namespace
+{
+
+/** The best V-cycles: whoever gives the number of them for a step relies on what few achieve. */
+Extended operatorsFor(CellType cells)
+{
+  return Extended::forFewCycles(cells);
+}
+
+} // namespace
+
 std::unique_ptr<Solution> deform(MeshSource& mesh, Handles& handles, const DeformOptions& options)
 {
   checkOptions(options);
-  auto engine =
-    std::make_unique<DeformationEngine<DeformationOperators>>(options, mesh.info().cellType);
+  const CellType cells = mesh.info().cellType;
+  auto engine = std::make_unique<DeformationEngine<Extended>>(operatorsFor(cells), options, cells);
   engine->deform(mesh, handles);
   engine->keepSolution();
   return engine;
@@ -38,7 +49,7 @@ std::unique_ptr<Solution> deform(MeshSource& mesh, Handles& handles, const Defor
 
 struct InteractiveDeformation::Implementation
 {
-  InteractiveEngine<DeformationOperators> engine;
+  InteractiveEngine<Extended> engine;
 };
 
 namespace
@@ -55,7 +66,8 @@ DeformOptions inCore(DeformOptions options)
 
 InteractiveDeformation::InteractiveDeformation(
   MeshSource& mesh, Handles& handles, const DeformOptions& options)
-  : Self(new Implementation{ { inCore(options), mesh.info().cellType } })
+  : Self(new Implementation{
+      { operatorsFor(mesh.info().cellType), inCore(options), mesh.info().cellType } })
 {
   this->Self->engine.deform(mesh, handles);
 }

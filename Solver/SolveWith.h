@@ -25,7 +25,8 @@ std::unique_ptr<Solution> solveWith(
 {
   checkOptions(options);
   checkProblem(problem);
-  auto engine = std::make_unique<Engine<Operators>>(problem.columns(), options);
+  auto engine = std::make_unique<Engine<Operators>>(
+    Operators::forCells(mesh.info().cellType), problem.columns(), options);
   engine->solve(mesh, problem);
   return engine;
 }

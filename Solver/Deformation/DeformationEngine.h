@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace smg
@@ -26,8 +27,8 @@ template <OperatorSet Operators>
 class DeformationEngine : public Engine<Operators>
 {
 public:
-  DeformationEngine(const DeformOptions& options, CellType cells)
-    : Engine<Operators>(RotationProblem::Columns, options)
+  DeformationEngine(Operators operators, const DeformOptions& options, CellType cells)
+    : Engine<Operators>(std::move(operators), RotationProblem::Columns, options)
     , EdgeWeights(options.weights)
     , Cycles(options.cycles)
     , Cells(cells)

@@ -35,8 +35,9 @@ template <OperatorSet Operators>
 class Engine : public Solution
 {
 public:
-  /** Makes ready for problems of `columns` columns. Nothing is read yet. */
-  Engine(int columns, const SolveOptions& options);
+  /** Makes ready for problems of `columns` columns; every level gets a copy of `operators`. Nothing
+   * is read yet. */
+  Engine(Operators operators, int columns, const SolveOptions& options);
 
   /** Solves one problem. */
   void solve(MeshSource& mesh, Problem& problem);
@@ -80,6 +81,7 @@ protected:
   void beginReport();
   void finishReport();
 
+  Operators Set;
   int Columns;
   SolveOptions Options;
   SolveProgress Progress;

@@ -9,6 +9,7 @@
 #include <cfloat>
 #include <numeric>
 #include <string>
+#include <utility>
 
 namespace smg
 {
@@ -24,8 +25,9 @@ inline int computeThreads(int wanted)
 }
 
 template <OperatorSet Operators>
-Engine<Operators>::Engine(int columns, const SolveOptions& options)
-  : Columns(columns)
+Engine<Operators>::Engine(Operators operators, int columns, const SolveOptions& options)
+  : Set(std::move(operators))
+  , Columns(columns)
   , Options(options)
   , Progress(options.progress)
   , Memory(options.memoryLimit)
@@ -202,8 +204,8 @@ void Engine<Operators>::firstPass(MeshSource& mesh, Problem& problem, RowListene
 {
   const CellType type = mesh.info().cellType;
   AssembledRows rows;
-  HierarchyBuilder<Operators> builder(this->Memory, Operators::forCells(type), this->Hierarchy,
-    this->FirstCore, Assembly::stiffRows(type, problem.weights(), rows));
+  HierarchyBuilder<Operators> builder(this->Memory, this->Set, this->Hierarchy, this->FirstCore,
+    Assembly::stiffRows(type, problem.weights(), rows));
   Assembly assembly(this->Memory, mesh.info(), problem, rows, this->Parts, this->Labels, listener);
   this->startPass(true);
   this->readStream(mesh, assembly, rows, builder);

@@ -16,7 +16,7 @@ namespace smg
  * (every level gets a copy) with
  *
  *   const char* O::name             what it is called
- *   O O::forCells(CellType)         the set with its parameters for that kind of cells
+ *   O O::forCells(CellType)         the set with the parameters that are best for such cells
  *   bool o.lift(data, i)            lifting rule: does node i get a parent?
  *   o.interpolateInitial(data, i)   interpolation in three steps: a first idea of row i of P,
  *   o.interpolationSweeps()         sweeps that better the rows, at least 1, each with

@@ -21,7 +21,7 @@ class CoreLevels : public Engine<Extended>
 {
 public:
   explicit CoreLevels(const testing::StreamMesh& mesh)
-    : Engine<Extended>(3, options())
+    : Engine<Extended>(Extended::forCells(mesh.cellType), 3, options())
   {
     testing::MemorySource source(mesh);
     FixedEndsProblem problem(source.info());
