@@ -293,8 +293,8 @@ template <OperatorSet Operators>
 void Engine<Operators>::noteAssembly(const Assembly& assembly)
 {
   reportAssembly(assembly, this->Parts, this->Result);
-  this->RoundingNorm = roundingOf(assembly.termSquares());
-  const double whole = assembly.initialSquares();
+  this->RoundingNorm = roundingOf(assembly.residual().termSquares());
+  const double whole = assembly.residual().squares();
   const double shifted = std::max(0.0, whole + this->Parts.shiftedSquares());
   // Where the sources are all mean, what is left of them is the rounding of this difference of
   // squares, and no measure of the residual: then it is that of the sources themselves.
