@@ -4,6 +4,7 @@
 #include "Solver/Core/Error.h"
 #include "Solver/Deformation/InteractiveDeformation.h"
 #include "Solver/Deformation/InteractiveEngine.h"
+#include "Solver/Engine/ExtendedEngine.h"
 #include "Solver/Operators/Extended.h"
 #include "Solver/Shi2006/Shi2006.h"
 #include "Solver/Solve.h"
@@ -41,10 +42,9 @@ std::unique_ptr<Solution> deform(MeshSource& mesh, Handles& handles, const Defor
 {
   checkOptions(options);
   const CellType cells = mesh.info().cellType;
-  auto engine = std::make_unique<DeformationEngine<Extended>>(operatorsFor(cells), options, cells);
-  engine->deform(mesh, handles);
-  engine->keepSolution();
-  return engine;
+  DeformationEngine<Extended> engine(operatorsFor(cells), options, cells);
+  engine.deform(mesh, handles);
+  return engine.takeSolution();
 }
 
 struct InteractiveDeformation::Implementation
@@ -81,7 +81,7 @@ bool InteractiveDeformation::update(const VertexHandles& handles)
 
 std::int64_t InteractiveDeformation::vertices() const
 {
-  return this->Self->engine.vertices();
+  return this->Self->engine.report().vertices;
 }
 
 void InteractiveDeformation::read(std::int64_t first, std::int64_t count, std::span<double> values)

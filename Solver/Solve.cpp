@@ -2,6 +2,7 @@
 #include "Solver/Solve.h"
 
 #include "Solver/Core/Error.h"
+#include "Solver/Engine/ExtendedEngine.h"
 #include "Solver/Operators/Extended.h"
 #include "Solver/Shi2006/Shi2006.h"
 #include "Solver/SolveWith.h"

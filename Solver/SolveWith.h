@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Engine/Engine.txx"
+#include "Solver/Engine/PoissonSolver.h"
 #include "Solver/Operators/OperatorSet.h"
 #include "Solver/Solve.h"
 
@@ -25,10 +25,9 @@ std::unique_ptr<Solution> solveWith(
 {
   checkOptions(options);
   checkProblem(problem);
-  auto engine = std::make_unique<Engine<Operators>>(
+  PoissonSolver<Operators> solver(
     Operators::forCells(mesh.info().cellType), problem.columns(), options);
-  engine->solve(mesh, problem);
-  return engine;
+  return solver.solve(mesh, problem);
 }
 
 } // namespace smg
