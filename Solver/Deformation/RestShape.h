@@ -126,10 +126,10 @@ public:
   RestBlock next();
   void endPass();
   /**
-   * Where displacements begin, of vertices [first, first + count), any range: at rest, and held
-   * ones at their targets.
+   * Adds to the displacements of vertices [first, first + count), any range, where they begin: at
+   * rest, and held ones at their targets.
    */
-  void readStart(std::int64_t first, std::int64_t count, double* points);
+  void addStart(std::int64_t first, std::int64_t count, double* values);
   /** The blocks, without scratch. */
   std::deque<RestBlock>& blocks() { return this->Blocks; }
 
@@ -149,7 +149,7 @@ private:
   std::int64_t Vertices = 0;
   std::array<double, 3> Low, High;
   std::size_t NextBlock = 0;
-  std::int64_t Cached = -1; // block of readStart()
+  std::int64_t Cached = -1; // block of addStart()
   std::vector<double> CachedPoints;
 };
 

@@ -12,8 +12,11 @@ namespace smg
 {
 
 /**
- * The operator set `shi2006`: the equations (3) to (10) as "Out-of-Core Multigrid Solver for
- * Streaming Meshes" prints them, after Shi et al. 2006.
+ * The equations (3) to (10) as "Out-of-Core Multigrid Solver for Streaming Meshes" prints them,
+ * after Shi et al. 2006: for comparison with the paper, never for answers, since they do not
+ * converge to the solution. They are asked for like an operator set, by the name `shi2006`, but are
+ * no OperatorSet: their V-cycle works on other vectors, and they share with the engine only how
+ * rows are assembled and free components are treated.
  *
  * Its unknowns are corrections, and the error of the current solution travels on the edges: every
  * level has a vector g for each of its edges and column. The edges between retained nodes are left
@@ -25,8 +28,9 @@ namespace smg
  * Lifting may tear a component, the more the less the stream order follows the mesh: 2-ring edges
  * need not keep a graph connected. A part that no constraint reaches stays about where it is.
  *
- * Good for reproducing the paper, and for integrable edge targets, d_ij = x*_i - x*_j for the
- * solution x* on every edge, which one V-cycle solves to rounding. Anything else is for `extended`.
+ * They show what the paper's method does, and one V-cycle solves to rounding what has integrable
+ * edge targets, d_ij = x*_i - x*_j for the solution x* on every edge: the case in which the
+ * equations are right. Whoever wants a solution uses `extended`.
  *
  * Works in core only. The edge targets must be antisymmetric, as Problem says.
  */

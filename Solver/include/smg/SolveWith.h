@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Engine/CheckOptions.h"
-#include "Solver/Engine/Engine.txx"
+#include "Solver/Engine/PoissonSolver.h"
 #include "Solver/Operators/Extended.h"
 #include "Solver/Operators/OperatorSet.h"
 #include "smg/Solve.h"
@@ -30,9 +30,9 @@ std::unique_ptr<Solution> solveWith(
 {
   checkOptions(options);
   checkProblem(problem);
-  auto engine = std::make_unique<Engine<Operators>>(problem.columns(), options);
-  engine->solve(mesh, problem);
-  return engine;
+  PoissonSolver<Operators> solver(
+    Operators::forCells(mesh.info().cellType), problem.columns(), options);
+  return solver.solve(mesh, problem);
 }
 
 } // namespace smg
