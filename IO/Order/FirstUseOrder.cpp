@@ -3,7 +3,7 @@
 
 #include "IO/External/ExternalSort.h"
 #include "IO/External/Relabelling.h"
-#include "IO/External/RowScatter.h"
+#include "IO/External/RowTable.h"
 
 #include <algorithm>
 #include <array>
@@ -83,7 +83,7 @@ void order(const RawMesh& mesh, Workspace& workspace, OrderedVertices& result)
   VertexSort used(workspace, workspace.available() / 3);
   result.count = findUsed(mesh, workspace, used);
   used.sort();
-  RowScatter rows(workspace, result.count, sizeof(OrderedVertex<Real>), workspace.available() / 3);
+  RowTable rows(workspace, result.count, sizeof(OrderedVertex<Real>), workspace.available() / 4);
   BucketFile::Reader positions(mesh.positions);
   OrderedVertex<Real> vertex{ {}, 0, NoIndex };
   std::int64_t read = -1; // the vertex whose position has been read
@@ -96,10 +96,10 @@ void order(const RawMesh& mesh, Workspace& workspace, OrderedVertices& result)
     vertex.id = next.id;
     rows.put(next.place, std::as_bytes(std::span(&vertex, 1)));
   }
-  constexpr std::int64_t Rows = 4096;
-  for (auto bytes = rows.next(Rows); !bytes.empty(); bytes = rows.next(Rows))
+  rows.close();
+  for (std::int64_t first = 0; first < rows.count(); first += rows.range())
   {
-    result.records.append(0, bytes);
+    result.records.append(0, rows.read(first));
   }
 }
 
