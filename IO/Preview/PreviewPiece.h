@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/Vsm/MeshPiece.h"
 #include "IO/Formats/Vsm/VsmReader.h"
 #include "IO/Preview/StreamPreview.h"
 
 namespace smg
 {
 
-/** The preview as a piece of triangles. Its vertices are neither ghosts nor used by another piece.
- */
-MeshPiece pieceOf(StreamPreview preview);
-
 /**
- * Makes the preview of a mesh (see makePreview()) as a piece of triangles, with all vertex columns
- * and no cell columns. Its vertices are neither ghosts nor used by another piece. Costs one pass
- * over the mesh and one over its vertex columns. Throws Error and Cancelled.
+ * Makes the preview of a mesh (see makePreview()) with all its vertex columns. Costs one pass over
+ * the mesh and one over its vertex columns. Throws Error and Cancelled.
  */
 MeshPiece makePreviewPiece(VsmReader& mesh, std::int64_t maximumPoints = DefaultPreviewPoints,
   const ProgressFunction& progress = {});
