@@ -51,7 +51,7 @@ public:
       const auto position = positionOf(id);
       block.positions.insert(block.positions.end(), position.begin(), position.end());
     }
-    block.vertexColumns = { makeColumn<std::int64_t>(OriginalIdName, some) };
+    block.vertexColumns.assign(1, makeColumn<std::int64_t>(OriginalIdName, some));
     return !some.empty();
   }
 
