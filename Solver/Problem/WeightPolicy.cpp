@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/WeightPolicy.h"
 
+#include "Solver/Problem/FlatCells.h"
+
 #include <algorithm>
 
 namespace smg
