@@ -17,6 +17,7 @@ struct ConversionReport
   };
 
   std::string order;
+  std::int64_t time_steps = 0, partitions = 0; ///< of the file that was read; 0: it has no such
   std::int64_t vertices = 0, cells = 0;
   std::int64_t isolated_vertices = 0;     ///< vertices of no cell: kept beside a .vsm stream
   std::int64_t merged_points = 0;         ///< points welded to others

@@ -28,6 +28,10 @@ struct ConversionOptions
   CellChoice cells = CellChoice::Only;
   /** Merges points within this distance of each other; 0: equal coordinates; none: no points. */
   std::optional<double> weld;
+  /** Of a file with time steps (VTKHDF): which one, from 0. */
+  std::int64_t timeStep = 0;
+  /** Of a file with partitions (VTKHDF): which one, from 0; none: all, joined. */
+  std::optional<std::int64_t> partition;
   /** Writes vertices and cells in the order that they had in the first file: see writeRestored().
    */
   bool restoreOrder = false;

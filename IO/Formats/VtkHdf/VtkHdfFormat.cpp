@@ -37,14 +37,14 @@ bool isHdf5(std::string_view start)
   return start.starts_with("\x89HDF\r\n\x1a\n");
 }
 
-void parse(InputFile& file, RawMeshBuilder& builder, const ProgressFunction&)
+void parse(InputFile& file, RawMeshBuilder& builder, const MeshPart& part, const ProgressFunction&)
 {
-  library().import(file, builder);
+  library().import(file, builder, part);
 }
 
-std::optional<FileCounts> counts(InputFile& file)
+std::optional<FileCounts> counts(InputFile& file, const MeshPart& part)
 {
-  return library().counts(file);
+  return library().counts(file, part);
 }
 
 WriteNotes write(const std::filesystem::path& vsm, const std::filesystem::path& path,
@@ -64,6 +64,7 @@ const Format VtkHdfFormat{
   .hasSign = isHdf5,
   .parse = parse,
   .counts = counts,
+  .hasParts = true,
   .writeVsm = write,
 };
 
