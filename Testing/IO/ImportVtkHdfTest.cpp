@@ -11,7 +11,11 @@
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TestMeshes.h"
 
+#include <hdf5.h>
+
+#include <fstream>
 #include <initializer_list>
+#include <iterator>
 
 namespace smg::testing
 {
@@ -280,6 +284,40 @@ TEST_F(ImportVtkHdf, AttributesThatAreListsAreNoTexts)
   file.out().addIntegers("/VTKHDF/PointData", "Normals", std::vector<std::int64_t>(3000, 65));
   file.finish();
   EXPECT_NE(messageOf([this] { this->readHdf(); }).find("is missing"), std::string::npos);
+}
+
+TEST_F(ImportVtkHdf, ABlockOfTheUsersMayComeFirst)
+{
+  HdfFile file(this->Folder / "plain.vtkhdf", "UnstructuredGrid");
+  this->writeSquareGrid(file);
+  file.finish();
+  std::ifstream plain(this->Folder / "plain.vtkhdf", std::ios::binary);
+  const std::string bytes{ std::istreambuf_iterator<char>(plain), {} };
+  for (const std::size_t block : { 512, 2048 })
+  {
+    writeBytes(this->Folder / "a", std::string(block, ' ') + bytes);
+    this->expectSquare(this->readHdf({}, "a"));
+  }
+}
+
+TEST_F(ImportVtkHdf, OtherFilesAreNotRead)
+{
+  for (const std::string& name : { "/VTKHDF/Points", "/VTKHDF/PointData/Height", "/VTKHDF" })
+  {
+    for (const char* path : { "a.vtkhdf", "other.hdf" })
+    {
+      HdfFile file(this->Folder / path, "UnstructuredGrid");
+      this->writeSquareGrid(file);
+      file.finish();
+    }
+    const hid_t file = H5Fopen((this->Folder / "a.vtkhdf").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    ASSERT_GE(H5Ldelete(file, name.c_str(), H5P_DEFAULT), 0);
+    ASSERT_GE(
+      H5Lcreate_external("other.hdf", name.c_str(), file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+      0);
+    H5Fclose(file);
+    this->expectRefused({}, "'" + name + "' lies in another file");
+  }
 }
 
 TEST_F(ImportVtkHdf, WhatIsWrongIsSaid)
