@@ -23,7 +23,8 @@ constexpr std::int64_t MostThings = std::int64_t(1) << 48;
 VtkXmlEncoding vtkXmlEncoding(const InputFile& file, const XmlTag& root)
 {
   VtkXmlEncoding encoding;
-  encoding.bigEndian = root.value("byte_order") == "BigEndian";
+  encoding.byteOrder =
+    root.value("byte_order") == "BigEndian" ? std::endian::big : std::endian::little;
   encoding.headerBytes = root.value("header_type", "UInt32") == "UInt64" ? 8 : 4;
   const std::string compressor = root.value("compressor");
   encoding.compression = compressor.empty()                      ? VtkCompression::None
@@ -44,7 +45,7 @@ VtkArray vtkXmlArray(
   array.name = tag.value("Name");
   array.type = array.columnType = type;
   array.begin = tag.end;
-  array.bigEndian = encoding.bigEndian;
+  array.byteOrder = encoding.byteOrder;
   const std::int64_t components =
     tag.attribute("NumberOfComponents") ? vtkXmlCount(file, tag, "NumberOfComponents") : 1;
   if (components < 1 || components > std::numeric_limits<std::int16_t>::max())

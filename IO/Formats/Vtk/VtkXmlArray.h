@@ -12,7 +12,7 @@ namespace smg
 /** How the arrays of a file are written that are no text, as its root says. */
 struct VtkXmlEncoding
 {
-  bool bigEndian = false;
+  std::endian byteOrder = std::endian::little;
   int headerBytes = 4;
   VtkCompression compression = VtkCompression::None;
 };

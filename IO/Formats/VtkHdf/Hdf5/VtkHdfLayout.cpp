@@ -164,6 +164,7 @@ private:
     array.columnType = *shape.type;
     array.components = static_cast<int>(shape.components());
     array.encoding = VtkEncoding::Raw;
+    array.byteOrder = std::endian::native;
     array.opener = opener.get();
     return array;
   }
