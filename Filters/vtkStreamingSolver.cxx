@@ -3,6 +3,7 @@
 
 #include "Filters/Streaming/vtkInputStamp.h"
 #include "Filters/Streaming/vtkPieceRequest.h"
+#include "Filters/Streaming/vtkSharedRequest.h"
 #include "Filters/Streaming/vtkSolutionExchange.h"
 #include "Filters/Streaming/vtkStreamedSolve.h"
 #include "IO/vtkAlgorithmGlue.h"
@@ -22,7 +23,6 @@
 #include "vtkTimeStamp.h"
 
 #include <exception>
-#include <optional>
 #include <string>
 
 vtkCxxSetObjectMacro(vtkStreamingSolver, Controller, vtkMultiProcessController);
@@ -70,11 +70,7 @@ struct vtkStreamingSolver::Internals
         }
         this->deliver(*present, values, *vtkPointSet::GetData(outputInfo));
       });
-    if (!request.IsStreamed)
-    {
-      const smg::InputStamp stamp = smg::stampOf(this->Self, input, inputInfo);
-      this->Shared = Answered{ stamp, request.Piece, request.Pieces };
-    }
+    this->Shared.noteAnswer(request, smg::stampOf(this->Self, input, inputInfo));
   }
 
   /** Who answers the request together with this process: nullptr: nobody. */
@@ -82,25 +78,8 @@ struct vtkStreamingSolver::Internals
     const smg::PieceRequest& request, smg::PieceInput& input, vtkInformation* inputInfo)
   {
     const bool isServer = smg::SolutionExchange(this->Self.Controller).isServer();
-    if (request.IsStreamed)
-    {
-      // Only process 0 streams: the others are not there to answer.
-      if (!isServer)
-      {
-        throw smg::Error("A streamed request reached a process other than 0, which has no "
-                         "solution: stream in process 0.");
-      }
-      this->HasStreamed = true;
-      return nullptr;
-    }
-    const Answered now{ smg::stampOf(this->Self, input, inputInfo), request.Piece, request.Pieces };
-    if (isServer && this->HasStreamed && this->Shared == now)
-    {
-      return nullptr;
-    }
-    this->HasStreamed = false;
-    this->Shared.reset();
-    return this->Self.Controller;
+    const smg::InputStamp stamp = smg::stampOf(this->Self, input, inputInfo);
+    return this->Shared.isShared(request, stamp, isServer) ? this->Self.Controller : nullptr;
   }
 
   static vtkSmartPointer<vtkPointSet> bring(
@@ -228,14 +207,6 @@ struct vtkStreamingSolver::Internals
     output.GetFieldData()->AddArray(report);
   }
 
-  /** A request, with what its answer depends on. */
-  struct Answered
-  {
-    smg::InputStamp stamp;
-    int piece = 0, pieces = 0;
-    bool operator==(const Answered&) const = default;
-  };
-
   /** When the pipeline was changed last, as far as it has been looked at. */
   vtkMTimeType pipelineTime() const
   {
@@ -250,13 +221,7 @@ struct vtkStreamingSolver::Internals
   smg::StreamedSolve Streamed;
   smg::SolveSummary Summary; ///< of the last answer
   std::string Outcome;       ///< its line, for a caller to look at
-  /** The last request that all processes answered together. */
-  std::optional<Answered> Shared;
-  /**
-   * Whether requests have been streamed since then. They put other pieces in its place in process 0
-   * only, which may be asked for the same once more, alone.
-   */
-  bool HasStreamed = false;
+  smg::SharedRequest Shared;
 };
 
 vtkStreamingSolver::vtkStreamingSolver()

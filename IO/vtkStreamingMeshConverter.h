@@ -4,21 +4,22 @@
  * @brief   Converts a mesh file to a stream, keeps it, and delivers its pieces
  *
  * Brings a mesh file of any format that can be read (PLY, OBJ, OFF, STL, Medit, Gmsh, TetGen,
- * legacy VTK, .vtp, .vtu, .pvtp, .pvtu, SMA, SMB, SVA, SVB, .vsm, also .gz) into a stream order and
- * writes it to the container OutputFileName, which stays. FileName is the mesh file; otherwise this
- * is a vtkStreamingMeshReader of that container: see there for its pieces, its arrays, and the
- * preview that it shows of a mesh that is too large. ScratchDirectory is for the scratch files of
- * the conversion.
+ * legacy VTK, .vtp, .vtu, .pvtp, .pvtu, VTKHDF, SMA, SMB, SVA, SVB, .vsm, also .gz) into a stream
+ * order and writes it to the container OutputFileName, which stays. FileName is the mesh file;
+ * otherwise this is a vtkStreamingMeshReader of that container: see there for its pieces, its
+ * arrays, and the preview that it shows of a mesh that is too large. ScratchDirectory is for the
+ * scratch files of the conversion.
  *
  * vtkStreamingMeshReader itself reads such files, too, but converts them to a temporary container,
  * again for every reader. Use this class where a mesh is to be opened more than once.
  *
  * The conversion takes place when the pipeline first asks for anything. It is not repeated as long
- * as FileName, Order, Cells and Weld stay what they are, and FileName as it is: the container says
- * what it was made from, so that it is used again in later sessions, too. When something of that
- * changes, the container is made anew. A file of the name OutputFileName that is no conversion of
- * FileName is left alone, which is an error, unless Overwrite is on. With several processes one
- * converts, the others wait; FileName and OutputFileName must then be seen by all.
+ * as FileName, Order, Cells, Weld, TimeStep and Partition stay what they are, and FileName as it
+ * is: the container says what it was made from, so that it is used again in later sessions, too.
+ * When something of that changes, the container is made anew. A file of the name OutputFileName
+ * that is no conversion of FileName is left alone, which is an error, unless Overwrite is on. With
+ * several processes one converts, the others wait; FileName and OutputFileName must then be seen by
+ * all.
  *
  * The conversion works out of core: it needs no more memory than MemoryLimit, and room for scratch
  * files in ScratchDirectory of about five times the size of the mesh in memory.
@@ -92,6 +93,21 @@ public:
   ///@}
 
   ///@{
+  /** Which time step to read of a file that has some (VTKHDF), from 0. Default: 0. */
+  vtkSetClampMacro(TimeStep, int, 0, VTK_INT_MAX);
+  vtkGetMacro(TimeStep, int);
+  ///@}
+
+  ///@{
+  /**
+   * Which partition to read of a file that has some (VTKHDF), from 0. Default: -1, which is all of
+   * them, joined.
+   */
+  vtkSetClampMacro(Partition, int, -1, VTK_INT_MAX);
+  vtkGetMacro(Partition, int);
+  ///@}
+
+  ///@{
   /** Whether OutputFileName may replace a file that is no conversion of FileName. Default: off. */
   vtkSetMacro(Overwrite, bool);
   vtkGetMacro(Overwrite, bool);
@@ -142,6 +158,8 @@ private:
   int Cells = ONLY;
   bool Weld = false;
   double WeldDistance = 0.0;
+  int TimeStep = 0;
+  int Partition = -1;
   bool Overwrite = false;
   int MemoryLimit = 0;
   std::string Report, Estimate;

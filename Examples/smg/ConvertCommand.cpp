@@ -133,7 +133,7 @@ void addConvertCommand(CLI::App& program, Action& action)
     ->add_flag("--restore-order", options->restoreOrder,
       "Write vertices and cells in the order of the file that the .vsm file IN was made of, to a " +
         smg::suffixList(smg::FormatUse::Restore, "or") + " file")
-    ->excludes("--order", "--weld", "--cells", "--codec");
+    ->excludes("--order", "--weld", "--cells", "--codec", "--time-step", "--partition");
   command->add_flag("--dry-run", options->dryRun,
     "Only say how large the mesh is and what the conversion will take");
   options->addTo(*command);

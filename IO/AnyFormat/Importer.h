@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Formats/MeshPart.h"
 #include "IO/Raw/RawMeshBuilder.h"
 #include "Solver/Core/Progress.h"
 #include "smg/Export.h"
@@ -15,6 +16,7 @@ struct ImportOptions
 {
   CellChoice cells = CellChoice::Only;
   ProgressFunction progress;
+  MeshPart part = {};
 };
 
 /**
@@ -23,7 +25,7 @@ struct ImportOptions
  * open.
  * @throws Error naming the file and the line, record or byte: the format is not known, the file is
  * empty, truncated or contradicts itself, a coordinate is not finite, a corner is no vertex, there
- * are no cells, or both triangles and tetrahedra; Cancelled.
+ * are no cells, or both triangles and tetrahedra, there is no such part; Cancelled.
  */
 SMG_EXPORT RawMesh importMesh(
   const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options = {});

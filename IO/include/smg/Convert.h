@@ -51,6 +51,10 @@ struct ConversionOptions
   CellChoice cells = CellChoice::Only;
   /** Merges points within this distance of each other; 0: equal coordinates; none: no points. */
   std::optional<double> weld;
+  /** Of a file with time steps (VTKHDF): which one, from 0. */
+  std::int64_t timeStep = 0;
+  /** Of a file with partitions (VTKHDF): which one, from 0; none: all, joined. */
+  std::optional<std::int64_t> partition;
   /** Writes vertices and cells in the order that they had in the first file: see writeRestored().
    */
   bool restoreOrder = false;
@@ -72,6 +76,7 @@ struct SMG_EXPORT ConversionReport
   };
 
   std::string order;
+  std::int64_t time_steps = 0, partitions = 0; ///< of the file that was read; 0: it has no such
   std::int64_t vertices = 0, cells = 0;
   std::int64_t isolated_vertices = 0;     ///< vertices of no cell: kept beside a .vsm stream
   std::int64_t merged_points = 0;         ///< points welded to others
