@@ -1,16 +1,16 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds the ParaView plugin on a Debian 12 or 13 machine (as root, or as a user with sudo) and lets
-# pvpython deform the Stanford bunny, out of core; then builds the rest, the program smg and all the
-# lessons. Leaves in Examples/output: bunny-deformed.png (before and after), .vsm and .ply (the
+# Builds the ParaView plugin on a Debian 12 or 13 machine (as root, or as a user with sudo) and
+# deforms the Stanford bunny out of core with pvpython; then builds the rest: the program smg and
+# all lessons. Leaves in Examples/output: bunny-deformed.png (before and after), .vsm and .ply (the
 # deformed mesh), .json (the report).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source cmake/packages.sh
 smg_install "${smg_build_packages[@]}" "${smg_paraview_packages[@]}"
 
-# A tree that is configured already, for instance by Testing/run.sh, is only brought up to date. A new
-# one begins without what the picture does not need: the solver's second build, and Python.
+# A configured build folder, for instance of Testing/run.sh, is only updated. Otherwise the first
+# build omits parts that the picture does not need: the second build of the solver, and Python.
 rest=(-DSMG_BUILD_X86_64_V3=ON -DSMG_BUILD_PYTHON=ON)
 unfinished=build/without-the-rest
 if [ ! -e build/build.ninja ]; then

@@ -26,7 +26,7 @@ struct vtkMeshCondition::Internals
   {
   }
 
-  /** The condition, without where it holds. */
+  /** The condition without its region. */
   smg::Condition condition() const
   {
     smg::Condition condition;
@@ -110,7 +110,7 @@ void vtkMeshCondition::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, 
       mask->SetValue(static_cast<vtkIdType>(i), held.by[i] >= 0 ? 1 : 0);
     }
     output.GetPointData()->AddArray(mask);
-    // A view shows where the condition holds.
+    // Views show the region of the condition.
     output.GetPointData()->SetActiveScalars(condition.mask.c_str());
   }
   smg::addCondition(output, condition.text());

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkMeshCondition
- * @brief   Says what holds in a region of a gigantic mesh: a condition of an elliptic problem
+ * @brief   Sets a condition of an elliptic problem in a region of a very large mesh
  *
- * Prescribes a value, or says the flux through the boundary, the exchange with the surroundings, a
- * source, a conductivity, a screening or a soft constraint, where the Region is. Filters are
- * chained, one for each condition, and vtkStreamingPoisson behind them solves. Of conditions of one
- * kind that hold at the same place the last one counts; soft ones add up.
+ * Prescribes a value, the flux through the boundary, the exchange with the surroundings, a source,
+ * a conductivity, a screening or a soft constraint in the Region. Filters are chained, one for each
+ * condition, followed by vtkStreamingPoisson, which solves. Of several conditions of one kind at
+ * the same place the last one counts; soft ones add up.
  *
- * Beside the regions of vtkMeshRegion there are those by TAG: where the array TagArray of the
- * points or the cells has the value Tag; and EVERYWHERE. Cells, and facets of the boundary, are in
- * a region if all their corners are; a tag of the cells holds in these cells, at their points and
- * on their facets. Fluxes and the exchange of ROBIN are those of boundary facets alone: open edges
- * of a surface, faces of one tetrahedron.
+ * In addition to the regions of vtkMeshRegion there are TAG, where the point or cell array TagArray
+ * has the value Tag, and EVERYWHERE. Cells and boundary facets are in a region if all their corners
+ * are; a cell tag applies to these cells, their points and their facets. FLUX and ROBIN apply to
+ * boundary facets only: open edges of a surface, faces of one tetrahedron.
  *
- * The output is the input with the condition in the field array `MeshConditions`, in the words of
+ * The output is the input with the condition in the field array `MeshConditions`, in the JSON of
  * `smg solve --problem`, and the point array `Condition1`, `Condition2` ... (unsigned char, by the
- * place in the chain) which is 1 where it holds, the active scalars of the output; there is no such
- * array for TAG, nor for a source, a conductivity or a screening EVERYWHERE, and NumberOfHeldPoints
- * is 0 then. vtkStreamingPoisson takes the conditions and their arrays away.
+ * position in the chain), which is 1 in the region and the active scalars of the output. This array
+ * is absent, and NumberOfHeldPoints is 0, for TAG and for a source, a conductivity or a screening
+ * EVERYWHERE. vtkStreamingPoisson removes the conditions and their arrays.
  *
  * @sa vtkMeshRegion vtkStreamingPoisson
  */
@@ -37,14 +36,14 @@ public:
   vtkTypeMacro(vtkMeshCondition, vtkMeshRegion);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** What says where the condition holds, beside RegionTypes. */
+  /** Types of regions in addition to RegionTypes. */
   enum MoreRegionTypes
   {
     TAG = 4,
     EVERYWHERE = 5
   };
 
-  /** What the condition says, u being the solution, n the outward normal. */
+  /** Types of conditions; u is the solution, n the outward normal. */
   enum ConditionTypes
   {
     DIRICHLET = 0,    ///< u = Value
@@ -56,12 +55,11 @@ public:
     SOFT = 6          ///< adds Coefficient * (u - Value), a density, to the equations
   };
 
-  /** What says where the condition holds: a RegionTypes, TAG or EVERYWHERE. Default: FUNCTION. */
+  /** The type of the region: a RegionTypes, TAG or EVERYWHERE. Default: FUNCTION. */
   void SetRegion(int region) override;
 
   ///@{
-  /** Name of the array of points or cells of TAG, and the value it has in the region. Default:
-   * none, 0. */
+  /** The name of the point or cell array of TAG, and its value in the region. Default: none, 0. */
   vtkSetStringMacro(TagArray);
   vtkGetStringMacro(TagArray);
   vtkSetMacro(Tag, double);
@@ -69,27 +67,27 @@ public:
   ///@}
 
   ///@{
-  /** What the condition says. Default: DIRICHLET. */
+  /** The type of the condition. Default: DIRICHLET. */
   vtkSetClampMacro(Condition, int, DIRICHLET, SOFT);
   vtkGetMacro(Condition, int);
   ///@}
 
   ///@{
-  /** The value, where one number is enough: with one right-hand side. Default: 0. */
+  /** The value, if it is a single number: with one right-hand side. Default: 0. */
   vtkSetMacro(Value, double);
   vtkGetMacro(Value, double);
   ///@}
 
   ///@{
-  /** The numbers of the value, one for each right-hand side, or those of a tensor; if there are
-   * any, they count instead of Value. Default: none. */
+  /** The components of the value, one per right-hand side, or those of a tensor; if there are any,
+   * they replace Value. Default: none. */
   void AddValue(double value);
   void RemoveAllValues();
   int GetNumberOfValues();
   ///@}
 
   ///@{
-  /** Whether the value is the point's own position, for three right-hand sides. Default: off. */
+  /** Whether the value is the position of the point, for three right-hand sides. Default: off. */
   vtkSetMacro(ValueIsPosition, bool);
   vtkGetMacro(ValueIsPosition, bool);
   vtkBooleanMacro(ValueIsPosition, bool);

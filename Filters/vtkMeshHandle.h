@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkMeshHandle
- * @brief   Takes hold of a region of a gigantic mesh and says where it goes
+ * @brief   Fixes or moves a region of a very large mesh
  *
- * Adds to the input's points the arrays by which vtkStreamingMeshDeformation deforms it, or updates
- * them: `HandleMask` (unsigned char: how many handles hold the point, at most 255), `HandleTarget`
- * (three doubles: where it goes), `HandleRotation` (three doubles: unit axis times angle in
- * radians) and `HandleLogScale` (double: natural logarithm of the scale). Filters are chained, one
- * for each handle: where several hold a point, the last one counts.
+ * Adds or updates the point arrays that control vtkStreamingMeshDeformation: `HandleMask` (unsigned
+ * char: the number of handles that hold the point, at most 255), `HandleTarget` (three doubles: its
+ * target position), `HandleRotation` (three doubles: unit axis times angle in radians) and
+ * `HandleLogScale` (double: natural logarithm of the scale). Filters are chained, one for each
+ * handle: if several hold a point, the last one counts.
  *
- * How it moves, by Motion: not at all (FIXED), by rotation and scale about Center and then
- * Translation (SIMILARITY), or by a Transform (TRANSFORM). Regions other than FUNCTION may have
- * PointTargets, which say for each of their points where it goes; then the motion says only how it
- * turns and grows.
+ * Motion selects how the region moves: not at all (FIXED), by rotation and scale about Center
+ * followed by Translation (SIMILARITY), or by a Transform (TRANSFORM). Regions other than FUNCTION
+ * may have PointTargets, the target positions of their points; the motion then defines only
+ * rotation and scale.
  *
- * Regions, and how they are found on a mesh of any size, are described at vtkMeshRegion.
+ * vtkMeshRegion describes the regions and how they are found on a mesh of any size.
  *
  * @sa vtkMeshRegion vtkStreamingMeshDeformation vtkStreamingMeshReader
  */
@@ -35,7 +35,7 @@ public:
   vtkTypeMacro(vtkMeshHandle, vtkMeshRegion);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** What says where the held points go. */
+  /** The motions of the held points. */
   enum MotionTypes
   {
     FIXED = 0,
@@ -45,9 +45,9 @@ public:
 
   ///@{
   /**
-   * Where the points of a selection (in the order of their numbers), the ids or the places go: as
-   * many as these. What is held around a point moves with it. Default: none, then the motion says
-   * where they go.
+   * The target positions of the points of a selection (in the order of their ids), of the ids, or
+   * of the positions: as many as these. The neighbourhood held with a point moves with it. Default:
+   * none (the motion defines the targets).
    */
   void AddPointTarget(double x, double y, double z);
   void RemoveAllPointTargets();
@@ -55,27 +55,26 @@ public:
   ///@}
 
   ///@{
-  /** What says where the held points go. Default: FIXED. */
+  /** The motion of the held points. Default: FIXED. */
   vtkSetClampMacro(Motion, int, FIXED, TRANSFORM);
   vtkGetMacro(Motion, int);
   ///@}
 
   ///@{
-  /** The axis of the rotation, of any length but 0. Default: (0, 0, 1). */
+  /** The axis of the rotation, of any length except 0. Default: (0, 0, 1). */
   vtkSetVector3Macro(RotationAxis, double);
   vtkGetVector3Macro(RotationAxis, double);
   ///@}
 
   ///@{
-  /**
-   * The angle of the rotation in degrees, from -1e6 to 1e6: 200 turns the long way. Default: 0.
-   */
+  /** The angle of the rotation in degrees, from -1e6 to 1e6: 200 is not the same as -160. Default:
+   * 0. */
   vtkSetMacro(RotationAngle, double);
   vtkGetMacro(RotationAngle, double);
   ///@}
 
   ///@{
-  /** The factor by which what is held grows, from 1e-20 to 1e20. Default: 1. */
+  /** The scale factor of the held region, from 1e-20 to 1e20. Default: 1. */
   vtkSetMacro(Scale, double);
   vtkGetMacro(Scale, double);
   ///@}
@@ -93,15 +92,13 @@ public:
   ///@}
 
   ///@{
-  /**
-   * The motion of Motion TRANSFORM. It must not flatten or mirror; it turns by 180 degrees at most.
-   * Default: none.
-   */
+  /** The transform of TRANSFORM. It must be neither singular nor a reflection; rotations are at
+   * most 180 degrees. Default: none. */
   virtual void SetTransform(vtkLinearTransform* transform);
   vtkLinearTransform* GetTransform() { return this->Transform; }
   ///@}
 
-  /** Also the time of the transform. */
+  /** Includes the modification time of the transform. */
   vtkMTimeType GetMTime() override;
 
 protected:

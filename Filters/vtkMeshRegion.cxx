@@ -53,7 +53,7 @@ struct vtkMeshRegion::Internals
     settings.pieces = this->Self.NumberOfPieces;
     if (settings.kind == Kind::Selection && selection)
     {
-      // These are points of the mesh, whatever is displayed of it.
+      // GlobalIds refer to points of the mesh, also if a preview is displayed.
       if (std::optional<std::vector<std::int64_t>> ids = smg::selectedGlobalIds(*selection))
       {
         settings.kind = Kind::Ids;
@@ -64,7 +64,7 @@ struct vtkMeshRegion::Internals
     return settings;
   }
 
-  /** Brings the input to the piece asked for and says which of its points are held. */
+  /** Updates the input to the requested piece and determines its held points. */
   vtkPointSet& bring(smg::PieceInput& input, const smg::PieceRequest& request,
     vtkInformationVector** inputVector, smg::HeldPoints& held)
   {
@@ -85,7 +85,7 @@ struct vtkMeshRegion::Internals
     {
       this->FarPoints.forget();
     }
-    // Points are sought before the other handles, so that it does not matter that they are moved.
+    // Points are searched upstream of the other handles, so that their motion has no effect.
     const bool needsArrays = selection && smg::isByValue(*selection);
     smg::PieceInput mesh(needsArrays ? this->Self : smg::firstOfChain(this->Self), 0);
     const auto stamp = [&mesh, selection, info = inputVector[0]->GetInformationObject(0)]
@@ -98,7 +98,7 @@ struct vtkMeshRegion::Internals
     return this->Region.bring(request, { input, mesh, selection, stamp, progress, warn }, held);
   }
 
-  /** Counts the points that are held; at the end of the mesh, what is sought must be found. */
+  /** Counts the held points; at the end of the mesh, all requested points must have been found. */
   void count(vtkPointSet& piece, const smg::HeldPoints& held, const smg::PieceRequest& request)
   {
     const bool isWhole = this->Count.add(piece, held, request);
@@ -230,7 +230,7 @@ int vtkMeshRegion::RequestUpdateExtent(
   request.forwardTo(inputVector[0]->GetInformationObject(0));
   if (inputVector[1]->GetNumberOfInformationObjects() > 0)
   {
-    // Each process selects in what it displays; otherwise the selection is that of the whole.
+    // A displayed selection refers to the data of each process, any other to the whole mesh.
     if (request.IsStreamed || !smg::hasSeveralProcesses())
     {
       request.Piece = 0;

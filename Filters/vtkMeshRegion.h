@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkMeshRegion
- * @brief   What the filters that say something of a region of a gigantic mesh have in common
+ * @brief   Base class of filters that act on a region of a very large mesh
  *
- * What is held, by Region:
+ * The points that Region selects (the held points):
  * - FUNCTION: the points where RegionFunction is at most 0 (with InsideOut: at least 0);
- * - SELECTION: the points, or the cells' points, of the selection at input port 1;
+ * - SELECTION: the points, or the points of the cells, of the selection at input port 1;
  * - IDS: the points with the given Ids, which are GlobalIds (stream indices) or values of the
  *   array `OriginalId`;
- * - POINTS: the points nearest to the given places.
+ * - POINTS: the points nearest to the given positions.
  *
- * A selection of points by GlobalIds is the same as these Ids: it names points of the mesh, on the
- * preview, too. Any other selection is made on what is displayed. Of a gigantic mesh that is the
- * preview (see vtkStreamingMeshReader), as soon as real pieces are asked for its points are
+ * A selection of points by GlobalIds is equivalent to IDS: it refers to points of the mesh, also on
+ * the preview. Any other selection refers to the displayed data. For a very large mesh this is the
+ * preview (see vtkStreamingMeshReader): when streamed pieces are requested, the selected points are
  * projected to the nearest points of the mesh, in one pass over NumberOfPieces pieces of the input,
- * with all points within Radius and Rings of these; so are places, and ids that have a Radius or
- * Rings. What was found is kept until the region or the mesh is modified: filters of this kind
- * before this one can be changed, unless the selection is one by values of arrays. A point that is
- * farther from the mesh than 1 % of the diagonal of its bounds gives a warning. On a preview, Rings
- * mean nothing, and ids and places hold the nearest points of the preview.
+ * together with all points within Radius and Rings of these. Positions, and ids with a Radius or
+ * Rings, are projected in the same way. The result is kept until the region or the mesh is
+ * modified; filters of this kind upstream may change, unless the selection is by array values. A
+ * point that is farther from the mesh than 1 % of the diagonal of its bounds causes a warning. On a
+ * preview, Rings has no effect, and ids and positions hold the nearest points of the preview.
  *
- * A region that holds nothing is an error as soon as that is known: when the whole mesh is asked
- * for, or at the last piece when streamed pieces are asked for in order. If it is a preview that
- * has no point in the region, that is a warning, as the mesh may have some.
+ * An empty region is an error, reported when the whole mesh is requested, or at the last piece when
+ * streamed pieces are requested in order. A preview without a point in the region causes a warning,
+ * since the mesh may have some.
  *
- * With more than one process, selections by point numbers hold points of the process that they name
- * as long as each asks for its own piece; streamed requests need GlobalIds, unless a preview is
- * displayed.
+ * With several processes, selections by point index refer to the points of the named process as
+ * long as each process requests its own piece; streamed requests need GlobalIds, unless a preview
+ * is displayed.
  *
  * @sa vtkMeshHandle vtkMeshCondition vtkStreamingMeshReader
  */
@@ -52,7 +52,7 @@ public:
   vtkTypeMacro(vtkMeshRegion, vtkPassInputTypeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** What says which points are held. */
+  /** The types of regions. */
   enum RegionTypes
   {
     FUNCTION = 0,
@@ -61,40 +61,38 @@ public:
     POINTS = 3
   };
 
-  /** What the Ids are. */
+  /** The meaning of Ids. */
   enum IdTypes
   {
-    GLOBAL_IDS = 0,  ///< GlobalIds, which number the points in the order of the stream
-    ORIGINAL_IDS = 1 ///< values of the point array `OriginalId`: numbers in the original file
+    GLOBAL_IDS = 0,  ///< GlobalIds: indices in the stream
+    ORIGINAL_IDS = 1 ///< values of the point array `OriginalId`: indices in the original file
   };
 
   ///@{
-  /** What says which points are held. Default: FUNCTION. */
+  /** The type of the region. Default: FUNCTION. */
   vtkSetClampMacro(Region, int, FUNCTION, POINTS);
   vtkGetMacro(Region, int);
   ///@}
 
   ///@{
-  /**
-   * The function that is at most 0 where points are held; it must be finite at every point, and the
-   * radius of a vtkSphere or vtkCylinder greater than 0. Default: none.
-   */
+  /** The implicit function that is at most 0 at held points. It must be finite at every point; the
+   * radius of a vtkSphere or vtkCylinder must be greater than 0. Default: none. */
   virtual void SetRegionFunction(vtkImplicitFunction* function);
   vtkImplicitFunction* GetRegionFunction() { return this->RegionFunction; }
   ///@}
 
   ///@{
-  /** Whether the points are held where the function is at least 0 instead. Default: off. */
+  /** Whether to hold the points where the function is at least 0 instead. Default: off. */
   vtkSetMacro(InsideOut, bool);
   vtkGetMacro(InsideOut, bool);
   vtkBooleanMacro(InsideOut, bool);
   ///@}
 
-  /** Connects what makes the selection (a vtkSelection): input port 1. */
+  /** Connects the source of the selection (a vtkSelection) to input port 1. */
   void SetSelectionConnection(vtkAlgorithmOutput* selection);
 
   ///@{
-  /** The ids of the points that are held, at least 0. Default: none. */
+  /** The ids of the held points, at least 0. Default: none. */
   void AddId(vtkIdType id);
   void RemoveAllIds();
   vtkIdType GetNumberOfIds();
@@ -102,13 +100,13 @@ public:
   ///@}
 
   ///@{
-  /** What the ids are. Default: GLOBAL_IDS. */
+  /** The meaning of the ids. Default: GLOBAL_IDS. */
   vtkSetClampMacro(IdType, int, GLOBAL_IDS, ORIGINAL_IDS);
   vtkGetMacro(IdType, int);
   ///@}
 
   ///@{
-  /** The places whose nearest points are held. Default: none. */
+  /** The positions whose nearest points are held. Default: none. */
   void AddPoint(double x, double y, double z);
   void RemoveAllPoints();
   vtkIdType GetNumberOfPoints();
@@ -116,40 +114,34 @@ public:
 
   ///@{
   /**
-   * How far around the points of a selection, of ids or of places the mesh is held: the distance
-   * from each. 0: only the points themselves. Below 0 (default -1): for points selected on a
-   * preview as far as each of them stands for the mesh around it, which is the mean length of the
-   * preview's edges divided by the square root of 3; else 0.
+   * The distance from the points of a selection, of ids or of positions within which the mesh is
+   * held. 0: only the points themselves. Negative (default -1): for points selected on a preview,
+   * the mean edge length of the preview divided by the square root of 3, the radius that each of
+   * them represents; otherwise 0.
    */
   vtkSetMacro(Radius, double);
   vtkGetMacro(Radius, double);
   ///@}
 
   ///@{
-  /**
-   * The same, counted in edges of the mesh, 0 to 100; what is within the radius or the rings is
-   * held. Default: 0.
-   */
+  /** The distance in edges of the mesh, 0 to 100; points within the radius or the rings are held.
+   * Default: 0. */
   vtkSetClampMacro(Rings, int, 0, 100);
   vtkGetMacro(Rings, int);
   ///@}
 
   ///@{
-  /**
-   * How many pieces the input is pulled in where points are projected, 1 to 1,000,000. Default: 64.
-   * What is held does not depend on it.
-   */
+  /** The number of pieces in which the input is requested to project points, 1 to 1,000,000.
+   * Default: 64. The held points do not depend on it. */
   vtkSetClampMacro(NumberOfPieces, int, 1, 1000000);
   vtkGetMacro(NumberOfPieces, int);
   ///@}
 
-  /**
-   * How many points of the last answer this filter holds; of streamed pieces asked for in order, of
-   * all of them since the first. Points that an earlier piece owns do not count. 0 after an error.
-   */
+  /** The number of held points in the last output; for streamed pieces requested in order, in all
+   * pieces since the first. Points owned by an earlier piece do not count. 0 after an error. */
   vtkGetMacro(NumberOfHeldPoints, vtkIdType);
 
-  /** Also the time of the function. */
+  /** Includes the modification time of the function. */
   vtkMTimeType GetMTime() override;
 
 protected:
@@ -164,13 +156,14 @@ protected:
   int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
 
-  /** Throws smg::Error if a property of the subclass is wrong, before the input is asked for. */
+  /** Throws smg::Error if a property of the subclass is invalid; called before the input is
+   * updated. */
   virtual void Check() = 0;
 
-  /** Whether the region needs no held points: then `held` has none. Default: no. */
+  /** Whether the region needs no held points; `held` is then empty. Default: false. */
   virtual bool IsElsewhere() { return false; }
 
-  /** Gives the output the piece and what is said of its held points. Throws smg::Error. */
+  /** Fills the output with the piece and the data of its held points. Throws smg::Error. */
   virtual void Deliver(vtkPointSet& piece, const smg::HeldPoints& held, vtkPointSet& output) = 0;
 
   int Region = FUNCTION;

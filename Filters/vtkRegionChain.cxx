@@ -17,7 +17,7 @@ vtkAlgorithm& firstOfChain(vtkMeshRegion& region)
     {
       first = at;
     }
-    // ParaView puts one of these behind every filter.
+    // ParaView adds one of these after every filter.
     else if (!at->IsA("vtkPVPostFilter"))
     {
       break;

@@ -7,10 +7,8 @@ class vtkMeshRegion;
 namespace smg
 {
 
-/**
- * The first of the regions, one after the other, whose last one is `region`. What it gets has the
- * points that all of them hold some of, without the arrays that they add.
- */
+/** The first of a chain of regions that ends at `region`. Its input has the points of the whole
+ * chain, without the arrays that the regions add. */
 vtkAlgorithm& firstOfChain(vtkMeshRegion& region);
 
 } // namespace smg

@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkStreamingMeshDeformation
- * @brief   Deforms a gigantic mesh by handles and keeps its details
+ * @brief   Deforms a very large mesh by handles and keeps its details
  *
  * Deforms a mesh of triangles or tetrahedra by the handles in its point arrays HandleMask,
- * HandleTarget, HandleRotation and HandleLogScale, which vtkMeshHandle makes: two Poisson problems,
- * the rotations and scales between the handles, then the positions. Parts of the mesh that no
- * handle reaches stay as they are. The output is the input with its points moved, in their
- * precision, and with all its arrays but the handles' (see KeepHandleArrays) and old normals (see
- * Normals).
+ * HandleTarget, HandleRotation and HandleLogScale, which vtkMeshHandle creates. It solves two
+ * Poisson problems: one for the rotations and scales between the handles, one for the positions.
+ * Components of the mesh without a handle do not move. The output is the input with its points
+ * moved, in their precision, and with all its arrays except those of the handles (see
+ * KeepHandleArrays) and the old normals (see Normals).
  *
- * - Streamed requests (see vtkStreamingMeshKeys), those of writers and other streaming filters, are
- *   answered as told at vtkStreamingSolver: the whole mesh is deformed once, out of core.
- * - Other requests that the input answers with a preview give the deformed preview: it is deformed
- *   by itself, in memory, and its hierarchy is kept as long as only the motion of the handles
- *   changes. So a handle can be dragged and the preview follows at once.
- * - Other requests for the whole of a mesh of at most InteractivePoints points are answered in the
- *   same way with the mesh itself; those for larger meshes, or with several processes, as the
- *   streamed ones.
+ * - For streamed requests (see vtkStreamingMeshKeys), those of writers and other streaming filters,
+ *   the whole mesh is deformed once, out of core, as described at vtkStreamingSolver.
+ * - For other requests, if the input is a preview, the preview itself is deformed in memory. Its
+ *   hierarchy is kept as long as only the motion of the handles changes, so that the preview
+ *   follows a dragged handle immediately.
+ * - Other requests for the whole of a mesh of at most InteractivePoints points are treated like
+ *   previews; those for larger meshes, or with several processes, like streamed requests.
  *
- * All ways give the same mesh the same points, bit for bit. A mesh that is deformed in memory may
- * be any mesh; one that is streamed has to keep the contract told at vtkStreamingSolver.
+ * In all cases a mesh gets the same points, bit for bit. Any mesh can be deformed in memory; a
+ * streamed mesh has to fulfil the contract described at vtkStreamingSolver.
  *
  * @sa vtkMeshHandle vtkStreamingSolver vtkStreamingMeshPreview vtkStreamingMeshReader
  */
@@ -37,26 +36,24 @@ public:
   vtkTypeMacro(vtkStreamingMeshDeformation, vtkStreamingSolver);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** What becomes of normals. */
+  /** The treatment of normals. */
   enum NormalsTypes
   {
-    RECOMPUTE = 0, ///< those of triangles are computed anew; those of tetrahedra dropped
+    RECOMPUTE = 0, ///< those of triangles are recomputed, those of tetrahedra dropped
     DROP = 1       ///< they are dropped
   };
 
   ///@{
-  /**
-   * V-cycles of each of the two steps. Default: 0, which is as many as Tolerance needs, at most
-   * MaximumCycles.
-   */
+  /** V-cycles of each of the two steps. Default: 0 (as many as Tolerance needs, at most
+   * MaximumCycles). */
   vtkSetClampMacro(Cycles, int, 0, VTK_INT_MAX);
   vtkGetMacro(Cycles, int);
   ///@}
 
   ///@{
   /**
-   * What becomes of the normals of points and of cells (the active normals and arrays `Normals`),
-   * which are not true any more. Default: RECOMPUTE. The normals of points are averages over the
+   * The treatment of the normals of points and of cells (the active normals and arrays `Normals`),
+   * which the deformation invalidates. Default: RECOMPUTE. Point normals are averages over the
    * whole mesh, weighted by angles, in single precision; they do not depend on pieces. Active
    * tangents are always dropped.
    */
@@ -65,10 +62,8 @@ public:
   ///@}
 
   ///@{
-  /**
-   * Whether the output keeps the arrays of the handles. Default: off, so that the handles of a
-   * second deformation begin from nothing.
-   */
+  /** Whether the output keeps the arrays of the handles. Default: off, so that a second deformation
+   * starts without handles. */
   vtkSetMacro(KeepHandleArrays, bool);
   vtkGetMacro(KeepHandleArrays, bool);
   vtkBooleanMacro(KeepHandleArrays, bool);
@@ -76,18 +71,16 @@ public:
 
   ///@{
   /**
-   * Meshes of at most so many points are deformed in memory, where that takes about 1 KiB a point,
-   * and their hierarchy is kept. Default: 200,000. 0: only previews are. The result is the same. A
-   * larger mesh of which no preview is displayed is deformed out of core at each change.
+   * Meshes of at most this many points are deformed in memory, which takes about 1 KiB per point,
+   * and their hierarchy is kept. Default: 200,000. 0: only previews. The result does not depend on
+   * it. A larger mesh that is displayed without a preview is deformed out of core at each change.
    */
   vtkSetClampMacro(InteractivePoints, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(InteractivePoints, vtkIdType);
   ///@}
 
-  /**
-   * How many times a hierarchy has been built in memory: this does not grow while only the motion
-   * of handles changes.
-   */
+  /** The number of hierarchies built in memory; it does not increase while only the motion of
+   * handles changes. */
   int GetNumberOfBuilds();
 
 protected:

@@ -28,7 +28,7 @@ vtkStandardNewMacro(vtkStreamingMeshPreview);
 namespace
 {
 
-/** The pieces of an input as a mesh stream, which counts itself. */
+/** The pieces of an input as a mesh stream that counts its vertices and cells. */
 class PulledMesh : public smg::MeshSource
 {
 public:
@@ -53,7 +53,7 @@ public:
     return true;
   }
 
-  /** What is known after the last block. */
+  /** The information on the stream, complete after the last block. */
   smg::StreamInfo counted() const
   {
     smg::StreamInfo info = this->info();
@@ -77,7 +77,7 @@ struct vtkStreamingMeshPreview::Internals
   {
   }
 
-  /** Makes the preview unless that has been done for this input, which is left as it was found. */
+  /** Creates the preview unless it exists for this input, whose state is restored. */
   void make(smg::PieceInput& input, const smg::PieceRequest& request, vtkInformation* inputInfo)
   {
     if (this->Preview && this->MadeFor == smg::stampOf(this->Self, input, inputInfo))
@@ -94,7 +94,7 @@ struct vtkStreamingMeshPreview::Internals
     }
     this->Preview = std::move(preview);
     input.update(request.Piece, request.Pieces, false);
-    // Pulling may have let the pipeline learn of modifications of its own making.
+    // Requesting pieces may itself have updated modification times of the pipeline.
     this->MadeFor = smg::stampOf(this->Self, input, inputInfo);
   }
 
@@ -117,7 +117,7 @@ struct vtkStreamingMeshPreview::Internals
     info.cellType = smg::CellType::Triangle;
     smg::setPiece(output, piece, info);
     smg::markAsPreview(output, this->Full);
-    // The pipeline passes field data on: this preview is all that there is of it.
+    // The pipeline passes field data; this preview has no larger mesh upstream.
     output.GetFieldData()->RemoveArray(smg::PreviewOfReaderName);
   }
 
@@ -172,7 +172,7 @@ int vtkStreamingMeshPreview::RequestInformation(
 int vtkStreamingMeshPreview::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  // The pieces are pulled with the key; what is asked for here is what the input shows anyway.
+  // Pieces are requested with the key later; this request only repeats what the input displays.
   smg::PieceRequest request(outputVector->GetInformationObject(0));
   request.IsStreamed = false;
   request.forwardTo(inputVector[0]->GetInformationObject(0));

@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkStreamingMeshPreview
- * @brief   Makes a coarse mesh of a gigantic one
+ * @brief   Creates a coarse mesh from a very large one
  *
- * Pulls NumberOfPieces pieces of the input once, in order, and makes a mesh of at most
- * PreviewPoints points by vertex clustering on a uniform grid: of triangles as they are, of
- * tetrahedra their outer surface. Memory is bounded by the preview and by the window of the stream.
- * The preview is kept until the filter or its input is modified.
+ * Requests NumberOfPieces pieces of the input once, in order, and creates a mesh of at most
+ * PreviewPoints points by vertex clustering on a uniform grid, from triangles or from the outer
+ * surface of tetrahedra. Memory is bounded by the preview and by the window of the stream. The
+ * preview is kept until the filter or its input is modified.
  *
- * Every point is one of the mesh: its GlobalId says which one, and all point arrays have their
- * values there. The output has no cell arrays. Its field data are those of the preview that
- * vtkStreamingMeshReader shows of large meshes (`Preview`, `FullNumberOfPoints`,
- * `FullNumberOfCells`), so that filters treat it alike: vtkStreamingMeshDeformation deforms it in
- * memory.
+ * Every point is a point of the mesh, identified by its GlobalId, with the values of all point
+ * arrays. The output has no cell arrays. Its field data are those of a preview of
+ * vtkStreamingMeshReader (`Preview`, `FullNumberOfPoints`, `FullNumberOfCells`), so that filters
+ * treat both alike: vtkStreamingMeshDeformation deforms it in memory.
  *
- * All of the preview is in piece 0, which process 0 makes. Streamed requests get the preview, too,
- * so that filters that need the mesh itself refuse it.
+ * Piece 0, created by process 0, contains the whole preview. Streamed requests also return the
+ * preview, so that filters that need the mesh itself reject it.
  *
- * @warning The input must keep the piece contract described at vtkStreamingSolver.
+ * @warning The input must fulfil the piece contract described at vtkStreamingSolver.
  * @sa vtkStreamingMeshReader vtkStreamingMeshDeformation
  */
 #ifndef vtkStreamingMeshPreview_h
@@ -36,25 +35,24 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /**
-   * The most points that the preview may have, 8 to 1,000,000; in general it has 70 to 100 % of it.
-   * Default: 10,000.
-   */
+  /** The maximum number of points of the preview, 8 to 1,000,000; it typically has 70 to 100 % of
+   * it. Default: 10,000. */
   void SetPreviewPoints(int points);
   vtkGetMacro(PreviewPoints, int);
   ///@}
 
   ///@{
   /**
-   * How many pieces the input is pulled in, 1 to 1,000,000. Default: 64. More pieces need less
-   * memory. The grid of the clusters is fitted to the first piece, so the preview is another one.
+   * The number of pieces in which the input is requested, 1 to 1,000,000. Default: 64. More pieces
+   * need less memory. The preview depends on it, since the grid of the clusters is fitted to the
+   * first piece.
    */
   vtkSetClampMacro(NumberOfPieces, int, 1, 1000000);
   vtkGetMacro(NumberOfPieces, int);
   ///@}
 
   ///@{
-  /** Points and cells of the mesh that the preview shows; 0 before it has been made. */
+  /** Points and cells of the mesh that the preview represents; 0 before it has been created. */
   vtkIdType GetFullNumberOfPoints();
   vtkIdType GetFullNumberOfCells();
   ///@}

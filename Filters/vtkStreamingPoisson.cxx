@@ -51,7 +51,7 @@ struct vtkStreamingPoisson::Internals
       problem.screening = this->Self.Screening;
     }
     this->addArrays(input, problem);
-    // What a text does not say of weights and right-hand sides is as before.
+    // Weights and right-hand sides that a string does not set keep their values.
     smg::ProblemDescription defaults;
     const auto goOn = [&]
     {
@@ -127,8 +127,7 @@ struct vtkStreamingPoisson::Internals
     return task;
   }
 
-  /** Gives the output Gradient and Flux. A preview may lack what they are made of; then it goes
-   * without. */
+  /** Adds Gradient and Flux to the output, unless a preview lacks the data that they need. */
   void addCellResults(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output)
   {
     smg::ProblemDescription problem = this->Solved ? *this->Solved : this->describe(piece);
@@ -167,7 +166,7 @@ struct vtkStreamingPoisson::Internals
 
   vtkStreamingPoisson& Self;
   smg::WarnOnce NoCells;
-  /** The problem that was solved last, in the process that solves. */
+  /** The problem of the last solve, in the process that solves. */
   std::optional<smg::ProblemDescription> Solved;
   std::string WhyNotOnPreview; ///< if a preview is shown
   std::filesystem::file_time_type FileTime;

@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkStreamingPoisson
- * @brief   Solves an elliptic problem on a gigantic mesh out of core
+ * @brief   Solves an elliptic problem on a very large mesh out of core
  *
  * Solves -div(K grad u - q) + s u = f by linear finite elements (or clamped or uniform Weights) on
- * a triangle or tetrahedral mesh and streaming multigrid. The input is a mesh in pieces, as
- * vtkStreamingMeshReader delivers it. The problem is what these say together; where they say
- * something of the same place, what stands later in this list counts:
+ * a triangle or tetrahedral mesh by streaming multigrid. The input is a mesh in pieces, as
+ * delivered by vtkStreamingMeshReader. The following define the problem together; later entries of
+ * this list take precedence:
  * - Conductivity and Screening, numbers;
  * - arrays of the input, chosen by name with SetInputArrayToProcess() (see ArrayIndices);
- * - ProblemFileName and Problem, in the words of `smg solve --problem`, which can say everything;
- * - the conditions that vtkMeshCondition filters before this one have added.
+ * - ProblemFileName and Problem, in the JSON of `smg solve --problem`, which can define all data;
+ * - the conditions of upstream vtkMeshCondition filters.
  *
- * The number of right-hand sides is that of the components of the values. The output has the point
- * array `Solution` (ResultArrayName) and, if wanted, the cell arrays `Gradient` and `Flux`. The
- * report also says what flows through each condition (docs/problem.md).
+ * The number of right-hand sides is the number of components of the values. The output has the
+ * point array `Solution` (ResultArrayName) and optionally the cell arrays `Gradient` and `Flux`.
+ * The report includes the flow through each condition (docs/problem.md).
  *
- * vtkStreamingSolver describes how it pulls, solves and answers. A request for the whole mesh of a
- * reader that answers with the preview of a surface is answered by a solve on that preview, in
- * memory and at once; that is an approximation, and the report says so. Streamed requests get the
- * solution on the mesh itself, and so do all with SolveFullMesh: then the preview has the true
- * solution at its points. So it has where it lacks what the problem needs, arrays of the cells or a
- * point in a region, where there are conditions of the boundary, since a preview has open edges
- * that the mesh has not, and where the mesh is a solid, whose preview is its surface; that has
- * neither Gradient nor Flux.
+ * vtkStreamingSolver describes how the input is requested, solved and delivered. If the input is
+ * the preview of a surface, the filter solves on that preview in memory; this is an approximation,
+ * as the report states. Streamed requests return the solution on the mesh itself. With
+ * SolveFullMesh all requests do; the preview then has the exact solution at its points. The same
+ * applies if the preview lacks data that the problem needs (cell arrays, or a point in a region),
+ * if there are boundary conditions (a preview has open edges that the mesh does not have), and for
+ * solids, whose preview is their surface and has neither Gradient nor Flux.
  *
  * @sa vtkMeshCondition vtkStreamingSolver vtkStreamingMeshReader vtkStreamingMeshWriter
  */
@@ -40,19 +39,19 @@ public:
   vtkTypeMacro(vtkStreamingPoisson, vtkStreamingSolver);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /** The indices of the input arrays; none has to be chosen. */
+  /** The indices of the input arrays, all of which are optional. */
   enum ArrayIndices
   {
     DIRICHLET_MASK = 0,     ///< points; not 0 where the value is prescribed
-    DIRICHLET_VALUES = 1,   ///< points; these values; goes with the mask
+    DIRICHLET_VALUES = 1,   ///< points; the prescribed values; requires the mask
     SOURCE = 2,             ///< points or cells; f, a density
-    INITIAL_GUESS = 3,      ///< points; where the iteration begins, without it at 0
+    INITIAL_GUESS = 3,      ///< points; the initial values of the iteration
     SCREENING_ARRAY = 4,    ///< points or cells; s, at least 0, instead of Screening
-    CONDUCTIVITY_ARRAY = 5, ///< cells (of points: the mean of the corners); K, 1, 3 or 6 components
-    FIELD_ARRAY = 6         ///< cells; the vector q, 3 components or 3 a right-hand side
+    CONDUCTIVITY_ARRAY = 5, ///< cells (points: the mean of the corners); K, 1, 3 or 6 components
+    FIELD_ARRAY = 6         ///< cells; the vector q, 3 components or 3 per right-hand side
   };
 
-  /** How V-cycles are made to converge faster; see `smg solve --acceleration`. */
+  /** The accelerations of the V-cycles; see `smg solve --acceleration`. */
   enum AccelerationTypes
   {
     AUTOMATIC = 0,
@@ -62,7 +61,7 @@ public:
   };
 
   ///@{
-  /** The conductivity K, greater than 0, where nothing else says it. Default: 1. */
+  /** The conductivity K, greater than 0, where nothing else defines it. Default: 1. */
   vtkSetMacro(Conductivity, double);
   vtkGetMacro(Conductivity, double);
   ///@}
@@ -74,10 +73,8 @@ public:
   ///@}
 
   ///@{
-  /**
-   * A problem in JSON, as `smg solve --problem` reads it: a file, and a text. Columns of the mesh
-   * are arrays of the input. Default: none.
-   */
+  /** A problem in JSON, as for `smg solve --problem`: a file, and a string. Columns of the mesh are
+   * arrays of the input. Default: none. */
   vtkSetFilePathMacro(ProblemFileName);
   vtkGetFilePathMacro(ProblemFileName);
   vtkSetStringMacro(Problem);
@@ -85,7 +82,7 @@ public:
   ///@}
 
   ///@{
-  /** Whether the output has the cell array `Gradient`, grad u: 3 components a right-hand side.
+  /** Whether the output has the cell array `Gradient`, grad u: 3 components per right-hand side.
    * Default: off. */
   vtkSetMacro(Gradient, bool);
   vtkGetMacro(Gradient, bool);
@@ -93,7 +90,7 @@ public:
   ///@}
 
   ///@{
-  /** Whether the output has the cell array `Flux`, -K grad u: 3 components a right-hand side.
+  /** Whether the output has the cell array `Flux`, -K grad u: 3 components per right-hand side.
    * Default: off. */
   vtkSetMacro(Flux, bool);
   vtkGetMacro(Flux, bool);
@@ -101,21 +98,22 @@ public:
   ///@}
 
   ///@{
-  /** How V-cycles are made to converge faster. Default: AUTOMATIC. */
+  /** The acceleration of the V-cycles. Default: AUTOMATIC. */
   vtkSetClampMacro(Acceleration, int, AUTOMATIC, CONJUGATE_GRADIENTS);
   vtkGetMacro(Acceleration, int);
   ///@}
 
   ///@{
-  /** Whether the solver works in memory, without files. Default: off. The solution is the same. */
+  /** Whether the solver works in memory, without files. Default: off. The solution does not depend
+   * on it. */
   vtkSetMacro(InCore, bool);
   vtkGetMacro(InCore, bool);
   vtkBooleanMacro(InCore, bool);
   ///@}
 
   ///@{
-  /** Whether the full mesh is solved on even where only the preview of a surface is asked for.
-   * Default: off. */
+  /** Whether to solve on the full mesh even if only the preview of a surface is requested. Default:
+   * off. */
   vtkSetMacro(SolveFullMesh, bool);
   vtkGetMacro(SolveFullMesh, bool);
   vtkBooleanMacro(SolveFullMesh, bool);
@@ -130,7 +128,7 @@ public:
   /** V-cycles of the last solve. */
   int GetCycles();
 
-  /** A change of the problem file is one of the filter. */
+  /** Includes the modification time of the problem file. */
   vtkMTimeType GetMTime() override;
 
 protected:

@@ -34,10 +34,8 @@ struct vtkStreamingSolver::Internals
   {
   }
 
-  /**
-   * Answers a request, with several processes together with the others. Throws Error in all of them
-   * if something fails in one.
-   */
+  /** Processes a request, with several processes collectively. Throws Error in all of them if one
+   * fails. */
   void answer(
     const smg::PieceRequest& request, vtkInformation* inputInfo, vtkInformation* outputInfo)
   {
@@ -73,7 +71,7 @@ struct vtkStreamingSolver::Internals
     this->Shared.noteAnswer(request, smg::stampOf(this->Self, input, inputInfo));
   }
 
-  /** Who answers the request together with this process: nullptr: nobody. */
+  /** The processes that process the request collectively; nullptr: this process alone. */
   vtkMultiProcessController* partners(
     const smg::PieceRequest& request, smg::PieceInput& input, vtkInformation* inputInfo)
   {
@@ -91,14 +89,14 @@ struct vtkStreamingSolver::Internals
     {
       return piece;
     }
-    // Process 0 is going to pull other pieces, and to ask for this one again may need all
+    // Process 0 will request other pieces, and a repeated request for this one may need all
     // processes.
     const auto copy = vtkSmartPointer<vtkPointSet>::Take(piece->NewInstance());
     copy->ShallowCopy(piece);
     return copy;
   }
 
-  /** Solves in memory, if there are values to be filled, else out of core. */
+  /** Solves in memory if there are values to fill, otherwise out of core. */
   void solve(smg::PieceInput& input, vtkInformation* inputInfo, vtkPointSet& present,
     std::vector<double>* values)
   {
@@ -112,7 +110,7 @@ struct vtkStreamingSolver::Internals
     this->Summary = this->Streamed.summary();
   }
 
-  /** Solves out of core unless that has been done for this input. */
+  /** Solves out of core unless there is a solution for this input. */
   void solveOutOfCore(smg::PieceInput& input, vtkInformation* inputInfo, vtkPointSet& present)
   {
     if (this->Streamed.isFor(smg::stampOf(this->Self, input, inputInfo)))
@@ -131,7 +129,7 @@ struct vtkStreamingSolver::Internals
     {
       this->Streamed.fail(error.what());
     }
-    // Pulling may have let the pipeline learn of modifications of its own making.
+    // Requesting pieces may itself have updated modification times of the pipeline.
     this->Streamed.setStamp(smg::stampOf(this->Self, input, inputInfo));
     this->warn(this->Streamed.summary());
   }
@@ -176,7 +174,7 @@ struct vtkStreamingSolver::Internals
     }
   }
 
-  /** Gets the values of the points of the piece asked for, which `present` is then again. */
+  /** Fetches the values at the points of the requested piece, which `present` then holds again. */
   void fetch(smg::PieceInput& input, const smg::PieceRequest& request,
     smg::SolutionExchange& exchange, vtkSmartPointer<vtkPointSet>& present,
     std::vector<double>& values) const
@@ -207,20 +205,20 @@ struct vtkStreamingSolver::Internals
     output.GetFieldData()->AddArray(report);
   }
 
-  /** When the pipeline was changed last, as far as it has been looked at. */
+  /** The last known modification time of the pipeline. */
   vtkMTimeType pipelineTime() const
   {
     return vtkDemandDrivenPipeline::SafeDownCast(this->Self.GetExecutive())->GetPipelineMTime();
   }
-  /** Whether the last answer is that to the pipeline as it is. */
+  /** Whether the last output is up to date with the pipeline. */
   bool isUpToDate() const { return this->pipelineTime() <= this->AnsweredAt.GetMTime(); }
 
   vtkStreamingSolver& Self;
   smg::Failures Failures;
-  vtkTimeStamp AnsweredAt; ///< what was modified meanwhile, as by asking it, is not newer
+  vtkTimeStamp AnsweredAt; ///< includes modifications caused by the request itself
   smg::StreamedSolve Streamed;
-  smg::SolveSummary Summary; ///< of the last answer
-  std::string Outcome;       ///< its line, for a caller to look at
+  smg::SolveSummary Summary; ///< of the last output
+  std::string Outcome;       ///< storage of the string returned by GetOutcome()
   smg::SharedRequest Shared;
 };
 
@@ -260,7 +258,7 @@ vtkIdType vtkStreamingSolver::GetPeakMemory()
 
 int vtkStreamingSolver::GetConverged()
 {
-  // If a filter before this one fails, nothing is asked of this one.
+  // If an upstream filter fails, this one is not executed.
   return this->GetSummary().converged && this->Internal->isUpToDate() ? 1 : 0;
 }
 
@@ -336,13 +334,14 @@ int vtkStreamingSolver::RequestInformation(
 int vtkStreamingSolver::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  // Not the first piece to solve on: were the executive to ask for that, nobody would take the
-  // streamed request back if the input failed.
+  // Not the first piece to solve on: if the executive requested that and the input failed, the
+  // streamed request would not be reset.
   const smg::PieceRequest request(outputVector->GetInformationObject(0));
   vtkInformation* input = inputVector[0]->GetInformationObject(0);
   if (!request.IsStreamed && smg::SolutionExchange(this->Controller).isParallel())
   {
-    // Were the input to fail in one process now, that would not join the others in RequestData().
+    // If the input failed in one process here, that process would not join the others in
+    // RequestData().
     request.forwardEmptyTo(input);
   }
   else

@@ -18,7 +18,7 @@
 namespace smg
 {
 
-/** Tells the algorithm what is done of its work, and ends that when it is told to abort. */
+/** Reports progress to the algorithm and cancels the work if the algorithm is aborted. */
 inline ProgressFunction progressOf(vtkAlgorithm& algorithm)
 {
   return [&algorithm](double done)
@@ -29,9 +29,9 @@ inline ProgressFunction progressOf(vtkAlgorithm& algorithm)
 }
 
 /**
- * Says, in the information of an input port, that it takes meshes in pieces. Data sets of several
- * blocks are let in, too, so that PieceInput can refuse them: the executive would go through their
- * blocks, and to ask for pieces meanwhile would take these away from it.
+ * Declares, in the information of an input port, that it accepts meshes in pieces. Composite data
+ * sets are accepted as well, so that PieceInput can reject them: otherwise the executive would
+ * iterate over their blocks, and requesting pieces meanwhile would release these.
  */
 inline void acceptMeshes(vtkInformation& info)
 {
@@ -40,7 +40,7 @@ inline void acceptMeshes(vtkInformation& info)
   info.Append(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
 }
 
-/** Says, in RequestInformation, that the algorithm answers requests for pieces. */
+/** Declares, in RequestInformation, that the algorithm handles piece requests. */
 inline int offerPieces(vtkInformationVector& outputs)
 {
   outputs.GetInformationObject(0)->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
@@ -48,13 +48,13 @@ inline int offerPieces(vtkInformationVector& outputs)
 }
 
 /**
- * Does the work of RequestData: 1. What is thrown becomes an error of the algorithm, which is shown
- * once; of a failed input nothing more is said than has been. The answer to a
- * streamed request, which somebody made who looks at it, is 0 then, and it is tried again whenever
- * that is asked for. Any other request gets an empty output that says so (isFailed()), and 1: views
- * of ParaView that get 0 never ask again. If it is Cancelled, nothing is reported, the answer is 0,
- * and nothing is done again before the algorithm or its input is modified.
- * `inputs`: null if there are none.
+ * Runs the work of RequestData and returns 1. An exception becomes an error of the algorithm, which
+ * is shown once; a failed input causes no further message. A streamed request, whose consumer
+ * checks the result, then returns 0 and is repeated whenever it is requested. Any other request
+ * then returns 1 with an empty output marked as failed (isFailed()), since ParaView views never
+ * repeat a request that returned 0. If the work throws Cancelled, nothing is reported, 0 is
+ * returned, and the work is not repeated until the algorithm or its input is modified. `inputs` is
+ * null if there are none.
  */
 template <class Work>
 int answer(vtkAlgorithm& algorithm, Failures& failures, vtkInformationVector** inputs,
@@ -87,7 +87,7 @@ int answer(vtkAlgorithm& algorithm, Failures& failures, vtkInformationVector** i
   vtkDataObject* data = vtkDataObject::GetData(output);
   if (vtkStreamingMeshKeys::IsStreamed(output))
   {
-    // Else the executive would go on with what there is.
+    // Otherwise the executive would continue with the current data.
     data->ReleaseData();
     output->Set(vtkDemandDrivenPipeline::DATA_NOT_GENERATED(), 1);
     return 0;

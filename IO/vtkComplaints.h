@@ -16,9 +16,8 @@ namespace smg
 {
 
 /**
- * Collects what VTK complains of, as long as it lives, instead of having it printed. Some
- * complaints come as events, some only as texts for VTK's output window, which is replaced for so
- * long.
+ * Collects the error messages of VTK during its lifetime instead of printing them. Some are sent as
+ * events, others only as text to VTK's output window, which is replaced for this time.
  */
 class vtkComplaints
 {
@@ -39,7 +38,7 @@ public:
 
   /** An observer for ErrorEvent. */
   vtkCommand* command() { return this->Command; }
-  /** The first complaint, in a line; empty if there is none. */
+  /** The first message, in one line; empty if there is none. */
   const std::string& text() const { return this->Text; }
 
 private:

@@ -17,7 +17,7 @@ class vtkExecutive;
 namespace smg
 {
 
-/** What an algorithm asks for could not be made by those before it, which have said why. */
+/** An upstream algorithm has failed and has reported the reason. */
 class InputFailed : public Error
 {
 public:
@@ -37,21 +37,19 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT bool isFailed(vtkDataObject* data);
 class VTKSTREAMINGMULTIGRIDIO_EXPORT Failures
 {
 public:
-  /**
-   * Makes the sentence an error of the algorithm, unless it was the last one and nothing in the
-   * pipeline before the algorithm has been modified since. Who observes its errors hears them all.
-   */
+  /** Reports the sentence as an error of the algorithm, unless it was the last one and the upstream
+   * pipeline has not been modified since. Observers of its errors receive all of them. */
   void show(vtkAlgorithm& algorithm, const std::string& sentence);
 
-  /** Makes the sentence an error of the algorithm if somebody observes its errors. */
+  /** Reports the sentence as an error of the algorithm if its errors are observed. */
   void showToObservers(vtkAlgorithm& algorithm, const std::string& sentence);
 
-  /** Keeps the executive from saying, too, that the algorithm failed, where nobody observes it. */
+  /** Suppresses the error message of the executive if it is not observed. */
   void quieten(vtkAlgorithm& algorithm);
 
 private:
   std::string Last;
-  vtkMTimeType PipelineTime = 0; ///< when it was shown
+  vtkMTimeType PipelineTime = 0; ///< when the last one was shown
   vtkWeakPointer<vtkExecutive> Quiet;
 };
 

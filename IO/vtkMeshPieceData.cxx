@@ -27,7 +27,7 @@ namespace smg
 namespace
 {
 
-/** An array of `Array` with the values, each converted by `convert`. */
+/** An array of type `Array` with the values, each converted by `convert`. */
 template <class Array, class T, class Convert>
 vtkSmartPointer<Array> arrayOf(
   const char* name, int components, const std::vector<T>& values, Convert convert)
@@ -78,7 +78,7 @@ void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
     { return isGhost ? vtkDataSetAttributes::DUPLICATEPOINT : 0; }));
   points.AddArray(arrayOf<vtkUnsignedCharArray>(
     StreamFinalizedName, 1, piece.finalized, [](std::uint8_t isFinal) { return isFinal; }));
-  // No user chooses these for a mask or a source: ParaView does not offer them.
+  // ParaView does not offer these arrays as a mask or a source.
   for (const char* name : { GlobalIdsName, GhostTypeName, StreamFinalizedName })
   {
     points.GetArray(name)->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);
@@ -96,7 +96,7 @@ void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
   {
     mesh.GetCellData()->AddArray(makeArray(column));
   }
-  // Nor the marks of the conversion.
+  // Neither does it offer the flags of the conversion.
   if (vtkDataArray* flags = mesh.GetCellData()->GetArray(CellFlagsName))
   {
     flags->GetInformation()->Set(vtkAbstractArray::GUI_HIDE(), 1);

@@ -18,7 +18,7 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT void setPiece(
 /** Says in the field data that the mesh is a preview of another. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT void markAsPreview(vtkPointSet& mesh, const StreamInfo& full);
 
-/** Says that the preview is a reader's: who pulls its pieces gets the mesh itself. */
+/** Marks the preview as that of a reader: streamed requests return the mesh itself. */
 void markAsReaders(vtkPointSet& preview);
 
 /** Whether the field data say that the mesh is a preview. */

@@ -69,7 +69,7 @@ ConversionReport writeOrdinaryMesh(
   }
   catch (const Error& error)
   {
-    // The user knows no such file.
+    // The temporary file is unknown to the user.
     std::string message = error.what();
     for (std::size_t at; (at = message.find(file.string())) != std::string::npos;)
     {

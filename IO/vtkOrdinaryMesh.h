@@ -12,13 +12,11 @@ class vtkPointSet;
 namespace smg
 {
 
-/** Whether it is a mesh of any other source, not a piece of a mesh stream: no point has an id. */
+/** Whether the mesh has no point GlobalIds and is therefore not a piece of a mesh stream. */
 bool isOrdinaryMesh(vtkDataObject& data);
 
-/**
- * Writes a mesh that is whole in memory, with its arrays: convert() of a file in the scratch folder
- * that VTK writes of it. Throws as that, and Error if VTK cannot write it.
- */
+/** Writes a whole mesh in memory with its arrays: VTK writes it to a file in the scratch folder,
+ * and convert() converts that. Throws like convert(), and Error if VTK cannot write the file. */
 ConversionReport writeOrdinaryMesh(
   vtkPointSet& mesh, const std::filesystem::path& path, const ConversionOptions& options);
 

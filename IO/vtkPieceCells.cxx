@@ -28,7 +28,7 @@ namespace
     where + " has cells that are neither all triangles nor all tetrahedra: triangulate it first.");
 }
 
-/** The cells of the piece; their number of corners is checked by the caller. */
+/** The cells of the piece; the caller checks their number of corners. */
 vtkCellArray* cellsOf(vtkPointSet& piece, const std::string& where)
 {
   if (auto* surface = vtkPolyData::SafeDownCast(&piece))
@@ -47,7 +47,7 @@ vtkCellArray* cellsOf(vtkPointSet& piece, const std::string& where)
     where + " is a " + piece.GetClassName() + ": a vtkPolyData or vtkUnstructuredGrid is needed.");
 }
 
-/** Tetrahedra and quadrilaterals have as many corners. */
+/** Tetrahedra and quadrilaterals have the same number of corners. */
 bool areAllOf(vtkPointSet& piece, int vtkType)
 {
   auto* grid = vtkUnstructuredGrid::SafeDownCast(&piece);
@@ -58,7 +58,7 @@ bool areAllOf(vtkPointSet& piece, int vtkType)
   return grid->IsHomogeneous() && grid->GetCellType(0) == vtkType;
 }
 
-/** Copies the numbers if they lie in memory as an array of T; answers whether they do. */
+/** Copies the numbers if they are stored as an array of T; returns whether they are. */
 template <class T>
 bool copyPlain(vtkDataArray& numbers, std::vector<std::int64_t>& to)
 {
@@ -103,7 +103,7 @@ std::vector<std::int64_t> cellCorners(vtkPointSet& piece, CellType type, const s
   if (!copyPlain<vtkTypeInt64>(connectivity, corners) &&
       !copyPlain<vtkTypeInt32>(connectivity, corners))
   {
-    // Some other kind of array, as newer releases have them.
+    // Another array type, as in later VTK releases.
     const auto values = vtk::DataArrayValueRange<1>(&connectivity);
     std::transform(values.begin(), values.end(), corners.begin(),
       [](double id) { return static_cast<std::int64_t>(id); });

@@ -38,7 +38,7 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<std::int64_t> keepOwnCells(
 /** The cells with the given corners, `cornersOfCell` each. */
 vtkSmartPointer<vtkCellArray> makeCells(std::span<const std::int64_t> corners, int cornersOfCell);
 
-/** Gives the cells, `cornersOfCell` corners each, to a vtkPolyData or a vtkUnstructuredGrid. */
+/** Sets the cells, `cornersOfCell` corners each, of a vtkPolyData or a vtkUnstructuredGrid. */
 void setCells(vtkPointSet& mesh, std::span<const std::int64_t> corners, int cornersOfCell);
 
 } // namespace smg

@@ -25,8 +25,9 @@ int vtkTypeOf(ScalarType type)
   return types[static_cast<int>(type)];
 }
 
-/** Copies tuples of an array that does not lie in memory tuple by tuple, without making one of all
- * of it that does. */
+/**
+ * Copies tuples of an array without contiguous tuples, without creating a contiguous copy of it.
+ */
 void copyRows(vtkDataArray& array, std::span<const std::int64_t> rows, Column& column)
 {
   constexpr std::size_t AtOnce = 4096;

@@ -22,7 +22,7 @@ namespace smg
 /** The scalar type of a VTK array; none for bits, strings and the like. */
 std::optional<ScalarType> scalarTypeOf(vtkDataArray& array);
 
-/** Makes a named VTK array of the column's type with its values. */
+/** Creates a named VTK array with the type and the values of the column. */
 vtkSmartPointer<vtkDataArray> makeArray(const Column& column);
 
 /** What columns the numeric, named arrays make, without those that the piece contract makes. */

@@ -59,7 +59,7 @@ void describe(std::ostream& out, const char* element, vtkDataSetAttributes& arra
   out << "    </" << element << ">\n";
 }
 
-/** The part of the index that describes the arrays: that of any piece that has points. */
+/** The part of the index that describes the arrays: the same for every piece with points. */
 std::string describe(vtkPointSet& piece)
 {
   std::ostringstream out;
@@ -106,7 +106,7 @@ void writePiece(vtkXMLWriter& writer, vtkPointSet& piece, const std::filesystem:
   writer.SetInputData(&piece);
   writer.SetFileName(path.c_str());
   writer.SetHeaderTypeToUInt64();
-  // With recent versions of Expat many of VTK's readers refuse appended data.
+  // With recent versions of Expat many VTK readers reject appended data.
   writer.SetDataModeToBinary();
   const int done = writer.Write();
   writer.SetInputData(nullptr);
@@ -127,13 +127,13 @@ void writeText(const std::filesystem::path& path, const std::string& text)
   }
 }
 
-/** Moves the finished files from the scratch folder to their places, the index last. */
+/** Moves the complete files from the scratch folder to their destination, the index last. */
 void install(const ScratchFolder& scratch, const std::filesystem::path& index, int pieces)
 {
   const std::filesystem::path folder = index.parent_path() / index.stem();
   std::filesystem::remove(index);
   std::filesystem::create_directories(folder);
-  // Piece files of an earlier index of the same name, which may have had more pieces.
+  // Remaining piece files of a replaced index with more pieces.
   for (int piece = pieces; std::filesystem::remove(folder / pieceName(index, piece)); ++piece)
   {
   }
@@ -155,7 +155,7 @@ void writePieceFiles(
   const bool isSurface = isSurfaceIndex(index);
   std::string description;
   int files = 0;
-  // The stream checks the pieces; what it makes of them is not needed here.
+  // The stream checks the pieces; its blocks are not needed here.
   PieceStream stream(input, pieces, {});
   MeshBlock block;
   while (vtkPointSet* piece = stream.nextPiece(block))

@@ -10,10 +10,10 @@ namespace smg
 {
 
 /**
- * Writes the pieces of the input that are not empty as NAME/NAME_p.vtp (or .vtu) and their index
- * NAME.pvtp (or .pvtu), which comes last. The pieces must keep the contract that PieceStream
- * checks. An index and piece files of the same name are replaced. Throws Error and Cancelled; then
- * nothing new is left.
+ * Writes the non-empty pieces of the input as NAME/NAME_p.vtp (or .vtu), followed by their index
+ * NAME.pvtp (or .pvtu). The pieces must fulfil the contract that PieceStream checks. An existing
+ * index and piece files of the same name are replaced. Throws Error and Cancelled; no new files are
+ * left then.
  */
 void writePieceFiles(
   PieceInput& input, int pieces, const std::filesystem::path& index, Progress& progress);

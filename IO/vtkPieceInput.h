@@ -12,46 +12,40 @@ class vtkStreamingDemandDrivenPipeline;
 namespace smg
 {
 
-/**
- * The first connection of an input port of a VTK algorithm, from which the algorithm pulls pieces,
- * one at a time, while it executes.
- */
+/** The first connection of an input port of a VTK algorithm, from which the algorithm requests
+ * pieces one at a time while it executes. */
 class VTKSTREAMINGMULTIGRIDIO_EXPORT PieceInput
 {
 public:
-  /** Throws Error if nothing is connected, or a data set of several blocks. */
+  /** Throws Error if nothing is connected, or a composite data set. */
   PieceInput(vtkAlgorithm& consumer, int port);
 
-  /**
-   * Tells the pipeline, after a streamed request, that those to come are not streamed until they
-   * say so again: else the last one would pass the guard of the reader on to a view.
-   */
+  /** Resets the streamed request in the pipeline: otherwise a later request of a view would still
+   * count as streamed and bypass the size limit of the reader. */
   ~PieceInput();
 
   PieceInput(const PieceInput&) = delete;
   PieceInput& operator=(const PieceInput&) = delete;
 
-  /**
-   * Brings the input to piece `piece` of `pieces`; `streamed` demands the real piece whatever its
-   * size (see vtkStreamingMeshKeys), else it may be a preview. Throws InputFailed.
-   */
+  /** Updates the input to piece `piece` of `pieces`. `streamed` requests the real piece of any size
+   * (see vtkStreamingMeshKeys); otherwise it may be a preview. Throws InputFailed. */
   vtkDataObject* update(int piece, int pieces, bool streamed);
 
-  /** Frees the data of the last piece, unless the producer has no way to make it again. */
+  /** Frees the data of the last piece, unless the producer cannot regenerate it. */
   void release();
 
-  /** The time at which something upstream was last modified, as far as the pipeline knows. */
+  /** The last modification time of the upstream pipeline, as known to the executive. */
   unsigned long long modifiedTime();
 
-  /** What vtkStreamingMeshKeys::STREAM_FILE() says, after a piece was asked for; else empty. */
+  /** The value of vtkStreamingMeshKeys::STREAM_FILE(), after a piece was requested; else empty. */
   std::filesystem::path streamFile() const;
 
-  /** What vtkStreamingMeshKeys::PREVIEWED() says, as well. */
+  /** The value of vtkStreamingMeshKeys::PREVIEWED(), after a piece was requested. */
   bool isPreviewed() const;
 
   vtkAlgorithm& producer() const { return *this->Producer; }
 
-  /** Whether the input is somebody's mesh set as data: it is the same for every piece. */
+  /** Whether the input was set as a data object, which is the same for every piece. */
   bool isData() const;
 
 private:

@@ -6,13 +6,13 @@
 namespace smg
 {
 
-/** Field arrays of data that is a preview: 1, and the counts of the mesh that it stands for. */
+/** Field arrays of a preview: 1, and the counts of the mesh that it represents. */
 inline constexpr const char* PreviewName = "Preview";
 inline constexpr const char* FullNumberOfPointsName = "FullNumberOfPoints";
 inline constexpr const char* FullNumberOfCellsName = "FullNumberOfCells";
 
-/** And of a preview that a reader shows: who pulls its pieces gets the mesh itself. By the number
- * of its components, which arrays do not have by chance, ParaView finds the writer that does. */
+/** Field array of a preview of a reader, for which streamed requests return the mesh itself.
+ * ParaView selects the writer by its unusual number of components. */
 inline constexpr const char* PreviewOfReaderName = "PreviewOfReader";
 inline constexpr int PreviewOfReaderComponents = 17;
 

@@ -37,7 +37,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name)
   return std::ranges::find(names, name) != names.end();
 }
 
-/** " (it has A, B)", of the points and the cells. */
+/** The columns of points and cells as " (it has A, B)". */
 std::string namesOf(const StreamInfo& info)
 {
   std::string names;
@@ -302,7 +302,7 @@ void PieceStream::checkEnd() const
 void PieceStream::noteFinalized(vtkPointSet& piece, const std::vector<std::int64_t>& ids)
 {
   this->IsFinal.resize(this->Vertices - this->Finalized, 0);
-  // Without the array no vertex is known to be final before the end, which is legal.
+  // The array is optional: without it, no vertex is known to be final before the end.
   if (vtkDataArray* finalized = piece.GetPointData()->GetArray(StreamFinalizedName))
   {
     for (std::size_t i = 0; i < ids.size(); ++i)

@@ -18,44 +18,43 @@ class vtkPointSet;
 namespace smg
 {
 
-/** Which arrays of the pieces, of the points and of the cells, become columns of the mesh stream.
- */
+/** The point and cell arrays of the pieces that become columns of the mesh stream. */
 struct PieceColumns
 {
-  bool all = false; ///< every numeric array that has a name
-  /** Else those of these names; the points or the cells must have each. */
+  bool all = false; ///< every named numeric array
+  /** Otherwise the arrays of these names, each of which the points or the cells must have, */
   std::vector<std::string> required;
-  std::vector<std::string> optional; ///< and those of these names, as far as they exist
+  std::vector<std::string> optional; ///< and the existing arrays of these names
 };
 
 /**
- * Pulls the pieces 0, 1, ... of an input once, in order, as the blocks of a mesh stream, and checks
- * that they keep the piece contract: point GlobalIds are stream indices; the points that are not
- * marked as duplicates in vtkGhostType continue the range [0, n) of the pieces before without a
- * gap; the cells, which are triangles or tetrahedra, use every point, and the points are numbered
- * in the order in which they do so first. Cells that are duplicates are left out. A block is a
- * piece; blocks without points and cells are left out.
+ * Requests the pieces 0, 1, ... of an input once, in order, as the blocks of a mesh stream, and
+ * checks the piece contract: point GlobalIds are stream indices; the points that are not marked as
+ * duplicates in vtkGhostType continue the range [0, n) of the previous pieces without a gap; the
+ * cells, which are triangles or tetrahedra, use every point, and the points are numbered by first
+ * use. Duplicate cells are omitted. A block is a piece; blocks without points and cells are
+ * omitted.
  *
- * The counts are known at the end only: of info(), cellType, doublePositions and the columns are
- * valid.
+ * The counts are known only at the end: before, only cellType, doublePositions and the columns of
+ * info() are valid.
  */
 class VTKSTREAMINGMULTIGRIDIO_EXPORT PieceStream
 {
 public:
-  /** Pulls up to the first piece that is not empty. Throws Error. */
+  /** Reads up to the first non-empty piece. Throws Error. */
   PieceStream(PieceInput& input, int pieces, PieceColumns columns);
 
   const StreamInfo& info() const { return this->Info; }
 
-  /** Fills `block` with the next piece; false at the end. Throws Error. */
+  /** Fills `block` with the next piece; returns false at the end. Throws Error. */
   bool next(MeshBlock& block);
 
   /**
-   * The same, and gives the piece, which keeps its data until the next call; nullptr at the end.
+   * The same, and returns the piece, which keeps its data until the next call; nullptr at the end.
    */
   vtkPointSet* nextPiece(MeshBlock& block);
 
-  /** How many of the pieces have been pulled, 0 to 1. */
+  /** The fraction of the pieces that have been read, 0 to 1. */
   double fraction() const { return double(this->NextPiece) / this->Pieces; }
 
 private:
@@ -76,24 +75,23 @@ private:
   int NextPiece = 0;
   PieceColumns Columns;
   StreamInfo Info;
-  vtkPointSet* First = nullptr; ///< pulled by the constructor
+  vtkPointSet* First = nullptr; ///< read by the constructor
   bool IsHeld = false;          ///< whether the input holds the data of the last piece
   std::int64_t Vertices = 0, Cells = 0;
   std::int64_t Used = 0;    ///< vertices that cells have used
-  std::deque<char> IsFinal; ///< from the first vertex on that is not final
+  std::deque<char> IsFinal; ///< from the first vertex that is not final
   std::int64_t Finalized = 0;
 };
 
-/**
- * The GlobalIds of the points of a piece. Throws Error, which begins with `where`, if it has none.
- */
+/** The GlobalIds of the points of a piece. Throws Error, which begins with `where`, if there are
+ * none. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<std::int64_t> globalIdsOf(
   vtkPointSet& piece, const std::string& where);
 
 /**
- * Pulls the whole stream into the container `path` (see VsmWriter); `forScratch` compresses
- * lightly. `isolatedFrom`: a .vsm file whose vertices of no cell it gets (see copyIsolated());
- * empty: none. Throws Error and Cancelled; then no file is left.
+ * Writes the whole stream to the container `path` (see VsmWriter), with fast compression if
+ * `forScratch`. `isolatedFrom` is a .vsm file whose vertices of no cell are copied (see
+ * copyIsolated()); empty: none. Throws Error and Cancelled; no file is left then.
  */
 VTKSTREAMINGMULTIGRIDIO_EXPORT StreamInfo writeContainer(PieceStream& stream,
   const std::filesystem::path& path, bool forScratch, Progress& progress,

@@ -21,7 +21,7 @@
 namespace
 {
 
-/** Whether a legacy VTK file has an image or another grid of rows and columns. */
+/** Whether a legacy VTK file contains an image or another structured grid. */
 bool isStructured(const std::filesystem::path& name)
 {
   std::string beginning(1024, '\0');
@@ -31,7 +31,7 @@ bool isStructured(const std::filesystem::path& name)
            beginning.find("DATASET RECTILINEAR_GRID") != std::string::npos);
 }
 
-/** Of a mesh file that is no stream; none if its format is not known. */
+/** The estimate for a mesh file that is not a stream; none if its format is unknown. */
 std::optional<smg::ConversionEstimate> estimateOf(const char* name)
 {
   try
@@ -48,7 +48,7 @@ std::optional<smg::ConversionEstimate> estimateOf(const char* name)
   }
 }
 
-/** Whether VTK has a reader for files whose names end so. */
+/** Whether VTK has a reader for files with this suffix. */
 bool isReadByVtk(const std::filesystem::path& name)
 {
   constexpr std::array endings{ ".ply", ".obj", ".stl", ".vtk", ".vtp", ".vtu", ".pvtp", ".pvtu" };
@@ -71,7 +71,7 @@ std::string rounded(std::int64_t count)
 double gigabytes(const smg::ConversionEstimate& estimate)
 {
   constexpr double PointBytes = 3 * sizeof(float), IdBytes = sizeof(vtkIdType);
-  // A surface has two triangles a vertex, a solid five to six tetrahedra.
+  // A surface has two triangles per vertex, a solid five to six tetrahedra.
   const double corners = estimate.cells > 3 * estimate.vertices ? 4.0 : 3.0;
   return 1e-9 * (static_cast<double>(estimate.vertices) * PointBytes +
                   static_cast<double>(estimate.cells) * (corners + 1.0) * IdBytes);

@@ -12,7 +12,7 @@
 namespace
 {
 
-/** The executive compares a request key with what the data object says under another key. */
+/** The executive compares a request key with the value of another key in the data object. */
 class StreamedKey : public vtkInformationIntegerRequestKey
 {
 public:
@@ -23,7 +23,7 @@ public:
   }
 };
 
-/** Filters pass it on, whether they know it or not. */
+/** All filters pass it downstream, including those that do not know it. */
 template <class Key>
 class PassedKey : public Key
 {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkStreamingMeshKeys
- * @brief   Pipeline keys by which streaming filters and readers understand each other
+ * @brief   Pipeline keys for the communication of streaming filters and readers
  *
- * A reader of gigantic meshes answers a request for too large a piece with a preview, so that a
- * view never loads such a mesh by accident. A filter that pulls its input piece by piece is no
- * accident: it says so by setting STREAMED() to the number of pieces it asks for.
+ * A reader of very large meshes returns a preview if the requested piece is too large, so that a
+ * view never loads such a mesh by accident. A filter that requests its input piece by piece sets
+ * STREAMED() to the number of pieces to receive the real ones.
  *
- * Pieces have only points that cells use. STREAM_FILE() says where the others are, and PREVIEWED()
- * that the whole is a preview, through all filters that come after the reader, also those that keep
- * none of its arrays.
+ * Pieces have only points that cells use. STREAM_FILE() names the file with the other points, and
+ * PREVIEWED() states that the whole mesh is shown as a preview, downstream of all filters after the
+ * reader, including those that keep none of its arrays.
  *
  * The executive keeps request keys where they were last set. Therefore STREAMED() counts only if
  * its value equals UPDATE_NUMBER_OF_PIECES() of the same request: see IsStreamed().
@@ -34,22 +34,19 @@ public:
   vtkTypeMacro(vtkStreamingMeshKeys, vtkObject);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /**
-   * Request key: the consumer streams through this many pieces and wants the real ones, whatever
-   * their size. 0: it does not.
-   */
+  /** Request key: the consumer streams through this many pieces and requests the real ones of any
+   * size. 0: it does not stream. */
   static vtkInformationIntegerRequestKey* STREAMED();
 
-  /** The value of STREAMED() that a data object was made for, in its information. */
+  /** The value of STREAMED() of the request for a data object, in its information. */
   static vtkInformationIntegerKey* STREAMED_DATA();
 
-  /**
-   * Pipeline information: the .vsm file that the pieces come from, if it has points that no cell
-   * uses, which no piece has; else empty.
-   */
+  /** Pipeline information: the .vsm file of the pieces, if it has points that no cell uses, which
+   * no piece contains; otherwise empty. */
   static vtkInformationStringKey* STREAM_FILE();
 
-  /** Pipeline information: 1 if who asks for the whole, not streamed, gets a preview; else 0. */
+  /** Pipeline information: 1 if a request for the whole that is not streamed returns a preview,
+   * else 0. */
   static vtkInformationIntegerKey* PREVIEWED();
 
   /** Whether the request in the pipeline information `info` comes from a streaming consumer. */

@@ -37,7 +37,7 @@ vtkStandardNewMacro(vtkStreamingMeshReader);
 
 struct vtkStreamingMeshReader::Internals
 {
-  /** All that what is delivered depends on. */
+  /** The state that the output depends on. */
   struct Stamp
   {
     vtkMTimeType Properties = 0;
@@ -51,10 +51,10 @@ struct vtkStreamingMeshReader::Internals
   std::string Name, Scratch;
   std::filesystem::file_time_type FileTime;
   std::unique_ptr<smg::OpenedMesh> Mesh;
-  Stamp Opened; ///< with which the mesh was opened
-  /** With which it could not be: a pipeline that asks again does not look, or report, again. */
+  Stamp Opened; ///< of the opened mesh
+  /** Of the last failure to open the mesh: a repeated request neither retries nor reports again. */
   Stamp Failed;
-  /** The columns that the file's pieces are read with; none before the first piece. */
+  /** The columns read with the pieces of the file; none before the first piece. */
   std::optional<std::pair<std::vector<std::string>, std::vector<std::string>>> Columns;
   std::optional<smg::MeshPiece> Preview;
   int PreviewPoints = 0;
@@ -71,7 +71,7 @@ struct vtkStreamingMeshReader::Internals
       timeOf(self.GetContainerName()) };
   }
 
-  /** Opens the container if it is not open, or not as it was. */
+  /** Opens the container unless it is open and up to date. */
   smg::VsmReader& open(vtkStreamingMeshReader& self)
   {
     if (this->Mesh && this->Opened == stampOf(self))
@@ -125,7 +125,7 @@ struct vtkStreamingMeshReader::Internals
     return *this->Preview;
   }
 
-  /** Makes the output what the cells ask for. */
+  /** Sets the type of the output according to the cells. */
   static void setOutput(vtkInformation& info, bool isSurface)
   {
     const char* type = isSurface ? "vtkPolyData" : "vtkUnstructuredGrid";
@@ -145,7 +145,7 @@ struct vtkStreamingMeshReader::Internals
     }
   }
 
-  /** The real piece, with the arrays that are selected. */
+  /** Reads the real piece with the selected arrays. */
   void readPiece(vtkPointSet& output, int part, int parts)
   {
     smg::VsmReader& reader = this->Mesh->reader();
@@ -159,7 +159,7 @@ struct vtkStreamingMeshReader::Internals
       smg::chosenColumns(*this->PointArrays, info.vertexColumns);
     const std::vector<std::string> ofCells =
       smg::chosenColumns(*this->CellArrays, info.cellColumns);
-    // To select columns makes the file's reader forget the vertices that are alive.
+    // Selecting columns makes the file reader discard the active vertices.
     if (this->Columns != std::pair(ofPoints, ofCells))
     {
       reader.selectColumns(ofPoints, ofCells);
@@ -170,7 +170,7 @@ struct vtkStreamingMeshReader::Internals
     smg::setPiece(output, piece, info);
   }
 
-  /** The preview, all of it in the first piece. */
+  /** Reads the preview, all of it in the first piece. */
   void readPreview(vtkPointSet& output, int part, int points, const smg::ProgressFunction& progress)
   {
     const smg::StreamInfo& full = this->Mesh->reader().info();
@@ -302,7 +302,7 @@ int vtkStreamingMeshReader::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
   vtkInformation& info = *outputVector->GetInformationObject(0);
-  // Applications ask for the type of the output before a user could name a file.
+  // Applications request the output type before the user has set a file.
   if (this->GetContainerName().empty())
   {
     this->Internal->close();
@@ -340,7 +340,7 @@ int vtkStreamingMeshReader::RequestInformation(
   }
   const smg::VsmReader& reader = this->Internal->Mesh->reader();
   const smg::StreamInfo& info = reader.info();
-  // Also if it is empty: what filters passed on of a file before would stay.
+  // Also if it is empty: otherwise filters would keep the value of a previous file.
   vtkInformation* output = outputVector->GetInformationObject(0);
   output->Set(vtkStreamingMeshKeys::STREAM_FILE(),
     reader.isolatedVertices() > 0 ? reader.path().c_str() : "");
@@ -359,7 +359,7 @@ int vtkStreamingMeshReader::RequestData(
     {
       vtkInformation* request = outputVector->GetInformationObject(0);
       const int parts = std::max(1, request->Get(vtkSDDP::UPDATE_NUMBER_OF_PIECES()));
-      // A piece that there is not is empty: the one after the last.
+      // A piece beyond the last one is empty.
       const int piece = request->Get(vtkSDDP::UPDATE_PIECE_NUMBER());
       const int part = piece < 0 ? parts : std::min(piece, parts);
       vtkPointSet* output = vtkPointSet::GetData(request);

@@ -1,36 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkStreamingMeshReader
- * @brief   Reads any piece of a gigantic mesh stream, and a preview of the whole
+ * @brief   Reads any piece of a very large mesh stream, and a preview of the whole
  *
  * Reads streaming meshes: .vsm containers, SMA and SMB (triangles), SVA and SVB (tetrahedra), and
  * every other mesh file that can be converted to a stream. A file that is not a .vsm is converted
- * once, when it is opened, to a temporary .vsm in ScratchDirectory. The output is a vtkPolyData for
- * triangles and a vtkUnstructuredGrid for tetrahedra.
+ * on opening to a temporary .vsm in ScratchDirectory. The output is a vtkPolyData for triangles and
+ * a vtkUnstructuredGrid for tetrahedra.
  *
  * Piece p of N has the cells [C p/N, C (p+1)/N) in the order of the stream with all the points that
  * they use, and
  * - point GlobalIds: the stream index of each point;
  * - point array `vtkGhostType`: DUPLICATEPOINT on points that an earlier piece owns;
  * - point array `StreamFinalized`: 1 where no later piece uses the point;
- * - the file's point and cell columns as arrays, as far as they are selected; the cell column
- *   `CellFlags`, which marks duplicate and degenerate cells, always; columns named as the arrays
- *   above never.
- * The parts that are not ghosts make up the mesh, exactly, for every N. Pieces asked for in order
- * cost the piece alone, others cost the blocks of the file that hold them. Ghost levels are
+ * - the selected point and cell columns of the file as arrays, and always the cell column
+ *   `CellFlags`, which marks duplicate and degenerate cells; never columns with the names above.
+ *
+ * The union of the non-ghost parts is exactly the mesh, for every N. Requesting pieces in order
+ * reads each piece alone, any other order the blocks of the file that contain it. Ghost levels are
  * ignored.
  *
- * A request for a piece of more than MaximumPointsInMemory points is answered with a preview,
- * unless it comes from a filter that streams (see vtkStreamingMeshKeys): at most PreviewPoints
- * points of the mesh with their GlobalIds and point arrays, joined by triangles by vertex
- * clustering, the surface only of tetrahedra, all of it in piece 0. Then the field data has the
- * arrays `Preview` (int, 1), `FullNumberOfPoints` and `FullNumberOfCells` (vtkIdType: the counts of
- * the mesh); the field data of a real piece has none of them. The preview costs one pass over the
- * file and is kept.
+ * A request for a piece of more than MaximumPointsInMemory points returns a preview, unless it
+ * comes from a streaming filter (see vtkStreamingMeshKeys): at most PreviewPoints points of the
+ * mesh with their GlobalIds and point arrays, joined by triangles by vertex clustering (for
+ * tetrahedra, of the surface), all of it in piece 0. The field data then has the arrays `Preview`
+ * (int, 1), `FullNumberOfPoints` and `FullNumberOfCells` (vtkIdType: the counts of the mesh); the
+ * field data of a real piece has none of them. The preview takes one pass over the file and is
+ * kept.
  *
- * Another source is a legal input of the streaming filters if it keeps this contract: every point
- * belongs to a cell, and the GlobalIds number the points in the order in which the cells, piece
- * after piece, use them first.
+ * Any other source is a valid input of the streaming filters if it fulfils this contract, every
+ * point belongs to a cell, and the GlobalIds number the points in the order of their first use by
+ * the cells, piece by piece.
  *
  * @sa vtkStreamingMeshWriter vtkStreamingPoisson vtkStreamingMeshKeys
  */
@@ -59,31 +59,27 @@ public:
   ///@}
 
   ///@{
-  /**
-   * The folder for the temporary container of a file that is not a .vsm. Default: none, which is
-   * the folder for temporary files of the system.
-   */
+  /** The folder for the temporary container of a file that is not a .vsm. Default: none (the
+   * system's folder for temporary files). */
   vtkSetFilePathMacro(ScratchDirectory);
   vtkGetFilePathMacro(ScratchDirectory);
   ///@}
 
   ///@{
-  /**
-   * The most points that the answer to a request that is not streamed may have; a larger piece is
-   * answered with the preview. Default: 2,000,000. 0: always the preview.
-   */
+  /** The maximum number of points of a piece that is not streamed; for a larger piece the preview
+   * is returned. Default: 2,000,000. 0: always the preview. */
   vtkSetClampMacro(MaximumPointsInMemory, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(MaximumPointsInMemory, vtkIdType);
   ///@}
 
   ///@{
-  /** The most points that the preview may have, 8 to 1,000,000. Default: 10,000. */
+  /** The maximum number of points of the preview, 8 to 1,000,000. Default: 10,000. */
   void SetPreviewPoints(int points);
   vtkGetMacro(PreviewPoints, int);
   ///@}
 
   ///@{
-  /** Which columns of the points, and of the cells, become arrays. Default: all. */
+  /** The point and cell columns to read as arrays. Default: all. */
   vtkDataArraySelection* GetPointDataArraySelection();
   vtkDataArraySelection* GetCellDataArraySelection();
   ///@}
@@ -94,13 +90,14 @@ public:
   vtkIdType GetFullNumberOfCells();
   ///@}
 
-  /** Most vertices alive at once in the stream, after UpdateInformation(); -1 before. */
+  /** The maximum number of simultaneously active vertices of the stream, after UpdateInformation();
+   * -1 before. */
   vtkIdType GetWidth();
 
-  /** 1 if the file is of a format that can be read, by its content or its suffix; else 0. */
+  /** Returns 1 if the format of the file, by its content or its suffix, can be read, else 0. */
   static int CanReadFile(const char* name);
 
-  /** Also the time of the array selections. */
+  /** Includes the modification time of the array selections. */
   vtkMTimeType GetMTime() override;
 
 protected:
@@ -115,12 +112,10 @@ protected:
     vtkInformationVector* outputVector) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
 
-  /** The file whose pieces are delivered: FileName. Empty as long as none is named. */
+  /** The file whose pieces are delivered: FileName. Empty if none is set. */
   virtual std::string GetContainerName();
-  /**
-   * Brings that file up to date: called before it is opened, and again when the properties,
-   * FileName's file or that file have changed. Throws smg::Error if none is named, smg::Cancelled.
-   */
+  /** Updates that file; called before it is opened, and again when the properties, the file of
+   * FileName or that file have changed. Throws smg::Error if none is set, and smg::Cancelled. */
   virtual void UpdateContainer();
 
 private:

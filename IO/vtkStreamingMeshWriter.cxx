@@ -40,12 +40,12 @@ namespace
 
 constexpr int CellsOfPiece = 65536;
 
-/** What a first piece tells of an input. It is one of as many as are given, so that it
- * need not be made again. */
+/** The properties of an input according to a first piece, which is one of `pieces` and can be
+ * reused. */
 struct Trial
 {
   bool isOrdinary = false; ///< see smg::isOrdinaryMesh()
-  int pieces = 1;          ///< as many as give each about CellsOfPiece cells
+  int pieces = 1;          ///< for about CellsOfPiece cells each
 };
 
 Trial tryPiece(smg::PieceInput& input, int given)
@@ -73,16 +73,16 @@ Trial tryPiece(smg::PieceInput& input, int given)
   return trial;
 }
 
-/** What a user should know of what was written. */
+/** Notes for the user on the written file. */
 using Notes = std::vector<std::string>;
 
-/** What is to be written, and whereto. */
+/** The mesh to write and its destination. */
 struct Job
 {
   smg::PieceInput& input;
   int pieces;
   std::filesystem::path path;
-  /** The .vsm file with the points of no cell; empty: what the input says. */
+  /** The .vsm file with the points of no cell; empty: that of the input. */
   std::filesystem::path streamFile;
   smg::Progress& progress;
 
@@ -91,13 +91,13 @@ struct Job
     return { this->input, this->pieces, { .all = true, .required = {}, .optional = {} } };
   }
 
-  /** After a piece was asked for. */
+  /** Valid after a piece was requested. */
   std::filesystem::path isolatedFrom() const
   {
     return this->streamFile.empty() ? this->input.streamFile() : this->streamFile;
   }
 
-  /** The progress of a part of it. */
+  /** The progress function of a part of the work. */
   smg::ProgressFunction part(double from, double to) const
   {
     return smg::partOf(
@@ -110,7 +110,7 @@ struct Job
   }
 };
 
-/** For formats that have no place for them. */
+/** For formats that cannot hold isolated points. */
 void noteIsolated(const Job& job, Notes& notes)
 {
   const std::filesystem::path from = job.isolatedFrom();
@@ -130,7 +130,7 @@ Notes writeContainerFile(const Job& job)
   return {};
 }
 
-/** For formats that need counts, or last uses, first: the pieces go through a container. */
+/** For formats that need counts or last uses in advance: writes the pieces to a container first. */
 Notes writeThroughContainer(const Job& job)
 {
   const smg::ScratchFolder scratch(std::filesystem::absolute(job.path).parent_path());
@@ -144,7 +144,7 @@ Notes writeThroughContainer(const Job& job)
   return notes;
 }
 
-/** In the order of the file that the mesh was made of. */
+/** Writes in the order of the original file. */
 Notes writeInOriginalOrder(const Job& job)
 {
   smg::Workspace workspace(std::filesystem::absolute(job.path).parent_path(),
@@ -166,7 +166,7 @@ Notes writeIndexedPieces(const Job& job)
   return notes;
 }
 
-/** Of any other source, as far as it fits into memory: it gets an order, as `smg convert` does. */
+/** Writes a mesh of any other source that fits into memory: sorts it like `smg convert`. */
 Notes writeOrdinary(const Job& job, bool restoreOrder)
 {
   auto* mesh = vtkPointSet::SafeDownCast(job.input.update(0, 1, false));
@@ -187,7 +187,7 @@ Notes writeOrdinary(const Job& job, bool restoreOrder)
 
 using WriteFunction = Notes (*)(const Job& job);
 
-/** Who writes a file of that name. Throws Error if nobody does. */
+/** The function that writes a file of that name. Throws Error if there is none. */
 WriteFunction writerOf(const std::filesystem::path& path)
 {
   const smg::Format& inPieces = smg::ParallelVtkXmlFormat;

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkStreamingMeshWriter
- * @brief   Writes a gigantic mesh piece by piece
+ * @brief   Writes a very large mesh piece by piece
  *
- * Pulls the pieces of its input one after the other, each once, and writes them to one of
+ * Requests the pieces of its input one after the other, each once, and writes them to one of
  * - .vsm: all point and cell arrays become columns; the points that no cell uses, which no piece
- *   has, come along from the .vsm file that the pieces come from, where they were;
- * - .ply, .vtp (triangles), .vtu: one file with all point and cell arrays; how they are called in
- *   PLY, smg::writePly tells;
+ *   has, are copied from the .vsm file of the pieces;
+ * - .ply, .vtp (triangles), .vtu, .vtkhdf: one file with all point and cell arrays; for their names
+ *   in PLY see smg::writePly;
  * - .sma, .smb (triangles), .sva, .svb (tetrahedra): positions in single precision and cells;
- * - .pvtp, .pvtu: an index and a folder of that name with one file a piece, with the GlobalIds and
- *   ghost arrays that make them legal input of all streaming filters again.
- * What the format does not hold is left out or rounded with a warning. Never more than a piece is
- * in memory (with RestoreOrder 256 MiB at most). The input must keep the piece contract described
- * at vtkStreamingMeshReader, also for piece files: points that no cell uses, or that are not
- * numbered by first use, are refused. A mesh of any other source, whose points have no GlobalIds,
- * is taken whole from memory and gets an order as smg::convert() gives it. The input is always
- * asked for its real pieces, not for previews. The file gets its name when it is complete; after an
- * error or an abort nothing new is left.
+ * - .pvtp, .pvtu: an index and a folder of that name with one file per piece, with the GlobalIds
+ *   and ghost arrays that make them valid input of all streaming filters.
  *
- * With more than one process, process 0 writes and the others wait for it.
+ * Data that the format cannot hold are omitted or rounded with a warning. At most one piece is in
+ * memory (with RestoreOrder at most 256 MiB). The input must fulfil the piece contract described at
+ * vtkStreamingMeshReader, also for piece files: points that no cell uses, or that are not numbered
+ * by first use, are rejected. A mesh of any other source, whose points have no GlobalIds, is taken
+ * from memory as a whole and sorted as by smg::convert(). The writer always requests real pieces,
+ * not previews. The file is renamed when it is complete; after an error or an abort no new file is
+ * left.
+ *
+ * With several processes, process 0 writes and the others wait for it.
  *
  * @sa vtkStreamingMeshReader vtkStreamingMeshKeys
  */
@@ -37,27 +38,24 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /** The file to write; its suffix says which format. */
+  /** The file to write; its suffix selects the format. */
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}
 
   ///@{
-  /**
-   * How many pieces the input is pulled in, 0 to 1,000,000. Default: 0, which is as many as give
-   * pieces of about 64,000 cells. (SetNumberOfPieces is what ParaView calls with the number of
-   * processes.)
-   */
+  /** The number of pieces in which the input is requested, 0 to 1,000,000. Default: 0 (pieces of
+   * about 64,000 cells). (ParaView calls SetNumberOfPieces with the number of processes.) */
   vtkSetClampMacro(NumberOfStreamedPieces, int, 0, 1000000);
   vtkGetMacro(NumberOfStreamedPieces, int);
   ///@}
 
   ///@{
   /**
-   * Whether vertices and cells go back into the order of the mesh file that the stream was made of,
-   * which the arrays OriginalId and OriginalCellId tell: somebody who gave a PLY gets the same PLY
-   * back, with points moved. For .ply, .vtp, .vtu, .vtk, .obj, .off, .stl, .mesh, .msh and .ele
-   * files; see smg::writeRestored. Takes 256 MiB of memory at most. Default: off.
+   * Whether to restore the order of vertices and cells of the original mesh file, according to the
+   * arrays OriginalId and OriginalCellId: a PLY file is written as the same PLY file with moved
+   * points. For .ply, .vtp, .vtu, .vtk, .obj, .off, .stl, .mesh, .msh and .ele files; see
+   * smg::writeRestored. Takes at most 256 MiB of memory. Default: off.
    */
   vtkSetMacro(RestoreOrder, bool);
   vtkGetMacro(RestoreOrder, bool);
@@ -65,16 +63,13 @@ public:
   ///@}
 
   ///@{
-  /**
-   * The .vsm file that has the points of no cell. Default: none, which is the one that the input
-   * says it comes from, if it says so (see vtkStreamingMeshKeys::STREAM_FILE()): needed for data
-   * that came another way.
-   */
+  /** The .vsm file with the points of no cell. Default: none (the file in
+   * vtkStreamingMeshKeys::STREAM_FILE() of the input, if any). Required only for other data. */
   vtkSetFilePathMacro(StreamFileName);
   vtkGetFilePathMacro(StreamFileName);
   ///@}
 
-  /** Writes the file. Answers 1, or 0 after an error or an abort. */
+  /** Writes the file. Returns 1, or 0 after an error or an abort. */
   int Write() override;
 
 protected:

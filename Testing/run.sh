@@ -1,17 +1,17 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds and tests everything on a Debian 12 or 13 machine (as root, or as a user with sudo):
-#   main        build/             ParaView's VTK, plugin, Python; all tests but the long ones; several
-#                                  sources compiled as one: the names in their unnamed namespaces differ
-#   vtk         build-vtk/         Debian's standalone VTK; the tests of what is built on VTK; source by
-#                                  source, since each includes what it needs; with assertions
+#   main        build/             ParaView's VTK, plugin, Python; all tests except the long ones; unity
+#                                  build: names in unnamed namespaces must differ
+#   vtk         build-vtk/         Debian's standalone VTK; the tests that use VTK; no unity build: each
+#                                  source must include what it uses; with assertions
 #   asan-ubsan  build-asan-ubsan/  Solver, IO and smg without VTK, under two sanitizers
-# Stops at the first configuration that fails, with ctest's summary as its last lines.
+# Stops at the first failing configuration, with the summary of ctest as its last lines.
 #
 # Environment:
-#   SMG_TEST_DATA_DIR   the unpacked archive of test meshes; without it tests that need it are skipped
-#   SMG_CONFIGURATIONS  which of the above, "main vtk asan-ubsan" unless set
-#   SMG_JOBS            parallel compilations and tests, one a core unless set
+#   SMG_TEST_DATA_DIR   the unpacked archive of test meshes; without it, tests that need it are skipped
+#   SMG_CONFIGURATIONS  the configurations to run; default: "main vtk asan-ubsan"
+#   SMG_JOBS            parallel compilations and tests; default: one per core
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source cmake/packages.sh
@@ -40,7 +40,7 @@ for configuration in ${SMG_CONFIGURATIONS:-main vtk asan-ubsan}; do
       ;;
     asan-ubsan) configure_build_test asan-ubsan ;;
     *)
-      echo "SMG_CONFIGURATIONS: no configuration is called $configuration" >&2
+      echo "SMG_CONFIGURATIONS: there is no configuration $configuration" >&2
       exit 2
       ;;
   esac

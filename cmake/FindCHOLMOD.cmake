@@ -5,7 +5,7 @@ find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
 find_library(CHOLMOD_LIBRARY cholmod)
 
 if (CHOLMOD_INCLUDE_DIR)
-  # The version stands in cholmod_core.h, but in cholmod.h from SuiteSparse 7 on.
+  # cholmod_core.h defines the version; from SuiteSparse 7 on, cholmod.h.
   file(GLOB cholmod_headers
     "${CHOLMOD_INCLUDE_DIR}/cholmod.h" "${CHOLMOD_INCLUDE_DIR}/cholmod_core.h")
   set(CHOLMOD_VERSION "")

@@ -19,11 +19,11 @@ set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
 
 add_compile_options(-Wall -Wextra)
 if (CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # g++ 12 warns of overlaps inside std::string's own operator+ (GCC bug 105329).
+  # g++ 12 reports false overlaps inside operator+ of std::string (GCC bug 105329).
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)
 endif ()
 if (CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-  # Told of types in unnamed namespaces only where a source is included by another.
+  # Unity builds include sources in others, where types in unnamed namespaces cause this warning.
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
 endif ()
 if (SMG_SANITIZE)

@@ -3,7 +3,7 @@
 
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
-find_package(Eigen3 REQUIRED NO_MODULE) # 3.3 or newer; Eigen 5 refuses a request for 3
+find_package(Eigen3 REQUIRED NO_MODULE) # 3.3 or newer; Eigen 5 rejects a request for 3
 find_package(CHOLMOD REQUIRED)
 find_package(TBB REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED)
@@ -12,7 +12,7 @@ find_package(ZLIB REQUIRED)
 find_package(LibLZMA REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(SMG_COMPRESSION REQUIRED IMPORTED_TARGET libzstd liblz4 libxxhash)
-pkg_check_modules(SMG_HDF5 REQUIRED IMPORTED_TARGET hdf5-serial) # not the one that needs MPI
+pkg_check_modules(SMG_HDF5 REQUIRED IMPORTED_TARGET hdf5-serial) # the version without MPI
 
 if (NOT SMG_BUILD_VTK)
   set(SMG_BUILD_PARAVIEW_PLUGIN OFF)

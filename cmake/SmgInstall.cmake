@@ -15,7 +15,7 @@ endforeach ()
 install(FILES docs/problem.schema.json
   DESTINATION "${CMAKE_INSTALL_DATADIR}/StreamingMultigrid" COMPONENT libraries)
 
-# Of the folder that SmgParaViewPrefix made in the build folder, the original.
+# The original of the folder that SmgParaViewPrefix creates in the build folder.
 string(REPLACE "${CMAKE_BINARY_DIR}/paraview/" "/usr/" smg_vtk_dir "${VTK_DIR}")
 configure_package_config_file(cmake/StreamingMultigridConfig.cmake.in
   "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridConfig.cmake"

@@ -15,12 +15,12 @@ if (EXISTS "${paraview_conf}")
   file(STRINGS "${paraview_conf}" has_shared_plugins REGEX "^${shared_plugins}$")
 endif ()
 if (has_shared_plugins)
-  # ParaView offers the plugins of this folder, by their names.
+  # ParaView lists the plugins of this folder by name.
   file(CREATE_LINK "/usr/${plugin}" "${generated}/StreamingMultigrid.so" SYMBOLIC)
   install(FILES "${generated}/StreamingMultigrid.so"
     DESTINATION "${shared_plugins}" COMPONENT paraview_plugins)
 else ()
-  # Debian 12's ParaView looks for lists of plugins in this file, which its package has left out.
+  # ParaView on Debian 12 reads lists of plugins from this file, which its package does not contain.
   file(WRITE "${generated}/paraview.conf"
     "../${plugin_folder}/paraview.plugins.xml\n../${plugin_folder}/streamingmultigrid.plugins.xml\n")
   install(FILES "${generated}/paraview.conf"
@@ -42,7 +42,7 @@ set(CPACK_PACKAGE_CONTACT "The Streaming Multigrid developers <streaming-multigr
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-# ParaView's own rules give the plugin no component.
+# The install rules of ParaView assign no component to the plugin.
 set(plugin_components runtime paraview_plugins python Unspecified)
 set(CPACK_COMPONENTS_ALL libraries development ${plugin_components})
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)

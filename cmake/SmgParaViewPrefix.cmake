@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Debian 13's package of ParaView says that its Python modules are files that do not exist:
-# vtkCommonCore.so, where vtkCommonCore.cpython-313-x86_64-linux-gnu.so is. Then a folder is made with
-# links to all of ParaView's files, and with links of these names, and ParaView_DIR is there. Not where
-# the user names another ParaView.
+# The ParaView package of Debian 13 refers to Python modules that do not exist, for example
+# vtkCommonCore.so instead of vtkCommonCore.cpython-313-x86_64-linux-gnu.so. In this case a folder
+# with links to all files of ParaView, and with links of these names, is created, and ParaView_DIR
+# is set to it, unless the user selects another ParaView.
 
-# One that is gone, as after an upgrade of the system, is looked for anew.
+# A missing ParaView, for instance after an upgrade of the system, is searched again.
 if (ParaView_DIR AND NOT EXISTS "${ParaView_DIR}")
   unset(ParaView_DIR CACHE)
 endif ()
@@ -46,7 +46,7 @@ if (NOT smg_missing)
   return()
 endif ()
 
-# smg_link_all(<folder> [<entry>...]): links to all that /usr has in the folder but these entries
+# smg_link_all(<folder> [<entry>...]): links to all files of the folder in /usr except these entries
 function (smg_link_all folder)
   file(GLOB entries "/usr/${folder}/*")
   foreach (entry IN LISTS entries)
@@ -61,7 +61,7 @@ set(smg_prefix "${CMAKE_BINARY_DIR}/paraview")
 cmake_path(GET smg_paraview FILENAME smg_name)
 set(smg_packages "${smg_prefix}/${smg_libraries}/cmake")
 if (NOT EXISTS "${smg_packages}/${smg_name}")
-  # Whoever is cut off before the last step begins anew.
+  # An interrupted run is repeated from the start.
   file(REMOVE_RECURSE "${smg_prefix}")
   file(MAKE_DIRECTORY "${smg_packages}/part")
   foreach (folder bin include share)
@@ -86,4 +86,4 @@ if (NOT EXISTS "${smg_packages}/${smg_name}")
   file(RENAME "${smg_packages}/part/${smg_name}" "${smg_packages}/${smg_name}")
 endif ()
 set(ParaView_DIR "${smg_packages}/${smg_name}" CACHE PATH
-  "ParaView's own, but for names of Python modules" FORCE)
+  "ParaView's own, except for names of Python modules" FORCE)

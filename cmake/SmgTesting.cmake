@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# How tests are made. Labels:
-#   unit, vtk, paraview, tree, install   what the test needs or looks at
-#   data                                 needs SMG_TEST_DATA_DIR; skips itself where it is empty
-#   law                                  how errors, rates or memory go with the size of the mesh:
-#                                        larger meshes, on which sanitizers find nothing more
-#   long                                 takes minutes: left out by `ctest -LE long`
+# Functions that add tests. Labels:
+#   unit, vtk, paraview, tree, install   what the test needs or checks
+#   data                                 needs SMG_TEST_DATA_DIR; skipped if that is empty
+#   law                                  scaling of errors, rates or memory with the size of the mesh:
+#                                        larger meshes, without additional coverage for sanitizers
+#   long                                 takes minutes: excluded by `ctest -LE long`
 
-# The folder that holds the meshes of the archive itself, whichever level was named.
+# The folder with the meshes of the archive, for either level of SMG_TEST_DATA_DIR.
 set(smg_test_data "${SMG_TEST_DATA_DIR}")
 if (smg_test_data AND EXISTS "${smg_test_data}/meshes")
   set(smg_test_data "${smg_test_data}/meshes")
@@ -37,7 +37,7 @@ function (smg_discover name filter timeout labels)
     DISCOVERY_MODE PRE_TEST
     DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT ${timeout})
-  # gtest_discover_tests takes a list of labels apart: they are set where ctest knows the tests.
+  # gtest_discover_tests splits a list of labels: they are set in a file that ctest includes.
   set(file "${CMAKE_CURRENT_BINARY_DIR}/${list}.cmake")
   file(WRITE "${file}" "foreach (test IN LISTS ${list})
   set_tests_properties(\"\${test}\" PROPERTIES LABELS \"${labels}\")
@@ -46,20 +46,21 @@ endforeach ()
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${file}")
 endfunction ()
 
-# Finds pvpython, pvbatch and xvfb-run once: without an X server ParaView's rendering crashes.
+# Finds pvpython, pvbatch and xvfb-run once: ParaView cannot render without an X server.
 function (smg_find_paraview_programs)
   find_program(SMG_PVPYTHON pvpython REQUIRED)
   find_program(SMG_PVBATCH pvbatch REQUIRED)
   find_program(SMG_PVSERVER pvserver REQUIRED)
   find_program(SMG_XVFB_RUN xvfb-run REQUIRED)
-  # Without -noreset the server begins anew when a first client goes, and may refuse a second one.
+  # Without -noreset the server resets when the first client disconnects, and may reject a second
+  # one.
   set(smg_on_screen ${SMG_XVFB_RUN} -a -s "-screen 0 1280x1024x24 -noreset" PARENT_SCOPE)
   find_program(SMG_MPIRUN NAMES mpirun mpiexec REQUIRED)
 endfunction ()
 
 # smg_add_paraview_test(<name> COMMAND <command>... [TIMEOUT <seconds>] [LABELS <label>...])
-# A test under an X server of its own that fails on a Python traceback or a VTK error, too, with the
-# plugin and the wrapped classes on the paths.
+# A test under its own X server, with the plugin and the wrapped classes on the paths; it also fails
+# on a Python traceback or a VTK error.
 function (smg_add_paraview_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "COMMAND;LABELS")
   if (NOT arg_TIMEOUT)

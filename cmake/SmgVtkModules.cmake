@@ -29,7 +29,7 @@ vtk_module_build(
 unset(CMAKE_CXX_VISIBILITY_PRESET)
 unset(CMAKE_VISIBILITY_INLINES_HIDDEN)
 
-# Where Debian's Python looks below /usr, whatever the folder of libraries is called.
+# The folder below /usr that Python on Debian searches, independent of the library folder.
 set(SMG_PYTHON_DIR "lib/python3/dist-packages")
 if (SMG_BUILD_PYTHON)
   # From the modules to the libraries beside lib/python3.

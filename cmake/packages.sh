@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # shellcheck shell=bash
-# The Debian packages that this project needs, and their installation; for the run scripts:
+# The Debian packages that this project needs and functions to install them, for the run scripts:
 #   source cmake/packages.sh
 #   smg_install "${smg_build_packages[@]}"
-# NAME|OTHER|...: the first of these that the release has.
+# NAME|OTHER|...: the first of these that exists in the release.
 
 smg_build_packages=(
   build-essential cmake ninja-build pkg-config ccache
   libeigen3-dev libsuitesparse-dev libtbb-dev libzstd-dev liblz4-dev libxxhash-dev zlib1g-dev
   liblzma-dev libhdf5-dev
   nlohmann-json3-dev libcli11-dev libfast-float-dev)
-# python3-paraview, libopenmpi-dev and libpython3-dev are needed by paraview-dev, which does not say so.
+# paraview-dev needs python3-paraview, libopenmpi-dev and libpython3-dev without declaring it.
 smg_paraview_packages=(
   paraview paraview-dev python3-paraview libopenmpi-dev libpython3-dev xvfb xauth
   "qt6-svg-plugins|libqt5svg5")
@@ -38,17 +38,17 @@ smg_as_root() {
 
 # smg_is_installed PACKAGE
 smg_is_installed() {
-  # One for each architecture.
+  # One status per architecture.
   [[ " $(dpkg-query -W -f='${db:Status-Status} ' "$1" 2> /dev/null)" == *" installed "* ]]
 }
 
-# smg_fetch_lists : of the packages that there are
+# smg_fetch_lists : updates the package lists
 smg_fetch_lists() {
   echo "Fetching the lists of packages"
   smg_as_root apt-get update -qq
 }
 
-# smg_choose NAME|OTHER|... : prints the first that apt knows, of its lists or as installed.
+# smg_choose NAME|OTHER|... : prints the first one that is in the lists of apt or installed.
 smg_choose() {
   local package names
   IFS='|' read -r -a names <<< "$1"
@@ -61,7 +61,8 @@ smg_choose() {
   echo "${names[0]}"
 }
 
-# smg_say_so COMMAND... : the lines of the command, and one every few seconds while it says nothing.
+# smg_say_so COMMAND... : prints the output of the command, and a line every few seconds without
+# output.
 smg_say_so() {
   local start=$SECONDS line begun= status
   "$@" 2>&1 | while :; do
@@ -79,20 +80,21 @@ smg_say_so() {
   return "${PIPESTATUS[0]}"
 }
 
-# Of what apt and dpkg say: every twentieth package, and errors.
+# Shortens the output of apt and dpkg to every twentieth package and errors.
 smg_shorten() {
   awk '/^(Unpacking|Setting up) / { if (++n % 20 == 0) { print n " steps: " $0; fflush() } }
        /^(E:|W:|dpkg: error)/ || /^Need to get / || / newly installed/ { print; fflush() }'
 }
 
-# smg_install PACKAGE... : installs the ones that are missing; never removes one. Without a missing
-# one nothing is asked of apt or the network.
+# smg_install PACKAGE... : installs missing packages; never removes one. If none is missing, neither apt
+# nor the network is used.
 smg_install() {
   local names package missing
   local lists_are_new=
   while :; do
     missing=() names=("$@")
-    # A ParaView that is built on the release's VTK needs its headers, too, which paraview-dev does not say.
+    # A ParaView based on the VTK of the release also needs its headers, which paraview-dev does not
+    # declare.
     if [[ " $* " == *" paraview-dev "* &&
       $(apt-cache depends paraview 2> /dev/null) == *"Depends: libvtk"* ]]; then
       names+=(libvtk9-dev)
@@ -102,7 +104,7 @@ smg_install() {
       smg_is_installed "$package" || missing+=("$package")
     done
     [ ${#missing[@]} -gt 0 ] || return 0
-    # Package lists may be absent or out of date: then they are fetched, and it is tried once more.
+    # Package lists may be absent or outdated: update them and try once more.
     if [ -n "$lists_are_new" ] || apt-cache show "${missing[@]}" > /dev/null 2>&1; then
       echo "Installing: ${missing[*]}"
       smg_as_root env DEBIAN_FRONTEND=noninteractive \

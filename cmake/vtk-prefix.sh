@@ -1,13 +1,13 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# vtk-prefix.sh PREFIX : makes a private development prefix of Debian's standalone VTK.
-# Its runtime libraries come from apt; the development packages cannot be installed beside
-# ParaView's, so they are unpacked in PREFIX. Does nothing when PREFIX is complete.
+# vtk-prefix.sh PREFIX : creates a private development prefix of Debian's standalone VTK.
+# apt installs its runtime libraries; the development packages conflict with those of ParaView and are
+# therefore unpacked in PREFIX. Does nothing if PREFIX is complete.
 set -euo pipefail
 prefix=$(realpath -m "${1:?usage: vtk-prefix.sh PREFIX}")
 source "$(dirname "${BASH_SOURCE[0]}")/packages.sh"
 
-# The runtime's package has the version in its name: libvtk9.1, libvtk9.3.
+# The name of the runtime package contains the version: libvtk9.1, libvtk9.3.
 runtime_of() { apt-cache depends libvtk9-dev 2> /dev/null | grep -oE '\blibvtk9\.[0-9]+[a-z0-9]*$' | head -n 1; }
 runtime=$(runtime_of) || { smg_fetch_lists && runtime=$(runtime_of); } || true
 [ -n "$runtime" ] || {
@@ -34,7 +34,7 @@ for package in ./*.deb; do
   dpkg -x "$package" "$prefix"
 done
 
-# The development links and the class hierarchies refer to the runtime package's files.
+# The development links and the class hierarchies refer to files of the runtime package.
 machine=$(gcc -print-multiarch)
 for library in /usr/lib/"$machine"/libvtk*-9.*.so.*; do
   ln -sf "$library" "$prefix/usr/lib/$machine/"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes Examples/Data/heat_sink.vtk: a heat sink on a chip, tetrahedra in a legacy VTK file.
+"""Generates Examples/Data/heat_sink.vtk: a heat sink on a chip, tetrahedra in a legacy VTK file.
 
     python3 make_mesh.py ../Data/heat_sink.vtk
 
@@ -13,20 +13,20 @@ import itertools
 import sys
 
 SIDE = 17  # of the plate, in cubes
-PLATE, FINS = 1, 3  # the layers of cubes where they begin
+PLATE, FINS = 1, 3  # their first layers of cubes
 LAYERS = 9
 
 
 def material(x, y, z):
-    """That of a cube, by its place; 0: there is none."""
+    """The material of a cube by its indices; 0: no cube."""
     if z < PLATE:
         return int(5 <= x < 12 and 5 <= y < 12)
     return 2 if z < FINS or x % 4 == 0 else 0
 
 
 def tetrahedra(cube):
-    """Six around the diagonal of a cube, a path along its edges each: they fit to those of the next
-    cube. Every other path is the mirror image of the one before."""
+    """The six tetrahedra around the diagonal of a cube, each a path along its edges; they conform to
+    those of the adjacent cubes. Every other path is a mirror image of the previous one."""
     for axes in itertools.permutations(range(3)):
         corner, path = list(cube), [tuple(cube)]
         for axis in axes:

@@ -29,7 +29,7 @@ void CommonOptions::addTo(CLI::App& command, const std::string& memoryDefault)
 
 void CommonOptions::addThreadsTo(CLI::App& command)
 {
-  command.add_option("--threads", this->threads, "Compute threads; 0: one a core")
+  command.add_option("--threads", this->threads, "Compute threads; 0: one per core")
     ->check(CLI::Range(0, 1024))
     ->capture_default_str()
     ->type_name("N");
@@ -38,15 +38,14 @@ void CommonOptions::addThreadsTo(CLI::App& command)
 namespace
 {
 
-/** Whether the report is written in place: to a pipe, a device or through a link, which must stay
- * what they are. */
+/** Whether the report is written in place: to a pipe, to a device or through a link. */
 bool isInPlace(const std::filesystem::path& report)
 {
   const std::filesystem::file_status status = std::filesystem::symlink_status(report);
   return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
 }
 
-/** Where the report is written; it is renamed, so that a reader never sees half a report. */
+/** The file to write; it is renamed when complete, so that no reader sees a partial report. */
 std::filesystem::path temporaryOf(const std::filesystem::path& report)
 {
   return isInPlace(report) ? report : std::filesystem::path(report.string() + ".part");
@@ -57,10 +56,10 @@ std::filesystem::path temporaryOf(const std::filesystem::path& report)
   throw smg::Error(report.string() + ": the report cannot be written: " + reason + '.');
 }
 
-/** Whether both name the same file, which need not be there. */
+/** Whether both name the same file, which need not exist. */
 bool sameFile(const std::filesystem::path& a, const std::filesystem::path& b)
 {
-  // What is not there yet has no more than its name.
+  // A file that does not exist can only be compared by name.
   std::error_code absent;
   const auto named = [](const std::filesystem::path& file)
   { return std::filesystem::absolute(smg::FileDescriptor::targetOf(file)).lexically_normal(); };

@@ -15,13 +15,12 @@ struct CommonOptions
 {
   std::filesystem::path report;  ///< JSON file for the report; empty: none
   std::int64_t memory = 0;       ///< MiB; 0: the default of the operation
-  int threads = 0;               ///< 0: one a core
+  int threads = 0;               ///< 0: one per core
   std::filesystem::path scratch; ///< empty: the system's temporary folder
   bool quiet = false;
 
   /**
-   * Adds the options to a command, all but --threads. `memoryDefault` says what holds without
-   * --memory.
+   * Adds the options to a command, except --threads. `memoryDefault` is the default of --memory.
    */
   void addTo(CLI::App& command, const std::string& memoryDefault = "256");
   /** Adds --threads. */
@@ -33,20 +32,20 @@ struct CommonOptions
     return this->memory > 0 ? this->memory << 20 : fallback;
   }
 
-  /** Throws smg::Error if the report that was asked for cannot be written, or would overwrite one
-   * of the command's other files, before the work. */
+  /** Throws smg::Error if a requested report cannot be written or would overwrite another file of
+   * the command. */
   void checkReport(std::initializer_list<std::filesystem::path> others) const;
-  /** Writes the report if one was asked for. Throws smg::Error. */
+  /** Writes the report if one is requested. Throws smg::Error. */
   void writeReport(const std::string& json) const;
 };
 
-/** Checks that the value of an option is one of these; the error says which there are. */
+/** Checks that the value of an option is one of these; the error lists them. */
 std::function<std::string(const std::string&)> oneOf(std::vector<std::string> values);
 
-/** Runs the command that was chosen on the command line; set by the commands. */
+/** Runs the selected command. */
 using Action = std::function<void()>;
 
-/** Add the commands to the program; each sets `action` when it is chosen. */
+/** Add the commands to the program; each sets `action` when it is selected. */
 void addInfoCommand(CLI::App& program, Action& action);
 void addConvertCommand(CLI::App& program, Action& action);
 void addSolveCommand(CLI::App& program, Action& action);

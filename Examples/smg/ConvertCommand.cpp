@@ -29,11 +29,11 @@ void print(const smg::ConversionReport& report)
     }
   };
   line(report.components, "components");
-  line(report.isolated_vertices, "isolated vertices, which are no part of the stream");
-  line(report.dropped_cells, "cells of other kinds left out");
-  line(report.triangulated_polygons, "polygons made triangles");
-  line(report.split_cells, "hexahedra, wedges and pyramids made tetrahedra");
-  line(report.higher_order_cells, "cells of higher order, of which the corners are used");
+  line(report.isolated_vertices, "isolated vertices, which are not part of the stream");
+  line(report.dropped_cells, "cells of other types omitted");
+  line(report.triangulated_polygons, "polygons split into triangles");
+  line(report.split_cells, "hexahedra, wedges and pyramids split into tetrahedra");
+  line(report.higher_order_cells, "higher-order cells, of which only the corners are used");
   line(report.merged_points, "points merged with others");
   line(report.degenerate_cells, "degenerate cells");
   line(report.duplicate_cells, "duplicate cells");
@@ -112,8 +112,7 @@ struct ConvertOptions : CommonOptions
 void addConvertCommand(CLI::App& program, Action& action)
 {
   auto options = std::make_shared<ConvertOptions>();
-  CLI::App* command =
-    program.add_subcommand("convert", "Bring a mesh into a stream order and write it");
+  CLI::App* command = program.add_subcommand("convert", "Convert a mesh to a stream order");
   command->add_option("IN", options->in, "The mesh")->required();
   command
     ->add_option("OUT", options->out,
@@ -122,7 +121,7 @@ void addConvertCommand(CLI::App& program, Action& action)
   command
     ->add_option("--order", options->order,
       "bfs (breadth-first), spectral (the smallest width), axis (along the longest side) or keep "
-      "(as it is)")
+      "(the order of the file)")
     ->check(oneOf({ "bfs", "axis", "keep", "spectral" }))
     ->capture_default_str();
   command->add_option("--codec", options->codec, "Compression of .vsm files: zstd, lz4 or none")
@@ -131,11 +130,11 @@ void addConvertCommand(CLI::App& program, Action& action)
   options->input.addTo(*command);
   command
     ->add_flag("--restore-order", options->restoreOrder,
-      "Write vertices and cells in the order of the file that the .vsm file IN was made of, to a " +
+      "Write vertices and cells in the order of the original file of the .vsm file IN, to a " +
         smg::suffixList(smg::FormatUse::Restore, "or") + " file")
     ->excludes("--order", "--weld", "--cells", "--codec", "--time-step", "--partition");
   command->add_flag("--dry-run", options->dryRun,
-    "Only say how large the mesh is and what the conversion will take");
+    "Only estimate the size of the mesh and the cost of the conversion");
   options->addTo(*command);
   options->addThreadsTo(*command);
   command->callback([options, &action] { action = [options] { options->run(); }; });

@@ -31,26 +31,27 @@ public:
       "The deformed mesh: " + smg::suffixList(smg::FormatUse::WriteColumns, "or") +
         " with all columns of IN; or .sma, .smb, .sva, .svb. The order of IN is kept from .vsm to "
         "any of these, from a streaming format to a "
-        "streaming format, and from PLY to PLY; else the vertices come in stream order",
+        "streaming format, and from PLY to PLY; otherwise the vertices are in stream order",
       this->Deform);
-    command.get_option("--max-cycles")->description("Most V-cycles of each of the two steps");
+    command.get_option("--max-cycles")
+      ->description("Maximum number of V-cycles of each of the two steps");
     command.add_option("--handles", this->File, "The handles, a JSON file")
       ->required()
       ->type_name("FILE");
     command
       .add_option("--weights", this->Weights,
-        "Weights of the edges, rather than the file's: clamped, cotangent (finite elements) or "
-        "uniform")
+        "Weights of the edges, instead of those of the file: clamped, cotangent (finite elements) "
+        "or uniform")
       ->check(oneOf({ "clamped", "cotangent", "uniform" }));
     CLI::Option* tolerance = addTolerance(command, this->Tolerance);
     command
       .add_option(
-        "--cycles", this->Cycles, "V-cycles of each of the two steps, rather than a tolerance")
+        "--cycles", this->Cycles, "V-cycles of each of the two steps, instead of a tolerance")
       ->check(CLI::Range(1, 1000000))
       ->excludes(tolerance);
     command
-      .add_option("--normals", this->Normals,
-        "Columns Normals of IN: recompute (left out of tetrahedra) or drop")
+      .add_option(
+        "--normals", this->Normals, "Columns Normals of IN: recompute (tetrahedra: drop) or drop")
       ->check(oneOf({ "recompute", "drop" }))
       ->capture_default_str();
     command.footer(
@@ -79,7 +80,7 @@ protected:
     return positions;
   }
 
-  /** Of points that are merged only one moves: then IN cannot be written again. */
+  /** Of merged points only one moves, so that IN cannot be rewritten. */
   bool rewritesInput() const override
   {
     return !this->Input.welds() && smg::canRewrite(this->In, this->Out);
@@ -95,7 +96,7 @@ protected:
     const smg::MovedMesh moved(mesh, positions,
       this->Normals == "drop" ? smg::MovedNormals::Drop : smg::MovedNormals::Recompute, normals);
     const std::unique_ptr<smg::MeshSource> source = moved.source();
-    // What came in the order of a file goes out in the same order.
+    // Keeps the order of the input file.
     if (this->rewritesInput())
     {
       smg::RewriteOptions options;
@@ -118,7 +119,7 @@ protected:
   const smg::SolveOptions& solveOptions() const override { return this->Deform; }
 
 private:
-  /** What the command line says counts more than what the file says. */
+  /** The command line takes precedence over the file. */
   void applyCommandLine()
   {
     if (!this->Weights.empty())
@@ -136,13 +137,13 @@ private:
     }
   }
 
-  /** Bytes for what waits while the output is written. */
+  /** Bytes for the buffers of the writer. */
   std::int64_t writerMemory() const
   {
     return std::min(this->Deform.memoryLimit / 4, smg::NormalsOptions().memory);
   }
 
-  smg::DeformationDescription Description; ///< what the file says
+  smg::DeformationDescription Description; ///< from the handle file
   std::string Weights;                     ///< empty: those of the file
   std::optional<int> Cycles;
   std::optional<double> Tolerance;

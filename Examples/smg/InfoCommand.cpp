@@ -124,7 +124,7 @@ struct InfoOptions : CommonOptions
         ": only .vsm files have checksums: leave --check out; this one is read as a whole anyhow.");
     }
     ProgressBar bar("reading", this->quiet);
-    // The order of the file itself is what the figures are about.
+    // The figures refer to the order of the file.
     const std::unique_ptr<smg::OpenedMesh> mesh =
       openInput(this->file, *this, bar.function(), smg::StreamOrder::Keep);
     nlohmann::ordered_json report = describe(this->file, *mesh);
@@ -150,11 +150,10 @@ struct InfoOptions : CommonOptions
 void addInfoCommand(CLI::App& program, Action& action)
 {
   auto options = std::make_shared<InfoOptions>();
-  CLI::App* command = program.add_subcommand("info", "Say what a mesh file holds");
+  CLI::App* command = program.add_subcommand("info", "Print the properties of a mesh file");
   command->add_option("FILE", options->file, "The mesh")->required();
   command->add_flag("--check", options->check,
-    "Read all of a .vsm file and check its checksums: an error names the first block that is "
-    "damaged");
+    "Read an entire .vsm file and verify its checksums; an error names the first damaged block");
   options->addTo(*command);
   options->addThreadsTo(*command);
   command->callback([options, &action] { action = [options] { options->run(); }; });

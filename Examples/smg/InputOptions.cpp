@@ -10,7 +10,7 @@ void InputOptions::addTo(CLI::App& command)
 {
   command
     .add_option(
-      "--cells", this->Cells, "Which cells to keep of a mesh that has both: triangles or tets")
+      "--cells", this->Cells, "Cells to keep of a mesh with both types: triangles or tets")
     ->check(oneOf({ "triangles", "tets" }));
   command
     .add_option(

@@ -10,17 +10,17 @@
 #include <optional>
 #include <string>
 
-/** What to take of a mesh file that is being converted. */
+/** Options of the conversion of the input. */
 class InputOptions
 {
 public:
   /** Adds --cells, --weld, --time-step and --partition. */
   void addTo(CLI::App& command);
 
-  /** Fills in what the options say. */
+  /** Applies the options. */
   void applyTo(smg::ConversionOptions& options) const;
 
-  /** Throws smg::Error if `in` is a .vsm file, which is used as it is, and an option was given. */
+  /** Throws smg::Error if `in` is a .vsm file, which is not converted, and an option was given. */
   void checkIsConverted(const std::filesystem::path& in) const;
 
   bool welds() const { return this->Weld.has_value(); }

@@ -23,7 +23,7 @@ void catchInterrupts()
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
-  // A terminal that closes must not stop what nohup has started.
+  // A closing terminal must not stop a command started with nohup.
   struct sigaction before = {};
   sigaction(SIGHUP, nullptr, &before);
   if (before.sa_handler != SIG_IGN)

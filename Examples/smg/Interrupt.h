@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/**
- * Makes SIGINT, SIGTERM and SIGHUP (unless that is ignored) ask the running operation to stop and
- * clean up, instead of ending the program at once. A second signal ends it.
- */
+/** Makes SIGINT, SIGTERM and SIGHUP (unless ignored) cancel the running operation with a clean-up,
+ * instead of terminating the program. A second signal terminates it. */
 void catchInterrupts();
 
-/** Whether such a signal has come. */
+/** Whether such a signal has been received. */
 bool interrupted();

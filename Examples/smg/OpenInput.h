@@ -6,10 +6,8 @@
 
 #include "smg/OpenMesh.h"
 
-/**
- * Opens a mesh file of any kind. What is no stream is converted on the way, into `order`, within
- * the memory limit of the options, and as `input` says. Throws smg::Error.
- */
+/** Opens a mesh file of any format. A file that is not a stream is converted to `order`, within the
+ * memory limit of the options and according to `input`. Throws smg::Error. */
 std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
   const CommonOptions& common, smg::ProgressFunction progress,
   smg::StreamOrder order = smg::StreamOrder::BreadthFirst, const InputOptions& input = {});

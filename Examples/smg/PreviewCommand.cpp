@@ -28,14 +28,13 @@ private:
   void checkOutputName() const;
 };
 
-/** A preview without the map to the mesh would be of no use. */
+/** Rejects formats that cannot store the map from the preview to the mesh. */
 void PreviewOptions::checkOutputName() const
 {
   if (smg::kindOfOutput(this->out) == smg::MeshFileKind::Stream)
   {
     throw smg::Error(
-      this->out.string() +
-      ": this format has no room for what a preview says of its points: write it as " +
+      this->out.string() + ": this format cannot hold the columns of a preview: write it as " +
       smg::suffixList(smg::FormatUse::WriteColumns, smg::CellType::Triangle, "or") + '.');
   }
   smg::checkOutput(this->out, smg::CellType::Triangle);
@@ -88,16 +87,16 @@ void addPreviewCommand(CLI::App& program, Action& action)
 {
   auto options = std::make_shared<PreviewOptions>();
   CLI::App* command = program.add_subcommand(
-    "preview", "Make a coarse surface of a mesh that says which vertex each of its points is");
+    "preview", "Create a coarse surface whose points are vertices of the mesh");
   command->add_option("IN", options->in, "The mesh")->required();
   command
     ->add_option("OUT", options->out,
       "The preview: " +
         smg::suffixList(smg::FormatUse::WriteColumns, smg::CellType::Triangle, "or") +
         ", with the columns of the vertices of IN; StreamIndex "
-        "and OriginalId number them in the stream and in the original file")
+        "and OriginalId are their indices in the stream and in the original file")
     ->required();
-  command->add_option("--points", options->points, "Most points of the preview")
+  command->add_option("--points", options->points, "Maximum number of points of the preview")
     ->check(CLI::Range(smg::LeastPreviewPoints, smg::MostPreviewPoints))
     ->capture_default_str()
     ->type_name("N");

@@ -59,7 +59,7 @@ std::string ProgressBar::remaining(double fraction) const
       part, sizeof(part), ", %.0f of %.0f MiB", fraction * this->Mebibytes, this->Mebibytes);
     text += part;
   }
-  // The first seconds say little of the rest.
+  // An estimate in the first seconds is unreliable.
   const double seconds =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
   if (seconds > 2.0 && fraction > 0.02)

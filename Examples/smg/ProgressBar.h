@@ -7,24 +7,20 @@
 #include <filesystem>
 #include <string>
 
-/**
- * A progress bar with the time that is left, on standard error, if that is a terminal; stops when
- * the user interrupts.
- */
+/** A progress bar with the remaining time on standard error, if that is a terminal; cancels the
+ * work on an interrupt. */
 class ProgressBar
 {
 public:
-  /**
-   * `quiet`: never show anything. With the `input`, also the bytes of that file that the work done
-   * is worth.
-   */
+  /** `quiet`: show nothing. With an `input`, the bar also shows the corresponding number of bytes
+   * of that file. */
   ProgressBar(std::string title, bool quiet, const std::filesystem::path& input = {});
   /** Clears the line. */
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /** The callback for the library, valid as long as the bar. */
+  /** The callback for the library, valid during the lifetime of the bar. */
   smg::ProgressFunction function();
 
 private:
@@ -32,7 +28,7 @@ private:
   std::string remaining(double fraction) const;
 
   std::string Title;
-  double Mebibytes = 0; ///< of the input; 0: not known
+  double Mebibytes = 0; ///< of the input; 0: unknown
   std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
   bool Visible;
   int Shown = -1; ///< the last thousandth drawn

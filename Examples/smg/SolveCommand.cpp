@@ -24,7 +24,7 @@ namespace
 /** In the order of smg::AccelerationKind. */
 const std::vector<std::string> Accelerations{ "automatic", "none", "chebyshev", "cg" };
 
-/** What --help says of problem files. */
+/** The help on problem files. */
 std::string problemHelp()
 {
   std::string keys;
@@ -32,9 +32,7 @@ std::string problemHelp()
   {
     keys += (keys.empty() ? "" : ", ") + std::string(key);
   }
-  return "A problem file says -div(K grad u - q) + s u = f. Its keys, each of which may be left "
-         "out: " +
-         keys +
+  return "A problem file states -div(K grad u - q) + s u = f. Its keys, all optional: " + keys +
          ". JSON schema: share/StreamingMultigrid/problem.schema.json of the installation, "
          "docs/problem.schema.json of the sources; docs/problem.md explains it";
 }
@@ -52,9 +50,8 @@ public:
     this->addSolverOptions(command,
       "The mesh with its solution: " + smg::suffixList(smg::FormatUse::WriteColumns, "or") +
         ". Of these .ply, .vtp and .vtu have the order of IN, "
-        "unless that has numbers OriginalId of its own or points are welded: then the vertices "
-        "come "
-        "in stream order",
+        "unless that has a column OriginalId or points are welded: then the vertices are in stream "
+        "order",
       this->Solve, { "extended", "shi2006" });
     command.get_option("--operators")
       ->description("Operator set; shi2006: the paper's printed equations, biased, --in-core only");
@@ -68,7 +65,7 @@ public:
           this->Solve.acceleration =
             static_cast<smg::AccelerationKind>(place - Accelerations.begin());
         },
-        "How V-cycles converge faster: automatic, none, chebyshev or cg")
+        "Acceleration of the V-cycles: automatic, none, chebyshev or cg")
       ->check(oneOf(Accelerations))
       ->default_str(Accelerations.front());
     command.add_option("--problem", this->File, "The problem, a JSON file")
@@ -82,8 +79,7 @@ protected:
   {
     if (smg::kindOfOutput(this->Out) == smg::MeshFileKind::Stream)
     {
-      throw smg::Error(this->Out.string() +
-                       ": this format has no room for a solution: write it as " +
+      throw smg::Error(this->Out.string() + ": this format cannot hold a solution: write it as " +
                        smg::suffixList(smg::FormatUse::WriteColumns, "or") + '.');
     }
     smg::checkOutput(this->Out);
@@ -155,11 +151,11 @@ private:
     return notes;
   }
 
-  /** With the vertices and cells of IN in their order, through a .vsm file, which is sorted. */
+  /** Writes vertices and cells in the order of IN, by sorting a temporary .vsm file. */
   std::vector<std::string> writeInOrder(const smg::VsmReader& mesh, smg::SolvedMesh& source,
     smg::Report& report, const smg::ProgressFunction& progress) const
   {
-    // What the solver holds is still there.
+    // The solver still holds its memory.
     constexpr std::int64_t MostMemory = std::int64_t(64) << 20;
     smg::Workspace space(this->scratch,
       std::clamp(this->Solve.memoryLimit / 4, smg::Workspace::LeastMemory, MostMemory),
@@ -181,7 +177,7 @@ private:
     return mesh.source(this->Problem->vertexColumns(), this->Problem->cellColumns());
   }
 
-  smg::ProblemDescription Description; ///< what the file says
+  smg::ProblemDescription Description; ///< from the problem file
   std::unique_ptr<smg::DescribedProblem> Problem;
   smg::SolveOptions Solve;
 };

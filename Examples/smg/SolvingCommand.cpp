@@ -26,27 +26,28 @@ std::string SolvingCommand::checkTolerance(const std::string& text)
 void SolvingCommand::addSolverOptions(CLI::App& command, const std::string& result,
   smg::SolveOptions& options, std::vector<std::string> operators)
 {
-  command.add_option("IN", this->In, "The mesh, best as a .vsm file")->required();
+  command.add_option("IN", this->In, "The mesh, preferably a .vsm file")->required();
   command.add_option("OUT", this->Out, result)->required();
   command.add_option("--operators", options.operators, "Operator set")
     ->check(oneOf(std::move(operators)))
     ->capture_default_str();
   command
-    .add_option("--sweeps", options.sweeps, "Gauss-Seidel sweeps before and after a correction")
+    .add_option(
+      "--sweeps", options.sweeps, "Gauss-Seidel sweeps before and after a coarse-grid correction")
     ->check(CLI::Range(1, 20))
     ->capture_default_str();
-  command.add_option("--max-cycles", options.maxCycles, "Most V-cycles")
+  command.add_option("--max-cycles", options.maxCycles, "Maximum number of V-cycles")
     ->check(CLI::Range(1, 1000000))
     ->capture_default_str();
   command.add_flag(
     "--in-core", options.inCore, "Keep everything in memory and use no scratch files");
-  // For experiments and tests: they change the speed, not the result.
+  // For experiments and tests: they affect the speed, not the result.
   command.add_option("--block-nodes", options.blockNodes)->group("");
   command.add_option("--core-nodes", options.coreNodes)->group("");
   this->Input.addTo(command);
   this->addTo(command, std::to_string(options.memoryLimit >> 20));
   command.get_option("--memory")
-    ->description("Memory limit in MiB; unless given, 256 MiB to convert IN");
+    ->description("Memory limit in MiB; without it, 256 MiB to convert IN");
   this->addThreadsTo(command);
 }
 
@@ -156,7 +157,7 @@ void SolvingCommand::warn(const smg::Report& report) const
 namespace
 {
 
-/** As " 1.5 2", a number a column. */
+/** For example " 1.5 2", one number per column. */
 std::string listOf(const std::vector<double>& numbers)
 {
   std::string list;
@@ -169,7 +170,7 @@ std::string listOf(const std::vector<double>& numbers)
   return list;
 }
 
-/** As "vertices 7, area 1.5, ": Dirichlet vertices need not have a facet between them. */
+/** For example "vertices 7, area 1.5, "; Dirichlet vertices need not span a facet. */
 std::string extentOf(const smg::Report::Condition& condition)
 {
   std::string extent;

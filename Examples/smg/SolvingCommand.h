@@ -13,10 +13,8 @@
 #include <string>
 #include <vector>
 
-/**
- * What `solve` and `deform` have in common: open the mesh, solve on it, write it with the result,
- * report.
- */
+/** Base of `solve` and `deform`: opens the mesh, solves on it, writes it with the result and
+ * reports. */
 class SolvingCommand : public CommonOptions
 {
 public:
@@ -26,16 +24,14 @@ public:
   void run();
 
 protected:
-  /** What the progress bar calls the work. */
+  /** `title` is the title of the progress bar. */
   explicit SolvingCommand(std::string title)
     : Title(std::move(title))
   {
   }
 
-  /**
-   * Adds IN, OUT and the options of the solver, all but the tolerance. `result` says what OUT is,
-   * `operators` which operator sets there are.
-   */
+  /** Adds IN, OUT and the options of the solver, except the tolerance. `result` describes OUT,
+   * `operators` are the available operator sets. */
   void addSolverOptions(CLI::App& command, const std::string& result, smg::SolveOptions& options,
     std::vector<std::string> operators = { "extended" });
   /** Adds the option --tolerance. */
@@ -47,44 +43,44 @@ protected:
       ->check(checkTolerance);
   }
 
-  /** Fills in what the common options say. */
+  /** Applies the common options. */
   void applyTo(smg::SolveOptions& options, smg::ProgressFunction progress) const;
 
-  /** Refuses an output, before the work, as far as its name says. */
+  /** Throws smg::Error, before the work, if the name of the output is invalid. */
   virtual void checkOutputName() const = 0;
-  /** Reads the file that says what to do, before the mesh is read. */
+  /** Reads the task file, before the mesh is read. */
   virtual void readTask() = 0;
-  /** Solves; what can be known to fail is refused first. */
+  /** Solves; foreseeable failures are reported first. */
   virtual std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) = 0;
-  /** Whether write() makes OUT of the file IN, in the order of that. */
+  /** Whether write() rewrites the file IN as OUT, in the order of IN. */
   virtual bool rewritesInput() const { return false; }
-  /** Whether write() brings OUT into the order of IN. */
+  /** Whether write() writes OUT in the order of IN. */
   virtual bool keepsOrder() const { return this->rewritesInput(); }
-  /** What becomes of so many vertices of no cell in an output that has all of IN, as the end of a
+  /** The treatment of this many isolated vertices in an output with all of IN, as the end of a
    * sentence. */
   virtual std::string fateOfIsolated(std::int64_t vertices) const
   {
     return vertices == 1 ? "stays where it is." : "stay where they are.";
   }
-  /** Writes the output; answers what a user should know of it. May add to the report. */
+  /** Writes the output and returns notes for the user. May add to the report. */
   virtual std::vector<std::string> write(const smg::VsmReader& mesh, smg::Solution& solution,
     smg::Report& report, const smg::ProgressFunction& progress) const = 0;
-  /** Those that solveOn() used last. */
+  /** The options last used by solveOn(). */
   virtual const smg::SolveOptions& solveOptions() const = 0;
 
   std::filesystem::path In, Out;
-  InputOptions Input;         ///< of what is no .vsm file
-  std::filesystem::path File; ///< says what to do
-  /** What was done to IN, once it is open; none: it is a .vsm file. */
+  InputOptions Input;         ///< of a file that is not a .vsm
+  std::filesystem::path File; ///< the task: problem or handles
+  /** The report on the conversion of IN; none if IN is a .vsm file. */
   std::optional<smg::ConversionReport> Conversion;
 
 private:
-  /** CLI::Range includes its ends and takes nan. */
+  /** CLI::Range includes its ends and accepts nan. */
   static std::string checkTolerance(const std::string& text);
-  /** What a user should know of the mesh that was made of IN. */
+  /** Notes for the user on the conversion of IN. */
   std::vector<std::string> notesOn(const smg::ConversionReport& conversion) const;
-  /** Says what did not converge. */
+  /** Warns of steps that did not converge. */
   void warn(const smg::Report& report) const;
   void print(const smg::Report& report) const;
 

@@ -8,7 +8,7 @@
 //   smg deform bunny.vsm bent.ply --handles handles.json --memory 128
 //   smg preview bunny.vsm preview.vtp --points 5000
 //
-// Answers 0, or 1 with one line on standard error, or 2 if it was called wrongly.
+// Exit status: 0; 1 with one line on standard error; 2 for wrong usage.
 
 #include "CommonOptions.h"
 #include "Interrupt.h"
@@ -25,10 +25,7 @@
 namespace
 {
 
-/**
- * An error is one line, whatever the library or the system put into it, and sends nothing to the
- * terminal that it would act on.
- */
+/** Prints an error in one line, without control characters. */
 int fail(std::string sentence)
 {
   for (char& c : sentence)
@@ -40,7 +37,7 @@ int fail(std::string sentence)
   return 1;
 }
 
-/** The exit code of a program that did what it was asked to, if what it said has arrived. */
+/** The exit code of a successful command, unless standard output cannot be written. */
 int succeed()
 {
   const bool said = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
@@ -68,7 +65,7 @@ int main(int argc, char** argv)
   }
   catch (const CLI::ParseError& error)
   {
-    // Help and version are answers; everything else is one line, like the other errors.
+    // Help and version are no errors; everything else is one line, like other errors.
     if (error.get_exit_code() == 0)
     {
       program.exit(error);
@@ -79,7 +76,7 @@ int main(int argc, char** argv)
     const bool unknown = commands.empty() && !rest.empty();
     const std::string called = commands.empty() ? "smg" : "smg " + commands.front()->get_name();
     fail((unknown ? '\'' + rest.front() + "' is not a command of smg" : error.what()) + " (" +
-         called + " --help says how it is called)");
+         called + " --help explains the usage)");
     return 2;
   }
 
@@ -91,7 +88,7 @@ int main(int argc, char** argv)
   }
   catch (const std::bad_alloc&)
   {
-    return fail("the system has no more memory: lower --memory or close other programs");
+    return fail("the system is out of memory: lower --memory or close other programs");
   }
   catch (const std::exception& error)
   {

@@ -23,7 +23,7 @@ void requireFinite(const std::vector<double>& numbers, const char* name)
   }
 }
 
-/** A number, or a tensor of six: that of a diagonal if it has three. */
+/** A number, or a tensor of six components; three values are its diagonal. */
 Json coefficientOf(std::vector<double> values, bool mayBeTensor)
 {
   if (values.size() == 1)

@@ -7,7 +7,7 @@
 namespace smg
 {
 
-/** What a condition says of the part of a mesh where it holds. */
+/** The type of a condition. */
 enum class ConditionKind
 {
   Dirichlet,    ///< u = values
@@ -19,16 +19,16 @@ enum class ConditionKind
   Soft          ///< adds coefficient * (u - values) to the equations
 };
 
-/** A condition of a problem on a mesh, with the arrays of the mesh that say where it holds. */
+/** A condition of a problem on a mesh, with the arrays of the mesh that define its region. */
 struct Condition
 {
   ConditionKind kind = ConditionKind::Dirichlet;
   std::vector<double> values{ 0.0 };
-  bool isPosition = false; ///< the values are the vertex's own coordinates instead
+  bool isPosition = false; ///< the values are the coordinates of the vertex instead
   double coefficient = 1.0;
-  /** Name of a point array that is not 0 where it holds; or ... */
+  /** The name of a point array that is not 0 in the region; or ... */
   std::string mask;
-  /** ... of an array of points or cells that has the value `tag` there. Both empty: everywhere. */
+  /** ... of a point or cell array that has the value `tag` there. Both empty: everywhere. */
   std::string tagged;
   double tag = 0.0;
 
@@ -39,8 +39,8 @@ struct Condition
            this->kind == ConditionKind::Screening;
   }
 
-  /** The condition as a problem in the words of a problem file. Throws Error if its numbers are not
-   * those that its kind needs. */
+  /** The condition as a problem in the JSON of a problem file. Throws Error if its numbers do not
+   * match its kind. */
   std::string text() const;
 };
 

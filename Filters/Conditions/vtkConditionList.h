@@ -10,26 +10,24 @@ class vtkPointSet;
 namespace smg
 {
 
-/**
- * The conditions that a mesh brings along: the field array `MeshConditions` of strings, each a part
- * of a problem in the words of a problem file (see IO/Problem/ProblemFile.h).
- */
+/** The conditions of a mesh: the field array `MeshConditions` of strings, each a part of a problem
+ * in the JSON of a problem file (see IO/Problem/ProblemFile.h). */
 inline constexpr const char* MeshConditionsName = "MeshConditions";
 
-/** A name that no array of the mesh has, for the point array of one more condition, which is not 0
- * where that holds. */
+/** An unused name for the point array of another condition, which is not 0 in its region. */
 std::string newMaskName(vtkPointSet& mesh);
 
-/** Adds a condition behind those that the mesh has. */
+/** Appends a condition to those of the mesh. */
 void addCondition(vtkPointSet& mesh, const std::string& text);
 
-/** Takes all conditions away, with the arrays that are their masks. */
+/** Removes all conditions and their mask arrays. */
 void removeConditions(vtkPointSet& mesh);
 
-/** How many conditions the mesh has. */
+/** The number of conditions of the mesh. */
 int countConditions(vtkPointSet& mesh);
 
-/** Adds what the conditions of a mesh say to a problem. Throws Error if one is no part of one. */
+/** Adds the conditions of a mesh to a problem. Throws Error if one is not a valid part of a
+ * problem. */
 void applyConditions(vtkPointSet& mesh, ProblemDescription& problem);
 
 } // namespace smg

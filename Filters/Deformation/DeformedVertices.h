@@ -10,7 +10,7 @@
 namespace smg
 {
 
-/** The vertices of a deformed mesh: their positions and, if wanted, their normals beside these. */
+/** The vertices of a deformed mesh: their positions and, optionally, their normals. */
 class DeformedVertices : public Solution
 {
 public:

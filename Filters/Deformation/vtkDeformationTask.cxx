@@ -14,7 +14,7 @@ namespace smg
 namespace
 {
 
-/** The share of the progress that solving has; normals have the rest. */
+/** The share of the solve in the progress; normals take the rest. */
 constexpr double SolveShare = 0.9;
 
 } // namespace

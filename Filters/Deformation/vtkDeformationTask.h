@@ -11,7 +11,7 @@ namespace smg
 class DeformationTask : public StreamedTask
 {
 public:
-  DeformOptions options;     ///< but for the progress
+  DeformOptions options;     ///< except for the progress function
   bool needsNormals = false; ///< of the vertices; tetrahedra have none
 
   void check() const override;

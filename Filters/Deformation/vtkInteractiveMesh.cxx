@@ -42,7 +42,7 @@ private:
   const VertexHandles& All;
 };
 
-/** What the arrays of the mesh say at the points, in their order. */
+/** The handles that the arrays of the mesh define at the points, in their order. */
 VertexHandles handlesAt(vtkPointSet& mesh, const std::vector<std::int64_t>& points)
 {
   HandleArrays::require(*mesh.GetPointData());
@@ -50,7 +50,7 @@ VertexHandles handlesAt(vtkPointSet& mesh, const std::vector<std::int64_t>& poin
   info.vertexColumns = columnSpecs(*mesh.GetPointData());
   DescribedHandles described(DeformationDescription::byColumns(), info, "The input");
   MeshBlock block;
-  block.positions.resize(3 * points.size()); // the arrays say it all
+  block.positions.resize(3 * points.size()); // the arrays define everything
   for (const std::string& name : described.vertexColumns())
   {
     const auto spec = std::ranges::find(info.vertexColumns, name, &ColumnSpec::name);
@@ -63,7 +63,7 @@ VertexHandles handlesAt(vtkPointSet& mesh, const std::vector<std::int64_t>& poin
   return handles;
 }
 
-/** What a hierarchy and its solutions depend on. */
+/** The options that a hierarchy and its solutions depend on. */
 auto keyOf(const DeformOptions& options)
 {
   return std::tie(options.operators, options.sweeps, options.tolerance, options.maxCycles,
@@ -83,7 +83,7 @@ std::vector<double> InteractiveMesh::deform(
   }
   catch (...)
   {
-    // What an update that failed has left behind is good for nothing.
+    // A failed update leaves an unusable state.
     this->Deformation.reset();
     throw;
   }

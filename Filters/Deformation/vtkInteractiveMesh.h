@@ -13,29 +13,27 @@ class vtkPointSet;
 namespace smg
 {
 
-/**
- * A VTK mesh in memory that is deformed again and again by the handles in its point arrays. The
- * hierarchy is kept as long as mesh, options and held points are the same.
- */
+/** A VTK mesh in memory that is deformed repeatedly by the handles in its point arrays. The
+ * hierarchy is kept as long as mesh, options and held points do not change. */
 class InteractiveMesh
 {
 public:
   /**
-   * Deforms the mesh. Answers, for each of its points, the position and, if `needsNormals` and the
-   * cells are triangles, the normal; columns() numbers. Points that no cell uses go to their
-   * targets if they are held, else they stay; they keep the normals they have, if any. Throws Error
-   * and Cancelled.
+   * Deforms the mesh. Returns for each of its points columns() numbers: the position and, if
+   * `needsNormals` and the cells are triangles, the normal. Points that no cell uses move to their
+   * targets if they are held and stay otherwise; they keep their normals, if any. Throws Error and
+   * Cancelled.
    */
   std::vector<double> deform(vtkPointSet& mesh, const DeformOptions& options, bool needsNormals);
 
-  /** Lets go of the mesh and of the hierarchy, which take memory. */
+  /** Releases the memory of the mesh and the hierarchy. */
   void forget();
 
-  /** Numbers a point of the last deformation. */
+  /** Numbers per point of the last deformation. */
   int columns() const { return this->Columns; }
-  /** Of the last deformation, which succeeded. */
+  /** The report of the last deformation, which must have succeeded. */
   const Report& report() const { return this->Deformation->report(); }
-  /** How many times a hierarchy has been built. */
+  /** The number of hierarchies built. */
   int builds() const { return this->Builds; }
 
 private:

@@ -33,7 +33,7 @@ vtkSmartPointer<vtkFloatArray> makeTriples(vtkIdType count)
   return array;
 }
 
-/** The points of the piece where they move to, in the precision of the old ones. */
+/** The moved points of the piece, in the precision of the old ones. */
 vtkSmartPointer<vtkPoints> movedPoints(vtkPointSet& piece, const PieceMotion& motion)
 {
   const vtkIdType count = piece.GetNumberOfPoints();
@@ -64,7 +64,7 @@ vtkSmartPointer<vtkPoints> movedPoints(vtkPointSet& piece, const PieceMotion& mo
   return points;
 }
 
-/** The normals that stand beside the positions. */
+/** The normals stored with the positions. */
 vtkSmartPointer<vtkFloatArray> normalsOfPoints(vtkIdType count, const PieceMotion& motion)
 {
   const auto normals = makeTriples(count);
@@ -95,7 +95,7 @@ vtkSmartPointer<vtkFloatArray> normalsOfCells(vtkPointSet& mesh)
   return normals;
 }
 
-/** Puts the new normals, or nothing, in the place of all old ones. */
+/** Replaces all old normals by the new ones, or removes them. */
 void replaceNormals(vtkDataSetAttributes& arrays, vtkFloatArray* normals)
 {
   std::vector<std::string> names;
@@ -122,7 +122,7 @@ void replaceNormals(vtkDataSetAttributes& arrays, vtkFloatArray* normals)
   }
 }
 
-/** Active tangents lie along the surface as it was, and nobody computes them anew. */
+/** Active tangents refer to the undeformed surface and are not recomputed. */
 void dropTangents(vtkDataSetAttributes& arrays)
 {
   if (vtkDataArray* tangents = arrays.GetTangents())

@@ -10,25 +10,23 @@ class vtkPointSet;
 namespace smg
 {
 
-/** The active normals, else the array Normals if it has three components; nullptr: there are none.
- */
+/** The active normals, else the array Normals if it has three components, else nullptr. */
 vtkDataArray* findNormals(vtkDataSetAttributes& arrays);
 
 /** How a piece of a mesh is moved. */
 struct PieceMotion
 {
-  /** Of each point the new position and, if `columns` is 6, the new normal. */
+  /** The new position of each point and, if `columns` is 6, its new normal. */
   const std::vector<double>& values;
   int columns = 3;
-  /** Whether triangles that have normals get new ones; else, as in all other cases, the old ones
-   * are taken away. */
+  /** Whether triangles with normals get new ones; in all other cases the old ones are removed. */
   bool needsCellNormals = true;
 };
 
 /**
- * Makes `output` the piece with its points moved, in their precision, and with all its arrays but
- * active tangents and normals that are not true any more. Throws Error if a position does not fit
- * the precision.
+ * Sets `output` to the piece with its points moved, in their precision, and with all its arrays
+ * except active tangents and outdated normals. Throws Error if a position exceeds the range of the
+ * precision.
  */
 void movePiece(vtkPointSet& piece, const PieceMotion& motion, vtkPointSet& output);
 

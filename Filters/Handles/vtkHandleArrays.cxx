@@ -18,7 +18,7 @@ namespace
 
 constexpr std::array<int, 4> Components{ 1, 3, 3, 1 }; // of HandleArrays::names()
 
-/** Makes `array` a copy of the input's array of that place in the names, or fills it with 0. */
+/** Copies the array of the input with index `place` in names() to `array`, or fills it with 0. */
 void begin(vtkDataArray& array, std::size_t place, vtkPointData& input, vtkIdType points)
 {
   const std::string& name = HandleArrays::names()[place];

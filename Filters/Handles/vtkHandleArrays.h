@@ -14,30 +14,28 @@ class vtkUnsignedCharArray;
 namespace smg
 {
 
-/** The point arrays that hold handles (see Solver/Deformation/Handles.h) of a piece. */
+/** The point arrays of a piece that store handles (see Solver/Deformation/Handles.h). */
 class HandleArrays
 {
 public:
   /** The names of the four arrays. */
   static const std::array<std::string, 4>& names();
-  /** Throws Error unless the points have the four, and with the right number of components. */
+  /** Throws Error unless the points have all four with the correct number of components. */
   static void require(vtkPointData& points);
 
-  /**
-   * Begins with those that the points have, else with free points. Throws Error if one of them has
-   * another number of components.
-   */
+  /** Starts from the arrays of the points, or from free points if there are none. Throws Error if
+   * an array has a wrong number of components. */
   HandleArrays(vtkPointData& input, vtkIdType points);
   ~HandleArrays();
 
   HandleArrays(const HandleArrays&) = delete;
   HandleArrays& operator=(const HandleArrays&) = delete;
 
-  /** One more handle holds the point, and it is this one that counts. */
+  /** Adds a handle to the point; the last one counts. */
   void hold(vtkIdType point, const std::array<double, 3>& target,
     const std::array<double, 3>& rotation, double logScale);
 
-  /** Gives the points the arrays. */
+  /** Adds the arrays to the points. */
   void addTo(vtkPointData& output) const;
 
 private:

@@ -17,7 +17,7 @@ namespace smg
 namespace
 {
 
-/** The point, moved as what moves the anchor to the target; exactly there at the anchor. */
+/** Moves the point by the displacement from the anchor to the target; exact at the anchor. */
 std::array<double, 3> moved(
   const std::array<double, 3>& point, const double* anchor, const double* target)
 {

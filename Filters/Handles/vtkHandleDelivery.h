@@ -11,21 +11,20 @@ class vtkPointSet;
 namespace smg
 {
 
-/** Where the points that a handle holds go. */
+/** The targets of the points that a handle holds. */
 struct HandleTargets
 {
   HandleMotion motion;
-  /** x, y, z of where each holder goes, with what it holds; empty: the motion says so. */
+  /** The target (x, y, z) of each holder and of the points that it holds; empty: the motion
+   * applies. */
   std::vector<double> ofHolders;
 
   /** Throws Error if a target is not finite. */
   void check() const;
 };
 
-/**
- * Gives the output the piece with the arrays of the handles, in which its held points are those of
- * one more handle. Throws Error if the targets are not as many as the holders.
- */
+/** Sets the output to the piece with the arrays of the handles, with another handle added to its
+ * held points. Throws Error if the number of targets is not the number of holders. */
 void deliverHandle(
   vtkPointSet& piece, const HeldPoints& held, const HandleTargets& targets, vtkPointSet& output);
 

@@ -12,25 +12,23 @@ class vtkPointSet;
 namespace smg
 {
 
-/**
- * A whole VTK mesh in memory as a compact mesh stream: its cells in their order, its points
- * numbered by first use. Points that no cell uses, and cells that are duplicates, are left out.
- */
+/** A whole VTK mesh in memory as a compact mesh stream: its cells in their order, its points
+ * numbered by first use, without points that no cell uses and without duplicate cells. */
 class MeshInMemory
 {
 public:
   /**
-   * Copies the mesh. Throws Error if it has no cells but duplicates, these are neither all
-   * triangles nor all tetrahedra, a cell has a point that does not exist, or a coordinate is not
-   * finite.
+   * Copies the mesh. Throws Error if it has no cells except duplicates, if these are neither all
+   * triangles nor all tetrahedra, if a cell has a point that does not exist, or if a coordinate is
+   * not finite.
    */
   explicit MeshInMemory(vtkPointSet& mesh);
 
-  /** Whether a stream of the one is a stream of the other. */
+  /** Whether both have the same stream. */
   bool operator==(const MeshInMemory&) const = default;
 
   CellType cellType() const { return this->Type; }
-  /** Of each vertex, in stream order, the number of its point. */
+  /** The point index of each vertex, in stream order. */
   const std::vector<std::int64_t>& points() const { return this->Points; }
   std::int64_t vertices() const { return static_cast<std::int64_t>(this->Points.size()); }
 

@@ -8,7 +8,8 @@ class vtkPointSet;
 namespace smg
 {
 
-/** Components of the array of that name of the points or the cells; `otherwise` if there is none.
+/**
+ * The number of components of the point or cell array of that name; `otherwise` if there is none.
  */
 int componentsOf(vtkPointSet& mesh, const std::string& name, int otherwise);
 

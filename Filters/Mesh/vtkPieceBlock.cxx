@@ -24,7 +24,7 @@ namespace
 
 constexpr const char* Piece = "The input";
 
-/** The columns of these names, all tuples of them. */
+/** The columns of these names, with all tuples. */
 std::vector<Column> columnsOf(vtkDataSetAttributes& arrays, const std::set<std::string>& names)
 {
   std::vector<ColumnSpec> specs = columnSpecs(arrays);
@@ -49,8 +49,7 @@ std::vector<ColumnSpec> specsOf(const std::vector<Column>& columns)
   return specs;
 }
 
-/** A column with the numbers by which users name the points, where the mesh has no original ones.
- */
+/** A column with the ids of the points for error messages, if the mesh has no original ids. */
 Column numbersOf(vtkPointSet& piece)
 {
   const std::vector<std::int64_t> ids = globalIdsOf(piece, Piece);

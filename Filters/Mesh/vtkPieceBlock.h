@@ -13,15 +13,15 @@ namespace smg
 {
 
 /**
- * A piece of a mesh, or a preview, by itself: a mesh stream of one block, whose vertices are the
- * points of the piece in their order. Its columns are the arrays of certain names as far as they
- * exist, and what users call its points and cells.
+ * A piece of a mesh, or a preview, as a mesh stream of one block, whose vertices are the points of
+ * the piece in their order. Its columns are the existing arrays of the given names, and the
+ * original ids of its points and cells.
  */
 class PieceBlock
 {
 public:
-  /** `names`: of the arrays. The piece must have cells. Throws Error if these are neither triangles
-   * nor tetrahedra. */
+  /** `names` are those of the arrays. The piece must have cells. Throws Error if these are neither
+   * triangles nor tetrahedra. */
   PieceBlock(vtkPointSet& piece, std::set<std::string> names);
 
   const StreamInfo& info() const { return this->Info; }

@@ -9,18 +9,18 @@ class vtkPointSet;
 namespace smg
 {
 
-/** The arrays that were chosen with SetInputArrayToProcess() of a filter; an empty name: none. */
+/** The arrays chosen with SetInputArrayToProcess() of a filter; an empty name: none. */
 class ChosenArrays
 {
 public:
-  /** Both must live as long. */
+  /** Both arguments must outlive the object. */
   ChosenArrays(vtkAlgorithm& filter, vtkPointSet& input)
     : Filter(filter)
     , Input(input)
   {
   }
 
-  /** The name of array `index`, whosever it is. */
+  /** The name of array `index`, of points or cells. */
   std::string named(int index) const;
   /** Array `index`; throws Error if it was chosen from the cells. */
   std::string ofPoints(int index) const;

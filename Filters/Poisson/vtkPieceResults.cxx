@@ -49,7 +49,7 @@ private:
   Report Nothing;
 };
 
-/** What of a problem the results of the cells depend on. */
+/** The data of a problem that the results of the cells depend on. */
 ProblemDescription ofCells(const ProblemDescription& problem)
 {
   ProblemDescription part;

@@ -10,13 +10,13 @@ class vtkPointSet;
 namespace smg
 {
 
-/** Throws Error if the cell results that the description wants need more than the cell itself. */
+/** Throws Error if the requested cell results need more than the cell itself. */
 void checkCellResults(const ProblemDescription& problem);
 
 /**
- * Gives the output the cell arrays Gradient and Flux that the description wants, of a piece of a
- * mesh or its preview, at whose points the solution is `values`. Throws Error if the piece lacks
- * what the conductivity is made of.
+ * Adds the requested cell arrays Gradient and Flux to the output, for a piece of a mesh or its
+ * preview with the solution `values` at its points. Throws Error if the piece lacks data of the
+ * conductivity.
  */
 void addCellResults(vtkPointSet& piece, const ProblemDescription& problem,
   std::span<const double> values, vtkPointSet& output);

@@ -17,7 +17,7 @@ namespace smg
 namespace
 {
 
-/** The share of the progress that solving has; what is read of the solution has the rest. */
+/** The share of the solve in the progress; the evaluation of the solution takes the rest. */
 constexpr double SolveShare = 0.9;
 
 } // namespace
@@ -38,7 +38,7 @@ void PoissonTask::check() const
 PieceColumns PoissonTask::columns() const
 {
   const std::set<std::string> names = namedColumns(this->problem);
-  // The original numbers are for complaints and for vertices that the problem names by them.
+  // The original ids are for error messages and for vertices that the problem refers to.
   return { .all = false,
     .required = { names.begin(), names.end() },
     .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };

@@ -15,10 +15,11 @@ class PoissonTask : public StreamedTask
 {
 public:
   ProblemDescription problem;
-  /** Arrays whose number of components is that of the right-hand sides, as far as the problem has
-   * fewer. */
+  /**
+   * Arrays whose number of components is the number of right-hand sides if the problem has fewer.
+   */
   std::vector<std::string> values;
-  SolveOptions options; ///< but for the progress
+  SolveOptions options; ///< except for the progress function
   std::string note;     ///< for the report, if any
 
   void check() const override;

@@ -7,7 +7,7 @@
 namespace smg
 {
 
-/** What says which points of a mesh are held by a region that single points make. */
+/** The settings of a region that is defined by single points. */
 struct PointRegionSettings
 {
   enum class Kind
@@ -21,17 +21,17 @@ struct PointRegionSettings
   std::vector<std::int64_t> ids;
   bool areOriginalIds = false; ///< else GlobalIds
   std::vector<double> points;  ///< x, y, z of each
-  double radius = -1.0;        ///< below 0: what suits the points
+  double radius = -1.0;        ///< negative: chosen to suit the points
   int rings = 0;
-  int pieces = 64; ///< how many pieces the input is pulled in
+  int pieces = 64; ///< number of pieces in which the input is requested
 
   bool operator==(const PointRegionSettings&) const = default;
 
-  /** Whether nothing around the points is held with them. */
+  /** Whether only the points themselves are held. */
   bool isAlone() const { return this->radius <= 0.0 && this->rings == 0; }
   bool isSoughtById() const { return this->kind == Kind::Ids && this->isAlone(); }
 
-  /** Throws Error if what the kind needs is missing or wrong. */
+  /** Throws Error if settings that the kind needs are missing or invalid. */
   void check(bool hasSelection) const;
 };
 

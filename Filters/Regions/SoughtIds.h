@@ -8,18 +8,18 @@
 namespace smg
 {
 
-/** Ids that are sought, with their numbers in a list. */
+/** A list of ids to search for, with their indices in the list. */
 class SoughtIds
 {
 public:
   SoughtIds() = default;
   explicit SoughtIds(const std::vector<std::int64_t>& ids);
 
-  /** The number of the id, the first of several; -1: it is not sought. */
+  /** The index of the id, the first of several; -1 if it is not in the list. */
   std::int64_t numberOf(std::int64_t id) const;
   std::int64_t size() const { return this->Size; }
 
-  /** The first id of which `isFound`, by numbers, says that it was not found; -1: none. */
+  /** The first id that `isFound`, by index, does not mark; -1 if there is none. */
   std::int64_t firstMissing(const std::vector<char>& isFound) const;
 
 private:

@@ -14,17 +14,15 @@ class vtkPointSet;
 namespace smg
 {
 
-/** What a region holds of a mesh that is displayed: of a whole one, a process's part, a preview. */
+/** The held points of a displayed mesh: a whole one, the piece of a process, or a preview. */
 class DisplayedRegion
 {
 public:
-  /** What is sought from now on; what was found for other settings is forgotten. */
+  /** Sets the settings; results for other settings are discarded. */
   void set(const PointRegionSettings& settings);
 
-  /**
-   * Says which points of the mesh, which was asked for by `request`, are held, and keeps that until
-   * the stamp changes. `places` are those of the ids, if the mesh is a preview. Throws Error.
-   */
+  /** Returns the held points of the mesh requested by `request`, and keeps them until the stamp
+   * changes. `places` are the positions of the ids, if the mesh is a preview. Throws Error. */
   const HeldPoints& hold(vtkPointSet& mesh, const PieceRequest& request,
     const std::vector<double>& places, const RegionContext& context);
 

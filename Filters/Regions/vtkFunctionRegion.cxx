@@ -18,7 +18,7 @@ namespace smg
 namespace
 {
 
-/** The functions square it, so that nobody else would notice. */
+/** The functions use its square, so that the sign would go unnoticed. */
 void checkRadius(const char* shape, double radius)
 {
   if (!(radius > 0.0))

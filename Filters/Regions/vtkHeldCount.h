@@ -12,28 +12,28 @@ class vtkPointSet;
 namespace smg
 {
 
-/** Counts the held points of the pieces that are asked for, as long as that is in order. */
+/** Counts the held points of the requested pieces, as long as these are requested in order. */
 class HeldCount
 {
 public:
   /**
-   * Counts those that the piece owns. Begins anew unless this is the next of streamed pieces that
-   * are asked for in order.
+   * Counts those that the piece owns. Restarts unless this is the next of streamed pieces requested
+   * in order.
    * @return whether the whole mesh has been counted now
    */
   bool add(vtkPointSet& piece, const HeldPoints& held, const PieceRequest& request);
 
-  /** How many points are held. */
+  /** The number of held points. */
   std::int64_t points() const { return this->Points; }
-  /** How many there are, held or not. */
+  /** The number of all points, held or not. */
   std::int64_t allPoints() const { return this->AllPoints; }
-  /** Which of the holders hold points among these. */
+  /** The holders that hold points among these. */
   const std::vector<char>& isHolding() const { return this->IsHolding; }
 
 private:
   std::int64_t Points = 0, AllPoints = 0;
   std::vector<char> IsHolding;
-  int Pieces = 0; ///< that are streamed in order; 0: none are
+  int Pieces = 0; ///< streamed in order; 0: none
   int NextPiece = 0;
 };
 

@@ -13,22 +13,20 @@ class vtkPointSet;
 namespace smg
 {
 
-/**
- * Which points of a piece are held, and by what. A *holder* is a point of the region: a selected
- * point, an id, a place, or the region as a whole.
- */
+/** The held points of a piece and their holders. A *holder* is a point of the region: a selected
+ * point, an id, a position, or the region as a whole. */
 struct HeldPoints
 {
-  std::vector<std::int64_t> by; ///< for each point the number of its holder; -1: free
+  std::vector<std::int64_t> by; ///< index of the holder of each point; -1: free
   std::int64_t holders = 0;
-  /** x, y, z of the mesh's point at each holder; empty: each holds the points at its own place. */
+  /** The position of the mesh point at each holder; empty: each point is its own anchor. */
   std::vector<double> anchors;
 };
 
-/** The points of the mesh whose ids, one a point, are sought. */
+/** The points of the mesh whose `ids` (one per point) are in the list. */
 HeldPoints heldByIds(std::span<const std::int64_t> ids, const SoughtIds& sought);
 
-/** The points of the mesh, with their stream indices, that the projected points influence. */
+/** The points of the mesh, with their stream indices, in the range of the projected points. */
 HeldPoints heldByProjection(
   vtkPointSet& mesh, std::span<const std::int64_t> indices, const PointProjection& projection);
 

@@ -12,17 +12,17 @@ class vtkPointSet;
 namespace smg
 {
 
-/** Finds where the points of a mesh with certain ids lie. */
+/** Finds the positions of the points of a mesh with given ids. */
 class PlacesOfIds
 {
 public:
   /** `sought` are the `ids`; both must outlive *this. */
   PlacesOfIds(const std::vector<std::int64_t>& ids, const SoughtIds& sought);
 
-  /** Seeks among the points of a piece, which have `idsOfPoints`. */
+  /** Searches the points of a piece, whose ids are `idsOfPoints`. */
   void seek(vtkPointSet& piece, std::span<const std::int64_t> idsOfPoints);
 
-  /** Which of the ids were found; of an id that is named twice the first one is marked. */
+  /** The ids found; of duplicate ids only the first one is marked. */
   const std::vector<char>& isFound() const { return this->IsFound; }
 
   /** x, y, z of each id, all of which must have been found. */

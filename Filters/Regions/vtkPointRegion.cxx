@@ -29,7 +29,7 @@ bool PointRegion::isDisplayed(const PieceRequest& request, const RegionContext& 
   {
     return !request.IsStreamed;
   }
-  // Of several processes each displays a piece, and numbers are those in that.
+  // With several processes each displays a piece, and indices refer to that piece.
   return hasSeveralProcesses() && this->Asked.kind == PointRegionSettings::Kind::Selection &&
          (this->Asked.isAlone() || isByNumber(*context.selection));
 }
@@ -74,7 +74,7 @@ vtkPointSet& PointRegion::bring(
 
 void PointRegion::checkHolders(const std::vector<char>& isHolding) const
 {
-  // Ids that hold what is around them may hold less than that, where another one is nearer.
+  // With a radius or rings, an id may hold no point if another id is nearer to all of them.
   if (this->Asked.isSoughtById())
   {
     checkIds(this->Ids, isHolding);

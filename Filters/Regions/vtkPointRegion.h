@@ -7,31 +7,29 @@
 namespace smg
 {
 
-/** A region that single points of the mesh make: selected ones, or given by ids or places. */
+/** A region of single points of the mesh: selected points, or points given by ids or positions. */
 class PointRegion
 {
 public:
   /**
-   * What is sought from now on; what was found for other settings is forgotten.
-   * @return whether the settings are others than before
+   * Sets the settings; results for other settings are discarded.
+   * @return whether the settings have changed
    */
   bool set(const PointRegionSettings& settings);
 
   /**
-   * Brings the input to the piece asked for and says which of its points are held. What that needs
-   * of the mesh is found first, and kept until the settings or the stamp change. Throws Error and
+   * Updates the input to the requested piece and determines its held points. The required data of
+   * the mesh are computed first and kept until the settings or the stamp change. Throws Error and
    * Cancelled.
    */
   vtkPointSet& bring(const PieceRequest& request, const RegionContext& context, HeldPoints& held);
 
-  /**
-   * Throws Error if each holder must hold a point of the mesh, since it is an id, and one of them
-   * is not among those that `isHolding` marks.
-   */
+  /** Throws Error if the holders are ids, which must all hold a point of the mesh, and `isHolding`
+   * does not mark one of them. */
   void checkHolders(const std::vector<char>& isHolding) const;
 
 private:
-  /** Whether the region is what it is in the piece that is displayed. */
+  /** Whether the region refers to the displayed piece. */
   bool isDisplayed(const PieceRequest& request, const RegionContext& context) const;
 
   PointRegionSettings Asked;

@@ -13,14 +13,14 @@ class vtkSelection;
 namespace smg
 {
 
-/** What a region is sought in. */
+/** The data in which a region is searched. */
 struct RegionContext
 {
   PieceInput& input; ///< of the region filter
-  /** What is pulled to seek the region: the same points as of the input. */
+  /** The mesh to search: the same points as those of the input. */
   PieceInput& mesh;
-  vtkSelection* selection;           ///< nullptr: none is connected
-  std::function<InputStamp()> stamp; ///< of the mesh and the selection as they are now
+  vtkSelection* selection;           ///< nullptr: not connected
+  std::function<InputStamp()> stamp; ///< of the current mesh and selection
   Progress& progress;
   std::function<void(const std::string&)> warn;
 };

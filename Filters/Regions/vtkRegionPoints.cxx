@@ -64,7 +64,7 @@ std::vector<std::int64_t> idsOf(vtkPointSet& mesh, const PointRegionSettings& se
 std::vector<std::int64_t> selectPoints(vtkPointSet& mesh, const RegionContext& context)
 {
   std::vector<std::int64_t> points = selectedPoints(mesh, *context.selection);
-  // One of several processes may well have nothing of what is selected.
+  // With several processes, one may have no part of the selection.
   if (points.empty() && !hasSeveralProcesses())
   {
     throw Error("The selection of the region selects no point of its input: select something on "

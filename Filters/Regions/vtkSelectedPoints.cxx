@@ -25,7 +25,7 @@ namespace smg
 namespace
 {
 
-/** vtkExtractSelection aborts the program on what it does not know. */
+/** vtkExtractSelection aborts the program on unknown content. */
 void check(vtkSelection& selection)
 {
   if (selection.GetNumberOfNodes() == 0)
@@ -52,7 +52,7 @@ void check(vtkSelection& selection)
   }
 }
 
-/** Whether a part of the selection is of one of the kinds. */
+/** Whether a node of the selection has one of the content types. */
 bool hasContent(vtkSelection& selection, std::initializer_list<int> kinds)
 {
   for (unsigned int i = 0; i < selection.GetNumberOfNodes(); ++i)
@@ -72,7 +72,7 @@ void sortOnce(std::vector<std::int64_t>& numbers)
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-/** Whether all that a part of the selection selects is selected. */
+/** Whether the selection is the union of its nodes. */
 bool isUnion(vtkSelection& selection)
 {
   const std::string expression = selection.GetExpression();
@@ -84,7 +84,7 @@ bool isUnion(vtkSelection& selection)
   return isUnion;
 }
 
-/** The list of a part of the selection that names points by GlobalIds, and nothing else. */
+/** The list of a node of the selection that consists of GlobalIds of points only. */
 vtkDataArray* globalIdsOfPoints(vtkSelectionNode& node)
 {
   vtkInformation* properties = node.GetProperties();
@@ -116,7 +116,7 @@ std::optional<std::vector<std::int64_t>> selectedGlobalIds(vtkSelection& selecti
     }
     for (vtkIdType k = 0; k < list->GetNumberOfTuples(); ++k)
     {
-      // As an integer, for a double has not all numbers of 64 bits.
+      // As an integer: a double cannot represent all 64-bit integers.
       ids.push_back(list->GetVariantValue(k).ToTypeInt64());
     }
   }
@@ -131,7 +131,7 @@ std::optional<std::vector<std::int64_t>> selectedGlobalIds(vtkSelection& selecti
 std::vector<std::int64_t> selectedPoints(vtkPointSet& mesh, vtkSelection& selection)
 {
   check(selection);
-  // A copy, so that nothing is told to the pipeline that the mesh belongs to.
+  // A copy, so that the pipeline of the mesh is not affected.
   const auto copy = vtkSmartPointer<vtkPointSet>::Take(mesh.NewInstance());
   copy->ShallowCopy(&mesh);
   vtkNew<vtkExtractSelection> extract;

@@ -12,22 +12,21 @@ namespace smg
 {
 
 /**
- * The numbers of the selected points of the mesh, or of the points of its selected cells, in
- * ascending order: what vtkExtractSelection makes of the selection. Throws Error if the selection
- * says nothing, or is of a kind that VTK alone cannot evaluate (a query).
+ * The indices of the selected points of the mesh, or of the points of its selected cells, in
+ * ascending order, as extracted by vtkExtractSelection. Throws Error if the selection is empty, or
+ * is of a kind that VTK alone cannot evaluate (a query).
  */
 std::vector<std::int64_t> selectedPoints(vtkPointSet& mesh, vtkSelection& selection);
 
 /**
- * The GlobalIds of the points of the mesh that the selection names one by one, in ascending order;
- * none if it says in another way, too, what is selected.
+ * The GlobalIds in the selection, in ascending order; none if the selection has any other content.
  */
 std::optional<std::vector<std::int64_t>> selectedGlobalIds(vtkSelection& selection);
 
-/** Whether a part of the selection depends on how points or cells are numbered in the data. */
+/** Whether a node of the selection depends on the indices of points or cells in the data. */
 bool isByNumber(vtkSelection& selection);
 
-/** Whether a part of the selection depends on the values of arrays. */
+/** Whether a node of the selection depends on array values. */
 bool isByValue(vtkSelection& selection);
 
 } // namespace smg

@@ -74,7 +74,7 @@ void StreamedRegion::find(const RegionContext& context)
     found.projection->finish(context.progress);
     warnOfDistant(*found.projection, 0.0, context);
   }
-  // Only now: to pull pieces may let the pipeline learn of modifications of its own making.
+  // Only here: requesting pieces may itself update modification times of the pipeline.
   found.stamp = context.stamp();
   this->OnMesh = std::move(found);
 }
@@ -99,7 +99,7 @@ std::vector<double> StreamedRegion::selectedPlaces(
   const std::vector<std::int64_t> points = selectPoints(*displayed, context);
   if (isPreview && this->Asked.radius < 0.0)
   {
-    // The points of triangles with edges of this length leave no gap between them.
+    // Balls of this radius around the corners of triangles with this edge length leave no gap.
     radius = meanEdgeLength(MeshInMemory(*displayed)) / std::sqrt(3.0);
   }
   if (!isPreview && radius == 0.0 && this->Asked.rings == 0)

@@ -14,27 +14,25 @@ class vtkPointSet;
 namespace smg
 {
 
-/** What a region holds of a mesh that is streamed, found in a pass over all of its pieces. */
+/** The held points of a streamed mesh, found in a pass over all of its pieces. */
 class StreamedRegion
 {
 public:
-  /** What is sought from now on; what was found for other settings is forgotten. */
+  /** Sets the settings; results for other settings are discarded. */
   void set(const PointRegionSettings& settings);
 
-  /**
-   * The places of the ids, which are sought on the whole mesh if that has not been done for this
-   * stamp. Throws Error and Cancelled.
-   */
+  /** The positions of the ids, searched on the whole mesh unless they are known for this stamp.
+   * Throws Error and Cancelled. */
   const std::vector<double>& placesOfIds(const RegionContext& context);
 
-  /** Seeks the region on the whole mesh in the same way. */
+  /** Searches the region on the whole mesh in the same way. */
   void find(const RegionContext& context);
 
-  /** Which points of a piece are held, after find(). Throws Error if it has no GlobalIds. */
+  /** The held points of a piece, after find(). Throws Error if it has no GlobalIds. */
   HeldPoints hold(vtkPointSet& piece) const;
 
 private:
-  /** Ids, or else a projection. */
+  /** Ids or a projection. */
   struct Found
   {
     InputStamp stamp;

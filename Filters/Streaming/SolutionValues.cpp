@@ -12,7 +12,7 @@ namespace smg
 
 void readValues(Solution& solution, std::span<const std::int64_t> ids, std::span<double> values)
 {
-  // A gap this small is cheaper to read than to jump over; a stretch bounds the memory.
+  // A gap this small is cheaper to read than to skip; the stretch length bounds the memory.
   constexpr std::int64_t gap = 256;
   constexpr std::int64_t stretch = 16384;
   std::vector<std::size_t> order(ids.size());

@@ -9,25 +9,25 @@
 namespace smg
 {
 
-/** What every process knows of a solve. */
+/** The summary of a solve, known to every process. */
 struct SolveSummary
 {
   std::string error;        ///< empty: the solve succeeded
-  bool isCancelled = false; ///< whether that is no error, but what was asked for
+  bool isCancelled = false; ///< whether the error is a requested cancellation
   std::string report;
-  std::string notes; ///< of the report, a line each
+  std::string notes; ///< of the report, one per line
   int columns = 0;
   double residual = 0.0;
   int cycles = 0, passes = 0;
   bool converged = false;
   std::int64_t peakMemory = 0;
 
-  /** Of a solve that succeeded, with `columns` values a vertex. */
+  /** The summary of a successful solve, with `columns` values per vertex. */
   static SolveSummary of(const Report& report, int columns);
-  /** Of a solve that failed. */
+  /** The summary of a failed solve. */
   static SolveSummary failed(const std::string& sentence);
 
-  /** In a line; empty before a solve. */
+  /** The outcome in one line; empty before a solve. */
   std::string outcome() const;
 };
 

@@ -10,16 +10,18 @@
 namespace smg
 {
 
-/** What is made of an input depends on this: it is right as long as nothing of it changes. */
+/**
+ * The state that results computed from an input depend on: they are valid while it is unchanged.
+ */
 struct InputStamp
 {
   unsigned long long filter = 0; ///< modification time of the filter
   unsigned long long input = 0;  ///< modification time of the pipeline before it
-  double time = 0.0;             ///< time step asked for, of an input that has any
+  double time = 0.0;             ///< requested time step of a time-dependent input
   bool operator==(const InputStamp&) const = default;
 };
 
-/** The time asked for, as far as the input depends on time. */
+/** The requested time if the input depends on time. */
 inline double timeOf(vtkInformation* input)
 {
   using vtkSDDP = vtkStreamingDemandDrivenPipeline;
@@ -29,7 +31,7 @@ inline double timeOf(vtkInformation* input)
            : 0.0;
 }
 
-/** Of what `filter` makes of its input, whose pipeline information is `info`. */
+/** The stamp of results of `filter` from its input, whose pipeline information is `info`. */
 inline InputStamp stampOf(vtkAlgorithm& filter, PieceInput& input, vtkInformation* info)
 {
   return { filter.GetMTime(), input.modifiedTime(), timeOf(info) };

@@ -22,7 +22,7 @@ struct PieceRequest
   {
   }
 
-  /** Asks the input for a piece that has nothing: the one after the last. */
+  /** Requests an empty piece from the input: the one after the last. */
   void forwardEmptyTo(vtkInformation* input) const
   {
     PieceRequest empty = *this;
@@ -31,7 +31,7 @@ struct PieceRequest
     empty.forwardTo(input);
   }
 
-  /** Asks the input for the same. */
+  /** Requests the same piece from the input. */
   void forwardTo(vtkInformation* input) const
   {
     using vtkSDDP = vtkStreamingDemandDrivenPipeline;
@@ -43,7 +43,7 @@ struct PieceRequest
 
   int Piece;
   int Pieces;
-  bool IsStreamed; ///< the real piece is wanted, whatever its size
+  bool IsStreamed; ///< whether the real piece is requested, not a preview
 };
 
 } // namespace smg

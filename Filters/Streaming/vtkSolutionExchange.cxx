@@ -15,7 +15,7 @@ namespace smg
 namespace
 {
 
-/** Message tags, any numbers that VTK's own messages do not use. */
+/** Message tags, arbitrary numbers that VTK's own messages do not use. */
 enum Tag
 {
   CountTag = 735101,
@@ -24,7 +24,7 @@ enum Tag
   ValuesTag
 };
 
-/** Most vertices in a message, so that neither side needs much memory for it. */
+/** The maximum number of vertices per message, to bound the memory on both sides. */
 constexpr std::size_t MessageIds = 65536;
 
 } // namespace
@@ -182,7 +182,7 @@ void SolutionExchange::serve(Solution& solution, int process)
     }
     catch (const std::exception&)
     {
-      // The process that asked says so; the others must be served nevertheless.
+      // The requesting process reports the error; the others must still be served.
       status = 0;
     }
     this->Controller->Send(&status, 1, process, StatusTag);

@@ -14,10 +14,8 @@ class vtkMultiProcessController;
 namespace smg
 {
 
-/**
- * Lets all processes use a solution that process 0 has. All methods are collective. With one
- * process, or without a controller, nothing is sent.
- */
+/** Gives all processes access to a solution in process 0. All methods are collective. With one
+ * process, or without a controller, nothing is sent. */
 class SolutionExchange
 {
 public:
@@ -27,19 +25,17 @@ public:
   /** Whether this process has the solution. */
   bool isServer() const { return this->Rank == 0; }
 
-  /** Does something that may fail in some of the processes; then Error is thrown in all. */
+  /** Runs work that may fail in some of the processes; a failure throws Error in all of them. */
   void together(const std::function<void()>& work);
 
-  /** What process 0 says; the others' answers do not count. */
+  /** Returns the argument of process 0 in all processes. */
   bool decide(bool answer);
 
-  /** Makes the summary of process 0 known to all. */
+  /** Sends the summary of process 0 to all processes. */
   void share(SolveSummary& summary);
 
-  /**
-   * The values of the vertices `ids` of this process, `columns` each. `solution` is looked at in
-   * process 0 only. Throws Error in the process whose values could not be had.
-   */
+  /** The values of the vertices `ids` of this process, `columns` each. `solution` is used in
+   * process 0 only. Throws Error in the process whose values could not be read. */
   std::vector<double> values(const std::vector<std::int64_t>& ids, int columns, Solution* solution);
 
 private:

@@ -12,7 +12,7 @@ namespace smg
 namespace
 {
 
-/** The share of the progress that pulling the input has; solving has the rest. */
+/** The share of reading the input in the progress; the solve takes the rest. */
 constexpr double PullShare = 0.25;
 
 } // namespace

@@ -13,21 +13,21 @@
 namespace smg
 {
 
-/** A solution on the mesh that an input delivers in pieces, kept with what it was made for. */
+/** A solution on the mesh that an input delivers in pieces, kept with the stamp of its input. */
 class StreamedSolve
 {
 public:
-  /** How the input is pulled. */
+  /** How the pieces of the input are requested. */
   struct Pulling
   {
     int pieces = 64;
     std::filesystem::path scratch; ///< folder for the container; empty: the system's
   };
 
-  /** Whether there is a solution made for this. */
+  /** Whether there is a solution for this stamp. */
   bool isFor(const InputStamp& stamp) const { return this->Result && this->MadeFor == stamp; }
 
-  /** Lets go of a solution that is not made for this: its files may be large. */
+  /** Releases a solution for another stamp, whose files may be large. */
   void keepOnlyFor(const InputStamp& stamp)
   {
     if (!this->isFor(stamp))
@@ -36,20 +36,21 @@ public:
     }
   }
 
-  /** Says what the solution was made for. */
+  /** Sets the stamp of the solution. */
   void setStamp(const InputStamp& stamp) { this->MadeFor = stamp; }
 
   /**
-   * Pulls the pieces of the input once, in order, into a container in the scratch folder and solves
-   * on it. Nothing is thrown: an error is told by the summary, and then there is no solution.
+   * Requests the pieces of the input once, in order, writes them to a container in the scratch
+   * folder and solves on it. Does not throw: the summary reports an error, and there is then no
+   * solution.
    */
   void solve(
     PieceInput& input, const StreamedTask& task, const Pulling& pulling, Progress& progress);
 
-  /** The solution; none before a solve that succeeded. */
+  /** The solution; nullptr before a successful solve. */
   Solution* solution() const { return this->Result.get(); }
 
-  /** Makes this a solve that failed. */
+  /** Marks the solve as failed. */
   void fail(const std::string& sentence);
 
   const SolveSummary& summary() const { return this->Summary; }

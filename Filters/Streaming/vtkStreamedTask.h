@@ -10,22 +10,20 @@
 namespace smg
 {
 
-/** What is to be computed on a mesh that an input delivers in pieces. */
+/** A computation on a mesh that an input delivers in pieces. */
 class StreamedTask
 {
 public:
   virtual ~StreamedTask() = default;
 
-  /** Throws Error about what is wrong whatever the mesh is, so that it is not pulled in vain. */
+  /** Throws Error for problems that do not depend on the mesh, before the mesh is read. */
   virtual void check() const = 0;
 
   /** The arrays of the pieces that the task needs. */
   virtual PieceColumns columns() const = 0;
 
-  /**
-   * Computes on the whole mesh, which has these columns; nothing of `mesh` is needed afterwards.
-   * `report` gets the solution's report and what else there is to say. Throws Error and Cancelled.
-   */
+  /** Computes on the whole mesh, which has these columns; `mesh` is not needed afterwards. `report`
+   * receives the report of the solution with additional notes. Throws Error and Cancelled. */
   virtual std::unique_ptr<Solution> solve(
     const VsmReader& mesh, const ProgressFunction& progress, Report& report) const = 0;
 };

@@ -8,7 +8,7 @@
 namespace smg
 {
 
-/** Lets an object warn of something, but not again and again while that stays so. */
+/** Issues a warning of an object, but not repeatedly while its cause persists. */
 class WarnOnce
 {
 public:
@@ -17,7 +17,7 @@ public:
   {
   }
 
-  /** Warns, unless that was the last warning. */
+  /** Warns, unless this was the last warning. */
   void warn(const std::string& sentence)
   {
     if (this->Last != sentence)
@@ -27,7 +27,7 @@ public:
     }
   }
 
-  /** From now on the same is worth a warning again. */
+  /** Allows the last warning to be issued again. */
   void forget() { this->Last.clear(); }
 
 private:

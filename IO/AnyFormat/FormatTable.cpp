@@ -26,7 +26,7 @@ namespace smg
 namespace
 {
 
-// Of formats without a sign, those come first that are less easily mistaken for another.
+// Formats without a signature are ordered by increasing risk of confusion with others.
 constexpr const Format* Formats[] = {
   &VsmFileFormat,
   &StreamsFormat,
@@ -43,14 +43,14 @@ constexpr const Format* Formats[] = {
   &VtkHdfFormat,
 };
 
-/** What the first bytes of a file are, without compression. */
+/** The first bytes of a file, uncompressed. */
 struct FileStart
 {
   std::string bytes;
   std::optional<std::uint64_t> size; ///< of the file; none if it is compressed
 };
 
-/** Of a file that cannot be read, nothing. */
+/** The start of a file; empty if it cannot be read. */
 FileStart startOf(const std::filesystem::path& path)
 {
   FileStart start{ std::string(FormatBytes, '\0'), {} };
@@ -101,7 +101,7 @@ bool canBeUsed(const Format& format, FormatUse use)
   return false;
 }
 
-/** As "a, b or c". */
+/** For example "a, b or c". */
 std::string listOf(const std::vector<std::string_view>& words, std::string_view conjunction)
 {
   std::string list;

@@ -22,10 +22,8 @@ SMG_EXPORT const Format* formatOfSuffix(std::string_view suffix);
 /** The format of a file name's suffix; .gz at its end is left out of account. */
 const Format* formatOfName(const std::filesystem::path& path);
 
-/**
- * The format by the sign that the file begins with; null for formats that have none, as STL, OBJ
- * and TetGen. Of a file that gzip compressed, it is the format of what it holds.
- */
+/** The format by the signature of the file; null for formats without one, such as STL, OBJ and
+ * TetGen. For a file compressed by gzip, the format of its content. */
 const Format* formatOfContent(const std::filesystem::path& path);
 /**
  * The format of an indexed mesh: by the sign that the file begins with, else by its first bytes if
@@ -36,13 +34,13 @@ SMG_EXPORT const Format* formatOfFile(const std::filesystem::path& path);
 const Format* formatOfStart(
   std::string_view start, std::optional<std::uint64_t> size, const std::filesystem::path& path);
 
-/** What formats can do. */
+/** The operations of formats. */
 enum class FormatUse
 {
   Read,
   Write,        ///< in stream order
   WriteColumns, ///< in stream order with all columns
-  Restore       ///< in the order of the file that the mesh was made of
+  Restore       ///< in the order of the original file
 };
 
 /** The suffix of the path, if its files can be written so; null otherwise. */
@@ -55,7 +53,7 @@ SMG_EXPORT std::string suffixList(FormatUse use, std::string_view conjunction);
 /** The suffixes that can be used so and hold such cells. */
 SMG_EXPORT std::string suffixList(FormatUse use, CellType cells, std::string_view conjunction);
 
-/** What to tell who wants such cells under a suffix that does not hold them. */
+/** The error message for cells that a suffix cannot hold. */
 std::string holdsNo(const FileSuffix& suffix, CellType cells, FormatUse use);
 
 } // namespace smg

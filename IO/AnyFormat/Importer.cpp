@@ -34,7 +34,7 @@ void import(InputFile& file, const Format* format, RawMeshBuilder& builder,
 RawMesh importInflated(InputFile& file, Workspace& workspace, const ImportOptions& options,
   const ProgressFunction& progress)
 {
-  // The name is the one that the file had before it was inflated, and has its suffix.
+  // The name of the file before decompression, with its suffix.
   const Format* const format = formatOfStart(
     std::string(file.at(0, FormatBytes).substr(0, FormatBytes)), file.size(), file.name());
   try

@@ -11,7 +11,7 @@
 namespace smg
 {
 
-/** How to read a mesh. */
+/** Options of importMesh(). */
 struct ImportOptions
 {
   CellChoice cells = CellChoice::Only;
@@ -20,12 +20,11 @@ struct ImportOptions
 };
 
 /**
- * Parses a mesh file of any format that formats() has a parser for, or one of them compressed by
- * gzip. The format is recognised by the content, by the suffix only where the content leaves it
- * open.
- * @throws Error naming the file and the line, record or byte: the format is not known, the file is
- * empty, truncated or contradicts itself, a coordinate is not finite, a corner is no vertex, there
- * are no cells, or both triangles and tetrahedra, there is no such part; Cancelled.
+ * Parses a mesh file of any format in formats() with a parser, optionally compressed by gzip. The
+ * format is detected from the content, and from the suffix only if the content is ambiguous.
+ * @throws Error with the file and the line, record or byte: the format is unknown, the file is
+ * empty, truncated or inconsistent, a coordinate is not finite, a corner is not a vertex, there are
+ * no cells, both triangles and tetrahedra, or no such part; Cancelled.
  */
 SMG_EXPORT RawMesh importMesh(
   const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options = {});

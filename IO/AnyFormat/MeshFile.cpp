@@ -20,7 +20,7 @@ namespace smg
 namespace
 {
 
-/** Whether the content of a file is that of a streaming format, whatever its name. */
+/** Whether the content of a file is that of a streaming format, independent of its name. */
 bool looksLikeStream(const std::filesystem::path& path)
 {
   try
@@ -49,7 +49,7 @@ MeshFileKind kindOfInput(const std::filesystem::path& path)
   {
     return MeshFileKind::Indexed;
   }
-  // A binary STL file begins with anything, and an OBJ file may look like a streaming one.
+  // A binary STL file may begin with any bytes, and an OBJ file may look like a streaming format.
   const Format* const named = formatOfName(path);
   const bool saysNothing = named && named->looksRight;
   if (isStreamSuffix(suffix) || (isFile && !saysNothing && looksLikeStream(path)))
@@ -69,7 +69,7 @@ void checkOutput(const std::filesystem::path& path)
   if (!suffixFor(FormatUse::Write, path))
   {
     throw Error(path.string() + ": meshes are written as " + suffixList(FormatUse::Write, "or") +
-                ": choose a name that ends so. Other formats come of a .vsm file by smg convert "
+                ": choose such a suffix. Other formats are written from a .vsm file by smg convert "
                 "--restore-order.");
   }
   checkOutputPlace(path);
@@ -87,7 +87,7 @@ void checkOutput(const std::filesystem::path& path, CellType cellType)
 
 void checkOutputPlace(const std::filesystem::path& path)
 {
-  // A folder that cannot be searched is reported below.
+  // A folder that is not accessible is reported below.
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
   {

@@ -20,17 +20,17 @@ SMG_EXPORT MeshFileKind kindOfInput(const std::filesystem::path& path);
 SMG_EXPORT MeshFileKind kindOfOutput(const std::filesystem::path& path);
 
 /**
- * Refuses an output file before the work: throws Error if meshes are not written with its suffix,
- * its format does not hold these cells, it is a folder, or its folder does not exist or cannot be
- * written to.
+ * Checks an output file before the work: throws Error if meshes cannot be written with its suffix,
+ * its format cannot hold these cells, it is a folder, or its folder does not exist or is not
+ * writable.
  */
 SMG_EXPORT void checkOutput(const std::filesystem::path& path, CellType cellType);
 
 /** The same as far as it can be known before the mesh is. */
 SMG_EXPORT void checkOutput(const std::filesystem::path& path);
 
-/** Throws Error if a file cannot be made there whatever its format: the path is a folder, a device
- * or a pipe, or its folder does not exist or cannot be written to. */
+/** Throws Error if a file of any format cannot be created there: the path is a folder, a device or
+ * a pipe, or its folder does not exist or is not writable. */
 void checkOutputPlace(const std::filesystem::path& path);
 
 /**

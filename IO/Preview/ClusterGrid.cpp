@@ -10,10 +10,10 @@ namespace smg
 namespace
 {
 
-/** Clusters are numbered in this many bits, so that three of them make a key. */
+/** Bits of a cluster index, so that three of them form a key. */
 constexpr int ClusterBits = 21;
 
-/** Three more may come before the grid becomes coarser. */
+/** Three more may be added before the grid is coarsened. */
 constexpr std::size_t MostClusters = (std::size_t(1) << ClusterBits) - 3;
 
 std::uint64_t keyOfTriple(int a, int b, int c)
@@ -36,7 +36,7 @@ ClusterGrid::ClusterGrid(
   , Capacity(std::min(4 * this->MaximumClusters, MostClusters))
   , MayGrow(mayGrow)
 {
-  // A surface has about n^2 clusters where there are n cells along an axis; it may be curled up.
+  // A surface has about n^2 clusters for n cells along an axis; more if it is folded.
   const double cells = 16.0 * std::sqrt(static_cast<double>(this->Capacity));
   this->FinestCells = std::exp2(std::max(10.0, std::ceil(std::log2(cells))));
   double longest = 0.0;
@@ -137,7 +137,7 @@ void ClusterGrid::addTriangle(int a, int b, int c, const std::array<double, 3>& 
   {
     this->Clusters[cluster].normal = sum(this->Clusters[cluster].normal, normal);
   }
-  // A surface has about two triangles a vertex; a soup that has many more must stay bounded, too.
+  // A surface has about two triangles per vertex; a triangle soup with more must also stay bounded.
   while (this->canGrow() &&
          (this->Clusters.size() > this->Capacity || this->Triangles.size() > 4 * this->Capacity))
   {
@@ -173,7 +173,7 @@ std::size_t ClusterGrid::countIn(double side) const
   return cells.size();
 }
 
-/** A side for which there are not many fewer clusters than wanted, and no more. */
+/** A side with at most the requested number of clusters, and not many fewer. */
 double ClusterGrid::fittingSide() const
 {
   const auto most = static_cast<double>(this->MaximumClusters);
@@ -184,7 +184,7 @@ double ClusterGrid::fittingSide() const
   auto count = static_cast<double>(this->Clusters.size());
   for (int trial = 0; trial < 12 && fittingCount < 0.93 * most; ++trial)
   {
-    // The clusters of a surface go with the square of the side.
+    // The number of clusters of a surface is inversely proportional to the square of the side.
     side *= std::sqrt(count / (0.97 * most));
     if (fitting != 0.0 && (side <= tooSmall || side >= fitting))
     {

@@ -13,25 +13,25 @@
 namespace smg
 {
 
-/** Keeps the vertex columns of the vertices of a mesh stream that turn out to be wanted. */
+/** Keeps the vertex columns of selected vertices of a mesh stream. */
 class KeptRows
 {
 public:
   explicit KeptRows(const std::vector<ColumnSpec>& vertexColumns);
 
-  /** Remembers the columns of the block's vertices. */
+  /** Stores the columns of the vertices of the block. */
   void take(const MeshBlock& block);
-  /** Forgets the vertices below `finalized` but for those that are kept. */
+  /** Releases the vertices below `finalized` except those that are kept. */
   void forgetBelow(std::int64_t finalized);
 
-  /** Keeps a vertex that is not forgotten. */
+  /** Keeps a vertex that has not been released. */
   void keep(std::int64_t id);
-  /** How many vertices are kept. */
+  /** The number of kept vertices. */
   std::size_t size() const { return this->Kept.size(); }
-  /** Keeps only the vertices for which `isWanted`. */
+  /** Keeps only the vertices with `isWanted`. */
   void thin(const std::function<bool(std::int64_t)>& isWanted);
 
-  /** The columns at the vertices `ids`, which are kept, a tuple each. */
+  /** The columns at the kept vertices `ids`, one tuple per vertex. */
   std::vector<Column> gather(const std::vector<std::int64_t>& ids) const;
 
 private:

@@ -11,9 +11,9 @@ namespace smg
 {
 
 /**
- * Finds the outer surface of a stream of tetrahedra: the faces that only one tetrahedron has. A
- * face waits for its partner as long as all of its vertices may still be used, so the memory is
- * bounded by the window of the stream.
+ * Finds the outer surface of a stream of tetrahedra: the faces of exactly one tetrahedron. A face
+ * is kept as long as all of its vertices may still be used, so memory is bounded by the window of
+ * the stream.
  */
 class OpenFaces
 {
@@ -23,7 +23,8 @@ public:
   /** Adds the four faces of a tetrahedron, by the stream indices of its corners. */
   void add(std::span<const std::int64_t, 4> corners);
 
-  /** Hands out, and forgets, each open face with a vertex below `finalized`, oriented outwards. */
+  /** Passes each open face with a vertex below `finalized`, oriented outwards, to `outer`, and
+   * releases it. */
   void closeBelow(std::int64_t finalized, const std::function<void(const Face&)>& outer);
 
   std::size_t size() const { return this->Open.size(); }

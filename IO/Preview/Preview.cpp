@@ -19,7 +19,7 @@ namespace smg
 namespace
 {
 
-/** Memory for bringing a preview into order: a preview of ten million points takes no more. */
+/** Memory for sorting a preview: sufficient for ten million points. */
 constexpr std::int64_t OrderMemory = std::int64_t(256) << 20;
 
 const ColumnSpec StreamIndexSpec{ StreamIndexName, ScalarType::Int64, 1 };
@@ -40,7 +40,7 @@ RawMesh rawMesh(const MeshPiece& piece, bool doublePositions, Workspace& workspa
   bool original = false;
   for (const Column& column : piece.vertexColumns)
   {
-    // The mesh may be a preview itself: what its points are in another mesh is not asked for.
+    // The mesh may itself be a preview, whose StreamIndex refers to another mesh.
     if (column.spec.name != StreamIndexName)
     {
       builder.vertexTuples(builder.addVertexColumn(column.spec), column.bytes);

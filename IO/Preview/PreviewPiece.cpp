@@ -8,7 +8,7 @@ namespace smg
 namespace
 {
 
-/** The values of a column at the vertices `ids`, ascending, read in stretches that hold several. */
+/** The values of a column at the vertices `ids`, ascending, read in ranges of several vertices. */
 Column gather(VsmReader& mesh, const ColumnSpec& spec, const std::vector<std::int64_t>& ids)
 {
   constexpr std::int64_t stretch = 16384;
@@ -39,7 +39,7 @@ Column gather(VsmReader& mesh, const ColumnSpec& spec, const std::vector<std::in
 MeshPiece makePreviewPiece(
   VsmReader& mesh, std::int64_t maximumPoints, const ProgressFunction& progress)
 {
-  // Most rows are not wanted, so the columns are read afterwards.
+  // Most rows are not needed, so the columns are read afterwards.
   const auto source = mesh.source({}, {});
   MeshPiece piece = makePreview(*source, maximumPoints, progress);
   for (const ColumnSpec& spec : mesh.info().vertexColumns)

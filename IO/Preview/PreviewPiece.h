@@ -9,8 +9,8 @@ namespace smg
 {
 
 /**
- * Makes the preview of a mesh (see makePreview()) with all its vertex columns. Costs one pass over
- * the mesh and one over its vertex columns. Throws Error and Cancelled.
+ * Creates the preview of a mesh (see makePreview()) with all its vertex columns. Takes one pass
+ * over the mesh and one over its vertex columns. Throws Error and Cancelled.
  */
 SMG_EXPORT MeshPiece makePreviewPiece(VsmReader& mesh,
   std::int64_t maximumPoints = DefaultPreviewPoints, const ProgressFunction& progress = {});

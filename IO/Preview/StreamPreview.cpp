@@ -16,7 +16,7 @@ namespace smg
 namespace
 {
 
-/** The vertices that a cell to come may use, and the clusters they belong to. */
+/** The vertices that a later cell may use, and their clusters. */
 class PreviewBuilder
 {
 public:
@@ -47,7 +47,7 @@ public:
         this->Faces.add(std::span<const std::int64_t, 4>(block.corners.data() + i, 4));
       }
     }
-    // Looking through all open faces pays when there are many more of them than last time.
+    // Scanning all open faces is only worthwhile if there are many more of them than last time.
     if (this->Type == CellType::Triangle || this->Faces.size() > 2 * this->FacesKept + 100000)
     {
       this->forgetBelow(block.finalized);
@@ -87,7 +87,7 @@ private:
 
   using Vector = std::array<double, 3>;
 
-  /** Normal to a triangle, as long as that is large. */
+  /** The area-weighted normal of a triangle. */
   static Vector normalOf(const Vector& a, const Vector& b, const Vector& c)
   {
     const double u[3] = { b[0] - a[0], b[1] - a[1], b[2] - a[2] };
@@ -101,7 +101,7 @@ private:
     return normalOf(point(0), point(1), point(2));
   }
 
-  /** Whether the triangle of these clusters looks away from where the mesh there does. */
+  /** Whether the orientation of the triangle of these clusters is opposite to that of the mesh. */
   bool isTurned(const std::array<int, 3>& triangle) const
   {
     const auto cluster = [&](int k) -> const ClusterGrid::Representative&
@@ -118,7 +118,7 @@ private:
 
   void triangle(const OpenFaces::Face& face)
   {
-    // A corner that makes the grid grow makes the clusters of the others void.
+    // A corner that coarsens the grid invalidates the clusters of the others.
     std::array<int, 3> clusters{};
     for (int generation = -1; generation != this->Grid.generation();)
     {
@@ -131,7 +131,7 @@ private:
     this->Grid.addTriangle(clusters[0], clusters[1], clusters[2], this->normalOf(face));
   }
 
-  /** Forgets the rows of vertices that represent their cluster no longer, once they are many. */
+  /** Releases the rows of vertices that no longer represent their cluster, once there are many. */
   void thinRows()
   {
     const auto& clusters = this->Grid.clusters();
@@ -198,7 +198,7 @@ private:
     }
     for (const auto& [a, b, c] : this->Grid.triangles())
     {
-      // Between the representatives a triangle may be turned over.
+      // The triangle of the representatives may have the opposite orientation.
       const bool isTurned = this->isTurned({ a, b, c });
       preview.corners.insert(
         preview.corners.end(), { number[a], number[isTurned ? c : b], number[isTurned ? b : c] });

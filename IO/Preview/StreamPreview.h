@@ -12,14 +12,13 @@ namespace smg
 {
 
 /**
- * Reads the mesh stream once and makes a preview: a small triangle mesh in its shape, of at most
- * `maximumPoints` points (LeastPreviewPoints to MostPreviewPoints; in general 70 to 100 % of it,
- * above 500,000 at least half), by vertex clustering on a uniform grid. Each point is a vertex of
- * the mesh, with the columns of the stream and, as normal, the mean of the mesh around it, which
- * shades the preview as the mesh. The piece stands alone: no vertex is a ghost. A mesh of fewer
- * points is shown as it is, and of a stream of tetrahedra the outer surface. The order of the
- * triangles may depend on the C++ library; of a stream whose bounds are not known (all 0), the grid
- * depends on its first block.
+ * Reads the mesh stream once and creates a preview: a small triangle mesh of the same shape, of at
+ * most `maximumPoints` points (LeastPreviewPoints to MostPreviewPoints; typically 70 to 100 % of
+ * it, above 500,000 at least half), by vertex clustering on a uniform grid. Each point is a vertex
+ * of the mesh, with the columns of the stream and, as normal, the mean over the mesh around it, so
+ * that the preview is shaded like the mesh. No vertex is a ghost. A mesh of fewer points is
+ * returned unchanged; for tetrahedra, the outer surface. The order of the triangles may depend on
+ * the C++ library; for a stream with unknown bounds (all 0), the grid depends on its first block.
  *
  * Memory is bounded by the preview and by the window of the stream. Throws Error and Cancelled.
  */

@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr std::int64_t MostCycles = 1000000;
-/** What makes a handle move as a whole, and what says vertex by vertex where it goes. */
+/** The keys of motions of a handle as a whole, and of motions vertex by vertex. */
 constexpr std::array MotionKeys{ "translate", "rotate", "scale" };
 constexpr std::array ValueKeys{ "target", "rotation", "logScale" };
 
@@ -46,7 +46,7 @@ void parseRotation(const JsonNode& node, HandleMotion::Parameters& motion)
   }
 }
 
-/** What a handle turns and grows about. */
+/** The centre of rotation and scale of a handle. */
 std::array<double, 3> parseCenter(const JsonNode& handle, const Where& where)
 {
   const bool inRotation = handle.has("rotate") && handle.member("rotate").has("center");

@@ -18,7 +18,9 @@ namespace
 
 using Json = nlohmann::json;
 
-/** Takes everything and keeps the parser's error, which alone says where a number overflows. */
+/**
+ * Accepts all events and keeps the error of the parser, which alone locates numbers out of range.
+ */
 class ErrorKeeper : public nlohmann::json_sax<Json>
 {
 public:
@@ -44,8 +46,8 @@ public:
     return false;
   }
 
-  std::size_t Position = 0; ///< bytes read, one more at the end of the text
-  std::string Token;        ///< read last
+  std::size_t Position = 0; ///< bytes read; one more at the end of the text
+  std::string Token;        ///< the last one read
   std::string Message;
   bool IsOutOfRange = false;
 };
@@ -55,7 +57,7 @@ bool isWordPart(char c)
   return std::isalnum(static_cast<unsigned char>(c)) != 0;
 }
 
-/** The letters and digits from a place on, with the sign before them. */
+/** The letters and digits from a position on, with a preceding sign. */
 std::string_view wordAt(std::string_view text, std::size_t begin)
 {
   std::size_t end = begin + (begin < text.size() && text[begin] == '-' ? 1 : 0);
@@ -74,7 +76,7 @@ bool isNotFinite(std::string_view word)
   return name == "nan" || name == "inf" || name == "infinity";
 }
 
-/** The parser's own reason: what stands behind the dash in its sentence, without what follows. */
+/** The reason in the message of the parser: the text after the dash, without the rest. */
 std::string shortReason(const std::string& message)
 {
   const std::size_t dash = message.find(" - ");
@@ -82,7 +84,7 @@ std::string shortReason(const std::string& message)
   return message.substr(begin, message.find(';', begin) - begin);
 }
 
-/** Where what is wrong begins. */
+/** The position of the error. */
 std::size_t beginOf(std::string_view text, const ErrorKeeper& error)
 {
   if (error.Position == 0 || error.Position > text.size())
@@ -90,7 +92,7 @@ std::size_t beginOf(std::string_view text, const ErrorKeeper& error)
     return text.size();
   }
   const std::string reason = shortReason(error.Message);
-  // Only of these is the token all that was read of it, and no more.
+  // Only for these, the token is exactly the text that was read.
   if (error.IsOutOfRange || reason == "unexpected number literal" ||
       reason == "unexpected string literal")
   {
@@ -134,7 +136,7 @@ std::string placeOf(std::string_view text, std::size_t byte)
   const auto lines = std::count(before.begin(), before.end(), '\n');
   const std::size_t lineBegin = before.rfind('\n') + 1; // 0 if there is none
   const std::string_view line = before.substr(lineBegin);
-  // All bytes of a character of UTF-8 but the first begin with the bits 10.
+  // All bytes of a UTF-8 character except the first begin with the bits 10.
   const auto characters = std::count_if(
     line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) >> 6) != 2; });
   return "line " + std::to_string(lines + 1) + ", column " + std::to_string(characters + 1);

@@ -6,10 +6,8 @@
 namespace smg
 {
 
-/**
- * What is wrong with a text that a JSON parser does not take, and where, as in `line 2, column 13:
- * this is not valid JSON: unexpected character 'x'`. Columns count characters of the line, from 1.
- */
+/** The error of an invalid JSON text with its position, for example `line 2, column 13: this is not
+ * valid JSON: unexpected character 'x'`. Columns count characters of the line, from 1. */
 std::string jsonComplaint(const std::string& text);
 
 } // namespace smg

@@ -118,7 +118,7 @@ std::vector<std::int64_t> JsonNode::integers(std::int64_t least, std::int64_t mo
   integers.reserve(this->Value->size());
   for (const nlohmann::json& value : *this->Value)
   {
-    // A node says its place, which costs more than the number.
+    // Creating a node, with its place, would cost more than parsing the number.
     integers.push_back(isIntegerIn(value, least, most)
                          ? value.get<std::int64_t>()
                          : this->element(integers.size()).integer(least, most));
@@ -170,7 +170,9 @@ JsonNode JsonNode::child(const nlohmann::json& value, const std::string& step) c
 namespace
 {
 
-/** Watches a parser: of two members with the same name, it would silently take the last one. */
+/**
+ * A parser callback that rejects duplicate keys, of which the parser would silently use the last.
+ */
 class UniqueKeys
 {
 public:
@@ -193,14 +195,14 @@ public:
              !this->Objects.back().insert(parsed.get<std::string>()).second)
     {
       throw Error(this->File + ": the key " + inQuotes(parsed.get<std::string>()) +
-                  " stands twice in the same object: leave one out.");
+                  " occurs twice in the same object: remove one.");
     }
     return true;
   }
 
 private:
   std::string File;
-  std::vector<std::set<std::string>> Objects; ///< the keys of those that have begun
+  std::vector<std::set<std::string>> Objects; ///< the keys of the open objects
 };
 
 } // namespace

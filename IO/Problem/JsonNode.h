@@ -13,14 +13,12 @@
 namespace smg
 {
 
-/**
- * A value of a JSON file that knows where it stands, so that every complaint names the file and the
- * place, as in `problem.json: dirichlet[1].box: must be 6 numbers.`
- */
+/** A value of a JSON file with its place, so that every error message names the file and the place,
+ * for example `problem.json: dirichlet[1].box: must be 6 numbers.` */
 class JsonNode
 {
 public:
-  /** The whole file's value, which must live as long as the nodes. */
+  /** The value of the whole file, which must outlive the nodes. */
   JsonNode(const nlohmann::json& value, std::string file)
     : Value(&value)
     , File(std::move(file))
@@ -28,7 +26,7 @@ public:
   }
 
   const nlohmann::json& value() const { return *this->Value; }
-  /** The place in the file, as `dirichlet[1].box`; empty for the whole. */
+  /** The place in the file, for example `dirichlet[1].box`; empty for the whole. */
   const std::string& place() const { return this->Place; }
 
   /** Throws Error unless the value is an object with no other keys than these. */
@@ -40,7 +38,7 @@ public:
   bool has(const char* key) const { return this->Value->contains(key); }
   /** The member of an object; throws Error if there is none. */
   JsonNode member(const char* key) const;
-  /** The elements of an array; throws Error if the value is none. */
+  /** The elements of an array; throws Error if the value is not an array. */
   std::vector<JsonNode> elements() const;
 
   bool isTrue() const { return this->Value->is_boolean() && this->Value->get<bool>(); }
@@ -52,7 +50,7 @@ public:
   double number() const;
   /** An integer in [least, most]. */
   std::int64_t integer(std::int64_t least, std::int64_t most) const;
-  /** An array of integers in [least, most], of which there may be very many. */
+  /** An array of integers in [least, most], possibly very long. */
   std::vector<std::int64_t> integers(std::int64_t least, std::int64_t most) const;
   /** An array of `count` finite numbers. */
   std::vector<double> numbers(std::size_t count) const;
@@ -70,9 +68,9 @@ private:
   std::string Place;
 };
 
-/** Reads a JSON file; throws Error naming file, line and column if it is none. */
+/** Reads a JSON file; throws Error with file, line and column if it is invalid. */
 nlohmann::json readJsonFile(const std::string& path);
-/** The same of a text; errors call it `name`. */
+/** The same for a string, named `name` in error messages. */
 nlohmann::json readJsonText(const std::string& text, const std::string& name);
 
 } // namespace smg

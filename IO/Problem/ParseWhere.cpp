@@ -39,7 +39,7 @@ Region verticesOf(const JsonNode& node)
   return Region::Vertices{ node.integers(0, std::numeric_limits<std::int64_t>::max()) };
 }
 
-/** The one of WhereKeys that the object has; null: none, if that may be. */
+/** The member of WhereKeys that the object has; null for none, if that is allowed. */
 const char* keyOf(const JsonNode& object, bool none)
 {
   const auto given = [&object](const char* key) { return object.has(key); };

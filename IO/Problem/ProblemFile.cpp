@@ -20,7 +20,7 @@ bool isList(const JsonNode& node)
   return node.value().is_array() && !node.value().empty() && node.value()[0].is_object();
 }
 
-/** One of `parse(node)`, or a list of entries of which it parses the values. */
+/** A single value parsed by `parse(node)`, or a list of entries with such values. */
 Datum parseDatum(const JsonNode& node, auto parse)
 {
   if (!isList(node))
@@ -66,7 +66,7 @@ DataValue parseCoefficient(const JsonNode& node)
   return parseNumbers(node, { node.number() }, ValueRange::NotNegative);
 }
 
-/** Reads values of so many numbers. */
+/** Reads values of this many numbers. */
 struct ValueParser
 {
   int columns;

@@ -15,7 +15,7 @@ namespace smg
  * none for any other name. */
 SMG_EXPORT std::optional<Weights> weightsOfName(std::string_view name);
 
-/** The member `weights` of an object of a file; none if it has none. Throws Error. */
+/** The member `weights` of an object, if any. Throws Error. */
 std::optional<Weights> parseWeights(const JsonNode& object);
 
 } // namespace smg

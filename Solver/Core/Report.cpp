@@ -18,7 +18,7 @@ nlohmann::ordered_json extremes(const std::vector<Report::Extreme>& of)
   return out;
 }
 
-/** Numbers that are none become null. */
+/** NaN is written as null. */
 void addResults(const Report& report, nlohmann::ordered_json& out)
 {
   out["conditions"] = nlohmann::ordered_json::array();

@@ -10,15 +10,12 @@
 namespace smg
 {
 
-/**
- * Runs task(0) .. task(count - 1) on the threads of the arena and waits for all: task(0) on the
- * calling thread, the others on whichever thread comes first. What one of them throws is thrown
- * here.
- */
+/** Runs task(0) .. task(count - 1) on the threads of the arena and waits for all: task(0) on the
+ * calling thread, the others on any available thread. An exception of a task is rethrown. */
 template <class Task>
 void runAll(tbb::task_arena& arena, int count, Task&& task)
 {
-  // TBB orders the calls; the flags say so once more to a race detector, which cannot look into
+  // TBB orders the calls; the flags repeat this order for race detectors, which do not see into
   // TBB.
   std::atomic<bool> begun{ false };
   std::atomic<int> next{ 1 }, finished{ 0 };

@@ -33,10 +33,8 @@ inline double processSeconds()
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-/**
- * Most bytes of the process that have been in memory at once; 0 if the system does not tell. Not
- * getrusage's figure, which a program inherits from the one that started it.
- */
+/** The peak resident memory of the process in bytes; 0 if unknown. Not the figure of getrusage,
+ * which a program inherits from its parent. */
 inline std::int64_t peakResidentBytes()
 {
   std::ifstream status("/proc/self/status");

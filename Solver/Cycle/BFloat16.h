@@ -7,12 +7,12 @@
 namespace smg
 {
 
-/** A number in the upper half of a float: its range, 8 bits of precision, rounded to nearest. */
+/** The upper half of a float: its range with 8 bits of precision, rounded to nearest. */
 class BFloat16
 {
 public:
   BFloat16() = default;
-  /** `value` is a number. */
+  /** `value` must not be NaN. */
   explicit BFloat16(float value)
   {
     const auto bits = std::bit_cast<std::uint32_t>(value);

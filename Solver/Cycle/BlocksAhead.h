@@ -9,13 +9,13 @@
 namespace smg
 {
 
-/** Blocks that have been read and are to be taken in order. */
+/** Blocks that have been read ahead and are taken in order. */
 template <class Block>
 class BlocksAhead
 {
 public:
-  /** Calls `read` while there are `more`, until there are as many blocks as were taken since the
-   * last time, and at least one. */
+  /** Calls `read` while there are `more`, until as many blocks are available as were taken since
+   * the last call, and at least one. */
   template <class More, class Read>
   void fill(More&& more, Read&& read)
   {
@@ -26,7 +26,7 @@ public:
     }
   }
 
-  /** The next block: one that has been read, or what `read` answers. */
+  /** The next block: one that has been read ahead, or the result of `read`. */
   template <class Read>
   Block take(Read&& read)
   {

@@ -53,7 +53,7 @@ void CoarsestFactor::factorize(const CoarsestMatrix& matrix)
   {
     return;
   }
-  this->Factor.cholmod().print = 0; // a failure is no news
+  this->Factor.cholmod().print = 0; // failures are expected and handled
   this->Factor.setMode(matrix.rounding > 0.0 ? Eigen::CholmodSimplicialLLt : Eigen::CholmodLDLt);
   constexpr double MostShare = 0x1p-4, Growth = 8.0;
   double share = matrix.rounding;
@@ -71,7 +71,7 @@ void CoarsestFactor::factorize(const CoarsestMatrix& matrix)
   }
 }
 
-/** The matrix to factorise: every edge is stiffer by this share of its weight's magnitude. */
+/** The matrix with every edge stiffened by this share of the magnitude of its weight. */
 Eigen::SparseMatrix<double> CoarsestFactor::stiffened(
   const CoarsestMatrix& matrix, double share) const
 {
@@ -98,7 +98,9 @@ Eigen::SparseMatrix<double> CoarsestFactor::stiffened(
   return sparse;
 }
 
-/** Takes from b the mean over each floating component, and sets it to zero at the pinned node. */
+/**
+ * Subtracts the mean over each floating component from b, and sets b to zero at the pinned node.
+ */
 void CoarsestFactor::project(Eigen::MatrixXd& b) const
 {
   Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(b.rows(), b.cols());

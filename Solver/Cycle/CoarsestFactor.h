@@ -15,28 +15,29 @@ struct CoarsestMatrix
 {
   std::vector<Eigen::Triplet<double>> lower; ///< entries below the diagonal
   std::vector<double> diagonal;
-  std::vector<bool> anchored; ///< a node: its row does not sum to zero
-  double rounding = 0.0;      ///< what share of itself an entry below the diagonal may be off
+  std::vector<bool> anchored; ///< per node: whether the row sum is not zero
+  double rounding = 0.0;      ///< relative error of the entries below the diagonal
 };
 
 /**
- * The Cholesky factor of the coarsest level's matrix. A component of it none of whose nodes is
- * anchored determines its solution up to a constant only: its first node is pinned to zero, and its
- * right-hand side loses its mean.
+ * The Cholesky factor of the matrix of the coarsest level. A component without an anchored node
+ * determines its solution only up to a constant: its first node is pinned to zero, and the mean of
+ * its right-hand side is subtracted.
  *
- * The factor of an exact matrix is its L D L^T, be it definite or not. Of one whose entries are
- * rounded, it may be lost what slivers resist hardly at all, so that it is barely or not definite
- * any more. Then every edge is made stiffer by about that rounding, which leaves alone the level of
- * what little holds, and where that does not make it definite, by more: L L^T is its factor.
+ * An exact matrix, definite or not, is factorised as L D L^T. If its entries are rounded, the small
+ * eigenvalues of modes that only slivers resist may be lost, so that the matrix is barely or no
+ * longer definite. Every edge is then stiffened by about that rounding, which hardly affects weakly
+ * constrained modes, and by more until the matrix is definite, which is factorised as L L^T.
  */
 class CoarsestFactor
 {
 public:
-  /** Throws Error if a pivot of an exact matrix is zero, or a rounded one far from definite. */
+  /** Throws Error if a pivot of an exact matrix is zero, or if a rounded matrix is far from
+   * definite. */
   void factorize(const CoarsestMatrix& matrix);
-  /** Solves for a right-hand side a column. */
+  /** Solves for one right-hand side per column. */
   Eigen::MatrixXd solve(Eigen::MatrixXd b) const;
-  /** Components that are not anchored. */
+  /** The number of components without an anchored node. */
   std::int64_t floatingComponents() const;
 
 private:
@@ -46,7 +47,7 @@ private:
   void project(Eigen::MatrixXd& b) const;
 
   Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower> Factor;
-  std::vector<Eigen::Index> Floating; // a node: the first one of its component, -1 if anchored
+  std::vector<Eigen::Index> Floating; // per node: the first node of its component, -1 if anchored
 };
 
 } // namespace smg

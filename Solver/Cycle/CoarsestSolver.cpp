@@ -35,7 +35,7 @@ CoarsestMatrix matrixOf(LevelWindow<float>& level)
           }
         }
         matrix.diagonal.push_back(a.diagonal[k]);
-        // Row sums of a free component are exact zeros up to the rounding of this very sum.
+        // Row sums of a free component are exactly zero, up to the rounding of this sum.
         matrix.anchored.push_back(std::fabs(sum) > 8.0 * DBL_EPSILON * terms);
       }
     });

@@ -10,10 +10,10 @@ namespace smg
 {
 
 /**
- * The direct solve on the coarsest level: by a CoarsestFactor, made once. One node of
- * each connected component whose row sums vanish (no constraint reaches it) is held at zero: there
- * the correction is determined up to a constant, and any will do. What such a component cannot
- * answer of b, its mean, is left out.
+ * The direct solve on the coarsest level, with a CoarsestFactor that is computed once. One node of
+ * each unconstrained component (with zero row sums) is pinned to zero: its correction is determined
+ * up to a constant, which is arbitrary. The part of b outside the range of the matrix, the mean
+ * over such a component, is omitted.
  */
 class SMG_EXPORT CoarsestSolver
 {
@@ -25,7 +25,7 @@ public:
 
   /** Throws Error: see CoarsestFactor. */
   void factorize(LevelWindow<float>& level);
-  /** x = A^-1 b on the level that was factorised, as precisely as its weights are. */
+  /** x = A^-1 b on the factorised level, in the precision of its weights. */
   void solve(LevelWindow<float>& level) const;
 
 private:

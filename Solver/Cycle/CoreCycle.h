@@ -10,7 +10,7 @@
 namespace smg
 {
 
-/** The part of a V-cycle on the levels that live in memory, done between two passes. */
+/** The part of a V-cycle on the levels in memory (core levels), performed between two passes. */
 template <class Relaxation>
 class CoreCycle
 {
@@ -24,7 +24,7 @@ public:
     this->Coarsest.factorize(this->Levels.back()->window());
   }
 
-  /** b of the finest core level is given; leaves its x. */
+  /** Computes x of the finest core level from its b. */
   void run() { this->cycle(0); }
 
 private:

@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** The nodes [begin, end) of a block, numbered from 0 in the block. */
+/** The nodes [begin, end) of a block, by their indices in the block. */
 struct BlockRange
 {
   std::int64_t begin, end;
@@ -31,13 +31,11 @@ inline BlockRange parentsOf(const RowBlock::Header& h, const Arrays& a, std::int
   return { start + (k % RowBlock::Group ? a.parentEnd[k - 1] : 0), start + a.parentEnd[k] };
 }
 
-/**
- * Forward Gauss-Seidel in stream order: x_i = (b_i + sum_j w_ij x_j) / A_ii.
- * x and b point to node 0 of the block, `stride` values a node.
- */
+/** Forward Gauss-Seidel in stream order: x_i = (b_i + sum_j w_ij x_j) / A_ii. x and b point to node
+ * 0 of the block, with `stride` values per node. */
 struct GaussSeidel
 {
-  /** LowerOnly: the nodes above are zero (first sweep on a coarse level) and are not looked at. */
+  /** LowerOnly: the nodes above are zero (first sweep on a coarse level) and are not read. */
   template <bool LowerOnly, class Vectors, class Real, class Arrays>
   static void sweep(const RowBlock::Header& h, const Arrays& a, BlockRange nodes,
     std::int64_t stride, Real* x, const Real* b)

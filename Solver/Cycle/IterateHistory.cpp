@@ -46,7 +46,7 @@ void IterateHistory::readAhead()
     [this] { return this->readBlock(); });
 }
 
-/** The steps of the next block and the residuals of its sampled nodes. */
+/** Reads the steps of the next block and the residuals of its sampled nodes. */
 Buffer IterateHistory::readBlock()
 {
   const std::int64_t end = this->blockEnd(this->Read);
@@ -143,7 +143,7 @@ void IterateHistory::release()
   }
 }
 
-/** Fills a ring up to `end`; answers what follows in `packed`. */
+/** Fills a ring up to `end`; returns the remaining part of `packed`. */
 const float* IterateHistory::unpack(Ring<float>& ring, std::int64_t end, const float* packed) const
 {
   const std::int64_t begin = ring.end();

@@ -19,52 +19,52 @@
 namespace smg
 {
 
-/** How a pass goes beyond the V-cycle T, which takes the iterate y_k to T(y_k). */
+/** The weights by which a pass accelerates the V-cycle T, which maps the iterate y_k to T(y_k). */
 struct StepWeights
 {
   /** y_{k+1} = y_k + correction (T(y_k) - y_k) + momentum (y_k - y_{k-1}). */
   double correction = 1.0, momentum = 0.0;
-  /** Of the directions of conjugate residuals; see IterateHistory. */
+  /** The weights of conjugate residuals; see IterateHistory. */
   double conjugation = 0.0, length = 0.0;
-  /** Conjugate residuals begin: z_k = y_k. */
+  /** Whether conjugate residuals start: z_k = y_k. */
   bool begin = false;
 };
 
-/** Sums over all values of the products of the vectors of conjugate residuals. */
+/** Inner products of the vectors of conjugate residuals, summed over all columns. */
 struct ResidualProducts
 {
   double aa = 0.0, aq = 0.0, qq = 0.0, za = 0.0, zq = 0.0;
 };
 
-/** Of which nodes conjugate residuals keep their vectors. */
+/** The nodes at which conjugate residuals keep their vectors. */
 enum class KeptResiduals
 {
   None,
   Sampled,
-  All ///< where bad cells make the residuals of few nodes decide
+  All ///< for bad cells, which make the residuals of few nodes dominant
 };
 
 /**
- * What acceleration keeps of the finest level's iterates from pass to pass: of each value the step
- * y_k - y_{k-1} and, for conjugate residuals, three vectors more. In single precision, for their
- * rounding is relative to what vanishes as the iterates converge; on disk if the level is.
+ * The data of the iterates of the finest level that acceleration keeps between passes: the step
+ * y_k - y_{k-1} and, for conjugate residuals, three additional vectors. In single precision, since
+ * their rounding errors vanish with the steps as the iterates converge; on disk if the level is.
  *
- * The iterates y_k are those whose residual a pass measures: after the sweeps of the way down.
+ * The iterates y_k are those whose residual a pass computes: after the sweeps before restriction.
  *
  * Conjugate residuals (Stiefel 1955; with a V-cycle as preconditioner, one pass a step): let z_k be
- * the best combination of iterates so far and y_k = T(z_{k-1}). The direction that y_k adds has the
- * image a = A (y_k - z_{k-1}) = r(z_{k-1}) - r(y_k), made conjugate: q_k = a - conjugation q_{k-1}.
- * Then r(z_k) = r(z_{k-1}) - length q_k. As T is affine, T(z_k) needs no pass of its own:
+ * the best combination of iterates so far and y_k = T(z_{k-1}). The direction added by y_k has the
+ * image a = A (y_k - z_{k-1}) = r(z_{k-1}) - r(y_k), which is made conjugate: q_k = a - conjugation
+ * q_{k-1}. Then r(z_k) = r(z_{k-1}) - length q_k. As T is affine, T(z_k) needs no separate pass:
  * T(z_k) = y_k + length u_k, u_k = T(y_k) - y_k - conjugation u_{k-1}, which is a step with a
- * momentum. Kept are z: r(z_k), q and a; their products give the next weights before the next pass.
- * On large meshes, if sampled, one group of nodes in up to sixteen, which tells the two weights of
- * a step well enough: residuals differ from region to region, so the groups are small and
- * everywhere.
+ * momentum. The stored vectors are z: r(z_k), q and a; their inner products yield the next weights
+ * before the next pass. If sampled, large meshes store one of up to sixteen groups of nodes, which
+ * determines the two weights of a step well enough: residuals differ between regions, so the groups
+ * are small and distributed over the mesh.
  */
 class SMG_EXPORT IterateHistory
 {
 public:
-  /** For a level of `nodes` nodes, as many right-hand sides as `columns`. */
+  /** For a level of `nodes` nodes with `columns` right-hand sides. */
   IterateHistory(Pool& pool, std::int64_t nodes, int columns, KeptResiduals residuals)
     : Nodes(nodes)
     , Columns(columns)
@@ -80,7 +80,7 @@ public:
   {
   }
 
-  /** Bytes of a node in memory, at most. */
+  /** The maximum bytes per node in memory. */
   static std::int64_t nodeBytes(int stride, KeptResiduals residuals)
   {
     constexpr std::int64_t Single = sizeof(float);
@@ -93,7 +93,7 @@ public:
   bool keepsResiduals() const { return this->Every > 0; }
 
   void startPass(const StepWeights& weights);
-  /** Remembers the iterate x of nodes below `end`, which are loaded and not touched yet. */
+  /** Stores the iterate x of nodes below `end`, which are loaded and not modified yet. */
   void load(const Ring<double>& x, std::int64_t end);
   /** x of nodes [begin, end), which is T(y_k), becomes y_{k+1}. */
   void combine(const Ring<double>& x, std::int64_t begin, std::int64_t end);
@@ -101,16 +101,17 @@ public:
   void load(const Ring<float>&, std::int64_t) {}
   void combine(const Ring<float>&, std::int64_t, std::int64_t) {}
 
-  /** Reads as many blocks as load() has taken since, which it will take first. Other threads may
-   * work on what is loaded. */
+  /** Reads ahead as many blocks as load() has taken since the last call. Other threads may access
+   * loaded blocks. */
   void readAhead();
-  /** Writes the blocks below `done`, whose residuals have come. Other threads may work above. */
+  /** Writes the blocks below `done`, whose residuals are known. Other threads may access blocks
+   * above. */
   void write(std::int64_t done);
-  /** Lets go of what is written. */
+  /** Releases written blocks. */
   void release();
   void endPass();
 
-  /** Of the last pass. */
+  /** The inner products of the last pass. */
   ResidualProducts products() const;
 
 private:
@@ -122,8 +123,8 @@ private:
   static constexpr std::int64_t SampledNodes = std::int64_t(1) << 16;
   static constexpr std::int64_t ManyNodes = std::int64_t(1) << 23;
 
-  /** One group in so many, a power of two, so that every block has as many sampled groups. With
-   * one in 16 what has fewer than ManyNodes converges more slowly. */
+  /** The sampling interval of groups, a power of two, so that every block has the same number of
+   * sampled groups. With one in 16, levels with fewer than ManyNodes nodes converge more slowly. */
   static std::int64_t sparsenessFor(std::int64_t nodes)
   {
     if (nodes >= ManyNodes)
@@ -133,14 +134,14 @@ private:
     const auto most = static_cast<std::uint64_t>(nodes / SampledNodes);
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::bit_floor(most)), 1, 8);
   }
-  /** Which of `Every` groups of a block is sampled: no pattern, with which that of a mesh could
-   * agree. */
+  /** The sampled one of `Every` groups of a block, pseudo-random to avoid correlation with a
+   * pattern of the mesh. */
   std::int64_t sampledGroup(std::int64_t block) const
   {
     constexpr std::uint32_t Golden = 2654435769U;
     return (static_cast<std::uint32_t>(block) * Golden >> 16) % this->Every;
   }
-  /** Nodes below `end` whose residuals are kept: those of one of `Every` groups; none if 0. */
+  /** The number of nodes below `end` with residuals: those of one of `Every` groups; none if 0. */
   std::int64_t sampledBelow(std::int64_t end) const
   {
     if (this->Every == 0)
@@ -168,16 +169,16 @@ private:
   std::int64_t Nodes;
   int Columns;
   int Stride;
-  std::int64_t Every; // of so many groups of nodes one keeps residuals; 0: none
+  std::int64_t Every; // one of this many groups of nodes keeps residuals; 0: none
   StepWeights Weights;
   Ring<double> Before; // y_k
   Ring<float> Steps;
-  Ring<float> Residuals; // of those nodes: z, q and a of a node, `Stride` values each
+  Ring<float> Residuals; // of those nodes: z, q and a, `Stride` values each
   std::vector<double> Sums;
   bool First = true;
   std::int64_t Written = 0;
   std::optional<ScratchStream> Stream;
-  std::int64_t Read = 0; // nodes of the blocks that have been read, and those to be taken
+  std::int64_t Read = 0; // nodes of the blocks read, and blocks to be taken
   BlocksAhead<Buffer> Ahead;
   SpareBuffers Spare;
   std::vector<float> Packed;
@@ -187,9 +188,9 @@ private:
 };
 
 /**
- * What restriction does with the residuals of y_{k+1}, in node order, of the block of a level that
- * begins with node `first`: the `Vectors::count` values from `lane` on. Without a history that
- * keeps residuals, nothing.
+ * Receives the residuals of y_{k+1} from restriction, in node order, for the block of a level that
+ * begins with node `first`: the `Vectors::count` values from `lane` on. Does nothing without a
+ * history that keeps residuals.
  */
 template <class Vectors>
 class ResidualKeeper
@@ -263,7 +264,7 @@ private:
   Wide Sum[IterateHistory::Products] = {};
 };
 
-/** The coarse levels are of single precision and not accelerated. */
+/** Coarse levels have single precision and are not accelerated. */
 template <int Count>
 class ResidualKeeper<Lanes<float, Count>>
 {

@@ -6,7 +6,7 @@
 namespace smg
 {
 
-/** `Count` values of Real that are treated alike: right-hand sides next to each other in memory. */
+/** A vector of `Count` values of Real: right-hand sides that are contiguous in memory. */
 template <class Real, int Count>
 struct Lanes
 {
@@ -25,7 +25,7 @@ struct Lanes
   }
 };
 
-/** Values a node for `columns` right-hand sides: 1, or as many groups of four as they need. */
+/** Values per node for `columns` right-hand sides: 1, or a multiple of four. */
 constexpr int strideOf(int columns)
 {
   return columns == 1 ? 1 : (columns + 3) / 4 * 4;

@@ -8,7 +8,7 @@
 namespace smg
 {
 
-/** Nodes of all levels that are in memory, and the most there have been. */
+/** The number of nodes of all levels in memory, and its maximum. */
 struct ResidentNodes
 {
   std::int64_t current = 0;
@@ -22,9 +22,10 @@ struct ResidentNodes
 };
 
 /**
- * The cursors of a level in a pass: for each stage the next node that it will do. The way up
- * (prolongation, sweeps) finishes a V-cycle, the way down (sweeps, residual and restriction) begins
- * the next one; both happen in one pass, the way down behind the way up.
+ * The cursors of a level in a pass: for each stage the next node to process. The upward part
+ * (prolongation and post-smoothing) finishes a V-cycle, the downward part (pre-smoothing, residual
+ * and restriction) begins the next one. Both are performed in one pass, the downward part behind
+ * the upward part.
  */
 struct LevelCursors
 {
@@ -35,10 +36,10 @@ struct LevelCursors
   std::int64_t combined = 0;           ///< acceleration (finest level)
   std::int64_t restricted = 0;         ///< residual and restriction
 
-  /** Of the way up, what the way down knows: the two may run on two threads. */
+  /** Cursors of the upward part as seen by the downward part, which may run on another thread. */
   std::int64_t seenProlonged = 0, seenPostSwept = 0;
-  std::int64_t finishedUp = 0; ///< of the way up, final
-  /** Of the way down, what writing knows. */
+  std::int64_t finishedUp = 0; ///< nodes below have finished the upward part
+  /** Cursors of the downward part as seen by the writer. */
   std::int64_t seenFinal = 0, seenRestricted = 0;
 
   explicit LevelCursors(int sweeps)

@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** One sweep over `nodes`, each by itself. */
+/** One sweep over `nodes`, relaxed one by one. */
 template <bool LowerOnly, class Relaxation, class Real, class Arrays>
 void relaxNodes(
   const RowBlock::Header& h, const Arrays& a, BlockRange nodes, int stride, Real* x, const Real* b)

@@ -23,9 +23,9 @@ namespace smg
 {
 
 /**
- * What of a level is in memory: blocks of rows, and the state x and b, `stride` values a node. With
- * scratch files, blocks and state come from them and go to them as the pass proceeds; without, all
- * of the level stays in memory and loading, writing and releasing cost nothing.
+ * The part of a level in memory: blocks of rows, and the state x and b with `stride` values per
+ * node. With scratch files, blocks and state are read and written as the pass proceeds; without,
+ * the whole level stays in memory, and loading, writing and releasing do nothing.
  */
 template <class Real>
 class SMG_EXPORT LevelWindow
@@ -62,16 +62,16 @@ public:
   int stride() const { return this->Stride; }
   Ring<Real>& x() { return this->Now.x; }
   Ring<Real>& b() { return this->Now.b; }
-  /** What the way up and the way down of a pass work on: the same, but in a pass that renews. */
+  /** The states of the upward and the downward part of a pass: the same, except after renew(). */
   State& up() { return this->Now; }
   State& down() { return this->Next ? *this->Next : this->Now; }
-  /** Nodes of the level; while it is being built, those that have come. */
+  /** The number of nodes of the level; during construction, those so far. */
   std::int64_t nodes() const { return this->Nodes; }
   std::int64_t loaded() const { return this->Loaded; }
-  /** The first node whose row is there; those before it have gone through all stages. */
+  /** The first node in memory; those before it have passed all stages. */
   std::int64_t first() const { return this->FirstBlock * RowBlock::Nodes; }
 
-  /** The header of the block of node `node`, which is loaded. */
+  /** The header of the block of node `node`, which must be loaded. */
   const RowBlock::Header& header(std::int64_t node) const { return this->block(node).header(); }
   static std::size_t groupIn(const RowBlock::Header& h, std::int64_t node)
   {
@@ -82,7 +82,7 @@ public:
     const std::int64_t group = (node - h.first) / RowBlock::Group;
     return h.first + std::min<std::int64_t>(h.nodes, (group + 1) * RowBlock::Group);
   }
-  /** From `cursor` on, how far all neighbours are below `done`. */
+  /** The end of the nodes from `cursor` on whose neighbours are all below `done`. */
   std::int64_t reachable(std::int64_t cursor, std::int64_t done) const
   {
     while (cursor < done)
@@ -101,23 +101,23 @@ public:
   void endPass();
 
   /**
-   * The next pass is the last of one problem and the first of another one with `columns` columns,
-   * of the same stride. With `apart` (finest level) the way down has a state of its own, which
-   * another stage has to fill.
+   * Declares that the next pass is the last of one problem and the first of another one with
+   * `columns` columns and the same stride. With `apart` (finest level) the downward part has a
+   * separate state, which another stage has to fill.
    */
   void renew(int columns, bool apart);
-  /** Without scratch files: forgets a pass that was broken off. */
+  /** Without scratch files: discards an aborted pass. */
   void abandon() { this->Next.reset(); }
-  /** Without scratch files, between passes: the state is that of a problem with so many columns. */
+  /** Without scratch files, between passes: sets the number of columns of the state. */
   void setColumns(int columns) { this->Columns = this->WrittenColumns = columns; }
 
-  /** First pass: state of nodes below `end`, zero. */
+  /** First pass: appends zero state for nodes below `end`. */
   void extendState(std::int64_t end)
   {
     this->Now.x.extend(end);
     this->extendB(end);
   }
-  /** First pass: right-hand side of nodes below `end`, zero. */
+  /** First pass: appends a zero right-hand side for nodes below `end`. */
   void extendB(std::int64_t end)
   {
     const std::int64_t before = this->Now.b.end();
@@ -127,18 +127,18 @@ public:
       this->Resident->add(end - before);
     }
   }
-  /** First pass: takes the next block of rows. */
+  /** First pass: appends the next block of rows. */
   void append(RowBlock block);
 
-  /** Loads up to node `node`. */
+  /** Loads blocks up to node `node`. */
   void load(std::int64_t node);
-  /** Reads as many blocks as load() has taken since, which it will take first. Other threads may
-   * work on what is loaded. */
+  /** Reads ahead as many blocks as load() has taken since the last call. Other threads may access
+   * loaded blocks. */
   void readAhead();
-  /** Writes the state of the blocks that lie below `done`. Other threads may work above. */
+  /** Writes the state of the blocks below `done`. Other threads may access blocks above. */
   void write(std::int64_t done);
-  /** Lets go of what is written and no node from `done` on needs: of rows and b, which are a node's
-   * own, and of x, which its neighbours need longer. */
+  /** Releases written data that no node from `done` on needs: rows and b, which only their node
+   * needs, and x, which its neighbours need longer. */
   void release(std::int64_t done);
 
   void zeroB(std::int64_t begin, std::int64_t end)
@@ -147,7 +147,7 @@ public:
   }
 
   /** Calls f(header, arrays, nodes, x, b) for the part of [begin, end) in each block; x and b of
-   * `state` point to the block's node 0. */
+   * `state` point to node 0 of the block. */
   template <class F>
   void forRange(std::int64_t begin, std::int64_t end, State& state, F&& f)
   {
@@ -164,7 +164,7 @@ public:
     }
   }
 
-  /** Calls f(header, arrays, k) with the block of node `node`, which has number k there. */
+  /** Calls f(header, arrays, k) with the block of node `node`, whose index in the block is k. */
   template <class F>
   void visitRow(std::int64_t node, F&& f) const
   {
@@ -173,24 +173,24 @@ public:
   }
 
   /** Between passes, after the first one: calls f(block, b) for the b of every block of
-   * RowBlock::Nodes nodes, without padding, and keeps what it makes of it. */
+   * RowBlock::Nodes nodes, without padding, and stores the modified b. */
   template <class F>
   void rewriteB(F&& f);
 
-  /** Gives buffers of blocks that were let go of to those who make more in the first pass. */
+  /** Moves the buffers of released blocks to `others` for reuse in the first pass. */
   void giveSpareRows(SpareBuffers& others) { this->SpareRows.giveTo(others, MostSpareRows); }
 
-  /** Between passes: loads the whole level, which stays in memory from here on. */
+  /** Between passes: loads the whole level, which then stays in memory. */
   void moveToMemory();
 
-  /** Lets go of all but x, for readX(). */
+  /** Releases everything except x, for readX(). */
   void keepSolution();
 
   /** Reads x of nodes [first, first + count), without padding, from memory or scratch. */
   void readX(std::int64_t first, std::int64_t count, Real* values);
 
 private:
-  /** About what a step packs; more would cost memory. */
+  /** About the number of blocks packed per step; more would waste memory. */
   static constexpr std::size_t MostSpareRows = 4;
 
   const RowBlock& block(std::int64_t node) const
@@ -198,7 +198,7 @@ private:
     return this->Blocks[static_cast<std::size_t>(node / RowBlock::Nodes - this->FirstBlock)];
   }
   bool finest() const { return this->Index == 0; }
-  /** A block and its x and b, without padding, as they have been read. */
+  /** A block that has been read, with its x and b without padding. */
   struct Incoming
   {
     RowBlock rows;
@@ -206,7 +206,8 @@ private:
   };
   Incoming readBlock();
   void loadBlock();
-  /** Most right-hand sides are zero but near constraints: a block of zeros takes no room on disk.
+  /**
+   * Most right-hand sides are zero away from constraints: a block of zeros takes no space on disk.
    */
   void readRightSide(std::span<Real> b);
   void appendRightSide(std::span<const Real> b);
@@ -217,28 +218,28 @@ private:
   Pool* Owner;
   ResidentNodes* Resident;
   int Index;
-  int Columns;        // of the state that is read ...
-  int WrittenColumns; // ... and of what is written
+  int Columns;        // of the state read ...
+  int WrittenColumns; // ... and of the state written
   int Stride;
   State Now;
-  std::optional<State> Next; // of the way down, in a pass that renews
+  std::optional<State> Next; // of the downward part, in a pass after renew()
   std::deque<RowBlock> Blocks;
-  /** Blocks whose x is still there: where they end, and their largest neighbour. */
+  /** A released block whose x is still in memory: its end, and its largest neighbour. */
   struct PassedBlock
   {
     std::int64_t end, reach;
   };
   std::deque<PassedBlock> Passed;
-  std::int64_t FirstBlock = 0; // number of Blocks.front() among all blocks of the level
+  std::int64_t FirstBlock = 0; // index of Blocks.front() in the level
   std::int64_t Nodes = 0;
   std::int64_t Loaded = 0;
   std::int64_t Written = 0;
   bool First = true;
 
-  // Scratch: rows are written once, x in every pass; b in the first pass (finest) or with x.
+  // Scratch files: rows are written once, x in every pass; b in the first pass (finest) or with x.
   std::optional<ScratchStream> Rows, RightSide, Values;
   std::vector<Real> Packed;
-  std::int64_t Read = 0; // nodes of the blocks that have been read, and those to be taken
+  std::int64_t Read = 0; // nodes of the blocks read, and blocks to be taken
   BlocksAhead<Incoming> Ahead;
   SpareBuffers SpareRows, SpareState;
   std::int64_t CachedBlock = -1; // of readX

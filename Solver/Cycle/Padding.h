@@ -11,7 +11,8 @@
 namespace smg
 {
 
-/** Calls f with the number of columns, as a constant where there are few: loops over them unroll.
+/**
+ * Calls f with the number of columns, as a compile-time constant if it is small, to unroll loops.
  */
 template <class F>
 void withColumns(int columns, F&& f)
@@ -31,7 +32,9 @@ void withColumns(int columns, F&& f)
   }
 }
 
-/** Copies `columns` values a node to nodes of strideOf(columns) values; the others become zero. */
+/**
+ * Copies `columns` values per node to nodes of strideOf(columns) values; the padding becomes zero.
+ */
 template <class Real>
 void pad(const Real* packed, int columns, std::int64_t nodes, Real* padded)
 {
@@ -47,7 +50,7 @@ void pad(const Real* packed, int columns, std::int64_t nodes, Real* padded)
     });
 }
 
-/** The other way, from nodes of `stride` values, at least `columns`. */
+/** The inverse, from nodes of `stride` values, at least `columns`. */
 template <class Real>
 void unpad(const Real* padded, int stride, int columns, std::int64_t nodes, Real* packed)
 {

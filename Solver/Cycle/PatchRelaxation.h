@@ -10,8 +10,8 @@
 namespace smg
 {
 
-/** b_k + sum_j w_kj x_j of node k of a block, x_k and the nodes from `limit` on being taken as
- * zero.
+/**
+ * b_k + sum_j w_kj x_j of node k of a block, with x_k and the nodes from `limit` on taken as zero.
  */
 template <class Vectors, class Real, class Arrays>
 typename Vectors::Vector lowerResidual(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
@@ -27,7 +27,7 @@ typename Vectors::Vector lowerResidual(const RowBlock::Header& h, const Arrays& 
 }
 
 /** x += A_bb^-1 (b - A x) on the `size` nodes of a patch, given the residuals and the inverse; x
- * is that of the last one, the others are at `distance`. LowerOnly: x was zero. */
+ * points to the last one, the others are at `distance`. LowerOnly: x was zero. */
 template <bool LowerOnly, class Vectors, class Real>
 void correctPatch(int size, const double* distance, const double* inverse,
   const typename Vectors::Vector* residual, std::int64_t stride, Real* x)

@@ -36,9 +36,9 @@ struct PlainResidual
 
 /**
  * The same as b_k - alpha_k x_k + sum_j w_kj (x_j - x_k): the large weights of slivers multiply
- * small differences, so that what is rounded is of their size, and the sum over a patch does not
- * lose alpha, which may be smaller than the rounding of the diagonal. Edges to prescribed nodes are
- * part of alpha and b, and rounded as these are.
+ * small differences, which reduces the rounding, and the sum over a patch does not lose alpha,
+ * which may be smaller than the rounding of the diagonal. Edges to prescribed nodes are part of
+ * alpha and b, and rounded like these.
  */
 struct ResidualOfDifferences
 {

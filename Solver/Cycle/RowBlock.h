@@ -18,13 +18,13 @@ namespace smg
 {
 
 /**
- * The rows and the interpolation of up to `Nodes` consecutive nodes of a level, as they are on
- * disk: used in place, without decoding. Columns are distances, of 16 bits ("narrow") or, where a
- * distance or a count does not fit, 24 bits ("wide"; counts: 32). Each group of `Group` nodes has
- * the largest indices that the cursors need.
+ * The rows and the interpolation of up to `Nodes` consecutive nodes of a level in the format on
+ * disk, used in place without decoding. Columns are distances of 16 bits ("narrow") or, if a
+ * distance or a count does not fit, of 24 bits ("wide"; counts: 32). Each group of `Group` nodes
+ * stores the largest indices that the cursors need.
  *
- * The diagonals are not on disk: they are the row sums, most of which are zero, and the weights, so
- * sumDiagonals() makes them. They stand behind what is stored.
+ * The diagonals are not stored on disk: sumDiagonals() computes them from the row sums, most of
+ * which are zero, and the weights. They follow the stored data.
  */
 class RowBlock
 {
@@ -36,14 +36,14 @@ public:
   struct Header
   {
     std::int64_t first = 0;      ///< index of the first node
-    std::int64_t parentBase = 0; ///< coarse index that parents are relative to
+    std::int64_t parentBase = 0; ///< coarse index to which parents are relative
     std::int32_t nodes = 0;
     std::int32_t entries = 0; ///< off-diagonals of all rows
     std::int32_t parents = 0; ///< entries of all rows of P
     std::int8_t wide = 0;
     std::int8_t weightBytes = 0;
-    std::uint16_t alphaGroups = 0; ///< bit g: some row of group g has a sum that is not zero
-    std::int32_t specials = 0;     ///< nodes that are treated by themselves
+    std::uint16_t alphaGroups = 0; ///< bit g: a row of group g has a non-zero sum
+    std::int32_t specials = 0;     ///< number of special nodes
     std::int32_t values = 0;       ///< of patches that end here
     std::int32_t precise = 0;      ///< weights in double precision
     /**
@@ -52,24 +52,22 @@ public:
      * largest child and parent in these rows.
      */
     std::array<std::int64_t, Groups> neighbourReach{}, childReach{}, parentReach{};
-    /** Where the entries and the parents of the group begin. */
+    /** The begins of the entries and the parents of the groups. */
     std::array<std::int32_t, Groups> entryStart{}, parentStart{};
   };
 
-  /**
-   * A node whose row is kept in double precision, or that belongs to a patch: a few nodes, coupled
-   * so strongly that they have to be relaxed together, at the last one's turn.
-   */
+  /** A node whose row has double precision, or that belongs to a patch: a few strongly coupled
+   * nodes that are relaxed together when the sweep reaches the last one. */
   struct Special
   {
-    std::int16_t node; ///< numbered in the block
-    /** Nodes that are relaxed at this one's turn, itself the last of them; 0: it is a patch's node
+    std::int16_t node; ///< index in the block
+    /** The number of nodes relaxed with this one, which is the last of them; 0: a node of a patch
      * before the last. */
     std::int16_t size;
-    /** Where the patch's values begin: the distances (negative) of the nodes before this one, and
-     * the lower triangle of the inverse of the matrix on the patch. */
+    /** The begin of the values of the patch: the (negative) distances of the nodes before this one,
+     * and the lower triangle of the inverse of the matrix on the patch. */
     std::int32_t value;
-    std::int32_t precise; ///< where the row's weights in double precision begin; -1: it has none
+    std::int32_t precise; ///< begin of the weights of the row in double precision; -1: none
     std::int32_t reserved;
 
     static constexpr int valuesOf(int size) { return size - 1 + size * (size + 1) / 2; }
@@ -78,32 +76,32 @@ public:
 
   /**
    * The arrays of a block, Index being std::int16_t (narrow) or WideIndex (wide). An index is read
-   * where it stands, never from a copy.
+   * in place, never from a copy.
    *
-   * Weight is float on the finest level. On the coarse ones, which only precondition, it is
-   * BFloat16: the diagonals are made of the rounded weights, so that row sums stay exact. Blocks
-   * of coarse levels with rows whose weights nearly cancel have floats, as precise as the coarse
-   * operator's entries (CoarseEntry); such rows of the finest level have double precision beside.
+   * Weight is float on the finest level. On coarse levels, which only precondition, it is BFloat16;
+   * the diagonals are computed from the rounded weights, so that row sums stay exact. Blocks of
+   * coarse levels with rows whose weights nearly cancel have floats, the precision of the entries
+   * of the coarse operator (CoarseEntry); such rows of the finest level also have double precision.
    */
   template <class Index, class Weight>
   struct Arrays
   {
     using Count =
       std::conditional_t<std::is_same_v<Index, WideIndex>, std::uint32_t, std::uint16_t>;
-    const Weight* weight;            // an entry
-    const Index* delta;              // an entry
-    const Index* parent;             // a parent, relative to parentBase
-    const Count* entryEnd;           // a node: end of its entries, from the group's start
-    const Count* parentEnd;          // a node: end of its parents, from the group's start
-    const std::int8_t* parentQuanta; // a parent
-    const double* alpha;             // a node of the groups that have them: the row's sum
+    const Weight* weight;            // per entry
+    const Index* delta;              // per entry
+    const Index* parent;             // per parent, relative to parentBase
+    const Count* entryEnd;           // per node: end of its entries, from the start of the group
+    const Count* parentEnd;          // per node: end of its parents, from the start of the group
+    const std::int8_t* parentQuanta; // per parent
+    const double* alpha;             // per node of groups with sums: the row sum
     const Special* special;          // by ascending node
     const double* value;             // of patches
     const double* precise;           // of special nodes
-    const double* diagonal;          // a node
+    const double* diagonal;          // per node
 
-    /** The same with the weights of a special node's row in double precision, for that row alone,
-     * whose entries begin at `begin`. */
+    /** The same with the weights of the row of a special node in double precision, for that row
+     * only, whose entries begin at `begin`. */
     Arrays<Index, double> ofPreciseRow(const Special& node, std::int64_t begin) const
     {
       return { this->precise + node.precise - begin, this->delta, this->parent, this->entryEnd,
@@ -113,8 +111,7 @@ public:
   };
 
   RowBlock() = default;
-  /** Takes the bytes of a block, as packRows() or a file has filled them, with room for the
-   * diagonals. */
+  /** Takes the bytes of a block from packRows() or a file, with room for the diagonals. */
   explicit RowBlock(Buffer buffer)
     : Bytes(std::move(buffer))
   {
@@ -144,7 +141,7 @@ public:
     return a;
   }
 
-  /** Calls f(arrays) with the arrays of this block, one of a level of such numbers. */
+  /** Calls f(arrays) with the arrays of this block, which belongs to a level of type Real. */
   template <class Real, class F>
   void visit(F&& f) const
   {
@@ -167,7 +164,7 @@ public:
     return h.alphaGroups >> group & 1 ? a.alpha[std::popcount(before) * Group + k % Group] : 0.0;
   }
 
-  /** Nodes of the groups that have alphas; all groups but the last one are full. */
+  /** The number of nodes of groups with alphas; all groups except the last one are full. */
   static std::int32_t alphas(const Header& h)
   {
     const std::int32_t room = std::popcount(h.alphaGroups) * static_cast<std::int32_t>(Group);
@@ -176,7 +173,7 @@ public:
     return room - (h.alphaGroups >> last & 1 ? missing : 0);
   }
 
-  /** Bytes of the diagonals of so many nodes. */
+  /** Bytes of the diagonals of this many nodes. */
   static std::size_t diagonalBytes(std::int64_t nodes)
   {
     return static_cast<std::size_t>(nodes) * sizeof(double);
@@ -196,12 +193,12 @@ public:
            static_cast<std::size_t>(alphas(h) + h.values + h.precise) * sizeof(double);
   }
 
-  /** What is on disk of the block. */
+  /** The part of the block stored on disk. */
   std::span<const std::byte> stored() const
   {
     return this->Bytes.bytes().first(storedBytes(this->header()));
   }
-  /** Makes the diagonals from what is stored. */
+  /** Computes the diagonals from the stored data. */
   void sumDiagonals()
   {
     this->visit<float>([this](const auto& arrays) { this->sumDiagonals(arrays); });
@@ -243,7 +240,7 @@ template <class Index, class Weight>
 void RowBlock::sumDiagonals(const Arrays<Index, Weight>& a)
 {
   const Header& h = this->header();
-  // The arrays are constant for those who use a block; here it is made.
+  // The arrays are constant for users of a block; here they are filled.
   auto* diagonal = const_cast<double*>(a.diagonal);
   const double* alpha = a.alpha;
   const Weight* weight = a.weight;

@@ -14,19 +14,19 @@ namespace
 
 using Header = RowBlock::Header;
 
-// What a WideIndex holds.
+// The range of a WideIndex.
 static_assert(RowEntry::MostDistance < (1 << 23) && CoarseWindow <= (1 << 23));
 
 /** The inverse of the matrix on a patch multiplies the rounding of residuals, which are double on
  * the finest level and float on the others, by up to one over this. */
 constexpr double LeastPivotOfDoubles = 1e-9, LeastPivotOfFloats = 1e-5;
 
-/** The special nodes of a block, as they go into it. */
+/** The special nodes of a block in its format. */
 struct Specials
 {
   std::vector<RowBlock::Special> nodes;
   std::vector<double> values, precise;
-  /** Some row has weights that nearly cancel. */
+  /** Whether a row has weights that nearly cancel. */
   bool cancelling = false;
 
   void find(const LevelRows& rows, const Patches* patches, std::int64_t first, std::int64_t nodes)
@@ -66,7 +66,7 @@ struct Specials
 private:
   double LeastPivot = LeastPivotOfDoubles;
 
-  /** The values of a patch, at its last node. */
+  /** Adds the values of a patch, at its last node. */
   void addValues(const Patch& patch)
   {
     for (int k = 0; k + 1 < patch.size; ++k)
@@ -80,7 +80,7 @@ private:
   }
 };
 
-/** Measures the block: its counts, reaches, and whether it fits narrow indices. */
+/** Computes the header of the block: its counts, reaches, and whether it fits narrow indices. */
 Header measure(
   const LevelRows& rows, const CoarseningData* coarsening, std::int64_t first, std::int64_t nodes)
 {
@@ -144,7 +144,7 @@ void fill(RowBlock& block, const LevelRows& rows, const CoarseningData* coarseni
   const Header& h = block.header();
   const auto a = block.arrays<Index, Weight>();
   using Count = typename RowBlock::Arrays<Index, Weight>::Count;
-  // The arrays are constant for those who use a block; here it is made.
+  // The arrays are constant for users of a block; here they are filled.
   auto* alpha = const_cast<double*>(a.alpha);
   auto* weight = const_cast<Weight*>(a.weight);
   auto* delta = const_cast<Index*>(a.delta);

@@ -12,7 +12,7 @@ namespace smg
 /**
  * Copies the rows [first, first + nodes) of a level, and its interpolation and patches if
  * `coarsening` is not null, to a block in one of the buffers. Its weights are floats, or BFloat16
- * where `mayRound` and no row is special.
+ * if `mayRound` and no row is special.
  */
 SMG_EXPORT RowBlock packRows(SpareBuffers& buffers, const LevelRows& rows,
   const CoarseningData* coarsening, std::int64_t first, std::int64_t nodes, bool mayRound);

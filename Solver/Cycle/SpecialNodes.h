@@ -10,10 +10,8 @@
 namespace smg
 {
 
-/**
- * Calls plain(range) for the stretches of `nodes` without special nodes, and special(node) for each
- * of these, in order.
- */
+/** Calls plain(range) for the subranges of `nodes` without special nodes, and special(node) for
+ * each special node, in order. */
 template <class Arrays, class Plain, class OfSpecial>
 void visitNodes(
   const RowBlock::Header& h, const Arrays& a, BlockRange nodes, Plain&& plain, OfSpecial&& special)
@@ -37,7 +35,7 @@ void visitNodes(
   }
 }
 
-/** The special node with number `node` of a block, which has it. */
+/** The special node with index `node` of a block, which must exist. */
 template <class Arrays>
 const RowBlock::Special& specialOf(const RowBlock::Header& h, const Arrays& a, std::int64_t node)
 {
@@ -45,10 +43,8 @@ const RowBlock::Special& specialOf(const RowBlock::Header& h, const Arrays& a, s
     [](const RowBlock::Special& s, std::int64_t n) { return s.node < n; });
 }
 
-/**
- * Calls f(arrays) with the arrays that node k's row, a special one, has its weights in: on the
- * finest level, whose numbers are double, they may stand beside in double precision.
- */
+/** Calls f(arrays) with the arrays of the weights of row k, which is special: on the finest level
+ * (Real is double) they may be the additional weights in double precision. */
 template <class Real, class Arrays, class F>
 void visitSpecial(const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node, F&& f)
 {

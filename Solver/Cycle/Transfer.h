@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** Prolongation of a block's nodes: x += scale P x_coarse. coarseX points to coarse node
+/** Prolongation to the nodes of a block: x += scale P x_coarse. coarseX points to coarse node
  * parentBase. */
 template <class Vectors, class CoarseVectors, class Real, class Arrays>
 void prolong(const RowBlock::Header& h, const Arrays& a, BlockRange nodes, std::int64_t stride,
@@ -31,10 +31,10 @@ void prolong(const RowBlock::Header& h, const Arrays& a, BlockRange nodes, std::
 }
 
 /**
- * Residual, as `Residual` has it, and restriction of a block's nodes: r = b - A x,
- * b_coarse += P^T r. Adds the squares of r to `squares` (`stride` values) and, on the finest level,
- * those of the terms A_kk x_k to `terms` (but not of rows without entries: prescribed values), in
- * node order, and calls keep(k, r) for each node k. coarseB points to coarse node parentBase.
+ * Residual, computed by `Residual`, and restriction of the nodes of a block: r = b - A x, b_coarse
+ * += P^T r. Adds the squares of r to `squares` (`stride` values) and, on the finest level, those of
+ * the terms A_kk x_k to `terms` (except for rows without entries: prescribed values), in node
+ * order, and calls keep(k, r) for each node k. coarseB points to coarse node parentBase.
  */
 template <class Residual, class Vectors, class CoarseVectors, class Real, class Arrays, class Keep>
 void restrictResidual(const RowBlock::Header& h, const Arrays& a, BlockRange nodes,

@@ -10,17 +10,15 @@
 namespace smg
 {
 
-/**
- * An index of a wide block, in three bytes: distances of rows and of parents have no more bits. It
- * is read with the byte before it, in one load, so only where it stands in a block.
- */
+/** An index of a wide block in three bytes, enough for distances of rows and of parents. It is read
+ * together with the preceding byte in one load, and therefore only in place in a block. */
 class WideIndex
 {
 public:
   WideIndex() = default;
   /** From -2^23 to 2^23 - 1. */
   explicit WideIndex(std::int32_t index) { std::memcpy(this->Bytes.data(), &index, sizeof(*this)); }
-  /** A copy would have another byte before it. */
+  /** A copy would have another preceding byte. */
   WideIndex(const WideIndex&) = delete;
   WideIndex& operator=(const WideIndex&) = default;
 

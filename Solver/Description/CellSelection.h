@@ -10,10 +10,8 @@
 namespace smg
 {
 
-/**
- * What a column of the cells selects: cells, and their vertices and facets. The vertices come
- * before the cells of a stream: which ones are selected is found by reading it once before.
- */
+/** The selection by a column of the cells: cells, their vertices and their facets. In a stream,
+ * vertices precede their cells: a previous reading determines the selected vertices. */
 class CellSelection : public Selection
 {
 public:
@@ -43,9 +41,9 @@ protected:
 
 private:
   ColumnTest Test;
-  std::optional<VertexSetFile> Vertices; ///< of the cells, if these are asked for
-  OpenValues<std::uint8_t> Marks;        ///< while preparing: what is known of open vertices
-  std::int64_t Marked = 0, Written = 0;  ///< vertices that have come, and are in the file
+  std::optional<VertexSetFile> Vertices; ///< of the selected cells, if requested
+  OpenValues<std::uint8_t> Marks;        ///< of open vertices, during preparation
+  std::int64_t Marked = 0, Written = 0;  ///< vertices read, and written to the file
 };
 
 } // namespace smg

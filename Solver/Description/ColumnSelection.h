@@ -7,7 +7,7 @@
 namespace smg
 {
 
-/** What a column of the vertices selects. */
+/** The selection by a column of the vertices. */
 class ColumnSelection : public Selection
 {
 public:

@@ -14,16 +14,14 @@
 namespace smg
 {
 
-/** Looks for a value in a column of one number, or for all that is not 0. */
+/** Tests a column of one number for a value, or for values other than 0. */
 struct ColumnTest
 {
   NamedColumn column;
-  std::optional<double> value; ///< none: what is not 0
+  std::optional<double> value; ///< none: any value other than 0
 
-  /**
-   * Sets `selected` to 1 where the rows of `values` from `first` on have the value, else to 0.
-   * Answers where first a mask is not a number, the size of `selected` if nowhere.
-   */
+  /** Sets `selected` to 1 where the rows of `values` from `first` on have the value, else to 0.
+   * Returns the index of the first NaN in a mask, or the size of `selected`. */
   std::size_t apply(const Column& values, std::size_t first, std::span<std::uint8_t> selected) const
   {
     std::size_t valid = selected.size();
@@ -41,7 +39,7 @@ struct ColumnTest
     return valid;
   }
 
-  /** The value as a column of T has it: 0.1 in single precision is another number. */
+  /** The value in the precision of T: 0.1 in single precision is another number. */
   template <class T>
   double valueAs() const
   {
@@ -49,7 +47,7 @@ struct ColumnTest
                                     : *this->value;
   }
 
-  /** What is said of something that is selected. */
+  /** The predicate of a selected item, for messages. */
   std::string predicate() const
   {
     return (this->value ? "has this tag in '" : "has a value other than 0 in '") +

@@ -14,9 +14,9 @@ namespace smg
 {
 
 /**
- * A datum of a description on its mesh, block by block of the stream: which of its entries counts
- * where, and what it says there. Blocks come in order, and stay until the next one; with the first
- * one it begins anew.
+ * A datum of a description on its mesh, block by block of the stream: the entry that applies at
+ * each place, and its value. Blocks are passed in order and stay valid until the next one; the
+ * first block restarts it.
  */
 class DatumOnMesh
 {
@@ -28,43 +28,44 @@ public:
   {
   }
 
-  /** Adds an entry, which counts before those so far. `key` and `valueKey` are its place in the
-   * description and that of its value. Throws Error. */
+  /** Adds an entry, which takes precedence over the previous ones. `key` and `valueKey` are its
+   * place in the description and that of its value. Throws Error. */
   void add(const Where& where, const DataValue& value, const std::string& key,
     const std::string& valueKey);
-  /** Adds those of a datum. */
+  /** Adds the entries of a datum. */
   void add(const Datum& datum, const std::string& key);
 
   bool isGiven() const { return !this->Entries.empty(); }
   int entries() const { return static_cast<int>(this->Entries.size()); }
-  /** The numbers of an entry's value. */
+  /** The number of components of the value of an entry. */
   int components(std::int32_t entry) const { return this->at(entry).value.components(); }
 
-  /** Whether a part of the mesh is selected: then the stream can be read for checks. */
+  /** Whether the datum selects parts of the mesh, which can be checked by reading the stream. */
   bool selects() const;
-  /** Whether the stream has still to be read before it can answer. */
+  /** Whether the stream must be read before selections can be evaluated. */
   bool needsPreparing() const;
   /** See Selection. */
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch);
   void endPreparing();
   void startBlock(const MeshBlock& block);
 
-  /** Sets `entry` to the entry that counts at each vertex of the block; as it was: there is none.
+  /**
+   * Sets `entry` to the applicable entry at each vertex of the block; unchanged if there is none.
    */
   void entriesAtVertices(std::span<std::int32_t> entry) const;
-  /** Likewise in cells of the block, and on their facets, as many a cell as corners. */
+  /** Likewise in cells of the block, and on their facets, as many per cell as corners. */
   void entriesAtCells(const CellRange& cells, std::span<std::int32_t> entry) const;
   void entriesAtFacets(const CellRange& cells, std::span<std::int32_t> entry) const;
 
-  /** Copies what entries say at the vertices of the block, `stride` numbers apart; -1: nothing.
-   * Throws Error if a value is not as the rules say. */
+  /** Copies the values of entries at the vertices of the block, `stride` numbers apart; -1: no
+   * entry. Throws Error if a value violates the rules. */
   void valuesAtVertices(const MeshBlock& block, std::span<const std::int32_t> entry, double* values,
     std::size_t stride) const;
   /** Likewise in cells. */
   void valuesAtCells(const CellRange& cells, std::span<const std::int32_t> entry, double* values,
     std::size_t stride) const;
-  /** Likewise at the corners of the facets of cells; where a value is not valid, NaN: most facets
-   * are inside the body, where nobody asks for it. */
+  /** Likewise at the corners of the facets of cells; an invalid value becomes NaN, since the values
+   * of most facets, in the interior, are not used. */
   void valuesAtFacets(const CellRange& cells, std::span<const std::int32_t> entry, double* values,
     std::size_t stride) const;
 
@@ -76,7 +77,7 @@ private:
     std::string key; ///< of the value
   };
 
-  /** Throws Error if the numbers of an entry are not as the rules say; `where` tells the place. */
+  /** Throws Error if the numbers of an entry violate the rules; `where` returns the place. */
   void require(const Entry& entry, const double* numbers, auto where) const;
   const Entry& at(std::int32_t entry) const
   {
@@ -87,7 +88,7 @@ private:
   DataPlace Place;
   ValueRules Rules;
   std::vector<Entry> Entries;
-  mutable std::vector<std::uint8_t> Selected; ///< of a stretch of cells
+  mutable std::vector<std::uint8_t> Selected; ///< of a range of cells
 };
 
 } // namespace smg

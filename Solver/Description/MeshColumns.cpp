@@ -19,7 +19,7 @@ const ColumnSpec* find(const std::vector<ColumnSpec>& specs, const std::string& 
   return found == specs.end() ? nullptr : &*found;
 }
 
-/** As "'Normals' (3), 'PhysicalTag'". */
+/** For example "'Normals' (3), 'PhysicalTag'". */
 std::string listOf(const std::vector<ColumnSpec>& specs)
 {
   std::string list;

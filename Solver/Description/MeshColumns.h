@@ -12,7 +12,7 @@
 namespace smg
 {
 
-/** Whose a column is. */
+/** The owner of a column: vertices or cells. */
 enum class ColumnOwner
 {
   Vertices,
@@ -37,32 +37,30 @@ struct NamedColumn
 class SMG_EXPORT MeshColumns
 {
 public:
-  /** `description` is what errors call the description: its file. */
+  /** `description` is the name of the description in error messages: its file. */
   MeshColumns(const StreamInfo& mesh, std::string description);
 
   CellType cellType() const { return this->Info.cellType; }
 
-  /** Whether `name` means a column of the cells where one of `preferred` would be taken first. */
+  /** Whether `name` refers to a column of the cells, if columns of `preferred` take precedence. */
   bool isOfCells(const std::string& name, ColumnOwner preferred) const;
 
-  /**
-   * Finds a column, and has it delivered. Throws Error naming the place `key` of the description,
-   * and the columns that there are, if there is none.
-   */
+  /** Finds a column and requests its delivery. If there is none, throws Error, which names the
+   * place `key` of the description and the existing columns. */
   NamedColumn require(const std::string& name, ColumnOwner preferred, const std::string& key);
-  /** Has the original numbers of the vertices delivered, if there are any. */
+  /** Requests the original indices of the vertices, if any. */
   void requireIds() { this->NeedsIds = true; }
-  /** The same of the cells. */
+  /** The same for the cells. */
   void requireCellIds() { this->NeedsCellIds = true; }
 
-  /** The columns that the mesh source must deliver: those that were required and, beside these, the
-   * original numbers, for complaints. */
+  /** The columns that the mesh source must deliver: the required ones and, if there are any, the
+   * original indices, for error messages. */
   std::vector<std::string> vertexColumns() const;
   std::vector<std::string> cellColumns() const;
 
-  /** The column of the original numbers of the vertices; null: stream indices are the numbers. */
+  /** The column of the original indices of the vertices; null: the stream indices are used. */
   const Column* ids(const MeshBlock& block) const;
-  /** What a user calls vertex `i` or cell `c` of the block. */
+  /** The name of vertex `i` or cell `c` of the block in messages. */
   std::string vertexName(const MeshBlock& block, std::size_t i) const;
   std::string cellName(const MeshBlock& block, std::size_t c) const;
 
@@ -72,7 +70,7 @@ public:
 private:
   StreamInfo Info;
   std::string Description;
-  std::vector<std::string> Vertices, Cells; ///< names of those that were required
+  std::vector<std::string> Vertices, Cells; ///< names of the required columns
   bool NeedsIds = false, NeedsCellIds = false;
 };
 

@@ -8,7 +8,7 @@
 namespace smg
 {
 
-/** The vertices nearest to points, which are found by reading the stream once before. */
+/** The vertices nearest to given points, determined by a previous reading of the stream. */
 class NearestSelection : public Selection
 {
 public:
@@ -25,8 +25,8 @@ protected:
 private:
   std::vector<std::array<double, 3>> Points;
   std::vector<double>
-    Distances; ///< squared, of the nearest vertex so far to each point; empty in the end
-  std::vector<std::int64_t> Vertices; ///< those vertices; ascending, each once, in the end
+    Distances; ///< squared, of the nearest vertex so far to each point; finally empty
+  std::vector<std::int64_t> Vertices; ///< those vertices; finally ascending without duplicates
 };
 
 } // namespace smg

@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** `lanes` values of T for each vertex of a mesh stream that a cell to come may still use. */
+/** `lanes` values of T for each open vertex of a mesh stream: one that a later cell may use. */
 template <class T>
 class OpenValues
 {
@@ -19,17 +19,17 @@ public:
   {
   }
 
-  /** Forgets all vertices; the next one is vertex 0. */
+  /** Releases all vertices; the next one is vertex 0. */
   void restart()
   {
     this->Values.clear();
     this->First = 0;
   }
 
-  /** Forgets the vertices below `final`, now or later. */
+  /** Releases the vertices below `final`, immediately or later. */
   void release(std::int64_t final)
   {
-    // Half of the values are moved at most as often as they are written.
+    // Values are moved only when half of them are released: amortised once per value.
     const auto dead = static_cast<std::size_t>(final - this->First) * this->Lanes;
     if (dead > this->Values.size() / 2)
     {
@@ -39,7 +39,7 @@ public:
     }
   }
 
-  /** The values, zeroed, of the next `vertices` vertices. */
+  /** Appends zeroed values for the next `vertices` vertices. */
   std::span<T> append(std::int64_t vertices)
   {
     const std::size_t before = this->Values.size();
@@ -47,7 +47,7 @@ public:
     return std::span(this->Values).subspan(before);
   }
 
-  /** The values of a vertex that has come and was not released. */
+  /** The values of an open vertex. */
   T* at(std::int64_t vertex) { return this->Values.data() + this->place(vertex); }
   const T* at(std::int64_t vertex) const { return this->Values.data() + this->place(vertex); }
 

@@ -14,8 +14,9 @@ void ProblemOnMesh::conditions(const MeshBlock& block, VertexConditions& conditi
   {
     if (datum->needsPreparing())
     {
-      throw Error("Nearest vertices and the vertices of cells are found by reading the mesh "
-                  "before: call DescribedProblem::prepare().");
+      throw Error(
+        "Nearest vertices and the vertices of cells are found by a previous reading of the "
+        "mesh: call DescribedProblem::prepare().");
     }
     datum->startBlock(block);
   }
@@ -40,7 +41,7 @@ void ProblemOnMesh::setValues(const MeshBlock& block, VertexConditions& conditio
   this->Dirichlet.entriesAtVertices(conditions.dirichlet);
   this->Entry.assign(conditions.dirichlet.size(), -1);
   this->Initial.entriesAtVertices(this->Entry);
-  // Initial values of constrained vertices are nobody's business: they may be anything, also NaN.
+  // Initial values of constrained vertices are not used and may be anything, also NaN.
   for (std::size_t i = 0; i < this->Entry.size(); ++i)
   {
     this->Entry[i] = conditions.dirichlet[i] >= 0 ? -1 : this->Entry[i];

@@ -45,7 +45,7 @@ private:
     DatumOnMesh value, weight;
   };
 
-  /** The place of a density: at the vertices, unless an entry names a column of the cells. */
+  /** The place of a density: the vertices, unless an entry names a column of the cells. */
   DataPlace placeOf(const Datum& density) const;
   void addRobin(const ProblemDescription& description);
   void addSoft(const ProblemDescription& description);
@@ -57,7 +57,7 @@ private:
   void setConductivity(const CellRange& cells, CellBatch& batch);
   void setField(const CellRange& cells, CellBatch& batch);
   void setRobin(const CellRange& cells, FacetBatch& batch);
-  /** What a density says at the vertices of a block, or in cells. */
+  /** Evaluates a density at the vertices of a block, or in cells. */
   void setDensity(const DatumOnMesh& datum, const MeshBlock& block, std::vector<double>& density);
   void setDensity(const DatumOnMesh& datum, const CellRange& cells, std::span<double> density);
 
@@ -70,8 +70,9 @@ private:
   DatumOnMesh Ambient;                   ///< of the Robin conditions
   std::vector<DatumOnMesh> Coefficients; ///< of each of them
   std::vector<Soft> Softs;
-  std::vector<std::int32_t> Entry, Other; ///< what counts at vertices, in cells, or on facets
-  std::vector<double> Values;             ///< what it says
+  std::vector<std::int32_t> Entry,
+    Other;                    ///< applicable entries at vertices, in cells, or on facets
+  std::vector<double> Values; ///< their values
 };
 
 } // namespace smg

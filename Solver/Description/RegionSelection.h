@@ -8,7 +8,7 @@
 namespace smg
 {
 
-/** What lies in a region, or has the numbers of a set of vertices. */
+/** The vertices in a region. */
 class RegionSelection : public Selection
 {
 public:
@@ -24,7 +24,7 @@ protected:
 
 private:
   Region Selected;
-  std::vector<bool> Found; ///< which of the vertices that the region names the mesh has
+  std::vector<bool> Found; ///< whether the mesh has each vertex of the region
 };
 
 } // namespace smg

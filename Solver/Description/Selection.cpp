@@ -16,7 +16,7 @@ namespace smg
 namespace
 {
 
-/** Calls `visit(c, bits)` for each cell with bit k of `bits` set where corner k is selected. */
+/** Calls `visit(c, bits)` for each cell; bit k of `bits` is set if corner k is selected. */
 void forCorners(
   CellType type, const CellRange& cells, const OpenValues<std::uint8_t>& open, auto visit)
 {

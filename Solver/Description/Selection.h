@@ -14,52 +14,51 @@
 namespace smg
 {
 
-/** What of the mesh a datum belongs to. */
+/** The entities of the mesh on which a datum is defined. */
 enum class DataPlace
 {
   Vertices,
   Cells,
-  Facets ///< of the boundary, though here all facets are looked at
+  Facets ///< boundary facets; selections treat all facets
 };
 
-/** A stretch of the cells of a block; `corners` are theirs. */
+/** A range of the cells of a block with their `corners`. */
 struct CellRange
 {
   const MeshBlock& block;
-  std::size_t first; ///< numbered in the block
+  std::size_t first; ///< index in the block
   std::span<const std::int64_t> corners;
 };
 
-/**
- * A part of a description's mesh (see Where), block by block of the stream. Blocks come in order;
- * with the first one it begins anew.
- */
+/** The selection of a part of the mesh (see Where), block by block of the stream. Blocks are passed
+ * in order; the first block restarts it. */
 class Selection
 {
 public:
-  /** Null: everywhere. `place`: of what it is asked. `key` is its place in the description. Throws
-   * Error if the mesh has no such column or the region is wrong. */
+  /** Creates the selection; null: everywhere. `place` are the selected entities, `key` is the place
+   * in the description. Throws Error if the mesh has no such column or the region is invalid. */
   static std::unique_ptr<Selection> make(const Where& where, DataPlace place, ColumnOwner preferred,
     const std::string& key, MeshColumns& columns);
   virtual ~Selection() = default;
 
-  /** Whether it has still to read the stream before it can answer. */
+  /** Whether the stream must be read before the selection can be evaluated. */
   virtual bool needsPreparing() const { return false; }
   /**
-   * To be called with all blocks of the stream, then endPreparing(): learns what can be known only
-   * then, and looks whether anything is selected. Scratch files go to `scratch`.
+   * To be called with all blocks of the stream, followed by endPreparing(): determines data that
+   * requires the whole stream, and whether anything is selected. Scratch files are created in
+   * `scratch`.
    */
   virtual void prepare(const MeshBlock& block, const std::filesystem::path& scratch);
-  /** Throws Error naming the place in the description if nothing is selected. */
+  /** Throws Error, which names the place in the description, if nothing is selected. */
   virtual void endPreparing();
 
-  /** To be called with each block in turn, before the others are. */
+  /** To be called with each block in order, before the methods below. */
   void startBlock(const MeshBlock& block);
-  /** Of the vertices of the block that was started: 1 where selected, else 0. */
+  /** For the vertices of the current block: 1 where selected, else 0. */
   std::span<const std::uint8_t> atVertices() const { return this->Current; }
-  /** Of cells of that block: 1 where selected, else 0. */
+  /** For cells of the current block: 1 where selected, else 0. */
   virtual void atCells(const CellRange& cells, std::span<std::uint8_t> selected) const;
-  /** Of the facets of cells: bit k of `selected` is that of the facet opposite to corner k. */
+  /** For the facets of cells: bit k of `selected` is that of the facet opposite to corner k. */
   virtual void atFacets(const CellRange& cells, std::span<std::uint8_t> selected) const;
 
 protected:
@@ -70,19 +69,19 @@ protected:
   {
   }
 
-  /** Sets `selected`, zeroed, to 1 at the vertices of the block that are selected. */
+  /** Sets `selected`, initially zero, to 1 at the selected vertices of the block. */
   virtual void select(const MeshBlock& block, std::span<std::uint8_t> selected) = 0;
-  /** What is said of something that is selected, as "is in this region". */
+  /** The predicate of a selected item for messages, for example "is in this region". */
   virtual std::string predicate() const { return "is selected"; }
 
   const MeshColumns& Columns;
   DataPlace Place;
   std::string Key;
-  std::int64_t Count = 0; ///< of what is selected, while preparing
+  std::int64_t Count = 0; ///< of selected items, during preparation
 
 private:
   OpenValues<std::uint8_t> Open;
-  std::int64_t Finalized = 0; ///< of the block before
+  std::int64_t Finalized = 0; ///< of the previous block
   std::span<const std::uint8_t> Current;
 };
 

@@ -9,7 +9,7 @@ namespace smg
 namespace
 {
 
-/** As "1, 3 or 6". */
+/** For example "1, 3 or 6". */
 std::string choiceOf(const std::vector<int>& numbers)
 {
   std::string text;

@@ -14,32 +14,34 @@
 namespace smg
 {
 
-/** A value of a description on its mesh, block by block of the stream. Blocks come in order; with
- * the first one it begins anew. */
+/** A value of a description on its mesh, block by block of the stream. Blocks are passed in order;
+ * the first block restarts it. */
 class ValueOnMesh
 {
 public:
-  /** `key` is its place in the description. Throws Error if the rules forbid it, the mesh has no
-   * such column. */
+  /** `key` is its place in the description. Throws Error if it violates the rules or the mesh has
+   * no such column. */
   ValueOnMesh(const DataValue& value, DataPlace place, const ValueRules& rules,
     const std::string& key, MeshColumns& columns);
 
   int components() const { return this->Components; }
-  /** Whether it is the same everywhere; then its numbers are as the rules say. */
+  /** Whether it is constant; its numbers then satisfy the rules. */
   bool isConstant() const { return this->What == Constant; }
-  /** What complaints call the numbers, as "the column 'k'". */
+  /** The name of the value in error messages, for example "the column 'k'". */
   std::string name() const
   {
     return this->What == Coordinates ? "the position" : "the column '" + this->Values.name + '\'';
   }
 
-  /** To be called with each block in turn, before the others are; it must stay until the next. */
+  /** To be called with each block in order, before the methods below; it must stay valid until the
+   * next. */
   void startBlock(const MeshBlock& block);
-  /** Copies the value at vertex `i` of the block that was started. */
+  /** Copies the value at vertex `i` of the current block. */
   void atVertex(const MeshBlock& block, std::size_t i, double* value) const;
-  /** That in a cell of the block with these corners: of what the vertices have, the mean. */
+  /** Copies the value in a cell with these corners; for a column of the vertices, the mean. */
   void atCell(std::size_t cell, const std::int64_t* corners, double* value) const;
-  /** That at a corner, a stream index, of a cell: of what cells have, that of the cell. */
+  /** Copies the value at a corner (a stream index) of a cell; for a column of the cells, that of
+   * the cell. */
   void atCorner(std::size_t cell, std::int64_t corner, double* value) const;
 
 private:
@@ -59,8 +61,8 @@ private:
   int Corners;
   std::vector<double> Numbers;
   NamedColumn Values;
-  const Column* Current = nullptr; ///< the values in the block that was started
-  OpenValues<double> Open;         ///< those of the vertices, for cells and facets
+  const Column* Current = nullptr; ///< the values in the current block
+  OpenValues<double> Open;         ///< of the vertices, for cells and facets
   std::int64_t Finalized = 0;
 };
 

@@ -12,7 +12,7 @@ namespace smg
 namespace
 {
 
-/** Norms are sums of squares: those of larger numbers overflow. */
+/** Norms are sums of squares, which overflow for larger numbers. */
 constexpr double MostMagnitude = 1e150;
 
 } // namespace

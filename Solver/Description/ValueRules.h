@@ -10,7 +10,7 @@
 namespace smg
 {
 
-/** What numbers a datum may have, beside that they are finite, and their squares, too. */
+/** The admissible range of a datum, whose numbers and their squares must also be finite. */
 enum class ValueRange
 {
   Any,
@@ -21,16 +21,18 @@ enum class ValueRange
 /** What values a datum may have. */
 struct SMG_EXPORT ValueRules
 {
-  std::vector<int> components; ///< the numbers of numbers that it may have
+  std::vector<int> components; ///< the admissible numbers of components
   ValueRange range = ValueRange::Any;
   bool positions = false;                        ///< whether it may be the position
-  ColumnOwner preferred = ColumnOwner::Vertices; ///< whose column a name means if both have one
+  ColumnOwner preferred = ColumnOwner::Vertices; ///< owner of the column if both have one
 
-  /** What is wrong with such numbers, as "must be finite"; null: nothing. */
+  /** The error of invalid numbers, for example "must be finite"; null if valid. */
   const char* complaint(const double* numbers, int count) const;
 };
 
-/** A symmetric tensor xx, yy, zz, xy, yz, xz of one number, a diagonal, or its own six numbers. */
+/**
+ * The symmetric tensor xx, yy, zz, xy, yz, xz from one number, a diagonal, or all six components.
+ */
 std::array<double, 6> tensorOf(const double* numbers, int count);
 
 } // namespace smg

@@ -12,7 +12,7 @@
 namespace smg
 {
 
-/** A set of the vertices of a mesh stream in a scratch file without a name, one bit a vertex. */
+/** A set of the vertices of a mesh stream in an unnamed scratch file, one bit per vertex. */
 class VertexSetFile
 {
 public:
@@ -21,12 +21,12 @@ public:
 
   /** Adds the next vertices: 1 for those of the set, else 0. */
   void append(std::span<const std::uint8_t> selected);
-  /** To be called behind the last one. */
+  /** To be called after the last one. */
   void finish();
 
-  /** Goes back to the first vertex. */
+  /** Restarts at the first vertex. */
   void rewind();
-  /** Says of the next vertices what append() was told. */
+  /** Reads the values passed to append() for the next vertices. */
   void read(std::span<std::uint8_t> selected);
 
 private:
@@ -34,8 +34,8 @@ private:
 
   IoStatistics Statistics;
   ScratchStream Stream;
-  std::vector<std::byte> Bits; ///< of the block that is being written or read
-  std::size_t Next = 0;        ///< place of the next vertex in it
+  std::vector<std::byte> Bits; ///< of the current block
+  std::size_t Next = 0;        ///< index of the next vertex in it
 };
 
 } // namespace smg

@@ -15,12 +15,12 @@ namespace
 /** The points are compared with about this many vertices at once. */
 constexpr std::size_t BatchVertices = 65536;
 
-/** The window of rings has room for this before it forgets for the first time. */
+/** The window of rings grows to this size before cells are discarded for the first time. */
 constexpr std::int64_t LeastBytesToForgetAt = std::int64_t(16) << 20;
 
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
-/** xmin, xmax, ymin, ymax, zmin, zmax of nothing. */
+/** Empty bounds: xmin, xmax, ymin, ymax, zmin, zmax. */
 constexpr std::array<double, 6> NoBounds{ Infinity, -Infinity, Infinity, -Infinity, Infinity,
   -Infinity };
 
@@ -138,7 +138,9 @@ std::vector<std::int64_t> PointProjection::nearestVertices() const
   return vertices;
 }
 
-/** Forgets of the window what no point can need, as long as every vertex has been compared. */
+/**
+ * Discards parts of the window that no point needs; requires that all vertices have been compared.
+ */
 void PointProjection::forget()
 {
   this->Window->forget(this->nearestVertices());
@@ -151,7 +153,7 @@ void PointProjection::forget()
                 " are allowed: give fewer rings or points, or a radius instead, or convert the "
                 "mesh with the order bfs.");
   }
-  // Each forgetting costs as much as what is remembered: seldom enough, they cost as little as it.
+  // Discarding costs as much as the remaining window: doubling the threshold amortises it.
   this->BytesToForgetAt = std::min(this->MemoryLimit, std::max(LeastBytesToForgetAt, 2 * bytes));
 }
 

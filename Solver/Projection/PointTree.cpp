@@ -8,7 +8,7 @@ namespace smg
 namespace
 {
 
-/** Ranges of at most this many points are searched one by one. */
+/** Ranges of at most this many points are searched linearly. */
 constexpr std::size_t LeafPoints = 8;
 
 constexpr std::size_t middleOf(std::size_t begin, std::size_t end)
@@ -92,7 +92,7 @@ void PointTree::search(
   compare(this->Points[middle]);
   const bool isLeft = beyond < 0.0;
   this->search(isLeft ? begin : middle + 1, isLeft ? middle : end, place, found);
-  // Not skipped at equality: there may be an equally near point with a lower number.
+  // Not skipped at equality: there may be an equally near point with a lower index.
   if (beyond * beyond <= found.squaredDistance)
   {
     this->search(isLeft ? middle + 1 : begin, isLeft ? end : middle, place, found);

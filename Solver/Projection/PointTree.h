@@ -10,29 +10,27 @@
 namespace smg
 {
 
-/** Points in space among which the nearest one is found in logarithmic time. */
+/** A k-d tree of points: finds the nearest one in logarithmic time. */
 class PointTree
 {
 public:
   struct Nearest
   {
-    std::int64_t point = -1; ///< its number; -1: none is near enough
+    std::int64_t point = -1; ///< its index; -1: none within the limit
     double squaredDistance = std::numeric_limits<double>::infinity();
-    std::int64_t compared = 0; ///< how many points the place was compared with
+    std::int64_t compared = 0; ///< number of compared points
   };
 
   PointTree() = default;
   /** `positions`: x, y, z of each point, all finite. */
   explicit PointTree(std::span<const double> positions);
 
-  /**
-   * The point nearest to `place` among those whose squared distance is at most `limit`; of several
-   * equally near ones that with the lowest number.
-   */
+  /** The point nearest to `place` among those whose squared distance is at most `limit`; of several
+   * equally near ones, that with the lowest index. */
   Nearest nearest(
     std::span<const double, 3> place, double limit = std::numeric_limits<double>::infinity()) const;
 
-  /** The squared distance as nearest() computes it. */
+  /** The squared distance as computed by nearest(). */
   static double squaredDistance(std::span<const double, 3> a, std::span<const double, 3> b)
   {
     const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
@@ -50,9 +48,9 @@ private:
   void search(
     std::size_t begin, std::size_t end, std::span<const double, 3> place, Nearest& found) const;
 
-  /** Ranges that are no leaves have the median in the middle, and smaller ones on its left. */
+  /** Ranges that are not leaves have the median in the middle, and smaller ones on its left. */
   std::vector<Point> Points;
-  std::vector<std::uint8_t> Axes; ///< along which the range with this middle is cut
+  std::vector<std::uint8_t> Axes; ///< split axis of the range with this middle
 };
 
 } // namespace smg

@@ -16,14 +16,14 @@ namespace
 
 constexpr std::int64_t MostPlaces = std::numeric_limits<std::int32_t>::max();
 
-/** What each vertex and each corner of a cell takes, in the window and in a VertexGraph. */
+/** The memory per vertex and per corner of a cell, in the window and in a VertexGraph. */
 constexpr std::int64_t BytesOfVertex = 64;
 constexpr std::int64_t BytesOfCorner = 12;
 
-/** Cancelling is possible after about this many vertices that a walk has found. */
+/** Cancellation is checked after about this many found vertices. */
 constexpr std::size_t FoundBetweenUpdates = 1 << 20;
 
-/** Room for more items, of which far less stays empty than where vectors double. */
+/** Reserves room for more items with less slack than the doubling of vectors. */
 template <class T>
 void makeRoom(std::vector<T>& items, std::size_t more)
 {
@@ -118,7 +118,7 @@ void RingWindow::forget(std::span<const std::int64_t> centers)
   }
   const std::size_t inner = this->graph().walk(this->Rings, found, isFound);
 
-  // Edges between vertices of the last ring lead nowhere that is within the rings.
+  // Edges between vertices of the last ring do not lead to other vertices within the rings.
   std::vector<std::uint8_t> isInner(isFound.size(), 0);
   for (std::size_t i = 0; i < inner; ++i)
   {
@@ -132,7 +132,7 @@ void RingWindow::forget(std::span<const std::int64_t> centers)
   }
 }
 
-/** Keeps the cells that have a marked vertex. */
+/** Keeps the cells with a marked vertex. */
 void RingWindow::keepCells(const std::vector<std::uint8_t>& isInner)
 {
   auto kept = this->Corners.begin();
@@ -147,7 +147,7 @@ void RingWindow::keepCells(const std::vector<std::uint8_t>& isInner)
   this->Corners.erase(kept, this->Corners.end());
 }
 
-/** Keeps the vertices that are marked, which all are that are not final. Returns their places. */
+/** Keeps the marked vertices, including all that are not final. Returns their indices. */
 std::vector<std::int32_t> RingWindow::keepVertices(const std::vector<std::uint8_t>& isKept)
 {
   std::vector<std::int32_t> places(isKept.size(), -1);
@@ -176,7 +176,7 @@ std::vector<std::int32_t> RingWindow::keepVertices(const std::vector<std::uint8_
 std::vector<RingWindow::Nearest> RingWindow::nearestAtPlaces(
   std::span<const std::int64_t> centers, Progress& progress) const
 {
-  std::vector<std::pair<std::int32_t, std::int64_t>> sorted; // so that walks share what is cached
+  std::vector<std::pair<std::int32_t, std::int64_t>> sorted; // so that walks share cached data
   for (std::size_t k = 0; k < centers.size(); ++k)
   {
     sorted.emplace_back(this->placeOf(centers[k]), static_cast<std::int64_t>(k));
@@ -190,7 +190,7 @@ std::vector<RingWindow::Nearest> RingWindow::nearestAtPlaces(
   std::int32_t last = -1;
   for (const auto& [place, center] : sorted)
   {
-    // The first of several centers at a vertex has come already.
+    // The first of several centers at a vertex has been processed.
     if (std::exchange(last, place) == place)
     {
       continue;

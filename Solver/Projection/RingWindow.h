@@ -14,35 +14,33 @@ namespace smg
 {
 
 /**
- * The part of a mesh stream that lies within some edges of chosen vertices, its centers. These are
- * chosen while the stream goes by, and may change until its end.
+ * The part of a mesh stream within a number of edges of chosen vertices, the centers. These are
+ * chosen while the stream is read, and may change until its end.
  *
- * Memory is that of the part: of the vertices, not of the centers whose rings they are in. To it
- * belongs what lies within the rings of a vertex that is not final, and what came since forget()
- * was called. It is the whole mesh if the stream does not say which vertices are final.
+ * Memory is proportional to the number of vertices in that part, independent of how many rings they
+ * are in. It includes the rings of vertices that are not final, and everything since the last call
+ * of forget(). It is the whole mesh if the stream does not mark final vertices.
  */
 class RingWindow
 {
 public:
-  /** `rings`: how many edges away the vertices may be, at least 1. */
+  /** `rings` is the maximum number of edges from a center, at least 1. */
   RingWindow(CellType cellType, int rings);
 
-  /** Takes the next block of a valid stream. */
+  /** Adds the next block of a valid stream. */
   void add(const MeshBlock& block);
 
-  /** No cell follows: every vertex is final. */
+  /** Ends the stream: every vertex is final. */
   void finish();
 
-  /**
-   * Forgets what lies outside the rings of the centers and of vertices that are not final. Only
-   * these centers and vertices that are yet to come may be centers later.
-   */
+  /** Discards everything outside the rings of the centers and of vertices that are not final. Only
+   * these centers and later vertices may be centers afterwards. */
   void forget(std::span<const std::int64_t> centers);
 
-  /** The bytes that the window and the walks in it need. */
+  /** The bytes required by the window and by walks in it. */
   std::int64_t bytes() const;
 
-  /** How many cells it remembers. */
+  /** The number of cells in the window. */
   std::int64_t cells() const
   {
     return static_cast<std::int64_t>(this->Corners.size() / this->CornersOfCell);
@@ -50,8 +48,8 @@ public:
 
   /**
    * The vertices within the rings of centers, after finish(), in ascending order, each with the
-   * number of the center that is nearest to it in space, of equally near ones the first. `progress`
-   * stays where it is; it may cancel.
+   * index of the nearest center in space; of equally near ones, the first. `progress` does not
+   * advance; it may cancel.
    */
   std::vector<std::pair<std::int64_t, std::int64_t>> nearestCenters(
     std::span<const std::int64_t> centers, Progress& progress) const;
@@ -77,14 +75,12 @@ private:
   int Rings;
   std::int64_t Finalized = 0;
 
-  /**
-   * Vertices have places in the window, in the order of their stream indices: first those below
-   * FirstRecent, which are listed, then all from there on.
-   */
+  /** Vertices have indices in the window, in the order of their stream indices: first those below
+   * FirstRecent, which are listed, then all from there on. */
   std::vector<std::int64_t> Listed;
   std::int64_t FirstRecent = 0;
   std::vector<double> Positions;     ///< x, y, z of each vertex
-  std::vector<std::int32_t> Corners; ///< places of the vertices of each cell
+  std::vector<std::int32_t> Corners; ///< window indices of the vertices of each cell
 };
 
 } // namespace smg

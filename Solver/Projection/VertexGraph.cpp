@@ -20,7 +20,7 @@ Incidence incidence(
 {
   Incidence at;
   at.cells.resize(corners.size());
-  // Counts first, then where each vertex's cells end; filling from there leaves where they begin.
+  // Counting sort: counts, then ends; filling backwards leaves the begins.
   at.begins.assign(static_cast<std::size_t>(vertices) + 1, 0);
   for (const std::int32_t corner : corners)
   {
@@ -49,7 +49,7 @@ VertexGraph::VertexGraph(
   std::vector<std::int32_t> lastSeenFrom(static_cast<std::size_t>(vertices), -1);
   this->Begins.reserve(static_cast<std::size_t>(vertices) + 1);
   this->Begins.push_back(0);
-  // Of a surface that is as many as corners, and those of its boundary.
+  // On a surface, the number of corners plus that of boundary edges.
   this->Neighbours.reserve(corners.size() + corners.size() / 8);
   for (std::int32_t vertex = 0; vertex < vertices; ++vertex)
   {

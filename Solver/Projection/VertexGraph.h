@@ -12,9 +12,8 @@ namespace smg
 class VertexGraph
 {
 public:
-  /**
-   * `corners`: the vertices of each cell, from 0 to `vertices` - 1; below 2^31 vertices and cells.
-   */
+  /** `corners` are the vertices of each cell, from 0 to `vertices` - 1; fewer than 2^31 vertices
+   * and cells. */
   VertexGraph(std::span<const std::int32_t> corners, int cornersOfCell, std::int64_t vertices);
 
   /** Each neighbour once. */
@@ -25,15 +24,15 @@ public:
   }
 
   /**
-   * Appends to `found` all vertices within `rings` edges of those that it has, nearer ones first,
-   * and marks them in `isFound`, where those that it has are marked already.
-   * @return the place in `found` from where on vertices are `rings` edges away
+   * Appends to `found` all vertices within `rings` edges of its content, nearer ones first, and
+   * marks them in `isFound`, where the initial content must be marked.
+   * @return the index in `found` of the first vertex at `rings` edges
    */
   std::size_t walk(
     int rings, std::vector<std::int32_t>& found, std::vector<std::uint8_t>& isFound) const;
 
 private:
-  std::vector<std::int64_t> Begins; ///< of each vertex, and the end
+  std::vector<std::int64_t> Begins; ///< begin of each vertex, and the end
   std::vector<std::int32_t> Neighbours;
 };
 

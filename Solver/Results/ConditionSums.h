@@ -12,22 +12,23 @@
 namespace smg
 {
 
-/** Sums what Report::Condition tells over facets and vertices. */
+/** Sums the data of Report::Condition over facets and vertices. */
 class ConditionSums
 {
 public:
   ConditionSums(CellType type, const ConditionCounts& counts, int columns);
 
-  /** A boundary facet of this length or area; `vertices` have the solution as their values. */
+  /** Adds a boundary facet of this length or area; the values of `vertices` are the solution. */
   void add(const BoundaryFacet& facet, double area, const OpenVertices& vertices);
-  /** A vertex of a Dirichlet condition with its value and its reaction, `columns` numbers each. */
+  /** Adds a vertex of a Dirichlet condition with its value and its reaction, `columns` numbers
+   * each. */
   void add(std::int32_t dirichlet, const double* value, const double* reaction);
 
   std::vector<Report::Condition> conditions() const;
-  /** Per column: what flows in through all of them, and the sum of the magnitudes of that. */
+  /** Per column: the total inflow through all conditions, and the sum of the magnitudes. */
   const std::vector<double>& inflow() const { return this->Inflow; }
   const std::vector<double>& magnitude() const { return this->Magnitude; }
-  /** Per column: the magnitudes of what Robin fluxes are the differences of. */
+  /** Per column: the magnitudes of the terms whose differences are the Robin fluxes. */
   const std::vector<double>& robinTerms() const { return this->RobinTerms; }
 
 private:

@@ -58,7 +58,8 @@ ProblemResults::ProblemResults(
 {
   if (problem.columns() != solution.columns())
   {
-    throw Error("the solution has another number of columns than the problem: it is not its own");
+    throw Error(
+      "the solution has another number of columns than the problem and does not belong to it");
   }
   if (problem.hasEdgeTargets())
   {
@@ -180,7 +181,7 @@ void ProblemResults::addCell(std::size_t c, const std::int64_t* corners, unsigne
   this->connect(corners, points, cell);
 }
 
-/** The weights, as the solve had them, of the edges that carry a flux out of a condition. */
+/** Collects the weights, as in the solve, of the edges that carry a flux out of a condition. */
 void ProblemResults::connect(
   const std::int64_t* corners, const double* const* points, const CellWeights& cell)
 {
@@ -252,7 +253,7 @@ void ProblemResults::addBoundary(std::int64_t i)
     });
 }
 
-/** All that is known of the vertex is there. */
+/** Processes a vertex with all its data. */
 void ProblemResults::closeVertex(std::int64_t i)
 {
   const double mass = this->Vertices.mass[i];
@@ -290,7 +291,7 @@ void ProblemResults::closeVertex(std::int64_t i)
   }
 }
 
-/** The reaction ((L + S) u - F)_i, less what edges within the condition bring, which cancels. */
+/** The reaction ((L + S) u - F)_i without the edges within the condition, which cancel. */
 void ProblemResults::closeDirichlet(std::int64_t i, double alpha)
 {
   const double* u = this->Vertices.values.at(i);
@@ -346,8 +347,8 @@ void ProblemResults::noteConditionsWithoutEffect(Report& report)
 
 void ProblemResults::reportBalance(Report& report) const
 {
-  // Less than these shares of what the fluxes are the differences of is rounding, or what the solve
-  // has left: nothing flows.
+  // Fluxes below these shares of the terms that they are differences of are rounding or the
+  // remaining residual: they count as no flow.
   constexpr double Rounding = 1e-12, Noted = 1e-3;
   double largest = 0.0;
   report.source = this->Source;
@@ -376,10 +377,8 @@ void ProblemResults::reportBalance(Report& report) const
   }
 }
 
-/**
- * The energy d of a solution in what was left out of the cells bounds the energy of its difference
- * from the exact one: for all v, a(u - u_h, v) = d(u_h, v) <= sqrt(d(u_h, u_h) a(v, v)).
- */
+/** The energy d of a solution in the omitted part of the cells bounds the energy of its difference
+ * from the exact one: for all v, a(u - u_h, v) = d(u_h, v) <= sqrt(d(u_h, u_h) a(v, v)). */
 void ProblemResults::noteFlatCells(Report& report) const
 {
   double share = 0.0;

@@ -22,44 +22,45 @@ namespace smg
 {
 
 /**
- * What users quote of a solution: gradients and fluxes of the cells, and, for the report, what
- * flows through the boundary, the energy, the means and the extremes. The mesh stream is read once
- * more, in the sweep in which a caller writes the solution:
+ * The derived results of a solution: gradients and fluxes of the cells, and, for the report, the
+ * flow through the boundary, the energy, the means and the extremes. The mesh stream is read once
+ * more, in the pass in which the caller writes the solution:
  *
  *     ProblemResults results(source.info(), problem, solution);
  *     while (source.next(block)) { results.add(block); ... }
  *     results.finish(report);
  *
- * The window of open vertices alone is in memory. The numbers do not depend on the blocks, to the
- * last bit.
+ * Only the window of open vertices is in memory. The results do not depend on the blocks, bit for
+ * bit.
  */
 class SMG_EXPORT ProblemResults
 {
 public:
   /**
-   * `problem`: that of the solution, asked once more from the first block on (also for
-   * CellBatch::conductivity if the flux is wanted). Throws Error if the solution is of another
-   * problem, or if there are edge targets, which have no flux.
+   * `problem` is that of the solution; it is queried again from the first block on (also for
+   * CellBatch::conductivity if the flux is requested). Throws Error if the solution belongs to
+   * another problem, or if there are edge targets, which have no flux.
    */
   ProblemResults(const StreamInfo& info, Problem& problem, Solution& solution,
     const ResultOptions& options = {});
 
-  /** Takes the next block. Throws Error on a bad block, and what reading the solution throws. */
+  /** Adds the next block. Throws Error for an invalid block, and the errors of reading the
+   * solution. */
   void add(const MeshBlock& block);
 
-  // Of the block that was added last.
+  // Of the last block:
 
-  /** The solution at its vertices: `columns` a vertex. */
+  /** The solution at its vertices: `columns` per vertex. */
   std::span<const double> values() const { return this->Values; }
-  /** If wanted: 3 numbers for each column of each cell; 0 in cells without area or volume. In the
-   * plane of the triangle on surfaces. */
+  /** If requested: 3 numbers per column of each cell; 0 in cells without area or volume. On
+   * surfaces in the plane of the triangle. */
   std::span<const double> gradient() const { return this->Cells.gradient(); }
   std::span<const double> flux() const { return this->Cells.flux(); }
 
   /**
-   * After the last block: fills conditions, energy, mean, minimum, maximum, source, screening and
-   * balance of the report, which is the solution's. Adds a note on how much a solution of cells
-   * that are too flat may differ from that of finite elements.
+   * After the last block: sets conditions, energy, mean, minimum, maximum, source, screening and
+   * balance of the report of the solution. Adds a note on the maximum difference from finite
+   * elements due to cells that are too flat.
    */
   void finish(Report& report);
 
@@ -86,13 +87,13 @@ private:
   Pool Memory;
 
   // By open vertex.
-  OpenVertices Vertices; // their values are the solution's
+  OpenVertices Vertices; // their values are the solution
   NeighbourReach Reach;
   std::optional<ProblemCells> Own;
   std::optional<VertexLoads> CellLoads, FacetLoads;
-  Ring<double> EdgeWeights; // magnitudes of the weights of the edges, if there are facets' loads
+  Ring<double> EdgeWeights; // magnitudes of the edge weights, if there are facet loads
   ProblemFacets Facets;
-  WeightedEdges Edges; // of Dirichlet vertices to those that are not of the same condition
+  WeightedEdges Edges; // from Dirichlet vertices to vertices outside the condition
 
   CellResults Cells;
   ConditionSums Conditions;
@@ -101,8 +102,8 @@ private:
   std::int64_t Final = 0;
   double Mass = 0.0;
   std::vector<double> Mean, Source, Screening, ScreeningEnergy, Magnitude; // sums
-  std::vector<double> ReactionTerms; // magnitudes of what the reactions are summed of
-  // Those of Robin conditions that the solve's residual may have left, see commonShare().
+  std::vector<double> ReactionTerms; // magnitudes of the terms of the reactions
+  // Terms of Robin conditions that the residual of the solve may contain, see commonShare().
   std::vector<double> RobinTerms;
   std::vector<Report::Extreme> Minimum, Maximum;
 };

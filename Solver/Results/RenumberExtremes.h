@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** Gives the vertices of a report's minima and maxima other numbers, numberOf(vertex). */
+/** Replaces the vertices of the minima and maxima of a report by numberOf(vertex). */
 template <class NumberOf>
 void renumberExtremes(Report& report, NumberOf numberOf)
 {
@@ -17,7 +17,7 @@ void renumberExtremes(Report& report, NumberOf numberOf)
   {
     for (Report::Extreme& extreme : *extremes)
     {
-      // Below 0: no value is a number.
+      // Negative if all values are NaN.
       extreme.vertex = extreme.vertex < 0 ? extreme.vertex : numberOf(extreme.vertex);
     }
   }

@@ -9,7 +9,7 @@ namespace smg::shi2006
 namespace
 {
 
-/** Sums the weights of one coarse row, each place found at once. */
+/** Sums the weights of one coarse row, with constant-time lookup of entries. */
 class RowSum
 {
 public:
@@ -24,7 +24,7 @@ public:
   void add(std::int64_t neighbour, double weight)
   {
     auto& place = this->Place[neighbour];
-    // A place from an earlier row holds another neighbour.
+    // An entry of an earlier row has another neighbour.
     if (place >= this->Sums.size() || this->Sums[place].neighbour != neighbour)
     {
       place = this->Sums.size();
@@ -33,7 +33,7 @@ public:
     this->Sums[place].weight += weight;
   }
 
-  /** The edges so far by ascending neighbour; those without weight are none: (8) divides by it. */
+  /** The edges by ascending neighbour, without those of zero weight: (8) divides by it. */
   const std::vector<Edge>& finish()
   {
     std::erase_if(this->Sums, [](const Edge& edge) { return !(edge.weight > 0.0); });
@@ -47,7 +47,9 @@ private:
   std::vector<Edge> Sums;
 };
 
-/** Adds what the paths from i over its retained neighbours bring; answers the new alpha. */
+/**
+ * Adds the contributions of the paths from i over its retained neighbours; returns the new alpha.
+ */
 double addPaths(const Level& fine, std::int64_t i, RowSum& row)
 {
   double alpha = fine.node[i].alpha;

@@ -12,9 +12,9 @@ namespace smg::shi2006
  *
  *   w_ki = sum_j w_kj w_ji / Z_j,   alpha_i += sum_j w_ji alpha_j / Z_j.
  *
- * That is the Schur complement of the level's matrix without the edges between retained nodes: it
- * is symmetric to the last bit, an M-matrix, and its row sums are alpha. Nodes that share
- * constrained vertices alone have no edge. `coarse` comes empty; its state is zero.
+ * This is the Schur complement of the matrix of the level without the edges between retained nodes:
+ * it is exactly symmetric, an M-matrix, and its row sums are alpha. Nodes that share only
+ * constrained vertices have no edge. `coarse` must be empty; its state becomes zero.
  */
 void buildCoarseOperator(const Level& fine, Level& coarse, Pool& pool);
 

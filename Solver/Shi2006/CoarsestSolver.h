@@ -11,9 +11,9 @@ namespace smg::shi2006
 
 /**
  * The direct solve on the coarsest level: CHOLMOD's simplicial LDL^T, factorised once. One node of
- * each connected part without alpha is held at zero; what such a part cannot answer of b, its mean,
- * is left out. There are such parts even where every component of the mesh is constrained: lifting
- * may tear a component.
+ * each connected part without alpha is pinned to zero, and the mean of b over it, which is outside
+ * the range of the matrix, is omitted. Such parts occur even if every component of the mesh is
+ * constrained, since lifting may disconnect a component.
  */
 class SMG_EXPORT CoarsestSolver
 {
@@ -21,11 +21,11 @@ public:
   CoarsestSolver();
   ~CoarsestSolver();
 
-  /** Throws Error if the factorisation meets a zero pivot. */
+  /** Throws Error if the factorisation encounters a zero pivot. */
   void factorize(const Level& level);
-  /** Connected parts without alpha. */
+  /** The number of connected parts without alpha. */
   std::int64_t floatingParts() const;
-  /** v = A^-1 b on the level that was factorised. */
+  /** v = A^-1 b on the factorised level. */
   void solve(Level& level) const;
 
 private:

@@ -15,8 +15,8 @@ struct Edge
   double weight;
 };
 
-/** The edges of all nodes of a level, node by node: what else an edge has lies at the same place of
- * an array of its own. */
+/** The edges of all nodes of a level, node by node; other data of an edge are at the same index of
+ * separate arrays. */
 class EdgeRows
 {
 public:
@@ -27,19 +27,19 @@ public:
     this->Starts.extend(1);
   }
 
-  /** Place of the first edge of the node, which may be the one behind the last. */
+  /** The index of the first edge of the node, which may be the one after the last. */
   std::int64_t start(std::int64_t node) const { return this->Starts[node]; }
   std::int64_t size(std::int64_t node) const { return this->start(node + 1) - this->start(node); }
   Edge* row(std::int64_t node) const { return this->Edges.at(this->start(node)); }
 
-  /** Room for at most `size` edges of the next node. */
+  /** Opens the row of the next node with room for at most `size` edges. */
   Edge* open(std::int64_t size)
   {
     const std::int64_t start = this->Starts[this->Starts.end() - 1];
     this->Edges.extendRaw(start + size);
     return this->Edges.at(start);
   }
-  /** Ends the row that open() began after `size` edges. */
+  /** Closes the open row with `size` edges. */
   void close(std::int64_t size)
   {
     const std::int64_t end = this->Starts.end();

@@ -48,7 +48,7 @@ void FinestRows::constraint(const double* sum)
   append(this->Finest.constraint, sum);
 }
 
-/** Moves the rows that are final to the level. */
+/** Moves the final rows to the level. */
 void FinestRows::take()
 {
   Level& level = this->Finest;

@@ -7,21 +7,22 @@
 namespace smg::shi2006
 {
 
-/** Makes the finest level of the rows that an Assembly makes final, and of the edge targets. */
+/** Builds the finest level from the final rows of an Assembly and from the edge targets. */
 class FinestRows : public RowListener
 {
 public:
-  /** The components and labels are for the assembly; `level` comes empty. */
+  /** The components and labels are for the assembly; `level` must be empty. */
   FinestRows(Pool& pool, const StreamInfo& info, Problem& problem, Components& components,
     ComponentLabels& labels, Level& level);
 
   void add(const MeshBlock& block);
-  /** Makes the rest final. All but the level's `rightSide` is there then: see sumRightSide(). */
+  /** Finishes the remaining rows. The level is then complete except for `rightSide`: see
+   * sumRightSide(). */
   void finish();
   const Assembly& assembly() const { return this->Assembled; }
 
-  // What the assembly tells.
-  void link(std::int32_t /*delta*/, float /*weight*/) override {} // is in alpha and xi0
+  // Notifications of the assembly.
+  void link(std::int32_t /*delta*/, float /*weight*/) override {} // contained in alpha and xi0
   void target(const double* target) override;
   void constraint(const double* sum) override;
   void close(const double* /*point*/, std::int64_t /*reach*/) override {}

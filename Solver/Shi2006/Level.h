@@ -8,7 +8,7 @@
 namespace smg::shi2006
 {
 
-/** What the equation of a node says but for its edges and its values. */
+/** The data of the equation of a node, except for its edges and its values. */
 struct Node
 {
   double alpha;             ///< alpha_i: the weights to constrained vertices, and the screening
@@ -20,17 +20,17 @@ struct Node
 };
 
 /**
- * A level of the paper's hierarchy, all of it in memory: equation (2), with its vectors g on the
- * edges. For the unknowns v_i,
+ * A level of the hierarchy of the paper, in memory: equation (2), with its vectors g on the edges.
+ * For the unknowns v_i,
  *
  *   sum_j w_ij (v_i - v_j - d_ij) + alpha_i v_i = xi0_i.
  *
- * On the finest level v is the solution and d the problem's edge targets; on the others v is the
- * correction Delta, zero at first, and d and xi0 are the g and xi that restriction made. What is
- * left of them for the current v is g_ij = d_ij - (v_i - v_j) and xi_i = xi0_i - alpha_i v_i.
+ * On the finest level v is the solution and d the edge targets of the problem; on the others v is
+ * the correction Delta, initially zero, and d and xi0 are the g and xi of the restriction. Their
+ * remainders for the current v are g_ij = d_ij - (v_i - v_j) and xi_i = xi0_i - alpha_i v_i.
  *
  * Constrained vertices are nodes of the finest level without edges, so that a node is a vertex;
- * their neighbours know them by alpha and xi0 alone, and no coarser level knows them at all.
+ * they contribute only to alpha and xi0 of their neighbours, and do not occur on coarser levels.
  */
 struct Level
 {
@@ -46,7 +46,7 @@ struct Level
 
   std::int64_t nodes() const { return this->node.end(); }
   int columns() const { return this->value.lanes(); }
-  /** Entries of the level's matrix, diagonals included. */
+  /** The number of entries of the matrix of the level, including diagonals. */
   std::int64_t nonzeros() const { return this->edges.start(this->nodes()) + this->nodes(); }
 
   EdgeRows edges;      ///< by node, by ascending neighbour

@@ -8,8 +8,8 @@ namespace smg::shi2006
 
 /**
  * The lifting rule: a greedy maximal independent set in stream order. Node i is lifted iff no lower
- * neighbour is. A node without edges is retained: relaxation solves it exactly. Fills in `parent`
- * and `pull` of the level's nodes; answers how many are lifted.
+ * neighbour is. A node without edges is retained: relaxation solves it exactly. Sets `parent` and
+ * `pull` of the nodes of the level; returns the number of lifted nodes.
  */
 std::int64_t lift(Level& level);
 

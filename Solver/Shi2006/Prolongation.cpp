@@ -14,7 +14,7 @@ namespace
  *
  *   (sum over lifted j of w_ij (v_j + Delta_j + d_ij) + xi0_i) / Z_i:
  *
- * the value before drops out.
+ * the previous value cancels.
  */
 void interpolate(Level& level, std::int64_t i)
 {

@@ -6,10 +6,8 @@
 namespace smg::shi2006
 {
 
-/**
- * Prolongation, equations (4) and (5): adds the correction of the next level to the values of the
- * lifted nodes, and that which (5) interpolates from it to those of the retained ones.
- */
+/** Prolongation, equations (4) and (5): adds the correction of the next level to the values of the
+ * lifted nodes, and its interpolation by (5) to those of the retained nodes. */
 void prolong(const Level& coarse, Level& fine);
 
 } // namespace smg::shi2006

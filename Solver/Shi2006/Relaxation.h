@@ -11,13 +11,13 @@ namespace smg::shi2006
  *
  *   v_i = (sum_j w_ij (v_j + d_ij) + xi0_i) / (sum_j w_ij + alpha_i).
  *
- * alpha stands in the denominator on every level; the paper prints it where its sum over all
- * neighbours has it already, which is true of the finest level only. A node without edges and
- * without alpha, all that is left of a part that no constraint reaches, keeps its value.
+ * alpha is part of the denominator on every level; in the paper the sum over all neighbours already
+ * contains it, which holds on the finest level only. A node without edges and without alpha, the
+ * remainder of an unconstrained part, keeps its value.
  */
 void relax(Level& level);
 
-/** ||b - A v||^2, all columns together. */
+/** ||b - A v||^2 over all columns. */
 double residualSquares(const Level& level);
 
 } // namespace smg::shi2006

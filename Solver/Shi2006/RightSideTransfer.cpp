@@ -9,7 +9,7 @@ namespace smg::shi2006
 namespace
 {
 
-/** Restricts to one coarse node at a time. */
+/** Restricts to the coarse nodes one by one. */
 class Restriction
 {
 public:
@@ -78,7 +78,7 @@ private:
     }
   }
 
-  /** A term of (10): what retained j, at the edge's end, hands on. */
+  /** A term of (10): the contribution of retained j at the end of the edge. */
   void passXi(const Edge& edge, double* xi) const
   {
     const std::int64_t j = edge.neighbour;
@@ -90,7 +90,7 @@ private:
     }
   }
 
-  /** The terms of (8) whose path from i goes over retained j, at the edge's end. */
+  /** The terms of (8) with a path from i over retained j at the end of the edge. */
   void passG(std::int64_t i, const Edge& edge)
   {
     const std::int64_t j = edge.neighbour;
@@ -109,7 +109,7 @@ private:
     }
   }
 
-  /** Where g of the coarse edge is summed; null if its weight has vanished. */
+  /** The accumulator for g of the coarse edge; null if its weight is zero. */
   double* sumOf(std::int64_t from, std::int64_t to) const
   {
     const Edge* begin = this->Coarse.edges.row(from);

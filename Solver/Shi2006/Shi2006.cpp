@@ -22,7 +22,7 @@ namespace
 constexpr PoolUse InCoreMemory{ "a solve by shi2006",
   "raise the memory limit, or use the operator set extended, which works out of core" };
 
-/** The finest level as FreeComponents sees it. */
+/** The finest level in the interface of FreeComponents. */
 struct FinestState
 {
   shi2006::Level& level;
@@ -32,7 +32,7 @@ struct FinestState
   {
     std::copy_n(this->level.value.at(first), count * this->level.columns(), values);
   }
-  /** b and xi0 differ by what the edges bring, which is not to be rewritten. */
+  /** b and xi0 differ by the contributions of the edges, which must not change. */
   template <class F>
   void rewriteB(F&& f) const
   {
@@ -85,17 +85,15 @@ void Shi2006::solve(MeshSource& mesh, Problem& problem)
   this->Progress.finish();
 }
 
-/**
- * The finest level of a closed mesh, without its constrained vertices' share and the coarser
- * levels: a solve that fits is not refused.
- */
+/** The memory of the finest level of a closed mesh, without the constrained vertices and the
+ * coarser levels: a lower bound, so that no feasible solve is rejected. */
 std::int64_t Shi2006::estimateMemory(const StreamInfo& info, int columns)
 {
   const auto value = static_cast<std::int64_t>(sizeof(double)) * columns;
   const std::int64_t node = static_cast<std::int64_t>(sizeof(shi2006::Node) + 8) + 3 * value;
   const std::int64_t edge = static_cast<std::int64_t>(sizeof(shi2006::Edge)) + value;
-  // Euler's formula; the number of triangles is close to twice that of vertices, that of the
-  // triangles of a tetrahedral mesh to twice that of its cells.
+  // Euler's formula: a surface has about twice as many triangles as vertices, a tetrahedral mesh
+  // about twice as many triangles as cells.
   const std::int64_t edges =
     info.cellType == CellType::Triangle ? info.cells * 3 / 2 : info.vertices + info.cells;
   return info.vertices * node + 2 * edges * edge;
@@ -149,12 +147,12 @@ void Shi2006::describe(const shi2006::VCycle& cycle)
   }
 }
 
-/** V-cycles until the tolerance is reached or the values are final. */
+/** Performs V-cycles until the tolerance is reached or the values do not change. */
 void Shi2006::iterate(shi2006::VCycle& cycle, const shi2006::Level& finest)
 {
-  // A V-cycle forgets the values it begins with: where it does not help at once it never will.
+  // The result of a V-cycle does not depend on its initial values: further ones do not help.
   constexpr double Final = 0.9;
-  // The rounding of a V-cycle is some times that of the residual's terms.
+  // The rounding of a V-cycle is a multiple of that of the terms of the residual.
   constexpr double NearRounding = 10.0;
   Report& r = this->Result;
   const auto norm = [&] { return std::sqrt(shi2006::residualSquares(finest)); };

@@ -12,40 +12,40 @@ namespace smg
 {
 
 /**
- * The equations (3) to (10) as "Out-of-Core Multigrid Solver for Streaming Meshes" prints them,
- * after Shi et al. 2006: for comparison with the paper, never for answers, since they do not
- * converge to the solution. They are asked for like an operator set, by the name `shi2006`, but are
- * no OperatorSet: their V-cycle works on other vectors, and they share with the engine only how
- * rows are assembled and free components are treated.
+ * The equations (3) to (10) as printed in "Out-of-Core Multigrid Solver for Streaming Meshes",
+ * after Shi et al. 2006: for comparison with the paper, never for results, since they do not
+ * converge to the solution. They are selected like an operator set, by the name `shi2006`, but are
+ * not an OperatorSet: their V-cycle works on other vectors, and they share with the engine only the
+ * assembly of rows and the treatment of free components.
  *
- * Its unknowns are corrections, and the error of the current solution travels on the edges: every
- * level has a vector g for each of its edges and column. The edges between retained nodes are left
- * out of the coarse operator and of the coarse right-hand side alike, so what a V-cycle arrives at
+ * Its unknowns are corrections, and the error of the current solution is represented on the edges:
+ * every level has a vector g for each of its edges and columns. Both the coarse operator and the
+ * coarse right-hand side omit the edges between retained nodes. The result of a V-cycle therefore
  * depends on the edge targets, the constraints, the hierarchy and the sweeps after the correction,
- * and not on the values it began with: it is final after one V-cycle, and not the solution. On real
- * meshes the largest error was 1 to 50 % of the values' range.
+ * but not on its initial values: it does not change after one V-cycle, and is not the solution. On
+ * real meshes the largest error was 1 to 50 % of the range of the values.
  *
- * Lifting may tear a component, the more the less the stream order follows the mesh: 2-ring edges
- * need not keep a graph connected. A part that no constraint reaches stays about where it is.
+ * Lifting may disconnect a component, more often if the stream order does not follow the mesh:
+ * 2-ring edges need not keep a graph connected. An unconstrained part hardly changes.
  *
- * They show what the paper's method does, and one V-cycle solves to rounding what has integrable
+ * They reproduce the paper's method; one V-cycle solves, up to rounding, problems with integrable
  * edge targets, d_ij = x*_i - x*_j for the solution x* on every edge: the case in which the
- * equations are right. Whoever wants a solution uses `extended`.
+ * equations are right. Use `extended` for all solutions.
  *
- * Works in core only. The edge targets must be antisymmetric, as Problem says.
+ * Works in core only. The edge targets must be antisymmetric, as stated at Problem.
  */
 class Shi2006 : public Solution
 {
 public:
   static constexpr const char* name = "shi2006";
 
-  /** Makes ready for problems of `columns` columns. Nothing is read yet. */
+  /** Prepares for problems of `columns` columns, without reading. */
   Shi2006(int columns, const SolveOptions& options);
 
   /** Solves one problem. */
   void solve(MeshSource& mesh, Problem& problem);
 
-  /** Bytes of the pool that a solve will need at least. */
+  /** The minimum bytes of the pool that a solve needs. */
   static std::int64_t estimateMemory(const StreamInfo& info, int columns);
 
   std::int64_t vertices() const override { return this->Result.vertices; }

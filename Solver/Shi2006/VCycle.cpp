@@ -57,7 +57,7 @@ void VCycle::run(std::size_t l, const StepDone& stepDone)
   this->relaxLevel(l, stepDone, 0.5);
 }
 
-/** The sweeps before or after the correction; those of the finest level are steps to tell of. */
+/** The sweeps before or after the correction; those of the finest level report progress. */
 void VCycle::relaxLevel(std::size_t l, const StepDone& stepDone, double begin)
 {
   for (int sweep = 1; sweep <= this->Sweeps; ++sweep)

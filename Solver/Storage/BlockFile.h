@@ -20,20 +20,21 @@ namespace smg
 struct TableSpec
 {
   std::string name;
-  /** A column of 0 components is opaque: any number of bytes a block, not tied to the rows. */
+  /** A column of 0 components is opaque: any number of bytes per block, independent of the rows. */
   std::vector<ColumnSpec> columns;
   bool operator==(const TableSpec&) const = default;
 };
 
 /**
- * Writes a block file: a container of tables, each cut into blocks of rows, each block's columns
- * compressed and checksummed (XXH3, 64 bits) one by one. A header in JSON, the table layout and an
- * index of all blocks make any block readable by itself. BlockFileLayout.h has the format.
+ * Writes a block file: a container of tables, each split into blocks of rows, with each column of a
+ * block compressed and checksummed (XXH3, 64 bits) separately. A JSON header, the table layout and
+ * an index of all blocks allow reading any block independently. BlockFileLayout.h defines the
+ * format.
  *
  * The file is written under a temporary name beside `path` and renamed by finish(); without
- * finish() the destructor removes it. Writing is done behind the caller on a thread of the writer;
- * at most `WriteBehindBytes` wait in memory. A failed write (disk full) is thrown as Error, with
- * the path, by the next append() or by finish().
+ * finish() the destructor removes it. A thread of the writer writes behind the caller; at most
+ * `WriteBehindBytes` wait in memory. A failed write (disk full) is thrown as Error, with the path,
+ * by the next append() or by finish().
  */
 class SMG_EXPORT BlockFileWriter
 {
@@ -46,7 +47,7 @@ public:
   BlockFileWriter(const BlockFileWriter&) = delete;
   BlockFileWriter& operator=(const BlockFileWriter&) = delete;
 
-  /** Appends `rows` rows to table `table`; one span of bytes a column, copied. */
+  /** Appends `rows` rows to table `table`; one span of bytes per column, which is copied. */
   void append(int table, std::int64_t rows, std::span<const std::span<const std::byte>> columns);
 
   /** Writes index and header (the text of a JSON value, at most about 16,000 bytes), closes,
@@ -59,9 +60,10 @@ private:
 };
 
 /**
- * Reads a block file. Opening checks magic, version, the checksums of the header and the index, and
- * that the file's length is exactly what the index says; reading a block checks its checksums.
- * Every failure is an Error that names the file, the table and the block. One thread at a time.
+ * Reads a block file. Opening checks the magic, the version, the checksums of the header and the
+ * index, and that the length of the file agrees with the index; reading a block checks its
+ * checksums. Every failure is an Error that names the file, the table and the block. One thread at
+ * a time.
  */
 class SMG_EXPORT BlockFileReader
 {
@@ -89,9 +91,9 @@ public:
   void read(int table, std::int64_t block, int column, std::span<std::byte> bytes);
 
   /**
-   * Starts reading all columns of a block on the reader's own thread, so that a later read() of it
-   * does not wait. A hint: any block may be read without it. Eight such blocks are kept, each until
-   * all of it is read or it is the oldest.
+   * Starts reading all columns of a block on a thread of the reader, so that a later read() does
+   * not wait. This is a hint: any block may be read without it. Eight such blocks are kept, each
+   * until all of it is read or it is the oldest.
    */
   void prefetch(int table, std::int64_t block);
 

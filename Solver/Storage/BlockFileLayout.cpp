@@ -42,8 +42,8 @@ public:
 
   [[noreturn]] void fail(const std::string& what) const
   {
-    throw Error(this->File + ": the index of the file makes no sense (" + what +
-                "): the file is damaged; make it anew.");
+    throw Error(this->File + ": the index of the file is invalid (" + what +
+                "): the file is damaged; create it again.");
   }
 
   template <class T>
@@ -60,7 +60,7 @@ public:
     return { reinterpret_cast<const char*>(this->take(size)), size };
   }
 
-  /** Reads a count of things that take at least `bytes` bytes each, so it cannot be too large. */
+  /** Reads a count of items of at least `bytes` bytes each, which bounds it. */
   std::size_t getCount(std::size_t bytes)
   {
     const auto count = this->get<std::uint64_t>();
@@ -103,7 +103,7 @@ TableSpec parseTable(Unpacker& from)
     if (type > static_cast<int>(ScalarType::Float64) || column.components < 0 ||
         column.components > MaxColumnBytes / 8)
     {
-      from.fail("column '" + column.name + "' is of no known kind");
+      from.fail("column '" + column.name + "' has an unknown type");
     }
     column.type = static_cast<ScalarType>(type);
     table.columns.push_back(std::move(column));
@@ -111,7 +111,7 @@ TableSpec parseTable(Unpacker& from)
   return table;
 }
 
-/** Reads the blocks of a table; answers the number of bytes that they have in the file. */
+/** Reads the blocks of a table; returns their number of bytes in the file. */
 std::int64_t parseBlocks(
   Unpacker& from, const TableSpec& table, std::int64_t tailOffset, TableIndex& index)
 {
@@ -190,7 +190,7 @@ BlockFileIndex BlockFileIndex::parse(
   const auto codec = from.get<std::uint8_t>();
   if (codec > static_cast<int>(Codec::Zstd))
   {
-    from.fail("the compression is of no known kind");
+    from.fail("the compression is unknown");
   }
   index.codec = static_cast<Codec>(codec);
   const std::size_t tables = from.getCount(20);
@@ -202,7 +202,7 @@ BlockFileIndex BlockFileIndex::parse(
   }
   if (!from.atEnd() || total != tailOffset - BlockFileHeaderBytes)
   {
-    from.fail("it does not tell of all bytes");
+    from.fail("it does not cover all bytes");
   }
   return index;
 }

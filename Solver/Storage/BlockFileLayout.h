@@ -25,10 +25,10 @@ constexpr std::int64_t BlockFileHeaderBytes = 16 << 10;
 constexpr std::uint32_t BlockFileVersion = 1;
 constexpr std::string_view BlockFileMagic = "SMGBLOCK";
 
-/** More bytes than this a column of a block must not have. */
+/** The maximum number of bytes of a column of a block. */
 constexpr std::int64_t MaxColumnBytes = std::int64_t(1) << 30;
 
-/** The first bytes of the file, as they stand there. */
+/** The first bytes of the file. */
 struct BlockFileFront
 {
   static constexpr std::uint32_t OrderMark = 0x01020304;
@@ -44,7 +44,7 @@ struct BlockFileFront
 };
 static_assert(sizeof(BlockFileFront) == 64);
 
-/** What the index knows of a column of a block. */
+/** The index entry of a column of a block. */
 struct ColumnEntry
 {
   std::uint32_t storedBytes = 0;
@@ -55,8 +55,8 @@ struct ColumnEntry
 /** The blocks of one table. */
 struct TableIndex
 {
-  std::vector<std::int64_t> firstRow{ 0 }; ///< one more than there are blocks
-  std::vector<std::int64_t> offset;        ///< place of the block in the file
+  std::vector<std::int64_t> firstRow{ 0 }; ///< one more than the number of blocks
+  std::vector<std::int64_t> offset;        ///< offset of the block in the file
   std::vector<ColumnEntry> entries;        ///< all columns of a block, block after block
 
   std::int64_t blocks() const { return static_cast<std::int64_t>(this->offset.size()); }
@@ -67,7 +67,7 @@ struct BlockFileIndex
 {
   Codec codec = Codec::None;
   std::vector<TableSpec> tables;
-  std::vector<TableIndex> blocks; ///< one a table
+  std::vector<TableIndex> blocks; ///< one per table
 
   const ColumnEntry& entry(int table, std::int64_t block, int column) const
   {
@@ -75,10 +75,8 @@ struct BlockFileIndex
   }
 
   std::vector<std::byte> serialize() const;
-  /**
-   * Reads what serialize() made. Throws Error, beginning with `file`, if it makes no sense or does
-   * not describe exactly the bytes [BlockFileHeaderBytes, tailOffset) of the file.
-   */
+  /** Reads the output of serialize(). Throws Error, which begins with `file`, if it is invalid or
+   * does not describe exactly the bytes [BlockFileHeaderBytes, tailOffset) of the file. */
   static BlockFileIndex parse(
     std::span<const std::byte> bytes, std::int64_t tailOffset, const std::string& file);
 };

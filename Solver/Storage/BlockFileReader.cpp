@@ -31,7 +31,7 @@ struct BlockFileReader::Implementation
 
   [[noreturn]] void fail(const std::string& what) const { throw Error(this->Name + ": " + what); }
 
-  /** Checks the front and says what it says. */
+  /** Reads and checks the front. */
   BlockFileFront readFront(std::span<std::byte> region) const
   {
     const std::size_t there = this->File.readSome(0, region);
@@ -48,16 +48,16 @@ struct BlockFileReader::Implementation
     }
     if (front.order != BlockFileFront::OrderMark)
     {
-      this->fail("was written on a machine with another byte order; make it anew on this one.");
+      this->fail("was written on a machine with another byte order; create it again on this one.");
     }
     if (front.version != BlockFileVersion)
     {
       this->fail("is of version " + std::to_string(front.version) + ", but this program reads " +
-                 std::to_string(BlockFileVersion) + "; make it anew with this program.");
+                 std::to_string(BlockFileVersion) + "; create it again with this program.");
     }
     if (front.frontChecksum != checksum(region.first(offsetof(BlockFileFront, frontChecksum))))
     {
-      this->fail("the checksum of its first bytes is wrong: the file is damaged; make it anew.");
+      this->fail("the checksum of its first bytes is wrong: the file is damaged; create it again.");
     }
     return front;
   }
@@ -69,7 +69,7 @@ struct BlockFileReader::Implementation
     if (front.tailOffset < BlockFileHeaderBytes || front.tailOffset > most || front.tailBytes < 0 ||
         front.tailBytes > most)
     {
-      this->fail("its first bytes make no sense: the file is damaged; make it anew.");
+      this->fail("its first bytes are invalid: the file is damaged; create it again.");
     }
     const std::int64_t expected = front.tailOffset + front.tailBytes;
     if (size != expected)
@@ -92,18 +92,18 @@ struct BlockFileReader::Implementation
     if (!fits || checksum(header) != front.headerChecksum ||
         std::any_of(zeros.begin(), zeros.end(), [](std::byte b) { return b != std::byte{}; }))
     {
-      this->fail("the checksum of the header is wrong: the file is damaged; make it anew.");
+      this->fail("the checksum of the header is wrong: the file is damaged; create it again.");
     }
     this->Header.assign(reinterpret_cast<const char*>(header.data()), header.size());
     if (!nlohmann::json::accept(this->Header))
     {
-      this->fail("the header is not JSON: the file is damaged; make it anew.");
+      this->fail("the header is not JSON: the file is damaged; create it again.");
     }
     std::vector<std::byte> tail(front.tailBytes);
     this->File.read(front.tailOffset, tail);
     if (checksum(tail) != front.tailChecksum)
     {
-      this->fail("the checksum of the index is wrong: the file is damaged; make it anew.");
+      this->fail("the checksum of the index is wrong: the file is damaged; create it again.");
     }
     this->Index = BlockFileIndex::parse(tail, front.tailOffset, this->Name);
     this->Coder = std::make_unique<ColumnCodec>(this->Index.codec);
@@ -144,7 +144,7 @@ struct BlockFileReader::Implementation
     return bytes;
   }
 
-  /** The stored bytes of a column: the prefetched ones, or read now into `room`. */
+  /** The stored bytes of a column: prefetched, or read into `room`. */
   std::span<const std::byte> fetch(
     int table, std::int64_t block, int column, std::span<std::byte> room)
   {
@@ -262,12 +262,12 @@ void BlockFileReader::read(int table, std::int64_t block, int column, std::span<
   if (checksum(stored) != entry.checksum)
   {
     self.fail(self.place(table, block) + ": the checksum of column '" + spec.name +
-              "' is wrong: the file is damaged; make it anew.");
+              "' is wrong: the file is damaged; create it again.");
   }
   if (compressed && !self.Coder->decompress(stored, bytes, spec.tupleBytes()))
   {
     self.fail(self.place(table, block) + ": column '" + spec.name +
-              "' cannot be decompressed: the file is damaged; make it anew.");
+              "' cannot be decompressed: the file is damaged; create it again.");
   }
   if (!compressed && !stored.empty() && stored.data() != bytes.data())
   {

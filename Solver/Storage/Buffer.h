@@ -16,7 +16,8 @@
 namespace smg
 {
 
-/** ThreadSanitizer does not follow mremap(): what another thread did at a place before would count.
+/**
+ * ThreadSanitizer does not track mremap() and would report earlier accesses at the same address.
  */
 #ifdef __SANITIZE_THREAD__
 inline constexpr bool ThreadsAreWatched = true;
@@ -24,8 +25,7 @@ inline constexpr bool ThreadsAreWatched = true;
 inline constexpr bool ThreadsAreWatched = false;
 #endif
 
-/** Bytes of a block, aligned to a cache line and accounted for in a pool. What they hold is left to
- * chance. */
+/** Uninitialised bytes of a block, aligned to a cache line and accounted for in a pool. */
 class Buffer
 {
 public:
@@ -68,9 +68,7 @@ public:
   /** Uses the first `bytes` bytes, at most capacity(). */
   void resize(std::size_t bytes) { this->Size = bytes; }
 
-  /** Has room for at least `bytes` bytes from here on, accounted for in `pool`; keeps what there
-   * is.
-   */
+  /** Grows to at least `bytes` bytes, accounted for in `pool`; keeps the content. */
   void grow(Pool& pool, std::size_t bytes)
   {
     if (roundedUp(bytes) <= this->Capacity)
@@ -99,10 +97,10 @@ public:
   }
 
 private:
-  /** From this size on memory comes from the system and goes back there: the heap would keep it. */
+  /** From this size on, memory is mapped and returned to the system: the heap would keep it. */
   static constexpr std::size_t MappedBytes = std::size_t(32) << 10;
 
-  /** To whole cache lines; sizes that are too large for any memory stay so. */
+  /** Rounds up to whole cache lines, without overflow for huge sizes. */
   static constexpr std::size_t roundedUp(std::size_t bytes)
   {
     return bytes > SIZE_MAX - 63 ? bytes : (bytes + 63) / 64 * 64;

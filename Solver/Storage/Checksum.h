@@ -8,7 +8,7 @@
 namespace smg
 {
 
-/** The checksum of all our files: XXH3, 64 bits. */
+/** The checksum of all files of the library: XXH3, 64 bits. */
 std::uint64_t checksum(std::span<const std::byte> bytes) noexcept;
 
 } // namespace smg

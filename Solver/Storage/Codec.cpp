@@ -43,7 +43,7 @@ void join(const std::byte* planes, std::size_t tupleBytes, std::span<std::byte> 
   }
 }
 
-/** Makes room for at least `size` bytes, without ever clearing what is there already. */
+/** Provides at least `size` bytes without clearing existing ones. */
 std::byte* room(std::vector<std::byte>& buffer, std::size_t size)
 {
   if (buffer.size() < size)
@@ -109,7 +109,7 @@ std::span<const std::byte> ColumnCodec::compress(
     split(plain, tupleBytes, planes);
     source = planes;
   }
-  // A result that is not smaller is of no use: so there need be no more room than that.
+  // A result that is not smaller is discarded, so the input size is sufficient.
   const std::size_t most = plain.size() - 1;
   std::byte* target = room(this->Packed, plain.size());
   std::size_t size = 0;

@@ -13,8 +13,8 @@ namespace smg
 
 /**
  * Compresses and decompresses the columns of blocks. Before compression the bytes of the tuples are
- * regrouped: all first bytes, all second bytes and so on, since the same byte of neighbouring
- * tuples is alike. Buffers and contexts are kept from one call to the next.
+ * regrouped: all first bytes, all second bytes and so on, since corresponding bytes of neighbouring
+ * tuples are similar. Buffers and contexts are kept between calls.
  */
 class ColumnCodec
 {
@@ -24,13 +24,11 @@ public:
   ColumnCodec(const ColumnCodec&) = delete;
   ColumnCodec& operator=(const ColumnCodec&) = delete;
 
-  /**
-   * Compresses tuples of `tupleBytes` bytes. Answers the compressed bytes, valid until the next
-   * call, or `plain` itself if compression does not make it smaller.
-   */
+  /** Compresses tuples of `tupleBytes` bytes. Returns the compressed bytes, valid until the next
+   * call, or `plain` itself if compression does not reduce the size. */
   std::span<const std::byte> compress(std::span<const std::byte> plain, std::size_t tupleBytes);
 
-  /** Reverses compress() into `plain`, which has the right size; false if that is not possible. */
+  /** Reverses compress() into `plain`, which has the correct size; returns false on failure. */
   bool decompress(
     std::span<const std::byte> stored, std::span<std::byte> plain, std::size_t tupleBytes);
 

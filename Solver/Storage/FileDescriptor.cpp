@@ -25,7 +25,7 @@ std::string reason(int errorNumber)
   return std::generic_category().message(errorNumber);
 }
 
-/** A name that no other file of this or another process has, unless a process left it behind. */
+/** A unique name, unless a terminated process left a file with it. */
 std::filesystem::path temporaryName(const std::filesystem::path& path)
 {
   static std::atomic<unsigned> count{ 0 };
@@ -79,7 +79,7 @@ FileDescriptor FileDescriptor::openForReading(const std::filesystem::path& path)
 
 std::filesystem::path FileDescriptor::targetOf(const std::filesystem::path& path)
 {
-  constexpr int MostLinks = 40; // as the system has it
+  constexpr int MostLinks = 40; // the limit of the system
   std::filesystem::path target = path;
   std::error_code none;
   for (int links = 0; std::filesystem::is_symlink(target, none); ++links)
@@ -88,7 +88,7 @@ std::filesystem::path FileDescriptor::targetOf(const std::filesystem::path& path
     {
       throwWriteError(path, ELOOP);
     }
-    // A link that says a full path replaces all of this one.
+    // A link to an absolute path replaces the whole path.
     target = target.parent_path() / std::filesystem::read_symlink(target, none);
   }
   return target;
@@ -118,7 +118,7 @@ FileDescriptor FileDescriptor::createNameless(const std::filesystem::path& folde
   file.Number = ::open(place.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   if (!file.isOpen())
   {
-    // Not every file system has files without a name.
+    // Not every file system supports unnamed files.
     file = createBeside(place / "smg-scratch");
     ::unlink(file.Path.c_str());
   }
@@ -185,7 +185,7 @@ std::size_t FileDescriptor::readCached(
 {
   iovec part{ bytes.data(), bytes.size() };
   const ssize_t n = ::preadv2(this->Number, &part, 1, offset, RWF_NOWAIT);
-  // Not every file system can tell: then nothing is.
+  // Not every file system supports this: then nothing counts as cached.
   return n > 0 ? static_cast<std::size_t>(n) : 0;
 }
 
@@ -289,7 +289,7 @@ void FileDescriptor::throwWriteError(const std::filesystem::path& path, int erro
 void FileDescriptor::throwReadError(const std::filesystem::path& path, int errorNumber)
 {
   throw Error(path.string() + ": cannot be read: " +
-              (errorNumber < 0 ? "it is shorter than it should be" : reason(errorNumber)) + ".");
+              (errorNumber < 0 ? "it is shorter than expected" : reason(errorNumber)) + ".");
 }
 
 } // namespace smg

@@ -11,8 +11,9 @@ namespace smg
 {
 
 /**
- * An open file that is read and written at given places. Reads and writes go on after interruptions
- * and partial transfers; every failure is an Error that names the file and the system's reason.
+ * An open file that is read and written at given offsets. Reads and writes continue after
+ * interruptions and partial transfers; every failure is an Error that names the file and the reason
+ * of the system.
  */
 class SMG_EXPORT FileDescriptor
 {
@@ -24,57 +25,53 @@ public:
 
   /** Opens an existing regular file for reading. */
   static FileDescriptor openForReading(const std::filesystem::path& path);
-  /**
-   * The file that a name stands for: what a symbolic link leads to, also if nothing is there yet.
-   * Throws Error if links lead in a circle.
-   */
+  /** The file that a path refers to, with symbolic links resolved, also if it does not exist.
+   * Throws Error for cyclic links. */
   static std::filesystem::path targetOf(const std::filesystem::path& path);
-  /**
-   * Makes a new file with a temporary name beside the target of `path`; path() tells it. Whoever
-   * makes it renames or removes it.
-   */
+  /** Creates a file with a temporary name, path(), beside the target of `path`. The caller renames
+   * or removes it. */
   static FileDescriptor createBeside(const std::filesystem::path& path);
-  /** Makes a file without a name in `folder`: it is gone when it is closed, or the program ends. */
+  /**
+   * Creates an unnamed file in `folder`, which is removed when it is closed or the program ends.
+   */
   static FileDescriptor createNameless(const std::filesystem::path& folder);
 
   bool isOpen() const { return this->Number >= 0; }
   const std::filesystem::path& path() const { return this->Path; }
   std::int64_t size() const;
 
-  /** Reads at `offset` what there is, up to the size of `bytes`; answers how many bytes. */
+  /** Reads available bytes at `offset`, up to the size of `bytes`; returns their number. */
   std::size_t readSome(std::int64_t offset, std::span<std::byte> bytes) const;
-  /** Reads exactly `bytes`; Error if the file ends before. */
+  /** Reads exactly `bytes`; throws Error if the file ends before. */
   void read(std::int64_t offset, std::span<std::byte> bytes) const;
   void write(std::int64_t offset, std::span<const std::byte> bytes) const;
-  /**
-   * The same without exceptions, and without allocating memory: 0, the error number, or -1 if the
-   * file ends before.
-   */
+  /** The same without exceptions and without memory allocation: returns 0, the error number, or -1
+   * if the file ends before. */
   int tryRead(std::int64_t offset, std::span<std::byte> bytes) const noexcept;
-  /** The same; adds the nanoseconds for which the disk was waited for to `waited`. */
+  /** The same; adds the nanoseconds of waiting for the disk to `waited`. */
   int tryRead(std::int64_t offset, std::span<std::byte> bytes, std::int64_t& waited) const noexcept;
   int tryWrite(std::int64_t offset, std::span<const std::byte> bytes) const noexcept;
 
-  /** Says that these bytes will be read soon: the system begins to bring them from the disk. */
+  /** Announces a read of these bytes, so that the system starts to load them from disk. */
   void willRead(std::int64_t offset, std::size_t bytes) const noexcept;
 
-  /** Closes the file; some systems tell only now that a write failed. */
+  /** Closes the file; some systems report a failed write only here. */
   void close();
   /**
-   * Closes the file and gives it the name `path`, in one step, in place of what has that name; a
-   * symbolic link stays, and what it leads to is replaced. If that fails, the file is removed:
-   * Error.
+   * Closes the file and atomically renames it to `path`, replacing an existing file; the target of
+   * a symbolic link is replaced and the link is kept. On failure the file is removed and Error is
+   * thrown.
    */
   void renameTo(const std::filesystem::path& path);
   /** Closes and removes the file. */
   void remove() noexcept;
 
-  /** The Error for a failed write, for whoever uses tryWrite. */
+  /** Throws the Error of a failed write, for callers of tryWrite. */
   [[noreturn]] static void throwWriteError(const std::filesystem::path& path, int errorNumber);
   [[noreturn]] static void throwReadError(const std::filesystem::path& path, int errorNumber);
 
 private:
-  /** Reads what is in memory already, from the front; answers how many bytes. */
+  /** Reads cached bytes from the front; returns their number. */
   std::size_t readCached(std::int64_t offset, std::span<std::byte> bytes) const noexcept;
 
   int Number = -1;

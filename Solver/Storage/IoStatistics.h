@@ -7,12 +7,12 @@
 namespace smg
 {
 
-/** Totals of the traffic of any number of files. */
+/** The total traffic of any number of files. */
 struct IoStatistics
 {
   std::atomic<std::int64_t> bytesRead{ 0 };
   std::atomic<std::int64_t> bytesWritten{ 0 };
-  /** Nanoseconds that a caller stood waiting for the disk. */
+  /** Nanoseconds in which a caller waited for the disk. */
   std::atomic<std::int64_t> waitNanoseconds{ 0 };
 };
 

@@ -16,7 +16,8 @@ namespace
 
 constexpr std::size_t StackBytes = std::size_t(512) << 10;
 
-/** Signals are for the program's own threads: a new thread takes over the mask of its maker. */
+/** Blocks signals, which are for the threads of the program: a thread inherits the mask of its
+ * creator. */
 class BlockedSignals
 {
 public:

@@ -7,10 +7,8 @@
 namespace smg
 {
 
-/**
- * A thread for disk work. Its stack is small and its function should allocate no memory: there may
- * be tens of these threads, and each thread that allocates costs an arena of address space.
- */
+/** A thread for disk I/O. Its stack is small and its function should allocate no memory: there may
+ * be tens of these threads, and each allocating thread costs an arena of address space. */
 class IoThread
 {
 public:
@@ -20,7 +18,8 @@ public:
   IoThread& operator=(const IoThread&) = delete;
 
   bool isStarted() const { return this->Started; }
-  /** Runs `body`, which must not throw, on the thread. Throws Error if there can be no thread. */
+  /** Runs `body`, which must not throw, on the thread. Throws Error if the thread cannot be
+   * created. */
   void start(std::function<void()> body);
   /** Waits for the end of the body. */
   void join();

@@ -10,10 +10,10 @@ namespace smg
 {
 
 /**
- * Memory that appears three times in a row: what runs over an end of the middle image continues at
- * the other end. So what lies around a place of a ring buffer in it is reached without wrap test.
- * A page counts as resident once for each image in which it was touched: whoever stays in the
- * middle one, but for what runs over its ends, has most of them counted once.
+ * Memory that is mapped three times in a row: accesses beyond an end of the middle image wrap
+ * around to the other end, so that the neighbourhood of an item of a ring buffer is accessed
+ * without a wrap test. A page counts as resident once for each image in which it is touched:
+ * accesses should start in the middle image, so that most pages count once.
  */
 class SMG_EXPORT MirroredMemory
 {
@@ -32,10 +32,8 @@ public:
   std::byte* data() const { return this->Data; }
   std::size_t size() const { return this->Size; }
 
-  /**
-   * Grows to `bytes`, a multiple of PageBytes. The contents keep their offsets; the address may
-   * change. Throws Error.
-   */
+  /** Grows to `bytes`, a multiple of PageBytes. The content keeps its offsets; the address may
+   * change. Throws Error. */
   void grow(std::size_t bytes);
   void clear();
 

@@ -8,10 +8,8 @@
 namespace smg
 {
 
-/**
- * A window of a sequence of 64-bit indices that never descends, by their low 32 bits: those that
- * are in memory at once lie within 2^32 of the last one, from which the rest follows.
- */
+/** A window of a non-decreasing sequence of 64-bit indices, stored by their low 32 bits: all values
+ * in memory are within 2^32 of the last one, which determines the high bits. */
 class MonotoneRing
 {
 public:
@@ -22,7 +20,7 @@ public:
   }
 
   std::int64_t end() const { return this->Low.end(); }
-  /** The last value, or the one that was said to be before all. */
+  /** The last value, or the initial one if there is none. */
   std::int64_t last() const { return this->Last; }
 
   std::int64_t operator[](std::int64_t i) const

@@ -24,7 +24,7 @@ std::string memoryLimitSentence(std::int64_t needed, std::int64_t allowed, const
 void Pool::acquire(std::int64_t bytes)
 {
   const std::lock_guard lock(this->Mutex);
-  // A size that a damaged file tells may be anything: the sum must not overflow.
+  // A damaged file may request any size: the sum must not overflow.
   if (bytes < 0 || bytes > this->Limit - this->Used)
   {
     constexpr std::int64_t Most = std::numeric_limits<std::int64_t>::max();

@@ -9,22 +9,21 @@
 namespace smg
 {
 
-/** What a pool is for, in the words of the sentence that its limit is too low. */
+/** The purpose of a pool, for the error message of a limit that is too low. */
 struct PoolUse
 {
-  const char* operation; ///< what needs the memory
-  const char* advice;    ///< what to change
+  const char* operation; ///< the operation that needs the memory
+  const char* advice;    ///< the remedy
 };
 
 inline constexpr PoolUse SolveMemory{ "the solve",
   "raise the memory limit, convert the mesh with the order bfs, or use fewer sweeps" };
 
 /**
- * Accounts for all block memory of an operation and keeps the promise of its limit: a request above
- * it is an Error that names the bytes needed, the bytes allowed and what to change.
+ * Accounts for all block memory of an operation and enforces its limit: a request above it throws
+ * an Error that names the required bytes, the allowed bytes and a remedy.
  *
- * The pool counts; the memory itself comes from Ring and Buffer. Any thread may acquire and
- * release.
+ * The pool only counts; Ring and Buffer allocate the memory. Any thread may acquire and release.
  */
 class SMG_EXPORT Pool
 {
@@ -36,8 +35,8 @@ public:
   {
   }
 
-  /** Adds `bytes`, at least 0, to the memory in use. Throws Error, and adds nothing, above the
-   * limit. */
+  /** Adds `bytes`, at least 0, to the memory in use. Above the limit, throws Error and adds
+   * nothing. */
   void acquire(std::int64_t bytes);
   void release(std::int64_t bytes);
 

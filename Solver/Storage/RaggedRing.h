@@ -12,10 +12,8 @@
 namespace smg
 {
 
-/**
- * Rows of any length of an endless array of rows, the part of it that is in memory. A row lies in
- * one piece: one that does not fit before the end of the memory goes to its beginning.
- */
+/** The part in memory of an unbounded array of rows of any length. Rows are contiguous: a row that
+ * does not fit before the end of the memory is stored at its beginning. */
 template <class T>
 class RaggedRing
 {
@@ -29,14 +27,14 @@ public:
     this->Ends.extend(1);
   }
 
-  /** The first row that is there. */
+  /** The first row in memory. */
   std::int64_t first() const { return this->Ends.first(); }
-  /** Number of rows appended. */
+  /** The number of appended rows. */
   std::int64_t end() const { return this->Ends.end() - 1; }
   std::int64_t size(std::int64_t row) const { return this->Ends[row + 1] - this->start(row); }
   T* row(std::int64_t row) const { return this->data() + this->start(row); }
 
-  /** Room for at most `size` entries of the next row. */
+  /** Opens the next row with room for at most `size` entries. */
   T* open(std::int64_t size)
   {
     if (!this->fits(size))
@@ -45,19 +43,19 @@ public:
     }
     return this->opened();
   }
-  /** The row that open() has made room for. */
+  /** The open row. */
   T* opened() const { return this->data() + this->Open; }
-  /** Ends the row that open() began after `size` entries. */
+  /** Closes the open row with `size` entries. */
   void close(std::int64_t size)
   {
     const std::int64_t row = this->Ends.end();
     this->Ends.extendRaw(row + 1);
-    // An empty row stays where the one before it ends, so that its own end does not lie below.
+    // An empty row ends where the previous one ends, so that the ends do not decrease.
     this->Ends[row] =
       size > 0 ? static_cast<std::uint32_t>(this->Open + size) : this->Ends[row - 1];
   }
 
-  /** Lets go of the rows below `row`. */
+  /** Releases the rows below `row`. */
   void release(std::int64_t row) { this->Ends.release(row); }
 
 private:
@@ -67,14 +65,14 @@ private:
     return static_cast<std::int64_t>(this->Memory.size() / sizeof(T));
   }
 
-  /** A row begins where the one before it ends, or at the beginning if it ends below that. */
+  /** A row begins at the end of the previous one, or at 0 if its own end is below that. */
   std::int64_t start(std::int64_t row) const
   {
     const std::uint32_t before = this->Ends[row];
     return this->Ends[row + 1] >= before ? before : 0;
   }
 
-  /** Chooses the place of a row of `size` entries, if there is one. */
+  /** Chooses the position of a row of `size` entries; returns whether there is one. */
   bool fits(std::int64_t size)
   {
     const std::int64_t last = this->end();
@@ -94,7 +92,7 @@ private:
     return size < head;
   }
 
-  /** Enlarges the memory so that a row of `size` entries follows. */
+  /** Enlarges the memory so that a row of `size` entries fits. */
   void grow(std::int64_t size)
   {
     const std::int64_t last = this->end();
@@ -118,7 +116,7 @@ private:
     this->Open = tail;
   }
 
-  /** Moves the rows from `first` on that lie before the end of the memory by `distance` entries. */
+  /** Moves the rows from `first` up to the end of the memory by `distance` entries. */
   void moveToEnd(std::int64_t first, std::int64_t distance)
   {
     const auto shift = static_cast<std::uint32_t>(distance);
@@ -135,8 +133,8 @@ private:
 
   Pool* Owner;
   Buffer Memory;
-  Ring<std::uint32_t> Ends; ///< Ends[row + 1]: where the row ends, in entries
-  std::int64_t Open = 0;    ///< where the row begins that open() made room for
+  Ring<std::uint32_t> Ends; ///< Ends[row + 1]: end of the row, in entries
+  std::int64_t Open = 0;    ///< begin of the open row
 };
 
 } // namespace smg

@@ -72,7 +72,7 @@ bool ReadAhead::request(std::int64_t offset, std::size_t bytes)
     {
       return false;
     }
-    // The memory is made here: the thread allocates nothing.
+    // Allocated here, since the thread must not allocate.
     if (chosen->bytes.size() < bytes)
     {
       chosen->state = State::Free;

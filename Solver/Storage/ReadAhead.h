@@ -15,33 +15,29 @@
 namespace smg
 {
 
-/**
- * Reads ranges of a file before they are wanted, on a thread of its own. It keeps a few ranges: the
- * oldest gives way to a new one.
- */
+/** Reads ranges of a file ahead of their use, on a separate thread. It keeps a few ranges; a new
+ * one replaces the oldest. */
 class ReadAhead
 {
 public:
-  /** Ranges that are kept. */
+  /** The number of ranges. */
   static constexpr int Ranges = 8;
 
   explicit ReadAhead(const FileDescriptor& file);
   ~ReadAhead();
 
-  /**
-   * Begins to read `bytes` bytes at `offset`. False if they are there, or on their way, or all
-   * ranges are in work: then nothing is read.
-   */
+  /** Starts to read `bytes` bytes at `offset`. Returns false and reads nothing if they are already
+   * read or requested, or if all ranges are busy. */
   bool request(std::int64_t offset, std::size_t bytes);
   /**
-   * The `bytes` bytes at `offset`, waited for if they are on their way; nothing if they are no part
-   * of a range that was requested, that has given way, or could not be read. Valid until the next
-   * request().
+   * The `bytes` bytes at `offset`, after waiting for a pending read; nothing if they are not part
+   * of a requested range, if that has been replaced, or if it could not be read. Valid until the
+   * next request().
    */
   std::optional<std::span<const std::byte>> find(std::int64_t offset, std::size_t bytes);
-  /** Gives up the range that ends at `end`: it is not wanted any more. */
+  /** Releases the range that ends at `end`. */
   void release(std::int64_t end);
-  /** Nanoseconds that find() stood waiting, in all. */
+  /** Total nanoseconds in which find() waited. */
   std::int64_t waitNanoseconds() const { return this->Waited; }
 
 private:

@@ -14,10 +14,10 @@ namespace smg
 {
 
 /**
- * The part [first, end) of an endless array of items that is in memory, an item being `lanes`
- * values of T. Items are addressed by their index in the endless array; around any of them the
- * others are next to each other in memory (MirroredMemory), so `at(i) + lanes * d` is item i + d.
- * But at(i + d) may be another image of it: two answers of at() bound no range.
+ * The part [first, end) in memory of an unbounded array of items, each of `lanes` values of T.
+ * Items are addressed by their index in the unbounded array; the neighbours of any item are
+ * contiguous in memory (MirroredMemory), so `at(i) + lanes * d` is item i + d. But at(i + d) may be
+ * another image of it: two results of at() do not bound a range.
  */
 template <class T>
 class Ring
@@ -48,7 +48,7 @@ public:
     return { this->at(begin), static_cast<std::size_t>((end - begin) * this->Lanes) };
   }
 
-  /** Makes items end() .. end - 1 accessible, zeroed. May move the memory. Throws Error. */
+  /** Appends items end() .. end - 1, zeroed. May move the memory. Throws Error. */
   void extend(std::int64_t end)
   {
     const std::int64_t before = this->End;
@@ -59,7 +59,7 @@ public:
     }
   }
 
-  /** As extend, but what the new items hold is left to chance. */
+  /** Like extend(), without initialising the appended items. */
   void extendRaw(std::int64_t end)
   {
     if (end > this->End)
@@ -69,7 +69,7 @@ public:
     }
   }
 
-  /** Lets go of the items below `first`. */
+  /** Releases the items below `first`. */
   void release(std::int64_t first)
   {
     this->First = std::max(this->First, first);
@@ -79,14 +79,14 @@ public:
     }
   }
 
-  /** Lets go of everything; the next item is `next`. The memory is kept. */
+  /** Releases all items and keeps the memory; the next item is `next`. */
   void restart(std::int64_t next = 0)
   {
     this->First = this->End = next;
     this->Lap = this->Capacity > 0 ? next - next % this->Capacity : 0;
   }
 
-  /** Lets go of everything, and of the memory. */
+  /** Releases all items and the memory. */
   void clear()
   {
     this->Memory.clear();
@@ -95,7 +95,7 @@ public:
     this->restart();
   }
 
-  /** Room for `items` items at once. */
+  /** Provides capacity for `items` items. */
   void reserve(std::int64_t items)
   {
     if (items > this->Capacity)
@@ -117,7 +117,7 @@ private:
     this->Memory.grow(static_cast<std::size_t>(capacity * itemBytes));
     if (wrapped > 0)
     {
-      // The items at the beginning that belong behind the others go there, as many as have room.
+      // Items at the beginning that follow the others are moved behind these, as many as fit.
       std::byte* data = this->Memory.data();
       const std::int64_t moved = std::min(wrapped, added);
       std::memcpy(
@@ -130,7 +130,7 @@ private:
   }
 
   MirroredMemory Memory;
-  T* Slots = nullptr;        // where item Lap is
+  T* Slots = nullptr;        // position of item Lap
   std::int64_t Lap = 0;      // at most First, First - Lap < Capacity
   std::int64_t Capacity = 0; // items
   std::int64_t First = 0;

@@ -19,11 +19,10 @@ namespace
 {
 
 constexpr const char* Prefix = "smg-scratch-";
-/** A file that only scratch folders have: nothing else is ever removed. */
+/** A file that only scratch folders have: no other folder is ever removed. */
 constexpr const char* Marker = ".smg-scratch";
 
-/** A descriptor of the folder that holds its lock; -1 if somebody else has it, or it has no locks.
- */
+/** A descriptor of the folder that holds its lock; -1 if it is locked or does not support locks. */
 int lockFolder(const std::filesystem::path& folder)
 {
   const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
@@ -35,7 +34,7 @@ int lockFolder(const std::filesystem::path& folder)
   return lock;
 }
 
-/** Removes the scratch folders in `base` whose programs have died. */
+/** Removes the scratch folders of terminated programs in `base`. */
 void removeAbandoned(const std::filesystem::path& base)
 {
   std::error_code ignored;
@@ -69,7 +68,7 @@ ScratchFolder::ScratchFolder(const std::filesystem::path& parent)
   }
   const std::filesystem::path base = std::filesystem::absolute(place);
   removeAbandoned(base);
-  // It gets the name by which others look for abandoned ones when it is locked.
+  // Once locked, it is renamed to the pattern by which others search for abandoned folders.
   std::string made = (base / (std::string(".") + Prefix + "XXXXXX")).string();
   if (!::mkdtemp(made.data()))
   {

@@ -8,14 +8,14 @@ namespace smg
 {
 
 /**
- * A folder of its own for scratch files, removed with all it holds by the destructor. What a
- * program that was killed has left behind is removed by the next ScratchFolder in the same place: a
- * folder is locked as long as its program lives.
+ * A separate folder for scratch files, removed with its content by the destructor. Folders left by
+ * killed programs are removed by the next ScratchFolder in the same parent: a folder is locked as
+ * long as its program runs.
  */
 class SMG_EXPORT ScratchFolder
 {
 public:
-  /** Makes it in `parent`; empty: in the system's temporary folder. Throws Error. */
+  /** Creates it in `parent`; empty: in the system's temporary folder. Throws Error. */
   explicit ScratchFolder(const std::filesystem::path& parent);
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;

@@ -18,7 +18,7 @@ void ScratchStream::startPass(bool rewrite)
   this->readAhead();
 }
 
-/** Requests the next range of blocks when those of the last request begin to be used up. */
+/** Requests the next range of blocks when the blocks of the last request are being read. */
 void ScratchStream::readAhead()
 {
   if (this->Next < this->Ahead || this->Requested >= this->Last.count)
@@ -28,7 +28,7 @@ void ScratchStream::readAhead()
   this->Ahead = this->Requested;
   std::int64_t begin = 0;
   std::size_t bytes = 0;
-  // As far as the blocks adjoin; some are without bytes.
+  // As long as the blocks are contiguous; some have no bytes.
   for (; this->Requested < this->Last.count; ++this->Requested)
   {
     const Block& block = this->block(this->Requested);
@@ -99,7 +99,7 @@ void ScratchStream::read(std::int64_t index, std::span<std::byte> bytes)
   if (bytes.size() != block.bytes || checksum(bytes) != block.checksum)
   {
     throw Error(this->Path.string() + ": block " + std::to_string(index) +
-                " is not what was written: look for faults of the disk, or use another one.");
+                " differs from what was written: check the disk for faults, or use another one.");
   }
   this->Statistics->bytesRead += static_cast<std::int64_t>(bytes.size());
   this->Statistics->waitNanoseconds += waited;

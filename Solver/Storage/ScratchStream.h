@@ -16,19 +16,19 @@ namespace smg
 {
 
 /**
- * A scratch file of blocks of any size that a pass reads from first to last, with the next ones
- * read ahead, and that a pass may rewrite at the same time: what it appends is what the next pass
- * reads. The generation that is being read stays as it is until the pass ends; a block takes the
- * place of the one with its number of the generation before, if it fits there. So pages that the
- * system keeps are overwritten instead of given back and asked for anew.
+ * A scratch file of blocks of any size that a pass reads from first to last, with read-ahead, and
+ * that it may rewrite at the same time: the next pass reads the appended blocks. The generation
+ * that is read is not modified until the pass ends; a block replaces the block with the same index
+ * of the generation before, if it fits. Pages in the cache of the system are thus overwritten
+ * instead of released and allocated again.
  *
- * The file has no name: it is gone with the stream or the program. What is read is checked by what
- * was written (XXH3).
+ * The file is unnamed: it is removed with the stream or the program. Checksums (XXH3) verify that
+ * the bytes read are those written.
  */
 class SMG_EXPORT ScratchStream
 {
 public:
-  /** `path` tells the folder, and the name in messages. */
+  /** `path` is the folder, and the name in messages. */
   ScratchStream(std::filesystem::path path, IoStatistics& statistics)
     : Path(std::move(path))
     , Statistics(&statistics)
@@ -36,13 +36,13 @@ public:
   {
   }
 
-  /** Goes back to the first block; with `rewrite`, append() begins with the first one, too. */
+  /** Restarts reading at the first block; with `rewrite`, also appending. */
   void startPass(bool rewrite);
   void append(std::span<const std::byte> block);
-  /** Bytes of the block that read() delivers next. */
+  /** Bytes of the next block to read. */
   std::size_t nextBytes() const;
   void read(std::span<std::byte> block);
-  /** Block `index` of what the last rewriting pass wrote. */
+  /** Bytes of block `index` of the last rewriting pass. */
   std::size_t bytes(std::int64_t index) const;
   void read(std::int64_t index, std::span<std::byte> block);
   void endPass();
@@ -53,33 +53,33 @@ private:
     std::int64_t offset = 0;
     std::uint64_t checksum = 0;
     std::size_t bytes = 0;
-    std::size_t room = 0; ///< bytes that its place has
+    std::size_t room = 0; ///< capacity in bytes
   };
   struct Generation
   {
     std::vector<Block> blocks;
-    std::int64_t count = 0; ///< of those that it has; the others are places for later ones
+    std::int64_t count = 0; ///< blocks in use; the others are reserved for later ones
   };
 
-  /** Asked of the system at once. */
+  /** Bytes requested from the system at once. */
   static constexpr std::size_t ReadAheadBytes = std::size_t(192) << 10;
 
   const Block& block(std::int64_t index) const
   {
     return this->Last.blocks.at(static_cast<std::size_t>(index));
   }
-  /** The block that is written next, with room for so many bytes. */
+  /** The next block to write, with room for `bytes` bytes. */
   Block& place(std::size_t bytes);
   void readAhead();
 
   std::filesystem::path Path;
   IoStatistics* Statistics;
   FileDescriptor File;
-  Generation Last, Coming; // what the last rewriting pass wrote, and what this one writes
+  Generation Last, Coming; // written by the last rewriting pass, and by this one
   std::int64_t End = 0;    // of the file
   bool Rewriting = false;
   std::int64_t Next = 0;
-  std::int64_t Ahead = 0, Requested = 0; // first block of the last request, and behind it
+  std::int64_t Ahead = 0, Requested = 0; // first block of the last request, and its end
 };
 
 } // namespace smg

@@ -11,7 +11,7 @@
 namespace smg
 {
 
-/** The traffic of the scratch files of a solve, each kind of file by itself. */
+/** The traffic of the scratch files of a solve, per kind of file. */
 class ScratchTraffic
 {
 public:
@@ -23,10 +23,10 @@ public:
   };
   static constexpr int NoLevel = -1;
 
-  /** The account of a new kind of file, of a level or of none; it stays where it is. */
+  /** Adds an account for a kind of file, of a level or of none; its address does not change. */
   IoStatistics& add(std::string name, int level = NoLevel)
   {
-    // Not a vector: an account is being counted in while others are added.
+    // Not a vector: accounts are in use while others are added.
     Kind& kind = this->Kinds.emplace_back();
     kind.name = std::move(name);
     kind.level = level;
@@ -35,8 +35,7 @@ public:
 
   const std::deque<Kind>& kinds() const { return this->Kinds; }
 
-  /** Seconds that the callers of all files stood waiting for the disk, so far: threads that wait at
-   * the same time count each. */
+  /** Seconds in which the callers of all files have waited for the disk, summed over threads. */
   double waitSeconds() const
   {
     std::int64_t nanoseconds = 0;

@@ -12,8 +12,8 @@
 namespace smg
 {
 
-/** Items that come and go in any order, `lanes` values of T each. They are numbered from 1; the
- * place of one that is gone is used again. */
+/** Items of `lanes` values of T that are created and released in any order. They are numbered from
+ * 1; released slots are reused. */
 template <class T>
 class Slots
 {
@@ -26,7 +26,7 @@ public:
   {
   }
 
-  /** The number of another item, whose values are left to chance. May move the others. */
+  /** Creates an uninitialised item and returns its number. May move the others. */
   std::int32_t take()
   {
     const std::int32_t slot = this->Spare;
@@ -42,7 +42,7 @@ public:
     return static_cast<std::int32_t>(++this->Used);
   }
 
-  /** The item is gone. */
+  /** Releases the item. */
   void give(std::int32_t slot)
   {
     std::memcpy(this->at(slot), &this->Spare, sizeof(slot));
@@ -74,7 +74,7 @@ private:
   int Lanes;
   Buffer Memory;
   std::int64_t Used = 0, Capacity = 0;
-  std::int32_t Spare = 0; // the first of the places that are free, which name the next one each
+  std::int32_t Spare = 0; // head of the linked list of free slots
 };
 
 } // namespace smg

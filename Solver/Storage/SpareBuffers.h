@@ -11,9 +11,9 @@ namespace smg
 {
 
 /**
- * Buffers that are used again: memory that is given back to the system and asked for anew costs
- * more than what is read into it. One that turned out too small is replaced by one with a little
- * more room than is asked for, to serve the next time, too.
+ * Buffers for reuse: releasing memory to the system and allocating it again costs more than reading
+ * into it. A buffer that is too small is replaced by one that is slightly larger than requested,
+ * for later requests.
  */
 class SpareBuffers
 {
@@ -41,7 +41,7 @@ public:
     return buffer;
   }
   void give(Buffer buffer) { this->Spare.push_back(std::move(buffer)); }
-  /** Gives its buffers to others, which keep at most `most`. */
+  /** Moves its buffers to `others`, which keep at most `most`. */
   void giveTo(SpareBuffers& others, std::size_t most)
   {
     for (; !this->Spare.empty() && others.Spare.size() < most; this->Spare.pop_back())

@@ -8,7 +8,7 @@
 namespace smg
 {
 
-/** Measures how long its thread stood waiting since construction: the time without its own work. */
+/** Measures the waiting time of its thread since construction: wall time minus CPU time. */
 class WaitClock
 {
 public:

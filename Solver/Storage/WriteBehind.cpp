@@ -67,7 +67,7 @@ void WriteBehind::handOver()
     this->Ring[this->Current].offset + std::int64_t(this->Ring[this->Current].used);
   {
     std::unique_lock lock(this->Mutex);
-    // Woken for several chunks at a time the thread is woken more seldom; one remains to be filled.
+    // Waking the thread for several chunks reduces wake-ups; one chunk remains to be filled.
     if (++this->Full >= Chunks - 1)
     {
       this->Changed.notify_all();

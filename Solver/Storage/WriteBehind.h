@@ -22,19 +22,19 @@ namespace smg
 class SMG_EXPORT WriteBehind
 {
 public:
-  /** Writes from `offset` on with chunks of `bytes` bytes in all. The file must outlive it. */
+  /** Writes from `offset` on, with chunks of `bytes` bytes in total. The file must outlive it. */
   WriteBehind(const FileDescriptor& file, std::int64_t offset, std::size_t bytes);
-  /** Ends the thread; what was not flushed is not written. */
+  /** Ends the thread; bytes that were not flushed are not written. */
   ~WriteBehind();
 
-  /** Where the next byte goes in the file. */
+  /** The file offset of the next byte. */
   std::int64_t offset() const { return this->Offset; }
-  /** Nanoseconds that put() and flush() stood waiting, in all. */
+  /** Total nanoseconds in which put() and flush() waited. */
   std::int64_t waitNanoseconds() const { return this->Waited; }
 
-  /** Brings bytes. A failed write is not thrown: failed() tells. */
+  /** Appends bytes. A failed write is not thrown but reported by failed(). */
   void put(std::span<const std::byte> bytes);
-  /** Waits until all is written. */
+  /** Waits until all bytes are written. */
   void flush();
   /** The error number of the first write that failed, or 0. */
   int failed();
@@ -57,11 +57,11 @@ private:
   std::int64_t Offset;
   std::int64_t Waited = 0;
   std::array<Chunk, Chunks> Ring;
-  int Current = 0; ///< the chunk that is being filled, no business of the thread
+  int Current = 0; ///< the chunk being filled, not accessed by the thread
 
   std::mutex Mutex;
   std::condition_variable Changed;
-  int Full = 0; ///< chunks that wait to be written, the ones before Current
+  int Full = 0; ///< number of chunks waiting to be written, before Current
   int FirstError = 0;
   bool Stop = false;
 

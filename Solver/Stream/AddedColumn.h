@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** A mesh stream with one more column, of the vertices or of the cells, which a function fills. */
+/** A mesh stream with an additional column of the vertices or cells, filled by a function. */
 class AddedColumn : public MeshSource
 {
 public:
@@ -18,7 +18,7 @@ public:
     Vertices,
     Cells
   };
-  /** Fills the column, which has the right number of tuples, for the block. */
+  /** Fills the column, which has the correct number of tuples, for the block. */
   using Fill = std::function<void(const MeshBlock& block, Column& column)>;
 
   AddedColumn(std::unique_ptr<MeshSource> source, Of of, ColumnSpec spec, Fill fill)

@@ -11,20 +11,20 @@
 namespace smg
 {
 
-/** Names of the columns that a conversion adds: places in the original file, from 0, int64. */
+/** Names of the columns that a conversion adds: int64 indices in the original file, from 0. */
 inline constexpr const char* OriginalIdName = "OriginalId";
 inline const ColumnSpec OriginalIdSpec{ OriginalIdName, ScalarType::Int64, 1 };
 inline constexpr const char* OriginalCellIdName = "OriginalCellId";
 inline const ColumnSpec OriginalCellIdSpec{ OriginalCellIdName, ScalarType::Int64, 1 };
 
-/** What a user calls a vertex or cell: by its original number, or by that in the stream. */
+/** A name for a vertex or cell in messages, by its index in the original file or in the stream. */
 inline std::string nameOfRow(std::int64_t number, bool original)
 {
   return std::to_string(number) + (original ? " of the mesh's file" : " of the stream");
 }
 
-/** The same of row `i` of a block that begins with row `first`: by its column of original numbers,
- * if it has that. */
+/** The same for row `i` of a block that begins with row `first`: by its column of original indices,
+ * if any. */
 inline std::string nameOfRow(
   const std::vector<Column>& columns, const ColumnSpec& numbers, std::int64_t first, std::size_t i)
 {

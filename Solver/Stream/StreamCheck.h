@@ -8,7 +8,7 @@
 namespace smg
 {
 
-/** Looks whether the blocks of a mesh stream follow each other and are valid. */
+/** Checks that the blocks of a mesh stream are consecutive and valid. */
 class StreamCheck
 {
 public:
@@ -18,12 +18,13 @@ public:
   }
 
   /**
-   * To be called with each block in turn. Throws Error if it does not continue the stream, if a
-   * position is not finite, or if a cell uses a vertex that has not come yet or was declared final.
+   * To be called with each block in order. Throws Error if it does not continue the stream, if a
+   * position is not finite, or if a cell uses a vertex that has not been read yet or was declared
+   * final.
    */
   void add(const MeshBlock& block);
 
-  /** How many vertices have come. */
+  /** The number of vertices so far. */
   std::int64_t vertices() const { return this->Vertices; }
 
 private:

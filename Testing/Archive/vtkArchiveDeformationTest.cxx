@@ -62,13 +62,13 @@ class DeformationData
 {
 };
 
-TEST_P(DeformationData, agreesWithTheDirectOne)
+TEST_P(DeformationData, AgreesWithTheDirectOne)
 {
   const auto [name, weights] = this->GetParam();
   checkFigures(archiveMesh(name), weights, { { 3, 2e-3 }, { 6, 1e-5 }, { 9, 1e-7 } });
 }
 
-TEST_P(DeformationData, streamingAndInteractiveEqualInCore)
+TEST_P(DeformationData, StreamingAndInteractiveEqualInCore)
 {
   const auto [name, weights] = this->GetParam();
   const StreamMesh mesh = archiveMesh(name);
@@ -116,17 +116,17 @@ class RefinedDeformationLong : public RefinedDeformationData
 {
 };
 
-TEST_P(RefinedDeformationData, agreesWithTheDirectOne)
+TEST_P(RefinedDeformationData, AgreesWithTheDirectOne)
 {
   checkFigures(toStream(refinedArmadillo(1)), this->GetParam(), { { 9, 1e-5 } });
 }
 
-TEST_P(RefinedDeformationLong, agreesWithTheDirectOne)
+TEST_P(RefinedDeformationLong, AgreesWithTheDirectOne)
 {
   checkFigures(toStream(refinedArmadillo(2)), this->GetParam(), { { 9, 1e-5 } });
 }
 
-TEST_P(RefinedDeformationLong, staysWithin128MiB)
+TEST_P(RefinedDeformationLong, StaysWithin128MiB)
 {
   const StreamMesh mesh = toStream(refinedArmadillo(3));
   ArrayHandles handles = figureHandles(mesh);
@@ -135,7 +135,7 @@ TEST_P(RefinedDeformationLong, staysWithin128MiB)
   deformed(mesh, handles, options);
 }
 
-TEST_P(RefinedDeformationData, keepsDetails)
+TEST_P(RefinedDeformationData, KeepsDetails)
 {
   const StreamMesh mesh = toStream(bumpy(refined(bumpy(refinedArmadillo(0), 0.3, 1)), 0.3, 2));
   ArrayHandles handles = figureHandles(mesh);

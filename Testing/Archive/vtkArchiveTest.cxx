@@ -84,19 +84,19 @@ class ArchiveLong : public ArchiveMesh
 {
 };
 
-TEST_P(ArchiveData, streamingEqualsInCore)
+TEST_P(ArchiveData, StreamingEqualsInCore)
 {
   checkBits(archiveMesh(this->GetParam()));
 }
 
-TEST_P(ArchiveData, agreesWithTheDirectSolve)
+TEST_P(ArchiveData, AgreesWithTheDirectSolve)
 {
   const StreamMesh mesh = archiveMesh(this->GetParam());
   checkConvergenceAndAccuracy(mesh, Weights::Clamped);
   checkConvergenceAndAccuracy(mesh, Weights::Uniform);
 }
 
-TEST_P(ArchiveLong, agreesWithTheDirectSolve)
+TEST_P(ArchiveLong, AgreesWithTheDirectSolve)
 {
   checkConvergenceAndAccuracy(archiveMesh(this->GetParam()), Weights::Clamped);
 }
@@ -154,12 +154,12 @@ class RefinedLong : public NeedsArchive<::testing::Test>
 {
 };
 
-TEST_F(RefinedData, convergenceAndMemory)
+TEST_F(RefinedData, ConvergenceAndMemory)
 {
   checkRefinements(1, 2);
 }
 
-TEST_F(RefinedLong, convergenceAndMemory)
+TEST_F(RefinedLong, ConvergenceAndMemory)
 {
   checkRefinements(2, 3);
 }

@@ -244,7 +244,7 @@ TEST_F(ProblemFile, ErrorsNameThePlace)
     this->errorOf(R"({"dirichlet": [{"vertices": [18446744073709551615], "value": [0]}]})"),
     "vertices[0]");
   EXPECT_CONTAINS(this->errorOf("{\n\"columns\": }"), "p.json, line 2");
-  EXPECT_CONTAINS(this->errorOf(R"({"columns": 1, "columns": 2})"), "'columns' stands twice");
+  EXPECT_CONTAINS(this->errorOf(R"({"columns": 1, "columns": 2})"), "'columns' occurs twice");
   EXPECT_CONTAINS(this->errorOf(R"({"dirichlet": [{"value": [0], "value": [1]}]})"), "'value'");
   EXPECT_CONTAINS(this->errorOf(""), "empty");
   EXPECT_CONTAINS(this->errorOf("[]"), "must be an object");

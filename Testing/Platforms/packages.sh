@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# packages.sh : makes the Debian packages, installs them on this machine, uses them, removes them. For a
-# system of its own: bash Testing/Platforms/run.sh SUITE bash Testing/Platforms/packages.sh
+# packages.sh : builds the Debian packages, installs, uses and removes them on this machine. In a fresh
+# system: bash Testing/Platforms/run.sh SUITE bash Testing/Platforms/packages.sh
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 tree=$PWD
@@ -49,5 +49,5 @@ done
 smg_as_root apt-get remove -y -qq streaming-multigrid > /dev/null
 installed=
 [ ! -e /usr/bin/smg ]
-echo "The packages install, work and go:"
+echo "The packages can be installed, used and removed:"
 ls "$tree"/build-packages/*.deb

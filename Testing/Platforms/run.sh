@@ -1,23 +1,23 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# run.sh SUITE [COMMAND] : runs a command, "bash Examples/run.sh && bash Testing/run.sh" unless another
-# is given, in a fresh clone of the last commit of this tree, in a fresh Debian of that release
-# (bookworm, trixie, forky), and removes both. Needs root, and the network for the packages.
+# run.sh SUITE [COMMAND] : runs a command, by default "bash Examples/run.sh && bash Testing/run.sh", in
+# a fresh clone of the last commit of this tree, in a fresh Debian of that release (bookworm, trixie,
+# forky), and removes both. Requires root, and the network for the packages.
 #
-# At the end it says how long it took, and, if the command has left it, whether the deformed bunny of
-# Examples/run.sh has the bits of the one made here, by the same script; other bits are a failure.
+# At the end it prints the elapsed time and, if there is a deformed bunny of Examples/run.sh, whether it
+# equals that of the same script on this machine bit for bit; a difference is a failure.
 #
 # Environment:
-#   SMG_PLATFORM_DIR   folder for the system, about 8 GB; /var/tmp unless set
-#   SMG_KEEP           1: leave it there, and say where
-#   SMG_TEST_DATA_DIR  the unpacked archive of test meshes, for the tests; none unless set
+#   SMG_PLATFORM_DIR   folder for the system, about 8 GB; default: /var/tmp
+#   SMG_KEEP           1: keep the system and print its location
+#   SMG_TEST_DATA_DIR  the unpacked archive of test meshes, for the tests; default: none
 set -euo pipefail
 suite=${1:?usage: run.sh SUITE [COMMAND]}
 if [ "$(id -u)" != 0 ]; then
-  echo "$0: a system of its own needs root: sudo bash $0 $suite" >&2
+  echo "$0: creating a system requires root: sudo bash $0 $suite" >&2
   exit 1
 fi
-# What is mounted below is seen by this process and its children only, and goes with them.
+# The mounts below are visible to this process and its children only, and end with them.
 if [ -z "${SMG_PLATFORM_MOUNTS:-}" ]; then
   SMG_PLATFORM_MOUNTS=private exec unshare --mount --propagation private bash "$0" "$@"
 fi
@@ -28,9 +28,9 @@ source "$tree/cmake/packages.sh"
 smg_install debootstrap git
 
 root=$(mktemp -d "${SMG_PLATFORM_DIR:-/var/tmp}/smg-$suite-XXXXXX")
-# In it everybody may look around, as in any system.
+# Readable for all users, as in any system.
 chmod 755 "$root"
-# Never into what is mounted: this machine's devices are among it.
+# Never descends into mounts, which include the devices of this machine.
 clean() {
   local mounted
   for mounted in data sys dev proc; do
@@ -44,7 +44,7 @@ clean() {
 }
 trap clean EXIT
 
-# From where this machine has its own packages. Releases that debootstrap does not know are made as sid.
+# Uses the package source of this machine. Releases unknown to debootstrap are created like sid.
 archive=$(grep -hE '^(deb|URIs:)' /etc/apt/sources.list /etc/apt/sources.list.d/* 2> /dev/null |
   grep -oE 'https?:[^ ]*/debian/?( |$)' | head -n 1 | tr -d ' ' || true)
 scripts=/usr/share/debootstrap/scripts
@@ -84,11 +84,11 @@ for name in bunny-deformed.vsm bunny-deformed.ply; do
   here=$tree/Examples/output/$name
   there=$root/tree/Examples/output/$name
   if [ ! -f "$here" ] || [ ! -f "$there" ]; then
-    echo "$name: not compared, since it is not there and here"
+    echo "$name: not compared, since it is missing in one of the systems"
   elif cmp -s "$here" "$there"; then
-    echo "$name: the bits of this machine"
+    echo "$name: equals that of this machine"
   else
-    echo "$name: other bits"
+    echo "$name: differs from that of this machine"
     status=1
   fi
 done

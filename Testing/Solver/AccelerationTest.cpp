@@ -37,7 +37,7 @@ SolveOptions oneSweep(AccelerationKind kind, double tolerance)
 
 } // namespace
 
-TEST(Acceleration, findsTheSolution)
+TEST(Acceleration, FindsTheSolution)
 {
   for (const bool surface : { true, false })
   {
@@ -53,7 +53,7 @@ TEST(Acceleration, findsTheSolution)
   }
 }
 
-TEST(Acceleration, theReportedResidualIsTheTrueOne)
+TEST(Acceleration, TheReportedResidualIsTheTrueOne)
 {
   auto [mesh, problem] = slowTask(true, 2);
   MemorySource source(mesh);
@@ -72,7 +72,7 @@ TEST(Acceleration, theReportedResidualIsTheTrueOne)
   }
 }
 
-TEST(Acceleration, streamingEqualsInCoreBitForBit)
+TEST(Acceleration, StreamingEqualsInCoreBitForBit)
 {
   for (const int columns : { 1, 3, 5 })
   {
@@ -97,7 +97,7 @@ TEST(Acceleration, streamingEqualsInCoreBitForBit)
   }
 }
 
-TEST(Acceleration, needsFewerPassesWhereVCyclesAreSlow)
+TEST(Acceleration, NeedsFewerPassesWhereVCyclesAreSlow)
 {
   // Tetrahedra of which many are flat, and all are long.
   IndexedTestMesh indexed = tetBox(13, 12, 14, 0.31);
@@ -126,7 +126,7 @@ TEST(Acceleration, needsFewerPassesWhereVCyclesAreSlow)
   EXPECT_EQ(automatic.acceleration, "cg");
 }
 
-TEST(Acceleration, isNotBegunWhereFewVCyclesAreLeft)
+TEST(Acceleration, IsNotBegunWhereFewVCyclesAreLeft)
 {
   auto [mesh, problem] = slowTask(true, 1);
   SolveOptions options = accurate(1e-2);
@@ -136,7 +136,7 @@ TEST(Acceleration, isNotBegunWhereFewVCyclesAreLeft)
   EXPECT_TRUE(sameBits(automatic.values, solveMesh(mesh, problem, options).values));
 }
 
-TEST(Acceleration, isGivenUpWithoutRoomForItsVectors)
+TEST(Acceleration, IsGivenUpWithoutRoomForItsVectors)
 {
   auto [mesh, problem] = slowTask(true, 16);
   SolveOptions options = accurate(1e-8);

@@ -9,7 +9,7 @@
 namespace smg::testing
 {
 
-TEST(Buffer, isAlignedAndCountedInThePool)
+TEST(Buffer, IsAlignedAndCountedInThePool)
 {
   Pool pool(10000);
   {
@@ -23,7 +23,7 @@ TEST(Buffer, isAlignedAndCountedInThePool)
   EXPECT_EQ(pool.used(), 0);
 }
 
-TEST(Buffer, movesWithoutCopying)
+TEST(Buffer, MovesWithoutCopying)
 {
   Pool pool(10000);
   {
@@ -40,7 +40,7 @@ TEST(Buffer, movesWithoutCopying)
   EXPECT_EQ(pool.used(), 0);
 }
 
-TEST(Buffer, mayBeUsedInPart)
+TEST(Buffer, MayBeUsedInPart)
 {
   Pool pool(10000);
   Buffer buffer(pool, 1000);
@@ -49,7 +49,7 @@ TEST(Buffer, mayBeUsedInPart)
   EXPECT_GE(buffer.capacity(), 1000U);
 }
 
-TEST(Buffer, aboveTheLimitIsRefused)
+TEST(Buffer, AboveTheLimitIsRefused)
 {
   Pool pool(1000);
   EXPECT_THROW(Buffer(pool, 2000), Error);

@@ -58,7 +58,7 @@ Eigen::Matrix4d stiffness(const std::vector<Point>& p)
 
 } // namespace
 
-TEST(CellWeights, ofATriangleAreHalfTheCotangents)
+TEST(CellWeights, OfATriangleAreHalfTheCotangents)
 {
   Random random(3);
   for (int trial = 0; trial < 200; ++trial)
@@ -76,7 +76,7 @@ TEST(CellWeights, ofATriangleAreHalfTheCotangents)
   }
 }
 
-TEST(CellWeights, ofATetrahedronAreTheStiffnessAndTheDihedralFormula)
+TEST(CellWeights, OfATetrahedronAreTheStiffnessAndTheDihedralFormula)
 {
   Random random(4);
   for (int trial = 0; trial < 200; ++trial)
@@ -99,7 +99,7 @@ TEST(CellWeights, ofATetrahedronAreTheStiffnessAndTheDihedralFormula)
   }
 }
 
-TEST(CellWeights, doNotDependOnOrientationOrPlace)
+TEST(CellWeights, DoNotDependOnOrientationOrPlace)
 {
   const std::vector<Point> p{ { 0, 0, 0 }, { 1, 0, 0 }, { 0.2, 0.9, 0 }, { 0.3, 0.1, 0.8 } };
   const smg::CellWeights cell = weightsOf(p);
@@ -121,7 +121,7 @@ TEST(CellWeights, doNotDependOnOrientationOrPlace)
   }
 }
 
-TEST(CellWeights, ofSimpleCells)
+TEST(CellWeights, OfSimpleCells)
 {
   const smg::CellWeights right = weightsOf({ { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } });
   EXPECT_DOUBLE_EQ(right.measure, 0.5);
@@ -135,7 +135,7 @@ TEST(CellWeights, ofSimpleCells)
   EXPECT_LT(obtuse.weight[0], 0.0);
 }
 
-TEST(CellWeights, ofASliverAreFinite)
+TEST(CellWeights, OfASliverAreFinite)
 {
   const smg::CellWeights triangle = weightsOf({ { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 1e-12, 0 } });
   EXPECT_NEAR(triangle.measure, 5e-13, 1e-16);
@@ -149,7 +149,7 @@ TEST(CellWeights, ofASliverAreFinite)
   }
 }
 
-TEST(CellWeights, ofADegenerateCellAreNone)
+TEST(CellWeights, OfADegenerateCellAreNone)
 {
   const Point a(1, 2, 3);
   const Point b(2, 4, 6);
@@ -171,7 +171,7 @@ TEST(CellWeights, ofADegenerateCellAreNone)
 }
 
 /** In the inside of a flat mesh sum_j w_ij (x_i - x_j) = 0 for every coordinate x. */
-TEST(CellWeights, makeLinearFunctionsHarmonic)
+TEST(CellWeights, MakeLinearFunctionsHarmonic)
 {
   for (const bool surface : { true, false })
   {
@@ -213,7 +213,7 @@ TEST(CellWeights, makeLinearFunctionsHarmonic)
   }
 }
 
-TEST(CellWeights, haveAFloorOfAThousandthOfARegularMesh)
+TEST(CellWeights, HaveAFloorOfAThousandthOfARegularMesh)
 {
   const Point a(0, 0, 0);
   const Point b(0, 3, 4);
@@ -221,7 +221,7 @@ TEST(CellWeights, haveAFloorOfAThousandthOfARegularMesh)
   EXPECT_DOUBLE_EQ(cotangentFloor(CellType::Tetrahedron, a.data(), b.data()), 5e-4);
 }
 
-TEST(CellWeights, ofAConductivityAreTheElementMatrixWithIt)
+TEST(CellWeights, OfAConductivityAreTheElementMatrixWithIt)
 {
   Random random(5);
   for (int trial = 0; trial < 200; ++trial)
@@ -270,7 +270,7 @@ TEST(CellWeights, ofAConductivityAreTheElementMatrixWithIt)
   }
 }
 
-TEST(CellWeights, ofAScalarConductivityAreItsMultiplesBitForBit)
+TEST(CellWeights, OfAScalarConductivityAreItsMultiplesBitForBit)
 {
   Random random(6);
   const double tensor[6] = { 0.3, 0.3, 0.3, 0, 0, 0 };
@@ -289,7 +289,7 @@ TEST(CellWeights, ofAScalarConductivityAreItsMultiplesBitForBit)
   }
 }
 
-TEST(CellWeights, aConductivityMustBePositiveDefinite)
+TEST(CellWeights, AConductivityMustBePositiveDefinite)
 {
   const double nan = std::nan("");
   const std::vector<std::vector<double>> bad{ { 0, 1, 1, 0, 0, 0 }, { 1, -1, 1, 0, 0, 0 },
@@ -309,7 +309,7 @@ TEST(CellWeights, aConductivityMustBePositiveDefinite)
   }
 }
 
-TEST(CellWeights, theFlatnessOfACellIsAMatterOfItsShape)
+TEST(CellWeights, TheFlatnessOfACellIsAMatterOfItsShape)
 {
   for (const int corners : { 3, 4 })
   {

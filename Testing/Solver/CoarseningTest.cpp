@@ -6,7 +6,7 @@
 
 namespace smg::testing
 {
-TEST(Coarsening, liftedNodesAreAMaximalIndependentSetOfTheStrongEdges)
+TEST(Coarsening, LiftedNodesAreAMaximalIndependentSetOfTheStrongEdges)
 {
   for (const CoarseningCase& test : coarseningCases())
   {
@@ -35,7 +35,7 @@ TEST(Coarsening, liftedNodesAreAMaximalIndependentSetOfTheStrongEdges)
   }
 }
 
-TEST(Coarsening, theRawProductIsTheGalerkinProduct)
+TEST(Coarsening, TheRawProductIsTheGalerkinProduct)
 {
   for (CoarseningCase& test : coarseningCases())
   {
@@ -55,7 +55,7 @@ TEST(Coarsening, theRawProductIsTheGalerkinProduct)
   }
 }
 
-TEST(Coarsening, rowSumsOfAFreeComponentAreZeroOnEveryLevel)
+TEST(Coarsening, RowSumsOfAFreeComponentAreZeroOnEveryLevel)
 {
   for (const CoarseningCase& test : coarseningCases())
   {
@@ -73,7 +73,7 @@ TEST(Coarsening, rowSumsOfAFreeComponentAreZeroOnEveryLevel)
 }
 
 /** Meshes whose windows use the same memory for neighbours of a neighbour that are long gone. */
-TEST(Coarsening, whatIsGoneIsNotLookedAt)
+TEST(Coarsening, WhatIsGoneIsNotLookedAt)
 {
   RecordingOperators operators;
   operators.strength = 0.05F;
@@ -88,7 +88,7 @@ TEST(Coarsening, whatIsGoneIsNotLookedAt)
   }
 }
 
-TEST(Coarsening, doesNotDependOnHowManyRowsComeAtOnce)
+TEST(Coarsening, DoesNotDependOnHowManyRowsComeAtOnce)
 {
   for (const CoarseningCase& test : coarseningCases())
   {
@@ -104,7 +104,7 @@ TEST(Coarsening, doesNotDependOnHowManyRowsComeAtOnce)
   }
 }
 
-TEST(Coarsening, stiffNodesStayAndTheirRowsAreNotSparsified)
+TEST(Coarsening, StiffNodesStayAndTheirRowsAreNotSparsified)
 {
   for (const double scale : { 1.0, 1e-5 })
   {
@@ -146,7 +146,7 @@ TEST(Coarsening, stiffNodesStayAndTheirRowsAreNotSparsified)
   }
 }
 
-TEST(Coarsening, nodesWithoutEdgesHaveNoParent)
+TEST(Coarsening, NodesWithoutEdgesHaveNoParent)
 {
   TestLevel level;
   level.rows = { {}, { { 2, 1.0F } }, {}, { { -2, 1.0F } }, {} };
@@ -162,7 +162,7 @@ TEST(Coarsening, nodesWithoutEdgesHaveNoParent)
   }
 }
 
-TEST(Coarsening, ofALevelWithoutNodesIsOneWithoutNodes)
+TEST(Coarsening, OfALevelWithoutNodesIsOneWithoutNodes)
 {
   Pool pool(1 << 24);
   LevelRows fine(pool);
@@ -175,7 +175,7 @@ TEST(Coarsening, ofALevelWithoutNodesIsOneWithoutNodes)
   EXPECT_EQ(coarse.end(), 0);
 }
 
-TEST(Coarsening, keepsAWindowOnly)
+TEST(Coarsening, KeepsAWindowOnly)
 {
   // A long strip: the window is as wide as the strip, whatever its length; also with patches.
   for (const bool slivers : { false, true })

@@ -24,7 +24,7 @@ void count(Components& parts, std::int32_t label, double b, double x0, double ma
 
 } // namespace
 
-TEST(Components, joinedLabelsHaveOneRoot)
+TEST(Components, JoinedLabelsHaveOneRoot)
 {
   // Against the plainest way: relabel all.
   Components parts(1);
@@ -57,7 +57,7 @@ TEST(Components, joinedLabelsHaveOneRoot)
   }
 }
 
-TEST(Components, aConstraintAnywhereFixesTheWhole)
+TEST(Components, AConstraintAnywhereFixesTheWhole)
 {
   Components parts(1);
   const std::int32_t a = parts.add();
@@ -72,7 +72,7 @@ TEST(Components, aConstraintAnywhereFixesTheWhole)
   EXPECT_EQ(parts.components(), 2);
 }
 
-TEST(Components, theMeanOfAnIncompatibleRightSideIsItsShift)
+TEST(Components, TheMeanOfAnIncompatibleRightSideIsItsShift)
 {
   Components parts(1);
   const std::int32_t free = parts.add();
@@ -92,7 +92,7 @@ TEST(Components, theMeanOfAnIncompatibleRightSideIsItsShift)
   EXPECT_DOUBLE_EQ(parts.incompatibility(), 3.0 / 5.0);
 }
 
-TEST(Components, aConstantSourceIsAllMean)
+TEST(Components, AConstantSourceIsAllMean)
 {
   Components parts(1);
   const std::int32_t label = parts.add();
@@ -107,7 +107,7 @@ TEST(Components, aConstantSourceIsAllMean)
   EXPECT_EQ(parts.weightOf(label, 0.5), 0.5);
 }
 
-TEST(Components, whereNoVertexHasAMassAllCountAlike)
+TEST(Components, WhereNoVertexHasAMassAllCountAlike)
 {
   Components parts(1);
   const std::int32_t label = parts.add();
@@ -119,7 +119,7 @@ TEST(Components, whereNoVertexHasAMassAllCountAlike)
   EXPECT_DOUBLE_EQ(parts.meanShifts(std::vector{ 18.0 })[label], 1.0);
 }
 
-TEST(Components, aRightSideThatSumsToZeroUpToRoundingIsLeftAlone)
+TEST(Components, ARightSideThatSumsToZeroUpToRoundingIsLeftAlone)
 {
   Components parts(1);
   const std::int32_t label = parts.add();
@@ -131,7 +131,7 @@ TEST(Components, aRightSideThatSumsToZeroUpToRoundingIsLeftAlone)
   EXPECT_EQ(parts.rightSideShifts()[label], 0.0);
 }
 
-TEST(Components, theMeanShiftRestoresTheInitialMean)
+TEST(Components, TheMeanShiftRestoresTheInitialMean)
 {
   Components parts(2);
   const std::int32_t label = parts.add();
@@ -148,7 +148,7 @@ TEST(Components, theMeanShiftRestoresTheInitialMean)
   EXPECT_DOUBLE_EQ(shifts[1], 20.0);
 }
 
-TEST(ComponentLabels, areTheSameInMemoryAndInScratch)
+TEST(ComponentLabels, AreTheSameInMemoryAndInScratch)
 {
   const TemporaryFolder folder;
   IoStatistics statistics;
@@ -196,7 +196,7 @@ TEST(ComponentLabels, areTheSameInMemoryAndInScratch)
   EXPECT_EQ(folder.entries(), 0);
 }
 
-TEST(ComponentLabels, blocksOfOneLabelKeepOneAndMassesOnlyOfFreeOnes)
+TEST(ComponentLabels, BlocksOfOneLabelKeepOneAndMassesOnlyOfFreeOnes)
 {
   const TemporaryFolder folder;
   IoStatistics statistics;

@@ -29,7 +29,7 @@ Solved solveEnds(const IndexedTestMesh& mesh, Weights weights, double tolerance)
 
 } // namespace
 
-TEST(ConvergenceLaw, hardlyDependsOnTheSizeOfASurface)
+TEST(ConvergenceLaw, HardlyDependsOnTheSizeOfASurface)
 {
   for (const Weights weights : { Weights::Uniform, Weights::Clamped })
   {
@@ -47,7 +47,7 @@ TEST(ConvergenceLaw, hardlyDependsOnTheSizeOfASurface)
   }
 }
 
-TEST(ConvergenceLaw, hardlyDependsOnTheSizeOfASolid)
+TEST(ConvergenceLaw, HardlyDependsOnTheSizeOfASolid)
 {
   for (const Weights weights : { Weights::Uniform, Weights::Clamped })
   {
@@ -65,14 +65,14 @@ TEST(ConvergenceLaw, hardlyDependsOnTheSizeOfASolid)
   }
 }
 
-TEST(Convergence, needsFewCyclesForSixDigits)
+TEST(Convergence, NeedsFewCyclesForSixDigits)
 {
   EXPECT_LE(solveEnds(torus(300, 150, 0.3), Weights::Uniform, 1e-6).report.cycles, 8);
   EXPECT_LE(solveEnds(torus(300, 150, 0.3), Weights::Clamped, 1e-6).report.cycles, 11);
   EXPECT_LE(solveEnds(tetBox(24, 24, 24, 0.15), Weights::Clamped, 1e-6).report.cycles, 14);
 }
 
-TEST(Convergence, moreSweepsNeedFewerCycles)
+TEST(Convergence, MoreSweepsNeedFewerCycles)
 {
   const StreamMesh mesh = toStream(torus(120, 60, 0.3));
   ArrayProblem problem = fixedEnds(mesh);
@@ -88,7 +88,7 @@ TEST(Convergence, moreSweepsNeedFewerCycles)
   }
 }
 
-TEST(Convergence, theReportedResidualIsTheTrueOne)
+TEST(Convergence, TheReportedResidualIsTheTrueOne)
 {
   for (const bool surface : { true, false })
   {
@@ -108,7 +108,7 @@ TEST(Convergence, theReportedResidualIsTheTrueOne)
   }
 }
 
-TEST(Convergence, notReachedIsSaid)
+TEST(Convergence, NotReachedIsSaid)
 {
   const StreamMesh mesh = toStream(torus(80, 40, 0.3));
   ArrayProblem problem = fixedEnds(mesh);
@@ -120,7 +120,7 @@ TEST(Convergence, notReachedIsSaid)
   EXPECT_GT(report.residuals.back(), options.tolerance);
 }
 
-TEST(Convergence, anExactInitialGuessDoesNoHarm)
+TEST(Convergence, AnExactInitialGuessDoesNoHarm)
 {
   const StreamMesh mesh = toStream(grid(50, 40, 0.1));
   // Linear functions solve the problem of a flat mesh whose border is prescribed.
@@ -150,7 +150,7 @@ TEST(Convergence, anExactInitialGuessDoesNoHarm)
   EXPECT_LT(relativeError(second.values, first.values), 1e-12);
 }
 
-TEST(Convergence, valuesFarFromZeroConvergeAsFarAsNumbersGo)
+TEST(Convergence, ValuesFarFromZeroConvergeAsFarAsNumbersGo)
 {
   const StreamMesh mesh = toStream(torus(60, 30, 0.3));
   for (const bool start : { false, true })
@@ -167,7 +167,7 @@ TEST(Convergence, valuesFarFromZeroConvergeAsFarAsNumbersGo)
   }
 }
 
-TEST(Convergence, anInitialGuessOfZerosWithZeroConstraintsIsTheSolution)
+TEST(Convergence, AnInitialGuessOfZerosWithZeroConstraintsIsTheSolution)
 {
   const StreamMesh mesh = toStream(torus(40, 20));
   ArrayProblem problem;
@@ -180,7 +180,7 @@ TEST(Convergence, anInitialGuessOfZerosWithZeroConstraintsIsTheSolution)
   EXPECT_EQ(solved.values.cwiseAbs().maxCoeff(), 0.0);
 }
 
-TEST(Convergence, reachesTheDirectSolution)
+TEST(Convergence, ReachesTheDirectSolution)
 {
   std::vector<IndexedTestMesh> meshes{ torus(120, 60, 0.4), sphere(5), grid(70, 50, 0.3),
     tetBox(16, 15, 14, 0.2) };

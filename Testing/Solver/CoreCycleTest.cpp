@@ -44,7 +44,7 @@ Eigen::MatrixXd denseCycle(const DenseHierarchy<>& h, int levels, int l, const E
 
 } // namespace
 
-TEST(CoreCycle, isTheVCycle)
+TEST(CoreCycle, IsTheVCycle)
 {
   const TestLevel surface =
     finestLevel(toStream(shuffled(torus(50, 24, 0.4))), Weights::Clamped, 100);
@@ -73,7 +73,7 @@ TEST(CoreCycle, isTheVCycle)
   }
 }
 
-TEST(CoreCycle, contractsTheErrorOnManyLevels)
+TEST(CoreCycle, ContractsTheErrorOnManyLevels)
 {
   const TestLevel level = finestLevel(toStream(shuffled(grid(40, 40, 0.2))), Weights::Clamped, 90);
   DenseHierarchy<> h(level, 5, 1, 2);
@@ -90,7 +90,7 @@ TEST(CoreCycle, contractsTheErrorOnManyLevels)
   EXPECT_LT(b.norm(), 1e-3 * before);
 }
 
-TEST(CoarsestSolver, solvesComponentsWithAndWithoutConstraint)
+TEST(CoarsestSolver, SolvesComponentsWithAndWithoutConstraint)
 {
   // Two components: the second one is free.
   const TestLevel fixed = finestLevel(toStream(torus(12, 7, 0.2)), Weights::Clamped, 20);
@@ -113,7 +113,7 @@ TEST(CoarsestSolver, solvesComponentsWithAndWithoutConstraint)
   }
 }
 
-TEST(CoarsestSolver, takesALevelWithoutNodes)
+TEST(CoarsestSolver, TakesALevelWithoutNodes)
 {
   DenseHierarchy<> h(TestLevel{}, 1, 1, 1);
   CoarsestSolver solver;

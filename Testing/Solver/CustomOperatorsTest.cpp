@@ -86,14 +86,14 @@ std::vector<std::pair<StreamMesh, ArrayProblem>> tasks()
 
 } // namespace
 
-TEST(CustomOperators, theDefaultSetIsThatOfSolve)
+TEST(CustomOperators, TheDefaultSetIsThatOfSolve)
 {
   auto [mesh, problem] = tasks()[0];
   const Solved expected = solveMesh(mesh, problem);
   EXPECT_TRUE(sameBits(solveWithSet<Extended>(mesh, problem, {}).values, expected.values));
 }
 
-TEST(CustomOperators, anotherRelaxationConvergesToTheDirectSolution)
+TEST(CustomOperators, AnotherRelaxationConvergesToTheDirectSolution)
 {
   for (auto& [mesh, problem] : tasks())
   {
@@ -107,7 +107,7 @@ TEST(CustomOperators, anotherRelaxationConvergesToTheDirectSolution)
   }
 }
 
-TEST(CustomOperators, streamingEqualsInCoreBitForBit)
+TEST(CustomOperators, StreamingEqualsInCoreBitForBit)
 {
   SolveOptions options;
   options.tolerance = 1e-12;
@@ -137,7 +137,7 @@ TEST(CustomOperators, streamingEqualsInCoreBitForBit)
   }
 }
 
-TEST(CustomOperators, optionsAndProblemsAreCheckedAsBySolve)
+TEST(CustomOperators, OptionsAndProblemsAreCheckedAsBySolve)
 {
   auto [mesh, problem] = tasks()[1];
   SolveOptions options;

@@ -31,28 +31,28 @@ void checkErrors(const IndexedTestMesh& given, int more = 0)
 
 } // namespace
 
-TEST(DeformationAccuracyLaw, ofASurface)
+TEST(DeformationAccuracyLaw, OfASurface)
 {
   checkErrors(torus(300, 150, 0.3));
 }
 
-TEST(DeformationAccuracyLaw, ofABumpySurface)
+TEST(DeformationAccuracyLaw, OfABumpySurface)
 {
   checkErrors(bumpy(torus(200, 100, 0.2), 0.3));
 }
 
-TEST(DeformationAccuracyLaw, ofASphere)
+TEST(DeformationAccuracyLaw, OfASphere)
 {
   checkErrors(sphere(6));
 }
 
-TEST(DeformationAccuracyLaw, ofASolid)
+TEST(DeformationAccuracyLaw, OfASolid)
 {
   // It converges a little slower and takes one V-cycle more.
   checkErrors(tetBox(16, 24, 16, 0.15), 1);
 }
 
-TEST(DeformationAccuracy, byToleranceIsThatOfTheTolerance)
+TEST(DeformationAccuracy, ByToleranceIsThatOfTheTolerance)
 {
   for (const StreamMesh& mesh : deformationMeshes())
   {
@@ -64,7 +64,7 @@ TEST(DeformationAccuracy, byToleranceIsThatOfTheTolerance)
   }
 }
 
-TEST(DeformationAccuracy, heldVerticesAreAtTheirTargetsExactly)
+TEST(DeformationAccuracy, HeldVerticesAreAtTheirTargetsExactly)
 {
   for (const StreamMesh& mesh : deformationMeshes())
   {

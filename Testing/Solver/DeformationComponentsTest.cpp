@@ -39,7 +39,7 @@ ArrayHandles torusHandles(const StreamMesh& mesh)
 
 } // namespace
 
-TEST(DeformationComponents, withoutHandlesStayExactly)
+TEST(DeformationComponents, WithoutHandlesStayExactly)
 {
   for (const TestOrder order : { TestOrder::BreadthFirst, TestOrder::Keep })
   {
@@ -66,7 +66,7 @@ TEST(DeformationComponents, withoutHandlesStayExactly)
   }
 }
 
-TEST(DeformationComponents, doNotDisturbTheOthers)
+TEST(DeformationComponents, DoNotDisturbTheOthers)
 {
   const StreamMesh mesh = toStream(shuffled(manyThings(), 5));
   ArrayHandles handles = torusHandles(mesh);
@@ -79,7 +79,7 @@ TEST(DeformationComponents, doNotDisturbTheOthers)
   }
 }
 
-TEST(DeformationComponents, flatCellsHoldTheirCornersTogetherAndDuplicatesDoNot)
+TEST(DeformationComponents, FlatCellsHoldTheirCornersTogetherAndDuplicatesDoNot)
 {
   // Flagged cells and cells of no area, on vertices of their own.
   IndexedTestMesh given = torus(60, 30, 0.3);
@@ -120,7 +120,7 @@ TEST(DeformationComponents, flatCellsHoldTheirCornersTogetherAndDuplicatesDoNot)
   }
 }
 
-TEST(DeformationComponents, allVerticesHeldIsWhatTheHandlesSay)
+TEST(DeformationComponents, AllVerticesHeldIsWhatTheHandlesSay)
 {
   const StreamMesh mesh = toStream(torus(20, 10, 0.2));
   ArrayHandles handles(mesh.vertices());
@@ -133,7 +133,7 @@ TEST(DeformationComponents, allVerticesHeldIsWhatTheHandlesSay)
   }
 }
 
-TEST(DeformationComponents, oneHeldVertexMovesAllOfItsComponent)
+TEST(DeformationComponents, OneHeldVertexMovesAllOfItsComponent)
 {
   const StreamMesh mesh = toStream(torus(40, 20, 0.2));
   ArrayHandles handles(mesh.vertices());
@@ -145,7 +145,7 @@ TEST(DeformationComponents, oneHeldVertexMovesAllOfItsComponent)
   EXPECT_LT(deformationError(mesh, solved.values, moved(mesh, anyMotion())), 1e-7);
 }
 
-TEST(DeformationComponents, aVertexInFlatCellsAloneGoesWithItsNeighbours)
+TEST(DeformationComponents, AVertexInFlatCellsAloneGoesWithItsNeighbours)
 {
   // A vertex in the middle of an edge, which a triangle without area joins to its ends.
   IndexedTestMesh given = torus(60, 30, 0.3);
@@ -169,7 +169,7 @@ TEST(DeformationComponents, aVertexInFlatCellsAloneGoesWithItsNeighbours)
   }
 }
 
-TEST(DeformationComponents, aFarOneDoesNotSpoilTheOthers)
+TEST(DeformationComponents, AFarOneDoesNotSpoilTheOthers)
 {
   // Rounding is that of edges and motions: coordinates of 1e12 elsewhere do not matter.
   const StreamMesh mesh =

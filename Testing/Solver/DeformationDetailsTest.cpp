@@ -29,7 +29,7 @@ double medianAngle(const StreamMesh& mesh, ArrayHandles& handles, Weights weight
 
 } // namespace
 
-TEST(DeformationDetails, turnWithTheSurface)
+TEST(DeformationDetails, TurnWithTheSurface)
 {
   for (const IndexedTestMesh& shape : { torus(200, 100, 0.2), sphere(6) })
   {
@@ -43,7 +43,7 @@ TEST(DeformationDetails, turnWithTheSurface)
   }
 }
 
-TEST(DeformationDetails, turnAlongABentTube)
+TEST(DeformationDetails, TurnAlongABentTube)
 {
   const StreamMesh mesh = withBumps(tube(64, 241, 20.0, 0.2));
   for (const double degrees : { 90.0, 200.0 })

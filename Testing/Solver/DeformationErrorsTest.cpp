@@ -49,7 +49,7 @@ std::int64_t heldVertex(const ArrayHandles& handles)
 
 } // namespace
 
-TEST(DeformationErrors, nothingHeld)
+TEST(DeformationErrors, NothingHeld)
 {
   const StreamMesh mesh = testMesh();
   ArrayHandles handles(mesh.vertices());
@@ -62,7 +62,7 @@ TEST(DeformationErrors, nothingHeld)
   }
 }
 
-TEST(DeformationErrors, numbersThatAreNotFiniteAtAHeldVertex)
+TEST(DeformationErrors, NumbersThatAreNotFiniteAtAHeldVertex)
 {
   const StreamMesh mesh = testMesh();
   const ArrayHandles good = figureHandles(mesh);
@@ -83,7 +83,7 @@ TEST(DeformationErrors, numbersThatAreNotFiniteAtAHeldVertex)
   }
 }
 
-TEST(DeformationErrors, whatIsSaidOfFreeVerticesIsNotLookedAt)
+TEST(DeformationErrors, WhatIsSaidOfFreeVerticesIsNotLookedAt)
 {
   const StreamMesh mesh = testMesh();
   ArrayHandles handles = figureHandles(mesh);
@@ -100,7 +100,7 @@ TEST(DeformationErrors, whatIsSaidOfFreeVerticesIsNotLookedAt)
   EXPECT_TRUE(sameBits(deformMesh(mesh, handles, withCycles(2)).values, expected.values));
 }
 
-TEST(DeformationErrors, scalesBeyondReason)
+TEST(DeformationErrors, ScalesBeyondReason)
 {
   const StreamMesh mesh = testMesh();
   ArrayHandles handles = figureHandles(mesh);
@@ -111,7 +111,7 @@ TEST(DeformationErrors, scalesBeyondReason)
   }
 }
 
-TEST(DeformationErrors, targetsBeyondReason)
+TEST(DeformationErrors, TargetsBeyondReason)
 {
   const StreamMesh mesh = testMesh();
   ArrayHandles handles = figureHandles(mesh);
@@ -122,7 +122,7 @@ TEST(DeformationErrors, targetsBeyondReason)
   EXPECT_TRUE(contains(errorOfDeform(mesh, handles, withCycles(2)), "range of numbers"));
 }
 
-TEST(DeformationErrors, pointsThatAreNotFinite)
+TEST(DeformationErrors, PointsThatAreNotFinite)
 {
   const StreamMesh mesh = testMesh();
   ArrayHandles handles = figureHandles(mesh);
@@ -134,7 +134,7 @@ TEST(DeformationErrors, pointsThatAreNotFinite)
   }
 }
 
-TEST(DeformationErrors, optionsOutOfRange)
+TEST(DeformationErrors, OptionsOutOfRange)
 {
   const StreamMesh mesh = testMesh();
   const std::vector<std::function<void(DeformOptions&)>> faults{
@@ -161,7 +161,7 @@ TEST(DeformationErrors, optionsOutOfRange)
   EXPECT_EQ(messageOf([] { checkOptions(DeformOptions()); }), "");
 }
 
-TEST(DeformationErrors, ofTheHandlesPassThrough)
+TEST(DeformationErrors, OfTheHandlesPassThrough)
 {
   /** Handles that fail where the mesh is half read. */
   class Failing : public ArrayHandles
@@ -183,7 +183,7 @@ TEST(DeformationErrors, ofTheHandlesPassThrough)
   EXPECT_EQ(errorOfDeform(mesh, handles), "the handles end");
 }
 
-TEST(DeformationErrors, handlesOfAnotherSize)
+TEST(DeformationErrors, HandlesOfAnotherSize)
 {
   /** Handles that change the number of entries, and hold all there are. */
   class Resizing : public Handles
@@ -211,7 +211,7 @@ TEST(DeformationErrors, handlesOfAnotherSize)
   }
 }
 
-TEST(DeformationErrors, cancellingAnywhereLeavesNoScratchFile)
+TEST(DeformationErrors, CancellingAnywhereLeavesNoScratchFile)
 {
   const TemporaryFolder folder;
   const StreamMesh mesh = toStream(torus(120, 60, 0.3));
@@ -227,7 +227,7 @@ TEST(DeformationErrors, cancellingAnywhereLeavesNoScratchFile)
   }
 }
 
-TEST(DeformationErrors, progressRisesEvenlyToOne)
+TEST(DeformationErrors, ProgressRisesEvenlyToOne)
 {
   const StreamMesh mesh = toStream(torus(120, 60, 0.3));
   ArrayHandles handles = figureHandles(mesh);

@@ -30,7 +30,7 @@ std::vector<StreamMesh> interactiveMeshes()
 
 } // namespace
 
-TEST(InteractiveDeformation, equalsDeformAfterAnySequenceOfUpdates)
+TEST(InteractiveDeformation, EqualsDeformAfterAnySequenceOfUpdates)
 {
   for (const StreamMesh& mesh : interactiveMeshes())
   {
@@ -57,7 +57,7 @@ TEST(InteractiveDeformation, equalsDeformAfterAnySequenceOfUpdates)
   }
 }
 
-TEST(InteractiveDeformation, doesNotDependOnThreadsOrBlocks)
+TEST(InteractiveDeformation, DoesNotDependOnThreadsOrBlocks)
 {
   const StreamMesh mesh = deformationMeshes()[0];
   ArrayHandles handles = figureHandles(mesh);
@@ -77,7 +77,7 @@ TEST(InteractiveDeformation, doesNotDependOnThreadsOrBlocks)
   }
 }
 
-TEST(InteractiveDeformation, goesThroughIdentity)
+TEST(InteractiveDeformation, GoesThroughIdentity)
 {
   const StreamMesh mesh = deformationMeshes()[0];
   ArrayHandles handles = figureHandles(mesh);
@@ -93,7 +93,7 @@ TEST(InteractiveDeformation, goesThroughIdentity)
   EXPECT_TRUE(sameBits(shown(deformation), expected.values));
 }
 
-TEST(InteractiveDeformation, refusesOtherHeldVertices)
+TEST(InteractiveDeformation, RefusesOtherHeldVertices)
 {
   const StreamMesh mesh = deformationMeshes()[0];
   ArrayHandles handles = figureHandles(mesh);
@@ -118,7 +118,7 @@ TEST(InteractiveDeformation, refusesOtherHeldVertices)
   EXPECT_EQ(deformation.report().shared, 1);
 }
 
-TEST(InteractiveDeformation, refusesWhatIsNotFiniteOrNotOfThisMesh)
+TEST(InteractiveDeformation, RefusesWhatIsNotFiniteOrNotOfThisMesh)
 {
   const StreamMesh mesh = deformationMeshes()[0];
   ArrayHandles handles = figureHandles(mesh);
@@ -139,7 +139,7 @@ TEST(InteractiveDeformation, refusesWhatIsNotFiniteOrNotOfThisMesh)
   EXPECT_TRUE(sameBits(shown(deformation), expected.values));
 }
 
-TEST(InteractiveDeformation, anUpdateBuildsNothing)
+TEST(InteractiveDeformation, AnUpdateBuildsNothing)
 {
   const StreamMesh mesh = deformationMeshes()[0];
   ArrayHandles handles = figureHandles(mesh);
@@ -154,7 +154,7 @@ TEST(InteractiveDeformation, anUpdateBuildsNothing)
   EXPECT_GT(deformation.report().levels.size(), 1u);
 }
 
-TEST(InteractiveDeformation, failsAsDeformDoes)
+TEST(InteractiveDeformation, FailsAsDeformDoes)
 {
   const StreamMesh mesh = deformationMeshes()[0];
   ArrayHandles nothing(mesh.vertices());
@@ -163,7 +163,7 @@ TEST(InteractiveDeformation, failsAsDeformDoes)
   EXPECT_NE(messageOf(begin), "");
 }
 
-TEST(InteractiveDeformation, isRightAgainAfterAnUpdateThatWasCancelledAnywhere)
+TEST(InteractiveDeformation, IsRightAgainAfterAnUpdateThatWasCancelledAnywhere)
 {
   const StreamMesh mesh = deformationMeshes()[0];
   ArrayHandles handles = figureHandles(mesh);

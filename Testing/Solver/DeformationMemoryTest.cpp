@@ -22,25 +22,25 @@ Report oneCycleAStep(const StreamMesh& mesh)
 
 } // namespace
 
-TEST(DeformationMemoryLaw, ofASurfaceIsTheSquareRoot)
+TEST(DeformationMemoryLaw, OfASurfaceIsTheSquareRoot)
 {
   expectGrowth(oneCycleAStep,
     { toStream(torus(316, 158)), toStream(torus(632, 316)), toStream(torus(1264, 632)) }, 2.2, 2.4);
 }
 
-TEST(DeformationMemoryLaw, ofASolidIsThePowerTwoThirds)
+TEST(DeformationMemoryLaw, OfASolidIsThePowerTwoThirds)
 {
   // Plane after plane. Coarse rows become longer with the number of levels.
   const auto planes = [](int n) { return toStream(tetBox(n, n, n), TestOrder::Keep); };
   expectGrowth(oneCycleAStep, { planes(32), planes(64) }, 4.4, 6.5);
 }
 
-TEST(DeformationMemoryLaw, ofAStripIsItsWidth)
+TEST(DeformationMemoryLaw, OfAStripIsItsWidth)
 {
   expectGrowth(oneCycleAStep, { toStream(grid(2000, 40)), toStream(grid(8000, 40)) }, 1.25, 1.25);
 }
 
-TEST(DeformationMemory, doesNotGrowWithTheNumberOfCycles)
+TEST(DeformationMemory, DoesNotGrowWithTheNumberOfCycles)
 {
   const StreamMesh mesh = toStream(torus(316, 158, 0.3));
   ArrayHandles handles = figureHandles(mesh);
@@ -52,7 +52,7 @@ TEST(DeformationMemory, doesNotGrowWithTheNumberOfCycles)
   EXPECT_LE(static_cast<double>(many.pool_bytes_peak), 1.02 * few.pool_bytes_peak);
 }
 
-TEST(DeformationMemory, staysWithinTheLimit)
+TEST(DeformationMemory, StaysWithinTheLimit)
 {
   const StreamMesh mesh = toStream(torus(200, 100, 0.3));
   ArrayHandles handles = figureHandles(mesh);
@@ -60,7 +60,7 @@ TEST(DeformationMemory, staysWithinTheLimit)
     [&](const DeformOptions& limited) { return deformMesh(mesh, handles, limited).report; });
 }
 
-TEST(DeformationMemory, aLimitBelowTheNeedNamesBothFiguresAtOnce)
+TEST(DeformationMemory, ALimitBelowTheNeedNamesBothFiguresAtOnce)
 {
   const StreamMesh mesh = toStream(torus(300, 150, 0.3));
   ArrayHandles handles = figureHandles(mesh);
@@ -72,7 +72,7 @@ TEST(DeformationMemory, aLimitBelowTheNeedNamesBothFiguresAtOnce)
     [&](MeshSource& source, const DeformOptions& limited) { deform(source, handles, limited); });
 }
 
-TEST(DeformationMemory, inCoreTheNeedIsKnownBefore)
+TEST(DeformationMemory, InCoreTheNeedIsKnownBefore)
 {
   const StreamMesh mesh = toStream(torus(400, 200, 0.3));
   ArrayHandles handles = figureHandles(mesh);

@@ -44,7 +44,7 @@ double angleAt(const StreamMesh& mesh, const Eigen::MatrixXd& positions, double 
 
 } // namespace
 
-TEST(DeformationMotion, identityGivesTheInputBack)
+TEST(DeformationMotion, IdentityGivesTheInputBack)
 {
   for (const StreamMesh& mesh : deformationMeshes())
   {
@@ -58,7 +58,7 @@ TEST(DeformationMotion, identityGivesTheInputBack)
   }
 }
 
-TEST(DeformationMotion, identityByToleranceGivesTheInputBackExactly)
+TEST(DeformationMotion, IdentityByToleranceGivesTheInputBackExactly)
 {
   for (const StreamMesh& mesh : deformationMeshes())
   {
@@ -69,7 +69,7 @@ TEST(DeformationMotion, identityByToleranceGivesTheInputBackExactly)
   }
 }
 
-TEST(DeformationMotion, rigidMotionsOfAllHandlesAreTheMeshs)
+TEST(DeformationMotion, RigidMotionsOfAllHandlesAreTheMeshs)
 {
   Motion motion = turn(130.0, { 1, 2, -1 }, { 0.5, 0, 1 });
   motion.translation = { 3, -1, 2 };
@@ -83,7 +83,7 @@ TEST(DeformationMotion, rigidMotionsOfAllHandlesAreTheMeshs)
   }
 }
 
-TEST(DeformationMotion, translationsOfAllHandlesAreTheMeshs)
+TEST(DeformationMotion, TranslationsOfAllHandlesAreTheMeshs)
 {
   Motion motion;
   motion.translation = { 0.3, -20, 1e-3 };
@@ -93,7 +93,7 @@ TEST(DeformationMotion, translationsOfAllHandlesAreTheMeshs)
   }
 }
 
-TEST(DeformationMotion, scalesAboutOneCentreAreASimilarity)
+TEST(DeformationMotion, ScalesAboutOneCentreAreASimilarity)
 {
   Motion motion;
   motion.center = { 1, 0.5, -0.25 };
@@ -107,7 +107,7 @@ TEST(DeformationMotion, scalesAboutOneCentreAreASimilarity)
   }
 }
 
-TEST(DeformationMotion, turnsTheLongWayRound)
+TEST(DeformationMotion, TurnsTheLongWayRound)
 {
   // One end turns by 200 degrees: the middle by 100, not by -80.
   const StreamMesh surface = toStream(tube(48, 161, 20.0, 0.2));
@@ -138,7 +138,7 @@ TEST(DeformationMotion, turnsTheLongWayRound)
   }
 }
 
-TEST(DeformationMotion, aTranslatedEndShearsWithoutTurning)
+TEST(DeformationMotion, ATranslatedEndShearsWithoutTurning)
 {
   // A handle that says nothing of rotation: what is between follows harmonically.
   const StreamMesh mesh = toStream(tube(32, 101, 10.0, 0.2));

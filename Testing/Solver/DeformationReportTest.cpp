@@ -33,7 +33,7 @@ void expectStepsToAgree(const Report& report)
 
 } // namespace
 
-TEST(DeformationReport, kCyclesAStepTakeTwoKPlusOnePasses)
+TEST(DeformationReport, KCyclesAStepTakeTwoKPlusOnePasses)
 {
   for (const StreamMesh& mesh : deformationMeshes())
   {
@@ -55,7 +55,7 @@ TEST(DeformationReport, kCyclesAStepTakeTwoKPlusOnePasses)
   }
 }
 
-TEST(DeformationReport, aToleranceDoesNotEndAFixedNumberOfCycles)
+TEST(DeformationReport, AToleranceDoesNotEndAFixedNumberOfCycles)
 {
   const StreamMesh mesh = toStream(torus(40, 20, 0.3));
   ArrayHandles handles = figureHandles(mesh);
@@ -66,7 +66,7 @@ TEST(DeformationReport, aToleranceDoesNotEndAFixedNumberOfCycles)
   EXPECT_EQ(report.cycles, 8);
 }
 
-TEST(DeformationReport, byToleranceBothStepsConverge)
+TEST(DeformationReport, ByToleranceBothStepsConverge)
 {
   for (const StreamMesh& mesh : deformationMeshes())
   {
@@ -87,7 +87,7 @@ TEST(DeformationReport, byToleranceBothStepsConverge)
   }
 }
 
-TEST(DeformationReport, aToleranceThatIsNotReachedIsSaid)
+TEST(DeformationReport, AToleranceThatIsNotReachedIsSaid)
 {
   const StreamMesh mesh = toStream(torus(80, 40, 0.3));
   ArrayHandles handles = figureHandles(mesh);
@@ -104,7 +104,7 @@ TEST(DeformationReport, aToleranceThatIsNotReachedIsSaid)
   }
 }
 
-TEST(DeformationReport, theResidualsFallFromCycleToCycle)
+TEST(DeformationReport, TheResidualsFallFromCycleToCycle)
 {
   const StreamMesh mesh = toStream(torus(150, 80, 0.3));
   ArrayHandles handles = figureHandles(mesh);
@@ -120,7 +120,7 @@ TEST(DeformationReport, theResidualsFallFromCycleToCycle)
   }
 }
 
-TEST(DeformationReport, countsHeldAndSharedVertices)
+TEST(DeformationReport, CountsHeldAndSharedVertices)
 {
   const StreamMesh mesh = toStream(torus(60, 30));
   ArrayHandles handles(mesh.vertices());
@@ -156,7 +156,7 @@ TEST(DeformationReport, countsHeldAndSharedVertices)
   }
 }
 
-TEST(DeformationReport, hasTheStepsInJson)
+TEST(DeformationReport, HasTheStepsInJson)
 {
   const StreamMesh mesh = toStream(torus(40, 20));
   ArrayHandles handles = figureHandles(mesh);

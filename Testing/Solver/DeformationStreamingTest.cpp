@@ -53,7 +53,7 @@ void expectBits(Vary vary)
 
 } // namespace
 
-TEST(DeformationStreaming, equalsInCoreForAllWindows)
+TEST(DeformationStreaming, EqualsInCoreForAllWindows)
 {
   expectBits(
     [](DeformOptions options, const auto& check)
@@ -70,7 +70,7 @@ TEST(DeformationStreaming, equalsInCoreForAllWindows)
     });
 }
 
-TEST(DeformationStreaming, doesNotDependOnHowTheMeshComesInBlocks)
+TEST(DeformationStreaming, DoesNotDependOnHowTheMeshComesInBlocks)
 {
   expectBits(
     [](DeformOptions options, const auto& check)
@@ -83,7 +83,7 @@ TEST(DeformationStreaming, doesNotDependOnHowTheMeshComesInBlocks)
     });
 }
 
-TEST(DeformationStreaming, doesNotDependOnTheNumberOfThreads)
+TEST(DeformationStreaming, DoesNotDependOnTheNumberOfThreads)
 {
   expectBits(
     [](DeformOptions options, const auto& check)
@@ -101,7 +101,7 @@ TEST(DeformationStreaming, doesNotDependOnTheNumberOfThreads)
     });
 }
 
-TEST(DeformationStreaming, equalsInCoreForEveryNumberOfSweeps)
+TEST(DeformationStreaming, EqualsInCoreForEveryNumberOfSweeps)
 {
   const StreamMesh mesh = deformationMeshes()[0];
   ArrayHandles handles = figureHandles(mesh);
@@ -115,7 +115,7 @@ TEST(DeformationStreaming, equalsInCoreForEveryNumberOfSweeps)
   }
 }
 
-TEST(DeformationStreaming, theSolutionHasTheSameBitsInAnyRange)
+TEST(DeformationStreaming, TheSolutionHasTheSameBitsInAnyRange)
 {
   const StreamMesh mesh = deformationMeshes()[1];
   ArrayHandles handles = figureHandles(mesh);
@@ -132,7 +132,7 @@ TEST(DeformationStreaming, theSolutionHasTheSameBitsInAnyRange)
   }
 }
 
-TEST(DeformationStreaming, twoDeformationsAtOnceDoNotDisturbEachOther)
+TEST(DeformationStreaming, TwoDeformationsAtOnceDoNotDisturbEachOther)
 {
   const std::vector<StreamMesh> meshes = deformationMeshes();
   std::vector<Solved> results(2);
@@ -151,7 +151,7 @@ TEST(DeformationStreaming, twoDeformationsAtOnceDoNotDisturbEachOther)
   }
 }
 
-TEST(DeformationStreaming, leavesNoScratchFileBehind)
+TEST(DeformationStreaming, LeavesNoScratchFileBehind)
 {
   const TemporaryFolder folder;
   const StreamMesh mesh = deformationMeshes()[0];

@@ -112,7 +112,7 @@ ElementProblem problemOf(const StreamMesh& mesh, const Datum& datum)
 
 } // namespace
 
-TEST(EllipticFamily, agreesWithADirectSolve)
+TEST(EllipticFamily, AgreesWithADirectSolve)
 {
   for (const StreamMesh& mesh : meshes())
   {
@@ -126,7 +126,7 @@ TEST(EllipticFamily, agreesWithADirectSolve)
   }
 }
 
-TEST(EllipticFamily, doesNotDependOnBlocksNorThreads)
+TEST(EllipticFamily, DoesNotDependOnBlocksNorThreads)
 {
   for (const StreamMesh& mesh : meshes())
   {
@@ -148,7 +148,7 @@ TEST(EllipticFamily, doesNotDependOnBlocksNorThreads)
   }
 }
 
-TEST(EllipticFamily, doesNotDependOnTheUnits)
+TEST(EllipticFamily, DoesNotDependOnTheUnits)
 {
   // Lengths in mm instead of m, and a conductivity in another unit: u is the same.
   for (StreamMesh mesh : meshes())
@@ -181,7 +181,7 @@ TEST(EllipticFamily, doesNotDependOnTheUnits)
   }
 }
 
-TEST(EllipticFamily, aFieldThatIsAGradientGivesItsFunctionBack)
+TEST(EllipticFamily, AFieldThatIsAGradientGivesItsFunctionBack)
 {
   for (const StreamMesh& mesh : meshes())
   {
@@ -203,7 +203,7 @@ TEST(EllipticFamily, aFieldThatIsAGradientGivesItsFunctionBack)
   }
 }
 
-TEST(EllipticFamily, aBoundaryThatTransfersHeatDeterminesTheSolution)
+TEST(EllipticFamily, ABoundaryThatTransfersHeatDeterminesTheSolution)
 {
   for (const StreamMesh& mesh : meshes())
   {
@@ -217,7 +217,7 @@ TEST(EllipticFamily, aBoundaryThatTransfersHeatDeterminesTheSolution)
 }
 
 /** Their first residual is as large as they are, and no measure of what is left. */
-TEST(EllipticFamily, stiffConditionsAreSolvedLikeOthers)
+TEST(EllipticFamily, StiffConditionsAreSolvedLikeOthers)
 {
   for (const StreamMesh& mesh : meshes())
   {
@@ -247,7 +247,7 @@ TEST(EllipticFamily, stiffConditionsAreSolvedLikeOthers)
   }
 }
 
-TEST(EllipticFamily, fluxesThatDoNotSumToZeroLoseTheirMeanBySources)
+TEST(EllipticFamily, FluxesThatDoNotSumToZeroLoseTheirMeanBySources)
 {
   for (const StreamMesh& mesh : meshes())
   {
@@ -267,7 +267,7 @@ TEST(EllipticFamily, fluxesThatDoNotSumToZeroLoseTheirMeanBySources)
   }
 }
 
-TEST(EllipticFamily, conditionsInsideAreNoBoundary)
+TEST(EllipticFamily, ConditionsInsideAreNoBoundary)
 {
   for (const StreamMesh& mesh : { toStream(shuffled(torus(30, 20, 0.3))), block() })
   {

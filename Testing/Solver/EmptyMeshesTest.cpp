@@ -89,7 +89,7 @@ Motion quarterTurn()
 
 } // namespace
 
-TEST(EmptyMeshes, withoutVerticesAreAnError)
+TEST(EmptyMeshes, WithoutVerticesAreAnError)
 {
   const StreamMesh mesh = rowOf(0, false);
   ArrayProblem problem;
@@ -107,7 +107,7 @@ TEST(EmptyMeshes, withoutVerticesAreAnError)
   expectError([&] { InteractiveDeformation(source, handles, withCycles(2)); }, "no vertices");
 }
 
-TEST(EmptyMeshes, verticesWithoutCellsKeepTheirValues)
+TEST(EmptyMeshes, VerticesWithoutCellsKeepTheirValues)
 {
   for (const bool hasCell : { false, true })
   {
@@ -145,7 +145,7 @@ TEST(EmptyMeshes, verticesWithoutCellsKeepTheirValues)
   }
 }
 
-TEST(EmptyMeshes, aSingleVertexGoesWhereItsHandleSays)
+TEST(EmptyMeshes, ASingleVertexGoesWhereItsHandleSays)
 {
   const StreamMesh mesh = rowOf(1, false);
   ArrayHandles held = holding(mesh, { 0 }, quarterTurn());
@@ -154,7 +154,7 @@ TEST(EmptyMeshes, aSingleVertexGoesWhereItsHandleSays)
   expectError([&] { deformMesh(mesh, free); }, "nothing to deform");
 }
 
-TEST(EmptyMeshes, verticesWithoutCellsStayUnlessTheyAreHeld)
+TEST(EmptyMeshes, VerticesWithoutCellsStayUnlessTheyAreHeld)
 {
   for (const bool hasCell : { false, true })
   {

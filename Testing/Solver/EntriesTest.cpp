@@ -14,7 +14,7 @@
 namespace smg::testing
 {
 
-TEST(InterpolationEntry, findsRowsAndCoarseNodesFromAnyNearOne)
+TEST(InterpolationEntry, FindsRowsAndCoarseNodesFromAnyNearOne)
 {
   for (const std::int64_t place : { std::int64_t(0), std::int64_t(1) << 24, std::int64_t(1) << 29,
          (std::int64_t(1) << 32) - 5, (std::int64_t(3) << 33) + 17 })
@@ -37,7 +37,7 @@ TEST(InterpolationEntry, findsRowsAndCoarseNodesFromAnyNearOne)
   EXPECT_FALSE(ChildLink(std::int64_t(1) << 29, 6).none());
 }
 
-TEST(CoarseEntry, findsCoarseNodesFromAnyNearOne)
+TEST(CoarseEntry, FindsCoarseNodesFromAnyNearOne)
 {
   for (const std::int64_t place : { std::int64_t(0), std::int64_t(1) << 24, std::int64_t(1) << 29,
          (std::int64_t(1) << 32) - 5, (std::int64_t(3) << 33) + 17 })
@@ -54,7 +54,7 @@ TEST(CoarseEntry, findsCoarseNodesFromAnyNearOne)
   }
 }
 
-TEST(CoarseEntry, keepsFloats)
+TEST(CoarseEntry, KeepsFloats)
 {
   std::vector<CoarseEntry> entries;
   for (int k = 0; k < 1000; ++k)
@@ -85,7 +85,7 @@ TEST(CoarseEntry, keepsFloats)
   EXPECT_EQ(entries[500].value(), 0.0F);
 }
 
-TEST(StrongestWeight, isStiffWhateverTheWeight)
+TEST(StrongestWeight, IsStiffWhateverTheWeight)
 {
   for (const float weight : { 0.0F, 1.0F / 3.0F, 7e30F })
   {
@@ -97,7 +97,7 @@ TEST(StrongestWeight, isStiffWhateverTheWeight)
   }
 }
 
-TEST(RowEntry, keepsDistanceAndWeight)
+TEST(RowEntry, KeepsDistanceAndWeight)
 {
   constexpr auto Most = static_cast<std::int32_t>(RowEntry::MostDistance);
   for (const std::int32_t delta : { -Most, -257, -1, 1, 256, Most })
@@ -111,7 +111,7 @@ TEST(RowEntry, keepsDistanceAndWeight)
   }
 }
 
-TEST(WideIndex, keepsAsManyBitsAsARowEntry)
+TEST(WideIndex, KeepsAsManyBitsAsARowEntry)
 {
   constexpr auto Most = static_cast<std::int32_t>(RowEntry::MostDistance);
   const std::vector<std::int32_t> expected = { -Most - 1, Most, -1, 0, -257, 255, 32768 };

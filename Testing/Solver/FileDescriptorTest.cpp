@@ -31,7 +31,7 @@ void dropFromMemory(const std::filesystem::path& path)
 
 } // namespace
 
-TEST(FileDescriptor, readsWhatIsInMemoryAndWhatIsNot)
+TEST(FileDescriptor, ReadsWhatIsInMemoryAndWhatIsNot)
 {
   const TemporaryFolder folder;
   const FileDescriptor file = FileDescriptor::createBeside(folder / "file");
@@ -50,7 +50,7 @@ TEST(FileDescriptor, readsWhatIsInMemoryAndWhatIsNot)
   }
 }
 
-TEST(FileDescriptor, saysThatAFileEndsBefore)
+TEST(FileDescriptor, SaysThatAFileEndsBefore)
 {
   const TemporaryFolder folder;
   const FileDescriptor file = FileDescriptor::createNameless(folder.path());
@@ -60,7 +60,7 @@ TEST(FileDescriptor, saysThatAFileEndsBefore)
   EXPECT_EQ(file.tryRead(0, read, waited), -1);
 }
 
-TEST(FileDescriptor, writesThroughLinks)
+TEST(FileDescriptor, WritesThroughLinks)
 {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "elsewhere");

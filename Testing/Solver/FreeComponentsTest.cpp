@@ -60,7 +60,7 @@ Eigen::RowVectorXd initialMean(const StreamMesh& mesh, const ArrayProblem& probl
 
 } // namespace
 
-TEST(FreeComponents, pureNeumannProblemsKeepTheirMean)
+TEST(FreeComponents, PureNeumannProblemsKeepTheirMean)
 {
   for (const bool surface : { true, false })
   {
@@ -79,7 +79,7 @@ TEST(FreeComponents, pureNeumannProblemsKeepTheirMean)
   }
 }
 
-TEST(FreeComponents, anIncompatibleRightSideLosesItsMeanAndThatIsSaid)
+TEST(FreeComponents, AnIncompatibleRightSideLosesItsMeanAndThatIsSaid)
 {
   for (const bool surface : { true, false })
   {
@@ -102,7 +102,7 @@ TEST(FreeComponents, anIncompatibleRightSideLosesItsMeanAndThatIsSaid)
   }
 }
 
-TEST(FreeComponents, aCompatibleRightSideIsNotTouched)
+TEST(FreeComponents, ACompatibleRightSideIsNotTouched)
 {
   const StreamMesh mesh = toStream(torus(60, 30, 0.3));
   ArrayProblem problem;
@@ -114,7 +114,7 @@ TEST(FreeComponents, aCompatibleRightSideIsNotTouched)
   EXPECT_LT(relativeError(solved.values, (x.array() - meanOf(mesh, problem, x)(0)).matrix()), 1e-8);
 }
 
-TEST(FreeComponents, aConstantSourceLeavesAConstant)
+TEST(FreeComponents, AConstantSourceLeavesAConstant)
 {
   // Graded: the areas of the torus' triangles differ, and the box is stretched.
   StreamMesh box = toStream(tetBox(12, 11, 10, 0.15));
@@ -146,7 +146,7 @@ TEST(FreeComponents, aConstantSourceLeavesAConstant)
   }
 }
 
-TEST(FreeComponents, nothingGivenIsSolvedByTheMeanOfTheInitialValues)
+TEST(FreeComponents, NothingGivenIsSolvedByTheMeanOfTheInitialValues)
 {
   const StreamMesh mesh = toStream(torus(60, 30, 0.3));
   ArrayProblem problem = randomSources(mesh, 1, 3);
@@ -161,7 +161,7 @@ TEST(FreeComponents, nothingGivenIsSolvedByTheMeanOfTheInitialValues)
   EXPECT_LT((constant.values.array() - 2.5).abs().maxCoeff(), 1e-12);
 }
 
-TEST(FreeComponents, besideConstrainedOnesOfAllSizes)
+TEST(FreeComponents, BesideConstrainedOnesOfAllSizes)
 {
   // A constrained torus, a free sphere, a free single triangle, a constrained patch, in any order.
   IndexedTestMesh mesh = disjointUnion(torus(60, 30, 0.2), sphere(4), { 0, 0, 9 });
@@ -192,7 +192,7 @@ TEST(FreeComponents, besideConstrainedOnesOfAllSizes)
   }
 }
 
-TEST(FreeComponents, hundredsOfSmallOnes)
+TEST(FreeComponents, HundredsOfSmallOnes)
 {
   IndexedTestMesh mesh;
   for (int k = 0; k < 400; ++k)
@@ -208,7 +208,7 @@ TEST(FreeComponents, hundredsOfSmallOnes)
   EXPECT_LT(relativeError(solved.values, solveDirectly(stream, problem)), 1e-7);
 }
 
-TEST(FreeComponents, screeningConstrainsThem)
+TEST(FreeComponents, ScreeningConstrainsThem)
 {
   const StreamMesh mesh = toStream(torus(60, 30, 0.3));
   ArrayProblem problem = randomSources(mesh, 1, 6);

@@ -171,7 +171,7 @@ double truncate(
 
 } // namespace
 
-TEST(Interpolation, beginsWithTheStrongLiftedNeighbours)
+TEST(Interpolation, BeginsWithTheStrongLiftedNeighbours)
 {
   for (const CoarseningCase& test : coarseningCases())
   {
@@ -187,7 +187,7 @@ TEST(Interpolation, beginsWithTheStrongLiftedNeighbours)
   }
 }
 
-TEST(Interpolation, isRelaxedInPlaceAndTruncated)
+TEST(Interpolation, IsRelaxedInPlaceAndTruncated)
 {
   std::int64_t patched = 0, negative = 0;
   for (const CoarseningCase& test : coarseningCases())
@@ -237,7 +237,7 @@ TEST(Interpolation, isRelaxedInPlaceAndTruncated)
   EXPECT_GT(negative, 100);
 }
 
-TEST(Interpolation, isRoundedToQuantaThatKeepTheRowSum)
+TEST(Interpolation, IsRoundedToQuantaThatKeepTheRowSum)
 {
   for (const CoarseningCase& test : coarseningCases())
   {
@@ -276,7 +276,7 @@ TEST(Interpolation, isRoundedToQuantaThatKeepTheRowSum)
 }
 
 /** Rows whose weights cancel, those of slivers, have as many as on coarse levels. */
-TEST(Interpolation, mayHaveFewerEntriesOnTheFinestLevel)
+TEST(Interpolation, MayHaveFewerEntriesOnTheFinestLevel)
 {
   const double cancelling = ExtendedInterpolation().cancelling;
   std::size_t mostOfSlivers = 0;
@@ -307,7 +307,7 @@ TEST(Interpolation, mayHaveFewerEntriesOnTheFinestLevel)
   EXPECT_EQ(mostOfSlivers, 3U);
 }
 
-TEST(Interpolation, reproducesConstantsWhereNothingIsConstrained)
+TEST(Interpolation, ReproducesConstantsWhereNothingIsConstrained)
 {
   for (const CoarseningCase& test : coarseningCases())
   {

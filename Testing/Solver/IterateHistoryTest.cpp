@@ -79,7 +79,7 @@ double chebyshev(int k, double x)
 
 } // namespace
 
-TEST(IterateHistory, chebyshevWeightsGiveChebyshevPolynomials)
+TEST(IterateHistory, ChebyshevWeightsGiveChebyshevPolynomials)
 {
   const double bound = 0.6;
   const Eigen::VectorXd factors = Eigen::VectorXd::LinSpaced(41, -0.7, 0.9);
@@ -97,7 +97,7 @@ TEST(IterateHistory, chebyshevWeightsGiveChebyshevPolynomials)
   }
 }
 
-TEST(IterateHistory, conjugateResidualsEndAfterAsManyStepsAsThereAreFactors)
+TEST(IterateHistory, ConjugateResidualsEndAfterAsManyStepsAsThereAreFactors)
 {
   const double values[] = { -0.5, 0.3, 0.7, 0.95 };
   Eigen::VectorXd factors(100);
@@ -115,7 +115,7 @@ TEST(IterateHistory, conjugateResidualsEndAfterAsManyStepsAsThereAreFactors)
   EXPECT_LT(model.error().norm(), 1e-4 * std::pow(0.95, 6) * 10);
 }
 
-TEST(IterateHistory, aSampleOfTheNodesTellsTheWeightsOfAllOfThem)
+TEST(IterateHistory, ASampleOfTheNodesTellsTheWeightsOfAllOfThem)
 {
   // The groups differ, in a pattern of eight: one group in eight or sixteen, if it is not always
   // the same one, gives nearly the weights of all.
@@ -148,7 +148,7 @@ TEST(IterateHistory, aSampleOfTheNodesTellsTheWeightsOfAllOfThem)
   }
 }
 
-TEST(IterateHistory, onDiskIsTheSameAsInMemory)
+TEST(IterateHistory, OnDiskIsTheSameAsInMemory)
 {
   const TemporaryFolder folder;
   const Eigen::VectorXd factors = Eigen::VectorXd::LinSpaced((1 << 19) + 700, -0.4, 0.9);
@@ -165,7 +165,7 @@ TEST(IterateHistory, onDiskIsTheSameAsInMemory)
   EXPECT_LT(inMemory.error().norm(), 0.1 * std::pow(0.9, 6) * std::sqrt(factors.size()));
 }
 
-TEST(IterateHistory, conjugateResidualsMinimiseTheResidual)
+TEST(IterateHistory, ConjugateResidualsMinimiseTheResidual)
 {
   // After the first direction: the best multiple of it, z_1 = z_0 + length (T z_0 - z_0).
   const Eigen::VectorXd t = Eigen::VectorXd::LinSpaced(30, -0.3, 0.9);
@@ -183,7 +183,7 @@ TEST(IterateHistory, conjugateResidualsMinimiseTheResidual)
   EXPECT_LT((model.error() - expected).norm(), 1e-6 * z.norm());
 }
 
-TEST(IterateHistory, conjugateResidualsBeginAnewWhenTheProductsBreakDown)
+TEST(IterateHistory, ConjugateResidualsBeginAnewWhenTheProductsBreakDown)
 {
   ConjugateResiduals directions;
   const ResidualProducts none;

@@ -40,7 +40,7 @@ bool sameState(const Ring<Real>& a, const Ring<Real>& b)
 
 } // namespace
 
-TEST(Level, relaxationIsForwardGaussSeidelWithPatchesSolved)
+TEST(Level, RelaxationIsForwardGaussSeidelWithPatchesSolved)
 {
   for (const TestLevel& level : levels())
   {
@@ -72,7 +72,7 @@ TEST(Level, relaxationIsForwardGaussSeidelWithPatchesSolved)
   }
 }
 
-TEST(Level, restrictionIsTheTransposeOfProlongation)
+TEST(Level, RestrictionIsTheTransposeOfProlongation)
 {
   for (const TestLevel& level : levels())
   {
@@ -106,7 +106,7 @@ TEST(Level, restrictionIsTheTransposeOfProlongation)
   }
 }
 
-TEST(Level, restrictsTheResidualAndMeasuresIt)
+TEST(Level, RestrictsTheResidualAndMeasuresIt)
 {
   for (const TestLevel& level : levels())
   {
@@ -131,7 +131,7 @@ TEST(Level, restrictsTheResidualAndMeasuresIt)
   }
 }
 
-TEST(Level, narrowAndWideBlocksGiveTheSameBits)
+TEST(Level, NarrowAndWideBlocksGiveTheSameBits)
 {
   for (const TestLevel& level : levels())
   {
@@ -159,7 +159,7 @@ TEST(Level, narrowAndWideBlocksGiveTheSameBits)
   }
 }
 
-TEST(RowBlockPacker, turnsWideWhereADistanceOrACountDoesNotFit)
+TEST(RowBlockPacker, TurnsWideWhereADistanceOrACountDoesNotFit)
 {
   Pool pool(1 << 28);
   SpareBuffers buffers(pool);
@@ -180,7 +180,7 @@ TEST(RowBlockPacker, turnsWideWhereADistanceOrACountDoesNotFit)
   EXPECT_TRUE(isWide(70000, 70000));
 }
 
-TEST(RowBlockPacker, wideBlocksKeepTheLargestDistances)
+TEST(RowBlockPacker, WideBlocksKeepTheLargestDistances)
 {
   constexpr auto Most = static_cast<std::int32_t>(RowEntry::MostDistance);
   const std::vector<RowEntry> expected = { { -Most, 2.0F }, { -1, 3.0F }, { 1, 4.0F },
@@ -211,7 +211,7 @@ TEST(RowBlockPacker, wideBlocksKeepTheLargestDistances)
   }
 }
 
-TEST(RowBlockPacker, wideBlocksKeepTheLargestDistancesOfParents)
+TEST(RowBlockPacker, WideBlocksKeepTheLargestDistancesOfParents)
 {
   constexpr std::int64_t Base = std::int64_t(1) << 33;
   const std::vector<std::int64_t> parents = { 0, -40000, RowEntry::MostDistance };
@@ -245,7 +245,7 @@ TEST(RowBlockPacker, wideBlocksKeepTheLargestDistancesOfParents)
   }
 }
 
-TEST(RowBlockPacker, keepsRowsAndReaches)
+TEST(RowBlockPacker, KeepsRowsAndReaches)
 {
   const TestLevel level = finestLevel(toStream(shuffled(grid(60, 40, 0.1))), Weights::Clamped);
   Pool pool(1 << 28);
@@ -277,7 +277,7 @@ TEST(RowBlockPacker, keepsRowsAndReaches)
   }
 }
 
-TEST(RowBlockPacker, keepsPatchesAndPreciseRows)
+TEST(RowBlockPacker, KeepsPatchesAndPreciseRows)
 {
   TestLevel level = levelsWithPatches()[0];
   Random random(11);
@@ -351,7 +351,7 @@ TEST(RowBlockPacker, keepsPatchesAndPreciseRows)
 }
 
 /** Weights that single precision cannot tell apart. */
-TEST(Level, sweepsAndResidualsUsePreciseWeights)
+TEST(Level, SweepsAndResidualsUsePreciseWeights)
 {
   TestLevel level = surfaceLevel();
   const Eigen::MatrixXd rough = level.dense();

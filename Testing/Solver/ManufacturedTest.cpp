@@ -62,7 +62,7 @@ void expectOrders(const std::vector<Errors>& errors)
 
 } // namespace
 
-TEST(Manufactured, screenedHarmonicsOfASphere)
+TEST(Manufactured, ScreenedHarmonicsOfASphere)
 {
   // -Laplace z = 2 z on the unit sphere.
   std::vector<Errors> errors;
@@ -83,7 +83,7 @@ TEST(Manufactured, screenedHarmonicsOfASphere)
   expectOrders(errors);
 }
 
-TEST(Manufactured, aBoxWithATensorAFluxAndHeatTransfer)
+TEST(Manufactured, ABoxWithATensorAFluxAndHeatTransfer)
 {
   // u = sin(pi x / 2) cos(y) e^z, K constant, on the unit cube: given at x = 0, heat transfer at
   // x = 1, fluxes elsewhere.

@@ -23,13 +23,13 @@ Report twoPasses(const StreamMesh& mesh)
 
 } // namespace
 
-TEST(MemoryLaw, ofASurfaceIsTheSquareRoot)
+TEST(MemoryLaw, OfASurfaceIsTheSquareRoot)
 {
   expectGrowth(twoPasses,
     { toStream(torus(316, 158)), toStream(torus(632, 316)), toStream(torus(1264, 632)) }, 2.2, 2.4);
 }
 
-TEST(MemoryLaw, ofASolidIsThePowerTwoThirds)
+TEST(MemoryLaw, OfASolidIsThePowerTwoThirds)
 {
   // Plane after plane. Coarse rows become longer with the number of levels, hence more bytes a
   // node.
@@ -37,13 +37,13 @@ TEST(MemoryLaw, ofASolidIsThePowerTwoThirds)
   expectGrowth(twoPasses, { planes(32), planes(64) }, 4.4, 6.5);
 }
 
-TEST(MemoryLaw, ofASolidInBreadthFirstOrderIsSublinear)
+TEST(MemoryLaw, OfASolidInBreadthFirstOrderIsSublinear)
 {
   // Its fronts are wide: in the smaller box most of the mesh is in memory at once.
   expectGrowth(twoPasses, { toStream(tetBox(32, 32, 32)), toStream(tetBox(64, 64, 64)) }, 5.5, 6.5);
 }
 
-TEST(MemoryLaw, ofAStripIsItsWidth)
+TEST(MemoryLaw, OfAStripIsItsWidth)
 {
   // Whatever the length; but every level more keeps some blocks.
   expectGrowth(twoPasses, { toStream(grid(2000, 40)), toStream(grid(8000, 40)) }, 1.2, 1.25);

@@ -10,7 +10,7 @@
 namespace smg::testing
 {
 
-TEST(OpenEdges, sumTheWeightOfEachEdgeWhateverTheirNumber)
+TEST(OpenEdges, SumTheWeightOfEachEdgeWhateverTheirNumber)
 {
   // Low vertices have many more neighbours than the usual number, high ones few.
   constexpr std::int64_t Vertices = 100;
@@ -46,7 +46,7 @@ TEST(OpenEdges, sumTheWeightOfEachEdgeWhateverTheirNumber)
   }
 }
 
-TEST(OpenEdges, newEdgesBeginWithNoWeight)
+TEST(OpenEdges, NewEdgesBeginWithNoWeight)
 {
   Pool pool(1 << 20);
   OpenEdges edges(pool, 4);
@@ -61,7 +61,7 @@ TEST(OpenEdges, newEdgesBeginWithNoWeight)
   }
 }
 
-TEST(OpenEdges, aVertexGetsTheEdgesThatLowerOnesHaveTaken)
+TEST(OpenEdges, AVertexGetsTheEdgesThatLowerOnesHaveTaken)
 {
   Pool pool(1 << 20);
   OpenEdges edges(pool, 4);
@@ -83,7 +83,7 @@ TEST(OpenEdges, aVertexGetsTheEdgesThatLowerOnesHaveTaken)
   }
 }
 
-TEST(OpenEdges, keepMemoryForOpenVerticesOnly)
+TEST(OpenEdges, KeepMemoryForOpenVerticesOnly)
 {
   Pool pool(1 << 20);
   OpenEdges edges(pool, 12);
@@ -107,7 +107,7 @@ TEST(OpenEdges, keepMemoryForOpenVerticesOnly)
 }
 
 /** The time for a vertex is in proportion to its neighbours, not to their square. */
-TEST(OpenEdges, aVertexMayHaveVeryManyNeighbours)
+TEST(OpenEdges, AVertexMayHaveVeryManyNeighbours)
 {
   Pool pool(1 << 25);
   OpenEdges edges(pool, 12);

@@ -114,7 +114,7 @@ double acrossStep(double x, double at, double beyond, double length)
 
 } // namespace
 
-TEST(OwnWeights, byTheCotangentFormulaAreTheCotangentWeightsBitForBit)
+TEST(OwnWeights, ByTheCotangentFormulaAreTheCotangentWeightsBitForBit)
 {
   for (const StreamMesh& mesh : meshes())
   {
@@ -133,7 +133,7 @@ TEST(OwnWeights, byTheCotangentFormulaAreTheCotangentWeightsBitForBit)
   }
 }
 
-TEST(OwnWeights, theirScaleDoesNotMatterNotEvenToTheFloor)
+TEST(OwnWeights, TheirScaleDoesNotMatterNotEvenToTheFloor)
 {
   for (const StreamMesh& mesh : meshes())
   {
@@ -149,7 +149,7 @@ TEST(OwnWeights, theirScaleDoesNotMatterNotEvenToTheFloor)
   }
 }
 
-TEST(OwnWeights, ofFiniteElementsScaleAlikeHoweverFlatTheCellsAre)
+TEST(OwnWeights, OfFiniteElementsScaleAlikeHoweverFlatTheCellsAre)
 {
   for (StreamMesh mesh : meshes())
   {
@@ -181,7 +181,7 @@ TEST(OwnWeights, ofFiniteElementsScaleAlikeHoweverFlatTheCellsAre)
   }
 }
 
-TEST(OwnWeights, areNotLookedAtWhereAllAreUniform)
+TEST(OwnWeights, AreNotLookedAtWhereAllAreUniform)
 {
   const StreamMesh mesh = meshes()[0];
   ArrayProblem problem = heldEnds(mesh, 1, Weights::Uniform);
@@ -190,7 +190,7 @@ TEST(OwnWeights, areNotLookedAtWhereAllAreUniform)
   EXPECT_TRUE(sameBits(shortSolve(mesh, own).values, shortSolve(mesh, problem).values));
 }
 
-TEST(OwnWeights, ofOneHalfOnAClosedSurfaceAreUniform)
+TEST(OwnWeights, OfOneHalfOnAClosedSurfaceAreUniform)
 {
   const StreamMesh mesh = meshes()[0];
   ArrayProblem problem = heldEnds(mesh, 1, Weights::Uniform);
@@ -198,7 +198,7 @@ TEST(OwnWeights, ofOneHalfOnAClosedSurfaceAreUniform)
   EXPECT_TRUE(sameBits(shortSolve(mesh, own).values, shortSolve(mesh, problem).values));
 }
 
-TEST(OwnWeights, aStepOfConductivityBreaksALinearFunctionOnAFlatMesh)
+TEST(OwnWeights, AStepOfConductivityBreaksALinearFunctionOnAFlatMesh)
 {
   const StreamMesh mesh = toStream(shuffled(grid(50, 41)));
   const double row = std::sqrt(0.75);
@@ -224,7 +224,7 @@ TEST(OwnWeights, aStepOfConductivityBreaksALinearFunctionOnAFlatMesh)
   }
 }
 
-TEST(OwnWeights, aStepOfConductivityDividesTheDropAlongABar)
+TEST(OwnWeights, AStepOfConductivityDividesTheDropAlongABar)
 {
   const StreamMesh mesh = toStream(shuffled(tetBox(21, 7, 7)));
   const double at = 8;
@@ -247,7 +247,7 @@ TEST(OwnWeights, aStepOfConductivityDividesTheDropAlongABar)
   }
 }
 
-TEST(OwnWeights, atAStepTheFloorIsThatOfTheWeakerSide)
+TEST(OwnWeights, AtAStepTheFloorIsThatOfTheWeakerSide)
 {
   // The edge between the cells has the weight 0 in the strong one, opposite to a right angle.
   MeshBlock block;
@@ -262,7 +262,7 @@ TEST(OwnWeights, atAStepTheFloorIsThatOfTheWeakerSide)
   }
 }
 
-TEST(OwnWeights, doNotDependOnBlocks)
+TEST(OwnWeights, DoNotDependOnBlocks)
 {
   for (const StreamMesh& mesh : meshes())
   {
@@ -280,7 +280,7 @@ TEST(OwnWeights, doNotDependOnBlocks)
   }
 }
 
-TEST(OwnWeights, areAskedForOnceForEachCellInStreamOrder)
+TEST(OwnWeights, AreAskedForOnceForEachCellInStreamOrder)
 {
   for (StreamMesh mesh : meshes())
   {
@@ -311,7 +311,7 @@ TEST(OwnWeights, areAskedForOnceForEachCellInStreamOrder)
   }
 }
 
-TEST(OwnWeights, aCellOfNoMeasureHasNoWeight)
+TEST(OwnWeights, ACellOfNoMeasureHasNoWeight)
 {
   for (StreamMesh mesh : meshes())
   {
@@ -345,7 +345,7 @@ TEST(OwnWeights, aCellOfNoMeasureHasNoWeight)
   }
 }
 
-TEST(OwnWeights, thatAreNotValidAreAnError)
+TEST(OwnWeights, ThatAreNotValidAreAnError)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinite = std::numeric_limits<double>::infinity();

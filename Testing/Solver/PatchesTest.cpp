@@ -47,7 +47,7 @@ TestLevel path(const std::vector<float>& weights, double alpha)
 
 } // namespace
 
-TEST(Patches, joinTheStrongestLowerNeighbourThatHasRoomWithinReach)
+TEST(Patches, JoinTheStrongestLowerNeighbourThatHasRoomWithinReach)
 {
   std::vector<std::size_t> ofSize(5);
   for (const TestLevel& level : levelsWithPatches())
@@ -83,7 +83,7 @@ TEST(Patches, joinTheStrongestLowerNeighbourThatHasRoomWithinReach)
   }
 }
 
-TEST(Patches, areOfCouplingsAboveAHalf)
+TEST(Patches, AreOfCouplingsAboveAHalf)
 {
   // With weight 1 and alpha on both nodes the coupling is 1 / (1 + alpha).
   for (const bool strong : { true, false })
@@ -102,7 +102,7 @@ TEST(Patches, areOfCouplingsAboveAHalf)
   }
 }
 
-TEST(Patches, useTheWeightsInDoublePrecision)
+TEST(Patches, UseTheWeightsInDoublePrecision)
 {
   TestLevel level = path({ 1.0F }, 0.5);
   level.precise = { { 1.0 + 1e-9 }, { 1.0 + 1e-9 } };
@@ -119,7 +119,7 @@ TEST(Patches, useTheWeightsInDoublePrecision)
   EXPECT_EQ(patches.of(0)->matrix.at(0, 0), 1.5 + 1e-9);
 }
 
-TEST(Patches, letGoOfNodesKeepThePatchesOfTheOthers)
+TEST(Patches, LetGoOfNodesKeepThePatchesOfTheOthers)
 {
   const TestLevel level = levelsWithPatches()[0];
   const auto expected = patchesOf(level);
@@ -141,7 +141,7 @@ TEST(Patches, letGoOfNodesKeepThePatchesOfTheOthers)
   }
 }
 
-TEST(PatchMatrix, invertsAsEigenDoes)
+TEST(PatchMatrix, InvertsAsEigenDoes)
 {
   for (int order = 1; order <= PatchMatrix::Most; ++order)
   {
@@ -167,7 +167,7 @@ TEST(PatchMatrix, invertsAsEigenDoes)
 }
 
 /** A component of its own: a triangle that is nearly a needle. */
-TEST(PatchMatrix, theInverseOfASingularMatrixIsAGeneralisedOne)
+TEST(PatchMatrix, TheInverseOfASingularMatrixIsAGeneralisedOne)
 {
   const double weights[3] = { 1e4, -0.3, 0.7 }; // of the edges 01, 02, 12
   PatchMatrix matrix;
@@ -182,7 +182,7 @@ TEST(PatchMatrix, theInverseOfASingularMatrixIsAGeneralisedOne)
   EXPECT_LT((a * inverse * a - a).norm(), 1e-9 * a.norm());
 }
 
-TEST(PatchMatrix, tellsWhatIsNotPositiveDefiniteUpToRounding)
+TEST(PatchMatrix, TellsWhatIsNotPositiveDefiniteUpToRounding)
 {
   const auto inverts = [](double last, double least)
   {
@@ -199,7 +199,7 @@ TEST(PatchMatrix, tellsWhatIsNotPositiveDefiniteUpToRounding)
   EXPECT_FALSE(inverts(0.5, 1e-6));
 }
 
-TEST(PatchMatrix, aPowerOfTwoDoesNotMatter)
+TEST(PatchMatrix, APowerOfTwoDoesNotMatter)
 {
   PatchMatrix matrix;
   matrix.order = 3;
@@ -210,7 +210,7 @@ TEST(PatchMatrix, aPowerOfTwoDoesNotMatter)
   EXPECT_EQ(8 * denseOf(matrix), denseOf(scaled));
 }
 
-TEST(PatchMatrix, partKeepsRowsAndColumns)
+TEST(PatchMatrix, PartKeepsRowsAndColumns)
 {
   PatchMatrix matrix;
   matrix.order = 4;

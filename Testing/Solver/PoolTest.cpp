@@ -13,7 +13,7 @@
 namespace smg::testing
 {
 
-TEST(Pool, countsWhatIsInUseAndItsPeak)
+TEST(Pool, CountsWhatIsInUseAndItsPeak)
 {
   Pool pool(1000);
   pool.acquire(600);
@@ -26,7 +26,7 @@ TEST(Pool, countsWhatIsInUseAndItsPeak)
   EXPECT_EQ(pool.used(), 1000);
 }
 
-TEST(Pool, refusesWhatIsAboveItsLimitAndNamesBothFigures)
+TEST(Pool, RefusesWhatIsAboveItsLimitAndNamesBothFigures)
 {
   Pool pool(3000000);
   pool.acquire(1000000);
@@ -38,7 +38,7 @@ TEST(Pool, refusesWhatIsAboveItsLimitAndNamesBothFigures)
   pool.acquire(2000000);
 }
 
-TEST(Pool, saysWhatNeedsTheMemoryAndWhatToDo)
+TEST(Pool, SaysWhatNeedsTheMemoryAndWhatToDo)
 {
   Pool pool(1000, { "the walk", "take a shorter one" });
   const std::string sentence = messageOf([&] { pool.acquire(1001); });
@@ -46,7 +46,7 @@ TEST(Pool, saysWhatNeedsTheMemoryAndWhatToDo)
   EXPECT_NE(sentence.find(": take a shorter one"), std::string::npos) << sentence;
 }
 
-TEST(Pool, refusesSizesWhoseSumIsNoNumber)
+TEST(Pool, RefusesSizesWhoseSumIsNoNumber)
 {
   Pool pool(1000);
   pool.acquire(600);

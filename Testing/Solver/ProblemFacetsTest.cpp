@@ -141,7 +141,7 @@ std::set<Facet> expectedOf(const StreamMesh& mesh)
 
 } // namespace
 
-TEST(ProblemFacets, ofTheBoundaryAreThoseOfOneCell)
+TEST(ProblemFacets, OfTheBoundaryAreThoseOfOneCell)
 {
   for (const StreamMesh& mesh :
     { toStream(shuffled(grid(20, 15))), toStream(shuffled(torus(20, 15))),
@@ -158,14 +158,14 @@ TEST(ProblemFacets, ofTheBoundaryAreThoseOfOneCell)
   }
 }
 
-TEST(ProblemFacets, whereThreeCellsMeetIsNoBoundary)
+TEST(ProblemFacets, WhereThreeCellsMeetIsNoBoundary)
 {
   const IndexedTestMesh fan{ CellType::Triangle, { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1 },
     { 0, 1, 2, 0, 1, 3, 0, 1, 4 } };
   EXPECT_EQ(boundaryOf(toStream(fan)).size(), 6u);
 }
 
-TEST(ProblemFacets, flatCellsCountButDuplicatesAndRepeatedCornersDoNot)
+TEST(ProblemFacets, FlatCellsCountButDuplicatesAndRepeatedCornersDoNot)
 {
   // Two triangles, a flat one on the edge 1-2, a copy of the first and one without area.
   StreamMesh mesh;
@@ -178,7 +178,7 @@ TEST(ProblemFacets, flatCellsCountButDuplicatesAndRepeatedCornersDoNot)
     (std::set<Facet>{ { 0, 1 }, { 0, 2 }, { 1, 3 }, { 2, 3 } }));
 }
 
-TEST(ProblemFacets, needMemoryForTheOpenOnesAlone)
+TEST(ProblemFacets, NeedMemoryForTheOpenOnesAlone)
 {
   const auto peakOf = [](int length)
   {
@@ -195,7 +195,7 @@ TEST(ProblemFacets, needMemoryForTheOpenOnesAlone)
   EXPECT_LT(peakOf(160), once + once / 4);
 }
 
-TEST(ProblemFacets, ofAProblemThatSaysNothingOfThemAreThoseOfTheSameDirichletCondition)
+TEST(ProblemFacets, OfAProblemThatSaysNothingOfThemAreThoseOfTheSameDirichletCondition)
 {
   /** Two ends. */
   class Ends : public Problem
@@ -218,7 +218,7 @@ TEST(ProblemFacets, ofAProblemThatSaysNothingOfThemAreThoseOfTheSameDirichletCon
     boundaryOf(toStream(tetBox(10, 4, 5)), 100, problem, pool).size(), std::size_t(2 * 2 * 12));
 }
 
-TEST(ProblemFacets, valuesThatAreNotValidNameTheCellOnTheBoundaryAndDoNotMatterInside)
+TEST(ProblemFacets, ValuesThatAreNotValidNameTheCellOnTheBoundaryAndDoNotMatterInside)
 {
   const StreamMesh mesh = toStream(tetBox(5, 5, 5));
   const std::vector<Facet> boundary = boundaryOf(mesh);

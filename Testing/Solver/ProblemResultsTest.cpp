@@ -87,7 +87,7 @@ void expectSame(const std::vector<double>& a, const std::vector<double>& b)
 
 } // namespace
 
-TEST(ProblemResults, theGradientOfALinearFunctionIsItsSlopeInTheCell)
+TEST(ProblemResults, TheGradientOfALinearFunctionIsItsSlopeInTheCell)
 {
   const Eigen::Vector3d slope(1.0, -2.0, 0.5);
   for (const StreamMesh& mesh : meshesOfResults())
@@ -121,7 +121,7 @@ TEST(ProblemResults, theGradientOfALinearFunctionIsItsSlopeInTheCell)
   }
 }
 
-TEST(ProblemResults, areThoseOfTheAssembledSystem)
+TEST(ProblemResults, AreThoseOfTheAssembledSystem)
 {
   for (const StreamMesh& mesh : meshesOfResults())
   {
@@ -198,7 +198,7 @@ TEST(ProblemResults, areThoseOfTheAssembledSystem)
   }
 }
 
-TEST(ProblemResults, fluxesBalanceToTheTolerance)
+TEST(ProblemResults, FluxesBalanceToTheTolerance)
 {
   for (const StreamMesh& mesh : meshesOfResults())
   {
@@ -220,7 +220,7 @@ TEST(ProblemResults, fluxesBalanceToTheTolerance)
 }
 
 /** What a loose solve leaves is no flow that could miss its balance. */
-TEST(ProblemResults, balanceWhereNothingFlows)
+TEST(ProblemResults, BalanceWhereNothingFlows)
 {
   for (const StreamMesh& mesh : meshesOfResults())
   {
@@ -244,7 +244,7 @@ TEST(ProblemResults, balanceWhereNothingFlows)
   }
 }
 
-TEST(ProblemResults, aConditionThatOthersHideIsNoted)
+TEST(ProblemResults, AConditionThatOthersHideIsNoted)
 {
   const StreamMesh mesh = meshesOfResults().front();
   ElementProblem problem(mesh);
@@ -257,7 +257,7 @@ TEST(ProblemResults, aConditionThatOthersHideIsNoted)
     { return note.ends_with("has no effect: others hold wherever it does"); }));
 }
 
-TEST(ProblemResults, whatIsTakenFromTheSourcesIsPartOfTheBalance)
+TEST(ProblemResults, WhatIsTakenFromTheSourcesIsPartOfTheBalance)
 {
   for (const StreamMesh& mesh : meshesOfResults())
   {
@@ -273,7 +273,7 @@ TEST(ProblemResults, whatIsTakenFromTheSourcesIsPartOfTheBalance)
   }
 }
 
-TEST(ProblemResults, doNotDependOnBlocks)
+TEST(ProblemResults, DoNotDependOnBlocks)
 {
   for (const StreamMesh& mesh : meshesOfResults())
   {
@@ -297,7 +297,7 @@ TEST(ProblemResults, doNotDependOnBlocks)
   }
 }
 
-TEST(ProblemResults, aConditionWithoutFacetsHasTheMeanOfItsVertices)
+TEST(ProblemResults, AConditionWithoutFacetsHasTheMeanOfItsVertices)
 {
   const StreamMesh mesh = toStream(shuffled(torus(30, 20)));
   ElementProblem problem(mesh);
@@ -314,7 +314,7 @@ TEST(ProblemResults, aConditionWithoutFacetsHasTheMeanOfItsVertices)
   EXPECT_NE(report.json().find("\"mean\": [\n        null\n"), std::string::npos);
 }
 
-TEST(ProblemResults, sayByHowMuchFlatCellsMayHaveChangedTheSolution)
+TEST(ProblemResults, SayByHowMuchFlatCellsMayHaveChangedTheSolution)
 {
   // A vertex that almost lies on the edge opposite to it.
   StreamMesh mesh = toStream(grid(20, 20));
@@ -342,7 +342,7 @@ TEST(ProblemResults, sayByHowMuchFlatCellsMayHaveChangedTheSolution)
   EXPECT_GT(percent, 0.0);
 }
 
-TEST(ProblemResults, ofAnotherSolutionAreAnError)
+TEST(ProblemResults, OfAnotherSolutionAreAnError)
 {
   const StreamMesh mesh = patch();
   ElementProblem problem(mesh);

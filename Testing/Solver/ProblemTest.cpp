@@ -63,7 +63,7 @@ void scale(IndexedTestMesh& mesh, double factor)
 
 } // namespace
 
-TEST(Problem, linearFunctionsOnAFlatMeshAreExact)
+TEST(Problem, LinearFunctionsOnAFlatMeshAreExact)
 {
   const StreamMesh mesh = toStream(shuffled(grid(60, 50, 0.08)));
   const Function u = [](double x, double y, double) { return 3 - 2 * x + 0.5 * y; };
@@ -84,7 +84,7 @@ TEST(Problem, linearFunctionsOnAFlatMeshAreExact)
   EXPECT_LT(relativeError(solved.values, exact), 1e-7);
 }
 
-TEST(Problem, linearFunctionsOnARegularMeshAreExactToNineDigits)
+TEST(Problem, LinearFunctionsOnARegularMeshAreExactToNineDigits)
 {
   // All weights of an equilateral mesh are alike, and rounded alike.
   const StreamMesh mesh = toStream(grid(60, 50));
@@ -108,7 +108,7 @@ TEST(Problem, linearFunctionsOnARegularMeshAreExactToNineDigits)
   }
 }
 
-TEST(Problem, aSmoothSolutionOnAGridIsApproachedWithSecondOrder)
+TEST(Problem, ASmoothSolutionOnAGridIsApproachedWithSecondOrder)
 {
   const double pi = std::numbers::pi;
   const Function u = [pi](double x, double y, double)
@@ -131,7 +131,7 @@ TEST(Problem, aSmoothSolutionOnAGridIsApproachedWithSecondOrder)
   EXPECT_GT(errors[1] / errors[2], 3.0);
 }
 
-TEST(Problem, aSmoothSolutionInABoxIsApproachedWithSecondOrder)
+TEST(Problem, ASmoothSolutionInABoxIsApproachedWithSecondOrder)
 {
   const Function u = [](double x, double y, double z)
   { return std::sin(2 * x) * std::exp(y) + z * z * x; };
@@ -153,7 +153,7 @@ TEST(Problem, aSmoothSolutionInABoxIsApproachedWithSecondOrder)
   EXPECT_GT(errors[1] / errors[2], 3.0);
 }
 
-TEST(Problem, eigenfunctionOfTheSphereWithScreening)
+TEST(Problem, EigenfunctionOfTheSphereWithScreening)
 {
   // -Laplace z + s z = (2 + s) z on the unit sphere.
   const StreamMesh mesh = toStream(sphere(5));
@@ -172,7 +172,7 @@ TEST(Problem, eigenfunctionOfTheSphereWithScreening)
   }
 }
 
-TEST(Problem, sourcesAndScreeningAgreeWithTheDirectSolution)
+TEST(Problem, SourcesAndScreeningAgreeWithTheDirectSolution)
 {
   for (const bool surface : { true, false })
   {
@@ -193,7 +193,7 @@ TEST(Problem, sourcesAndScreeningAgreeWithTheDirectSolution)
   }
 }
 
-TEST(Problem, edgeTargetsOfThePositionsGiveThemBack)
+TEST(Problem, EdgeTargetsOfThePositionsGiveThemBack)
 {
   for (const bool surface : { true, false })
   {
@@ -210,7 +210,7 @@ TEST(Problem, edgeTargetsOfThePositionsGiveThemBack)
   }
 }
 
-TEST(Problem, edgeTargetsThatAreNoGradientAgreeWithTheDirectSolution)
+TEST(Problem, EdgeTargetsThatAreNoGradientAgreeWithTheDirectSolution)
 {
   for (const bool surface : { true, false })
   {
@@ -231,7 +231,7 @@ TEST(Problem, edgeTargetsThatAreNoGradientAgreeWithTheDirectSolution)
   }
 }
 
-TEST(Problem, theMaximumPrincipleHolds)
+TEST(Problem, TheMaximumPrincipleHolds)
 {
   const StreamMesh mesh = toStream(shuffled(torus(150, 40, 0.9)));
   ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
@@ -241,7 +241,7 @@ TEST(Problem, theMaximumPrincipleHolds)
   EXPECT_GE(solved.values.minCoeff(), -1.0 - 1e-8);
 }
 
-TEST(Problem, theReportCountsWhatTheDirectSystemCounts)
+TEST(Problem, TheReportCountsWhatTheDirectSystemCounts)
 {
   for (const bool surface : { true, false })
   {

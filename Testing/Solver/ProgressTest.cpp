@@ -21,7 +21,7 @@ StreamMesh someTorus()
 
 } // namespace
 
-TEST(Progress, neverDecreasesAndStopsWhenRefused)
+TEST(Progress, NeverDecreasesAndStopsWhenRefused)
 {
   std::vector<double> seen;
   Progress progress(
@@ -38,7 +38,7 @@ TEST(Progress, neverDecreasesAndStopsWhenRefused)
   EXPECT_NO_THROW(Progress().update(0.5));
 }
 
-TEST(Progress, ofASolveRisesFromNearZeroToOne)
+TEST(Progress, OfASolveRisesFromNearZeroToOne)
 {
   const StreamMesh mesh = someTorus();
   ArrayProblem problem = fixedEnds(mesh);
@@ -59,7 +59,7 @@ TEST(Progress, ofASolveRisesFromNearZeroToOne)
   }
 }
 
-TEST(Progress, cancellingAnywhereLeavesNoScratchFile)
+TEST(Progress, CancellingAnywhereLeavesNoScratchFile)
 {
   const TemporaryFolder folder;
   const StreamMesh mesh = someTorus();
@@ -82,7 +82,7 @@ TEST(Progress, cancellingAnywhereLeavesNoScratchFile)
   }
 }
 
-TEST(Progress, anExceptionOfTheCallbackPassesThrough)
+TEST(Progress, AnExceptionOfTheCallbackPassesThrough)
 {
   const TemporaryFolder folder;
   const StreamMesh mesh = someTorus();

@@ -85,7 +85,7 @@ IndexedTestMesh withCrumbs(IndexedTestMesh mesh)
 
 } // namespace
 
-TEST(RawWeights, keepLinearFunctionsWhichClampedOnesDoNot)
+TEST(RawWeights, KeepLinearFunctionsWhichClampedOnesDoNot)
 {
   auto [mesh, problem] = obtuseGrid();
   const double extent = positionsOf(mesh).cwiseAbs().maxCoeff();
@@ -94,7 +94,7 @@ TEST(RawWeights, keepLinearFunctionsWhichClampedOnesDoNot)
   EXPECT_GT(errorOfLinear(mesh, problem), 1e-3 * extent);
 }
 
-TEST(RawWeights, agreeWithTheDirectSolve)
+TEST(RawWeights, AgreeWithTheDirectSolve)
 {
   for (const bool surface : { true, false })
   {
@@ -108,7 +108,7 @@ TEST(RawWeights, agreeWithTheDirectSolve)
   }
 }
 
-TEST(RawWeights, ofSliversConvergeHoweverFlatTheyAre)
+TEST(RawWeights, OfSliversConvergeHoweverFlatTheyAre)
 {
   for (const double height : { 2e-2, 2e-3, 2e-4, 2e-5 })
   {
@@ -135,7 +135,7 @@ TEST(RawWeights, ofSliversConvergeHoweverFlatTheyAre)
 }
 
 /** With one sweep a patch may end in a block that comes after its first nodes were relaxed. */
-TEST(RawWeights, ofSliversStreamWithOneSweep)
+TEST(RawWeights, OfSliversStreamWithOneSweep)
 {
   const StreamMesh mesh = toStream(sliverChains(60, 48, 2e-3));
   ArrayProblem problem = heldEnds(mesh, 2, Weights::Cotangent);
@@ -154,7 +154,7 @@ TEST(RawWeights, ofSliversStreamWithOneSweep)
 
 /** Scans have crumbs: components of a few needles without anything prescribed. They start from
  * values of their own, and only the mean of those is kept. */
-TEST(RawWeights, ofFreeComponentsOfNeedlesConvergeAsFast)
+TEST(RawWeights, OfFreeComponentsOfNeedlesConvergeAsFast)
 {
   const IndexedTestMesh indexed = torus(60, 20, 0.4);
   const auto passesOf = [](const IndexedTestMesh& of)
@@ -175,7 +175,7 @@ TEST(RawWeights, ofFreeComponentsOfNeedlesConvergeAsFast)
 
 /** What screening brings to the diagonal of a needle is less than the rounding of the diagonal, and
  * yet alone determines the level of its component: u = f / s. */
-TEST(RawWeights, littleScreeningDeterminesTheLevelOfNeedles)
+TEST(RawWeights, LittleScreeningDeterminesTheLevelOfNeedles)
 {
   const StreamMesh mesh = toStream(withCrumbs(torus(60, 20, 0.4)));
   ArrayProblem problem;
@@ -189,7 +189,7 @@ TEST(RawWeights, littleScreeningDeterminesTheLevelOfNeedles)
   EXPECT_LT((solved.values.array() - 3.0).abs().maxCoeff(), 1e-7);
 }
 
-TEST(RawWeights, ofNothingButObtuseTrianglesLeaveASmallCoarsestLevel)
+TEST(RawWeights, OfNothingButObtuseTrianglesLeaveASmallCoarsestLevel)
 {
   IndexedTestMesh indexed = grid(220, 200);
   for (std::size_t k = 0; k < indexed.positions.size(); k += 3)
@@ -203,7 +203,7 @@ TEST(RawWeights, ofNothingButObtuseTrianglesLeaveASmallCoarsestLevel)
   EXPECT_LT(report.levels.back().nodes, 5500);
 }
 
-TEST(RawWeights, ofFlatCellsAreScaledDown)
+TEST(RawWeights, OfFlatCellsAreScaledDown)
 {
   const double a[3] = { 0, 0, 0 };
   const double b[3] = { 1, 0, 0 };
@@ -222,7 +222,7 @@ TEST(RawWeights, ofFlatCellsAreScaledDown)
   EXPECT_NEAR(flatnessFactor(CellType::Triangle, corners, cell), 1.0, 1e-12);
 }
 
-TEST(RawWeights, flatCellsDoNotSpoilTheRest)
+TEST(RawWeights, FlatCellsDoNotSpoilTheRest)
 {
   auto [mesh, problem] = obtuseGrid();
   // A vertex in the middle moves almost onto the line through two of its neighbours.
@@ -240,7 +240,7 @@ TEST(RawWeights, flatCellsDoNotSpoilTheRest)
   EXPECT_TRUE(solved.values.allFinite());
 }
 
-TEST(RawWeights, aRowThatRoundingHasLeftWithoutDiagonalIsRaised)
+TEST(RawWeights, ARowThatRoundingHasLeftWithoutDiagonalIsRaised)
 {
   const RowEntry cancelling[] = { { -1, 1e5F }, { 2, -1e5F }, { 5, -0.01F } };
   EXPECT_DOUBLE_EQ(rowShortfall(cancelling, 0.0, {}) - 0.01F, 1e-8 * (2e5 + 0.01F));

@@ -11,7 +11,7 @@
 namespace smg::testing
 {
 
-TEST(Ring, itemsKeepTheirValuesWhileTheWindowMovesAndGrows)
+TEST(Ring, ItemsKeepTheirValuesWhileTheWindowMovesAndGrows)
 {
   Pool pool(1 << 30);
   for (const int lanes : { 1, 3, 4, 12 })
@@ -45,7 +45,7 @@ TEST(Ring, itemsKeepTheirValuesWhileTheWindowMovesAndGrows)
   }
 }
 
-TEST(Ring, needsMemoryForTheWindowOnly)
+TEST(Ring, NeedsMemoryForTheWindowOnly)
 {
   Pool pool(1 << 30);
   Ring<std::int32_t> ring(pool);
@@ -61,7 +61,7 @@ TEST(Ring, needsMemoryForTheWindowOnly)
   EXPECT_EQ(ring.end(), 0);
 }
 
-TEST(Ring, startsAgainAnywhere)
+TEST(Ring, StartsAgainAnywhere)
 {
   Pool pool(1 << 20);
   Ring<std::int64_t> ring(pool, 2);
@@ -76,7 +76,7 @@ TEST(Ring, startsAgainAnywhere)
   EXPECT_EQ(ring[123456789 + 2999], 2);
 }
 
-TEST(Ring, mayBeginAnywhereBeforeItHasMemory)
+TEST(Ring, MayBeginAnywhereBeforeItHasMemory)
 {
   Pool pool(1 << 30);
   Ring<int> ring(pool);
@@ -93,7 +93,7 @@ TEST(Ring, mayBeginAnywhereBeforeItHasMemory)
   }
 }
 
-TEST(Ring, aRefusedGrowthLeavesItWhole)
+TEST(Ring, ARefusedGrowthLeavesItWhole)
 {
   Pool pool(1 << 16);
   Ring<std::int64_t> ring(pool);
@@ -106,7 +106,7 @@ TEST(Ring, aRefusedGrowthLeavesItWhole)
   EXPECT_EQ(ring[999], 7);
 }
 
-TEST(Ring, growsWithoutASecondCopy)
+TEST(Ring, GrowsWithoutASecondCopy)
 {
   Pool pool(1 << 30);
   Ring<std::int64_t> ring(pool);
@@ -127,7 +127,7 @@ TEST(Ring, growsWithoutASecondCopy)
   EXPECT_EQ(pool.peak(), pool.used());
 }
 
-TEST(RaggedRing, growsWithoutASecondCopy)
+TEST(RaggedRing, GrowsWithoutASecondCopy)
 {
   Pool pool(1 << 30);
   RaggedRing<std::int64_t> rows(pool);
@@ -154,7 +154,7 @@ TEST(RaggedRing, growsWithoutASecondCopy)
   EXPECT_EQ(pool.peak(), pool.used());
 }
 
-TEST(RaggedRing, rowsKeepTheirEntries)
+TEST(RaggedRing, RowsKeepTheirEntries)
 {
   Pool pool(1 << 30);
   RaggedRing<std::int32_t> rows(pool);
@@ -186,7 +186,7 @@ TEST(RaggedRing, rowsKeepTheirEntries)
   }
 }
 
-TEST(RaggedRing, keepsAWindowOnly)
+TEST(RaggedRing, KeepsAWindowOnly)
 {
   Pool pool(1 << 20);
   RaggedRing<std::int64_t> rows(pool);
@@ -200,7 +200,7 @@ TEST(RaggedRing, keepsAWindowOnly)
   EXPECT_LT(pool.peak(), 3 * 100 * 7 * 8 + 3 * 4096);
 }
 
-TEST(MonotoneRing, keepsIndicesBeyond32Bits)
+TEST(MonotoneRing, KeepsIndicesBeyond32Bits)
 {
   Pool pool(1 << 20);
   constexpr std::int64_t Large = (std::int64_t(5) << 32) - 300;

@@ -18,7 +18,7 @@
 namespace smg::testing
 {
 
-TEST(ScratchFolder, isRemovedWithAllItHolds)
+TEST(ScratchFolder, IsRemovedWithAllItHolds)
 {
   const TemporaryFolder folder;
   {
@@ -31,7 +31,7 @@ TEST(ScratchFolder, isRemovedWithAllItHolds)
   EXPECT_EQ(folder.entries(), 0);
 }
 
-TEST(ScratchFolder, inAPlaceThatDoesNotExistIsAnErrorThatNamesIt)
+TEST(ScratchFolder, InAPlaceThatDoesNotExistIsAnErrorThatNamesIt)
 {
   const TemporaryFolder folder;
   try
@@ -45,7 +45,7 @@ TEST(ScratchFolder, inAPlaceThatDoesNotExistIsAnErrorThatNamesIt)
   }
 }
 
-TEST(ScratchFolder, withoutATemporaryFolderIsAnErrorThatAsksForAnother)
+TEST(ScratchFolder, WithoutATemporaryFolderIsAnErrorThatAsksForAnother)
 {
   const char* const before = std::getenv("TMPDIR");
   const std::string kept = before ? before : "";
@@ -56,7 +56,7 @@ TEST(ScratchFolder, withoutATemporaryFolderIsAnErrorThatAsksForAnother)
   EXPECT_NE(message.find("name a scratch folder"), std::string::npos) << message;
 }
 
-TEST(ScratchFolder, whatAKilledProgramLeftIsRemovedByTheNextAndNothingElse)
+TEST(ScratchFolder, WhatAKilledProgramLeftIsRemovedByTheNextAndNothingElse)
 {
   const TemporaryFolder folder;
   const ScratchFolder living(folder.path());

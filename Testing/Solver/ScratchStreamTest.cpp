@@ -50,7 +50,7 @@ std::uintmax_t bytesOpenIn(const TemporaryFolder& folder)
 
 } // namespace
 
-TEST(ScratchStream, aPassReadsWhatTheLastRewritingPassWrote)
+TEST(ScratchStream, APassReadsWhatTheLastRewritingPassWrote)
 {
   constexpr int Blocks = 50;
   const TemporaryFolder folder;
@@ -90,7 +90,7 @@ TEST(ScratchStream, aPassReadsWhatTheLastRewritingPassWrote)
   EXPECT_EQ(folder.entries(), 0);
 }
 
-TEST(ScratchStream, anyBlockCanBeReadBetweenPasses)
+TEST(ScratchStream, AnyBlockCanBeReadBetweenPasses)
 {
   const TemporaryFolder folder;
   IoStatistics statistics;
@@ -109,7 +109,7 @@ TEST(ScratchStream, anyBlockCanBeReadBetweenPasses)
   }
 }
 
-TEST(ScratchStream, placesOfTheGenerationBeforeAreUsedAgain)
+TEST(ScratchStream, PlacesOfTheGenerationBeforeAreUsedAgain)
 {
   const TemporaryFolder folder;
   IoStatistics statistics;
@@ -126,7 +126,7 @@ TEST(ScratchStream, placesOfTheGenerationBeforeAreUsedAgain)
   }
 }
 
-TEST(ScratchStream, anAbandonedPassLeavesNoFile)
+TEST(ScratchStream, AnAbandonedPassLeavesNoFile)
 {
   const TemporaryFolder folder;
   IoStatistics statistics;

@@ -39,7 +39,7 @@ std::vector<StreamMesh> meshes()
 
 } // namespace
 
-TEST(Shi2006Cycle, differencesOfAFieldGiveTheFieldAtOnce)
+TEST(Shi2006Cycle, DifferencesOfAFieldGiveTheFieldAtOnce)
 {
   for (const StreamMesh& mesh : meshes())
   {
@@ -61,7 +61,7 @@ TEST(Shi2006Cycle, differencesOfAFieldGiveTheFieldAtOnce)
   }
 }
 
-TEST(Shi2006Cycle, theResultIsFinalAfterOneVCycleWhereverItBegan)
+TEST(Shi2006Cycle, TheResultIsFinalAfterOneVCycleWhereverItBegan)
 {
   for (const StreamMesh& mesh : meshes())
   {
@@ -77,7 +77,7 @@ TEST(Shi2006Cycle, theResultIsFinalAfterOneVCycleWhereverItBegan)
   }
 }
 
-TEST(Shi2006Cycle, theResultIsNotTheSolution)
+TEST(Shi2006Cycle, TheResultIsNotTheSolution)
 {
   for (const StreamMesh& mesh : meshes())
   {
@@ -98,7 +98,7 @@ TEST(Shi2006Cycle, theResultIsNotTheSolution)
   }
 }
 
-TEST(Shi2006Cycle, partsThatNoConstraintReachesStayFinite)
+TEST(Shi2006Cycle, PartsThatNoConstraintReachesStayFinite)
 {
   // A triangle that is free, and has a source, beside two that hang on a prescribed vertex.
   const StreamMesh mesh{ CellType::Triangle,

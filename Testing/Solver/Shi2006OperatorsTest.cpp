@@ -124,7 +124,7 @@ double largest(const Eigen::MatrixXd& matrix)
 
 } // namespace
 
-TEST(Shi2006Operators, liftedNodesAreAMaximalIndependentSetInStreamOrder)
+TEST(Shi2006Operators, LiftedNodesAreAMaximalIndependentSetInStreamOrder)
 {
   forSteps(false,
     [](const Level& fine, const Level& coarse)
@@ -145,7 +145,7 @@ TEST(Shi2006Operators, liftedNodesAreAMaximalIndependentSetInStreamOrder)
     });
 }
 
-TEST(Shi2006Operators, theCoarseMatrixIsTheSchurComplementOfTheTruncatedOne)
+TEST(Shi2006Operators, TheCoarseMatrixIsTheSchurComplementOfTheTruncatedOne)
 {
   forSteps(false,
     [](const Level& fine, const Level& coarse)
@@ -167,7 +167,7 @@ TEST(Shi2006Operators, theCoarseMatrixIsTheSchurComplementOfTheTruncatedOne)
     });
 }
 
-TEST(Shi2006Operators, theCoarseMatrixIsASymmetricMMatrixWithRowSumsAlpha)
+TEST(Shi2006Operators, TheCoarseMatrixIsASymmetricMMatrixWithRowSumsAlpha)
 {
   forSteps(false,
     [](const Level&, const Level& coarse)
@@ -190,7 +190,7 @@ TEST(Shi2006Operators, theCoarseMatrixIsASymmetricMMatrixWithRowSumsAlpha)
     });
 }
 
-TEST(Shi2006Operators, theCoarseRightSideIsThatOfTheTruncatedSystem)
+TEST(Shi2006Operators, TheCoarseRightSideIsThatOfTheTruncatedSystem)
 {
   forSteps(true,
     [](const Level& fine, const Level& coarse)
@@ -210,7 +210,7 @@ TEST(Shi2006Operators, theCoarseRightSideIsThatOfTheTruncatedSystem)
     });
 }
 
-TEST(Shi2006Operators, theVectorsOnCoarseEdgesAreThoseOfEquation8)
+TEST(Shi2006Operators, TheVectorsOnCoarseEdgesAreThoseOfEquation8)
 {
   forSteps(true,
     [](const Level& fine, const Level& coarse)
@@ -251,7 +251,7 @@ TEST(Shi2006Operators, theVectorsOnCoarseEdgesAreThoseOfEquation8)
     });
 }
 
-TEST(Shi2006Operators, theConstraintsAreHandedOnAsInEquation10)
+TEST(Shi2006Operators, TheConstraintsAreHandedOnAsInEquation10)
 {
   forSteps(true,
     [](const Level& fine, const Level& coarse)
@@ -290,7 +290,7 @@ TEST(Shi2006Operators, theConstraintsAreHandedOnAsInEquation10)
     });
 }
 
-TEST(Shi2006Operators, prolongationIsThatOfEquations4And5)
+TEST(Shi2006Operators, ProlongationIsThatOfEquations4And5)
 {
   forSteps(true,
     [](Level& fine, const Level& coarse)
@@ -326,7 +326,7 @@ TEST(Shi2006Operators, prolongationIsThatOfEquations4And5)
     });
 }
 
-TEST(Shi2006Operators, relaxationIsGaussSeidelInStreamOrder)
+TEST(Shi2006Operators, RelaxationIsGaussSeidelInStreamOrder)
 {
   forHierarchies(
     [](Hierarchy& hierarchy)
@@ -349,7 +349,7 @@ TEST(Shi2006Operators, relaxationIsGaussSeidelInStreamOrder)
     });
 }
 
-TEST(Shi2006Operators, theFinestLevelIsTheProblem)
+TEST(Shi2006Operators, TheFinestLevelIsTheProblem)
 {
   for (const StreamMesh& mesh : { toStream(torus(24, 12, 0.3)), toStream(tetBox(6, 6, 6, 0.15)) })
   {
@@ -413,7 +413,7 @@ TEST(Shi2006Operators, theFinestLevelIsTheProblem)
   }
 }
 
-TEST(Shi2006Operators, nodesThatShareAConstrainedVertexAloneHaveNoEdge)
+TEST(Shi2006Operators, NodesThatShareAConstrainedVertexAloneHaveNoEdge)
 {
   // Two triangles with one vertex in common, which is prescribed.
   const StreamMesh mesh{ CellType::Triangle, { 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0 },

@@ -35,7 +35,7 @@ ArrayProblem deformed(const StreamMesh& mesh, int columns = 3)
 
 } // namespace
 
-TEST(Shi2006Solve, saysThatItDoesNotConverge)
+TEST(Shi2006Solve, SaysThatItDoesNotConverge)
 {
   const StreamMesh mesh = toStream(torus(90, 45, 0.3));
   ArrayProblem problem = deformed(mesh);
@@ -59,7 +59,7 @@ TEST(Shi2006Solve, saysThatItDoesNotConverge)
   EXPECT_TRUE(solveMesh(mesh, problem, extended).report.converged);
 }
 
-TEST(Shi2006Solve, convergesWhereTheTargetsAreDifferences)
+TEST(Shi2006Solve, ConvergesWhereTheTargetsAreDifferences)
 {
   for (const StreamMesh& mesh :
     { toStream(torus(90, 45, 0.3)), toStream(tetBox(13, 14, 12, 0.15)) })
@@ -77,7 +77,7 @@ TEST(Shi2006Solve, convergesWhereTheTargetsAreDifferences)
   }
 }
 
-TEST(Shi2006Solve, screeningTowardsAConstantIsSolvedAtOnce)
+TEST(Shi2006Solve, ScreeningTowardsAConstantIsSolvedAtOnce)
 {
   // (L + s M) c = M s c: the solution has no differences, and there are no targets.
   const StreamMesh mesh = toStream(torus(90, 45, 0.3));
@@ -90,7 +90,7 @@ TEST(Shi2006Solve, screeningTowardsAConstantIsSolvedAtOnce)
   EXPECT_LT((solved.values.array() - 7.0).abs().maxCoeff(), 1e-11);
 }
 
-TEST(Shi2006Solve, initialValuesThatAreTheSolutionAreLeftAlone)
+TEST(Shi2006Solve, InitialValuesThatAreTheSolutionAreLeftAlone)
 {
   const StreamMesh mesh = toStream(torus(30, 20, 0.3));
   ArrayProblem problem = deformed(mesh, 1);
@@ -108,7 +108,7 @@ TEST(Shi2006Solve, initialValuesThatAreTheSolutionAreLeftAlone)
   EXPECT_GT(report.residual(), 100.0);
 }
 
-TEST(Shi2006Solve, blocksThreadsAndPiecesDoNotMatter)
+TEST(Shi2006Solve, BlocksThreadsAndPiecesDoNotMatter)
 {
   const StreamMesh mesh = toStream(torus(60, 30, 0.3));
   ArrayProblem problem = deformed(mesh);
@@ -121,7 +121,7 @@ TEST(Shi2006Solve, blocksThreadsAndPiecesDoNotMatter)
   EXPECT_TRUE(sameBits(solveMesh(mesh, problem, options, 37).values, whole.values));
 }
 
-TEST(Shi2006Solve, componentsWithoutConstraintKeepTheirMean)
+TEST(Shi2006Solve, ComponentsWithoutConstraintKeepTheirMean)
 {
   const StreamMesh mesh =
     toStream(disjointUnion(torus(60, 30, 0.3), torus(40, 20, 0.3, 5), { 10, 0, 0 }));
@@ -161,7 +161,7 @@ TEST(Shi2006Solve, componentsWithoutConstraintKeepTheirMean)
   }
 }
 
-TEST(Shi2006Solve, verticesThatArePrescribedOrHeldKeepTheirValue)
+TEST(Shi2006Solve, VerticesThatArePrescribedOrHeldKeepTheirValue)
 {
   StreamMesh mesh = toStream(grid(20, 20));
   const std::int64_t before = mesh.vertices();
@@ -189,7 +189,7 @@ TEST(Shi2006Solve, verticesThatArePrescribedOrHeldKeepTheirValue)
   }
 }
 
-TEST(Shi2006Solve, aTornHierarchyIsTold)
+TEST(Shi2006Solve, ATornHierarchyIsTold)
 {
   const IndexedTestMesh ring = torus(90, 45, 0.3);
   for (const bool scattered : { false, true })
@@ -200,7 +200,7 @@ TEST(Shi2006Solve, aTornHierarchyIsTold)
   }
 }
 
-TEST(Shi2006Solve, rangesOfVerticesAreThoseOfTheWhole)
+TEST(Shi2006Solve, RangesOfVerticesAreThoseOfTheWhole)
 {
   const StreamMesh mesh = toStream(torus(60, 30, 0.3));
   ArrayProblem problem = deformed(mesh);
@@ -217,7 +217,7 @@ TEST(Shi2006Solve, rangesOfVerticesAreThoseOfTheWhole)
   expectError([&] { solution->read(0, 101, part); }, "room");
 }
 
-TEST(Shi2006Solve, isRefusedOutOfCore)
+TEST(Shi2006Solve, IsRefusedOutOfCore)
 {
   const StreamMesh mesh = toStream(torus(10, 10));
   ArrayProblem problem = deformed(mesh);
@@ -228,7 +228,7 @@ TEST(Shi2006Solve, isRefusedOutOfCore)
   expectError([&] { solveMesh(mesh, problem, options); }, "use extended or shi2006");
 }
 
-TEST(Shi2006Solve, isRefusedForADeformation)
+TEST(Shi2006Solve, IsRefusedForADeformation)
 {
   for (const bool inCore : { false, true })
   {
@@ -239,7 +239,7 @@ TEST(Shi2006Solve, isRefusedForADeformation)
   }
 }
 
-TEST(Shi2006Solve, aMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
+TEST(Shi2006Solve, AMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
 {
   const StreamMesh mesh = toStream(torus(200, 100, 0.3));
   ArrayProblem problem = deformed(mesh);
@@ -254,7 +254,7 @@ TEST(Shi2006Solve, aMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
   EXPECT_GT(estimate, 0.6 * static_cast<double>(need));
 }
 
-TEST(Shi2006Solve, theMemoryLimitIsKept)
+TEST(Shi2006Solve, TheMemoryLimitIsKept)
 {
   const StreamMesh mesh = toStream(tetBox(16, 16, 16, 0.15));
   ArrayProblem problem = deformed(mesh, 1);
@@ -262,7 +262,7 @@ TEST(Shi2006Solve, theMemoryLimitIsKept)
     [&](const SolveOptions& limited) { return solveMesh(mesh, problem, limited).report; });
 }
 
-TEST(Shi2006Solve, canBeCancelledAtAnyTime)
+TEST(Shi2006Solve, CanBeCancelledAtAnyTime)
 {
   const StreamMesh mesh = toStream(torus(60, 30, 0.3));
   ArrayProblem problem = deformed(mesh);

@@ -38,7 +38,7 @@ std::string errorOfBlocks(std::vector<MeshBlock> blocks)
 
 } // namespace
 
-TEST(SolveErrors, numbersThatAreNotFinite)
+TEST(SolveErrors, NumbersThatAreNotFinite)
 {
   const StreamMesh mesh = toStream(torus(30, 20));
   for (const double bad : { NotANumber, Infinite, -Infinite })
@@ -67,7 +67,7 @@ TEST(SolveErrors, numbersThatAreNotFinite)
   }
 }
 
-TEST(SolveErrors, conditionsThatAreNone)
+TEST(SolveErrors, ConditionsThatAreNone)
 {
   /** All vertices have the Dirichlet condition 3. */
   class Strange : public ArrayProblem
@@ -83,7 +83,7 @@ TEST(SolveErrors, conditionsThatAreNone)
   EXPECT_TRUE(contains(errorOfSolve(toStream(torus(10, 10)), problem), "conditionCounts"));
 }
 
-TEST(SolveErrors, valuesWhoseSquaresOverflow)
+TEST(SolveErrors, ValuesWhoseSquaresOverflow)
 {
   const StreamMesh mesh = toStream(torus(30, 20));
   ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
@@ -94,7 +94,7 @@ TEST(SolveErrors, valuesWhoseSquaresOverflow)
   EXPECT_NE(errorOfSolve(mesh, problem), "");
 }
 
-TEST(SolveErrors, valuesThatOverflowTheCoarseLevels)
+TEST(SolveErrors, ValuesThatOverflowTheCoarseLevels)
 {
   const StreamMesh mesh = toStream(torus(60, 40));
   ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
@@ -107,12 +107,12 @@ TEST(SolveErrors, valuesThatOverflowTheCoarseLevels)
   EXPECT_TRUE(contains(sentence, "scale the prescribed values")) << sentence;
 }
 
-TEST(SolveErrors, validBlocksAreNone)
+TEST(SolveErrors, ValidBlocksAreNone)
 {
   EXPECT_EQ(errorOfBlocks(twoBlocks()), "");
 }
 
-TEST(SolveErrors, aVertexUsedAfterItWasFinal)
+TEST(SolveErrors, AVertexUsedAfterItWasFinal)
 {
   auto blocks = twoBlocks();
   blocks[0].finalized = 2;
@@ -122,7 +122,7 @@ TEST(SolveErrors, aVertexUsedAfterItWasFinal)
   EXPECT_TRUE(contains(sentence, "final")) << sentence;
 }
 
-TEST(SolveErrors, aCornerOutOfRange)
+TEST(SolveErrors, ACornerOutOfRange)
 {
   for (const std::int64_t corner : { std::int64_t(4), std::int64_t(-1), INT64_MAX, INT64_MIN })
   {
@@ -137,7 +137,7 @@ TEST(SolveErrors, aCornerOutOfRange)
   EXPECT_TRUE(contains(errorOfBlocks(blocks), "vertex 3"));
 }
 
-TEST(SolveErrors, blocksThatDoNotFollowEachOther)
+TEST(SolveErrors, BlocksThatDoNotFollowEachOther)
 {
   auto blocks = twoBlocks();
   blocks[1].firstVertex = 5;
@@ -153,7 +153,7 @@ TEST(SolveErrors, blocksThatDoNotFollowEachOther)
   EXPECT_NE(errorOfBlocks(blocks), "");
 }
 
-TEST(SolveErrors, finalVerticesThatBecomeFewer)
+TEST(SolveErrors, FinalVerticesThatBecomeFewer)
 {
   auto blocks = twoBlocks();
   blocks[0].finalized = 1;
@@ -161,7 +161,7 @@ TEST(SolveErrors, finalVerticesThatBecomeFewer)
   EXPECT_EQ(errorOfBlocks(blocks), "");
 }
 
-TEST(SolveErrors, ofTheSourcePassThrough)
+TEST(SolveErrors, OfTheSourcePassThrough)
 {
   /** A file that ends too early. */
   class Truncated : public MemorySource
@@ -182,12 +182,12 @@ TEST(SolveErrors, ofTheSourcePassThrough)
   EXPECT_EQ(errorOfSolve(source, problem), "the file is truncated");
 }
 
-TEST(SolveErrors, aMeshWithoutVertices)
+TEST(SolveErrors, AMeshWithoutVertices)
 {
   EXPECT_TRUE(contains(errorOfBlocks({}), "no vertices"));
 }
 
-TEST(SolveErrors, optionsOutOfRange)
+TEST(SolveErrors, OptionsOutOfRange)
 {
   const StreamMesh mesh = toStream(torus(10, 10));
   const std::vector<std::function<void(SolveOptions&)>> faults{
@@ -220,7 +220,7 @@ TEST(SolveErrors, optionsOutOfRange)
   EXPECT_NE(errorOfSolve(mesh, problem), "");
 }
 
-TEST(SolveErrors, aScratchFolderThatDoesNotExist)
+TEST(SolveErrors, AScratchFolderThatDoesNotExist)
 {
   const StreamMesh mesh = toStream(torus(10, 10));
   ArrayProblem problem = heldEnds(mesh, 1, Weights::Uniform);
@@ -229,7 +229,7 @@ TEST(SolveErrors, aScratchFolderThatDoesNotExist)
   EXPECT_TRUE(contains(messageOf([&] { solveMesh(mesh, problem, options); }), "/nowhere/at/all"));
 }
 
-TEST(SolveErrors, aMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
+TEST(SolveErrors, AMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
 {
   const StreamMesh mesh = toStream(torus(300, 150, 0.3));
   ArrayProblem problem = heldEnds(mesh, 3, Weights::Clamped);
@@ -242,7 +242,7 @@ TEST(SolveErrors, aMemoryLimitBelowTheNeedNamesBothFiguresAtOnce)
     [&](MeshSource& source, const SolveOptions& limited) { solve(source, problem, limited); });
 }
 
-TEST(SolveErrors, theMemoryLimitIsKept)
+TEST(SolveErrors, TheMemoryLimitIsKept)
 {
   const StreamMesh mesh = toStream(torus(200, 100, 0.3));
   ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);

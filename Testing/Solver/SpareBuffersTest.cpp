@@ -8,7 +8,7 @@
 namespace smg::testing
 {
 
-TEST(SpareBuffers, areUsedAgain)
+TEST(SpareBuffers, AreUsedAgain)
 {
   Pool pool(10000);
   SpareBuffers buffers(pool);
@@ -22,7 +22,7 @@ TEST(SpareBuffers, areUsedAgain)
   EXPECT_EQ(pool.used(), 1024);
 }
 
-TEST(SpareBuffers, replaceOneThatIsTooSmallByOneWithRoom)
+TEST(SpareBuffers, ReplaceOneThatIsTooSmallByOneWithRoom)
 {
   Pool pool(10000);
   SpareBuffers buffers(pool);
@@ -33,7 +33,7 @@ TEST(SpareBuffers, replaceOneThatIsTooSmallByOneWithRoom)
   EXPECT_EQ(pool.used(), static_cast<std::int64_t>(larger.capacity()));
 }
 
-TEST(SpareBuffers, giveOthersAtMostSoMany)
+TEST(SpareBuffers, GiveOthersAtMostSoMany)
 {
   Pool pool(10000);
   SpareBuffers some(pool), others(pool);

@@ -123,7 +123,7 @@ private:
 
 } // namespace
 
-TEST(Sparsification, followsItsRuleToTheBit)
+TEST(Sparsification, FollowsItsRuleToTheBit)
 {
   std::int64_t moved = 0, dropped = 0, kept = 0;
   for (const CoarseningCase& test : coarseningCases())
@@ -153,7 +153,7 @@ TEST(Sparsification, followsItsRuleToTheBit)
   EXPECT_GT(kept, 20);
 }
 
-TEST(Sparsification, keepsSymmetryAndRowSums)
+TEST(Sparsification, KeepsSymmetryAndRowSums)
 {
   for (const CoarseningCase& test : coarseningCases())
   {
@@ -166,7 +166,7 @@ TEST(Sparsification, keepsSymmetryAndRowSums)
   }
 }
 
-TEST(Sparsification, leavesRowsAloneWhoseWeightsCancel)
+TEST(Sparsification, LeavesRowsAloneWhoseWeightsCancel)
 {
   for (const CoarseningCase& test : coarseningCases())
   {

@@ -46,7 +46,7 @@ IndexedTestMesh fan(std::int64_t triangles)
 
 } // namespace
 
-TEST(SpecialMeshes, allVerticesPrescribed)
+TEST(SpecialMeshes, AllVerticesPrescribed)
 {
   for (const bool surface : { true, false })
   {
@@ -69,7 +69,7 @@ TEST(SpecialMeshes, allVerticesPrescribed)
   }
 }
 
-TEST(SpecialMeshes, aSingleTriangle)
+TEST(SpecialMeshes, ASingleTriangle)
 {
   const StreamMesh mesh{ CellType::Triangle, { 0, 0, 0, 1, 0, 0, 0, 2, 0 }, { 0, 1, 2 }, {}, {},
     {} };
@@ -86,7 +86,7 @@ TEST(SpecialMeshes, aSingleTriangle)
   solveInAllWays(mesh, problem);
 }
 
-TEST(SpecialMeshes, aSingleTetrahedron)
+TEST(SpecialMeshes, ASingleTetrahedron)
 {
   const StreamMesh mesh{ CellType::Tetrahedron, { 0, 0, 0, 1, 0, 0, 0, 2, 0, 0.1, 0.2, 1 },
     { 0, 1, 2, 3 }, {}, {}, {} };
@@ -97,7 +97,7 @@ TEST(SpecialMeshes, aSingleTetrahedron)
   solveInAllWays(mesh, problem);
 }
 
-TEST(SpecialMeshes, oneVertexPrescribed)
+TEST(SpecialMeshes, OneVertexPrescribed)
 {
   const StreamMesh mesh = toStream(torus(100, 50, 0.3));
   ArrayProblem problem;
@@ -118,7 +118,7 @@ TEST(SpecialMeshes, oneVertexPrescribed)
   solveInAllWays(mesh, problem, 1e-12);
 }
 
-TEST(SpecialMeshes, heldVerticesKeepTheirValue)
+TEST(SpecialMeshes, HeldVerticesKeepTheirValue)
 {
   StreamMesh mesh = toStream(grid(20, 20));
   const std::int64_t before = mesh.vertices();
@@ -143,7 +143,7 @@ TEST(SpecialMeshes, heldVerticesKeepTheirValue)
   }
 }
 
-TEST(SpecialMeshes, onlyDegenerateCells)
+TEST(SpecialMeshes, OnlyDegenerateCells)
 {
   const StreamMesh mesh{ CellType::Triangle, { 0, 0, 0, 1, 0, 0, 2, 0, 0 }, { 0, 1, 2, 0, 0, 1 },
     {}, {}, {} };
@@ -157,7 +157,7 @@ TEST(SpecialMeshes, onlyDegenerateCells)
   EXPECT_TRUE(solved.report.converged);
 }
 
-TEST(SpecialMeshes, flaggedCellsCarryNoWeight)
+TEST(SpecialMeshes, FlaggedCellsCarryNoWeight)
 {
   StreamMesh clean = toStream(torus(40, 20, 0.2));
   const ArrayProblem problem = heldEnds(clean, 1, Weights::Clamped);
@@ -185,7 +185,7 @@ TEST(SpecialMeshes, flaggedCellsCarryNoWeight)
   EXPECT_EQ(solved.report.cells, doubled.cells());
 }
 
-TEST(SpecialMeshes, duplicatesWithoutFlagAddTheirWeight)
+TEST(SpecialMeshes, DuplicatesWithoutFlagAddTheirWeight)
 {
   StreamMesh mesh = toStream(torus(40, 20, 0.2));
   const auto corners = mesh.corners;
@@ -194,7 +194,7 @@ TEST(SpecialMeshes, duplicatesWithoutFlagAddTheirWeight)
   solveInAllWays(mesh, heldEnds(mesh, 1, Weights::Uniform));
 }
 
-TEST(SpecialMeshes, aNonManifoldEdge)
+TEST(SpecialMeshes, ANonManifoldEdge)
 {
   // Three sheets that share a line.
   IndexedTestMesh mesh = grid(20, 20);
@@ -215,7 +215,7 @@ TEST(SpecialMeshes, aNonManifoldEdge)
   solveInAllWays(stream, heldEnds(stream, 2, Weights::Clamped));
 }
 
-TEST(SpecialMeshes, sliversDoNotBreakConvergence)
+TEST(SpecialMeshes, SliversDoNotBreakConvergence)
 {
   // A sphere flattened to a needle: its triangles have angles down to a fraction of a degree.
   IndexedTestMesh needle = sphere(5);
@@ -230,7 +230,7 @@ TEST(SpecialMeshes, sliversDoNotBreakConvergence)
   EXPECT_TRUE(std::isfinite(solved.values.sum()));
 }
 
-TEST(SpecialMeshes, aHubOfVeryManyTriangles)
+TEST(SpecialMeshes, AHubOfVeryManyTriangles)
 {
   const IndexedTestMesh mesh = fan(70000);
   for (const TestOrder order : { TestOrder::Keep, TestOrder::BreadthFirst })
@@ -242,7 +242,7 @@ TEST(SpecialMeshes, aHubOfVeryManyTriangles)
   }
 }
 
-TEST(SpecialMeshes, aHubThatIsPrescribed)
+TEST(SpecialMeshes, AHubThatIsPrescribed)
 {
   const StreamMesh mesh = toStream(fan(5000));
   ArrayProblem problem;
@@ -257,7 +257,7 @@ TEST(SpecialMeshes, aHubThatIsPrescribed)
   solveInAllWays(mesh, problem);
 }
 
-TEST(SpecialMeshes, scaleAndPlaceDoNotMatter)
+TEST(SpecialMeshes, ScaleAndPlaceDoNotMatter)
 {
   // A power of two changes no bit of the cotangent weights of a surface.
   IndexedTestMesh mesh = torus(60, 30, 0.3);

@@ -58,7 +58,7 @@ Solved inCore(const StreamMesh& mesh, ArrayProblem problem)
 
 } // namespace
 
-TEST(Streaming, equalsInCoreBitForBit)
+TEST(Streaming, EqualsInCoreBitForBit)
 {
   for (auto& [mesh, problem] : tasks())
   {
@@ -81,7 +81,7 @@ TEST(Streaming, equalsInCoreBitForBit)
   }
 }
 
-TEST(Streaming, doesNotDependOnHowTheMeshComesInBlocks)
+TEST(Streaming, DoesNotDependOnHowTheMeshComesInBlocks)
 {
   for (auto& [mesh, problem] : tasks())
   {
@@ -96,7 +96,7 @@ TEST(Streaming, doesNotDependOnHowTheMeshComesInBlocks)
   }
 }
 
-TEST(Streaming, doesNotDependOnTheNumberOfThreads)
+TEST(Streaming, DoesNotDependOnTheNumberOfThreads)
 {
   for (auto& [mesh, problem] : tasks())
   {
@@ -118,7 +118,7 @@ TEST(Streaming, doesNotDependOnTheNumberOfThreads)
   }
 }
 
-TEST(Streaming, equalsInCoreForEveryNumberOfSweeps)
+TEST(Streaming, EqualsInCoreForEveryNumberOfSweeps)
 {
   auto [mesh, problem] = tasks()[0];
   for (const int sweeps : { 1, 3, 7 })
@@ -132,7 +132,7 @@ TEST(Streaming, equalsInCoreForEveryNumberOfSweeps)
   }
 }
 
-TEST(Streaming, equalsInCoreWithSourcesTargetsScreeningAndFreeComponents)
+TEST(Streaming, EqualsInCoreWithSourcesTargetsScreeningAndFreeComponents)
 {
   const IndexedTestMesh one = torus(90, 40, 0.3);
   const StreamMesh mesh = toStream(shuffled(disjointUnion(one, sphere(4), { 0, 0, 8 })));
@@ -160,7 +160,7 @@ TEST(Streaming, equalsInCoreWithSourcesTargetsScreeningAndFreeComponents)
   }
 }
 
-TEST(Streaming, doesKCyclesInKPlusOnePasses)
+TEST(Streaming, DoesKCyclesInKPlusOnePasses)
 {
   auto [mesh, problem] = tasks()[0];
   for (const int cycles : { 1, 2, 5 })
@@ -179,7 +179,7 @@ TEST(Streaming, doesKCyclesInKPlusOnePasses)
   }
 }
 
-TEST(Streaming, asksTheMeshAndTheProblemOnTheThreadThatSolves)
+TEST(Streaming, AsksTheMeshAndTheProblemOnTheThreadThatSolves)
 {
   struct ThreadCheckingSource : MemorySource
   {
@@ -210,7 +210,7 @@ TEST(Streaming, asksTheMeshAndTheProblemOnTheThreadThatSolves)
   EXPECT_EQ(solve(source, problem, options)->report().vertices, mesh.vertices());
 }
 
-TEST(Streaming, tellsItsTrafficByKind)
+TEST(Streaming, TellsItsTrafficByKind)
 {
   auto [mesh, problem] = tasks()[0];
   const auto after = [&, &mesh = mesh, &problem = problem](int cycles)
@@ -263,7 +263,7 @@ TEST(Streaming, tellsItsTrafficByKind)
   }
 }
 
-TEST(Streaming, doesNotDependOnTheCountsThatTheSourceClaims)
+TEST(Streaming, DoesNotDependOnTheCountsThatTheSourceClaims)
 {
   /** A mesh whose source says that it has another number of vertices. */
   class Claiming : public MemorySource
@@ -293,7 +293,7 @@ TEST(Streaming, doesNotDependOnTheCountsThatTheSourceClaims)
   }
 }
 
-TEST(Streaming, takesBlocksOfVerticesOrOfCellsOnly)
+TEST(Streaming, TakesBlocksOfVerticesOrOfCellsOnly)
 {
   const auto [mesh, given] = tasks()[2];
   ArrayProblem problem = given;
@@ -316,7 +316,7 @@ TEST(Streaming, takesBlocksOfVerticesOrOfCellsOnly)
   EXPECT_TRUE(sameBits(valuesOf(*solution), inCore(mesh, problem).values));
 }
 
-TEST(Streaming, twoSolvesAtOnceDoNotDisturbEachOther)
+TEST(Streaming, TwoSolvesAtOnceDoNotDisturbEachOther)
 {
   const auto list = tasks();
   std::vector<Solved> results(2);
@@ -334,7 +334,7 @@ TEST(Streaming, twoSolvesAtOnceDoNotDisturbEachOther)
   }
 }
 
-TEST(Streaming, leavesNoScratchFileBehind)
+TEST(Streaming, LeavesNoScratchFileBehind)
 {
   const TemporaryFolder folder;
   auto [mesh, problem] = tasks()[0];
@@ -353,7 +353,7 @@ TEST(Streaming, leavesNoScratchFileBehind)
   EXPECT_EQ(folder.entries(), 0);
 }
 
-TEST(Solution, rangesInAnyOrderAreTheWhole)
+TEST(Solution, RangesInAnyOrderAreTheWhole)
 {
   for (auto& [mesh, problem] : tasks())
   {
@@ -369,7 +369,7 @@ TEST(Solution, rangesInAnyOrderAreTheWhole)
   }
 }
 
-TEST(Solution, aRangeOutsideIsAnError)
+TEST(Solution, ARangeOutsideIsAnError)
 {
   auto [mesh, problem] = tasks()[0];
   MemorySource source(mesh);

@@ -6,7 +6,7 @@
 namespace smg::testing
 {
 
-/** All rows or columns of a matrix, as an index of it: Eigen 3.4 and 5 call theirs differently. */
+/** The index of all rows or columns of a matrix, whose name differs between Eigen 3.4 and 5. */
 inline const Eigen::placeholders::all_t AllIndices;
 
 } // namespace smg::testing

@@ -11,7 +11,7 @@
 namespace smg::testing
 {
 
-/** A problem from arrays in stream order. Empty arrays stand for zeros. */
+/** A problem from arrays in stream order. An empty array means zeros. */
 class ArrayProblem : public Problem
 {
 public:
@@ -20,10 +20,10 @@ public:
 
   int Columns = 1;
   Weights EdgeWeights = Weights::Clamped;
-  double Screening = 0.0;               ///< of all vertices
-  std::vector<std::uint8_t> Prescribed; ///< one a vertex
-  std::vector<double> Value;            ///< `Columns` a vertex
-  std::vector<double> Source;           ///< `Columns` a vertex
+  double Screening = 0.0;               ///< at all vertices
+  std::vector<std::uint8_t> Prescribed; ///< one per vertex
+  std::vector<double> Value;            ///< `Columns` per vertex
+  std::vector<double> Source;           ///< `Columns` per vertex
   EdgeTarget Target;
 
   int columns() const override { return this->Columns; }
@@ -34,9 +34,9 @@ public:
 };
 
 /**
- * Three columns that are the vertices' positions, prescribed where z is within `fraction` of the
- * mesh's height from its lowest or highest point; zero elsewhere unless `start` is true: then the
- * positions are the initial values.
+ * Three columns with the positions of the vertices, prescribed where z is within `fraction` of the
+ * height of the mesh from its lowest or highest point. Elsewhere the initial values are the
+ * positions if `start`, else zero.
  */
 ArrayProblem fixedEnds(const StreamMesh& mesh, double fraction = 0.02, bool start = false);
 

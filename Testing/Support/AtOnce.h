@@ -7,7 +7,7 @@
 namespace smg::testing
 {
 
-/** Calls run(0), run(1), ... run(count - 1) at once, each on a thread. */
+/** Calls run(0), run(1), ... run(count - 1) concurrently, each on its own thread. */
 void runAtOnce(int count, const auto& run)
 {
   std::vector<std::thread> threads;

@@ -8,10 +8,8 @@
 namespace smg::testing
 {
 
-/**
- * The mesh of triangles with every vertex moved along its normal, by up to `amplitude` times the
- * mesh's mean edge length to either side.
- */
+/** The triangle mesh with every vertex moved along its normal, by up to `amplitude` times the mean
+ * edge length to either side. */
 IndexedTestMesh bumpy(const IndexedTestMesh& triangles, double amplitude, std::uint64_t seed = 1);
 
 } // namespace smg::testing

@@ -8,10 +8,12 @@
 namespace smg::testing
 {
 
-/** What one cell adds to the system: a weight for each pair of its corners, and its size. */
+/**
+ * The contribution of a cell to the system: a weight for each pair of its corners, and its size.
+ */
 struct CellWeights
 {
-  double size = 0.0; ///< area or volume; 0: the cell carries no weight
+  double size = 0.0; ///< area or volume; 0: the cell has no weight
   /** Of the pairs 01, 02, 03, 12, 13, 23 of a tetrahedron; 01, 02, 12 of a triangle. */
   std::array<double, 6> weight{};
 };

@@ -12,7 +12,7 @@ namespace smg::testing
 
 inline constexpr Weights BothWeights[] = { Weights::Uniform, Weights::Clamped };
 
-/** Deforms a mesh that comes in blocks of `blockCells` cells. */
+/** Deforms a mesh that is read in blocks of `blockCells` cells. */
 inline Solved deformMesh(const StreamMesh& mesh, Handles& handles,
   const DeformOptions& options = {}, std::int64_t blockCells = 1000)
 {
@@ -21,7 +21,7 @@ inline Solved deformMesh(const StreamMesh& mesh, Handles& handles,
   return { valuesOf(*solution), solution->report() };
 }
 
-/** Options for `cycles` V-cycles a step. */
+/** Options for `cycles` V-cycles per step. */
 inline DeformOptions withCycles(int cycles, Weights weights = Weights::Clamped)
 {
   DeformOptions options;

@@ -35,7 +35,7 @@ void askCells(Problem& problem, CellType type, const MeshBlock& block, std::size
   const auto corners = static_cast<std::size_t>(cornersOf(type));
   const std::span<const std::int64_t> those(
     block.corners.data() + first * corners, cells * corners);
-  // Where the corners are does not matter to a scalar conductivity.
+  // A scalar conductivity does not depend on the positions of the corners.
   const std::vector<double> points(3 * cells * corners, 0.0);
   std::vector<double> weight(cells * static_cast<std::size_t>(edgesOf(type)), 1.0);
   std::vector<double> measure(cells, 1.0), screening(cells), source(cells * columns);

@@ -59,7 +59,7 @@ inline StreamMesh describedMesh()
   return mesh;
 }
 
-/** A problem on it with every datum, every kind of value and every way to say where. */
+/** A problem on it with every datum, every type of value and every type of place. */
 inline constexpr const char* EveryDatumOfDescribedMesh = R"({ "weights": "clamped", "columns": 3,
   "conductivity": [ {"value": [2, 3, 4, 0.5, 0.25, 0.125]}, {"tag": ["tag", 3], "value": "K"},
                     {"box": [1.5, -1, -1, 9, 9, 9], "value": 2.5}, {"mask": "cellMask", "value": "k"} ],
@@ -78,7 +78,7 @@ inline constexpr const char* EveryDatumOfDescribedMesh = R"({ "weights": "clampe
             {"tag": ["tag", 1], "weight": "one", "value": [1, 1, 1]} ],
   "outputs": ["gradient", "flux"] })";
 
-/** All that a problem says of a mesh. */
+/** All data of a problem on a mesh. */
 struct ProblemAnswers
 {
   VertexConditions vertices;
@@ -100,7 +100,7 @@ struct ProblemAnswers
   }
 };
 
-/** Asks a problem as the engine does, for `batch` cells at a time. The weights on entry are 1. */
+/** Queries a problem like the engine, `batch` cells at a time. The weights on entry are 1. */
 ProblemAnswers answersOf(Problem& problem, MeshSource& mesh, std::size_t batch = 5);
 
 } // namespace smg::testing

@@ -26,7 +26,7 @@ Eigen::Map<const RowMajor> rows(const std::vector<double>& values, Eigen::Index 
   return { values.data(), static_cast<Eigen::Index>(values.size()) / columns, columns };
 }
 
-/** What the handles say at all vertices. */
+/** The handles at all vertices. */
 VertexHandles allHandles(const StreamMesh& mesh, Handles& handles)
 {
   MeshBlock whole;
@@ -41,14 +41,16 @@ VertexHandles allHandles(const StreamMesh& mesh, Handles& handles)
   return all;
 }
 
-/** Flat cells hold their corners together when a mesh is deformed. */
+/** In a deformation, flat cells connect their corners. */
 class StepProblem : public ArrayProblem
 {
 public:
   bool connectsFlatCells() const override { return true; }
 };
 
-/** Step 1: the handles' rotation vectors and log scales; zero where the mesh knows nothing. */
+/**
+ * Step 1: the rotation vectors and log scales of the handles; zero on components without handles.
+ */
 StepProblem fieldProblem(const VertexHandles& handles, Weights weights)
 {
   StepProblem problem;
@@ -67,7 +69,7 @@ StepProblem fieldProblem(const VertexHandles& handles, Weights weights)
   return problem;
 }
 
-/** Step 2: positions whose edges come closest to the transformed ones. */
+/** Step 2: the positions whose edges are closest to the transformed ones. */
 class PositionProblem : public StepProblem
 {
 public:
@@ -111,7 +113,7 @@ DirectSystem assembled(const StreamMesh& mesh, Problem& problem)
   return assembleDirect(source, problem);
 }
 
-/** The weights of the mesh's edges. */
+/** The weights of the edges. */
 std::vector<EdgeWeight> edgesOf(const StreamMesh& mesh, Weights weights)
 {
   MemorySource source(mesh);
@@ -156,7 +158,7 @@ DirectDeformation deformDirectly(const StreamMesh& mesh, Handles& handles, Weigh
   PositionProblem positions(mesh, all, result, weights);
   const DirectSystem system = assembled(mesh, positions);
   result.positions = solveDirect(system);
-  // No handle reaches a floating component: not even its last digits move.
+  // A component without handles is unchanged, bit for bit.
   for (Eigen::Index i = 0; i < system.unknowns(); ++i)
   {
     if (system.isFloating[system.component[i]])

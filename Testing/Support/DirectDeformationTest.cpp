@@ -20,7 +20,7 @@ bool isEnd(const Eigen::Vector3d& point)
 
 } // namespace
 
-TEST(DirectDeformation, handlesThatMoveAlikeMoveTheMeshAlike)
+TEST(DirectDeformation, HandlesThatMoveAlikeMoveTheMeshAlike)
 {
   Motion motion = turn(130.0, { 1, 2, 3 }, { 0.5, 0, 1 });
   motion.scale = 0.7;
@@ -41,9 +41,9 @@ TEST(DirectDeformation, handlesThatMoveAlikeMoveTheMeshAlike)
   }
 }
 
-TEST(DirectDeformation, theFieldsAreHarmonic)
+TEST(DirectDeformation, TheFieldsAreHarmonic)
 {
-  // In a straight beam whose ends are held they are linear.
+  // In a straight beam with held ends they are linear.
   const StreamMesh mesh = toStream(tetBox(21, 4, 4));
   ArrayHandles handles(mesh.vertices());
   Motion motion = turn(200.0, { 1, 2, 3 });
@@ -63,7 +63,7 @@ TEST(DirectDeformation, theFieldsAreHarmonic)
   }
 }
 
-TEST(DirectDeformation, whatNoHandleReachesStays)
+TEST(DirectDeformation, WhatNoHandleReachesStays)
 {
   const StreamMesh mesh =
     toStream(shuffled(disjointUnion(torus(30, 15), sphere(2), { 0.123, 0, 8 })));

@@ -51,7 +51,7 @@ void DirectElements::addCell(std::int64_t cell)
   const StreamMesh& mesh = this->Given.mesh();
   const int size = cornersOf(mesh.cellType);
   const std::int64_t* corners = &mesh.corners[size * cell];
-  // The columns of the Jacobian are edges; its pseudo-inverse has the gradients as its rows.
+  // The columns of the Jacobian are edges; the rows of its pseudo-inverse are the gradients.
   MatrixXd jacobian(3, size - 1);
   for (int k = 1; k < size; ++k)
   {
@@ -151,7 +151,7 @@ MatrixXd DirectElements::solve() const
     const ElementProblem::Point p = this->Given.vertex(v);
     if (condition >= 0)
     {
-      // A row u_v = value; the others keep their entry to it.
+      // The row becomes u_v = value; other rows keep their entry in this column.
       for (Eigen::SparseMatrix<double>::InnerIterator entry(system, v); entry; ++entry)
       {
         system.coeffRef(v, entry.row()) = 0.0;

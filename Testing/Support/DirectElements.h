@@ -13,10 +13,10 @@ namespace smg::testing
 {
 
 /**
- * The system (L + S) u = F of linear finite elements that Problem.h describes, at all vertices,
- * assembled from the data of an ElementProblem in memory and in double precision: element matrices
- * from the inverse of the Jacobian, boundary facets from a map of all. The problem's own cells()
- * and facets() are not asked.
+ * The system (L + S) u = F of linear finite elements in Problem.h, at all vertices, assembled from
+ * the data of an ElementProblem in memory and in double precision: element matrices from the
+ * inverse of the Jacobian, boundary facets from a map of all facets. Does not call cells() and
+ * facets() of the problem.
  */
 struct DirectElements
 {
@@ -31,13 +31,15 @@ struct DirectElements
 
   Eigen::SparseMatrix<double> matrix, stiffness; ///< L + S, L
   Eigen::MatrixXd rightSide;                     ///< vertices x columns
-  Eigen::VectorXd mass, screening;               ///< lumped; screening: of s alone
+  Eigen::VectorXd mass, screening;               ///< lumped; screening: from s alone
   Eigen::MatrixXd source;                        ///< lumped
   std::vector<Facet> boundary;
 
-  /** The solution: u given where the problem says so. Without a Dirichlet condition and with a
-   * singular matrix that with the mean of the initial values, of a right-hand side without the
-   * mean. For connected meshes. */
+  /**
+   * The solution with the Dirichlet values of the problem. For a singular matrix without a
+   * Dirichlet condition, the mean of the right-hand side is subtracted, and the solution has the
+   * mean of the initial values. For connected meshes.
+   */
   Eigen::MatrixXd solve() const;
 
 private:

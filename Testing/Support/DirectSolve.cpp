@@ -10,8 +10,8 @@ namespace smg::testing
 namespace
 {
 
-/** Of each unknown: what it counts in the means of its component: its mass, or 1 where no vertex of
- * the component has any. */
+/** The weight of each unknown in the means of its component: its mass, or 1 if no vertex of the
+ * component has mass. */
 Eigen::VectorXd weights(const DirectSystem& system)
 {
   Eigen::VectorXd mass = system.mass(system.freeVertices);
@@ -27,7 +27,7 @@ Eigen::VectorXd weights(const DirectSystem& system)
   return mass;
 }
 
-/** The sum of x over each component divided by that of its weights, a row a component. */
+/** The sum of x over each component divided by that of its weights, one row per component. */
 Eigen::MatrixXd quotients(const DirectSystem& system, const Eigen::MatrixXd& x)
 {
   const Eigen::VectorXd weight = weights(system);
@@ -63,8 +63,8 @@ Eigen::MatrixXd solveDirect(const DirectSystem& system)
   const Eigen::VectorXd weight = weights(system);
   shiftFloating(system, -quotients(system, b), weight, b);
 
-  // One more on the diagonal holds the first vertex of a floating component at 0: the rows of the
-  // component sum to zero, and so does b, hence that vertex's value.
+  // Adding 1 to the diagonal prescribes 0 at the first vertex of a floating component: the rows of
+  // the component and b sum to zero, hence the value of that vertex is zero.
   std::vector<std::uint8_t> done(system.isFloating.size(), 0);
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
   {

@@ -7,9 +7,9 @@ namespace smg::testing
 {
 
 /**
- * Solves the system by CHOLMOD's simplicial LDL^T; the result is given at all vertices. In a
- * component that floats, the part of b that no x can answer (the mean of the source, weighted with
- * the masses) is left out, and the solution's weighted mean is that of the initial values.
+ * Solves the system by CHOLMOD's simplicial LDL^T and returns the solution at all vertices. On
+ * floating components, the part of b outside the range of A (the mass-weighted mean of the source)
+ * is omitted, and the weighted mean of the solution is that of the initial values.
  */
 Eigen::MatrixXd solveDirect(const DirectSystem& system);
 

@@ -18,14 +18,14 @@ DirectSystem assemble(const StreamMesh& mesh, Problem& problem)
   return assembleDirect(source, problem);
 }
 
-/** The positions of all vertices, a row each. */
+/** The positions of all vertices, one row per vertex. */
 Eigen::MatrixXd positionsOf(const StreamMesh& mesh)
 {
   return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(
     mesh.positions.data(), mesh.vertices(), 3);
 }
 
-/** The positions as initial values, prescribed where `isFixed` says so of x, y, z. */
+/** The positions as initial values, prescribed where `isFixed(x, y, z)`. */
 template <class Predicate>
 ArrayProblem positionProblem(const StreamMesh& mesh, Predicate isFixed)
 {
@@ -40,7 +40,7 @@ ArrayProblem positionProblem(const StreamMesh& mesh, Predicate isFixed)
 
 } // namespace
 
-TEST(DirectSolve, cotangentReproducesLinearFunctionsOnAFlatMesh)
+TEST(DirectSolve, CotangentReproducesLinearFunctionsOnAFlatMesh)
 {
   const StreamMesh mesh = toStream(shuffled(grid(14, 12, 0.08)));
   ArrayProblem problem = positionProblem(
@@ -58,7 +58,7 @@ TEST(DirectSolve, cotangentReproducesLinearFunctionsOnAFlatMesh)
   EXPECT_LT(relativeError(solveDirect(system), positionsOf(mesh)), 1e-13);
 }
 
-TEST(DirectSolve, stiffnessReproducesLinearFunctionsInTetrahedra)
+TEST(DirectSolve, StiffnessReproducesLinearFunctionsInTetrahedra)
 {
   const StreamMesh mesh = toStream(tetBox(6, 5, 7));
   const auto onBoundary = [](double x, double y, double z)
@@ -70,9 +70,9 @@ TEST(DirectSolve, stiffnessReproducesLinearFunctionsInTetrahedra)
   EXPECT_LT(relativeError(solveDirect(system), positionsOf(mesh)), 1e-13);
 }
 
-TEST(DirectSolve, eigenfunctionOfTheSphere)
+TEST(DirectSolve, EigenfunctionOfTheSphere)
 {
-  // On the unit sphere -Laplace(z) = 2 z, so the source 2 z + s z answers with z.
+  // On the unit sphere -Laplace(z) = 2 z, so the solution for the source 2 z + s z is z.
   const StreamMesh mesh = toStream(sphere(4));
   for (const double screening : { 0.0, 3.0 })
   {
@@ -92,7 +92,7 @@ TEST(DirectSolve, eigenfunctionOfTheSphere)
   }
 }
 
-TEST(DirectSolve, edgeTargetsRestoreTheirPotential)
+TEST(DirectSolve, EdgeTargetsRestoreTheirPotential)
 {
   const StreamMesh mesh = toStream(torus(30, 14, 0.2));
   ArrayProblem problem = positionProblem(mesh, [](double x, double, double) { return x > 2.7; });
@@ -110,7 +110,7 @@ TEST(DirectSolve, edgeTargetsRestoreTheirPotential)
   EXPECT_LT(relativeError(solveDirect(assemble(mesh, problem)), expected), 1e-12);
 }
 
-TEST(DirectSolve, floatingComponentsKeepTheirMean)
+TEST(DirectSolve, FloatingComponentsKeepTheirMean)
 {
   const IndexedTestMesh one = torus(20, 10);
   const StreamMesh mesh = toStream(disjointUnion(one, one, { 0, 0, 9 }));
@@ -131,7 +131,7 @@ TEST(DirectSolve, floatingComponentsKeepTheirMean)
   }
 }
 
-TEST(DirectSolve, degenerateAndFlaggedCellsCarryNoWeight)
+TEST(DirectSolve, DegenerateAndFlaggedCellsCarryNoWeight)
 {
   StreamMesh mesh;
   mesh.positions = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 2, 0, 0, 5, 5, 5 };

@@ -13,7 +13,7 @@ namespace smg::testing
 namespace
 {
 
-/** Collects the stream: conditions of the vertices, weights of the cells. */
+/** Reads the stream: conditions of the vertices, weights of the cells. */
 class Assembly
 {
 public:
@@ -64,7 +64,7 @@ private:
   std::vector<std::uint8_t> Prescribed;
   std::vector<double> Screening;
   Eigen::MatrixXd Source;
-  std::vector<std::int32_t> Unknown; ///< of each vertex: the number of its unknown or -1
+  std::vector<std::int32_t> Unknown; ///< index of the unknown of each vertex, or -1
   DirectSystem System;
 };
 

@@ -13,25 +13,25 @@ namespace smg::testing
 {
 
 /**
- * The system A x = b that Problem.h describes, assembled in double precision from the mesh stream
- * by other code than the solver's. The unknowns are the free vertices in stream order.
+ * The system A x = b of Problem.h, assembled in double precision from the mesh stream,
+ * independently of the solver. The unknowns are the free vertices in stream order.
  *
  * Weights: cotangent, for triangles the sum of cot(angle)/2 over the cells of an edge, at least
  * 5e-4; for tetrahedra the negated off-diagonal entry of the linear finite-element stiffness
  * matrix, at least 1e-4 |p_i - p_j|; uniform: 1. Cells with repeated corners, without area or
- * volume, or with CellFlags carry no weight (but see Problem::connectsFlatCells). A vertex that no
- * weighted cell uses is held: its value stays what it is, it is no unknown.
+ * volume, or with CellFlags have no weight (but see Problem::connectsFlatCells). A vertex without a
+ * weighted cell is not an unknown and keeps its value.
  */
 struct DirectSystem
 {
   Eigen::SparseMatrix<double> matrix;     ///< free x free, symmetric, both halves
   Eigen::MatrixXd rightSide;              ///< free x columns
   Eigen::MatrixXd values;                 ///< vertices x columns: prescribed and initial values
-  std::vector<std::int64_t> freeVertices; ///< of each unknown: its stream index
+  std::vector<std::int64_t> freeVertices; ///< stream index of each unknown
   Eigen::VectorXd mass;                   ///< lumped area or volume of each vertex of the mesh
-  /** Of each unknown: the component it belongs to; components are numbered from 0. */
+  /** The component of each unknown; components are numbered from 0. */
   std::vector<int> component;
-  /** Of each component: whether it has neither constrained vertices nor screening. */
+  /** Whether each component has neither constrained vertices nor screening. */
   std::vector<std::uint8_t> isFloating;
 
   std::int64_t degenerateCells = 0;
@@ -42,15 +42,15 @@ struct DirectSystem
   std::int64_t unknowns() const { return this->rightSide.rows(); }
   /** The initial values of the unknowns. */
   Eigen::MatrixXd initial() const;
-  /** The unknowns of a solution that is given at all vertices. */
+  /** The unknowns of a solution at all vertices. */
   Eigen::MatrixXd gather(const Eigen::MatrixXd& allVertices) const;
-  /** The solution at all vertices from that of the unknowns. */
+  /** The solution at all vertices from the unknowns. */
   Eigen::MatrixXd scatter(const Eigen::MatrixXd& unknowns) const;
-  /** ||b - A x|| / ||b - A x_0|| over all columns, x given at all vertices. */
+  /** ||b - A x|| / ||b - A x_0|| over all columns, for x at all vertices. */
   double relativeResidual(const Eigen::MatrixXd& allVertices) const;
 };
 
-/** Assembles the system; the mesh is read to its end. Needs below 2^31 vertices. */
+/** Reads the mesh and assembles the system. Requires fewer than 2^31 vertices. */
 DirectSystem assembleDirect(MeshSource& mesh, Problem& problem);
 
 } // namespace smg::testing

@@ -20,7 +20,7 @@ bool before(const EdgeWeight& a, const EdgeWeight& b)
   return std::pair(a.from, a.to) < std::pair(b.from, b.to);
 }
 
-/** The least weight of an edge with these ends. */
+/** The minimum weight of an edge with these ends. */
 double floorOf(CellType type, const double* p, const double* q)
 {
   using Point = Eigen::Map<const Eigen::Vector3d>;

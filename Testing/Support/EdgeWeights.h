@@ -26,9 +26,10 @@ public:
   /** `connectsFlat`: see Problem::connectsFlatCells. Throws Error for 2^31 vertices and more. */
   EdgeWeights(const StreamInfo& info, Weights kind, bool connectsFlat = false);
 
-  /** Adds the cells of the stream's next block, given the positions of all vertices so far. */
+  /** Adds the cells of the next block of the stream, given the positions of all vertices so far. */
   void add(const MeshBlock& block, const std::vector<double>& positions);
-  /** At the end of the stream: one weight an edge, at least its floor, sorted by `from` and `to`.
+  /**
+   * At the end of the stream: one weight per edge, at least its floor, sorted by `from` and `to`.
    */
   void finish(const std::vector<double>& positions);
 

@@ -15,9 +15,9 @@ namespace smg::testing
 {
 
 /**
- * -div(K grad u - q) + s u = f with any data, from functions of the place; a cell's are taken at
- * its centroid, a vertex's at the vertex, those of a facet at its corners. A function that is not
- * set stands for zero, K for 1.
+ * -div(K grad u - q) + s u = f with any data, from functions of the position, evaluated at the
+ * centroids of cells, at the vertices, and at the corners of facets. A missing function means zero,
+ * for K 1.
  */
 class ElementProblem : public Problem
 {
@@ -28,7 +28,7 @@ public:
   using Values = Field<Eigen::VectorXd>; ///< `Columns` numbers
   using Where = Field<bool>;
 
-  /** Which facets, by their corners, and what holds there. */
+  /** A condition on facets, selected by their corners. */
   struct Flux
   {
     Where where;
@@ -58,7 +58,7 @@ public:
   Field<double> VertexScreening, CellScreening;
   Values VertexSource, CellSource, Initial;
   Field<Eigen::MatrixXd> CellField; ///< 3 x `Columns`
-  /** The first one that selects a vertex or all corners of a facet holds. */
+  /** The first condition that selects a vertex or all corners of a facet applies. */
   std::vector<Dirichlet> DirichletConditions;
   std::vector<Flux> FluxConditions;
   std::vector<Robin> RobinConditions;
@@ -66,7 +66,7 @@ public:
   const StreamMesh& mesh() const { return this->Mesh; }
   Point vertex(std::int64_t v) const { return Point::Map(&this->Mesh.positions[3 * v]); }
   Point centroid(std::int64_t cell) const;
-  /** The condition of a vertex or of a facet with these corners, -1: none. */
+  /** The condition of a vertex or of a facet with these corners; -1: none. */
   int dirichletOf(std::int64_t v) const;
   template <class Condition>
   int conditionOf(

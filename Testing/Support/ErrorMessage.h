@@ -15,7 +15,7 @@ inline bool contains(const std::string& sentence, const std::string& part)
   return sentence.find(part) != std::string::npos;
 }
 
-/** What the Error of `action` says; empty if there is none. */
+/** The message of the Error that `action` throws; empty if there is none. */
 std::string messageOf(const auto& action)
 {
   try
@@ -29,7 +29,7 @@ std::string messageOf(const auto& action)
   return "";
 }
 
-/** Expects `action` to throw an Error that says, among other things, `part`. */
+/** Expects `action` to throw an Error whose message contains `part`. */
 void expectError(const auto& action, const std::string& part)
 {
   const std::string message = messageOf(action);

@@ -14,7 +14,7 @@
 namespace smg::testing
 {
 
-/** Takes words, numbers and bytes off a text. */
+/** Reads words, numbers and bytes from a text. */
 class FileCursor
 {
 public:

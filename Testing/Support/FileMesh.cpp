@@ -45,7 +45,7 @@ FileMesh readObj(FileCursor in)
   return mesh;
 }
 
-/** With any attributes behind the coordinates and corners. */
+/** With any attributes after the coordinates and corners. */
 FileMesh readOff(FileCursor in)
 {
   FileMesh mesh;

@@ -10,22 +10,20 @@
 namespace smg::testing
 {
 
-/** What a mesh file says, read by readers that know just what the library writes. */
+/** The content of a mesh file, read by minimal readers for the output of the library. */
 struct FileMesh
 {
-  std::vector<double> points;                   ///< x, y, z of each
-  std::vector<std::vector<std::int64_t>> cells; ///< corners of each
+  std::vector<double> points;                   ///< x, y, z per point
+  std::vector<std::vector<std::int64_t>> cells; ///< corners of each cell
   /** Values of the attributes, all components; in PLY, by the name of the property. */
   std::map<std::string, std::vector<double>> pointData, cellData;
 };
 
-/**
- * Reads a file of the library, by its suffix: .ply, .vtp, .vtu, .vtk (binary), .obj, .off, .mesh,
- * .msh. Throws std::exception where the file is not as expected.
- */
+/** Reads a file of the library, by its suffix: .ply, .vtp, .vtu, .vtk (binary), .obj, .off, .mesh,
+ * .msh. Throws std::exception if the file is not as expected. */
 FileMesh readFileMesh(const std::filesystem::path& path);
 
-/** Reads a .stl file, text or binary: three points a triangle. */
+/** Reads a .stl file, text or binary: three points per triangle. */
 std::vector<double> readStlPoints(const std::filesystem::path& path);
 
 } // namespace smg::testing

@@ -18,7 +18,7 @@ std::string decodeBase64(const std::string& text)
     const std::size_t digit = digits.find(c);
     if (digit == std::string::npos)
     {
-      bits = count = 0; // padding: a new unit may follow
+      bits = count = 0; // padding: another unit may follow
       continue;
     }
     bits = bits << 6 | static_cast<std::uint32_t>(digit);

@@ -14,7 +14,7 @@ namespace
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-/** Searches from `start`; the vertices reached follow place `begin` of the queue. */
+/** Searches from `start`; the reached vertices are appended to the queue from `begin` on. */
 void search(const Neighbours& neighbours, std::uint32_t start, std::size_t begin,
   std::uint32_t epoch, std::vector<std::uint32_t>& mark, std::vector<std::uint32_t>& queue)
 {

@@ -13,7 +13,7 @@ namespace smg::testing
 /** The neighbours of the vertices of a graph, in memory. */
 struct Neighbours
 {
-  std::vector<std::size_t> begins; ///< one more than there are vertices
+  std::vector<std::size_t> begins; ///< one more than the number of vertices
   std::vector<std::uint32_t> all;
 
   std::size_t vertices() const { return this->begins.size() - 1; }
@@ -24,16 +24,14 @@ struct Neighbours
   }
 };
 
-/** Of a mesh: vertices that have a cell in common, ascending. */
+/** The graph of a mesh: vertices with a common cell, in ascending order. */
 Neighbours neighboursOf(const IndexedTestMesh& mesh);
-/** Of a graph with these edges, each given once or more often. */
+/** The graph with these edges, which may contain duplicates. */
 Neighbours neighboursOf(
   std::size_t vertices, std::span<const std::pair<std::uint32_t, std::uint32_t>> edges);
 
-/**
- * The vertices in a breadth-first order, component after component, each begun at the last vertex
- * of a search that was begun at the last vertex of another one.
- */
+/** The vertices in a breadth-first order, component by component. The search in each component
+ * starts at the last vertex of a search that started at the last vertex of another one. */
 std::vector<std::uint32_t> inCoreBreadthFirst(const Neighbours& neighbours);
 
 /** Levels of a breadth-first search from sources (vertex, level); NoIndex: not reached. */
@@ -42,7 +40,7 @@ std::vector<std::uint32_t> inCoreLevels(
 
 std::int64_t inCoreComponents(const Neighbours& neighbours);
 
-/** What whoever streams an order holds: see the words span and window. */
+/** The span and the window of an order. */
 struct OrderSize
 {
   std::int64_t span = 0;

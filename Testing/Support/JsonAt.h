@@ -6,12 +6,10 @@
 namespace smg::testing
 {
 
-/**
- * The text of the value at a place (a JSON pointer, as "/conditions/0/flux") of a JSON text. For
- * files that include VTK: newer releases have a JSON library of their own, under the same names.
- */
+/** The text of the value at a JSON pointer such as "/conditions/0/flux" in a JSON text. For files
+ * that include VTK, whose later releases bundle a JSON library under the same names. */
 std::string jsonAt(const std::string& text, const std::string& place);
-/** The same of a number. */
+/** The same for a number. */
 double numberAt(const std::string& text, const std::string& place);
 
 } // namespace smg::testing

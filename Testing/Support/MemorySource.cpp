@@ -79,7 +79,7 @@ void MemorySource::measure()
     this->Info.width = std::max(this->Info.width, introduced - finished);
     for (int k = 0; k < size; ++k)
     {
-      // A corner that occurs twice in the cell ends once.
+      // A repeated corner of the cell is finalized once.
       const bool repeated = std::find(corners, corners + k, corners[k]) != corners + k;
       finished += lastCell[corners[k]] == c && !repeated ? 1 : 0;
     }

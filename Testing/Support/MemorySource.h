@@ -10,10 +10,8 @@
 namespace smg::testing
 {
 
-/**
- * Delivers a StreamMesh in blocks of a given number of cells. Vertices that no cell uses, which
- * streams do not have else, may follow the others.
- */
+/** Delivers a StreamMesh in blocks of a given number of cells. Unlike in other streams, vertices
+ * that no cell uses may follow the others. */
 class MemorySource : public MeshSource
 {
 public:
@@ -22,7 +20,7 @@ public:
   const StreamInfo& info() const override { return this->Info; }
   bool next(MeshBlock& block) override;
 
-  /** Begins again, for the next solve, with blocks of `blockCells` cells. */
+  /** Restarts, for the next solve, with blocks of `blockCells` cells. */
   void rewind(std::int64_t blockCells);
 
   const StreamMesh& mesh() const { return this->Mesh; }
@@ -33,8 +31,8 @@ private:
   StreamMesh Mesh;
   StreamInfo Info;
   std::int64_t BlockCells;
-  std::vector<std::int64_t> NewVertices; ///< of each cell: vertices introduced up to its end
-  std::vector<std::int64_t> Finalized;   ///< of each cell: MeshBlock::finalized after it
+  std::vector<std::int64_t> NewVertices; ///< vertices introduced up to the end of each cell
+  std::vector<std::int64_t> Finalized;   ///< MeshBlock::finalized after each cell
   std::int64_t NextCell = 0;
   std::int64_t NextVertex = 0;
 };

@@ -6,7 +6,7 @@
 namespace smg::testing
 {
 
-/** A source that calls its positions single or double precision numbers. */
+/** A source that declares its positions as single or double precision. */
 class PrecisionSource : public MeshSource
 {
 public:

@@ -11,11 +11,11 @@
 namespace smg::testing
 {
 
-/** The fractions that an operation reports. */
+/** The progress reported by an operation. */
 class ProgressRecord
 {
 public:
-  /** A callback that never refuses; the record must outlive it. */
+  /** A callback that never cancels; the record must outlive it. */
   ProgressFunction function()
   {
     return [this](double fraction)
@@ -25,7 +25,7 @@ public:
     };
   }
 
-  /** Checks that the fractions rise from near 0 to 1, in no jump as large as `largestJump`. */
+  /** Checks that the fractions increase from near 0 to 1 in steps smaller than `largestJump`. */
   void expectRise(double largestJump) const
   {
     ASSERT_GT(this->Seen.size(), 50U);

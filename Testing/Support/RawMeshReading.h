@@ -23,9 +23,9 @@ struct ReadMesh
   CellType cellType = CellType::Triangle;
   bool doublePositions = true;
   std::int64_t elementCount = 0;
-  std::vector<double> positions;     ///< x, y, z a vertex
-  std::vector<std::int64_t> corners; ///< cornersOf(cellType) a cell
-  /** The element of each cell, also where the raw mesh leaves them out. */
+  std::vector<double> positions;     ///< x, y, z per vertex
+  std::vector<std::int64_t> corners; ///< cornersOf(cellType) per cell
+  /** The element of each cell, also if the raw mesh omits them. */
   std::vector<std::int64_t> elements;
   std::vector<Column> vertexColumns, elementColumns;
   ImportCounts counts;
@@ -80,7 +80,7 @@ inline std::vector<Column> columnsOf(const std::vector<RawColumn>& columns)
   return read;
 }
 
-/** Reads a raw mesh; it can be read again. */
+/** Reads a raw mesh, which can be read again afterwards. */
 inline ReadMesh readRaw(const RawMesh& mesh)
 {
   ReadMesh read;
@@ -102,7 +102,7 @@ inline ReadMesh readRaw(const RawMesh& mesh)
   return read;
 }
 
-/** Expects that corners are vertices and that columns have as many tuples as they should. */
+/** Expects that corners are vertices and that columns have the correct number of tuples. */
 inline void expectValid(const ReadMesh& mesh)
 {
   for (const std::int64_t corner : mesh.corners)

@@ -6,7 +6,7 @@
 namespace smg::testing
 {
 
-/** The mesh with every triangle split in four at the midpoints of its edges. */
+/** The mesh with every triangle split into four at the midpoints of its edges. */
 IndexedTestMesh refined(const IndexedTestMesh& triangles);
 
 } // namespace smg::testing

@@ -11,10 +11,8 @@
 namespace smg::testing
 {
 
-/**
- * What the Error of `run` says, which gets the options with a scratch folder of their own; empty if
- * there is none. Checks that it is one line and that no scratch file is left.
- */
+/** The message of the Error of `run`, which receives the options with a separate scratch folder;
+ * empty if there is none. Checks that it is one line and that no scratch file is left. */
 template <class Options>
 std::string scratchErrorOf(Options options, const auto& run)
 {

@@ -11,7 +11,7 @@
 namespace smg::testing
 {
 
-/** Checks that ranges of a solution, in any order, have the bits of the whole and no more. */
+/** Checks that ranges of a solution, read in any order, equal those of the whole bit for bit. */
 inline void expectRangesOfTheWhole(Solution& solution)
 {
   const Eigen::MatrixXd whole = valuesOf(solution);

@@ -12,7 +12,7 @@
 namespace smg::testing
 {
 
-/** The solution at all vertices, a row each, and what the solve did. */
+/** The solution at all vertices, one row per vertex, and the report of the solve. */
 struct Solved
 {
   Eigen::MatrixXd values;
@@ -35,7 +35,7 @@ inline Solved solveMesh(MeshSource& source, Problem& problem, const SolveOptions
   return { valuesOf(*solution), solution->report() };
 }
 
-/** Solves on a mesh that comes in blocks of `blockCells` cells. */
+/** Solves on a mesh that is read in blocks of `blockCells` cells. */
 inline Solved solveMesh(const StreamMesh& mesh, Problem& problem, const SolveOptions& options = {},
   std::int64_t blockCells = 1000)
 {
@@ -43,7 +43,7 @@ inline Solved solveMesh(const StreamMesh& mesh, Problem& problem, const SolveOpt
   return solveMesh(source, problem, options);
 }
 
-/** Whether two matrices are the same to the last bit. */
+/** Whether two matrices are equal bit for bit. */
 inline bool sameBits(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 {
   return a.rows() == b.rows() && a.cols() == b.cols() &&

@@ -34,7 +34,9 @@ struct Stars
   }
 };
 
-/** The place of every vertex in a breadth-first search from the first vertex of each component. */
+/**
+ * The position of every vertex in a breadth-first search from the first vertex of each component.
+ */
 std::vector<std::int64_t> breadthFirstPlaces(const IndexedTestMesh& mesh)
 {
   const Stars stars(mesh);
@@ -66,7 +68,7 @@ std::vector<std::int64_t> breadthFirstPlaces(const IndexedTestMesh& mesh)
   return place;
 }
 
-/** The cells, sorted by the places of their vertices, the largest first. */
+/** The cells, sorted by the positions of their vertices, the largest first. */
 std::vector<std::int64_t> breadthFirstCells(const IndexedTestMesh& mesh)
 {
   const int size = cornersOf(mesh.cellType);

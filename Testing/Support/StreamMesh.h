@@ -25,9 +25,9 @@ struct StreamMesh
   CellType cellType = CellType::Triangle;
   std::vector<double> positions;
   std::vector<std::int64_t> corners;
-  std::vector<std::int64_t> originalIds; ///< of each stream vertex: its number in the test mesh
-  std::vector<Column> vertexColumns;     ///< a tuple a vertex
-  std::vector<Column> cellColumns;       ///< a tuple a cell
+  std::vector<std::int64_t> originalIds; ///< index in the test mesh of each stream vertex
+  std::vector<Column> vertexColumns;     ///< a tuple per vertex
+  std::vector<Column> cellColumns;       ///< a tuple per cell
 
   std::int64_t vertices() const { return static_cast<std::int64_t>(this->positions.size() / 3); }
   std::int64_t cells() const
@@ -36,10 +36,10 @@ struct StreamMesh
   }
 };
 
-/** Orders the cells and numbers the vertices by first use. Unused vertices are left out. */
+/** Sorts the cells and numbers the vertices by first use. Unused vertices are omitted. */
 StreamMesh toStream(const IndexedTestMesh& mesh, TestOrder order = TestOrder::BreadthFirst);
 
-/** Reads a mesh stream to its end and keeps all of it; originalIds number the stream. */
+/** Reads a whole mesh stream; originalIds are the indices in the stream. */
 StreamMesh collect(MeshSource& source);
 
 /** A column of T from its values. */

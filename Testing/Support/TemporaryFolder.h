@@ -10,7 +10,7 @@
 namespace smg::testing
 {
 
-/** A new empty folder that is removed, with all that is in it, at the end of the scope. */
+/** A new empty folder that is removed with its content at the end of the scope. */
 class TemporaryFolder
 {
 public:

@@ -18,7 +18,7 @@ void addPoint(IndexedTestMesh& mesh, double x, double y, double z)
   mesh.positions.insert(mesh.positions.end(), { x, y, z });
 }
 
-/** Splits every triangle in four, the new vertices on the unit sphere. */
+/** Splits every triangle into four, with the new vertices on the unit sphere. */
 IndexedTestMesh subdivided(const IndexedTestMesh& mesh)
 {
   IndexedTestMesh fine{ CellType::Triangle, mesh.positions, {} };
@@ -102,7 +102,7 @@ IndexedTestMesh grid(int nx, int ny, double jitter, std::uint64_t seed)
   {
     for (int i = 0; i + 1 < nx; ++i)
     {
-      // Odd rows are moved to the right, so the short diagonal alternates.
+      // Odd rows are shifted to the right, so the short diagonal alternates.
       const std::int64_t a = std::int64_t(j) * nx + i;
       const std::int64_t b = a + 1;
       const std::int64_t c = a + nx;
@@ -198,8 +198,8 @@ IndexedTestMesh tetBox(int nx, int ny, int nz, double jitter, std::uint64_t seed
     }
   }
   const std::array<std::int64_t, 3> step = { 1, nx, std::int64_t(nx) * ny };
-  // One tetrahedron for each order in which a path from corner to corner takes the three steps; the
-  // odd orders are turned over.
+  // One tetrahedron for each order of the three steps of a path from corner to corner; for odd
+  // orders, its orientation is reversed.
   constexpr int paths[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 1, 0, 2 }, { 0, 2, 1 },
     { 2, 1, 0 } };
   for (int k = 0; k + 1 < nz; ++k)

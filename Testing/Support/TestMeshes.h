@@ -10,12 +10,12 @@
 namespace smg::testing
 {
 
-/** A mesh as files hold it: points and cells in any order. */
+/** A mesh as in a file: points and cells in any order. */
 struct IndexedTestMesh
 {
   CellType cellType = CellType::Triangle;
-  std::vector<double> positions;     ///< x, y, z of each vertex
-  std::vector<std::int64_t> corners; ///< cornersOf(cellType) a cell
+  std::vector<double> positions;     ///< x, y, z per vertex
+  std::vector<std::int64_t> corners; ///< cornersOf(cellType) per cell
 
   std::int64_t vertices() const { return static_cast<std::int64_t>(this->positions.size() / 3); }
   std::int64_t cells() const
@@ -30,31 +30,31 @@ struct IndexedTestMesh
  */
 IndexedTestMesh grid(int nx, int ny, double jitter = 0.0, std::uint64_t seed = 1);
 
-/** The grid where every sixth row of vertices lies `height` below the next one: between the two are
- * chains of slivers. */
+/** The grid with every sixth row of vertices `height` below the next one, with chains of slivers
+ * between the two. */
 IndexedTestMesh sliverChains(int nx, int ny, double height);
 
 /** A torus with radii 2 and 1 of nu x nv vertices (at least 3 x 3), jittered in its parameters. */
 IndexedTestMesh torus(int nu, int nv, double jitter = 0.0, std::uint64_t seed = 1);
 
-/** The unit sphere: an icosahedron whose triangles are split in four `subdivisions` times. */
+/** The unit sphere: an icosahedron whose triangles are split into four `subdivisions` times. */
 IndexedTestMesh sphere(int subdivisions);
 
 /**
  * A box of nx x ny x nz vertices (at least 2 each) at unit distances, each cube cut into six
- * tetrahedra around its diagonal. Vertices move by up to `jitter` in each coordinate; no cell turns
- * over below about 0.2.
+ * tetrahedra around its diagonal. Vertices move by up to `jitter` in each coordinate; below about
+ * 0.2, no cell is inverted.
  */
 IndexedTestMesh tetBox(int nx, int ny, int nz, double jitter = 0.0, std::uint64_t seed = 1);
 
-/** Both meshes side by side, unconnected; b is moved by `offset`. The cell types must agree. */
+/** Both meshes without a connection, with b moved by `offset`. The cell types must agree. */
 IndexedTestMesh disjointUnion(
   const IndexedTestMesh& a, const IndexedTestMesh& b, const std::array<double, 3>& offset = {});
 
 /** The same mesh with its vertices and cells in a random order. */
 IndexedTestMesh shuffled(const IndexedTestMesh& mesh, std::uint64_t seed = 1);
 
-/** A small random generator that gives the same numbers with every compiler and library. */
+/** A small random generator with the same numbers for every compiler and library. */
 class Random
 {
 public:

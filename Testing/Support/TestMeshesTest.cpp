@@ -29,7 +29,7 @@ double totalSize(const IndexedTestMesh& mesh)
   return sum;
 }
 
-/** V - E + F of triangles; fails when an edge is used twice in the same direction. */
+/** V - E + F of triangles; fails if an edge is used twice in the same direction. */
 std::int64_t eulerNumber(const IndexedTestMesh& mesh)
 {
   std::set<std::pair<std::int64_t, std::int64_t>> directed;
@@ -49,7 +49,7 @@ std::int64_t eulerNumber(const IndexedTestMesh& mesh)
 
 } // namespace
 
-TEST(TestMeshes, areWhatTheySay)
+TEST(TestMeshes, AreWhatTheySay)
 {
   EXPECT_EQ(eulerNumber(grid(7, 5)), 1);
   EXPECT_EQ(eulerNumber(torus(9, 7)), 0);
@@ -60,7 +60,7 @@ TEST(TestMeshes, areWhatTheySay)
   EXPECT_EQ(eulerNumber(disjointUnion(torus(5, 5), sphere(0), { 9, 0, 0 })), 2);
 }
 
-TEST(TestMeshes, cellsAreOriented)
+TEST(TestMeshes, CellsAreOriented)
 {
   const IndexedTestMesh box = tetBox(4, 4, 4, 0.15);
   for (std::int64_t c = 0; c < box.cells(); ++c)
@@ -77,7 +77,7 @@ TEST(TestMeshes, cellsAreOriented)
   }
 }
 
-TEST(TestMeshes, shufflingKeepsTheMesh)
+TEST(TestMeshes, ShufflingKeepsTheMesh)
 {
   const IndexedTestMesh mesh = torus(12, 8, 0.3);
   const IndexedTestMesh other = shuffled(mesh, 7);
@@ -86,7 +86,7 @@ TEST(TestMeshes, shufflingKeepsTheMesh)
   EXPECT_NEAR(totalSize(mesh), totalSize(other), 1e-10);
 }
 
-TEST(MemorySource, deliversACompactStreamInBlocksOfAnySize)
+TEST(MemorySource, DeliversACompactStreamInBlocksOfAnySize)
 {
   const StreamMesh mesh = toStream(shuffled(torus(40, 20)));
   for (const std::int64_t blockCells : { 1, 7, 100, 100000 })
@@ -122,7 +122,7 @@ TEST(MemorySource, deliversACompactStreamInBlocksOfAnySize)
   }
 }
 
-TEST(MemorySource, breadthFirstOrderIsNarrow)
+TEST(MemorySource, BreadthFirstOrderIsNarrow)
 {
   const IndexedTestMesh mesh = shuffled(grid(60, 60));
   const StreamInfo kept = MemorySource(toStream(mesh, TestOrder::Keep)).info();

@@ -1,16 +1,17 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# check.sh RULE : looks whether the files of the tree keep a rule; prints the ones that do not.
+# check.sh RULE : checks a rule for the files of the tree; prints the files that violate it.
 #   layers   VTK only in files named vtk*, dependencies from Filters to IO to Solver only
-#   cycles   no folder of Solver, IO or Filters depends on one that depends on it
-#   format   C++ is formatted as .clang-format says (skipped without clang-format 14)
+#   cycles   no cyclic dependencies between the folders of Solver, IO and Filters
+#   format   C++ is formatted according to .clang-format (skipped without clang-format 14)
 #   licence  every source file begins with its SPDX line
 #   sizes    no file above 2 MB, no source file above 400 lines (Solver and tests: 450), no
 #            function above 80
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
-# The tree's own files, without build folders; a copy that is no git checkout is searched instead.
+# The files of the tree without build folders; a copy that is not a git checkout is searched
+# instead.
 files() {
   if git rev-parse --is-inside-work-tree > /dev/null 2>&1; then
     git ls-files --cached --others --exclude-standard -- "$@" |
@@ -35,7 +36,7 @@ fail() {
   exit 1
 }
 
-# Lines `file:number:#include ...` in files of stdin whose included name matches the expression.
+# Lines `file:number:#include ...` of the files on stdin whose included name matches the expression.
 includes() { xargs -r grep -nHE "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"]($1)"; }
 
 layers() {
@@ -45,7 +46,7 @@ layers() {
   [ -z "$found" ] || fail "VTK headers in files whose name does not begin with vtk:
 $found"
   found=$(files 'IO/vtk*' 'Filters/*' | grep -E '(^|/)vtk[^/]*\.(h|cxx)$' | includes 'nlohmann/')
-  [ -z "$found" ] || fail "JSON in files that see VTK, whose own JSON library has its names:
+  [ -z "$found" ] || fail "JSON in files that include VTK, whose bundled JSON library has the same names:
 $found"
   found=$({
     files 'Solver/*' | includes '(IO|Filters|ParaViewPlugin|Examples|Testing)/'
@@ -56,14 +57,14 @@ $found"
 $found"
 }
 
-# As tsort knows them: a line for each folder that includes a file of another.
+# Input of tsort: a line for each folder that includes a file of another.
 cycles() {
   local found
   found=$(files 'Solver/*' 'IO/*' 'Filters/*' | grep -E '\.(h|cpp|cxx|txx|hxx)$' |
     includes '(Solver|IO|Filters)/' |
     sed -nE 's,^(.*)/[^/]*:[0-9]+:[^"]*"([^"]*)/[^"/]*".*,\1 \2,p' | awk '$1 != $2' | sort -u |
     tsort 2>&1 > /dev/null)
-  [ -z "$found" ] || fail "folders that depend on each other in a circle:
+  [ -z "$found" ] || fail "cyclic dependencies between folders:
 $found"
 }
 

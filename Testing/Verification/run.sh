@@ -1,11 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Testing/Verification/run.sh : repeats what docs/verification.md shows, and writes its tables anew.
+# Testing/Verification/run.sh : repeats the computations of docs/verification.md and rewrites its tables.
 #
-# Takes the archive of meshes that the environment variable SMG_TEST_DATA_DIR names; installs what is
-# missing, builds smg and the benchmarks without VTK in build-benchmarks, and leaves the numbers in
-# build-benchmarks/verification. The direct solves take half an hour on two cores; in
-# build-benchmarks/verification/answers they are kept for the next run.
+# Uses the archive of meshes named by the environment variable SMG_TEST_DATA_DIR; installs missing
+# packages, builds smg and the benchmarks without VTK in build-benchmarks, and leaves the numbers in
+# build-benchmarks/verification. The direct solves take half an hour on two cores; they are kept in
+# build-benchmarks/verification/answers for the next run.
 set -euo pipefail
 SMG_TEST_DATA_DIR=$(realpath -e "${SMG_TEST_DATA_DIR:?"must name the unpacked archive of meshes"}")
 export SMG_TEST_DATA_DIR
@@ -21,7 +21,7 @@ bin=$PWD/build-benchmarks/bin
 results=$PWD/build-benchmarks/verification
 mkdir -p "$results/answers"
 
-# Debian's Python, which is the one that SciPy is installed for.
+# Debian's Python, for which SciPy is installed.
 data=$SMG_TEST_DATA_DIR
 /usr/bin/python3 Testing/Verification/finite_elements_test.py "$bin/smg" "$data/raptor_tet.vtu" \
   "$data/bunny_tet.mesh" "$data/armadillo_tet.msh" "$data/bunny.ply" "$data/lucy50k.ply"

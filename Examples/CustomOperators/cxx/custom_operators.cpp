@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /*
-Operators and weights of your own, in C++ without VTK.
+User-defined operators and weights, in C++ without VTK.
 
 What this lesson shows:
- 1. An operator set is a type. One that differs in a single operator derives from Extended, the
-    default set, and hides that member: here the relaxation is SOR, which goes beyond Gauss-Seidel
-    by a factor. solveWith() compiles the streaming multigrid for it.
- 2. The weights are asked for cell by cell, in batches: here every cell is made of wires, which
-    conduct by one over their length, instead of a sheet (cotangent weights).
+ 1. An operator set is a type. A set that differs in a single operator derives from Extended, the
+    default set, and hides that member: here the relaxation is SOR instead of Gauss-Seidel.
+    solveWith() compiles the streaming multigrid for it.
+ 2. The problem provides the weights cell by cell, in batches: here every cell consists of wires,
+    with a conductance of one over their length, instead of a sheet (cotangent weights).
  3. Everything else, such as memory limit, scratch files and report, is as for solve().
 
-What a sweep may read. A node's row names its neighbours; these, the node and nothing else are sure
-to be in memory. There is one x a node: when its turn comes, the neighbours before it in the stream
-have been relaxed in this sweep, those behind it have not. That is the order of Gauss-Seidel and
-SOR. Jacobi, which needs the old values before it as well, and sweeps backwards are not possible.
+Data that a sweep may read: the node, its row, and the neighbours that the row names. No other node
+is guaranteed to be in memory. There is one x per node: when a node is relaxed, its earlier
+neighbours in the stream have been relaxed in this sweep, the later ones have not. This is the order
+of Gauss-Seidel and SOR. Jacobi, which also needs the old values of earlier neighbours, and backward
+sweeps are not possible.
 
 Run it:
 
@@ -45,7 +46,7 @@ struct OverRelaxation
       const auto sum = smg::neighbourSum<LowerOnly, Vectors>(header, rows, k, stride, x);
       const auto solved =
         (Vectors::load(b + k * stride) + sum) * static_cast<Real>(1.0 / rows.diagonal[k]);
-      // LowerOnly: this sweep is the first one on a coarse level, which begins at zero.
+      // LowerOnly: the first sweep on a coarse level, where the initial guess is zero.
       typename Vectors::Vector old{};
       if (!LowerOnly)
       {
@@ -56,7 +57,7 @@ struct OverRelaxation
   }
 };
 
-/** The default operator set but for its relaxation. */
+/** The default operator set except for its relaxation. */
 struct OverRelaxed : smg::Extended
 {
   static constexpr const char* name = "over-relaxed";

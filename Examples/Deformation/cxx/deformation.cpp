@@ -2,19 +2,19 @@
 /*
 The Stanford bunny turns its head, out of core, in C++ without VTK.
 
-Its base is held where it is, its head turned by 70 degrees and scaled by 1.3, an ear turned by 90
-degrees; the rest of the mesh follows and keeps its details. What is held and how it moves stands in
-a handle file, the same that the program smg takes: smg deform MESH OUT --handles bunny.json.
+Its base is fixed, its head turned by 70 degrees and scaled by 1.3, an ear turned by 90 degrees; the
+rest of the mesh follows and keeps its details. A handle file defines the held regions and their
+motion, as for the program smg: smg deform MESH OUT --handles bunny.json.
 
 What this lesson shows:
- 1. Handles are a class that is asked, block by block, which vertices are held, where they go, and
-    how they turn and grow. DescribedHandles is one that takes all that from a description, which
-    a program fills by itself or a file fills.
- 2. deform() reads the mesh stream once, works on scratch files within a memory limit, and gives
-    back the new positions, which are read range by range. Two problems are solved on one hierarchy:
-    how the mesh turns and grows between the handles, then where its vertices go.
- 3. MovedMesh is the mesh stream with new positions and all its columns; a writer takes it block by
-    block. So never is the whole mesh in memory.
+ 1. The class Handles defines, block by block, which vertices are held and their positions,
+    rotations and scales. DescribedHandles is an implementation based on a description, which the
+    program sets or reads from a file.
+ 2. deform() reads the mesh stream once, works on scratch files within a memory limit, and returns
+    the new positions, which are read range by range. Two problems are solved on one hierarchy:
+    first the rotations and scales between the handles, then the positions of the vertices.
+ 3. MovedMesh is the mesh stream with new positions and all its columns; a writer reads it block by
+    block. The whole mesh is never in memory.
 
 Run it:
 
@@ -37,14 +37,14 @@ Run it:
 namespace
 {
 
-/** Where the vertices of the mesh go. */
+/** The new positions of the vertices. */
 std::unique_ptr<smg::Solution> deform(const smg::VsmReader& mesh, const char* handleFile)
 {
   const smg::DeformationDescription description = smg::readHandleFile(handleFile);
   smg::DescribedHandles handles(description, mesh.info(), handleFile);
   // Only the columns of the mesh that the handles need are read.
   const auto source = [&] { return mesh.source(handles.vertexColumns(), handles.cellColumns()); };
-  // A handle that holds no vertex is an error, before the work.
+  // Fails early if a handle holds no vertex.
   handles.prepare(*source());
 
   smg::DeformOptions options;
@@ -76,12 +76,12 @@ int main(int argc, char** argv)
   }
   try
   {
-    // Any mesh file becomes a mesh stream; one that is a stream already keeps its order.
+    // Any mesh file is converted to a mesh stream; a stream keeps its order.
     const auto mesh = smg::openMesh(argv[1]);
     const auto positions = deform(mesh->reader(), argv[2]);
     print(positions->report());
 
-    // Normals that the mesh has are computed anew.
+    // Existing normals are recomputed.
     const smg::MovedMesh moved(mesh->reader(), *positions, smg::MovedNormals::Recompute);
     for (const std::string& remark : smg::writeMesh(*moved.source(), argv[3]))
     {

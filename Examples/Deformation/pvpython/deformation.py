@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The Stanford bunny turns its head, out of core, with pvpython.
 
-Its base is held where it is, its head turned by 70 degrees and scaled by 1.3, an ear turned by 90
-degrees; the rest of the mesh follows and keeps its details. What is held and how it moves stands in
-a handle file, the same that the program smg takes: `smg deform MESH OUT --handles bunny.json`.
+Its base is fixed, its head turned by 70 degrees and scaled by 1.3, an ear turned by 90 degrees; the
+rest of the mesh follows and keeps its details. A handle file defines the held regions and their
+motion, as for the program smg: `smg deform MESH OUT --handles bunny.json`.
 
 What this lesson shows:
- 1. A handle is a filter: `MeshHandle` takes hold of the points in a region, here one of ParaView's
-    implicit functions, and says where they go in point arrays. One filter follows the other.
- 2. `StreamingMeshDeformation` pulls the mesh with these arrays in pieces, solves on scratch files in
-    a fixed amount of memory, and serves the deformed mesh with whatever piece somebody asks for.
- 3. Saving asks for piece after piece, so a mesh of any size is deformed and written. Drawing asks
-    for the whole: of a mesh above `MaximumPointsInMemory` that is a preview, which is deformed in
-    memory.
+ 1. A handle is a filter: `MeshHandle` holds the points in a region, here one of ParaView's implicit
+    functions, and stores their motion in point arrays. The filters are chained.
+ 2. `StreamingMeshDeformation` requests the mesh with these arrays in pieces, solves on scratch files
+    in a fixed amount of memory, and delivers any piece of the deformed mesh.
+ 3. Saving requests one piece after the other, so that a mesh of any size is deformed and written.
+    Drawing requests the whole mesh: above `MaximumPointsInMemory` this is a preview, which is
+    deformed in memory.
 
 Run it under a display, or under xvfb-run:
 
@@ -24,9 +24,9 @@ Run it under a display, or under xvfb-run:
     bunny-deformed.ply
     bunny-deformed.png
 
-The mesh can be exchanged (--mesh), and so can the handles (--handles), the direction that the
-picture is seen from (--view, from the mesh to the eye; y points up) and its size (--size). The
-Stanford Armadillo, scaled to a box of about 1 x 1 x 1, with fixed feet, turned head and raised arm:
+Options select another mesh (--mesh), other handles (--handles), the viewing direction of the picture
+(--view, from the mesh to the eye; y points up) and its size (--size). For example the Stanford
+Armadillo, scaled to a box of about 1 x 1 x 1, with fixed feet, turned head and raised arm:
 
     xvfb-run -a pvpython deformation.py --output . \\
         --mesh armadillo.obj --handles ../armadillo.json --view 0.3 0.2 1 --size 1200 700
@@ -45,7 +45,7 @@ from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 
 def find_plugin(here):
-    """The plugin as `bash Examples/run.sh` builds it; None where it is not."""
+    """The plugin built by `bash Examples/run.sh`; None if there is none."""
     build = os.path.join(here, "..", "..", "..", "build")
     found = glob.glob(os.path.join(build, "lib", "*", "plugins", "*", "StreamingMultigrid.so"))
     return found[0] if found else None
@@ -65,7 +65,7 @@ def parse_arguments():
 
 
 def hold(mesh, region):
-    """A Mesh Handle that holds a region of a handle file, and the middle of spheres and boxes."""
+    """A Mesh Handle for a region of a handle file, and the centre of spheres and boxes."""
     (shape, numbers), = region.items()
     if shape == "vertices":
         return MeshHandle(Input=mesh, Region="Ids", IdType="Original Ids", Ids=numbers), None
@@ -91,7 +91,7 @@ def hold(mesh, region):
 
 
 def take_handles(mesh, handles):
-    """One Mesh Handle after the other; the last one has them all."""
+    """The last filter of a chain with one Mesh Handle for each entry."""
     for entry in handles:
         handle, middle = hold(mesh, entry["region"])
         if not entry.get("fixed"):
@@ -117,14 +117,15 @@ def deform(held, options):
 
 
 def show(mesh, view, aside):
-    """The surface, moved aside; what is held has the colour of the angle by which it turns."""
+    """Shows the surface, moved aside; held points are coloured by their rotation angle."""
     moved = Transform(Input=ExtractSurface(Input=mesh))
     moved.Transform.Translate = aside
     turned = Calculator(Input=moved)
     turned.ResultArrayName = "Turned"
     turned.Function = "if(HandleMask > 0, mag(HandleRotation), -1)"
     smooth = (globals().get("SurfaceNormals") or GenerateSurfaceNormals)(Input=turned)
-    # Triangles keep their orientation: a preview is no manifold on which it could be found.
+    # Keep the orientation of the triangles: on a preview, which is not a manifold, it cannot be
+    # derived.
     smooth.Splitting = smooth.Consistency = 0
     surface = Show(smooth, view)
     ColorBy(surface, ("POINTS", "Turned"))
@@ -141,13 +142,13 @@ def show(mesh, view, aside):
 
 
 def extent(mesh, axis):
-    """From where to where the mesh, or its preview, reaches in a direction."""
+    """The extent of the mesh, or its preview, in a direction."""
     along = vtk_to_numpy(servermanager.Fetch(mesh).GetPoints().GetData()) @ axis
     return along.min(), along.max()
 
 
 def draw(before, after, direction, size, path):
-    """Both meshes side by side, seen from the same direction."""
+    """Draws both meshes side by side, seen from the same direction."""
     view = CreateRenderView()
     view.ViewSize = size
     view.OrientationAxesVisibility = 0
@@ -190,8 +191,8 @@ def main():
     held = take_handles(mesh, options["handles"])
     deformation = deform(held, options)
 
-    # Saving lets the filter solve. The report of that comes with the data; its most important
-    # numbers are properties, too.
+    # Saving executes the solve. The report is part of the data; its most important numbers are also
+    # properties.
     os.makedirs(arguments.output, exist_ok=True)
     name = os.path.splitext(os.path.basename(arguments.handles))[0]
     result = os.path.join(arguments.output, name + "-deformed")
@@ -208,11 +209,11 @@ def main():
     with open(result + ".json", "w", encoding="utf-8") as file:
         json.dump(report, file, indent=2)
 
-    # SaveData would write PLY with ParaView's own writer, which does not stream.
+    # SaveData would use ParaView's own PLY writer, which does not stream.
     servermanager.writers.StreamingMeshWriter(
         Input=deformation, FileName=result + ".ply").UpdatePipeline()
 
-    # The picture shows the handles, too.
+    # The picture also shows the handles.
     deformation.KeepHandleArrays = 1
     draw(held, deformation, arguments.view, arguments.size, result + ".png")
     for suffix in (".vsm", ".json", ".ply", ".png"):

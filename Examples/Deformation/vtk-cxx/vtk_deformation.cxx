@@ -2,15 +2,15 @@
 /*
 The Stanford bunny turns its head, out of core, in C++ with a VTK pipeline.
 
-Its base is held where it is, its head turned by 70 degrees and scaled by 1.3, an ear turned by 90
-degrees; the rest of the mesh follows and keeps its details.
+Its base is fixed, its head turned by 70 degrees and scaled by 1.3, an ear turned by 90 degrees; the
+rest of the mesh follows and keeps its details.
 
 What this lesson shows:
- 1. A handle is a filter: vtkMeshHandle takes hold of the points where an implicit function is at
-    most 0, and says where they go in point arrays. One filter follows the other.
- 2. vtkStreamingMeshDeformation pulls the mesh with these arrays in pieces, solves on scratch files,
-    and serves the deformed mesh with any piece.
- 3. vtkStreamingMeshWriter asks for piece after piece. So never is the whole mesh in memory.
+ 1. A handle is a filter: vtkMeshHandle holds the points where an implicit function is at most 0,
+    and stores their motion in point arrays. The filters are chained.
+ 2. vtkStreamingMeshDeformation requests the mesh with these arrays in pieces, solves on scratch
+    files, and delivers any piece of the deformed mesh.
+ 3. vtkStreamingMeshWriter requests one piece after the other. The whole mesh is never in memory.
 
 Run it:
 
@@ -33,7 +33,7 @@ Run it:
 namespace
 {
 
-/** Lets the handle hold what lies in a sphere. */
+/** Sets the region of the handle to a sphere. */
 void holdSphere(vtkMeshHandle& handle, double x, double y, double z, double radius)
 {
   vtkNew<vtkSphere> sphere;
@@ -54,8 +54,8 @@ int main(int argc, char** argv)
   vtkNew<vtkStreamingMeshReader> reader;
   reader->SetFileName(argv[1]);
 
-  // Lengths are those of the mesh: the bunny is 15 cm high, y points up. The base stays. Inside of
-  // a plane is the side away from its normal.
+  // Lengths are in the unit of the mesh: the bunny is 15 cm high, y points up. The base is fixed.
+  // The inside of a plane is the side opposite to its normal.
   vtkNew<vtkPlane> ground;
   ground->SetOrigin(0, 0.05, 0);
   ground->SetNormal(0, 1, 0);
@@ -63,7 +63,7 @@ int main(int argc, char** argv)
   base->SetInputConnection(reader->GetOutputPort());
   base->SetRegionFunction(ground);
 
-  // Rotation and scale are about the centre, then comes the translation.
+  // Rotation and scale about the centre, followed by the translation.
   vtkNew<vtkMeshHandle> head;
   head->SetInputConnection(base->GetOutputPort());
   holdSphere(*head, -0.068, 0.134, 0.027, 0.034);
@@ -93,7 +93,7 @@ int main(int argc, char** argv)
   writer->SetFileName(argv[2]);
   if (!writer->Write())
   {
-    // The filters have said what is wrong.
+    // The filters have reported the error.
     return 1;
   }
   std::cout << reader->GetFullNumberOfPoints()

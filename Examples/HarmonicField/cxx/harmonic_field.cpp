@@ -7,11 +7,11 @@ the weighted mean of its neighbours. The program writes the field's isolines as 
 file.
 
 What this lesson shows:
- 1. A mesh stream delivers vertices and cells block by block, and says which vertices are final: no
-    later cell uses them. A program that forgets these holds a small window of the mesh only.
- 2. A problem is described by what holds where; regions are one way to say where.
- 3. solve() reads the stream once, works on scratch files within a memory limit, and gives back a
-    solution that is read range by range, here along with the stream.
+ 1. A mesh stream delivers vertices and cells block by block and marks vertices as final when no
+    later cell uses them. A program that releases these holds only a small window of the mesh.
+ 2. A problem is described by conditions and their places, for example regions.
+ 3. solve() reads the stream once, works on scratch files within a memory limit, and returns a
+    solution that is read range by range, here together with the stream.
 
 Run it:
 
@@ -40,7 +40,7 @@ constexpr double Feet = 0.036; // metres above the ground; y points up
 constexpr double Ears = 0.18;
 constexpr int Bands = 24;
 
-/** The values at feet and ears are given; everything else is left to the solver. */
+/** Prescribed values at feet and ears. */
 smg::ProblemDescription feetAndEars()
 {
   smg::ProblemDescription problem;
@@ -49,7 +49,7 @@ smg::ProblemDescription feetAndEars()
   return problem;
 }
 
-/** A vertex that a cell to come may use. */
+/** A vertex that a later cell may use. */
 struct Vertex
 {
   std::array<double, 3> point;
@@ -89,7 +89,7 @@ int crossTriangle(std::ostream& out, const std::array<const Vertex*, 3>& corners
   return segments;
 }
 
-/** Walks through the mesh stream and the solution together, with a window of both. */
+/** Reads the mesh stream and the solution together, with a window of both. */
 int writeIsolines(smg::MeshSource& mesh, smg::Solution& solution, std::ostream& out)
 {
   int segments = 0;
@@ -131,7 +131,7 @@ int main(int argc, char** argv)
   }
   try
   {
-    // Any mesh file becomes a mesh stream; one that is a stream already keeps its order.
+    // Any mesh file is converted to a mesh stream; a stream keeps its order.
     const auto mesh = smg::openMesh(argv[1]);
     if (mesh->reader().info().cellType != smg::CellType::Triangle)
     {
@@ -139,12 +139,12 @@ int main(int argc, char** argv)
     }
 
     smg::DescribedProblem problem(feetAndEars(), mesh->reader().info());
-    problem.prepare(*mesh->reader().source({}, {})); // fails if a region holds nothing
+    problem.prepare(*mesh->reader().source({}, {})); // fails if a region is empty
     smg::SolveOptions options;
     options.memoryLimit = std::int64_t(64) << 20;
     const auto solution = smg::solve(*mesh->reader().source({}, {}), problem, options);
     const smg::Report& report = solution->report();
-    // Without a cycle, where every vertex is held, there is no residual.
+    // If every vertex is prescribed, there is no cycle and no residual.
     const double residual = report.residual();
     std::cout << report.vertices << " vertices, " << report.cells
               << " cells: " << (report.converged ? "converged" : "not converged") << " after "

@@ -2,16 +2,16 @@
 """A harmonic field on the Stanford bunny, out of core, with pvpython.
 
 The field is 0 at the feet and 1 at the tips of the ears; in between it is harmonic: each value is
-the weighted mean of its neighbours, as the temperature of a thin shell whose ends are held at two
-temperatures. Such fields are what deformations, parametrisations and segmentations are made of.
+the weighted mean of its neighbours, like the temperature of a thin shell whose ends are kept at two
+temperatures. Deformations, parametrisations and segmentations are based on such fields.
 
 What this lesson shows:
- 1. A streaming mesh is opened as any other file. The reader hands out pieces; a mesh with more than
+ 1. A streaming mesh is opened like any other file. The reader delivers pieces; a mesh with more than
     `MaximumPointsInMemory` points would be shown as a preview.
- 2. The problem is said by what holds where: a `MeshCondition` prescribes a value in a region, here one
-    side of a plane. One filter follows the other.
- 3. `StreamingPoisson` pulls the mesh through the pipeline in pieces, solves on scratch files in a
-    fixed amount of memory, and serves the solution with whatever piece somebody asks for.
+ 2. A problem is described by conditions in regions: a `MeshCondition` prescribes a value in a region,
+    here one side of a plane. The filters are chained.
+ 3. `StreamingPoisson` requests the mesh in pieces, solves on scratch files in a fixed amount of
+    memory, and delivers any piece with the solution.
 
 Run it under a display, or under xvfb-run:
 
@@ -21,8 +21,8 @@ Run it under a display, or under xvfb-run:
     bunny-harmonic.png
     bunny-harmonic.json
 
-The mesh can be exchanged (--mesh), and so can the heights in metres below which and above which the
-points are held (--feet, --ears).
+Options select another mesh (--mesh) and the heights in metres below and above which the values are
+prescribed (--feet, --ears).
 """
 
 import argparse
@@ -35,7 +35,7 @@ from paraview.simple import *
 
 
 def find_plugin(here):
-    """The plugin as `bash Examples/run.sh` builds it; None where it is not."""
+    """The plugin built by `bash Examples/run.sh`; None if there is none."""
     build = os.path.join(here, "..", "..", "..", "build")
     found = glob.glob(os.path.join(build, "lib", "*", "plugins", "*", "StreamingMultigrid.so"))
     return found[0] if found else None
@@ -55,7 +55,7 @@ def parse_arguments():
 
 def solve(mesh, feet, ears):
     """The mesh with the harmonic field as its point array Solution."""
-    # y points up. The inside of a plane is the side away from its normal.
+    # y points up. The inside of a plane is the side opposite to its normal.
     low = MeshCondition(Input=mesh, RegionFunction="Plane", Condition="Dirichlet", Value=0)
     low.RegionFunction.Origin = [0, feet, 0]
     low.RegionFunction.Normal = [0, 1, 0]
@@ -105,7 +105,7 @@ def draw(field, path):
     lines.Ambient = 1.0
     lines.Diffuse = 0.0
 
-    # The first rendering looks at everything; from there, move closer.
+    # The first rendering resets the camera; then move closer.
     Render(view)
     GetActiveCamera().Dolly(1.35)
     view.CenterOfRotation = view.CameraFocalPoint
@@ -121,7 +121,7 @@ def main():
     mesh = OpenDataFile(arguments.mesh)
     field = solve(mesh, arguments.feet, arguments.ears)
 
-    # The report of the solve comes with the data; the most important numbers are properties, too.
+    # The report of the solve is part of the data; its most important numbers are also properties.
     field.UpdatePropertyInformation()
     text = field.GetPropertyValue("Report")
     if not text:

@@ -7,10 +7,10 @@ the weighted mean of its neighbours. The program writes the field's isolines as 
 
 What this lesson shows:
  1. vtkStreamingMeshReader delivers any piece of a mesh stream; ordinary filters work on pieces.
- 2. The problem is said by what holds where: a vtkMeshCondition prescribes a value in a region. One
-    filter follows the other.
- 3. vtkStreamingPoisson pulls the mesh in pieces, solves on scratch files, and serves the solution
-    with any piece. The isolines are extracted piece by piece, so never is the whole mesh in memory.
+ 2. A problem is described by conditions in regions: a vtkMeshCondition prescribes a value in a
+    region. The filters are chained.
+ 3. vtkStreamingPoisson requests the mesh in pieces, solves on scratch files, and delivers any piece
+    with the solution. The isolines are extracted piece by piece; the whole mesh is never in memory.
 
 Run it:
 
@@ -44,8 +44,8 @@ int main(int argc, char** argv)
   vtkNew<vtkStreamingMeshReader> reader;
   reader->SetFileName(argv[1]);
 
-  // y points up; the feet are below 3.6 cm, the tips of the ears above 18 cm. Inside of a plane is
-  // the side away from its normal.
+  // y points up; the feet are below 3.6 cm, the tips of the ears above 18 cm. The inside of a plane
+  // is the side opposite to its normal.
   vtkNew<vtkPlane> low;
   low->SetOrigin(0.0, 0.036, 0.0);
   low->SetNormal(0.0, 1.0, 0.0);
@@ -74,7 +74,7 @@ int main(int argc, char** argv)
     contour->SetValue(band - 1, double(band) / bands);
   }
 
-  // The first piece lets the filter solve; the others find the solution there.
+  // The first piece executes the solve; the others use its solution.
   constexpr int pieces = 16;
   vtkNew<vtkAppendPolyData> isolines;
   for (int piece = 0; piece < pieces; ++piece)
@@ -82,7 +82,7 @@ int main(int argc, char** argv)
     contour->UpdatePiece(piece, pieces, 0);
     if (!*poisson->GetReport())
     {
-      // The filter has said why it could not solve.
+      // The filter has reported the error.
       return 1;
     }
     vtkNew<vtkPolyData> lines;
@@ -97,7 +97,7 @@ int main(int argc, char** argv)
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputConnection(isolines->GetOutputPort());
   writer->SetFileName(argv[2]);
-  // With recent versions of Expat many of VTK's readers refuse appended data, the default.
+  // With recent versions of Expat many VTK readers reject appended data, the default.
   writer->SetDataModeToBinary();
   if (!writer->Write())
   {

@@ -2,19 +2,19 @@
 /*
 Heat conduction in a chip and its heat sink, out of core, in C++ without VTK.
 
-Two materials conduct: the ceramic of the chip 25 W/(m K), the aluminium of the heat sink
-200 W/(m K). Heat flows in through the bottom of the chip, 100 kW/m^2, and is taken by air of 20
-degrees at the top of the plate and at the fins, 100 W/(m^2 K). Everything else is insulated.
+Two materials conduct heat: the ceramic of the chip with 25 W/(m K), the aluminium of the heat sink
+with 200 W/(m K). Heat flows in through the bottom of the chip with 100 kW/m^2; air of 20 degrees
+cools the top of the plate and the fins with 100 W/(m^2 K). All other surfaces are insulated.
 
 What this lesson shows:
- 1. A problem is said in the words of physics: conductivity, flux and heat transfer, each with where
-    it holds: cells by a column of the mesh, facets of the boundary by regions. A facet is in a
-    region if all its corners are. heat.json beside this lesson says the same to the program smg.
- 2. DescribedProblem brings that to a mesh stream; prepare() finds what is selected, and says what
-    selects nothing, before the work.
+ 1. A problem is described in physical terms: conductivity, flux and heat transfer, each with its
+    place: cells by a column of the mesh, boundary facets by regions. A facet is in a region if all
+    its corners are. The file heat.json states the same problem for the program smg.
+ 2. DescribedProblem evaluates the description on a mesh stream; prepare() evaluates the selections
+    and fails early if one is empty.
  3. SolvedMesh is the mesh stream with the solution, and with the gradient and the flux in the
-    cells; a writer takes it block by block. When it has been read to its end, the report says what
-    flows through each condition, where the body is hottest, and how well all flows balance.
+    cells; a writer reads it block by block. After it has been read, the report contains the flow
+    through each condition, the maximum temperature, and the balance of all flows.
 
 Run it:
 
@@ -24,7 +24,7 @@ Run it:
     peak: 67.8414 degrees at vertex 36 of the file
     flux[0]: 19.6 W into the body through 196 mm^2 of 67.2205 degrees
     robin[0]: -19.6 W into the body through 5476 mm^2 of 55.7925 degrees
-    what is missing in the balance of all: -1.04355e-09
+    relative imbalance of all flows: -1.04355e-09
 */
 
 #include <smg/DescribedProblem.h>
@@ -65,7 +65,7 @@ void print(const smg::Report& report)
     std::cout << condition.name << ": " << condition.flux[0] << " W into the body through "
               << 1e6 * condition.area << " mm^2 of " << condition.mean[0] << " degrees\n";
   }
-  std::cout << "what is missing in the balance of all: " << report.balance[0] << "\n";
+  std::cout << "relative imbalance of all flows: " << report.balance[0] << "\n";
 }
 
 } // namespace
@@ -79,10 +79,10 @@ int main(int argc, char** argv)
   }
   try
   {
-    // Any mesh file becomes a mesh stream; one that is a stream already keeps its order.
+    // Any mesh file is converted to a mesh stream; a stream keeps its order.
     const auto mesh = smg::openMesh(argv[1]);
     smg::DescribedProblem problem(chipAndHeatSink(), mesh->reader().info());
-    // Of all columns of the mesh, the problem needs those that it names.
+    // Only the columns of the mesh that the problem names are read.
     const auto source = [&]
     { return mesh->reader().source(problem.vertexColumns(), problem.cellColumns()); };
     problem.prepare(*source());

@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Heat conduction in a chip and its heat sink, out of core, with pvpython.
 
-Two materials conduct: the ceramic of the chip 25 W/(m K), the aluminium of the heat sink
-200 W/(m K). Heat flows in through the bottom of the chip, 100 kW/m^2, and is taken by air of 20
-degrees at the top of the plate and at the fins, 100 W/(m^2 K). Everything else is insulated.
+Two materials conduct heat: the ceramic of the chip with 25 W/(m K), the aluminium of the heat sink
+with 200 W/(m K). Heat flows in through the bottom of the chip with 100 kW/m^2; air of 20 degrees
+cools the top of the plate and the fins with 100 W/(m^2 K). All other surfaces are insulated.
 
 What this lesson shows:
- 1. A condition is a filter: `MeshCondition` says what holds, and where: in cells by an array of the
-    mesh, on facets of the boundary by one of ParaView's implicit functions. A facet is in a region
-    if all its corners are. One filter follows the other.
- 2. `StreamingPoisson` pulls the mesh with these conditions in pieces, solves on scratch files in a
-    fixed amount of memory, and serves the solution, and the flux in the cells, with whatever piece
-    somebody asks for. Its report says what flows through each condition.
- 3. The writer asks for piece after piece, so a mesh of any size is solved on and written.
+ 1. A condition is a filter: `MeshCondition` sets a condition in a region: in cells by an array of the
+    mesh, on boundary facets by one of ParaView's implicit functions. A facet is in a region if all
+    its corners are. The filters are chained.
+ 2. `StreamingPoisson` requests the mesh with these conditions in pieces, solves on scratch files in a
+    fixed amount of memory, and delivers any piece with the solution and the flux in the cells. Its
+    report contains the flow through each condition.
+ 3. The writer requests one piece after the other, so that a mesh of any size is solved and written.
 
 Run it under a display, or under xvfb-run:
 
@@ -22,7 +22,7 @@ Run it under a display, or under xvfb-run:
     peak: 67.8414 degrees at vertex 36 of the file
     flux[0]: 19.6 W into the body through 196 mm^2 of 67.2205 degrees
     robin[0]: -19.6 W into the body through 5476 mm^2 of 55.7925 degrees
-    what is missing in the balance of all: -1e-09
+    relative imbalance of all flows: -1e-09
     heat.vtu
     heat.json
     heat.png
@@ -39,7 +39,7 @@ from paraview.simple import *
 
 
 def find_plugin(here):
-    """The plugin as `bash Examples/run.sh` builds it; None where it is not."""
+    """The plugin built by `bash Examples/run.sh`; None if there is none."""
     build = os.path.join(here, "..", "..", "..", "build")
     found = glob.glob(os.path.join(build, "lib", "*", "plugins", "*", "StreamingMultigrid.so"))
     return found[0] if found else None
@@ -56,11 +56,11 @@ def parse_arguments():
 
 
 def conditions(mesh):
-    """One Mesh Condition after the other; the last one has them all."""
+    """The last filter of a chain of Mesh Conditions."""
     ceramic = MeshCondition(Input=mesh, Region="Everywhere", Condition="Conductivity", Value=25)
     aluminium = MeshCondition(Input=ceramic, Region="Tag", Condition="Conductivity", Value=200)
     aluminium.TagArray, aluminium.Tag = "Material", 2
-    # Lengths are in metres; z points up. The inside of a plane is the side away from its normal.
+    # Lengths are in metres; z points up. The inside of a plane is the side opposite to its normal.
     heating = MeshCondition(Input=aluminium, RegionFunction="Plane", Condition="Flux", Value=100000)
     heating.RegionFunction.Origin = [0, 0, 0.001]
     heating.RegionFunction.Normal = [0, 0, 1]
@@ -72,7 +72,7 @@ def conditions(mesh):
 
 
 def draw(heat, path):
-    """The body, and what is behind a cut through its middle, in bands of colour."""
+    """Draws the body, and a half of it cut through the middle, in bands of colour."""
     low, high = heat.PointData["Solution"].GetRange()
     colours = GetColorTransferFunction("Solution")
     colours.ApplyPreset("Turbo", True)
@@ -118,8 +118,8 @@ def main():
     mesh = StreamingMeshReader(FileName=arguments.mesh)
     heat = StreamingPoisson(Input=conditions(mesh), Gradient=1, Flux=1, MemoryLimit=64)
 
-    # Writing lets the filter solve. The report of that comes with the data; its most important
-    # numbers are properties, too.
+    # Writing executes the solve. The report is part of the data; its most important numbers are
+    # also properties.
     os.makedirs(arguments.output, exist_ok=True)
     result = os.path.join(arguments.output, "heat")
     servermanager.writers.StreamingMeshWriter(Input=heat, FileName=result + ".vtu").UpdatePipeline()
@@ -137,7 +137,7 @@ def main():
     for condition in report["conditions"]:
         print(f"{condition['name']}: {condition['flux'][0]:.6g} W into the body through "
               f"{1e6 * condition['area']:.6g} mm^2 of {condition['mean'][0]:.6g} degrees")
-    print(f"what is missing in the balance of all: {report['balance'][0]:.2g}")
+    print(f"relative imbalance of all flows: {report['balance'][0]:.2g}")
     with open(result + ".json", "w", encoding="utf-8") as file:
         json.dump(report, file, indent=2)
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A file without VTK, which from 9.3 on has a JSON library of its own under the same names.
+// A file without VTK: VTK 9.3 and later bundles a JSON library under the same names.
 #include "print_report.h"
 
 #include <nlohmann/json.hpp>
@@ -18,6 +18,5 @@ void printReport(const std::string& json)
               << " W into the body through " << 1e6 * condition["area"].get<double>() << " mm^2 of "
               << condition["mean"][0].get<double>() << " degrees\n";
   }
-  std::cout << "what is missing in the balance of all: " << report["balance"][0].get<double>()
-            << "\n";
+  std::cout << "relative imbalance of all flows: " << report["balance"][0].get<double>() << "\n";
 }

@@ -3,6 +3,6 @@
 
 #include <string>
 
-/** Prints the counts, the peak, and what flows through each condition, of the report of a solve,
- * which is JSON. */
+/** Prints the counts, the maximum, and the flow through each condition from the report (JSON) of a
+ * solve. */
 void printReport(const std::string& json);

@@ -2,18 +2,18 @@
 /*
 Heat conduction in a chip and its heat sink, out of core, in C++ with a VTK pipeline.
 
-Two materials conduct: the ceramic of the chip 25 W/(m K), the aluminium of the heat sink
-200 W/(m K). Heat flows in through the bottom of the chip, 100 kW/m^2, and is taken by air of 20
-degrees at the top of the plate and at the fins, 100 W/(m^2 K). Everything else is insulated.
+Two materials conduct heat: the ceramic of the chip with 25 W/(m K), the aluminium of the heat sink
+with 200 W/(m K). Heat flows in through the bottom of the chip with 100 kW/m^2; air of 20 degrees
+cools the top of the plate and the fins with 100 W/(m^2 K). All other surfaces are insulated.
 
 What this lesson shows:
- 1. A condition is a filter: vtkMeshCondition says what holds, and where: in cells by an array of
-    the mesh, on facets of the boundary by an implicit function. A facet is in a region if all its
-    corners are. One filter follows the other.
- 2. vtkStreamingPoisson pulls the mesh with these conditions in pieces, solves on scratch files, and
-    serves the solution, and the flux in the cells, with any piece. Its report says what flows
+ 1. A condition is a filter: vtkMeshCondition sets a condition in a region: in cells by an array of
+    the mesh, on boundary facets by an implicit function. A facet is in a region if all its corners
+    are. The filters are chained.
+ 2. vtkStreamingPoisson requests the mesh with these conditions in pieces, solves on scratch files,
+    and delivers any piece with the solution and the flux in the cells. Its report contains the flow
     through each condition.
- 3. vtkStreamingMeshWriter asks for piece after piece. So never is the whole mesh in memory.
+ 3. vtkStreamingMeshWriter requests one piece after the other. The whole mesh is never in memory.
 
 Run it:
 
@@ -24,7 +24,7 @@ Run it:
     peak: 67.8414 degrees at vertex 36 of the file
     flux[0]: 19.6 W into the body through 196 mm^2 of 67.2205 degrees
     robin[0]: -19.6 W into the body through 5476 mm^2 of 55.7925 degrees
-    what is missing in the balance of all: -1.04355e-09
+    relative imbalance of all flows: -1.04355e-09
 */
 
 #include "print_report.h"
@@ -42,7 +42,7 @@ Run it:
 namespace
 {
 
-/** What holds, behind the conditions before it. */
+/** Appends a condition to the pipeline and sets its type and value. */
 void say(vtkMeshCondition& condition, vtkAlgorithm* before, int what, double value)
 {
   condition.SetInputConnection(before->GetOutputPort());
@@ -50,7 +50,7 @@ void say(vtkMeshCondition& condition, vtkAlgorithm* before, int what, double val
   condition.SetValue(value);
 }
 
-/** It holds on one side of a height: the side away from the normal, which is (0, 0, up). */
+/** Sets the region to one side of a height: the side opposite to the normal (0, 0, up). */
 void bound(vtkMeshCondition& condition, double height, double up)
 {
   vtkNew<vtkPlane> plane;
@@ -100,7 +100,7 @@ int main(int argc, char** argv)
   writer->SetFileName(argv[2]);
   if (!writer->Write())
   {
-    // The filters have said what is wrong.
+    // The filters have reported the error.
     return 1;
   }
 

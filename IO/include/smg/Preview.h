@@ -35,11 +35,10 @@ class SMG_EXPORT PreviewSource : public MeshSource
 {
 public:
   /**
-   * Reads the mesh once, and its vertex columns once. Errors call the mesh `name`, or by its file
-   * if that is empty. Scratch files, if the preview is so large that it needs any, go to `scratch`;
-   * empty: the system's temporary folder.
-   * @throws Error if the preview is empty, since every triangle has its corners in one place;
-   * Cancelled
+   * Reads the mesh once, and its vertex columns once. Error messages name the mesh `name`, or its
+   * file if that is empty. A large preview creates scratch files in `scratch`; empty: the system's
+   * temporary folder.
+   * @throws Error if the preview is empty because every triangle collapses; Cancelled
    */
   explicit PreviewSource(VsmReader& mesh, std::int64_t maximumPoints = DefaultPreviewPoints,
     const ProgressFunction& progress = {}, const std::string& name = {},

@@ -13,20 +13,20 @@
 namespace smg
 {
 
-/** Columns of solutions: of the vertices, then of the cells, if wanted. */
+/** Names of the columns of solutions: of the vertices and, if requested, of the cells. */
 inline constexpr const char* SolutionName = "Solution";
 inline constexpr const char* GradientName = "Gradient";
 inline constexpr const char* FluxName = "Flux";
 
 /**
  * The mesh stream of a .vsm file with all its columns and the solution of a problem on it: the
- * column Solution of the vertices and, if wanted, Gradient and Flux of the cells, 3 numbers for
- * each column of the problem. Those of an earlier solve are left out.
+ * column Solution of the vertices and, if requested, Gradient and Flux of the cells, 3 numbers per
+ * column of the problem. These replace the columns of an earlier solve.
  */
 class SMG_EXPORT SolvedMesh : public MeshSource
 {
 public:
-  /** All must live as long; `problem` is that of the solution. */
+  /** All arguments must outlive the object; `problem` is that of the solution. */
   SolvedMesh(
     const VsmReader& mesh, Problem& problem, Solution& solution, const ResultOptions& options = {});
 
@@ -35,8 +35,9 @@ public:
   const StreamInfo& info() const override;
   bool next(MeshBlock& block) override;
 
-  /** When the stream has been read to its end: what ProblemResults adds to the solution's report;
-   * the vertices of minima and maxima have their numbers in the original file, if these are known.
+  /**
+   * After the stream has been read: adds the results of ProblemResults to the report of the
+   * solution; the vertices of minima and maxima have their indices in the original file, if known.
    */
   void finish(Report& report);
 

@@ -45,7 +45,7 @@ struct RewriteOptions
 {
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
-  /** Bytes of memory for positions that wait for their turn. */
+  /** Bytes of memory for sorting positions. */
   std::int64_t memory = std::int64_t(64) << 20;
   ProgressFunction progress;
 };
@@ -58,22 +58,22 @@ struct RewriteOptions
 SMG_EXPORT bool canRewrite(const std::filesystem::path& in, const std::filesystem::path& out);
 
 /**
- * Writes the mesh file `in` again as `out`, with its vertices moved: the same vertices and cells in
- * the same order, also vertices of no cell, and everything else that the file says of them.
+ * Writes the mesh file `in` as `out` with moved vertices: the same vertices and cells in the same
+ * order, including vertices of no cell, and all other data of the file.
  *
- * `moved` is the mesh stream that was made of `in` (by openMesh(), for instance) with the new
- * positions and the column OriginalId. Vertices that it lacks stay where they are. The order of the
- * stream may be any: positions are brought back into the order of `in` out of core.
+ * `moved` is the mesh stream converted from `in` (for instance by openMesh()) with the new
+ * positions and the column OriginalId, in any order; positions are sorted into the order of `in`
+ * out of core. Vertices that it lacks keep their positions.
  *
- * Streaming formats: pre-order stays pre-order, post-order post-order, and the vertices are final
- * where `in` says so; counts and bounds stand in the header if `in` has them. Positions become
- * single precision.
+ * Streaming formats: pre-order and post-order are kept, vertices are final at the same place as in
+ * `in`, and counts and bounds are in the header if `in` has them. Positions become single
+ * precision.
  *
- * PLY: the same elements, properties and comments, in binary. If `moved` has the vertex column
- * Normals of 3 components, these are the new nx, ny, nz of vertices that have such properties;
- * otherwise these are left out, and always those of faces, since they would be stale.
- * @throws Error if `in` is not valid, a number of `moved` is none of a vertex of `in`, or `out`
- * cannot be written; Cancelled. Nothing is left of `out` then.
+ * PLY: the same elements, properties and comments, in binary. If `moved` has a vertex column
+ * Normals of 3 components, it replaces the properties nx, ny, nz of vertices; otherwise these are
+ * omitted. Those of faces are always omitted, since they would be outdated.
+ * @throws Error if `in` is invalid, an index of `moved` is not a vertex of `in`, or `out` cannot be
+ * written; Cancelled. No part of `out` is left then.
  */
 SMG_EXPORT void rewriteMesh(const std::filesystem::path& in, const std::filesystem::path& out,
   MeshSource& moved, const RewriteOptions& options = {});

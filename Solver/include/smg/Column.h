@@ -117,7 +117,7 @@ struct Column
   std::size_t tuples() const { return this->bytes.size() / this->spec.tupleBytes(); }
   void resize(std::size_t tuples) { this->bytes.resize(tuples * this->spec.tupleBytes()); }
 
-  /** The values as T, which must be the column's own type. */
+  /** The values as T, which must be the type of the column. */
   template <class T>
   std::span<T> as()
   {
@@ -131,7 +131,7 @@ struct Column
     return { reinterpret_cast<const T*>(this->bytes.data()), this->bytes.size() / sizeof(T) };
   }
 
-  /** Component `component` of tuple `tuple` as a double, whatever the type. */
+  /** Component `component` of tuple `tuple`, converted to double. */
   double value(std::size_t tuple, int component = 0) const
   {
     const std::byte* p =
@@ -141,7 +141,7 @@ struct Column
   }
 };
 
-/** The place of the first column that is `spec`; -1: there is none. */
+/** The index of the first column equal to `spec`; -1 if there is none. */
 inline std::ptrdiff_t findColumn(const std::vector<ColumnSpec>& specs, const ColumnSpec& spec)
 {
   const auto found = std::ranges::find(specs, spec);

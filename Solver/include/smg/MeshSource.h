@@ -12,7 +12,7 @@
 namespace smg
 {
 
-/** The kind of all cells of a mesh stream; the value is the number of corners of a cell. */
+/** The type of the cells of a mesh stream; the value is the number of corners of a cell. */
 enum class CellType : std::uint8_t
 {
   Triangle = 3,
@@ -24,11 +24,10 @@ constexpr int cornersOf(CellType type)
   return static_cast<int>(type);
 }
 
-/** Name of the optional uint8 cell column that says which cells carry no weight (see CellFlag). */
+/** Name of the optional uint8 cell column that marks cells without weight (see CellFlag). */
 inline constexpr const char* CellFlagsName = "CellFlags";
 
-/** Bits of the `CellFlags` column. A cell with any bit set is part of the mesh but has no weight.
- */
+/** Bits of the `CellFlags` column. A cell with a set bit is part of the mesh but has no weight. */
 enum CellFlag : std::uint8_t
 {
   DegenerateCell = 1, ///< repeated corners, or zero area or volume
@@ -36,7 +35,7 @@ enum CellFlag : std::uint8_t
 };
 
 /**
- * What is known of a mesh stream before it is read.
+ * Information on a mesh stream that is known before it is read.
  *
  * A mesh stream is *compact*: stream indices number the vertices 0, 1, ... in the order in which
  * the cells first use them, so cell c uses vertices introduced by cells 0..c only, and every vertex
@@ -49,29 +48,27 @@ struct StreamInfo
   std::int64_t cells = 0;
   /** xmin, xmax, ymin, ymax, zmin, zmax. */
   std::array<double, 6> bounds{};
-  /** Most vertices alive at once; -1 if not known. */
+  /** The maximum number of simultaneously active vertices; -1 if unknown. */
   std::int64_t width = -1;
-  /** Largest index distance between two vertices of a cell; -1 if not known. */
+  /** The largest index distance between two vertices of a cell; -1 if unknown. */
   std::int64_t span = -1;
-  /** Whether positions carry double precision (else they were single precision numbers). */
+  /** Whether positions have double precision (otherwise single precision). */
   bool doublePositions = true;
-  /** The attribute columns that blocks carry, in this order. */
+  /** The attribute columns of blocks, in this order. */
   std::vector<ColumnSpec> vertexColumns;
   std::vector<ColumnSpec> cellColumns;
 };
 
-/**
- * The next stretch of a mesh stream: some vertices, then some cells that use these or earlier ones.
- * Blocks may be of any size; a block may have no vertices or no cells, but not neither.
- */
+/** The next part of a mesh stream: vertices, followed by cells that use these or earlier ones.
+ * Blocks may have any size, and may have no vertices or no cells, but not both. */
 struct MeshBlock
 {
   std::int64_t firstVertex = 0;      ///< stream index of the block's first vertex
   std::int64_t firstCell = 0;        ///< stream index of the block's first cell
   std::vector<double> positions;     ///< x, y, z of each vertex of the block
-  std::vector<std::int64_t> corners; ///< stream indices, cornersOf(cellType) a cell
-  std::vector<Column> vertexColumns; ///< as StreamInfo::vertexColumns, a tuple a vertex
-  std::vector<Column> cellColumns;   ///< as StreamInfo::cellColumns, a tuple a cell
+  std::vector<std::int64_t> corners; ///< stream indices, cornersOf(cellType) per cell
+  std::vector<Column> vertexColumns; ///< as StreamInfo::vertexColumns, a tuple per vertex
+  std::vector<Column> cellColumns;   ///< as StreamInfo::cellColumns, a tuple per cell
   /** No cell after this block uses a vertex with a stream index below this one. */
   std::int64_t finalized = 0;
 
@@ -95,8 +92,8 @@ public:
   /** Valid from construction on. */
   virtual const StreamInfo& info() const = 0;
 
-  /** Fills `block` (its vectors' memory is reused); false at the end. Throws Error. Called on the
-   * thread that solves. */
+  /** Fills `block`, reusing the memory of its vectors; returns false at the end. Throws Error.
+   * Called on the solving thread. */
   virtual bool next(MeshBlock& block) = 0;
 };
 

@@ -93,7 +93,7 @@ struct Datum
 
 /**
  * An elliptic problem -div(K grad u - q) + s u = f on a mesh, in terms of regions and columns of
- * that mesh; DescribedProblem makes it a Problem. Defaults: the Laplace equation, one column.
+ * that mesh; DescribedProblem turns it into a Problem. Defaults: the Laplace equation, one column.
  *
  *     ProblemDescription heat;
  *     heat.conductivity = { { Everywhere{}, 1.0 }, { ColumnTag{ "PhysicalTag", 3 }, 10.0 } };
@@ -101,12 +101,12 @@ struct Datum
  *     heat.dirichlet = { { Region::Sphere{ { 0, 0, 0 }, 0.1 }, 20.0 } };
  *     heat.robin = { { ColumnMask{ "outside" }, 5.0, 4.0 } };
  *
- * Values have `columns` numbers, coefficients one. A column of the vertices that is asked for in a
- * cell counts by the mean of the corners.
+ * Values have `columns` numbers, coefficients one. In a cell, a column of the vertices has the mean
+ * value of the corners.
  */
 struct ProblemDescription
 {
-  /** Most columns of a problem. */
+  /** The maximum number of columns of a problem. */
   static constexpr int MostColumns = 64;
 
   /** (K grad u - q) . n = coefficient * (ambient - u) on a part of the boundary. */
@@ -125,31 +125,30 @@ struct ProblemDescription
   };
 
   Weights weights = Weights::Cotangent;
-  /** Right-hand sides that are solved at once, 1 to 64. */
+  /** The number of simultaneous right-hand sides, 1 to 64. */
   int columns = 1;
   /** K in the cells: a positive number, the diagonal of a tensor (xx, yy, zz), or a symmetric
    * positive definite tensor (xx, yy, zz, xy, yz, xz). Not given: 1. Not with Weights::Uniform. */
   Datum conductivity;
-  /** s, at least 0; at the vertices, but in the cells if an entry names a column of the cells. */
+  /** s, at least 0; at the vertices, or in the cells if an entry names a column of the cells. */
   Datum screening;
-  /** f, a density; at the vertices, but in the cells if an entry names a column of the cells. */
+  /** f, a density; at the vertices, or in the cells if an entry names a column of the cells. */
   Datum source;
-  /** Name of the column of the cells with q: a vector for all columns, or one for each. Empty:
-   * none.
-   */
+  /** The name of the column of the cells with q: a vector for all columns, or one per column.
+   * Empty: none. */
   std::string field;
-  /** Where the iteration begins, which also says the mean of parts that nothing holds. Not given:
-   * the position if a Dirichlet value is the position, else 0. */
+  /** The initial values of the iteration, which also define the mean of unconstrained components.
+   * Not given: the position if a Dirichlet value is the position, else 0. */
   Datum initial;
-  /** Prescribed u at vertices; of the entries that hold somewhere the last one counts. */
+  /** Prescribed u at vertices; of several entries at a place the last one counts. */
   std::vector<PlacedValue> dirichlet;
   /** Prescribed (K grad u - q) . n, positive into the body, on parts of the boundary: open edges of
-   * a surface, faces of one tetrahedron. Of the entries that hold somewhere the last one counts. */
+   * a surface, faces of one tetrahedron. Of several entries at a place the last one counts. */
   std::vector<PlacedValue> flux;
   std::vector<Robin> robin;
-  /** Entries that hold at the same place add up. */
+  /** Entries at the same place add up. */
   std::vector<Soft> soft;
-  /** Whether the gradient of u and -K grad u in the cells are to be results, too. */
+  /** Whether the gradient of u and -K grad u in the cells are additional results. */
   bool gradientOutput = false, fluxOutput = false;
 };
 

@@ -30,13 +30,13 @@ public:
   {
     std::array<double, 3> low{}, high{};
   };
-  /** All points at most `radius` from `center`. */
+  /** All points within `radius` of `center`. */
   struct Sphere
   {
     std::array<double, 3> center{};
     double radius = 0;
   };
-  /** Vertices by their original numbers, from 0, in any order. */
+  /** Vertices by their original indices, from 0, in any order. */
   struct Vertices
   {
     std::vector<std::int64_t> ids;
@@ -56,16 +56,17 @@ public:
   }
   Region(Vertices shape);
 
-  /** What is wrong with the region, as "must have a radius of at least 0"; empty: nothing. */
+  /** The error of an invalid region, for example "must have a radius of at least 0"; empty if
+   * valid. */
   std::string complaint() const;
 
-  /** Whether the vertex at `point` (x, y, z) with this original number is selected. */
+  /** Whether the vertex at `point` (x, y, z) with this original index is selected. */
   bool contains(std::span<const double, 3> point, std::int64_t id) const;
 
-  /** The middle of a sphere or a box; none of the others. */
+  /** The centre of a sphere or a box; none for other regions. */
   std::optional<std::array<double, 3>> center() const;
 
-  /** The vertices, ascending and each once, if the region is a set of these, else null. */
+  /** The vertices, ascending without duplicates, if the region is a set of vertices, else null. */
   const Vertices* vertices() const { return std::get_if<Vertices>(&this->What); }
 
 private:
