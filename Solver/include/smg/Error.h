@@ -11,22 +11,24 @@ namespace smg
 {
 
 /**
- * The exception of the library. Its text is a sentence that a user can act on: it names the file or
- * parameter, the place, what is wrong and, where there is something to do, what to do.
+ * The exception of the library. Its text is meant for users: it names the file or parameter, the
+ * place, what is wrong and, if there is a remedy, what to do.
  */
 class SMG_EXPORT Error : public std::runtime_error
 {
 public:
+  /** An error with this text. */
   explicit Error(const std::string& sentence)
     : std::runtime_error(sentence)
   {
   }
 };
 
-/** Thrown when the progress callback asks to stop. Nothing is left behind. */
+/** Thrown when a ProgressFunction returns false. No partial output and no scratch file remains. */
 class SMG_EXPORT Cancelled : public Error
 {
 public:
+  /** With the text "cancelled". */
   Cancelled()
     : Error("cancelled")
   {
@@ -34,8 +36,8 @@ public:
 };
 
 /**
- * A progress callback: called with the fraction done (0 to 1, never decreasing over a whole
- * operation); returns whether to continue. False ends the operation with Cancelled.
+ * A progress callback: takes the fraction done, from 0 to 1, which never decreases during an
+ * operation, and returns whether to continue. False ends the operation with Cancelled.
  */
 using ProgressFunction = std::function<bool(double)>;
 

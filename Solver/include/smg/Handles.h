@@ -10,25 +10,26 @@
 namespace smg
 {
 
-/** Names of the vertex columns, and of the VTK point arrays, that hold handles. */
-inline constexpr const char* HandleMaskName = "HandleMask";         ///< uint8
-inline constexpr const char* HandleTargetName = "HandleTarget";     ///< 3 double
-inline constexpr const char* HandleRotationName = "HandleRotation"; ///< 3 double
-inline constexpr const char* HandleLogScaleName = "HandleLogScale"; ///< double
+// Names of the vertex columns, and of the VTK point arrays, that hold handles: see VertexHandles.
 
-/** What the handles say at a stretch of vertices: one entry, or three numbers, a vertex. */
+inline constexpr const char* HandleMaskName = "HandleMask";         ///< mask: uint8
+inline constexpr const char* HandleTargetName = "HandleTarget";     ///< target: 3 x float64
+inline constexpr const char* HandleRotationName = "HandleRotation"; ///< rotation: 3 x float64
+inline constexpr const char* HandleLogScaleName = "HandleLogScale"; ///< logScale: float64
+
+/** Handles at consecutive vertices. Of a free vertex only `mask` is looked at. */
 struct VertexHandles
 {
-  /** How many handles hold the vertex; the last one counts. 0: the vertex is free. */
+  /** One a vertex: the number of handles that hold it, of which the last one counts. 0: free. */
   std::vector<std::uint8_t> mask;
-  /** Where a held vertex goes: x, y, z. Not looked at where the vertex is free. */
+  /** Three a vertex: its new position x, y, z, in the unit of the mesh. */
   std::vector<double> target;
-  /** How a held vertex turns: the unit axis times the angle in radians, of any size. */
+  /** Three a vertex: its rotation vector, the unit axis times the angle in radians, of any size. */
   std::vector<double> rotation;
-  /** How a held vertex grows: the natural logarithm of the scale. */
+  /** One a vertex: the natural logarithm of its scale, from -46 to 46. */
   std::vector<double> logScale;
 
-  /** `vertices` free vertices. */
+  /** Makes this `vertices` free vertices. */
   void clear(std::size_t vertices)
   {
     this->mask.assign(vertices, 0);
@@ -38,16 +39,17 @@ struct VertexHandles
   }
 };
 
-/** The handles by which a mesh is deformed. They are asked block by block, in stream order, once.
- */
+/** The handles by which a mesh is deformed. They are asked once for each block, in stream order. */
 class SMG_EXPORT Handles
 {
 public:
   virtual ~Handles() = default;
 
   /**
-   * Says what holds at the vertices of the block; `handles` is clear. What is not finite at a held
-   * vertex is an error.
+   * Sets the handles at the vertices of a block.
+   * @param block the next block of the stream
+   * @param handles the block's vertices, all free on entry. deform() throws Error if its size
+   * changes, a number at a held vertex is not finite, or a scale there is outside 1e-20 to 1e20.
    */
   virtual void at(const MeshBlock& block, VertexHandles& handles) = 0;
 };

@@ -13,16 +13,20 @@ namespace smg
 {
 
 /**
- * Solves as solve() does, with an operator set of the program's own: a type that satisfies the
- * concept OperatorSet (see Solver/Operators/OperatorSet.h), for which the multigrid is compiled
- * here. `options.operators` is ignored.
+ * As solve(), with an operator set of the program's own.
  *
- * A program that includes this file needs GCC or Clang and links StreamingMultigrid::Engine, which
- * brings the sources of the engine, whose names may change with any version, and the flags by which
- * every machine computes the same bits.
+ * A program that includes this file needs GCC or Clang and links StreamingMultigrid::Engine: its
+ * headers, whose names may change with any version, and the compiler flags by which the same bits
+ * are computed on every machine.
  *
- * @return the solution, `problem.columns()` values a vertex
- * @throws Error, Cancelled as solve()
+ * @tparam Operators a type that satisfies the concept OperatorSet (Solver/Operators/OperatorSet.h);
+ * the multigrid is compiled for it
+ * @param mesh the stream, read once
+ * @param problem the problem
+ * @param options how to solve; `operators` is ignored
+ * @return the solution, problem.columns() values a vertex
+ * @throws Error as solve()
+ * @throws Cancelled as solve()
  */
 template <OperatorSet Operators>
 std::unique_ptr<Solution> solveWith(
