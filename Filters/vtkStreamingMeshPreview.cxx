@@ -86,7 +86,7 @@ struct vtkStreamingMeshPreview::Internals
     }
     this->Preview.reset();
     PulledMesh mesh(input, this->Self.NumberOfPieces, smg::progressOf(this->Self));
-    smg::MeshPiece preview = smg::pieceOf(smg::makePreview(mesh, this->Self.PreviewPoints));
+    smg::MeshPiece preview = smg::makePreview(mesh, this->Self.PreviewPoints);
     this->Full = mesh.counted();
     if (preview.corners.empty() && this->Full.cells > 0)
     {

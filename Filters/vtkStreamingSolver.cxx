@@ -3,6 +3,7 @@
 
 #include "Filters/Streaming/vtkInputStamp.h"
 #include "Filters/Streaming/vtkPieceRequest.h"
+#include "Filters/Streaming/vtkSharedRequest.h"
 #include "Filters/Streaming/vtkSolutionExchange.h"
 #include "Filters/Streaming/vtkStreamedSolve.h"
 #include "IO/vtkAlgorithmGlue.h"
@@ -22,7 +23,6 @@
 #include "vtkTimeStamp.h"
 
 #include <exception>
-#include <optional>
 #include <string>
 
 vtkCxxSetObjectMacro(vtkStreamingSolver, Controller, vtkMultiProcessController);
@@ -68,11 +68,7 @@ struct vtkStreamingSolver::Internals
         }
         this->deliver(*present, values, *vtkPointSet::GetData(outputInfo));
       });
-    if (!request.IsStreamed)
-    {
-      const smg::InputStamp stamp = smg::stampOf(this->Self, input, inputInfo);
-      this->Shared = Answered{ stamp, request.Piece, request.Pieces };
-    }
+    this->Shared.noteAnswer(request, smg::stampOf(this->Self, input, inputInfo));
   }
 
   /** The processes that process the request collectively; nullptr: this process alone. */
@@ -80,25 +76,8 @@ struct vtkStreamingSolver::Internals
     const smg::PieceRequest& request, smg::PieceInput& input, vtkInformation* inputInfo)
   {
     const bool isServer = smg::SolutionExchange(this->Self.Controller).isServer();
-    if (request.IsStreamed)
-    {
-      // Only process 0 streams: the others do not take part.
-      if (!isServer)
-      {
-        throw smg::Error("A streamed request reached a process other than 0, which has no "
-                         "solution: stream in process 0.");
-      }
-      this->HasStreamed = true;
-      return nullptr;
-    }
-    const Answered now{ smg::stampOf(this->Self, input, inputInfo), request.Piece, request.Pieces };
-    if (isServer && this->HasStreamed && this->Shared == now)
-    {
-      return nullptr;
-    }
-    this->HasStreamed = false;
-    this->Shared.reset();
-    return this->Self.Controller;
+    const smg::InputStamp stamp = smg::stampOf(this->Self, input, inputInfo);
+    return this->Shared.isShared(request, stamp, isServer) ? this->Self.Controller : nullptr;
   }
 
   static vtkSmartPointer<vtkPointSet> bring(
@@ -226,14 +205,6 @@ struct vtkStreamingSolver::Internals
     output.GetFieldData()->AddArray(report);
   }
 
-  /** A request and the state that its output depends on. */
-  struct Answered
-  {
-    smg::InputStamp stamp;
-    int piece = 0, pieces = 0;
-    bool operator==(const Answered&) const = default;
-  };
-
   /** The last known modification time of the pipeline. */
   vtkMTimeType pipelineTime() const
   {
@@ -248,11 +219,7 @@ struct vtkStreamingSolver::Internals
   smg::StreamedSolve Streamed;
   smg::SolveSummary Summary; ///< of the last output
   std::string Outcome;       ///< storage of the string returned by GetOutcome()
-  /** The last request that all processes processed collectively. */
-  std::optional<Answered> Shared;
-  /** Whether requests have been streamed since then. These replace its piece in process 0 only,
-   * which may then receive the same request once more, alone. */
-  bool HasStreamed = false;
+  smg::SharedRequest Shared;
 };
 
 vtkStreamingSolver::vtkStreamingSolver()

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkOrdinaryMesh.h"
 
+#include "IO/vtkComplaints.h"
 #include "IO/vtkPieceNames.h"
-#include "IO/vtkRawXml.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "smg/Error.h"
 
@@ -20,11 +20,21 @@ namespace smg
 namespace
 {
 
+/** Has VTK's `Writer` of .vtp or .vtu files write the mesh as it is parsed as a stream. */
 template <class Writer>
 void writeRaw(vtkPointSet& mesh, const std::filesystem::path& path)
 {
-  vtkReaderComplaints complaints;
-  if (!writeRawXml<Writer>(mesh, path, complaints))
+  vtkComplaints complaints;
+  vtkNew<Writer> writer;
+  writer->AddObserver(vtkCommand::ErrorEvent, complaints.command());
+  writer->SetFileName(path.c_str());
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToNone();
+  writer->SetHeaderTypeToUInt64();
+  writer->SetInputData(&mesh);
+  writer->Write();
+  if (writer->GetErrorCode() != 0 || !complaints.text().empty())
   {
     throw Error(path.string() + ": VTK cannot write the mesh there: " +
                 (complaints.text().empty() ? "unknown error" : complaints.text()) + '.');

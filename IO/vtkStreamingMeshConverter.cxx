@@ -144,6 +144,11 @@ void vtkStreamingMeshConverter::UpdateContainer()
   {
     options.weld = this->WeldDistance;
   }
+  options.timeStep = this->TimeStep;
+  if (this->Partition >= 0)
+  {
+    options.partition = this->Partition;
+  }
   options.memoryLimit = std::int64_t(this->MemoryLimit) << 20;
   options.scratch = scratch ? scratch : "";
   options.progress = smg::progressOf(*this);
@@ -164,6 +169,8 @@ void vtkStreamingMeshConverter::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Cells: " << this->Cells << "\n";
   os << indent << "Weld: " << this->Weld << "\n";
   os << indent << "WeldDistance: " << this->WeldDistance << "\n";
+  os << indent << "TimeStep: " << this->TimeStep << "\n";
+  os << indent << "Partition: " << this->Partition << "\n";
   os << indent << "Overwrite: " << this->Overwrite << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "Report: " << this->Report << "\n";

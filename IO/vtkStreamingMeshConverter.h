@@ -4,7 +4,7 @@
  * @brief   Converts a mesh file to a stream, keeps it, and delivers its pieces
  *
  * Converts a mesh file of any readable format (PLY, OBJ, OFF, STL, Medit, Gmsh, TetGen, legacy VTK,
- * .vtp, .vtu, .pvtp, .pvtu, .vtkhdf, SMA, SMB, SVA, SVB, .vsm, also .gz) to a stream order and
+ * .vtp, .vtu, .pvtp, .pvtu, VTKHDF, SMA, SMB, SVA, SVB, .vsm, also .gz) to a stream order and
  * writes it to the container OutputFileName, which is kept. FileName is the mesh file; apart from
  * that, this is a vtkStreamingMeshReader of the container: see there for pieces, arrays, and the
  * preview of large meshes. ScratchDirectory is the folder for the scratch files of the conversion.
@@ -13,10 +13,11 @@
  * container. Use this class if a mesh is opened more than once.
  *
  * The conversion is executed on the first request of the pipeline. It is repeated only if FileName,
- * its file, Order, Cells or Weld has changed: the container records its source, so that it is also
- * reused in later sessions. If OutputFileName exists and is not a conversion of FileName, the
- * request fails and the file is kept, unless Overwrite is on. With several processes, one converts
- * and the others wait; FileName and OutputFileName must then be accessible to all.
+ * its file, Order, Cells, Weld, TimeStep or Partition has changed: the container records its
+ * source, so that it is also reused in later sessions. If OutputFileName exists and is not a
+ * conversion of FileName, the request fails and the file is kept, unless Overwrite is on. With
+ * several processes, one converts and the others wait; FileName and OutputFileName must then be
+ * accessible to all.
  *
  * The conversion works out of core: it stays within MemoryLimit and needs space for scratch files
  * in ScratchDirectory of about five times the size of the mesh in memory.
@@ -88,6 +89,21 @@ public:
   ///@}
 
   ///@{
+  /** Which time step of a file with time steps (VTKHDF) to read, from 0. Default: 0. */
+  vtkSetClampMacro(TimeStep, int, 0, VTK_INT_MAX);
+  vtkGetMacro(TimeStep, int);
+  ///@}
+
+  ///@{
+  /**
+   * Which partition of a file with partitions (VTKHDF) to read, from 0. Default: -1, all of them,
+   * joined.
+   */
+  vtkSetClampMacro(Partition, int, -1, VTK_INT_MAX);
+  vtkGetMacro(Partition, int);
+  ///@}
+
+  ///@{
   /**
    * Whether OutputFileName may replace a file that is not a conversion of FileName. Default: off.
    */
@@ -135,6 +151,8 @@ private:
   int Cells = ONLY;
   bool Weld = false;
   double WeldDistance = 0.0;
+  int TimeStep = 0;
+  int Partition = -1;
   bool Overwrite = false;
   int MemoryLimit = 0;
   std::string Report, Estimate;

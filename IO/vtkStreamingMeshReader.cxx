@@ -7,7 +7,7 @@
 #include "IO/Preview/PreviewPiece.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshPieceData.h"
-#include "IO/vtkPieceNames.h"
+#include "IO/vtkSelectedColumns.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Storage/BlockFile.h"
 #include "smg/Error.h"
@@ -25,10 +25,10 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 using vtkSDDP = vtkStreamingDemandDrivenPipeline;
@@ -55,7 +55,7 @@ struct vtkStreamingMeshReader::Internals
   /** Of the last failure to open the mesh: a repeated request neither retries nor reports again. */
   Stamp Failed;
   /** The columns read with the pieces of the file; none before the first piece. */
-  std::optional<std::array<std::vector<std::string>, 2>> Columns;
+  std::optional<std::pair<std::vector<std::string>, std::vector<std::string>>> Columns;
   std::optional<smg::MeshPiece> Preview;
   int PreviewPoints = 0;
 
@@ -125,14 +125,6 @@ struct vtkStreamingMeshReader::Internals
     return *this->Preview;
   }
 
-  /**
-   * Every piece has the cell flags and the arrays of the piece contract: these are not selectable.
-   */
-  static bool isSelectable(const smg::ColumnSpec& column)
-  {
-    return column.name != smg::CellFlagsName && !smg::isContractArray(column.name);
-  }
-
   /** Sets the type of the output according to the cells. */
   static void setOutput(vtkInformation& info, bool isSurface)
   {
@@ -153,32 +145,6 @@ struct vtkStreamingMeshReader::Internals
     }
   }
 
-  static void offer(vtkDataArraySelection& selection, const std::vector<smg::ColumnSpec>& columns)
-  {
-    for (const smg::ColumnSpec& column : columns)
-    {
-      if (isSelectable(column) && !selection.ArrayExists(column.name.c_str()))
-      {
-        selection.AddArray(column.name.c_str());
-      }
-    }
-  }
-
-  static std::vector<std::string> chosen(
-    vtkDataArraySelection& selection, const std::vector<smg::ColumnSpec>& columns)
-  {
-    std::vector<std::string> names;
-    for (const smg::ColumnSpec& column : columns)
-    {
-      if (column.name == smg::CellFlagsName ||
-          (isSelectable(column) && selection.ArrayIsEnabled(column.name.c_str())))
-      {
-        names.push_back(column.name);
-      }
-    }
-    return names;
-  }
-
   /** Reads the real piece with the selected arrays. */
   void readPiece(vtkPointSet& output, int part, int parts)
   {
@@ -189,14 +155,15 @@ struct vtkStreamingMeshReader::Internals
       return static_cast<std::int64_t>(
         static_cast<__int128>(info.cells) * std::min(p, parts) / parts);
     };
-    const std::array<std::vector<std::string>, 2> columns = {
-      chosen(*this->PointArrays, info.vertexColumns), chosen(*this->CellArrays, info.cellColumns)
-    };
+    const std::vector<std::string> ofPoints =
+      smg::chosenColumns(*this->PointArrays, info.vertexColumns);
+    const std::vector<std::string> ofCells =
+      smg::chosenColumns(*this->CellArrays, info.cellColumns);
     // Selecting columns makes the file reader discard the active vertices.
-    if (this->Columns != columns)
+    if (this->Columns != std::pair(ofPoints, ofCells))
     {
-      reader.selectColumns(columns[0], columns[1]);
-      this->Columns = columns;
+      reader.selectColumns(ofPoints, ofCells);
+      this->Columns = { ofPoints, ofCells };
     }
     smg::MeshPiece piece;
     reader.readPiece(firstCell(part), firstCell(part + 1), piece);
@@ -219,7 +186,8 @@ struct vtkStreamingMeshReader::Internals
         piece.vertexColumns.push_back({ spec, {} });
       }
     }
-    const std::vector<std::string> names = chosen(*this->PointArrays, full.vertexColumns);
+    const std::vector<std::string> names =
+      smg::chosenColumns(*this->PointArrays, full.vertexColumns);
     std::erase_if(piece.vertexColumns, [&names](const smg::Column& column)
       { return std::find(names.begin(), names.end(), column.spec.name) == names.end(); });
     smg::StreamInfo info = full;
@@ -378,8 +346,8 @@ int vtkStreamingMeshReader::RequestInformation(
     reader.isolatedVertices() > 0 ? reader.path().c_str() : "");
   output->Set(
     vtkStreamingMeshKeys::PREVIEWED(), info.vertices > this->MaximumPointsInMemory ? 1 : 0);
-  Internals::offer(*this->Internal->PointArrays, info.vertexColumns);
-  Internals::offer(*this->Internal->CellArrays, info.cellColumns);
+  smg::offerColumns(*this->Internal->PointArrays, info.vertexColumns);
+  smg::offerColumns(*this->Internal->CellArrays, info.cellColumns);
   return smg::offerPieces(*outputVector);
 }
 

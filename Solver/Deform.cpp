@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Deform.h"
 
-#include "Solver/Deformation/DeformationOperators.h"
 #include "Solver/Deformation/InteractiveDeformation.h"
 #include "Solver/Deformation/InteractiveEngine.h"
 #include "Solver/Engine/CheckOptions.h"
+#include "Solver/Engine/ExtendedEngine.h"
+#include "Solver/Operators/Extended.h"
 #include "Solver/Shi2006/Shi2006.h"
 #include "smg/Error.h"
 #include "smg/Solve.h"
@@ -27,19 +28,29 @@ void checkOptions(const DeformOptions& options)
   }
 }
 
+namespace
+{
+
+/** The best V-cycles: whoever gives the number of them for a step relies on what few achieve. */
+Extended operatorsFor(CellType cells)
+{
+  return Extended::forFewCycles(cells);
+}
+
+} // namespace
+
 std::unique_ptr<Solution> deform(MeshSource& mesh, Handles& handles, const DeformOptions& options)
 {
   checkOptions(options);
-  auto engine =
-    std::make_unique<DeformationEngine<DeformationOperators>>(options, mesh.info().cellType);
-  engine->deform(mesh, handles);
-  engine->keepSolution();
-  return engine;
+  const CellType cells = mesh.info().cellType;
+  DeformationEngine<Extended> engine(operatorsFor(cells), options, cells);
+  engine.deform(mesh, handles);
+  return engine.takeSolution();
 }
 
 struct InteractiveDeformation::Implementation
 {
-  InteractiveEngine<DeformationOperators> engine;
+  InteractiveEngine<Extended> engine;
 };
 
 namespace
@@ -56,7 +67,8 @@ DeformOptions inCore(DeformOptions options)
 
 InteractiveDeformation::InteractiveDeformation(
   MeshSource& mesh, Handles& handles, const DeformOptions& options)
-  : Self(new Implementation{ { inCore(options), mesh.info().cellType } })
+  : Self(new Implementation{
+      { operatorsFor(mesh.info().cellType), inCore(options), mesh.info().cellType } })
 {
   this->Self->engine.deform(mesh, handles);
 }
@@ -70,7 +82,7 @@ bool InteractiveDeformation::update(const VertexHandles& handles)
 
 std::int64_t InteractiveDeformation::vertices() const
 {
-  return this->Self->engine.vertices();
+  return this->Self->engine.report().vertices;
 }
 
 void InteractiveDeformation::read(std::int64_t first, std::int64_t count, std::span<double> values)

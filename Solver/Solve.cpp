@@ -2,6 +2,7 @@
 #include "smg/Solve.h"
 
 #include "Solver/Engine/CheckOptions.h"
+#include "Solver/Engine/ExtendedEngine.h"
 #include "Solver/Operators/Extended.h"
 #include "Solver/Shi2006/Shi2006.h"
 #include "smg/Error.h"

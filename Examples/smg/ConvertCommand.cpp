@@ -132,7 +132,7 @@ void addConvertCommand(CLI::App& program, Action& action)
     ->add_flag("--restore-order", options->restoreOrder,
       "Write vertices and cells in the order of the original file of the .vsm file IN, to a " +
         smg::suffixList(smg::FormatUse::Restore, "or") + " file")
-    ->excludes("--order", "--weld", "--cells", "--codec");
+    ->excludes("--order", "--weld", "--cells", "--codec", "--time-step", "--partition");
   command->add_flag("--dry-run", options->dryRun,
     "Only estimate the size of the mesh and the cost of the conversion");
   options->addTo(*command);

@@ -46,7 +46,12 @@ nlohmann::ordered_json describe(const std::filesystem::path& file, smg::OpenedMe
   json["mean_width"] = reader.meanWidth();
   json["columns"] = { { "vertices", describe(info.vertexColumns) },
     { "cells", describe(info.cellColumns) } };
-  if (!mesh.conversion())
+  if (const auto& conversion = mesh.conversion())
+  {
+    json["time_steps"] = conversion->time_steps;
+    json["partitions"] = conversion->partitions;
+  }
+  else
   {
     json["blocks"] = { { "vertices", reader.vertexBlocks() }, { "cells", reader.cellBlocks() } };
     json["codec"] = nameOfCodec(reader.codec());
@@ -85,7 +90,16 @@ void print(const std::filesystem::path& file, smg::OpenedMesh& mesh)
     100.0 * static_cast<double>(info.span) / vertices);
   printColumns("vertex data", info.vertexColumns);
   printColumns("cell data  ", info.cellColumns);
-  if (!mesh.conversion())
+  if (const auto& conversion = mesh.conversion())
+  {
+    if (conversion->partitions > 0)
+    {
+      std::printf("  time steps  %lld\n  partitions  %lld\n",
+        static_cast<long long>(conversion->time_steps),
+        static_cast<long long>(conversion->partitions));
+    }
+  }
+  else
   {
     std::printf("  blocks      %lld of vertices, %lld of cells\n",
       static_cast<long long>(reader.vertexBlocks()), static_cast<long long>(reader.cellBlocks()));

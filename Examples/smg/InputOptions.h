@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,7 +14,7 @@
 class InputOptions
 {
 public:
-  /** Adds --cells and --weld. */
+  /** Adds --cells, --weld, --time-step and --partition. */
   void addTo(CLI::App& command);
 
   /** Applies the options. */
@@ -27,4 +28,6 @@ public:
 private:
   std::string Cells;
   std::optional<double> Weld;
+  std::int64_t TimeStep = 0;
+  std::optional<std::int64_t> Partition;
 };

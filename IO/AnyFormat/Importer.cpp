@@ -15,8 +15,8 @@ namespace smg
 namespace
 {
 
-void import(
-  InputFile& file, const Format* format, RawMeshBuilder& builder, const ProgressFunction& progress)
+void import(InputFile& file, const Format* format, RawMeshBuilder& builder,
+  const ImportOptions& options, const ProgressFunction& progress)
 {
   if (!format)
   {
@@ -24,19 +24,23 @@ void import(
                 "read from " + suffixList(FormatUse::Read, "and") +
                 " files, which may be compressed by gzip.");
   }
-  format->parse(file, builder, progress);
+  if (!format->hasParts)
+  {
+    checkIsWhole(options.part, file.name());
+  }
+  format->parse(file, builder, options.part, progress);
 }
 
-RawMesh importInflated(
-  InputFile& file, Workspace& workspace, CellChoice cells, const ProgressFunction& progress)
+RawMesh importInflated(InputFile& file, Workspace& workspace, const ImportOptions& options,
+  const ProgressFunction& progress)
 {
   // The name of the file before decompression, with its suffix.
   const Format* const format = formatOfStart(
     std::string(file.at(0, FormatBytes).substr(0, FormatBytes)), file.size(), file.name());
   try
   {
-    RawMeshBuilder builder(workspace, cells);
-    import(file, format, builder, progress);
+    RawMeshBuilder builder(workspace, options.cells);
+    import(file, format, builder, options, progress);
     return builder.finish();
   }
   catch (const MeshError& error)
@@ -62,7 +66,7 @@ RawMesh importMesh(
   const ProgressFunction progress =
     inflated ? partOf(options.progress, inflatingShare, 1.0) : options.progress;
   InputFile file(inflated ? inflated->path() : path, progress, path.string());
-  return importInflated(file, workspace, options.cells, progress);
+  return importInflated(file, workspace, options, progress);
 }
 
 } // namespace smg

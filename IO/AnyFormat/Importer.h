@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Formats/MeshPart.h"
 #include "IO/Raw/RawMeshBuilder.h"
 #include "Solver/Core/Progress.h"
 #include "smg/Export.h"
@@ -15,6 +16,7 @@ struct ImportOptions
 {
   CellChoice cells = CellChoice::Only;
   ProgressFunction progress;
+  MeshPart part = {};
 };
 
 /**
@@ -22,7 +24,7 @@ struct ImportOptions
  * format is detected from the content, and from the suffix only if the content is ambiguous.
  * @throws Error with the file and the line, record or byte: the format is unknown, the file is
  * empty, truncated or inconsistent, a coordinate is not finite, a corner is not a vertex, there are
- * no cells, or both triangles and tetrahedra; Cancelled.
+ * no cells, both triangles and tetrahedra, or no such part; Cancelled.
  */
 SMG_EXPORT RawMesh importMesh(
   const std::filesystem::path& path, Workspace& workspace, const ImportOptions& options = {});

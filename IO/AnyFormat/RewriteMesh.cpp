@@ -3,6 +3,7 @@
 
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
+#include "IO/External/Workspace.h"
 #include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Files/PartialProgress.h"
@@ -46,8 +47,8 @@ void rewriteMesh(const std::filesystem::path& in, const std::filesystem::path& o
                 " can be kept in a file of the same kind only, from a streaming format to a "
                 "streaming format for these cells, or from PLY to PLY.");
   }
-  MovedVertices vertices(
-    moved, options.scratch, options.memory, partOf(options.progress, 0.0, 0.3));
+  Workspace workspace(options.scratch, options.memory);
+  MovedVertices vertices(moved, workspace, partOf(options.progress, 0.0, 0.3));
   const ProgressFunction progress = partOf(options.progress, 0.3, 1.0);
   if (formatOfName(out) == &PlyFormat)
   {

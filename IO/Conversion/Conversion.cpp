@@ -68,6 +68,7 @@ bool Conversion::isStream() const
 
 const VsmReader& Conversion::openStream()
 {
+  checkIsWhole(this->part(), this->In.string());
   const bool direct = this->From == MeshFileKind::Vsm;
   this->Stream.emplace(direct ? this->In : this->importStream());
   this->checkCells(this->Stream->info());

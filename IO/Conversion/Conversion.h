@@ -3,6 +3,7 @@
 
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/External/Workspace.h"
+#include "IO/Formats/MeshPart.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
 #include "smg/Convert.h"
 #include "smg/VsmReader.h"
@@ -27,6 +28,8 @@ public:
   const std::filesystem::path& in() const { return this->In; }
   const std::filesystem::path& out() const { return this->Out; }
   const ConversionOptions& options() const { return this->Options; }
+  /** The requested part of the input. */
+  MeshPart part() const { return { this->Options.timeStep, this->Options.partition }; }
   /** The memory limit in bytes. */
   std::int64_t memory() const { return this->Memory; }
 

@@ -68,11 +68,12 @@ Counts guess(InputFile& file, bool compressed, const VertexShare& share)
   return counts;
 }
 
-Counts countsOf(const std::filesystem::path& path)
+Counts countsOf(const std::filesystem::path& path, const MeshPart& part)
 {
   const MeshFileKind kind = kindOfInput(path);
   if (kind == MeshFileKind::Vsm)
   {
+    checkIsWhole(part, path.string());
     const StreamInfo info = VsmReader(path).info();
     return { { info.vertices, info.cells, cornersOf(info.cellType), columnBytes(info), true }, 0 };
   }
@@ -84,9 +85,13 @@ Counts countsOf(const std::filesystem::path& path)
   const Format* const format = kind == MeshFileKind::Stream ? &StreamsFormat : formatOfFile(path);
   InputFile file(path);
   const bool compressed = isGzip(file.at(0, 2));
+  if (!format || !format->hasParts)
+  {
+    checkIsWhole(part, path.string());
+  }
   if (format && format->counts && !compressed && !compressedStream)
   {
-    if (const std::optional<FileCounts> counts = format->counts(file))
+    if (const std::optional<FileCounts> counts = format->counts(file, part))
     {
       return { *counts, 0 };
     }
@@ -144,7 +149,7 @@ void checkScratchRoom(const std::filesystem::path& folder, std::int64_t bytes, s
 ConversionEstimate estimateConversion(
   const std::filesystem::path& in, const ConversionOptions& options)
 {
-  const Counts counts = countsOf(in);
+  const Counts counts = countsOf(in, { options.timeStep, options.partition });
   ConversionEstimate estimate;
   estimate.vertices = counts.vertices;
   estimate.cells = counts.cells;

@@ -10,6 +10,8 @@ std::string ConversionReport::json(int indent) const
 {
   nlohmann::ordered_json json;
   json["order"] = this->order;
+  json["time_steps"] = this->time_steps;
+  json["partitions"] = this->partitions;
   json["vertices"] = this->vertices;
   json["cells"] = this->cells;
   json["isolated_vertices"] = this->isolated_vertices;

@@ -47,8 +47,8 @@ RawMesh importInput(Conversion& conversion)
   space.beginPart(0.15, Unknown);
   if (!conversion.isStream())
   {
-    return importMesh(
-      conversion.in(), space, { conversion.options().cells, conversion.progress() });
+    return importMesh(conversion.in(), space,
+      { conversion.options().cells, conversion.progress(), conversion.part() });
   }
   return readStream(*conversion.openStream().source(), conversion.in().string(), space);
 }
@@ -60,6 +60,8 @@ void noteImport(const ImportCounts& file, ConversionReport& report)
   report.split_cells = file.splitCells;
   report.higher_order_cells = file.higherOrderCells;
   report.merged_points = file.mergedPoints;
+  report.time_steps = file.timeSteps;
+  report.partitions = file.partitions;
   for (const std::string& name : file.droppedColumns)
   {
     report.notes.push_back(

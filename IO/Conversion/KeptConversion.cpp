@@ -86,7 +86,9 @@ std::string originOf(const std::filesystem::path& in, const ConversionOptions& o
          (options.cells == CellChoice::Only         ? ""
            : options.cells == CellChoice::Triangles ? ", triangles"
                                                     : ", tetrahedra") +
-         (options.weld ? ", welded " + nlohmann::json(*options.weld).dump() : "");
+         (options.weld ? ", welded " + nlohmann::json(*options.weld).dump() : "") +
+         (options.timeStep != 0 ? ", time step " + std::to_string(options.timeStep) : "") +
+         (options.partition ? ", partition " + std::to_string(*options.partition) : "");
 }
 
 /** The origin stored in a file; empty if it has none or is not a complete .vsm file. */

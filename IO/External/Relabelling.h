@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/External/BucketFile.h"
+#include "IO/External/RowTable.h"
 
 #include <cstdint>
 #include <functional>
@@ -24,19 +24,22 @@ class Relabelling
 {
 public:
   /** For numbers in [0, end). A table takes `memory` bytes or less. */
-  Relabelling(Workspace& workspace, std::int64_t end, std::int64_t memory);
+  Relabelling(Workspace& workspace, std::int64_t end, std::int64_t memory)
+    : Space(workspace)
+    , Table(workspace, end, sizeof(std::uint32_t), memory)
+  {
+  }
 
   void put(std::uint32_t from, std::uint32_t to)
   {
-    const std::uint32_t pair[] = { from, to };
-    this->Pairs.append(static_cast<int>(from / this->Range), std::as_bytes(std::span(pair)));
+    this->Table.put(from, std::as_bytes(std::span<const std::uint32_t, 1>(&to, 1)));
   }
 
   /** Gives the memory of the pairs back: nothing is put now. */
-  void close() { this->Pairs.close(); }
+  void close() { this->Table.close(); }
 
   /** Passes over the file of numbers that apply() will take: none for numbers that are not put. */
-  int passes() const { return static_cast<int>(this->neededPasses().size()); }
+  int passes() const { return static_cast<int>(this->neededBuckets().size()); }
 
   /**
    * Gives the replaced numbers of `file` to `take`, records of `count` numbers one after the other,
@@ -59,13 +62,11 @@ private:
   using TakeChunk = std::function<void(std::span<const std::uint32_t>)>;
 
   void applyChunks(const RecordFile<std::uint32_t>& file, std::size_t count, const TakeChunk& take);
-  /** The tables that are not empty, or the first one. */
-  std::vector<int> neededPasses() const;
-  void loadTable(int pass, std::span<std::uint32_t> table);
+  /** Those of the table that are not empty, or the first one. */
+  std::vector<int> neededBuckets() const;
 
   Workspace& Space;
-  std::uint32_t Range; ///< numbers of a table
-  BucketFile Pairs;
+  RowTable Table;
 };
 
 } // namespace smg

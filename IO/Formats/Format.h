@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Formats/MeshPart.h"
 #include "Solver/Core/Progress.h"
 #include "smg/MeshSource.h"
 #include "smg/WriteMesh.h"
@@ -90,10 +91,12 @@ struct Format
    * Parses a file as a stream and gives the mesh to the builder. Of the builder's MeshError makes
    * an Error with the place in the file, or leaves it to the caller.
    */
-  void (*parse)(
-    InputFile& file, RawMeshBuilder& builder, const ProgressFunction& progress) = nullptr;
+  void (*parse)(InputFile& file, RawMeshBuilder& builder, const MeshPart& part,
+    const ProgressFunction& progress) = nullptr;
   /** What a file that is not compressed says at its beginning; none if it is too short for it. */
-  std::optional<FileCounts> (*counts)(InputFile& file) = nullptr;
+  std::optional<FileCounts> (*counts)(InputFile& file, const MeshPart& part) = nullptr;
+  /** Whether its files have time steps and partitions. Else `part` is the whole mesh. */
+  bool hasParts = false;
   /** What its size lets guess otherwise. */
   VertexShare share = {};
 
@@ -112,7 +115,7 @@ struct Format
 
 /** Format::parse of a function that does not tell progress other than by the bytes it reads. */
 template <void (*Parse)(InputFile&, RawMeshBuilder&)>
-void parseWith(InputFile& file, RawMeshBuilder& builder, const ProgressFunction&)
+void parseWith(InputFile& file, RawMeshBuilder& builder, const MeshPart&, const ProgressFunction&)
 {
   Parse(file, builder);
 }

@@ -13,9 +13,6 @@ namespace smg
 namespace
 {
 
-/** Vertices whose values are read at once. */
-constexpr std::int64_t ReadVertices = 4096;
-
 std::ptrdiff_t requireIds(const StreamInfo& info)
 {
   const std::ptrdiff_t ids =
@@ -36,52 +33,73 @@ std::ptrdiff_t findNormals(const StreamInfo& info)
 
 } // namespace
 
-MovedVertices::MovedVertices(MeshSource& moved, const std::filesystem::path& scratch,
-  std::int64_t memory, const ProgressFunction& progress)
+MovedVertices::MovedVertices(
+  MeshSource& moved, Workspace& workspace, const ProgressFunction& progress)
   : Ids(requireIds(moved.info()))
   , Normals(findNormals(moved.info()))
-  , Order(this->numbers() * sizeof(double), scratch, memory)
+  , Rows(workspace)
+  , Values(this->numbers())
 {
+  RowSort rows(workspace, workspace.available() * 3 / 4, this->numbers() * sizeof(double));
   Progress reported(progress);
   std::int64_t vertices = 0;
   for (MeshBlock block; moved.next(block);)
   {
-    this->put(block);
+    this->put(block, rows);
     vertices += block.vertices();
     reported.update(static_cast<double>(vertices) /
                     static_cast<double>(std::max(moved.info().vertices, vertices)));
   }
+  rows.sort();
+  this->keep(rows);
 }
 
-void MovedVertices::put(const MeshBlock& block)
+void MovedVertices::put(const MeshBlock& block, RowSort& rows)
 {
-  const std::vector<double>* values = &block.positions;
-  if (this->hasNormals())
+  const auto ids = block.vertexColumns[static_cast<std::size_t>(this->Ids)].as<std::int64_t>();
+  for (std::size_t v = 0; v < ids.size(); ++v)
   {
-    const Column& normals = block.vertexColumns[static_cast<std::size_t>(this->Normals)];
-    this->Values.clear();
-    for (std::size_t v = 0; v < normals.tuples(); ++v)
+    if (ids[v] < 0)
     {
-      for (std::size_t axis = 0; axis < 3; ++axis)
-      {
-        this->Values.push_back(block.positions[3 * v + axis]);
-      }
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        this->Values.push_back(normals.value(v, axis));
-      }
+      throw Error("The original number " + std::to_string(ids[v]) +
+                  " of a vertex is negative: the mesh must be the one that was made of the file.");
     }
-    values = &this->Values;
+    std::copy_n(&block.positions[3 * v], 3, this->Values.begin());
+    for (int axis = 0; this->hasNormals() && axis < 3; ++axis)
+    {
+      this->Values[3 + std::size_t(axis)] =
+        block.vertexColumns[static_cast<std::size_t>(this->Normals)].value(v, axis);
+    }
+    std::ranges::copy(
+      std::as_bytes(std::span(this->Values)), rows.put(static_cast<std::uint64_t>(ids[v])));
+    this->End = std::max(this->End, ids[v] + 1);
   }
-  this->Order.put(block.vertexColumns[static_cast<std::size_t>(this->Ids)].as<std::int64_t>(),
-    std::as_bytes(std::span(*values)));
+}
+
+/** Keeps the last row of each number. */
+void MovedVertices::keep(RowSort& rows)
+{
+  const std::span<std::byte> values = std::as_writable_bytes(std::span(this->Values));
+  RowSort::Row row;
+  for (bool more = rows.next(row); more;)
+  {
+    const auto number = static_cast<std::int64_t>(row.key);
+    std::copy_n(row.bytes, values.size(), values.begin());
+    more = rows.next(row);
+    if (!more || static_cast<std::int64_t>(row.key) != number)
+    {
+      this->Rows.put(0, number);
+      this->Rows.append(0, values);
+    }
+  }
+  this->Rows.close();
 }
 
 void MovedVertices::check(std::int64_t vertices, const std::string& name) const
 {
-  if (this->Order.end() > vertices)
+  if (this->End > vertices)
   {
-    throw Error(name + ": the mesh has a vertex " + std::to_string(this->Order.end() - 1) +
+    throw Error(name + ": the mesh has a vertex " + std::to_string(this->End - 1) +
                 ", but the file only " + std::to_string(vertices) +
                 " vertices: it is not the one that the mesh was made of.");
   }
@@ -89,17 +107,17 @@ void MovedVertices::check(std::int64_t vertices, const std::string& name) const
 
 bool MovedVertices::find(std::int64_t vertex)
 {
-  if (vertex < this->First || vertex >= this->First + static_cast<std::int64_t>(this->Given.size()))
+  if (!this->Reader || vertex < this->Wanted)
   {
-    this->First = vertex;
-    this->Given.resize(ReadVertices);
-    this->Values.resize(ReadVertices * this->numbers());
-    this->Order.read(vertex, this->Given, std::as_writable_bytes(std::span(this->Values)));
+    this->Reader.emplace(this->Rows);
+    this->Number = -1;
   }
-  const auto place = static_cast<std::size_t>(vertex - this->First);
-  this->Found =
-    std::span<const double>(this->Values).subspan(place * this->numbers(), this->numbers());
-  return this->Given[place] != 0;
+  this->Wanted = vertex;
+  while (this->Number < vertex && this->Reader->get(this->Number))
+  {
+    this->Reader->read(std::as_writable_bytes(std::span(this->Values)));
+  }
+  return this->Number == vertex;
 }
 
 } // namespace smg

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Motion/OriginalOrder.h"
+#include "IO/External/RowSort.h"
 #include "Solver/Core/Progress.h"
 #include "smg/MeshSource.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,11 +20,10 @@ class MovedVertices
 {
 public:
   /**
-   * Reads the mesh stream `moved`, which has the column OriginalId, to its end; see OriginalOrder
-   * for `scratch` and `memory`. Throws Error; Cancelled.
+   * Reads the mesh stream `moved`, which has the column OriginalId, to its end. Of several vertices
+   * with one number the last counts. Throws Error; Cancelled.
    */
-  MovedVertices(MeshSource& moved, const std::filesystem::path& scratch, std::int64_t memory,
-    const ProgressFunction& progress = {});
+  MovedVertices(MeshSource& moved, Workspace& workspace, const ProgressFunction& progress = {});
 
   /** Throws Error if the stream has a vertex that the file `name` of `vertices` vertices has not.
    */
@@ -35,20 +34,23 @@ public:
   /** Goes to a vertex: quick for ascending ones. False: it is not in the stream. Throws Error. */
   bool find(std::int64_t vertex);
   /** Of the vertex found last. */
-  std::span<const double, 3> position() const { return this->Found.first<3>(); }
+  std::span<const double, 3> position() const { return std::span(this->Values).first<3>(); }
   /** The same; only if there are normals. */
-  std::span<const double, 3> normal() const { return this->Found.last<3>(); }
+  std::span<const double, 3> normal() const { return std::span(this->Values).last<3>(); }
 
 private:
   std::size_t numbers() const { return this->hasNormals() ? 6 : 3; }
-  void put(const MeshBlock& block);
+  void put(const MeshBlock& block, RowSort& rows);
+  void keep(RowSort& rows);
 
   std::ptrdiff_t Ids, Normals; ///< places of the columns; -1: there is none
-  OriginalOrder Order;
-  std::int64_t First = 0;          ///< the vertex that the values read last begin with
-  std::vector<std::uint8_t> Given; ///< of these: whether they are in the stream
-  std::vector<double> Values;
-  std::span<const double> Found;
+  BucketFile Rows;             ///< of each vertex, by number: the number, position and normal
+  std::int64_t End = 0;        ///< the largest number, plus 1
+
+  std::optional<BucketFile::Reader> Reader;
+  std::int64_t Wanted = -1;   ///< what was looked for last
+  std::int64_t Number = -1;   ///< of the row that was read last
+  std::vector<double> Values; ///< of that row
 };
 
 } // namespace smg

@@ -24,7 +24,7 @@ void ColumnJoin::join()
   {
     rowBytes += column.spec.tupleBytes();
   }
-  this->Rows.emplace(this->Space, this->NextRow, rowBytes, this->Memory);
+  this->Rows.emplace(this->Space, this->NextRow, rowBytes, this->Memory * 3 / 4);
   this->Numbers.sort();
   const Buffer row(this->Space.pool(), rowBytes);
   std::int64_t read = -1; // the number whose tuples are in `row`
@@ -42,6 +42,7 @@ void ColumnJoin::join()
     }
     this->Rows->put(pair.row, row.bytes());
   }
+  this->Rows->close();
 }
 
 void ColumnJoin::fill(std::int64_t rows, std::vector<Column>& columns)
@@ -54,7 +55,7 @@ void ColumnJoin::fill(std::int64_t rows, std::vector<Column>& columns)
   for (std::size_t done = 0; done < static_cast<std::size_t>(rows);)
   {
     const std::span<const std::byte> bytes =
-      this->Rows->next(rows - static_cast<std::int64_t>(done));
+      this->Rows->read(this->Filled, rows - static_cast<std::int64_t>(done));
     const std::size_t count = bytes.size() / this->Rows->rowBytes();
     std::size_t at = 0;
     for (std::size_t c = 0; c < this->Columns.size(); ++c)
@@ -68,6 +69,7 @@ void ColumnJoin::fill(std::int64_t rows, std::vector<Column>& columns)
       at += tuple;
     }
     done += count;
+    this->Filled += static_cast<std::int64_t>(count);
   }
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/External/ExternalSort.h"
-#include "IO/External/RowScatter.h"
+#include "IO/External/RowTable.h"
 #include "IO/Raw/RawMesh.h"
 #include "smg/Column.h"
 
@@ -45,7 +45,8 @@ private:
   const std::vector<RawColumn>& Columns;
   std::uint32_t NextRow = 0;
   ExternalSort<Pair> Numbers;
-  std::optional<RowScatter> Rows;
+  std::optional<RowTable> Rows;
+  std::int64_t Filled = 0; ///< rows
   Workspace& Space;
   std::int64_t Memory;
 };

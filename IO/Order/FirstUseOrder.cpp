@@ -3,10 +3,11 @@
 
 #include "IO/External/ExternalSort.h"
 #include "IO/External/Relabelling.h"
-#include "IO/External/RowScatter.h"
+#include "IO/External/RowTable.h"
 
 #include <algorithm>
-#include <array>
+#include <cstring>
+#include <span>
 #include <vector>
 
 namespace smg
@@ -14,16 +15,6 @@ namespace smg
 
 namespace
 {
-
-/** A vertex, and its place by first use. */
-struct UsedVertex
-{
-  std::uint32_t id;
-  std::uint32_t place;
-  auto operator<=>(const UsedVertex&) const = default;
-};
-
-using VertexSort = ExternalSort<UsedVertex>;
 
 /** The first corner, among all of the file, that a vertex is. */
 struct FirstUse
@@ -63,43 +54,47 @@ void putFirstUses(const RawMesh& mesh, Workspace& workspace, ExternalSort<FirstU
   }
 }
 
-/** Gives the vertices to `used` as they come; answers how many. */
-std::int64_t findUsed(const RawMesh& mesh, Workspace& workspace, VertexSort& used)
+/** Puts the place of each used vertex; answers how many there are. */
+std::int64_t putPlaces(const RawMesh& mesh, Workspace& workspace, RowTable& places)
 {
-  ExternalSort<FirstUse> uses(workspace, workspace.available() / 4);
+  ExternalSort<FirstUse> uses(workspace, workspace.available() / 3);
   putFirstUses(mesh, workspace, uses);
   uses.sort();
   std::uint32_t count = 0;
-  for (FirstUse use{}; uses.next(use);)
+  for (FirstUse use{}; uses.next(use); ++count)
   {
-    used.put({ use.id, count++ });
+    places.put(use.id, std::as_bytes(std::span(&count, 1)));
   }
+  places.close();
   return count;
 }
 
 template <class Real>
 void order(const RawMesh& mesh, Workspace& workspace, OrderedVertices& result)
 {
-  VertexSort used(workspace, workspace.available() / 3);
-  result.count = findUsed(mesh, workspace, used);
-  used.sort();
-  RowScatter rows(workspace, result.count, sizeof(OrderedVertex<Real>), workspace.available() / 3);
-  BucketFile::Reader positions(mesh.positions);
+  RowTable places(workspace, mesh.vertices, sizeof(std::uint32_t), workspace.available() / 4);
+  result.count = putPlaces(mesh, workspace, places);
+  RowTable rows(workspace, result.count, sizeof(OrderedVertex<Real>), workspace.available() / 4);
   OrderedVertex<Real> vertex{ {}, 0, NoIndex };
-  std::int64_t read = -1; // the vertex whose position has been read
-  for (UsedVertex next{}; used.next(next);)
+  BucketFile::Reader positions(mesh.positions);
+  for (std::span<const std::byte> bytes; positions.get(vertex.position); ++vertex.id)
   {
-    for (; read < next.id; ++read)
+    if (bytes.empty())
     {
-      positions.get(vertex.position);
+      bytes = places.read(vertex.id);
     }
-    vertex.id = next.id;
-    rows.put(next.place, std::as_bytes(std::span(&vertex, 1)));
+    std::uint32_t place = 0;
+    std::memcpy(&place, bytes.data(), sizeof(place));
+    bytes = bytes.subspan(sizeof(place));
+    if (place != NoIndex)
+    {
+      rows.put(place, std::as_bytes(std::span(&vertex, 1)));
+    }
   }
-  constexpr std::int64_t Rows = 4096;
-  for (auto bytes = rows.next(Rows); !bytes.empty(); bytes = rows.next(Rows))
+  rows.close();
+  for (std::int64_t first = 0; first < rows.count(); first += rows.range())
   {
-    result.records.append(0, bytes);
+    result.records.append(0, rows.read(first));
   }
 }
 

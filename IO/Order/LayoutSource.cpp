@@ -31,22 +31,13 @@ bool addSpecs(const std::vector<RawColumn>& columns, const ColumnSpec& numbers, 
   return add;
 }
 
-template <class Real>
-std::uint32_t takeVertex(BucketFile::Reader& records, double* position)
-{
-  OrderedVertex<Real> vertex{};
-  records.get(vertex);
-  std::copy_n(vertex.position, 3, position);
-  return vertex.id;
-}
-
 } // namespace
 
 LayoutSource::LayoutSource(
   const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace, CellIds cellIds)
   : Mesh(mesh)
   , Layout(layout)
-  , Vertices(layout.vertices)
+  , Vertices(layout.vertices, mesh.doublePositions)
   , Corners(layout.corners)
   , Elements(layout.elements)
   , Flags(layout.flags)
@@ -68,12 +59,10 @@ LayoutSource::LayoutSource(
   if (!mesh.vertexColumns.empty())
   {
     this->VertexJoin.emplace(workspace, mesh.vertexColumns, workspace.available() / 4);
-    BucketFile::Reader vertices(layout.vertices);
-    for (std::int64_t i = 0; i < layout.vertexCount; ++i)
+    OrderedVertexReader vertices(layout.vertices, mesh.doublePositions);
+    for (OrderedVertex<double> vertex; vertices.next(vertex);)
     {
-      double position[3];
-      this->VertexJoin->put(mesh.doublePositions ? takeVertex<double>(vertices, position)
-                                                 : takeVertex<float>(vertices, position));
+      this->VertexJoin->put(vertex.id);
     }
     this->VertexJoin->join();
   }
@@ -118,15 +107,13 @@ void LayoutSource::fillVertices(MeshBlock& block, std::int64_t end)
     column.resize(static_cast<std::size_t>(rows));
     ids = column.as<std::int64_t>().data();
   }
-  for (std::int64_t i = 0; i < rows; ++i)
+  OrderedVertex<double> vertex;
+  for (std::int64_t i = 0; i < rows && this->Vertices.next(vertex); ++i)
   {
-    double* const position = block.positions.data() + 3 * i;
-    const std::uint32_t id = this->Info.doublePositions
-                               ? takeVertex<double>(this->Vertices, position)
-                               : takeVertex<float>(this->Vertices, position);
+    std::copy_n(vertex.position, 3, block.positions.begin() + 3 * i);
     if (ids)
     {
-      ids[i] = id;
+      ids[i] = vertex.id;
     }
   }
   if (this->VertexJoin)

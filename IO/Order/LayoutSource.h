@@ -44,7 +44,7 @@ private:
   bool AddIds = true;
   bool AddElements = true;
   std::optional<ColumnJoin> VertexJoin, CellJoin;
-  BucketFile::Reader Vertices;
+  OrderedVertexReader Vertices;
   RecordFile<std::uint32_t>::Reader Corners, Elements;
   RecordFile<FlaggedCell>::Reader Flags;
   RecordFile<std::int64_t>::Reader BlockVertices, BlockFinalized;

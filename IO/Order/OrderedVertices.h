@@ -29,11 +29,38 @@ struct OrderedVertices
   bool doublePositions = true;
   BucketFile records; ///< OrderedVertex<double>, or else OrderedVertex<float>
   std::int64_t count = 0;
+};
 
-  std::size_t recordBytes() const
+/** Reads vertices of either precision one after the other. */
+class OrderedVertexReader
+{
+public:
+  OrderedVertexReader(const BucketFile& records, bool doublePositions)
+    : Records(records)
+    , DoublePositions(doublePositions)
   {
-    return this->doublePositions ? sizeof(OrderedVertex<double>) : sizeof(OrderedVertex<float>);
   }
+
+  /** The next vertex; false at the end. */
+  bool next(OrderedVertex<double>& vertex)
+  {
+    if (this->DoublePositions)
+    {
+      return this->Records.get(vertex);
+    }
+    OrderedVertex<float> single;
+    if (!this->Records.get(single))
+    {
+      return false;
+    }
+    vertex = { { single.position[0], single.position[1], single.position[2] }, single.id,
+      single.reach };
+    return true;
+  }
+
+private:
+  BucketFile::Reader Records;
+  bool DoublePositions;
 };
 
 } // namespace smg

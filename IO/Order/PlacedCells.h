@@ -2,11 +2,14 @@
 #pragma once
 
 #include "IO/External/ExternalSort.h"
+#include "IO/External/Relabelling.h"
 #include "IO/Order/OrderedVertices.h"
 #include "IO/Raw/RawMesh.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 
 namespace smg
 {
@@ -68,14 +71,55 @@ PlacedCell<Corners> placedCell(const std::uint32_t* numbers, std::uint32_t eleme
 template <int Corners>
 using CellSort = ExternalSort<PlacedCell<Corners>>;
 
+/** Reads the number of the element of each cell. */
+class ElementReader
+{
+public:
+  explicit ElementReader(const RawMesh& mesh)
+  {
+    if (mesh.elements.size() > 0)
+    {
+      this->Numbers.emplace(mesh.elements);
+    }
+  }
+
+  /** The element of the next cell. */
+  std::uint32_t next()
+  {
+    std::uint32_t element = this->Cell++;
+    if (this->Numbers)
+    {
+      this->Numbers->next(element);
+    }
+    return element;
+  }
+
+private:
+  std::optional<RecordFile<std::uint32_t>::Reader> Numbers;
+  std::uint32_t Cell = 0;
+};
+
 /**
  * Calls `take` with each cell of the mesh, in the file's sequence, by the places that the order
  * gives its vertices, and its element. Vertices of cells must all be in the order.
  */
 template <class Take>
 void placeCells(
-  const RawMesh& mesh, const OrderedVertices& order, Workspace& workspace, Take&& take);
+  const RawMesh& mesh, const OrderedVertices& order, Workspace& workspace, Take&& take)
+{
+  // Half of what is free for the table; sorting wants the other half.
+  Relabelling places(workspace, mesh.vertices, workspace.available() / 2);
+  {
+    OrderedVertexReader vertices(order.records, order.doublePositions);
+    OrderedVertex<double> vertex;
+    for (std::uint32_t place = 0; vertices.next(vertex); ++place)
+    {
+      places.put(vertex.id, place);
+    }
+  }
+  ElementReader elements(mesh);
+  places.apply(mesh.corners, static_cast<std::size_t>(cornersOf(mesh.cellType)),
+    [&](std::span<const std::uint32_t> corners) { take(corners, elements.next()); });
+}
 
 } // namespace smg
-
-#include "IO/Order/PlacedCells.hxx"

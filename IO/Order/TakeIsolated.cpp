@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/TakeIsolated.h"
 
-#include "IO/Order/OrderedVertices.h"
+#include "IO/Order/UsedVertices.h"
 #include "Solver/Stream/OriginalNumbers.h"
 
 #include <algorithm>
@@ -109,42 +109,14 @@ private:
   std::int64_t Number = 0;      ///< of the next vertex in the file
 };
 
-/** Marks the vertices of [first, end) that the layout has. */
 template <class Real>
-void markUsed(
-  const StreamLayout& layout, std::int64_t first, std::int64_t end, std::span<std::uint64_t> used)
-{
-  std::ranges::fill(used, 0);
-  BucketFile::Reader vertices(layout.vertices);
-  for (OrderedVertex<Real> vertex; vertices.get(vertex);)
-  {
-    if (vertex.id >= first && vertex.id < end)
-    {
-      const auto bit = static_cast<std::uint64_t>(vertex.id - first);
-      used[bit / 64] |= std::uint64_t(1) << bit % 64;
-    }
-  }
-}
-
-template <class Real>
-void takeUnused(
-  const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace, const TakeVertices& take)
+void takeUnused(const RawMesh& mesh, Workspace& workspace, const TakeVertices& take)
 {
   VertexCollector<Real> collector(mesh, workspace, take);
-  // A bit a vertex, of as many vertices at a time as the memory has room for.
-  const std::int64_t words = std::clamp<std::int64_t>(
-    workspace.available() / 2 / std::int64_t(sizeof(std::uint64_t)), 1, mesh.vertices / 64 + 1);
-  const Buffer bytes(workspace.pool(), static_cast<std::size_t>(words) * sizeof(std::uint64_t));
-  const std::span used(
-    reinterpret_cast<std::uint64_t*>(bytes.data()), static_cast<std::size_t>(words));
-  for (std::int64_t first = 0; first < mesh.vertices; first += 64 * words)
+  UsedVertices used(mesh, workspace, workspace.available() / 2);
+  for (std::uint32_t vertex = 0; vertex < mesh.vertices; ++vertex)
   {
-    const std::int64_t end = std::min(first + 64 * words, mesh.vertices);
-    markUsed<Real>(layout, first, end, used);
-    for (std::int64_t bit = 0; bit < end - first; ++bit)
-    {
-      collector.read((used[static_cast<std::size_t>(bit / 64)] >> bit % 64 & 1) == 0);
-    }
+    collector.read(!used.contains(vertex));
   }
   collector.flush();
 }
@@ -156,8 +128,8 @@ void takeIsolatedVertices(
 {
   if (layout.vertexCount < mesh.vertices)
   {
-    mesh.doublePositions ? takeUnused<double>(mesh, layout, workspace, take)
-                         : takeUnused<float>(mesh, layout, workspace, take);
+    mesh.doublePositions ? takeUnused<double>(mesh, workspace, take)
+                         : takeUnused<float>(mesh, workspace, take);
   }
 }
 

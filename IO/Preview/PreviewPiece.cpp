@@ -36,25 +36,12 @@ Column gather(VsmReader& mesh, const ColumnSpec& spec, const std::vector<std::in
 
 } // namespace
 
-MeshPiece pieceOf(StreamPreview preview)
-{
-  MeshPiece piece;
-  piece.ids = std::move(preview.ids);
-  piece.positions = std::move(preview.positions);
-  piece.normals = std::move(preview.normals);
-  piece.corners = std::move(preview.triangles);
-  piece.vertexColumns = std::move(preview.vertexColumns);
-  piece.ghost.assign(piece.ids.size(), 0);
-  piece.finalized.assign(piece.ids.size(), 1);
-  return piece;
-}
-
 MeshPiece makePreviewPiece(
   VsmReader& mesh, std::int64_t maximumPoints, const ProgressFunction& progress)
 {
   // Most rows are not needed, so the columns are read afterwards.
   const auto source = mesh.source({}, {});
-  MeshPiece piece = pieceOf(makePreview(*source, maximumPoints, progress));
+  MeshPiece piece = makePreview(*source, maximumPoints, progress);
   for (const ColumnSpec& spec : mesh.info().vertexColumns)
   {
     piece.vertexColumns.push_back(gather(mesh, spec, piece.ids));

@@ -54,7 +54,7 @@ public:
     }
   }
 
-  StreamPreview finish()
+  MeshPiece finish()
   {
     this->forgetBelow(this->First + static_cast<std::int64_t>(this->Window.size()));
     this->Grid.finish();
@@ -160,7 +160,7 @@ private:
   }
 
   /** The clusters that triangles use, by ascending stream index. */
-  StreamPreview collect() const
+  MeshPiece collect() const
   {
     const auto& clusters = this->Grid.clusters();
     std::vector<char> isUsed(clusters.size(), 0);
@@ -181,7 +181,7 @@ private:
     }
     std::sort(order.begin(), order.end(),
       [&clusters](int a, int b) { return clusters[a].id < clusters[b].id; });
-    StreamPreview preview;
+    MeshPiece preview;
     std::vector<std::int64_t> number(clusters.size(), -1);
     for (const int cluster : order)
     {
@@ -200,10 +200,12 @@ private:
     {
       // The triangle of the representatives may have the opposite orientation.
       const bool isTurned = this->isTurned({ a, b, c });
-      preview.triangles.insert(
-        preview.triangles.end(), { number[a], number[isTurned ? c : b], number[isTurned ? b : c] });
+      preview.corners.insert(
+        preview.corners.end(), { number[a], number[isTurned ? c : b], number[isTurned ? b : c] });
     }
     preview.vertexColumns = this->Rows.gather(preview.ids);
+    preview.ghost.assign(preview.ids.size(), 0);
+    preview.finalized.assign(preview.ids.size(), 1);
     return preview;
   }
 
@@ -235,7 +237,7 @@ std::array<double, 6> boundsOf(const MeshBlock& block)
 
 } // namespace
 
-StreamPreview makePreview(
+MeshPiece makePreview(
   MeshSource& mesh, std::int64_t maximumPoints, const ProgressFunction& progress)
 {
   Progress done(progress);

@@ -23,6 +23,7 @@ struct ImportCounts
   std::int64_t higherOrderCells = 0;     ///< cells of which only the corners were used
   std::int64_t droppedCells = 0;         ///< points, lines, and cells of the kind not wanted
   std::int64_t mergedPoints = 0;         ///< points that were merged with another one
+  std::int64_t timeSteps = 0, partitions = 0; ///< of the file, where it has such
   /** Names of columns that were left out, since their names are reserved. */
   std::vector<std::string> droppedColumns;
   /** What a user should know. */

@@ -124,6 +124,12 @@ public:
   void noteHigherOrder() { ++this->Mesh.counts.higherOrderCells; }
   /** Counts points that the parser merged. */
   void noteMerged(std::int64_t points) { this->Mesh.counts.mergedPoints += points; }
+  /** Says how many time steps the file has, and partitions the one that is read. */
+  void noteParts(std::int64_t timeSteps, std::int64_t partitions)
+  {
+    this->Mesh.counts.timeSteps = timeSteps;
+    this->Mesh.counts.partitions = partitions;
+  }
   void note(std::string sentence) { this->Mesh.counts.notes.push_back(std::move(sentence)); }
 
   std::int64_t elements() const { return this->Mesh.elementCount; }

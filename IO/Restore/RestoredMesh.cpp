@@ -52,8 +52,7 @@ RestoredMesh::RestoredMesh(const std::filesystem::path& vsm, Workspace& workspac
 {
   VsmReader reader(vsm, &workspace.traffic());
   this->readInfo(reader);
-  // The table of the numbers is filled while the vertices' run is already on the disk, and given
-  // back before the cells are merged.
+  // The table of the numbers is given back before the cells are merged.
   const std::int64_t memory = workspace.available();
   this->Vertices = std::make_unique<VertexRestorer>(workspace, memory / 4, this->Info, this->Name);
   this->Elements = std::make_unique<ElementRestorer>(workspace, memory / 3, this->Info);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/External/RowSort.h"
 #include "IO/Restore/ColumnRows.h"
 #include "IO/Restore/RestoredChunks.h"
-#include "IO/Restore/RowSort.h"
 
 #include <cstdint>
 #include <span>

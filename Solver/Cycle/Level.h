@@ -106,16 +106,7 @@ public:
   }
 
   /** Loads, here and on the coarser levels, all that the way up to `node` needs. */
-  void load(std::int64_t node)
-  {
-    const int last = static_cast<int>(this->At.postSweep.size());
-    this->load(last, node);
-    this->load(last, this->finalWith(node));
-    if (this->History)
-    {
-      this->History->load(this->Window.x(), this->Window.loaded());
-    }
-  }
+  void load(std::int64_t node);
 
   /** Way up: finishes the V-cycle on nodes 0 .. node, which is loaded. */
   void pull(std::int64_t node)
@@ -209,31 +200,7 @@ public:
    * Makes b of nodes 0 .. node ready for restriction: zero, once the V-cycle before needs neither
    * their b nor their x. Answers whether that could be done yet.
    */
-  bool prepare(std::int64_t node)
-  {
-    if (this->First)
-    {
-      this->Window.extendB(node + 1);
-    }
-    if (this->First || this->Core)
-    {
-      return true;
-    }
-    while (this->At.reset <= node)
-    {
-      const RowBlock::Header& h = this->Window.header(this->At.reset);
-      const auto g = LevelWindow<Real>::groupIn(h, this->At.reset);
-      if (this->At.seenPostSwept <= h.neighbourReach[g] ||
-          this->Fine->seenProlonged <= h.childReach[g])
-      {
-        return false;
-      }
-      const std::int64_t end = LevelWindow<Real>::groupEnd(h, this->At.reset);
-      this->Window.zeroB(this->At.reset, end);
-      this->At.reset = end;
-    }
-    return true;
-  }
+  bool prepare(std::int64_t node);
 
   /** ||b - A x||^2 of each column, as the last pass's restriction found it. */
   std::span<const Real> squares() const { return std::span(this->Squares).first(this->lanes()); }
@@ -270,141 +237,24 @@ private:
   using One = Lanes<Real, 1>;
   using Four = Lanes<Real, 4>;
 
-  /**
-   * The node up to which the last sweep of the way up has to come for x of nodes 0 .. node, which
-   * have been loaded, to be final: the last node of a patch changes the others, all within a ring.
-   * The finest level may leave that to the steps that follow.
-   */
-  std::int64_t finalWith(std::int64_t node) const
-  {
-    if (!this->Patched || !this->Fine || this->Core || node < this->Window.first())
-    {
-      return node;
-    }
-    const RowBlock::Header& h = this->Window.header(node);
-    return h.neighbourReach[LevelWindow<Real>::groupIn(h, node)];
-  }
+  // The way up (LevelUp.txx).
 
+  std::int64_t finalWith(std::int64_t node) const;
   static std::int64_t& upCursor(LevelCursors& cursors, int stage)
   {
     return stage == 0 ? cursors.prolonged : cursors.postSweep[static_cast<std::size_t>(stage - 1)];
   }
+  void load(int stage, std::int64_t node);
+  void pull(int stage, std::int64_t node);
 
-  /** Walks the way up to stage `stage` of node `node` as pull() will, loading. */
-  void load(int stage, std::int64_t node)
-  {
-    if (this->Core || node < 0 || upCursor(this->At, stage) > node)
-    {
-      return;
-    }
-    this->Window.load(node);
-    const RowBlock::Header& h = this->Window.header(node);
-    const auto g = LevelWindow<Real>::groupIn(h, node);
-    if (stage == 0)
-    {
-      this->Coarse->load(h.parentReach[g]);
-    }
-    else
-    {
-      this->load(stage - 1, h.neighbourReach[g]);
-    }
-  }
+  // The way down (LevelDown.txx).
 
-  void pull(int stage, std::int64_t node)
-  {
-    std::int64_t& cursor = upCursor(this->At, stage);
-    if (this->Core || cursor > node)
-    {
-      return;
-    }
-    const RowBlock::Header& h = this->Window.header(node);
-    const auto g = LevelWindow<Real>::groupIn(h, node);
-    const std::int64_t end = LevelWindow<Real>::groupEnd(h, node);
-    if (stage == 0)
-    {
-      this->Coarse->pull(h.parentReach[g]);
-      this->prolongTo(cursor, end);
-    }
-    else
-    {
-      this->pull(stage - 1, h.neighbourReach[g]);
-      this->sweep<false>(cursor, end, this->Window.up());
-    }
-    cursor = end;
-  }
+  void preSweep();
+  std::int64_t firstPreSweepEnd();
+  void combine();
+  void restrictDown();
 
-  void preSweep()
-  {
-    std::vector<std::int64_t>& sweep = this->At.preSweep;
-    const std::int64_t first = this->firstPreSweepEnd();
-    if (this->Fine)
-    {
-      this->sweep<true>(sweep[0], first, this->Window.down());
-    }
-    else
-    {
-      this->sweep<false>(sweep[0], first, this->Window.down());
-    }
-    sweep[0] = first;
-    for (std::size_t s = 1; s < sweep.size(); ++s)
-    {
-      const std::int64_t end = this->Window.reachable(sweep[s], sweep[s - 1]);
-      this->sweep<false>(sweep[s], end, this->Window.down());
-      sweep[s] = end;
-    }
-  }
-
-  /** How far the first sweep of the way down may go. */
-  std::int64_t firstPreSweepEnd()
-  {
-    std::int64_t end = this->At.preSweep[0];
-    if (!this->Fine)
-    {
-      return this->First      ? this->Window.loaded()
-             : this->Renewing ? this->Renewed
-                              : this->Window.reachable(end, this->At.seenPostSwept);
-    }
-    // b must be complete; the upper neighbours are zero, so they need not have come.
-    while (end < this->Window.loaded())
-    {
-      const RowBlock::Header& h = this->Window.header(end);
-      if (this->Fine->restricted <= h.childReach[LevelWindow<Real>::groupIn(h, end)])
-      {
-        break;
-      }
-      end = LevelWindow<Real>::groupEnd(h, end);
-    }
-    return end;
-  }
-
-  /** Acceleration may change a node when no sweep reads it any more. */
-  void combine()
-  {
-    std::int64_t end = this->At.preSweep.back();
-    if (this->History)
-    {
-      end = this->Window.reachable(this->At.combined, end);
-      this->History->combine(this->Window.x(), this->At.combined, end);
-    }
-    this->At.combined = end;
-  }
-
-  void restrictDown()
-  {
-    const std::int64_t limit = this->Window.reachable(this->At.restricted, this->At.combined);
-    std::int64_t end = this->At.restricted;
-    while (end < limit)
-    {
-      const RowBlock::Header& h = this->Window.header(end);
-      if (!this->Coarse->prepare(h.parentReach[LevelWindow<Real>::groupIn(h, end)]))
-      {
-        break;
-      }
-      end = LevelWindow<Real>::groupEnd(h, end);
-    }
-    this->restrictTo(end);
-    this->At.restricted = end;
-  }
+  // The kernels (LevelSweeps.txx).
 
   using State = typename LevelWindow<Real>::State;
 
@@ -438,4 +288,6 @@ private:
 
 } // namespace smg
 
+#include "Solver/Cycle/LevelDown.txx"
 #include "Solver/Cycle/LevelSweeps.txx"
+#include "Solver/Cycle/LevelUp.txx"

@@ -1,196 +1,96 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Deformation/DeformationSteps.h"
+#include "Solver/Deformation/DeformedPositions.h"
 #include "Solver/Deformation/PositionStep.h"
 #include "Solver/Deformation/RestShape.h"
 #include "Solver/Deformation/RotationProblem.h"
-#include "Solver/Engine/Engine.txx"
+#include "Solver/Engine/FirstPass.h"
+#include "Solver/Engine/Hierarchy.h"
+#include "Solver/Engine/SolveRun.h"
 #include "smg/Deform.h"
+#include "smg/Error.h"
 #include "smg/Handles.h"
 #include "smg/Solution.h"
 
-#include <cstdint>
-#include <span>
-#include <string>
-#include <vector>
+#include <memory>
+#include <utility>
 
 namespace smg
 {
 
-/**
- * Two problems on one hierarchy: first the rotations, then the positions. The first pass builds the
- * hierarchy and begins the first V-cycle of the rotations; the shared pass finishes their last
- * V-cycle and begins the first one of the positions.
- */
+/** Deforms a mesh: the first pass builds the hierarchy and begins the rotations' first V-cycle, the
+ * steps do the rest. */
 template <OperatorSet Operators>
-class DeformationEngine : public Engine<Operators>
+class DeformationEngine
 {
 public:
-  DeformationEngine(const DeformOptions& options, CellType cells)
-    : Engine<Operators>(RotationProblem::Columns, options)
+  using Relaxation = typename Operators::Relaxation;
+
+  DeformationEngine(Operators operators, const DeformOptions& options, CellType cells)
+    : Set(std::move(operators))
     , EdgeWeights(options.weights)
-    , Cycles(options.cycles)
-    , Cells(cells)
-    , Rest(this->Memory)
+    , Run(std::make_unique<SolveRun>(RotationProblem::Columns, options))
+    , Levels(*this->Run, RotationProblem::Columns)
+    , Rest(this->Run->pool)
+    , Steps(*this->Run, this->Levels, this->Rest, options, cells)
   {
-    if (this->Scratch)
+    if (this->Run->scratch)
     {
-      this->Rest.useScratch(this->Scratch->path(), this->Traffic.add("rest"));
+      this->Rest.useScratch(this->Run->scratch->path(), this->Run->traffic.add("rest"));
     }
   }
 
+  /** To be called once. */
   void deform(MeshSource& mesh, Handles& handles);
+  /** The positions, after deform(); nothing else remains. */
+  std::unique_ptr<Solution> takeSolution();
 
-  /** The positions: the start of the displacements plus the displacements. */
-  int columns() const override { return PositionStep::Columns; }
-  void read(std::int64_t first, std::int64_t count, std::span<double> values) override;
+  // The parts, for whoever deforms again.
 
-  using Engine<Operators>::keepSolution;
-
-protected:
-  Stopping stopping() const
-  {
-    return { this->Options.tolerance, this->Options.maxCycles, this->Cycles };
-  }
-  /** Performs both steps, after the pass that has begun the first V-cycle of the first one. */
-  void solveSteps();
-
-  Weights EdgeWeights;
-  int Cycles; // per step; 0: by the tolerance
-  CellType Cells;
-  RestShape Rest;
+  SolveRun& run() { return *this->Run; }
+  Hierarchy<Relaxation>& levels() { return this->Levels; }
+  RestShape& rest() { return this->Rest; }
+  DeformationSteps<Relaxation>& steps() { return this->Steps; }
 
 private:
-  double sharedPass(PositionStep& step);
-  void addStep(const char* name, const Convergence& convergence);
-  void addNotes();
-  double positionScale() const;
-
-  std::vector<double> Start; // of read()
+  Operators Set;
+  Weights EdgeWeights;
+  std::unique_ptr<SolveRun> Run;
+  Hierarchy<Relaxation> Levels;
+  RestShape Rest;
+  DeformationSteps<Relaxation> Steps;
 };
 
 template <OperatorSet Operators>
 void DeformationEngine<Operators>::deform(MeshSource& mesh, Handles& handles)
 {
-  this->beginReport();
-  this->Progress.begin(this->stopping(), 0.0, 0.6, true);
+  SolveRun& run = *this->Run;
+  run.beginReport();
+  this->Steps.begin(true);
   RotationProblem problem(handles, this->EdgeWeights, this->Rest);
-  this->build(mesh, problem, &this->Rest, PositionStep::CoreBytes);
+  FirstPass build(run, this->Levels, this->Set);
+  const FirstResidual first = build(mesh, problem, &this->Rest, PositionStep::CoreBytes);
   this->Rest.finish();
-  if (this->Result.prescribed == 0)
+  if (run.report.prescribed == 0)
   {
     throw Error("no vertex of the mesh is held by a handle: there is nothing to deform it by");
   }
-  this->Result.shared = problem.shared();
-  this->solveSteps();
+  run.report.shared = problem.shared();
+  this->Steps.solve(first);
 }
 
 template <OperatorSet Operators>
-void DeformationEngine<Operators>::solveSteps()
+std::unique_ptr<Solution> DeformationEngine<Operators>::takeSolution()
 {
-  const Timer solving;
-  const Stopping stopping = this->stopping();
-  Convergence rotations(stopping, this->InitialNorm, this->RoundingNorm);
-  rotations.begin(this->residualNorm());
-  this->iterate(rotations, true, "rotation step: ");
-
-  PositionStep step(this->Memory, this->Rest, this->Hierarchy.finest->window());
-  const double norm = this->sharedPass(step);
-  if (!std::isfinite(step.termSquares()))
-  {
-    throw Error(
-      "the handles move the mesh beyond the range of numbers: use targets that are nearer");
-  }
-  rotations.add(std::sqrt(step.rotationSquares()));
-  this->addStep("rotation", rotations);
-
-  this->Progress.begin(stopping, 0.6, 1.0, false);
-  Convergence positions(stopping, std::sqrt(step.initialSquares()), roundingOf(step.termSquares()));
-  positions.begin(norm);
-  this->iterate(positions, false, "position step: ");
-  this->addStep("position", positions);
-  this->Result.converged = rotations.converged() && positions.converged();
-  this->Result.seconds.solve = solving.seconds();
-  this->addNotes();
-  this->finishReport();
-}
-
-/** Returns the norm of the residual of the positions after their first sweeps. */
-template <OperatorSet Operators>
-double DeformationEngine<Operators>::sharedPass(PositionStep& step)
-{
-  auto& finest = *this->Hierarchy.finest;
-  finest.window().renew(PositionStep::Columns, true);
-  for (auto& level : this->Hierarchy.coarse)
-  {
-    level->window().renew(PositionStep::Columns, false);
-  }
-  this->runCore();
-  step.startPass();
-  this->pass(
-    this->positionScale(), [&step] { step.load(); },
-    [&step, &finest]
-    {
-      step.advance(finest.finishedUp());
-      finest.setRenewed(step.done());
-    });
-  step.endPass();
-  return this->residualNorm();
-}
-
-/** An estimate of the largest residual of the positions: weights are of order 1 on surfaces, and of
- * the order of lengths in volumes. */
-template <OperatorSet Operators>
-double DeformationEngine<Operators>::positionScale() const
-{
-  const double extent = this->Rest.extent();
-  const bool lengths =
-    this->Cells == CellType::Tetrahedron && this->EdgeWeights == Weights::Clamped;
-  return lengths ? extent * extent : extent;
-}
-
-template <OperatorSet Operators>
-void DeformationEngine<Operators>::addStep(const char* name, const Convergence& convergence)
-{
-  Report& r = this->Result;
-  r.cycles += convergence.cycles();
-  r.residuals.insert(
-    r.residuals.end(), convergence.residuals().begin(), convergence.residuals().end());
-  r.steps.push_back({ name, convergence.cycles(),
-    convergence.residuals().empty() ? 0.0 : convergence.residuals().back(),
-    convergence.converged() });
-  convergence.addNotes(r.notes, std::string(name) + " step: ");
-}
-
-template <OperatorSet Operators>
-void DeformationEngine<Operators>::addNotes()
-{
-  Report& r = this->Result;
-  if (r.shared > 0)
-  {
-    r.notes.push_back(
-      std::to_string(r.shared) + " vertices are held by more than one handle: the last one counts");
-  }
-  if (r.free_components > 0)
-  {
-    r.notes.push_back(std::to_string(r.free_components) + " of " + std::to_string(r.components) +
-                      " components have no held vertex: they stay as they are");
-  }
-}
-
-template <OperatorSet Operators>
-void DeformationEngine<Operators>::read(
-  std::int64_t first, std::int64_t count, std::span<double> values)
-{
-  const auto numbers = static_cast<std::size_t>(PositionStep::Columns * count);
-  this->checkRange(first, count, values.size() / PositionStep::Columns);
-  this->Hierarchy.finest->window().readX(first, count, values.data());
-  this->Start.resize(numbers);
-  this->Rest.readStart(first, count, this->Start.data());
-  for (std::size_t k = 0; k < numbers; ++k)
-  {
-    values[k] += this->Start[k];
-  }
+  SolveRun& run = *this->Run;
+  auto displacements =
+    std::make_unique<StreamedSolution>(std::move(this->Run), this->Levels.takeWindow());
+  auto solution =
+    std::make_unique<DeformedPositions>(std::move(displacements), std::move(this->Rest));
+  run.progress.finish();
+  return solution;
 }
 
 } // namespace smg

@@ -3,47 +3,58 @@
 
 #include "Solver/Deformation/DeformationEngine.h"
 #include "Solver/Deformation/HandleChecks.h"
+#include "Solver/Engine/Pass.h"
+#include "Solver/Engine/VertexRange.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
 
 namespace smg
 {
 
 /** A deformation in core that can be repeated for other motions of the same held vertices. */
 template <OperatorSet Operators>
-class InteractiveEngine : public DeformationEngine<Operators>
+class InteractiveEngine
 {
 public:
-  using DeformationEngine<Operators>::DeformationEngine;
+  /** `options` are those of a deformation in core. */
+  InteractiveEngine(Operators operators, const DeformOptions& options, CellType cells)
+    : First(std::move(operators), options, cells)
+  {
+  }
 
-  /** After deform(). Returns false, without any change, if other vertices are held. */
+  /** To be called once. */
+  void deform(MeshSource& mesh, Handles& handles) { this->First.deform(mesh, handles); }
+  /** After deform(). False, and nothing has changed, if other vertices are held. */
   bool deformAgain(const VertexHandles& handles);
 
-  void read(std::int64_t first, std::int64_t count, std::span<double> values) override
-  {
-    if (this->Broken)
-    {
-      throw Error("the last update was broken off: there are no positions until one succeeds");
-    }
-    DeformationEngine<Operators>::read(first, count, values);
-  }
+  const Report& report() { return this->First.run().report; }
+  /** The positions; see Solution. Throws Error after an update that was broken off. */
+  void read(std::int64_t first, std::int64_t count, std::span<double> values);
 
 private:
   template <class F>
   void forHeld(F&& f);
   bool holdsTheSame(const VertexHandles& handles);
   void take(const VertexHandles& handles);
-  void beginRotations();
+  FirstResidual findRightSide();
+  void addLinks(const RestBlock& block, double& squares);
 
-  /** Whether an update ended with an exception. */
+  DeformationEngine<Operators> First;
+  /** Whether an update ended by a throw. */
   bool Broken = false;
 };
 
 template <OperatorSet Operators>
 bool InteractiveEngine<Operators>::deformAgain(const VertexHandles& handles)
 {
-  this->beginReport();
-  checkSize(handles, this->Result.vertices);
+  SolveRun& run = this->First.run();
+  Report& r = run.report;
+  run.beginReport();
+  checkSize(handles, r.vertices);
   if (!this->holdsTheSame(handles))
   {
     return false;
@@ -52,17 +63,30 @@ bool InteractiveEngine<Operators>::deformAgain(const VertexHandles& handles)
     { checkHeld(handles, i, static_cast<std::int64_t>(i)); });
   this->Broken = true;
   this->take(handles);
-  Report& r = this->Result;
   r.passes = r.cycles = 0;
   r.seconds = {};
   r.residuals.clear();
   r.steps.clear();
   r.notes.clear();
-  this->Progress.begin(this->stopping(), 0.0, 0.6, false);
-  this->beginRotations();
-  this->solveSteps();
+  this->First.steps().begin(false);
+  const FirstResidual first = this->findRightSide();
+  Pass(run, this->First.levels()).begin();
+  this->First.steps().solve(first);
   this->Broken = false;
   return true;
+}
+
+template <OperatorSet Operators>
+void InteractiveEngine<Operators>::read(
+  std::int64_t first, std::int64_t count, std::span<double> values)
+{
+  if (this->Broken)
+  {
+    throw Error("the last update was broken off: there are no positions until one succeeds");
+  }
+  checkVertexRange(first, count, values.size() / PositionStep::Columns, this->report().vertices);
+  this->First.levels().window().readX(first, count, values.data());
+  this->First.rest().addStart(first, count, values.data());
 }
 
 /** Calls f(held, index) for each held vertex. */
@@ -70,7 +94,7 @@ template <OperatorSet Operators>
 template <class F>
 void InteractiveEngine<Operators>::forHeld(F&& f)
 {
-  for (const RestBlock& block : this->Rest.blocks())
+  for (const RestBlock& block : this->First.rest().blocks())
   {
     for (RestBlock::Held& held : block.held())
     {
@@ -84,7 +108,7 @@ bool InteractiveEngine<Operators>::holdsTheSame(const VertexHandles& handles)
 {
   const auto isHeld = [](std::uint8_t mask) { return mask != 0; };
   bool same =
-    std::count_if(handles.mask.begin(), handles.mask.end(), isHeld) == this->Result.prescribed;
+    std::count_if(handles.mask.begin(), handles.mask.end(), isHeld) == this->report().prescribed;
   this->forHeld(
     [&](const RestBlock::Held&, std::size_t i) { same = same && isHeld(handles.mask[i]); });
   return same;
@@ -94,11 +118,12 @@ bool InteractiveEngine<Operators>::holdsTheSame(const VertexHandles& handles)
 template <OperatorSet Operators>
 void InteractiveEngine<Operators>::take(const VertexHandles& handles)
 {
-  LevelWindow<double>& window = this->Hierarchy.finest->window();
+  LevelWindow<double>& window = this->First.levels().window();
   window.abandon();
   window.setColumns(RotationProblem::Columns);
   std::ranges::fill(window.x().range(0, window.nodes()), 0.0);
-  this->Result.shared = 0;
+  std::int64_t& shared = this->First.run().report.shared;
+  shared = 0;
   this->forHeld(
     [&](RestBlock::Held& held, std::size_t i)
     {
@@ -106,53 +131,50 @@ void InteractiveEngine<Operators>::take(const VertexHandles& handles)
       double* x = window.x().at(static_cast<std::int64_t>(i));
       std::copy_n(handles.rotation.data() + 3 * i, 3, x);
       x[3] = handles.logScale[i];
-      this->Result.shared += handles.mask[i] > 1 ? 1 : 0;
+      shared += handles.mask[i] > 1 ? 1 : 0;
     });
 }
 
-/** Computes right-hand side and first sweeps of the rotations, like Assembly and the first pass. */
+/** The right-hand side of the rotations, as Assembly makes it. */
 template <OperatorSet Operators>
-void InteractiveEngine<Operators>::beginRotations()
+FirstResidual InteractiveEngine<Operators>::findRightSide()
 {
-  LevelWindow<double>& window = this->Hierarchy.finest->window();
-  const Ring<double>& x = window.x();
-  const Ring<double>& b = window.b();
-  std::ranges::copy(x.range(0, window.nodes()), b.at(0));
+  LevelWindow<double>& window = this->First.levels().window();
+  std::ranges::copy(window.x().range(0, window.nodes()), window.b().at(0));
   double squares = 0.0;
-  for (const RestBlock& block : this->Rest.blocks())
+  for (const RestBlock& block : this->First.rest().blocks())
   {
-    const std::span<const RestBlock::Link> links = block.links();
-    for (std::size_t l = 0; l < links.size();)
+    this->addLinks(block, squares);
+  }
+  return { std::sqrt(squares), roundingOf(squares) };
+}
+
+/** What the held neighbours bring to the vertices of a block; adds the squares of what there is
+ * then. */
+template <OperatorSet Operators>
+void InteractiveEngine<Operators>::addLinks(const RestBlock& block, double& squares)
+{
+  const Ring<double>& x = this->First.levels().window().x();
+  const Ring<double>& b = this->First.levels().window().b();
+  const std::span<const RestBlock::Link> links = block.links();
+  for (std::size_t l = 0; l < links.size();)
+  {
+    const std::int32_t node = links[l].node;
+    const std::int64_t i = block.first() + node;
+    for (; l < links.size() && links[l].node == node; ++l)
     {
-      const std::int32_t node = links[l].node;
-      const std::int64_t i = block.first() + node;
-      for (; l < links.size() && links[l].node == node; ++l)
-      {
-        for (int c = 0; c < RotationProblem::Columns; ++c)
-        {
-          b.at(i)[c] += static_cast<double>(links[l].weight) * x.at(i + links[l].delta)[c];
-        }
-      }
-      double own = 0.0;
       for (int c = 0; c < RotationProblem::Columns; ++c)
       {
-        own += b.at(i)[c] * b.at(i)[c];
+        b.at(i)[c] += static_cast<double>(links[l].weight) * x.at(i + links[l].delta)[c];
       }
-      squares += own;
     }
+    double own = 0.0;
+    for (int c = 0; c < RotationProblem::Columns; ++c)
+    {
+      own += b.at(i)[c] * b.at(i)[c];
+    }
+    squares += own;
   }
-  this->InitialNorm = std::sqrt(squares);
-  this->RoundingNorm = roundingOf(squares);
-  for (auto& level : this->Hierarchy.coarse)
-  {
-    level->window().zeroB(0, level->window().nodes());
-  }
-  this->startPass(true);
-  auto& finest = *this->Hierarchy.finest;
-  finest.setScale(1.0);
-  finest.advanceDown();
-  finest.settle();
-  this->endPass();
 }
 
 } // namespace smg

@@ -124,7 +124,7 @@ void RestShape::endPass()
   }
 }
 
-void RestShape::readStart(std::int64_t first, std::int64_t count, double* points)
+void RestShape::addStart(std::int64_t first, std::int64_t count, double* values)
 {
   while (count > 0)
   {
@@ -135,8 +135,11 @@ void RestShape::readStart(std::int64_t first, std::int64_t count, double* points
     {
       this->cacheStart(block);
     }
-    points =
-      std::copy_n(this->CachedPoints.data() + 3 * (first - begin), 3 * (end - first), points);
+    const double* start = this->CachedPoints.data() + 3 * (first - begin);
+    for (std::int64_t k = 0; k < 3 * (end - first); ++k)
+    {
+      *values++ += start[k];
+    }
     count -= end - first;
     first = end;
   }

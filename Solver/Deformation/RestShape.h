@@ -125,9 +125,11 @@ public:
   /** The next block of a pass. */
   RestBlock next();
   void endPass();
-  /** The start of the displacements of vertices [first, first + count), any range: the positions at
-   * rest, or the targets of held vertices. */
-  void readStart(std::int64_t first, std::int64_t count, double* points);
+  /**
+   * Adds the start of the displacements of vertices [first, first + count), any range: the
+   * positions at rest, or the targets of held vertices.
+   */
+  void addStart(std::int64_t first, std::int64_t count, double* values);
   /** The blocks, without scratch files. */
   std::deque<RestBlock>& blocks() { return this->Blocks; }
 
@@ -147,7 +149,7 @@ private:
   std::int64_t Vertices = 0;
   std::array<double, 3> Low, High;
   std::size_t NextBlock = 0;
-  std::int64_t Cached = -1; // block of readStart()
+  std::int64_t Cached = -1; // block of addStart()
   std::vector<double> CachedPoints;
 };
 

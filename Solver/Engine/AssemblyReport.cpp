@@ -16,14 +16,14 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
   report.cells = assembly.cells();
   report.prescribed = assembly.prescribed();
   report.held = assembly.held();
-  report.degenerate_cells = assembly.degenerateCells();
+  report.degenerate_cells = assembly.weights().degenerateCells();
   report.clamped_weights = assembly.clampedWeights();
-  if (assembly.limitedCells() > 0)
+  if (assembly.weights().limitedCells() > 0)
   {
-    report.notes.push_back(std::to_string(assembly.limitedCells()) +
+    report.notes.push_back(std::to_string(assembly.weights().limitedCells()) +
                            " cells are so flat that rounding would drown the others: their "
                            "stiffness was scaled down, by a factor of " +
-                           scientific(assembly.leastFlatness()) +
+                           scientific(assembly.weights().leastFlatness()) +
                            " at the least; there the operator is not that of finite elements");
   }
   if (assembly.raisedRows() > 0)
@@ -35,7 +35,7 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
   }
   report.components = components.components();
   report.free_components = components.freeComponents();
-  if (!std::isfinite(assembly.termSquares()))
+  if (!std::isfinite(assembly.residual().termSquares()))
   {
     throw Error("the squares of the values overflow: scale the mesh, the prescribed values, the "
                 "sources or the screening");

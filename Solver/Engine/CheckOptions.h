@@ -7,9 +7,11 @@
 namespace smg
 {
 
-/** Throws Error if an option is out of range, but for the operator set's name; solve() does so, too. */
+/** Throws Error if an option is out of range, but for the operator set's name; solve() does so,
+ * too. */
 SMG_EXPORT void checkOptions(const SolveOptions& options);
-/** The same of the options of a deformation, with the operator set's name; deform() does so, too. */
+/** The same of the options of a deformation, with the operator set's name; deform() does so, too.
+ */
 SMG_EXPORT void checkOptions(const DeformOptions& options);
 /**
  * Throws Error unless the library has an operator set of that name, which goes with the other

@@ -37,12 +37,12 @@ std::string scientific(double value)
   return text;
 }
 
-Convergence::Convergence(const Stopping& stopping, double initial, double rounding)
+Convergence::Convergence(const Stopping& stopping, const FirstResidual& first)
   : Fixed(stopping.cycles > 0)
   , Limit(this->Fixed ? stopping.cycles : stopping.maxCycles)
-  , Rounding(rounding)
-  , Reference(std::max(initial, rounding))
-  , Goal(initial <= rounding ? rounding : stopping.tolerance * initial)
+  , Rounding(first.rounding)
+  , Reference(std::max(first.norm, first.rounding))
+  , Goal(first.norm <= first.rounding ? first.rounding : stopping.tolerance * first.norm)
 {
 }
 

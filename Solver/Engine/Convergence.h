@@ -19,15 +19,19 @@ struct Stopping
   int cycles = 0;
 };
 
+/** The residual of the initial values. */
+struct FirstResidual
+{
+  double norm = 0.0;     ///< ||b - A x_0||
+  double rounding = 0.0; ///< what of it is the rounding of its own terms
+};
+
 /** Watches the residual of a problem from V-cycle to V-cycle and decides when to stop. */
 class SMG_EXPORT Convergence
 {
 public:
-  /**
-   * `initial`: ||b - A x_0||; `rounding`: what of it is the rounding of its own terms. Initial
-   * values that solve the problem up to rounding cannot be improved by a tolerance.
-   */
-  Convergence(const Stopping& stopping, double initial, double rounding);
+  /** Initial values that solve the problem up to rounding cannot be improved by a tolerance. */
+  Convergence(const Stopping& stopping, const FirstResidual& first);
 
   /**
    * Before the first V-cycle: the norm after the first sweeps. It may end the solve already, unless

@@ -3,6 +3,7 @@
 
 #include "Solver/Cycle/Level.h"
 #include "Solver/Cycle/RowBlockPacker.h"
+#include "Solver/Engine/Levels.h"
 #include "Solver/Operators/Coarsening.h"
 #include "smg/Report.h"
 
@@ -12,15 +13,6 @@
 
 namespace smg
 {
-
-/** The levels of a multigrid: the finest one in double, the others in single precision. */
-template <class Relaxation>
-struct Levels
-{
-  std::unique_ptr<Level<double, Relaxation>> finest;
-  std::vector<std::unique_ptr<Level<float, Relaxation>>> coarse; ///< level 1, 2, ...
-  std::vector<Report::Level> sizes;
-};
 
 /**
  * Builds the hierarchy while the finest level's rows come. Levels below `firstCore` are built in
@@ -32,10 +24,8 @@ class HierarchyBuilder
 {
 public:
   using Relaxation = typename Operators::Relaxation;
-  /** Coarsening ends at a level of at most this many nodes, which is factorised directly ... */
-  static constexpr std::int64_t CoarsestNodes = 1000;
-  /** ... or that has more than this share of the nodes of the level before: it has few strong
-   * edges, or stiff rows. */
+  /** Coarsening ends at a level of at most CoarsestNodes or of more than this share of the nodes of
+   * the level before: it has few strong edges, or stiff rows. */
   static constexpr double StalledShare = 0.8;
 
   /** `stiff` finds the stiff rows of each coarse level. */

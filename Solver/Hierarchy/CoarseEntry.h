@@ -3,9 +3,11 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace smg
 {
@@ -50,6 +52,12 @@ public:
 
   float value() const { return std::bit_cast<float>(this->load(0)); }
   void setValue(float value) { std::memcpy(this->Bytes.data(), &value, sizeof(value)); }
+
+  /** The entry is to go: it has no value any more. */
+  void remove() { this->setValue(std::numeric_limits<float>::quiet_NaN()); }
+  bool removed() const { return std::isnan(this->value()); }
+  /** Becomes what `other` is, which may be removed, but for the coarse node. */
+  void takeValue(const CoarseEntry& other) { this->setValue(other.value()); }
 
   /** Distance of the coarse node from `near`, which is alive. */
   std::int32_t offset(std::int64_t near) const { return coarseDistance(this->load(3), near); }

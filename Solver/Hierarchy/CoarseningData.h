@@ -5,6 +5,7 @@
 #include "Solver/Hierarchy/LevelRows.h"
 #include "Solver/Hierarchy/Patches.h"
 #include "Solver/Hierarchy/StiffRows.h"
+#include "Solver/Hierarchy/StrongestWeight.h"
 #include "Solver/Storage/MonotoneRing.h"
 #include "Solver/Storage/RaggedRing.h"
 
@@ -148,7 +149,7 @@ struct CoarseningData
   /** Off-diagonal rows of -P^T A P, before and during sparsification. */
   RaggedRing<CoarseEntry> raw;
   Ring<double> rawAlpha;
-  Ring<float> rawStrongest; ///< with the sign - if the row is stiff
+  Ring<StrongestWeight> rawStrongest;
   Ring<float> rawDiagonal;
   /** Whether no entry of the row may be removed. */
   Ring<std::uint8_t> rawKept;

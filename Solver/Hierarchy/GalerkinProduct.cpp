@@ -154,9 +154,10 @@ void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
   }
   data.raw.close(size);
   const double diagonal = usableDiagonal(sum);
-  data.rawStrongest[c] = data.stiff(least) ? -strongest : strongest;
+  const bool stiff = data.stiff(least);
+  data.rawStrongest[c] = { strongest, stiff };
   data.rawDiagonal[c] = static_cast<float>(diagonal);
-  data.rawKept[c] = std::signbit(data.rawStrongest[c]) || terms > this->cancelling * sum ? 1 : 0;
+  data.rawKept[c] = stiff || terms > this->cancelling * sum ? 1 : 0;
   data.rawLower[c] = lower;
   std::int32_t* mirrored = data.rawMirrored.at(c);
   *mirrored = lower - 1;

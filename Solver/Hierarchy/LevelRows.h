@@ -2,11 +2,11 @@
 #pragma once
 
 #include "Solver/Hierarchy/RowEntry.h"
+#include "Solver/Hierarchy/StrongestWeight.h"
 #include "Solver/Storage/MonotoneRing.h"
 #include "Solver/Storage/RaggedRing.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -83,9 +83,9 @@ public:
   }
   double alpha(std::int64_t i) const { return this->Alpha[i]; }
   /** The largest weight of row i, 0 if there is none. */
-  float strongest(std::int64_t i) const { return std::fabs(this->Strongest[i]); }
+  float strongest(std::int64_t i) const { return this->Strongest[i].weight(); }
   /** Whether row i is stiff. */
-  bool stiff(std::int64_t i) const { return std::signbit(this->Strongest[i]); }
+  bool stiff(std::int64_t i) const { return this->Strongest[i].stiff(); }
   /** The largest node index that occurs in rows 0 .. i, at least i. */
   std::int64_t reach(std::int64_t i) const { return this->Reach[i]; }
   /** The last node of the finer level that interpolates from a node 0 .. i; -1 on level 0. */
@@ -113,7 +113,7 @@ public:
     this->Alpha.extendRaw(i + 1);
     this->Strongest.extendRaw(i + 1);
     this->Alpha[i] = alpha;
-    this->Strongest[i] = stiff ? -strongest : strongest;
+    this->Strongest[i] = { strongest, stiff };
     this->Reach.append(last);
     this->ChildReach.append(childReach);
     this->keep(precise);
@@ -164,7 +164,7 @@ private:
   RaggedRing<RowEntry> Entries;
   RaggedRing<double> Precise;
   Ring<double> Alpha;
-  Ring<float> Strongest; // with the sign - if the row is stiff
+  Ring<StrongestWeight> Strongest;
   MonotoneRing Reach, ChildReach;
   std::int64_t Nonzeros = 0, Released = 0;
 };

@@ -3,15 +3,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <limits>
 
 namespace smg
 {
 namespace
 {
-
-constexpr float Removed = std::numeric_limits<float>::quiet_NaN();
 
 /** The entry of the pair {c,k}, which is there, in the upper one of its two rows. */
 CoarseEntry& upperEntry(const CoarseningData& data, std::int64_t c, std::int64_t k)
@@ -53,7 +49,7 @@ Sparsification::Candidate Sparsification::strongestCommon(
   {
     const std::int32_t delta = entry.offset(c);
     const float weight = std::min(entry.value(), large[delta].get(mark));
-    if (weight > best.weight)
+    if (weight > best.weight && !entry.removed())
     {
       best = { c + delta, weight };
     }
@@ -104,7 +100,7 @@ void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
   const std::int64_t size = data.raw.size(k);
   CoarseningData::Slot* large = data.slots.at(k);
   const std::uint32_t mark = data.freshMark();
-  const float* strongest = data.rawStrongest.at(k);
+  const StrongestWeight* strongest = data.rawStrongest.at(k);
   const std::int32_t* mirrored = data.rawMirrored.at(k);
   std::uint64_t bits = 0;
   for (std::int64_t e = 0; e < size; ++e)
@@ -135,7 +131,7 @@ void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
     const std::int64_t c = k + delta;
     CoarseEntry& pair = data.raw.row(c)[mirrored[delta]];
     const float weight = pair.value();
-    if (kept[delta] != 0 || !this->isSmall(weight, *strongest, strongest[delta]))
+    if (kept[delta] != 0 || !this->isSmall(weight, strongest->weight(), strongest[delta].weight()))
     {
       continue;
     }
@@ -152,7 +148,7 @@ void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
         taker.setValue(taker.value() + weight);
       }
     }
-    pair.setValue(Removed);
+    pair.remove();
   }
 }
 

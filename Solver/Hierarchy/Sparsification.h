@@ -40,10 +40,10 @@ private:
    * Whether the weight of a row's neighbour at distance delta is large, given the largest weight of
    * that row and those of the rows before it: a neighbour that comes later has no say.
    */
-  bool isLarge(float weight, std::int32_t delta, const float* strongest) const
+  bool isLarge(float weight, std::int32_t delta, const StrongestWeight* strongest) const
   {
-    const float other = strongest[std::min(delta, 0)];
-    return !this->isSmall(weight, std::fabs(*strongest), std::fabs(other));
+    const StrongestWeight other = strongest[std::min(delta, 0)];
+    return !this->isSmall(weight, strongest->weight(), other.weight());
   }
   void keepStronglyCoupled(const CoarseningData& data, std::int64_t k) const;
   Candidate strongestCommon(

@@ -7,7 +7,6 @@
 #include "smg/Error.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -230,17 +229,17 @@ private:
       for (std::int64_t e = d.rawLower[c]; e < size; ++e)
       {
         const std::int32_t delta = raw[e].offset(c);
-        d.raw.row(c + delta)[settled[delta]++].setValue(raw[e].value());
+        d.raw.row(c + delta)[settled[delta]++].takeValue(raw[e]);
       }
       RowEntry* out = this->Final.open(size);
       std::int64_t kept = 0;
       for (std::int64_t e = 0; e < size; ++e)
       {
         out[kept] = { raw[e].offset(c), raw[e].value() };
-        kept += std::isnan(out[kept].weight()) ? 0 : 1;
+        kept += raw[e].removed() ? 0 : 1;
       }
       this->Final.close(
-        kept, d.rawAlpha[c], d.lastChild[c].row(this->Rows), std::signbit(d.rawStrongest[c]));
+        kept, d.rawAlpha[c], d.lastChild[c].row(this->Rows), d.rawStrongest[c].stiff());
     }
   }
 

@@ -16,7 +16,7 @@ namespace smg
  * (every level gets a copy) with
  *
  *   const char* O::name             what it is called
- *   O O::forCells(CellType)         the set with its parameters for that kind of cells
+ *   O O::forCells(CellType)         the set with the parameters that are best for such cells
  *   bool o.lift(data, i)            lifting rule: does node i get a parent?
  *   o.interpolateInitial(data, i)   interpolation in three steps: a first idea of row i of P,
  *   o.interpolationSweeps()         sweeps that better the rows, at least 1, each with
@@ -43,12 +43,12 @@ namespace smg
  * - `multiply` may read row i and `interpolation` of i and its neighbours. It appends row i of
  *   `product` and sets `productSum`.
  * - `gather` may read the chain of column c and `product` of its rows. It appends row c of `raw`,
- *   by ascending column, sets rawAlpha, rawDiagonal, rawKept, rawStrongest (with the sign - if
- *   `stiff`, asked once, says so), rawLower and rawMirrored of c and moves rawMirrored of its
+ *   by ascending column, sets rawAlpha, rawDiagonal, rawKept, rawStrongest (stiff if
+ *   `data.stiff`, asked once, says so), rawLower and rawMirrored of c and moves rawMirrored of its
  *   neighbours above on by one.
  * - `sparsify`, which follows it, may read the rows of `raw` up to c that have neighbours from c
  *   on, and change their upper entries, those with delta > 0; the lower ones take over the
- *   weights of these at last. An entry that is to go gets the weight NaN.
+ *   weights of these at last. An entry that is to go is marked by CoarseEntry::remove().
  *
  * What the engine relies on: a node without edges is not lifted; each lifted node has a child; P
  * has entries from -1 to 1 (multiples of 1/Quanta), from coarse nodes within two rings; the coarse

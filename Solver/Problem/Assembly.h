@@ -5,13 +5,16 @@
 #include "Solver/Problem/AssembledRows.h"
 #include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Problem/Components.h"
+#include "Solver/Problem/EdgeTargets.h"
 #include "Solver/Problem/NeighbourReach.h"
+#include "Solver/Problem/OpenComponents.h"
 #include "Solver/Problem/OpenVertices.h"
 #include "Solver/Problem/ProblemCells.h"
 #include "Solver/Problem/ProblemFacets.h"
 #include "Solver/Problem/RowAssembly.h"
 #include "Solver/Problem/RowListener.h"
-#include "Solver/Problem/VertexLoads.h"
+#include "Solver/Problem/RowLoads.h"
+#include "Solver/Problem/WeightPolicy.h"
 #include "Solver/Problem/WeightedEdges.h"
 #include "Solver/Stream/StreamCheck.h"
 #include "smg/CellWeights.h"
@@ -19,7 +22,6 @@
 #include "smg/Problem.h"
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace smg
@@ -54,67 +56,45 @@ public:
   std::int64_t cells() const { return this->Cells; }
   std::int64_t prescribed() const { return this->Rows.prescribed(); }
   std::int64_t held() const { return this->Rows.held(); }
-  std::int64_t degenerateCells() const { return this->Degenerate; }
   std::int64_t clampedWeights() const { return this->Edges.clamped(); }
-  /** With cotangent weights: cells whose stiffness was scaled down, and the least factor. */
-  std::int64_t limitedCells() const { return this->Limited; }
-  double leastFlatness() const { return this->LeastFlatness; }
+  /** What the cells gave. */
+  const WeightPolicy& weights() const { return this->Policy; }
   /** With cotangent weights: rows that were raised. */
   std::int64_t raisedRows() const { return this->Rows.raised(); }
   /** See StiffRows. */
   std::int64_t stiffRows() const { return this->Rows.stiff(); }
-  /** ||b - A x_0||^2, and the same of the terms that it is the difference of. */
-  double initialSquares() const { return this->Rows.initialSquares(); }
-  double termSquares() const { return this->Rows.termSquares(); }
+  /** ||b - A x_0|| of the rows that are final. */
+  const InitialResidual& residual() const { return this->Rows.residual(); }
 
 private:
   void addVertices(const MeshBlock& block);
   void addCells(const MeshBlock& block);
   void addCell(const std::int64_t* corners, unsigned flags);
-  CellWeights weightsOf(const double* const* points);
   void connect(const std::int64_t* corners, const double* const* points, const CellWeights& cell);
   void finalize(std::int64_t end);
+  void closeBatch(std::int64_t end);
   void collectRow(std::int64_t i);
-  void applyEdgeTargets(std::int64_t begin);
-  void closeRow(std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target);
-  void addBoundary(std::int64_t i);
   void release();
 
   CellType Type;
   StreamCheck Check;
-  Problem& Given;
-  std::size_t Columns;
-  Weights Kind;
-  bool ConnectsFlat;
-  AssembledRows& Out;
-  Components& Parts;
-  ComponentLabels& PartLabels;
   RowListener* Listener;
+  WeightPolicy Policy;
 
   // By open vertex.
   OpenVertices Vertices;
-  Ring<std::int32_t> Labels;
+  OpenComponents Parts;
   NeighbourReach Reach;
   WeightedEdges Edges;
-  std::optional<ProblemCells> Own;
-  std::optional<ProblemFacets> Facets;
-  // Apart: facets are known when their vertices are final, which depends on the blocks.
-  std::optional<VertexLoads> CellLoads, FacetLoads;
-  RowAssembly Rows;
+  RowLoads Loads;
 
   // The rows of the current batch.
   std::vector<RowNeighbour> Neighbours;
   std::vector<std::size_t> RowEnds;
-  std::vector<double> Targets, FromPoints, ToPoints;
-  std::vector<double> Load; // of a row
-  std::vector<std::int64_t> From, To;
-  std::vector<std::int32_t> LabelBatch;
-  std::vector<double> MassBatch;
+  EdgeTargets Targets;
+  RowAssembly Rows;
 
   std::int64_t Cells = 0, Final = 0;
-  std::int64_t Degenerate = 0, Limited = 0;
-  double LeastFlatness = 1.0;
-  bool Scaled = false; // the weights' scale is known
 };
 
 } // namespace smg

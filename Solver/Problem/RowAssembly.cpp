@@ -23,6 +23,19 @@ namespace
 constexpr double LargeOfTriangles = 3.0;
 constexpr double LargeOfTetrahedra = 4.0;
 
+/** From vertex i to its neighbour j. Throws Error if a row cannot express it. */
+std::int32_t distance(std::int64_t i, std::int64_t j)
+{
+  const std::int64_t delta = j - i;
+  if (delta > RowEntry::MostDistance || delta < -RowEntry::MostDistance)
+  {
+    throw Error("vertices " + std::to_string(i) + " and " + std::to_string(j) +
+                " share an edge but lie too far apart in the stream: convert the mesh with the "
+                "order bfs");
+  }
+  return static_cast<std::int32_t>(delta);
+}
+
 double squaredDistance(const double* a, const double* b)
 {
   const double d[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
@@ -43,7 +56,7 @@ RowAssembly::RowAssembly(CellType type, const OpenVertices& vertices, Problem& p
   , Listener(listener)
   , B(this->Columns)
   , Constraint(this->Columns)
-  , Residual(this->Columns)
+  , Residual(vertices.values)
 {
 }
 
@@ -52,7 +65,7 @@ void RowAssembly::close(std::int64_t i, std::int32_t label,
 {
   const double* x = this->Vertices.values.at(i);
   this->Out.x.insert(this->Out.x.end(), x, x + this->Columns);
-  if (this->Vertices.dirichlet[i] >= 0 || (neighbours.empty() && alpha == 0.0))
+  if (this->isKnown(i) || (neighbours.empty() && alpha == 0.0))
   {
     this->closeKnown(i, label);
     return;
@@ -64,30 +77,25 @@ void RowAssembly::close(std::int64_t i, std::int32_t label,
   }
   this->B.assign(load, load + this->Columns);
   this->Constraint = this->B;
-  const double own = alpha;
-  this->addNeighbours(i, neighbours, target, alpha);
-  this->raise(i, alpha);
-  float least = 0.0F;
-  for (std::int64_t e = 0; this->Stiff.any() && e < this->Size; ++e)
-  {
-    least = std::min(least, this->Row[e].weight());
-  }
-  const double diagonal =
-    diagonalOf({ this->Row, static_cast<std::size_t>(this->Size) }, alpha, this->Precise);
-  this->Out.rows.close(this->Size, alpha, -1, this->Stiff(least), this->Precise);
+  this->Alpha = alpha;
+  this->addNeighbours(i, neighbours, target);
+  this->raise(i);
+  const AssembledRow row{ i, this->entries(), this->Precise,
+    diagonalOf(this->entries(), this->Alpha, this->Precise) };
+  this->Out.rows.close(this->Size, this->Alpha, -1, this->isStiff(), this->Precise);
   this->Out.b.insert(this->Out.b.end(), this->B.begin(), this->B.end());
   if (this->Listener)
   {
     this->Listener->constraint(this->Constraint.data());
   }
-  this->count(i, label, diagonal, commonShare(own, this->edgeWeights()));
+  this->count(row, label, commonShare(alpha, this->edgeWeights()));
 }
 
 /** A vertex that is no unknown: prescribed, or held where it is. */
 void RowAssembly::closeKnown(std::int64_t i, std::int32_t label)
 {
   const double* x = this->Vertices.values.at(i);
-  ++(this->Vertices.dirichlet[i] >= 0 ? this->Prescribed : this->Held);
+  ++(this->isKnown(i) ? this->Prescribed : this->Held);
   if (label >= 0)
   {
     this->Parts.anchor(label);
@@ -122,82 +130,85 @@ bool RowAssembly::needsPrecision(std::int64_t i, const RowNeighbour& neighbour) 
   return size * size > LargeOfTetrahedra * LargeOfTetrahedra * square;
 }
 
-/** Makes the row's entries; adds what the neighbours bring to b, and the weights of those that are
- * prescribed to alpha. */
+/** Makes the row's entries and adds what the neighbours bring to b. */
 void RowAssembly::addNeighbours(
-  std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target, double& alpha)
+  std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target)
 {
   this->Row = this->Out.rows.open(static_cast<std::int64_t>(neighbours.size()));
   this->Size = 0;
   this->Known = 0.0;
   this->Precise.clear();
-  bool anyPrecise = false;
+  this->AnyPrecise = false;
   for (const RowNeighbour& neighbour : neighbours)
   {
-    const bool known = this->Vertices.dirichlet[neighbour.to] >= 0;
-    const bool precise = !known && this->needsPrecision(i, neighbour);
-    const auto stored = static_cast<float>(neighbour.weight);
-    const double weight = known     ? knownWeight(this->Kind, neighbour)
-                          : precise ? neighbour.weight
-                                    : stored;
-    const double* other = this->Vertices.values.at(neighbour.to);
-    const auto term = [&](std::size_t k)
-    { return weight * ((known ? other[k] : 0.0) + (target ? target[k] : 0.0)); };
-    for (std::size_t k = 0; k < this->Columns; ++k)
+    const std::int32_t delta = distance(i, neighbour.to);
+    if (this->isKnown(neighbour.to))
     {
-      this->B[k] += term(k);
-    }
-    const std::int64_t delta = neighbour.to - i;
-    if (delta > RowEntry::MostDistance || delta < -RowEntry::MostDistance)
-    {
-      throw Error("vertices " + std::to_string(i) + " and " + std::to_string(neighbour.to) +
-                  " share an edge but lie too far apart in the stream: convert the mesh with the "
-                  "order bfs");
-    }
-    if (!known)
-    {
-      this->Row[this->Size++] = { static_cast<std::int32_t>(delta), stored };
-      this->Precise.push_back(weight);
-      anyPrecise = anyPrecise || precise;
-      if (this->Listener && target)
-      {
-        this->Listener->target(target);
-      }
+      this->addKnown(delta, neighbour, target);
     }
     else
     {
-      alpha += weight;
-      this->Known += std::fabs(weight);
-      for (std::size_t k = 0; this->Listener && k < this->Columns; ++k)
-      {
-        this->Constraint[k] += term(k);
-      }
-      if (this->Listener)
-      {
-        this->Listener->link(static_cast<std::int32_t>(delta), stored);
-      }
+      this->addUnknown(i, delta, neighbour, target);
     }
     target = target ? target + this->Columns : nullptr;
   }
-  if (!anyPrecise)
+  if (!this->AnyPrecise)
   {
     this->Precise.clear();
   }
 }
 
-/** Holds the vertex near its initial value where its diagonal is lost in rounding. */
-void RowAssembly::raise(std::int64_t i, double& alpha)
+/** The weight of a neighbour that is prescribed goes to alpha and b. */
+void RowAssembly::addKnown(std::int32_t delta, const RowNeighbour& neighbour, const double* target)
 {
-  this->Raise =
-    this->Kind == Weights::Cotangent
-      ? rowShortfall({ this->Row, static_cast<std::size_t>(this->Size) }, alpha, this->Precise)
-      : 0.0;
+  const double weight = knownWeight(this->Kind, neighbour);
+  const double* value = this->Vertices.values.at(neighbour.to);
+  this->Alpha += weight;
+  this->Known += std::fabs(weight);
+  for (std::size_t k = 0; k < this->Columns; ++k)
+  {
+    const double term = weight * (value[k] + (target ? target[k] : 0.0));
+    this->B[k] += term;
+    this->Constraint[k] += term;
+  }
+  if (this->Listener)
+  {
+    this->Listener->link(delta, static_cast<float>(neighbour.weight));
+  }
+}
+
+/** A neighbour that is not becomes an entry. */
+void RowAssembly::addUnknown(
+  std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target)
+{
+  const bool precise = this->needsPrecision(i, neighbour);
+  const auto stored = static_cast<float>(neighbour.weight);
+  const double weight = precise ? neighbour.weight : static_cast<double>(stored);
+  this->Row[this->Size++] = { delta, stored };
+  this->Precise.push_back(weight);
+  this->AnyPrecise = this->AnyPrecise || precise;
+  for (std::size_t k = 0; target && k < this->Columns; ++k)
+  {
+    this->B[k] += weight * target[k];
+  }
+  if (this->Listener && target)
+  {
+    this->Listener->target(target);
+  }
+}
+
+/** Holds the vertex near its initial value where its diagonal is lost in rounding. */
+void RowAssembly::raise(std::int64_t i)
+{
+  this->Raise = this->Kind == Weights::Cotangent
+                  ? rowShortfall(this->entries(), this->Alpha, this->Precise)
+                  : 0.0;
   if (this->Raise == 0.0)
   {
     return;
   }
   ++this->Raised;
-  alpha += this->Raise;
+  this->Alpha += this->Raise;
   const double* x = this->Vertices.values.at(i);
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
@@ -206,37 +217,33 @@ void RowAssembly::raise(std::int64_t i, double& alpha)
   }
 }
 
+/** Whether the row is stiff; to be asked once. */
+bool RowAssembly::isStiff()
+{
+  float least = 0.0F;
+  for (std::int64_t e = 0; this->Stiff.any() && e < this->Size; ++e)
+  {
+    least = std::min(least, this->Row[e].weight());
+  }
+  return this->Stiff(least);
+}
+
 /** The magnitudes of the weights of the row's edges, to prescribed vertices, too. */
 double RowAssembly::edgeWeights() const
 {
   double weights = this->Known;
-  for (std::int64_t e = 0; e < this->Size; ++e)
+  for (const RowEntry& entry : this->entries())
   {
-    weights += std::fabs(static_cast<double>(this->Row[e].weight()));
+    weights += std::fabs(static_cast<double>(entry.weight()));
   }
   return weights;
 }
 
 /** Adds the row to the sums over all rows and over its component. */
-void RowAssembly::count(std::int64_t i, std::int32_t label, double diagonal, double share)
+void RowAssembly::count(const AssembledRow& row, std::int32_t label, double share)
 {
-  const double* x = this->Vertices.values.at(i);
-  double squares[2] = { 0.0, 0.0 };
-  for (std::size_t k = 0; k < this->Columns; ++k)
-  {
-    double sum = this->B[k] - diagonal * x[k];
-    for (std::int64_t e = 0; e < this->Size; ++e)
-    {
-      const double weight = this->Precise.empty() ? static_cast<double>(this->Row[e].weight())
-                                                  : this->Precise[static_cast<std::size_t>(e)];
-      sum += weight * this->Vertices.values.at(i + this->Row[e].delta())[k];
-    }
-    this->Residual[k] = sum;
-    squares[0] += sum * sum;
-    squares[1] += this->B[k] * this->B[k] + diagonal * diagonal * x[k] * x[k];
-  }
-  this->InitialSquares += share * share * squares[0];
-  this->TermSquares += squares[1];
+  const std::span<const double> residual = this->Residual.add(row, this->B, share);
+  const double* x = this->Vertices.values.at(row.vertex);
   if (this->Raise > 0.0)
   {
     // What holds the vertex near its initial value is no part of the problem.
@@ -247,7 +254,7 @@ void RowAssembly::count(std::int64_t i, std::int32_t label, double diagonal, dou
   }
   if (label >= 0)
   {
-    this->Parts.count(label, this->B.data(), x, this->Residual.data(), this->Vertices.mass[i]);
+    this->Parts.count(label, this->B.data(), x, residual.data(), this->Vertices.mass[row.vertex]);
   }
 }
 

@@ -4,6 +4,7 @@
 #include "Solver/Hierarchy/StiffRows.h"
 #include "Solver/Problem/AssembledRows.h"
 #include "Solver/Problem/Components.h"
+#include "Solver/Problem/InitialResidual.h"
 #include "Solver/Problem/OpenVertices.h"
 #include "Solver/Problem/RowListener.h"
 #include "Solver/Problem/WeightedEdges.h"
@@ -38,18 +39,26 @@ public:
   /** See rowShortfall(). */
   std::int64_t raised() const { return this->Raised; }
   std::int64_t stiff() const { return this->Stiff.found(); }
-  /** Of the first residual, rows that are dominated by screening and the like as by their edges. */
-  double initialSquares() const { return this->InitialSquares; }
-  double termSquares() const { return this->TermSquares; }
+  /** Of the initial values; rows that are dominated by screening and the like as by their edges. */
+  const InitialResidual& residual() const { return this->Residual; }
 
 private:
   void closeKnown(std::int64_t i, std::int32_t label);
-  bool needsPrecision(std::int64_t i, const RowNeighbour& neighbour) const;
   void addNeighbours(
-    std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target, double& alpha);
-  void raise(std::int64_t i, double& alpha);
+    std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target);
+  void addKnown(std::int32_t delta, const RowNeighbour& neighbour, const double* target);
+  void addUnknown(
+    std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target);
+  bool isKnown(std::int64_t i) const { return this->Vertices.dirichlet[i] >= 0; }
+  bool needsPrecision(std::int64_t i, const RowNeighbour& neighbour) const;
+  void raise(std::int64_t i);
+  bool isStiff();
   double edgeWeights() const;
-  void count(std::int64_t i, std::int32_t label, double diagonal, double share);
+  void count(const AssembledRow& row, std::int32_t label, double share);
+  std::span<const RowEntry> entries() const
+  {
+    return { this->Row, static_cast<std::size_t>(this->Size) };
+  }
 
   const OpenVertices& Vertices;
   std::size_t Columns;
@@ -63,15 +72,16 @@ private:
   // The row that is being made.
   RowEntry* Row = nullptr;
   std::int64_t Size = 0;
+  double Alpha = 0.0;
   double Known = 0.0; // magnitudes of the weights of edges to prescribed vertices
   double Raise = 0.0;
-  std::vector<double> Precise;    // weights in double precision, if the row needs them
+  std::vector<double> Precise;    // weights in double precision ...
+  bool AnyPrecise = false;        // ... which the row needs
   std::vector<double> B;          // `Columns` numbers
   std::vector<double> Constraint; // what of b is not of edges to unknowns
-  std::vector<double> Residual;
 
+  InitialResidual Residual;
   std::int64_t Prescribed = 0, Held = 0, Raised = 0;
-  double InitialSquares = 0.0, TermSquares = 0.0;
 };
 
 } // namespace smg

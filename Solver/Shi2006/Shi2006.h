@@ -12,8 +12,11 @@ namespace smg
 {
 
 /**
- * The operator set `shi2006`: the equations (3) to (10) as printed in "Out-of-Core Multigrid Solver
- * for Streaming Meshes", after Shi et al. 2006.
+ * The equations (3) to (10) as printed in "Out-of-Core Multigrid Solver for Streaming Meshes",
+ * after Shi et al. 2006: for comparison with the paper, never for results, since they do not
+ * converge to the solution. They are selected like an operator set, by the name `shi2006`, but are
+ * not an OperatorSet: their V-cycle works on other vectors, and they share with the engine only the
+ * assembly of rows and the treatment of free components.
  *
  * Its unknowns are corrections, and the error of the current solution is represented on the edges:
  * every level has a vector g for each of its edges and columns. Both the coarse operator and the
@@ -25,9 +28,9 @@ namespace smg
  * Lifting may disconnect a component, more often if the stream order does not follow the mesh:
  * 2-ring edges need not keep a graph connected. An unconstrained part hardly changes.
  *
- * The set is suitable for reproducing the paper, and for integrable edge targets, d_ij = x*_i -
- * x*_j for the solution x* on every edge, which one V-cycle solves up to rounding. Use `extended`
- * for all other problems.
+ * They reproduce the paper's method; one V-cycle solves, up to rounding, problems with integrable
+ * edge targets, d_ij = x*_i - x*_j for the solution x* on every edge: the case in which the
+ * equations are right. Use `extended` for all solutions.
  *
  * Works in core only. The edge targets must be antisymmetric, as stated at Problem.
  */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Core/Timer.h"
-#include "Solver/Engine/Engine.txx"
+#include "Solver/Engine/FirstPass.h"
+#include "Solver/Engine/Hierarchy.h"
+#include "Solver/Engine/SolveRun.h"
 #include "Solver/Operators/Extended.h"
 #include "Testing/Benchmarks/FixedEndsProblem.h"
 #include "Testing/Benchmarks/Kernels.h"
@@ -17,20 +19,22 @@ namespace
 using ::benchmark::State;
 
 /** The levels of a solve in core, between two passes. */
-class CoreLevels : public Engine<Extended>
+class CoreLevels
 {
 public:
   explicit CoreLevels(const testing::StreamMesh& mesh)
-    : Engine<Extended>(3, options())
+    : Run(Columns, options())
+    , Levels(this->Run, Columns)
   {
     testing::MemorySource source(mesh);
     FixedEndsProblem problem(source.info());
-    this->build(source, problem);
-    this->startPass(false);
+    const Extended operators = Extended::forCells(mesh.cellType);
+    FirstPass(this->Run, this->Levels, operators)(source, problem);
+    this->Levels.startPass(false);
   }
 
-  int count() const { return static_cast<int>(this->Hierarchy.sizes.size()); }
-  const Report::Level& size(int l) const { return this->Hierarchy.sizes[l]; }
+  int count() { return static_cast<int>(this->Levels.levels().sizes.size()); }
+  const Report::Level& size(int l) { return this->Levels.levels().sizes[l]; }
 
   /** Calls f with level l. */
   template <class F>
@@ -38,15 +42,17 @@ public:
   {
     if (l == 0)
     {
-      f(*this->Hierarchy.finest);
+      f(this->Levels.finest());
     }
     else
     {
-      f(*this->Hierarchy.coarse[static_cast<std::size_t>(l - 1)]);
+      f(*this->Levels.levels().coarse[static_cast<std::size_t>(l - 1)]);
     }
   }
 
 private:
+  static constexpr int Columns = 3;
+
   static SolveOptions options()
   {
     SolveOptions options;
@@ -56,6 +62,9 @@ private:
     options.threads = 1;
     return options;
   }
+
+  SolveRun Run;
+  Hierarchy<GaussSeidel> Levels;
 };
 
 /** One of the kernels of a V-cycle, on all of level l. */

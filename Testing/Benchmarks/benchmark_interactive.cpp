@@ -35,8 +35,8 @@ StreamMesh previewOf(const std::string& path)
 {
   const smg::VsmReader reader(path);
   const auto source = reader.source();
-  const smg::StreamPreview preview = smg::makePreview(*source, PreviewPoints);
-  return toStream({ smg::CellType::Triangle, preview.positions, preview.triangles });
+  const smg::MeshPiece preview = smg::makePreview(*source, PreviewPoints);
+  return toStream({ smg::CellType::Triangle, preview.positions, preview.corners });
 }
 
 smg::DeformOptions onOneThread(smg::Weights weights, int cycles)

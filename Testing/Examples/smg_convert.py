@@ -254,6 +254,34 @@ def test_cells_of_both_kinds():
     assert "torus.obj" in error and not os.path.exists("o.vsm"), error
 
 
+def test_parts():
+    """One partition of a VTKHDF file alone; a time step where there are none is an error."""
+    write_torus("parts.obj", 500, 300)
+    run("convert", "parts.obj", "parts.vtkhdf", "--quiet")
+    run("info", "parts.vtkhdf", "--report", "report.json")
+    cells = load("report.json")["cells"]
+    assert load("report.json")["partitions"] == 2 and load("report.json")["time_steps"] == 0
+    counts = [convert("parts.vtkhdf", "o.vsm", "--partition", k)["cells"] for k in range(2)]
+    assert min(counts) > 0 and sum(counts) == cells, counts
+    os.remove("o.vsm")
+    with open("problem.json", "w", encoding="utf-8") as file:
+        json.dump({"screening": 1, "source": 1}, file)
+    run("solve", "parts.vtkhdf", "o.vsm", "--problem", "problem.json", "--partition", 1,
+        "--report", "report.json", "--quiet")
+    assert load("report.json")["cells"] == counts[1]
+    os.remove("o.vsm")
+    for name, option, said in (("parts.vtkhdf", ("--partition", 2), "there are 2"),
+                               ("parts.vtkhdf", ("--time-step", 1), "no time steps"),
+                               ("parts.obj", ("--time-step", 1), "no time steps"),
+                               ("parts.obj", ("--partition", 0), "no partitions"),
+                               ("stream.smb", ("--partition", 0), "no partitions"),
+                               ("stream.vsm", ("--time-step", 1), "no time steps")):
+        error = run("convert", name, "o.vsm", *option, code=1).stderr
+        assert name in error and said in error and option[0] in error, error
+    run("convert", "parts.vtkhdf", "o.vsm", "--time-step", -1, code=2)
+    assert not os.path.exists("o.vsm")
+
+
 def test_same_mesh_for_any_memory():
     """The bytes are equal, except for bfs, whose pages depend on the memory: there the mesh is equal."""
     write_torus("large.obj", 400, 200)
@@ -274,7 +302,7 @@ def test_same_mesh_for_any_memory():
 for each in (test_restored_order, test_restored_solids, test_restored_is_the_same_file,
              test_moved_meshes_keep_their_order, test_gzip_and_wrong_suffixes,
              test_compressed_streams, test_own_name, test_weld,
-             test_cells_of_both_kinds, test_same_mesh_for_any_memory):
+             test_cells_of_both_kinds, test_parts, test_same_mesh_for_any_memory):
     each()
     print("passed", each.__name__)
 sys.exit(0)

@@ -2,6 +2,8 @@
 #include "Testing/IO/ImportFixture.h"
 #include "Testing/Support/ColumnValues.h"
 
+#include <limits>
+
 namespace smg::testing
 {
 namespace
@@ -197,6 +199,12 @@ TEST_F(ImportOff, ErrorsOfBinaryFilesNameTheByte)
     "more after the last face");
   expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ 3, 0, 1, 2, 5 }), "colour");
   expectRefused(head + integers({ 3, 1, 0 }) + points + integers({ -3, 0, 1, 2, 0 }), "negative");
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  expectRefused(head + integers({ 3, 1, 0 }) + reals({ 0, 0, 0, 1, nan, 0, 0, 1, 0 }) +
+                  integers({ 3, 0, 1, 2, 0 }),
+    "vertex 1: a coordinate is not finite");
+  expectRefused("NOFF BINARY\n" + integers({ 1, 0, 0 }) + reals({ 0, 0, 0, 0, nan, 1 }),
+    "a.off, byte 40: vertex 0: a number behind its coordinates is not finite");
   expectRefused(head + integers({ 3, 1 << 24, 0 }) + points, "do not fit the size");
   expectRefused(head + std::string("\3\0\0\0\1\0\0\0\0\0\0\0", 12) + points, "significant byte");
   this->expectDamageIsFound("a.off", binaryOff());

@@ -11,7 +11,11 @@
 #include "smg/Convert.h"
 #include "smg/VsmReader.h"
 
+#include <hdf5.h>
+
+#include <fstream>
 #include <initializer_list>
+#include <iterator>
 
 namespace smg::testing
 {
@@ -36,6 +40,10 @@ public:
   void integers(const std::string& name, Integers values)
   {
     this->add(name, ScalarType::Int64, 0, std::vector<std::int64_t>(values));
+  }
+  void integers(const std::string& name, int components, Integers values)
+  {
+    this->add(name, ScalarType::Int64, components, std::vector<std::int64_t>(values));
   }
   void bytes(const std::string& name, std::initializer_list<std::uint8_t> values)
   {
@@ -72,14 +80,23 @@ private:
 class ImportVtkHdf : public ImportFixture
 {
 protected:
-  ReadMesh readHdf(const std::string& name = "a.vtkhdf")
+  ReadMesh readHdf(const MeshPart& part = {}, const std::string& name = "a.vtkhdf")
   {
     Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
-    return readRaw(importMesh(this->Folder / name, workspace));
+    ImportOptions options;
+    options.part = part;
+    return readRaw(importMesh(this->Folder / name, workspace, options));
+  }
+
+  void expectRefused(const MeshPart& part, const std::string& sentence)
+  {
+    const std::string message = messageOf([&] { this->readHdf(part); });
+    EXPECT_NE(message.find(sentence), std::string::npos) << message;
+    EXPECT_NE(message.find("a.vtkhdf: "), std::string::npos) << message;
   }
 
   /** A square in two partitions, which share an edge. */
-  void writeSquare(HdfFile& file)
+  void writeSquare(HdfFile& file, Integers tags = { 10, 20 })
   {
     file.integers("NumberOfPoints", { 3, 3 });
     file.reals("Points", 3, { 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 });
@@ -89,7 +106,7 @@ protected:
     file.reals("PointData/Directions", 3, { 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1 });
     file.normals("Directions");
     file.group("CellData");
-    file.integers("CellData/Part", { 10, 20 });
+    file.integers("CellData/Part", tags);
   }
 
   /** The same with its cells, as an unstructured grid. */
@@ -140,7 +157,7 @@ TEST_F(ImportVtkHdf, PolygonalDataHasCellsOfFourKinds)
   this->expectSquare(this->readHdf());
 }
 
-TEST_F(ImportVtkHdf, OfSeveralTimeStepsTheFirstIsRead)
+TEST_F(ImportVtkHdf, OfSeveralTimeStepsOneIsRead)
 {
   HdfFile file(this->Folder / "a.vtkhdf", "UnstructuredGrid");
   file.integers("NumberOfPoints", { 3, 3 });
@@ -158,11 +175,93 @@ TEST_F(ImportVtkHdf, OfSeveralTimeStepsTheFirstIsRead)
   file.integers("Steps/CellOffsets", { 1, 0 });
   file.integers("Steps/ConnectivityIdOffsets", { 3, 0 });
   file.finish();
-  const ReadMesh mesh = this->readHdf();
+  const ReadMesh first = this->readHdf();
+  EXPECT_EQ(first.positions, (std::vector<double>{ 1, 0, 0, 1, 1, 0, 0, 1, 0 }));
+  EXPECT_EQ(first.corners, (Numbers{ 2, 1, 0 }));
+  EXPECT_EQ(first.counts.timeSteps, 2);
+  EXPECT_EQ(first.counts.partitions, 1);
+  EXPECT_EQ(first.counts.notes,
+    std::vector<std::string>{ "The file has 2 time steps, of which the first is read." });
+  const ReadMesh second = this->readHdf({ 1, {} });
+  EXPECT_EQ(second.positions, (std::vector<double>{ 0, 0, 0, 1, 0, 0, 0, 1, 0 }));
+  EXPECT_EQ(second.corners, (Numbers{ 0, 1, 2 }));
+  EXPECT_EQ(second.counts.notes,
+    std::vector<std::string>{
+      "The file has 2 time steps, of which number 1, counted from 0, is read." });
+  this->expectRefused({ 2, {} }, "there is no time step 2: the file has 2,");
+  this->expectRefused({ -1, {} }, "there is no time step -1");
+  this->expectRefused({ 1, 1 }, "there is no partition 1: there are 1,");
+}
+
+TEST_F(ImportVtkHdf, TimeStepsOfPolygonalDataHaveOffsetsOfFourKinds)
+{
+  HdfFile file(this->Folder / "a.vtkhdf", "PolyData");
+  file.integers("NumberOfPoints", { 3, 4 });
+  file.reals("Points", 3, { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 2, 1, 0, 2, 0, 1, 2, 1, 1, 2 });
+  file.group("CellData");
+  file.integers("CellData/Tag", { 5, 6, 7 });
+  file.cells("Vertices", { 0, 0 }, { 0, 0 }, {}, { 0, 0 });
+  file.cells("Lines", { 0, 0 }, { 0, 0 }, {}, { 0, 0 });
+  file.cells("Polygons", { 1, 1 }, { 3, 3 }, { 0, 1, 2, 1, 3, 2 }, { 0, 3, 0, 3 });
+  file.cells("Strips", { 0, 1 }, { 0, 3 }, { 0, 1, 2 }, { 0, 0, 3 });
+  file.group("Steps");
+  file.out().addIntegers("/VTKHDF/Steps", "NSteps", std::vector<std::int64_t>{ 2 });
+  file.integers("Steps/PartOffsets", { 0, 1 });
+  file.integers("Steps/PointOffsets", { 0, 3 });
+  file.integers("Steps/CellOffsets", 4, { 0, 0, 0, 0, 0, 0, 1, 0 });
+  file.integers("Steps/ConnectivityIdOffsets", 4, { 0, 0, 0, 0, 0, 0, 3, 0 });
+  file.group("Steps/CellDataOffsets");
+  file.integers("Steps/CellDataOffsets/Tag", { 0, 1 });
+  file.finish();
+  const ReadMesh mesh = this->readHdf({ 1, {} });
+  EXPECT_EQ(mesh.positions, (std::vector<double>{ 0, 0, 2, 1, 0, 2, 0, 1, 2, 1, 1, 2 }));
+  EXPECT_EQ(mesh.corners, (Numbers{ 1, 3, 2, 0, 1, 2 }));
+  ASSERT_EQ(mesh.elementColumns.size(), 1u);
+  EXPECT_EQ(valuesOf(mesh.elementColumns[0]), (std::vector<double>{ 6, 7 }));
+}
+
+TEST_F(ImportVtkHdf, OnePartitionIsReadWithoutTheCellsOfOthers)
+{
+  HdfFile file(this->Folder / "a.vtkhdf", "UnstructuredGrid");
+  this->writeSquare(file, { 10, 10, 20 });
+  // The second partition has the first one's cell, too.
+  file.bytes("CellData/vtkGhostType", { 0, 1, 0 });
+  file.integers("NumberOfCells", { 1, 2 });
+  file.integers("NumberOfConnectivityIds", { 3, 6 });
+  file.integers("Connectivity", { 0, 1, 2, 2, 1, 0, 0, 1, 2 });
+  file.integers("Offsets", { 0, 3, 0, 3, 6 });
+  file.bytes("Types", { 5, 5, 5 });
+  file.finish();
+  const ReadMesh mesh = this->readHdf({ 0, 1 });
   EXPECT_EQ(mesh.positions, (std::vector<double>{ 1, 0, 0, 1, 1, 0, 0, 1, 0 }));
-  EXPECT_EQ(mesh.corners, (Numbers{ 2, 1, 0 }));
-  ASSERT_EQ(mesh.counts.notes.size(), 1u);
-  EXPECT_NE(mesh.counts.notes[0].find("2 time steps"), std::string::npos);
+  EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2 }));
+  const std::ptrdiff_t height =
+    findColumn(mesh.vertexColumns, { "Height", ScalarType::Float32, 1 });
+  ASSERT_GE(height, 0);
+  EXPECT_EQ(valuesOf(mesh.vertexColumns[static_cast<std::size_t>(height)]),
+    (std::vector<double>{ 6, 8, 7 }));
+  EXPECT_EQ(mesh.counts.partitions, 2);
+  EXPECT_EQ(mesh.counts.notes,
+    std::vector<std::string>{
+      "The file has 2 partitions, of which number 1, counted from 0, is read." });
+  EXPECT_EQ(this->readHdf({ 0, 0 }).corners, (Numbers{ 0, 1, 2 }));
+  this->expectRefused({ 0, 2 }, "there is no partition 2: there are 2, counted from 0");
+  this->expectRefused({ 1, {} }, "the file has no time steps");
+}
+
+TEST_F(ImportVtkHdf, OtherFormatsHaveNoParts)
+{
+  writeBytes(this->Folder / "a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  Workspace workspace(this->Folder.path(), Workspace::LeastMemory);
+  const auto expectRefused = [&](const MeshPart& part, const std::string& sentence)
+  {
+    ImportOptions options;
+    options.part = part;
+    smg::testing::expectError(
+      [&] { importMesh(this->Folder / "a.off", workspace, options); }, sentence);
+  };
+  expectRefused({ 1, {} }, "a.off: the file has no time steps");
+  expectRefused({ 0, 0 }, "a.off: the file has no partitions");
 }
 
 TEST_F(ImportVtkHdf, AMeshThatDoesNotChangeHasAllItsPartitionsInEachTimeStep)
@@ -174,6 +273,7 @@ TEST_F(ImportVtkHdf, AMeshThatDoesNotChangeHasAllItsPartitionsInEachTimeStep)
   file.integers("Steps/PartOffsets", { 0, 0 });
   file.finish();
   this->expectSquare(this->readHdf());
+  this->expectSquare(this->readHdf({ 1, {} }));
 }
 
 TEST_F(ImportVtkHdf, AttributesThatAreListsAreNoTexts)
@@ -184,6 +284,40 @@ TEST_F(ImportVtkHdf, AttributesThatAreListsAreNoTexts)
   file.out().addIntegers("/VTKHDF/PointData", "Normals", std::vector<std::int64_t>(3000, 65));
   file.finish();
   EXPECT_NE(messageOf([this] { this->readHdf(); }).find("is missing"), std::string::npos);
+}
+
+TEST_F(ImportVtkHdf, ABlockOfTheUsersMayComeFirst)
+{
+  HdfFile file(this->Folder / "plain.vtkhdf", "UnstructuredGrid");
+  this->writeSquareGrid(file);
+  file.finish();
+  std::ifstream plain(this->Folder / "plain.vtkhdf", std::ios::binary);
+  const std::string bytes{ std::istreambuf_iterator<char>(plain), {} };
+  for (const std::size_t block : { 512, 2048 })
+  {
+    writeBytes(this->Folder / "a", std::string(block, ' ') + bytes);
+    this->expectSquare(this->readHdf({}, "a"));
+  }
+}
+
+TEST_F(ImportVtkHdf, OtherFilesAreNotRead)
+{
+  for (const std::string& name : { "/VTKHDF/Points", "/VTKHDF/PointData/Height", "/VTKHDF" })
+  {
+    for (const char* path : { "a.vtkhdf", "other.hdf" })
+    {
+      HdfFile file(this->Folder / path, "UnstructuredGrid");
+      this->writeSquareGrid(file);
+      file.finish();
+    }
+    const hid_t file = H5Fopen((this->Folder / "a.vtkhdf").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    ASSERT_GE(H5Ldelete(file, name.c_str(), H5P_DEFAULT), 0);
+    ASSERT_GE(
+      H5Lcreate_external("other.hdf", name.c_str(), file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+      0);
+    H5Fclose(file);
+    this->expectRefused({}, "'" + name + "' lies in another file");
+  }
 }
 
 TEST_F(ImportVtkHdf, WhatIsWrongIsSaid)

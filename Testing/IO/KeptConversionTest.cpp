@@ -81,6 +81,22 @@ TEST_F(KeptConversion, IsMadeAnewForAnotherWeldDistanceHoweverSmall)
   EXPECT_TRUE(converts(1.1e-9));
 }
 
+TEST_F(KeptConversion, IsMadeAnewForAnotherPartOfTheFile)
+{
+  const std::filesystem::path grid = this->Folder / "mesh.vtkhdf";
+  convert(this->In, grid);
+  const auto converts = [&](std::optional<std::int64_t> partition)
+  {
+    ConversionOptions options;
+    options.partition = partition;
+    return convertToKeep(grid, this->Out, options).has_value();
+  };
+  EXPECT_TRUE(converts({}));
+  EXPECT_TRUE(converts(0));
+  EXPECT_FALSE(converts(0));
+  smg::testing::expectError([&] { converts(1); }, "no partition 1");
+}
+
 TEST_F(KeptConversion, LeavesOtherFilesAlone)
 {
   writeBytes(this->Out, "a letter");

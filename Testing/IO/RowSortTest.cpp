@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Restore/RowSort.h"
+#include "IO/External/RowSort.h"
 
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"

@@ -16,7 +16,7 @@ namespace smg::testing
 namespace
 {
 
-void expectVerticesOf(const StreamMesh& mesh, const StreamPreview& preview)
+void expectVerticesOf(const StreamMesh& mesh, const MeshPiece& preview)
 {
   ASSERT_EQ(preview.positions.size(), 3 * preview.ids.size());
   EXPECT_TRUE(std::is_sorted(preview.ids.begin(), preview.ids.end()));
@@ -31,14 +31,14 @@ void expectVerticesOf(const StreamMesh& mesh, const StreamPreview& preview)
 }
 
 /** All points are used, and no three points form two triangles. */
-void expectProperTriangles(const StreamPreview& preview)
+void expectProperTriangles(const MeshPiece& preview)
 {
   std::set<std::array<std::int64_t, 3>> known;
   std::set<std::int64_t> used;
-  for (std::size_t i = 0; i < preview.triangles.size(); i += 3)
+  for (std::size_t i = 0; i < preview.corners.size(); i += 3)
   {
-    std::array<std::int64_t, 3> triangle{ preview.triangles[i], preview.triangles[i + 1],
-      preview.triangles[i + 2] };
+    std::array<std::int64_t, 3> triangle{ preview.corners[i], preview.corners[i + 1],
+      preview.corners[i + 2] };
     used.insert(triangle.begin(), triangle.end());
     std::sort(triangle.begin(), triangle.end());
     EXPECT_LT(triangle[0], triangle[1]);
@@ -52,7 +52,7 @@ void expectProperTriangles(const StreamPreview& preview)
 TEST(StreamPreview, IsShadedAsTheMesh)
 {
   MemorySource source(toStream(sphere(5)));
-  const StreamPreview preview = makePreview(source, 800);
+  const MeshPiece preview = makePreview(source, 800);
   ASSERT_LT(preview.ids.size(), 801U);
   ASSERT_EQ(preview.normals.size(), preview.positions.size());
   const auto point = [&](std::int64_t i)
@@ -63,11 +63,11 @@ TEST(StreamPreview, IsShadedAsTheMesh)
     EXPECT_NEAR(normal.norm(), 1.0, 1e-6);
     EXPECT_GT(normal.dot(point(static_cast<std::int64_t>(i)).normalized()), 0.99);
   }
-  for (std::size_t t = 0; t < preview.triangles.size(); t += 3)
+  for (std::size_t t = 0; t < preview.corners.size(); t += 3)
   {
-    const Eigen::Vector3d a = point(preview.triangles[t]);
-    const Eigen::Vector3d b = point(preview.triangles[t + 1]);
-    EXPECT_GT((b - a).cross(point(preview.triangles[t + 2]) - a).dot(a + b), 0.0);
+    const Eigen::Vector3d a = point(preview.corners[t]);
+    const Eigen::Vector3d b = point(preview.corners[t + 1]);
+    EXPECT_GT((b - a).cross(point(preview.corners[t + 2]) - a).dot(a + b), 0.0);
   }
 }
 
@@ -76,7 +76,7 @@ TEST(StreamPreview, IsBoundedAndMadeOfVertices)
   for (const std::int64_t limit : { 8, 100, 1000, 5000 })
   {
     MemorySource source(toStream(torus(150, 100, 0.2)));
-    const StreamPreview preview = makePreview(source, limit);
+    const MeshPiece preview = makePreview(source, limit);
     EXPECT_LE(std::int64_t(preview.ids.size()), limit);
     EXPECT_GE(std::int64_t(preview.ids.size()), limit < 100 ? 4 : limit * 7 / 10);
     expectVerticesOf(source.mesh(), preview);
@@ -90,47 +90,47 @@ TEST(StreamPreview, HasNearlyAsManyPointsAsAreAskedFor)
   for (std::int64_t limit = 500; limit < 40000; limit = limit * 5 / 4)
   {
     MemorySource source(mesh);
-    const StreamPreview preview = makePreview(source, limit);
+    const MeshPiece preview = makePreview(source, limit);
     EXPECT_LE(std::int64_t(preview.ids.size()), limit);
     EXPECT_GE(std::int64_t(preview.ids.size()), limit * 7 / 10) << limit;
     expectProperTriangles(preview);
     // A closed surface has two triangles per point; few are lost at folds.
     const auto points = static_cast<double>(preview.ids.size());
-    EXPECT_NEAR(static_cast<double>(preview.triangles.size()) / 3.0, 2.0 * points, 0.1 * points);
+    EXPECT_NEAR(static_cast<double>(preview.corners.size()) / 3.0, 2.0 * points, 0.1 * points);
   }
 }
 
 TEST(StreamPreview, SmallMeshStaysAsItIs)
 {
   MemorySource source(toStream(sphere(2)));
-  const StreamPreview preview = makePreview(source, 1000);
+  const MeshPiece preview = makePreview(source, 1000);
   EXPECT_EQ(std::int64_t(preview.ids.size()), source.mesh().vertices());
-  EXPECT_EQ(std::int64_t(preview.triangles.size() / 3), source.mesh().cells());
+  EXPECT_EQ(std::int64_t(preview.corners.size() / 3), source.mesh().cells());
 }
 
 TEST(StreamPreview, BlocksDoNotMatter)
 {
   MemorySource one(toStream(tetBox(12, 12, 12, 0.1)), 1000000);
   MemorySource many(toStream(tetBox(12, 12, 12, 0.1)), 7);
-  const StreamPreview a = makePreview(one, 10000);
-  const StreamPreview b = makePreview(many, 10000);
+  const MeshPiece a = makePreview(one, 10000);
+  const MeshPiece b = makePreview(many, 10000);
   EXPECT_EQ(a.ids, b.ids);
-  EXPECT_EQ(a.triangles.size(), b.triangles.size());
+  EXPECT_EQ(a.corners.size(), b.corners.size());
 }
 
 TEST(StreamPreview, OfAVolumeIsItsClosedSurface)
 {
   MemorySource source(toStream(tetBox(15, 14, 13, 0.1)), 50);
-  const StreamPreview preview = makePreview(source, 100000);
-  EXPECT_EQ(preview.triangles.size() / 3, 4U * (14 * 13 + 13 * 12 + 14 * 12));
+  const MeshPiece preview = makePreview(source, 100000);
+  EXPECT_EQ(preview.corners.size() / 3, 4U * (14 * 13 + 13 * 12 + 14 * 12));
   expectVerticesOf(source.mesh(), preview);
   // Outward orientation: every edge is used once in each direction.
   std::map<std::pair<std::int64_t, std::int64_t>, int> edges;
-  for (std::size_t i = 0; i < preview.triangles.size(); i += 3)
+  for (std::size_t i = 0; i < preview.corners.size(); i += 3)
   {
     for (int k = 0; k < 3; ++k)
     {
-      ++edges[{ preview.triangles[i + k], preview.triangles[i + (k + 1) % 3] }];
+      ++edges[{ preview.corners[i + k], preview.corners[i + (k + 1) % 3] }];
     }
   }
   for (const auto& [edge, count] : edges)
@@ -146,7 +146,7 @@ TEST(StreamPreview, OnePointMeshesDoNotFail)
   mesh.positions.assign(9, 1.0);
   mesh.corners = { 0, 1, 2 };
   MemorySource source(toStream(mesh));
-  EXPECT_TRUE(makePreview(source, 100).triangles.empty());
+  EXPECT_TRUE(makePreview(source, 100).corners.empty());
 }
 
 /** The mesh in blocks, without any information before they arrive. */
@@ -177,7 +177,7 @@ TEST(StreamPreview, BoundsNeedNotBeKnown)
     for (const std::int64_t blockCells : { 1, 1000, 1000000 })
     {
       UnknownSource source(mesh, blockCells);
-      const StreamPreview preview = makePreview(source, limit);
+      const MeshPiece preview = makePreview(source, limit);
       EXPECT_LE(std::int64_t(preview.ids.size()), limit);
       EXPECT_GE(std::int64_t(preview.ids.size()), limit < 100 ? 0 : limit * 7 / 10);
       expectVerticesOf(mesh, preview);
@@ -203,7 +203,7 @@ TEST(StreamPreview, HasTheColumnsOfItsVertices)
   for (const std::int64_t limit : { 100, 3000, 100000 })
   {
     MemorySource source(mesh, 70);
-    const StreamPreview preview = makePreview(source, limit);
+    const MeshPiece preview = makePreview(source, limit);
     ASSERT_EQ(preview.vertexColumns.size(), 2U);
     EXPECT_EQ(preview.vertexColumns[0].spec, mesh.vertexColumns[0].spec);
     for (std::size_t i = 0; i < preview.ids.size(); ++i)

@@ -168,6 +168,16 @@ TEST_F(VtkStreamingMeshConverter, ErrorsAreSaidOnce)
   EXPECT_EQ(errors.text(), "");
   EXPECT_EQ(this->output()->GetNumberOfPoints(), 620);
 
+  for (const bool time : { true, false })
+  {
+    this->Converter->SetTimeStep(time ? 1 : 0);
+    this->Converter->SetPartition(0);
+    errors.clear();
+    EXPECT_FALSE(updatePiece(this->Converter, 0, 1));
+    EXPECT_TRUE(errors.contain(time ? "no time steps" : "no partitions")) << errors.text();
+  }
+  this->Converter->SetPartition(-1);
+
   this->Converter->SetMemoryLimit(1);
   this->Converter->SetOrder(vtkStreamingMeshConverter::AXIS);
   EXPECT_FALSE(updatePiece(this->Converter, 0, 1));

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace smg::testing
@@ -74,10 +73,28 @@ TEST(CoarseEntry, KeepsFloats)
   EXPECT_EQ(entries[501].value(), after);
   EXPECT_EQ(entries[501].offset(0), 501);
 
-  entries[500].setValue(std::numeric_limits<float>::quiet_NaN());
-  EXPECT_TRUE(std::isnan(entries[500].value()));
+  entries[500].remove();
+  EXPECT_TRUE(entries[500].removed());
+  EXPECT_EQ(entries[500].offset(0), 500);
+  EXPECT_FALSE(entries[499].removed() || entries[501].removed());
+  entries[502].takeValue(entries[500]);
+  EXPECT_TRUE(entries[502].removed());
+  EXPECT_EQ(entries[502].offset(0), 502);
   entries[500].setValue(0.0F);
+  EXPECT_FALSE(entries[500].removed());
   EXPECT_EQ(entries[500].value(), 0.0F);
+}
+
+TEST(StrongestWeight, IsStiffWhateverTheWeight)
+{
+  for (const float weight : { 0.0F, 1.0F / 3.0F, 7e30F })
+  {
+    for (const bool stiff : { false, true })
+    {
+      EXPECT_EQ(StrongestWeight(weight, stiff).weight(), weight);
+      EXPECT_EQ(StrongestWeight(weight, stiff).stiff(), stiff);
+    }
+  }
 }
 
 TEST(RowEntry, KeepsDistanceAndWeight)

@@ -268,7 +268,7 @@ public:
       row.push_back({ entry->offset(c), entry->value() });
     }
     this->record->raw.alpha.push_back(data.rawAlpha[c]);
-    this->record->rawStiff.push_back(std::signbit(data.rawStrongest[c]));
+    this->record->rawStiff.push_back(data.rawStrongest[c].stiff());
   }
   void sparsify(CoarseningData& data, std::int64_t c) const
   {

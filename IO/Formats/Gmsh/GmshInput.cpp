@@ -33,8 +33,9 @@ void GmshInput::readFormat()
     this->Binary = true;
     this->beginNumbers();
     const auto one = this->binary<std::uint32_t>("the number one");
-    this->Swapped = one == 0x01000000U;
-    if (one != 1 && !this->Swapped)
+    const bool isOther = one == 0x01000000U;
+    this->Order = isOther ? OtherByteOrder : std::endian::native;
+    if (one != 1 && !isOther)
     {
       this->fail("the byte order is not known: the number one should be here");
     }

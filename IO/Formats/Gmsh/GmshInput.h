@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Files/ByteOrder.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextScanner.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
 
 namespace smg
@@ -79,16 +78,8 @@ private:
     {
       this->fail(std::string("the file ends where ") + what + " should be");
     }
-    std::array<char, sizeof(T)> raw;
-    std::memcpy(raw.data(), bytes.data(), sizeof(T));
-    if (this->Swapped)
-    {
-      std::ranges::reverse(raw);
-    }
-    T value;
-    std::memcpy(&value, raw.data(), sizeof(T));
     this->Offset += sizeof(T);
-    return value;
+    return numberAt<T>(bytes.data(), this->Order);
   }
 
   InputFile& File;
@@ -96,7 +87,7 @@ private:
   std::size_t Offset = 0; ///< of the next binary number
   int Version = 0;        ///< 2 or 4; 0: not known yet
   bool Binary = false;
-  bool Swapped = false;   ///< whether the bytes of numbers are in the other order
+  std::endian Order = std::endian::native;
   bool InNumbers = false; ///< of a binary file
 };
 

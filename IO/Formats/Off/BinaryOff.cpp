@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Off/BinaryOff.h"
 
+#include "IO/Files/ByteOrder.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/Off/OffAttributes.h"
 #include "IO/Formats/Shared/TextColors.h"
@@ -8,6 +9,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -30,8 +32,8 @@ public:
   {
   }
 
-  std::int32_t integer() { return std::bit_cast<std::int32_t>(this->bits()); }
-  double real() { return static_cast<double>(std::bit_cast<float>(this->bits())); }
+  std::int32_t integer() { return this->next<std::int32_t>(); }
+  double real() { return static_cast<double>(this->next<float>()); }
   /** Place of the next number. */
   std::size_t offset() const { return this->At; }
   /** Refuses what stands before it. */
@@ -41,7 +43,8 @@ public:
   }
 
 private:
-  std::uint32_t bits()
+  template <class T>
+  T next()
   {
     const std::string_view bytes = this->File.at(this->At, NumberBytes);
     if (bytes.size() < NumberBytes)
@@ -49,12 +52,7 @@ private:
       this->File.fail(this->At, "the file is truncated here");
     }
     this->At += NumberBytes;
-    std::uint32_t value = 0;
-    for (std::size_t i = 0; i < NumberBytes; ++i)
-    {
-      value = value << 8 | static_cast<unsigned char>(bytes[i]);
-    }
-    return value;
+    return numberAt<T>(bytes.data(), std::endian::big);
   }
 
   InputFile& File;
@@ -75,13 +73,26 @@ void readVertices(BigEndianNumbers& numbers, const OffHeader& header, RawMeshBui
   builder.useSinglePrecision();
   for (std::int64_t i = 0; i < header.vertices; ++i)
   {
+    const auto fail = [&numbers, i](const std::string& sentence)
+    { numbers.fail("vertex " + std::to_string(i) + ": " + sentence); };
     const double x = numbers.real();
     const double y = numbers.real();
     const double z = numbers.real();
-    builder.vertex(x, y, z);
+    try
+    {
+      builder.vertex(x, y, z);
+    }
+    catch (const MeshError& error)
+    {
+      fail(error.what());
+    }
     for (double& number : used)
     {
       number = numbers.real();
+      if (!std::isfinite(number))
+      {
+        fail("a number behind its coordinates is not finite");
+      }
     }
     attributes.add(used);
   }

@@ -143,7 +143,7 @@ bool isOff(std::string_view start)
          (at + 3 == text.size() || isBlank(text[at + 3]) || text[at + 3] == '#');
 }
 
-std::optional<FileCounts> countsOfOff(InputFile& file)
+std::optional<FileCounts> countsOfOff(InputFile& file, const MeshPart&)
 {
   TextScanner scanner(file, '#');
   const OffHeader header = readOffHeader(file, scanner);

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Files/ByteOrder.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextScanner.h"
 #include "IO/Formats/Ply/PlyHeader.h"
 #include "smg/Column.h"
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -33,8 +31,8 @@ struct PlyPlace
   }
 };
 
-/** Reads the numbers of a binary PLY body. `Swap`: the file's byte order is not the machine's. */
-template <bool Swap>
+/** Reads the numbers of a binary PLY body. */
+template <std::endian Order>
 class PlyBinaryCursor
 {
 public:
@@ -58,14 +56,8 @@ public:
     {
       this->moveTo(this->offset(), sizeof(T));
     }
-    std::array<char, sizeof(T)> bytes;
-    std::memcpy(bytes.data(), this->At, sizeof(T));
-    if constexpr (Swap)
-    {
-      std::reverse(bytes.begin(), bytes.end());
-    }
     this->At += sizeof(T);
-    return std::bit_cast<T>(bytes);
+    return numberAt<T>(this->At - sizeof(T), Order);
   }
 
   double read(ScalarType type)
@@ -215,16 +207,15 @@ private:
 template <class F>
 decltype(auto) withPlyBody(InputFile& file, const PlyHeader& header, F&& f)
 {
-  constexpr bool bigEndianMachine = std::endian::native == std::endian::big;
   if (header.encoding == PlyEncoding::Ascii)
   {
     return f(PlyTextCursor(file, header.bodyOffset, header.bodyLine));
   }
-  if ((header.encoding == PlyEncoding::BigEndian) == bigEndianMachine)
+  if (header.encoding == PlyEncoding::BigEndian)
   {
-    return f(PlyBinaryCursor<false>(file, header.bodyOffset));
+    return f(PlyBinaryCursor<std::endian::big>(file, header.bodyOffset));
   }
-  return f(PlyBinaryCursor<true>(file, header.bodyOffset));
+  return f(PlyBinaryCursor<std::endian::little>(file, header.bodyOffset));
 }
 
 } // namespace smg

@@ -19,7 +19,7 @@ bool isPly(std::string_view start)
   return bytes.starts_with("ply\n") || bytes.starts_with("ply\r");
 }
 
-std::optional<FileCounts> countsOfPly(InputFile& file)
+std::optional<FileCounts> countsOfPly(InputFile& file, const MeshPart&)
 {
   FileCounts counts;
   counts.counted = true;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/External/RowSort.h"
 #include "IO/Files/ByteOrder.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Formats/Stl/StlFormat.h"
 #include "IO/Restore/PlacedColumns.h"
 #include "IO/Restore/RestoredMesh.h"
-#include "IO/Restore/RowSort.h"
 #include "smg/Error.h"
 
 #include <algorithm>

@@ -70,7 +70,7 @@ void readBinary(InputFile& file, FacetCollector& facets)
 {
   const std::string_view header = file.at(0, StlHeaderBytes);
   const std::uint64_t end = stlBytes(header);
-  const std::uint32_t triangles = littleEndian32(header.data() + StlHeaderBytes - 4);
+  const std::uint32_t triangles = trianglesOfStl(header);
   if (file.size() < end)
   {
     throw Error(file.name() + ": the file is truncated: " + std::to_string(triangles) +
@@ -91,7 +91,7 @@ void readBinary(InputFile& file, FacetCollector& facets)
       CornerWelder::Point point;
       for (float& coordinate : point)
       {
-        coordinate = std::bit_cast<float>(littleEndian32(at));
+        coordinate = numberAt<float>(at, std::endian::little);
         at += sizeof(float);
       }
       try

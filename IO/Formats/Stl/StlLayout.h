@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Files/ByteOrder.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -13,22 +15,16 @@ inline constexpr std::size_t StlHeaderBytes = 84;
 /** Bytes of a triangle: normal and corners, 12 floats, and two bytes of attributes. */
 inline constexpr std::size_t StlTriangleBytes = 50;
 
-/** The little-endian number that begins at `bytes`. */
-inline std::uint32_t littleEndian32(const char* bytes)
+/** Triangles of a binary STL file that begins with `bytes`, 84 at least. */
+inline std::uint32_t trianglesOfStl(std::string_view bytes)
 {
-  std::uint32_t value = 0;
-  for (int i = 3; i >= 0; --i)
-  {
-    value = value << 8 | static_cast<unsigned char>(bytes[i]);
-  }
-  return value;
+  return numberAt<std::uint32_t>(bytes.data() + StlHeaderBytes - 4, std::endian::little);
 }
 
 /** Bytes that a binary STL file has which begins with `bytes`, 84 at least. */
 inline std::uint64_t stlBytes(std::string_view bytes)
 {
-  return StlHeaderBytes +
-         std::uint64_t(StlTriangleBytes) * littleEndian32(bytes.data() + StlHeaderBytes - 4);
+  return StlHeaderBytes + std::uint64_t(StlTriangleBytes) * trianglesOfStl(bytes);
 }
 
 /**

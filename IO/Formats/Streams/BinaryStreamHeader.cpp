@@ -22,10 +22,10 @@ class Nonsense
 class Cursor
 {
 public:
-  Cursor(const FileDescriptor& file, std::int64_t offset, bool swapped)
+  Cursor(const FileDescriptor& file, std::int64_t offset, std::endian order)
     : File(file)
     , Offset(offset)
-    , Swapped(swapped)
+    , Order(order)
   {
   }
 
@@ -34,7 +34,7 @@ public:
   {
     std::byte bytes[4];
     this->bytes(bytes);
-    return loadNumber<T>(bytes, this->Swapped);
+    return numberAt<T>(bytes, this->Order);
   }
 
   bool takeFlag()
@@ -74,7 +74,7 @@ private:
 
   const FileDescriptor& File;
   std::int64_t Offset;
-  bool Swapped;
+  std::endian Order;
 };
 
 void takeBounds(Cursor& cursor, StreamFileHeader& header)
@@ -94,13 +94,13 @@ void takeBounds(Cursor& cursor, StreamFileHeader& header)
   }
 }
 
-BinaryStreamHeader readAs(const FileDescriptor& file, StreamFormat format, bool swapped)
+BinaryStreamHeader readAs(const FileDescriptor& file, StreamFormat format, std::endian order)
 {
   BinaryStreamHeader result;
   StreamFileHeader& header = result.header;
   header.format = format;
-  result.swapped = swapped;
-  Cursor cursor(file, 4, swapped);
+  result.order = order;
+  Cursor cursor(file, 4, order);
   const auto comments = cursor.take<std::int32_t>();
   if (comments < 0 || comments > file.size() / 4)
   {
@@ -153,7 +153,7 @@ bool firstBlockMakesSense(const FileDescriptor& file, const BinaryStreamHeader& 
   {
     return false;
   }
-  const auto kinds = loadNumber<std::uint32_t>(block, begin.swapped);
+  const auto kinds = numberAt<std::uint32_t>(block, begin.order);
   const std::byte* element = block + 4;
   for (int k = 0; k < BinaryBlockElements && element + elementBytes <= block + bytes; k++)
   {
@@ -162,14 +162,14 @@ bool firstBlockMakesSense(const FileDescriptor& file, const BinaryStreamHeader& 
       const std::byte* word = element + 4 * std::ptrdiff_t(j);
       if ((kinds >> k & 1) != 0)
       {
-        const auto x = loadNumber<float>(word, begin.swapped);
+        const auto x = numberAt<float>(word, begin.order);
         if (j < 3 &&
             (!std::isfinite(x) || (x != 0 && (std::abs(x) < 1e-30F || std::abs(x) > 1e30F))))
         {
           return false;
         }
       }
-      else if (const auto index = loadNumber<std::int32_t>(word, begin.swapped);
+      else if (const auto index = numberAt<std::int32_t>(word, begin.order);
                index == 0 || index > most || index < -most)
       {
         return false;
@@ -196,15 +196,13 @@ BinaryStreamHeader readBinaryStreamHeader(const FileDescriptor& file, StreamForm
     throw Error(name + ": byte 1: the header of a " + std::string(nameOf(format)) +
                 " file goes on otherwise: this is another format, or the file is damaged.");
   }
-  const bool fileIsBig = first[1] == std::byte{ 1 };
-  const bool machineIsBig = std::endian::native == std::endian::big;
-  const bool said = fileIsBig != machineIsBig;
+  const bool saysBig = first[1] == std::byte{ 1 };
   std::vector<BinaryStreamHeader> candidates;
-  for (const bool swapped : { said, !said })
+  for (const bool isBig : { saysBig, !saysBig })
   {
     try
     {
-      candidates.push_back(readAs(file, format, swapped));
+      candidates.push_back(readAs(file, format, isBig ? std::endian::big : std::endian::little));
     }
     catch (const Nonsense&)
     {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Files/ByteOrder.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "Solver/Storage/FileDescriptor.h"
 
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 namespace smg
 {
@@ -19,22 +19,12 @@ constexpr std::uint8_t SvbVersion = 4;
 /** Elements of a full block of the binary formats. */
 constexpr int BinaryBlockElements = 32;
 
-/** A number of four bytes, whose order is `swapped` against the machine's. */
-template <class T>
-T loadNumber(const std::byte* bytes, bool swapped)
-{
-  static_assert(sizeof(T) == 4);
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, bytes, 4);
-  return std::bit_cast<T>(swapped ? __builtin_bswap32(bits) : bits);
-}
-
 /** The beginning of a SMB or SVB file, and the byte order of its data. */
 struct BinaryStreamHeader
 {
   StreamFileHeader header;
-  bool swapped = false;        ///< the data is not in the byte order of this machine
-  std::int64_t bodyOffset = 0; ///< place of the first block
+  std::endian order = std::endian::native; ///< of the bytes of the data
+  std::int64_t bodyOffset = 0;             ///< place of the first block
 };
 
 /**

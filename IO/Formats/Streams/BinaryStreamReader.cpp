@@ -51,7 +51,7 @@ bool BinaryStreamReader::nextBlock()
   }
   this->Left = bytes.size() < 4 ? 0 : (bytes.size() - 4) / this->ElementBytes;
   const std::uint32_t kinds =
-    bytes.size() < 4 ? 0 : loadNumber<std::uint32_t>(bytes.data(), this->Begin.swapped);
+    bytes.size() < 4 ? 0 : numberAt<std::uint32_t>(bytes.data(), this->Begin.order);
   if (bytes.size() != 4 + this->Left * this->ElementBytes ||
       (this->Left < BinaryBlockElements && (kinds >> this->Left) != 0))
   {
@@ -96,7 +96,7 @@ void BinaryStreamReader::readVertex(const std::byte* element, StreamEvent& event
   event.kind = StreamEvent::Vertex;
   for (float& x : event.position)
   {
-    x = loadNumber<float>(element, this->Begin.swapped);
+    x = numberAt<float>(element, this->Begin.order);
     element += 4;
     if (!std::isfinite(x))
     {
@@ -105,11 +105,11 @@ void BinaryStreamReader::readVertex(const std::byte* element, StreamEvent& event
   }
   for (int k = 0; k < this->Begin.header.vertexFloats; k++, element += 4)
   {
-    event.floats.push_back(loadNumber<float>(element, this->Begin.swapped));
+    event.floats.push_back(numberAt<float>(element, this->Begin.order));
   }
   for (int k = 0; k < this->Begin.header.vertexInts; k++, element += 4)
   {
-    event.ints.push_back(loadNumber<std::int32_t>(element, this->Begin.swapped));
+    event.ints.push_back(numberAt<std::int32_t>(element, this->Begin.order));
   }
   this->Vertices++;
 }
@@ -124,7 +124,7 @@ void BinaryStreamReader::readCell(const std::byte* element, StreamEvent& event)
                      : this->Vertices;
   for (int k = 0; k < this->Corners; k++, element += 4)
   {
-    const std::int64_t index = loadNumber<std::int32_t>(element, this->Begin.swapped);
+    const std::int64_t index = numberAt<std::int32_t>(element, this->Begin.order);
     const bool final = index < 0;
     const std::int64_t vertex = final ? this->Vertices + index : index - 1;
     if (index == 0 || (final && header.postOrder) || vertex < 0 || vertex >= most)

@@ -26,8 +26,7 @@ template <class T>
 void BinaryStreamWriter::write(T value)
 {
   static_assert(sizeof(T) == 4);
-  const auto bits = std::bit_cast<std::uint32_t>(value);
-  const std::uint32_t stored = this->Swapped ? __builtin_bswap32(bits) : bits;
+  const T stored = this->Swapped ? byteSwapped(value) : value;
   this->Output.put(std::as_bytes(std::span(&stored, 1)));
 }
 
@@ -77,8 +76,8 @@ template <class T>
 void BinaryStreamWriter::addWord(T value)
 {
   static_assert(sizeof(T) == 4);
-  const auto bits = std::bit_cast<std::uint32_t>(value);
-  this->Block[this->Words++] = this->Swapped ? __builtin_bswap32(bits) : bits;
+  this->Block[this->Words++] =
+    std::bit_cast<std::uint32_t>(this->Swapped ? byteSwapped(value) : value);
 }
 
 void BinaryStreamWriter::endElement(bool isVertex)

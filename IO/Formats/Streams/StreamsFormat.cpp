@@ -18,7 +18,7 @@ WriteNotes write(const std::filesystem::path& vsm, const std::filesystem::path& 
   return notesOnRounded(vsmToStream(vsm, path, progress));
 }
 
-std::optional<FileCounts> countsOfStream(InputFile& file)
+std::optional<FileCounts> countsOfStream(InputFile& file, const MeshPart&)
 {
   const StreamFileHeader header = openStreamFile(file.path())->header();
   if (header.vertices < 0 || header.cells < 0)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vtk/ByteSource.h"
 
+#include "IO/Files/ByteOrder.h"
+
 #include <algorithm>
 #include <cstring>
 #include <string>
@@ -71,16 +73,12 @@ bool uncompress(
 
 } // namespace
 
-std::uint64_t ByteSource::integer(int bytes, bool bigEndian)
+std::uint64_t ByteSource::integer(int bytes, std::endian order)
 {
   std::array<std::byte, 8> read{};
   this->read(std::span(read).first(static_cast<std::size_t>(bytes)));
-  std::uint64_t value = 0;
-  for (int i = 0; i < bytes; ++i)
-  {
-    value = value << 8 | std::to_integer<std::uint64_t>(read[bigEndian ? i : bytes - 1 - i]);
-  }
-  return value;
+  return bytes == 8 ? numberAt<std::uint64_t>(read.data(), order)
+                    : numberAt<std::uint32_t>(read.data(), order);
 }
 
 void RawBytes::read(std::span<std::byte> bytes)
@@ -152,13 +150,13 @@ CompressedBytes::CompressedBytes(InputFile& file, const VtkArray& array, Pool& p
     ++begin;
   }
   this->Sizes = bytesAt(file, array.encoding, begin);
-  this->Blocks = this->Sizes->integer(array.headerBytes, array.bigEndian);
+  this->Blocks = this->Sizes->integer(array.headerBytes, array.byteOrder);
   if (this->Blocks == 0)
   {
     return;
   }
-  this->BlockBytes = this->Sizes->integer(array.headerBytes, array.bigEndian);
-  this->LastBytes = this->Sizes->integer(array.headerBytes, array.bigEndian);
+  this->BlockBytes = this->Sizes->integer(array.headerBytes, array.byteOrder);
+  this->LastBytes = this->Sizes->integer(array.headerBytes, array.byteOrder);
   constexpr std::uint64_t MostBlockBytes = std::uint64_t(1) << 30;
   if (this->Blocks > file.size() || this->BlockBytes == 0 || this->BlockBytes > MostBlockBytes ||
       this->LastBytes > this->BlockBytes)
@@ -191,7 +189,7 @@ std::uint64_t CompressedBytes::nextSize()
     this->Known.resize(std::min(SizesAtOnce, this->Blocks - this->Block));
     for (std::uint64_t& size : this->Known)
     {
-      size = this->Sizes->integer(this->Array.headerBytes, this->Array.bigEndian);
+      size = this->Sizes->integer(this->Array.headerBytes, this->Array.byteOrder);
     }
   }
   return this->Known[place];

@@ -6,6 +6,7 @@
 #include "Solver/Storage/Buffer.h"
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -25,7 +26,7 @@ public:
   virtual void read(std::span<std::byte> bytes) = 0;
 
   /** An integer of 4 or 8 bytes without a sign. */
-  std::uint64_t integer(int bytes, bool bigEndian);
+  std::uint64_t integer(int bytes, std::endian order);
 };
 
 /** Bytes as they stand in the file. */

@@ -198,7 +198,7 @@ VtkArray LegacyVtkScanner::array(
   array.type = this->Binary ? known->file : known->column;
   array.components = components;
   array.values = values;
-  array.bigEndian = this->Binary;
+  array.byteOrder = this->Binary ? std::endian::big : std::endian::little;
   array.encoding = this->Binary ? VtkEncoding::Raw : VtkEncoding::Text;
   if (this->Binary)
   {

@@ -3,6 +3,7 @@
 
 #include "smg/Column.h"
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -54,7 +55,7 @@ struct VtkArray
   std::size_t begin = 0;    ///< byte of the file
   VtkEncoding encoding = VtkEncoding::Text;
   VtkCompression compression = VtkCompression::None;
-  bool bigEndian = false;
+  std::endian byteOrder = std::endian::little;
   /** Bytes of a number of the header that leads what is not text; 0: there is no header. */
   int headerBytes = 0;
   /** Who opens it; null: it stands in the file as said above. Then `begin` counts numbers. */

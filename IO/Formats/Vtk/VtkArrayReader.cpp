@@ -1,59 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vtk/VtkArrayReader.h"
 
+#include "IO/Files/ByteOrder.h"
 #include "IO/Files/InQuotes.h"
 #include "smg/Error.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <string>
 
 namespace smg
 {
-
-namespace
-{
-
-template <class T>
-void swapAll(std::byte* values, std::size_t count)
-{
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    T value;
-    std::memcpy(&value, values + i * sizeof(T), sizeof(T));
-    if constexpr (sizeof(T) == 2)
-    {
-      value = __builtin_bswap16(value);
-    }
-    else if constexpr (sizeof(T) == 4)
-    {
-      value = __builtin_bswap32(value);
-    }
-    else
-    {
-      value = __builtin_bswap64(value);
-    }
-    std::memcpy(values + i * sizeof(T), &value, sizeof(T));
-  }
-}
-
-void swapBytes(std::byte* values, std::size_t size, std::size_t count)
-{
-  switch (size)
-  {
-    case 2:
-      return swapAll<std::uint16_t>(values, count);
-    case 4:
-      return swapAll<std::uint32_t>(values, count);
-    case 8:
-      return swapAll<std::uint64_t>(values, count);
-    default:
-      return;
-  }
-}
-
-} // namespace
 
 VtkArrayReader::VtkArrayReader(InputFile& file, const VtkArray& array, Pool& pool)
   : File(file)
@@ -86,7 +42,7 @@ VtkArrayReader::VtkArrayReader(InputFile& file, const VtkArray& array, Pool& poo
   else
   {
     this->Bytes = bytesAt(file, array.encoding, array.begin);
-    bytes = this->Bytes->integer(array.headerBytes, array.bigEndian);
+    bytes = this->Bytes->integer(array.headerBytes, array.byteOrder);
   }
   if (array.compression == VtkCompression::None && bytes > file.size())
   {
@@ -133,10 +89,7 @@ std::size_t VtkArrayReader::readSome(std::byte* values, std::size_t count)
   {
     const std::size_t size = sizeOf(this->Array.type);
     this->Bytes->read({ values, count * size });
-    if (this->Array.bigEndian != (std::endian::native == std::endian::big))
-    {
-      swapBytes(values, size, count);
-    }
+    toByteOrder(this->Array.byteOrder, { values, count * size }, size);
   }
   this->Left -= this->Left >= 0 ? static_cast<std::int64_t>(count) : 0;
   return count;

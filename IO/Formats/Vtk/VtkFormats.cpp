@@ -51,6 +51,12 @@ WriteNotes writeXml(
   return {};
 }
 
+void parseParallel(
+  InputFile& file, RawMeshBuilder& builder, const MeshPart&, const ProgressFunction& progress)
+{
+  importParallelVtkXml(file, builder, progress);
+}
+
 constexpr FileSuffix LegacySuffixes[] = { { ".vtk" } };
 constexpr FileSuffix XmlSuffixes[] = { { ".vtp", true, false }, { ".vtu" } };
 constexpr FileSuffix ParallelSuffixes[] = { { ".pvtp", true, false }, { ".pvtu" } };
@@ -83,7 +89,7 @@ const Format ParallelVtkXmlFormat{
   .suffixes = ParallelSuffixes,
   .attributes = AllColumns,
   .hasSign = isParallelVtkXml,
-  .parse = importParallelVtkXml,
+  .parse = parseParallel,
 };
 
 } // namespace smg

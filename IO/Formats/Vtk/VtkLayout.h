@@ -74,6 +74,7 @@ struct VtkLayout
   std::vector<VtkPiece> pieces;
   std::set<std::string> otherArrays; ///< those of texts and bits, of the points and cells
   std::int64_t bytes = 0;            ///< of memory that the pieces take, about
+  bool isPart = false; ///< there are other pieces, which are not read: cells of theirs are left out
 };
 
 /** Types of cells in VTK, which are the same in its files. */

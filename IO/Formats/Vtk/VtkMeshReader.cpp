@@ -152,7 +152,7 @@ private:
   {
     std::optional<VtkIndexReader> reader;
     const VtkArray* array = find(piece.cellArrays, GhostTypeName);
-    if (array && array->components == 1 && this->Layout.pieces.size() > 1)
+    if (array && array->components == 1 && (this->Layout.pieces.size() > 1 || this->Layout.isPart))
     {
       reader.emplace(this->Files.open(piece.file, VtkFiles::Ghosts), *array, this->MemoryPool);
       reader->skip(first);

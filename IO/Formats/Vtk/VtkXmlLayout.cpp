@@ -3,12 +3,11 @@
 
 #include "IO/Files/InQuotes.h"
 #include "IO/Formats/Vsm/ReservedNames.h"
+#include "IO/Formats/Vtk/VtkXmlArray.h"
 #include "IO/Formats/Vtk/VtkXmlRoot.h"
 #include "IO/Formats/Vtk/XmlTags.h"
 
 #include <algorithm>
-#include <charconv>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,9 +18,6 @@ namespace smg
 
 namespace
 {
-
-/** No file has more points, cells or bytes. */
-constexpr std::int64_t MostThings = std::int64_t(1) << 48;
 
 constexpr std::pair<std::string_view, ScalarType> XmlTypeNames[] = { { "Int8", ScalarType::Int8 },
   { "UInt8", ScalarType::UInt8 }, { "Int16", ScalarType::Int16 }, { "UInt16", ScalarType::UInt16 },
@@ -72,17 +68,7 @@ private:
       this->File.fail(root.begin, "the file is neither polygonal data nor an unstructured grid of "
                                   "VTK, which are the kinds that hold meshes");
     }
-    this->BigEndian = root.value("byte_order") == "BigEndian";
-    this->HeaderBytes = root.value("header_type", "UInt32") == "UInt64" ? 8 : 4;
-    const std::string compressor = root.value("compressor");
-    this->Compression = compressor.empty()                      ? VtkCompression::None
-                        : compressor == "vtkZLibDataCompressor" ? VtkCompression::Zlib
-                        : compressor == "vtkLZ4DataCompressor"  ? VtkCompression::Lz4
-                                                                : VtkCompression::Lzma;
-    if (this->Compression == VtkCompression::Lzma && compressor != "vtkLZMADataCompressor")
-    {
-      this->File.fail(root.begin, "the compressor " + inQuotes(compressor) + " is not known");
-    }
+    this->Encoding = vtkXmlEncoding(this->File, root);
   }
 
   void close(const XmlTag& tag)
@@ -120,7 +106,7 @@ private:
   {
     VtkPiece piece;
     piece.file = this->Layout.files.size() - 1;
-    piece.points = this->count(tag, "NumberOfPoints");
+    piece.points = vtkXmlCount(this->File, tag, "NumberOfPoints");
     piece.globalIds = GlobalIdsName;
     using namespace VtkCellTypes;
     static constexpr std::pair<const char*, int> Counts[] = { { "NumberOfVerts", PolyVertex },
@@ -129,7 +115,7 @@ private:
     for (const auto& [name, type] : Counts)
     {
       VtkCellList& list = piece.lists.emplace_back();
-      list.cells = this->count(tag, this->IsGrid ? "NumberOfCells" : name);
+      list.cells = vtkXmlCount(this->File, tag, this->IsGrid ? "NumberOfCells" : name);
       list.type = type;
       piece.cells += list.cells;
       if (this->IsGrid)
@@ -193,7 +179,7 @@ private:
                                    ", or stands outside a piece, and cannot be read");
     }
     VtkPiece& piece = this->Layout.pieces.back();
-    VtkArray array = this->arrayOf(tag, known->second);
+    VtkArray array = vtkXmlArray(this->File, tag, known->second, this->Encoding);
     if (attribute)
     {
       const bool ofPoints = this->Section == "PointData";
@@ -249,43 +235,6 @@ private:
       array.values = list.cells;
     }
     own = std::move(array);
-  }
-
-  VtkArray arrayOf(const XmlTag& tag, ScalarType type)
-  {
-    VtkArray array;
-    array.name = tag.value("Name");
-    array.type = array.columnType = type;
-    array.begin = tag.end;
-    array.bigEndian = this->BigEndian;
-    const std::int64_t components =
-      tag.attribute("NumberOfComponents") ? this->count(tag, "NumberOfComponents") : 1;
-    if (components < 1 || components > std::numeric_limits<std::int16_t>::max())
-    {
-      this->File.fail(
-        tag.begin, "an array cannot have " + std::to_string(components) + " components");
-    }
-    array.components = static_cast<int>(components);
-    const std::string format = tag.value("format", "ascii");
-    if (format != "ascii" && format != "binary" && format != "appended")
-    {
-      this->File.fail(tag.begin,
-        "the array here has the format " + inQuotes(format) + ", not ascii, binary or appended");
-    }
-    if (format == "ascii")
-    {
-      return array;
-    }
-    array.headerBytes = this->HeaderBytes;
-    array.compression = this->Compression;
-    array.encoding = VtkEncoding::Base64;
-    if (format == "appended")
-    {
-      // Where the appended data begin and how they are written is told after all arrays.
-      array.encoding = VtkEncoding::Raw;
-      array.begin = static_cast<std::size_t>(this->count(tag, "offset"));
-    }
-    return array;
   }
 
   void account(const XmlTag& tag, std::size_t bytes)
@@ -368,22 +317,6 @@ private:
       });
   }
 
-  std::int64_t count(const XmlTag& tag, const char* name)
-  {
-    const std::string text = tag.value(name, "0");
-    std::string_view digits = text;
-    digits.remove_prefix(std::min(digits.find_first_not_of(" \t\r\n"), digits.size()));
-    digits = digits.substr(0, digits.find_first_of(" \t\r\n"));
-    std::int64_t value = -1;
-    const auto [stop, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc() || stop != digits.data() + digits.size() || value < 0 ||
-        value > MostThings)
-    {
-      this->File.fail(tag.begin, inQuotes(text) + " cannot be the " + name + " of the tag here");
-    }
-    return value;
-  }
-
   std::int64_t product(const XmlTag& tag, std::int64_t count, std::int64_t components)
   {
     std::int64_t values = 0;
@@ -400,9 +333,8 @@ private:
   VtkLayout& Layout;
   const std::int64_t MostBytes;
   const std::size_t FirstPiece;
-  bool IsGrid = false, BigEndian = false, HasAppended = false;
-  int HeaderBytes = 4;
-  VtkCompression Compression = VtkCompression::None;
+  bool IsGrid = false, HasAppended = false;
+  VtkXmlEncoding Encoding;
   std::string Section; ///< where arrays belong to now
 };
 

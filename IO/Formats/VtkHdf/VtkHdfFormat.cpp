@@ -32,19 +32,28 @@ const VtkHdfLibrary& library()
   return *loaded;
 }
 
+/** The signature stands at the beginning, or behind a block for the user's own of 512, 1024 ...
+ * bytes. */
 bool isHdf5(std::string_view start)
 {
-  return start.starts_with("\x89HDF\r\n\x1a\n");
+  constexpr std::string_view Signature = "\x89HDF\r\n\x1a\n";
+  constexpr std::size_t LeastBlock = 512;
+  bool found = start.starts_with(Signature);
+  for (std::size_t block = LeastBlock; !found && block < start.size(); block *= 2)
+  {
+    found = start.substr(block).starts_with(Signature);
+  }
+  return found;
 }
 
-void parse(InputFile& file, RawMeshBuilder& builder, const ProgressFunction&)
+void parse(InputFile& file, RawMeshBuilder& builder, const MeshPart& part, const ProgressFunction&)
 {
-  library().import(file, builder);
+  library().import(file, builder, part);
 }
 
-std::optional<FileCounts> counts(InputFile& file)
+std::optional<FileCounts> counts(InputFile& file, const MeshPart& part)
 {
-  return library().counts(file);
+  return library().counts(file, part);
 }
 
 WriteNotes write(const std::filesystem::path& vsm, const std::filesystem::path& path,
@@ -64,6 +73,7 @@ const Format VtkHdfFormat{
   .hasSign = isHdf5,
   .parse = parse,
   .counts = counts,
+  .hasParts = true,
   .writeVsm = write,
 };
 

@@ -7,8 +7,8 @@ namespace smg
 {
 
 /**
- * VTKHDF: unstructured grids and polygonal data, any number of partitions, of several time steps
- * the first. Partitions whose points have global numbers become one mesh, without duplicate cells.
+ * VTKHDF: unstructured grids and polygonal data, one of any number of time steps, all partitions or
+ * one. Partitions whose points have global numbers become one mesh, without duplicate cells.
  * Written is an unstructured grid of version 1.0, which every reader since VTK 9.1 knows.
  */
 extern const Format VtkHdfFormat;

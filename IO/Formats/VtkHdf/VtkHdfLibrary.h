@@ -13,8 +13,8 @@ namespace smg
  */
 struct VtkHdfLibrary
 {
-  void (*import)(InputFile& file, RawMeshBuilder& builder);
-  std::optional<FileCounts> (*counts)(InputFile& file);
+  void (*import)(InputFile& file, RawMeshBuilder& builder, const MeshPart& part);
+  std::optional<FileCounts> (*counts)(InputFile& file, const MeshPart& part);
   WriteNotes (*write)(const std::filesystem::path& vsm, const std::filesystem::path& path,
     const ProgressFunction& progress);
 };

@@ -15,114 +15,135 @@
 namespace smg
 {
 
-/** The stream order created by a conversion. */
+/** The stream orders that a conversion makes: see docs/convert.md. */
 enum class StreamOrder
 {
-  BreadthFirst, ///< from chosen starting vertices, component by component: `bfs`
-  Axis,         ///< along the longest side of the bounds: `axis`
-  Keep,         ///< the order of the cells in the file: `keep`
-  Spectral      ///< by the Fiedler vector: `spectral`
+  BreadthFirst, ///< "bfs": breadth-first from planned starts, component after component
+  Axis,         ///< "axis": along the longest side of the bounds
+  Keep,         ///< "keep": the order of the cells in the file
+  Spectral      ///< "spectral": along the Fiedler vector
 };
 
-/** The order with this name. Throws Error, which lists the orders, if there is none. */
+/**
+ * The order with this name: "bfs", "axis", "keep" or "spectral".
+ * @throws Error naming these if there is no such order
+ */
 SMG_EXPORT StreamOrder streamOrder(std::string_view name);
 
-/** "bfs", "axis", "keep" or "spectral". */
+/** The name of an order: "bfs", "axis", "keep" or "spectral". */
 SMG_EXPORT std::string_view nameOf(StreamOrder order);
 
-/** The cells of a file that become the cells of the stream. */
+/** Which cells of a file become the cells of the stream. */
 enum class CellChoice
 {
-  Only,      ///< the existing type; a file with both types is an error
-  Triangles, ///< polygons; volume cells are omitted
-  Tetrahedra ///< volume cells; polygons are omitted
+  Only,      ///< all of them; a file with surface cells and volume cells is an error
+  Triangles, ///< the surface cells; volume cells are left out
+  Tetrahedra ///< the volume cells; surface cells are left out
 };
 
-/** Options of convert(). */
+/** How to convert. */
 struct ConversionOptions
 {
+  /** The order of the stream. */
   StreamOrder order = StreamOrder::BreadthFirst;
-  /** The default memory limit in bytes. */
+  /** The memory limit used if none is given, bytes: 256 MiB. */
   static constexpr std::int64_t DefaultMemory = std::int64_t(256) << 20;
 
-  /** The limit of the memory for the mesh and its order in bytes; 0: DefaultMemory. */
+  /** Limit of the accounted memory, bytes, at least 16 MiB; 0: DefaultMemory. */
   std::int64_t memoryLimit = 0;
-  /** The cells to keep of a file with surface cells and volume cells. */
+  /** Which cells to keep. */
   CellChoice cells = CellChoice::Only;
-  /** Merges points within this distance of each other; 0: equal coordinates; none: no points. */
+  /** Distance, in the unit of the coordinates, within which points are merged; 0: points of equal
+   * coordinates; none: no points. */
   std::optional<double> weld;
-  /** Whether to write vertices and cells in the order of the original file: see writeRestored(). */
+  std::int64_t timeStep = 0; ///< of a file with time steps (VTKHDF): which one, from 0
+  /** Which partition of a file with partitions (VTKHDF) to read, from 0; none: all, joined. */
+  std::optional<std::int64_t> partition;
+  /** Write vertices and cells in the order of the original file; the input must be a .vsm file. */
   bool restoreOrder = false;
-  /** The compression of a .vsm file. */
+  /** Compression of a .vsm file. */
   Codec codec = Codec::Zstd;
-  /** The origin stored in a .vsm file, in UTF-8; empty: none. */
+  /** Text on the origin of the mesh for the header of a .vsm file, in UTF-8; empty: none. */
   std::string origin;
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
+  /** Progress callback; empty: none. */
   ProgressFunction progress;
 };
 
-/** The report of a conversion. Counts that are unknown or not applicable are -1. */
+/** What a conversion did. A count of -1 is not known, or does not apply to the kind of cells. */
 struct SMG_EXPORT ConversionReport
 {
+  /** Wall-clock times, seconds. */
   struct Seconds
   {
-    double import = 0, order = 0, write = 0, total = 0;
+    double import = 0; ///< reading the file and merging points
+    double order = 0;  ///< making the order, or looking for degenerate and duplicate cells
+    double write = 0;  ///< writing the result
+    double total = 0;  ///< from the start to the end
   };
 
-  std::string order;
-  std::int64_t vertices = 0, cells = 0;
+  std::string order;                      ///< "bfs", "axis", "keep", "spectral" or "restored"
+  std::int64_t time_steps = 0;            ///< of the file that was read; 0: it has none
+  std::int64_t partitions = 0;            ///< of the file that was read; 0: it has none
+  std::int64_t vertices = 0;              ///< of the stream
+  std::int64_t cells = 0;                 ///< of the stream
   std::int64_t isolated_vertices = 0;     ///< vertices of no cell: kept beside a .vsm stream
-  std::int64_t merged_points = 0;         ///< points welded to others
+  std::int64_t merged_points = 0;         ///< points merged with others
   std::int64_t degenerate_cells = 0;      ///< cells without area or volume: flagged
   std::int64_t duplicate_cells = 0;       ///< cells with the corners of an earlier one: flagged
-  std::int64_t dropped_cells = 0;         ///< omitted: points, lines, faces beside tetrahedra
+  std::int64_t dropped_cells = 0;         ///< left out: points, lines, cells of the other kind
   std::int64_t triangulated_polygons = 0; ///< polygons and strips split into triangles
   std::int64_t split_cells = 0;           ///< hexahedra, wedges, pyramids split into tetrahedra
-  std::int64_t higher_order_cells = 0;    ///< cells with only their corners used
+  std::int64_t higher_order_cells = 0;    ///< cells of which only the corners were used
   std::int64_t inverted_cells = -1;       ///< tetrahedra of negative volume
-  std::int64_t components = -1;           ///< connected by edges
-  std::int64_t boundary_edges = -1;       ///< of one triangle
-  std::int64_t nonmanifold_edges = -1;    ///< of more than two triangles
-  std::int64_t nonmanifold_vertices = -1; ///< whose triangles are not one fan or one disc
-  /** Whether OriginalId or OriginalCellId are columns of the file, not the indices in it. */
+  std::int64_t components = -1;           ///< components connected by edges
+  std::int64_t boundary_edges = -1;       ///< edges of one triangle
+  std::int64_t nonmanifold_edges = -1;    ///< edges of more than two triangles
+  std::int64_t nonmanifold_vertices = -1; ///< vertices whose triangles are not one fan or one disc
+  /** Whether OriginalId or OriginalCellId is a column of the file itself: see convert(). */
   bool keeps_numbers = false;
-  std::int64_t width = -1; ///< maximum number of active vertices
-  std::int64_t span = -1;  ///< largest index distance between vertices of a cell
-  double mean_width = 0;
-  std::int64_t pool_bytes_peak = 0; ///< accounted memory
-  std::int64_t rss_bytes_peak = 0;  ///< of the process
-  std::int64_t scratch_bytes_read = 0, scratch_bytes_written = 0;
-  /** The number of pages of vertices, and of page loads during the breadth-first search. */
-  std::int64_t pages = 0, page_loads = 0;
-  double cpu_seconds = 0;
-  Seconds seconds;
-  /** Notes for the user. */
-  std::vector<std::string> notes;
+  std::int64_t width = -1;                ///< StreamInfo::width of the result
+  std::int64_t span = -1;                 ///< StreamInfo::span of the result
+  double mean_width = 0;                  ///< mean over the cells of the number of vertices alive
+  std::int64_t pool_bytes_peak = 0;       ///< most accounted memory at once, bytes
+  std::int64_t rss_bytes_peak = 0;        ///< largest resident memory of the process, bytes
+  std::int64_t scratch_bytes_read = 0;    ///< read from scratch files
+  std::int64_t scratch_bytes_written = 0; ///< written to scratch files
+  std::int64_t pages = 0;                 ///< pages of vertices for the breadth-first order
+  std::int64_t page_loads = 0;            ///< how often a page was loaded to make this order
+  double cpu_seconds = 0;                 ///< processor time of all threads of the process
+  Seconds seconds;                        ///< wall-clock times
+  std::vector<std::string> notes;         ///< remarks for the user, a sentence each
 
-  /** As a JSON object with the names above. */
+  /**
+   * The report as a JSON object with the names above.
+   * @param indent spaces by which each level is indented; -1: all on one line
+   */
   std::string json(int indent = 2) const;
 };
 
 /**
- * Converts a mesh of any size to a stream order and writes it, in a fixed amount of memory.
+ * Brings a mesh into a stream order and writes it, in a fixed amount of memory whatever its size.
  *
- * Input: all formats of importMesh(), .vsm, and the streaming formats SMA, SMB, SVA and SVB, also
- * compressed by gzip; at most 4,294,967,294 vertices and as many cells.
- * Output, by the suffix: .vsm; .sma, .smb (triangles), .sva, .svb (tetrahedra); .ply, .vtp
- * (triangles), .vtu, .vtkhdf; with `restoreOrder` the formats of writeRestored().
+ * The stream is compact (see StreamInfo). Vertices of no cell are left out of it; a .vsm file keeps
+ * them beside it. Degenerate and duplicate cells stay and are flagged in the cell column
+ * `CellFlags`. The columns `OriginalId` and `OriginalCellId` hold the places in the file, from 0.
+ * If the file has int64 columns of these names already, those are kept instead; columns of another
+ * type with these names are renamed (`OriginalId_1`), with a note.
  *
- * The stream is compact, without vertices of no cell, which a .vsm file stores separately.
- * Degenerate and duplicate cells are kept, flagged in the cell column `CellFlags`. The columns
- * `OriginalId` and `OriginalCellId` hold the indices in the file, from 0; if it already has such
- * columns of int64, those are kept instead, and columns of another type with these names are
- * renamed
- * (`OriginalId_1`), with a note.
- *
- * @throws Error if the input is invalid (see importMesh), the output cannot be written, the formats
- * are not compatible, the memory limit is below 16 MiB, or the disk has too little space for the
- * scratch files (checked before they are written); Cancelled. Neither output nor scratch files are
- * left behind then.
+ * @param in a mesh file of any format in docs/formats.md, recognised by its content, or by its
+ * suffix where that leaves it open; perhaps compressed by gzip. At most 4,294,967,294 vertices and
+ * as many cells.
+ * @param out the result, in the format of its suffix: .vsm; .sma, .smb (triangles); .sva, .svb
+ * (tetrahedra); .ply, .vtp (triangles); .vtu; .vtkhdf. With `restoreOrder`: .ply, .vtp, .vtu, .vtk,
+ * .obj, .off, .stl, .mesh, .msh, or .node with .ele.
+ * @param options how to convert
+ * @throws Error if the input is not valid, the output cannot be written or its format does not hold
+ * such cells, the memory limit is below 16 MiB, or the disk has too little room for the scratch
+ * files (as far as known, before they are written)
+ * @throws Cancelled if the progress callback returns false. Neither output nor scratch files remain
+ * after an exception.
  */
 SMG_EXPORT ConversionReport convert(const std::filesystem::path& in,
   const std::filesystem::path& out, const ConversionOptions& options = {});

@@ -12,7 +12,7 @@ namespace smg
 {
 
 /**
- * Reads a problem file, -div(K grad u - q) + s u = f:
+ * Reads a problem file, which states a problem -div(K grad u - q) + s u = f in JSON:
  *
  *     { "weights": "cotangent" | "clamped" | "uniform", "columns": n,
  *       "conductivity": C, "screening": C, "source": D, "field": "column of the cells",
@@ -31,21 +31,28 @@ namespace smg
  *             | "sphere": [x, y, z, r] | "vertices": [original numbers]
  *             | "tag": ["column", value] | "mask": "column" | "nearest": [[x, y, z], ...]
  *
- * An entry without WHERE holds everywhere. All keys are optional; ProblemDescription documents
- * their meaning and defaults. The entries of a list in C are not lists themselves. `raw-cotangent`
- * is an alias of `cotangent`. docs/problem.schema.json is the corresponding JSON schema. Missing
- * data are taken from `defaults`; conditions are appended to theirs.
+ * An entry without WHERE holds everywhere. Every key is optional; ProblemDescription states what it
+ * means. The entries of a list in C cannot be lists themselves. `raw-cotangent` is an old name of
+ * `cotangent`. docs/problem.schema.json is the JSON schema.
+ * @param path the file
+ * @param defaults data of keys that the file does not have; conditions of the file follow theirs
  * @throws Error naming the file and the place in it
  */
 SMG_EXPORT ProblemDescription readProblemFile(
   const std::filesystem::path& path, const ProblemDescription& defaults = {});
 
-/** The same from the text of such a file, named `name` in error messages. */
+/**
+ * As readProblemFile(), from a text.
+ * @param text the content of such a file
+ * @param name what error messages call the text
+ * @param defaults data of keys that the text does not have
+ * @throws Error naming the text and the place in it
+ */
 SMG_EXPORT ProblemDescription readProblemText(
   const std::string& text, const std::string& name, const ProblemDescription& defaults = {});
 
 /**
- * Reads a handle file:
+ * Reads a handle file, which states a deformation in JSON:
  *
  *     { "handles": [ { "region": { "sphere": [x, y, z, r] }, "fixed": true },
  *                    { "region": { "box": [x0, y0, z0, x1, y1, z1] }, "translate": [x, y, z] },
@@ -58,19 +65,21 @@ SMG_EXPORT ProblemDescription readProblemText(
  *                      "rotation": "HandleRotation", "logScale": "HandleLogScale" } ],
  *       "weights": "clamped" | "cotangent" | "uniform", "cycles": k }
  *
- * A region is any WHERE of a problem file (see readProblemFile()), including `tag`, `mask` and
- * `nearest`. A handle has a region and one of three:
+ * A region is any WHERE of a problem file (see readProblemFile()), except an empty one. A handle
+ * has a region and one of the following:
  * - `fixed`;
- * - one or more of `rotate`, `scale` (from 1e-20 to 1e20) and `translate`: rotation and scale about
- *   the same centre first, then translation. The axis has any length except 0, the angle is from
- *   -1e6 to 1e6 degrees: 200 is not the same as -160. The centre is part of the rotation or of the
- *   handle; the default is the centre of the sphere or box, and an error for other regions;
- * - `target`, the target of each vertex: the name of a vertex column, [x, y, z] or "position"; with
- *   it optionally `rotation` (the unit axis times the angle in radians: a column or three numbers)
- *   and `logScale` (the natural logarithm of the scale: a column or a number), both by default 0.
+ * - one or more of `rotate`, `scale` (1e-20 to 1e20) and `translate`: rotation and scale about the
+ *   same centre first, then translation. The axis has any length but 0; the angle, from -1e6 to 1e6
+ *   degrees, may exceed a half-turn: 200 is not -160. The centre is in the rotation or in the
+ *   handle; by default it is the middle of a sphere or box, and required for other regions;
+ * - `target`, the new position of each vertex: the name of a vertex column, [x, y, z] or
+ *   "position"; with it, if they are not 0, `rotation` (the unit axis times the angle in radians: a
+ *   column or three numbers) and `logScale` (the natural logarithm of the scale: a column or a
+ *   number).
  *
- * `cycles` (V-cycles of each step, 1 to 1000000) or `tolerance` (between 0 and 1), but not both,
- * define the stopping criterion; these and `weights` (see Weights in smg/Problem.h) are optional.
+ * `cycles` (V-cycles of each step, 1 to 1,000,000) or `tolerance` (between 0 and 1, both excluded),
+ * but not both, determine when a step stops. They and `weights` (see smg::Weights) are optional.
+ * @param path the file
  * @throws Error naming the file and the place in it
  */
 SMG_EXPORT DeformationDescription readHandleFile(const std::filesystem::path& path);

@@ -14,39 +14,52 @@
 namespace smg
 {
 
-/** The treatment of the columns `Normals` of a mesh with moved vertices. */
+/** What becomes of the columns `Normals`, of vertices and cells, of a mesh whose vertices move. */
 enum class MovedNormals
 {
-  Recompute, ///< existing normals of triangles are recomputed, those of tetrahedra omitted
-  Drop       ///< omitted
+  /** Computed anew if the mesh has them: unit normals of the triangles, and at vertices their
+   * means, weighted with the angles there. Of tetrahedra they are left out. */
+  Recompute,
+  Drop ///< left out
 };
 
-/** Options of the computation of normals. */
+/** How normals are computed. */
 struct NormalsOptions
 {
   /** Folder for the scratch file; empty: the system's temporary folder. */
   std::filesystem::path scratch;
-  /** Bytes of memory for vertices that are not final; the excess is stored in scratch files. */
+  /** Memory for vertices that are not final, bytes; what exceeds it goes to scratch files. */
   std::int64_t memory = std::int64_t(64) << 20;
+  /** Progress callback; empty: none. */
   ProgressFunction progress;
 };
 
-/** A mesh with moved vertices: the same stream with all its columns, with the positions of a
- * solution of three columns in the precision of the mesh, and with matching normals. */
+/**
+ * A mesh with its vertices moved: the same stream with all its columns, but with the positions of a
+ * solution of three columns, in the precision of the mesh, and with normals that fit.
+ */
 class SMG_EXPORT MovedMesh
 {
 public:
   /**
-   * Mesh and positions must outlive the object. Reads the mesh once if normals are computed.
-   * @throws Error if a new position is not finite in the precision of the mesh, or a file fails;
-   * Cancelled
+   * Reads the mesh once if vertex normals are to be computed.
+   * @param mesh the mesh at rest; must outlive this
+   * @param positions the new positions (x, y, z a vertex), as deform() returns them; must outlive
+   * this
+   * @param normals what becomes of normals
+   * @param options how normals are computed
+   * @throws Error if a new position is not finite in the precision of the mesh, or a file fails
+   * @throws Cancelled if the progress callback returns false
    */
   MovedMesh(const VsmReader& mesh, Solution& positions, MovedNormals normals,
     const NormalsOptions& options = {});
 
   ~MovedMesh();
 
-  /** The moved stream, from its first block; the bounds in its info are unknown. */
+  /**
+   * The moved stream, from its first block. The bounds in its StreamInfo are not known (all 0).
+   * Reading it throws Error as the constructor does. It must not outlive this.
+   */
   std::unique_ptr<MeshSource> source() const;
 
 private:

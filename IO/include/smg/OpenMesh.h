@@ -15,10 +15,12 @@ namespace smg
 class SMG_EXPORT OpenedMesh
 {
 public:
+  /** Removes the converted file, if there is one. */
   ~OpenedMesh();
 
+  /** The reader of the .vsm file, valid as long as this. */
   VsmReader& reader();
-  /** The report of the conversion; null if the file is a .vsm file. */
+  /** What the conversion did, valid as long as this; null if the file is a .vsm file itself. */
   const ConversionReport* conversion() const;
 
 private:
@@ -31,10 +33,12 @@ private:
 };
 
 /**
- * Opens a mesh file of any format that convert() reads. A .vsm file is read directly; all others
- * are converted to a .vsm file in the scratch folder, which is removed with the OpenedMesh:
- * streaming formats in their order, all others in the order of the options.
- * @throws Error, Cancelled like convert()
+ * Opens a mesh file of any format that convert() reads. A .vsm file is read as it is; any other
+ * file is converted to a .vsm file in the scratch folder, which lives as long as the OpenedMesh.
+ * @param path the mesh file
+ * @param options how to convert; a streaming format (SMA, SMB, SVA, SVB) keeps its order
+ * @throws Error as convert()
+ * @throws Cancelled as convert()
  */
 SMG_EXPORT std::unique_ptr<OpenedMesh> openMesh(
   const std::filesystem::path& path, const ConversionOptions& options = {});

@@ -14,29 +14,40 @@
 namespace smg
 {
 
-/** The default number of points of a preview. */
+/** Default limit of the number of points of a preview. */
 inline constexpr std::int64_t DefaultPreviewPoints = 10000;
-/** The range of the number of points. */
+/** The smallest limit that may be given. */
 inline constexpr std::int64_t LeastPreviewPoints = 8;
+/** The largest limit that may be given. */
 inline constexpr std::int64_t MostPreviewPoints = 1000000;
 
-/** Vertex column of a preview, int64: the stream index of each point in the mesh. (The name
- * GlobalIds is reserved for VTK pieces, where it has the same meaning.) */
+/**
+ * Vertex column of a preview (int64): the stream index that each point has in the mesh. (The name
+ * GlobalIds, which means the same, belongs to pieces in VTK.)
+ */
 inline constexpr const char* StreamIndexName = "StreamIndex";
 
 /**
- * The preview of a mesh as a mesh stream of triangles, compact and in breadth-first order, to be
- * written to a file. It has all vertex columns of the mesh, including OriginalId with the indices
- * in the original file, and the column StreamIndex.
+ * A preview of a mesh as a stream of triangles, in breadth-first order: a small mesh by vertex
+ * clustering, of a tetrahedral mesh of its outer surface. Its points are vertices of the mesh, with
+ * all vertex columns, the column StreamIndex, and OriginalId, which is StreamIndex again if the
+ * mesh does not have it. It has no attributes of cells.
  */
 class SMG_EXPORT PreviewSource : public MeshSource
 {
 public:
   /**
-   * Reads the mesh once, and its vertex columns once. Error messages name the mesh `name`, or its
-   * file if that is empty. A large preview creates scratch files in `scratch`; empty: the system's
-   * temporary folder.
-   * @throws Error if the preview is empty because every triangle collapses; Cancelled
+   * Makes the preview: reads the mesh once, and its vertex columns once.
+   * @param mesh the mesh
+   * @param maximumPoints limit of the number of points, LeastPreviewPoints to MostPreviewPoints. A
+   * surface of fewer points is taken as it is.
+   * @param progress progress callback; empty: none
+   * @param name what error messages call the mesh; empty: its file name
+   * @param scratch folder for scratch files, which only large previews need; empty: the system's
+   * temporary folder
+   * @throws Error if the mesh cannot be read, or the preview is empty because the corners of every
+   * triangle coincide
+   * @throws Cancelled if the progress callback returns false
    */
   explicit PreviewSource(VsmReader& mesh, std::int64_t maximumPoints = DefaultPreviewPoints,
     const ProgressFunction& progress = {}, const std::string& name = {},

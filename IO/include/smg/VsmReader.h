@@ -17,86 +17,136 @@ namespace smg
 
 struct IoStatistics;
 
-/** A range of consecutive cells of a mesh stream with all vertices that these cells use. */
+/** Consecutive cells of a mesh stream, with all vertices that they use. */
 struct MeshPiece
 {
-  std::int64_t firstCell = 0;          ///< stream index of the first cell of the piece
+  std::int64_t firstCell = 0;          ///< stream index of the first cell
   std::vector<std::int64_t> ids;       ///< stream indices of the vertices, ascending
   std::vector<double> positions;       ///< x, y, z of each vertex
-  std::vector<float> normals;          ///< x, y, z per vertex of previews, else empty
-  std::vector<std::uint8_t> ghost;     ///< 1: introduced by a cell before the piece
-  std::vector<std::uint8_t> finalized; ///< 1: no cell after the piece uses the vertex
-  std::vector<std::int64_t> corners;   ///< indices in `ids`, cornersOf(cellType) per cell
-  std::vector<Column> vertexColumns;   ///< a tuple per vertex
-  std::vector<Column> cellColumns;     ///< a tuple per cell
+  std::vector<float> normals;          ///< x, y, z of each vertex; only of previews, else empty
+  std::vector<std::uint8_t> ghost;     ///< of each vertex, 1: introduced by an earlier cell
+  std::vector<std::uint8_t> finalized; ///< of each vertex, 1: no later cell uses it
+  std::vector<std::int64_t> corners;   ///< indices into `ids`, cornersOf(cellType) a cell
+  std::vector<Column> vertexColumns;   ///< a tuple a vertex
+  std::vector<Column> cellColumns;     ///< a tuple a cell
 
+  /** Number of vertices. */
   std::int64_t vertices() const { return static_cast<std::int64_t>(this->ids.size()); }
 };
 
-/** Vertices of no cell. A mesh stream has none; its container stores them separately, to restore
- * the original file. */
+/**
+ * Vertices of no cell. They are not part of the stream; a .vsm file keeps them beside it, for a
+ * mesh that is written in the order of its original file.
+ */
 struct IsolatedVertices
 {
-  std::vector<std::int64_t> ids; ///< indices in the original file
+  std::vector<std::int64_t> ids; ///< places in the original file
   std::vector<double> positions; ///< x, y, z of each vertex
-  std::vector<Column> columns;   ///< the columns of the stream, a tuple per vertex
+  std::vector<Column> columns;   ///< the vertex columns of the stream, a tuple a vertex
 };
 
 /**
- * Reads a .vsm file as a stream from first block to last, or any piece independently. Every failure
- * is an Error that names the file. One thread at a time; sources may be used by other threads.
+ * Reads a .vsm file: as a stream from the first block to the last, or any piece by itself. Every
+ * function throws Error naming the file if that cannot be read or is damaged. Not for two threads
+ * at once; the sources that it makes may be used on other threads.
  */
 class SMG_EXPORT VsmReader
 {
 public:
+  /**
+   * Opens a file.
+   * @param path the file
+   * @param statistics counts what is read, and must outlive the reader and its sources; null: no
+   * counts
+   * @throws Error if it is not a .vsm file or its header is damaged
+   */
   explicit VsmReader(std::filesystem::path path, IoStatistics* statistics = nullptr);
   ~VsmReader();
   VsmReader(const VsmReader&) = delete;
   VsmReader& operator=(const VsmReader&) = delete;
 
+  /** The file, as given to the constructor. */
   const std::filesystem::path& path() const;
-  /** Counts, bounds, width, span, precision and the names of all columns. */
+  /** Counts, bounds, width, span, precision and all columns. */
   const StreamInfo& info() const;
-  /** The mean over the cells of the number of active vertices. */
+  /** Mean over the cells of the number of vertices alive (see StreamInfo::width). */
   double meanWidth() const;
-  /** The statistics in the header of the file. */
+  /** The header of the file: a JSON object with the kind of cells, precision, counts, bounds,
+   * width, span, mean width and perhaps `origin`. */
   const std::string& header() const;
+  /** How the columns are compressed. */
   Codec codec() const;
+  /** Number of blocks of vertices, of 8192 each, the last one fewer. */
   std::int64_t vertexBlocks() const;
+  /** Number of blocks of cells, of 8192 each, the last one fewer. */
   std::int64_t cellBlocks() const;
-  /** The bytes of the file, and the uncompressed bytes of its columns. */
+  /** Size of the file, bytes. */
   std::int64_t storedBytes() const;
+  /** Size of all columns, uncompressed, bytes. */
   std::int64_t plainBytes() const;
 
-  /** The mesh stream from its first block, with prefetch; one block of the stream per cell block.
-   * The source opens the file separately and may outlive the reader. */
+  /**
+   * The mesh stream with all columns, from its first block, read ahead. Each block of the stream is
+   * a block of cells with the vertices that it introduces. The source opens the file for itself and
+   * may outlive the reader.
+   */
   std::unique_ptr<MeshSource> source() const;
-  /** The same with only the named columns, in this order, and CellFlags if the file has it, since
-   * flagged cells must have no weight. Throws Error if a column does not exist. */
+  /**
+   * The mesh stream with some of its columns only.
+   * @param vertexColumns names of vertex columns, in the order in which blocks have them
+   * @param cellColumns names of cell columns, likewise. CellFlags is appended if the file has it:
+   * without it, flagged cells would have weight.
+   * @throws Error if a column does not exist
+   */
   std::unique_ptr<MeshSource> source(
     std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const;
 
-  /** Selects the columns of readPiece() and their order, in addition to CellFlags as above;
-   * initially all. Throws Error if one does not exist. */
+  /**
+   * Selects the columns that readPiece() delivers, as for source(); at first these are all columns.
+   * @param vertexColumns names of vertex columns, in the order in which pieces have them
+   * @param cellColumns names of cell columns, likewise; CellFlags is appended as above
+   * @throws Error if a column does not exist
+   */
   void selectColumns(
     const std::vector<std::string>& vertexColumns, const std::vector<std::string>& cellColumns);
 
   /**
-   * Fills `piece` with the cells [firstCell, endCell), which may be empty, and their vertices,
-   * reusing the memory of its vectors. A piece that follows the previous one reads only the piece,
-   * since active vertices are cached. Any other piece reads the blocks with its rows.
+   * Reads the cells [firstCell, endCell), which may be none, and their vertices. A piece that
+   * follows the one read before costs no more than its own rows, since vertices that are still
+   * alive are remembered; any other piece costs the blocks that hold its rows.
+   * @param firstCell stream index of the first cell
+   * @param endCell stream index after the last cell, at most the number of cells
+   * @param piece replaced by the piece; the memory of its vectors is reused
    */
   void readPiece(std::int64_t firstCell, std::int64_t endCell, MeshPiece& piece);
 
-  /** Reads column `name` of the vertices [first, first + count) into `column`. */
+  /**
+   * Reads a column of the vertices [first, first + count).
+   * @param name the column
+   * @param first stream index of the first vertex
+   * @param count number of vertices
+   * @param column replaced by the column, `count` tuples
+   * @throws Error if the column or one of the vertices does not exist
+   */
   void readVertexColumn(
     const std::string& name, std::int64_t first, std::int64_t count, Column& column);
-  /** The last cell that uses each of the vertices from `first` on. */
+  /**
+   * Reads the last cell that uses each of some consecutive vertices.
+   * @param first stream index of the first vertex
+   * @param cells set to stream indices of cells, one a vertex; its size is the number of vertices
+   * @throws Error if one of the vertices does not exist
+   */
   void readLastCells(std::int64_t first, std::span<std::int64_t> cells);
 
-  /** The number of vertices of no cell, which are not part of the stream. */
+  /** Number of vertices of no cell. */
   std::int64_t isolatedVertices() const;
-  /** Reads `count` of them from index `first` on, with all columns, in the order of the file. */
+  /**
+   * Reads vertices of no cell, with all columns.
+   * @param first number of the first one, from 0, in the order of the .vsm file
+   * @param count how many to read
+   * @param vertices replaced by these vertices
+   * @throws Error if there are not so many
+   */
   void readIsolated(std::int64_t first, std::int64_t count, IsolatedVertices& vertices);
 
 private:

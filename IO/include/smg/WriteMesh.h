@@ -14,63 +14,87 @@
 namespace smg
 {
 
-/** Options of writeMesh(). */
+/** How to write a mesh. */
 struct WriteMeshOptions
 {
-  /** The compression of a .vsm file. */
+  /** Compression of a .vsm file. */
   Codec codec = Codec::Zstd;
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
-  /** A .vsm file whose isolated vertices are copied to a .vsm file; empty: none. See writeVsm(). */
+  /** A .vsm file whose isolated vertices, with the columns that both have, are copied into a new
+   * .vsm file; empty: none. */
   std::filesystem::path isolatedFrom;
+  /** Progress callback; empty: none. */
   ProgressFunction progress;
 };
 
 /**
- * Writes a mesh stream with known numbers of vertices and cells in the format of the suffix: .vsm,
- * .ply, .vtp, .vtu or .vtkhdf with all its columns, or .sma, .smb, .sva or .svb.
- * @return a note for each part of the mesh that the format cannot represent exactly
- * @throws Error like checkOutput() in MeshFile.h, if the stream is invalid, or if the file cannot
- * be written; Cancelled. No part of the file is left then.
+ * Writes a mesh stream.
+ * @param source the stream, read to its end; its StreamInfo must have the numbers of vertices and
+ * cells
+ * @param path the file, in the format of its suffix: .vsm, .ply (triangles), .vtp (triangles), .vtu
+ * or .vtkhdf with all columns; .sma or .smb (triangles), .sva or .svb (tetrahedra)
+ * @param options how to write
+ * @return a sentence for each thing that the format cannot hold as the mesh has it
+ * @throws Error if meshes or such cells are not written with this suffix, the stream is not valid,
+ * or the file cannot be written
+ * @throws Cancelled if the progress callback returns false. No file remains after an exception.
  */
 SMG_EXPORT std::vector<std::string> writeMesh(
   MeshSource& source, const std::filesystem::path& path, const WriteMeshOptions& options = {});
 
-/** The same for a .vsm file. */
+/**
+ * Writes the mesh of a .vsm file as writeMesh() does; a .vsm file keeps the isolated vertices.
+ * @param vsm the .vsm file
+ * @param path the file to write
+ * @param progress progress callback; empty: none
+ * @return as writeMesh()
+ * @throws Error as writeMesh(), or if `vsm` cannot be read
+ * @throws Cancelled as writeMesh()
+ */
 SMG_EXPORT std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
   const std::filesystem::path& path, const ProgressFunction& progress = {});
 
-/** Options of rewriteMesh(). */
+/** How to write a mesh file again with other positions. */
 struct RewriteOptions
 {
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
-  /** Bytes of memory for sorting positions. */
+  /** Memory for positions that wait for their turn, bytes. */
   std::int64_t memory = std::int64_t(64) << 20;
+  /** Progress callback; empty: none. */
   ProgressFunction progress;
 };
 
-/** Whether rewriteMesh() can write `out` from `in`: both are streaming formats (SMA, SMB, SVA, SVB)
- * of the same cells by name or content, or both are PLY. Throws Error if `in` cannot be read. */
+/**
+ * Whether rewriteMesh() can write `out` from `in`: both are streaming formats (SMA, SMB, SVA, SVB)
+ * of the same kind of cells, or both are PLY (`in` not compressed). `in` goes by its content, `out`
+ * by its suffix.
+ * @throws Error if `in` cannot be read
+ */
 SMG_EXPORT bool canRewrite(const std::filesystem::path& in, const std::filesystem::path& out);
 
 /**
- * Writes the mesh file `in` as `out` with moved vertices: the same vertices and cells in the same
- * order, including vertices of no cell, and all other data of the file.
+ * Writes a mesh file again with its vertices moved: the same vertices and cells in the same order,
+ * including vertices of no cell, and everything else that the file has of them.
  *
- * `moved` is the mesh stream converted from `in` (for instance by openMesh()) with the new
- * positions and the column OriginalId, in any order; positions are sorted into the order of `in`
- * out of core. Vertices that it lacks keep their positions.
+ * Streaming formats: pre-order stays pre-order, post-order stays post-order, and vertices become
+ * final where they do in `in`; counts and bounds are in the header if `in` has them. Positions are
+ * rounded to single precision.
  *
- * Streaming formats: pre-order and post-order are kept, vertices are final at the same place as in
- * `in`, and counts and bounds are in the header if `in` has them. Positions become single
- * precision.
+ * PLY: the same elements, properties and comments, in binary. If `moved` has the vertex column
+ * Normals of 3 components, it replaces properties nx, ny, nz of the vertices; otherwise these are
+ * left out, and so are always those of faces, since they would be stale.
  *
- * PLY: the same elements, properties and comments, in binary. If `moved` has a vertex column
- * Normals of 3 components, it replaces the properties nx, ny, nz of vertices; otherwise these are
- * omitted. Those of faces are always omitted, since they would be outdated.
- * @throws Error if `in` is invalid, an index of `moved` is not a vertex of `in`, or `out` cannot be
- * written; Cancelled. No part of `out` is left then.
+ * @param in the mesh file
+ * @param out the file to write; see canRewrite()
+ * @param moved the stream made from `in` (for instance by openMesh()) with the new positions and
+ * the column OriginalId, in any order: it is sorted out of core. Vertices that it lacks stay where
+ * they are.
+ * @param options how to write
+ * @throws Error if canRewrite() is false, `in` is not valid, an OriginalId is not a vertex of `in`,
+ * or `out` cannot be written
+ * @throws Cancelled if the progress callback returns false. No output remains after an exception.
  */
 SMG_EXPORT void rewriteMesh(const std::filesystem::path& in, const std::filesystem::path& out,
   MeshSource& moved, const RewriteOptions& options = {});

@@ -14,29 +14,29 @@
 namespace smg
 {
 
-/** The scalar types of columns. The values are part of the file format. */
+/** The scalar types of columns. The values are part of the `.vsm` format. */
 enum class ScalarType : std::uint8_t
 {
-  Int8 = 0,
-  UInt8 = 1,
-  Int16 = 2,
-  UInt16 = 3,
-  Int32 = 4,
-  UInt32 = 5,
-  Int64 = 6,
-  UInt64 = 7,
-  Float32 = 8,
-  Float64 = 9
+  Int8 = 0,    ///< signed, 1 byte
+  UInt8 = 1,   ///< unsigned, 1 byte
+  Int16 = 2,   ///< signed, 2 bytes
+  UInt16 = 3,  ///< unsigned, 2 bytes
+  Int32 = 4,   ///< signed, 4 bytes
+  UInt32 = 5,  ///< unsigned, 4 bytes
+  Int64 = 6,   ///< signed, 8 bytes
+  UInt64 = 7,  ///< unsigned, 8 bytes
+  Float32 = 8, ///< single precision
+  Float64 = 9  ///< double precision
 };
 
-/** Bytes of one scalar. */
+/** Bytes of one scalar: 1, 2, 4 or 8. */
 constexpr std::size_t sizeOf(ScalarType type)
 {
   constexpr std::size_t sizes[] = { 1, 1, 2, 2, 4, 4, 8, 8, 4, 8 };
   return sizes[static_cast<int>(type)];
 }
 
-/** "int8" ... "float64". */
+/** The name of a scalar type, from "int8" to "float64". */
 constexpr std::string_view nameOf(ScalarType type)
 {
   constexpr std::string_view names[] = { "int8", "uint8", "int16", "uint16", "int32", "uint32",
@@ -44,7 +44,7 @@ constexpr std::string_view nameOf(ScalarType type)
   return names[static_cast<int>(type)];
 }
 
-/** The ScalarType of a C++ arithmetic type. */
+/** The ScalarType of the C++ arithmetic type T, of at most 8 bytes. */
 template <class T>
 constexpr ScalarType scalarTypeOf()
 {
@@ -60,7 +60,7 @@ constexpr ScalarType scalarTypeOf()
   }
 }
 
-/** Calls f with a value-initialised scalar of the C++ type that `type` names. */
+/** Calls `f` with a 0 of the C++ type that corresponds to `type`; returns what `f` returns. */
 template <class F>
 decltype(auto) dispatch(ScalarType type, F&& f)
 {
@@ -89,41 +89,46 @@ decltype(auto) dispatch(ScalarType type, F&& f)
   }
 }
 
-/** The compression of columns in a file. The values are part of the file format. */
+/** Compression of the columns of a `.vsm` file. The values are part of the format. */
 enum class Codec : std::uint8_t
 {
-  None = 0,
-  Lz4 = 1,
-  Zstd = 2
+  None = 0, ///< not compressed
+  Lz4 = 1,  ///< LZ4: fast
+  Zstd = 2  ///< Zstandard: small
 };
 
-/** The name, scalar type and number of components of a column. */
+/** Name and type of a column. */
 struct ColumnSpec
 {
-  std::string name;
-  ScalarType type = ScalarType::Float64;
-  int components = 1;
+  std::string name;                      ///< name of the column
+  ScalarType type = ScalarType::Float64; ///< of each component
+  int components = 1;                    ///< scalars in a tuple, at least 1
 
+  /** Bytes of a tuple. */
   std::size_t tupleBytes() const { return sizeOf(this->type) * this->components; }
+  /** Whether name, type and number of components are equal. */
   bool operator==(const ColumnSpec&) const = default;
 };
 
-/** A column of values, tuples one after the other: an attribute of vertices or of cells. */
+/** An attribute of vertices or cells: a tuple for each of them. */
 struct Column
 {
-  ColumnSpec spec;
-  std::vector<std::byte> bytes;
+  ColumnSpec spec;              ///< name and type
+  std::vector<std::byte> bytes; ///< the tuples, one after the other, in native byte order
 
+  /** Number of tuples. */
   std::size_t tuples() const { return this->bytes.size() / this->spec.tupleBytes(); }
+  /** Changes the number of tuples; new ones are zero. */
   void resize(std::size_t tuples) { this->bytes.resize(tuples * this->spec.tupleBytes()); }
 
-  /** The values as T, which must be the type of the column. */
+  /** All components of all tuples as T, which must be the column's own type (asserted). */
   template <class T>
   std::span<T> as()
   {
     assert(scalarTypeOf<T>() == this->spec.type);
     return { reinterpret_cast<T*>(this->bytes.data()), this->bytes.size() / sizeof(T) };
   }
+  /** The same, read-only. */
   template <class T>
   std::span<const T> as() const
   {
@@ -131,7 +136,8 @@ struct Column
     return { reinterpret_cast<const T*>(this->bytes.data()), this->bytes.size() / sizeof(T) };
   }
 
-  /** Component `component` of tuple `tuple`, converted to double. */
+  /** Component `component` of tuple `tuple`, both counted from 0, converted to double. Neither
+   * number is checked. */
   double value(std::size_t tuple, int component = 0) const
   {
     const std::byte* p =
@@ -141,12 +147,13 @@ struct Column
   }
 };
 
-/** The index of the first column equal to `spec`; -1 if there is none. */
+/** Index of the first column that equals `spec`; -1 if there is none. */
 inline std::ptrdiff_t findColumn(const std::vector<ColumnSpec>& specs, const ColumnSpec& spec)
 {
   const auto found = std::ranges::find(specs, spec);
   return found == specs.end() ? -1 : found - specs.begin();
 }
+/** The same among columns with their values. */
 inline std::ptrdiff_t findColumn(const std::vector<Column>& columns, const ColumnSpec& spec)
 {
   const auto found = std::ranges::find(columns, spec, &Column::spec);

@@ -13,28 +13,40 @@
 namespace smg
 {
 
-/** Options of deform(). */
+/**
+ * How to deform: the options of a solve, which hold for each of the two steps, and these.
+ * `operators` must be "extended".
+ */
 struct DeformOptions : SolveOptions
 {
+  /** Weights of the edges, in both steps. */
   Weights weights = Weights::Clamped;
-  /** V-cycles of each of the two steps, at least 1; 0: until the step reaches the tolerance. */
+  /** V-cycles of each step, whatever the residual; 0: as many as `tolerance` takes, `maxCycles`
+   * at most. */
   int cycles = 0;
 };
 
 /**
  * Deforms a mesh by handles and keeps its details: two Poisson problems on one hierarchy.
  *
- * The first interpolates the rotation vectors and logarithms of scale of the handles harmonically
- * over the mesh; the second computes the positions whose edges are closest to the edges at rest,
- * rotated and scaled: (div d)_i = sum_j w_ij d_ij, d_ij = (s_i R_i + s_j R_j) / 2 (p_i - p_j). With
- * k V-cycles per step this takes 2 k + 1 passes: the last prolongation of the first problem and the
- * first restriction of the second problem share a pass.
+ * The rotation step spreads the handles' rotation vectors and logarithms of scale harmonically over
+ * the mesh. The position step finds the positions whose edges are closest, in the weighted
+ * least-squares sense, to the edges at rest, rotated and scaled: its right-hand side is
+ * (div d)_i = sum_j w_ij d_ij, d_ij = (s_i R_i + s_j R_j) / 2 (p_i - p_j), which for scales of 1 is
+ * that of Sorkine and Alexa 2007. With k V-cycles a step this takes 2 k + 1 passes over the mesh:
+ * the last prolongation of the first step and the first restriction of the second one share a pass.
  *
- * Components of the mesh without a held vertex, and vertices without a weighted cell, are not
- * modified.
+ * Components of the mesh without a held vertex, and vertices without a weighted cell, stay exactly
+ * where they are.
  *
- * @return the positions, three columns; report().steps describes the two steps
- * @throws Error like solve(), and if no vertex is held; Cancelled
+ * @param mesh the mesh stream, read once
+ * @param handles the handles, asked once for each block
+ * @param options how to solve
+ * @return the positions: three columns, x, y, z, in the unit of the mesh. Solution::report() has
+ * both steps in Report::steps.
+ * @throws Error as solve(), if no vertex is held, or if what `handles` sets is not valid (see
+ * Handles::at())
+ * @throws Cancelled if the progress callback returns false
  */
 SMG_EXPORT std::unique_ptr<Solution> deform(
   MeshSource& mesh, Handles& handles, const DeformOptions& options = {});

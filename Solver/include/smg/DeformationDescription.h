@@ -16,8 +16,9 @@ namespace smg
 {
 
 /**
- * The motion of a handle: p moves to M p + t. The rotation vector (unit axis times angle in
- * radians) and the logarithm of the scale are the boundary values for the mesh between the handles.
+ * How a handle moves the vertices that it holds: an affine map. Its rotation vector and the
+ * logarithm of its scale are the values that the deformation spreads over the mesh between the
+ * handles.
  */
 class SMG_EXPORT HandleMotion
 {
@@ -25,72 +26,84 @@ public:
   /** Rotation and scale about a centre, then translation. */
   struct Parameters
   {
-    std::array<double, 3> translation{};
-    std::array<double, 3> axis{ 0.0, 0.0, 1.0 }; ///< of any length except 0
-    double degrees = 0.0; ///< from -MostDegrees to MostDegrees: 200 is not -160
-    std::array<double, 3> center{};
-    double scale = 1.0; ///< from LeastScale to MostScale
+    std::array<double, 3> translation{};         ///< in the unit of the mesh
+    std::array<double, 3> axis{ 0.0, 0.0, 1.0 }; ///< of rotation; any length but 0
+    /** Angle, from -MostDegrees to MostDegrees. It may exceed a half-turn: 200 is not -160. */
+    double degrees = 0.0;
+    std::array<double, 3> center{}; ///< of rotation and scale, in the unit of the mesh
+    double scale = 1.0;             ///< factor, from LeastScale to MostScale
   };
 
-  /** Beyond these limits, rounding destroys a mesh. */
-  static constexpr double LeastScale = 1e-20, MostScale = 1e20, MostDegrees = 1e6;
-  /** The error messages for a scale or an angle out of range. */
+  /** Smallest scale. Beyond this limit, and the next two, rounding leaves nothing of a mesh. */
+  static constexpr double LeastScale = 1e-20;
+  /** Largest scale. */
+  static constexpr double MostScale = 1e20;
+  /** Largest magnitude of an angle, degrees. */
+  static constexpr double MostDegrees = 1e6;
+  /** The text of errors for a scale that is out of range. */
   static constexpr const char* ScaleRule = "must be greater than 0, between 1e-20 and 1e20";
+  /** The text of errors for an angle that is out of range. */
   static constexpr const char* DegreesRule = "must be between -1e6 and 1e6 degrees";
+  /** Whether a scale is from LeastScale to MostScale. */
   static constexpr bool isScale(double scale) { return scale >= LeastScale && scale <= MostScale; }
+  /** Whether an angle is from -MostDegrees to MostDegrees. */
   static constexpr bool isAngle(double degrees)
   {
     return degrees >= -MostDegrees && degrees <= MostDegrees;
   }
 
-  /** The identity. */
+  /** The identity: every vertex stays where it is. */
   HandleMotion() = default;
   /**
-   * Throws Error if a number is not finite, the axis has no length, or the scale or the angle is
-   * out of range.
+   * Rotation and scale about a centre, then translation.
+   * @throws Error if a number is not finite, the axis has the length 0, or the scale or the angle
+   * is out of range
    */
   explicit HandleMotion(const Parameters& parameters);
   /**
-   * The motion of an affine matrix, row by row. The rotation is the one nearest to its linear part
-   * (at most 180 degrees), the scale is the cube root of its determinant. Throws Error if a number
-   * is not finite, the last row is not 0 0 0 1, or the determinant is not positive.
+   * The motion of an affine 4 x 4 matrix, given row by row. Its rotation, of at most 180 degrees,
+   * is the one nearest to the linear part; its scale is the cube root of the determinant.
+   * @throws Error if a number is not finite, the last row is not 0 0 0 1, or the determinant is not
+   * positive
    */
   static HandleMotion fromMatrix(std::span<const double, 16> matrix);
 
-  /** The target of the point. */
+  /** The position (x, y, z) that the map gives to `point`. */
   std::array<double, 3> apply(std::span<const double, 3> point) const;
+  /** Rotation vector: the unit axis times the angle in radians. */
   const std::array<double, 3>& rotation() const { return this->Rotation; }
+  /** Natural logarithm of the scale. */
   double logScale() const { return this->LogScale; }
-  /** Whether it moves no point and prescribes neither rotation nor scale. */
+  /** Whether the map, the rotation and the scale are exactly the identity. */
   bool isIdentity() const;
 
 private:
   std::array<double, 9> Linear{ 1, 0, 0, 0, 1, 0, 0, 0, 1 }; // row by row
-  /** apply(p) = p + (Linear - 1) (p - Center) + Translation; exactly p for the identity. */
+  /** apply(p) = p + (Linear - 1) (p - Center) + Translation; exactly p where nothing moves. */
   std::array<double, 3> Center{}, Translation{};
   std::array<double, 3> Rotation{};
   double LogScale = 0.0;
 };
 
-/** A handle: a part of a mesh and its motion. */
+/** A handle: a part of a mesh that it holds, and the motion of that part. */
 struct HandleDescription
 {
-  /** A motion vertex by vertex: values with the given numbers of components. */
+  /** A motion given vertex by vertex, as numbers or by columns of the mesh. */
   struct Values
   {
-    DataValue target = Position{};          ///< 3: the target position
-    DataValue rotation = { 0.0, 0.0, 0.0 }; ///< 3: the unit axis times the angle in radians
-    DataValue logScale = 0.0;               ///< 1: the natural logarithm of the scale
+    DataValue target = Position{};          ///< 3 numbers: the new position
+    DataValue rotation = { 0.0, 0.0, 0.0 }; ///< 3 numbers: the unit axis times the angle in radians
+    DataValue logScale = 0.0;               ///< 1 number: the natural logarithm of the scale
   };
 
-  /** A mask counts for as many handles as its value at the vertex, rounded up. */
+  /** The vertices that are held. A selected vertex of a ColumnMask counts as held by as many
+   * handles as the value of the mask says, rounded up. */
   Where where;
-  std::variant<HandleMotion, Values> motion;
+  std::variant<HandleMotion, Values> motion; ///< the motion of these vertices
 };
 
 /**
- * A deformation in terms of regions and columns of the mesh; DescribedHandles turns it into
- * Handles.
+ * A deformation in terms of regions and columns of a mesh. DescribedHandles makes Handles of it.
  *
  *     DeformationDescription turn;
  *     turn.handles = { { Region::Sphere{ { 0, 0, 0 }, 0.1 }, HandleMotion() }, // stays
@@ -98,18 +111,17 @@ struct HandleDescription
  */
 struct SMG_EXPORT DeformationDescription
 {
-  /** A vertex held by several handles follows the last one. */
+  /** The handles. A vertex held by several of them follows the last one. */
   std::vector<HandleDescription> handles;
-  /** Options of the deformation, if set; not both cycles and tolerance. */
-  std::optional<Weights> weights;
-  std::optional<int> cycles;
-  std::optional<double> tolerance;
+  std::optional<Weights> weights;  ///< DeformOptions::weights, if given
+  std::optional<int> cycles;       ///< DeformOptions::cycles, if given; not with `tolerance`
+  std::optional<double> tolerance; ///< SolveOptions::tolerance, if given; not with `cycles`
 
-  /** The deformation by the handles in the vertex columns HandleMask, HandleTarget, HandleRotation
-   * and HandleLogScale. */
+  /** One handle, given by the vertex columns HandleMask, HandleTarget, HandleRotation and
+   * HandleLogScale (see Handles.h). */
   static DeformationDescription byColumns();
 
-  /** Sets the options that are set here, and keeps the others. */
+  /** Sets the options that are given and leaves the others; a tolerance sets `cycles` to 0. */
   void applyTo(DeformOptions& options) const;
 };
 

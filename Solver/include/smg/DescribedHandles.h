@@ -17,47 +17,51 @@ namespace smg
 class HandlesOnMesh;
 
 /**
- * The handles of a description on a mesh stream.
+ * The handles of a DeformationDescription on a mesh stream.
  *
  *     DescribedHandles handles(description, mesh.info());
  *     handles.prepare(*mesh.source(handles.vertexColumns(), handles.cellColumns()));
  *     deform(*mesh.source(handles.vertexColumns(), handles.cellColumns()), handles, options);
  *
- * Vertices are identified by the column OriginalId, or by their stream index if the mesh has no
- * such column.
+ * Vertices are numbered by the column OriginalId (int64), or by their stream index if the mesh has
+ * no such column.
  */
 class SMG_EXPORT DescribedHandles : public Handles
 {
 public:
   /**
-   * @param mesh the mesh of the handles
-   * @param name the name of the description in error messages: its file
-   * @throws Error with the place in the description if the mesh has no such column, or one with
-   * another number of components
+   * Checks the description against the mesh.
+   * @param description what is held and how it moves
+   * @param mesh the mesh that the handles are for
+   * @param name what error messages call the description, for instance its file
+   * @throws Error naming the place in the description if a region is not valid, or the mesh lacks a
+   * column or has it with another number of components
    */
   DescribedHandles(const DeformationDescription& description, const StreamInfo& mesh,
     const std::string& name = "deformation");
   ~DescribedHandles() override;
 
-  /** Names of the columns that the mesh source must deliver. */
+  /** Names of the vertex columns that the mesh source must deliver. */
   std::vector<std::string> vertexColumns() const;
+  /** Names of the cell columns that the mesh source must deliver. */
   std::vector<std::string> cellColumns() const;
 
   /**
-   * Reads the stream once. Optional unless vertices are selected by a column of the cells or as
-   * nearest vertices, which is determined here. Writes an unnamed scratch file with one bit per
-   * vertex for each such column.
+   * Reads the stream once and checks that every handle holds a vertex. Required only where vertices
+   * are selected by a cell column or as the nearest ones; optional otherwise. Writes an unnamed
+   * scratch file of one bit a vertex for each cell column that selects.
+   * @param mesh the stream, from its first block
    * @param scratch folder for scratch files; empty: the system's temporary folder
-   * @throws Error with the handle if one selects no vertex, or refers to a vertex that the mesh
-   * lacks
+   * @throws Error naming the handle if it holds no vertex, or names a vertex that the mesh lacks
    */
   void prepare(MeshSource& mesh, const std::filesystem::path& scratch = {});
 
-  /** Throws Error, which names the column and the vertex, if a number is not finite. */
   void at(const MeshBlock& block, VertexHandles& handles) override;
 
-  /** Notes for the user, after all blocks have been queried: handles whose vertices all follow
-   * later ones, and a deformation without motion. */
+  /**
+   * Remarks for the user, a sentence each, once at() has been called for all blocks: handles whose
+   * vertices all follow later ones, and whether no handle moves anything.
+   */
   std::vector<std::string> notes() const;
 
 private:

@@ -17,40 +17,45 @@ namespace smg
 class ProblemOnMesh;
 
 /**
- * The problem of a description on a mesh stream.
+ * The problem of a ProblemDescription on a mesh stream.
  *
  *     DescribedProblem problem(description, mesh.info());
  *     problem.prepare(*mesh.source(problem.vertexColumns(), problem.cellColumns()));
  *     solve(*mesh.source(problem.vertexColumns(), problem.cellColumns()), problem);
  *
- * Vertices are identified by the column OriginalId, or by their stream index if the mesh has no
- * such column. The column values and the selections are held in memory only at vertices that later
- * cells may use. The stream may be read repeatedly, from its first block.
+ * Vertices are numbered by the column OriginalId (int64), or by their stream index if the mesh has
+ * no such column. Only the column values and selections at vertices that later cells may use are
+ * kept in memory. The stream may be read again, from its first block.
  */
 class SMG_EXPORT DescribedProblem : public Problem
 {
 public:
   /**
-   * @param mesh the mesh of the problem
-   * @param name the name of the description in error messages: its file
-   * @throws Error with the place in the description if a value is out of range, or the mesh has no
-   * such column
+   * Checks the description against the mesh.
+   * @param description the problem
+   * @param mesh the mesh that the problem is for
+   * @param name what error messages call the description, for instance its file
+   * @throws Error naming the place in the description if a value is out of range, a region is not
+   * valid, or the mesh lacks a column or has it with another number of components
    */
   DescribedProblem(const ProblemDescription& description, const StreamInfo& mesh,
     const std::string& name = "problem");
   ~DescribedProblem() override;
 
-  /** Names of the columns that the mesh source must deliver. */
+  /** Names of the vertex columns that the mesh source must deliver. */
   std::vector<std::string> vertexColumns() const;
+  /** Names of the cell columns that the mesh source must deliver. */
   std::vector<std::string> cellColumns() const;
 
   /**
-   * Reads the stream once if the description selects parts of the mesh. Optional unless vertices
-   * are selected by a column of the cells or as nearest vertices, which is determined here. Writes
-   * an unnamed scratch file with one bit per vertex for each such column.
+   * Reads the stream once, unless the description selects no part of the mesh, and checks that no
+   * selection is empty. Required only where vertices are selected by a cell column or as the
+   * nearest ones; optional otherwise. Writes an unnamed scratch file of one bit a vertex for each
+   * cell column that selects.
+   * @param mesh the stream, from its first block
    * @param scratch folder for scratch files; empty: the system's temporary folder
-   * @throws Error with the place in the description if a selected part is empty or refers to a
-   * vertex that the mesh lacks
+   * @throws Error naming the place in the description if it selects nothing or names a vertex that
+   * the mesh lacks
    */
   void prepare(MeshSource& mesh, const std::filesystem::path& scratch = {});
 

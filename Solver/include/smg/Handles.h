@@ -10,25 +10,26 @@
 namespace smg
 {
 
-/** Names of the vertex columns, and of the VTK point arrays, that store handles. */
-inline constexpr const char* HandleMaskName = "HandleMask";         ///< uint8
-inline constexpr const char* HandleTargetName = "HandleTarget";     ///< 3 double
-inline constexpr const char* HandleRotationName = "HandleRotation"; ///< 3 double
-inline constexpr const char* HandleLogScaleName = "HandleLogScale"; ///< double
+// Names of the vertex columns, and of the VTK point arrays, that hold handles: see VertexHandles.
 
-/** The handles at a range of vertices: one entry, or three numbers, per vertex. */
+inline constexpr const char* HandleMaskName = "HandleMask";         ///< mask: uint8
+inline constexpr const char* HandleTargetName = "HandleTarget";     ///< target: 3 x float64
+inline constexpr const char* HandleRotationName = "HandleRotation"; ///< rotation: 3 x float64
+inline constexpr const char* HandleLogScaleName = "HandleLogScale"; ///< logScale: float64
+
+/** Handles at consecutive vertices. Of a free vertex only `mask` is looked at. */
 struct VertexHandles
 {
-  /** The number of handles that hold the vertex; the last one counts. 0: the vertex is free. */
+  /** One a vertex: the number of handles that hold it, of which the last one counts. 0: free. */
   std::vector<std::uint8_t> mask;
-  /** The target (x, y, z) of a held vertex. Not used at free vertices. */
+  /** Three a vertex: its new position x, y, z, in the unit of the mesh. */
   std::vector<double> target;
-  /** The rotation of a held vertex: the unit axis times the unbounded angle in radians. */
+  /** Three a vertex: its rotation vector, the unit axis times the angle in radians, of any size. */
   std::vector<double> rotation;
-  /** The natural logarithm of the scale of a held vertex. */
+  /** One a vertex: the natural logarithm of its scale, from -46 to 46. */
   std::vector<double> logScale;
 
-  /** Resets to `vertices` free vertices. */
+  /** Makes this `vertices` free vertices. */
   void clear(std::size_t vertices)
   {
     this->mask.assign(vertices, 0);
@@ -38,14 +39,18 @@ struct VertexHandles
   }
 };
 
-/** The handles of a deformation. They are queried once, block by block, in stream order. */
+/** The handles by which a mesh is deformed. They are asked once for each block, in stream order. */
 class SMG_EXPORT Handles
 {
 public:
   virtual ~Handles() = default;
 
-  /** Sets the handles at the vertices of the block; on entry, `handles` has only free vertices.
-   * Values at held vertices must be finite. */
+  /**
+   * Sets the handles at the vertices of a block.
+   * @param block the next block of the stream
+   * @param handles the block's vertices, all free on entry. deform() throws Error if its size
+   * changes, a number at a held vertex is not finite, or a scale there is outside 1e-20 to 1e20.
+   */
   virtual void at(const MeshBlock& block, VertexHandles& handles) = 0;
 };
 

@@ -12,22 +12,23 @@
 namespace smg
 {
 
-/** The type of the cells of a mesh stream; the value is the number of corners of a cell. */
+/** The kind of the cells of a mesh stream; the value is the number of corners of a cell. */
 enum class CellType : std::uint8_t
 {
-  Triangle = 3,
-  Tetrahedron = 4
+  Triangle = 3,   ///< of a surface in space
+  Tetrahedron = 4 ///< of a volume
 };
 
+/** Number of corners of a cell: 3 or 4. */
 constexpr int cornersOf(CellType type)
 {
   return static_cast<int>(type);
 }
 
-/** Name of the optional uint8 cell column that marks cells without weight (see CellFlag). */
+/** Name of the optional cell column (uint8) that marks cells without weight: see CellFlag. */
 inline constexpr const char* CellFlagsName = "CellFlags";
 
-/** Bits of the `CellFlags` column. A cell with a set bit is part of the mesh but has no weight. */
+/** Bits of the `CellFlags` column. A cell with any bit set is part of the mesh without weight. */
 enum CellFlag : std::uint8_t
 {
   DegenerateCell = 1, ///< repeated corners, or zero area or volume
@@ -38,43 +39,44 @@ enum CellFlag : std::uint8_t
  * Information on a mesh stream that is known before it is read.
  *
  * A mesh stream is *compact*: stream indices number the vertices 0, 1, ... in the order in which
- * the cells first use them, so cell c uses vertices introduced by cells 0..c only, and every vertex
- * belongs to at least one cell.
+ * the cells first use them. So cell c uses only vertices introduced by cells 0 to c, and every
+ * vertex belongs to at least one cell.
  */
 struct StreamInfo
 {
-  CellType cellType = CellType::Triangle;
-  std::int64_t vertices = 0;
-  std::int64_t cells = 0;
-  /** xmin, xmax, ymin, ymax, zmin, zmax. */
-  std::array<double, 6> bounds{};
-  /** The maximum number of simultaneously active vertices; -1 if unknown. */
+  CellType cellType = CellType::Triangle; ///< the kind of all cells
+  std::int64_t vertices = 0;              ///< number of vertices; 0 or less: not known
+  std::int64_t cells = 0;                 ///< number of cells; 0 or less: not known
+  std::array<double, 6> bounds{};         ///< xmin, xmax, ymin, ymax, zmin, zmax; all 0: not known
+  /** Largest number of vertices alive at a cell: introduced, and used by it or a later one. -1: not
+   * known. */
   std::int64_t width = -1;
-  /** The largest index distance between two vertices of a cell; -1 if unknown. */
+  /** Largest difference of the stream indices of two vertices of a cell; -1: not known. */
   std::int64_t span = -1;
-  /** Whether positions have double precision (otherwise single precision). */
+  /** Whether positions have double precision; false: all of them are single precision numbers. */
   bool doublePositions = true;
-  /** The attribute columns of blocks, in this order. */
-  std::vector<ColumnSpec> vertexColumns;
-  std::vector<ColumnSpec> cellColumns;
+  std::vector<ColumnSpec> vertexColumns; ///< columns of the vertices, in the order that blocks have
+  std::vector<ColumnSpec> cellColumns;   ///< columns of the cells, in the order that blocks have
 };
 
-/** The next part of a mesh stream: vertices, followed by cells that use these or earlier ones.
- * Blocks may have any size, and may have no vertices or no cells, but not both. */
+/**
+ * A part of a mesh stream: consecutive vertices, and consecutive cells that use these or earlier
+ * ones. Blocks may have any size; a block may lack vertices or cells, but not both.
+ */
 struct MeshBlock
 {
   std::int64_t firstVertex = 0;      ///< stream index of the block's first vertex
   std::int64_t firstCell = 0;        ///< stream index of the block's first cell
   std::vector<double> positions;     ///< x, y, z of each vertex of the block
-  std::vector<std::int64_t> corners; ///< stream indices, cornersOf(cellType) per cell
-  std::vector<Column> vertexColumns; ///< as StreamInfo::vertexColumns, a tuple per vertex
-  std::vector<Column> cellColumns;   ///< as StreamInfo::cellColumns, a tuple per cell
-  /** No cell after this block uses a vertex with a stream index below this one. */
-  std::int64_t finalized = 0;
+  std::vector<std::int64_t> corners; ///< stream indices, cornersOf(cellType) a cell
+  std::vector<Column> vertexColumns; ///< as StreamInfo::vertexColumns, a tuple a vertex
+  std::vector<Column> cellColumns;   ///< as StreamInfo::cellColumns, a tuple a cell
+  std::int64_t finalized = 0;        ///< no later block's cell uses a vertex below this index
 
+  /** Number of vertices of the block. */
   std::int64_t vertices() const { return static_cast<std::int64_t>(this->positions.size() / 3); }
 
-  /** The column of CellFlag bits of the cells; null if the block has none. */
+  /** The cell column of CellFlag bits; null if the block has none. */
   const Column* flags() const
   {
     const auto found = std::ranges::find(
@@ -83,17 +85,21 @@ struct MeshBlock
   }
 };
 
-/** Delivers a mesh stream once, from the first block to the last. */
+/** A mesh stream, delivered once, from the first block to the last. */
 class SMG_EXPORT MeshSource
 {
 public:
   virtual ~MeshSource() = default;
 
-  /** Valid from construction on. */
+  /** What is known of the stream, from construction on. */
   virtual const StreamInfo& info() const = 0;
 
-  /** Fills `block`, reusing the memory of its vectors; returns false at the end. Throws Error.
-   * Called on the solving thread. */
+  /**
+   * Delivers the next block. solve() and deform() call this on the caller's thread.
+   * @param block replaced by the block; the memory of its vectors is reused
+   * @return false at the end of the stream, where `block` is not to be used
+   * @throws Error if the mesh cannot be read or is not valid
+   */
   virtual bool next(MeshBlock& block) = 0;
 };
 

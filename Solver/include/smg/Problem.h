@@ -13,67 +13,72 @@
 namespace smg
 {
 
-/** The weights w_ij of the edges of the mesh. See CellWeights.h. */
+/** The weights w_ij of the edges of the mesh: see CellWeights.h. */
 enum class Weights
 {
-  Uniform, ///< 1 on every edge
-  /** The stiffness of linear finite elements: negative opposite to obtuse angles. */
-  Cotangent,
-  /** The finite-element stiffness raised to a positive floor: an M-matrix, whose solutions satisfy
-   * the maximum principle, but a different operator at raised weights. */
+  Uniform,   ///< 1 on every edge
+  Cotangent, ///< the stiffness of linear finite elements: negative opposite to obtuse angles
+  /** The same, raised to a positive floor (see Problem::cells()): an M-matrix, whose solutions obey
+   * the maximum principle, but where a weight is raised the operator is another one. */
   Clamped
 };
 
-/** The conditions at the vertices of one MeshBlock: one entry (or `columns` entries) per vertex.
- * Resized and zeroed (`dirichlet`: -1) by the engine before Problem::conditions fills it. */
+/**
+ * Data at the vertices of a MeshBlock. The solver sets all sizes and zeroes (`dirichlet`: -1)
+ * before Problem::conditions() fills this in. All numbers must be finite.
+ */
 struct VertexConditions
 {
-  /** The index of the Dirichlet condition that prescribes the value of the vertex, below
-   * Problem::conditionCounts().dirichlet; -1: the vertex is free. */
+  /** One a vertex: the number of the Dirichlet condition that prescribes its value, from 0 and
+   * below ConditionCounts::dirichlet; -1: none. */
   std::vector<std::int32_t> dirichlet;
-  std::vector<double> value;     ///< `columns` per vertex: the prescribed or the initial value
-  std::vector<double> source;    ///< `columns` per vertex: f, times the lumped area or volume
-  std::vector<double> screening; ///< one per vertex: s >= 0, times the lumped area or volume
+  std::vector<double> value;  ///< `columns` a vertex: the prescribed value, or else the initial one
+  std::vector<double> source; ///< `columns` a vertex: f, a density (per area or volume)
+  std::vector<double> screening; ///< one a vertex: s, at least 0, a density
 };
 
-/** A batch of directed edges (i,j) of rows during assembly. Every edge of the mesh occurs once in
- * each direction. */
+/** Directed edges (i, j). Every edge of the mesh is given once in each direction. */
 struct EdgeBatch
 {
-  std::span<const std::int64_t> from, to;     ///< stream indices i and j
-  std::span<const double> fromPoint, toPoint; ///< positions p_i and p_j, 3 per edge
-  std::span<double> target;                   ///< out: d_ij, `columns` per edge; zero on entry
+  std::span<const std::int64_t> from; ///< stream indices i
+  std::span<const std::int64_t> to;   ///< stream indices j
+  std::span<const double> fromPoint;  ///< positions p_i: x, y, z an edge
+  std::span<const double> toPoint;    ///< positions p_j: x, y, z an edge
+  std::span<double> target;           ///< out: d_ij, `columns` an edge; 0 on entry
 };
 
 /**
- * A batch of cells of a MeshBlock with their contributions to the weights of their edges, in the
- * order of edgeCorners(): 3 for a triangle, 6 for a tetrahedron (see CellWeights.h). On entry,
- * weights and measures are those of linear finite elements with K = 1; all others are zero.
+ * Consecutive cells of a MeshBlock, with the weights of their edges in the order of edgeCorners().
+ * On entry weights and measures are those of linear finite elements with K = 1; all other numbers
+ * are 0. All that is set must be finite.
  */
 struct CellBatch
 {
-  CellType type;
-  const MeshBlock& block;                ///< its cell columns are the attributes of the cells
-  std::size_t first;                     ///< the batch's first cell, numbered in the block
-  std::span<const std::int64_t> corners; ///< stream indices, cornersOf(type) per cell
-  std::span<const double> points;        ///< positions of the corners, 3 per corner
-  std::span<double> weight;              ///< in and out: edgesOf(type) per cell
-  /** In and out: area or volume of each cell; 0: no weight, independent of `weight`. */
+  CellType type;                         ///< the kind of the cells
+  const MeshBlock& block;                ///< the block, with the columns of the cells
+  std::size_t first;                     ///< the batch's first cell, counted from 0 in the block
+  std::span<const std::int64_t> corners; ///< stream indices, cornersOf(type) a cell
+  std::span<const double> points;        ///< positions of the corners: x, y, z a corner
+  std::span<double> weight;              ///< in and out: edgesOf(type) a cell
+  /** In and out, one a cell: area or volume. A cell with 0 has no weight, whatever `weight` is. */
   std::span<double> measure;
-  std::span<double> screening; ///< out: s >= 0, one per cell
-  std::span<double> source;    ///< out: f, `columns` per cell
-  std::span<double> field;     ///< out: the vector q, 3 numbers for each of the `columns` of a cell
-  /** Out, unless empty: K, 6 numbers per cell as for conductivityWeights(), the identity on entry.
-   * Requested only to compute fluxes (see ResultOptions). */
+  std::span<double> screening; ///< out, one a cell: s, at least 0, a density
+  std::span<double> source;    ///< out, `columns` a cell: f, a density
+  std::span<double> field;     ///< out, 3 * `columns` a cell: the vector q of each column
+  /**
+   * Out, 6 a cell: K as in conductivityWeights(), the identity on entry. Empty unless fluxes are
+   * computed (ResultOptions::flux).
+   */
   std::span<double> conductivity;
 
+  /** Number of cells of the batch. */
   std::size_t cells() const { return this->measure.size(); }
-  /** The position of corner k of cell c of the batch. */
+  /** Position (x, y, z) of corner `k` of cell `c` of the batch, both counted from 0. */
   const double* point(std::size_t c, int k) const
   {
     return this->points.data() + 3 * (c * static_cast<std::size_t>(cornersOf(this->type)) + k);
   }
-  /** The weights of cell c of the batch. */
+  /** Weights of cell `c` of the batch: edgesOf(type) numbers. */
   std::span<double> weightsOf(std::size_t c) const
   {
     const auto edges = static_cast<std::size_t>(edgesOf(this->type));
@@ -82,99 +87,114 @@ struct CellBatch
 };
 
 /**
- * The facets of a batch of cells: edges of triangles, faces of tetrahedra; facet k of a cell is
- * opposite to its corner k and has the other corners in their order. The data of a facet apply only
- * if it is on the boundary (open edges of a surface, faces of one tetrahedron). On entry `flux` and
- * `robin` are -1; all others are zero.
+ * The facets of consecutive cells: the edges of triangles, the faces of tetrahedra. Facet k of a
+ * cell is opposite to its corner k and has its other corners in their order. What is set for a
+ * facet counts only if the facet turns out to be on the boundary: an open edge of a surface, or a
+ * face of a single tetrahedron. On entry `flux` and `robin` are -1, all other numbers 0.
  */
 struct FacetBatch
 {
-  CellType type;
-  const MeshBlock& block;
-  std::size_t first;                     ///< the batch's first cell, numbered in the block
-  std::span<const std::int64_t> corners; ///< of the cells: stream indices, cornersOf(type) per cell
-  /** Out, one per facet: the index of its flux condition, or -1. */
+  CellType type;                         ///< the kind of the cells
+  const MeshBlock& block;                ///< the block of the cells
+  std::size_t first;                     ///< the batch's first cell, counted from 0 in the block
+  std::span<const std::int64_t> corners; ///< of the cells: stream indices, cornersOf(type) a cell
+  /** Out, one a facet: number of its flux condition, below ConditionCounts::flux; -1: none. */
   std::span<std::int32_t> flux;
-  /** Out, `columns` per corner of a facet: (K grad u - q) . n, positive into the body. */
+  /** Out, `columns` a corner of a facet: (K grad u - q) . n, positive into the body. */
   std::span<double> fluxValue;
-  /** Out, one per facet: the index of its Robin condition, or -1: adds the flux coefficient *
-   * (ambient - u). */
+  /** Out, one a facet: number of its Robin condition, below ConditionCounts::robin; -1: none. The
+   * condition adds the flux coefficient * (ambient - u). */
   std::span<std::int32_t> robin;
-  std::span<double> coefficient; ///< out, one per corner of a facet, at least 0
-  std::span<double> ambient;     ///< out, `columns` per corner of a facet
+  std::span<double> coefficient; ///< out, one a corner of a facet, at least 0
+  std::span<double> ambient;     ///< out, `columns` a corner of a facet
 
-  /** The number of cells. */
+  /** Number of cells of the batch. */
   std::size_t cells() const
   {
     return this->flux.size() / static_cast<std::size_t>(cornersOf(this->type));
   }
 };
 
-/** The numbers of Dirichlet, flux and Robin conditions of a problem, for their balances. */
+/** Numbers of conditions of a problem; each has an entry in Report::conditions. */
 struct ConditionCounts
 {
-  int dirichlet = 0, flux = 0, robin = 0;
+  int dirichlet = 0; ///< Dirichlet conditions
+  int flux = 0;      ///< flux conditions
+  int robin = 0;     ///< Robin conditions
 };
 
 /**
  * The elliptic problem -div(K grad u - q) + s u = f by linear finite elements, lumped at the
- * vertices: (L + S) u = F, with u given at the Dirichlet vertices. L_ij = -w_ij, row sums zero; S
- * and F contain s, f, the Robin coefficients and the fluxes times the share of a vertex in areas,
- * volumes and boundary facets; F also contains the integrals of q . grad phi_i and (div d)_i =
- * sum_j w_ij d_ij, which draws u_i - u_j towards the edge target d_ij. Without a boundary
- * condition, (K grad u - q) . n = 0 on the boundary.
+ * vertices: (L + S) u = F, with u given at the Dirichlet vertices. L_ij = -w_ij, with row sums 0. S
+ * and F have s, f, the Robin coefficients and the fluxes, times the share of a vertex in the cells
+ * and boundary facets. F also has the integrals of q . grad phi_i and (div d)_i = sum_j w_ij d_ij,
+ * which pulls u_i - u_j towards the edge target d_ij. Where no condition is set on the boundary,
+ * (K grad u - q) . n = 0.
  *
- * A problem is queried block by block, in stream order, on the solving thread, once for a solve and
- * once more for its results (see SolvedMesh), from the first block on. All calls are for blocks or
- * batches; for each block first conditions(), then cells() and facets(). The returned values must
- * not depend on the sizes of blocks and batches; the solution is then independent of these, bit for
- * bit. An exception ends the solve.
+ * A problem is asked block by block in stream order, on the thread of the caller: once for a
+ * solve and once more for its results (see SolvedMesh), each time from the first block on. For each
+ * block conditions() is called first, then cells() and facets(). What a problem returns must not
+ * depend on how the stream is cut into blocks and batches; then the solution does not either, to
+ * the last bit. An exception that it throws ends the solve.
  */
 class SMG_EXPORT Problem
 {
 public:
   virtual ~Problem() = default;
 
-  /** The number of simultaneous right-hand sides, at least 1. */
+  /** Number of right-hand sides that are solved at once, at least 1. */
   virtual int columns() const = 0;
+  /** The weights of the edges; cotangent by default. */
   virtual Weights weights() const { return Weights::Cotangent; }
 
-  /** Whether cells() shall be called. */
+  /** Whether cells() is to be called; false by default. */
   virtual bool hasCells() const { return false; }
   /**
-   * Sets the data of the cells, in stream order. Called once for each cell, in batches of any size;
-   * a flat or flagged cell has no weight in any case.
+   * Sets weights, screening, sources and fields of cells. Called once for each cell, in stream
+   * order, in batches of any size. A cell that is degenerate or flagged (CellFlag) has no weight,
+   * whatever is set.
    *
-   * Weights: those of a conductivity K (see conductivityWeights()), or any others. The weight of an
-   * edge is the sum over its cells, the same in both directions. Weights::Clamped raises it to a
-   * positive floor: 5e-4 (triangles) or 1e-4 times the length of the edge (tetrahedra), times the
-   * scale of the weakest cell of the edge, which is the largest weight of the cell over its largest
-   * weight on entry. Weights::Cotangent uses them unchanged, except for cells that are too flat
-   * (see flatnessFactor()). Weights::Uniform does not use them.
+   * The weights may be those of a conductivity (see conductivityWeights()) or any others; the
+   * weight of an edge is the sum over its cells, the same in both directions. Weights::Clamped
+   * raises it to a positive floor: 5e-4 (triangles) or 1e-4 times the length of the edge
+   * (tetrahedra), times the scale of the edge's weakest cell, which is the largest weight of the
+   * cell over what it was on entry. Weights::Cotangent takes the weights as they are, except in
+   * cells so flat that rounding would drown others: those are scaled down. Weights::Uniform ignores
+   * them.
    *
-   * It is an Error if a number is not finite, a measure or screening is negative, no weight of a
-   * cell is positive, or the largest weight is outside 1e-20 to 1e20.
+   * The solve throws Error if a number is not finite, a measure or screening is negative, no weight
+   * of a cell is positive, or the largest one is outside 1e-20 to 1e20.
    */
   virtual void cells(CellBatch& /*batch*/) {}
 
-  /** Whether facets() shall be called. */
+  /** Whether facets() is to be called; false by default. */
   virtual bool hasFacets() const { return false; }
-  /** Sets the data of the facets of the cells, which apply to boundary facets only. */
+  /** Sets flux and Robin conditions for facets of cells, in stream order, in batches of any size.
+   * They count on the boundary only. */
   virtual void facets(FacetBatch& /*batch*/) {}
 
-  /** The numbers of conditions, which bound the returned indices. */
+  /** Numbers of conditions that conditions() and facets() refer to; by default one Dirichlet
+   * condition. */
   virtual ConditionCounts conditionCounts() const { return { 1, 0, 0 }; }
 
-  /** Whether edges of cells without area or volume connect distinct corners with the minimum weight
-   * of an edge; otherwise such cells have no weight. */
+  /**
+   * Whether cells without area or volume, but with distinct corners, connect these by edges of the
+   * smallest weight that an edge can have. False by default: they have no weight.
+   */
   virtual bool connectsFlatCells() const { return false; }
 
-  /** Sets the conditions at the vertices of the block. Values must be finite. */
+  /**
+   * Sets the data at the vertices of a block.
+   * @param block the next block of the stream
+   * @param conditions the block's vertices; the solve throws Error if a number is not finite, a
+   * screening is negative, or a condition has a number that conditionCounts() does not allow
+   */
   virtual void conditions(const MeshBlock& block, VertexConditions& conditions) = 0;
 
-  /** Whether edgeTargets() shall be called. */
+  /** Whether edgeTargets() is to be called; false by default. Results (SolvedMesh) are not
+   * available then. */
   virtual bool hasEdgeTargets() const { return false; }
-  /** Sets d_ij = -d_ji for each edge of the batch. */
+  /** Sets the target d_ij = -d_ji, finite, of each edge of the batch. */
   virtual void edgeTargets(EdgeBatch& /*batch*/) {}
 };
 

@@ -14,47 +14,54 @@
 namespace smg
 {
 
-/** The coordinates of the vertex, for three columns. */
+/** Stands for the coordinates x, y, z of a vertex, as a value of three columns. */
 struct Position
 {
 };
 
-/** Numbers, the name of a column of the mesh, or the position. */
+/** A value of a problem: numbers, a column of the mesh, or the position. */
 class DataValue
 {
 public:
+  /** One number. */
   DataValue(double number)
     : What(std::vector{ number })
   {
   }
+  /** One number for each column of the problem. */
   DataValue(std::initializer_list<double> numbers)
     : What(std::vector(numbers))
   {
   }
+  /** One number for each column of the problem. */
   DataValue(std::vector<double> numbers)
     : What(std::move(numbers))
   {
   }
+  /** The values of the column of the mesh with this name. */
   DataValue(std::string column)
     : What(std::move(column))
   {
   }
+  /** The values of the column of the mesh with this name. */
   DataValue(const char* column)
     : What(std::string(column))
   {
   }
+  /** The position of each vertex. */
   DataValue(Position position)
     : What(position)
   {
   }
 
-  /** The numbers; null for other values. */
+  /** The numbers; null if this is a column or the position. */
   const std::vector<double>* numbers() const
   {
     return std::get_if<std::vector<double>>(&this->What);
   }
-  /** The name of the column; null for other values. */
+  /** The name of the column; null if this is numbers or the position. */
   const std::string* column() const { return std::get_if<std::string>(&this->What); }
+  /** Whether this is the position. */
   bool isPosition() const { return std::holds_alternative<Position>(this->What); }
 
 private:
@@ -64,34 +71,37 @@ private:
 /** A value in a part of the mesh. */
 struct PlacedValue
 {
-  Where where;
-  DataValue value;
+  Where where;     ///< the part
+  DataValue value; ///< the value there
 };
 
-/** A datum of a problem, piecewise: the last of the entries that apply at a place counts. Without
- * entries, the datum is not given. */
+/** A datum of a problem, part by part of the mesh. */
 struct Datum
 {
+  /** Where several entries hold, the last one counts. Empty: the datum is not given. */
   std::vector<PlacedValue> entries;
 
+  /** Not given. */
   Datum() = default;
-  /** The value everywhere. */
+  /** The same value everywhere. */
   template <std::convertible_to<DataValue> Value>
   Datum(Value&& value)
     : entries{ { Everywhere{}, std::forward<Value>(value) } }
   {
   }
+  /** These entries. */
   Datum(std::initializer_list<PlacedValue> placed)
     : entries(placed)
   {
   }
 
+  /** Whether there is an entry. */
   bool isGiven() const { return !this->entries.empty(); }
 };
 
 /**
- * An elliptic problem -div(K grad u - q) + s u = f on a mesh, in terms of regions and columns of
- * that mesh; DescribedProblem turns it into a Problem. Defaults: the Laplace equation, one column.
+ * An elliptic problem -div(K grad u - q) + s u = f in terms of regions and columns of a mesh.
+ * DescribedProblem makes a Problem of it. By default it is the Laplace equation with one column.
  *
  *     ProblemDescription heat;
  *     heat.conductivity = { { Everywhere{}, 1.0 }, { ColumnTag{ "PhysicalTag", 3 }, 10.0 } };
@@ -99,55 +109,60 @@ struct Datum
  *     heat.dirichlet = { { Region::Sphere{ { 0, 0, 0 }, 0.1 }, 20.0 } };
  *     heat.robin = { { ColumnMask{ "outside" }, 5.0, 4.0 } };
  *
- * Values have `columns` numbers, coefficients one. In a cell, a column of the vertices has the mean
- * value of the corners.
+ * Values (u, f, fluxes) have `columns` numbers, coefficients one; all must be finite, with a
+ * magnitude of at most 1e150. A column of the vertices that is used in a cell counts by the mean of
+ * the corners. Units are the user's own: the solver does not convert any.
  */
 struct ProblemDescription
 {
-  /** The maximum number of columns of a problem. */
+  /** Largest number of columns. */
   static constexpr int MostColumns = 64;
 
-  /** (K grad u - q) . n = coefficient * (ambient - u) on a part of the boundary. */
+  /** An exchange through a part of the boundary: (K grad u - q) . n = coefficient * (ambient - u).
+   */
   struct Robin
   {
-    Where where;
+    Where where;       ///< the part of the boundary
     Datum coefficient; ///< at least 0
-    DataValue ambient;
+    DataValue ambient; ///< value of the surroundings
   };
-  /** Adds weight * (u - value), times the lumped area or volume, to the equations of vertices. */
+  /** A soft constraint: adds the density weight * (u - value) to the equations of vertices. */
   struct Soft
   {
-    Where where;
-    Datum weight; ///< at least 0
-    DataValue value;
+    Where where;     ///< the vertices
+    Datum weight;    ///< at least 0
+    DataValue value; ///< the value that u is pulled towards
   };
 
+  /** The weights of the edges. */
   Weights weights = Weights::Cotangent;
-  /** The number of simultaneous right-hand sides, 1 to 64. */
+  /** Right-hand sides that are solved at once, 1 to MostColumns. */
   int columns = 1;
   /** K in the cells: a positive number, the diagonal of a tensor (xx, yy, zz), or a symmetric
    * positive definite tensor (xx, yy, zz, xy, yz, xz). Not given: 1. Not with Weights::Uniform. */
   Datum conductivity;
-  /** s, at least 0; at the vertices, or in the cells if an entry names a column of the cells. */
+  /** s, at least 0. Holds at the vertices, but in the cells if an entry names a cell column. Not
+   * given: 0. */
   Datum screening;
-  /** f, a density; at the vertices, or in the cells if an entry names a column of the cells. */
+  /** f, a density. Holds at the vertices, but in the cells if an entry names a cell column. Not
+   * given: 0. */
   Datum source;
-  /** The name of the column of the cells with q: a vector for all columns, or one per column.
-   * Empty: none. */
+  /** Name of the cell column with q: 3 components for all columns, or 3 for each. Empty: q = 0. */
   std::string field;
-  /** The initial values of the iteration, which also define the mean of unconstrained components.
-   * Not given: the position if a Dirichlet value is the position, else 0. */
+  /** Where the iteration begins; it also determines the mean of u in components that no condition
+   * holds. Not given: the position if a Dirichlet value is the position, else 0. */
   Datum initial;
-  /** Prescribed u at vertices; of several entries at a place the last one counts. */
+  /** Prescribed u at vertices. Where several entries hold, the last one counts. */
   std::vector<PlacedValue> dirichlet;
-  /** Prescribed (K grad u - q) . n, positive into the body, on parts of the boundary: open edges of
-   * a surface, faces of one tetrahedron. Of several entries at a place the last one counts. */
+  /** Prescribed (K grad u - q) . n, positive into the body, on the boundary: open edges of a
+   * surface, faces of a single tetrahedron. Where several entries hold, the last one counts. */
   std::vector<PlacedValue> flux;
+  /** Robin conditions. Where several entries hold, the last one counts. */
   std::vector<Robin> robin;
-  /** Entries at the same place add up. */
+  /** Soft constraints. Where several entries hold, they add up. */
   std::vector<Soft> soft;
-  /** Whether the gradient of u and -K grad u in the cells are additional results. */
-  bool gradientOutput = false, fluxOutput = false;
+  bool gradientOutput = false; ///< whether grad u of the cells is wanted as a result
+  bool fluxOutput = false;     ///< whether -K grad u of the cells is wanted as a result
 };
 
 } // namespace smg

@@ -14,92 +14,97 @@
 namespace smg
 {
 
-/** A part of space, or a set of vertices, which selects vertices of a mesh. */
+/** A part of space, or a set of numbered vertices: selects vertices of a mesh. Lengths are in the
+ * unit of the mesh. */
 class SMG_EXPORT Region
 {
 public:
-  /** x n_x + y n_y + z n_z >= d. */
+  /** All points p with normal . p >= distance. */
   struct HalfSpace
   {
-    std::array<double, 3> normal{};
-    double distance = 0;
+    std::array<double, 3> normal{}; ///< of any length but 0; points into the half-space
+    double distance = 0;            ///< from the origin, times the length of `normal`
   };
   /** All points from `low` to `high`, both included. */
   struct Box
   {
-    std::array<double, 3> low{}, high{};
+    std::array<double, 3> low{};  ///< the smallest x, y and z
+    std::array<double, 3> high{}; ///< the largest x, y and z, none below `low`
   };
   /** All points within `radius` of `center`. */
   struct Sphere
   {
-    std::array<double, 3> center{};
-    double radius = 0;
+    std::array<double, 3> center{}; ///< x, y, z
+    double radius = 0;              ///< at least 0
   };
-  /** Vertices by their original indices, from 0, in any order. */
+  /** Vertices by their numbers in the original file. */
   struct Vertices
   {
-    std::vector<std::int64_t> ids;
+    std::vector<std::int64_t> ids; ///< from 0, in any order, at least one
   };
 
+  /** A half-space. */
   Region(HalfSpace shape)
     : What(shape)
   {
   }
+  /** A box. */
   Region(Box shape)
     : What(shape)
   {
   }
+  /** A ball. */
   Region(Sphere shape)
     : What(shape)
   {
   }
+  /** A set of vertices. */
   Region(Vertices shape);
 
-  /** The error of an invalid region, for example "must have a radius of at least 0"; empty if
-   * valid. */
+  /** Why the region is not valid, as "must have a radius of at least 0"; empty if it is. */
   std::string complaint() const;
 
-  /** Whether the vertex at `point` (x, y, z) with this original index is selected. */
+  /** Whether the vertex at `point` (x, y, z) with the original number `id` is selected. */
   bool contains(std::span<const double, 3> point, std::int64_t id) const;
 
-  /** The centre of a sphere or a box; none for other regions. */
+  /** The middle of a sphere or box; none for the other shapes. */
   std::optional<std::array<double, 3>> center() const;
 
-  /** The vertices, ascending without duplicates, if the region is a set of vertices, else null. */
+  /** The vertices, ascending and without repetitions; null if the region is another shape. */
   const Vertices* vertices() const { return std::get_if<Vertices>(&this->What); }
 
 private:
   std::variant<HalfSpace, Box, Sphere, Vertices> What;
 };
 
-/** Everywhere. */
+/** The whole mesh. */
 struct Everywhere
 {
 };
-/** Where a column of one number, of the vertices or the cells, has this value. */
+/** Where a column of the vertices or cells with one component has a value. */
 struct ColumnTag
 {
-  std::string column;
-  double value = 0;
+  std::string column; ///< its name
+  double value = 0;   ///< the value
 };
-/** Where a column of one number, of the vertices or the cells, is not 0. */
+/** Where a column of the vertices or cells with one component is not 0. NaN is an error. */
 struct ColumnMask
 {
-  std::string column;
+  std::string column; ///< its name
 };
-/** The nearest vertex to each of these points; of several, the first in the stream. */
+/** The vertex nearest to each of some points; of equally near ones, the first in the stream. */
 struct NearestVertices
 {
-  std::vector<std::array<double, 3>> points;
+  std::vector<std::array<double, 3>> points; ///< x, y, z of each point
 };
 
 /**
- * A part of a mesh on which a datum is defined.
+ * A part of a mesh.
  *
- * A region, a column of the vertices and points select vertices; cells and facets of the boundary
- * are selected if all their corners are. A column of the cells selects cells, their vertices and
- * their facets. If both vertices and cells have a column of the name, conductivity and field refer
- * to that of the cells, all other data to that of the vertices.
+ * A region, a column of the vertices and points select vertices; cells and boundary facets are
+ * selected if all their corners are. A column of the cells selects cells, their vertices and their
+ * facets. If vertices and cells have columns of the same name, conductivity and field refer to that
+ * of the cells, everything else to that of the vertices.
  */
 using Where = std::variant<Everywhere, Region, ColumnTag, ColumnMask, NearestVertices>;
 

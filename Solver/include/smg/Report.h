@@ -9,112 +9,135 @@
 namespace smg
 {
 
-/** The report of a solve, the same in C++, on the command line and in VTK field data. */
+/**
+ * What a solve did and what it cost. It has the same entries in C++, on the command line and in VTK
+ * field data. The results from `conditions` to `balance` are set by SolvedMesh::finish() and empty
+ * without it.
+ */
 struct SMG_EXPORT Report
 {
+  /** A level of the hierarchy. */
   struct Level
   {
-    std::int64_t nodes = 0;    ///< unknowns of the level
-    std::int64_t nonzeros = 0; ///< entries of its matrix, including the diagonal
+    std::int64_t nodes = 0;    ///< unknowns
+    std::int64_t nonzeros = 0; ///< entries of the matrix, including the diagonal
   };
+  /** Wall-clock times, seconds. */
   struct Seconds
   {
-    double convert = 0, build = 0, solve = 0, coarse = 0, io_wait = 0, total = 0;
-    double build_io_wait = 0; ///< the part of io_wait in build, summed over threads
+    double convert = 0; ///< before the solve: conversion or transfer of the mesh, set by the caller
+    double build = 0;   ///< first pass: assembly and hierarchy
+    double solve = 0;   ///< all further passes
+    double coarse = 0;  ///< the part of build and solve that is spent on the levels in memory
+    double io_wait = 0; ///< waits for scratch files; threads that wait at the same time count each
+    double total = 0;   ///< from the start to the end, including `convert`
+    double build_io_wait = 0; ///< the part of io_wait that is in build
   };
 
-  /** The traffic of the scratch files of one kind, for a level or (-1) for no level. */
+  /** Traffic of the scratch files of a kind. */
   struct Traffic
   {
-    /** rows, right_side (finest level), state, history (of accelerated V-cycles), labels, rest
-     * (deformation) */
+    /** rows, right_side (finest level), state, history (of accelerated V-cycles), labels, or rest
+     * (deformation). */
     std::string kind;
-    int level = -1;
-    std::int64_t read = 0, written = 0;
+    int level = -1;           ///< level of the files, 0: the finest; -1: of no level
+    std::int64_t read = 0;    ///< bytes
+    std::int64_t written = 0; ///< bytes
   };
 
-  /** One of several successive problems of a solve. */
+  /** One of several problems that are solved one after the other. */
   struct Step
   {
-    std::string name;
-    int cycles = 0;
-    /** ||b - A x|| / ||b - A x_0|| after the last V-cycle, for b of this step. */
+    std::string name; ///< "rotation" or "position"
+    int cycles = 0;   ///< V-cycles
+    /** ||b - A x|| / ||b - A x_0|| of this step after its last V-cycle; 0 if it needed none. */
     double residual = 0;
-    bool converged = false;
+    bool converged = false; ///< as Report::converged
   };
 
-  /** The results of a Dirichlet, flux or Robin condition. */
+  /** A Dirichlet, flux or Robin condition and what the solution makes of it. */
   struct Condition
   {
-    std::string name; ///< for example "dirichlet[0]", by the index in the problem
-    /** The vertices that a Dirichlet condition prescribes; otherwise 0. */
-    std::int64_t vertices = 0;
-    /** Length (of open edges of a surface) or area of its boundary facets; for a Dirichlet
-     * condition, of those with all corners prescribed. */
+    std::string name; ///< "dirichlet[0]", "flux[0]" or "robin[0]", with its number in the problem
+    std::int64_t vertices = 0; ///< of a Dirichlet condition: vertices it prescribes; else 0
+    /** Length (of open edges of a surface) or area of its boundary facets; of a Dirichlet condition
+     * those whose corners it all prescribes. */
     double area = 0;
-    /** Per column: the mean of u over the facets; without facets, over the vertices of a Dirichlet
-     * condition, else NaN. */
+    /** Per column: the mean of u over these facets; without any the mean over the vertices of a
+     * Dirichlet condition, and NaN for other conditions. */
     std::vector<double> mean;
-    /** Per column: the total of (K grad u - q) . n, into the body. For a Dirichlet condition the
-     * reaction of its vertices, so that all fluxes balance. */
+    /** Per column: the total of (K grad u - q) . n, positive into the body. Of a Dirichlet
+     * condition the reaction of its vertices, so that all fluxes balance. */
     std::vector<double> flux;
   };
 
-  /** A value and the stream index of the first vertex with it. */
+  /** An extreme value. */
   struct Extreme
   {
-    double value = 0;
+    double value = 0; ///< of u
+    /** The first vertex that has it, by its stream index or, after SolvedMesh::finish(), its
+     * original number if that is known; -1 if no value is a number. */
     std::int64_t vertex = -1;
   };
 
-  std::int64_t vertices = 0, cells = 0;
-  std::vector<Level> levels;
-  int passes = 0, cycles = 0;
-  /** ||b - A x_k|| / ||b - A x_0|| after cycle k = 1, 2, ..., with the initial values x_0. For a
-   * solve with several steps, those of all steps in order. */
+  std::int64_t vertices = 0; ///< of the mesh
+  std::int64_t cells = 0;    ///< of the mesh
+  std::vector<Level> levels; ///< from the finest to the coarsest
+  int passes = 0;            ///< passes over the mesh
+  int cycles = 0;            ///< V-cycles, of all steps
+  /** ||b - A x_k|| / ||b - A x_0|| after V-cycle k = 1, 2, ..., x_0 being the initial values; of
+   * several steps one after the other. */
   std::vector<double> residuals;
   /** The acceleration used: "none", "chebyshev" or "cg"; see AccelerationKind. */
   std::string acceleration = "none";
-  /** The steps of a deformation: rotation and position. Empty for a solve of one problem. */
-  std::vector<Step> steps;
-  bool converged = false;      ///< of all steps
-  std::int64_t peak_nodes = 0; ///< maximum of nodes of all levels in memory at once
-  std::int64_t pool_bytes_peak = 0, rss_bytes_peak = 0;
-  std::int64_t bytes_read = 0, bytes_written = 0;
-  std::vector<Traffic> bytes_by_kind; ///< the parts of bytes_read and bytes_written
-  Seconds seconds;
-  double cpu_seconds = 0;
-  int threads = 1;
-  std::int64_t prescribed = 0;       ///< constrained vertices
-  std::int64_t shared = 0;           ///< vertices that more than one handle holds
-  std::int64_t held = 0;             ///< vertices without a weighted cell: they keep their value
-  std::int64_t degenerate_cells = 0; ///< cells without weight
-  std::int64_t clamped_weights = 0;  ///< edges with a weight raised to the floor
-  /** The number of connected components, and of those without constrained vertices. */
-  std::int64_t components = 0, free_components = 0;
-  /** Per column: the total source subtracted from unconstrained components as the mean; empty if
-   * none was. */
+  std::vector<Step> steps; ///< of a deformation: rotation and position; else empty
+  /** Whether the solve, or all of its steps, reached the tolerance or the limit of rounding, or did
+   * the fixed number of V-cycles (DeformOptions::cycles). */
+  bool converged = false;
+  std::int64_t peak_nodes = 0;      ///< most nodes of all levels in memory at once
+  std::int64_t pool_bytes_peak = 0; ///< most accounted memory at once, bytes
+  std::int64_t rss_bytes_peak = 0;  ///< largest resident memory of the process, bytes; 0: not known
+  std::int64_t bytes_read = 0;      ///< read from scratch files
+  std::int64_t bytes_written = 0;   ///< written to scratch files
+  std::vector<Traffic> bytes_by_kind; ///< the terms that bytes_read and bytes_written sum up
+  Seconds seconds;                    ///< wall-clock times
+  double cpu_seconds = 0;             ///< processor time of all threads of the process
+  int threads = 1;                    ///< compute threads
+  std::int64_t prescribed = 0;        ///< vertices with a Dirichlet value, or held by a handle
+  std::int64_t shared = 0;            ///< of a deformation: vertices that several handles hold
+  std::int64_t held = 0;              ///< vertices without a weighted cell: they keep their value
+  std::int64_t degenerate_cells = 0;  ///< cells without weight
+  std::int64_t clamped_weights = 0;   ///< edges whose weight was raised to the floor
+  std::int64_t components = 0;        ///< connected components of the mesh
+  /** Components without any prescribed vertex, screening, soft constraint or Robin condition. */
+  std::int64_t free_components = 0;
+  /** Per column: the total that was taken from the sources of free components, so that their mean
+   * is 0; empty if nothing was. */
   std::vector<double> removed_source;
-  /** The results of ProblemResults; this and the following are empty without it. */
-  std::vector<Condition> conditions;
-  /** Per column: 1/2 the integral of grad u . K grad u + s u^2 for the piecewise linear u, with s
-   * u^2 lumped at the vertices. */
+  std::vector<Condition> conditions; ///< of the problem: Dirichlet, flux, then Robin
+  /** Per column: 1/2 the integral of grad u . K grad u + s u^2 over the piecewise linear u, s u^2
+   * lumped at the vertices. */
   std::vector<double> energy;
-  /** Per column: the mean of u, weighted by the lumped areas or volumes. */
-  std::vector<double> mean;
-  std::vector<Extreme> minimum, maximum; ///< per column
-  /** Per column: the total of the sources f minus removed_source, and that of s u. */
-  std::vector<double> source, screening;
-  /** Per column: the sum of the fluxes of all conditions and the sources minus the screening, over
-   * the sum of their magnitudes; about the tolerance. */
+  std::vector<double> mean;      ///< per column: the mean of u, weighted with area or volume
+  std::vector<Extreme> minimum;  ///< per column: the smallest value of u
+  std::vector<Extreme> maximum;  ///< per column: the largest value of u
+  std::vector<double> source;    ///< per column: the total of f, less removed_source
+  std::vector<double> screening; ///< per column: the total of s u
+  /** Per column: what flows in through all conditions and sources less what screening takes, over
+   * the sum of the magnitudes of all terms, from -1 to 1; of the size of the tolerance. 0 if
+   * nothing flows. */
   std::vector<double> balance;
-  /** Notes for the user: the treatment of free components, the reason of missing convergence ... */
+  /** Remarks for the user, a sentence each: how free components were treated, why the solve did not
+   * converge ... */
   std::vector<std::string> notes;
 
   /** The last of the residuals; 0 if no V-cycle was needed. */
   double residual() const { return this->residuals.empty() ? 0.0 : this->residuals.back(); }
 
-  /** As a JSON object with the names above. */
+  /**
+   * The report as a JSON object with the names above. Numbers that are not finite become null.
+   * @param indent spaces by which each level is indented; -1: all on one line
+   */
   std::string json(int indent = 2) const;
 };
 

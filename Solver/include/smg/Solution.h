@@ -10,29 +10,34 @@
 namespace smg
 {
 
-/** Additional results of a solution. */
+/** What to compute from a solution. */
 struct ResultOptions
 {
   bool gradient = false; ///< grad u of each cell
   bool flux = false;     ///< -K grad u of each cell
-  /** The limit of the accounted memory in bytes. */
+  /** Limit of the accounted memory, bytes; 1 GiB by default. */
   std::int64_t memoryLimit = std::int64_t(1) << 30;
 };
 
-/** The solution of a solve: `columns` values per vertex, in stream order, on disk or in memory. */
+/** The solution of a problem: columns() values a vertex, in stream order, on disk or in memory. */
 class SMG_EXPORT Solution
 {
 public:
   virtual ~Solution() = default;
+  /** Number of vertices of the mesh. */
   virtual std::int64_t vertices() const = 0;
+  /** Number of values of a vertex: the columns of the problem, or 3 of a deformation. */
   virtual int columns() const = 0;
   /**
-   * Reads the values of vertices [first, first + count) to `values` (columns * count doubles).
-   * Ranges may be read in any order; consecutive ranges are read most efficiently. Not thread-safe.
-   * Throws Error.
+   * Reads the values of the vertices [first, first + count). Any range may be read in any order;
+   * consecutive ranges cost no more than their own values. Not for two threads at once.
+   * @param first stream index of the first vertex
+   * @param count number of vertices
+   * @param values set to the values, vertex by vertex: room for columns() * count numbers
+   * @throws Error if the range or the room is not valid, or a scratch file cannot be read
    */
   virtual void read(std::int64_t first, std::int64_t count, std::span<double> values) = 0;
-  /** The report of the solve. */
+  /** What the solve did; SolvedMesh::finish() completes a copy of it. */
   virtual const Report& report() const = 0;
 };
 

@@ -15,64 +15,71 @@
 namespace smg
 {
 
-/** The acceleration of V-cycles by the results of previous ones. */
+/** How V-cycles are accelerated, from what the V-cycles before have found. */
 enum class AccelerationKind
 {
-  /** Conjugate gradients if four or more V-cycles are expected; none for a fixed number of
-   * V-cycles. */
+  /** Conjugate gradients if four or more V-cycles are to be expected and their number is not fixed;
+   * else none. */
   Automatic,
-  None,
-  /**
-   * Chebyshev polynomials for the measured rate of convergence. One vector in memory and on disk.
-   */
+  None, ///< V-cycles alone
+  /** Chebyshev polynomials (Golub and Varga 1961) for the measured rate of convergence. One vector
+   * in memory and on disk. */
   Chebyshev,
-  /**
-   * Conjugate gradients with the V-cycle as preconditioner, in the form that minimises the residual
-   * (conjugate residuals), one pass per step. One vector and three more at a sample of the vertices
-   * (at all vertices of small meshes or meshes with slivers).
-   */
+  /** Conjugate gradients preconditioned by the V-cycle, in the form that minimises the residual
+   * (conjugate residuals), with one pass a step. One vector, and three more on a sample of the
+   * vertices of a large mesh, or on all vertices of a small mesh or of one with slivers. */
   ConjugateGradients
 };
 
-/** Options of solve(). The defaults suit meshes of any size. */
+/** How to solve. The defaults suit a mesh of any size. */
 struct SolveOptions
 {
   /**
-   * The name of the operator set of the library: "extended", or "shi2006": the equations of the
-   * paper for comparison, whose result is not the solution and which work in core only. For
-   * user-defined sets see SolveWith.h.
+   * Name of an operator set of the library: "extended", or "shi2006", which has the equations of
+   * the paper for comparison: they do not converge to the solution, and need `inCore`. For
+   * operators of a program's own see SolveWith.h.
    */
   std::string operators = "extended";
-  /** Gauss-Seidel sweeps before and after each coarse-grid correction, 1 to 20. */
+  /** Gauss-Seidel sweeps before and after each coarse-level correction, 1 to 20. */
   int sweeps = 2;
-  /** Stop when ||b - A x|| <= tolerance ||b - A x_0||; in (0, 1). */
+  /** The solve stops when ||b - A x|| <= tolerance * ||b - A x_0||, x_0 being the initial values;
+   * between 0 and 1, both excluded. */
   double tolerance = 1e-6;
-  /** The maximum number of V-cycles, at least 1. */
+  /** Largest number of V-cycles, at least 1. */
   int maxCycles = 50;
+  /** How V-cycles are accelerated. */
   AccelerationKind acceleration = AccelerationKind::Automatic;
-  /** The limit of the accounted memory in bytes. */
+  /** Limit of the accounted memory, bytes; more than 0. */
   std::int64_t memoryLimit = std::int64_t(1) << 30;
-  /** Compute threads, at least 1; 0: one per core. The result does not depend on it. */
+  /** Compute threads, at least 1; 0: one a core. The result does not depend on it. */
   int threads = 0;
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
-  /** Whether to keep all levels in memory and write no files: the reference. */
+  /** Keep all levels in memory and write no file. The result is the same, bit for bit. */
   bool inCore = false;
-  /** The number of nodes by which a stage advances before the next stage follows. The result does
-   * not depend on it. */
+  /** Nodes by which a stage advances at a time, at least 1. The result does not depend on it. */
   std::int64_t blockNodes = 4096;
-  /** Levels with at most this many expected nodes are kept in memory. The result does not depend on
-   * it. */
+  /** Levels that are expected to have at most so many nodes are kept in memory; at least 0. The
+   * result does not depend on it. */
   std::int64_t coreNodes = 50000;
+  /** Progress callback; empty: none. */
   ProgressFunction progress;
 };
 
 /**
- * Solves the problem on the mesh stream, which is read once.
- * @throws Error if an option is out of range, the stream or the problem is invalid, the memory
- * limit is too low (immediately, with the required and the allowed memory), or a scratch file
- * fails; Cancelled by the progress callback. Neither an exception nor ~Solution leaves scratch
- * files behind.
+ * Solves a problem on a mesh stream by multigrid, out of core: after Shi, Bao and Zhou 2009, with
+ * other coarse equations, which converge to the solution.
+ * @param mesh the stream, read once
+ * @param problem the problem, asked once for each block
+ * @param options how to solve
+ * @return the solution, problem.columns() values a vertex, and the report. It keeps its scratch
+ * files until it is destroyed.
+ * @throws Error if an option is out of range, the stream or the problem is not valid, the memory
+ * limit is below the need (with both figures, and before the mesh is read if its span is known),
+ * numbers overflow, the residual grows beyond recovery, or a scratch file cannot be written or
+ * read; no scratch file remains. It is no error if the tolerance is not reached: see
+ * Report::converged.
+ * @throws Cancelled if the progress callback returns false
  */
 SMG_EXPORT std::unique_ptr<Solution> solve(
   MeshSource& mesh, Problem& problem, const SolveOptions& options = {});

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Engine/CheckOptions.h"
-#include "Solver/Engine/Engine.txx"
+#include "Solver/Engine/PoissonSolver.h"
 #include "Solver/Operators/Extended.h"
 #include "Solver/Operators/OperatorSet.h"
 #include "smg/Solve.h"
@@ -13,16 +13,20 @@ namespace smg
 {
 
 /**
- * Like solve(), with a user-defined operator set: a type that satisfies the concept OperatorSet
- * (see Solver/Operators/OperatorSet.h), for which the multigrid is compiled here.
- * `options.operators` is ignored.
+ * As solve(), with an operator set of the program's own.
  *
- * A program that includes this file needs GCC or Clang and links StreamingMultigrid::Engine, which
- * provides the sources of the engine, whose names may change with any version, and the compiler
- * flags for identical bits on all machines.
+ * A program that includes this file needs GCC or Clang and links StreamingMultigrid::Engine: its
+ * headers, whose names may change with any version, and the compiler flags by which the same bits
+ * are computed on every machine.
  *
- * @return the solution, `problem.columns()` values per vertex
- * @throws Error, Cancelled like solve()
+ * @tparam Operators a type that satisfies the concept OperatorSet (Solver/Operators/OperatorSet.h);
+ * the multigrid is compiled for it
+ * @param mesh the stream, read once
+ * @param problem the problem
+ * @param options how to solve; `operators` is ignored
+ * @return the solution, problem.columns() values a vertex
+ * @throws Error as solve()
+ * @throws Cancelled as solve()
  */
 template <OperatorSet Operators>
 std::unique_ptr<Solution> solveWith(
@@ -30,9 +34,9 @@ std::unique_ptr<Solution> solveWith(
 {
   checkOptions(options);
   checkProblem(problem);
-  auto engine = std::make_unique<Engine<Operators>>(problem.columns(), options);
-  engine->solve(mesh, problem);
-  return engine;
+  PoissonSolver<Operators> solver(
+    Operators::forCells(mesh.info().cellType), problem.columns(), options);
+  return solver.solve(mesh, problem);
 }
 
 } // namespace smg

@@ -32,7 +32,8 @@ struct Hdf5Shape
 
 /**
  * An HDF5 file that is read, by the C library. Errors are those of this project: they name the file
- * and the object. Objects are named by their paths, as "/VTKHDF/Points".
+ * and the object. Objects are named by their paths, as "/VTKHDF/Points". What lies in other files
+ * is refused.
  */
 class Hdf5File
 {
@@ -63,6 +64,8 @@ public:
   std::int64_t handle() const { return this->File; }
 
 private:
+  void requireOwn(const std::string& object) const;
+
   std::string Name;
   std::int64_t File = -1;
 };

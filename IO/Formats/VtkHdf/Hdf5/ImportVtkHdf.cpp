@@ -13,15 +13,32 @@
 namespace smg
 {
 
-void importVtkHdf(InputFile& file, RawMeshBuilder& builder)
+namespace
+{
+
+/** As "The file has 5 time steps, of which number 3, counted from 0, is read." */
+std::string noteOn(std::int64_t count, const char* what, std::int64_t chosen)
+{
+  return "The file has " + std::to_string(count) + what + ", of which " +
+         (chosen == 0 ? "the first" : "number " + std::to_string(chosen) + ", counted from 0,") +
+         " is read.";
+}
+
+} // namespace
+
+void importVtkHdf(InputFile& file, RawMeshBuilder& builder, const MeshPart& part)
 {
   const Hdf5File hdf(file.path(), file.name());
-  VtkHdfLayout layout = vtkHdfLayout(hdf, builder.workspace().available() / 2);
+  VtkHdfLayout layout = vtkHdfLayout(hdf, part, builder.workspace().available() / 2);
   layout.files.front() = file.path();
+  builder.noteParts(layout.timeSteps, layout.partitions);
   if (layout.timeSteps > 1)
   {
-    builder.note("The file has " + std::to_string(layout.timeSteps) +
-                 " time steps, of which the first is read.");
+    builder.note(noteOn(layout.timeSteps, " time steps", part.timeStep));
+  }
+  if (layout.isPart)
+  {
+    builder.note(noteOn(layout.partitions, " partitions", *part.partition));
   }
   readVtkMesh(file, layout, builder);
 }
@@ -29,11 +46,11 @@ void importVtkHdf(InputFile& file, RawMeshBuilder& builder)
 namespace
 {
 
-FileCounts readCounts(InputFile& file)
+FileCounts readCounts(InputFile& file, const MeshPart& part)
 {
   const Hdf5File hdf(file.path(), file.name());
   constexpr std::int64_t MostBytes = std::int64_t(16) << 20;
-  const VtkHdfLayout layout = vtkHdfLayout(hdf, MostBytes);
+  const VtkHdfLayout layout = vtkHdfLayout(hdf, part, MostBytes);
   FileCounts counts;
   // Points that partitions share are counted with each.
   counts.counted = layout.pieces.size() == 1;
@@ -56,11 +73,11 @@ FileCounts readCounts(InputFile& file)
 
 } // namespace
 
-std::optional<FileCounts> countsOfVtkHdf(InputFile& file)
+std::optional<FileCounts> countsOfVtkHdf(InputFile& file, const MeshPart& part)
 {
   try
   {
-    return readCounts(file);
+    return readCounts(file, part);
   }
   catch (const Error&)
   {

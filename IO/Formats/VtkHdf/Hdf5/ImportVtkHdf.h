@@ -6,7 +6,7 @@
 namespace smg
 {
 
-void importVtkHdf(InputFile& file, RawMeshBuilder& builder);
-std::optional<FileCounts> countsOfVtkHdf(InputFile& file);
+void importVtkHdf(InputFile& file, RawMeshBuilder& builder, const MeshPart& part);
+std::optional<FileCounts> countsOfVtkHdf(InputFile& file, const MeshPart& part);
 
 } // namespace smg

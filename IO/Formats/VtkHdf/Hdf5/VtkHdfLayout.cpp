@@ -5,11 +5,12 @@
 #include "IO/Formats/VtkHdf/Hdf5/DatasetOpener.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5File.h"
 #include "IO/Formats/VtkHdf/Hdf5/VtkHdfRoot.h"
+#include "IO/Formats/VtkHdf/Hdf5/VtkHdfStep.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numeric>
+#include <optional>
 #include <utility>
 
 namespace smg
@@ -21,9 +22,11 @@ namespace
 class LayoutReader
 {
 public:
-  LayoutReader(const Hdf5File& file, std::int64_t mostBytes)
+  LayoutReader(const Hdf5File& file, const MeshPart& part, std::int64_t mostBytes)
     : File(file)
+    , Partition(part.partition)
     , MostBytes(mostBytes)
+    , Step(file, part.timeStep)
   {
   }
 
@@ -35,7 +38,7 @@ public:
       this->File.fail("the file holds " + (type.empty() ? "no mesh of VTK" : inQuotes(type)) +
                       "; VTKHDF files of the types UnstructuredGrid and PolyData are read");
     }
-    this->readTimeSteps();
+    this->Layout.timeSteps = this->Step.steps();
     this->Points = this->File.integers(VtkHdfRoot + "NumberOfPoints");
     this->choosePartitions();
     this->readAttributes("PointData", this->PointArrays);
@@ -62,7 +65,7 @@ private:
     std::string group; ///< with a slash at its end
     int type;          ///< 0: each has its own
     std::vector<std::int64_t> cells, points;
-    std::int64_t firstCell = 0, firstPoint = 0; ///< of the time step
+    std::int64_t firstCell = 0, firstPoint = 0; ///< of the time step, then of a partition
   };
   struct Attribute
   {
@@ -70,57 +73,20 @@ private:
     std::int64_t first = 0; ///< row of the time step
   };
 
-  void readTimeSteps()
-  {
-    this->Layout.timeSteps = this->File.exists(VtkHdfRoot + "Steps")
-                               ? this->File.integer(VtkHdfRoot + "Steps", "NSteps").value_or(0)
-                               : 0;
-  }
-
-  /** What the first time step says of a count or a place; `otherwise` if there are no time steps.
-   */
-  std::int64_t ofStep(const std::string& name, std::int64_t otherwise, std::size_t column = 0) const
-  {
-    const std::string dataset = VtkHdfRoot + "Steps/" + name;
-    if (this->Layout.timeSteps == 0 || !this->File.exists(dataset))
-    {
-      return otherwise;
-    }
-    const std::vector<std::int64_t> values = this->File.integers(dataset);
-    if (column >= values.size() || values[column] < 0 || values[column] > Most)
-    {
-      this->File.fail(
-        "the dataset " + inQuotes(dataset) + " is too short, or its numbers cannot be right");
-    }
-    return values[column];
-  }
-
   void choosePartitions()
   {
-    const auto all = static_cast<std::int64_t>(this->Points.size());
-    this->FirstPart = this->ofStep("PartOffsets", 0);
-    this->Parts = this->ofStep("NumberOfParts", this->nextPart(all) - this->FirstPart);
-    this->FirstPoint = this->ofStep("PointOffsets", 0);
-    if (all == 0 || this->FirstPart > all || this->Parts > all - this->FirstPart)
-    {
-      this->File.fail("the file has " + std::to_string(all) + " partitions, fewer than it says");
-    }
+    const auto own = this->Step.partitions(static_cast<std::int64_t>(this->Points.size()));
+    this->FirstPart = own.first;
+    this->Parts = own.count;
+    this->FirstPoint = this->Step.number("PointOffsets", 0);
     this->Points = this->part(this->Points, "NumberOfPoints");
-  }
-
-  /** Where the partitions of another time step begin, behind those of the first; or the end. */
-  std::int64_t nextPart(std::int64_t all) const
-  {
-    const std::string offsets = VtkHdfRoot + "Steps/PartOffsets";
-    std::int64_t next = all;
-    if (this->Layout.timeSteps > 1 && this->File.exists(offsets))
+    this->Layout.partitions = own.count;
+    this->Layout.isPart = this->Partition && own.count > 1;
+    if (this->Partition && (*this->Partition < 0 || *this->Partition >= own.count))
     {
-      for (const std::int64_t offset : this->File.integers(offsets))
-      {
-        next = offset > this->FirstPart ? std::min(next, offset) : next;
-      }
+      this->File.fail("there is no partition " + std::to_string(*this->Partition) + ": there are " +
+                      std::to_string(own.count) + ", counted from 0 (option --partition)");
     }
-    return next;
   }
 
   /** Refuses more partitions than there is memory for. */
@@ -129,7 +95,7 @@ private:
     constexpr std::int64_t PieceBytes = 2000, ArrayBytes = 300;
     const auto arrays =
       static_cast<std::int64_t>(this->PointArrays.size() + this->CellArrays.size());
-    this->Layout.bytes = this->Parts * (PieceBytes + ArrayBytes * arrays);
+    this->Layout.bytes = (this->Partition ? 1 : this->Parts) * (PieceBytes + ArrayBytes * arrays);
     if (this->Layout.bytes > this->MostBytes)
     {
       this->File.fail(std::to_string(this->Parts) + " partitions take " +
@@ -153,7 +119,7 @@ private:
     std::int64_t sum = 0;
     for (const std::int64_t count : chosen)
     {
-      if (count < 0 || count > Most - sum)
+      if (count < 0 || count > VtkHdfMostRows - sum)
       {
         this->File.fail(
           "a number of the dataset " + inQuotes(VtkHdfRoot + name) + " cannot be right");
@@ -198,6 +164,7 @@ private:
     array.columnType = *shape.type;
     array.components = static_cast<int>(shape.components());
     array.encoding = VtkEncoding::Raw;
+    array.byteOrder = std::endian::native;
     array.opener = opener.get();
     return array;
   }
@@ -226,8 +193,8 @@ private:
       cells.group += cells.group.empty() ? "" : "/";
       cells.cells = this->counts(cells.group + "NumberOfCells");
       cells.points = this->counts(cells.group + "NumberOfConnectivityIds");
-      cells.firstCell = this->ofStep("CellOffsets", 0, kind);
-      cells.firstPoint = this->ofStep("ConnectivityIdOffsets", 0, kind);
+      cells.firstCell = this->Step.number("CellOffsets", 0, kind, kinds.size());
+      cells.firstPoint = this->Step.number("ConnectivityIdOffsets", 0, kind, kinds.size());
       ++kind;
       this->Lists.push_back(std::move(cells));
     }
@@ -254,12 +221,13 @@ private:
       }
       Attribute attribute;
       attribute.array = this->arrayOf(dataset, 0);
-      attribute.first = this->ofStep(group + "Offsets/" + name, -1);
+      attribute.first = this->Step.number(group + "Offsets/" + name, -1);
       attributes.push_back(std::move(attribute));
     }
   }
 
-  /** The arrays of a piece; `first`: of its rows, from the time step's first on. */
+  /** The arrays of a piece; `first`: of its rows, from the time step's first on, which is
+   * `stepFirst` unless the file says it of the array. */
   std::vector<VtkArray> attributesOf(const std::vector<Attribute>& attributes,
     const std::string& group, std::int64_t stepFirst, std::int64_t first, std::int64_t count)
   {
@@ -281,8 +249,8 @@ private:
     return this->rowsOf(array, path, first, count);
   }
 
-  /** A list of the partition, and behind it the next partition's. */
-  VtkCellList listOf(Cells& list, std::size_t part, std::int64_t partsBefore)
+  /** The cells of a kind in a partition, which begins where the list says. */
+  VtkCellList listOf(const Cells& list, std::size_t part)
   {
     VtkCellList cells;
     cells.cells = list.cells[part];
@@ -290,7 +258,8 @@ private:
     if (cells.cells > 0)
     {
       // A partition has a 0 before the ends of its cells.
-      const std::int64_t firstOffset = list.firstCell + partsBefore;
+      const std::int64_t firstOffset =
+        list.firstCell + this->FirstPart + static_cast<std::int64_t>(part);
       cells.points =
         this->dataset(list.group + "Connectivity", 1, list.firstPoint, list.points[part]);
       cells.offsets = this->dataset(list.group + "Offsets", 1, firstOffset, cells.cells + 1);
@@ -299,46 +268,57 @@ private:
         cells.types = this->dataset("Types", 1, list.firstCell, cells.cells);
       }
     }
-    list.firstCell += cells.cells;
-    list.firstPoint += list.points[part];
     return cells;
+  }
+
+  /** A partition, whose points and cells begin so many behind the time step's first. */
+  VtkPiece pieceOf(std::size_t part, std::int64_t firstPoint, std::int64_t firstCell)
+  {
+    VtkPiece piece;
+    piece.points = this->Points[part];
+    if (piece.points > 0)
+    {
+      piece.positions = this->dataset("Points", 3, this->FirstPoint + firstPoint, piece.points);
+    }
+    for (const Cells& list : this->Lists)
+    {
+      piece.lists.push_back(this->listOf(list, part));
+      piece.cells += piece.lists.back().cells;
+    }
+    piece.pointArrays = this->attributesOf(
+      this->PointArrays, "PointData", this->FirstPoint, firstPoint, piece.points);
+    piece.cellArrays =
+      this->attributesOf(this->CellArrays, "CellData", this->FirstCell, firstCell, piece.cells);
+    piece.pointNormals = this->PointNormals;
+    piece.cellNormals = this->CellNormals;
+    piece.globalIds = this->GlobalIds;
+    return piece;
   }
 
   void addPieces()
   {
     this->Layout.files.emplace_back();
-    std::int64_t firstPoint = 0, firstCell = 0;
-    const std::int64_t stepCell = std::accumulate(this->Lists.begin(), this->Lists.end(),
-      std::int64_t(0), [](std::int64_t sum, const Cells& list) { return sum + list.firstCell; });
-    const std::string pointNormals =
-      this->File.text(VtkHdfRoot + "PointData", "Normals").value_or("");
-    const std::string cellNormals =
-      this->File.text(VtkHdfRoot + "CellData", "Normals").value_or("");
-    const std::string globalIds = this->globalIds();
-    for (std::size_t p = 0; p < this->Points.size(); ++p)
+    this->PointNormals = this->File.text(VtkHdfRoot + "PointData", "Normals").value_or("");
+    this->CellNormals = this->File.text(VtkHdfRoot + "CellData", "Normals").value_or("");
+    this->GlobalIds = this->globalIds();
+    for (const Cells& list : this->Lists)
     {
-      VtkPiece piece;
-      piece.points = this->Points[p];
-      if (piece.points > 0)
+      this->FirstCell += list.firstCell;
+    }
+    std::int64_t firstPoint = 0, firstCell = 0;
+    for (std::size_t part = 0; part < this->Points.size(); ++part)
+    {
+      if (!this->Partition || static_cast<std::int64_t>(part) == *this->Partition)
       {
-        piece.positions = this->dataset("Points", 3, this->FirstPoint + firstPoint, piece.points);
+        this->Layout.pieces.push_back(this->pieceOf(part, firstPoint, firstCell));
       }
+      firstPoint += this->Points[part];
       for (Cells& list : this->Lists)
       {
-        piece.lists.push_back(
-          this->listOf(list, p, this->FirstPart + static_cast<std::int64_t>(p)));
-        piece.cells += piece.lists.back().cells;
+        firstCell += list.cells[part];
+        list.firstCell += list.cells[part];
+        list.firstPoint += list.points[part];
       }
-      piece.pointArrays = this->attributesOf(
-        this->PointArrays, "PointData", this->FirstPoint, firstPoint, piece.points);
-      piece.cellArrays =
-        this->attributesOf(this->CellArrays, "CellData", stepCell, firstCell, piece.cells);
-      piece.pointNormals = pointNormals;
-      piece.cellNormals = cellNormals;
-      piece.globalIds = globalIds;
-      firstPoint += piece.points;
-      firstCell += piece.cells;
-      this->Layout.pieces.push_back(std::move(piece));
     }
     for (auto& [name, opener] : this->Openers)
     {
@@ -364,25 +344,27 @@ private:
     return {};
   }
 
-  static constexpr std::int64_t Most = std::int64_t(1) << 48;
   static constexpr std::int64_t MostComponents = 4096;
 
   const Hdf5File& File;
+  std::optional<std::int64_t> Partition;
   std::int64_t MostBytes;
+  VtkHdfStep Step;
   VtkHdfLayout Layout;
-  std::vector<std::int64_t> Points; ///< of each partition
-  std::int64_t FirstPart = 0, Parts = 0, FirstPoint = 0;
+  std::vector<std::int64_t> Points;                                     ///< of each partition
+  std::int64_t FirstPart = 0, Parts = 0, FirstPoint = 0, FirstCell = 0; ///< of the time step
   std::vector<Cells> Lists;
   std::vector<Attribute> PointArrays, CellArrays;
+  std::string PointNormals, CellNormals, GlobalIds; ///< names of arrays
   std::map<std::string, std::unique_ptr<VtkArrayOpener>> Openers;
   std::map<std::string, Hdf5Shape> Shapes;
 };
 
 } // namespace
 
-VtkHdfLayout vtkHdfLayout(const Hdf5File& file, std::int64_t mostBytes)
+VtkHdfLayout vtkHdfLayout(const Hdf5File& file, const MeshPart& part, std::int64_t mostBytes)
 {
-  return LayoutReader(file, mostBytes).read();
+  return LayoutReader(file, part, mostBytes).read();
 }
 
 } // namespace smg

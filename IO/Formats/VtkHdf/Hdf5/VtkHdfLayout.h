@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Formats/MeshPart.h"
 #include "IO/Formats/Vtk/VtkLayout.h"
 
 #include <cstdint>
@@ -13,18 +14,20 @@ namespace smg
 
 class Hdf5File;
 
-/** What a VTKHDF file says of its mesh in its first time step. */
+/** What a VTKHDF file says of its mesh in a time step. */
 struct VtkHdfLayout : VtkLayout
 {
   std::vector<std::unique_ptr<VtkArrayOpener>> openers; ///< of the datasets
-  std::int64_t timeSteps = 0;                           ///< 0: it has none
+  std::int64_t timeSteps = 0;                           ///< of the file; 0: it has none
+  std::int64_t partitions = 0;                          ///< of the time step
 };
 
 /**
  * Reads the layout of a file of the type UnstructuredGrid or PolyData, versions 1 and 2 (VTK File
  * Formats, "VTKHDF"). Each partition is a piece, whose cells name its own points. Throws Error if
- * it is of another type, counts contradict each other, or it takes more than `mostBytes` of memory.
+ * it is of another type, has no such part, counts contradict each other, or it takes more than
+ * `mostBytes` of memory.
  */
-VtkHdfLayout vtkHdfLayout(const Hdf5File& file, std::int64_t mostBytes);
+VtkHdfLayout vtkHdfLayout(const Hdf5File& file, const MeshPart& part, std::int64_t mostBytes);
 
 } // namespace smg

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef vtkReaderComplaints_h
-#define vtkReaderComplaints_h
+#ifndef vtkComplaints_h
+#define vtkComplaints_h
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
@@ -10,32 +10,31 @@
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
-#include <cstring>
 #include <string>
 
 namespace smg
 {
 
 /**
- * Collects the error messages of VTK readers during its lifetime instead of printing them. Some are
- * sent as events, others only as text to VTK's output window, which is replaced for this time.
+ * Collects the error messages of VTK during its lifetime instead of printing them. Some are sent as
+ * events, others only as text to VTK's output window, which is replaced for this time.
  */
-class vtkReaderComplaints
+class vtkComplaints
 {
 public:
-  vtkReaderComplaints()
+  vtkComplaints()
     : Before(vtkOutputWindow::GetInstance())
   {
     this->Command->SetClientData(this);
     this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void* text)
-      { static_cast<vtkReaderComplaints*>(self)->note(static_cast<const char*>(text)); });
+      { static_cast<vtkComplaints*>(self)->note(static_cast<const char*>(text)); });
     vtkNew<Window> window;
     window->Complaints = this;
     vtkOutputWindow::SetInstance(window);
   }
-  ~vtkReaderComplaints() { vtkOutputWindow::SetInstance(this->Before); }
-  vtkReaderComplaints(const vtkReaderComplaints&) = delete;
-  vtkReaderComplaints& operator=(const vtkReaderComplaints&) = delete;
+  ~vtkComplaints() { vtkOutputWindow::SetInstance(this->Before); }
+  vtkComplaints(const vtkComplaints&) = delete;
+  vtkComplaints& operator=(const vtkComplaints&) = delete;
 
   /** An observer for ErrorEvent. */
   vtkCommand* command() { return this->Command; }
@@ -50,20 +49,10 @@ private:
     vtkTypeMacro(Window, vtkOutputWindow);
     void DisplayText(const char*) override {}
     void DisplayErrorText(const char* text) override { this->Complaints->note(text); }
-    void DisplayWarningText(const char* text) override { this->noteMissing(text); }
-    void DisplayGenericWarningText(const char* text) override { this->noteMissing(text); }
+    void DisplayWarningText(const char*) override {}
+    void DisplayGenericWarningText(const char*) override {}
 
-    vtkReaderComplaints* Complaints = nullptr;
-
-  private:
-    /** For missing numbers, the readers of the legacy format only issue a warning. */
-    void noteMissing(const char* text)
-    {
-      if (text && std::strstr(text, "Error reading"))
-      {
-        this->Complaints->note(text);
-      }
-    }
+    vtkComplaints* Complaints = nullptr;
   };
 
   /** VTK's text is "ERROR: In FILE, line N\nCLASS (ADDRESS): SENTENCE\n ...". */

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/External/BucketFile.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * External merge sort in a given memory: put() all rows, then sort(), then next() delivers them in
+ * order. Runs that fill the memory are sorted and go to scratch files, from which they are merged;
+ * rows that fit are sorted in memory alone. There are never many files: as many runs of a rank
+ * become one of the next rank while rows come.
+ *
+ * `Rows` is how rows look: RecordRows (ExternalSort), of a type, or KeyedRows (RowSort), of bytes.
+ */
+template <class Rows>
+class MergeSort
+{
+public:
+  using Key = typename Rows::Key; ///< what is put
+  using Row = typename Rows::Row; ///< what is delivered
+
+  /** Uses about `memory` bytes, 1 MiB at least, of the workspace's pool. */
+  MergeSort(Workspace& workspace, std::int64_t memory, Rows rows = {})
+    : Space(workspace)
+    , Memory(static_cast<std::size_t>(std::max<std::int64_t>(memory, std::int64_t(1) << 20)))
+    , Collected(std::move(rows))
+  {
+  }
+  MergeSort(const MergeSort&) = delete;
+  MergeSort& operator=(const MergeSort&) = delete;
+
+  std::int64_t size() const { return this->Size; }
+
+  /** Answers what the put() of the rows does. Throws Error. */
+  auto put(const Key& key)
+  {
+    if (this->Used == this->Capacity)
+    {
+      this->makeRoom();
+    }
+    ++this->Size;
+    return this->Collected.put(this->Used++, key);
+  }
+
+  /** Ends the putting. */
+  void sort()
+  {
+    if (this->Runs.empty())
+    {
+      this->Collected.sort(this->Used);
+      return;
+    }
+    this->writeRun();
+    this->release();
+    while (this->Runs.size() > this->mostRuns())
+    {
+      this->mergeLast(std::min(this->mostRuns(), this->Runs.size() - this->mostRuns() + 1));
+    }
+    this->startMerge(this->Runs);
+  }
+
+  /** The next row in order, valid until the next call; false at the end. */
+  bool next(Row& row)
+  {
+    if (!this->Runs.empty())
+    {
+      return this->nextMerged(row);
+    }
+    if (this->Delivered == this->Used)
+    {
+      this->release();
+      this->Used = this->Delivered = 0;
+      return false;
+    }
+    row = this->Collected.get(this->Delivered++);
+    return true;
+  }
+
+private:
+  static constexpr std::size_t LeastBufferBytes = std::size_t(64) << 10;
+  /** So many runs of a rank are merged at once while rows come, or fewer. */
+  static constexpr std::size_t RunsOfRank = 32;
+
+  /** A run that is being merged, and the row it has to offer. */
+  struct Head
+  {
+    Row row;
+    std::uint32_t run;
+  };
+
+  std::size_t bufferBytes() const { return std::max(LeastBufferBytes, this->Collected.bytes()); }
+
+  /** Runs that can be merged at once, with a chunk of the file they go to. */
+  std::size_t mostRuns() const
+  {
+    return std::max<std::size_t>(2, (this->Memory - BucketFile::ChunkBytes) / this->bufferBytes());
+  }
+
+  void makeRoom()
+  {
+    // The memory of the first run grows with what there is to sort.
+    const std::size_t most = std::max<std::size_t>(1, this->Memory / this->Collected.bytes());
+    const std::size_t grown = std::min(most, std::max<std::size_t>(1024, this->Capacity * 4));
+    if (this->Capacity == most)
+    {
+      this->writeRun();
+    }
+    if (this->Capacity < most)
+    {
+      this->Capacity = this->Runs.empty() ? grown : most;
+      this->Collected.grow(this->Space.pool(), this->Capacity);
+    }
+  }
+
+  void release()
+  {
+    this->Collected.release();
+    this->Capacity = 0;
+  }
+
+  void writeRun()
+  {
+    if (this->Used == 0)
+    {
+      return;
+    }
+    this->Collected.sort(this->Used);
+    BucketFile& run = this->Runs.emplace_back(this->Space);
+    for (std::size_t i = 0; i < this->Used; ++i)
+    {
+      this->Collected.write(this->Collected.get(i), run);
+    }
+    run.close();
+    this->Ranks.push_back(0);
+    this->Used = 0;
+    const std::size_t count = std::min(this->mostRuns(), RunsOfRank);
+    while (
+      this->Ranks.size() >= count && this->Ranks[this->Ranks.size() - count] == this->Ranks.back())
+    {
+      this->release();
+      this->mergeLast(count);
+    }
+  }
+
+  /** Merges the last runs into one. */
+  void mergeLast(std::size_t count)
+  {
+    const auto begin = this->Runs.end() - static_cast<std::ptrdiff_t>(count);
+    this->startMerge(std::span(begin, this->Runs.end()));
+    BucketFile longer(this->Space);
+    for (Row row; this->nextMerged(row);)
+    {
+      this->Collected.write(row, longer);
+    }
+    longer.close();
+    this->Runs.erase(begin, this->Runs.end());
+    this->Runs.push_back(std::move(longer));
+    this->Ranks.resize(this->Runs.size());
+    ++this->Ranks.back();
+  }
+
+  void startMerge(std::span<const BucketFile> runs)
+  {
+    this->Readers.reserve(runs.size());
+    for (const BucketFile& run : runs)
+    {
+      Head head{ {}, static_cast<std::uint32_t>(this->Readers.size()) };
+      this->Readers.emplace_back(run, 0, this->bufferBytes());
+      this->Collected.read(this->Readers.back(), head.row);
+      this->Heap.push_back(head);
+    }
+    for (std::size_t i = this->Heap.size() / 2; i-- > 0;)
+    {
+      this->sink(i);
+    }
+  }
+
+  bool nextMerged(Row& row)
+  {
+    if (this->TopIsDelivered)
+    {
+      this->replaceTop();
+    }
+    this->TopIsDelivered = !this->Heap.empty();
+    if (this->Heap.empty())
+    {
+      this->Readers.clear();
+      return false;
+    }
+    row = this->Heap.front().row;
+    return true;
+  }
+
+  /** Goes on to the next row of the run at the top, whose row is not valid afterwards. */
+  void replaceTop()
+  {
+    Head& top = this->Heap.front();
+    if (!this->Collected.read(this->Readers[top.run], top.row))
+    {
+      top = this->Heap.back();
+      this->Heap.pop_back();
+    }
+    this->sink(0);
+  }
+
+  /** Rows of a key come in the order of their runs, which is that in which they were put. */
+  bool isBefore(const Head& a, const Head& b) const
+  {
+    if (Rows::HaveTies && !this->Collected.isLess(b.row, a.row))
+    {
+      return this->Collected.isLess(a.row, b.row) || a.run < b.run;
+    }
+    return this->Collected.isLess(a.row, b.row);
+  }
+
+  /** Brings the head at place `i` down to where it belongs. */
+  void sink(std::size_t i)
+  {
+    const std::size_t count = this->Heap.size();
+    if (i >= count)
+    {
+      return;
+    }
+    const Head head = this->Heap[i];
+    for (std::size_t child = 2 * i + 1; child < count; child = 2 * i + 1)
+    {
+      if (child + 1 < count && this->isBefore(this->Heap[child + 1], this->Heap[child]))
+      {
+        ++child;
+      }
+      if (!this->isBefore(this->Heap[child], head))
+      {
+        break;
+      }
+      this->Heap[i] = this->Heap[child];
+      i = child;
+    }
+    this->Heap[i] = head;
+  }
+
+  Workspace& Space;
+  std::size_t Memory;
+  std::int64_t Size = 0;
+  Rows Collected; ///< in memory
+  std::size_t Capacity = 0, Used = 0, Delivered = 0;
+  std::vector<BucketFile> Runs; ///< of falling rank, in the order in which their rows were put
+  std::vector<int> Ranks;       ///< how often the rows of a run were merged
+  std::vector<BucketFile::Reader> Readers;
+  std::vector<Head> Heap;
+  bool TopIsDelivered = false;
+};
+
+} // namespace smg

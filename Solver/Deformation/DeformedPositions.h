@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Deformation/RestShape.h"
+#include "Solver/Engine/StreamedSolution.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+
+namespace smg
+{
+
+/** What remains of a deformation: displacements, and where they begin. */
+class DeformedPositions final : public Solution
+{
+public:
+  /** `rest` has its memory from where the displacements have theirs. */
+  DeformedPositions(std::unique_ptr<StreamedSolution> displacements, RestShape rest)
+    : Displacements(std::move(displacements))
+    , Rest(std::move(rest))
+  {
+  }
+
+  std::int64_t vertices() const override { return this->Displacements->vertices(); }
+  int columns() const override { return this->Displacements->columns(); }
+  void read(std::int64_t first, std::int64_t count, std::span<double> values) override
+  {
+    this->Displacements->read(first, count, values);
+    this->Rest.addStart(first, count, values.data());
+  }
+  const Report& report() const override { return this->Displacements->report(); }
+
+private:
+  std::unique_ptr<StreamedSolution> Displacements;
+  RestShape Rest;
+};
+
+} // namespace smg

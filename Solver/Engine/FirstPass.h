@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/RunAll.h"
+#include "Solver/Core/Timer.h"
+#include "Solver/Engine/AssemblyReport.h"
+#include "Solver/Engine/Convergence.h"
+#include "Solver/Engine/Hierarchy.h"
+#include "Solver/Engine/HierarchyBuilder.h"
+#include "Solver/Engine/MemoryEstimate.h"
+#include "Solver/Engine/SolveRun.h"
+#include "Solver/Problem/Assembly.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace smg
+{
+
+/** The first pass of a solve: reads the mesh, assembles the finest level, builds all others from
+ * it, relaxes and restricts, all in one sweep. */
+template <OperatorSet Operators>
+class FirstPass
+{
+public:
+  /** Every level gets a copy of the operators. The hierarchy comes without levels. */
+  FirstPass(
+    SolveRun& run, Hierarchy<typename Operators::Relaxation>& hierarchy, const Operators& operators)
+    : Run(run)
+    , Built(hierarchy)
+    , Set(operators)
+  {
+  }
+
+  /**
+   * Makes the pass and closes the hierarchy. `listener`: see Assembly; `furtherCoreBytes`: a
+   * vertex, that the caller will need in core.
+   */
+  FirstResidual operator()(MeshSource& mesh, Problem& problem, RowListener* listener = nullptr,
+    std::int64_t furtherCoreBytes = 0);
+
+private:
+  FirstResidual build(MeshSource& mesh, Problem& problem, RowListener* listener);
+  void readStream(MeshSource& mesh, Assembly& assembly, AssembledRows& rows,
+    HierarchyBuilder<Operators>& builder);
+  FirstResidual note(const Assembly& assembly);
+
+  SolveRun& Run;
+  Hierarchy<typename Operators::Relaxation>& Built;
+  const Operators& Set;
+};
+
+template <OperatorSet Operators>
+FirstResidual FirstPass<Operators>::operator()(
+  MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes)
+{
+  const Timer building;
+  const SolveOptions& options = this->Run.options;
+  const std::int64_t need = estimateMemory(mesh.info(), problem, options, furtherCoreBytes);
+  if (need > options.memoryLimit)
+  {
+    throw Error(memoryLimitSentence(need, options.memoryLimit));
+  }
+  if (this->Run.scratch)
+  {
+    this->Run.labels.useScratch(this->Run.scratch->path(), this->Run.traffic.add("labels"));
+  }
+  this->Built.open(mesh.info().vertices);
+  const FirstResidual residual = this->build(mesh, problem, listener);
+  this->Run.free.projectRightSide(this->Built.window(), this->Run.report);
+  this->Run.report.seconds.build = building.seconds();
+  this->Run.report.seconds.build_io_wait = this->Run.traffic.waitSeconds();
+  return residual;
+}
+
+template <OperatorSet Operators>
+FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, RowListener* listener)
+{
+  const CellType type = mesh.info().cellType;
+  AssembledRows rows;
+  HierarchyBuilder<Operators> builder(this->Run.pool, this->Set, this->Built.levels(),
+    this->Built.firstCore(), Assembly::stiffRows(type, problem.weights(), rows));
+  Assembly assembly(
+    this->Run.pool, mesh.info(), problem, rows, this->Run.components, this->Run.labels, listener);
+  this->Built.startPass(true);
+  this->readStream(mesh, assembly, rows, builder);
+  const int coarsest = builder.finish([this](int l) { this->Built.addCoreLevel(l); });
+  this->Built.endPass();
+  this->Built.close(coarsest);
+  return this->note(assembly);
+}
+
+/**
+ * In each step the next block of the mesh is assembled, every streamed level is coarsened, and the
+ * way down advances, all at the same time, each on what the steps before have handed over.
+ */
+template <OperatorSet Operators>
+void FirstPass<Operators>::readStream(
+  MeshSource& mesh, Assembly& assembly, AssembledRows& rows, HierarchyBuilder<Operators>& builder)
+{
+  auto& finest = this->Built.finest();
+  MeshBlock block;
+  bool more = true;
+  std::int64_t open = 0;
+  const auto expected = static_cast<double>(std::max<std::int64_t>(1, mesh.info().vertices));
+  const auto assemble = [&]
+  {
+    if (more)
+    {
+      more = mesh.next(block);
+      more ? assembly.add(block) : assembly.finish();
+    }
+  };
+  while (!builder.complete())
+  {
+    runAll(this->Run.threads, 2 + this->Built.firstCore(),
+      [&](int task)
+      {
+        // The mesh and the problem are asked on the caller's thread; of the other tasks those that
+        // take longest come first.
+        task == 0   ? assemble()
+        : task == 1 ? builder.advance(0)
+        : task == 2 ? finest.advanceDown()
+                    : builder.advance(task - 2);
+      });
+    finest.settle();
+    rows.moveTo(builder.finestRows(), finest.window(), finest.window().columns());
+    builder.finestRows().Ended = !more;
+    builder.handOver();
+    this->Run.resident.add(assembly.openVertices() - open);
+    open = assembly.openVertices();
+    this->Run.progress.updateFirst(static_cast<double>(assembly.vertices()) / expected);
+  }
+  finest.advanceDown();
+  finest.settle();
+  if (assembly.vertices() == 0)
+  {
+    throw Error("the mesh has no vertices");
+  }
+  this->Run.labels.finish();
+}
+
+/** Puts what the assembly and the levels are into the report, and what later passes need to know
+ * into the hierarchy. */
+template <OperatorSet Operators>
+FirstResidual FirstPass<Operators>::note(const Assembly& assembly)
+{
+  constexpr std::int64_t StiffShare = 512;
+  this->Built.setSlowestAtSlivers(assembly.stiffRows() > assembly.vertices() / StiffShare);
+  Report& r = this->Run.report;
+  reportAssembly(assembly, this->Run.components, r);
+  r.levels = this->Built.levels().sizes;
+  r.levels.front().nodes -= r.prescribed + r.held;
+  r.levels.front().nonzeros -= r.prescribed + r.held;
+  const double whole = assembly.residual().squares();
+  const double shifted = std::max(0.0, whole + this->Run.components.shiftedSquares());
+  // Where the sources are all mean, what is left of them is the rounding of this difference of
+  // squares, and no measure of the residual: then it is that of the sources themselves.
+  constexpr double LeastShare = 1e-14;
+  return { std::sqrt(shifted < LeastShare * whole ? whole : shifted),
+    roundingOf(assembly.residual().termSquares()) };
+}
+
+} // namespace smg

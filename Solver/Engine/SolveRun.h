@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Timer.h"
+#include "Solver/Cycle/LevelCursors.h"
+#include "Solver/Engine/FreeComponents.h"
+#include "Solver/Engine/SolveProgress.h"
+#include "Solver/Problem/ComponentLabels.h"
+#include "Solver/Problem/Components.h"
+#include "Solver/Storage/Pool.h"
+#include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Storage/ScratchTraffic.h"
+#include "smg/Report.h"
+#include "smg/Solve.h"
+
+#include <tbb/task_arena.h>
+
+#include <optional>
+
+namespace smg
+{
+
+/**
+ * What all parts of a solve share, and its solution after it: options, memory, scratch files,
+ * threads, the components of the mesh, and what the solve tells of itself.
+ */
+struct SolveRun
+{
+  /** Of problems of `columns` columns. */
+  SolveRun(int columns, const SolveOptions& solveOptions);
+
+  /** The report's times begin. */
+  void beginReport();
+  /** Adds to the report what memory, scratch files and times were; `Report::levels` is there. */
+  void finishReport();
+
+  SolveOptions options;
+  SolveProgress progress;
+  Pool pool;
+  ResidentNodes resident;
+  std::optional<ScratchFolder> scratch; ///< none in core
+  ScratchTraffic traffic;
+  Components components;
+  ComponentLabels labels;
+  FreeComponents free;
+  tbb::task_arena threads;
+  Report report;
+
+private:
+  Timer Wall;
+  double CpuAtStart = 0.0;
+};
+
+} // namespace smg

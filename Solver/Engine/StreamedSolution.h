@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Cycle/LevelWindow.h"
+#include "Solver/Engine/SolveRun.h"
+#include "smg/Solution.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace smg
+{
+
+/** What remains of a solve: the finest level's values, on disk or in memory. */
+class StreamedSolution final : public Solution
+{
+public:
+  /** `window` was made in `run` and has let go of all but the solution. */
+  StreamedSolution(std::unique_ptr<SolveRun> run, LevelWindow<double> window);
+
+  std::int64_t vertices() const override { return this->Run->report.vertices; }
+  int columns() const override { return this->Window.columns(); }
+  void read(std::int64_t first, std::int64_t count, std::span<double> values) override;
+  const Report& report() const override { return this->Run->report; }
+
+private:
+  std::unique_ptr<SolveRun> Run; // outlives the window, whose memory it accounts for
+  LevelWindow<double> Window;
+};
+
+} // namespace smg

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Hierarchy/RowEntry.h"
+#include "Solver/Storage/Ring.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/** A row of the finest level that has been made. */
+struct AssembledRow
+{
+  std::int64_t vertex;
+  std::span<const RowEntry> entries;
+  /** The entries' weights in double precision, or empty: then they are those of the entries. */
+  std::span<const double> precise;
+  double diagonal;
+};
+
+/** The residual b - A x_0 of the initial values, summed up row by row. */
+class InitialResidual
+{
+public:
+  /** `values`: x_0 of a vertex and its neighbours, when its row comes. */
+  explicit InitialResidual(const Ring<double>& values)
+    : Values(values)
+    , OfRow(static_cast<std::size_t>(values.lanes()))
+  {
+  }
+
+  /** Adds a row, whose residual counts as `share` (see commonShare()); answers it, a number a
+   * column. */
+  std::span<const double> add(const AssembledRow& row, std::span<const double> b, double share);
+
+  /** ||b - A x_0||^2 with the shares. */
+  double squares() const { return this->Squares; }
+  /** The sum of the squares of the terms b_i and A_ii x_i that it is the difference of. */
+  double termSquares() const { return this->TermSquares; }
+
+private:
+  const Ring<double>& Values;
+  std::vector<double> OfRow;
+  double Squares = 0.0, TermSquares = 0.0;
+};
+
+} // namespace smg

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Problem/OpenComponents.h"
+
+#include <algorithm>
+
+namespace smg
+{
+
+void OpenComponents::extend(std::int64_t vertices)
+{
+  const std::int64_t begin = this->Labels.end();
+  this->Labels.extendRaw(vertices);
+  std::ranges::fill(this->Labels.range(begin, vertices), -1);
+}
+
+void OpenComponents::join(const std::int64_t* corners, int count)
+{
+  std::int32_t label = -1;
+  for (int k = 0; k < count; ++k)
+  {
+    const std::int32_t other = this->Labels[corners[k]];
+    label = label < 0                     ? other
+            : other < 0 || other == label ? label
+                                          : this->Parts.join(label, other);
+  }
+  label = label < 0 ? this->Parts.add() : label;
+  for (int k = 0; k < count; ++k)
+  {
+    this->Labels[corners[k]] = label;
+  }
+}
+
+std::int32_t OpenComponents::close(std::int64_t i, double mass)
+{
+  const std::int32_t label = this->Labels[i] < 0 ? -1 : this->Parts.root(this->Labels[i]);
+  this->LabelBatch.push_back(label);
+  this->MassBatch.push_back(mass);
+  return label;
+}
+
+void OpenComponents::flush()
+{
+  this->Closed.append(this->LabelBatch, this->MassBatch);
+  this->LabelBatch.clear();
+  this->MassBatch.clear();
+}
+
+} // namespace smg

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Problem/WeightPolicy.h"
+
+#include "Solver/Problem/FlatCells.h"
+
+#include <algorithm>
+
+namespace smg
+{
+
+WeightPolicy::WeightPolicy(CellType type, Problem& problem, double& scale)
+  : Type(type)
+  , Kind(problem.weights())
+  , ConnectsFlat(problem.connectsFlatCells())
+  , Scale(scale)
+{
+  if (problem.hasCells())
+  {
+    this->Own.emplace(problem, type);
+  }
+}
+
+CellWeights WeightPolicy::weigh(
+  const std::int64_t* corners, const double* const* points, unsigned flags)
+{
+  CellWeights cell;
+  if (flags == 0 && !hasRepeatedCorner(corners, cornersOf(this->Type)))
+  {
+    cell = this->Own ? this->Own->weights() : cellWeights(this->Type, points);
+  }
+  if (cell.measure == 0.0)
+  {
+    ++this->Degenerate;
+    return cell;
+  }
+  if (this->Kind != Weights::Cotangent)
+  {
+    return cell;
+  }
+  if (this->Own && !this->Scaled)
+  {
+    this->Scale = this->Own->scale();
+    this->Scaled = true;
+  }
+  return this->limited(
+    cell, this->Own ? this->Own->flatness() : flatnessFactor(this->Type, points, cell));
+}
+
+CellWeights WeightPolicy::limited(CellWeights cell, double flatness)
+{
+  if (flatness < 1.0)
+  {
+    ++this->Limited;
+    this->LeastFlatness = std::min(this->LeastFlatness, flatness);
+    for (double& weight : cell.weight)
+    {
+      weight *= flatness;
+    }
+  }
+  return cell;
+}
+
+bool WeightPolicy::connectsFlat(const std::int64_t* corners, unsigned flags) const
+{
+  return this->ConnectsFlat && (flags & DuplicateCell) == 0 &&
+         !hasRepeatedCorner(corners, cornersOf(this->Type));
+}
+
+} // namespace smg
