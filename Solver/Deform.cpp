@@ -31,7 +31,9 @@ void checkOptions(const DeformOptions& options)
 namespace
 {
 
-/** The best V-cycles: whoever gives the number of them for a step relies on what few achieve. */
+/**
+ * The most effective V-cycles, since a given number of them per step must achieve much with few.
+ */
 Extended operatorsFor(CellType cells)
 {
   return Extended::forFewCycles(cells);

@@ -18,7 +18,7 @@ namespace smg
  * A level in a pass: its window and its stages. Real is double on the finest level, float on the
  * others, which only precondition. A stage may advance over a group of nodes when the stage before
  * it has passed the largest index that the group needs; so the arithmetic is that of the in-core
- * method, in the same order, whatever the window.
+ * method, in the same order, for any window.
  */
 template <class Real, class Relaxation>
 class Level
@@ -37,7 +37,7 @@ public:
   const LevelCursors& cursors() const { return this->At; }
   void setCoarse(CoarseLevel* coarse) { this->Coarse = coarse; }
   void setFine(const LevelCursors* fine) { this->Fine = fine; }
-  /** A core level does not take part in the passes: the core cycle treats it between them. */
+  /** A core level does not take part in the passes: the core cycle processes it between them. */
   void setCore() { this->Core = true; }
   bool core() const { return this->Core; }
 
@@ -65,9 +65,9 @@ public:
   }
 
   /**
-   * Restriction of the next pass multiplies by `scale`, a power of two, and its prolongation undoes
-   * the scale before: so what single precision sees does not depend on units, nor on how small the
-   * residual has become.
+   * Restriction of the next pass multiplies by `scale`, a power of two, and its prolongation
+   * divides by the previous scale: so the numbers in single precision depend neither on units nor
+   * on the size of the residual.
    */
   void setScale(Real scale)
   {
@@ -75,20 +75,18 @@ public:
     this->Scale = scale;
   }
 
-  /**
-   * In a pass that renews (see LevelWindow::renew), on the finest level: the state of the way down
-   * is ready for nodes below `end`.
-   */
+  /** In a pass after LevelWindow::renew(), on the finest level: the state of the downward part is
+   * complete for nodes below `end`. */
   void setRenewed(std::int64_t end)
   {
     this->Renewing = true;
     this->Renewed = end;
   }
 
-  /** On the finest level: this pass, which has started, accelerates the iterates. */
+  /** On the finest level: accelerates the iterates in this pass, which has started. */
   void setHistory(IterateHistory* history) { this->History = history; }
 
-  /** Below which node x of the way up is final, as the way down knows it. */
+  /** The end of the nodes whose x is final in the upward part, as seen by the downward part. */
   std::int64_t finishedUp()
   {
     std::int64_t& end = this->At.finishedUp;
@@ -97,30 +95,30 @@ public:
     return end;
   }
 
-  /** Takes the next block of rows while the hierarchy is being built. */
+  /** Adds the next block of rows while the hierarchy is built. */
   void append(RowBlock block)
   {
-    // Nodes of a patch may come in blocks before that of its last one.
+    // Nodes of a patch may be in blocks before that of its last one.
     this->Patched = this->Patched || block.header().specials > 0;
     this->Window.append(std::move(block));
   }
 
-  /** Loads, here and on the coarser levels, all that the way up to `node` needs. */
+  /** Loads, here and on the coarser levels, all data that the upward part to `node` needs. */
   void load(std::int64_t node);
 
-  /** Way up: finishes the V-cycle on nodes 0 .. node, which is loaded. */
+  /** Upward part: finishes the V-cycle on nodes 0 .. node, which is loaded. */
   void pull(std::int64_t node)
   {
     this->pull(static_cast<int>(this->At.postSweep.size()), this->finalWith(node));
   }
 
-  /** Tells the way down and writing, here and on the coarser levels, how far the way up and the way
-   * down have come. */
+  /** Publishes, here and on the coarser levels, the cursors of the upward part to the downward
+   * part, and those of the downward part to the writer. */
   void showProgress()
   {
     this->At.seenProlonged = this->At.prolonged;
     this->At.seenPostSwept = this->At.postSweep.back();
-    // A patch that is not finished yet may change nodes before it.
+    // An unfinished patch may change nodes before it.
     this->At.seenFinal = this->Patched ? this->At.restricted : this->At.combined;
     this->At.seenRestricted = this->At.restricted;
     if (!this->Coarse->core())
@@ -129,7 +127,7 @@ public:
     }
   }
 
-  /** Way down: advances every stage, here and on the coarser levels, as far as it can. */
+  /** Downward part: advances every stage, here and on the coarser levels, as far as possible. */
   void advanceDown()
   {
     this->preSweep();
@@ -141,8 +139,8 @@ public:
     }
   }
 
-  /** Reads, here and on the coarser levels, what load() will take next. Other threads may go up,
-   * go down and write. */
+  /** Reads ahead, here and on the coarser levels, what load() will take next. Other threads may
+   * perform the upward and the downward part, and write. */
   void readAhead()
   {
     this->Window.readAhead();
@@ -156,8 +154,8 @@ public:
     }
   }
 
-  /** Writes, here and on the coarser levels, what the way down is known to have finished. Other
-   * threads may go up, go down and read ahead. */
+  /** Writes, here and on the coarser levels, what the downward part is known to have finished.
+   * Other threads may perform the upward and the downward part, and read ahead. */
   void write()
   {
     this->Window.write(this->At.seenFinal);
@@ -171,7 +169,7 @@ public:
     }
   }
 
-  /** Lets go of what is written and not needed any more. */
+  /** Releases written data that are not needed any more. */
   void release()
   {
     this->Window.release(this->At.restricted);
@@ -185,7 +183,7 @@ public:
     }
   }
 
-  /** Writes what the way down has finished and lets go of what is not needed any more. */
+  /** Writes what the downward part has finished and releases data that are not needed any more. */
   void settle()
   {
     this->showProgress();
@@ -193,16 +191,14 @@ public:
     this->release();
   }
 
-  /** Whether every node has gone through all stages of the pass. */
+  /** Whether all nodes have passed all stages of the pass. */
   bool finished() const { return this->At.restricted == this->Window.nodes(); }
 
-  /**
-   * Makes b of nodes 0 .. node ready for restriction: zero, once the V-cycle before needs neither
-   * their b nor their x. Answers whether that could be done yet.
-   */
+  /** Prepares b of nodes 0 .. node for restriction: sets it to zero, once the previous V-cycle
+   * needs neither their b nor their x. Returns whether this was possible. */
   bool prepare(std::int64_t node);
 
-  /** ||b - A x||^2 of each column, as the last pass's restriction found it. */
+  /** ||b - A x||^2 of each column, as computed by the restriction of the last pass. */
   std::span<const Real> squares() const { return std::span(this->Squares).first(this->lanes()); }
   /** The same of the terms A_ii x_i, on the finest level. */
   std::span<const Real> termSquares() const
@@ -237,7 +233,7 @@ private:
   using One = Lanes<Real, 1>;
   using Four = Lanes<Real, 4>;
 
-  // The way up (LevelUp.txx).
+  // The upward part (LevelUp.txx).
 
   std::int64_t finalWith(std::int64_t node) const;
   static std::int64_t& upCursor(LevelCursors& cursors, int stage)
@@ -247,7 +243,7 @@ private:
   void load(int stage, std::int64_t node);
   void pull(int stage, std::int64_t node);
 
-  // The way down (LevelDown.txx).
+  // The downward part (LevelDown.txx).
 
   void preSweep();
   std::int64_t firstPreSweepEnd();
@@ -261,7 +257,7 @@ private:
   /** One sweep over nodes [begin, end). */
   template <bool LowerOnly>
   void sweep(std::int64_t begin, std::int64_t end, State& state);
-  /** The turn of a special node in a sweep. */
+  /** Processes a special node in a sweep. */
   template <bool LowerOnly, class Arrays>
   void relaxSpecial(
     const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node, State& state);
@@ -281,7 +277,7 @@ private:
   Real Unscale = 1;
   bool First = true;
   bool Core = false;
-  bool Patched = false; // some nodes are relaxed at the turn of later ones
+  bool Patched = false; // some nodes are relaxed together with later ones
   bool Renewing = false;
   std::int64_t Renewed = 0;
 };

@@ -3,7 +3,7 @@
 
 #include "Solver/Cycle/Level.h"
 
-// The stages of the way down: the sweeps that begin a V-cycle, acceleration, restriction.
+// The stages of the downward part: the sweeps that begin a V-cycle, acceleration, restriction.
 
 namespace smg
 {
@@ -30,7 +30,7 @@ void Level<Real, Relaxation>::preSweep()
   }
 }
 
-/** How far the first sweep of the way down may go. */
+/** The end of the nodes that the first sweep of the downward part may process. */
 template <class Real, class Relaxation>
 std::int64_t Level<Real, Relaxation>::firstPreSweepEnd()
 {
@@ -41,7 +41,7 @@ std::int64_t Level<Real, Relaxation>::firstPreSweepEnd()
            : this->Renewing ? this->Renewed
                             : this->Window.reachable(end, this->At.seenPostSwept);
   }
-  // b must be complete; the upper neighbours are zero, so they need not have come.
+  // b must be complete; the upper neighbours are zero, so they need not be loaded.
   while (end < this->Window.loaded())
   {
     const RowBlock::Header& h = this->Window.header(end);
@@ -54,7 +54,7 @@ std::int64_t Level<Real, Relaxation>::firstPreSweepEnd()
   return end;
 }
 
-/** Acceleration may change a node when no sweep reads it any more. */
+/** Acceleration may modify a node when no sweep reads it any more. */
 template <class Real, class Relaxation>
 void Level<Real, Relaxation>::combine()
 {

@@ -3,7 +3,7 @@
 
 #include "Solver/Cycle/Level.h"
 
-// The stages of the way up: prolongation and the sweeps that finish a V-cycle.
+// The stages of the upward part: prolongation and the sweeps that finish a V-cycle.
 
 namespace smg
 {
@@ -21,9 +21,9 @@ void Level<Real, Relaxation>::load(std::int64_t node)
 }
 
 /**
- * The node up to which the last sweep of the way up has to come for x of nodes 0 .. node, which
- * have been loaded, to be final: the last node of a patch changes the others, all within a ring.
- * The finest level may leave that to the steps that follow.
+ * The node that the last sweep of the upward part must reach for x of the loaded nodes 0 .. node to
+ * be final: the last node of a patch changes the others, all within a ring. The finest level may
+ * defer this to later steps.
  */
 template <class Real, class Relaxation>
 std::int64_t Level<Real, Relaxation>::finalWith(std::int64_t node) const
@@ -36,7 +36,7 @@ std::int64_t Level<Real, Relaxation>::finalWith(std::int64_t node) const
   return h.neighbourReach[LevelWindow<Real>::groupIn(h, node)];
 }
 
-/** Walks the way up to stage `stage` of node `node` as pull() will, loading. */
+/** Follows the upward part to stage `stage` of node `node` like pull(), and loads. */
 template <class Real, class Relaxation>
 void Level<Real, Relaxation>::load(int stage, std::int64_t node)
 {

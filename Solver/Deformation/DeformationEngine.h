@@ -20,8 +20,8 @@
 namespace smg
 {
 
-/** Deforms a mesh: the first pass builds the hierarchy and begins the rotations' first V-cycle, the
- * steps do the rest. */
+/** Deforms a mesh: the first pass builds the hierarchy and begins the first V-cycle of the
+ * rotations; the steps follow. */
 template <OperatorSet Operators>
 class DeformationEngine
 {
@@ -44,10 +44,10 @@ public:
 
   /** To be called once. */
   void deform(MeshSource& mesh, Handles& handles);
-  /** The positions, after deform(); nothing else remains. */
+  /** Returns the positions after deform() and releases everything else. */
   std::unique_ptr<Solution> takeSolution();
 
-  // The parts, for whoever deforms again.
+  // The parts, to deform again.
 
   SolveRun& run() { return *this->Run; }
   Hierarchy<Relaxation>& levels() { return this->Levels; }

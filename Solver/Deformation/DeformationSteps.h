@@ -18,10 +18,8 @@
 namespace smg
 {
 
-/**
- * The two problems of a deformation on one hierarchy: the rotations, then the positions. A shared
- * pass finishes the rotations' last V-cycle and begins the positions' first one.
- */
+/** The two problems of a deformation on one hierarchy: the rotations, then the positions. A shared
+ * pass finishes the last V-cycle of the rotations and begins the first one of the positions. */
 template <class Relaxation>
 class DeformationSteps
 {
@@ -37,14 +35,14 @@ public:
   {
   }
 
-  /** Progress begins; `builds`: with the first pass. */
+  /** Begins the progress; `builds`: with the first pass. */
   void begin(bool builds) { this->Run.progress.begin(this->stopping(), 0.0, Share, builds); }
-  /** Both steps, after the pass that has begun the first V-cycle of the rotations, whose residual
-   * was `first`. */
+  /** Performs both steps, after the pass that has begun the first V-cycle of the rotations, whose
+   * residual was `first`. */
   void solve(const FirstResidual& first);
 
 private:
-  /** Of the progress, that the rotations are. */
+  /** The share of the rotations in the progress. */
   static constexpr double Share = 0.6;
 
   Stopping stopping() const
@@ -60,7 +58,7 @@ private:
   Hierarchy<Relaxation>& Levels;
   RestShape& Rest;
   Weights EdgeWeights;
-  int Cycles; // a step; 0: by the tolerance
+  int Cycles; // per step; 0: by the tolerance
   CellType Cells;
 };
 
@@ -95,7 +93,7 @@ void DeformationSteps<Relaxation>::solve(const FirstResidual& first)
   this->Run.finishReport();
 }
 
-/** Answers the norm of the positions' residual after their first sweeps. */
+/** Returns the norm of the residual of the positions after their first sweeps. */
 template <class Relaxation>
 double DeformationSteps<Relaxation>::sharedPass(PositionStep& step)
 {
@@ -112,8 +110,8 @@ double DeformationSteps<Relaxation>::sharedPass(PositionStep& step)
   return this->Levels.residualNorm();
 }
 
-/** About how large the positions' residuals can be: weights are of the size of 1 on surfaces, of
- * lengths in volumes. */
+/** An estimate of the largest residual of the positions: weights are of order 1 on surfaces, and of
+ * the order of lengths in volumes. */
 template <class Relaxation>
 double DeformationSteps<Relaxation>::positionScale() const
 {

@@ -12,11 +12,11 @@
 namespace smg
 {
 
-/** What remains of a deformation: displacements, and where they begin. */
+/** The result of a deformation: displacements and their start. */
 class DeformedPositions final : public Solution
 {
 public:
-  /** `rest` has its memory from where the displacements have theirs. */
+  /** `rest` and the displacements use the same pool of memory. */
   DeformedPositions(std::unique_ptr<StreamedSolution> displacements, RestShape rest)
     : Displacements(std::move(displacements))
     , Rest(std::move(rest))

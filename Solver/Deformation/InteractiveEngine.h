@@ -28,11 +28,11 @@ public:
 
   /** To be called once. */
   void deform(MeshSource& mesh, Handles& handles) { this->First.deform(mesh, handles); }
-  /** After deform(). False, and nothing has changed, if other vertices are held. */
+  /** After deform(). Returns false, without any change, if other vertices are held. */
   bool deformAgain(const VertexHandles& handles);
 
   const Report& report() { return this->First.run().report; }
-  /** The positions; see Solution. Throws Error after an update that was broken off. */
+  /** The positions; see Solution. Throws Error after an aborted update. */
   void read(std::int64_t first, std::int64_t count, std::span<double> values);
 
 private:
@@ -44,7 +44,7 @@ private:
   void addLinks(const RestBlock& block, double& squares);
 
   DeformationEngine<Operators> First;
-  /** Whether an update ended by a throw. */
+  /** Whether an update ended with an exception. */
   bool Broken = false;
 };
 
@@ -135,7 +135,7 @@ void InteractiveEngine<Operators>::take(const VertexHandles& handles)
     });
 }
 
-/** The right-hand side of the rotations, as Assembly makes it. */
+/** The right-hand side of the rotations, as in Assembly. */
 template <OperatorSet Operators>
 FirstResidual InteractiveEngine<Operators>::findRightSide()
 {
@@ -149,8 +149,8 @@ FirstResidual InteractiveEngine<Operators>::findRightSide()
   return { std::sqrt(squares), roundingOf(squares) };
 }
 
-/** What the held neighbours bring to the vertices of a block; adds the squares of what there is
- * then. */
+/** Adds the contributions of the held neighbours to the vertices of a block, and the squares of the
+ * result to `squares`. */
 template <OperatorSet Operators>
 void InteractiveEngine<Operators>::addLinks(const RestBlock& block, double& squares)
 {

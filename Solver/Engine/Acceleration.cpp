@@ -9,18 +9,18 @@ namespace smg
 namespace
 {
 
-/** Conjugate residuals need two V-cycles to begin and gain from the next one on. */
+/** Conjugate residuals need two V-cycles to start and pay off from the next one on. */
 constexpr double WorthwhileCycles = 4.0;
-/** The factor of a V-cycle, before one has been seen. */
+/** The assumed factor of a V-cycle before one has been measured. */
 constexpr double UsualFactor = 0.1;
 
-/** A bound of the eigenvalues is the factor seen, and somewhat more. */
+/** The bound of the eigenvalues is slightly above the measured factor. */
 constexpr double Margin = 1.05, LeastBound = 0.1, LargestBound = 0.98;
-/** V-cycles after which a factor tells of the slowest errors. */
+/** V-cycles after which the factor is that of the slowest errors. */
 constexpr int Settling = 2;
 
-/** Cycles by a polynomial that have to make the residual smaller altogether. Conjugate residuals
- * may stand still for longer, before they have found the slowest errors of slivers. */
+/** Cycles of a polynomial that must reduce the residual in total. Conjugate residuals may stagnate
+ * for longer until they have found the slowest errors of slivers. */
 constexpr int Trial = 5;
 
 const char* nameOf(AccelerationKind kind)
@@ -44,7 +44,7 @@ Acceleration::Acceleration(AccelerationKind wanted, const Convergence& convergen
 {
 }
 
-/** Whether plain V-cycles have so far to go that a faster method makes up for its beginning. */
+/** Whether so many plain V-cycles remain that a faster method compensates for its start. */
 bool Acceleration::pays() const
 {
   const double factor = this->Watched.cycles() == 0 ? UsualFactor : this->Watched.factor();
@@ -99,8 +99,9 @@ void Acceleration::decide()
 }
 
 /**
- * With the bound b the residual falls by s = b / (1 + sqrt(1 - b^2)) a step. If it falls by s g,
- * g > 1, there are eigenvalues beyond: |t| = b (g + 1/g) / 2, where C_k(t / b) grows by g a step.
+ * With the bound b the residual decreases by s = b / (1 + sqrt(1 - b^2)) per step. If it decreases
+ * by s g, g > 1, there are eigenvalues beyond: |t| = b (g + 1/g) / 2, where C_k(t / b) grows by g
+ * per step.
  */
 void Acceleration::watchPolynomial()
 {

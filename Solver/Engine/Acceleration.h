@@ -15,26 +15,25 @@
 namespace smg
 {
 
-/**
- * Decides from V-cycle to V-cycle whether and how the next one is accelerated. A solve of a fixed
- * number of V-cycles is not.
- */
+/** Decides before each V-cycle whether and how it is accelerated. Solves with a fixed number of
+ * V-cycles are not accelerated. */
 class SMG_EXPORT Acceleration
 {
 public:
-  /** `convergence` has begun and outlives this. */
+  /** `convergence` has begun and must outlive this object. */
   Acceleration(AccelerationKind wanted, const Convergence& convergence);
 
-  /** None, Chebyshev or ConjugateGradients: of the next V-cycle. */
+  /** The method of the next V-cycle: None, Chebyshev or ConjugateGradients. */
   AccelerationKind kind() const { return this->Kind; }
-  /** Before each V-cycle: decides. */
+  /** Decides; to be called before each V-cycle. */
   void decide();
-  /** The next V-cycle's weights, if it is accelerated. `products`: of the last one's history. */
+  /** The weights of the next V-cycle if it is accelerated. `products`: of the history of the last
+   * one. */
   StepWeights next(const ResidualProducts& products);
-  /** No acceleration from here on, because of what `reason` says. */
+  /** Stops the acceleration, for the given reason. */
   void giveUp(const std::string& reason);
 
-  /** "none", or what was last used: "chebyshev" or "cg". */
+  /** "none", or the method that was last used: "chebyshev" or "cg". */
   const char* used() const { return this->Used; }
   void addNotes(std::vector<std::string>& notes, const std::string& what) const;
 

@@ -8,11 +8,11 @@
 namespace smg
 {
 
-/** Puts what the assembly counted into the report. Throws Error if its sums overflowed. */
+/** Adds the counts of the assembly to the report. Throws Error if its sums overflowed. */
 SMG_EXPORT void reportAssembly(
   const Assembly& assembly, const Components& components, Report& report);
 
-/** Adds the notes on what reportAssembly() has told. */
+/** Adds the notes on the data of reportAssembly(). */
 SMG_EXPORT void addAssemblyNotes(Report& report);
 
 } // namespace smg

@@ -8,10 +8,10 @@ namespace smg
 
 /**
  * Chebyshev acceleration of an iteration whose error is multiplied by a matrix with eigenvalues in
- * [-bound, bound] (Golub and Varga 1961): after k steps the error is that of the polynomial
- * C_k(t / bound) / C_k(1 / bound), the smallest there is on that interval. V-cycles both under- and
- * overshoot, coarse operators being sparsified: on scans the interval was found as long on the
- * negative side, and polynomials for [0, bound] were slower than no acceleration.
+ * [-bound, bound] (Golub and Varga 1961): after k steps the error is that of the polynomial C_k(t /
+ * bound) / C_k(1 / bound), the smallest on that interval. V-cycles both under- and overshoot,
+ * because coarse operators are sparsified: on scans the measured interval is equally long on the
+ * negative side, and polynomials for [0, bound] are slower than no acceleration.
  */
 class Chebyshev
 {

@@ -7,16 +7,14 @@
 namespace smg
 {
 
-/** Throws Error if an option is out of range, but for the operator set's name; solve() does so,
- * too. */
+/** Throws Error if an option is out of range, except for the name of the operator set; solve() does
+ * so, too. */
 SMG_EXPORT void checkOptions(const SolveOptions& options);
-/** The same of the options of a deformation, with the operator set's name; deform() does so, too.
- */
+/** The same for the options of a deformation, including the name of the operator set; deform() does
+ * so, too. */
 SMG_EXPORT void checkOptions(const DeformOptions& options);
-/**
- * Throws Error unless the library has an operator set of that name, which goes with the other
- * options; solve() does so, too.
- */
+/** Throws Error unless the library has an operator set of that name that supports the other
+ * options; solve() does so, too. */
 SMG_EXPORT void checkOperators(const SolveOptions& options);
 /** Throws Error if the problem has no column; solve() does so, too. */
 SMG_EXPORT void checkProblem(const Problem& problem);

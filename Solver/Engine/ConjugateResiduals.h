@@ -9,10 +9,10 @@ namespace smg
 {
 
 /**
- * The weights of conjugate residuals, which minimise the residual over the iterates' combinations;
- * see IterateHistory for the vectors. Only the last direction is kept conjugate, which is all that
- * a symmetric V-cycle would need; forward Gauss-Seidel alone is nearly one. Where the products
- * break down it begins anew.
+ * The weights of conjugate residuals, which minimise the residual over the combinations of
+ * iterates; see IterateHistory for the vectors. Only the last direction is kept conjugate, which is
+ * sufficient for a symmetric V-cycle; forward Gauss-Seidel is nearly symmetric. Restarts if the
+ * products break down.
  */
 class ConjugateResiduals
 {

@@ -12,13 +12,13 @@ namespace smg
 namespace
 {
 
-/** A residual that is this much larger than it was at first will not recover. */
+/** A residual that exceeds the initial one by this factor will not recover. */
 constexpr double Diverged = 1e4;
-/** A residual that has not lost this share in so many V-cycles will not do much better; where it is
- * of the size of its terms' rounding, fewer tell. */
+/** A residual that has not decreased by this share in so many V-cycles has stagnated; fewer are
+ * sufficient if it is of the size of the rounding of its terms. */
 constexpr double Stagnating = 0.9;
 constexpr int Patience = 60, RoundingPatience = 2;
-/** Patience is half of all V-cycles that are allowed, if that is less, but this at least. */
+/** Patience is half of the allowed V-cycles if that is less, but at least this. */
 constexpr int LeastPatience = 10;
 constexpr double NearRounding = 10.0;
 

@@ -10,12 +10,14 @@
 namespace smg
 {
 
-/** When the V-cycles of a problem end. */
+/** The stopping criterion of the V-cycles of a problem. */
 struct Stopping
 {
   double tolerance = 1e-6; ///< of the residual, relative to the initial one
   int maxCycles = 50;
-  /** Exactly so many V-cycles, whatever the residual; 0: until the tolerance is reached. */
+  /**
+   * The exact number of V-cycles, regardless of the residual; 0: until the tolerance is reached.
+   */
   int cycles = 0;
 };
 
@@ -23,40 +25,38 @@ struct Stopping
 struct FirstResidual
 {
   double norm = 0.0;     ///< ||b - A x_0||
-  double rounding = 0.0; ///< what of it is the rounding of its own terms
+  double rounding = 0.0; ///< part of it due to the rounding of its terms
 };
 
-/** Watches the residual of a problem from V-cycle to V-cycle and decides when to stop. */
+/** Tracks the residual of a problem over the V-cycles and decides when to stop. */
 class SMG_EXPORT Convergence
 {
 public:
-  /** Initial values that solve the problem up to rounding cannot be improved by a tolerance. */
+  /** Initial values that solve the problem up to rounding cannot be improved. */
   Convergence(const Stopping& stopping, const FirstResidual& first);
 
-  /**
-   * Before the first V-cycle: the norm after the first sweeps. It may end the solve already, unless
-   * the right-hand side has been changed since.
-   */
+  /** Before the first V-cycle: the norm after the first sweeps. It may already end the solve,
+   * unless the right-hand side has changed since. */
   void begin(double norm, bool mayEnd = true);
-  /** After a V-cycle; `rounding`: what of the norm is the rounding of its own terms, if that is
-   * more than at first. Throws Error if the residual grows beyond recovery or overflows. */
+  /** After a V-cycle; `rounding`: the part of the norm due to the rounding of its terms, if that is
+   * more than initially. Throws Error if the residual diverges or overflows. */
   void add(double norm, double rounding = 0.0);
 
   bool done() const { return this->Done; }
   bool converged() const { return this->Converged; }
   int cycles() const { return static_cast<int>(this->Residuals.size()); }
-  /** Whether the next V-cycle is the last one that is allowed. */
+  /** Whether the next V-cycle is the last allowed one. */
   bool isLast() const { return this->cycles() + 1 >= this->Limit; }
-  /** ||b - A x|| as last seen, and relative to the initial one after each V-cycle. */
+  /** The last ||b - A x||, and its values relative to the initial one after each V-cycle. */
   double norm() const { return this->Norm; }
   const std::vector<double>& residuals() const { return this->Residuals; }
   /** Whether the number of V-cycles is given. */
   bool fixed() const { return this->Fixed; }
-  /** ||b - A x|| over what it was a V-cycle before. */
+  /** The factor of ||b - A x|| in the last V-cycle. */
   double factor() const { return this->Norm / this->NormBefore; }
   /** V-cycles to the tolerance if each multiplies the residual by `factor`, in (0, 1). */
   double cyclesLeft(double factor) const;
-  /** Adds what a user should know, beginning with `what`. */
+  /** Adds notes for the user that begin with `what`. */
   void addNotes(std::vector<std::string>& notes, const std::string& what) const;
 
 private:
@@ -71,7 +71,7 @@ private:
   bool Done = false, Converged = false;
 };
 
-/** The norm that the rounding of the terms of b - A x has, given the sum of their squares. */
+/** The norm of the rounding of the terms of b - A x, given the sum of their squares. */
 SMG_EXPORT double roundingOf(double termSquares);
 
 /** "1.23e-07" */

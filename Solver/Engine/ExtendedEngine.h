@@ -10,8 +10,8 @@
 namespace smg
 {
 
-// The parts of a solve by the default operator set: solve() and deform() share what the library has
-// of them.
+// The parts of a solve with the default operator set, instantiated once in the library for solve()
+// and deform().
 extern template class Level<double, GaussSeidel>;
 extern template class Level<float, GaussSeidel>;
 extern template class Hierarchy<GaussSeidel>;

@@ -26,7 +26,7 @@ template <OperatorSet Operators>
 class FirstPass
 {
 public:
-  /** Every level gets a copy of the operators. The hierarchy comes without levels. */
+  /** Every level gets a copy of the operators. The hierarchy must have no levels yet. */
   FirstPass(
     SolveRun& run, Hierarchy<typename Operators::Relaxation>& hierarchy, const Operators& operators)
     : Run(run)
@@ -35,10 +35,8 @@ public:
   {
   }
 
-  /**
-   * Makes the pass and closes the hierarchy. `listener`: see Assembly; `furtherCoreBytes`: a
-   * vertex, that the caller will need in core.
-   */
+  /** Performs the pass and completes the hierarchy. `listener`: see Assembly; `furtherCoreBytes`:
+   * bytes per vertex that the caller will need in core. */
   FirstResidual operator()(MeshSource& mesh, Problem& problem, RowListener* listener = nullptr,
     std::int64_t furtherCoreBytes = 0);
 
@@ -95,7 +93,7 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
 
 /**
  * In each step the next block of the mesh is assembled, every streamed level is coarsened, and the
- * way down advances, all at the same time, each on what the steps before have handed over.
+ * downward part of the V-cycle advances, all concurrently, each on the data of the previous steps.
  */
 template <OperatorSet Operators>
 void FirstPass<Operators>::readStream(
@@ -119,8 +117,8 @@ void FirstPass<Operators>::readStream(
     runAll(this->Run.threads, 2 + this->Built.firstCore(),
       [&](int task)
       {
-        // The mesh and the problem are asked on the caller's thread; of the other tasks those that
-        // take longest come first.
+        // The mesh and the problem are queried on the caller's thread; the longest of the other
+        // tasks come first.
         task == 0   ? assemble()
         : task == 1 ? builder.advance(0)
         : task == 2 ? finest.advanceDown()
@@ -143,8 +141,8 @@ void FirstPass<Operators>::readStream(
   this->Run.labels.finish();
 }
 
-/** Puts what the assembly and the levels are into the report, and what later passes need to know
- * into the hierarchy. */
+/** Adds the data of the assembly and the levels to the report, and those for later passes to the
+ * hierarchy. */
 template <OperatorSet Operators>
 FirstResidual FirstPass<Operators>::note(const Assembly& assembly)
 {
@@ -157,8 +155,8 @@ FirstResidual FirstPass<Operators>::note(const Assembly& assembly)
   r.levels.front().nonzeros -= r.prescribed + r.held;
   const double whole = assembly.residual().squares();
   const double shifted = std::max(0.0, whole + this->Run.components.shiftedSquares());
-  // Where the sources are all mean, what is left of them is the rounding of this difference of
-  // squares, and no measure of the residual: then it is that of the sources themselves.
+  // If the sources equal their mean, only the rounding of this difference of squares remains, which
+  // does not measure the residual: then that of the sources themselves is used.
   constexpr double LeastShare = 1e-14;
   return { std::sqrt(shifted < LeastShare * whole ? whole : shifted),
     roundingOf(assembly.residual().termSquares()) };

@@ -17,9 +17,9 @@ namespace smg
 {
 
 /**
- * Makes the solution of components without constraint unique: their sources lose their mean, and
- * they keep the mean of their initial values, both weighted with the lumped masses. The finest
- * level's State is told by nodes(), rewriteB() and readX(), as LevelWindow has them.
+ * Makes the solution of components without constraint unique: subtracts the mean of their sources,
+ * and keeps the mean of their initial values, both weighted with the lumped masses. A State of the
+ * finest level provides nodes(), rewriteB() and readX(), like LevelWindow.
  */
 class SMG_EXPORT FreeComponents
 {
@@ -31,14 +31,12 @@ public:
   {
   }
 
-  /**
-   * A component without constraint has a solution only if its right-hand side sums to zero: takes
-   * the mean of the source from it where it does not. Says so in the report.
-   */
+  /** A component without constraint has a solution only if its right-hand side sums to zero:
+   * otherwise subtracts the mean of the source and notes this in the report. */
   template <class State>
   void projectRightSide(State& level, Report& report);
 
-  /** After the solve: finds what shift() has to take from the values. Adds a note. */
+  /** After the solve: computes what shift() subtracts from the values. Adds a note. */
   template <class State>
   void fixMeans(State& level, std::vector<std::string>& notes);
 
@@ -49,7 +47,7 @@ private:
   static constexpr auto Block = static_cast<std::int64_t>(ComponentLabels::Block);
 
   /** Calls f(place, root, weight) for the vertices of a block that belong to a free component;
-   * `place`: in the block, `weight`: what they count in its means. */
+   * `place`: index in the block, `weight`: that in its means. */
   template <class F>
   void forFree(std::int64_t block, F&& f);
 

@@ -10,10 +10,8 @@
 namespace smg
 {
 
-/**
- * The levels of a solve: those that are streamed, which take part in the passes, and those in core,
- * which the core cycle treats between two passes.
- */
+/** The levels of a solve: streamed ones, which take part in the passes, and those in core, which
+ * the core cycle processes between two passes. */
 template <class Relaxation>
 class Hierarchy
 {
@@ -21,7 +19,7 @@ public:
   using FineLevel = Level<double, Relaxation>;
   using CoarseLevel = Level<float, Relaxation>;
 
-  /** Of a problem of `columns` columns; without levels. */
+  /** For a problem of `columns` columns; without levels. */
   Hierarchy(SolveRun& run, int columns)
     : Run(run)
     , Columns(columns)
@@ -30,43 +28,43 @@ public:
 
   // Before and in the first pass.
 
-  /** Adds the streamed levels and the finest core level, which have no rows yet, for a mesh of so
-   * many vertices; 0 or less: it is not known how many. */
+  /** Adds the streamed levels and the finest core level, without rows yet, for a mesh with this
+   * number of vertices; 0 or less: unknown. */
   void open(std::int64_t vertices);
-  /** The levels, for whoever gives them their rows. */
+  /** The levels, to add rows to them. */
   Levels<Relaxation>& levels() { return this->Built; }
   /** Adds level l, a core level. */
   void addCoreLevel(int l) { this->addCoarseLevel(l, true); }
-  /** All rows are there, and level `coarsest` is the coarsest one, which is factorised. */
+  /** Completes the hierarchy after the last row; factorises level `coarsest`, the coarsest one. */
   void close(int coarsest);
-  /** Whether the slowest errors may sit at some vertices, of slivers: see Iteration. */
+  /** Whether the slowest errors may be local to some vertices of slivers, see Iteration. */
   void setSlowestAtSlivers(bool are) { this->SlowestAtSlivers = are; }
 
   // Afterwards.
 
   FineLevel& finest() { return *this->Built.finest; }
   LevelWindow<double>& window() { return this->finest().window(); }
-  /** The finest core level; all from there on are in core. */
+  /** The finest core level; all coarser ones are in core, too. */
   int firstCore() const { return this->FirstCore; }
   bool slowestAtSlivers() const { return this->SlowestAtSlivers; }
 
   void startPass(bool first);
-  /** Throws Error if some node has not gone through all stages. */
+  /** Throws Error unless all nodes have passed all stages. */
   void endPass();
   /** The core levels' part of a V-cycle. */
   void runCore();
-  /** In core, between two passes: the right-hand sides of the coarse levels become zero. */
+  /** In core, between two passes: sets the right-hand sides of the coarse levels to zero. */
   void zeroCoarse();
-  /** The next pass ends one problem and begins another one with so many columns: see
+  /** The next pass ends one problem and begins another one with this number of columns, see
    * LevelWindow::renew(). */
   void renew(int columns);
 
-  /** ||b - A x||, as the last pass's restriction found it. */
+  /** ||b - A x||, as computed by the restriction of the last pass. */
   double residualNorm() const;
-  /** What of it is the rounding of its terms. */
+  /** The part of it due to the rounding of its terms. */
   double roundingNorm() const;
 
-  /** The finest level's window, which has the solution; the rest is let go of. */
+  /** Returns the window of the finest level, which holds the solution; releases the rest. */
   LevelWindow<double> takeWindow();
 
 private:

@@ -32,11 +32,12 @@ void Hierarchy<Relaxation>::open(std::int64_t vertices)
   }
 }
 
-/** The finest level that lives in memory, by the sizes that levels usually have. */
+/** The finest level in memory, from the usual sizes of levels. */
 template <class Relaxation>
 int Hierarchy<Relaxation>::firstCoreLevel(std::int64_t vertices) const
 {
-  // Lifted share of the nodes, from above: 0.24 to 0.43 on the finest level, 0.14 to 0.31 beyond.
+  // Upper bounds of the share of lifted nodes: 0.24 to 0.43 on the finest level, 0.14 to 0.31 on
+  // coarser ones.
   constexpr double FirstShare = 0.43, FurtherShare = 0.31;
   constexpr std::int64_t BytesPerCoreNode = 400;
   constexpr int UnknownSize = 4;

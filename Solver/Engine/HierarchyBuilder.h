@@ -15,17 +15,17 @@ namespace smg
 {
 
 /**
- * Builds the hierarchy while the finest level's rows come. Levels below `firstCore` are built in
- * the same sweep, window by window; those from `firstCore` on, which live in memory, when it is
- * over.
+ * Builds the hierarchy while the rows of the finest level arrive. Levels below `firstCore` are
+ * built in the same sweep, window by window; those from `firstCore` on, which are in memory, after
+ * it.
  */
 template <OperatorSet Operators>
 class HierarchyBuilder
 {
 public:
   using Relaxation = typename Operators::Relaxation;
-  /** Coarsening ends at a level of at most CoarsestNodes or of more than this share of the nodes of
-   * the level before: it has few strong edges, or stiff rows. */
+  /** Coarsening ends at a level of at most CoarsestNodes nodes, or of more than this share of the
+   * nodes of the next finer level, which has few strong edges or many stiff rows. */
   static constexpr double StalledShare = 0.8;
 
   /** `stiff` finds the stiff rows of each coarse level. */
@@ -44,19 +44,17 @@ public:
     }
   }
 
-  /** The finest level's rows, to be appended to between two steps. */
+  /** The rows of the finest level, to be appended to between two steps. */
   LevelRows& finestRows() { return *this->Rows.front(); }
 
-  /**
-   * Advances all stages of streamed level l as far as they can. The levels may do so on as many
-   * threads: what one makes for another is handed over afterwards.
-   */
+  /** Advances all stages of streamed level l as far as possible. The levels may do so on different
+   * threads: data for other levels are handed over afterwards. */
   void advance(int l)
   {
     const auto k = static_cast<std::size_t>(l);
     const std::int64_t end = this->Rows[k]->end();
     std::int64_t& rows = this->Advanced[k];
-    // A few rows at a time: what they need in between is let go of before the next ones come.
+    // A few rows at a time: their intermediate data are released before the next ones.
     do
     {
       rows = std::min(end, rows + RowBlock::Nodes);
@@ -65,7 +63,8 @@ public:
     } while (rows < end);
   }
 
-  /** Ends a step of all streamed levels: the next level gets its rows, the windows their blocks. */
+  /** Ends a step of all streamed levels: hands over rows to the next level and blocks to the
+   * windows. */
   void handOver()
   {
     for (int l = 0; l < this->FirstCore; ++l)
@@ -75,7 +74,7 @@ public:
     }
   }
 
-  /** Whether all rows of the streamed levels have come and are in their windows. */
+  /** Whether all rows of the streamed levels are in their windows. */
   bool complete() const
   {
     for (int l = 0; l < this->FirstCore; ++l)
@@ -90,9 +89,9 @@ public:
   }
 
   /**
-   * Builds the core levels when the streamed ones are complete; `addLevel(l)` makes level l, called
-   * for those beyond firstCore. Answers the coarsest level. It may be a streamed one, if that
-   * turned out small enough; the levels beyond it are not to be used.
+   * Builds the core levels when the streamed ones are complete; `addLevel(l)` adds level l, called
+   * for those coarser than firstCore. Returns the coarsest level. It may be a streamed one, if that
+   * is small enough; coarser levels are not to be used.
    */
   template <class AddLevel>
   int finish(AddLevel&& addLevel)
@@ -122,8 +121,8 @@ public:
   }
 
 private:
-  /** Builds core level l, whose rows are complete, and the rows of the next one: even if that is
-   * not to be used, so that the coarsest level does not depend on whether it is streamed. */
+  /** Builds core level l, whose rows are complete, and the rows of the next one, even if that is
+   * not used, so that the coarsest level does not depend on whether it is streamed. */
   void build(int l)
   {
     this->addStep();
@@ -151,7 +150,7 @@ private:
            StalledShare * static_cast<double>(this->nodes(l - 1));
   }
 
-  /** Notes the size of level l and lets go of its rows, which have been packed. */
+  /** Stores the size of level l and releases its rows, which have been packed. */
   void close(int l)
   {
     const auto k = static_cast<std::size_t>(l);
@@ -180,8 +179,7 @@ private:
       this->Owner, this->Set, *this->Rows[this->Rows.size() - 2], *this->Rows.back(), this->Stiff));
   }
 
-  /** Gives the blocks of level l that are ready to its window, and takes the buffers of old ones.
-   */
+  /** Passes the packed blocks of level l to its window, and reuses the buffers of old ones. */
   void append(int l)
   {
     if (l == 0)
@@ -205,7 +203,7 @@ private:
     level.window().giveSpareRows(this->Buffers[static_cast<std::size_t>(l)]);
   }
 
-  /** Packs the blocks of level l that are final. */
+  /** Packs the final blocks of level l. */
   void pack(int l)
   {
     const auto k = static_cast<std::size_t>(l);

@@ -15,7 +15,9 @@
 namespace smg
 {
 
-/** The V-cycles of a problem after the first pass, a pass each, accelerated where that pays. */
+/**
+ * The V-cycles of a problem after the first pass, one per pass, accelerated where that pays off.
+ */
 template <class Relaxation>
 class Iteration
 {
@@ -31,8 +33,8 @@ public:
   {
   }
 
-  /** V-cycles until the convergence is done or, with `spareLast`, only the last one of those
-   * allowed is left. */
+  /** Performs V-cycles until convergence or, with `spareLast`, until only the last allowed one is
+   * left. */
   void operator()(bool spareLast);
 
 private:
@@ -69,15 +71,16 @@ void Iteration<Relaxation>::operator()(bool spareLast)
   this->Faster.addNotes(this->Run.report.notes, this->What);
 }
 
-/** Makes the history that the next V-cycle needs, or lets go of one that it does not need. */
+/** Creates the history that the next V-cycle needs, or releases one that it does not need. */
 template <class Relaxation>
 void Iteration<Relaxation>::addHistory()
 {
   if (this->Faster.kind() != AccelerationKind::None && !this->History)
   {
     LevelWindow<double>& window = this->Levels.window();
-    // The slowest errors may sit at some vertices, of slivers, which a sample sees too few of: so
-    // on dragon.ply, 0.7 % of whose rows are stiff; with a tenth of that a sample served as well.
+    // The slowest errors may be local to some vertices of slivers, too few of which are in a
+    // sample: so on dragon.ply, where 0.7 % of the rows are stiff; with a tenth of that a sample is
+    // sufficient.
     const KeptResiduals residuals = this->Faster.kind() != AccelerationKind::ConjugateGradients
                                       ? KeptResiduals::None
                                     : this->Levels.slowestAtSlivers() ? KeptResiduals::All

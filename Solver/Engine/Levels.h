@@ -11,7 +11,7 @@
 namespace smg
 {
 
-/** Coarsening ends at a level of at most this many nodes, which is factorised directly. */
+/** Coarsening ends at a level of at most this many nodes, which is factorised. */
 inline constexpr std::int64_t CoarsestNodes = 1000;
 
 /** The levels of a multigrid: the finest one in double, the others in single precision. */

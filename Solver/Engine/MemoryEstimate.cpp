@@ -11,10 +11,10 @@ namespace
 {
 
 // Measured on surfaces and tetrahedral meshes of 40 thousand to 3 million vertices, rounded down to
-// the least need seen, so that a solve that fits is not refused.
+// the minimum, so that a solve that fits is not refused.
 
-/** Bytes of all windows for one node of the stream's span, and for each value of its state: in the
- * first pass with two sweeps, for a sweep more, and in a later pass for each sweep. */
+/** Bytes of all windows per node of the stream's span, and per value of its state: in the first
+ * pass with two sweeps, for each further sweep, and in a later pass for each sweep. */
 constexpr std::int64_t TriangleBytes = 4100, TetrahedronBytes = 3300, ValueBytes = 280;
 constexpr std::int64_t FurtherSweepBytes = 250;
 constexpr std::int64_t LaterSweepBytes = 400, LaterSweepValueBytes = 75;
@@ -22,10 +22,10 @@ constexpr std::int64_t LaterSweepBytes = 400, LaterSweepValueBytes = 75;
 /** Cotangent weights lift more nodes than uniform ones: percent of the bytes above. */
 constexpr std::int64_t CotangentPercent = 108;
 
-/** The windows hold at least this many spans' worth of nodes, unless the mesh has fewer. */
+/** The windows hold at least the nodes of this many spans, unless the mesh has fewer. */
 constexpr std::int64_t WindowSpans = 30;
 
-/** Bytes a vertex in core. */
+/** Bytes per vertex in core. */
 constexpr std::int64_t TriangleCoreBytes = 120, TetrahedronCoreBytes = 280, ValueCoreBytes = 20;
 
 } // namespace

@@ -11,9 +11,9 @@ namespace smg
 {
 
 /**
- * Bytes of the pool that a solve will need at least, from the stream's statistics: out of core the
+ * The minimum bytes of the pool for a solve, from the statistics of the stream: out of core the
  * windows of all levels hold a number of nodes proportional to the stream's span; in core
- * everything stays, and `furtherCoreBytes` more a vertex. 0 when the span is not known.
+ * everything stays, with `furtherCoreBytes` more per vertex. 0 if the span is unknown.
  */
 SMG_EXPORT std::int64_t estimateMemory(const StreamInfo& info, const Problem& problem,
   const SolveOptions& options, std::int64_t furtherCoreBytes = 0);

@@ -20,12 +20,12 @@ template <class Relaxation>
 class Pass
 {
 public:
-  /** What else happens in a pass, if anything. */
+  /** Optional further actions of a pass. */
   struct Further
   {
-    /** Follows the loading of the finest level. */
+    /** Called after loading the finest level. */
     std::function<void()> loaded;
-    /** Comes in each step before the way down, on its thread. */
+    /** Called in each step before the downward part, on its thread. */
     std::function<void()> beforeDown;
     /** Accelerates. */
     IterateHistory* history = nullptr;
@@ -37,8 +37,8 @@ public:
   {
   }
 
-  /** Makes a pass, after the core levels' part; `scale` is about the size of the residuals that it
-   * will meet. */
+  /** Performs a pass, after the part of the core levels; `scale` is the approximate size of its
+   * residuals. */
   void operator()(double scale, const Further& further = {});
 
   /** In core: begins the first V-cycle of a problem whose right-hand side and initial values are in
@@ -64,7 +64,7 @@ void Pass<Relaxation>::operator()(double scale, const Further& further)
   this->Levels.endPass();
 }
 
-/** Restriction makes numbers of this size about 1. */
+/** Restriction scales numbers of this size to about 1. */
 template <class Relaxation>
 void Pass<Relaxation>::setScale(double typical)
 {
@@ -94,8 +94,8 @@ void Pass<Relaxation>::stream(const Further& further)
     {
       further.loaded();
     }
-    // The way down works on what the way up left behind a step ago, and what is written the way
-    // down has left behind: no node is touched by two of them.
+    // The downward part processes nodes that the upward part has finished a step ago, and nodes are
+    // written after the downward part: no node is accessed by two of them.
     finest.showProgress();
     runAll(this->Run.threads, 4,
       [&](int task)

@@ -20,7 +20,7 @@ template <OperatorSet Operators>
 class PoissonSolver
 {
 public:
-  /** Makes ready for a problem of `columns` columns. Nothing is read yet. */
+  /** Prepares for a problem of `columns` columns. Nothing is read yet. */
   PoissonSolver(Operators operators, int columns, const SolveOptions& options)
     : Set(std::move(operators))
     , Run(std::make_unique<SolveRun>(columns, options))

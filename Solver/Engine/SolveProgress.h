@@ -10,9 +10,9 @@ namespace smg
 {
 
 /**
- * The progress of a solve, whose number of passes is not known before: the first pass counts for
- * a fixed share, the rest by how far the residual has come on the way to the tolerance, or by the
- * V-cycles, if their number is fixed.
+ * The progress of a solve, whose number of passes is not known in advance: the first pass counts
+ * for a fixed share, the rest by the decrease of the residual towards the tolerance, or by the
+ * V-cycles if their number is fixed.
  */
 class SolveProgress
 {
@@ -22,8 +22,8 @@ public:
   {
   }
 
-  /** A problem begins that counts from `from` to `to`, anew from 0; `builds`: with the first pass.
-   */
+  /** Begins a problem that counts from `from` to `to`, restarting at 0; `builds`: with the first
+   * pass. */
   void begin(const Stopping& stopping, double from, double to, bool builds)
   {
     const double first = builds ? FirstPass : 0.0;

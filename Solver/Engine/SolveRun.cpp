@@ -12,11 +12,11 @@ namespace smg
 namespace
 {
 
-/** Compute threads where `wanted` are asked for; 0: one a core. */
+/** The number of compute threads for the requested number; 0: one per core. */
 int computeThreads(int wanted)
 {
-  // Of the first pass: the assembly, the coarsening of two levels (the others are small), the way
-  // down. Of later passes: the way up, the way down, reading and writing.
+  // In the first pass: the assembly, the coarsening of two levels (the others are small), the
+  // downward part. In later passes: the upward part, the downward part, reading and writing.
   constexpr int ParallelStages = 4;
   const int most = std::min(ParallelStages, tbb::info::default_concurrency());
   return wanted > 0 ? std::min(wanted, most) : most;

@@ -20,18 +20,16 @@
 namespace smg
 {
 
-/**
- * What all parts of a solve share, and its solution after it: options, memory, scratch files,
- * threads, the components of the mesh, and what the solve tells of itself.
- */
+/** The shared data of all parts of a solve and of its solution: options, memory, scratch files,
+ * threads, the components of the mesh, progress and report. */
 struct SolveRun
 {
-  /** Of problems of `columns` columns. */
+  /** For problems of `columns` columns. */
   SolveRun(int columns, const SolveOptions& solveOptions);
 
-  /** The report's times begin. */
+  /** Starts the times of the report. */
   void beginReport();
-  /** Adds to the report what memory, scratch files and times were; `Report::levels` is there. */
+  /** Adds memory, scratch files and times to the report; `Report::levels` must be complete. */
   void finishReport();
 
   SolveOptions options;

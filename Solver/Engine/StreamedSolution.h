@@ -12,11 +12,11 @@
 namespace smg
 {
 
-/** What remains of a solve: the finest level's values, on disk or in memory. */
+/** The result of a solve: the values of the finest level, on disk or in memory. */
 class StreamedSolution final : public Solution
 {
 public:
-  /** `window` was made in `run` and has let go of all but the solution. */
+  /** `window` was created in `run` and holds only the solution. */
   StreamedSolution(std::unique_ptr<SolveRun> run, LevelWindow<double> window);
 
   std::int64_t vertices() const override { return this->Run->report.vertices; }

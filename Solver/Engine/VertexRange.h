@@ -8,10 +8,8 @@
 namespace smg
 {
 
-/**
- * Throws Error unless a solution of `vertices` vertices has those from `first` on, `count` of them,
- * and there is room for the values of as many.
- */
+/** Throws Error unless [first, first + count) is a range of a solution of `vertices` vertices and
+ * there is room for its values. */
 SMG_EXPORT void checkVertexRange(
   std::int64_t first, std::int64_t count, std::size_t room, std::int64_t vertices);
 

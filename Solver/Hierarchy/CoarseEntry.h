@@ -12,33 +12,31 @@
 namespace smg
 {
 
-/**
- * A coarse index by its low 32 bits. All that are alive at once lie near each other, so the rest
- * follows from any of them.
- */
+/** The low 32 bits of a coarse index. Indices that are alive at once are close to each other, so
+ * the rest follows from any of them. */
 using CoarseIndex = std::uint32_t;
 
-/** Distance of a coarse index from `near`, whose full index is known. */
+/** The distance of a coarse index from `near`, whose full index is known. */
 inline std::int32_t offset(CoarseIndex index, std::int64_t near)
 {
   return static_cast<std::int32_t>(index - static_cast<CoarseIndex>(near));
 }
 
-/** Fewer coarse nodes than this may be alive at once: most entries know them by 24 bits. */
+/**
+ * Fewer coarse nodes than this may be alive at once: most entries store 24 bits of their indices.
+ */
 inline constexpr std::int64_t CoarseWindow = std::int64_t(1) << 23;
 
-/** Distance of a coarse index, whose low 24 bits are the upper ones of `bits`, from `near`, which
- * is alive. */
+/** The distance of a coarse index, whose low 24 bits are the upper ones of `bits`, from `near`,
+ * which is alive. */
 inline std::int32_t coarseDistance(std::uint32_t bits, std::int64_t near)
 {
   // The lower bits of `bits` are lost without a borrow.
   return static_cast<std::int32_t>(bits - (static_cast<std::uint32_t>(near) << 8)) >> 8;
 }
 
-/**
- * A coarse node and a number that belongs to it, in seven bytes: most of what coarsening keeps in
- * memory are these. Numbers of fewer bits would do for all but slivers, whose rows nearly cancel.
- */
+/** A coarse node and its number, in seven bytes: most of the memory of coarsening consists of
+ * these. Numbers of fewer bits would be sufficient except for slivers, whose rows nearly cancel. */
 class CoarseEntry
 {
 public:
@@ -53,13 +51,13 @@ public:
   float value() const { return std::bit_cast<float>(this->load(0)); }
   void setValue(float value) { std::memcpy(this->Bytes.data(), &value, sizeof(value)); }
 
-  /** The entry is to go: it has no value any more. */
+  /** Marks the entry as removed: it no longer has a value. */
   void remove() { this->setValue(std::numeric_limits<float>::quiet_NaN()); }
   bool removed() const { return std::isnan(this->value()); }
-  /** Becomes what `other` is, which may be removed, but for the coarse node. */
+  /** Copies `other`, which may be removed, except for the coarse node. */
   void takeValue(const CoarseEntry& other) { this->setValue(other.value()); }
 
-  /** Distance of the coarse node from `near`, which is alive. */
+  /** The distance of the coarse node from `near`, which is alive. */
   std::int32_t offset(std::int64_t near) const { return coarseDistance(this->load(3), near); }
 
 private:

@@ -15,10 +15,8 @@
 namespace smg
 {
 
-/**
- * A row of the interpolation while it is being relaxed, with the sum of its weights, which is kept
- * by itself: it is exactly 1 where no constraint reaches.
- */
+/** A row of the interpolation while it is relaxed, with the sum of its weights, which is stored
+ * separately: it is exactly 1 where no constraint reaches. */
 struct RelaxedRow
 {
   static constexpr int Most = 5;
@@ -26,7 +24,7 @@ struct RelaxedRow
 
   float sum;
   CoarseEntry entry[Most];
-  std::int8_t size; ///< Pending: still the initial interpolation, as are rows that have not come
+  std::int8_t size; ///< Pending: still the initial interpolation, like rows to come
 };
 static_assert(sizeof(RelaxedRow) == 40);
 
@@ -41,7 +39,7 @@ inline constexpr float Quantum = 1.0F / Quanta;
 class ChildLink
 {
 public:
-  /** Most entries of a row that have links. */
+  /** The maximum number of entries of a row with links. */
   static constexpr int Slots = 7;
 
   /** No child. */
@@ -86,10 +84,8 @@ private:
 };
 static_assert(sizeof(InterpolationEntry) == 8 && Quanta <= 127);
 
-/**
- * Everything that the step from a level (fine) to the next one (coarse) keeps in memory, as
- * windows. The stages that fill it are those of the operator set; Coarsening drives them.
- */
+/** The data of the step from a level (fine) to the next one (coarse) in memory, as windows. They
+ * are filled by the stages of the operator set, which Coarsening calls. */
 struct CoarseningData
 {
   CoarseningData(Pool& pool, LevelRows& fineRows, LevelRows& coarseRows, StiffRows stiffRows = {})
@@ -138,7 +134,8 @@ struct CoarseningData
   RaggedRing<InterpolationEntry> interpolation;
   Ring<std::int16_t> rowQuanta; ///< sum of the row of P
   MonotoneRing parentReach;     ///< largest coarse index in rows 0 .. i of P, or -1
-  /** Last node of the patches of the nodes in rows 0 .. i: then all of these are relaxed. */
+  /** The last node of the patches of the nodes in rows 0 .. i, after which all of these are
+   * relaxed. */
   MonotoneRing settledReach;
   RaggedRing<CoarseEntry> product; ///< rows of A P
   Ring<float> productSum;          ///< sum of the row of A P
@@ -154,9 +151,9 @@ struct CoarseningData
   /** Whether no entry of the row may be removed. */
   Ring<std::uint8_t> rawKept;
   Ring<std::int32_t> rawLower; ///< columns below the row
-  /** Where the entry is that the last row so far which has one for this row mirrors. */
+  /** The position of the entry that mirrors that of the last row with an entry for this row. */
   Ring<std::int32_t> rawMirrored;
-  /** Columns below the row that have their final weight: until then only the upper one counts. */
+  /** Columns below the row with their final weight; until then only the upper one is valid. */
   Ring<std::int32_t> rawSettled;
   /** Scratch of sparsification: which of the first 64 entries were large when the row came. */
   Ring<std::uint64_t> rawLarge;
@@ -167,18 +164,16 @@ struct CoarseningData
     std::uint32_t mark;
     float value;
 
-    // Both without branches: nothing could predict them.
+    // Both without branches, which would be unpredictable.
 
-    /** The value, or 0 if the slot does not bear the mark. */
+    /** The value, or 0 if the slot does not have the mark. */
     float get(std::uint32_t fresh) const
     {
       const auto known = static_cast<std::uint32_t>(this->mark == fresh);
       return std::bit_cast<float>(std::bit_cast<std::uint32_t>(this->value) & (0U - known));
     }
-    /**
-     * Adds to the value, which begins with 0 for a mark that the slot does not bear yet; answers
-     * whether it did.
-     */
+    /** Adds to the value, which starts at 0 if the slot does not have the mark yet; returns whether
+     * it had. */
     bool add(std::uint32_t fresh, float more)
     {
       const bool known = this->mark == fresh;
@@ -188,14 +183,14 @@ struct CoarseningData
     }
   };
   Ring<Slot> slots;
-  /** A mark that no slot bears. */
+  /** A mark that no slot has. */
   std::uint32_t freshMark()
   {
     this->Mark += this->Mark == UINT32_MAX ? 2 : 1;
     return this->Mark;
   }
 
-  /** Room beside the rows of `raw` below `end`. */
+  /** Room in addition to the rows of `raw` below `end`. */
   void openRaw(std::int64_t end)
   {
     this->rawAlpha.extendRaw(end);
@@ -208,7 +203,7 @@ struct CoarseningData
     }
     this->rawLarge.extendRaw(end);
   }
-  /** Lets go of the rows of `raw` below `first`. */
+  /** Releases the rows of `raw` below `first`. */
   void releaseRaw(std::int64_t first)
   {
     this->raw.release(first);
@@ -223,7 +218,7 @@ struct CoarseningData
     this->rawLarge.release(first);
   }
 
-  /** The entry of P that a link stands for, given any row that is alive. */
+  /** The entry of P of a link, given any row that is alive. */
   InterpolationEntry& child(ChildLink link, std::int64_t near) const
   {
     return this->interpolation.row(link.row(near))[link.slot()];

@@ -10,10 +10,10 @@ namespace smg
 namespace
 {
 
-/** A patch whose matrix is that close to singular is relaxed node by node. */
+/** A patch whose matrix is this close to singular is relaxed node by node. */
 constexpr double LeastPivot = 1e-6;
 
-/** A row of P as it is: relaxed, or the initial one. */
+/** The current row of P: relaxed, or the initial one. */
 struct NewestRow
 {
   std::span<const CoarseEntry> entries;
@@ -101,7 +101,7 @@ void ExtendedInterpolation::relax(CoarseningData& data, std::int64_t i)
   this->relaxNode(data, i);
 }
 
-/** The columns that row i may have, with weight 0, in the slots that bear the mark. */
+/** The possible columns of row i, with weight 0, in the slots with the mark. */
 void ExtendedInterpolation::openPattern(
   const CoarseningData& data, std::int64_t i, std::uint32_t mark)
 {
@@ -199,7 +199,7 @@ void ExtendedInterpolation::gatherOutside(
   }
 }
 
-/** Relaxes these members of a patch, the retained ones, together. */
+/** Relaxes these retained members of a patch together. */
 void ExtendedInterpolation::relaxPatch(
   CoarseningData& data, const Patch& patch, const int* members, int count)
 {
@@ -248,7 +248,7 @@ void ExtendedInterpolation::relaxPatch(
   }
 }
 
-/** Most entries of row i. */
+/** The maximum number of entries of row i. */
 int ExtendedInterpolation::entriesOf(const CoarseningData& data, std::int64_t i) const
 {
   if (this->entries == this->finestEntries || data.fine.childReach(i) >= 0)
@@ -263,7 +263,7 @@ int ExtendedInterpolation::entriesOf(const CoarseningData& data, std::int64_t i)
   return terms > this->cancelling * data.patches.diagonal(i) ? this->entries : this->finestEntries;
 }
 
-/** Makes row i of the largest of the columns, which get this sum. */
+/** Makes row i from the largest of the columns, scaled to this sum. */
 void ExtendedInterpolation::store(CoarseningData& data, std::int64_t i, double sum)
 {
   const auto most = static_cast<std::size_t>(this->entriesOf(data, i));
@@ -316,7 +316,7 @@ void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i) const
     rounded[k] = quantaOf(row.entry[k].value());
     rest -= rounded[k];
   }
-  // The first entry, the largest, takes what is left, as far as it has room.
+  // The first entry, the largest, receives the remainder as far as its range permits.
   for (int k = 0; k < row.size && rest != 0; ++k)
   {
     const int taken = std::clamp(rounded[k] + rest, -Quanta, Quanta) - rounded[k];

@@ -74,7 +74,7 @@ void GalerkinProduct::sort(std::size_t size)
     std::sort(this->Sorted.begin(), this->Sorted.end());
     return;
   }
-  // Few and distinct: the rank of each is the number of smaller ones, which vectorises.
+  // Few and distinct: the rank of each is the number of smaller ones, which can be vectorised.
   const std::int32_t* columns = this->Columns.data();
   for (std::size_t a = 0; a < size; ++a)
   {

@@ -21,18 +21,18 @@ namespace smg
 class SMG_EXPORT GalerkinProduct
 {
 public:
-  /** No entry may be removed of a row the magnitudes of whose weights sum up to more than this many
-   * times its diagonal, above 1: its small entries decide its soft modes. */
+  /** No entry is removed from a row whose magnitudes of weights sum to more than this multiple of
+   * its diagonal, above 1: its small entries determine its soft modes. */
   double cancelling = 1.5;
 
-  /** Appends row i of A P. The rows of P up to reach(i) are there. */
+  /** Appends row i of A P. The rows of P up to reach(i) must exist. */
   void multiply(CoarseningData& data, std::int64_t i);
 
-  /** Appends row c of P^T A P. All its children are known and their rows of A P are there. */
+  /** Appends row c of P^T A P. All its children and their rows of A P must exist. */
   void gather(CoarseningData& data, std::int64_t c);
 
 private:
-  /** A child of the node whose row is gathered, and its row of A P. */
+  /** A child of the node of the gathered row, and its row of A P. */
   struct Child
   {
     const CoarseEntry* product;
@@ -40,9 +40,10 @@ private:
     float weight;
   };
 
-  /** Columns, with room for so many at least. */
+  /** Columns, with room for at least this many. */
   std::int32_t* roomFor(std::int64_t columns);
-  /** Finds the children of node c, sends for their rows of A P, and answers the node's row sum. */
+  /** Finds the children of node c, prefetches their rows of A P, and returns the row sum of the
+   * node. */
   double findChildren(const CoarseningData& data, std::int64_t c);
   /** Sorts the first `size` of Columns. */
   void sort(std::size_t size);

@@ -13,11 +13,11 @@
 namespace smg
 {
 
-/** A diagonal to divide by, given the sum of alpha and the weights. */
+/** The diagonal for divisions, given the sum of alpha and the weights. */
 inline double usableDiagonal(double sum)
 {
-  // A node that is all that is left of a component without constraint: any correction will do, and
-  // this diagonal makes it zero.
+  // The only node of a component without constraint: any correction is correct, and this diagonal
+  // makes it zero.
   constexpr double Isolated = 1e20;
   return sum > 0.0 ? sum : Isolated;
 }
@@ -42,10 +42,8 @@ inline double diagonalOf(
   return usableDiagonal(sum);
 }
 
-/**
- * The rows of a level's matrix while the level is being built, in node order: entries by ascending
- * column, A_ii = diagonal = alpha + sum of the weights, so alpha is the row sum.
- */
+/** The rows of a level's matrix while the level is built, in node order: entries by ascending
+ * column, A_ii = diagonal = alpha + sum of the weights, so alpha is the row sum. */
 class LevelRows
 {
 public:
@@ -93,11 +91,11 @@ public:
   /** Entries of all rows so far, diagonals included. */
   std::int64_t nonzeros() const { return this->Nonzeros; }
 
-  /** Room for at most `size` entries of the next row. */
+  /** Returns room for at most `size` entries of the next row. */
   RowEntry* open(std::int64_t size) { return this->Entries.open(size); }
 
-  /** Ends the row that open() began. `childReach` is that of this node alone; `stiff`: see
-   * StiffRows; `precise`: its weights in double precision, or none. */
+  /** Ends the row begun by open(). `childReach` is that of this node alone; `stiff`: see StiffRows;
+   * `precise`: its weights in double precision, or none. */
   void close(std::int64_t size, double alpha, std::int64_t childReach, bool stiff = false,
     std::span<const double> precise = {})
   {
@@ -131,7 +129,7 @@ public:
     return i;
   }
 
-  /** Lets go of rows below `row`, and of reach() below `reach`. */
+  /** Releases rows below `row`, and reach() below `reach`. */
   void release(std::int64_t row, std::int64_t reach)
   {
     this->Entries.release(row);
@@ -144,7 +142,7 @@ public:
   }
 
 private:
-  /** Keeps the precise weights of the last row; rows behind the last one with any take no room. */
+  /** Stores the precise weights of the last row; rows after the last one with any take no room. */
   void keep(std::span<const double> precise)
   {
     if (precise.empty())

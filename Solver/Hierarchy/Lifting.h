@@ -24,10 +24,8 @@ struct IndependentSetLifting
     return std::max(this->strength * data.fine.strongest(i), FLT_MIN);
   }
 
-  /**
-   * Whether node i follows its neighbours by so much more than they move that entries of P up to 1
-   * could not say it: beside constrained nodes that repel it, whose weights are negative.
-   */
+  /** Whether node i moves so much more than its neighbours that entries of P up to 1 cannot
+   * represent it: next to constrained nodes with negative weights. */
   static bool exceeds(const CoarseningData& data, std::int64_t i)
   {
     return data.fine.alpha(i) < -0.5 * static_cast<double>(data.patches.diagonal(i));

@@ -25,7 +25,7 @@ struct PatchMatrix
   double& at(int a, int b) { return this->entry[place(a, b)]; }
   double at(int a, int b) const { return this->entry[place(a, b)]; }
 
-  /** The rows and columns of `members`, which are fewer. */
+  /** The rows and columns of `members`, a subset. */
   PatchMatrix part(const int* members, int count) const
   {
     PatchMatrix part;
@@ -43,9 +43,9 @@ struct PatchMatrix
   /**
    * Replaces the matrix by a generalised inverse, by its factors L D L^T: without roots, so that
    * the matrix times a power of two gives the same bits. The rows and columns of pivots below
-   * `least` times their diagonal entries are zero: a node whose correction the others determine
-   * up to rounding, as in a patch that is a component of its own, stays where it is. Answers
-   * whether there is none.
+   * `least` times their diagonal entries are zero: a node whose correction the others determine up
+   * to rounding, as in a patch that is a separate component, is not corrected. Returns whether
+   * there is no such pivot.
    */
   bool invert(double least)
   {

@@ -42,7 +42,7 @@ void Patches::add(const LevelRows& rows)
   }
 }
 
-/** Node j joins the patch of node i, which may be alone. */
+/** Adds node j to the patch of node i, which may be alone. */
 void Patches::join(const LevelRows& rows, std::int64_t j, std::int64_t i)
 {
   if (this->Number[i] == Alone)

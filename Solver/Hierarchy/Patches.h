@@ -12,8 +12,8 @@ namespace smg
 {
 
 /**
- * A few nodes of a level that are coupled so strongly that they have to be relaxed together: a
- * sliver's stiffness is nearly of rank one, so that one of its vertices alone can hardly move.
+ * A few nodes of a level that are coupled so strongly that they must be relaxed together: the
+ * stiffness of a sliver is nearly of rank one, so that one of its vertices alone can hardly move.
  */
 struct Patch
 {
@@ -27,14 +27,15 @@ struct Patch
 };
 
 /**
- * Finds the patches of a level as its rows come. Node j joins the patch of the lower neighbour i
+ * Finds the patches of a level as its rows arrive. Node j joins the patch of the lower neighbour i
  * with the largest coupling |a_ij| / sqrt(a_ii a_jj) above Strong whose patch has room and whose
- * first node's row reaches as far as j: so a patch lies within a ring.
+ * first node's row reaches j, so that a patch lies within a ring.
  */
 class SMG_EXPORT Patches
 {
 public:
-  /** Patches of up to 8 nodes from 0.35 on save a few V-cycles on slivers; pairs only fail there.
+  /**
+   * Patches of up to 8 nodes from 0.35 on save a few V-cycles on slivers; pairs alone fail there.
    */
   static constexpr double Strong = 0.5;
 
@@ -45,10 +46,10 @@ public:
   {
   }
 
-  /** Takes the next node, whose row and those before it are there. */
+  /** Adds the next node, whose row and those before it exist. */
   void add(const LevelRows& rows);
 
-  /** The patch of node i, or null; complete when all nodes that its first row reaches have come. */
+  /** The patch of node i, or null; complete after all nodes that its first row reaches. */
   const Patch* of(std::int64_t i) const
   {
     const std::uint32_t number = this->Number[i];
@@ -63,7 +64,7 @@ public:
   /** The diagonal of row i. */
   float diagonal(std::int64_t i) const { return this->Diagonals[i]; }
 
-  /** Lets go of the nodes below `node` and of the patches that end there. */
+  /** Releases the nodes below `node` and the patches that end there. */
   void release(std::int64_t node);
 
 private:

@@ -12,23 +12,21 @@
 namespace smg
 {
 
-/**
- * Rows that one thread has made and that the level's rows take over between two steps, when no
- * thread looks at them.
- */
+/** Rows made by one thread, which are moved to the rows of the level between two steps, when no
+ * thread accesses these. */
 class RowBatch
 {
 public:
   /** Room for at most `size` entries of the next row. */
   RowEntry* open(std::int64_t size)
   {
-    // Grows only: what resize() adds it also clears, once for all batches.
+    // Grows only, since resize() clears what it adds: once for all batches.
     const std::size_t end = this->Used + static_cast<std::size_t>(size);
     this->Entries.resize(std::max(this->Entries.size(), end));
     return this->Entries.data() + this->Used;
   }
 
-  /** Ends the row that open() began; see LevelRows::close. */
+  /** Ends the row begun by open(); see LevelRows::close. */
   void close(std::int64_t size, double alpha, std::int64_t childReach, bool stiff = false,
     std::span<const double> precise = {})
   {

@@ -10,10 +10,8 @@
 namespace smg
 {
 
-/**
- * An off-diagonal entry of row i of a level's matrix: A_ij = -weight, j = i + delta. Seven bytes:
- * all rows that are alive while levels are built are made of these.
- */
+/** An off-diagonal entry of row i of a level's matrix: A_ij = -weight, j = i + delta. Seven bytes,
+ * since all rows that are alive while levels are built consist of these. */
 class RowEntry
 {
 public:

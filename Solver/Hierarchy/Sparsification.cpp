@@ -9,13 +9,13 @@ namespace smg
 namespace
 {
 
-/** The entry of the pair {c,k}, which is there, in the upper one of its two rows. */
+/** The existing entry of the pair {c,k} in the upper one of its two rows. */
 CoarseEntry& upperEntry(const CoarseningData& data, std::int64_t c, std::int64_t k)
 {
   const std::int64_t row = std::min(c, k);
   const auto delta = static_cast<std::int32_t>(std::max(c, k) - row);
   CoarseEntry* first = data.raw.row(row) + data.rawLower[row];
-  // A binary search without branches, which nothing could predict.
+  // A binary search without branches, which would be unpredictable.
   for (std::int64_t size = data.raw.size(row) - data.rawLower[row]; size > 1;)
   {
     const std::int64_t half = size / 2;
@@ -33,17 +33,15 @@ struct Sparsification::Candidate
   float weight = 0.0F;
 };
 
-/**
- * The common neighbour m of c and k > c with the largest min(w_cm, w_km), above `least`, of large
- * weights, those of row k being in the slots that bear the mark.
- */
+/** The common neighbour m of c and k > c with the largest min(w_cm, w_km) above `least`, of large
+ * weights; those of row k are in the slots with the mark. */
 Sparsification::Candidate Sparsification::strongestCommon(
   const CoarseningData& data, std::int64_t c, std::uint32_t mark, float least) const
 {
   Candidate best{ -1, least };
   const CoarseningData::Slot* large = data.slots.at(c);
   const CoarseEntry* row = data.raw.row(c);
-  // Neighbours of c that are gone are none of k: all neighbours of theirs have come.
+  // Released neighbours of c are not neighbours of k, since all their neighbours precede k.
   const std::int64_t there = data.raw.first() - c;
   const auto consider = [&](const CoarseEntry& entry)
   {
@@ -73,7 +71,7 @@ Sparsification::Candidate Sparsification::strongestCommon(
   return best;
 }
 
-/** Notes that no entry of row k and of a lower one may be removed if they are coupled strongly. */
+/** Marks row k and a lower one as keeping all entries if they are coupled strongly. */
 void Sparsification::keepStronglyCoupled(const CoarseningData& data, std::int64_t k) const
 {
   constexpr double Strong = Patches::Strong * Patches::Strong;

@@ -22,10 +22,10 @@ namespace smg
  */
 struct SMG_EXPORT Sparsification
 {
-  /** 0 (nothing is removed) to 0.1; above that cycles diverge. */
+  /** 0 (nothing is removed) to 0.1; above 0.1 V-cycles diverge. */
   float tolerance = 0.1F;
 
-  /** Treats the pairs (c,k), c < k, as soon as row k is there. */
+  /** Processes the pairs (c,k), c < k, as soon as row k exists. */
   void operator()(CoarseningData& data, std::int64_t k) const;
 
 private:
@@ -36,10 +36,8 @@ private:
   {
     return !(std::fabs(weight) >= this->tolerance * std::min(strongest, otherStrongest));
   }
-  /**
-   * Whether the weight of a row's neighbour at distance delta is large, given the largest weight of
-   * that row and those of the rows before it: a neighbour that comes later has no say.
-   */
+  /** Whether the weight of a row's neighbour at distance delta is large, given the largest weight
+   * of that row and of the rows before it; later neighbours do not count. */
   bool isLarge(float weight, std::int32_t delta, const StrongestWeight* strongest) const
   {
     const StrongestWeight other = strongest[std::min(delta, 0)];

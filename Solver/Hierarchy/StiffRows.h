@@ -7,40 +7,40 @@ namespace smg
 {
 
 /**
- * Finds the rows of a level that are stiff: those with a large negative weight. A sliver of three
- * nearly collinear vertices has weights w on its short edges and -w/2 on the long one: together
- * they resist bending alone, so what is linear along a chain of slivers costs next to nothing. That
- * is a slow error, which interpolation with few entries cannot express and which small changes
- * of the weights destroy. So a stiff node has a coarse node of its own, no entry of its row is
- * removed, and the weights of coarse levels are floats.
+ * Finds the stiff rows of a level: those with a large negative weight. A sliver of three nearly
+ * collinear vertices has weights w on its short edges and -w/2 on the long one: together they
+ * resist only bending, so functions that are linear along a chain of slivers have nearly no energy.
+ * Such an error is slow; interpolation with few entries cannot represent it, and small changes of
+ * the weights destroy it. So a stiff node has its own coarse node, no entry of its row is removed,
+ * and the weights of coarse levels are floats.
  *
- * As many rows are stiff as the direct solve of the coarsest level bears, where most of them may
- * end: of a level of slivers only, the first ones.
+ * The number of stiff rows is limited by the direct solve of the coarsest level, where most of them
+ * may end: on a level of slivers only, the first rows are stiff.
  */
 class StiffRows
 {
 public:
   /**
    * For the stiffness of triangles, which has no unit: half the cotangent of 166 degrees, in one
-   * triangle or the sum of two. From -1 to -3 dragon.ply converged as fast, at -8 it did not. On
-   * tetrahedra, most of which have negative weights, it did not pay.
+   * triangle or the sum of two. From -1 to -3 dragon.ply converges equally fast, at -8 it does not.
+   * On tetrahedra, most of which have negative weights, it does not pay off.
    */
   static constexpr double Triangles = -2.0;
 
   /** No row is stiff. */
   StiffRows() = default;
-  /** Rows with a weight below `below` times `scale` are, which has its value when the first row
-   * comes: the size of the conductivity. */
+  /** Rows with a weight below `below` times `scale` are stiff; `scale`, the size of the
+   * conductivity, is set when the first row arrives. */
   explicit StiffRows(double below, const double& scale)
     : Below(below)
     , Scale(&scale)
   {
   }
 
-  /** Whether any row may be. */
+  /** Whether any row may be stiff. */
   bool any() const { return this->Scale != nullptr; }
 
-  /** Whether the next row is, whose smallest weight is `least`. */
+  /** Whether the next row is stiff, whose smallest weight is `least`. */
   bool operator()(float least)
   {
     if (!this->any())
@@ -54,7 +54,7 @@ public:
     return stiff;
   }
 
-  /** How many were. */
+  /** The number of stiff rows so far. */
   std::int64_t found() const { return this->Found; }
 
 private:

@@ -6,8 +6,8 @@
 namespace smg
 {
 
-/** The largest weight of a row, 0 if there is none, and whether the row is stiff (see StiffRows):
- * four bytes, since every row of a window has them. */
+/** The largest weight of a row, 0 if there is none, and whether the row is stiff (see StiffRows),
+ * in four bytes, since every row of a window has them. */
 class StrongestWeight
 {
 public:

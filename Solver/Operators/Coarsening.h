@@ -15,9 +15,9 @@ namespace smg
 {
 
 /**
- * Builds a level from the one below it, as far as that one's rows have come. Every stage has a
- * cursor, the next node it will treat; it may treat a node when the stages it depends on have
- * passed the largest index that the node needs. What no stage needs any more is let go.
+ * Builds a level from the next finer one, as far as the rows of that exist. Every stage has a
+ * cursor, the next node to process; it may process a node when the stages it depends on have passed
+ * the largest index that the node needs. Data that no stage needs any more are released.
  */
 template <OperatorSet Operators>
 class Coarsening
@@ -35,12 +35,13 @@ public:
   const CoarseningData& data() const { return this->Data; }
   /** Rows of P that are final. */
   std::int64_t interpolated() const { return this->Interpolated; }
-  /** Says that the rows and the interpolation of nodes below `end` have been copied. */
+  /** Declares that the rows and the interpolation of nodes below `end` have been copied. */
   void packed(std::int64_t end) { this->Packed = end; }
 
   /**
-   * Advances every stage as far as it can on the rows that have come, or on those below `rows`. The
-   * coarse level gets its new rows by handOver(): several levels may advance on as many threads.
+   * Advances every stage as far as possible on the existing rows, or on those below `rows`. The
+   * coarse level gets its new rows by handOver(), so several levels may advance on different
+   * threads.
    */
   void advance(std::int64_t rows = std::numeric_limits<std::int64_t>::max())
   {
@@ -53,7 +54,7 @@ public:
     this->release();
   }
 
-  /** Appends the coarse rows that have become final to the coarse level. */
+  /** Appends the new final coarse rows to the coarse level. */
   void handOver()
   {
     this->Final.moveTo(this->Data.coarse);
@@ -61,7 +62,7 @@ public:
                               this->Finished == this->Data.coarseNodes;
   }
 
-  /** Lets go of what no stage needs any more. */
+  /** Releases data that no stage needs any more. */
   void release()
   {
     CoarseningData& d = this->Data;
@@ -151,7 +152,7 @@ private:
     return last;
   }
 
-  /** The sweeps over the rows of P, one behind the other. */
+  /** The sweeps over the rows of P, one after the other. */
   void relax()
   {
     CoarseningData& d = this->Data;
@@ -187,7 +188,7 @@ private:
     }
   }
 
-  /** Whether all children of c, which lie within two rings of it, and their products are there. */
+  /** Whether all children of c, which lie within two rings of it, and their products exist. */
   bool canGather(std::int64_t c) const
   {
     const CoarseningData& d = this->Data;
@@ -211,8 +212,9 @@ private:
   }
 
   /**
-   * A coarse row is final when its last neighbour has been treated. Its upper weights then go to
-   * the lower parts of the rows above it: to the next entry of each, as rows become final in order.
+   * A coarse row is final when its last neighbour has been processed. Its upper weights are then
+   * copied to the lower parts of the rows above it: to the next entry of each, since rows become
+   * final in order.
    */
   void finish()
   {
@@ -253,7 +255,7 @@ private:
     std::int64_t next = 0, settled = 0;
   };
 
-  std::int64_t Rows = 0;                // of the fine level, that stages may look at
+  std::int64_t Rows = 0;                // of the fine level, that stages may read
   std::int64_t Lifted = 0, Initial = 0; // by fine node
   std::vector<Sweep> Relaxed;
   std::int64_t Interpolated = 0, Multiplied = 0;

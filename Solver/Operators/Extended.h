@@ -14,9 +14,9 @@ namespace smg
 
 /**
  * The default operator set: the paper's lifting rule on strong edges, extended interpolation, the
- * sparsified Galerkin product and Gauss-Seidel relaxation in stream order. Nodes whose rows are
- * stiff (see StiffRows) have a coarse node each. Unlike the paper's printed equations it converges
- * to the solution, at a rate that hardly depends on the mesh's size.
+ * sparsified Galerkin product and Gauss-Seidel relaxation in stream order. Nodes with stiff rows
+ * (see StiffRows) have their own coarse nodes. Unlike the paper's printed equations it converges to
+ * the solution, at a rate that hardly depends on the size of the mesh.
  */
 class Extended
 {

@@ -6,7 +6,7 @@
 namespace smg
 {
 
-/** Parameters of the operator set Extended, here as for triangles. */
+/** Parameters of the operator set Extended; the defaults are those for triangles. */
 struct ExtendedParameters
 {
   /** IndependentSetLifting::strength. */
@@ -20,14 +20,14 @@ struct ExtendedParameters
   double coarseCancelling = 1.1;
 
   /**
-   * The parameters that were best by trial. A strength of 0.2 instead of 0.1 on surfaces costs 5 to
-   * 10 % of memory and time a V-cycle and saves up to a third of the V-cycles on real scans; on
-   * tetrahedra one of 0 takes the small weights of slivers for strong ones, one above 0.1 takes
-   * more memory than it saves V-cycles. Keeping rows that cancel little pays on surfaces alone.
+   * The parameters that were best in experiments. A strength of 0.2 instead of 0.1 on surfaces
+   * costs 5 to 10 % of memory and time per V-cycle and saves up to a third of the V-cycles on real
+   * scans; on tetrahedra 0 treats the small weights of slivers as strong, and values above 0.1 cost
+   * more memory than they save V-cycles. Keeping rows that cancel little pays off only on surfaces.
    *
-   * Most of the set-up's work is the product from the finest level to the next one. Fewer entries
-   * there save some of it where slivers do not need them. A second sweep of the interpolation saves
-   * an eighth of the V-cycles on slivers at most, and takes a ring more of every window.
+   * Most of the set-up is the product from the finest level to the next one. Fewer entries there
+   * save some of it where slivers do not need them. A second sweep of the interpolation saves at
+   * most an eighth of the V-cycles on slivers, and needs one more ring in every window.
    */
   static ExtendedParameters forCells(CellType type)
   {
@@ -42,7 +42,7 @@ struct ExtendedParameters
     return parameters;
   }
 
-  /** For a given number of V-cycles: each is up to twice as good, the set-up longer. */
+  /** For a given number of V-cycles: each is up to twice as effective, the set-up takes longer. */
   static ExtendedParameters forFewCycles(CellType type)
   {
     ExtendedParameters parameters = forCells(type);

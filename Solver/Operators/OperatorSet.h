@@ -15,46 +15,46 @@ namespace smg
  * An operator set: the pluggable part of the multigrid. A default-constructible, copyable type O
  * (every level gets a copy) with
  *
- *   const char* O::name             what it is called
+ *   const char* O::name             its name
  *   O O::forCells(CellType)         the set with the parameters that are best for such cells
- *   bool o.lift(data, i)            lifting rule: does node i get a parent?
- *   o.interpolateInitial(data, i)   interpolation in three steps: a first idea of row i of P,
- *   o.interpolationSweeps()         sweeps that better the rows, at least 1, each with
- *   o.relaxInterpolation(data, i)   a turn of row i,
- *   o.interpolate(data, i)          and row i as it is used
+ *   bool o.lift(data, i)            lifting rule: whether node i gets a parent
+ *   o.interpolateInitial(data, i)   interpolation in three steps: an initial row i of P,
+ *   o.interpolationSweeps()         sweeps that improve the rows, at least 1, each with
+ *   o.relaxInterpolation(data, i)   a relaxation of row i,
+ *   o.interpolate(data, i)          and the final row i
  *   o.multiply(data, i)             coarse operator in three steps: row i of A P,
  *   o.gather(data, c)               row c of P^T A P,
- *   o.sparsify(data, c)             and what is left of it
+ *   o.sparsify(data, c)             and its sparsification
  *   O::Relaxation                   see Solver/Cycle/Relaxation.h
  *
  * Restriction is the transpose of interpolation. Coarsening calls each step once for each fine node
- * i or coarse node c, in ascending order, on windows that hold no more than what follows; a step
- * that reads anything else reads memory that is gone. `data.fine` are the rows of the fine level.
+ * i or coarse node c, in ascending order, on windows that hold only the following data; a step that
+ * reads anything else reads released memory. `data.fine` are the rows of the fine level.
  *
- * - `lift` may read row i and `lifted` of the nodes below, and answers. A node whose row is stiff
- *   (see StiffRows) should be lifted.
+ * - `lift` may read row i and `lifted` of the nodes below, and returns the decision. A node whose
+ *   row is stiff (see StiffRows) should be lifted.
  * - `interpolateInitial` may read row i and `lifted` of its neighbours, and appends row i of
  *   `initial` and its `initialSum`.
  * - `relaxInterpolation` may read row i, and of i and its neighbours `lifted`, `initial` and
- *   `relaxed`, which is Pending before the first sweep. It sets `relaxed` of i; of a patch, whose
- *   nodes it may all read in this way, when the last node's turn comes.
+ *   `relaxed`, which is Pending before the first sweep. It sets `relaxed` of i; for the nodes of a
+ *   patch, all of which it may then read in this way, when called for the last node.
  * - `interpolate` may read `relaxed` of i. It appends row i of `interpolation`, chained by columns
  *   from `firstChild` to `lastChild`, and sets `rowQuanta` and `parentReach`.
  * - `multiply` may read row i and `interpolation` of i and its neighbours. It appends row i of
  *   `product` and sets `productSum`.
  * - `gather` may read the chain of column c and `product` of its rows. It appends row c of `raw`,
  *   by ascending column, sets rawAlpha, rawDiagonal, rawKept, rawStrongest (stiff if
- *   `data.stiff`, asked once, says so), rawLower and rawMirrored of c and moves rawMirrored of its
- *   neighbours above on by one.
+ *   `data.stiff`, called once, returns true), rawLower and rawMirrored of c and increments
+ *   rawMirrored of its neighbours above.
  * - `sparsify`, which follows it, may read the rows of `raw` up to c that have neighbours from c
- *   on, and change their upper entries, those with delta > 0; the lower ones take over the
- *   weights of these at last. An entry that is to go is marked by CoarseEntry::remove().
+ *   on, and modify their upper entries, those with delta > 0; their weights are finally copied to
+ *   the lower ones. CoarseEntry::remove() marks an entry as removed.
  *
- * What the engine relies on: a node without edges is not lifted; each lifted node has a child; P
+ * Requirements of the engine: a node without edges is not lifted; each lifted node has a child; P
  * has entries from -1 to 1 (multiples of 1/Quanta), from coarse nodes within two rings; the coarse
  * operator is exactly symmetric, with row sums alpha that are zero where no constraint reaches,
- * before and after sparsification; a step depends on what it may read alone, not on when it is
- * called. To exchange one step, derive from Extended and hide that member: see
+ * before and after sparsification; a step depends only on what it may read, not on when it is
+ * called. To replace one step, derive from Extended and hide that member, see
  * Examples/CustomOperators.
  */
 template <class O>

@@ -11,7 +11,7 @@ namespace smg
 namespace
 {
 
-/** Rows are made final in batches of this many, to ask for edge targets in one call. */
+/** Rows are completed in batches of this size, to query edge targets in one call. */
 constexpr std::int64_t BatchRows = 256;
 
 } // namespace
@@ -89,8 +89,7 @@ void Assembly::addCell(const std::int64_t* corners, unsigned flags)
   }
 }
 
-/** The corners belong together, with these weights of the edges, which are 0 if the cell is flat.
- */
+/** Connects the corners, with these weights of the edges, which are 0 if the cell is flat. */
 void Assembly::connect(
   const std::int64_t* corners, const double* const* points, const CellWeights& cell)
 {
@@ -113,7 +112,7 @@ void Assembly::finalize(std::int64_t end)
   this->release();
 }
 
-/** Makes the rows up to `end` final. */
+/** Completes the rows below `end`. */
 void Assembly::closeBatch(std::int64_t end)
 {
   const std::int64_t begin = this->Final;
@@ -153,7 +152,7 @@ void Assembly::collectRow(std::int64_t i)
   this->Reach.close(i, last);
 }
 
-/** Lets go of what no row to come needs. */
+/** Releases the data that no later row needs. */
 void Assembly::release()
 {
   this->Vertices.release(this->Reach.advance(this->Final), this->Final);

@@ -28,27 +28,29 @@ namespace smg
 {
 
 /**
- * Turns the mesh stream into the rows of the finest level: weights are summed per edge while cells
- * come; when a vertex is final its row, right-hand side and initial value go to `rows`.
- * Constrained vertices are nodes with an empty row; their neighbours carry them in alpha and b.
+ * Converts the mesh stream to the rows of the finest level: weights are summed per edge while cells
+ * arrive; when a vertex is final, its row, right-hand side and initial value are appended to
+ * `rows`. Constrained vertices are nodes with an empty row; they contribute to alpha and b of their
+ * neighbours.
  */
 class SMG_EXPORT Assembly
 {
 public:
-  /** What finds the stiff rows of a level of a problem on such cells, whose `rows` it makes. */
+  /** The detection of the stiff rows of a level for a problem on such cells with these `rows`. */
   static StiffRows stiffRows(CellType type, Weights weights, const AssembledRows& rows)
   {
     const bool may = weights == Weights::Cotangent && type == CellType::Triangle;
     return may ? StiffRows(StiffRows::Triangles, rows.weightScale) : StiffRows();
   }
 
-  /** `listener`, if given, is told what the rows do not keep. */
+  /** `listener`, if given, receives the data that the rows do not store. */
   Assembly(Pool& pool, const StreamInfo& info, Problem& problem, AssembledRows& rows,
     Components& components, ComponentLabels& labels, RowListener* listener = nullptr);
 
-  /** Takes a block; makes the rows final that it finalises. Throws Error on a bad block. */
+  /** Adds a block and completes the rows of the vertices that it finalises. Throws Error on an
+   * invalid block. */
   void add(const MeshBlock& block);
-  /** Makes the rest final. */
+  /** Completes the remaining rows. */
   void finish();
 
   std::int64_t vertices() const { return this->Vertices.end(); }
@@ -57,13 +59,13 @@ public:
   std::int64_t prescribed() const { return this->Rows.prescribed(); }
   std::int64_t held() const { return this->Rows.held(); }
   std::int64_t clampedWeights() const { return this->Edges.clamped(); }
-  /** What the cells gave. */
+  /** The data of the cells. */
   const WeightPolicy& weights() const { return this->Policy; }
   /** With cotangent weights: rows that were raised. */
   std::int64_t raisedRows() const { return this->Rows.raised(); }
   /** See StiffRows. */
   std::int64_t stiffRows() const { return this->Rows.stiff(); }
-  /** ||b - A x_0|| of the rows that are final. */
+  /** ||b - A x_0|| of the completed rows. */
   const InitialResidual& residual() const { return this->Rows.residual(); }
 
 private:

@@ -13,8 +13,8 @@
 namespace smg
 {
 
-/** The targets of the edges of a batch of rows, which a problem with edge targets is asked for in
- * one call. */
+/** The targets of the edges of a batch of rows, queried from a problem with edge targets in one
+ * call. */
 class EdgeTargets
 {
 public:
@@ -27,10 +27,8 @@ public:
   {
   }
 
-  /**
-   * Asks for those of the rows from `first` on, if the problem has any: the neighbours of each row
-   * end at the number in `ends`. Throws Error if one is not finite.
-   */
+  /** Queries those of the rows from `first` on, if the problem has any: the neighbours of each row
+   * end at the number in `ends`. Throws Error if one is not finite. */
   void ask(std::int64_t first, std::span<const RowNeighbour> neighbours,
     std::span<const std::size_t> ends);
 

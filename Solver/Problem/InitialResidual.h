@@ -12,12 +12,12 @@
 namespace smg
 {
 
-/** A row of the finest level that has been made. */
+/** A completed row of the finest level. */
 struct AssembledRow
 {
   std::int64_t vertex;
   std::span<const RowEntry> entries;
-  /** The entries' weights in double precision, or empty: then they are those of the entries. */
+  /** The weights of the entries in double precision; if empty, those of the entries are used. */
   std::span<const double> precise;
   double diagonal;
 };
@@ -26,20 +26,20 @@ struct AssembledRow
 class InitialResidual
 {
 public:
-  /** `values`: x_0 of a vertex and its neighbours, when its row comes. */
+  /** `values`: x_0 of a vertex and its neighbours when its row is added. */
   explicit InitialResidual(const Ring<double>& values)
     : Values(values)
     , OfRow(static_cast<std::size_t>(values.lanes()))
   {
   }
 
-  /** Adds a row, whose residual counts as `share` (see commonShare()); answers it, a number a
-   * column. */
+  /** Adds a row, whose residual counts as `share` (see commonShare()); returns its residual, a
+   * number per column. */
   std::span<const double> add(const AssembledRow& row, std::span<const double> b, double share);
 
   /** ||b - A x_0||^2 with the shares. */
   double squares() const { return this->Squares; }
-  /** The sum of the squares of the terms b_i and A_ii x_i that it is the difference of. */
+  /** The sum of the squares of its terms b_i and A_ii x_i. */
   double termSquares() const { return this->TermSquares; }
 
 private:

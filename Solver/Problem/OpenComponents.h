@@ -11,11 +11,11 @@
 namespace smg
 {
 
-/** The components that open vertices belong to, as far as their cells have come. */
+/** The components of open vertices, according to the cells so far. */
 class OpenComponents
 {
 public:
-  /** `labels` is told the component of each vertex that is closed. */
+  /** `labels` receives the component of each closed vertex. */
   OpenComponents(Pool& pool, Components& components, ComponentLabels& labels)
     : Parts(components)
     , Closed(labels)
@@ -23,20 +23,20 @@ public:
   {
   }
 
-  /** As many vertices have come; the further ones are alone. */
+  /** Sets the number of vertices so far; new ones have no component. */
   void extend(std::int64_t vertices);
   void release(std::int64_t first) { this->Labels.release(first); }
-  /** The corners of a cell belong together. */
+  /** Joins the corners of a cell. */
   void join(const std::int64_t* corners, int count);
-  /** The component of vertex i, the next one to be closed, or -1; `mass`: what it weighs. */
+  /** Closes vertex i, the next one, with this mass; returns its component, or -1. */
   std::int32_t close(std::int64_t i, double mass);
-  /** Passes on what has been closed. */
+  /** Passes on the closed vertices. */
   void flush();
 
 private:
   Components& Parts;
   ComponentLabels& Closed;
-  Ring<std::int32_t> Labels; // of the first component that a vertex belonged to, or -1
+  Ring<std::int32_t> Labels; // of the first component of a vertex, or -1
   std::vector<std::int32_t> LabelBatch;
   std::vector<double> MassBatch;
 };

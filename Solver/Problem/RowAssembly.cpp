@@ -15,15 +15,15 @@ namespace
 {
 
 /**
- * A weight is large beside those of regular cells: of triangles, and of tetrahedra for an edge of
- * length 1. A chain of slivers with weights w conducts as 1 / w does, so the rounding of its
- * weights to single precision may move the solution by 6e-8 w^2 of its range. What smaller weights
- * than these do moved it by 2e-7 (bunny_tet.mesh, dragon.ply) or less; all weights, by 2e-5.
+ * Bounds of large weights compared with those of regular cells: of triangles, and of tetrahedra for
+ * an edge of length 1. A chain of slivers with weights w conducts like 1 / w, so the rounding of
+ * its weights to single precision may change the solution by 6e-8 w^2 of its range. Smaller weights
+ * than these changed it by at most 2e-7 (bunny_tet.mesh, dragon.ply), all weights by 2e-5.
  */
 constexpr double LargeOfTriangles = 3.0;
 constexpr double LargeOfTetrahedra = 4.0;
 
-/** From vertex i to its neighbour j. Throws Error if a row cannot express it. */
+/** The distance from vertex i to its neighbour j. Throws Error if a row cannot represent it. */
 std::int32_t distance(std::int64_t i, std::int64_t j)
 {
   const std::int64_t delta = j - i;
@@ -70,7 +70,7 @@ void RowAssembly::close(std::int64_t i, std::int32_t label,
     this->closeKnown(i, label);
     return;
   }
-  // A vertex of flat cells alone has no component, but perhaps a facet.
+  // A vertex with only flat cells has no component, but may have a facet.
   if (alpha > 0.0 && label >= 0)
   {
     this->Parts.anchor(label);
@@ -91,7 +91,7 @@ void RowAssembly::close(std::int64_t i, std::int32_t label,
   this->count(row, label, commonShare(alpha, this->edgeWeights()));
 }
 
-/** A vertex that is no unknown: prescribed, or held where it is. */
+/** A vertex that is not an unknown: prescribed, or fixed at its initial value. */
 void RowAssembly::closeKnown(std::int64_t i, std::int32_t label)
 {
   const double* x = this->Vertices.values.at(i);
@@ -110,8 +110,8 @@ void RowAssembly::closeKnown(std::int64_t i, std::int32_t label)
 }
 
 /**
- * Whether the rounding of a weight to single precision would show in the solution: that of the
- * large weights of slivers is of the size of other cells' weights. It is a matter of the edge, so
+ * Whether the rounding of a weight to single precision would affect the solution: that of the large
+ * weights of slivers is of the size of the weights of other cells. It depends only on the edge, so
  * that both of its rows agree and the matrix stays symmetric.
  */
 bool RowAssembly::needsPrecision(std::int64_t i, const RowNeighbour& neighbour) const
@@ -130,7 +130,7 @@ bool RowAssembly::needsPrecision(std::int64_t i, const RowNeighbour& neighbour) 
   return size * size > LargeOfTetrahedra * LargeOfTetrahedra * square;
 }
 
-/** Makes the row's entries and adds what the neighbours bring to b. */
+/** Makes the entries of the row and adds the contributions of the neighbours to b. */
 void RowAssembly::addNeighbours(
   std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target)
 {
@@ -158,7 +158,7 @@ void RowAssembly::addNeighbours(
   }
 }
 
-/** The weight of a neighbour that is prescribed goes to alpha and b. */
+/** Adds the weight of a prescribed neighbour to alpha and b. */
 void RowAssembly::addKnown(std::int32_t delta, const RowNeighbour& neighbour, const double* target)
 {
   const double weight = knownWeight(this->Kind, neighbour);
@@ -177,7 +177,7 @@ void RowAssembly::addKnown(std::int32_t delta, const RowNeighbour& neighbour, co
   }
 }
 
-/** A neighbour that is not becomes an entry. */
+/** Adds an entry for another neighbour. */
 void RowAssembly::addUnknown(
   std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target)
 {
@@ -197,7 +197,7 @@ void RowAssembly::addUnknown(
   }
 }
 
-/** Holds the vertex near its initial value where its diagonal is lost in rounding. */
+/** Keeps the vertex near its initial value if its diagonal is lost in rounding. */
 void RowAssembly::raise(std::int64_t i)
 {
   this->Raise = this->Kind == Weights::Cotangent
@@ -217,7 +217,7 @@ void RowAssembly::raise(std::int64_t i)
   }
 }
 
-/** Whether the row is stiff; to be asked once. */
+/** Whether the row is stiff; to be called once. */
 bool RowAssembly::isStiff()
 {
   float least = 0.0F;
@@ -228,7 +228,8 @@ bool RowAssembly::isStiff()
   return this->Stiff(least);
 }
 
-/** The magnitudes of the weights of the row's edges, to prescribed vertices, too. */
+/** The sum of the magnitudes of the weights of the row's edges, including those to prescribed
+ * vertices. */
 double RowAssembly::edgeWeights() const
 {
   double weights = this->Known;
@@ -246,7 +247,7 @@ void RowAssembly::count(const AssembledRow& row, std::int32_t label, double shar
   const double* x = this->Vertices.values.at(row.vertex);
   if (this->Raise > 0.0)
   {
-    // What holds the vertex near its initial value is no part of the problem.
+    // The amount that keeps the vertex near its initial value is not part of the problem.
     for (std::size_t k = 0; k < this->Columns; ++k)
     {
       this->B[k] -= this->Raise * x[k];

@@ -17,8 +17,8 @@
 namespace smg
 {
 
-/** Makes a row of the finest level, its right-hand side and initial value of what is known of the
- * vertex and of its neighbours. */
+/** Makes a row of the finest level, its right-hand side and initial value from the data of the
+ * vertex and its neighbours. */
 class RowAssembly
 {
 public:
@@ -26,20 +26,22 @@ public:
     Components& components, StiffRows stiff, RowListener* listener);
 
   /**
-   * The next row, of vertex i with the component `label` (-1: none). `target`: of the edges to the
-   * neighbours, `columns` a neighbour; null without edge targets. `alpha` and `load` (`columns`)
-   * are what sources, screening and boundary bring to the diagonal and to the right-hand side.
+   * Adds the next row, of vertex i with the component `label` (-1: none). `target`: those of the
+   * edges to the neighbours, `columns` per neighbour; null without edge targets. `alpha` and `load`
+   * (`columns`) are the contributions of sources, screening and boundary to the diagonal and to the
+   * right-hand side.
    */
   void close(std::int64_t i, std::int32_t label, std::span<const RowNeighbour> neighbours,
     const double* target, double alpha, const double* load);
 
   std::int64_t prescribed() const { return this->Prescribed; }
-  /** Vertices without anything that would determine them. */
+  /** The number of vertices without any data that determine them. */
   std::int64_t held() const { return this->Held; }
   /** See rowShortfall(). */
   std::int64_t raised() const { return this->Raised; }
   std::int64_t stiff() const { return this->Stiff.found(); }
-  /** Of the initial values; rows that are dominated by screening and the like as by their edges. */
+  /** The residual of the initial values; rows dominated by screening and the like count as by their
+   * edges. */
   const InitialResidual& residual() const { return this->Residual; }
 
 private:
@@ -69,7 +71,7 @@ private:
   StiffRows Stiff;
   RowListener* Listener;
 
-  // The row that is being made.
+  // The current row.
   RowEntry* Row = nullptr;
   std::int64_t Size = 0;
   double Alpha = 0.0;
@@ -78,7 +80,7 @@ private:
   std::vector<double> Precise;    // weights in double precision ...
   bool AnyPrecise = false;        // ... which the row needs
   std::vector<double> B;          // `Columns` numbers
-  std::vector<double> Constraint; // what of b is not of edges to unknowns
+  std::vector<double> Constraint; // the part of b not from edges to unknowns
 
   InitialResidual Residual;
   std::int64_t Prescribed = 0, Held = 0, Raised = 0;

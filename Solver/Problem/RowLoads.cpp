@@ -84,7 +84,9 @@ double RowLoads::close(std::int64_t i)
   return alpha;
 }
 
-/** The boundary facets with the lowest corner i bring their share to all of their corners. */
+/**
+ * Adds the contributions of the boundary facets with the lowest corner i to all of their corners.
+ */
 void RowLoads::addBoundary(std::int64_t i)
 {
   this->Facets->take(i,

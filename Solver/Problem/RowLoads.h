@@ -14,29 +14,27 @@
 namespace smg
 {
 
-/**
- * What sources, screening and boundary conditions bring to the diagonals and right-hand sides of
- * the rows of open vertices, whether a problem states them at vertices, in cells or on facets.
- */
+/** The contributions of sources, screening and boundary conditions, at vertices, in cells or on
+ * facets, to the diagonals and right-hand sides of the rows of open vertices. */
 class RowLoads
 {
 public:
   RowLoads(Pool& pool, CellType type, Problem& problem, const OpenVertices& vertices);
 
-  /** As many vertices have come. */
+  /** Sets the number of vertices so far. */
   void extend(std::int64_t vertices);
-  /** Takes the facets of the block's cells. */
+  /** Adds the facets of the cells of the block. */
   void addFacets(const MeshBlock& block);
-  /** Takes what is said of the cell that is prepared, which has a measure. */
+  /** Adds the data of the prepared cell, which must have a measure. */
   void addCell(const std::int64_t* corners, const double* const* points, const ProblemCells& cells)
   {
     this->OfCells->add(corners, points, cells);
   }
   void release(std::int64_t first);
 
-  /** Sums up what vertex i, the lowest that is open, is brought; answers the diagonal's share. */
+  /** Sums the contributions to vertex i, the lowest open one; returns that to the diagonal. */
   double close(std::int64_t i);
-  /** Of the last vertex that was closed: the right-hand side's share, `columns` numbers. */
+  /** The contribution to the right-hand side of the last closed vertex, `columns` numbers. */
   const double* load() const { return this->Load.data(); }
 
 private:
@@ -45,7 +43,7 @@ private:
   CellType Type;
   const OpenVertices& Vertices;
   std::optional<ProblemFacets> Facets;
-  // Apart: facets are known when their vertices are final, which depends on the blocks.
+  // Separate, since facets are known when their vertices are final, which depends on the blocks.
   std::optional<VertexLoads> OfCells, OfFacets;
   std::vector<double> Load;
 };

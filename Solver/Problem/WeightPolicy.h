@@ -13,17 +13,17 @@ namespace smg
 {
 
 /**
- * Which weights a cell gives to its edges: those of finite elements or the problem's own, and, with
- * Weights::Cotangent, scaled down where the cell is too flat. What becomes of their sums over the
- * cells of an edge is up to WeightedEdges.
+ * The weights of a cell for its edges: those of finite elements or of the problem, and, with
+ * Weights::Cotangent, scaled down if the cell is too flat. WeightedEdges processes their sums over
+ * the cells of an edge.
  */
 class WeightPolicy
 {
 public:
-  /** `scale` is set to the size of the problem's own weights: see AssembledRows::weightScale. */
+  /** `scale` is set to the size of the weights of the problem, see AssembledRows::weightScale. */
   WeightPolicy(CellType type, Problem& problem, double& scale);
 
-  /** Makes ready for cell `c` of the block; see ProblemCells::prepare(). */
+  /** Prepares cell `c` of the block; see ProblemCells::prepare(). */
   void prepare(const MeshBlock& block, std::size_t c, const Ring<double>& points)
   {
     if (this->Own)
@@ -32,19 +32,20 @@ public:
     }
   }
 
-  // Of the cell that is prepared.
+  // Of the prepared cell:
 
-  /** Its weights; measure 0: it is degenerate. */
+  /** Its weights; measure 0 if it is degenerate. */
   CellWeights weigh(const std::int64_t* corners, const double* const* points, unsigned flags);
-  /** Whether its corners belong together even if it is degenerate. */
+  /** Whether its corners are connected even if it is degenerate. */
   bool connectsFlat(const std::int64_t* corners, unsigned flags) const;
   /** The size of its weights; see ProblemCells::scale(). */
   double scale() const { return this->Own ? this->Own->scale() : 1.0; }
-  /** What the problem says of its cells, if it does. */
+  /** The data of the problem in its cells, if any. */
   const std::optional<ProblemCells>& own() const { return this->Own; }
 
   std::int64_t degenerateCells() const { return this->Degenerate; }
-  /** With cotangent weights: cells whose stiffness was scaled down, and the least factor. */
+  /** With cotangent weights: the number of cells whose stiffness was scaled down, and the least
+   * factor. */
   std::int64_t limitedCells() const { return this->Limited; }
   double leastFlatness() const { return this->LeastFlatness; }
 
