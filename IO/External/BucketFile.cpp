@@ -12,7 +12,7 @@ namespace
 
 constexpr std::size_t BufferAlignment = 64;
 
-/** Chunks are so large that all buckets' chunks stay below `memory`. */
+/** The size of chunks such that those of all buckets stay below `memory`. */
 std::size_t chunkBytes(int buckets, std::int64_t memory)
 {
   const auto share = static_cast<std::size_t>(memory) / static_cast<std::size_t>(buckets);

@@ -17,18 +17,18 @@ namespace smg
 {
 
 /**
- * Rows of bytes, in one scratch file that has no name: bytes are appended to any of a number of
- * buckets, and each bucket is read from its front to its back, any number of times. Of a bucket
- * only the last chunk is in memory; no file is made as long as no chunk is full.
+ * Sequences of bytes in one unnamed scratch file: bytes are appended to any of a number of buckets,
+ * and each bucket is read sequentially, any number of times. Only the last chunk of a bucket is in
+ * memory; no file is created until a chunk is full.
  */
 class SMG_EXPORT BucketFile
 {
 public:
   static constexpr std::size_t ChunkBytes = std::size_t(256) << 10;
-  /** Chunks are not made smaller than this. */
+  /** The minimum size of a chunk. */
   static constexpr std::size_t LeastChunkBytes = std::size_t(4) << 10;
 
-  /** The workspace must outlive the file. The chunks take `memory` bytes, or less. */
+  /** The workspace must outlive the file. The chunks use at most `memory` bytes. */
   explicit BucketFile(
     Workspace& workspace, int buckets = 1, std::int64_t memory = std::int64_t(ChunkBytes));
   BucketFile(BucketFile&&) noexcept = default;
@@ -58,19 +58,20 @@ public:
     this->append(bucket, std::as_bytes(std::span<const T, 1>(&value, 1)));
   }
 
-  /** Writes the last chunks to the file and gives their memory back: nothing is appended now. */
+  /** Writes the last chunks to the file and releases their memory; nothing may be appended
+   * afterwards. */
   void close();
 
-  /** Reads a bucket from front to back. The file must outlive it and not be appended to. */
+  /** Reads a bucket sequentially. The file must outlive the reader and not be appended to. */
   class Reader
   {
   public:
     explicit Reader(const BucketFile& file, int bucket = 0, std::size_t bufferBytes = ChunkBytes);
 
-    /** The next bytes, at most `most`, a multiple of `unit` (of which the bucket is); empty: end.
-     */
+    /** The next bytes, at most `most`, a multiple of `unit`, like the size of the bucket; empty at
+     * the end. */
     std::span<const std::byte> next(std::size_t unit, std::size_t most = SIZE_MAX);
-    /** Reads exactly these bytes; false at the end. */
+    /** Reads exactly this number of bytes; returns false at the end. */
     bool read(std::span<std::byte> bytes);
     template <class T>
     bool get(T& value)
@@ -91,13 +92,13 @@ public:
     int Bucket;
     Buffer Bytes;
     std::size_t At = 0, End = 0;
-    std::int64_t Offset = 0; ///< in the bucket, of what comes after the buffer
+    std::int64_t Offset = 0; ///< in the bucket, of the data after the buffer
     std::size_t NextRun = 0;
     std::int64_t RunOffset = 0;
   };
 
 private:
-  /** Bytes that stand one after the other in the file. */
+  /** Bytes that are contiguous in the file. */
   struct Run
   {
     std::int64_t offset;
@@ -107,7 +108,7 @@ private:
   {
     Buffer chunk;
     std::size_t used = 0;
-    std::int64_t bytes = 0; ///< with those in the chunk
+    std::int64_t bytes = 0; ///< including those in the chunk
     std::vector<Run> runs;
   };
 
@@ -121,7 +122,7 @@ private:
   std::int64_t FileEnd = 0;
 };
 
-/** A file of records of one kind, in one row. */
+/** A file of one sequence of records. */
 template <class Record>
 class RecordFile
 {
@@ -146,9 +147,9 @@ public:
       : Bytes(file.File)
     {
     }
-    /** The next record; false at the end. */
+    /** Reads the next record; returns false at the end. */
     bool next(Record& record) { return this->Bytes.get(record); }
-    /** Fills the span; false at the end, then nothing is read. */
+    /** Fills the span; returns false at the end, without reading anything. */
     bool next(std::span<Record> records)
     {
       return this->Bytes.read(std::as_writable_bytes(records));

@@ -48,7 +48,7 @@ private:
   Buffer Records;
 };
 
-/** Sorts records by `Less`, a strict order without ties, so that the result is determined. */
+/** Sorts records by `Less`, a strict order without ties, so that the result is unique. */
 template <class Record, class Less = std::less<Record>>
 using ExternalSort = MergeSort<RecordRows<Record, Less>>;
 

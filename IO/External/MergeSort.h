@@ -15,20 +15,21 @@ namespace smg
 
 /**
  * External merge sort in a given memory: put() all rows, then sort(), then next() delivers them in
- * order. Runs that fill the memory are sorted and go to scratch files, from which they are merged;
- * rows that fit are sorted in memory alone. There are never many files: as many runs of a rank
- * become one of the next rank while rows come.
+ * order. Runs that fill the memory are sorted, written to scratch files and merged; rows that fit
+ * into the memory need no files. The number of files is small, since runs of a rank are merged to
+ * one of the next rank while rows arrive.
  *
- * `Rows` is how rows look: RecordRows (ExternalSort), of a type, or KeyedRows (RowSort), of bytes.
+ * `Rows` is the type of rows: RecordRows (ExternalSort), of a type, or KeyedRows (RowSort), of
+ * bytes.
  */
 template <class Rows>
 class MergeSort
 {
 public:
-  using Key = typename Rows::Key; ///< what is put
-  using Row = typename Rows::Row; ///< what is delivered
+  using Key = typename Rows::Key; ///< of put()
+  using Row = typename Rows::Row; ///< of next()
 
-  /** Uses about `memory` bytes, 1 MiB at least, of the workspace's pool. */
+  /** Uses about `memory` bytes, at least 1 MiB, of the workspace's pool. */
   MergeSort(Workspace& workspace, std::int64_t memory, Rows rows = {})
     : Space(workspace)
     , Memory(static_cast<std::size_t>(std::max<std::int64_t>(memory, std::int64_t(1) << 20)))
@@ -40,7 +41,7 @@ public:
 
   std::int64_t size() const { return this->Size; }
 
-  /** Answers what the put() of the rows does. Throws Error. */
+  /** Returns the result of put() of the rows. Throws Error. */
   auto put(const Key& key)
   {
     if (this->Used == this->Capacity)
@@ -51,7 +52,7 @@ public:
     return this->Collected.put(this->Used++, key);
   }
 
-  /** Ends the putting. */
+  /** To be called after the last put(). */
   void sort()
   {
     if (this->Runs.empty())
@@ -68,7 +69,7 @@ public:
     this->startMerge(this->Runs);
   }
 
-  /** The next row in order, valid until the next call; false at the end. */
+  /** The next row in order, valid until the next call; returns false at the end. */
   bool next(Row& row)
   {
     if (!this->Runs.empty())
@@ -87,10 +88,10 @@ public:
 
 private:
   static constexpr std::size_t LeastBufferBytes = std::size_t(64) << 10;
-  /** So many runs of a rank are merged at once while rows come, or fewer. */
+  /** The maximum number of runs of a rank that are merged at once while rows arrive. */
   static constexpr std::size_t RunsOfRank = 32;
 
-  /** A run that is being merged, and the row it has to offer. */
+  /** A run in a merge, and its current row. */
   struct Head
   {
     Row row;
@@ -99,7 +100,7 @@ private:
 
   std::size_t bufferBytes() const { return std::max(LeastBufferBytes, this->Collected.bytes()); }
 
-  /** Runs that can be merged at once, with a chunk of the file they go to. */
+  /** The number of runs that can be merged at once, with a chunk of the output file. */
   std::size_t mostRuns() const
   {
     return std::max<std::size_t>(2, (this->Memory - BucketFile::ChunkBytes) / this->bufferBytes());
@@ -107,7 +108,7 @@ private:
 
   void makeRoom()
   {
-    // The memory of the first run grows with what there is to sort.
+    // The memory of the first run grows with the data.
     const std::size_t most = std::max<std::size_t>(1, this->Memory / this->Collected.bytes());
     const std::size_t grown = std::min(most, std::max<std::size_t>(1024, this->Capacity * 4));
     if (this->Capacity == most)
@@ -200,7 +201,7 @@ private:
     return true;
   }
 
-  /** Goes on to the next row of the run at the top, whose row is not valid afterwards. */
+  /** Advances the run at the top to its next row; the current row becomes invalid. */
   void replaceTop()
   {
     Head& top = this->Heap.front();
@@ -212,7 +213,7 @@ private:
     this->sink(0);
   }
 
-  /** Rows of a key come in the order of their runs, which is that in which they were put. */
+  /** Rows with equal keys are in the order of their runs, which is that of put(). */
   bool isBefore(const Head& a, const Head& b) const
   {
     if (Rows::HaveTies && !this->Collected.isLess(b.row, a.row))
@@ -222,7 +223,7 @@ private:
     return this->Collected.isLess(a.row, b.row);
   }
 
-  /** Brings the head at place `i` down to where it belongs. */
+  /** Sifts the head at position `i` down. */
   void sink(std::size_t i)
   {
     const std::size_t count = this->Heap.size();
@@ -252,8 +253,8 @@ private:
   std::int64_t Size = 0;
   Rows Collected; ///< in memory
   std::size_t Capacity = 0, Used = 0, Delivered = 0;
-  std::vector<BucketFile> Runs; ///< of falling rank, in the order in which their rows were put
-  std::vector<int> Ranks;       ///< how often the rows of a run were merged
+  std::vector<BucketFile> Runs; ///< by descending rank, in the order of put()
+  std::vector<int> Ranks;       ///< number of merges of the rows of a run
   std::vector<BucketFile::Reader> Readers;
   std::vector<Head> Heap;
   bool TopIsDelivered = false;

@@ -33,9 +33,9 @@ void Relabelling::applyChunks(
   const RecordFile<std::uint32_t>& file, std::size_t count, const TakeChunk& take)
 {
   const std::vector<int> buckets = this->neededBuckets();
-  RowTable table = std::move(this->Table); // whose memory is given back afterwards
+  RowTable table = std::move(this->Table); // whose memory is released afterwards
   table.close();
-  // What the passes so far have replaced; NoIndex elsewhere.
+  // The numbers replaced by the passes so far; NoIndex elsewhere.
   std::optional<RecordFile<std::uint32_t>> done;
   std::vector<std::uint32_t> numbers, replaced;
   for (const int bucket : buckets)

@@ -17,13 +17,13 @@ inline constexpr std::uint32_t NoIndex = std::numeric_limits<std::uint32_t>::max
 
 /**
  * Replaces numbers below a given end by others, out of core: put() the pairs in any order, then
- * apply() to a file of numbers. That takes as many passes over the file as tables for all numbers
- * fit into the memory.
+ * apply() to a file of numbers. This takes a pass over the file for each table that fits into the
+ * memory.
  */
 class Relabelling
 {
 public:
-  /** For numbers in [0, end). A table takes `memory` bytes or less. */
+  /** For numbers in [0, end). A table uses at most `memory` bytes. */
   Relabelling(Workspace& workspace, std::int64_t end, std::int64_t memory)
     : Space(workspace)
     , Table(workspace, end, sizeof(std::uint32_t), memory)
@@ -35,16 +35,14 @@ public:
     this->Table.put(from, std::as_bytes(std::span<const std::uint32_t, 1>(&to, 1)));
   }
 
-  /** Gives the memory of the pairs back: nothing is put now. */
+  /** Releases the memory of the pairs; to be called after the last put(). */
   void close() { this->Table.close(); }
 
-  /** Passes over the file of numbers that apply() will take: none for numbers that are not put. */
+  /** The number of passes of apply() over the file: none for tables without numbers. */
   int passes() const { return static_cast<int>(this->neededBuckets().size()); }
 
-  /**
-   * Gives the replaced numbers of `file` to `take`, records of `count` numbers one after the other,
-   * in the file's order. What was never put becomes NoIndex. Not to be called twice.
-   */
+  /** Passes the replaced numbers of `file` to `take`, in records of `count` numbers, in the order
+   * of the file. Numbers without a pair become NoIndex. To be called once. */
   template <class Take>
   void apply(const RecordFile<std::uint32_t>& file, std::size_t count, Take&& take)
   {
@@ -62,7 +60,7 @@ private:
   using TakeChunk = std::function<void(std::span<const std::uint32_t>)>;
 
   void applyChunks(const RecordFile<std::uint32_t>& file, std::size_t count, const TakeChunk& take);
-  /** Those of the table that are not empty, or the first one. */
+  /** The tables that are not empty, or the first one. */
   std::vector<int> neededBuckets() const;
 
   Workspace& Space;

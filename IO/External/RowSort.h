@@ -12,7 +12,7 @@
 namespace smg
 {
 
-/** Rows for a MergeSort that are bytes, as many of each as is known at run time, with a key. */
+/** Rows for a MergeSort with a key and a number of bytes that is known at run time. */
 class KeyedRows
 {
 public:
@@ -40,7 +40,7 @@ public:
     this->Places = Buffer();
     this->Rows = Buffer();
   }
-  /** Where the bytes of the row go, until the next one is put. */
+  /** The destination of the bytes of the row, valid until the next put(). */
   std::byte* put(std::size_t place, std::uint64_t key)
   {
     this->places()[place] = { key, place };
@@ -91,8 +91,7 @@ private:
   Buffer Places, Rows;
 };
 
-/** Sorts rows of bytes by a number. Those of one number stay in the sequence in which they were
- * put. */
+/** Sorts rows of bytes by a number; stable for equal numbers. */
 using RowSort = MergeSort<KeyedRows>;
 
 } // namespace smg

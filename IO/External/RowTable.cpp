@@ -10,7 +10,7 @@ namespace smg
 namespace
 {
 
-/** Buckets of one size, as few as the memory allows. */
+/** Buckets of equal size, as few as the memory permits. */
 std::uint32_t rangeOf(std::int64_t count, std::size_t rowBytes, std::int64_t memory)
 {
   const std::int64_t most = std::max<std::int64_t>(memory / static_cast<std::int64_t>(rowBytes), 1);

@@ -17,16 +17,14 @@ namespace smg
 class RowTable
 {
 public:
-  /**
-   * For numbers in [0, count), with rows of `rowBytes` bytes, at least 1. The rows of a bucket take
-   * `memory` bytes of the pool or less; what waits for the disk, a third of that, at most 4 MiB.
-   */
+  /** For numbers in [0, count), with rows of `rowBytes` bytes, at least 1. The rows of a bucket use
+   * at most `memory` bytes of the pool; the write buffers a third of that, at most 4 MiB. */
   RowTable(Workspace& workspace, std::int64_t count, std::size_t rowBytes, std::int64_t memory);
 
   std::int64_t count() const { return this->Count; }
   std::size_t rowBytes() const { return this->RowBytes; }
 
-  /** Of the rows of a number the last one counts. */
+  /** The last row of a number replaces earlier ones. */
   void put(std::uint32_t number, std::span<const std::byte> row)
   {
     const int bucket = static_cast<int>(number / this->Range);
@@ -34,17 +32,17 @@ public:
     this->Buckets.append(bucket, row);
   }
 
-  /** Gives the memory of what waits back: nothing is put now. */
+  /** Releases the write buffers; to be called after the last put(). */
   void close() { this->Buckets.close(); }
 
-  /** Numbers of a bucket. */
+  /** The number of rows of a bucket. */
   std::uint32_t range() const { return this->Range; }
   int buckets() const { return this->Buckets.buckets(); }
   bool hasRows(int bucket) const { return this->Buckets.bytes(bucket) > 0; }
 
   /**
    * The rows of the numbers from `first` on, below count(), to the end of its bucket, at most
-   * `most`: after close(), until the next call. A row that was never put has all bits set.
+   * `most`. To be called after close(); valid until the next call. Missing rows have all bits set.
    */
   std::span<const std::byte> read(std::int64_t first, std::int64_t most = INT64_MAX);
 
@@ -56,7 +54,7 @@ private:
   std::size_t RowBytes;
   std::uint32_t Range;
   BucketFile Buckets;
-  Buffer Rows; ///< of the bucket that is read
+  Buffer Rows; ///< of the current bucket
   int Loaded = -1;
 };
 

@@ -13,36 +13,34 @@
 namespace smg
 {
 
-/** Where an out-of-core operation works: an accounted pool of memory and a folder for files. */
+/**
+ * The resources of an out-of-core operation: an accounted pool of memory and a folder for files.
+ */
 class SMG_EXPORT Workspace
 {
 public:
-  /** Least memory that out-of-core operations are made for, in bytes. */
+  /** The minimum memory of out-of-core operations, in bytes. */
   static constexpr std::int64_t LeastMemory = std::int64_t(16) << 20;
 
-  /**
-   * At most `memory` bytes are used, at least LeastMemory. Files go to a folder of its own in
-   * `scratch`; empty: the system's temporary folder.
-   */
+  /** At most `memory` bytes are used, at least LeastMemory. Files are created in a new folder in
+   * `scratch`; empty: the system's temporary folder. */
   Workspace(const std::filesystem::path& scratch, std::int64_t memory,
     const ProgressFunction& progress = {});
 
   Pool& pool() { return this->Memory; }
-  /** Bytes of memory that are not in use. */
+  /** The unused memory in bytes. */
   std::int64_t available() const { return this->Memory.limit() - this->Memory.used(); }
   const std::filesystem::path& folder() const { return this->Folder.path(); }
   IoStatistics& traffic() { return this->Traffic; }
 
-  /**
-   * Begins the part of the whole operation that ends when the fraction `end` of it is done, and
-   * that has about `bytes` of traffic, by which poll() tells how far it is.
-   */
+  /** Begins the part of the operation that ends when the fraction `end` of the whole is done; its
+   * traffic is about `bytes`, from which poll() computes the progress. */
   void beginPart(double end, std::int64_t bytes);
-  /** The fraction that is done when the current part ends. */
+  /** The fraction that is done at the end of the current part. */
   double partEnd() const { return this->PartEnd; }
-  /** Tells that the fraction `done` of the part is done. Throws Cancelled. */
+  /** Reports that the fraction `done` of the part is done. Throws Cancelled. */
   void tell(double done);
-  /** Tells progress, now and then while there is traffic. Throws Cancelled. */
+  /** Reports progress occasionally, by the traffic. Throws Cancelled. */
   void poll();
 
 private:
@@ -53,7 +51,7 @@ private:
   IoStatistics Traffic;
   Progress Reported;
   double PartBegin = 0, PartEnd = 0;
-  std::int64_t PartTraffic = 0; ///< when the part began
+  std::int64_t PartTraffic = 0; ///< at the beginning of the part
   std::int64_t PartBytes = 1;
 };
 

@@ -31,7 +31,7 @@ enum class MeshFileKind
   Unknown  ///< none of these
 };
 
-/** A suffix that the files of a format have, and the cells that are written under it. */
+/** A suffix of the files of a format, and the cells written with it. */
 struct FileSuffix
 {
   std::string_view text; ///< in lower case, with the dot
@@ -43,43 +43,42 @@ struct FileSuffix
   }
 };
 
-/** What a file says of its mesh, or its size lets guess. */
+/** The size of a mesh according to its file, or estimated from the size of the file. */
 struct FileCounts
 {
   std::int64_t vertices = 0, cells = 0;
   int corners = 3;              ///< of a cell
   std::int64_t columnBytes = 0; ///< of all columns of the mesh
-  bool counted = false;         ///< whether the file says it
+  bool counted = false;         ///< whether the file states it
 };
 
-/** Bytes that a vertex takes in a file, with the cells that come to it: two triangles, six
- * tetrahedra. */
+/** Bytes of a vertex in a file, with its share of cells: two triangles, six tetrahedra. */
 struct VertexShare
 {
   std::int64_t bytes = 75;
   int corners = 3;
 };
 
-/** A sentence for each thing that a written file does not hold as the mesh has it. */
+/** A sentence for each difference between a written file and the mesh. */
 using WriteNotes = std::vector<std::string>;
 
-/** As many bytes of the beginning of a file as tell its format. */
+/** The number of bytes at the beginning of a file that identify its format. */
 inline constexpr std::size_t FormatBytes = 4096;
 
 /**
- * All that there is to know of a file format: what reads, writes and lists formats knows them by
- * the table of these (IO/AnyFormat/FormatTable.h) alone. A format lives in a folder of its own;
- * what it cannot do is null.
+ * The description of a file format: all code that reads, writes and lists formats uses only the
+ * table of these (IO/AnyFormat/FormatTable.h). Each format has its own folder; unsupported
+ * operations are null.
  */
 struct Format
 {
   std::string_view name;
   std::span<const FileSuffix> suffixes;
-  /** What it holds beside positions and cells, for tables and help. */
+  /** The data besides positions and cells, for tables and help. */
   std::string_view attributes;
   MeshFileKind kind = MeshFileKind::Indexed;
 
-  /** Whether the first bytes of a file have the sign of this format and of no other. */
+  /** Whether the first bytes of a file have the signature of this format. */
   bool (*hasSign)(std::string_view start) = nullptr;
   /**
    * Whether the first bytes look like it, for a format without a sign.
@@ -88,32 +87,30 @@ struct Format
   bool (*looksRight)(std::string_view start, std::optional<std::uint64_t> size) = nullptr;
 
   /**
-   * Parses a file as a stream and gives the mesh to the builder. Of the builder's MeshError makes
-   * an Error with the place in the file, or leaves it to the caller.
+   * Parses a file as a stream and passes the mesh to the builder. Converts a MeshError of the
+   * builder to an Error with the position in the file, or leaves it to the caller.
    */
   void (*parse)(InputFile& file, RawMeshBuilder& builder, const MeshPart& part,
     const ProgressFunction& progress) = nullptr;
-  /** What a file that is not compressed says at its beginning; none if it is too short for it. */
+  /** The size stated at the beginning of an uncompressed file; none if it is too short. */
   std::optional<FileCounts> (*counts)(InputFile& file, const MeshPart& part) = nullptr;
-  /** Whether its files have time steps and partitions. Else `part` is the whole mesh. */
+  /** Whether its files have time steps and partitions. Otherwise `part` is the whole mesh. */
   bool hasParts = false;
-  /** What its size lets guess otherwise. */
+  /** Otherwise, the estimate from the size of the file. */
   VertexShare share = {};
 
-  /** Writes a mesh stream in its order, in one pass. The suffix is one that holds the cells. */
+  /** Writes a mesh stream in its order, in one pass. The suffix is one for these cells. */
   WriteNotes (*write)(MeshSource& source, const std::filesystem::path& path,
     const WriteMeshOptions& options) = nullptr;
-  /** Instead of `write`, of a .vsm file: for a format that has to read the mesh more than once. */
+  /** Writes a .vsm file; instead of `write`, for a format that reads the mesh more than once. */
   WriteNotes (*writeVsm)(const std::filesystem::path& vsm, const std::filesystem::path& path,
     const ProgressFunction& progress) = nullptr;
-  /**
-   * Writes a mesh in the order of the file that it was made of: reads it once. The file gets its
-   * name when it is complete.
-   */
+  /** Writes a mesh in the order of its original file; reads it once. The file is renamed when it is
+   * complete. */
   WriteNotes (*restore)(RestoredMesh& mesh, const std::filesystem::path& path) = nullptr;
 };
 
-/** Format::parse of a function that does not tell progress other than by the bytes it reads. */
+/** Format::parse of a function that reports progress only by the bytes it reads. */
 template <void (*Parse)(InputFile&, RawMeshBuilder&)>
 void parseWith(InputFile& file, RawMeshBuilder& builder, const MeshPart&, const ProgressFunction&)
 {

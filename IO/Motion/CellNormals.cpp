@@ -27,11 +27,11 @@ double length(const Vector& a)
   return std::sqrt(dot(a, a));
 }
 
-/** The unit vector from a to b; zero if they are the same. */
+/** The unit vector from a to b; zero if they are equal. */
 Vector direction(std::span<const double, 3> a, std::span<const double, 3> b)
 {
   Vector edge{ b[0] - a[0], b[1] - a[1], b[2] - a[2] };
-  // Squares of the smallest and the largest numbers vanish and overflow.
+  // Squares of the smallest and the largest numbers underflow and overflow.
   const double scale = std::max({ std::abs(edge[0]), std::abs(edge[1]), std::abs(edge[2]) });
   if (!(scale > 0.0))
   {

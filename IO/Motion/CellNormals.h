@@ -25,26 +25,22 @@ struct TriangleShape
 SMG_EXPORT TriangleShape shapeOfTriangle(
   std::span<const double, 3> a, std::span<const double, 3> b, std::span<const double, 3> c);
 
-/**
- * The shapes of the triangles of a mesh stream, block by block: keeps the positions of the vertices
- * that are not final.
- */
+/** The shapes of the triangles of a mesh stream, block by block; stores the positions of the
+ * vertices that are not final. */
 class CellNormals
 {
 public:
-  /**
-   * At most `memory` bytes are in memory; what exceeds it goes to a scratch file in `scratch`
-   * (empty: the system's temporary folder).
-   */
+  /** At most `memory` bytes are in memory; the rest is in a scratch file in `scratch` (empty: the
+   * system's temporary folder). */
   CellNormals(const std::filesystem::path& scratch, std::int64_t memory);
 
-  /** Takes the vertices of the next block. */
+  /** Adds the vertices of the next block. */
   void take(const MeshBlock& block);
-  /** The shape of cell `cell`, counted from 0, of the block taken last. */
+  /** The shape of cell `cell`, counted from 0, of the last block. */
   TriangleShape shape(const MeshBlock& block, std::size_t cell);
-  /** Takes the next block and writes the normals of its cells, 3 floats a cell. */
+  /** Adds the next block and writes the normals of its cells, 3 floats per cell. */
   void read(const MeshBlock& block, std::span<float> normals);
-  /** Forgets the vertices that are final after the block. */
+  /** Releases the vertices that are final after the block. */
   void release(const MeshBlock& block);
 
 private:

@@ -10,14 +10,12 @@
 namespace smg
 {
 
-/**
- * A mesh stream with its vertices where a solution of three columns says, rounded to the precision
- * of the stream. The bounds of its info are not known.
- */
+/** A mesh stream with the positions of a solution of three columns, rounded to the precision of the
+ * stream. The bounds of its info are unknown. */
 class SMG_EXPORT MovedPoints : public MeshSource
 {
 public:
-  /** The positions must live as long as this. */
+  /** The positions must outlive this object. */
   MovedPoints(std::unique_ptr<MeshSource> source, Solution& positions);
 
   const StreamInfo& info() const override { return this->Info; }

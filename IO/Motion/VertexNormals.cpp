@@ -18,7 +18,7 @@ namespace smg
 namespace
 {
 
-/** Sums up the normals at the vertices that are not final. */
+/** Sums the normals at the vertices that are not final. */
 class NormalSums
 {
 public:
@@ -45,7 +45,7 @@ public:
 
   std::int64_t vertices() const { return this->Vertices; }
 
-  /** Gives the normals of the vertices [first, end), and forgets them. */
+  /** Returns the normals of the vertices [first, end) and releases them. */
   void give(std::int64_t first, std::int64_t end, std::vector<float>& normals)
   {
     normals.clear();
@@ -77,8 +77,8 @@ private:
 
   int Flags;
   CellNormals Shapes;
-  PagedArray<std::array<double, 4>> Sums; ///< three numbers a vertex, by stream index
-  std::int64_t Vertices = 0;              ///< that have come
+  PagedArray<std::array<double, 4>> Sums; ///< three numbers per vertex, by stream index
+  std::int64_t Vertices = 0;              ///< so far
 };
 
 constexpr std::int64_t BytesPerVertex = 3 * sizeof(float);

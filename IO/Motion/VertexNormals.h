@@ -14,27 +14,27 @@ namespace smg
 {
 
 /**
- * The unit normals at the vertices of a mesh stream of triangles, on disk: the normals of a
- * vertex's triangles, weighted by their angles at the vertex. Triangles without area, and those
- * that CellFlags calls degenerate or duplicate, count for nothing; a vertex without any other has
- * the normal (0, 0, 0).
+ * The unit normals at the vertices of a mesh stream of triangles, on disk: the mean of the
+ * normals of a vertex's triangles, weighted by their angles at the vertex. Triangles without area,
+ * and those marked as degenerate or duplicate in CellFlags, are ignored; a vertex without any other
+ * has the normal (0, 0, 0).
  *
- * They are computed in one pass; a vertex is let go as soon as it is final. The result does not
+ * They are computed in one pass; a vertex is released as soon as it is final. The result does not
  * depend on the blocks of the stream.
  */
 class SMG_EXPORT VertexNormals
 {
 public:
   /**
-   * Reads the stream, which has at least its CellFlags if there are any, to its end.
+   * Reads the stream, which delivers at least its CellFlags, if any, to its end.
    * @throws Error if the cells are no triangles or a scratch file fails; Cancelled
    */
   explicit VertexNormals(MeshSource& mesh, const NormalsOptions& options = {});
 
   std::int64_t vertices() const { return this->Vertices; }
   /**
-   * Writes the normals of the vertices [first, first + count) to `normals`, 3 floats a vertex. Any
-   * range in any order. Throws Error.
+   * Writes the normals of the vertices [first, first + count) to `normals`, 3 floats per vertex.
+   * Any range in any order. Throws Error.
    */
   void read(std::int64_t first, std::int64_t count, std::span<float> normals) const;
 

@@ -12,7 +12,7 @@ namespace smg
 namespace
 {
 
-/** Share of the extent along an axis that is its end. */
+/** The share of the extent along an axis that counts as its end. */
 constexpr double EndShare = 0.015;
 
 Eigen::Vector3d point(std::span<const float> points, std::uint32_t i)
@@ -40,7 +40,7 @@ std::vector<std::vector<std::uint32_t>> axisEnds(
   }
   if (!covariance.allFinite())
   {
-    return ends; // a coordinate was more than a float can hold
+    return ends; // a coordinate exceeded the range of float
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
   for (const int axis : { 2, 1 })

@@ -16,7 +16,7 @@ namespace
 
 /** Components up to this size are searched from any vertex. */
 constexpr std::int64_t Tiny = 64;
-/** Vertices that all searches from landmarks may visit, and landmarks that are measured anyway. */
+/** The maximum of vertices visited by all searches from landmarks, and the minimum of landmarks. */
 constexpr std::int64_t Visits = 16'000'000;
 constexpr int LeastLandmarks = 4;
 
@@ -26,11 +26,11 @@ int landmarksFor(std::int64_t vertices, const BreadthFirstOptions& options)
   return std::min(options.landmarks, std::max(LeastLandmarks, static_cast<int>(affordable)));
 }
 
-/** A search and its cache, with the memory that is available. */
+/** A search and its cache, with the available memory. */
 class Searching
 {
 public:
-  /** `kept`: bytes of memory that are left to others. */
+  /** `kept`: bytes of memory for other purposes. */
   Searching(VertexPages& pages, Workspace& workspace, std::int64_t kept)
     : Cache(pages, workspace, cacheBytes(pages, workspace, kept))
     , Search(pages, this->Cache, workspace, queueBytes(workspace))
@@ -69,7 +69,7 @@ public:
   {
   }
 
-  /** Orders the component of a vertex without a place. */
+  /** Orders the component of a vertex without a position. */
   void order(std::uint32_t rank, OrderedVertices& order)
   {
     const std::vector<SearchSource> sources = this->sources(rank);
@@ -78,7 +78,7 @@ public:
     this->Traffic.loads += this->Searches.Cache.loads() - before;
   }
 
-  /** The first vertex of a page, from `vertex` on, that has no place. */
+  /** The first vertex of a page, from `vertex` on, without a position. */
   std::uint32_t nextUnplaced(std::uint32_t page, std::uint32_t vertex)
   {
     const std::span<const std::uint32_t> places = this->Searches.Cache.whole(page).places();

@@ -7,24 +7,22 @@
 namespace smg
 {
 
-/** How a breadth-first order is planned. */
+/** Options of the planning of a breadth-first order. */
 struct BreadthFirstOptions
 {
-  /**
-   * Vertices that distances are measured from; 0: each component is begun at its end. Each costs a
-   * search, so large meshes, which gain less, take fewer, but at least four.
-   */
+  /** The number of vertices from which distances are measured; 0: each component starts at its end.
+   * Each requires a search, so large meshes, which benefit less, use fewer, but at least four. */
   int landmarks = 16;
-  /** Components of fewer vertices are begun at their ends. */
+  /** Components with fewer vertices start at their ends. */
   std::int64_t leastPlanned = 4096;
 };
 
-/** How often pages were loaded, for a user and for tests. */
+/** The number of page loads, for users and tests. */
 struct PageTraffic
 {
   std::int64_t pages = 0;
-  std::int64_t loads = 0;      ///< while the order was made
-  std::int64_t probeLoads = 0; ///< while it was planned
+  std::int64_t loads = 0;      ///< while computing the order
+  std::int64_t probeLoads = 0; ///< while planning it
   std::int64_t probes = 0;
 };
 

@@ -44,7 +44,7 @@ std::uint8_t CellFlagger::flag(const std::int64_t* corners)
     ++this->Degenerate;
   }
   std::sort(sorted.begin(), sorted.end());
-  // A cell is listed under the corner with the fewest cells, so that no list gets long at a hub.
+  // A cell is listed under the corner with the fewest cells, so that lists stay short at a hub.
   bool duplicate = false;
   CellsOfVertex* shortest = nullptr;
   for (std::size_t k = 0; k < this->Corners && !duplicate; ++k)

@@ -11,10 +11,8 @@
 namespace smg
 {
 
-/**
- * Finds the degenerate and the duplicate cells of a mesh stream block by block. In memory are only
- * the vertices that are not final, and the cells among them.
- */
+/** Finds the degenerate and the duplicate cells of a mesh stream block by block. Stores only the
+ * vertices that are not final, and the cells between them. */
 class CellFlagger
 {
 public:
@@ -29,11 +27,11 @@ public:
   std::int64_t degenerateCells() const { return this->Degenerate; }
   std::int64_t duplicateCells() const { return this->Duplicates; }
 
-  /** Bytes that a vertex of the window takes, with its cells. */
+  /** Bytes of a vertex of the window with its cells. */
   static constexpr std::int64_t BytesPerVertex = 256;
 
 private:
-  /** Cells that have a vertex as a corner; each is listed under one of its corners. */
+  /** The cells of a vertex; each is listed under one of its corners. */
   using CellsOfVertex = std::vector<std::array<std::int64_t, 4>>;
 
   std::uint8_t flag(const std::int64_t* corners);

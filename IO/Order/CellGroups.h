@@ -16,14 +16,12 @@ struct RankRange
   std::int64_t size() const { return this->end - this->begin; }
 };
 
-/**
- * The cells of a mesh in groups of equally many vertices that follow each other: a cell is in each
- * group that one of its corners belongs to.
- */
+/** The cells of a mesh in groups of equal numbers of consecutive vertices: a cell is in each group
+ * of one of its corners. */
 class CellGroups
 {
 public:
-  /** The groups of the range have `groupVertices` each; collecting takes `memory` bytes. */
+  /** The groups of the range have `groupVertices` vertices each; collecting uses `memory` bytes. */
   CellGroups(Workspace& workspace, RankRange range, std::int64_t groupVertices, std::size_t corners,
     std::int64_t memory);
 
@@ -34,7 +32,7 @@ public:
     return this->Cells.bytes(group) / std::int64_t(this->Corners * sizeof(std::uint32_t));
   }
 
-  /** Puts a cell, by the ranks of its corners, some of which may be outside the range. */
+  /** Adds a cell by the ranks of its corners, some of which may be outside the range. */
   void put(std::span<const std::uint32_t> cell)
   {
     std::uint32_t groups[4];
@@ -53,10 +51,10 @@ public:
       }
     }
   }
-  /** Ends the putting. */
+  /** To be called after the last put(). */
   void close() { this->Cells.close(); }
 
-  /** Gives the cells of a group to `take`, in the sequence in which they were put. */
+  /** Passes the cells of a group to `take`, in the order of put(). */
   template <class Take>
   void forEach(int group, Take&& take) const
   {

@@ -18,7 +18,7 @@ std::vector<std::int64_t> chooseCells(std::int64_t cells)
 {
   const std::int64_t count = std::min(cells, CellSample::Most);
   std::vector<std::int64_t> chosen(static_cast<std::size_t>(count));
-  // Not at equal strides: these could be in step with the rows of a grid.
+  // Not at equal strides, which could coincide with the rows of a grid.
   std::mt19937_64 random(1);
   for (std::int64_t i = 0; i < count; ++i)
   {

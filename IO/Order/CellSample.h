@@ -11,14 +11,14 @@
 namespace smg
 {
 
-/** Some cells of a mesh, from all over its file, and the coordinates of their corners. */
+/** Some cells of a mesh, distributed over its file, and the coordinates of their corners. */
 struct CellSample
 {
-  /** Most cells of a sample. */
+  /** The maximum number of cells of a sample. */
   static constexpr std::int64_t Most = 8192;
 
   std::size_t corners = 3;                      ///< of a cell
-  std::vector<std::uint32_t> vertices;          ///< `corners` a cell
+  std::vector<std::uint32_t> vertices;          ///< `corners` per cell
   std::vector<std::array<double, 3>> positions; ///< of each of them
 
   std::size_t cells() const { return this->vertices.size() / this->corners; }
@@ -30,7 +30,7 @@ struct CellSample
   std::vector<std::size_t> differentVertices() const;
 };
 
-/** Takes one cell at random of each of CellSample::Most stretches of the file. */
+/** Selects a random cell from each of CellSample::Most parts of the file. */
 CellSample sampleCells(const RawMesh& mesh);
 
 } // namespace smg

@@ -15,9 +15,9 @@ namespace smg
 {
 
 /**
- * The vertices that cells in sequence use: they are read from the order as far as cells reach, get
- * their stream indices by first use, and are forgotten when their last cell has come. What does not
- * fit the memory goes to scratch files.
+ * The vertices used by consecutive cells: they are read from the order as far as cells reach, get
+ * their stream indices by first use, and are released after their last cell. Data that exceed the
+ * memory are written to scratch files.
  */
 template <class Real>
 class CellWindow
@@ -39,7 +39,7 @@ public:
     std::uint32_t index;
   };
 
-  /** The vertex at a place, which gets the next stream index if it has none. */
+  /** The vertex at a position, which gets the next stream index if it has none. */
   Vertex use(std::uint32_t place)
   {
     while (place >= this->Loaded)
@@ -61,7 +61,7 @@ public:
     return { { slot.position[0], slot.position[1], slot.position[2] }, slot.index };
   }
 
-  /** Says that no further cell has a largest place of `place` or less. */
+  /** Declares that no further cell has a largest position of `place` or less. */
   void pass(std::uint32_t place)
   {
     while (this->Finalized < this->Layout.vertexCount && this->Reach.get(this->Finalized) <= place)
@@ -76,7 +76,7 @@ public:
     this->Slots.discardBelow(this->Passed);
   }
 
-  /** Vertices, by stream index, that no further cell uses. */
+  /** The number of vertices, by stream index, that no further cell uses. */
   std::int64_t finalized() const { return this->Finalized; }
 
 private:
@@ -86,7 +86,7 @@ private:
     std::uint32_t id;
     std::uint32_t index;
     std::uint32_t reach;
-    std::uint32_t unused[sizeof(Real) == sizeof(double) ? 7 : 2]; ///< a size of 2^n is wanted
+    std::uint32_t unused[sizeof(Real) == sizeof(double) ? 7 : 2]; ///< for a size of 2^n
   };
 
   static std::int64_t share(Workspace& workspace)

@@ -14,24 +14,22 @@
 namespace smg
 {
 
-/**
- * Brings the columns of a file, whose tuples are known by their numbers in it, into the order of a
- * stream: put() says which number each row of the stream has, one row after the other; fill()
- * delivers the tuples of the rows. A number may come any number of times.
- */
+/** Reorders the columns of a file for a stream: put() sets the number in the file of each row of
+ * the stream, row by row; fill() delivers the tuples of the rows. Numbers may be repeated. */
 class ColumnJoin
 {
 public:
-  /** The columns must outlive it. Uses about `memory` bytes of the pool, twice that in join(). */
+  /** The columns must outlive this object. Uses about `memory` bytes of the pool, twice that in
+   * join(). */
   ColumnJoin(Workspace& workspace, const std::vector<RawColumn>& columns, std::int64_t memory);
 
-  /** The number of the next row. */
+  /** Sets the number of the next row. */
   void put(std::uint32_t number) { this->Numbers.put({ number, this->NextRow++ }); }
 
-  /** Brings the tuples into the order of the rows, after the last put(). */
+  /** Sorts the tuples by rows, after the last put(). */
   void join();
 
-  /** Puts the tuples of the next `rows` rows into the first columns of `columns`. */
+  /** Fills the first columns of `columns` with the tuples of the next `rows` rows. */
   void fill(std::int64_t rows, std::vector<Column>& columns);
 
 private:

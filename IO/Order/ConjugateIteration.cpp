@@ -15,9 +15,9 @@ namespace
 {
 
 constexpr int MostIterations = 300;
-/** The iteration ends when the eigenvalue falls by less than this share, twice in a row. */
+/** The iteration ends when the eigenvalue decreases by less than this share twice in succession. */
 constexpr double LeastGain = 1e-5;
-/** On fewer nodes an iteration takes no time that counts. */
+/** With fewer nodes the time of an iteration is negligible. */
 constexpr std::uint32_t PolledNodes = 4096;
 
 double plainDot(const std::vector<double>& a, const std::vector<double>& b)
@@ -116,7 +116,7 @@ bool ConjugateIteration::normalise(Direction& direction) const
 bool ConjugateIteration::orthogonalise(Direction& direction, const Direction& against) const
 {
   const double factor = this->dot(direction.values, against.values);
-  // Of a direction that is nearly parallel, rounding errors would be left.
+  // Of a nearly parallel direction, only rounding errors would remain.
   if (!(1 - factor * factor > 1e-12))
   {
     return false;
@@ -156,7 +156,7 @@ double ConjugateIteration::minimise(bool withPrevious)
   const double previous = withPrevious ? least(2) : 0;
   for (const auto part : { &Direction::values, &Direction::image })
   {
-    // The step without the share of the current vector is the next conjugate direction.
+    // The step without its component along the current vector is the next conjugate direction.
     scale(this->Previous.*part, previous);
     add(this->Previous.*part, least(1), this->Residual.*part);
     scale(this->Current.*part, least(0));

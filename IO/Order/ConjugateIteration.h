@@ -9,20 +9,16 @@
 namespace smg
 {
 
-/**
- * Improves an approximation of a graph's Fiedler vector: LOBPCG for one vector, preconditioned by
- * the Laplacian's diagonal, among the vectors whose mean by mass is 0.
- */
+/** Improves an approximation of a graph's Fiedler vector: LOBPCG for one vector, preconditioned by
+ * the diagonal of the Laplacian, in the space of vectors whose mass-weighted mean is 0. */
 class ConjugateIteration
 {
 public:
-  /** The graph must outlive it. */
+  /** The graph must outlive this object. */
   ConjugateIteration(const WeightedGraph& graph, std::vector<double> start);
 
-  /**
-   * Iterates until the eigenvalue hardly falls any more, and gives the vector. Calls `poll`, which
-   * may throw, in each iteration on a large graph.
-   */
+  /** Iterates until the eigenvalue hardly decreases any more, and returns the vector. Calls `poll`,
+   * which may throw, in each iteration on a large graph. */
   std::vector<double> run(const std::function<void()>& poll = {});
 
 private:
@@ -35,12 +31,14 @@ private:
   double dot(const std::vector<double>& a, const std::vector<double>& b) const;
   void removeMean(std::vector<double>& values) const;
   void applyLaplacian(const std::vector<double>& values, std::vector<double>& image) const;
-  /** Makes a direction orthogonal to another one, both of norm 1. False: nothing is left of it. */
+  /**
+   * Makes a direction orthogonal to another one, both of norm 1. Returns false if nothing remains.
+   */
   bool orthogonalise(Direction& direction, const Direction& against) const;
   bool normalise(Direction& direction) const;
-  /** The next preconditioned residual as a direction. False: there is none. */
+  /** Computes the next preconditioned residual as a direction. Returns false if there is none. */
   bool residual(double eigenvalue);
-  /** Goes to the least Rayleigh quotient of the search space, and gives it. */
+  /** Moves to the minimum of the Rayleigh quotient in the search space, and returns it. */
   double minimise(bool withPrevious);
 
   const WeightedGraph& Graph;

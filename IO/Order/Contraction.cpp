@@ -20,11 +20,11 @@ namespace
 
 using Numbers = RecordFile<std::uint32_t>;
 
-/** Rounds make clusters of some thousand vertices: more than pages have. */
+/** Rounds make clusters of some thousand vertices, more than a page has. */
 constexpr int Rounds = 8;
 constexpr std::int64_t FewVertices = 64;
 
-/** Different for different vertices, and without pattern. */
+/** Distinct for distinct vertices, and without pattern. */
 std::uint32_t hash(std::uint32_t vertex, int round)
 {
   std::uint32_t bits = vertex ^ static_cast<std::uint32_t>(round + 1) * 0x9e3779b9u;
@@ -39,11 +39,11 @@ struct Level
   std::int64_t vertices;
   std::size_t corners;        ///< of a cell
   const Numbers* cells;       ///< the corners
-  int round;                  ///< 0: vertices in no cell do not count
+  int round;                  ///< 0: isolated vertices do not count
   std::uint32_t centresBelow; ///< hashes of centres are below
 };
 
-/** What a level's vertices come together to. */
+/** The clusters of the vertices of a level. */
 struct Contracted
 {
   explicit Contracted(Workspace& workspace)
@@ -51,12 +51,12 @@ struct Contracted
     , cells(workspace)
   {
   }
-  Numbers parents; ///< of each of the level's vertices
-  Numbers cells;   ///< without those that have come together to a point
+  Numbers parents; ///< of each vertex of the level
+  Numbers cells;   ///< without those that have collapsed to a point
   std::int64_t vertices = 0;
 };
 
-/** Lets the corners of a cell join each other, where labels[vertex - first] is who they joined. */
+/** Joins the corners of a cell; labels[vertex - first] is the vertex that a corner joined. */
 void join(const Level& level, std::span<const std::uint32_t> cell, std::uint32_t first,
   std::span<std::uint32_t> labels)
 {
@@ -79,7 +79,7 @@ void join(const Level& level, std::span<const std::uint32_t> cell, std::uint32_t
     {
       label = cell[k];
     }
-    // A vertex that is no centre and has not joined one is behind all centres.
+    // A vertex that is not a centre and has not joined one comes after all centres.
     if (hashes[k] >= level.centresBelow && hashes[best] < level.centresBelow &&
         (label == cell[k] || hashes[best] < hash(label, level.round)))
     {
@@ -88,7 +88,7 @@ void join(const Level& level, std::span<const std::uint32_t> cell, std::uint32_t
   }
 }
 
-/** The vertex that each vertex of the level joins: a centre, or itself; numbers of those. */
+/** The vertex that each vertex of the level joins, a centre or itself, by its number. */
 Numbers findLabels(const Level& level, Workspace& workspace, Relabelling& numbers,
   std::int64_t memory, std::int64_t& found)
 {
@@ -160,7 +160,7 @@ Contracted contract(const Level& level, Workspace& workspace, std::int64_t memor
   return result;
 }
 
-/** Numbers the vertices of a level by the numbers of their clusters: puts them to `numbers`. */
+/** Numbers the vertices of a level by the numbers of their clusters, in `numbers`. */
 void numberByCluster(
   const Numbers& clusters, Workspace& workspace, std::int64_t memory, Relabelling& numbers)
 {
@@ -204,7 +204,7 @@ RecordFile<std::uint32_t> clusterNumbers(const RawMesh& mesh, Workspace& workspa
     level.cells = &cells;
     level.vertices = next.vertices;
   }
-  // The clusters of the last round have numbers; those before are numbered by them.
+  // The clusters of the last round have numbers, from which those of earlier rounds follow.
   cells = Numbers(workspace);
   while (parents.size() > 1)
   {

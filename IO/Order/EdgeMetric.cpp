@@ -17,11 +17,11 @@ namespace
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/** Shares of edges and of vertices that are taken for outliers, at one end. */
+/** The shares of edges and of vertices that count as outliers, at one end. */
 constexpr double LongestEdges = 0.05, OuterVertices = 0.002;
-/** The box is larger than the sample by this share of its extent at both ends. */
+/** The box exceeds the sample by this share of its extent at both ends. */
 constexpr double Margin = 0.06;
-/** An axis is flat if edges are this much shorter along it than along the longest. */
+/** An axis is flat if edges are shorter along it than along the longest by this factor. */
 constexpr double Flat = 1e-6;
 
 Vector3d vectorOf(const std::array<double, 3>& position)
@@ -45,7 +45,7 @@ std::vector<Vector3d> scaledEdges(const CellSample& sample)
       }
     }
   }
-  // The largest component, not the length: its square may be beyond all numbers.
+  // The largest component instead of the length, whose square may overflow.
   const auto size = [](const Vector3d& edge) { return edge.lpNorm<Eigen::Infinity>(); };
   const auto kept = static_cast<std::size_t>(double(edges.size()) * (1 - LongestEdges));
   std::ranges::nth_element(edges, edges.begin() + std::ptrdiff_t(kept), {}, size);
@@ -71,7 +71,7 @@ struct Range
   double low, extent;
 };
 
-/** Where most of the sample is along a direction. */
+/** The range of most of the sample along a direction. */
 Range rangeAlong(
   const Vector3d& direction, const CellSample& sample, const std::vector<std::size_t>& places)
 {
@@ -105,7 +105,7 @@ EdgeMetric::EdgeMetric(const CellSample& sample)
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(covariance);
   const Vector3d deviation = eigen.eigenvalues().cwiseMax(0).cwiseSqrt();
   const double largest = deviation.maxCoeff();
-  // Extents in units that are about as long as edges.
+  // Extents in units of about the length of edges.
   std::array<Range, 3> ranges;
   std::array<double, 3> extents{};
   double most = 0;
@@ -162,7 +162,7 @@ bool numbersAreMoreLocal(
         std::abs(double(sample.vertices[first]) - double(sample.vertices[other])) < within;
     }
   }
-  // Where all is at one point, equal places mean nothing.
+  // If all points coincide, equal positions carry no information.
   const double byKeys = keys.front() == keys.back() ? 0.0 : double(localKeys);
   return double(localNumbers) > byKeys + 0.05 * double(edges);
 }

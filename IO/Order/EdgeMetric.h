@@ -11,14 +11,14 @@ namespace smg
 {
 
 /**
- * Places of vertices along a Hilbert curve, in coordinates in which the edges of a mesh are about
- * equally long in all directions: so that neither thin triangles, nor layers, nor a few points far
- * away tear neighbours apart.
+ * Positions of vertices along a Hilbert curve, in coordinates in which the edges of a mesh are
+ * about equally long in all directions, so that thin triangles, layers or a few distant points do
+ * not separate neighbours.
  */
 class EdgeMetric
 {
 public:
-  /** By the edges and the extent of a sample. Any finite coordinates will do. */
+  /** From the edges and the extent of a sample with any finite coordinates. */
   explicit EdgeMetric(const CellSample& sample);
 
   template <class Real>
@@ -41,7 +41,7 @@ private:
     const Axis& axis = this->Axes[std::size_t(k)];
     const double value =
       axis.direction[0] * x + axis.direction[1] * y + axis.direction[2] * z - axis.low;
-    // Written so that what is no number becomes 0.
+    // Written such that NaN becomes 0.
     return value > 0 ? (value < HilbertCurve::Largest ? static_cast<std::uint32_t>(value)
                                                       : HilbertCurve::Largest)
                      : 0;
@@ -52,8 +52,9 @@ private:
 };
 
 /**
- * Whether the vertices' numbers say clearly more of neighbourhood than the places along the curve,
- * where `tolerance` is how far apart the ranks of two neighbours may be, of `vertices` ranks.
+ * Whether the numbers of the vertices represent neighbourhood clearly better than the positions
+ * along the curve; `tolerance` is the allowed distance of the ranks of two neighbours, of
+ * `vertices` ranks.
  */
 bool numbersAreMoreLocal(
   const CellSample& sample, const EdgeMetric& metric, std::int64_t vertices, double tolerance);

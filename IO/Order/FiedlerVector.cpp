@@ -15,12 +15,12 @@ namespace smg
 namespace
 {
 
-/** Graphs of at most so many nodes are solved directly. */
+/** Graphs of at most this many nodes are solved directly. */
 constexpr std::uint32_t DirectNodes = 48;
 
 std::vector<double> directly(const WeightedGraph& graph)
 {
-  // D^-1/2 L D^-1/2, where D has the masses, has the same eigenvalues.
+  // D^-1/2 L D^-1/2, where D contains the masses, has the same eigenvalues.
   const std::uint32_t count = graph.nodes();
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(count, count);
   for (std::uint32_t i = 0; i < count; ++i)
@@ -51,7 +51,7 @@ std::vector<double> solve(const WeightedGraph& graph, const std::function<void()
   {
     std::vector<std::uint32_t> groups;
     const WeightedGraph coarse = coarsen(graph, groups);
-    // A star becomes one node, which says nothing: then any vector will do to begin with.
+    // A star becomes one node without information: any initial vector is suitable then.
     const std::vector<double> start =
       coarse.nodes() < 2 ? std::vector<double>() : solve(coarse, poll);
     for (std::uint32_t i = 0; i < graph.nodes(); ++i)

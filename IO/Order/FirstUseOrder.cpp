@@ -16,7 +16,7 @@ namespace smg
 namespace
 {
 
-/** The first corner, among all of the file, that a vertex is. */
+/** The first corner in the file that is a given vertex. */
 struct FirstUse
 {
   std::uint64_t corner;
@@ -24,7 +24,7 @@ struct FirstUse
   auto operator<=>(const FirstUse&) const = default;
 };
 
-/** Puts the first use of each used vertex, with a bit for each vertex of a range at a time. */
+/** Stores the first use of each used vertex, with a bit for each vertex of one range at a time. */
 void putFirstUses(const RawMesh& mesh, Workspace& workspace, ExternalSort<FirstUse>& uses)
 {
   const auto words = static_cast<std::size_t>(std::clamp<std::int64_t>(
@@ -54,7 +54,7 @@ void putFirstUses(const RawMesh& mesh, Workspace& workspace, ExternalSort<FirstU
   }
 }
 
-/** Puts the place of each used vertex; answers how many there are. */
+/** Stores the position of each used vertex; returns their number. */
 std::int64_t putPlaces(const RawMesh& mesh, Workspace& workspace, RowTable& places)
 {
   ExternalSort<FirstUse> uses(workspace, workspace.available() / 3);

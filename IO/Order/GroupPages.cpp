@@ -14,13 +14,13 @@ namespace
 {
 
 constexpr std::int64_t SampledVertices = 16384;
-/** Bytes of a group's links above which the scattering leaves the processor's cache. */
+/** The bytes of a group's links above which scattering exceeds the processor's cache. */
 constexpr std::int64_t CachedBytes = std::int64_t(4) << 20;
-/** Memory of a group of cells that is collected, at least. */
+/** The minimum memory for collecting a group of cells. */
 constexpr std::int64_t CollectedBytes = std::int64_t(16) << 10;
-/** Memory that is left to readers and to the file of the pages. */
+/** The memory for readers and for the file of the pages. */
 constexpr std::int64_t Reserve = std::int64_t(1) << 20;
-/** Bytes that VertexPages has for a neighbour, at most, while a page is made. */
+/** The maximum bytes of VertexPages per neighbour while a page is made. */
 constexpr std::int64_t EncodedBytes = 5;
 
 std::int64_t roundUp(std::int64_t count, std::int64_t unit)
@@ -63,7 +63,7 @@ GroupPages<Real>::GroupPages(const RawMesh& mesh, Workspace& workspace,
   }
 }
 
-/** Ranks in the links of the page that has most of them. */
+/** The number of ranks in the links of the page with most of them. */
 template <class Real>
 std::int64_t GroupPages<Real>::largestPage(const VertexLinks& links, RankRange range) const
 {

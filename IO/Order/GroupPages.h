@@ -14,28 +14,27 @@ namespace smg
 {
 
 /**
- * Vertices of a group of cells: so many that the links of a group fit into a share of `memory`, and
- * mostly into a processor's cache; as many groups as `collecting` bytes allow. Whole pages.
+ * The number of vertices of a group of cells, such that the links of a group fit into a share of
+ * `memory`, and mostly into a processor's cache; as many groups as `collecting` bytes permit. Whole
+ * pages.
  */
 std::int64_t groupVertices(std::int64_t vertices, std::int64_t cells, std::size_t corners,
   int pageVertices, std::int64_t memory, std::int64_t collecting);
 
-/** Makes the pages of a mesh, group by group, and counts on the way. */
+/** Makes the pages of a mesh, group by group, and the counts. */
 template <class Real>
 class GroupPages
 {
 public:
-  /** Mesh, workspace and vertices must outlive this. */
+  /** Mesh, workspace and vertices must outlive this object. */
   GroupPages(const RawMesh& mesh, Workspace& workspace,
     const RecordFile<RankedVertex<Real>>& vertices, int pageVertices);
 
-  /**
-   * Appends the pages of the next group. A group that does not fit into the memory is split; a page
-   * that does not is an Error.
-   */
+  /** Appends the pages of the next group. A group that does not fit into the memory is split;
+   * throws Error if a page does not. */
   void append(const CellGroups& groups, int group);
 
-  /** Ends the appending. */
+  /** To be called after the last append(). */
   PagedMesh finish();
 
 private:

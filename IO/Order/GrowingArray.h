@@ -15,7 +15,7 @@
 namespace smg
 {
 
-/** An array that grows at its end, in memory that the workspace's pool accounts for. */
+/** An array that grows at its end, in memory accounted for by the workspace's pool. */
 template <class T>
 class GrowingArray
 {
@@ -45,7 +45,7 @@ public:
   std::span<T> all() { return { this->data(), this->Size }; }
   std::span<const T> all() const { return { this->data(), this->Size }; }
 
-  /** Throws Error if the pool has no memory for it. */
+  /** Throws Error if the pool has no memory left. */
   void push(const T& value)
   {
     if (this->Size == this->Memory.size() / sizeof(T))
@@ -66,7 +66,7 @@ public:
       this->Memory = std::move(larger);
     }
   }
-  /** Forgets the elements, not the memory. */
+  /** Removes the elements, but keeps the memory. */
   void clear() { this->Size = 0; }
 
 private:

@@ -9,7 +9,7 @@ namespace smg
 namespace
 {
 
-/** Turns three bits by `count` places, to the left. */
+/** Rotates three bits left by `count` positions. */
 unsigned turned(unsigned bits, int count)
 {
   count %= 3;
@@ -18,7 +18,7 @@ unsigned turned(unsigned bits, int count)
 
 struct Step
 {
-  unsigned digit; ///< the octant's place on the curve
+  unsigned digit; ///< the position of the octant on the curve
   unsigned state; ///< in the octant
 };
 

@@ -7,17 +7,17 @@
 namespace smg
 {
 
-/** A Hilbert curve through a cube of 2^21 cells a side, by tables of two levels at a time. */
+/** A Hilbert curve through a cube of 2^21 cells per side, by tables of two levels at a time. */
 class HilbertCurve
 {
 public:
-  /** Bits of a coordinate. A key has three times as many. */
+  /** The bits of a coordinate. A key has three times as many. */
   static constexpr int Bits = 21;
   static constexpr std::uint32_t Largest = (std::uint32_t(1) << Bits) - 1;
 
   HilbertCurve();
 
-  /** How many cells come before the one at these coordinates, each at most Largest. */
+  /** The number of cells before the one at these coordinates, each at most Largest. */
   std::uint64_t key(std::uint32_t x, std::uint32_t y, std::uint32_t z) const
   {
     // The 22nd bits are zero, and so is their share of the key: it ends as 63 bits.
@@ -35,7 +35,7 @@ public:
 
 private:
   static constexpr int States = 24;
-  /** By state * 64 + place: the next state * 64 + the key's next six bits. */
+  /** By state * 64 + position: the next state * 64 + the next six bits of the key. */
   std::array<std::uint16_t, States * 64> Steps;
 };
 

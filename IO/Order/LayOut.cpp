@@ -14,7 +14,7 @@ namespace smg
 namespace
 {
 
-/** Bytes of traffic a vertex and a corner, measured, by which progress is told. */
+/** Measured bytes of traffic per vertex and per corner, for the progress. */
 constexpr std::int64_t PagesBytes[] = { 90, 20 };
 constexpr std::int64_t SearchBytes[] = { 120, 20 };
 constexpr std::int64_t AssemblyBytes[] = { 90, 32 };

@@ -13,12 +13,12 @@
 namespace smg
 {
 
-/** What is known of a mesh after it was laid out. */
+/** The properties of a mesh in stream order. */
 struct LayOutCounts
 {
   MeshCounts mesh;
   PageTraffic pages;
-  std::vector<std::string> notes; ///< what a user should know of the order
+  std::vector<std::string> notes; ///< notes for the user on the order
 };
 
 /**

@@ -14,8 +14,7 @@ namespace smg
 namespace
 {
 
-/** Adds the specs of the columns, and the one of the original numbers if it is wanted and not among
- * them. */
+/** Adds the specs of the columns, and that of the original numbers if requested and missing. */
 bool addSpecs(const std::vector<RawColumn>& columns, const ColumnSpec& numbers, bool wanted,
   std::vector<ColumnSpec>& specs)
 {

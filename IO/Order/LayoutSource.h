@@ -13,9 +13,9 @@ namespace smg
 {
 
 /**
- * Delivers a layout as a mesh stream. The stream has the mesh's columns, the places of vertices and
- * cells in the mesh's file (OriginalId and OriginalCellId, unless the mesh has them already), and
- * CellFlags if any cell has a flag.
+ * Delivers a layout as a mesh stream. The stream has the columns of the mesh, the indices of
+ * vertices and cells in its file (OriginalId and OriginalCellId, unless the mesh already has them),
+ * and CellFlags if any cell has a flag.
  */
 class LayoutSource : public MeshSource
 {
@@ -23,10 +23,10 @@ public:
   enum CellIds
   {
     WithCellIds,
-    WithoutCellIds ///< OriginalCellId is not added: the order of the mesh's cells means nothing
+    WithoutCellIds ///< without OriginalCellId, as the order of the cells is irrelevant
   };
 
-  /** Mesh and layout must live as long as the source. */
+  /** Mesh and layout must outlive the source. */
   LayoutSource(const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace,
     CellIds cellIds = WithCellIds);
 

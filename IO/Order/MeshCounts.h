@@ -6,7 +6,7 @@
 namespace smg
 {
 
-/** What was counted of a mesh while it was brought into order. -1: not counted. */
+/** Counts of a mesh from its ordering. -1: not counted. */
 struct MeshCounts
 {
   std::int64_t isolatedVertices = 0;

@@ -8,17 +8,17 @@
 namespace smg
 {
 
-/** A vertex at its place in an order. */
+/** A vertex at its position in an order. */
 template <class Real>
 struct OrderedVertex
 {
   Real position[3];
   std::uint32_t id; ///< number in the raw mesh
-  /** The largest place of a vertex that has a cell with this one; NoIndex if that is not known. */
+  /** The largest position of a vertex that shares a cell with this one; NoIndex if unknown. */
   std::uint32_t reach;
 };
 
-/** The vertices of a raw mesh in an order: a record a vertex, by place, 0, 1, 2 ... */
+/** The vertices of a raw mesh in an order: a record per vertex, by position 0, 1, 2 ... */
 struct OrderedVertices
 {
   explicit OrderedVertices(Workspace& workspace)
@@ -27,11 +27,11 @@ struct OrderedVertices
   }
 
   bool doublePositions = true;
-  BucketFile records; ///< OrderedVertex<double>, or else OrderedVertex<float>
+  BucketFile records; ///< OrderedVertex<double> or OrderedVertex<float>
   std::int64_t count = 0;
 };
 
-/** Reads vertices of either precision one after the other. */
+/** Reads vertices of either precision sequentially. */
 class OrderedVertexReader
 {
 public:
@@ -41,7 +41,7 @@ public:
   {
   }
 
-  /** The next vertex; false at the end. */
+  /** The next vertex; returns false at the end. */
   bool next(OrderedVertex<double>& vertex)
   {
     if (this->DoublePositions)

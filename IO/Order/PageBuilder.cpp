@@ -20,16 +20,16 @@ namespace smg
 namespace
 {
 
-/** The vertices of a mesh in the order of their ranks, and the cells by these. */
+/** The vertices of a mesh in the order of their ranks, and the cells by ranks. */
 template <class Real>
 struct Arrangement
 {
   RecordFile<RankedVertex<Real>> vertices;
   CellGroups groups;
-  double crossing; ///< share of the edges, of some of the cells, that leave their page
+  double crossing; ///< share of the edges of sampled cells that leave their page
 };
 
-/** Counts how many edges of cells leave their page; of so many cells that it costs nothing. */
+/** Counts the edges of cells that leave their page, for a small sample of the cells. */
 class CrossingEstimate
 {
 public:
@@ -92,7 +92,7 @@ Arrangement<Real> arrange(const RawMesh& mesh, Workspace& workspace, int pageVer
   return { std::move(vertices), std::move(groups), crossing.share() };
 }
 
-/** The arrangement by coordinates, or by the vertices' numbers if these are better. */
+/** The arrangement by coordinates, or by the numbers of the vertices if these are better. */
 template <class Real>
 Arrangement<Real> arrangeByPlace(const RawMesh& mesh, Workspace& workspace, int pageVertices)
 {
@@ -117,7 +117,7 @@ Arrangement<Real> arrangeByGraph(const RawMesh& mesh, Workspace& workspace, int 
   return arrange<Real>(mesh, workspace, pageVertices,
     [&](std::uint32_t id, const Real*)
     {
-      // Vertices in no cell are not asked for.
+      // Isolated vertices are not queried.
       std::uint32_t number = NoIndex;
       for (; read <= std::int64_t(id); ++read)
       {
@@ -140,7 +140,7 @@ Arrangement<Real> arrange(
   {
     return byPlace;
   }
-  // Around a vertex that nearly all others share no order is good.
+  // No order is good around a vertex that is connected to nearly all others.
   Arrangement<Real> byGraph = arrangeByGraph<Real>(mesh, workspace, pageVertices);
   return byGraph.crossing < byPlace.crossing ? std::move(byGraph) : std::move(byPlace);
 }

@@ -9,16 +9,16 @@
 namespace smg
 {
 
-/** How pages are made. */
+/** Options for making pages. */
 struct PageOptions
 {
-  /** Vertices of a page; 0: chosen by the mesh and the memory. */
+  /** Vertices of a page; 0: chosen from the mesh and the memory. */
   int pageVertices = 0;
-  /** For tests: the topological order, whatever the coordinates are good for. */
+  /** For tests: the topological order, regardless of the coordinates. */
   bool topological = false;
 };
 
-/** The pages of a mesh, without its isolated vertices, and what was counted on the way. */
+/** The pages of a mesh, without its isolated vertices, and its counts. */
 struct PagedMesh
 {
   VertexPages pages;
@@ -26,7 +26,7 @@ struct PagedMesh
   /** Coordinates of the vertices whose rank is a multiple of sampleStride, x, y, z each. */
   std::vector<float> samples;
   std::int64_t sampleStride = 1;
-  /** Share of the directed edges that lead to another page. */
+  /** The share of the directed edges that lead to another page. */
   double crossing = 0;
 };
 

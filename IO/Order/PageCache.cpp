@@ -31,13 +31,13 @@ PageCache::PageCache(VertexPages& pages, Workspace& workspace, std::int64_t byte
 
 std::int64_t PageCache::leastBytes(const VertexPages& pages)
 {
-  // Wherever the pinned page is, there is room for another before or after it.
+  // For any position of the pinned page, there is room for another before or after it.
   return 3 * frameUnits(pages.largestPage()) * std::int64_t(Unit);
 }
 
 std::int64_t PageCache::mostBytes(const VertexPages& pages)
 {
-  // A page that was there with its adjacency only may leave a hole.
+  // A page that was loaded with its adjacency only may leave a hole.
   return std::max(leastBytes(pages),
     pages.allBytes() + pages.allAdjacencyBytes() + 4 * std::int64_t(Unit) * pages.pages());
 }

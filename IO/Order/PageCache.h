@@ -22,44 +22,42 @@ namespace smg
 class PageCache
 {
 public:
-  /** The pages must be closed, and outlive the cache. Throws Error below leastBytes(). */
+  /** The pages must be closed and outlive the cache. Throws Error below leastBytes(). */
   PageCache(VertexPages& pages, Workspace& workspace, std::int64_t bytes);
 
-  /** What any search takes, however often it loads a page. */
+  /** The minimum bytes of a search, for any number of loads. */
   static std::int64_t leastBytes(const VertexPages& pages);
-  /** What all pages take. */
+  /** The bytes of all pages. */
   static std::int64_t mostBytes(const VertexPages& pages);
 
-  /**
-   * A page of which the adjacency can be read. The view is good until another page is asked for.
-   * Throws Error.
-   */
+  /** A page whose adjacency can be read. The view is valid until another page is requested. Throws
+   * Error. */
   PageView adjacency(std::uint32_t page)
   {
     const std::uint32_t at = this->table()[page];
     return this->view(at != None ? this->frame(at) : this->load(page, false));
   }
-  /** A page of which everything can be read, and the places changed. */
+  /** A page that can be read completely, and whose positions can be modified. */
   PageView whole(std::uint32_t page)
   {
     const std::uint32_t at = this->table()[page];
     return this->view(
       at != None && this->frame(at).whole ? this->frame(at) : this->load(page, true));
   }
-  /** Says that the places of a page, of which the view is still good, were changed. */
+  /** Declares that the positions of a page with a valid view were modified. */
   void touch(std::uint32_t page) { this->frame(this->table()[page]).changed = true; }
-  /** Lets the views of this page, which is there, be good until another page is pinned. */
+  /** Keeps the views of this loaded page valid until another page is pinned. */
   void pin(std::uint32_t page) { this->Pinned = page; }
   void unpin() { this->Pinned = None; }
 
-  /** How often a page was read from the file. */
+  /** The number of pages read from the file. */
   std::int64_t loads() const { return this->Loads; }
   std::int64_t bytes() const { return std::int64_t(this->Ring.size()); }
 
 private:
   static constexpr std::uint32_t None = 0xffffffffu;
 
-  /** What stands before the bytes of a page, or at the beginning of a hole. */
+  /** The header of the bytes of a page, or of a hole. */
   struct Frame
   {
     std::uint32_t page; ///< None: a hole
@@ -67,7 +65,7 @@ private:
     std::uint32_t adjacency; ///< bytes
     bool whole, changed, wanted;
   };
-  /** Places in the ring are counted in units. */
+  /** Positions in the ring are counted in units. */
   static constexpr std::size_t Unit = 16;
   static_assert(sizeof(Frame) == Unit);
 
@@ -94,10 +92,10 @@ private:
   void drop(Frame& frame);
 
   VertexPages& Pages;
-  Buffer Table; ///< where the frame of each page is; None: nowhere
+  Buffer Table; ///< position of the frame of each page; None: not loaded
   Buffer Ring;
   std::uint32_t Units;
-  /** The room that the hand has made. Frames and holes follow each other everywhere else. */
+  /** The free range made by the hand. Everywhere else, frames and holes are contiguous. */
   std::uint32_t RoomBegin = 0, RoomEnd;
   std::uint32_t Pinned = None;
   std::int64_t Loads = 0;

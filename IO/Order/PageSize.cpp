@@ -11,9 +11,9 @@ namespace
 {
 
 constexpr int LeastVertices = 64;
-constexpr std::int64_t DirectoryBytes = 32; ///< of a page, in memory all the time
+constexpr std::int64_t DirectoryBytes = 32; ///< of a page, always in memory
 
-/** Bytes of the pages that a search's frontier touches, measured, with some reserve. */
+/** Measured bytes of the pages at the front of a search, with some reserve. */
 double frontierBytes(
   bool triangles, bool doublePositions, std::int64_t vertices, double pageVertices)
 {

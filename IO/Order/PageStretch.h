@@ -15,7 +15,7 @@ namespace smg
 class PageStretch
 {
 public:
-  /** Both must outlive it. */
+  /** Both must outlive this object. */
   PageStretch(VertexPages& pages, Workspace& workspace)
     : Pages(pages)
     , Space(workspace)

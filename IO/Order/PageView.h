@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** Numbers of 1 to 5 bytes, seven bits a byte, the lowest first: small differences become short. */
+/** Numbers of 1 to 5 bytes, seven bits per byte, the lowest first: small differences are short. */
 namespace varint
 {
 
@@ -42,7 +42,9 @@ inline const std::byte* get(const std::byte* from, std::uint32_t& value)
   return from;
 }
 
-/** A difference modulo 2^32 as a number that is small if the difference is, whatever its sign. */
+/**
+ * A difference modulo 2^32 as a number that is small if the difference is small, for both signs.
+ */
 inline std::uint32_t zigzag(std::uint32_t difference)
 {
   return (difference << 1) ^ (0u - (difference >> 31));
@@ -55,15 +57,15 @@ inline std::uint32_t unzigzag(std::uint32_t value)
 } // namespace varint
 
 /**
- * A page of vertices, or only its adjacency part, in memory: what the bytes mean. The record:
- * where the adjacency of each vertex begins (16 bits each, or 32 if that is needed), a degree and
- * the differences of the neighbours' ranks to the own one for each vertex, as varints; then the
- * places, the numbers in the raw mesh, and the coordinates. Each part begins at a multiple of 4.
+ * A view of a page of vertices in memory, or of its adjacency part. The format: the offset of the
+ * adjacency of each vertex (16 bits each, or 32 if necessary), a degree and the differences of the
+ * neighbours' ranks to that of the vertex, as varints; then the positions, the numbers in the raw
+ * mesh, and the coordinates. Each part begins at a multiple of 4.
  */
 class PageView
 {
 public:
-  /** Lists of more bytes than this have 32-bit beginnings. */
+  /** Lists of more bytes than this have 32-bit offsets. */
   static constexpr std::uint32_t MostNarrowBytes = 65532;
 
   static constexpr std::uint32_t rounded(std::uint32_t bytes) { return (bytes + 3) / 4 * 4; }
@@ -72,7 +74,7 @@ public:
     return rounded(2 * vertices);
   }
 
-  /** `adjacency`: bytes of the adjacency part, which tell the width of the beginnings. */
+  /** `adjacency`: bytes of the adjacency part, which determine the width of the offsets. */
   PageView(
     std::byte* bytes, std::uint32_t firstRank, std::uint32_t vertices, std::uint32_t adjacency)
     : Bytes(bytes)
@@ -100,10 +102,10 @@ public:
     }
   }
 
-  /** The rest is there only if the whole page is. */
+  /** The rest is available only for whole pages. */
   std::span<std::uint32_t> places() const { return { this->numbers(0), this->Vertices }; }
   std::span<const std::uint32_t> ids() const { return { this->numbers(1), this->Vertices }; }
-  /** The coordinates of a vertex, which follow each other: floats or doubles, unaligned. */
+  /** The consecutive coordinates of a vertex: floats or doubles, unaligned. */
   const std::byte* position(std::uint32_t vertex, std::size_t positionBytes) const
   {
     return this->Bytes + this->Adjacency + std::size_t(8) * this->Vertices + vertex * positionBytes;

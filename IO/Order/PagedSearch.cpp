@@ -15,7 +15,7 @@ namespace
 
 constexpr std::uint32_t PolledVisits = std::uint32_t(1) << 16;
 
-/** Tells whether a 32-bit number is a multiple of a fixed one, without a division. */
+/** Tests without a division whether a 32-bit number is a multiple of a fixed one. */
 class MultipleOf
 {
 public:
@@ -30,7 +30,7 @@ private:
   std::uint64_t Factor;
 };
 
-/** Gives vertices the next places, page by page. */
+/** Assigns the next positions to vertices, page by page. */
 class Placing
 {
 public:
@@ -42,7 +42,7 @@ public:
   {
   }
 
-  /** The place of a vertex, of which the page is there; it is given one if it has none. */
+  /** The position of a vertex, whose page must be loaded; assigns one if it has none. */
   std::uint32_t placeOf(const PageView& view, std::uint32_t page, std::uint32_t rank)
   {
     std::uint32_t& place = view.places()[rank - view.firstRank()];
@@ -117,7 +117,7 @@ SearchResult PagedSearch::run(std::span<const SearchSource> sources, Reach&& rea
     ++result.vertices;
     if (++this->Visits % PolledVisits == 0)
     {
-      this->Space.poll(); // pages that are all in the cache are not read, which polls
+      this->Space.poll(); // pages in the cache are not read, which would poll
     }
     sumOfQueues += static_cast<double>(this->Queue.size());
     result.peakQueue = std::max(result.peakQueue, this->Queue.size());
@@ -140,7 +140,7 @@ SearchResult PagedSearch::visit(std::span<const SearchSource> sources, Seen&& se
       this->Queue.push(rank);
     }
   };
-  // Vertices of a page come in rows. Nothing else asks for pages, so that the view stays good.
+  // Vertices of a page come in sequences. Nothing else requests pages, so the view stays valid.
   PageView view(nullptr, 0, 0, 0);
   return this->run(sources, reach,
     [&](std::uint32_t rank, std::uint32_t level)

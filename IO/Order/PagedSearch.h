@@ -14,31 +14,31 @@
 namespace smg
 {
 
-/** A vertex that a breadth-first search begins from when it has come to a level. */
+/** A vertex from which a breadth-first search starts when it has reached a level. */
 struct SearchSource
 {
   std::uint32_t level;
   std::uint32_t rank;
 };
 
-/** What a search has seen. */
+/** The result of a search. */
 struct SearchResult
 {
   std::int64_t vertices = 0;
   std::uint32_t last = 0; ///< rank of the last vertex reached
   std::uint32_t levels = 0;
-  double meanQueue = 0;       ///< the mean window of the order that it gives
-  std::int64_t peakQueue = 0; ///< the span of the order that it gives
+  double meanQueue = 0;       ///< the mean window of the resulting order
+  std::int64_t peakQueue = 0; ///< the span of the resulting order
 };
 
 /** Breadth-first searches over paged vertices. They throw Error, and Cancelled. */
 class PagedSearch
 {
 public:
-  /** The cache is for both kinds of search. All outlive the search. */
+  /** The cache is for both kinds of search. All arguments must outlive the search. */
   PagedSearch(VertexPages& pages, PageCache& cache, Workspace& workspace, std::size_t queueBytes);
 
-  /** Bytes of memory that a search takes beside the cache. */
+  /** Bytes of memory of a search in addition to the cache. */
   static std::int64_t memoryFor(const VertexPages& pages, std::size_t queueBytes);
 
   /**
@@ -49,20 +49,18 @@ public:
   SearchResult probe(std::span<const SearchSource> sources, std::span<std::uint32_t> levels = {},
     std::int64_t stride = 1);
 
-  /**
-   * Searches the vertices that have no place, gives them the next places and appends them to an
-   * order that has the precision of the pages. The sources have no place yet.
-   */
+  /** Searches the vertices without a position, assigns the next positions and appends them to an
+   * order with the precision of the pages. The sources must not have a position yet. */
   SearchResult place(std::span<const SearchSource> sources, OrderedVertices& order);
 
-  /** Number of connected components; vertices may have places or not. */
+  /** The number of connected components; vertices may have positions or not. */
   std::int64_t components();
 
-  /** Searches without a trace so far. */
+  /** The number of searches without a trace so far. */
   std::int64_t probes() const { return this->Probes; }
 
 private:
-  /** reach(rank) gives the queue a source, take(rank, level) the neighbours of a vertex. */
+  /** reach(rank) appends a source to the queue, take(rank, level) the neighbours of a vertex. */
   template <class Reach, class Take>
   SearchResult run(std::span<const SearchSource> sources, Reach&& reach, Take&& take);
   template <class Real>

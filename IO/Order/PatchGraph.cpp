@@ -20,7 +20,7 @@ PatchGraph::PatchGraph(VertexPages& pages, Workspace& workspace, PagedArray<std:
 template <class Take>
 bool PatchGraph::forEachRun(std::int64_t run, Take&& take)
 {
-  // A run is a part of a page, or some pages.
+  // A run is a part of a page, or several pages.
   const std::int64_t pagesOfRun = std::max<std::int64_t>(1, run / this->Pages.pageVertices());
   for (std::int64_t page = 0; page < this->Pages.pages(); page += pagesOfRun)
   {
@@ -56,8 +56,8 @@ bool PatchGraph::build(std::int64_t run, const PatchLimits& limits)
                        });
 }
 
-/** Puts the part of a run that is connected with a vertex into the queue, breadth first; whether no
- * edge leaves the run. */
+/** Puts the part of a run that is connected to a vertex into the queue, breadth first; returns
+ * whether no edge leaves the run. */
 bool PatchGraph::search(
   std::uint32_t start, std::uint32_t begin, std::uint32_t end, std::uint8_t mark)
 {
@@ -94,7 +94,7 @@ void PatchGraph::label(std::uint32_t begin, std::uint32_t end)
     }
     if (this->search(rank, begin, end, 1))
     {
-      // From the end of the component, so that its order is narrow.
+      // Starts at the end of the component, so that its order is narrow.
       this->search(this->Queue.back(), begin, end, 2);
       for (const std::uint32_t vertex : this->Queue)
       {
@@ -112,7 +112,7 @@ void PatchGraph::label(std::uint32_t begin, std::uint32_t end)
   }
 }
 
-/** Appends the edges of a run's patches, which follow those of the runs before. */
+/** Appends the edges of the patches of a run, which follow those of earlier runs. */
 void PatchGraph::connect(std::uint32_t begin, std::uint32_t end)
 {
   this->Crossing.clear();
@@ -128,7 +128,7 @@ void PatchGraph::connect(std::uint32_t begin, std::uint32_t end)
     this->Stretch.neighbours(rank,
       [&](std::uint32_t other)
       {
-        // Parts of a run have no edges to each other.
+        // Parts of a run have no edges between each other.
         if (other < begin || other >= end)
         {
           this->Crossing.emplace_back(patch, this->Patches.get(other));

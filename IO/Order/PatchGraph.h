@@ -13,11 +13,11 @@
 namespace smg
 {
 
-/** How large the graph of patches may become. */
+/** The maximum size of the graph of patches. */
 struct PatchLimits
 {
   std::size_t nodes;
-  std::size_t edges; ///< each counted at both of its nodes
+  std::size_t edges; ///< each counted at both nodes
 };
 
 /**
@@ -29,22 +29,20 @@ struct PatchLimits
 class PatchGraph
 {
 public:
-  /**
-   * The arrays, by rank, are filled: `patches` with the patch, `values` with a place below closed()
-   * for each vertex of a component that lies in a run; its patch is NoIndex.
-   */
+  /** Fills the arrays, by rank: `patches` with the patch, `values` with a position below closed()
+   * for each vertex of a component within a run, whose patch is NoIndex. */
   PatchGraph(VertexPages& pages, Workspace& workspace, PagedArray<std::uint32_t>& patches,
     PagedArray<float>& values);
 
-  /** Makes the graph from runs of `run` vertices. False: it is larger than the limits. */
+  /** Makes the graph from runs of `run` vertices. Returns false if it exceeds the limits. */
   bool build(std::int64_t run, const PatchLimits& limits);
 
   const WeightedGraph& graph() const { return this->Graph; }
-  /** Vertices of components that lie in a run. */
+  /** The number of vertices of components within a run. */
   std::int64_t closed() const { return this->Closed; }
 
 private:
-  /** Calls take(begin, end) for each run while it is loaded, until it gives false. */
+  /** Calls take(begin, end) for each run while it is loaded, until it returns false. */
   template <class Take>
   bool forEachRun(std::int64_t run, Take&& take);
   void label(std::uint32_t begin, std::uint32_t end);

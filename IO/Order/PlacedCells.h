@@ -14,10 +14,8 @@
 namespace smg
 {
 
-/**
- * A cell by the places of its corners in an order of the vertices, the largest first. `turn` has
- * the corner of the file that each of them is, two bits each.
- */
+/** A cell by the positions of its corners in an order of the vertices, the largest first. `turn`
+ * stores the corner of the file for each of them, two bits each. */
 template <int Corners>
 struct PlacedCell
 {
@@ -27,7 +25,7 @@ struct PlacedCell
 
   auto operator<=>(const PlacedCell&) const = default;
 
-  /** The places in the file's sequence of corners. */
+  /** The positions in the file's order of corners. */
   std::array<std::uint32_t, Corners> inFile() const
   {
     std::array<std::uint32_t, Corners> result;
@@ -39,7 +37,7 @@ struct PlacedCell
   }
 };
 
-/** The cell with these numbers of its corners, in the file's sequence. */
+/** The cell with these numbers of its corners, in the order of the file. */
 template <int Corners>
 PlacedCell<Corners> placedCell(const std::uint32_t* numbers, std::uint32_t element)
 {
@@ -64,9 +62,9 @@ PlacedCell<Corners> placedCell(const std::uint32_t* numbers, std::uint32_t eleme
 }
 
 /**
- * Sorts the cells of a mesh by their largest place, then by the next ones, then by their place in
- * the file: a cell comes as soon as its last vertex is reached, and cells with the same corners
- * stand side by side.
+ * Sorts the cells of a mesh by their largest position, then by the next ones, then by their index
+ * in the file: a cell comes as soon as its last vertex is reached, and cells with the same corners
+ * are adjacent.
  */
 template <int Corners>
 using CellSort = ExternalSort<PlacedCell<Corners>>;
@@ -99,15 +97,13 @@ private:
   std::uint32_t Cell = 0;
 };
 
-/**
- * Calls `take` with each cell of the mesh, in the file's sequence, by the places that the order
- * gives its vertices, and its element. Vertices of cells must all be in the order.
- */
+/** Calls `take` with each cell of the mesh in the order of the file, by the positions of its
+ * vertices in the order, and its element. All vertices of cells must be in the order. */
 template <class Take>
 void placeCells(
   const RawMesh& mesh, const OrderedVertices& order, Workspace& workspace, Take&& take)
 {
-  // Half of what is free for the table; sorting wants the other half.
+  // Half of the free memory for the table; the other half for sorting.
   Relabelling places(workspace, mesh.vertices, workspace.available() / 2);
   {
     OrderedVertexReader vertices(order.records, order.doublePositions);

@@ -12,9 +12,7 @@
 namespace smg
 {
 
-/**
- * Gives all of `numbers` to `take`, stretches of them in sequence, each a multiple of `count`.
- */
+/** Passes all of `numbers` to `take`, in consecutive ranges, each a multiple of `count`. */
 template <class Take>
 void forEachStretch(const RecordFile<std::uint32_t>& numbers, std::size_t count, Take&& take)
 {
@@ -30,7 +28,7 @@ void forEachStretch(const RecordFile<std::uint32_t>& numbers, std::size_t count,
   }
 }
 
-/** Gives the vertices of the mesh to `take`: the number, and the three coordinates as `Real`. */
+/** Passes the vertices of the mesh to `take`: the number, and the three coordinates as `Real`. */
 template <class Real, class Take>
 void forEachVertex(const RawMesh& mesh, Take&& take)
 {

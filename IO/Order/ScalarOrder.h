@@ -29,10 +29,8 @@ void forEachPage(VertexPages& pages, Workspace& workspace, Take&& take)
   }
 }
 
-/**
- * Sorts paged vertices by a value each, ties by their numbers in the file. `value` is called with
- * a view of the page and the number of the vertex in the page.
- */
+/** Sorts paged vertices by a value, ties by their numbers in the file. `value` is called with a
+ * view of the page and the index of the vertex in the page. */
 template <class Real, class Value>
 OrderedVertices scalarOrder(VertexPages& pages, Workspace& workspace, Value&& value)
 {

@@ -18,13 +18,13 @@ namespace
 constexpr int MostAxisEnds = 4;
 /** The ends of a double sweep. */
 constexpr int LeastLandmarks = 2;
-/** Landmarks are not nearer to each other than this. */
+/** The minimum distance between landmarks. */
 constexpr std::int32_t LeastDistance = 8;
-/** Samples that a component must have for a plan, and for its principal axes. */
+/** The minimum samples of a component for a plan, and for its principal axes. */
 constexpr std::size_t LeastSamples = 16, LeastSamplesForAxes = 100;
 /** More samples do not make better plans. */
 constexpr std::size_t MostSamples = 8192;
-/** Plans that are tried out. */
+/** The number of tested plans. */
 constexpr std::size_t MostTrials = 4;
 
 std::size_t sampleCount(const PagedMesh& mesh)
@@ -33,7 +33,7 @@ std::size_t sampleCount(const PagedMesh& mesh)
     (mesh.pages.vertices() + mesh.sampleStride - 1) / mesh.sampleStride);
 }
 
-/** Where a search can begin: a vertex or a set of vertices; and what it costs alone. */
+/** A possible start of a search, a vertex or a set of vertices, and its cost alone. */
 struct Candidate
 {
   std::vector<SearchSource> sources;
@@ -97,7 +97,7 @@ private:
     }
   }
 
-  /** The first search tells which samples are in the component. */
+  /** The first search determines which samples are in the component. */
   void beginSamples()
   {
     const auto reached = static_cast<std::size_t>(
@@ -115,7 +115,7 @@ private:
     this->Distances.emplace(this->Space, this->Samples.size(), this->Landmarks + MostAxisEnds);
   }
 
-  /** Each landmark is the sample that is farthest from those before it. */
+  /** Each landmark is the sample farthest from the previous ones. */
   void measureLandmarks()
   {
     while (this->Candidates.size() < this->Landmarks)
@@ -148,7 +148,7 @@ private:
     }
   }
 
-  /** Finds out whether a plan keeps its promise: samples do not tell everything. */
+  /** Tests the predicted cost of a plan, since samples are incomplete. */
   void tryPlans(Candidate& best)
   {
     const std::vector<SourcePlan> plans =

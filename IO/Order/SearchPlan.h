@@ -10,7 +10,7 @@
 namespace smg
 {
 
-/** Bytes of memory that a plan takes. */
+/** The memory of a plan in bytes. */
 std::int64_t searchPlanMemory(const PagedMesh& mesh, int landmarks);
 
 /**

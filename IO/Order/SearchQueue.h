@@ -11,10 +11,8 @@
 namespace smg
 {
 
-/**
- * A queue, first in, first out, of any length in a fixed amount of memory: its front and its back
- * are in memory, and what does not fit between them is in a scratch file.
- */
+/** A first-in first-out queue of any length in a fixed amount of memory: its front and its back are
+ * in memory, the rest is in a scratch file. */
 class SearchQueue
 {
 public:
@@ -33,7 +31,7 @@ public:
     reinterpret_cast<std::uint32_t*>(this->Back.data())[this->BackEnd++] = value;
     ++this->Size;
   }
-  /** Of a queue that is not empty. */
+  /** Of a non-empty queue. */
   std::uint32_t pop()
   {
     if (this->FrontBegin == this->FrontEnd)
@@ -55,7 +53,7 @@ private:
   std::size_t FrontBegin = 0, FrontEnd = 0, BackEnd = 0;
   std::int64_t Size = 0;
   FileDescriptor File;
-  std::int64_t FileBegin = 0, FileEnd = 0; ///< what is in the file
+  std::int64_t FileBegin = 0, FileEnd = 0; ///< the part in the file
 };
 
 } // namespace smg

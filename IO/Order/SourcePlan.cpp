@@ -16,19 +16,17 @@ namespace
 using Levels = std::span<std::int32_t>;
 
 constexpr std::int32_t MostBins = 150;
-/** Single candidates that plans are begun with. */
+/** The number of single candidates with which plans start. */
 constexpr std::size_t Beginnings = 4;
 constexpr std::size_t MostSources = 24;
-/**
- * By which shares of the levels one more source begins before the others reach it. Mostly small: it
- * straightens the front that comes, where one that begins early has a front of its own.
- */
+/** The shares of the levels by which a further source starts before the others reach it. Mostly
+ * small: such a source straightens the arriving front, whereas an early one has its own front. */
 constexpr double HeadStarts[] = { 0.01, 0.02, 0.03, 0.05, 0.08, 0.12, 0.17, 0.25, 0.35, 0.5, 0.7,
   1.0 };
-/** How often the levels are adjusted after each addition, and by which shares of their range. */
+/** The number of adjustments of the levels after each addition, and the shares of their range. */
 constexpr int AdjustRounds = 2;
 constexpr double Adjustments[] = { -0.1, 0.1, -0.04, 0.04, -0.015, 0.015, -0.005, 0.005 };
-/** What one more source, and a change of a level, must gain to be worth it. */
+/** The minimum gain of a further source, and of a change of a level. */
 constexpr double SourceGain = 0.998, LevelGain = 0.9997;
 
 /** Estimates the cost of a search from the levels of the samples. */
@@ -47,7 +45,7 @@ public:
     const std::int32_t width = std::max(1, (last - first + MostBins) / MostBins);
     const auto bins = static_cast<std::size_t>((last - first) / width) + 1;
     std::fill_n(this->Bins.begin(), bins, 0);
-    // In double precision, in which the last level of a long mesh is not rounded beyond the bins.
+    // In double precision, so that the last level of a long mesh is not rounded beyond the bins.
     const double scale = 1.0 / width;
     for (const std::int32_t level : levels)
     {
@@ -64,7 +62,7 @@ private:
     {
       const double count = this->Bins[i];
       squares += count * count;
-      // Smoothed, for a bin has few samples; the last one is not full.
+      // Smoothed, since a bin has few samples; the last one is not full.
       const bool isInside = bins > 4 && i > 0 && i + 1 < bins;
       const double smooth = isInside
                               ? 0.25 * this->Bins[i - 1] + 0.5 * count + 0.25 * this->Bins[i + 1]
@@ -97,7 +95,7 @@ public:
     return { { { candidate, 0 } }, this->Cost(distances, 0, *std::ranges::max_element(distances)) };
   }
 
-  /** Joins sources to a plan while that helps. */
+  /** Adds sources to a plan while this reduces the cost. */
   void extend(SourcePlan& plan)
   {
     this->Last = this->evaluate(plan, this->Current);
@@ -113,7 +111,7 @@ public:
   }
 
 private:
-  /** The levels that the search of a plan gives the samples; answers the last of them. */
+  /** Computes the levels of the samples in the search of a plan; returns the last of them. */
   std::int32_t evaluate(const SourcePlan& plan, Levels levels) const
   {
     std::ranges::fill(levels, std::numeric_limits<std::int32_t>::max());
@@ -143,7 +141,7 @@ private:
     for (std::size_t candidate = 0; candidate < this->Distances.candidates(); ++candidate)
     {
       const std::span<const std::int32_t> distances = this->Distances[candidate];
-      std::int32_t reached = 0; // a source that begins later has no effect
+      std::int32_t reached = 0; // a source that starts later has no effect
       for (std::size_t i = 0; i < distances.size(); ++i)
       {
         reached = std::max(reached, this->Current[i] - distances[i]);
@@ -180,7 +178,7 @@ private:
     }
   }
 
-  /** Moves the level of each source to and fro, and keeps what is better. */
+  /** Varies the level of each source, and keeps improvements. */
   void adjustLevels(SourcePlan& plan)
   {
     for (std::size_t i = 0; i < plan.sources.size(); ++i)
@@ -194,7 +192,7 @@ private:
     }
   }
 
-  /** Leaves out the sources that others have made useless. */
+  /** Removes the sources that others have made useless. */
   void dropSources(SourcePlan& plan)
   {
     for (std::size_t i = plan.sources.size(); i-- > 0 && plan.sources.size() > 1;)
@@ -205,7 +203,7 @@ private:
     }
   }
 
-  /** Replaces the plan if the changed one costs at most `gain` times as much. */
+  /** Replaces the plan if the cost of the changed one is at most `gain` times its cost. */
   void takeIfBetter(SourcePlan& plan, SourcePlan changed, double gain)
   {
     beginAtZero(changed);
@@ -222,7 +220,7 @@ private:
   const SourceDistances& Distances;
   LevelCost Cost;
   Buffer Memory;
-  Levels Current;        ///< of the plan that is being extended
+  Levels Current;        ///< of the plan under extension
   std::int32_t Last = 0; ///< the greatest of them
   Levels Tried;
 };

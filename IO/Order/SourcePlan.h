@@ -13,10 +13,8 @@
 namespace smg
 {
 
-/**
- * What a breadth-first order costs whoever streams it: mostly the mean of its windows, which all
- * levels of a solver have to hold, and a little the greatest one.
- */
+/** The cost of streaming a breadth-first order: mainly the mean of its windows, which all levels of
+ * a solver hold, and to a small part the largest one. */
 inline double searchCost(double meanQueue, double peakQueue)
 {
   return 0.9 * meanQueue + 0.1 * peakQueue;
@@ -32,7 +30,7 @@ public:
   {
   }
 
-  /** Adds a candidate, at most as many as were foreseen; answers where its distances go. */
+  /** Adds a candidate, up to the reserved number; returns the destination of its distances. */
   std::int32_t* add()
   {
     assert((this->Candidates + 1) * this->Samples * sizeof(std::int32_t) <= this->Memory.size());
@@ -57,14 +55,14 @@ private:
   Buffer Memory;
 };
 
-/** A candidate from which a search begins when it has come to a level. */
+/** A candidate from which a search starts when it has reached a level. */
 struct PlannedSource
 {
   std::size_t candidate;
   std::int32_t level;
 };
 
-/** A multi-source search, and what it is expected to cost. */
+/** A multi-source search and its expected cost. */
 struct SourcePlan
 {
   std::vector<PlannedSource> sources;

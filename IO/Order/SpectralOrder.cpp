@@ -18,20 +18,20 @@ namespace smg
 namespace
 {
 
-/** Vertices of a patch, if the memory allows it: fewer hardly make the order better. */
+/** Vertices of a patch, if the memory permits: fewer hardly improve the order. */
 constexpr std::int64_t LeastRun = 32;
-/** Values of so many vertices at a time are smoothed well by the sweeps over vertices. */
+/** Sweeps over vertices smooth the values of this many vertices well. */
 constexpr std::int64_t MostSmoothed = 64;
 constexpr int VertexSweeps = 4;
-/** Bytes that a patch of the graph takes, with its edges, its part in the graphs of a component and
- * its coarser ones, and the vectors. */
+/** Bytes of a patch of the graph, with its edges, its share of the graphs of a component and the
+ * coarser ones, and the vectors. */
 constexpr std::int64_t PatchBytes = 600;
 constexpr std::size_t EdgesPerPatch = 16;
-/** The vector of more takes long and makes the order no better. */
+/** The vector of more is slow and does not improve the order. */
 constexpr std::size_t MostPatches = std::size_t(1) << 19;
 constexpr std::size_t PolledComponents = 256;
 
-/** Connected components of a graph: the nodes of each, one component after the other. */
+/** The connected components of a graph: the nodes of each, component by component. */
 struct GraphComponents
 {
   explicit GraphComponents(const WeightedGraph& graph)
@@ -67,10 +67,8 @@ struct GraphComponents
   std::vector<std::uint32_t> nodes;
 };
 
-/**
- * Where each node's vertices would stand in an order of the mesh that has the nodes sorted by the
- * Fiedler vector, component after component, the first at `first`: the middle of their places.
- */
+/** The middle of the positions of each node's vertices in an order of the mesh with the nodes
+ * sorted by the Fiedler vector, component by component, the first at `first`. */
 std::vector<float> expectedPlaces(const WeightedGraph& graph, double first, Workspace& workspace)
 {
   std::vector<float> places(graph.nodes());
@@ -100,7 +98,7 @@ std::vector<float> expectedPlaces(const WeightedGraph& graph, double first, Work
   return places;
 }
 
-/** Values of the vertices, and what they are made from. */
+/** The values of the vertices, and the data for them. */
 class SpectralValues
 {
 public:
@@ -114,8 +112,8 @@ public:
   {
   }
 
-  /** False: the mesh's neighbourhoods have nothing to do with its pages, so that patches of them
-   * are too many. */
+  /** Returns false if the pages do not represent the neighbourhoods of the mesh, so that there are
+   * too many patches. */
   bool compute();
 
   float operator[](std::uint32_t rank) { return this->Values.get(rank); }
@@ -133,7 +131,7 @@ private:
 
 std::int64_t SpectralValues::longestRun() const
 {
-  // Beside the adjacency, a search takes 5 bytes a vertex, and each crossing edge takes 8.
+  // In addition to the adjacency, a search needs 5 bytes per vertex, and 8 per crossing edge.
   const std::int64_t bytesOfVertex =
     this->Pages.allAdjacencyBytes() * 5 / 4 / std::max<std::int64_t>(1, this->Pages.vertices()) +
     16;

@@ -11,11 +11,11 @@ namespace smg
 {
 
 /**
- * The vertices along the Fiedler vector of the mesh's graph, component after component: the order
- * with the smallest width. The vector is that of the graph of the pages, brought to the vertices.
- * Where pages have so little to do with neighbourhood that this graph has no room in the memory, it
- * is the order along the longest axis (AxisOrder.h), and `notes`, if given, says so. Throws Error,
- * Cancelled.
+ * The vertices along the Fiedler vector of the mesh's graph, component by component: the order with
+ * the smallest width. The vector is that of the graph of the pages, interpolated to the vertices.
+ * If the pages represent neighbourhood so badly that this graph does not fit into the memory, the
+ * order along the longest axis (AxisOrder.h) is used, with a note in `notes`, if given. Throws
+ * Error, Cancelled.
  */
 OrderedVertices spectralOrder(
   PagedMesh& mesh, Workspace& workspace, std::vector<std::string>* notes = nullptr);

@@ -29,7 +29,7 @@ double volume(std::span<const std::array<double, 3>> p)
          a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-/** Writes cells in sequence to the layout. */
+/** Writes consecutive cells to the layout. */
 template <int Corners, class Real>
 class Assembler
 {
@@ -40,7 +40,7 @@ public:
   {
   }
 
-  /** The next cell; `duplicate`: whether an earlier one has the same corners. */
+  /** Appends the next cell; `duplicate`: whether an earlier one has the same corners. */
   void take(const PlacedCell<Corners>& cell, bool duplicate)
   {
     std::array<std::uint32_t, Corners> corners;
@@ -101,7 +101,7 @@ private:
   CellWindow<Real> Window;
 };
 
-/** The cells, by their places in the file, that have the corners of an earlier one. */
+/** The cells, by their indices in the file, with the corners of an earlier one. */
 template <int Corners>
 RecordFile<std::uint32_t> duplicates(const RawMesh& mesh, Workspace& workspace)
 {
@@ -167,7 +167,7 @@ void assembleAsFiled(
   RecordFile<std::uint32_t>::Reader duplicate(doubles);
   std::uint32_t nextDuplicate = NoIndex;
   duplicate.next(nextDuplicate);
-  // The places of the cells come in chunks while the table for them is in memory.
+  // The positions of the cells come in chunks while their table is in memory.
   RecordFile<std::uint32_t> placed(workspace);
   placeCells(mesh, order, workspace,
     [&placed](std::span<const std::uint32_t> places, std::uint32_t) { placed.put(places); });

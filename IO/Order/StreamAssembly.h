@@ -9,14 +9,14 @@
 namespace smg
 {
 
-/** How cells follow the order of the vertices. */
+/** The order of the cells relative to that of the vertices. */
 enum class CellSequence
 {
   Sorted, ///< each as soon as its last vertex is reached
-  AsFiled ///< as the file has them; the order of the vertices must be that of their first use
+  AsFiled ///< as in the file; the vertices must be in the order of their first use
 };
 
-/** A cell that has flags. */
+/** A cell with flags. */
 struct FlaggedCell
 {
   std::uint32_t cell; ///< number in the stream
@@ -41,9 +41,9 @@ struct StreamLayout
 
   std::int64_t vertexCount = 0;
   std::int64_t cellCount = 0;
-  /** The vertices in stream order: OrderedVertex records, without use for their reach. */
+  /** The vertices in stream order: OrderedVertex records, whose reach is not used. */
   BucketFile vertices;
-  RecordFile<std::uint32_t> corners;       ///< stream indices, cornersOf(cellType) a cell
+  RecordFile<std::uint32_t> corners;       ///< stream indices, cornersOf(cellType) per cell
   RecordFile<std::uint32_t> elements;      ///< of the file, of each cell
   RecordFile<FlaggedCell> flags;           ///< by ascending cells
   RecordFile<std::int64_t> blockVertices;  ///< number of vertices used up to the end of each block
@@ -54,10 +54,8 @@ struct StreamLayout
   std::int64_t invertedCells = 0; ///< tetrahedra of negative volume
 };
 
-/**
- * Puts the mesh together as a stream in the order: cells by their places, vertices by first use.
- * Vertices that no cell uses are left out. Throws Error; Cancelled.
- */
+/** Assembles the mesh as a stream in the order: cells by their positions, vertices by first use.
+ * Vertices that no cell uses are omitted. Throws Error; Cancelled. */
 StreamLayout assembleStream(
   const RawMesh& mesh, OrderedVertices order, CellSequence sequence, Workspace& workspace);
 

@@ -18,7 +18,7 @@ namespace
 
 constexpr std::size_t ChunkVertices = 4096;
 
-/** Reads the vertices of a mesh one after the other and collects those that are wanted. */
+/** Reads the vertices of a mesh sequentially and collects the requested ones. */
 template <class Real>
 class VertexCollector
 {
@@ -63,7 +63,7 @@ public:
     ++this->Number;
   }
 
-  /** Gives away what has been collected. */
+  /** Passes on the collected vertices. */
   void flush()
   {
     if (this->Count > 0)
@@ -86,7 +86,7 @@ private:
     }
   }
 
-  /** The original number of the vertex that was read; a column without it gets it. */
+  /** The original number of the current vertex; added to a column without it. */
   std::int64_t id()
   {
     if (this->IdColumn < 0)
@@ -96,7 +96,7 @@ private:
     }
     const std::int64_t id = this->Chunk.columns[static_cast<std::size_t>(this->IdColumn)]
                               .template as<std::int64_t>()[this->Count];
-    // A negative one, which says no place in a file, has none in the container either.
+    // A negative one, which is not an index in a file, has none in the container either.
     return id < 0 ? this->Number : id;
   }
 

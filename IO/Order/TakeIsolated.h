@@ -13,9 +13,9 @@ namespace smg
 using TakeVertices = std::function<void(const IsolatedVertices& vertices)>;
 
 /**
- * Gives the vertices of a mesh that are not in its layout, some at a time and in the file's
- * sequence, to `take`, with the vertex columns that a LayoutSource has. They are known by
- * OriginalId if the mesh has that column, else by their numbers in the file.
+ * Passes the vertices of a mesh that are not in its layout to `take`, in chunks and in the order of
+ * the file, with the vertex columns of a LayoutSource. They are numbered by OriginalId if the mesh
+ * has that column, otherwise by their numbers in the file.
  */
 void takeIsolatedVertices(
   const RawMesh& mesh, const StreamLayout& layout, Workspace& workspace, const TakeVertices& take);

@@ -10,17 +10,17 @@
 namespace smg
 {
 
-/**
- * Tells which vertices of a mesh are in a cell: a bit a vertex, of as many vertices at a time as
- * the memory allows, with a pass over the cells each time.
- */
+/** Determines which vertices of a mesh are in a cell: a bit per vertex, for as many vertices at a
+ * time as the memory permits, with a pass over the cells each time. */
 class UsedVertices
 {
 public:
-  /** The bits take `memory` bytes or less. Mesh and workspace must outlive this. */
+  /** The bits use at most `memory` bytes. Mesh and workspace must outlive this object. */
   UsedVertices(const RawMesh& mesh, Workspace& workspace, std::int64_t memory);
 
-  /** Ask for the vertices in ascending order: a step back may cost a pass over the cells. */
+  /**
+   * Vertices should be queried in ascending order: a step back may require a pass over the cells.
+   */
   bool contains(std::uint32_t vertex)
   {
     if (std::int64_t(vertex) - this->First >= this->Range || vertex < this->First)
@@ -37,7 +37,7 @@ private:
 
   const RawMesh& Mesh;
   std::int64_t Range;
-  std::int64_t First; ///< of the vertices that the bits are for
+  std::int64_t First; ///< the first vertex of the bits
   Buffer Bits;
 };
 

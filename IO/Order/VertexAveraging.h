@@ -10,23 +10,19 @@
 namespace smg
 {
 
-/**
- * Smooths values of paged vertices: each becomes the mean of its neighbours' values, one vertex
- * after the other. Vertices whose value is below `least` are left alone.
- */
+/** Smooths values of paged vertices: each is replaced by the mean of its neighbours' values, vertex
+ * by vertex. Vertices with a value below `least` are not changed. */
 class VertexAveraging
 {
 public:
-  /** All must outlive it. */
+  /** All arguments must outlive this object. */
   VertexAveraging(VertexPages& pages, Workspace& workspace, PagedArray<float>& values, float least);
 
   /** Two sweeps over all vertices, from the first to the last and back. */
   void sweepVertices();
 
-  /**
-   * The same, but the vertices of a patch among `run` consecutive ranks get one value together,
-   * the mean beyond them: long waves are smoothed, where vertices alone would need many sweeps.
-   */
+  /** The same, but the vertices of a patch among `run` consecutive ranks get a common value, the
+   * mean outside: this smooths long waves, for which single vertices would need many sweeps. */
   void sweepRuns(std::int64_t run, PagedArray<std::uint32_t>& patches);
 
 private:

@@ -69,7 +69,7 @@ void VertexLinks::load(Workspace& workspace, const CellGroups& groups, int group
         }
       }
     });
-  // Each beginning has moved to the next one's place.
+  // Each offset has moved to the position of the next one.
   std::copy_backward(begins, begins + count, begins + count + 1);
   begins[0] = 0;
 }

@@ -19,13 +19,13 @@ namespace smg
 class VertexLinks
 {
 public:
-  /** Counts the cells around each vertex of the range, which are all in the group. */
+  /** Counts the cells around each vertex of the range, all of which are in the group. */
   VertexLinks(Workspace& workspace, const CellGroups& groups, int group, std::size_t corners);
 
-  /** Ranks in the links of the vertices of a part of the range. */
+  /** The number of ranks in the links of the vertices of a part of the range. */
   std::int64_t size(RankRange part) const;
   std::int64_t size() const { return this->size(this->Range); }
-  /** Ranks in the largest link. */
+  /** The number of ranks in the largest link. */
   std::size_t largest() const { return this->Largest; }
   /** Bytes that load() allocates. */
   std::int64_t bytes() const { return this->size() * std::int64_t(sizeof(std::uint32_t)); }

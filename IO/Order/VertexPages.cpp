@@ -19,7 +19,7 @@ constexpr std::size_t LeastCollectedBytes = std::size_t(256) << 10;
 constexpr std::size_t MostVarintBytes = 5;
 constexpr std::size_t PolledBytes = std::size_t(256) << 10;
 
-/** Writes the lists of neighbours after their beginnings, which become narrow if they can be. */
+/** Writes the lists of neighbours after their offsets, which become narrow if possible. */
 std::uint32_t putAdjacency(
   std::byte* to, std::uint32_t firstRank, std::span<const VertexPages::Vertex> vertices)
 {
@@ -47,7 +47,7 @@ std::uint32_t putAdjacency(
   }
   for (std::uint32_t i = 0; i < count; ++i)
   {
-    // In place: the narrow beginning i stands before the wide one i + 1.
+    // In place: the narrow offset i is before the wide one i + 1.
     std::uint32_t begin;
     std::memcpy(&begin, to + std::size_t(4) * i, 4);
     const auto narrow = static_cast<std::uint16_t>(begin);
@@ -170,7 +170,7 @@ void VertexPages::read(std::int64_t page, std::span<std::byte> bytes)
   assert(bytes.size() <= this->bytes(page) && this->Collected == 0);
   this->File.read(this->Directory[std::size_t(page)].offset, bytes);
   this->Space->traffic().bytesRead += std::int64_t(bytes.size());
-  // Pages are small: whoever is told of progress has other things to do between two of them.
+  // Pages are small, so progress is not reported after each of them.
   this->Unpolled += bytes.size();
   if (this->Unpolled >= PolledBytes)
   {

@@ -30,18 +30,18 @@ public:
   /** The workspace must outlive the pages. */
   VertexPages(Workspace& workspace, int pageVertices, bool doublePositions);
 
-  /** What is known of a vertex when its page is made. */
+  /** The data of a vertex when its page is made. */
   struct Vertex
   {
     double position[3];
     std::uint32_t id;                          ///< number in the raw mesh
-    std::uint32_t place;                       ///< NoIndex: has none yet
+    std::uint32_t place;                       ///< NoIndex: none yet
     std::span<const std::uint32_t> neighbours; ///< ranks
   };
 
   /** Appends the next page: pageVertices vertices, the last page fewer. Throws Error. */
   void append(std::span<const Vertex> vertices);
-  /** Ends the appending. */
+  /** To be called after the last append(). */
   void close();
 
   int pageVertices() const { return static_cast<int>(this->PageVertices); }
@@ -58,7 +58,7 @@ public:
     return static_cast<std::uint32_t>(page) * this->PageVertices;
   }
 
-  /** Vertices of the page that have no place. */
+  /** The number of vertices of the page without a position. */
   std::uint32_t& unplaced(std::int64_t page) { return this->Directory[std::size_t(page)].unplaced; }
   std::uint32_t verticesOf(std::int64_t page) const
   {
@@ -81,11 +81,11 @@ public:
   std::int64_t allBytes() const { return this->FileEnd + std::int64_t(this->Collected); }
   std::int64_t allAdjacencyBytes() const { return this->AllAdjacencyBytes; }
 
-  /** Reads the beginning of a page, as many bytes as the span has. Throws Error, Cancelled. */
+  /** Reads the beginning of a page into the span. Throws Error, Cancelled. */
   void read(std::int64_t page, std::span<std::byte> bytes);
-  /** Writes the places of a page, which stand in the bytes of the whole page. */
+  /** Writes the positions of a page, given the bytes of the whole page. */
   void writePlaces(std::int64_t page, std::span<const std::byte> bytes);
-  /** What the bytes of a page, aligned to 4, or of its adjacency part mean. */
+  /** A view of the bytes of a page, aligned to 4, or of its adjacency part. */
   PageView view(std::int64_t page, std::byte* bytes) const
   {
     return this->view(page, bytes, this->Directory[std::size_t(page)].adjacency);
@@ -115,8 +115,8 @@ private:
   std::int64_t AllAdjacencyBytes = 0;
   FileDescriptor File;
   std::int64_t FileEnd = 0;
-  std::size_t Unpolled = 0; ///< bytes that were read since the workspace was polled
-  Buffer Collecting;        ///< pages that are not in the file yet
+  std::size_t Unpolled = 0; ///< bytes read since the workspace was polled
+  Buffer Collecting;        ///< pages not yet in the file
   std::size_t Collected = 0;
   GrowingArray<Page> Directory;
 };

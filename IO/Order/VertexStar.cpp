@@ -23,14 +23,14 @@ std::int64_t VertexStar::bytes(std::int64_t rangeSize, std::size_t largestLink)
          static_cast<std::int64_t>(largestLink * sizeof(Spoke));
 }
 
-/** Begins the list of neighbours by those that are outside the range, in ascending order. */
+/** Starts the list of neighbours with those outside the range, in ascending order. */
 void VertexStar::findOutside(
   std::uint32_t vertex, std::span<const std::uint32_t> link, std::span<std::uint32_t> neighbours)
 {
   std::size_t outside = 0;
   for (const std::uint32_t rank : link)
   {
-    // Written without a branch; what is counted is few.
+    // Written without a branch, since few are counted.
     neighbours[outside] = rank;
     outside += rank - this->First >= this->Count && rank != vertex;
     if (outside == neighbours.size())
@@ -51,7 +51,7 @@ void VertexStar::findOutside(
   }
 }
 
-/** The number of the neighbour; a new one if it was not met before. */
+/** The number of the neighbour; a new one for a new neighbour. */
 std::uint32_t VertexStar::spoke(std::uint32_t rank, std::span<std::uint32_t> neighbours)
 {
   const std::uint32_t place = rank - this->First;
@@ -102,7 +102,7 @@ void VertexStar::connectTriangles(
     }
     const std::uint32_t a = this->spoke(ends[0], neighbours);
     const std::uint32_t b = this->spoke(ends[1], neighbours);
-    // A spoke without triangles is no part of a fan yet.
+    // A spoke without triangles is not part of a fan yet.
     this->Fans += (spokes[a].triangles++ == 0) + (spokes[b].triangles++ == 0);
     const std::uint32_t rootA = this->root(a), rootB = this->root(b);
     this->Fans -= rootA != rootB;

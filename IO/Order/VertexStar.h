@@ -24,7 +24,7 @@ class VertexStar
 public:
   /** Links have `largestLink` ranks or fewer. */
   VertexStar(Workspace& workspace, RankRange range, std::size_t largestLink);
-  /** Bytes that it takes. */
+  /** Its memory in bytes. */
   static std::int64_t bytes(std::int64_t rangeSize, std::size_t largestLink);
 
   /**
@@ -35,24 +35,22 @@ public:
   std::size_t visit(std::uint32_t vertex, std::span<const std::uint32_t> link, std::size_t corners,
     std::span<std::uint32_t> neighbours);
 
-  // Of the triangles around the vertex that was visited last:
+  // Of the triangles around the last visited vertex:
 
-  /** Edges to vertices of higher rank that have one triangle. */
+  /** The number of edges to vertices of higher rank with one triangle. */
   std::int64_t boundaryEdges() const { return this->Boundary; }
-  /** Edges to vertices of higher rank that have more than two triangles. */
+  /** The number of edges to vertices of higher rank with more than two triangles. */
   std::int64_t nonManifoldEdges() const { return this->NonManifold; }
-  /**
-   * Groups of triangles that are connected by edges at the vertex: fans and discs. With more than
-   * one, the vertex is not manifold.
-   */
+  /** The number of groups of triangles that are connected by edges at the vertex: fans and discs.
+   * With more than one, the vertex is not manifold. */
   std::int64_t fans() const { return this->Fans; }
 
 private:
-  /** What is known of a neighbour. */
+  /** The data of a neighbour. */
   struct Spoke
   {
     std::uint32_t triangles; ///< of the edge to it
-    std::uint32_t parent;    ///< in the forest of spokes that are connected
+    std::uint32_t parent;    ///< in the forest of connected spokes
   };
 
   std::uint32_t spoke(std::uint32_t rank, std::span<std::uint32_t> neighbours);

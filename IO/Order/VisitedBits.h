@@ -13,7 +13,7 @@
 namespace smg
 {
 
-/** A bit for each of a number of ranks. To clear them costs little if few were set. */
+/** A bit for each of a number of ranks. Clearing is cheap if few are set. */
 class VisitedBits
 {
 public:
@@ -28,7 +28,7 @@ public:
 
   static std::size_t bytesFor(std::int64_t count) { return std::size_t(count + 63) / 64 * 8; }
 
-  /** Sets a bit; answers whether it was not set. */
+  /** Sets a bit; returns whether it was not set before. */
   bool set(std::uint32_t rank)
   {
     std::uint64_t& word = this->words()[rank / 64];
@@ -87,7 +87,7 @@ private:
 
   std::int64_t Count;
   Buffer Bits;
-  /** Words in which a bit was set, until there are too many of them. */
+  /** Words with bits set, up to a limit. */
   GrowingArray<std::uint32_t> Changed;
 };
 

@@ -11,7 +11,9 @@ namespace smg
 namespace
 {
 
-/** The neighbour that a node is tied to most among those that `may` admits; NoIndex: none. */
+/**
+ * The most strongly connected neighbour of a node among those accepted by `may`; NoIndex if none.
+ */
 template <class May>
 std::uint32_t strongest(const WeightedGraph& graph, std::uint32_t node, May&& may)
 {
@@ -53,7 +55,7 @@ std::uint32_t makeGroups(const WeightedGraph& graph, std::vector<std::uint32_t>&
   return count;
 }
 
-/** The nodes of each group, one group after the other: counting sort. */
+/** The nodes of each group, group by group: counting sort. */
 struct Members
 {
   Members(const std::vector<std::uint32_t>& groups, std::uint32_t count)

@@ -8,7 +8,7 @@
 namespace smg
 {
 
-/** An undirected graph with weights of nodes and edges: each edge stands with both of its nodes. */
+/** An undirected graph with weights of nodes and edges: each edge is stored with both nodes. */
 struct WeightedGraph
 {
   std::vector<std::uint32_t> begin{ 0 }; ///< of each node in the edges, and the end of the last
@@ -30,8 +30,8 @@ struct WeightedGraph
   }
 };
 
-/** Sets `part` to the part of a graph that has these nodes, numbered as they stand. `numbers` has
- * one number for each node of the graph and is scratch. */
+/** Sets `part` to the subgraph of these nodes, numbered in their order. `numbers` is scratch memory
+ * with one number for each node of the graph. */
 void extract(const WeightedGraph& graph, const std::vector<std::uint32_t>& nodes,
   std::vector<std::uint32_t>& numbers, WeightedGraph& part);
 

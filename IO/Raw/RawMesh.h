@@ -15,18 +15,18 @@
 namespace smg
 {
 
-/** What happened to a mesh while its file was parsed. */
+/** Counts of the changes to a mesh while its file was parsed. */
 struct ImportCounts
 {
-  std::int64_t triangulatedPolygons = 0; ///< polygons and strips that became several triangles
-  std::int64_t splitCells = 0;           ///< hexahedra, wedges, pyramids that became tetrahedra
-  std::int64_t higherOrderCells = 0;     ///< cells of which only the corners were used
-  std::int64_t droppedCells = 0;         ///< points, lines, and cells of the kind not wanted
-  std::int64_t mergedPoints = 0;         ///< points that were merged with another one
-  std::int64_t timeSteps = 0, partitions = 0; ///< of the file, where it has such
-  /** Names of columns that were left out, since their names are reserved. */
+  std::int64_t triangulatedPolygons = 0;      ///< polygons and strips that became several triangles
+  std::int64_t splitCells = 0;                ///< hexahedra, wedges, pyramids split into tetrahedra
+  std::int64_t higherOrderCells = 0;          ///< cells with points besides their corners
+  std::int64_t droppedCells = 0;              ///< points, lines, and cells of the other kind
+  std::int64_t mergedPoints = 0;              ///< points that were merged with another one
+  std::int64_t timeSteps = 0, partitions = 0; ///< of the file, if any
+  /** Names of columns that were omitted because they are reserved. */
   std::vector<std::string> droppedColumns;
-  /** What a user should know. */
+  /** Notes for the user. */
   std::vector<std::string> notes;
 };
 
@@ -34,10 +34,10 @@ struct ImportCounts
 struct RawColumn
 {
   ColumnSpec spec;
-  BucketFile tuples; ///< one after the other
+  BucketFile tuples; ///< consecutive
 };
 
-/** A reader of each column, all of them in `memory` bytes as far as small buffers can do. */
+/** A reader of each column, all of them in `memory` bytes if small buffers are sufficient. */
 inline std::vector<BucketFile::Reader> readersOf(
   const std::vector<RawColumn>& columns, std::int64_t memory)
 {
@@ -54,11 +54,11 @@ inline std::vector<BucketFile::Reader> readersOf(
 }
 
 /**
- * A mesh as its file has it, in scratch files: any vertex order, any cell order, isolated vertices.
+ * The mesh of a file, in scratch files: any vertex order, any cell order, isolated vertices.
  * At most 2^32 - 2 vertices, cells and elements.
  *
- * An *element* is what the file has as a cell, in the file's order and whatever its kind; it became
- * any number of cells of the mesh, which tell the element they come from.
+ * An *element* is a cell of the file of any kind, in the order of the file. It becomes any number
+ * of cells of the mesh, which store their element.
  */
 struct RawMesh
 {
@@ -70,17 +70,17 @@ struct RawMesh
   }
 
   CellType cellType = CellType::Triangle;
-  /** Whether the coordinates were double precision numbers in the file. */
+  /** Whether the coordinates had double precision in the file. */
   bool doublePositions = true;
   std::int64_t vertices = 0;
   std::int64_t cells = 0;
   std::int64_t elementCount = 0;
 
-  BucketFile positions;                  ///< x, y, z a vertex: doubles, or else floats; finite
-  RecordFile<std::uint32_t> corners;     ///< cornersOf(cellType) a cell, each below `vertices`
+  BucketFile positions;                  ///< x, y, z per vertex: doubles or floats; finite
+  RecordFile<std::uint32_t> corners;     ///< cornersOf(cellType) per cell, each below `vertices`
   RecordFile<std::uint32_t> elements;    ///< the element of each cell; empty: cell c is element c
-  std::vector<RawColumn> vertexColumns;  ///< a tuple a vertex
-  std::vector<RawColumn> elementColumns; ///< a tuple an element
+  std::vector<RawColumn> vertexColumns;  ///< a tuple per vertex
+  std::vector<RawColumn> elementColumns; ///< a tuple per element
   ImportCounts counts;
 
   std::size_t positionBytes() const

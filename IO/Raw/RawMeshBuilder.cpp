@@ -17,7 +17,7 @@ namespace smg
 namespace
 {
 
-/** Adds a column unless its name is reserved or taken; answers its number or -1. */
+/** Adds a column unless its name is reserved or in use; returns its number or -1. */
 int addColumn(Workspace& space, const ColumnSpec& spec, std::vector<RawColumn>& columns,
   std::vector<std::uint8_t>& dropped, ImportCounts& counts)
 {
@@ -28,7 +28,7 @@ int addColumn(Workspace& space, const ColumnSpec& spec, std::vector<RawColumn>& 
     counts.droppedColumns.push_back(spec.name);
     return -1;
   }
-  // Many columns, which may be filled at the same time, share the memory that a few would have.
+  // Many columns, which may be filled concurrently, share the memory of a few.
   const std::int64_t share = space.available() / 16 / (std::ssize(columns) + 1);
   columns.push_back({ spec, BucketFile(space, 1, share) });
   dropped.push_back(0);
@@ -83,7 +83,7 @@ int RawMeshBuilder::addElementColumn(const ColumnSpec& spec)
 {
   if (spec.name == CellFlagsName)
   {
-    // The flags are found anew: what a file says of them would be believed.
+    // The flags are computed; those of a file might be wrong.
     this->Mesh.counts.droppedColumns.push_back(spec.name);
     return -1;
   }
@@ -190,8 +190,7 @@ void RawMeshBuilder::endElement(std::int64_t cells)
   }
 }
 
-/** Notes the element of its cells, the last ones; from the first time on that it is not the cell.
- */
+/** Stores the element of its cells, the last ones, from the first element that is not one cell. */
 void RawMeshBuilder::noteElements(std::int64_t cells)
 {
   if (this->ElementIsCell)
@@ -240,7 +239,7 @@ void RawMeshBuilder::strip(std::span<const std::int64_t> corners)
     }
     else if (i >= start + 2)
     {
-      // Every other triangle of a strip is turned, so that all face the same way.
+      // Every other triangle of a strip is reversed, so that all have the same orientation.
       const bool odd = (i - start) % 2 != 0;
       this->cell(std::array<std::int64_t, 3>{
         corners[i - (odd ? 1 : 2)], corners[i - (odd ? 2 : 1)], corners[i] });
@@ -331,7 +330,7 @@ RawMesh RawMeshBuilder::finish()
                     std::to_string(this->LargestCorner) + ", counted from 0, but there are only " +
                     std::to_string(mesh.vertices) + " vertices");
   }
-  // Elements after the last cell need no notes.
+  // Elements after the last cell need not be stored.
   mesh.positions.close();
   mesh.elements.close();
   finishColumns(mesh.vertexColumns, this->DroppedVertexColumns, mesh.vertices);

@@ -17,7 +17,7 @@
 namespace smg
 {
 
-/** What is wrong with a mesh that is parsed, as a sentence without the place and the full stop. */
+/** An error in a parsed mesh: a sentence without position and full stop. */
 class MeshError : public std::runtime_error
 {
 public:
@@ -25,10 +25,10 @@ public:
 };
 
 /**
- * Takes the mesh of a file as it is parsed and makes triangles or tetrahedra of whatever cells
- * there are. Vertices and cells may come in any sequence; a cell may name vertices that come later.
+ * Builds a raw mesh from a file during parsing, and converts all cells to triangles or tetrahedra.
+ * Vertices and cells may come in any order; a cell may name later vertices.
  *
- * What is wrong with the file is a MeshError: whoever parses makes an Error of it, with the place.
+ * Errors in the file are MeshErrors: the parser converts them to Errors with the position.
  */
 class RawMeshBuilder
 {
@@ -37,14 +37,14 @@ public:
 
   Workspace& workspace() { return this->Space; }
 
-  /** Before the first vertex, where the file's numbers are of single precision. */
+  /** To be called before the first vertex if the numbers of the file have single precision. */
   void useSinglePrecision() { this->Mesh.doublePositions = false; }
 
-  /** Adds a column of the vertices; what it is known by below. Reserved names lead to no column. */
+  /** Adds a column of the vertices and returns its number. Reserved names add no column. */
   int addVertexColumn(const ColumnSpec& spec);
-  /** The same of the elements, of which CellFlags is reserved too. */
+  /** The same for the elements, where CellFlags is reserved, too. */
   int addElementColumn(const ColumnSpec& spec);
-  /** Appends tuples to a column; without a column of this number nothing. */
+  /** Appends tuples to a column; does nothing if there is no column of this number. */
   void vertexTuples(int column, std::span<const std::byte> tuples)
   {
     if (column >= 0)
@@ -59,7 +59,7 @@ public:
       this->Mesh.elementColumns[std::size_t(column)].tuples.append(0, tuples);
     }
   }
-  /** Says that a column has all its tuples: the memory of its last chunk is given back. */
+  /** Declares a column complete and releases the memory of its last chunk. */
   void endVertexColumn(int column)
   {
     if (column >= 0)
@@ -74,17 +74,16 @@ public:
       this->Mesh.elementColumns[std::size_t(column)].tuples.close();
     }
   }
-  /** Takes a column out again, whatever it has. The numbers of the others stay. */
+  /** Removes a column. The numbers of the others do not change. */
   void dropVertexColumn(int column);
   void dropElementColumn(int column);
 
-  /** The next vertex. Throws MeshError if a coordinate is not finite (or beyond single precision).
-   */
+  /** Adds a vertex. Throws MeshError if a coordinate is not finite (or beyond single precision). */
   void vertex(double x, double y, double z);
   std::int64_t vertices() const { return this->Mesh.vertices; }
 
-  // The next element, by its corners: numbers of vertices from 0. Throw MeshError if a corner is no
-  // number that a vertex can have, or the kind is not the only one of the file.
+  // Add an element by its corners: numbers of vertices from 0. Throw MeshError if a corner is not a
+  // valid number of a vertex, or if the file has elements of another kind.
   void triangle(std::int64_t a, std::int64_t b, std::int64_t c)
   {
     const std::array<std::int64_t, 3> corners{ a, b, c };
@@ -95,14 +94,12 @@ public:
     const std::array<std::int64_t, 4> corners{ a, b, c, d };
     this->take(CellType::Tetrahedron, corners);
   }
-  /** Becomes a fan of triangles. Fewer than three corners are a dropped element. */
+  /** Adds a fan of triangles. With fewer than three corners the element is dropped. */
   void polygon(std::span<const std::int64_t> corners);
-  /** A triangle strip; -1 starts another one. */
+  /** Adds a triangle strip; -1 starts another one. */
   void strip(std::span<const std::int64_t> corners);
-  /**
-   * A triangle of the next element, of which more may come: for polygons and strips whose corners
-   * do not fit into memory. endTriangles() completes the element.
-   */
+  /** Adds a triangle of the next element, which may have more: for polygons and strips whose
+   * corners do not fit into memory. endTriangles() completes the element. */
   void triangleOfElement(std::int64_t a, std::int64_t b, std::int64_t c)
   {
     if (this->wants(CellType::Triangle))
@@ -111,20 +108,21 @@ public:
       ++this->ElementTriangles;
     }
   }
-  /** Without any triangle the element is a dropped one. */
+  /** An element without triangles is dropped. */
   void endTriangles();
   /**
-   * A hexahedron (8 corners), wedge (6) or pyramid (5), corners in VTK's order, becomes tetrahedra.
-   * Each face is cut along the diagonal of its least corner, so that neighbours fit together.
+   * Splits a hexahedron (8 corners), wedge (6) or pyramid (5), with corners in VTK's order, into
+   * tetrahedra. Each face is split along the diagonal of its least corner, so that neighbours
+   * match.
    */
   void solid(std::span<const std::int64_t> corners);
-  /** A point, a line, or whatever else has no triangles and no tetrahedra. */
+  /** A point, a line, or another element without triangles and tetrahedra. */
   void dropped();
-  /** Counts that the last element had points beside its corners, which are not used. */
+  /** Counts that the last element had points besides its corners, which are not used. */
   void noteHigherOrder() { ++this->Mesh.counts.higherOrderCells; }
   /** Counts points that the parser merged. */
   void noteMerged(std::int64_t points) { this->Mesh.counts.mergedPoints += points; }
-  /** Says how many time steps the file has, and partitions the one that is read. */
+  /** Sets the number of time steps of the file, and of partitions of the current one. */
   void noteParts(std::int64_t timeSteps, std::int64_t partitions)
   {
     this->Mesh.counts.timeSteps = timeSteps;
@@ -135,21 +133,17 @@ public:
   std::int64_t elements() const { return this->Mesh.elementCount; }
   std::int64_t cells() const { return this->Mesh.cells; }
 
-  /**
-   * Says that corners were given by other numbers than the vertices': `numbers` has put() the
-   * vertex of each. Applied by finish(); a corner without a vertex is a MeshError.
-   */
+  /** Declares that corners were given by other numbers than those of the vertices: `numbers`
+   * contains the vertex of each. Applied by finish(); a corner without a vertex is a MeshError. */
   void relabelCorners(Relabelling numbers) { this->Numbers.emplace(std::move(numbers)); }
 
-  /**
-   * Gives the mesh. Throws MeshError if there are no vertices or no cells, a corner is no vertex,
-   * or a column has not a tuple for each vertex or element.
-   */
+  /** Returns the mesh. Throws MeshError if there are no vertices or no cells, a corner is not a
+   * vertex, or a column does not have a tuple for each vertex or element. */
   RawMesh finish();
 
 private:
   void take(CellType type, std::span<const std::int64_t> corners);
-  /** Whether elements of this kind are wanted. Throws MeshError where the kinds are mixed. */
+  /** Whether elements of this kind are requested. Throws MeshError if the kinds are mixed. */
   bool wants(CellType type);
   void cell(std::span<const std::int64_t> corners);
   void endElement(std::int64_t cells);

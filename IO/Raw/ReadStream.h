@@ -10,9 +10,9 @@ namespace smg
 {
 
 /**
- * Takes a mesh stream as a raw mesh: vertices are known by their stream indices, elements are the
- * cells. All columns are taken, but for CellFlags, which follow from the cells. Throws Error, which
- * calls the stream `name`.
+ * Reads a mesh stream as a raw mesh: vertices are numbered by their stream indices, elements are
+ * the cells. All columns are read except CellFlags, which are computed from the cells. Throws
+ * Error, which names the stream `name`.
  */
 RawMesh readStream(MeshSource& source, const std::string& name, Workspace& workspace);
 

@@ -12,11 +12,11 @@ namespace
 
 using Face = std::array<int, 4>;
 
-/** The faces of the solids that VTK numbers so, seen from outside counterclockwise; -1: a triangle.
- */
+/** The faces of the solids in VTK's numbering, counterclockwise as seen from outside; -1: a
+ * triangle. */
 constexpr std::array<Face, 6> HexahedronFaces{ { { 0, 3, 2, 1 }, { 4, 5, 6, 7 }, { 0, 1, 5, 4 },
   { 1, 2, 6, 5 }, { 2, 3, 7, 6 }, { 3, 0, 4, 7 } } };
-/** VTK's wedge has its first triangle facing out. */
+/** The first triangle of VTK's wedge faces outwards. */
 constexpr std::array<Face, 5> WedgeFaces{ { { 0, 1, 2, -1 }, { 3, 5, 4, -1 }, { 0, 3, 4, 1 },
   { 1, 4, 5, 2 }, { 2, 5, 3, 0 } } };
 constexpr std::array<Face, 5> PyramidFaces{ { { 0, 3, 2, 1 }, { 0, 1, 4, -1 }, { 1, 2, 4, -1 },
@@ -34,7 +34,7 @@ std::span<const Face> facesOf(std::size_t corners)
 TetrahedraOfSolid splitSolid(std::span<const std::int64_t> corners)
 {
   assert(corners.size() == 8 || corners.size() == 6 || corners.size() == 5);
-  // All faces that do not touch the least corner are joined with it: the faces that do are cut from
+  // Joins all faces that do not contain the least corner with it: the faces that do are split from
   // it, and the solid is star-shaped from any corner.
   const std::int64_t apex = *std::ranges::min_element(corners);
   TetrahedraOfSolid result;
@@ -52,7 +52,7 @@ TetrahedraOfSolid splitSolid(std::span<const std::int64_t> corners)
       continue;
     }
     std::rotate(ring.begin(), std::min_element(ring.begin(), end), end);
-    // Seen from the apex, inside, the face turns clockwise.
+    // Seen from the apex, inside, the face is clockwise.
     result.add(ring[0], ring[2], ring[1], apex);
     if (sides == 4)
     {

@@ -9,11 +9,11 @@
 namespace smg
 {
 
-/** The tetrahedra that a solid cell is cut into. */
+/** The tetrahedra of a solid cell. */
 class TetrahedraOfSolid
 {
 public:
-  /** Adds a tetrahedron, unless two of its corners are the same: those of a collapsed solid. */
+  /** Adds a tetrahedron, unless two of its corners are equal, as in a collapsed solid. */
   void add(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d)
   {
     if (a == b || a == c || a == d || b == c || b == d || c == d)
@@ -34,11 +34,10 @@ private:
 };
 
 /**
- * Cuts a hexahedron (8 corners), wedge (6) or pyramid (5), corners in VTK's order, into tetrahedra
- * of the same orientation. Every quadrilateral is cut along the diagonal of its least corner, so
- * that neighbours fit together whatever they are; where corners fall together there are fewer
- * tetrahedra, or none (Dompierre et al., How to subdivide pyramids,
- * prisms and hexahedra into tetrahedra, 1999).
+ * Splits a hexahedron (8 corners), wedge (6) or pyramid (5), with corners in VTK's order, into
+ * tetrahedra of the same orientation. Every quadrilateral is split along the diagonal of its least
+ * corner, so that neighbours of any type match; if corners coincide there are fewer tetrahedra, or
+ * none (Dompierre et al., How to subdivide pyramids, prisms and hexahedra into tetrahedra, 1999).
  */
 TetrahedraOfSolid splitSolid(std::span<const std::int64_t> corners);
 

@@ -28,7 +28,7 @@ struct Point
   }
 };
 
-/** The points that are left, as far as they can still be near to a point that comes. */
+/** The remaining points that may be close to a later point. */
 class NearPoints
 {
 public:
@@ -38,7 +38,7 @@ public:
   {
   }
 
-  /** The number of the first point near to this one; if there is none, this one is kept. */
+  /** The number of the first point close to this one; if there is none, this one is kept. */
   std::uint32_t findOrKeep(const Point& point)
   {
     this->forgetBefore(point.position[0] - this->Tolerance);
@@ -68,7 +68,7 @@ public:
   }
 
 private:
-  /** What a point takes with its place in the grid and in the queue. */
+  /** Bytes of a point with its entries in the grid and in the queue. */
   static constexpr std::size_t BytesPerPoint = 160;
 
   using Cell = std::array<double, 2>;
@@ -82,7 +82,7 @@ private:
 
   Cell cellOf(const Point& point) const
   {
-    // With equal coordinates alone, cells are the coordinates themselves.
+    // If only equal coordinates are merged, cells are the coordinates themselves.
     const double size = this->Tolerance;
     return size > 0
              ? Cell{ std::floor(point.position[1] / size), std::floor(point.position[2] / size) }

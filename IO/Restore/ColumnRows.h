@@ -11,8 +11,7 @@
 namespace smg
 {
 
-/** How the tuples that some columns have of one vertex or cell stand one after the other in a row.
- */
+/** The layout of a row with the tuples of some columns for one vertex or cell. */
 class ColumnRows
 {
 public:
@@ -29,7 +28,7 @@ public:
   /** Bytes of a row. */
   std::size_t bytes() const { return this->RowBytes; }
 
-  /** Makes a row of tuple `tuple` of the columns, of which there may be more than are wanted. */
+  /** Fills a row with tuple `tuple` of the columns; additional columns are ignored. */
   void gather(const std::vector<Column>& columns, std::size_t tuple, std::byte* row) const
   {
     for (std::size_t c = 0; c < this->Specs.size(); ++c)
@@ -40,7 +39,7 @@ public:
     }
   }
 
-  /** Appends the tuples of a row to the columns, which are as the specs. */
+  /** Appends the tuples of a row to the columns, which correspond to the specs. */
   void append(const std::byte* row, std::vector<Column>& columns) const
   {
     for (std::size_t c = 0; c < this->Specs.size(); ++c)

@@ -13,15 +13,15 @@ namespace smg
 namespace
 {
 
-/** About so many bytes a triangle are needed to look for a polygon. */
+/** The approximate bytes per triangle of the search for a polygon. */
 constexpr std::size_t BytesOfFanTriangle = 64;
 
 constexpr std::int64_t ChunkElements = 8192;
 constexpr std::size_t ChunkCorners = std::size_t(64) << 10;
-/** About so many bytes of columns are delivered at once. */
+/** The approximate bytes of columns delivered at once. */
 constexpr std::size_t ElementChunkBytes = std::size_t(512) << 10;
 
-/** Memory in which an element is looked at as a whole. */
+/** The memory for an element that is processed as a whole. */
 std::int64_t elementBytes(Workspace& workspace)
 {
   return workspace.pool().limit() / 8;
@@ -75,7 +75,7 @@ void ElementRestorer::take(const RowSort::Row& row)
   }
   if (this->Corners.size() == this->MostCells * this->CornersOfCell)
   {
-    // What is delivered of so large an element are its cells, one by one.
+    // The cells of such a large element are delivered one by one.
     this->Large += this->TooLarge ? 0 : 1;
     this->TooLarge = true;
     this->endGroup();
@@ -88,7 +88,7 @@ void ElementRestorer::take(const RowSort::Row& row)
   this->Tuples.insert(this->Tuples.end(), tuples, tuples + this->Columns.bytes());
 }
 
-/** Writes the cells that were collected of one element, as a polygon where they are its fan. */
+/** Writes the collected cells of one element, as a polygon if they are its fan. */
 void ElementRestorer::endGroup()
 {
   const std::size_t cells = this->Corners.size() / this->CornersOfCell;
@@ -96,7 +96,7 @@ void ElementRestorer::endGroup()
   const std::size_t bytes = this->Columns.bytes();
   if (cells > 1 && !this->TooLarge && this->CornersOfCell == 3 && this->Fan.build(this->Corners))
   {
-    // All tuples are the same if each is the one before.
+    // All tuples are equal if each equals the one before.
     const bool same =
       std::equal(tuples.begin() + static_cast<std::ptrdiff_t>(bytes), tuples.end(), tuples.begin());
     this->Different += same ? 0 : 1;

@@ -16,10 +16,10 @@ namespace smg
 {
 
 /**
- * Makes of the cells of a mesh stream the elements of the original file, in its order and out of
+ * Restores the elements of the original file, in its order, from the cells of a mesh stream, out of
  * core: put() all cells, then restore(), then next() delivers the elements. Triangles of one
- * element that are the fan of a polygon become this polygon; other cells of one element keep the
- * sequence in which they came.
+ * element that are the fan of a polygon become this polygon; other cells of one element keep their
+ * order.
  */
 class ElementRestorer
 {
@@ -27,17 +27,18 @@ public:
   /** For cells of info.cellType with info.elementColumns. Uses `memory` bytes of the workspace. */
   ElementRestorer(Workspace& workspace, std::int64_t memory, const RestoredInfo& info);
 
-  /** Takes tuple `tuple` of the columns, which begin with those of the info, as a cell's. */
+  /** Adds a cell with tuple `tuple` of the columns, which begin with those of the info. */
   void put(std::int64_t element, std::span<const std::uint32_t> corners,
     const std::vector<Column>& columns, std::size_t tuple);
 
-  /** Ends the putting, and counts the elements and corners into `info`. Throws Error. */
+  /** To be called after the last put(); sets the counts of elements and corners in `info`. Throws
+   * Error. */
   void restore(RestoredInfo& info);
 
-  /** What restore() could not do, a sentence each. */
+  /** Notes on elements that restore() could not restore, a sentence each. */
   std::vector<std::string> notes() const;
 
-  /** The next elements; false at the end. */
+  /** The next elements; returns false at the end. */
   bool next(RestoredElements& elements);
   /** Goes back to the first element. */
   void rewind() { this->Reader.reset(); }
@@ -53,7 +54,7 @@ private:
   RowSort Sorted;      ///< a row is the corners, then the columns
   BucketFile Elements; ///< number of corners, corners, columns
   RestoredInfo Counts;
-  std::size_t MostCells; ///< of an element that is looked at as a whole
+  std::size_t MostCells; ///< of an element that is processed as a whole
 
   // The cells of one element.
   std::uint64_t Element = UINT64_MAX; ///< none, at first

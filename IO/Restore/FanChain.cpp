@@ -39,10 +39,8 @@ bool FanChain::build(std::span<const std::uint32_t> triangles)
   return true;
 }
 
-/**
- * Finds the corner that one edge more begins with than ends with. There is none if the trail is
- * closed; then `start` is left as it is. False: no trail uses all edges.
- */
+/** Finds the corner at which one more edge begins than ends. If the trail is closed there is none,
+ * and `start` is not changed. Returns false if no trail uses all edges. */
 bool FanChain::findStart(std::uint32_t& start) const
 {
   std::size_t begins = 0;
@@ -76,7 +74,8 @@ bool FanChain::findStart(std::uint32_t& start) const
   return excess <= 1;
 }
 
-/** Hierholzer's algorithm: walks until there is no edge left, and inserts detours on the way back.
+/**
+ * Hierholzer's algorithm: follows edges until none is left, and inserts detours when backtracking.
  */
 void FanChain::walk(std::uint32_t start)
 {

@@ -11,15 +11,15 @@ namespace smg
 {
 
 /**
- * Makes a polygon of its triangles. The polygon c0 c1 c2 ... became the fan of triangles c0 c1 c2,
- * c0 c2 c3 ..., which come in any order: from c1 on, the corners are the trail that uses each
- * triangle's last two corners once, as an edge. Where corners of the polygon are repeated, several
- * polygons may have become the same triangles: then it is one of these.
+ * Restores a polygon from its triangles. The polygon c0 c1 c2 ... was split into the fan of
+ * triangles c0 c1 c2, c0 c2 c3 ..., given in any order: from c1 on, the corners are the trail that
+ * uses the last two corners of each triangle once, as an edge. If corners of the polygon are
+ * repeated, several polygons may have the same triangles; the result is one of these.
  */
 class FanChain
 {
 public:
-  /** Whether the triangles, 3 corners each, are such a fan: then polygon() has its corners. */
+  /** Whether the triangles, 3 corners each, are such a fan; then polygon() returns its corners. */
   bool build(std::span<const std::uint32_t> triangles);
 
   std::span<const std::uint32_t> polygon() const { return this->Corners; }

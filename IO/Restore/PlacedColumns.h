@@ -14,8 +14,7 @@
 namespace smg
 {
 
-/** Columns of a restored mesh that a text format has a place for, and the others, which it has not.
- */
+/** Columns of a restored mesh that a text format can hold, and the others. */
 class PlacedColumns
 {
 public:
@@ -25,7 +24,7 @@ public:
   {
   }
 
-  // The place of the column of this name with so many components; -1: there is none.
+  // The index of the column with this name and number of components; -1 if there is none.
   std::ptrdiff_t ofVertices(std::string_view name, int least, int most)
   {
     return this->OfVertices.place(name, least, most, false);
@@ -34,8 +33,8 @@ public:
   {
     return this->OfElements.place(name, least, most, false);
   }
-  // The place of the first of these columns that has one integer each: formats call the labels that
-  // they have differently.
+  // The index of the first of these columns with one integer per tuple, since the names of labels
+  // differ between formats.
   std::ptrdiff_t integerOfVertices(std::initializer_list<std::string_view> names)
   {
     return this->OfVertices.firstInteger(names);
@@ -45,7 +44,7 @@ public:
     return this->OfElements.firstInteger(names);
   }
 
-  /** A sentence for a user about the columns that nobody asked for. */
+  /** A note for the user on the columns that were not requested. */
   std::vector<std::string> leftOut(std::string_view suffix) const
   {
     const std::string names =
@@ -95,7 +94,7 @@ private:
       return found;
     }
 
-    /** The names of the others, before those that are given. */
+    /** The names of the others, before the given ones. */
     std::string others(const std::string& owner, std::string names) const
     {
       for (std::size_t i = this->Specs.size(); i-- > 0;)

@@ -13,16 +13,16 @@
 namespace smg
 {
 
-/** What is known of a restored mesh before its vertices and elements are read. */
+/** The properties of a restored mesh before its vertices and elements are read. */
 struct RestoredInfo
 {
   CellType cellType = CellType::Triangle;
-  /** Whether positions carry double precision (else they were single precision numbers). */
+  /** Whether positions have double precision; otherwise they were single precision numbers. */
   bool doublePositions = true;
-  std::int64_t vertices = 0; ///< with the isolated ones
+  std::int64_t vertices = 0; ///< including isolated ones
   std::int64_t isolated = 0;
   std::int64_t cells = 0;          ///< triangles or tetrahedra of the stream
-  std::int64_t elements = 0;       ///< the polygons or tetrahedra that they are restored to
+  std::int64_t elements = 0;       ///< the restored polygons or tetrahedra
   std::int64_t quadrilaterals = 0; ///< elements that are polygons of four corners
   std::int64_t corners = 0;        ///< of all elements
   std::int64_t mostCorners = 0;    ///< of an element
@@ -60,7 +60,7 @@ struct RestoredElements
 
   std::int64_t count() const { return static_cast<std::int64_t>(this->sizes.size()); }
 
-  /** Calls `take` with the corners of each element, and its place here, from first to last. */
+  /** Calls `take` with the corners of each element and its index here, in order. */
   template <class Take>
   void forEach(Take&& take) const
   {

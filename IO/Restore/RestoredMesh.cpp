@@ -18,7 +18,7 @@ namespace
 
 const ColumnSpec VertexNumbers{ OriginalIdName, ScalarType::Int64, 1 };
 
-/** The columns that are not of the conversion. */
+/** The columns that were not added by the conversion. */
 std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs)
 {
   std::vector<ColumnSpec> own;
@@ -52,7 +52,7 @@ RestoredMesh::RestoredMesh(const std::filesystem::path& vsm, Workspace& workspac
 {
   VsmReader reader(vsm, &workspace.traffic());
   this->readInfo(reader);
-  // The table of the numbers is given back before the cells are merged.
+  // The table of the numbers is released before the cells are merged.
   const std::int64_t memory = workspace.available();
   this->Vertices = std::make_unique<VertexRestorer>(workspace, memory / 4, this->Info, this->Name);
   this->Elements = std::make_unique<ElementRestorer>(workspace, memory / 3, this->Info);
@@ -125,7 +125,7 @@ void RestoredMesh::readVertices(
 
 void RestoredMesh::readIsolated(VsmReader& reader)
 {
-  // The columns of the info come first, as they do for the other vertices.
+  // The columns of the info come first, as for the other vertices.
   std::vector<std::ptrdiff_t> places;
   for (const ColumnSpec& spec : this->Info.vertexColumns)
   {
@@ -184,7 +184,7 @@ void RestoredMesh::readCells(
     });
 }
 
-/** Tells the progress when so many vertices or elements more are read. */
+/** Reports the progress after this many more vertices or elements. */
 void RestoredMesh::deliver(std::int64_t count)
 {
   this->Delivered += count;

@@ -18,17 +18,17 @@ namespace smg
 class VsmReader;
 
 /**
- * A .vsm file in the order of the file that it was made of: its vertices by the vertex column
- * `OriginalId`, the isolated ones in their places, and its cells by the cell column
- * `OriginalCellId`, polygons as polygons. Works out of core, in the memory of the workspace.
+ * A .vsm file in the order of its original file: its vertices by the vertex column `OriginalId`,
+ * including isolated ones, and its cells by the cell column `OriginalCellId`, polygons as polygons.
+ * Works out of core, in the memory of the workspace.
  *
- * What a conversion adds (`OriginalId`, `OriginalCellId`, `CellFlags`) is no part of it.
+ * The columns added by a conversion (`OriginalId`, `OriginalCellId`, `CellFlags`) are omitted.
  */
 class RestoredMesh
 {
 public:
   /**
-   * Reads the stream and sorts it. Tells the workspace's progress up to SortedShare.
+   * Reads the stream and sorts it. Reports the workspace's progress up to SortedShare.
    * @throws Error if the file has no OriginalId, its vertices are not all of the original ones, or
    * it cannot be read; Cancelled.
    */
@@ -37,20 +37,20 @@ public:
   RestoredMesh& operator=(const RestoredMesh&) = delete;
 
   const RestoredInfo& info() const { return this->Info; }
-  /** Where it was sorted, for what else has to be. */
+  /** The workspace of the sort, for further operations. */
   Workspace& workspace() const { return this->Space; }
-  /** What a user should know of the restored mesh, a sentence each. */
+  /** Notes for the user on the restored mesh, a sentence each. */
   const std::vector<std::string>& notes() const { return this->Notes; }
 
-  /** The next vertices, from 0; false at the end. They can be read once. Throws Error; Cancelled.
-   */
+  /** The next vertices, from 0; returns false at the end. They can be read once. Throws Error;
+   * Cancelled. */
   bool next(RestoredVertices& vertices);
-  /** The next elements, from 0; false at the end. Throws Error; Cancelled. */
+  /** The next elements, from 0; returns false at the end. Throws Error; Cancelled. */
   bool next(RestoredElements& elements);
   /** Goes back to the first element. */
   void rewindElements() { this->Elements->rewind(); }
 
-  /** Share of the work, 0 to 1, that is done when the mesh can be read. */
+  /** The share of the work, 0 to 1, before the mesh can be read. */
   static constexpr double SortedShare = 0.6;
 
 private:

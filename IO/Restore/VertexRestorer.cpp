@@ -15,7 +15,7 @@ namespace smg
 namespace
 {
 
-/** About so many bytes of vertices are delivered at once. */
+/** The approximate bytes of vertices delivered at once. */
 constexpr std::size_t VertexChunkBytes = std::size_t(512) << 10;
 
 } // namespace
@@ -75,7 +75,7 @@ bool VertexRestorer::next(RestoredVertices& vertices)
   RowSort::Row row;
   for (std::int64_t i = 0; i < this->Chunk && this->Sorted.next(row); ++i, ++this->Next)
   {
-    // All numbers are below the number of vertices: if one is missing, another comes twice.
+    // All numbers are below the number of vertices: if one is missing, another occurs twice.
     if (row.key != static_cast<std::uint64_t>(this->Next))
     {
       this->fail(row.key < static_cast<std::uint64_t>(this->Next)

@@ -13,34 +13,26 @@
 namespace smg
 {
 
-/**
- * Brings vertices into the order of their original numbers, out of core: put() all, then sort(),
- * then next() delivers them. The numbers must be 0, 1, 2 ..., each of one vertex.
- */
+/** Sorts vertices by their original numbers, out of core: put() all, then sort(), then next()
+ * delivers them. The numbers must be 0, 1, 2 ..., one vertex each. */
 class VertexRestorer
 {
 public:
-  /**
-   * For info.vertices vertices with info.vertexColumns. Uses `memory` bytes of the workspace.
-   * `name` is what errors call the mesh.
-   */
+  /** For info.vertices vertices with info.vertexColumns. Uses `memory` bytes of the workspace.
+   * `name` is the name of the mesh in errors. */
   VertexRestorer(
     Workspace& workspace, std::int64_t memory, const RestoredInfo& info, std::string name);
 
-  /**
-   * Takes vertices with these numbers. The columns begin with those of the info. Throws Error if a
-   * number is none of a vertex.
-   */
+  /** Adds vertices with these numbers. The columns begin with those of the info. Throws Error if a
+   * number is out of range. */
   void put(std::span<const std::int64_t> ids, std::span<const double> positions,
     const std::vector<Column>& columns);
 
-  /** Ends the putting. */
+  /** To be called after the last put(). */
   void sort() { this->Sorted.sort(); }
 
-  /**
-   * The next vertices; false at the end. Throws Error if a number was given to no vertex, or to
-   * two.
-   */
+  /** The next vertices; returns false at the end. Throws Error if no vertex, or more than one, has
+   * a number. */
   bool next(RestoredVertices& vertices);
 
 private:
@@ -51,7 +43,7 @@ private:
   std::size_t PositionBytes;
   ColumnRows Columns;
   std::int64_t Count;
-  std::int64_t Chunk; ///< vertices that are delivered at once
+  std::int64_t Chunk; ///< vertices delivered at once
   std::int64_t Next = 0;
   RowSort Sorted; ///< a row is a position, then the columns
 };
