@@ -12,13 +12,13 @@ namespace smg
 {
 
 /**
- * Adds the columns to a selection, in which they are chosen; those that stand in it stay as they
- * are. The marks of cells that do not count come with every piece, and its own arrays, too: they
+ * Adds the columns to a selection as selected; existing entries do not change. The marks of
+ * degenerate and duplicate cells, and the arrays of the piece contract, are part of every piece and
  * cannot be selected.
  */
 void offerColumns(vtkDataArraySelection& selection, const std::vector<ColumnSpec>& columns);
 
-/** The names of the columns that are selected, and of those marks. */
+/** The names of the selected columns, and of those marks. */
 std::vector<std::string> chosenColumns(
   vtkDataArraySelection& selection, const std::vector<ColumnSpec>& columns);
 

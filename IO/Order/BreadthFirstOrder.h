@@ -27,7 +27,7 @@ struct PageTraffic
 };
 
 /**
- * Brings paged vertices into a breadth-first order with a small span and width, component after
+ * Sorts paged vertices in a breadth-first order with a small span and width, component by
  * component: a multi-source search whose sources and start levels are chosen by the distances from
  * a few landmarks. Sets `components` in the counts. The pages give their places away: a mesh is
  * ordered once.

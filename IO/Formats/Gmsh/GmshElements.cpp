@@ -20,8 +20,8 @@ struct Run
 
 constexpr std::size_t GmshTypes = 132;
 
-/** Gmsh gave the numbers as the types came: by order, complete ones and those without inner nodes.
- */
+/** Gmsh numbers the types in the order of their introduction: by order, complete ones and those
+ * without inner nodes. */
 constexpr std::array<GmshElementType, GmshTypes> makeGmshTypes()
 {
   using enum GmshShape;
@@ -107,7 +107,7 @@ void addGmshElement(
       builder.tetrahedron(corners[0], corners[1], corners[2], corners[3]);
       break;
     case GmshShape::Prism:
-      // The first triangle faces in here, and out in VTK.
+      // The first triangle faces inwards here, and outwards in VTK.
       builder.solid(std::array<std::int64_t, 6>{
         corners[0], corners[2], corners[1], corners[3], corners[5], corners[4] });
       break;

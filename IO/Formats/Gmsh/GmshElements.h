@@ -10,10 +10,10 @@
 namespace smg
 {
 
-/** What the elements of a Gmsh file are, whatever their order. */
+/** The shapes of the elements of a Gmsh file, of any order. */
 enum class GmshShape : std::uint8_t
 {
-  None, ///< a point or a line: no cell of a mesh
+  None, ///< a point or a line: not a cell of a mesh
   Triangle,
   Quadrilateral,
   Tetrahedron,
@@ -22,11 +22,11 @@ enum class GmshShape : std::uint8_t
   Pyramid
 };
 
-/** A type of elements: its shape, and its nodes, of which the corners come first. */
+/** A type of elements: its shape, and its nodes, corners first. */
 struct GmshElementType
 {
   GmshShape shape = GmshShape::None;
-  std::uint16_t nodes = 0; ///< 0: there is no such type
+  std::uint16_t nodes = 0; ///< 0: unknown type
 
   std::size_t corners() const;
 };
@@ -34,7 +34,7 @@ struct GmshElementType
 /** The element type of this number in a .msh file. */
 GmshElementType gmshElementType(std::int64_t type);
 
-/** Gives an element to the builder; `corners` are type.corners() vertices in Gmsh's order. */
+/** Passes an element to the builder; `corners` are type.corners() vertices in Gmsh's order. */
 void addGmshElement(
   RawMeshBuilder& builder, GmshElementType type, std::span<const std::int64_t> corners);
 

@@ -172,7 +172,7 @@ private:
     }
   }
 
-  /** Elements of version 2, as text: each says what it is. */
+  /** Elements of version 2, as text: each with its type. */
   void readElements()
   {
     const std::int64_t elements = this->Input.lineCount("the number of elements", 8, 8);
@@ -186,7 +186,7 @@ private:
     }
   }
 
-  /** Elements of version 2, binary: one head for a number of elements of the same type. */
+  /** Elements of version 2, binary: one header for a number of elements of the same type. */
   void readElementGroups()
   {
     const std::int64_t elements = this->Input.lineCount("the number of elements", 8, 8);

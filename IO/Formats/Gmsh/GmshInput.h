@@ -13,10 +13,8 @@
 namespace smg
 {
 
-/**
- * Reads the numbers of a Gmsh file, the same way whether they are text or binary. Around the
- * numbers there are lines of text in both. Errors name the line, or the byte of a binary file.
- */
+/** Reads the numbers of a Gmsh file, text or binary, with the same interface. Both have lines of
+ * text around the numbers. Errors name the line, or the byte of a binary file. */
 class GmshInput
 {
 public:
@@ -26,25 +24,25 @@ public:
   {
   }
 
-  /** Reads what $MeshFormat says. Only 2.x and 4.1 are read. */
+  /** Reads the section $MeshFormat. Only 2.x and 4.1 are supported. */
   void readFormat();
   bool hasFormat() const { return this->Version != 0; }
   /** Whether the version is 4.1, with blocks of nodes and elements. */
   bool hasBlocks() const { return this->Version == 4; }
   bool isBinary() const { return this->Binary; }
 
-  /** The next line's first word, "$..."; empty at the end of the file. */
+  /** The first word of the next line, "$..."; empty at the end of the file. */
   std::string sectionName();
-  /** Passes the line that ends a section, which comes next. */
+  /** Skips the next line, which ends a section. */
   void endSection(const std::string& end);
-  /** Passes all up to this line, and the line. */
+  /** Skips everything up to and including this line. */
   void skipSection(const std::string& end);
 
-  /** A number of things in a line of text, each of at least so many bytes. */
+  /** A count in a line of text, of items of at least this many bytes. */
   std::int64_t lineCount(const char* what, std::size_t leastText, std::size_t leastBinary);
-  /** Numbers follow. */
+  /** To be called before numbers. */
   void beginNumbers();
-  /** Lines follow. */
+  /** To be called before lines. */
   void endNumbers();
 
   // The next number: 32 bits, 64 bits or double precision in a binary file.
@@ -60,12 +58,12 @@ public:
   {
     return this->Binary ? this->binary<double>(what) : this->Scanner.number(what);
   }
-  /** A number of things that follow, 64 bits, refused if the file cannot hold them. */
+  /** A count of following items, 64 bits, refused if the file cannot hold them. */
   std::int64_t count(const char* what, std::size_t leastText, std::size_t leastBinary);
-  /** The same of a number that has been read, whatever its kind. */
+  /** The same check for a number of any kind that has been read. */
   void checkCount(std::int64_t count, const char* what, std::size_t leastBytes) const;
 
-  /** Throws Error with the place. */
+  /** Throws Error with the position. */
   [[noreturn]] void fail(const std::string& sentence) const;
 
 private:
@@ -85,7 +83,7 @@ private:
   InputFile& File;
   TextScanner Scanner;
   std::size_t Offset = 0; ///< of the next binary number
-  int Version = 0;        ///< 2 or 4; 0: not known yet
+  int Version = 0;        ///< 2 or 4; 0: unknown yet
   bool Binary = false;
   std::endian Order = std::endian::native;
   bool InNumbers = false; ///< of a binary file

@@ -12,9 +12,9 @@ namespace smg
 {
 
 /**
- * The tags of the nodes, which elements name them by: any numbers, mostly 1, 2, 3 ... As long as
- * they count up by one nothing is kept of them; else they are sorted out of core, and the elements
- * are given by their tags until a Relabelling replaces these.
+ * The tags of the nodes, to which elements refer: any numbers, usually 1, 2, 3 ... Consecutive tags
+ * are not stored; others are sorted out of core, and the elements have tags as corners until a
+ * Relabelling replaces these.
  */
 class GmshNodes
 {
@@ -24,7 +24,7 @@ public:
   {
   }
 
-  /** Notes the tag of the next node. */
+  /** Adds the tag of the next node. */
   void add(std::int64_t tag)
   {
     if (!this->Tags && tag >= this->First &&
@@ -37,20 +37,18 @@ public:
   }
   std::int64_t count() const { return this->Count; }
 
-  /**
-   * After the last node. Throws MeshError if a tag stands for two nodes, or the tags are so far
-   * apart that 32 bits are not enough for them.
-   */
+  /** To be called after the last node. Throws MeshError if two nodes have the same tag, or the
+   * range of the tags exceeds 32 bits. */
   void finish();
 
-  /** The number of the corner that is called `tag`; -1 if no node can have the tag. */
+  /** The number of the corner with this tag; -1 if no node can have the tag. */
   std::int64_t corner(std::int64_t tag) const
   {
     const std::uint64_t place = this->distance(tag);
     return place < this->Range ? static_cast<std::int64_t>(place) : -1;
   }
 
-  /** Gives the vertices of the corners; nothing where corners are vertices. */
+  /** Returns the vertices of the corners; nothing if corners are vertices. */
   std::optional<Relabelling> takeNumbers() { return std::move(this->Numbers); }
 
 private:
@@ -74,7 +72,7 @@ private:
 
   Workspace& Space;
   std::int64_t Count = 0;
-  std::int64_t First = 1; ///< tag of the first node; from finish() on the least tag
+  std::int64_t First = 1; ///< tag of the first node; after finish() the least tag
   std::int64_t Least = std::numeric_limits<std::int64_t>::max();
   std::int64_t Largest = std::numeric_limits<std::int64_t>::min();
   std::uint64_t Range = 0; ///< tags from First to the largest one

@@ -13,9 +13,9 @@ namespace smg
 
 /**
  * The tags of the elements as the cell columns `PhysicalTag` (the physical group, 0: none) and
- * `GeometricalTag` (the entity of the geometry). An element has its own in version 2; in version
- * 4.1 it has those of its entity, of which only the first physical group counts. A column in which
- * all elements have the same, no group or entity 1, is left out.
+ * `GeometricalTag` (the entity of the geometry). In version 2 each element has its own tags; in
+ * version 4.1 it has those of its entity, with only the first physical group. A column without
+ * information (no group, or entity 1, for all elements) is omitted.
  */
 class GmshTags
 {

@@ -59,7 +59,7 @@ private:
   void write(const RestoredElements& elements, std::size_t element, GmshType type,
     std::span<const std::int64_t> corners)
   {
-    // Two tags, which Gmsh demands.
+    // Two tags, which Gmsh requires.
     this->Out << ++this->Count << ' ' << static_cast<int>(type) << " 2";
     this->Out.tuple(elements.columns, this->Group, element, " 0");
     this->Out.tuple(elements.columns, this->Entity, element, " 1");
@@ -93,7 +93,7 @@ WriteNotes writeRestoredGmsh(RestoredMesh& mesh, const std::filesystem::path& pa
       out << '\n';
     }
   }
-  // All cells of the stream, but for one of the two triangles of each quadrilateral.
+  // All cells of the stream, except for one of the two triangles of each quadrilateral.
   out << "$EndNodes\n$Elements\n" << info.cells - info.quadrilaterals << '\n';
   PlacedColumns columns(info);
   GmshElements writer(out, info.cellType, columns);

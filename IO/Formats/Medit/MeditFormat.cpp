@@ -29,7 +29,7 @@ struct Section
 constexpr std::array<Section, 6> Sections{ { { "Triangles", 3 }, { "Quadrilaterals", 4 },
   { "Tetrahedra", 4 }, { "Hexahedra", 8 }, { "Prisms", 6 }, { "Pyramids", 5 } } };
 
-/** Whether the section has cells of higher order, as TetrahedraP2 and HexahedraQ2. */
+/** Whether the section has cells of higher order, such as TetrahedraP2 and HexahedraQ2. */
 bool isOfHigherOrder(std::string_view keyword)
 {
   return std::ranges::any_of(Sections,
@@ -114,7 +114,7 @@ private:
     this->skipSection();
   }
 
-  /** Passes the numbers of a section that is of no interest. */
+  /** Skips the numbers of an unused section. */
   void skipSection()
   {
     std::string_view next = this->Scanner.peek();
@@ -183,7 +183,7 @@ private:
         break;
       default:
         corners.size() == 6
-          // The first triangle of a prism faces in here, and out in VTK.
+          // The first triangle of a prism faces inwards here, and outwards in VTK.
           ? this->Builder.solid(std::array<std::int64_t, 6>{
               corners[0], corners[2], corners[1], corners[3], corners[5], corners[4] })
           : this->Builder.solid(corners);
@@ -206,7 +206,7 @@ private:
     return number - 1;
   }
 
-  /** The label at the end of an entry's line; some writers leave it out. */
+  /** The label at the end of the line of an entry; some writers omit it. */
   std::int64_t reference()
   {
     const std::string_view token = this->Scanner.tokenInLine();
@@ -215,7 +215,7 @@ private:
 
   void finish()
   {
-    // Only now: the vertices may come after the elements.
+    // Not before, since the vertices may come after the elements.
     if (this->LargestCorner > this->Builder.vertices())
     {
       this->Scanner.failAt(

@@ -24,7 +24,7 @@ public:
   {
   }
 
-  /** Writes those that `choose` answers true for, by their number of corners. */
+  /** Writes those for which `choose`, given their number of corners, returns true. */
   template <class Choose>
   void write(std::string_view keyword, std::int64_t count, Choose&& choose)
   {
@@ -99,7 +99,7 @@ WriteNotes writeRestoredMedit(RestoredMesh& mesh, const std::filesystem::path& p
   MeditElements writer(out, mesh, columns.integerOfElements({ ReferenceName, PhysicalTagName }));
   if (info.cellType == CellType::Triangle)
   {
-    // All triangles of the stream, but for the two of each quadrilateral.
+    // All triangles of the stream, except for the two of each quadrilateral.
     writer.write("Triangles", info.cells - 2 * info.quadrilaterals,
       [](std::size_t corners) { return corners != 4; });
     writer.write(

@@ -131,7 +131,7 @@ private:
     this->Fan.end();
   }
 
-  /** The vertex that a token as 7, 7/1, 7//2 or -1/2/3 names. */
+  /** The vertex in a token such as 7, 7/1, 7//2 or -1/2/3. */
   std::int64_t corner(std::string_view token)
   {
     const std::int64_t vertices = this->Builder.vertices();
@@ -156,7 +156,7 @@ private:
   TriangleFan Fan;
   TextColors Colors;
   bool HasCornerAttributes = false;
-  bool Continues = false; ///< the line ends here and goes on in the next one
+  bool Continues = false; ///< whether the next line continues this one
   std::int64_t LargestCorner = -1;
   std::int64_t LargestLine = 0;
 };

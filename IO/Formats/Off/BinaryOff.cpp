@@ -22,7 +22,7 @@ namespace
 
 constexpr std::size_t NumberBytes = 4;
 
-/** The numbers of a file, one after the other. */
+/** The consecutive numbers of a file. */
 class BigEndianNumbers
 {
 public:
@@ -34,9 +34,9 @@ public:
 
   std::int32_t integer() { return this->next<std::int32_t>(); }
   double real() { return static_cast<double>(this->next<float>()); }
-  /** Place of the next number. */
+  /** The position of the next number. */
   std::size_t offset() const { return this->At; }
-  /** Refuses what stands before it. */
+  /** Throws Error at the previous number. */
   [[noreturn]] void fail(const std::string& sentence) const
   {
     this->File.fail(this->At - NumberBytes, sentence);
@@ -59,7 +59,7 @@ private:
   std::size_t At;
 };
 
-/** Numbers behind the coordinates of a vertex. */
+/** The number of values after the coordinates of a vertex. */
 std::size_t furtherNumbers(const OffHeader& header)
 {
   return (header.normals ? 3 : 0) + (header.colors ? 4 : 0) + (header.textureCoordinates ? 2 : 0);

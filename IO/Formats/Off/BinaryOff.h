@@ -9,8 +9,8 @@ namespace smg
 class InputFile;
 class RawMeshBuilder;
 
-/** Reads the counts of a binary file, from byte `header.body` on, and passes them. Throws Error if
- * the file is too short for them. */
+/** Reads the counts of a binary file, from byte `header.body` on, and advances past them. Throws
+ * Error if the file is too short for them. */
 void readBinaryOffCounts(InputFile& file, OffHeader& header);
 
 /**

@@ -18,7 +18,7 @@
 namespace smg
 {
 
-/** The numbers up to the end of the line, or to what is none. */
+/** The numbers up to the end of the line, or to the first token that is not a number. */
 class LineNumbers
 {
 public:
@@ -39,14 +39,14 @@ public:
   std::span<const double> all() const { return std::span(this->Numbers).first(this->Count); }
 
 private:
-  /** More than can stand behind the coordinates of a vertex, or behind a face. */
+  /** More than the values after the coordinates of a vertex, or after a face. */
   static constexpr std::size_t MostNumbers = 16;
 
   std::array<double, MostNumbers> Numbers{};
   std::size_t Count = 0;
 };
 
-/** Columns of what stands behind the coordinates: normals, colours, texture coordinates. */
+/** The columns of the values after the coordinates: normals, colours, texture coordinates. */
 class OffAttributes
 {
 public:
@@ -91,11 +91,11 @@ public:
     this->Colors.add(numbers);
   }
 
-  /** After the last vertex. */
+  /** To be called after the last vertex. */
   void finish() { this->Colors.finish(); }
 
 private:
-  /** Files whose vertices have not what the keyword says are read without. */
+  /** If the vertices lack the values of the keyword, the columns are omitted. */
   void begin(std::size_t numbers)
   {
     this->Begun = true;
@@ -127,7 +127,7 @@ private:
   TextColors Colors;
   std::optional<ImportColumn> Normals, Texture;
   bool Begun = false;
-  std::size_t Used = 0; ///< numbers behind the coordinates; 0: they are left out
+  std::size_t Used = 0; ///< values after the coordinates; 0: omitted
 };
 
 } // namespace smg

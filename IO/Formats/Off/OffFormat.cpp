@@ -18,7 +18,7 @@ namespace smg
 namespace
 {
 
-/** Reads the keyword, if there is one, and refuses what is not in three dimensions. */
+/** Reads the keyword, if any, and refuses files that are not three-dimensional. */
 void readKeyword(TextScanner& scanner, OffHeader& header)
 {
   const std::string keyword(scanner.peek());
@@ -134,7 +134,7 @@ void importOff(InputFile& file, RawMeshBuilder& builder)
 namespace
 {
 
-/** Whether the file begins with the word OFF or one of its variants, as COFF or STN4OFF. */
+/** Whether the file begins with OFF or one of its variants, such as COFF or STN4OFF. */
 bool isOff(std::string_view start)
 {
   const std::string_view text = textAfterComments(start);

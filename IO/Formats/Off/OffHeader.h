@@ -9,18 +9,18 @@
 namespace smg
 {
 
-/** What an OFF file says of itself at its beginning. */
+/** The header of an OFF file. */
 struct OffHeader
 {
   std::int64_t vertices = 0, faces = 0;
-  /** What its keyword says to stand behind the coordinates of a vertex. */
+  /** The values after the coordinates of a vertex, according to the keyword. */
   bool normals = false, colors = false, textureCoordinates = false;
   bool binary = false;
   std::size_t body = 0; ///< of a binary file: the byte at which its vertices begin
 };
 
-/** Reads a file up to its first vertex: a text by the scanner, which is at its beginning. Throws
- * Error if it is no OFF file of points in space, or too short for its counts. */
+/** Reads a file up to its first vertex; a text with the scanner, which is at its beginning. Throws
+ * Error if it is not an OFF file of points in space, or too short for its counts. */
 OffHeader readOffHeader(InputFile& file, TextScanner& scanner);
 
 } // namespace smg

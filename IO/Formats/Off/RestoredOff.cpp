@@ -13,7 +13,7 @@ namespace smg
 namespace
 {
 
-/** Writes a colour; numbers from 0 to 1 with a point, for those without are bytes. */
+/** Writes a colour; numbers from 0 to 1 with a decimal point, since those without are bytes. */
 void writeColor(
   TextOutput& out, const std::vector<Column>& columns, std::ptrdiff_t column, std::size_t tuple)
 {

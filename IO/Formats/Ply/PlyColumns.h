@@ -14,14 +14,15 @@ namespace smg
 class PlyColumns
 {
 public:
-  /** Adds the columns to the records' properties. What cannot be added is noted in `written`. */
+  /** Adds the columns to the properties of the records. Columns that cannot be added are noted in
+   * `written`. */
   PlyColumns(PlyRecords& records, const std::vector<ColumnSpec>& specs, WrittenPly& written);
 
   /** Fills the columns into the records. Rounded values are noted in `written`. */
   void fill(PlyRecords& records, const std::vector<Column>& columns, WrittenPly& written) const;
 
 private:
-  std::vector<std::ptrdiff_t> Places; ///< of each column in the record; -1: left out
+  std::vector<std::ptrdiff_t> Places; ///< of each column in the record; -1: omitted
 };
 
 } // namespace smg

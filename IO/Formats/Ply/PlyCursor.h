@@ -16,13 +16,13 @@
 namespace smg
 {
 
-/** The record of a PLY file that is being read, for errors. */
+/** The current record of a PLY file, for errors. */
 struct PlyPlace
 {
   const std::string* element = nullptr;
   std::int64_t record = 0;
 
-  /** The sentence with the record before it. */
+  /** The sentence, preceded by the record. */
   std::string with(const std::string& sentence) const
   {
     return this->element ? "record " + std::to_string(this->record) + " of element " +
@@ -42,13 +42,13 @@ public:
   {
   }
 
-  /** Begins record `record` of the element `element`, a string that stays. */
+  /** Begins record `record` of the element `element`, a string that must outlive the record. */
   void begin(const std::string& element, std::int64_t record)
   {
     this->Place = { &element, record };
   }
 
-  /** The next number, which the file has as a T. */
+  /** The next number, of type T in the file. */
   template <class T>
   T take()
   {
@@ -65,13 +65,13 @@ public:
     return dispatch(type, [this]<class T>(T) { return static_cast<double>(this->take<T>()); });
   }
 
-  /** Passes `count` numbers. */
+  /** Skips `count` numbers. */
   void skip(ScalarType type, std::int64_t count)
   {
     const std::size_t bytes = sizeOf(type) * static_cast<std::size_t>(count);
     if (bytes > static_cast<std::size_t>(this->End - this->At))
     {
-      // Whether the last of them is there.
+      // Checks that the last of them exists.
       this->moveTo(this->offset() + bytes - 1, 1);
       ++this->At;
       return;
@@ -87,7 +87,7 @@ public:
 
   std::size_t left() const { return this->File.size() - this->offset(); }
 
-  /** Whether only blanks and zeros are left, as some programs write at the end. */
+  /** Whether only blanks and zeros remain, which some programs write at the end. */
   bool atEnd()
   {
     constexpr std::string_view Filling("\0 \t\r\n", 5);
@@ -116,7 +116,7 @@ private:
     return this->EndOffset - static_cast<std::size_t>(this->End - this->At);
   }
 
-  /** Has `least` bytes from `offset` on in memory. */
+  /** Loads at least `least` bytes from `offset` on. */
   void moveTo(std::size_t offset, std::size_t least)
   {
     if (offset > this->File.size() || this->File.size() - offset < least)
@@ -132,7 +132,7 @@ private:
   InputFile& File;
   const char* At = nullptr;
   const char* End = nullptr;
-  std::size_t EndOffset; ///< place of the end in the file
+  std::size_t EndOffset; ///< position of the end in the file
   PlyPlace Place;
 };
 
@@ -190,7 +190,7 @@ public:
 
   std::size_t left() const { return this->Scanner.left(); }
 
-  /** Whether only blanks are left. */
+  /** Whether only blanks remain. */
   bool atEnd() { return this->Scanner.atEnd(); }
 
   [[noreturn]] void fail(const std::string& sentence) const

@@ -31,7 +31,7 @@ std::optional<FileCounts> countsOfPly(InputFile& file, const MeshPart&)
     {
       bytes += property.list ? 0 : static_cast<std::int64_t>(sizeOf(property.type));
     }
-    // No property takes less than a byte, with a list's length or the space after a number.
+    // Every property takes at least a byte: the length of a list, or the space after a number.
     least += static_cast<double>(element.count) * static_cast<double>(element.properties.size());
     if (least > static_cast<double>(file.size()))
     {

@@ -7,9 +7,9 @@ namespace smg
 {
 
 /**
- * PLY. Read are ASCII and both binary orders, any elements and properties in any order; polygons
- * and strips become triangles; scalar properties become columns, with nx ny nz as `Normals` and red
- * green blue (alpha) as `Colors`. Written is binary, with the columns as properties.
+ * PLY. Reads ASCII and both binary orders, any elements and properties in any order; polygons and
+ * strips become triangles; scalar properties become columns, with nx ny nz as `Normals` and red
+ * green blue (alpha) as `Colors`. Writes binary, with the columns as properties.
  */
 extern const Format PlyFormat;
 

@@ -114,7 +114,7 @@ PlyProperty readProperty(TextScanner& scanner, const std::vector<PlyElement>& el
   return property;
 }
 
-/** Whether it is a keyword but for the case of its letters. */
+/** Whether it is a keyword except for the case of its letters. */
 bool isMisspelt(std::string_view word)
 {
   constexpr std::string_view keywords[] = { "ply", "format", "element", "property", "end_header" };
@@ -148,7 +148,7 @@ PlyHeader readPlyHeader(InputFile& file)
     scanner.fail("a PLY file must begin with the line 'ply'");
   }
   bool formatKnown = false;
-  // A line that is none of PLY; what has properties is an element by another name.
+  // An unknown line; with properties it is a misspelt element.
   std::int64_t unknownLine = 0;
   std::string unknownKeyword;
   while (true)

@@ -12,7 +12,7 @@
 namespace smg
 {
 
-/** The name that a PLY file gives a type; PLY has no 64-bit integers. */
+/** The name of a type in a PLY file; PLY has no 64-bit integers. */
 constexpr std::string_view plyTypeName(ScalarType type)
 {
   constexpr std::string_view names[] = { "char", "uchar", "short", "ushort", "int", "uint", "", "",
@@ -29,14 +29,14 @@ struct PlyProperty
   ScalarType lengthType = ScalarType::UInt8; ///< of a list
 };
 
-/** An element of a PLY file: so many records of these properties. */
+/** An element of a PLY file: a number of records with these properties. */
 struct PlyElement
 {
   std::string name;
   std::int64_t count = 0;
   std::vector<PlyProperty> properties;
 
-  /** Bytes a record takes at least. */
+  /** The minimum bytes of a record. */
   std::size_t leastBytes(bool ascii) const;
 };
 
@@ -47,12 +47,12 @@ enum class PlyEncoding
   BigEndian
 };
 
-/** The header of a PLY file: what the body has, in the body's order. */
+/** The header of a PLY file: the content of the body, in its order. */
 struct PlyHeader
 {
   PlyEncoding encoding = PlyEncoding::Ascii;
   std::vector<PlyElement> elements;
-  /** How lines begin that are none of PLY: ten different ones at most, 80 bytes of each. */
+  /** The beginnings of unknown lines: at most ten different ones, 80 bytes of each. */
   std::vector<std::string> unknown;
   std::size_t bodyOffset = 0;
   std::int64_t bodyLine = 1;

@@ -69,7 +69,7 @@ private:
     }
     else if (element.properties.empty() || element.count == 0)
     {
-      return; // whatever the number of records, the body has no bytes of it
+      return; // the body has no bytes of it, for any number of records
     }
     else if (element.name == "face")
     {
@@ -118,11 +118,11 @@ private:
       });
   }
 
-  /** `run` is how the corners of a cell become triangles. */
+  /** `run` converts the corners of a cell to triangles. */
   template <class Run>
   void readCells(const PlyElement& element, Run& run)
   {
-    // Attributes would have to be there for the faces and the strips alike.
+    // Attributes would be required for both faces and strips.
     const bool alone = !std::exchange(this->HasCells, true);
     const PlyPlan plan = planOf(element, PlyRole::Cells,
       [this, alone](const ColumnSpec& spec)
@@ -274,11 +274,11 @@ private:
   std::vector<std::byte> Attributes; ///< of a record
 };
 
-/** Refuses counts that the rest of the file is too short for. */
+/** Refuses counts that exceed the rest of the file. */
 void checkLength(const InputFile& file, const PlyHeader& header)
 {
   const bool ascii = header.encoding == PlyEncoding::Ascii;
-  // The last number of a text needs no line end.
+  // The last number of a text may lack a line end.
   std::uint64_t left = file.size() - header.bodyOffset + (ascii ? 1 : 0);
   for (const PlyElement& element : header.elements)
   {

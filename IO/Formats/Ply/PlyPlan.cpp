@@ -13,7 +13,7 @@ namespace smg
 namespace
 {
 
-/** The column of a property, and its component of that. */
+/** The column of a property, and its component in it. */
 std::pair<ColumnSpec, int> columnOf(const PlyElement& element, const PlyProperty& property)
 {
   struct Group
@@ -46,7 +46,7 @@ std::pair<ColumnSpec, int> columnOf(const PlyElement& element, const PlyProperty
   return { { property.name, property.type, 1 }, 0 };
 }
 
-/** Makes the columns of an element, each when its first component comes. */
+/** Makes the columns of an element, each at its first component. */
 class ColumnMaker
 {
 public:

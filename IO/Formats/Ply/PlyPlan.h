@@ -13,15 +13,15 @@
 namespace smg
 {
 
-/** What is done with the next property of a record, or the next ones. */
+/** The operation for the next property of a record, or the next ones. */
 struct PlyStep
 {
   enum Kind
   {
-    Skip,       ///< passes `count` numbers
+    Skip,       ///< skips `count` numbers
     Coordinate, ///< a coordinate, along axis `place`
     Attribute,  ///< goes to byte `place` of the record's attributes
-    SkipList,   ///< passes a list
+    SkipList,   ///< skips a list
     Corners     ///< the list of a cell's vertices
   };
   Kind kind = Skip;
@@ -31,7 +31,7 @@ struct PlyStep
   std::int64_t count = 1;
 };
 
-/** The bytes of a record's attributes that are a tuple of a column. */
+/** The bytes of a tuple of a column in the attributes of a record. */
 struct PlyTuple
 {
   int column = 0;
@@ -47,7 +47,7 @@ struct PlyPlan
   std::size_t attributeBytes = 0;
 };
 
-/** What the records of an element are. */
+/** The kind of the records of an element. */
 enum class PlyRole
 {
   Vertices,
@@ -56,14 +56,14 @@ enum class PlyRole
 };
 
 /**
- * Compiles an element's properties. Attributes become columns: nx ny nz are `Normals`, red green
- * blue (alpha) are `Colors`. `addColumn` answers a column's number, or -1 to leave it out; without
- * it there are none.
+ * Compiles the properties of an element. Attributes become columns: nx ny nz are `Normals`, red
+ * green blue (alpha) are `Colors`. `addColumn` returns the number of a column, or -1 to omit it;
+ * without it there are none.
  */
 PlyPlan planOf(const PlyElement& element, PlyRole role,
   const std::function<int(const ColumnSpec&)>& addColumn = {});
 
-/** The property of this name that is a number; null: there is none. */
+/** The property of this name that is a number; null if there is none. */
 const PlyProperty* findNumber(const PlyElement& element, std::string_view name);
 
 } // namespace smg

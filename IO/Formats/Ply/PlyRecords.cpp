@@ -50,11 +50,11 @@ std::vector<std::string> namesOf(const ColumnSpec& spec)
   return names;
 }
 
-/** Whether a 64-bit integer is one that a double can be. */
+/** Whether a double can represent a 64-bit integer. */
 template <class T>
 bool isExact(T value, double converted)
 {
-  // 2^63 and 2^64 are what the largest integers are rounded to.
+  // The largest integers are rounded to 2^63 and 2^64.
   constexpr double end = std::is_signed_v<T> ? 0x1p63 : 0x1p64;
   return converted < end && static_cast<T>(converted) == value;
 }

@@ -12,35 +12,31 @@
 namespace smg
 {
 
-/** First lines of the header of a binary PLY file in this machine's byte order. */
+/** The first lines of the header of a binary PLY file in this machine's byte order. */
 std::string plyFormatLines();
 
-/**
- * An element of a PLY file whose records are all of one size: its part of the header, and its
- * records made of columns. Columns of 64-bit integers become double.
- */
+/** An element of a PLY file whose records all have the same size: its part of the header, and its
+ * records, made from columns. Columns of 64-bit integers become double. */
 class PlyRecords
 {
 public:
   /** The element `name` with `count` records. */
   PlyRecords(const std::string& name, std::int64_t count);
 
-  /**
-   * Adds the properties of a column (see writePly); answers their place in the record, or -1 if a
-   * property has that name already: nothing is added then.
-   */
+  /** Adds the properties of a column (see writePly); returns their position in the record, or -1,
+   * without adding anything, if a property already has that name. */
   std::ptrdiff_t add(const ColumnSpec& spec);
-  /** Adds `bytes` bytes that the line `property` describes. */
+  /** Adds `bytes` bytes described by the line `property`. */
   std::ptrdiff_t add(const std::string& property, std::size_t bytes);
 
   const std::string& header() const { return this->Header; }
   std::size_t recordBytes() const { return this->RecordBytes; }
 
-  /** Makes `count` records, whose fields are to be filled. */
+  /** Makes `count` records, whose fields must be filled. */
   void begin(std::size_t count);
-  /** Fills in tuples of `bytes` bytes, one a record, at a place of the record. */
+  /** Fills in tuples of `bytes` bytes, one per record, at a position of the record. */
   void fill(std::ptrdiff_t place, std::span<const std::byte> tuples, std::size_t bytes);
-  /** Fills in a column that was added at this place; answers whether a value was rounded. */
+  /** Fills in a column that was added at this position; returns whether a value was rounded. */
   bool fill(std::ptrdiff_t place, const Column& column);
   std::span<const std::byte> records() const { return this->Records; }
 

@@ -14,7 +14,7 @@ namespace smg
 namespace
 {
 
-/** Writes the vertices, then the faces, whose records are of different sizes. */
+/** Writes the vertices, then the faces, whose records have different sizes. */
 class RestoredPlyWriter
 {
 public:
@@ -32,7 +32,7 @@ public:
       this->Vertices.add({ name, real, 1 });
     }
     this->PositionBytes = this->Vertices.recordBytes();
-    // The list stands before each record and is no part of it.
+    // The list precedes each record and is not part of it.
     this->Faces.add(
       this->ManyCorners ? "list int int vertex_indices" : "list uchar int vertex_indices", 0);
   }
@@ -102,7 +102,7 @@ private:
   const RestoredInfo& Info;
   SequentialOutput Out;
   PlyRecords Vertices, Faces;
-  const bool ManyCorners; ///< a face has more than a byte can count
+  const bool ManyCorners; ///< whether a face has more corners than a byte can count
   std::size_t PositionBytes;
   std::vector<float> Single;
   std::vector<std::byte> Bytes;

@@ -19,7 +19,7 @@ namespace smg
 namespace
 {
 
-/** What becomes of a property. */
+/** The treatment of a property. */
 struct Fate
 {
   enum Kind
@@ -34,7 +34,7 @@ struct Fate
   ScalarType type = ScalarType::Float32; ///< of the property in the new file
 };
 
-/** x, y, z stand for 0, 1, 2, and so do nx, ny, nz; -1: no such name. */
+/** 0, 1, 2 for x, y, z and for nx, ny, nz; -1 for other names. */
 int axisOf(std::string_view name, std::string_view prefix)
 {
   const bool isOne = name.size() == prefix.size() + 1 && name.starts_with(prefix) &&
@@ -42,7 +42,7 @@ int axisOf(std::string_view name, std::string_view prefix)
   return isOne ? name.back() - 'x' : -1;
 }
 
-/** A coordinate that has moved is no integer any more, nor is a normal that was computed. */
+/** Moved coordinates and computed normals are not integers. */
 ScalarType positionType(ScalarType type)
 {
   const bool isLong = type == ScalarType::Int32 || type == ScalarType::UInt32;
@@ -76,7 +76,7 @@ std::vector<Fate> fatesOf(const PlyElement& element, bool hasNormals)
   return fates;
 }
 
-/** The lines of the old header, in the new file's format and without what is dropped. */
+/** The lines of the old header, in the format of the new file and without dropped properties. */
 std::string newHeader(
   std::string_view text, const PlyHeader& header, const std::vector<std::vector<Fate>>& fates)
 {
@@ -202,7 +202,7 @@ private:
   Cursor In;
   MovedVertices& Moved;
   SequentialOutput& Out;
-  bool HasMoved = false; ///< the vertex that is being copied
+  bool HasMoved = false; ///< the current vertex
   std::vector<std::byte> Record;
 };
 

@@ -19,7 +19,9 @@ namespace smg
 namespace
 {
 
-/** Writes the stream; as all records of an element have one size, each has its place at once. */
+/**
+ * Writes the stream; all records of an element have the same size, so their positions are known.
+ */
 class PlyWriter
 {
 public:

@@ -12,40 +12,40 @@
 namespace smg
 {
 
-/** What became of the columns of a mesh that was written as PLY. */
+/** The changes to the columns of a mesh written as PLY. */
 struct WrittenPly
 {
-  /** Columns for whose name there is no property of their own: left out. */
+  /** Omitted columns, whose names would give properties that already exist. */
   std::vector<std::string> droppedColumns;
   /** Columns of 64-bit integers with values beyond 2^53, which were rounded. */
   std::vector<std::string> roundedColumns;
 };
 
 /**
- * Writes a mesh stream of triangles, which says its numbers of vertices and cells, as one binary
+ * Writes a mesh stream of triangles, with known numbers of vertices and cells, as one binary
  * PLY file: the vertices in stream order with coordinates in the precision of the stream, then the
- * faces, as `list uchar int vertex_indices`. Data are written as they come, in the memory of a few
- * blocks.
+ * faces, as `list uchar int vertex_indices`. Data are written as they arrive, in the memory of a
+ * few blocks.
  *
- * Columns become properties of the vertices or faces, named so that importMesh() gives the same
+ * Columns become properties of the vertices or faces, named so that importMesh() restores the same
  * columns: `Normals` of 3 components nx, ny, nz; `Colors` of 3 or 4 red, green, blue, alpha; a
- * column of one component its own name, and one of several NAME_0, NAME_1 ..., which come back as
- * columns of their own. What is no visible ASCII character in a name becomes an underscore. PLY has
- * no 64-bit integers: they are written, and come back, as double, which is exact up to 2^53. So
- * convert() takes the `OriginalId` of a PLY file for an attribute (see there): its own are the
- * places in the PLY file.
- * @throws Error if checkPlyPath() does, the stream has not the counts that it says, or the file
- * cannot be written; Cancelled. Nothing is left of the file then.
+ * column of one component its own name, and one of several NAME_0, NAME_1 ..., which are read
+ * as separate columns. Characters in a name that are not visible ASCII become underscores. PLY has
+ * no 64-bit integers: they are written, and read, as double, which is exact up to 2^53. So
+ * convert() treats the `OriginalId` of a PLY file as an attribute (see there); its own are the
+ * indices in the PLY file.
+ * @throws Error if checkPlyPath() does, the stream differs from its counts, or the file cannot
+ * be written; Cancelled. No file is left then.
  */
 WrittenPly writePly(
   MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress = {});
 
-/** What a user should know of it, a sentence a column. */
+/** Notes for the user, a sentence per column. */
 std::vector<std::string> notesOn(const WrittenPly& written);
 
 /**
  * Throws Error unless `path` ends with .ply, the cells are triangles, and there are no more
- * vertices (0: not known yet) than PLY has numbers for.
+ * vertices (0: unknown yet) than PLY can number.
  */
 void checkPlyPath(const std::filesystem::path& path, CellType cellType, std::int64_t vertices = 0);
 

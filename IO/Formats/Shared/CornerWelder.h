@@ -27,16 +27,14 @@ public:
 
   explicit CornerWelder(RawMeshBuilder& builder);
 
-  /** The next corner. Throws MeshError if a coordinate is not finite. */
+  /** Adds the next corner. Throws MeshError if a coordinate is not finite. */
   void corner(Point point);
 
-  /**
-   * After the last corner: gives the vertices to the builder, and has it know the numbers that
-   * next() answers.
-   */
+  /** To be called after the last corner: passes the vertices to the builder, and the relation to
+   * the numbers returned by next(). */
   void makeVertices();
 
-  /** The number of the next corner, in the corners' order; to be called once for each. */
+  /** The number of the next corner, in the order of the corners; to be called once for each. */
   std::int64_t next()
   {
     Member member{};
@@ -45,7 +43,7 @@ public:
   }
 
 private:
-  /** A number of a corner, in two parts that leave no gaps in records. */
+  /** The number of a corner, in two parts to avoid padding in records. */
   struct CornerNumber
   {
     std::uint32_t high, low;

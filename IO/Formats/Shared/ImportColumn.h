@@ -12,7 +12,7 @@
 namespace smg
 {
 
-/** A column of a mesh that is parsed, of its vertices or of its elements. */
+/** A column of a parsed mesh, of its vertices or of its elements. */
 class ImportColumn
 {
 public:
@@ -34,7 +34,7 @@ public:
     this->Owners == Of::Vertices ? this->Builder->vertexTuples(this->Number, tuples)
                                  : this->Builder->elementTuples(this->Number, tuples);
   }
-  /** Takes the column out again. */
+  /** Removes the column. */
   void drop()
   {
     this->Owners == Of::Vertices ? this->Builder->dropVertexColumn(this->Number)

@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** A column of labels, one integer each, that is left out if all have the usual one. */
+/** A column of labels, one integer each, which is omitted if all have the default value. */
 class LabelColumn
 {
 public:
@@ -25,7 +25,7 @@ public:
     this->Column.append(std::as_bytes(std::span(&label, 1)));
     this->Used = this->Used || label != this->Usual;
   }
-  /** After the last one. */
+  /** To be called after the last one. */
   void finish()
   {
     if (!this->Used)
@@ -37,7 +37,7 @@ public:
 private:
   ImportColumn Column;
   std::int64_t Usual;
-  bool Used = false; ///< whether any is not the usual one
+  bool Used = false; ///< whether any differs from the default
 };
 
 } // namespace smg

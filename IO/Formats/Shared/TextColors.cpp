@@ -47,7 +47,7 @@ void TextColors::add(std::span<const double> numbers)
     const double largest = std::ranges::max(numbers);
     if (largest == 0.0)
     {
-      return; // black, as all before
+      return; // black, like all before
     }
     this->begin(this->Owned - 1, largest > 1.0);
   }
@@ -62,7 +62,7 @@ void TextColors::finish()
   }
 }
 
-/** Makes the column, with so many black ones. */
+/** Makes the column, starting with this number of black ones. */
 void TextColors::begin(std::int64_t black, bool bytes)
 {
   this->Bytes = bytes;
@@ -76,7 +76,7 @@ void TextColors::begin(std::int64_t black, bool bytes)
   }
 }
 
-/** Whether the numbers are a colour as those before. */
+/** Whether the numbers are a colour like the previous ones. */
 bool TextColors::fits(std::span<const double> numbers) const
 {
   if (numbers.size() != this->Components)

@@ -11,10 +11,10 @@ namespace smg
 {
 
 /**
- * The column `Colors` that comes of numbers behind the vertices or the faces of a text file, three
- * or four each. The first colour that is not black decides: whole numbers up to 255, of which one
- * is above 1, are bytes, others numbers of single precision up to 1. Where not all are alike there
- * is no column, which is noted.
+ * The column `Colors` from the numbers after the vertices or the faces of a text file, three or
+ * four each. The first colour that is not black determines the type: integers up to 255, at least
+ * one of them above 1, are bytes; others are single precision numbers up to 1. If colours differ in
+ * type, there is no column, with a note.
  */
 class TextColors
 {
@@ -25,9 +25,10 @@ public:
   {
   }
 
-  /** The numbers of the next vertex or face; if they are not three or four it has no colour. */
+  /** Adds the numbers of the next vertex or face, which has no colour unless there are three or
+   * four. */
   void add(std::span<const double> numbers);
-  /** After the last one. */
+  /** To be called after the last one. */
   void finish();
 
 private:

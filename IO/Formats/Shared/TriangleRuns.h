@@ -8,7 +8,7 @@
 namespace smg
 {
 
-/** Makes triangles of a polygon's corners as they come: however many there are, none is kept. */
+/** Converts the corners of a polygon to triangles one by one, without storing the corners. */
 class TriangleFan
 {
 public:
@@ -27,7 +27,7 @@ public:
     this->Last = corner;
     ++this->Count;
   }
-  /** The polygon is complete; the next corner begins another one. */
+  /** Ends the polygon; the next corner begins another one. */
   void end()
   {
     this->Builder.endTriangles();
@@ -41,7 +41,7 @@ private:
   std::int64_t Count = 0;
 };
 
-/** The same for triangle strips, of which there may be several in an element: -1 begins another. */
+/** The same for triangle strips. An element may have several: -1 begins another one. */
 class TriangleStrip
 {
 public:
@@ -59,7 +59,7 @@ public:
     }
     if (this->Count >= 2)
     {
-      // Every other triangle of a strip is turned, so that all face the same way.
+      // Every other triangle of a strip is reversed, so that all have the same orientation.
       const bool odd = this->Count % 2 != 0;
       this->Builder.triangleOfElement(
         odd ? this->Last : this->Before, odd ? this->Before : this->Last, corner);

@@ -21,14 +21,14 @@ namespace
 using Position = std::array<double, 3>;
 using Triangle = std::array<Position, 3>;
 
-/** The triangles of a mesh with the coordinates of their corners, found out of core. */
+/** The triangles of a mesh with the coordinates of their corners, joined out of core. */
 class TrianglePositions
 {
 public:
   TrianglePositions(RestoredMesh& mesh, Workspace& workspace)
     : Sorted(workspace, workspace.available() / 3, sizeof(Position))
   {
-    // The corners by vertex: so they meet the vertices' coordinates. Then by their own places.
+    // Sorts the corners by vertex, to join the coordinates, then by their own positions.
     RowSort byVertex(workspace, workspace.available() / 3, sizeof(std::uint64_t));
     std::uint64_t corner = 0;
     const auto put = [&](std::int64_t vertex)
@@ -57,7 +57,7 @@ public:
     this->Sorted.sort();
   }
 
-  /** The next triangle; false at the end. */
+  /** The next triangle; returns false at the end. */
   bool next(Triangle& triangle)
   {
     RowSort::Row row;

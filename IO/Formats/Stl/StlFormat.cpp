@@ -19,7 +19,8 @@ namespace smg
 namespace
 {
 
-/** Takes the facets: their corners go to the welder, the numbers of their corners to a file. */
+/** Receives the facets: passes their corners to the welder, and writes the numbers of their corners
+ * to a file. */
 class FacetCollector
 {
 public:
@@ -41,7 +42,7 @@ public:
     this->Size = 0;
   }
 
-  /** Gives the mesh to the builder. */
+  /** Passes the mesh to the builder. */
   void finish()
   {
     this->Sizes.close();
@@ -63,7 +64,7 @@ private:
   RawMeshBuilder& Builder;
   CornerWelder Welder;
   RecordFile<std::uint32_t> Sizes;
-  std::uint32_t Size = 0; ///< corners so far of the facet that is being read
+  std::uint32_t Size = 0; ///< corners so far of the current facet
 };
 
 void readBinary(InputFile& file, FacetCollector& facets)

@@ -15,22 +15,20 @@ inline constexpr std::size_t StlHeaderBytes = 84;
 /** Bytes of a triangle: normal and corners, 12 floats, and two bytes of attributes. */
 inline constexpr std::size_t StlTriangleBytes = 50;
 
-/** Triangles of a binary STL file that begins with `bytes`, 84 at least. */
+/** The number of triangles of a binary STL file that begins with `bytes`, at least 84. */
 inline std::uint32_t trianglesOfStl(std::string_view bytes)
 {
   return numberAt<std::uint32_t>(bytes.data() + StlHeaderBytes - 4, std::endian::little);
 }
 
-/** Bytes that a binary STL file has which begins with `bytes`, 84 at least. */
+/** The size of a binary STL file that begins with `bytes`, at least 84. */
 inline std::uint64_t stlBytes(std::string_view bytes)
 {
   return StlHeaderBytes + std::uint64_t(StlTriangleBytes) * trianglesOfStl(bytes);
 }
 
-/**
- * Whether a file of `size` bytes that begins with `bytes` is binary STL; the text "solid" at the
- * beginning says nothing, many binary files have it.
- */
+/** Whether a file of `size` bytes that begins with `bytes` is binary STL; the text "solid" at the
+ * beginning is ignored, since many binary files have it. */
 inline bool isBinaryStl(std::string_view bytes, std::uint64_t size)
 {
   return bytes.size() >= StlHeaderBytes && stlBytes(bytes) == size;

@@ -13,12 +13,12 @@ namespace smg
 namespace
 {
 
-/** A beginning of a file that makes no sense in the byte order in which it is read. */
+/** The beginning of a file that is invalid in the byte order in which it is read. */
 class Nonsense
 {
 };
 
-/** Takes numbers from a file in one byte order. */
+/** Reads numbers from a file in one byte order. */
 class Cursor
 {
 public:
@@ -141,7 +141,7 @@ BinaryStreamHeader readAs(const FileDescriptor& file, StreamFormat format, std::
   return result;
 }
 
-/** Whether the elements of the first block can be what they should be. */
+/** Whether the elements of the first block can be valid. */
 bool firstBlockMakesSense(const FileDescriptor& file, const BinaryStreamHeader& begin)
 {
   const int corners = cornersOf(cellTypeOf(begin.header.format));

@@ -28,9 +28,9 @@ struct BinaryStreamHeader
 };
 
 /**
- * Reads the beginning of a SMB or SVB file. The byte that should tell the byte order is not to be
- * trusted: there are programs that write the wrong one. So the order is the one in which the
- * header and the first block make sense; only if both do, the byte decides. Throws Error.
+ * Reads the beginning of a SMB or SVB file. The byte for the byte order is unreliable, since some
+ * programs write a wrong one. Therefore the order is the one in which the header and the first
+ * block are valid; if both are, the byte decides. Throws Error.
  */
 BinaryStreamHeader readBinaryStreamHeader(const FileDescriptor& file, StreamFormat format);
 

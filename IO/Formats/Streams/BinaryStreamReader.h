@@ -26,7 +26,7 @@ public:
 
 private:
   [[noreturn]] void fail(const std::string& what) const;
-  /** Goes to the next block; false at the end. */
+  /** Moves to the next block; returns false at the end. */
   bool nextBlock();
   void readVertex(const std::byte* element, StreamEvent& event);
   void readCell(const std::byte* element, StreamEvent& event);
@@ -36,8 +36,8 @@ private:
   BinaryStreamHeader Begin;
   int Corners;
   std::size_t ElementBytes;
-  std::uint32_t Kinds = 0; ///< of the elements of the block that are still to come
-  std::size_t Left = 0;    ///< how many these are
+  std::uint32_t Kinds = 0;                      ///< of the remaining elements of the block
+  std::size_t Left = 0;                         ///< how many these are
   std::int64_t Element = -1, ElementOffset = 0; ///< the last one: its number and place
   std::int64_t Vertices = 0, Cells = 0;
 };

@@ -105,7 +105,7 @@ void BinaryStreamWriter::flushBlock()
 
 void BinaryStreamWriter::complete()
 {
-  // The last block is written even if it is empty: so do the programs that the format is from.
+  // The last block is written even if it is empty, like the original programs of the format.
   this->flushBlock();
 }
 

@@ -125,7 +125,7 @@ public:
   }
 
 private:
-  /** Says that a vertex is final within the last cell, which all formats can, if it is a corner. */
+  /** Declares a vertex final in the last cell, which all formats support, if it is a corner. */
   bool finalizeInCell(std::int64_t vertex)
   {
     if (!this->Cell)
@@ -154,7 +154,7 @@ private:
 
   StreamFileWriter& Writer;
   std::size_t Corners;
-  /** The last cell, until it is known which of its vertices it is the last of. */
+  /** The last cell, until it is known which of its vertices it finalises. */
   std::optional<StreamEvent> Cell;
 };
 

@@ -185,7 +185,7 @@ void StreamAssembler::deliverCell(const std::array<std::int64_t, 4>& corners)
   }
 }
 
-/** Gives a vertex the next stream index. */
+/** Assigns the next stream index to a vertex. */
 std::int64_t StreamAssembler::introduce(std::int64_t vertex)
 {
   const std::int64_t id = this->Used++;
@@ -284,7 +284,7 @@ void StreamAssembler::finish()
   {
     this->flush();
   }
-  // Those that were never said to be final.
+  // Those never declared final.
   for (std::int64_t vertex = this->FirstFileVertex; this->AsideCount < this->isolatedVertices();
        vertex++)
   {

@@ -17,12 +17,12 @@ namespace smg
 {
 
 /**
- * Makes of the elements of a streaming mesh file a compact mesh stream: cells in the order of the
- * file, each as soon as all of its vertices have come, vertices numbered by first use. Vertices of
- * no cell go to the table of the isolated ones.
+ * Converts the elements of a streaming mesh file to a compact mesh stream: cells in the order of
+ * the file, each as soon as all of its vertices are known, vertices numbered by first use. Vertices
+ * of no cell are stored in the table of the isolated ones.
  *
- * What is known of the vertices and the cells that wait is kept in pages (PagedArray.h), which are
- * forgotten as soon as they are not needed: when their vertices are final.
+ * The data of waiting vertices and cells are stored in pages (PagedArray.h), which are released
+ * when their vertices are final.
  */
 class StreamAssembler
 {
@@ -31,10 +31,10 @@ public:
   StreamAssembler(const StreamFileReader& reader, VsmWriter& writer,
     const std::filesystem::path& scratch, std::int64_t memory);
 
-  /** What the columns of the stream are: to make the writer with. */
+  /** The columns of the stream, to create the writer. */
   static StreamInfo infoOf(const StreamFileHeader& header);
 
-  /** Takes the next element of the file. */
+  /** Adds the next element of the file. */
   void take(const StreamEvent& event);
   /** To be called at the end of the file. */
   void finish();
@@ -50,7 +50,7 @@ private:
     std::array<float, 3> position;
     std::uint32_t unused;
     std::int64_t number; ///< its stream index + 1, or 0 if no delivered cell uses it
-    std::int64_t until;  ///< it is needed until this many cells are delivered, or for ever
+    std::int64_t until;  ///< needed until this many cells are delivered, or always
   };
   static_assert(sizeof(Vertex) == 32);
 
@@ -58,13 +58,13 @@ private:
   void takeVertex(const StreamEvent& event);
   void takeCell(const StreamEvent& event);
   void finalize(std::int64_t vertex);
-  /** Delivers the cells at the head of the queue whose vertices have come. */
+  /** Delivers the cells at the head of the queue whose vertices are complete. */
   void deliver();
   void deliverCell(const std::array<std::int64_t, 4>& corners);
   std::int64_t introduce(std::int64_t vertex);
-  /** Appends the place of a vertex in the file and its further values to the columns. */
+  /** Appends the index of a vertex in the file and its further values to the columns. */
   void pushValues(std::int64_t vertex, std::vector<Column>& columns);
-  /** Forgets what is not needed any more. */
+  /** Releases data that are not needed any more. */
   void forget();
   /** A vertex that no cell uses. */
   void setAside(std::int64_t vertex);
@@ -85,13 +85,13 @@ private:
   PagedArray<std::int32_t> Values;               ///< further values of these, bits of floats too
   PagedArray<std::array<std::int64_t, 4>> Queue; ///< corners of the cells, by place in the file
   PagedArray<std::int32_t> CellValues;
-  PagedArray<std::int64_t> Until;   ///< as Vertex::until, by stream index
-  std::int64_t FirstFileVertex = 0; ///< all vertices before it are not needed any more
+  PagedArray<std::int64_t> Until;   ///< like Vertex::until, by stream index
+  std::int64_t FirstFileVertex = 0; ///< earlier vertices are not needed any more
   std::int64_t FirstStreamVertex = 0;
 
-  MeshBlock Block; ///< that is being filled
+  MeshBlock Block; ///< the current block
   IsolatedVertices Aside;
-  std::int64_t AsideCount = 0; ///< vertices that have been set aside
+  std::int64_t AsideCount = 0; ///< vertices set aside
 };
 
 } // namespace smg

@@ -25,7 +25,7 @@ constexpr std::int64_t LeastMemory = std::int64_t(8) << 20;
 /** Elements between two reports of progress. */
 constexpr std::int64_t ProgressElements = std::int64_t(1) << 16;
 
-/** Reads the further value of the vertices that SVA and SVB can carry, if there is one. */
+/** Reads the further value of the vertices that SVA and SVB can hold, if any. */
 void describeScalar(VsmReader& reader, StreamFileHeader& header)
 {
   for (const ColumnSpec& column : reader.info().vertexColumns)
@@ -110,7 +110,7 @@ public:
     this->LastCell.discardBelow(block.finalized);
   }
 
-  /** Vertices so far whose position is not that of the mesh to the last digit. */
+  /** The number of vertices so far whose position was rounded. */
   std::int64_t roundedVertices() const { return this->RoundedVertices; }
 
 private:

@@ -18,10 +18,10 @@ namespace smg
 namespace
 {
 
-/** More lines than this are not looked at to tell the text formats from each other. */
+/** The maximum number of lines read to distinguish the text formats. */
 constexpr int LinesLookedAt = 10000;
 
-/** Which of the text formats it is, by the first line that only one of them can have. */
+/** The text format, by the first line that only one of them can have. */
 std::optional<StreamFormat> detectText(SequentialInput& input)
 {
   std::string_view line;
@@ -29,7 +29,7 @@ std::optional<StreamFormat> detectText(SequentialInput& input)
   {
     Tokens tokens(line);
     const std::string_view first = tokens.word();
-    // What a comment says of the mesh; its other words may be anything.
+    // A comment with data of the mesh; its other words are arbitrary.
     const std::string_view key = first == "#" ? tokens.word() : std::string_view();
     if (first == "f" || key == "nfaces")
     {

@@ -16,7 +16,7 @@
 namespace smg
 {
 
-/** The streaming mesh formats that are read and written. */
+/** The supported streaming mesh formats. */
 enum class StreamFormat
 {
   Sma, ///< triangles, text
@@ -42,24 +42,21 @@ constexpr bool isText(StreamFormat format)
   return format == StreamFormat::Sma || format == StreamFormat::Sva;
 }
 
-/** The streaming format that a file name's suffix stands for, in any case; none for another. */
+/** The streaming format of the suffix of a file name, in upper or lower case; none for another. */
 std::optional<StreamFormat> streamFormatOfName(const std::filesystem::path& path);
 
-/** Whether a suffix, in lower case, is one of streaming formats, also of those that are not read.
- */
+/** Whether a suffix, in lower case, is that of a streaming format, including unsupported ones. */
 bool isStreamSuffix(std::string_view suffix);
 
-/**
- * Finds the format of a streaming mesh file by its content, by its suffix where the content leaves
- * it open. Throws Error if it is none of the four, by name for SMC, SMD, SVC and gzip.
- */
+/** Finds the format of a streaming mesh file by its content, or by its suffix if the content is
+ * ambiguous. Throws Error if it is none of the four, by name for SMC, SMD, SVC and gzip. */
 SMG_EXPORT StreamFormat detectStreamFormat(const std::filesystem::path& path);
 
-/** Vertex columns that the values of a SVA or SVB vertex beyond its three coordinates become. */
+/** Vertex columns for the values of a SVA or SVB vertex beyond its three coordinates. */
 inline constexpr const char* StreamScalarName = "Scalar";         ///< float32
 inline constexpr const char* StreamIntegerName = "IntegerScalar"; ///< int32, also a cell column
 
-/** What the beginning of a streaming mesh file says. */
+/** The header of a streaming mesh file. */
 struct StreamFileHeader
 {
   StreamFormat format = StreamFormat::Sma;
@@ -67,13 +64,13 @@ struct StreamFileHeader
   std::int64_t cells = -1;    ///< -1: not given
   /** xmin, xmax, ymin, ymax, zmin, zmax, if given. */
   std::optional<std::array<double, 6>> bounds;
-  /** Vertices come after the last cell that uses them, else before the first. */
+  /** Whether vertices come after the last cell that uses them; otherwise before the first. */
   bool postOrder = false;
-  int vertexFloats = 0; ///< further floats a vertex, beyond the coordinates
+  int vertexFloats = 0; ///< further floats per vertex, beyond the coordinates
   /** Least and largest value of each further float; only for writing, with the bounds. */
   std::vector<std::array<float, 2>> floatRanges;
-  int vertexInts = 0;                ///< integers a vertex
-  int cellInts = 0;                  ///< integers a cell
+  int vertexInts = 0;                ///< integers per vertex
+  int cellInts = 0;                  ///< integers per cell
   std::vector<std::string> comments; ///< of the header
 };
 
@@ -92,16 +89,15 @@ struct StreamEvent
   std::array<std::int64_t, 4> corners{};
   /** Bit k: no later cell uses vertex corners[k]. */
   unsigned finalMask = 0;
-  /** The further values of the vertex, or of the cell: StreamFileHeader says how many. */
+  /** The further values of the vertex, or of the cell, in the numbers of StreamFileHeader. */
   std::vector<float> floats;
   std::vector<std::int32_t> ints;
 };
 
 /**
- * Reads a streaming mesh file element by element, in memory that does not depend on the file.
- * Checked while reading: syntax, finite coordinates, indices (in a pre-order file they name
- * vertices that have come), the counts of the header. Every failure is an Error with file and
- * place.
+ * Reads a streaming mesh file element by element, in memory independent of the file. Checks syntax,
+ * finite coordinates, indices (in a pre-order file they name earlier vertices) and the counts of
+ * the header. Every failure is an Error with file and position.
  */
 class StreamFileReader
 {
@@ -109,11 +105,11 @@ public:
   virtual ~StreamFileReader() = default;
   virtual const StreamFileHeader& header() const = 0;
   virtual std::string name() const = 0;
-  /** The next element; `End` for ever at the end. */
+  /** The next element; `End` at the end and after it. */
   virtual void next(StreamEvent& event) = 0;
-  /** Where the last element stands: "line 12", or "element 7 at byte 112". */
+  /** The position of the last element: "line 12", or "element 7 at byte 112". */
   virtual std::string place() const = 0;
-  /** How much of the file has been read, 0 to 1. */
+  /** The fraction of the file that has been read, 0 to 1. */
   virtual double fraction() const = 0;
 };
 

@@ -11,44 +11,40 @@
 namespace smg
 {
 
-/** How a streaming mesh file is written, where the formats leave a choice. */
+/** Options of writing a streaming mesh file. */
 struct StreamFileStyle
 {
   enum Finalization
   {
     None,    ///< not at all
     InCell,  ///< by a negative, relative index in the last cell
-    Explicit ///< by a line of its own (text formats only)
+    Explicit ///< by a separate line (text formats only)
   };
   Finalization finalization = InCell;
   bool bigEndian = false; ///< byte order of the data of the binary formats
-  /** The byte that should tell the order: 0 little, 1 big; -1: the true one. Some writers lie. */
+  /** The byte for the order: 0 little, 1 big; -1: the true one. Some writers write a wrong one. */
   int endianFlag = -1;
 };
 
 /**
- * Writes a streaming mesh file element by element. The header says what the file will have: format,
- * counts and bounds (written if given), order, further values. The file gets its name by finish();
- * without it nothing is left. Every failure is an Error with the file's name.
+ * Writes a streaming mesh file element by element. The header specifies format, counts and bounds
+ * (written if given), order and further values. finish() renames the file; without it nothing is
+ * left. Every failure is an Error with the name of the file.
  */
 class StreamFileWriter
 {
 public:
   virtual ~StreamFileWriter() = default;
 
-  /** Writes the next vertex, with as many further values as the header says. */
+  /** Writes the next vertex, with the further values of the header. */
   virtual void vertex(std::span<const float, 3> position, std::span<const float> floats = {},
     std::span<const std::int32_t> ints = {}) = 0;
-  /**
-   * Writes a cell. `corners` count the vertices from 0; bit k of `finalMask` says that no later
-   * cell uses corners[k] (set it for one of two equal corners only).
-   */
+  /** Writes a cell. `corners` count the vertices from 0; bit k of `finalMask` is set if no later
+   * cell uses corners[k] (for only one of two equal corners). */
   virtual void cell(std::span<const std::int64_t> corners, unsigned finalMask = 0,
     std::span<const std::int32_t> ints = {}) = 0;
-  /**
-   * Says that no later cell uses the vertex, where a cell cannot say it: in text formats in
-   * pre-order. In the others there is no room for it, and nothing is written.
-   */
+  /** Declares that no later cell uses the vertex, where a cell cannot: in text formats in
+   * pre-order. The others cannot hold this, and nothing is written. */
   virtual void finalization(std::int64_t vertex) = 0;
   /** Completes the file. Throws Error if the counts are not those of the header. */
   virtual void finish() = 0;

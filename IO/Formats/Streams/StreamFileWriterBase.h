@@ -10,7 +10,7 @@
 namespace smg
 {
 
-/** What the writers of text and binary files have in common: counting and checking. */
+/** The common part of the writers of text and binary files: counting and checking. */
 class StreamFileWriterBase : public StreamFileWriter
 {
 public:
@@ -28,7 +28,7 @@ protected:
   float bound(int k, bool upper) const;
   /** Counts a vertex. */
   void countVertex(std::size_t floats, std::size_t ints);
-  /** Counts a cell and makes of its corners the indices that stand in the file. */
+  /** Counts a cell and converts its corners to the indices in the file. */
   void countCell(std::span<const std::int64_t> corners, unsigned finalMask, std::size_t ints);
   /** Called by finish() when the counts are right. */
   virtual void complete() {}

@@ -11,7 +11,7 @@ namespace smg
 namespace
 {
 
-/** These formats need the last cell of each vertex first. */
+/** These formats require the last cell of each vertex in advance. */
 WriteNotes write(const std::filesystem::path& vsm, const std::filesystem::path& path,
   const ProgressFunction& progress)
 {

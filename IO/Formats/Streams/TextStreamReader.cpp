@@ -13,7 +13,9 @@ namespace smg
 namespace
 {
 
-/** A vertex or cell cannot have more further values than this: its line would be too long. */
+/**
+ * The maximum number of further values of a vertex or cell; with more its line would be too long.
+ */
 constexpr std::int64_t MaxValues = 1000;
 
 bool isBodyKey(std::string_view key)
@@ -272,7 +274,7 @@ std::int64_t TextStreamReader::readIndex(Tokens& tokens, bool& final)
                                        : " goes back behind the first vertex."));
   }
   const std::int64_t vertex = final ? this->Vertices + index : index - 1;
-  // Every vertex takes some bytes: so an index that no vertex can have is seen before they end.
+  // Every vertex takes some bytes, so an impossible index is detected before the end.
   const std::int64_t most =
     this->Header.postOrder
       ? (this->Header.vertices >= 0 ? std::min(this->Header.vertices, this->Input.size())

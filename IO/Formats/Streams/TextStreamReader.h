@@ -31,7 +31,7 @@ private:
   void readComment(Tokens& tokens);
   std::int64_t headerNumber(Tokens& tokens, std::string_view key, std::int64_t least);
   void headerBounds(Tokens& tokens, bool upper);
-  /** Passes to the next line of the body and leaves it in Line; false at the end. */
+  /** Reads the next line of the body into Line; returns false at the end. */
   bool nextBodyLine();
   void readVertex(Tokens& tokens, StreamEvent& event);
   void readCell(Tokens& tokens, StreamEvent& event);
@@ -44,7 +44,7 @@ private:
   bool HasLower = false, HasUpper = false;
   int CellFloats = 0;
   char CellKey;
-  bool Pending = false; ///< Line is still to be read
+  bool Pending = false; ///< whether Line has not been parsed yet
   std::string_view Line;
   std::int64_t Vertices = 0, Cells = 0;
 };

@@ -74,7 +74,7 @@ void TextStreamWriter::writeBounds(const char* key, bool upper)
 void TextStreamWriter::add(float value)
 {
   char text[32];
-  // Nine digits are as many as it takes to give back every single precision number.
+  // Nine digits are sufficient to restore every single precision number.
   const auto end = std::to_chars(text, text + sizeof(text), value, std::chars_format::general, 9);
   this->Line += ' ';
   this->Line.append(text, end.ptr);

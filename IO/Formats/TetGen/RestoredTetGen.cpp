@@ -88,7 +88,7 @@ WriteNotes writeRestoredTetGen(RestoredMesh& mesh, const std::filesystem::path& 
   TextOutput elements(namesNodes ? beside(".ele") : path);
   writeNodes(nodes, mesh, columns);
   writeElements(elements, mesh, columns);
-  // Neither gets its name before both are on the disk.
+  // Neither is renamed before both are on the disk.
   nodes.write();
   elements.write();
   nodes.finish();

@@ -22,7 +22,7 @@ namespace smg
 namespace
 {
 
-/** Most attributes of a node or element: more are a damaged file. */
+/** The maximum number of attributes of a node or element; with more the file is damaged. */
 constexpr std::int64_t MostAttributes = 1024;
 
 /** Reads the nodes and then the elements. */
@@ -105,7 +105,7 @@ private:
     }
   }
 
-  /** A number at the end of a first line, which may be left out: 0. */
+  /** A number at the end of a first line; 0 if missing. */
   static std::int64_t numberInLine(TextScanner& scanner, const char* what)
   {
     const std::string_view token = scanner.tokenInLine();
@@ -144,7 +144,7 @@ private:
     return std::as_bytes(std::span<const double>(this->Attributes));
   }
 
-  /** The number that an entry begins with: they count from that of the first node, 0 or 1. */
+  /** The number at the beginning of an entry; they count from that of the first node, 0 or 1. */
   void readIndex(TextScanner& scanner, std::int64_t place, const char* what)
   {
     const std::int64_t index = scanner.integer(what);
@@ -202,14 +202,14 @@ private:
   std::vector<double> Attributes;
 };
 
-/** What the file is called, or was before gzip compressed it. */
+/** The name of the file, or its name before compression by gzip. */
 std::filesystem::path plainName(const InputFile& file)
 {
   std::filesystem::path name(file.name());
   return lowerSuffix(name) == ".gz" ? name.replace_extension() : name;
 }
 
-/** The other file of the two, which gzip may have compressed as well. */
+/** The other file of the two, possibly also compressed by gzip. */
 std::filesystem::path otherFile(const InputFile& file, bool isElements)
 {
   const std::filesystem::path plain =

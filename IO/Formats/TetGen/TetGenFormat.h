@@ -6,14 +6,12 @@
 namespace smg
 {
 
-/** TetGen: the .node or the .ele file; the other one lies beside it. */
+/** TetGen: the .node or the .ele file; the other one is in the same folder. */
 extern const Format TetGenFormat;
 
 void importTetGen(InputFile& file, RawMeshBuilder& builder);
-/**
- * Two files beside each other, whichever of them is named: .node with attributes and markers, .ele
- * with attributes. Tetrahedra or triangles; polygons become triangles.
- */
+/** Two files in the same folder, either of which may be named: .node with attributes and markers,
+ * .ele with attributes. Tetrahedra or triangles; polygons become triangles. */
 WriteNotes writeRestoredTetGen(RestoredMesh& mesh, const std::filesystem::path& path);
 
 } // namespace smg

@@ -11,8 +11,8 @@ namespace smg
 {
 
 /**
- * Reads all of a .vsm file, which nothing else does, and checks the checksum of every column of
- * every block.
+ * Reads a whole .vsm file, unlike all other operations, and verifies the checksum of every column
+ * of every block.
  * @return the number of blocks
  * @throws Error naming the file, the table and the block if one is wrong; Cancelled
  */

@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** A column without values for each of the specs, with room for so many tuples. */
+/** A column without values for each of the specs, with room for this many tuples. */
 inline std::vector<Column> emptyColumns(
   const std::vector<ColumnSpec>& specs, std::size_t tuples = 0)
 {
@@ -22,7 +22,7 @@ inline std::vector<Column> emptyColumns(
   return columns;
 }
 
-/** Takes all tuples out; the memory stays. */
+/** Removes all tuples, but keeps the memory. */
 inline void clearTuples(std::vector<Column>& columns)
 {
   for (Column& column : columns)

@@ -18,17 +18,17 @@ namespace smg
 class IsolatedWriter
 {
 public:
-  /** The vertices have the vertex columns of `info`. `name` is what errors call the file. */
+  /** The vertices have the vertex columns of `info`. `name` is the name of the file in errors. */
   IsolatedWriter(std::string name, const StreamInfo& info);
 
-  /** What the table is; see VsmFormat.h. */
+  /** The specification of the table; see VsmFormat.h. */
   static TableSpec table(const StreamInfo& info);
 
   /** Appends vertices; see VsmWriter::isolated(). */
   void append(BlockFileWriter& file, std::span<const std::int64_t> ids,
     std::span<const double> positions, const std::vector<Column>& columns);
 
-  /** Writes what has not been written yet. */
+  /** Writes the remaining vertices. */
   void finish(BlockFileWriter& file);
 
 private:
@@ -40,7 +40,7 @@ private:
   std::vector<ColumnSpec> Specs;
   std::vector<std::int64_t> Ids;
   PositionBuffer Positions;
-  RowBuffer Rows; ///< the positions are no part of it
+  RowBuffer Rows; ///< without the positions
 };
 
 } // namespace smg

@@ -9,10 +9,8 @@
 namespace smg
 {
 
-/**
- * Packs integers with as few bytes each as the largest one needs: a byte that says how many, then
- * all lowest bytes, all second bytes and so on, which is how they compress best.
- */
+/** Packs integers with as few bytes each as the largest one needs: a byte with this number, then
+ * all lowest bytes, all second bytes and so on, which compresses best. */
 void packIntegers(std::span<const std::uint64_t> values, std::vector<std::byte>& packed);
 
 /** Reverses packIntegers; false if `packed` does not hold that many integers. */

@@ -35,7 +35,7 @@ std::byte* PageFile::page(std::int64_t page, bool change)
       std::memset(slot.bytes.get(), 0, PageBytes);
     }
     slot.page = page;
-    // A page that never went to the file must go there even if it is only looked at.
+    // A page that was never written must be written even if it is only read.
     slot.changed = state != OnDisk;
     this->SlotOfPage[page] = number;
   }

@@ -12,10 +12,8 @@
 namespace smg
 {
 
-/**
- * An endless row of pages of bytes, zero at first, of which a few are in memory and the others in a
- * scratch file that has no name. The file is made when the memory does not last, not before.
- */
+/** An unbounded sequence of pages of bytes, initially zero; a few are in memory, the others in an
+ * unnamed scratch file, which is created only when the memory is exhausted. */
 class PageFile
 {
 public:
@@ -24,13 +22,11 @@ public:
   /** Keeps at most `memory` bytes of pages in memory, at least 4 pages. */
   PageFile(std::filesystem::path folder, std::int64_t memory);
 
-  /**
-   * The bytes of page `page`, valid until the next call. `change`: whether they will be changed.
-   * Throws Error if the scratch file fails.
-   */
+  /** The bytes of page `page`, valid until the next call. `change`: whether they will be modified.
+   * Throws Error if the scratch file fails. */
   std::byte* page(std::int64_t page, bool change);
 
-  /** Forgets the pages below `page`, which must not be asked for any more. */
+  /** Releases the pages below `page`, which must not be accessed any more. */
   void discardBelow(std::int64_t page);
 
 private:
@@ -45,7 +41,7 @@ private:
     std::unique_ptr<std::byte[]> bytes;
     std::int64_t page = -1;
     bool changed = false;
-    bool used = false; ///< since the hand came by
+    bool used = false; ///< since the last visit of the hand
   };
 
   std::int32_t makeRoom();

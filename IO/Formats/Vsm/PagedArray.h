@@ -12,10 +12,8 @@
 namespace smg
 {
 
-/**
- * An endless array of values, zero at first, in bounded memory: what does not fit goes to a scratch
- * file. It is quick as long as the places that are visited lie near each other.
- */
+/** An unbounded array of values, initially zero, in bounded memory: the rest is in a scratch file.
+ * Fast if consecutive accesses are close to each other. */
 template <class T>
 class PagedArray
 {
@@ -28,13 +26,13 @@ public:
   {
   }
 
-  /** The value at place `i`, to be changed; valid until another place is visited. */
+  /** The value at index `i`, for modification; valid until another index is accessed. */
   T& at(std::int64_t i) { return *this->visit(i, true); }
 
-  /** The value at place `i`. */
+  /** The value at index `i`. */
   T get(std::int64_t i) { return *this->visit(i, false); }
 
-  /** Says that no place below `i` will be visited again. */
+  /** Declares that no index below `i` will be accessed again. */
   void discardBelow(std::int64_t i)
   {
     if (i / PerPage > this->FirstPage)
@@ -62,8 +60,8 @@ private:
 
   PageFile Pages;
   std::int64_t FirstPage = 0;
-  std::int64_t Page = -1; ///< the page visited last
-  bool Changing = false;  ///< whether it was visited to be changed
+  std::int64_t Page = -1; ///< the last accessed page
+  bool Changing = false;  ///< whether it was accessed for modification
   T* Values = nullptr;
 };
 

@@ -49,7 +49,7 @@ void PieceReader::read(std::int64_t firstCell, std::int64_t endCell, MeshPiece& 
                     std::to_string(endCell) + ", but " + std::to_string(this->File.Info.cells) +
                     " in all.");
   }
-  // In this order: so the blocks of the cells at both ends are read once.
+  // In this order, so that the blocks of the cells at both ends are read once.
   const std::int64_t begin = firstCell < endCell ? this->introducedBefore(firstCell) : 0;
   this->readCells(firstCell, endCell, piece);
   const std::int64_t end = firstCell < endCell ? this->introducedBefore(endCell) : 0;

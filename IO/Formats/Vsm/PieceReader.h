@@ -12,10 +12,8 @@
 namespace smg
 {
 
-/**
- * Reads pieces of a .vsm file. It remembers the vertices of the pieces read so far that later cells
- * use: pieces in order read every block once.
- */
+/** Reads pieces of a .vsm file. Stores the vertices of the pieces read so far that later cells use,
+ * so that pieces in order read every block once. */
 class PieceReader
 {
 public:
@@ -32,14 +30,14 @@ private:
   const std::vector<std::int64_t>& cornersOfBlock(std::int64_t block);
   /** Fills Rows with the ghosts, which ascend, and the vertices [begin, end). */
   void collect(std::span<const std::int64_t> ghosts, std::int64_t begin, std::int64_t end);
-  /** Keeps of the old and the piece's vertices below `end` those that outlive cell endCell - 1. */
+  /** Keeps those of the old and the new vertices below `end` that outlive cell endCell - 1. */
   void remember(std::int64_t end, std::int64_t endCell);
 
   VsmFile& File;
   int Corners;
   std::vector<ColumnSpec> VertexSpecs, CellSpecs;
-  VertexReader InOrder;  ///< for the vertices that a piece introduces
-  VertexReader Anywhere; ///< for older ones that are not remembered
+  VertexReader InOrder;  ///< for vertices that a piece introduces
+  VertexReader Anywhere; ///< for older ones that are not stored
   std::vector<RowReader> CellColumns;
 
   std::int64_t Block = -1; ///< block of the cells that BlockCorners are of

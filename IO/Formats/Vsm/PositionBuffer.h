@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** Collects coordinates in the precision in which a file has them. */
+/** Collects coordinates in the precision of a file. */
 class PositionBuffer
 {
 public:
@@ -18,7 +18,7 @@ public:
   {
   }
 
-  /** Appends a coordinate; false if it is not finite or no number of that precision. */
+  /** Appends a coordinate; returns false if it is not finite or out of range in that precision. */
   bool append(double x)
   {
     const auto single = static_cast<float>(x);

@@ -11,11 +11,11 @@
 namespace smg
 {
 
-/** Reads positions of vertices as double precision numbers, whatever precision they have. */
+/** Reads positions of vertices of any precision as double precision numbers. */
 class PositionReader
 {
 public:
-  /** `column` of `table` has them. */
+  /** The positions are `column` of `table`. */
   explicit PositionReader(VsmFile& file, int table = VsmFormat::Vertices, int column = 0)
     : Rows(file.Blocks, table, column)
   {
@@ -27,7 +27,7 @@ public:
     this->convert(count, positions, [&](std::byte* to) { this->Rows.read(first, count, to); });
   }
 
-  /** Reads the positions of the vertices `vertices`, which ascend. */
+  /** Reads the positions of the vertices `vertices`, in ascending order. */
   void gather(std::span<const std::int64_t> vertices, double* positions)
   {
     this->convert(static_cast<std::int64_t>(vertices.size()), positions,

@@ -12,7 +12,7 @@
 namespace smg
 {
 
-/** Collects rows of some columns until they make a block. */
+/** Collects rows of some columns until they fill a block. */
 class RowBuffer
 {
 public:
@@ -25,7 +25,7 @@ public:
     }
   }
 
-  /** Appends `count` rows of the columns `values`, from row `first` of these on. */
+  /** Appends `count` rows of the columns `values`, from row `first` on. */
   void append(const std::vector<Column>& values, std::int64_t first, std::int64_t count)
   {
     for (std::size_t c = 0; c < this->Bytes.size(); c++)
@@ -35,7 +35,7 @@ public:
     }
   }
 
-  /** A block's columns: `first`, then the collected ones. Valid until rows are appended. */
+  /** The columns of a block: `first`, then the collected ones. Valid until rows are appended. */
   std::span<const std::span<const std::byte>> block(
     std::initializer_list<std::span<const std::byte>> first)
   {

@@ -11,10 +11,8 @@
 namespace smg
 {
 
-/**
- * Reads rows of a column of a block file, whatever the blocks. The block read last is kept, so that
- * rows in ascending order cost each block once.
- */
+/** Reads rows of a column of a block file, independent of its blocks. Keeps the last block, so that
+ * rows in ascending order read each block once. */
 class RowReader
 {
 public:
@@ -24,7 +22,7 @@ public:
 
   /** Reads the rows [first, first + count). */
   void read(std::int64_t first, std::int64_t count, std::byte* values);
-  /** Reads the rows `rows`, which ascend. */
+  /** Reads the rows `rows`, in ascending order. */
   void gather(std::span<const std::int64_t> rows, std::byte* values);
 
 private:

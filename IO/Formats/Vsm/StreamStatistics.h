@@ -9,18 +9,16 @@
 namespace smg
 {
 
-/**
- * Follows which vertices of a compact mesh stream are alive at which cell: from the cell that
- * introduces a vertex to the last one that uses it. The last uses may come in any order.
- */
+/** Tracks which vertices of a compact mesh stream are alive at each cell: from the cell that
+ * introduces a vertex to the last one that uses it. The last uses may be given in any order. */
 class StreamStatistics
 {
 public:
   explicit StreamStatistics(const std::filesystem::path& scratch);
 
-  /** Says that `cell` is the first to use a vertex. */
+  /** Declares that `cell` is the first to use a vertex. */
   void introduce(std::int64_t cell) { this->Changes.at(cell) += 1; }
-  /** Says that `cell` is the last to use a vertex. */
+  /** Declares that `cell` is the last to use a vertex. */
   void finalize(std::int64_t cell) { this->Changes.at(cell) += FinalUnit; }
 
   struct Result

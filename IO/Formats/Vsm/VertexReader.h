@@ -11,7 +11,7 @@
 namespace smg
 {
 
-/** Some vertices with all that a piece needs to know of them. */
+/** Some vertices with all data for a piece. */
 struct VertexRows
 {
   std::vector<std::int64_t> ids; ///< ascending
@@ -54,11 +54,11 @@ public:
 
   /** Appends the vertices [first, first + count) to `rows`. */
   void read(std::int64_t first, std::int64_t count, VertexRows& rows);
-  /** Appends the vertices `vertices`, which ascend, to `rows`. */
+  /** Appends the vertices `vertices`, in ascending order, to `rows`. */
   void gather(std::span<const std::int64_t> vertices, VertexRows& rows);
 
 private:
-  /** Makes room for `count` more rows; answers how many there were. */
+  /** Makes room for `count` more rows; returns the previous number of rows. */
   static std::int64_t grow(VertexRows& rows, std::int64_t count);
 
   PositionReader Positions;

@@ -15,7 +15,7 @@
 namespace smg
 {
 
-/** An open .vsm file: its header, checked, and the decoding of its blocks. */
+/** An open .vsm file: its verified header, and the decoding of its blocks. */
 class VsmFile
 {
 public:
@@ -34,13 +34,13 @@ public:
   /** Reads the last cells of the vertices of a block of the vertices. */
   void readLastCells(std::int64_t block, std::vector<std::int64_t>& cells);
 
-  /** Vertices of no cell, which are kept beside the stream. */
+  /** The number of vertices of no cell, which are separate from the stream. */
   std::int64_t isolatedVertices() const
   {
     return this->HasIsolated ? this->Blocks.rows(VsmFormat::Isolated) : 0;
   }
 
-  /** The number that a column of that name has in its table. */
+  /** The index of the column of this name in its table. */
   int vertexColumn(const std::string& name) const;
   int cellColumn(const std::string& name) const;
 
@@ -57,7 +57,7 @@ private:
   void readPacked(int table, std::int64_t block, std::size_t count);
 
   std::string Name;
-  bool HasIsolated = false; ///< the table, if only without rows
+  bool HasIsolated = false; ///< whether the table exists, possibly without rows
   std::vector<std::int64_t> FirstVertex;
   std::vector<std::int64_t> Finalized;
   std::vector<std::byte> Packed;

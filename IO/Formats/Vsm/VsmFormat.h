@@ -17,11 +17,11 @@ namespace smg
  *   its distance back from the number of vertices introduced so far: 0 introduces the next one.
  * - blocks: a row for each block of the cells. `FirstVertex` is the number of vertices introduced
  *   before the block; no cell after the block uses a vertex below `Finalized`.
- * - isolated: the vertices of no cell, which are no part of the stream: `Id`, the place in the
- *   original file (int64), `Position`, then the attribute columns as those of the vertices; blocks
- *   of BlockRows rows. Files of the first four tables only have no such vertices.
+ * - isolated: the vertices of no cell, which are not part of the stream: `Id`, the index in the
+ *   original file (int64), `Position`, then the attribute columns like those of the vertices;
+ * blocks of BlockRows rows. Files of the first four tables only have no such vertices.
  *
- * The header says kind, cell ("triangle" or "tetrahedron"), precision ("float32" or "float64"),
+ * The header contains kind, cell ("triangle" or "tetrahedron"), precision ("float32" or "float64"),
  * vertices, cells, bounds (xmin, xmax, ymin ...), width, span and mean_width, and may have
  * `origin`, a text of the program that made the file.
  */
@@ -36,9 +36,9 @@ struct VsmFormat
     Blocks,
     Isolated
   };
-  /** Tables that every file has. */
+  /** The number of tables of every file. */
   static constexpr int LeastTables = Isolated;
-  /** Rows of a block of vertices or cells, but for the last one. */
+  /** Rows of a block of vertices or cells, except for the last one. */
   static constexpr std::int64_t BlockRows = 8192;
 };
 

@@ -28,7 +28,7 @@ std::vector<std::string> namesOf(const std::vector<ColumnSpec>& columns)
   return names;
 }
 
-/** The chosen columns of the cells, and their flags, without which no cell is what it is. */
+/** The chosen columns of the cells, and always their flags. */
 std::vector<std::string> withFlags(
   std::vector<std::string> chosen, const std::vector<ColumnSpec>& columns)
 {

@@ -30,7 +30,7 @@ VsmSource::VsmSource(const std::filesystem::path& path,
   this->prefetch(0);
 }
 
-/** Asks for a block of the cells and for the vertices that it introduces. */
+/** Requests a block of the cells and the vertices that it introduces. */
 void VsmSource::prefetch(std::int64_t block)
 {
   BlockFileReader& blocks = this->File.Blocks;

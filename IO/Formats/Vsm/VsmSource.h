@@ -11,7 +11,7 @@
 namespace smg
 {
 
-/** Delivers a .vsm file as a mesh stream, a block of the cells after the other. */
+/** Delivers a .vsm file as a mesh stream, one block of the cells at a time. */
 class VsmSource : public MeshSource
 {
 public:

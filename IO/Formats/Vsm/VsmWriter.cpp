@@ -117,16 +117,16 @@ struct VsmWriter::Implementation
   std::int64_t Settled = 0;    ///< vertices whose last cell is known
   double MeanWidth = 0;
 
-  PositionBuffer Positions; ///< of the block that is being collected
+  PositionBuffer Positions; ///< of the current block
   RowBuffer VertexRows;
-  std::vector<std::uint64_t> Distances; ///< corners of the block that is being collected
+  std::vector<std::uint64_t> Distances; ///< corners of the current block
   RowBuffer CellRows;
   std::vector<std::uint64_t> LastRows;
   std::int64_t PreviousLast = 0;
   std::vector<std::byte> Packed;
 
   std::vector<std::int64_t> FirstVertex; ///< of each block of cells
-  std::vector<std::int64_t> Finalized;   ///< after each block of cells, as far as it is known
+  std::vector<std::int64_t> Finalized;   ///< after each block of cells, as far as known
 
   PagedArray<std::int64_t> LastCell; ///< so far
   StreamStatistics Statistics;
@@ -278,7 +278,7 @@ void VsmWriter::Implementation::addCell(const std::int64_t* corners)
   this->Info.span = std::max(this->Info.span, most - least);
 }
 
-/** Takes note of the last cells of the vertices up to `end`. */
+/** Stores the last cells of the vertices up to `end`. */
 void VsmWriter::Implementation::settle(std::int64_t end)
 {
   for (; this->Settled < end; this->Settled++)

@@ -19,47 +19,45 @@ namespace smg
  * Writes a .vsm file: a mesh stream with its statistics, in blocks that are readable by themselves
  * (see VsmFormat.h). The blocks of the stream are appended in stream order and may have any size.
  *
- * The memory needed does not depend on the mesh: what is known of a vertex only after its last cell
- * is kept in pages, which go to a scratch file beside `path` if they are too many. A stream whose
- * `MeshBlock::finalized` advances needs next to no pages; one that leaves it at 0 is legal.
+ * The memory does not depend on the mesh: data of a vertex that are known only after its last cell
+ * are stored in pages, which are written to a scratch file next to `path` if there are too many. A
+ * stream whose `MeshBlock::finalized` advances needs nearly no pages; 0 throughout is permitted.
  */
 class SMG_EXPORT VsmWriter
 {
 public:
-  /**
-   * Of `info`, cellType, doublePositions and the columns count; the rest is computed.
-   * Throws Error if the file cannot be made or a column's name is empty, reserved or used twice.
-   */
+  /** Uses cellType, doublePositions and the columns of `info`; the rest is computed. Throws Error
+   * if the file cannot be created or the name of a column is empty, reserved or used twice. */
   VsmWriter(std::filesystem::path path, const StreamInfo& info, Codec codec = Codec::Zstd,
     IoStatistics* statistics = nullptr);
-  /** Without finish(), nothing is left of the file. */
+  /** Without finish(), no file is left. */
   ~VsmWriter();
   VsmWriter(const VsmWriter&) = delete;
   VsmWriter& operator=(const VsmWriter&) = delete;
 
   /**
    * Appends the stream's next block. Throws Error if the block does not continue the stream, the
-   * stream is not compact, a cell uses a vertex that was said to be final, a coordinate is not
-   * finite (or, with single precision positions, not a single precision number), or a column has
-   * not the length that it should have.
+   * stream is not compact, a cell uses a vertex that was declared final, a coordinate is not
+   * finite (or, with single precision positions, not a single precision number), or a column has a
+   * wrong length.
    */
   void append(const MeshBlock& block);
 
   /**
-   * Appends vertices of no cell (see IsolatedVertices.h), any time before finish(). They are no
-   * part of the stream: its order, counts, bounds and statistics do not know them.
-   * @param ids their places in the original file
-   * @param columns as the stream's vertex columns; none: their values are zero
-   * Throws Error if an id is negative, a coordinate cannot be stored (see append()), or something
-   * has not the length that it should have.
+   * Appends vertices of no cell (see IsolatedVertices.h), any time before finish(). They are
+   * not part of the stream, nor of its order, counts, bounds and statistics.
+   * @param ids their indices in the original file
+   * @param columns like the vertex columns of the stream; if none, their values are zero
+   * Throws Error if an id is negative, a coordinate cannot be stored (see append()), or a
+   * length is wrong.
    */
   void isolated(std::span<const std::int64_t> ids, std::span<const double> positions,
     const std::vector<Column>& columns = {});
 
   /**
-   * Completes the file and gives it its name. Answers counts, bounds, width and span. Throws Error
-   * if the stream has no cells or a vertex that belongs to no cell.
-   * @param origin what the header says of where the mesh comes from, in UTF-8; empty: nothing
+   * Completes and renames the file. Returns counts, bounds, width and span. Throws Error if the
+   * stream has no cells or a vertex that belongs to no cell.
+   * @param origin the origin of the mesh for the header, in UTF-8; may be empty
    */
   StreamInfo finish(const std::string& origin = {});
 

@@ -21,9 +21,9 @@ struct WrittenVsm
 };
 
 /**
- * Writes a mesh stream, which says its number of cells, to a .vsm file.
+ * Writes a mesh stream with a known number of cells to a .vsm file.
  * @param origin see VsmWriter::finish()
- * @param add adds what a stream does not deliver, before the file is finished; none: nothing
+ * @param add adds data that the stream does not deliver, before the file is finished; may be empty
  * @throws Error if the stream is not valid or the file cannot be written; Cancelled. Nothing is
  * left of the file then.
  */
@@ -32,8 +32,8 @@ WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path,
   const std::function<void(VsmWriter&)>& add = {});
 
 /**
- * Gives the isolated vertices of a .vsm file, with the columns that both have, to the writer of a
- * stream like `info`: a stream that was made of a .vsm file does not carry them.
+ * Copies the isolated vertices of a .vsm file, with the columns that both have, to the writer of a
+ * stream like `info`, since a stream made from a .vsm file does not contain them.
  */
 SMG_EXPORT void copyIsolated(
   const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer);

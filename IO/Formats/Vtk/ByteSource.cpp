@@ -18,7 +18,7 @@ namespace smg
 namespace
 {
 
-/** Compressed sizes that are read at once, so that the window of the file seldom jumps. */
+/** The number of compressed sizes read at once, so that the window of the file seldom jumps. */
 constexpr std::uint64_t SizesAtOnce = 4096;
 
 bool isXmlBlank(char c)
@@ -57,7 +57,7 @@ bool uncompress(
   }
   if (compression == VtkCompression::Lzma)
   {
-    // What the highest level of compression takes, whatever a damaged file asks for.
+    // The limit of the highest level of compression, regardless of the request of a damaged file.
     std::uint64_t memory = std::uint64_t(100) << 20;
     std::size_t read = 0, written = 0;
     return lzma_stream_buffer_decode(&memory, 0, nullptr,
@@ -168,7 +168,7 @@ CompressedBytes::CompressedBytes(InputFile& file, const VtkArray& array, Pool& p
   const std::size_t header = (3 + this->Blocks) * static_cast<std::size_t>(array.headerBytes);
   this->Data = bytesAt(file, array.encoding,
     begin + (array.encoding == VtkEncoding::Base64 ? (header + 2) / 3 * 4 : header));
-  // What does not become smaller is a little larger.
+  // Incompressible data become slightly larger.
   const std::uint64_t compressedBytes = this->BlockBytes + this->BlockBytes / 64 + 1024;
   const std::uint64_t needed = this->BlockBytes + compressedBytes;
   if (static_cast<std::int64_t>(needed) > pool.limit() - pool.used())

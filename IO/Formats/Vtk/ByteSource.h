@@ -16,20 +16,20 @@
 namespace smg
 {
 
-/** Bytes of a file one after the other, whatever they are encoded in. */
+/** The consecutive bytes of a file, in any encoding. */
 class ByteSource
 {
 public:
   virtual ~ByteSource() = default;
 
-  /** Fills the span. Throws Error, with the place, if the file has not so many bytes there. */
+  /** Fills the span. Throws Error, with the position, if the file does not have that many bytes. */
   virtual void read(std::span<std::byte> bytes) = 0;
 
-  /** An integer of 4 or 8 bytes without a sign. */
+  /** An unsigned integer of 4 or 8 bytes. */
   std::uint64_t integer(int bytes, std::endian order);
 };
 
-/** Bytes as they stand in the file. */
+/** Unencoded bytes of the file. */
 class RawBytes : public ByteSource
 {
 public:
@@ -65,14 +65,12 @@ private:
   std::size_t Size = 0, Used = 0; ///< bytes of the group
 };
 
-/**
- * Bytes that VTK compressed in blocks. Their header has the number of blocks, the bytes of a block
- * and of the last one, 0 if it is as large as the others, and the compressed size of each block.
- */
+/** Bytes compressed by VTK in blocks. Their header has the number of blocks, the bytes of a block
+ * and of the last one, 0 if it is as large as the others, and the compressed size of each block. */
 class CompressedBytes : public ByteSource
 {
 public:
-  /** Throws Error if the header cannot be right; and as Pool, whose memory the blocks take. */
+  /** Throws Error if the header is invalid, and like Pool, whose memory the blocks use. */
   CompressedBytes(InputFile& file, const VtkArray& array, Pool& pool);
   void read(std::span<std::byte> bytes) override;
 
@@ -88,12 +86,12 @@ private:
   std::unique_ptr<ByteSource> Sizes, Data;
   std::uint64_t Blocks = 0, BlockBytes = 0, LastBytes = 0, Bytes = 0;
   std::uint64_t Block = 0;          ///< the next one
-  std::vector<std::uint64_t> Known; ///< compressed sizes that were read at once
+  std::vector<std::uint64_t> Known; ///< compressed sizes read at once
   Buffer Compressed, Plain;
   std::size_t Size = 0, Used = 0; ///< bytes of the block
 };
 
-/** The bytes at a place, of text in base64 or not. */
+/** The bytes at a position, in base64 or not. */
 std::unique_ptr<ByteSource> bytesAt(InputFile& file, VtkEncoding encoding, std::size_t begin);
 
 } // namespace smg

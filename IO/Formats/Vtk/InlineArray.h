@@ -13,9 +13,9 @@ namespace smg
 {
 
 /**
- * An array of a VTK XML file that is written part by part at its place within its element: its
- * number of bytes as UInt64, then its bytes, each a unit of base64. Of the data no more is kept
- * than two bytes.
+ * An array of a VTK XML file that is written in parts at its position within its element: its
+ * number of bytes as UInt64, then its bytes, each a unit of base64. At most two bytes of the data
+ * are buffered.
  */
 class InlineArray
 {
@@ -23,16 +23,16 @@ public:
   /** An array of `tuples` tuples. */
   InlineArray(ColumnSpec spec, std::int64_t tuples);
 
-  /** The first tag of the array's element. */
+  /** The start tag of the element of the array. */
   std::string tag() const;
 
-  /** Writes the number of bytes at this place of the file; returns where the array will end. */
+  /** Writes the number of bytes at this position of the file; returns the end of the array. */
   std::int64_t begin(PositionedFile& file, std::int64_t at);
 
   /** Writes the next tuples. Throws Error. */
   void append(PositionedFile& file, std::span<const std::byte> bytes);
 
-  /** Writes the last characters, once all tuples have come. Throws Error. */
+  /** Writes the last characters after all tuples. Throws Error. */
   void finish(PositionedFile& file);
 
 private:
@@ -40,7 +40,7 @@ private:
 
   ColumnSpec Spec;
   std::int64_t Bytes;
-  std::int64_t At = 0; ///< where the next characters go
+  std::int64_t At = 0; ///< position of the next characters
   Base64Encoder Encoder;
 };
 

@@ -163,7 +163,7 @@ private:
     return this->Arrays && this->readNamed(word);
   }
 
-  /** An attribute that is led by its name. */
+  /** An attribute that begins with its name. */
   bool readNamed(const std::string& word)
   {
     static constexpr std::pair<const char*, int> Kinds[] = { { "SCALARS", 0 }, { "VECTORS", 3 },
@@ -231,7 +231,7 @@ private:
 
   void keep(VtkArray array, std::vector<VtkArray>& arrays)
   {
-    // What they are is held in memory.
+    // Their descriptions are stored in memory.
     constexpr std::size_t MostArrays = 4096;
     if (arrays.size() == MostArrays)
     {
@@ -251,7 +251,7 @@ private:
     return static_cast<int>(components);
   }
 
-  /** After the type of scalars: their number of components, if told, and their colour table. */
+  /** After the type of scalars: their number of components, if given, and their colour table. */
   int scalarComponents()
   {
     const std::string next = this->Scanner.peek();
@@ -265,7 +265,7 @@ private:
     return components;
   }
 
-  /** Arrays with a number of tuples of their own: `arrays` takes those that have `tuples`. */
+  /** Arrays with their own number of tuples: those with `tuples` are added to `arrays`. */
   void readField(std::vector<VtkArray>* arrays, std::int64_t tuples)
   {
     this->Scanner.word();
@@ -344,7 +344,7 @@ private:
     }
   }
 
-  /** Whether all sections have come and fit together. */
+  /** Checks that all sections exist and are consistent. */
   void check()
   {
     VtkPiece& piece = this->Piece;
@@ -380,7 +380,7 @@ private:
   std::set<std::string> OtherArrays; ///< see VtkLayout
   bool IsGrid = false;
   bool OfPoints = false;
-  std::vector<VtkArray>* Arrays = nullptr; ///< of the points or cells, where attributes go now
+  std::vector<VtkArray>* Arrays = nullptr; ///< of the points or cells, for the current attributes
   std::int64_t Tuples = -1, PointTuples = -1, CellTuples = -1;
 };
 

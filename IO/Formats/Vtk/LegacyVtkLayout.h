@@ -8,10 +8,10 @@ namespace smg
 {
 
 /**
- * Finds out where everything stands in a legacy VTK file of polygonal data or of an unstructured
- * grid, text or binary, versions 1 to 5, without keeping any of it. Arrays of texts and bits are
- * left out.
- * @throws Error with the byte where the file is wrong or ends too early, or has another kind of
+ * Finds the positions of all data in a legacy VTK file of polygonal data or of an unstructured
+ * grid, text or binary, versions 1 to 5, without storing the data. Arrays of texts and bits are
+ * omitted.
+ * @throws Error with the byte position if the file is invalid, truncated, or has another kind of
  * data
  */
 VtkLayout legacyVtkLayout(InputFile& file);

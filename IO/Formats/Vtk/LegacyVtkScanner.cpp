@@ -17,7 +17,7 @@ namespace smg
 namespace
 {
 
-/** Longest word and line that a keyword or name can be. */
+/** The maximum length of words and lines of keywords and names. */
 constexpr std::size_t MostLineBytes = 4096;
 
 struct TypeName
@@ -257,7 +257,7 @@ void LegacyVtkScanner::skipTexts(std::int64_t texts)
       this->line();
       continue;
     }
-    // The two highest bits tell in how many bytes the length is written: 8, 4, 2 or 1.
+    // The two highest bits encode the number of bytes of the length: 8, 4, 2 or 1.
     const int bytes = 8 >> (static_cast<unsigned char>(text[0]) >> 6);
     std::uint64_t length = static_cast<unsigned char>(text[0]) & 0x3f;
     for (int k = 1; k < bytes && k < static_cast<int>(text.size()); ++k)

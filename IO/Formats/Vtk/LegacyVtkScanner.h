@@ -12,7 +12,7 @@
 namespace smg
 {
 
-/** Reads the words of a legacy VTK file and passes the arrays between them. */
+/** Reads the words of a legacy VTK file and skips the arrays between them. */
 class LegacyVtkScanner
 {
 public:
@@ -30,24 +30,22 @@ public:
   std::string word();
   /** The next word in capital letters. */
   std::string keyword();
-  /** The next word as a name, in which % and two hexadecimal digits stand for a character. */
+  /** The next word as a name, in which % and two hexadecimal digits encode a character. */
   std::string name();
-  /** The next word without passing it. */
+  /** The next word, without consuming it. */
   std::string peek();
-  /** The rest of the line, which is passed. */
+  /** The rest of the line, which is consumed. */
   std::string line();
-  /** The next word as a number of things, not negative. */
+  /** The next word as a count, not negative. */
   std::int64_t count(const char* what);
 
-  /**
-   * Takes the array that begins after this line, of `values` numbers of the type that the file
-   * calls `type`, and passes it. Throws Error if the type is not known or the file ends before.
-   */
+  /** Returns the array that begins after this line, of `values` numbers of the type named `type` in
+   * the file, and skips it. Throws Error if the type is unknown or the file is too short. */
   VtkArray array(
     const std::string& name, const std::string& type, int components, std::int64_t values);
-  /** Passes so many texts. */
+  /** Skips this number of texts. */
   void skipTexts(std::int64_t texts);
-  /** Passes so many bits. */
+  /** Skips this number of bits. */
   void skipBits(std::int64_t bits);
 
   [[noreturn]] void fail(const std::string& sentence) const { this->File.fail(this->At, sentence); }

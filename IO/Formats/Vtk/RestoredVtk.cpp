@@ -14,7 +14,7 @@ namespace smg
 namespace
 {
 
-/** An array of big-endian numbers that is written part by part at its place in the file. */
+/** An array of big-endian numbers that is written in parts at its position in the file. */
 class PlacedArray
 {
 public:
@@ -38,7 +38,7 @@ private:
   std::vector<std::byte> Bytes;
 };
 
-/** The name that legacy files give a type. */
+/** The name of a type in legacy files. */
 std::string_view vtkTypeName(ScalarType type)
 {
   constexpr std::string_view names[] = { "char", "unsigned_char", "short", "unsigned_short", "int",
@@ -46,7 +46,7 @@ std::string_view vtkTypeName(ScalarType type)
   return names[static_cast<int>(type)];
 }
 
-/** A name as one word, in the way that VTK decodes. */
+/** A name as one word, in VTK's encoding. */
 std::string encoded(const std::string& name)
 {
   constexpr std::string_view digits = "0123456789ABCDEF";
@@ -66,7 +66,7 @@ std::string encoded(const std::string& name)
   return text;
 }
 
-/** The file; every array has its place from the start. */
+/** The file; the positions of all arrays are known from the start. */
 class VtkFile
 {
 public:
@@ -174,7 +174,7 @@ private:
 
   const RestoredInfo& Info;
   PositionedFile File;
-  std::int64_t End = 0; ///< where the next text goes
+  std::int64_t End = 0; ///< position of the next text
   Arrays Points, Cells, Types, PointData, CellData;
   std::vector<float> Single;
   std::vector<std::int32_t> Numbers;

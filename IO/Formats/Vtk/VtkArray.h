@@ -16,11 +16,11 @@ namespace smg
 enum class VtkEncoding : std::uint8_t
 {
   Text,
-  Raw, ///< bytes as they are
+  Raw, ///< unencoded bytes
   Base64
 };
 
-/** What the bytes of an array are compressed by, in blocks. */
+/** The compression of the bytes of an array, in blocks. */
 enum class VtkCompression : std::uint8_t
 {
   None,
@@ -34,7 +34,7 @@ class InputFile;
 class Pool;
 struct VtkArray;
 
-/** Opens arrays whose numbers do not stand in the file one after the other. */
+/** Opens arrays whose numbers are not contiguous in the file. */
 class VtkArrayOpener
 {
 public:
@@ -44,23 +44,24 @@ public:
     InputFile& file, const VtkArray& array, Pool& pool) const = 0;
 };
 
-/** An array of numbers in a VTK file: what it is, where it stands and how it is written. */
+/** An array of numbers in a VTK file: its type, position and encoding. */
 struct VtkArray
 {
   std::string name;
   ScalarType type = ScalarType::Float32;       ///< of the numbers in the file
-  ScalarType columnType = ScalarType::Float32; ///< of the column that they make
+  ScalarType columnType = ScalarType::Float32; ///< of the resulting column
   int components = 1;
-  std::int64_t values = -1; ///< numbers, not tuples; -1: as many as there are
+  std::int64_t values = -1; ///< numbers, not tuples; -1: all
   std::size_t begin = 0;    ///< byte of the file
   VtkEncoding encoding = VtkEncoding::Text;
   VtkCompression compression = VtkCompression::None;
   std::endian byteOrder = std::endian::little;
-  /** Bytes of a number of the header that leads what is not text; 0: there is no header. */
+  /** Bytes of a number of the header before data that are not text; 0: no header. */
   int headerBytes = 0;
-  /** Who opens it; null: it stands in the file as said above. Then `begin` counts numbers. */
+  /** The object that opens it; then `begin` counts numbers. Null: it is in the file as described
+   * above. */
   const VtkArrayOpener* opener = nullptr;
-  bool isFractions = false; ///< numbers from 0 to 1 that stand for bytes from 0 to 255
+  bool isFractions = false; ///< numbers from 0 to 1 for bytes from 0 to 255
 };
 
 } // namespace smg

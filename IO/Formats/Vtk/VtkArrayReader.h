@@ -16,33 +16,33 @@
 namespace smg
 {
 
-/** Reads the numbers of an array from first to last. Nobody else may use the file meanwhile. */
+/** Reads the numbers of an array sequentially. The file must not be used otherwise meanwhile. */
 class VtkArrayReader
 {
 public:
-  /** Throws Error if the array is not as long as `array.values` says, as far as is known. */
+  /** Throws Error if the length of the array, if known, is not `array.values`. */
   VtkArrayReader(InputFile& file, const VtkArray& array, Pool& pool);
 
-  /** Up to `count` numbers, in the machine's byte order; answers how many there were. */
+  /** Reads up to `count` numbers, in the machine's byte order; returns their number. */
   std::size_t readSome(std::byte* values, std::size_t count);
-  /** Exactly `count` numbers. Throws Error if there are fewer. */
+  /** Reads exactly `count` numbers. Throws Error if there are fewer. */
   void read(std::byte* values, std::size_t count);
   void skip(std::int64_t count);
 
   const VtkArray& array() const { return this->Array; }
-  /** Bytes of the numbers in all; -1 if that is not known. */
+  /** The total bytes of the numbers; -1 if unknown. */
   std::int64_t bytes() const;
   [[noreturn]] void fail(const std::string& sentence) const;
 
 private:
   InputFile& File;
   const VtkArray Array;
-  std::int64_t Left = -1; ///< numbers; -1: not known
+  std::int64_t Left = -1; ///< numbers; -1: unknown
   std::optional<TextNumbers> Text;
   std::unique_ptr<ByteSource> Bytes;
 };
 
-/** Reads an array of integers in chunks, whatever their type, as rows of given lengths. */
+/** Reads an array of integers of any type in chunks, as rows of given lengths. */
 class VtkIndexReader
 {
 public:
@@ -59,9 +59,9 @@ public:
     return { this->Integers.data() + this->At - count, count };
   }
   std::int64_t next() { return this->next(1)[0]; }
-  /** Passes integers. */
+  /** Skips integers. */
   void skip(std::int64_t count);
-  /** Whether there are no more. */
+  /** Whether the end is reached. */
   bool atEnd();
   [[noreturn]] void fail(const std::string& sentence) const { this->Values.fail(sentence); }
 

@@ -24,7 +24,7 @@ enum class Shape : std::uint8_t
   Solid
 };
 
-/** What a type of VTK is: the corners come first; of other points there may be any number. */
+/** The description of a type of VTK: corners first, then any number of other points. */
 struct TypeOfCell
 {
   Shape shape = Shape::Unknown;
@@ -105,7 +105,7 @@ void takeVtkCell(int type, std::span<const std::int64_t> points, RawMeshBuilder&
   constexpr int Tetrahedron = 10;
   if (type == Tetrahedron && points.size() == 4)
   {
-    // Most cells of a volume are these.
+    // The most frequent cells of a volume.
     builder.tetrahedron(points[0], points[1], points[2], points[3]);
     return;
   }

@@ -12,19 +12,17 @@
 namespace smg
 {
 
-/** Reads a list of cells from first to last. */
+/** Reads a list of cells sequentially. */
 class VtkCellReader
 {
 public:
-  /** Most points of a cell that is more than points and lines. */
+  /** The maximum number of points of a cell other than points and lines. */
   static constexpr std::int64_t MostPoints = std::int64_t(1) << 20;
 
   VtkCellReader(VtkFiles& files, std::size_t file, const VtkCellList& list, Pool& pool);
 
-  /**
-   * The points of the next cell, valid until the next call. Of points and lines these are none.
-   * Throws Error where the list is wrong.
-   */
+  /** The points of the next cell, valid until the next call; none for points and lines. Throws
+   * Error if the list is invalid. */
   std::span<const std::int64_t> next();
   /** VTK's type of that cell. */
   int type() const { return this->Type; }
@@ -38,7 +36,7 @@ private:
   std::int64_t Cell = 0; ///< the next one
   int Type;
   std::optional<VtkIndexReader> Points, Offsets, Types;
-  std::int64_t Last = 0; ///< where the last cell ends
+  std::int64_t Last = 0; ///< end of the last cell
 };
 
 } // namespace smg

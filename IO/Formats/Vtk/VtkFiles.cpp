@@ -17,7 +17,7 @@ InputFile& VtkFiles::open(std::size_t file, Window window)
   Opened& opened = this->Opens[window];
   if (!opened.window || opened.file != file)
   {
-    // A file that takes long still looks whether it should go on.
+    // Long reads still poll for cancellation.
     const auto same = [this](double) { return !this->Report || this->Report(this->Done); };
     opened.window.reset();
     opened.window.emplace(path, same, isFirst ? this->First.name() : path.string());

@@ -11,10 +11,8 @@
 namespace smg
 {
 
-/**
- * The files of a mesh, of which arrays are read at the same time, each through a window of its
- * own. Only the files of one piece are open.
- */
+/** The files of a mesh, whose arrays are read concurrently, each through its own window. Only the
+ * files of one piece are open. */
 class VtkFiles
 {
 public:
@@ -27,7 +25,7 @@ public:
     Windows
   };
 
-  /** `first` is the only file of the layout, or else the one that names the files. */
+  /** `first` is the only file of the layout, or the one that names the files. */
   VtkFiles(InputFile& first, const VtkLayout& layout, ProgressFunction progress = {})
     : First(first)
     , Layout(layout)
@@ -35,10 +33,10 @@ public:
   {
   }
 
-  /** A file, through a window. What was opened through the same window before is closed. */
+  /** A file, through a window. Closes the previous file of the same window. */
   InputFile& open(std::size_t file, Window window);
 
-  /** Where there are several files: this share of the whole is done. Throws Cancelled. */
+  /** For several files: reports that this share of the whole is done. Throws Cancelled. */
   void progress(double done);
 
 private:

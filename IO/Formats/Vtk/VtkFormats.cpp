@@ -17,7 +17,7 @@ bool isLegacyVtk(std::string_view start)
   return textStart(start).starts_with("# vtk DataFile");
 }
 
-/** What the element VTKFile says of its type; empty: it is no such file. */
+/** The type in the element VTKFile; empty if it is not such a file. */
 std::optional<std::string_view> typeOfXml(std::string_view start)
 {
   const std::string_view text = textStart(start);

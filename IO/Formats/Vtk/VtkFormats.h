@@ -13,7 +13,7 @@ extern const Format LegacyVtkFormat;
  * zlib, LZ4 or LZMA.
  */
 extern const Format VtkXmlFormat;
-/** The pieces that a .pvtp or .pvtu file names, one after the other. */
+/** The pieces of a .pvtp or .pvtu file, one after the other. */
 SMG_EXPORT extern const Format ParallelVtkXmlFormat;
 
 void importLegacyVtk(InputFile& file, RawMeshBuilder& builder);
@@ -21,10 +21,8 @@ void importVtkXml(InputFile& file, RawMeshBuilder& builder);
 void importParallelVtkXml(
   InputFile& file, RawMeshBuilder& builder, const ProgressFunction& progress);
 
-/**
- * Legacy VTK, binary, version 3.0, which everybody reads: polygonal data, or an unstructured grid
- * of tetrahedra, with all columns as field data. Corners are 32-bit numbers.
- */
+/** Legacy VTK, binary, version 3.0, which is widely supported: polygonal data, or an unstructured
+ * grid of tetrahedra, with all columns as field data. Corners are 32-bit numbers. */
 WriteNotes writeRestoredVtk(RestoredMesh& mesh, const std::filesystem::path& path);
 /** .vtp (polygons) or .vtu (triangles, quadrilaterals, polygons or tetrahedra), with all columns.
  */

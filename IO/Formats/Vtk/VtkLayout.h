@@ -19,27 +19,27 @@ namespace smg
 struct VtkCellList
 {
   std::int64_t cells = 0;
-  /** VTK's type of all cells, where there are no `types`. */
+  /** VTK's type of all cells, if there are no `types`. */
   int type = 0;
   std::optional<VtkArray> types;
-  /** The points of the cells, one cell after the other; those of a cell are led by their number
-   * where there are no `offsets`. */
+  /** The points of the cells, cell by cell; without `offsets`, those of a cell are preceded by
+   * their number. */
   std::optional<VtkArray> points;
-  /** Where in `points` each cell ends, with a leading 0 if it has one number more than cells. */
+  /** The end of each cell in `points`, with a leading 0 if there is one number more than cells. */
   std::optional<VtkArray> offsets;
 };
 
-/** Points and cells that stand together, with their attributes. */
+/** Points and cells of a piece, with their attributes. */
 struct VtkPiece
 {
-  std::size_t file = 0; ///< place in VtkLayout::files
+  std::size_t file = 0; ///< index in VtkLayout::files
   std::int64_t points = 0;
   std::int64_t cells = 0; ///< of all lists
   std::optional<VtkArray> positions;
   /** In the order in which VTK numbers the cells. All pieces of a layout have the same lists. */
   std::vector<VtkCellList> lists;
   std::vector<VtkArray> pointArrays, cellArrays;
-  /** Names of the arrays that are the normals and the global numbers of points; may be empty. */
+  /** Names of the arrays of normals and of global numbers of points; may be empty. */
   std::string pointNormals, cellNormals, globalIds;
 };
 
@@ -64,17 +64,17 @@ void forEachArray(auto& piece, const auto& visit)
   }
 }
 
-/** So many names of arrays that are not read are kept. */
+/** The maximum number of stored names of unsupported arrays. */
 inline constexpr std::size_t MostOtherArrays = 20;
 
-/** Where everything of a mesh stands in its files. */
+/** The positions of all data of a mesh in its files. */
 struct VtkLayout
 {
   std::vector<std::filesystem::path> files;
   std::vector<VtkPiece> pieces;
   std::set<std::string> otherArrays; ///< those of texts and bits, of the points and cells
-  std::int64_t bytes = 0;            ///< of memory that the pieces take, about
-  bool isPart = false; ///< there are other pieces, which are not read: cells of theirs are left out
+  std::int64_t bytes = 0;            ///< approximate memory of the pieces
+  bool isPart = false; ///< whether there are other, unread pieces, whose cells are omitted
 };
 
 /** Types of cells in VTK, which are the same in its files. */

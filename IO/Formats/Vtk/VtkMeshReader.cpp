@@ -75,10 +75,10 @@ private:
     return this->Layout.pieces.empty() ? 0 : this->Layout.pieces.front().lists.size();
   }
 
-  /** A step of a piece is done. */
+  /** Reports the end of a step of a piece. */
   void advance()
   {
-    // How many columns there will be is not known yet; each takes less than points and cells.
+    // The number of columns is unknown yet; each takes less time than points and cells.
     ++this->Steps;
     this->Files.progress(1.0 - 1.0 / (1.0 + static_cast<double>(this->Steps) /
                                               static_cast<double>(this->Layout.pieces.size())));
@@ -147,7 +147,7 @@ private:
       });
   }
 
-  /** The ghost types of the cells of a piece from cell `first` on, where they matter. */
+  /** The ghost types of the cells of a piece from cell `first` on, if relevant. */
   std::optional<VtkIndexReader> ghosts(const VtkPiece& piece, std::int64_t first)
   {
     std::optional<VtkIndexReader> reader;
@@ -160,7 +160,7 @@ private:
     return reader;
   }
 
-  /** Bit of a ghost type: another piece has the cell, too. */
+  /** Bit of a ghost type: the cell belongs to another piece, too. */
   static constexpr std::int64_t DuplicateCell = 1;
 
   static bool stays(std::optional<VtkIndexReader>& ghosts)
@@ -221,7 +221,7 @@ private:
     reader.finish();
   }
 
-  /** The name of the column: normals have theirs, unless another array has it. */
+  /** The name of the column: the usual one for normals, unless another array has it. */
   static std::string columnName(
     const VtkArray& array, const std::vector<VtkArray>& arrays, const std::string& normals)
   {
@@ -242,7 +242,7 @@ private:
     }
     for (const VtkArray& array : (*full).*arrays)
     {
-      // What the pieces were joined by is no data.
+      // The arrays by which pieces were joined are not data.
       if (array.name == GhostTypeName ||
           (ofPoints && array.name == (*full).globalIds && array.name == GlobalIdsName))
       {

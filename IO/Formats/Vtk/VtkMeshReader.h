@@ -11,12 +11,12 @@ namespace smg
 {
 
 /**
- * Gives the mesh whose layout is known to the builder: points, cells, and the arrays that all
- * pieces have as columns. Of several pieces, those cells are left out that another piece has too
- * (`vtkGhostType`), and points with the same global number become one.
+ * Passes the mesh with a known layout to the builder: points, cells, and as columns the arrays that
+ * all pieces have. Of several pieces, cells that belong to another piece (`vtkGhostType`) are
+ * omitted, and points with the same global number are merged.
  * @param file the only file of the layout, or the one that names the files
- * @param progress where there are several files; else `file` tells it
- * @throws Error with the place in a file; Cancelled
+ * @param progress of several files; otherwise `file` reports it
+ * @throws Error with the position in a file; Cancelled
  */
 SMG_EXPORT void readVtkMesh(InputFile& file, const VtkLayout& layout, RawMeshBuilder& builder,
   const ProgressFunction& progress = {});

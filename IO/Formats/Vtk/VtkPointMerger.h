@@ -11,22 +11,19 @@ namespace smg
 {
 
 /**
- * Points of several pieces that are one point of the mesh: those with the same global number, of
- * which the first one stays. Everything is out of core.
+ * Merges points of several pieces with the same global number; the first one is kept. Out of core.
  */
 class VtkPointMerger
 {
 public:
-  /** Whether all pieces tell the global numbers of their points, and there are several pieces. */
+  /** Whether there are several pieces and all have the global numbers of their points. */
   static bool applies(const VtkLayout& layout);
 
-  /**
-   * Reads the global numbers and tells the builder what the points become. Throws Error where the
-   * files are wrong.
-   */
+  /** Reads the global numbers and passes the merged numbers of the points to the builder. Throws
+   * Error if the files are invalid. */
   VtkPointMerger(VtkFiles& files, const VtkLayout& layout, RawMeshBuilder& builder);
 
-  /** Goes through the points of all pieces: tells of each whether it stays. */
+  /** Iterates over the points of all pieces and returns for each whether it is kept. */
   class Walk
   {
   public:
@@ -35,7 +32,7 @@ public:
     {
       this->More = this->Merged.next(this->Next);
     }
-    /** Whether the next point stays. */
+    /** Whether the next point is kept. */
     bool next()
     {
       const bool stays = !this->More || this->Next != this->Point;
@@ -51,7 +48,7 @@ public:
   };
 
 private:
-  RecordFile<std::uint32_t> Merged; ///< points that do not stay, ascending
+  RecordFile<std::uint32_t> Merged; ///< points that are not kept, ascending
 };
 
 } // namespace smg

@@ -13,7 +13,7 @@
 namespace smg
 {
 
-/** Makes `count` scalars of the array's column type of those in the file. */
+/** Converts `count` scalars of the file to the column type of the array. */
 void convertVtkScalars(
   const VtkArray& array, const std::byte* from, std::size_t count, std::byte* to);
 
