@@ -10,6 +10,7 @@
 #include "Solver/Storage/Pool.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "Solver/Storage/ScratchTraffic.h"
+#include "smg/Export.h"
 #include "smg/Report.h"
 #include "smg/Solve.h"
 
@@ -24,7 +25,7 @@ namespace smg
  * What all parts of a solve share, and its solution after it: options, memory, scratch files,
  * threads, the components of the mesh, and what the solve tells of itself.
  */
-struct SolveRun
+struct SMG_EXPORT SolveRun
 {
   /** Of problems of `columns` columns. */
   SolveRun(int columns, const SolveOptions& solveOptions);
