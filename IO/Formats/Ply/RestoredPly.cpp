@@ -112,7 +112,7 @@ private:
 
 WriteNotes writeRestoredPly(RestoredMesh& mesh, const std::filesystem::path& path)
 {
-  checkPlyPath(path, mesh.info().cellType, mesh.info().vertices);
+  checkPlyVertices(path, mesh.info().vertices);
   return notesOn(RestoredPlyWriter(mesh.info(), path).write(mesh));
 }
 

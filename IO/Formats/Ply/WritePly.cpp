@@ -3,7 +3,6 @@
 
 #include "IO/Files/InQuotes.h"
 #include "IO/Files/PositionedFile.h"
-#include "IO/Files/Suffix.h"
 #include "IO/Formats/Ply/PlyColumns.h"
 #include "IO/Formats/Ply/PlyRecords.h"
 #include "Solver/Core/Error.h"
@@ -120,16 +119,8 @@ std::vector<std::string> notesOn(const WrittenPly& written)
   return notes;
 }
 
-void checkPlyPath(const std::filesystem::path& path, CellType cellType, std::int64_t vertices)
+void checkPlyVertices(const std::filesystem::path& path, std::int64_t vertices)
 {
-  if (lowerSuffix(path) != ".ply")
-  {
-    throw Error(path.string() + ": the name of a PLY file must end with .ply.");
-  }
-  if (cellType != CellType::Triangle)
-  {
-    throw Error(path.string() + ": PLY holds no tetrahedra: choose .vsm or .vtu.");
-  }
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
   if (vertices > most)
   {
@@ -142,7 +133,7 @@ WrittenPly writePly(
   MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress)
 {
   const StreamInfo& info = source.info();
-  checkPlyPath(path, info.cellType, info.vertices);
+  checkPlyVertices(path, info.vertices);
   Progress reported(progress);
   PlyWriter writer(info, path);
   for (MeshBlock block; source.next(block);)

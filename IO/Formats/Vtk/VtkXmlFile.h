@@ -56,8 +56,6 @@ public:
   void appendCells(std::span<const std::int64_t> corners, std::span<const std::int64_t> ends,
     std::span<const std::uint8_t> kinds, const std::vector<Column>& columns);
 
-  bool isPolyData() const { return this->PolyData; }
-
   /** Ends the file, once everything has come, and gives it its name. Throws Error. */
   void finish();
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vtk/WriteVtkXml.h"
 
-#include "IO/Files/Suffix.h"
 #include "IO/Formats/Vtk/VtkXmlFile.h"
-#include "Solver/Core/Error.h"
 
 #include <cstdint>
 #include <string>
@@ -51,24 +49,10 @@ VtkXmlContent contentOf(const StreamInfo& info)
 
 } // namespace
 
-void checkVtkXmlPath(const std::filesystem::path& path, CellType cellType)
-{
-  const std::string suffix = lowerSuffix(path);
-  if (suffix != ".vtu" && suffix != ".vtp")
-  {
-    throw Error(path.string() + ": the name of a VTK XML file must end with .vtp or .vtu.");
-  }
-  if (suffix == ".vtp" && cellType != CellType::Triangle)
-  {
-    throw Error(path.string() + ": a .vtp file holds no tetrahedra: choose .vtu.");
-  }
-}
-
 void writeVtkXml(
   MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress)
 {
   const StreamInfo& info = source.info();
-  checkVtkXmlPath(path, info.cellType);
   Progress reported(progress);
   VtkXmlFile file(path, contentOf(info));
   CellBlocks cells(info.cellType);
