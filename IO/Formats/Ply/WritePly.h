@@ -34,7 +34,7 @@ struct WrittenPly
  * no 64-bit integers: they are written, and come back, as double, which is exact up to 2^53. So
  * convert() takes the `OriginalId` of a PLY file for an attribute (see there): its own are the
  * places in the PLY file.
- * @throws Error if checkPlyPath() does, the stream has not the counts that it says, or the file
+ * @throws Error if checkPlyVertices() does, the stream has not the counts that it says, or the file
  * cannot be written; Cancelled. Nothing is left of the file then.
  */
 WrittenPly writePly(
@@ -43,10 +43,7 @@ WrittenPly writePly(
 /** What a user should know of it, a sentence a column. */
 std::vector<std::string> notesOn(const WrittenPly& written);
 
-/**
- * Throws Error unless `path` ends with .ply, the cells are triangles, and there are no more
- * vertices (0: not known yet) than PLY has numbers for.
- */
-void checkPlyPath(const std::filesystem::path& path, CellType cellType, std::int64_t vertices = 0);
+/** Throws Error if there are more vertices than PLY has numbers for. */
+void checkPlyVertices(const std::filesystem::path& path, std::int64_t vertices);
 
 } // namespace smg

@@ -44,17 +44,13 @@ StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesy
  * Writes a .vsm file as SMA, SMB, SVA or SVB, by the suffix of `out`: pre-order, compact, vertices
  * final by their last cell, little-endian, counts and bounds in the header, no comments. Positions
  * become single precision; columns are left out, but for the scalar of SVA and SVB (see
- * StreamFile.h). Answers the number of vertices whose position was rounded. Throws Error if the
- * suffix does not go with the cells, there are more than 2^31 - 1 of anything, or a coordinate is
- * too large for single precision.
+ * StreamFile.h). Answers the number of vertices whose position was rounded. Throws Error if there
+ * are more than 2^31 - 1 of anything, or a coordinate is too large for single precision.
  */
 std::int64_t vsmToStream(const std::filesystem::path& in, const std::filesystem::path& out,
   const ProgressFunction& progress = {});
 
 /** What a user should know of it: a sentence if there were any. */
 std::vector<std::string> notesOnRounded(std::int64_t vertices);
-
-/** Throws Error unless `path` has the suffix of a streaming format for these cells. */
-void checkStreamPath(const std::filesystem::path& path, CellType cellType);
 
 } // namespace smg
