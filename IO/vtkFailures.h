@@ -24,16 +24,13 @@ public:
   using Error::Error;
 };
 
-/** Says in the field data that these data are empty since what should be here has failed; filters
- * pass it on. */
+/** Marks the data, in their field data, as empty because of a failure; filters pass the mark. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT void markAsFailed(vtkDataObject& data);
-/** Whether they say so; null does not. */
+/** Whether the data are marked as failed; false for null. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT bool isFailed(vtkDataObject* data);
 
-/**
- * The failures of an algorithm, each of which is shown once: a view asks several times for what
- * cannot be made, and the executive adds a message of its own to each answer that is 0.
- */
+/** The failures of an algorithm, each of which is shown once: a view repeats failing requests, and
+ * the executive adds its own message whenever 0 is returned. */
 class VTKSTREAMINGMULTIGRIDIO_EXPORT Failures
 {
 public:

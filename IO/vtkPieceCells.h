@@ -18,20 +18,16 @@ class vtkSmartPointer;
 namespace smg
 {
 
-/**
- * The kind of the cells of a vtkPolyData or vtkUnstructuredGrid that has some. Throws Error, which
- * begins with `where`, if they are anything but triangles, or tetrahedra.
- */
+/** The cell type of a vtkPolyData or vtkUnstructuredGrid with cells. Throws Error, which begins
+ * with `where`, unless they are all triangles or all tetrahedra. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT CellType cellTypeOf(vtkPointSet& piece, const std::string& where);
 
-/** The corners of all cells, as point numbers. Throws Error if they are not of the type `type`. */
+/** The corners of all cells, as point indices. Throws Error if they are not of type `type`. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<std::int64_t> cellCorners(
   vtkPointSet& piece, CellType type, const std::string& where);
 
-/**
- * Takes the cells that are marked as duplicates out of `corners`, which are those of all cells of
- * the piece, `cornersOfCell` each. Answers the numbers of the others.
- */
+/** Removes duplicate cells from `corners`, which are those of all cells of the piece,
+ * `cornersOfCell` each. Returns the indices of the remaining cells. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<std::int64_t> keepOwnCells(
   vtkPointSet& piece, int cornersOfCell, std::vector<std::int64_t>& corners);
 

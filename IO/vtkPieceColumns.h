@@ -25,7 +25,7 @@ std::optional<ScalarType> scalarTypeOf(vtkDataArray& array);
 /** Creates a named VTK array with the type and the values of the column. */
 vtkSmartPointer<vtkDataArray> makeArray(const Column& column);
 
-/** What columns the numeric, named arrays make, without those that the piece contract makes. */
+/** The columns of the named numeric arrays, without those of the piece contract. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<ColumnSpec> columnSpecs(vtkDataSetAttributes& arrays);
 
 /** The tuples `rows` of the array `column.spec.name`. Throws Error if it is absent or differs. */

@@ -34,14 +34,14 @@ if (SMG_SANITIZE)
   endif ()
 endif ()
 
-# -ffp-contract=off: every kernel rounds alike on every machine, so results are bit-identical.
+# -ffp-contract=off: kernels round identically on all machines, so that results are bit-identical.
 # -Wno-psabi: vectors are passed between inline functions only.
 set(smg_kernel_options -ffp-contract=off -Wno-psabi)
 
-# Inside the tree every header is found by its path from the top.
+# Inside the tree, headers are included by their path from the top.
 include_directories("${PROJECT_SOURCE_DIR}")
 
-# Only what is marked SMG_EXPORT is exported.
+# Exports only symbols marked SMG_EXPORT.
 function (smg_hide_symbols target)
   set_target_properties(${target} PROPERTIES
     CXX_VISIBILITY_PRESET hidden
@@ -52,7 +52,7 @@ endfunction ()
 # smg_library(<target> <name> <public headers> OBJECTS <target> DEPENDENCIES <target>...
 #   [PUBLIC <target>...])
 # The shared library StreamingMultigrid::<name>, and <target>Static of the same objects for tests and
-# benchmarks, which look at what the shared one hides.
+# benchmarks, which use hidden symbols.
 function (smg_library target name headers)
   cmake_parse_arguments(PARSE_ARGV 3 arg "" "OBJECTS" "DEPENDENCIES;PUBLIC")
   add_library(${target} SHARED $<TARGET_OBJECTS:${arg_OBJECTS}>)

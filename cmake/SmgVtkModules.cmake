@@ -10,12 +10,12 @@ vtk_module_scan(
   WANT_BY_DEFAULT ON
   ENABLE_TESTS OFF)
 
-# As VTK's own modules, these export what their macros mark.
+# Like the modules of VTK, these export only symbols marked by their macros.
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
-# The modules come as a package of their own, so that StreamingMultigrid::Solver and ::IOCore can be
-# found without VTK. Their headers lie flat beside the folder Solver, as VTK's own do.
+# The modules are a separate package, so that StreamingMultigrid::Solver and ::IOCore can be found
+# without VTK. Their headers are installed flat beside the folder Solver, like those of VTK.
 vtk_module_build(
   MODULES ${smg_vtk_modules}
   PACKAGE StreamingMultigridVTK

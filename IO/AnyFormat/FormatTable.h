@@ -17,20 +17,18 @@ namespace smg
 /** All formats. */
 std::span<const Format* const> formats();
 
-/** The format of a suffix, which is in lower case; null if there is none. */
+/** The format of a lower-case suffix; null if there is none. */
 SMG_EXPORT const Format* formatOfSuffix(std::string_view suffix);
-/** The format of a file name's suffix; .gz at its end is left out of account. */
+/** The format of the suffix of a file name, ignoring a trailing .gz. */
 const Format* formatOfName(const std::filesystem::path& path);
 
 /** The format by the signature of the file; null for formats without one, such as STL, OBJ and
  * TetGen. For a file compressed by gzip, the format of its content. */
 const Format* formatOfContent(const std::filesystem::path& path);
-/**
- * The format of an indexed mesh: by the sign that the file begins with, else by its first bytes if
- * they look like one, else by its suffix; null if nothing says it.
- */
+/** The format of an indexed mesh: by the signature of the file, else by the form of its first
+ * bytes, else by its suffix; null if unknown. */
 SMG_EXPORT const Format* formatOfFile(const std::filesystem::path& path);
-/** As formatOfFile(), of a file that begins with `start`. `size`: none if it is not known. */
+/** Like formatOfFile(), for a file that begins with `start`. `size`: none if unknown. */
 const Format* formatOfStart(
   std::string_view start, std::optional<std::uint64_t> size, const std::filesystem::path& path);
 
@@ -43,14 +41,14 @@ enum class FormatUse
   Restore       ///< in the order of the original file
 };
 
-/** The suffix of the path, if its files can be written so; null otherwise. */
+/** The suffix of the path, if it supports the operation; null otherwise. */
 SMG_EXPORT const FileSuffix* suffixFor(FormatUse use, const std::filesystem::path& path);
 
 /** The suffixes of a format. */
 SMG_EXPORT std::string suffixList(const Format& format, std::string_view conjunction);
-/** The suffixes that can be used so, as ".ply, .obj or .off". */
+/** The suffixes that support the operation, for example ".ply, .obj or .off". */
 SMG_EXPORT std::string suffixList(FormatUse use, std::string_view conjunction);
-/** The suffixes that can be used so and hold such cells. */
+/** The suffixes that support the operation for these cells. */
 SMG_EXPORT std::string suffixList(FormatUse use, CellType cells, std::string_view conjunction);
 
 /** The error message for cells that a suffix cannot hold. */

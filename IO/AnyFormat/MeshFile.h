@@ -10,13 +10,11 @@
 namespace smg
 {
 
-/**
- * The kind of an input file, by content where that says it, else by suffix: Vsm, Stream, Indexed,
- * or Unknown if neither says anything. The file may be damaged all the same, or not exist.
- */
+/** The kind of an input file, by its content if possible, else by its suffix: Vsm, Stream, Indexed,
+ * or Unknown. The file may still be damaged or not exist. */
 SMG_EXPORT MeshFileKind kindOfInput(const std::filesystem::path& path);
 
-/** The kind of an output file, by suffix; Unknown if meshes are not written so. */
+/** The kind of an output file, by suffix; Unknown if meshes cannot be written with it. */
 SMG_EXPORT MeshFileKind kindOfOutput(const std::filesystem::path& path);
 
 /**
@@ -26,17 +24,15 @@ SMG_EXPORT MeshFileKind kindOfOutput(const std::filesystem::path& path);
  */
 SMG_EXPORT void checkOutput(const std::filesystem::path& path, CellType cellType);
 
-/** The same as far as it can be known before the mesh is. */
+/** The same, before the mesh is known. */
 SMG_EXPORT void checkOutput(const std::filesystem::path& path);
 
 /** Throws Error if a file of any format cannot be created there: the path is a folder, a device or
  * a pipe, or its folder does not exist or is not writable. */
 void checkOutputPlace(const std::filesystem::path& path);
 
-/**
- * Throws Error if the output is an input, by whatever name or link. `what`: what the input is, as
- * "the mesh itself".
- */
+/** Throws Error if the output is an input, also by another name or link. `what` describes the
+ * input, for example "the mesh itself". */
 SMG_EXPORT void checkIsNotInput(const std::filesystem::path& in, const std::filesystem::path& out,
   const std::string& what = "the mesh itself");
 

@@ -28,7 +28,7 @@ namespace smg
 SMG_EXPORT std::vector<std::string> writeRestored(
   const std::filesystem::path& vsm, const std::filesystem::path& out, Workspace& workspace);
 
-/** Throws Error unless writeRestored() writes files of this name with these cells. */
+/** Throws Error unless writeRestored() can write files of this name with these cells. */
 SMG_EXPORT void checkRestoredPath(const std::filesystem::path& path, CellType cellType);
 
 } // namespace smg

@@ -15,7 +15,7 @@ namespace smg
 
 bool isCompressedStream(const std::filesystem::path& path)
 {
-  // A text stream looks like an OBJ file: there its name tells.
+  // A text stream looks like an OBJ file: its name decides.
   std::error_code ignored;
   return std::filesystem::is_regular_file(path, ignored) &&
          std::filesystem::file_size(path, ignored) > 0 && isGzip(InputFile(path).at(0, 2)) &&

@@ -8,13 +8,11 @@
 namespace smg
 {
 
-/** Whether the file is compressed by gzip and, as far as its beginning tells, no mesh to parse. */
+/** Whether the file is a stream compressed by gzip, according to its first bytes and its name. */
 bool isCompressedStream(const std::filesystem::path& path);
 
-/**
- * Converts such a file by way of one that is not compressed, in the scratch folder. Throws as
- * convert(), and Error if the compressed data are damaged.
- */
+/** Converts such a file via an uncompressed file in the scratch folder. Throws like convert(), and
+ * Error if the compressed data are damaged. */
 ConversionReport convertCompressedStream(const std::filesystem::path& in,
   const std::filesystem::path& out, const ConversionOptions& options);
 

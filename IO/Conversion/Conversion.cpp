@@ -18,7 +18,7 @@ namespace smg
 namespace
 {
 
-/** Memory that vertices wait in while a streaming format is read. */
+/** Memory for buffered vertices while a streaming format is read. */
 constexpr std::int64_t MostStreamMemory = std::int64_t(256) << 20;
 
 } // namespace
@@ -79,7 +79,7 @@ const VsmReader& Conversion::openStream()
   return *this->Stream;
 }
 
-/** Makes a .vsm file of a streaming file; answers its name. */
+/** Converts a streaming file to a .vsm file; returns its name. */
 std::filesystem::path Conversion::importStream()
 {
   StreamToVsmOptions options;
@@ -92,7 +92,7 @@ std::filesystem::path Conversion::importStream()
   return path;
 }
 
-/** Throws Error if a stream, whose cells are all of one kind, has none of those that are wanted. */
+/** Throws Error if a stream, whose cells have one type, has none of the requested cells. */
 void Conversion::checkCells(const StreamInfo& info) const
 {
   const CellChoice unwanted =

@@ -17,41 +17,41 @@
 namespace smg
 {
 
-/** What all ways to convert a mesh share: files, options, memory, and the report. */
+/** The common state of all conversions: files, options, memory, and the report. */
 class Conversion
 {
 public:
-  /** Keeps references. Throws Error if the options do not hold for any mesh. */
+  /** Keeps references. Throws Error if the options are invalid for any mesh. */
   Conversion(const std::filesystem::path& in, const std::filesystem::path& out,
     const ConversionOptions& options);
 
   const std::filesystem::path& in() const { return this->In; }
   const std::filesystem::path& out() const { return this->Out; }
   const ConversionOptions& options() const { return this->Options; }
-  /** What is wanted of the input. */
+  /** Which part of the input is read. */
   MeshPart part() const { return { this->Options.timeStep, this->Options.partition }; }
-  /** Limit of the memory, bytes. */
+  /** The memory limit in bytes. */
   std::int64_t memory() const { return this->Memory; }
 
-  /** Scratch files and memory, made when they are first asked for. */
+  /** Scratch files and memory, created on first use. */
   Workspace& workspace();
-  /** Progress of the workspace's current part, for what tells fractions. */
+  /** The progress of the current part of the workspace, for operations that report fractions. */
   ProgressFunction progress();
 
   MeshFileKind inputKind() const { return this->From; }
-  /** Whether the input is in a stream order already. */
+  /** Whether the input already has a stream order. */
   bool isStream() const;
-  /** Such an input, as a .vsm file. Throws Error if its cells are not those that are wanted. */
+  /** Opens such an input as a .vsm file. Throws Error if it does not have the requested cells. */
   const VsmReader& openStream();
-  /** The stream that was opened, if any. */
+  /** The opened stream, if any. */
   const VsmReader* stream() const { return this->Stream ? &*this->Stream : nullptr; }
 
   using AddTables = std::function<void(VsmWriter&)>;
-  /** Writes the mesh in the format of the output; a .vsm file gets what `add` has to add. */
+  /** Writes the mesh in the format of the output; `add` adds tables to a .vsm file. */
   void write(MeshSource& source, const AddTables& add);
 
   ConversionReport& report() { return this->Report; }
-  /** Seconds since the last time it was asked. */
+  /** Seconds since the last call. */
   double lap();
 
 private:

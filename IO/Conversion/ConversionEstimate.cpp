@@ -35,10 +35,8 @@ std::int64_t columnBytes(const StreamInfo& info)
   return bytes;
 }
 
-/**
- * Bytes of what a file holds that gzip compressed: its last four bytes say them modulo 2^32, if it
- * is one member.
- */
+/** The uncompressed size of a gzip file: its last four bytes store it modulo 2^32, if it has one
+ * member. */
 std::int64_t inflatedSize(InputFile& file)
 {
   const std::string_view tail = file.at(file.size() - 4, 4);
@@ -49,10 +47,10 @@ std::int64_t inflatedSize(InputFile& file)
   return said + (std::max<std::int64_t>(least - said, 0) + Modulus - 1) / Modulus * Modulus;
 }
 
-/** What a file says, or its size lets guess. */
+/** The counts of a file, from its header or estimated from its size. */
 struct Counts : FileCounts
 {
-  std::int64_t inflatedBytes = 0; ///< of the file, if it is compressed
+  std::int64_t inflatedBytes = 0; ///< of a compressed file
 };
 
 Counts guess(InputFile& file, bool compressed, const VertexShare& share)
@@ -111,8 +109,8 @@ std::filesystem::path scratchFolder(const std::filesystem::path& folder)
 std::int64_t scratchBytes(
   std::int64_t vertices, std::int64_t cells, int corners, std::int64_t columnBytes)
 {
-  // The mesh as it was parsed, pages, and cells by their places, of which the last two do not
-  // overlap with all that comes before them; columns twice while they are brought into order.
+  // The parsed mesh, the pages and the cells by their places, the last two of which do not overlap
+  // with everything before them; columns twice while they are reordered.
   constexpr std::int64_t VertexBytes = 95;
   constexpr std::int64_t CornerBytes = 15;
   return vertices * VertexBytes + cells * corners * CornerBytes + 2 * columnBytes;

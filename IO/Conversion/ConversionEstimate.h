@@ -12,15 +12,16 @@
 namespace smg
 {
 
-/** What a conversion will take, known before the mesh is read. */
+/** An estimate of the cost of a conversion, before the mesh is read. */
 struct SMG_EXPORT ConversionEstimate
 {
   std::int64_t vertices = 0, cells = 0;
-  /** Whether the file says its counts; else they are guessed from its size. */
+  /** Whether the counts are from the header of the file; otherwise they are estimated from its
+   * size. */
   bool counted = false;
   std::int64_t memory_bytes = 0;  ///< limit of the accounted memory
-  std::int64_t scratch_bytes = 0; ///< most bytes of scratch files at once
-  std::int64_t scratch_free = 0;  ///< room in the folder for scratch files
+  std::int64_t scratch_bytes = 0; ///< maximum bytes of scratch files at once
+  std::int64_t scratch_free = 0;  ///< free space in the folder for scratch files
   std::int64_t output_bytes = 0;  ///< of a .vsm file
   double cpu_seconds = 0;         ///< on a machine of 2023
 
@@ -28,24 +29,22 @@ struct SMG_EXPORT ConversionEstimate
   std::string json(int indent = 2) const;
 };
 
-/**
- * Estimates the conversion of a mesh file from what its beginning says, or from its size. Throws
- * Error if the file cannot be opened or its format is not known.
- */
+/** Estimates the conversion of a mesh file from its header or its size. Throws Error if the file
+ * cannot be opened or its format is unknown. */
 SMG_EXPORT ConversionEstimate estimateConversion(
   const std::filesystem::path& in, const ConversionOptions& options = {});
 
-/** Most bytes that the scratch files of a mesh take at once. */
+/** The maximum bytes that the scratch files of a mesh take at once. */
 std::int64_t scratchBytes(
   std::int64_t vertices, std::int64_t cells, int corners, std::int64_t columnBytes);
 
-/** The same of a mesh that was parsed. */
+/** The same for a parsed mesh. */
 std::int64_t scratchBytes(const RawMesh& mesh);
 
 /**
- * Refuses scratch files that certainly do not fit: throws Error, with both figures, unless `folder`
- * (empty: the temporary folder) has room for half of `bytes`, as scratchBytes() estimates them,
- * without those that are `written` already.
+ * Rejects scratch files that certainly do not fit: throws Error, with both figures, unless `folder`
+ * (empty: the temporary folder) has space for half of `bytes`, as estimated by scratchBytes(),
+ * minus those already `written`.
  */
 void checkScratchRoom(
   const std::filesystem::path& folder, std::int64_t bytes, std::int64_t written = 0);

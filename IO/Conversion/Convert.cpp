@@ -18,7 +18,7 @@ namespace smg
 namespace
 {
 
-/** Back into the order of the first file. */
+/** Restores the order of the original file. */
 void restoreMesh(Conversion& conversion)
 {
   if (conversion.inputKind() != MeshFileKind::Vsm)

@@ -25,7 +25,9 @@ namespace
 
 constexpr std::int64_t Unknown = std::numeric_limits<std::int64_t>::max();
 
-/** Refuses what certainly does not fit the disk where the file says how large the mesh is. */
+/**
+ * Rejects meshes that certainly do not fit on the disk, if the file states the size of the mesh.
+ */
 void checkSaidRoom(const Conversion& conversion)
 {
   if (conversion.inputKind() == MeshFileKind::Unknown)
@@ -99,7 +101,7 @@ void convertMesh(Conversion& conversion)
 
   LayOutCounts counts;
   const StreamLayout layout = layOut(mesh, conversion.options().order, space, counts, 0.75);
-  // Points that were merged into others are in no cell any more.
+  // Merged points no longer belong to a cell.
   report.isolated_vertices += counts.mesh.isolatedVertices - welded;
   noteImport(mesh.counts, report);
   noteLayout(counts, layout, report);
@@ -114,7 +116,7 @@ void convertMesh(Conversion& conversion)
       takeIsolatedVertices(mesh, layout, space,
         [&writer](const IsolatedVertices& vertices)
         { writer.isolated(vertices.ids, vertices.positions, vertices.columns); });
-      // Those of a stream are beside it already, by their numbers in the first file.
+      // Those of a stream are already stored separately, by their indices in the original file.
       if (const VsmReader* const stream = conversion.stream())
       {
         copyIsolated(stream->path(), source.info(), writer);

@@ -6,7 +6,7 @@
 namespace smg
 {
 
-/** Brings a mesh into a new order, by scratch files, and writes it. Throws as convert(). */
+/** Sorts a mesh into a stream order with scratch files and writes it. Throws like convert(). */
 void convertMesh(Conversion& conversion);
 
 } // namespace smg

@@ -20,7 +20,7 @@ namespace
 
 const ColumnSpec FlagsSpec{ CellFlagsName, ScalarType::UInt8, 1 };
 
-/** Gives `use` all blocks of the stream, with these cell columns, and tells the progress. */
+/** Passes all blocks of the stream with these cell columns to `use`, and reports progress. */
 template <class Use>
 void forEachBlock(Conversion& conversion, const VsmReader& reader,
   const std::vector<std::string>& columns, Use&& use)
@@ -35,7 +35,7 @@ void forEachBlock(Conversion& conversion, const VsmReader& reader,
   }
 }
 
-/** Counts the flags that the cells of the stream have. */
+/** Counts the flags of the cells of the stream. */
 void countFlags(Conversion& conversion, const VsmReader& reader)
 {
   ConversionReport& report = conversion.report();
@@ -50,7 +50,7 @@ void countFlags(Conversion& conversion, const VsmReader& reader)
     });
 }
 
-/** Counts the degenerate and duplicate cells of the stream, unless that takes too much. */
+/** Counts the degenerate and duplicate cells of the stream, unless that needs too much memory. */
 void findFlags(Conversion& conversion, const VsmReader& reader)
 {
   const StreamInfo& info = reader.info();

@@ -6,10 +6,8 @@
 namespace smg
 {
 
-/**
- * Writes a mesh that is a stream in the order that it has, block by block, with the flags of its
- * degenerate and duplicate cells. Throws as convert().
- */
+/** Writes a stream in its order, block by block, with the flags of its degenerate and duplicate
+ * cells. Throws like convert(). */
 void copyStream(Conversion& conversion);
 
 } // namespace smg

@@ -24,7 +24,7 @@ namespace smg
 namespace
 {
 
-/** Lets one process at a time convert a file, where the file system can lock it. */
+/** Lets one process at a time convert a file, if the file system supports locks. */
 class InputLock
 {
 public:
@@ -42,7 +42,7 @@ public:
   InputLock(const InputLock&) = delete;
   InputLock& operator=(const InputLock&) = delete;
 
-  /** Waits as long as another process has the lock. Throws Cancelled. */
+  /** Waits while another process has the lock. Throws Cancelled. */
   void wait(const ProgressFunction& progress) const
   {
     Progress waiting(progress);
@@ -57,7 +57,7 @@ private:
   int File;
 };
 
-/** The full path of a file as printable ASCII: a file name need not be UTF-8. */
+/** The absolute path of a file as printable ASCII: a file name need not be UTF-8. */
 std::string plainPath(const std::filesystem::path& path)
 {
   static constexpr char Digits[] = "0123456789abcdef";
@@ -77,7 +77,7 @@ std::string plainPath(const std::filesystem::path& path)
   return name;
 }
 
-/** What the conversion of the file as it is now says of its origin. */
+/** The origin of a conversion of the current file. */
 std::string originOf(const std::filesystem::path& in, const ConversionOptions& options)
 {
   return plainPath(in) + ' ' + std::to_string(std::filesystem::file_size(in)) + " bytes of " +
@@ -91,7 +91,7 @@ std::string originOf(const std::filesystem::path& in, const ConversionOptions& o
          (options.partition ? ", partition " + std::to_string(*options.partition) : "");
 }
 
-/** The origin that a file tells; empty if it tells none or is not a whole .vsm file. */
+/** The origin stored in a file; empty if it has none or is not a complete .vsm file. */
 std::string toldOrigin(const std::filesystem::path& path)
 {
   try

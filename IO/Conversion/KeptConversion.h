@@ -11,17 +11,17 @@ namespace smg
 {
 
 /**
- * Converts a mesh file to a .vsm file that is kept and used again: it is made if it is not there,
- * and made anew if it was made by this function of the file of that path as it was before, or in
- * another order. The .vsm file says itself what it was made from (VsmFormat: origin).
+ * Converts a mesh file to a .vsm file that is kept and reused. The file is created if it does not
+ * exist, and replaced if this function created it from an earlier version of the same file or with
+ * other options. The .vsm file stores its origin (VsmFormat: origin).
  *
- * A file that is something else, also the conversion of a file elsewhere, is not touched, unless
- * `overwrite` is set. Processes that want the same conversion at the same time wait for the first
- * one and use its file.
+ * Any other existing file, including the conversion of another file, is not modified unless
+ * `overwrite` is set. Concurrent processes with the same conversion wait for the first one and use
+ * its file.
  *
- * @return what the conversion did; none if `out` was up to date
- * @throws Error as convert(), and if `out` does not end in .vsm, is the input, or would be
- * overwritten without leave; Cancelled. A file that was there before is still there then.
+ * @return the report of the conversion; none if `out` was up to date
+ * @throws Error like convert(), and if `out` does not end in .vsm, is the input, or would be
+ * overwritten without permission; Cancelled. An existing file is kept then.
  */
 SMG_EXPORT std::optional<ConversionReport> convertToKeep(const std::filesystem::path& in,
   const std::filesystem::path& out, const ConversionOptions& options, bool overwrite = false);

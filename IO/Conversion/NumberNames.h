@@ -9,14 +9,11 @@
 namespace smg
 {
 
-/**
- * A column that has the name of the original numbers, but is not of their type, as in the formats
- * that have no such integers, is one of the mesh's own: gives it a free name, and says so in a
- * sentence of `notes`.
- */
+/** Renames a column of the mesh that has the name of the original indices but another type (as in
+ * formats without such integers), with a sentence in `notes`. */
 void freeNumberNames(RawMesh& mesh, std::vector<std::string>& notes);
 
-/** Whether the mesh has columns of original numbers of its own. */
+/** Whether the mesh already has columns of original indices. */
 bool isNumbered(const RawMesh& mesh);
 
 } // namespace smg

@@ -52,7 +52,7 @@ void Base64Encoder::finish(std::string& text)
   {
     char characters[4];
     encode(this->Group.data(), characters);
-    // Of n bytes, n + 1 characters say something.
+    // For n bytes, n + 1 characters carry data.
     text.append(characters, this->Count + 1).append(3 - this->Count, '=');
   }
   this->Group = {};

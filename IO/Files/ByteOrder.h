@@ -10,11 +10,11 @@
 namespace smg
 {
 
-/** Other than in this machine. */
+/** The byte order that is not that of this machine. */
 inline constexpr std::endian OtherByteOrder =
   std::endian::native == std::endian::little ? std::endian::big : std::endian::little;
 
-/** A number with its bytes from last to first. */
+/** Returns a number with its bytes in reverse order. */
 template <class T>
 T byteSwapped(T value)
 {
@@ -36,7 +36,7 @@ T byteSwapped(T value)
   }
 }
 
-/** The number that begins at `bytes`, in their byte order. */
+/** Returns the number that begins at `bytes`, in their byte order. */
 template <class T>
 T numberAt(const void* bytes, std::endian order)
 {
@@ -45,8 +45,8 @@ T numberAt(const void* bytes, std::endian order)
   return order == std::endian::native ? value : byteSwapped(value);
 }
 
-/** Brings scalars of `size` bytes, one after the other, from this machine's byte order to another,
- * or back. */
+/** Converts consecutive scalars of `size` bytes from the byte order of this machine to another, or
+ * back. */
 inline void toByteOrder(std::endian order, std::span<std::byte> scalars, std::size_t size)
 {
   const auto swapAll = [scalars]<class T>(T)

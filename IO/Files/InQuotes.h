@@ -8,7 +8,7 @@
 namespace smg
 {
 
-/** `text`, shortened and with unprintable characters replaced, in quotes: for errors. */
+/** `text` in quotes for error messages, shortened and with unprintable characters replaced. */
 SMG_EXPORT std::string inQuotes(std::string_view text);
 
 } // namespace smg

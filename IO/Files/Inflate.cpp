@@ -35,11 +35,11 @@ public:
   GzipStream(const GzipStream&) = delete;
   GzipStream& operator=(const GzipStream&) = delete;
 
-  /** What the next calls of step() take. */
+  /** Sets the input of the next calls of step(). */
   void setInput(std::string_view bytes)
   {
     constexpr std::size_t most = std::numeric_limits<uInt>::max();
-    // zlib does not write to its input, whatever its type says.
+    // zlib does not write to its input, in spite of its type.
     this->Stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
     this->Stream.avail_in = static_cast<uInt>(std::min(bytes.size(), most));
   }
@@ -48,7 +48,7 @@ public:
     return { reinterpret_cast<const char*>(this->Stream.next_in), this->Stream.avail_in };
   }
 
-  /** Inflates as much as there is and has room; answers the bytes written. */
+  /** Inflates the available input as far as there is room; returns the bytes written. */
   std::size_t step(std::span<std::byte> room)
   {
     this->Stream.next_out = reinterpret_cast<Bytef*>(room.data());
@@ -59,7 +59,7 @@ public:
       throw std::bad_alloc();
     }
     this->MemberEnded = result == Z_STREAM_END;
-    // What zlib calls a buffer error is that there is nothing more to do now.
+    // A buffer error of zlib only means that no further progress is possible.
     this->Damaged = !this->MemberEnded && result != Z_OK && result != Z_BUF_ERROR;
     return room.size() - this->Stream.avail_out;
   }
@@ -78,7 +78,7 @@ private:
   bool Damaged = false;
 };
 
-/** Inflates a file from its front to its back. */
+/** Inflates a file from begin to end. */
 class FileInflater
 {
 public:
@@ -89,7 +89,7 @@ public:
     , Out(FileDescriptor::createBeside(to))
   {
   }
-  /** Without renameTo(), nothing is left of the file. */
+  /** Removes the file unless renameTo() was called. */
   ~FileInflater()
   {
     if (this->Out.isOpen())
@@ -122,7 +122,8 @@ public:
   void renameTo(const std::filesystem::path& path) { this->Out.renameTo(path); }
 
 private:
-  /** Inflates until the input is used up, which ends at `end` of the file, or the member ends. */
+  /** Inflates the input, which ends at offset `end` of the file, up to its end or that of the
+   * member. */
   void inflateInput(std::size_t end)
   {
     std::size_t written = 0;
@@ -136,12 +137,12 @@ private:
       this->Out.write(this->Written, this->Chunk.bytes().first(written));
       this->Written += static_cast<std::int64_t>(written);
       this->Space.traffic().bytesWritten += static_cast<std::int64_t>(written);
-      // A little that is compressed can become a lot.
+      // A small input can have a large output.
       this->Space.poll();
     } while (!this->Gzip.memberEnded() && written == this->Chunk.size());
   }
 
-  /** Begins the member at `offset`; false if there is only padding from there on. */
+  /** Starts the member at `offset`; returns false if only padding follows. */
   bool startMember(std::size_t offset)
   {
     if (isGzip(this->File.at(offset, 2)))

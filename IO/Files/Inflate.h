@@ -12,23 +12,23 @@
 namespace smg
 {
 
-/** Whether a file that begins with these bytes is compressed by gzip. */
+/** Whether a file with these first bytes is compressed by gzip. */
 inline bool isGzip(std::string_view bytes)
 {
   return bytes.starts_with("\x1f\x8b");
 }
 
 /**
- * Writes what a file holds that gzip compressed, one member or several, to the file `to`. Checksums
- * are checked. Throws Error naming the file and the byte: it is damaged, truncated or not of gzip.
+ * Decompresses a gzip file with one or several members to the file `to` and verifies checksums.
+ * Throws Error, which names the file and the byte, if it is damaged, truncated or not a gzip file.
  */
 void inflateFile(InputFile& file, Workspace& workspace, const std::filesystem::path& to);
 
-/** What a file holds that gzip compressed, as a file that is removed at the end of the scope. */
+/** The decompressed content of a gzip file as a file that is removed at the end of the scope. */
 class InflatedFile
 {
 public:
-  /** Makes the file of this name in the workspace's folder. Throws as inflateFile(). */
+  /** Creates the file of this name in the folder of the workspace. Throws like inflateFile(). */
   InflatedFile(InputFile& file, Workspace& workspace, const char* name);
   ~InflatedFile();
   InflatedFile(const InflatedFile&) = delete;
@@ -40,7 +40,8 @@ private:
   std::filesystem::path Path;
 };
 
-/** The first bytes of what such a file holds, at most `most`, as far as its first bytes tell. */
+/** The first bytes of the content of such a file, at most `most`, decompressed from its first
+ * bytes. */
 std::string inflateStart(std::string_view bytes, std::size_t most);
 
 } // namespace smg

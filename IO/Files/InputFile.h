@@ -14,32 +14,28 @@
 namespace smg
 {
 
-/**
- * A file that is parsed: a window of it is in memory, which goes wherever it is asked for. Reading
- * from front to back is what it is quick at.
- */
+/** A file for parsing: a window of it is in memory, which moves to any requested offset. Optimised
+ * for sequential reading. */
 class SMG_EXPORT InputFile
 {
 public:
-  /** Bytes that are read at once. */
+  /** The number of bytes read at once. */
   static constexpr std::size_t WindowBytes = std::size_t(1) << 20;
 
   /**
    * Opens the file. Throws Error if it cannot be read, is not a regular file or is empty.
-   * @param name what errors call the file; empty: its path
+   * @param name the name of the file in error messages; empty: its path
    */
   explicit InputFile(
     std::filesystem::path path, ProgressFunction progress = {}, std::string name = {});
 
-  /** What errors call the file. */
+  /** The name of the file in error messages. */
   const std::string& name() const { return this->Name; }
   const std::filesystem::path& path() const { return this->Path; }
   std::size_t size() const { return this->Size; }
 
-  /**
-   * The bytes from `offset` on: at least `least`, or all there are up to the end of the file, and
-   * more if they are in memory. Valid until the next call. Tells progress. Throws Error; Cancelled.
-   */
+  /** The bytes from `offset` on: at least `least`, or all up to the end of the file, and more if
+   * they are in memory. Valid until the next call. Reports progress. Throws Error and Cancelled. */
   std::string_view at(std::size_t offset, std::size_t least = 1)
   {
     if (offset >= this->Begin && offset + least <= this->Begin + this->Used)
@@ -49,7 +45,7 @@ public:
     return this->move(offset, least);
   }
 
-  /** Tells progress by bytes of the file that others have read. Throws Cancelled. */
+  /** Reports progress for bytes of the file that were read elsewhere. Throws Cancelled. */
   void passed(std::size_t bytes);
 
   /** Throws Error: "NAME, byte OFFSET: SENTENCE" */
@@ -64,7 +60,7 @@ private:
   std::size_t Size = 0;
   Progress Reported;
   std::vector<char> Window;
-  std::size_t Begin = 0; ///< place of the window in the file
+  std::size_t Begin = 0; ///< offset of the window in the file
   std::size_t Used = 0;  ///< bytes of the window
   std::size_t Passed = 0;
 };

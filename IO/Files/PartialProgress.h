@@ -8,7 +8,7 @@
 namespace smg
 {
 
-/** The progress of a part of an operation, which goes from `begin` to `end` of the whole. */
+/** The progress function of a part of an operation, from `begin` to `end` of the whole. */
 inline ProgressFunction partOf(ProgressFunction whole, double begin, double end)
 {
   if (!whole)

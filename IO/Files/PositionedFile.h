@@ -11,13 +11,13 @@
 namespace smg
 {
 
-/** A new file that is written at any places and gets its name when it is complete. */
+/** A file that is written at arbitrary offsets and renamed when it is complete. */
 class PositionedFile
 {
 public:
-  /** Makes the file under a temporary name beside `path`. Throws Error. */
+  /** Creates the file under a temporary name beside `path`. Throws Error. */
   explicit PositionedFile(std::filesystem::path path);
-  /** Without finish(), nothing is left of the file. */
+  /** Removes the file unless finish() was called. */
   ~PositionedFile();
   PositionedFile(const PositionedFile&) = delete;
   PositionedFile& operator=(const PositionedFile&) = delete;
@@ -25,7 +25,7 @@ public:
   /** Writes the bytes at this offset. Throws Error. */
   void write(std::int64_t offset, std::span<const std::byte> bytes);
 
-  /** Closes the file and gives it its name. Throws Error. */
+  /** Closes and renames the file. Throws Error. */
   void finish();
 
 private:

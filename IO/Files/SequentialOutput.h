@@ -13,7 +13,7 @@
 namespace smg
 {
 
-/** Writes a file from begin to end. It gets its name by finish(); without it nothing is left. */
+/** Writes a file from begin to end. finish() renames it; without finish() it is removed. */
 class SequentialOutput
 {
 public:
@@ -23,10 +23,10 @@ public:
   SequentialOutput& operator=(const SequentialOutput&) = delete;
 
   const std::filesystem::path& path() const { return this->Path; }
-  /** Writes bytes. A failure is thrown at once or by a later call. */
+  /** Writes bytes. A failure is thrown immediately or by a later call. */
   void put(std::span<const std::byte> bytes);
   void put(std::string_view text) { this->put(std::as_bytes(std::span(text))); }
-  /** Writes all that was put, so that only the name is missing. */
+  /** Writes all buffered bytes, so that only renaming is left. */
   void flush();
   void finish();
 

@@ -27,11 +27,11 @@ bool endsWord(char c)
   return isTextBlank(c) || c == '<';
 }
 
-/** Parses a number; null if there is none or the type does not have it. */
+/** Parses a number; null if there is none or the type cannot represent it. */
 template <class T>
 const char* parse(const char* begin, const char* end, T& value)
 {
-  // The parsers know no leading plus sign, files do.
+  // The parsers do not accept a leading plus sign, which occurs in files.
   begin += end - begin > 1 && begin[0] == '+' && begin[1] != '-' ? 1 : 0;
   if constexpr (std::is_floating_point_v<T>)
   {
@@ -74,7 +74,7 @@ std::size_t TextNumbers::readAs(T* values, std::size_t count)
     {
       break;
     }
-    // Words that may be cut off at the end of what is in memory are left to the next turn.
+    // Words that may be truncated at the end of the buffer are left for the next call.
     const bool all = this->At + text.size() >= this->File.size();
     const char* const end = text.data() + text.size();
     const char* const last = all ? end : end - MostLetters + 1;

@@ -11,7 +11,9 @@
 namespace smg
 {
 
-/** Numbers of a text between blanks and line ends, up to a '<' or the end of the file. */
+/**
+ * Reads numbers of a text separated by blanks and line ends, up to a '<' or the end of the file.
+ */
 class TextNumbers
 {
 public:
@@ -22,19 +24,19 @@ public:
   }
 
   /**
-   * Reads up to `count` numbers as scalars of `type`, answers how many there were. Throws Error,
-   * with the place, where there is no number, or one that the type does not have. Numbers that need
-   * not be finite are not checked to be.
+   * Reads up to `count` numbers as scalars of `type`; returns their number. Throws Error, with the
+   * position, for a word that is not a number or that the type cannot represent. Finiteness is not
+   * checked.
    */
   std::size_t read(ScalarType type, std::byte* values, std::size_t count);
 
-  /** Passes up to `count` words, whatever they are; answers how many there were. */
+  /** Skips up to `count` arbitrary words; returns their number. */
   std::int64_t skip(std::int64_t count);
 
   std::size_t offset() const { return this->At; }
 
 private:
-  /** Longest word that is a number. */
+  /** The maximum length of a number. */
   static constexpr std::size_t MostLetters = 512;
 
   /** The rest of the text from the next word on; empty at the end. */

@@ -16,10 +16,8 @@
 namespace smg
 {
 
-/**
- * Writes a text file. Numbers are as short as they can be to read back exactly. The file gets its
- * name by finish(); without it nothing is left.
- */
+/** Writes a text file. Numbers have the shortest representation that reads back exactly. finish()
+ * renames the file; without finish() it is removed. */
 class TextOutput
 {
 public:
@@ -94,7 +92,7 @@ public:
       });
   }
 
-  /** Writes all to the disk, so that only the name is missing. */
+  /** Writes all bytes to disk, so that only renaming is left. */
   void write()
   {
     this->flush();
@@ -108,7 +106,7 @@ public:
 
 private:
   static constexpr std::size_t BufferBytes = std::size_t(64) << 10;
-  /** More characters than any number has. */
+  /** An upper bound of the characters of a number. */
   static constexpr std::size_t MostDigits = 32;
 
   void flush()

@@ -16,7 +16,7 @@ namespace smg
 namespace
 {
 
-/** from_chars knows no leading plus sign, files do. */
+/** from_chars does not accept a leading plus sign, which occurs in files. */
 const char* afterPlus(std::string_view token)
 {
   return token.data() + (token.size() > 1 && token[0] == '+' && token[1] != '-' ? 1 : 0);
@@ -52,7 +52,7 @@ void TextScanner::moveTo(std::size_t offset)
     this->EndOffset == this->File.size() ? this->End : this->End - (MostTokenBytes + 1);
 }
 
-/** Has a token and more in memory, if the file has it; false at the end of the file. */
+/** Loads at least one complete token, if any; returns false at the end of the file. */
 bool TextScanner::refill()
 {
   if (this->At > this->FarEnough)
@@ -87,7 +87,7 @@ void TextScanner::skipBlanks()
   }
 }
 
-/** The token that begins here, not passed; empty if none does. */
+/** The token that begins here, without consuming it; empty if there is none. */
 std::string_view TextScanner::tokenHere()
 {
   this->refill();
@@ -146,7 +146,7 @@ double TextScanner::toNumber(std::string_view token, const char* what, bool fini
   const auto result = fast_float::from_chars(afterPlus(token), end, value);
   if (result.ptr == end && result.ec == std::errc::result_out_of_range && std::abs(value) < 1.0)
   {
-    return value; // so small that it is zero
+    return value; // underflow to zero
   }
   if (result.ptr == end && (result.ec == std::errc::result_out_of_range || !std::isfinite(value)))
   {
@@ -191,7 +191,7 @@ std::int64_t TextScanner::toInteger(std::string_view token, const char* what) co
 std::int64_t TextScanner::count(const char* what, std::size_t leastBytes)
 {
   const std::int64_t value = this->integer(what);
-  // The last thing of a file needs no line end.
+  // The last item of a file needs no line end.
   if (value < 0 || static_cast<std::uint64_t>(value) > (this->left() + 1) / leastBytes)
   {
     this->fail(std::to_string(value) + " cannot be " + what + ": the file has " +

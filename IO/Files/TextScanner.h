@@ -13,33 +13,31 @@
 namespace smg
 {
 
-/** What some editors put before a text to say that it is UTF-8. */
+/** The byte order mark that some editors write at the begin of UTF-8 texts. */
 inline constexpr std::string_view ByteOrderMark = "\xEF\xBB\xBF";
 
 /**
- * Reads an InputFile as text: tokens separated by blanks, numbers, lines. Knows the line it is at,
- * for errors. A carriage return counts as a blank; a byte order mark before the text is passed.
+ * Reads an InputFile as text: tokens separated by blanks, numbers, lines. Tracks the line number
+ * for error messages. A carriage return counts as a blank; an initial byte order mark is skipped.
  *
- * It reads from the file's window: whoever asks the file for other bytes in between must moveTo()
- * where the text goes on. A token that is given out is valid until the next call that reads.
+ * It reads from the window of the file: after other requests to the file, moveTo() must be called.
+ * A returned token is valid until the next reading call.
  */
 class TextScanner
 {
 public:
-  /** A token that is longer is refused. */
+  /** The maximum length of a token. */
   static constexpr std::size_t MostTokenBytes = std::size_t(64) << 10;
 
-  /**
-   * Begins at byte `begin`, which is in line `line` (counted from 1). `comment` starts a comment
-   * that reaches to the end of the line; 0: there are none.
-   */
+  /** Starts at byte `begin`, which is in line `line` (counted from 1). `comment` starts a comment
+   * up to the end of the line; 0: no comments. */
   explicit TextScanner(
     InputFile& file, char comment = '\0', std::size_t begin = 0, std::int64_t line = 1);
 
-  /** Goes on at byte `offset` of the file; the line number goes on as well. */
+  /** Continues at byte `offset` of the file, with consecutive line numbers. */
   void moveTo(std::size_t offset);
 
-  /** The next token of this line; empty at the line's end. */
+  /** The next token of this line; empty at the end of the line. */
   std::string_view tokenInLine();
   /** The next token of this or a later line; empty at the end of the file. */
   std::string_view token()
@@ -48,29 +46,27 @@ public:
     this->At += token.size();
     return token;
   }
-  /** The next token without passing it, over line ends; empty at the end of the file. */
+  /** The next token of this or a later line without consuming it; empty at the end of the file. */
   std::string_view peek();
-  /** Passes the rest of the line and its end. */
+  /** Skips the rest of the line and its end. */
   void skipLine();
-  /** Whether only blanks, comments and line ends are left. */
+  /** Whether only blanks, comments and line ends remain. */
   bool atEnd() { return this->peek().empty(); }
 
-  /** The next token as a finite number. Errors say that it should be `what`. */
+  /** The next token as a finite number. Error messages say that it should be `what`. */
   double number(const char* what) { return this->toNumber(this->token(), what); }
   std::int64_t integer(const char* what) { return this->toInteger(this->token(), what); }
   /** The same for a token that has been read; an empty one is the end of the file or line. */
   double toNumber(std::string_view token, const char* what, bool finite = true) const;
   std::int64_t toInteger(std::string_view token, const char* what) const;
-  /** A token as a finite number; nothing if it is none. */
+  /** A token as a finite number, if it is one. */
   static std::optional<double> finiteNumber(std::string_view token);
 
-  /**
-   * A number of things that follow, each of at least `leastBytes` bytes: refused if negative or
-   * more than the rest of the file can hold.
-   */
+  /** A count of following items, each of at least `leastBytes` bytes: an error if it is negative or
+   * more than the rest of the file can hold. */
   std::int64_t count(const char* what, std::size_t leastBytes);
 
-  /** Place in the file of what comes next. */
+  /** The offset in the file of the next byte. */
   std::size_t offset() const
   {
     return this->EndOffset - static_cast<std::size_t>(this->End - this->At);
@@ -99,7 +95,8 @@ private:
   std::string_view tokenHere();
 
   InputFile& File;
-  // Between At and End lies what is in memory; below FarEnough this is a token's most and one more.
+  // The bytes between At and End are in memory; below FarEnough, these contain a token of maximum
+  // length and one more byte.
   const char* At = nullptr;
   const char* End = nullptr;
   const char* FarEnough = nullptr;

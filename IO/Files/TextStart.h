@@ -9,7 +9,7 @@
 namespace smg
 {
 
-// What tells the formats of texts by their beginnings.
+// Functions to detect text formats by their first bytes.
 
 inline constexpr std::string_view Blanks = " \t\r\f\v\n";
 
@@ -24,19 +24,19 @@ inline std::string_view withoutMark(std::string_view text)
   return text.substr(text.starts_with(ByteOrderMark) ? ByteOrderMark.size() : 0);
 }
 
-/** The text from its first character on that is no blank. */
+/** The text from its first non-blank character on. */
 inline std::string_view trimmed(std::string_view text)
 {
   return text.substr(std::min(text.find_first_not_of(Blanks), text.size()));
 }
 
-/** The text without byte order mark, from its first character on that is no blank. */
+/** The text without byte order mark, from its first non-blank character on. */
 inline std::string_view textStart(std::string_view bytes)
 {
   return trimmed(withoutMark(bytes));
 }
 
-/** The same from the first line on that is no comment, which begin with #. */
+/** The same from the first line on that is not a comment (beginning with #). */
 inline std::string_view textAfterComments(std::string_view bytes)
 {
   std::string_view text = textStart(bytes);

@@ -10,7 +10,7 @@
 namespace smg
 {
 
-/** Takes a line of text apart into words and numbers that stand between white space. */
+/** Splits a line of text into words and numbers separated by white space. */
 class Tokens
 {
 public:
@@ -36,10 +36,10 @@ public:
     return word;
   }
 
-  /** What has not been taken yet. */
+  /** The remaining text. */
   std::string_view rest() const { return this->Rest; }
 
-  /** Takes a number; false if the next word is not a number of that type. */
+  /** Reads a number; returns false if the next word is not a number of that type. */
   bool number(std::int64_t& value) { return this->parse(value); }
   bool number(std::int32_t& value) { return this->parse(value); }
   bool number(float& value)
@@ -49,7 +49,7 @@ public:
     {
       return true;
     }
-    // Numbers that are too small for single precision are zero, not wrong.
+    // Numbers that underflow in single precision are zero, not an error.
     this->Rest = before;
     double wide = 0;
     const bool good = this->parse(wide) && wide <= std::numeric_limits<float>::max() &&

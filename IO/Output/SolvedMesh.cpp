@@ -85,7 +85,7 @@ bool SolvedMesh::next(MeshBlock& block)
   {
     return false;
   }
-  // The problem may ask for the columns of an earlier solve.
+  // The problem may use the columns of an earlier solve.
   this->Self->results.add(block);
   for (std::vector<Column>* columns : { &block.vertexColumns, &block.cellColumns })
   {

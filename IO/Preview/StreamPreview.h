@@ -25,7 +25,7 @@ namespace smg
 SMG_EXPORT MeshPiece makePreview(MeshSource& mesh,
   std::int64_t maximumPoints = DefaultPreviewPoints, const ProgressFunction& progress = {});
 
-/** What to say of a preview without a triangle that was made of more than nothing. */
+/** The error message for an empty preview of a mesh that is not empty. */
 SMG_EXPORT std::string emptyPreview(std::int64_t maximumPoints);
 
 } // namespace smg

@@ -11,8 +11,8 @@
 namespace smg
 {
 
-/** The weights that users call `cotangent` (or `raw-cotangent`), `clamped` and `uniform`;
- * none for any other name. */
+/** The weights named `cotangent` (or `raw-cotangent`), `clamped` and `uniform`; none for other
+ * names. */
 SMG_EXPORT std::optional<Weights> weightsOfName(std::string_view name);
 
 /** The member `weights` of an object, if any. Throws Error. */

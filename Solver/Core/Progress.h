@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** Keeps the fractions monotone and turns a refusal into `Cancelled`. */
+/** Keeps the fractions monotone and throws `Cancelled` if the callback returns false. */
 class Progress
 {
 public:

@@ -20,8 +20,8 @@
 namespace smg
 {
 
-/** Deforms a mesh: the first pass builds the hierarchy and begins the rotations' first V-cycle, the
- * steps do the rest. */
+/** Deforms a mesh: the first pass builds the hierarchy and begins the first V-cycle of the
+ * rotations; DeformationSteps does the rest. */
 template <OperatorSet Operators>
 class DeformationEngine
 {
@@ -47,7 +47,7 @@ public:
   /** The positions, after deform(); nothing else remains. */
   std::unique_ptr<Solution> takeSolution();
 
-  // The parts, for whoever deforms again.
+  // The parts, for further deformations.
 
   SolveRun& run() { return *this->Run; }
   Hierarchy<Relaxation>& levels() { return this->Levels; }

@@ -6,16 +6,16 @@
 namespace smg
 {
 
-/** How the mesh turns and grows at a vertex, as what that adds to an edge: s R - I, row by row. */
+/** The rotation and scale of the mesh at a vertex, as the matrix s R - I, row by row. */
 struct Frame
 {
   double m[9];
 };
 
 /**
- * s R - I of a rotation vector (unit axis times angle in radians) and the logarithm of s:
- * R - I = sin(a)/a K + (1 - cos(a))/a^2 K^2 (Rodrigues), K the cross product with the vector.
- * As accurate for small angles and scales near 1 as for others; zero for four zeros.
+ * s R - I of a rotation vector (unit axis times angle in radians) and the logarithm of s: R - I =
+ * sin(a)/a K + (1 - cos(a))/a^2 K^2 (Rodrigues), K the cross product with the vector. Equally
+ * accurate for small angles and scales near 1; exactly zero for four zeros.
  */
 inline Frame frameOf(const double* rotationAndLogScale)
 {
@@ -25,7 +25,7 @@ inline Frame frameOf(const double* rotationAndLogScale)
   const double growth = std::expm1(rotationAndLogScale[3]);
   const double square = x * x + y * y + z * z;
   const double angle = std::sqrt(square);
-  // Below this angle the series' second terms are less than the rounding of the first.
+  // Below this angle the second terms of the series are smaller than the rounding of the first.
   constexpr double Small = 1e-8;
   const double half = std::sin(0.5 * angle);
   const double s = (1.0 + growth) * (angle < Small ? 1.0 : std::sin(angle) / angle);

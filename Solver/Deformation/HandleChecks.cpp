@@ -23,7 +23,7 @@ void checkSize(const VertexHandles& handles, std::int64_t vertices)
 
 void checkHeld(const VertexHandles& handles, std::size_t k, std::int64_t i)
 {
-  // Beyond this the numbers of the coarse levels, which have single precision, overflow.
+  // Beyond this, the coarse levels, which have single precision, overflow.
   constexpr double LargestLogScale = 46.0; // a scale of 1e20
   const auto finite = [k](const std::vector<double>& v)
   { return std::isfinite(v[3 * k]) && std::isfinite(v[3 * k + 1]) && std::isfinite(v[3 * k + 2]); };

@@ -9,13 +9,11 @@
 namespace smg
 {
 
-/** Throws Error unless the arrays are those of so many vertices. */
+/** Throws Error unless the arrays have the sizes for this many vertices. */
 void checkSize(const VertexHandles& handles, std::int64_t vertices);
 
-/**
- * Throws Error if what is said at held vertex `k` of the arrays, vertex `i` of the mesh, is not
- * finite or beyond all reason.
- */
+/** Throws Error if the values at held vertex `k` of the arrays, vertex `i` of the mesh, are not
+ * finite or out of range. */
 void checkHeld(const VertexHandles& handles, std::size_t k, std::int64_t i);
 
 } // namespace smg

@@ -27,7 +27,7 @@ void requireFinite(std::span<const double> numbers, const char* what)
   }
 }
 
-/** The vector at length 1. Divided twice, since the squares of its numbers may not be numbers. */
+/** The normalised vector. Divided twice, since the squares of its components may overflow. */
 Eigen::Vector3d unit(const std::array<double, 3>& axis)
 {
   const Eigen::Vector3d vector(axis[0], axis[1], axis[2]);
@@ -60,7 +60,7 @@ HandleMotion::HandleMotion(const Parameters& parameters)
   }
   constexpr double Radian = std::numbers::pi / 180.0;
   const Eigen::Vector3d axis = unit(parameters.axis);
-  // Whole turns are taken off in degrees, where that is exact.
+  // Full turns are subtracted in degrees, where this is exact.
   const double turn = std::remainder(parameters.degrees, 360.0) * Radian;
   Eigen::Map<RowMajor>(this->Linear.data()) =
     parameters.scale * Eigen::AngleAxisd(turn, axis).toRotationMatrix();
@@ -85,8 +85,8 @@ HandleMotion HandleMotion::fromMatrix(std::span<const double, 16> matrix)
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d stretch = svd.singularValues();
   const Eigen::Matrix3d nearest = svd.matrixU() * svd.matrixV().transpose();
-  // The sign of the determinant is that of the nearest orthogonal matrix; what is flat but for
-  // rounding has none.
+  // The sign of the determinant is that of the nearest orthogonal matrix; up to rounding, singular
+  // matrices have none.
   const bool flat = !(stretch[2] > 4.0 * std::numeric_limits<double>::epsilon() * stretch[0]);
   if (flat || nearest.determinant() < 0.0)
   {
@@ -114,7 +114,7 @@ std::array<double, 3> HandleMotion::apply(std::span<const double, 3> point) cons
   for (std::size_t row = 0; row < 3; ++row)
   {
     const double* linear = this->Linear.data() + 3 * row;
-    // What is added to the point is exactly 0 where nothing turns or grows.
+    // The term added to the point is exactly 0 without rotation and scale.
     const double change = (linear[0] * arm[0] + linear[1] * arm[1] + linear[2] * arm[2]) - arm[row];
     moved[row] = point[row] + change + this->Translation[row];
   }

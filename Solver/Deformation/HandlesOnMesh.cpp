@@ -20,7 +20,7 @@ ValueRules vectorRules(bool positions)
   return { .components = { 3 }, .positions = positions };
 }
 
-/** Whether what is said at held vertex `i` changes anything. */
+/** Whether the handles move held vertex `i`, or prescribe a rotation or scale. */
 bool moves(const MeshBlock& block, std::size_t i, const VertexHandles& handles)
 {
   const double* point = block.positions.data() + 3 * i;

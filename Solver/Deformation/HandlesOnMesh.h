@@ -15,11 +15,11 @@
 namespace smg
 {
 
-/** What DescribedHandles hides: the handles of a description, compiled for a mesh. */
+/** The implementation of DescribedHandles: the handles of a description, resolved on a mesh. */
 class HandlesOnMesh : public Handles
 {
 public:
-  /** As DescribedHandles. */
+  /** Like DescribedHandles. */
   HandlesOnMesh(
     const DeformationDescription& description, const StreamInfo& mesh, const std::string& name);
   HandlesOnMesh(const HandlesOnMesh&) = delete;
@@ -29,16 +29,14 @@ public:
   std::vector<std::string> vertexColumns() const { return this->OfMesh.vertexColumns(); }
   std::vector<std::string> cellColumns() const { return this->OfMesh.cellColumns(); }
 
-  /** As DescribedHandles::prepare(). */
+  /** Like DescribedHandles::prepare(). */
   void prepare(MeshSource& mesh, const std::filesystem::path& scratch);
 
-  /** Throws Error naming the column and the vertex if a number there is not finite. */
+  /** Throws Error, which names the column and the vertex, if a number is not finite. */
   void at(const MeshBlock& block, VertexHandles& handles) override;
 
-  /**
-   * What a user should know when all blocks have been asked for: handles whose vertices all follow
-   * later ones, and that nothing moves.
-   */
+  /** Notes for the user, after all blocks have been queried: handles whose vertices all follow
+   * later ones, and a deformation without motion. */
   std::vector<std::string> notes() const;
 
 private:
@@ -50,20 +48,19 @@ private:
   struct Handle
   {
     std::unique_ptr<Selection> where; ///< null: everywhere
-    std::optional<NamedColumn> mask;  ///< that selects, and counts
-    const Column* counts = nullptr;   ///< the mask in the block that was started; null: none
+    std::optional<NamedColumn> mask;  ///< which selects and counts
+    const Column* counts = nullptr;   ///< the mask in the current block; null: none
     HandleMotion motion;              ///< if there are no values
     std::optional<Values> values;
     std::string key;
-    std::int64_t following = 0; ///< vertices so far that no later handle holds
-    bool moves =
-      false; ///< whether one that follows it is to go or turn or grow, as far as is known
+    std::int64_t following = 0; ///< vertices so far not held by a later handle
+    bool moves = false;         ///< whether one that follows it is moved, rotated or scaled, so far
   };
 
   Handle compile(const HandleDescription& handle, const std::string& key);
-  /** Begins a block; answers whether the handle holds each of its vertices. */
+  /** Starts a block; returns whether the handle holds each of its vertices. */
   std::span<const std::uint8_t> startBlock(Handle& handle, const MeshBlock& block);
-  /** Says what the handle says at held vertex `i` of the block. */
+  /** Sets the values of the handle at held vertex `i` of the block. */
   void hold(const Handle& handle, const MeshBlock& block, std::size_t i, VertexHandles& to) const;
   void read(const ValueOnMesh& value, const Handle& handle, const MeshBlock& block, std::size_t i,
     double* numbers) const;
@@ -71,7 +68,7 @@ private:
   MeshColumns OfMesh;
   std::vector<Handle> All;
   std::vector<std::uint8_t> Everywhere; ///< 1 at each vertex of a block
-  std::vector<Handle*> Followed;        ///< by each vertex of a block; null: it is free
+  std::vector<Handle*> Followed;        ///< the handle of each vertex of a block; null: free
 };
 
 } // namespace smg

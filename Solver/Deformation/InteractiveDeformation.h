@@ -12,29 +12,31 @@ namespace smg
 {
 
 /**
- * A deformation in memory that can be repeated fast, for dragging handles: hierarchy and factor are
- * kept as long as the same vertices are held. Every result is, bit for bit, that of deform() with
- * the same handles: it does not depend on what came before.
+ * A deformation in memory with fast updates, for dragging handles: hierarchy and factor are kept as
+ * long as the same vertices are held. Every result equals that of deform() with the same handles,
+ * bit for bit, independent of previous updates.
  */
 class SMG_EXPORT InteractiveDeformation : public Solution
 {
 public:
-  /** Builds the hierarchy and deforms once. Throws Error as deform(); options.inCore is implied. */
+  /**
+   * Builds the hierarchy and deforms once. Throws Error like deform(); options.inCore is implied.
+   */
   InteractiveDeformation(MeshSource& mesh, Handles& handles, const DeformOptions& options = {});
   ~InteractiveDeformation() override;
 
   /**
-   * Deforms again. `handles` are those of all vertices, in stream order.
-   * @return false, and nothing is changed, if other vertices are held than before
-   * @throws Error if something is not finite (then, too, nothing is changed), or the solve
-   * diverges; Cancelled. After these two, read() throws Error until an update succeeds.
+   * Repeats the deformation. `handles` are those of all vertices, in stream order.
+   * @return false, without any change, if other vertices are held than before
+   * @throws Error if a value is not finite (without any change), or if the solve diverges;
+   * Cancelled. After the last two, read() throws Error until an update succeeds.
    */
   bool update(const VertexHandles& handles);
 
   std::int64_t vertices() const override;
   int columns() const override { return 3; }
   void read(std::int64_t first, std::int64_t count, std::span<double> values) override;
-  /** Of the last deformation: seconds.build is 0 after update(). */
+  /** The report of the last deformation: seconds.build is 0 after update(). */
   const Report& report() const override;
 
 private:

@@ -15,7 +15,7 @@
 namespace smg
 {
 
-/** A deformation in core that can be done again for other motions of the same held vertices. */
+/** A deformation in core that can be repeated for other motions of the same held vertices. */
 template <OperatorSet Operators>
 class InteractiveEngine
 {
@@ -28,7 +28,7 @@ public:
 
   /** To be called once. */
   void deform(MeshSource& mesh, Handles& handles) { this->First.deform(mesh, handles); }
-  /** After deform(). False, and nothing has changed, if other vertices are held. */
+  /** After deform(). Returns false, without any change, if other vertices are held. */
   bool deformAgain(const VertexHandles& handles);
 
   const Report& report() { return this->First.run().report; }
@@ -44,7 +44,7 @@ private:
   void addLinks(const RestBlock& block, double& squares);
 
   DeformationEngine<Operators> First;
-  /** Whether an update ended by a throw. */
+  /** Whether an update ended with an exception. */
   bool Broken = false;
 };
 
@@ -114,7 +114,7 @@ bool InteractiveEngine<Operators>::holdsTheSame(const VertexHandles& handles)
   return same;
 }
 
-/** Takes the targets, and the rotations where they begin. */
+/** Sets the targets, and the initial rotations. */
 template <OperatorSet Operators>
 void InteractiveEngine<Operators>::take(const VertexHandles& handles)
 {
@@ -135,7 +135,7 @@ void InteractiveEngine<Operators>::take(const VertexHandles& handles)
     });
 }
 
-/** The right-hand side of the rotations, as Assembly makes it. */
+/** Computes right-hand side and first sweeps of the rotations, like Assembly and the first pass. */
 template <OperatorSet Operators>
 FirstResidual InteractiveEngine<Operators>::findRightSide()
 {

@@ -13,7 +13,7 @@ namespace
 
 constexpr int Stride = 4;
 
-/** What the edges of a row sum up to. */
+/** Sums over the edges of a row. */
 struct EdgeSums
 {
   double edges[3] = {};  ///< w_ij (p_i - p_j)
@@ -81,7 +81,7 @@ void PositionStep::advance(std::int64_t final)
   this->release();
 }
 
-/** The frames of vertices below `end`, whose rotation and scale are final. */
+/** Computes the frames of vertices below `end`, whose rotation and scale are final. */
 void PositionStep::turn(std::int64_t end)
 {
   this->Frames.extendRaw(end);
@@ -92,7 +92,7 @@ void PositionStep::turn(std::int64_t end)
   }
 }
 
-/** The rows from Done to `end`, which lie in one block. */
+/** Processes the rows from Done to `end`, which are in one block. */
 void PositionStep::closeGroup(const RestBlock& block, std::int64_t end)
 {
   if (this->Done == block.first())
@@ -122,7 +122,7 @@ void PositionStep::closeGroup(const RestBlock& block, std::int64_t end)
   this->Done = end;
 }
 
-/** Right-hand side and first residual of node k of the block. */
+/** Computes right-hand side and first residual of node k of the block. */
 template <class Arrays>
 void PositionStep::closeRow(
   const RestBlock& block, const RowBlock::Header& h, const Arrays& a, std::int64_t k)
@@ -180,7 +180,7 @@ void PositionStep::closeRow(
   }
 }
 
-/** Lets go of blocks that no row from Done on needs. */
+/** Releases blocks that no row from Done on needs. */
 void PositionStep::release()
 {
   while (!this->Blocks.empty())

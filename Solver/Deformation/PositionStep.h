@@ -12,23 +12,24 @@ namespace smg
 {
 
 /**
- * The beginning of the second step of a deformation, a stage between the way up of the first step's
- * last V-cycle and the way down of the second step's first one: when the rotation and the scale of
- * a vertex and of all its neighbours are final, its right-hand side.
+ * The start of the second step of a deformation, a stage between the upward part of the last
+ * V-cycle of the first step and the downward part of the first V-cycle of the second step. It
+ * computes the right-hand side of a vertex once the rotation and the scale of the vertex and of all
+ * its neighbours are final.
  *
- * The unknowns are displacements u = x - p, so that rounding is that of edges and motions, not of
- * coordinates: b_i = sum_j w_ij ((s_i R_i + s_j R_j) / 2 - I) (p_i - p_j), plus w_ij u_j of each
+ * The unknowns are displacements u = x - p, so that rounding is relative to edges and motions, not
+ * to coordinates: b_i = sum_j w_ij ((s_i R_i + s_j R_j) / 2 - I) (p_i - p_j), plus w_ij u_j of each
  * held neighbour j. They start at zero.
  */
 class PositionStep
 {
 public:
-  /** Of the positions. */
+  /** Columns of the positions. */
   static constexpr int Columns = 3;
-  /** What a vertex needs in core at least, with its positions at rest; measured, from below. */
+  /** A measured lower bound of the memory per vertex in core, including the positions at rest. */
   static constexpr std::int64_t CoreBytes = 140;
 
-  /** Reads the state of the window's way up and fills that of its way down. */
+  /** Reads the state of the upward part of the window and fills that of its downward part. */
   PositionStep(Pool& pool, RestShape& rest, LevelWindow<double>& window)
     : Rest(rest)
     , Window(window)
@@ -41,16 +42,16 @@ public:
   void startPass() { this->Rest.startPass(); }
   void endPass() { this->Rest.endPass(); }
 
-  /** Follows the window, which has been loaded. */
+  /** Loads the same vertices as the window. */
   void load();
-  /** Makes right-hand sides, given that the way up is done below `final`. */
+  /** Computes right-hand sides, given that the upward part is finished below `final`. */
   void advance(std::int64_t final);
-  /** Vertices whose right-hand side is there. */
+  /** The number of vertices with a right-hand side. */
   std::int64_t done() const { return this->Done; }
 
-  /** ||b - A x||^2 of the first step's result. */
+  /** ||b - A x||^2 of the result of the first step. */
   double rotationSquares() const { return this->RotationSquares; }
-  /** ||b||^2 of the second step, and the same of the terms that it is the sum of. */
+  /** ||b||^2 of the second step, and the sum of squares of its terms. */
   double initialSquares() const { return this->InitialSquares; }
   double termSquares() const { return this->TermSquares; }
 

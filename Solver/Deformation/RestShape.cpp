@@ -63,7 +63,7 @@ void RestShape::finish()
   }
 }
 
-/** Ends the open block. */
+/** Completes the open block. */
 void RestShape::pack()
 {
   this->Open.held = static_cast<std::int32_t>(this->Held.size());

@@ -17,9 +17,9 @@ namespace smg
 {
 
 /**
- * What the deformation needs of up to RowBlock::Nodes consecutive vertices besides their rows: the
- * positions at rest, the targets of held vertices, and the edges to held neighbours, which the rows
- * leave out.
+ * The data of up to RowBlock::Nodes consecutive vertices that a deformation needs besides their
+ * rows: the positions at rest, the targets of held vertices, and the edges to held neighbours,
+ * which the rows omit.
  */
 class RestBlock
 {
@@ -29,7 +29,7 @@ public:
     std::int64_t first = 0;
     std::int32_t nodes = 0;
     std::int32_t held = 0, links = 0;
-    /** Largest mesh neighbour, held ones included, of nodes 0 .. end of the group. */
+    /** The largest neighbour in the mesh, including held ones, of nodes 0 .. end of the group. */
     std::array<std::int64_t, RowBlock::Groups> reach{};
   };
   struct Held
@@ -50,7 +50,7 @@ public:
     , Data(this->Bytes.data())
   {
   }
-  /** The same bytes, which the block itself keeps. */
+  /** A view of the same bytes, which this block owns. */
   RestBlock view() const { return RestBlock(this->Data); }
 
   static std::size_t bytes(const Header& h)
@@ -93,8 +93,8 @@ private:
   std::byte* Data;
 };
 
-/** The mesh at rest and its targets, in blocks: written in the first pass, in scratch or in memory.
- */
+/** The mesh at rest and its targets, in blocks, written in the first pass to scratch files or
+ * memory. */
 class RestShape : public RowListener
 {
 public:
@@ -105,10 +105,10 @@ public:
     this->High.fill(std::numeric_limits<double>::lowest());
   }
 
-  /** Keeps the blocks in a scratch file in `folder`; else they stay in memory. */
+  /** Keeps the blocks in a scratch file in `folder`; otherwise they stay in memory. */
   void useScratch(const std::filesystem::path& folder, IoStatistics& statistics);
 
-  // While the mesh streams by.
+  // During the first pass:
 
   /** Vertex `i` is held; called by ascending i, before close() of that vertex. */
   void hold(std::int64_t i, const double* target);
@@ -116,21 +116,21 @@ public:
   void close(const double* point, std::int64_t reach) override;
   void finish();
 
-  // Later.
+  // Afterwards:
 
-  /** Diagonal of the bounding box of the positions at rest and the targets. */
+  /** The diagonal of the bounding box of the positions at rest and the targets. */
   double extent() const;
-  /** Goes back to the first block, for next(). */
+  /** Restarts next() at the first block. */
   void startPass();
   /** The next block of a pass. */
   RestBlock next();
   void endPass();
   /**
-   * Adds to the displacements of vertices [first, first + count), any range, where they begin: at
-   * rest, and held ones at their targets.
+   * Adds to the displacements of vertices [first, first + count), any range, their start: the
+   * positions at rest, or the targets of held vertices.
    */
   void addStart(std::int64_t first, std::int64_t count, double* values);
-  /** The blocks, without scratch. */
+  /** The blocks, without scratch files. */
   std::deque<RestBlock>& blocks() { return this->Blocks; }
 
 private:
@@ -141,7 +141,7 @@ private:
   Pool& Owner;
   std::optional<ScratchStream> Scratch;
   std::deque<RestBlock> Blocks;
-  std::deque<RestBlock::Held> Waiting; // held vertices that are not closed; node: the index
+  std::deque<RestBlock::Held> Waiting; // held vertices that are not closed; node is the index
   RestBlock::Header Open;
   std::vector<double> Points;
   std::vector<RestBlock::Held> Held;

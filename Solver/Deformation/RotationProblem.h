@@ -8,16 +8,14 @@
 namespace smg
 {
 
-/**
- * The first step of a deformation: the rotation vector (three columns) and the logarithm of the
- * scale (one) are prescribed where a handle holds the mesh, and harmonic between.
- */
+/** The first step of a deformation: the rotation vector (three columns) and the logarithm of the
+ * scale (one column), prescribed at held vertices and harmonic elsewhere. */
 class RotationProblem : public Problem
 {
 public:
   static constexpr int Columns = 4;
 
-  /** `rest` is told the targets. */
+  /** `rest` receives the targets. */
   RotationProblem(Handles& handles, Weights weights, RestShape& rest)
     : Given(handles)
     , WeightsOfEdges(weights)
@@ -27,11 +25,11 @@ public:
 
   int columns() const override { return Columns; }
   Weights weights() const override { return this->WeightsOfEdges; }
-  /** A vertex in flat cells alone goes with its neighbours, instead of staying behind. */
+  /** A vertex of flat cells only follows its neighbours instead of keeping its position. */
   bool connectsFlatCells() const override { return true; }
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
 
-  /** Vertices that more than one handle holds. */
+  /** The number of vertices held by several handles. */
   std::int64_t shared() const { return this->Shared; }
 
 private:

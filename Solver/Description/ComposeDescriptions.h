@@ -10,10 +10,8 @@
 namespace smg
 {
 
-/**
- * Adds what `more` says to `problem`, as later entries, which win. Of the two numbers of columns
- * the larger one counts; the weights, and the field if both have one, are those of `more`.
- */
+/** Appends the entries of `more` to `problem`; later entries take precedence. The number of columns
+ * is the larger of the two; the weights, and the field if both have one, are those of `more`. */
 SMG_EXPORT void append(ProblemDescription& problem, const ProblemDescription& more);
 
 /** The names of all columns of the mesh that a description names. */
@@ -22,8 +20,8 @@ SMG_EXPORT std::set<std::string> namedColumns(const ProblemDescription& problem)
 /** The names of the columns that are masks (see ColumnMask) in a description. */
 SMG_EXPORT std::set<std::string> namedMasks(const ProblemDescription& problem);
 
-/** Whether a description says anything to solve for: more than a conductivity and a screening,
- * which alone have the solution 0. */
+/** Whether a description poses a problem: data other than conductivity and screening, which alone
+ * have the solution 0. */
 SMG_EXPORT bool isPosed(const ProblemDescription& problem);
 
 } // namespace smg

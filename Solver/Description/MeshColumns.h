@@ -30,10 +30,8 @@ struct NamedColumn
   const Column& in(const MeshBlock& block) const;
 };
 
-/**
- * The columns of a mesh for what a problem description says: finds them, knows which ones the mesh
- * source must deliver, and words the complaints.
- */
+/** The columns of a mesh that a problem description names: finds them, collects those that the mesh
+ * source must deliver, and reports errors. */
 class SMG_EXPORT MeshColumns
 {
 public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the problem of a description says of a block of its mesh.
+// Evaluation of a described problem on a block of its mesh.
 #include "Solver/Description/ProblemOnMesh.h"
 #include "smg/Error.h"
 

@@ -34,7 +34,7 @@ ValueRules fieldRules(int columns)
     .preferred = ColumnOwner::Cells };
 }
 
-/** The column that selects; null: it is something else. */
+/** The selecting column; null for other places. */
 const std::string* columnOf(const Where& where)
 {
   if (const auto* tag = std::get_if<ColumnTag>(&where))
@@ -96,7 +96,7 @@ ProblemOnMesh::ProblemOnMesh(
                              [](const PlacedValue& entry) { return entry.value.isPosition(); });
   if (ProblemOnMesh::hasCells() || ProblemOnMesh::hasFacets())
   {
-    this->OfMesh.requireCellIds(); // for the complaints of the solver
+    this->OfMesh.requireCellIds(); // for error messages of the solver
   }
 }
 

@@ -13,11 +13,11 @@
 namespace smg
 {
 
-/** What DescribedProblem hides: the data of a description, compiled for a mesh. */
+/** The implementation of DescribedProblem: the data of a description, resolved on a mesh. */
 class ProblemOnMesh : public Problem
 {
 public:
-  /** As DescribedProblem. */
+  /** Like DescribedProblem. */
   ProblemOnMesh(
     const ProblemDescription& description, const StreamInfo& mesh, const std::string& name);
   ProblemOnMesh(const ProblemOnMesh&) = delete;
@@ -27,7 +27,7 @@ public:
   std::vector<std::string> vertexColumns() const { return this->OfMesh.vertexColumns(); }
   std::vector<std::string> cellColumns() const { return this->OfMesh.cellColumns(); }
 
-  /** As DescribedProblem::prepare(). */
+  /** Like DescribedProblem::prepare(). */
   void prepare(MeshSource& mesh, const std::filesystem::path& scratch);
 
   int columns() const override { return static_cast<int>(this->Columns); }

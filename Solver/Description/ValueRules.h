@@ -18,7 +18,7 @@ enum class ValueRange
   PositiveDefinite ///< a positive number, three (a diagonal), or a tensor of six
 };
 
-/** What values a datum may have. */
+/** The admissible values of a datum. */
 struct SMG_EXPORT ValueRules
 {
   std::vector<int> components; ///< the admissible numbers of components

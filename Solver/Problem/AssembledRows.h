@@ -11,16 +11,14 @@
 namespace smg
 {
 
-/**
- * Rows of the finest level with their right-hand sides and initial values, which Assembly has made
- * and the level takes over between two steps.
- */
+/** Rows of the finest level with their right-hand sides and initial values, which pass from
+ * Assembly to the level between two steps. */
 struct AssembledRows
 {
   RowBatch rows;
-  std::vector<double> x, b; ///< `columns` a row
-  /** The size of the problem's weights beside those of finite elements with K = 1, where there is
-   * the first. */
+  std::vector<double> x, b; ///< `columns` per row
+  /** The scale of the weights of the problem relative to finite elements with K = 1, at the first
+   * weighted cell. */
   double weightScale = 1.0;
 
   void moveTo(LevelRows& level, LevelWindow<double>& window, int columns)

@@ -10,18 +10,18 @@
 namespace smg
 {
 
-/** A facet that one cell has alone, with what the problem says of it (see FacetBatch). */
+/** A facet of exactly one cell with its conditions (see FacetBatch). */
 struct BoundaryFacet
 {
   static constexpr int cornersOf(CellType type) { return smg::cornersOf(type) - 1; }
 
-  std::int64_t corners[3]; ///< stream indices, ascending; two of an edge
-  std::int32_t flux = -1;  ///< number of its condition
+  std::int64_t corners[3]; ///< stream indices, ascending; two for an edge
+  std::int32_t flux = -1;  ///< index of its condition
   std::int32_t robin = -1;
-  // In the order of the corners; null where no condition holds.
-  const double* fluxValue = nullptr;   ///< `columns` a corner
-  const double* coefficient = nullptr; ///< one a corner
-  const double* ambient = nullptr;     ///< `columns` a corner
+  // In the order of the corners; null without a condition.
+  const double* fluxValue = nullptr;   ///< `columns` per corner
+  const double* coefficient = nullptr; ///< one per corner
+  const double* ambient = nullptr;     ///< `columns` per corner
 };
 
 /** The length or area of a facet with these corners. */

@@ -9,11 +9,11 @@
 namespace smg
 {
 
-/** The gradients of the hat functions of a cell's corners; on a triangle they lie in its plane. */
+/** The gradients of the hat functions at the corners of a cell; on a triangle, in its plane. */
 class CellGradients
 {
 public:
-  /** `points`: of the corners of a cell that is not degenerate (see CellWeights::measure). */
+  /** `points` are the corners of a cell that is not degenerate (see CellWeights::measure). */
   CellGradients(CellType type, const double* const* points);
 
   /** grad phi of corner k. */
@@ -25,7 +25,7 @@ public:
     Vector sum{};
     for (int k = 1; k < cornersOf(type); ++k)
     {
-      // Differences: where a function is large and nearly constant, its gradient is not lost.
+      // Differences keep the gradient of a large and nearly constant function.
       const double step = value[k][column] - value[0][column];
       for (std::size_t d = 0; d < 3; ++d)
       {

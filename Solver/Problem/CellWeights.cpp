@@ -12,7 +12,9 @@ namespace smg
 namespace
 {
 
-/** A cell is degenerate if its measure is below this share of what its edges allow: rounding. */
+/**
+ * A cell is degenerate if its measure is below this share of the maximum for its edges: rounding.
+ */
 constexpr double Flat = 1e-14;
 
 /** Whether K is a multiple of the identity. */
@@ -49,7 +51,7 @@ CellWeights tetrahedronWeights(const double* a, const double* b, const double* c
   const Vector ab = difference(b, a);
   const Vector ac = difference(c, a);
   const Vector ad = difference(d, a);
-  // Twice the area vectors of the faces opposite to b, c, d and a, all outwards or all inwards.
+  // Twice the area vectors of the faces opposite to b, c, d and a, all outward or all inward.
   const Vector nb = cross(ac, ad);
   const Vector nc = cross(ad, ab);
   const Vector nd = cross(ab, ac);

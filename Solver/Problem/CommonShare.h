@@ -5,9 +5,9 @@ namespace smg
 {
 
 /**
- * Where `own`, what screening, Robin and soft conditions bring to the diagonal of a row, outweighs
- * the magnitudes of the weights of its `edges`, the row determines its unknown by itself, at once,
- * and its residual begins as large as `own` is: in the measure that all other rows are to meet it
+ * The factor of a row in the norm of the initial residual. If `own`, the contribution of screening,
+ * Robin and soft conditions to the diagonal, exceeds the magnitudes of the weights of the `edges`,
+ * the row determines its unknown alone and its initial residual is as large as `own`; it then
  * counts as if it had only the weight of its edges. In (0, 1]; 0 without edges.
  */
 inline double commonShare(double own, double edges)

@@ -87,7 +87,7 @@ ComponentLabels::Entries ComponentLabels::block(std::int64_t index)
     }
     const std::vector<std::byte>& record =
       this->Scratch ? this->Record : this->Stored[static_cast<std::size_t>(index)];
-    // The labels, one or all, then no masses or all.
+    // One or all labels, followed by no or all masses.
     const bool masses = record.size() >= count * sizeof(double);
     const std::size_t bytes = record.size() - (masses ? count * sizeof(double) : 0);
     this->Labels.resize(bytes / sizeof(std::int32_t));

@@ -15,21 +15,19 @@
 namespace smg
 {
 
-/**
- * The component label of every vertex, and its mass where a component may turn out to be free, in
- * memory or in a scratch file, written once.
- */
+/** The component label of every vertex, and its mass if the component may be free, in memory or in
+ * a scratch file, written once. */
 class SMG_EXPORT ComponentLabels
 {
 public:
-  /** Vertices of a block; the last one may be shorter. */
+  /** The number of vertices of a block; the last one may be shorter. */
   static constexpr std::size_t Block = 1024;
 
-  /** What is known of the vertices of a block. */
+  /** The data of the vertices of a block. */
   struct Entries
   {
     std::span<const std::int32_t> labels;
-    /** Empty if the component of each of them had a constraint when the block was complete. */
+    /** Empty if all their components had a constraint when the block was complete. */
     std::span<const double> masses;
   };
 
@@ -38,10 +36,10 @@ public:
   {
   }
 
-  /** Keeps the labels in a scratch file; else they stay in memory. */
+  /** Keeps the labels in a scratch file; otherwise they stay in memory. */
   void useScratch(const std::filesystem::path& folder, IoStatistics& statistics);
 
-  /** Appends the next vertices: their labels (-1: of no component) and lumped masses. */
+  /** Appends the next vertices: their labels (-1: no component) and lumped masses. */
   void append(std::span<const std::int32_t> labels, std::span<const double> masses);
   void finish();
 
@@ -54,8 +52,8 @@ private:
 
   const Components& Parts;
   std::optional<ScratchStream> Scratch;
-  std::vector<std::vector<std::byte>> Stored; // the blocks, where there is no scratch file
-  std::vector<std::int32_t> Labels;           // of the block that is not complete, or of block()
+  std::vector<std::vector<std::byte>> Stored; // the blocks, without a scratch file
+  std::vector<std::int32_t> Labels;           // of the incomplete block, or of block()
   std::vector<double> Masses;
   std::vector<std::byte> Record;
   std::int64_t Count = 0;

@@ -45,7 +45,7 @@ std::int32_t Components::join(std::int32_t a, std::int32_t b)
   {
     return a;
   }
-  // The smaller component goes into the larger one, which keeps the paths to the roots short.
+  // The smaller component is joined to the larger one, which keeps the paths to the roots short.
   if (this->Of[static_cast<std::size_t>(a)].labels < this->Of[static_cast<std::size_t>(b)].labels)
   {
     std::swap(a, b);
@@ -112,7 +112,7 @@ std::int64_t Components::freeComponents() const
   return count;
 }
 
-/** Calls f(label, column) where b does not sum to zero in a free component. */
+/** Calls f(label, column) for free components in which b does not sum to zero. */
 template <class F>
 void Components::forShifts(F&& f) const
 {
@@ -168,7 +168,7 @@ double Components::shiftedSquares() const
   this->forShifts(
     [&](std::size_t label, int k)
     {
-      // ||r - s w||^2 - ||r||^2, s the shift and w the weights.
+      // ||r - s w||^2 - ||r||^2 with the shift s and the weights w.
       const Component& component = this->Of[label];
       const Sums& sum = this->sums(label, k);
       const bool masses = component.mass > 0.0;

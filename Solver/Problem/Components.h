@@ -12,26 +12,25 @@ namespace smg
 {
 
 /**
- * The connected components of the mesh while it streams by: each vertex carries a label, and labels
- * whose vertices turn out to be connected are joined. A component without a constrained vertex (a
- * free component) determines its solution up to a constant only, and only if its right-hand side
- * sums to zero; what that takes is summed here. Its means are weighted with the lumped masses of
- * the vertices, so that what is taken from the right-hand side is a constant source; where none has
- * any, with 1.
+ * The connected components of the mesh during a pass: each vertex has a label, and labels of
+ * connected vertices are joined. A component without a constrained vertex (a free component)
+ * determines its solution only up to a constant, and only if its right-hand side sums to zero; this
+ * class accumulates the required sums. Means are weighted by the lumped masses of the vertices, so
+ * that a constant source is subtracted from the right-hand side, or by 1 if there are none.
  */
 class SMG_EXPORT Components
 {
 public:
-  /** `pool`, if given, accounts for the memory. */
+  /** `pool` accounts for the memory, if not null. */
   explicit Components(int columns, Pool* pool = nullptr)
     : Columns(columns)
     , Account(pool)
   {
   }
 
-  /** A new label, of a component of its own. */
+  /** Adds a component and returns its label. */
   std::int32_t add();
-  /** Joins two components; answers the label of the whole. */
+  /** Joins two components; returns the label of the union. */
   std::int32_t join(std::int32_t a, std::int32_t b);
   std::int32_t root(std::int32_t label) const;
 
@@ -39,25 +38,25 @@ public:
    * `columns` numbers each, and its mass. */
   void count(
     std::int32_t label, const double* b, const double* x0, const double* residual, double mass);
-  /** The component has a constraint. */
+  /** Marks the component as constrained. */
   void anchor(std::int32_t label) { this->Of[static_cast<std::size_t>(label)].anchored = true; }
 
   std::int64_t components() const;
   std::int64_t freeComponents() const;
 
-  /** Per column and free component (label-major): the mean of the sources that b is made of, sum of
-   * b / sum of masses; 0 for those that are not free, or if b sums to zero up to rounding. */
+  /** Per column and component (label-major): the mean source, sum of b / sum of masses; 0 for
+   * components that are not free, or if b sums to zero up to rounding. */
   std::vector<double> rightSideShifts() const;
-  /** Per column: the sum of b that the shifts take from all components. */
+  /** Per column: the sum of b that the shifts subtract from all components. */
   std::vector<double> shiftedSums() const;
-  /** The largest |sum of b| / sum of |b| that the shifts take; 0: they take nothing. */
+  /** The largest |sum of b| / sum of |b| that the shifts subtract; 0 without shifts. */
   double incompatibility() const;
-  /** What the shifts add to ||r_0||^2. */
+  /** The change of ||r_0||^2 due to the shifts. */
   double shiftedSquares() const;
-  /** Per column and free component: the mean of the values less the mean of the initial values,
+  /** Per column and free component: the mean of the values minus the mean of the initial values,
    * given the sums of the weighted values (label-major). */
   std::vector<double> meanShifts(std::span<const double> sums) const;
-  /** What a vertex of this mass counts in the means of the component. */
+  /** The weight of a vertex of this mass in the means of the component. */
   double weightOf(std::int32_t root, double mass) const
   {
     return this->Of[static_cast<std::size_t>(root)].mass > 0.0 ? mass : 1.0;
@@ -73,11 +72,11 @@ private:
   {
     std::int32_t parent;
     bool anchored;
-    std::int64_t labels; ///< labels joined in it
+    std::int64_t labels; ///< number of joined labels
     std::int64_t unknowns;
     double mass, massSquares;
   };
-  /** Of a column. */
+  /** The sums of a column. */
   struct Sums
   {
     double b, absolute;         ///< of b, |b|
@@ -108,7 +107,7 @@ private:
   int Columns;
   Pool* Account;
   std::vector<Component> Of;
-  std::vector<Sums> Summed; // `Columns` a label
+  std::vector<Sums> Summed; // `Columns` per label
 };
 
 } // namespace smg

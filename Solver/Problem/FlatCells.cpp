@@ -21,7 +21,7 @@ double flatnessFactor(CellType type, const double* const* corners, const CellWei
   {
     return largest > Limit ? Limit / largest : 1.0;
   }
-  // Any of the edges tells nearly always that the longest one is long enough.
+  // In most cases any edge already shows that the longest one is long enough.
   double square = 0.0;
   for (const int* ends : TetrahedronEdges)
   {

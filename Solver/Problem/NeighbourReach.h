@@ -9,7 +9,7 @@
 namespace smg
 {
 
-/** Knows up to which vertex all neighbours are final, so that no row to come looks at it. */
+/** Tracks the vertices whose neighbours are all final, so that no later row needs them. */
 class NeighbourReach
 {
 public:
@@ -18,7 +18,7 @@ public:
   {
   }
 
-  /** Vertex i, the next one, is final; `last`: its largest neighbour, or i. */
+  /** Declares vertex i, the next one, final; `last` is its largest neighbour, or i. */
   void close(std::int64_t i, std::int64_t last)
   {
     this->Last = std::max(this->Last, last);
@@ -26,10 +26,10 @@ public:
     this->Reach[i] = this->Last;
   }
 
-  /** The largest neighbour of vertices 0 .. i, i final and not done. */
+  /** The largest neighbour of vertices 0 .. i, for i final and not done. */
   std::int64_t operator[](std::int64_t i) const { return this->Reach[i]; }
 
-  /** The vertices below the answer are done with, given that those below `final` are final. */
+  /** Returns the end of the vertices that are done, given that those below `final` are final. */
   std::int64_t advance(std::int64_t final)
   {
     while (this->Done < final && this->Reach[this->Done] < final)

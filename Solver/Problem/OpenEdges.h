@@ -14,7 +14,7 @@
 namespace smg
 {
 
-/** An edge of a vertex to the neighbour `to`, with the weight that the cells give it. */
+/** An edge of a vertex to the neighbour `to`, with the summed weight of its cells. */
 struct OpenEdge
 {
   std::int64_t to;
@@ -22,18 +22,18 @@ struct OpenEdge
 };
 
 /**
- * The edges of the vertices that are not final yet. The lower one of an edge's vertices keeps it;
- * when that is taken the upper one gets it, which so has its edges to lower vertices in ascending
- * order, and looks for an edge among those to higher ones only. Each vertex has room for a usual
- * number of neighbours; the few that have more keep the others in a table aside.
+ * The edges of the vertices that are not final yet. The lower vertex of an edge stores it; when
+ * that vertex is taken, the edge is passed to the upper one, which thus has its edges to lower
+ * vertices in ascending order, and searches only among those to higher vertices. Each vertex has
+ * room for a usual number of neighbours; additional ones are stored in a separate table.
  */
 class OpenEdges
 {
 public:
-  /** Neighbours that a vertex of a usual mesh has at most. */
+  /** The maximum number of neighbours in a usual mesh. */
   static constexpr int usual(CellType type) { return type == CellType::Triangle ? 12 : 24; }
 
-  /** `usual`: neighbours that a vertex has room for, 4 to 255. */
+  /** `usual` is the number of neighbours that a vertex has room for, 4 to 255. */
   OpenEdges(Pool& pool, int usual)
     : To(pool, usual)
     , Weight(pool, usual)
@@ -41,7 +41,7 @@ public:
   {
   }
 
-  /** Throws Error if more vertices are open than their low 32 bits tell apart. */
+  /** Throws Error if more vertices are open than their low 32 bits distinguish. */
   void extend(std::int64_t vertices)
   {
     if (vertices - this->To.first() > INT32_MAX)
@@ -59,7 +59,8 @@ public:
     this->Counts.release(first);
   }
 
-  /** The weight of the edge between two open vertices, which is made with 0 if it is not there. */
+  /** The weight of the edge between two open vertices, which is created with 0 if it does not
+   * exist. */
   double& weight(std::int64_t a, std::int64_t b)
   {
     const std::int64_t from = std::min(a, b);
@@ -84,9 +85,7 @@ public:
     return this->More[from].try_emplace(to, 0.0).first->second;
   }
 
-  /**
-   * Moves the edges of vertex `from`, the lowest that is open, to `edges`, by ascending neighbour.
-   */
+  /** Moves the edges of vertex `from`, the lowest open one, to `edges`, by ascending neighbour. */
   void take(std::int64_t from, std::vector<OpenEdge>& edges)
   {
     const std::uint32_t* list = this->To.at(from);
@@ -125,20 +124,16 @@ public:
 private:
   struct Count
   {
-    std::uint8_t upper; ///< to higher vertices, the first ones of a list
-    std::uint8_t lower; ///< to lower vertices, from the list's end on
+    std::uint8_t upper; ///< to higher vertices, from the begin of a list
+    std::uint8_t lower; ///< to lower vertices, from the end of a list
   };
 
-  /**
-   * Neighbours are looked for in groups of this many. A group may run over the end of a list; the
-   * ring has another one there.
-   */
+  /** Neighbours are searched in groups of this size. A group may extend beyond the end of a list,
+   * into the next one of the ring. */
   static constexpr int Group = 8;
 
-  /**
-   * Which of the first `count` values are `low`, as bits of the first Group of them. All of these
-   * are looked at: where a search ends is nothing that a branch could predict.
-   */
+  /** The positions of `low` among the first `count` values, as bits of the first Group of them. All
+   * of these are compared: the end of a search is unpredictable for branches. */
   static std::uint32_t matches(const std::uint32_t* list, std::uint32_t low, int count)
   {
     constexpr std::uint32_t Bit[Group] = { 1, 2, 4, 8, 16, 32, 64, 128 };
@@ -152,7 +147,7 @@ private:
 
   bool hasRoom(Count count) const { return count.upper + count.lower < this->To.lanes(); }
 
-  /** Gives the edge to its upper vertex. */
+  /** Passes the edge to its upper vertex. */
   void handOn(std::int64_t from, const OpenEdge& edge)
   {
     Count& count = this->Counts[edge.to];

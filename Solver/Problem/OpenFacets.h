@@ -9,10 +9,8 @@
 namespace smg
 {
 
-/**
- * The facets of the cells that have come, kept with their lowest vertex until this is final: then
- * those that only one cell has are the boundary's. Each facet may carry a number of the caller's.
- */
+/** The facets of the cells so far, stored with their lowest vertex until this is final: facets of
+ * only one cell are then boundary facets. Each facet may have a number of the caller. */
 class OpenFacets
 {
 public:
@@ -22,24 +20,22 @@ public:
   {
   }
 
-  /** Throws Error if more vertices are open than their low 32 bits tell apart. */
+  /** Throws Error if more vertices are open than their low 32 bits distinguish. */
   void extend(std::int64_t vertices);
   void release(std::int64_t first) { this->Heads.release(first); }
 
-  /** What add() says of a facet that had come before. */
+  /** The result of add() for a facet that is added for the first time. */
   static constexpr std::int32_t Fresh = -1;
 
   /**
-   * One more cell has the facet with these corners in ascending order (the third one 0 for an
-   * edge). The first time the answer is Fresh, and `data`, at least 0, is kept; the second time it
-   * is that, which is let go of; then 0.
+   * Adds a cell with the facet with these corners in ascending order (the third one 0 for an edge).
+   * The first call returns Fresh and stores `data`, at least 0; the second call returns and
+   * releases that; further calls return 0.
    */
   std::int32_t add(std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data);
 
-  /**
-   * Calls found(middle, high, data) for each facet with the lowest corner `low` that one cell has,
-   * in the order in which they came, and forgets all with this corner.
-   */
+  /** Calls found(middle, high, data) for each facet of exactly one cell with the lowest corner
+   * `low`, in the order of their first call, and releases all facets with this corner. */
   template <class Found>
   void take(std::int64_t low, Found&& found)
   {
@@ -63,8 +59,8 @@ private:
   struct Facet
   {
     std::uint32_t middle, high; ///< by their low 32 bits
-    std::int32_t next;          ///< of the same lowest corner
-    std::int32_t data;          ///< Shared: more than one cell has it
+    std::int32_t next;          ///< with the same lowest corner
+    std::int32_t data;          ///< Shared: of several cells
   };
 
   Ring<std::int32_t> Heads; ///< the first facet of a vertex; 0: none

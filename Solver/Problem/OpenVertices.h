@@ -9,24 +9,26 @@
 namespace smg
 {
 
-/** What the mesh stream and the problem have said of the vertices whose cells are not all there. */
+/** The data of the mesh stream and the problem at open vertices: those with missing cells. */
 struct OpenVertices
 {
   OpenVertices(Pool& pool, Problem& problem);
 
-  /** Takes the vertices of a block and asks the problem about them. Throws Error if an answer is
-   * not valid. */
+  /** Adds the vertices of a block and queries the problem for them. Throws Error if a value is
+   * invalid. */
   void add(const MeshBlock& block);
   std::int64_t end() const { return this->points.end(); }
-  /** Lets go of vertices below `done`; of those below `final` but for what neighbours look at. */
+  /**
+   * Releases vertices below `done`, and the data of those below `final` that no neighbour needs.
+   */
   void release(std::int64_t done, std::int64_t final);
 
-  Ring<double> points;          ///< 3 a vertex
-  Ring<double> values;          ///< `columns` a vertex: VertexConditions::value
+  Ring<double> points;          ///< 3 per vertex
+  Ring<double> values;          ///< `columns` per vertex: VertexConditions::value
   Ring<std::int32_t> dirichlet; ///< see VertexConditions
-  Ring<double> sources;         ///< `columns` a vertex: density
+  Ring<double> sources;         ///< `columns` per vertex: density
   Ring<double> screening;       ///< density
-  Ring<double> mass;            ///< lumped area or volume; zero when a vertex comes
+  Ring<double> mass;            ///< lumped area or volume; initially zero
 
 private:
   void ask(const MeshBlock& block);

@@ -40,7 +40,7 @@ ProblemCells::ProblemCells(Problem& problem, CellType type, bool conductivities)
 {
 }
 
-/** Asks the problem about the batch that begins with cell `first` of the block. */
+/** Queries the problem for the batch that begins with cell `first` of the block. */
 void ProblemCells::ask(const MeshBlock& block, std::size_t first, const Ring<double>& points)
 {
   this->gather(block, first, points);
@@ -55,7 +55,7 @@ void ProblemCells::ask(const MeshBlock& block, std::size_t first, const Ring<dou
   }
 }
 
-/** What a batch holds on entry. */
+/** Sets the data of a batch on entry. */
 void ProblemCells::gather(const MeshBlock& block, std::size_t first, const Ring<double>& points)
 {
   const int corners = cornersOf(this->Type);
@@ -92,7 +92,7 @@ void ProblemCells::gather(const MeshBlock& block, std::size_t first, const Ring<
   }
 }
 
-/** Takes what the problem says of cell k of the batch, cell c of the block. */
+/** Reads the data of cell k of the batch, cell c of the block. */
 void ProblemCells::take(std::size_t k, const MeshBlock& block, std::size_t c)
 {
   CellWeights& cell = this->Cells[k].weights;
@@ -122,8 +122,7 @@ void ProblemCells::takeWeights(std::size_t k, const MeshBlock& block, std::size_
                 " are not valid: they must be finite, at least one of them positive, and the "
                 "measure not negative");
   }
-  // Single precision, in which the coarse levels compute, has to hold products of weights and their
-  // inverse.
+  // Single precision, used on coarse levels, must represent products of weights and their inverse.
   if (seen && !(after >= 1e-20 && after <= 1e20))
   {
     throw Error("the weights of " + nameOf(block, c) +

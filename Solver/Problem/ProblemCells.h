@@ -12,17 +12,15 @@
 namespace smg
 {
 
-/** What a problem says of its cells: asks for it, a batch of cells at a time, and checks it. */
+/** The data of a problem in its cells, queried and checked in batches. */
 class ProblemCells
 {
 public:
-  /** `conductivities`: whether K is asked for, too. */
+  /** `conductivities`: whether K is also queried. */
   ProblemCells(Problem& problem, CellType type, bool conductivities = false);
 
-  /**
-   * Makes ready for cell `c` of the block, asked for in ascending order; `points`: the positions of
-   * all open vertices. Throws Error if an answer is not valid.
-   */
+  /** Prepares cell `c` of the block, in ascending order; `points` are the positions of all open
+   * vertices. Throws Error if a value is invalid. */
   void prepare(const MeshBlock& block, std::size_t c, const Ring<double>& points)
   {
     if (c % BatchCells == 0)
@@ -32,9 +30,9 @@ public:
     this->Current = c % BatchCells;
   }
 
-  // Of the cell that is prepared.
+  // Of the prepared cell:
 
-  /** The problem's own; measure 0: none. */
+  /** The weights of the problem; measure 0: none. */
   const CellWeights& weights() const { return this->Cells[this->Current].weights; }
   /** See flatnessFactor(); 1 unless Weights::Cotangent. */
   double flatness() const { return this->Cells[this->Current].flatness; }
@@ -43,9 +41,9 @@ public:
   double screening() const { return this->Screening[this->Current]; }
   /** `columns` numbers. */
   const double* source() const { return this->Source.data() + this->Current * this->Columns; }
-  /** 3 numbers a column. */
+  /** 3 numbers per column. */
   const double* field() const { return this->Field.data() + 3 * this->Current * this->Columns; }
-  /** 6 numbers, where asked for. */
+  /** 6 numbers, if requested. */
   const double* conductivity() const { return this->Conductivity.data() + 6 * this->Current; }
 
 private:
@@ -53,7 +51,7 @@ private:
 
   struct Cell
   {
-    CellWeights weights; // of finite elements, then the problem's own
+    CellWeights weights; // of finite elements, then of the problem
     double flatness, scale;
   };
 

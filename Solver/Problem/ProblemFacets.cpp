@@ -54,7 +54,7 @@ void ProblemFacets::add(const MeshBlock& block)
   }
 }
 
-/** Asks the problem about the facets of cells [first, first + cells) of the block. */
+/** Queries the problem for the facets of cells [first, first + cells) of the block. */
 void ProblemFacets::ask(const MeshBlock& block, std::size_t first, std::size_t cells)
 {
   const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
@@ -70,7 +70,7 @@ void ProblemFacets::ask(const MeshBlock& block, std::size_t first, std::size_t c
   this->Given.facets(batch);
 }
 
-/** The facets of cell c of the batch that begins with cell `first`. */
+/** Adds the facets of cell c of the batch that begins with cell `first`. */
 void ProblemFacets::addCell(const MeshBlock& block, std::size_t first, std::size_t c)
 {
   const int corners = cornersOf(this->Type);
@@ -121,7 +121,7 @@ void ProblemFacets::addCell(const MeshBlock& block, std::size_t first, std::size
   }
 }
 
-/** Whether all but one of a cell's corners may have the same Dirichlet condition. */
+/** Whether all corners of a cell except one may have the same Dirichlet condition. */
 bool ProblemFacets::mayHaveWanted(const std::int64_t* corner) const
 {
   std::size_t known = 0;
@@ -141,8 +141,8 @@ bool ProblemFacets::isWanted(const std::int64_t* vertex) const
            [&](std::int64_t v) { return this->Vertices.dirichlet[v] == condition; });
 }
 
-/** Keeps what is said of a facet of the batch, its corners in this order; answers 0 if nothing is.
- */
+/** Stores the data of a facet of the batch with its corners in this order; returns 0 if there are
+ * none. */
 std::int32_t ProblemFacets::keep(const int* order, std::size_t facet, std::int64_t cell)
 {
   if (!this->Asks || (this->Flux[facet] < 0 && this->Robin[facet] < 0))
@@ -175,7 +175,7 @@ std::int32_t ProblemFacets::keep(const int* order, std::size_t facet, std::int64
   return slot;
 }
 
-/** Of a facet that turns out to be on the boundary: inside the body nobody asks for its values. */
+/** Checks a boundary facet; values at interior facets are not used. */
 void ProblemFacets::require(const BoundaryFacet& facet, std::int64_t name) const
 {
   const auto finite = [](const double* values, std::size_t count) {

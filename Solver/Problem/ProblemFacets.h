@@ -13,32 +13,25 @@
 namespace smg
 {
 
-/**
- * What a problem says of the facets of its cells: asks for it, a batch of cells at a time, and
- * keeps it until it is known which facets are the boundary's. What is said of a facet inside is
- * forgotten with its second cell.
- */
+/** The data of a problem on the facets of its cells, queried in batches and stored until the
+ * boundary facets are known. The data of an interior facet are released with its second cell. */
 class ProblemFacets
 {
 public:
-  /**
-   * Of a problem without facets() nothing is asked, and only those facets are taken whose corners
-   * all have the same Dirichlet condition.
-   */
+  /** A problem without facets() is not queried; only facets whose corners all have the same
+   * Dirichlet condition are then added. */
   ProblemFacets(Pool& pool, Problem& problem, CellType type, const OpenVertices& vertices);
 
-  /** As many vertices have come. */
+  /** Sets the number of vertices so far. */
   void extend(std::int64_t vertices) { this->Open.extend(vertices); }
   void release(std::int64_t first) { this->Open.release(first); }
 
-  /**
-   * Takes the facets of the block's cells: all but those of cells that use a vertex twice or are
-   * flagged as duplicates. Throws Error if an answer is not valid.
-   */
+  /** Adds the facets of the cells of the block, except for cells that use a vertex twice or are
+   * flagged as duplicates. Throws Error if a value is invalid. */
   void add(const MeshBlock& block);
 
   /** Calls found(facet) for each boundary facet whose lowest corner is `vertex`, which is final;
-   * what the facet points to holds for the call. Throws Error if a value is not valid. */
+   * the pointers of the facet are valid during the call. Throws Error if a value is invalid. */
   template <class Found>
   void take(std::int64_t vertex, Found&& found)
   {
@@ -76,8 +69,8 @@ private:
   std::size_t Columns, Corners; // Corners: of a facet
   ConditionCounts Counts;
   OpenFacets Open;
-  /** Of a facet: its conditions, its cell's name, flux, coefficients, ambient. The name is the
-   * number in the original file, or -1 less that in the stream. */
+  /** The data of a facet: its conditions, the name of its cell, flux, coefficients, ambient. The
+   * name is the index in the original file, or -1 minus the index in the stream. */
   Slots<double> Kept;
   // The block.
   const Column* CellIds = nullptr;

@@ -12,14 +12,15 @@ namespace smg
 {
 
 /**
- * What the diagonal of a row of weights of both signs lacks. In exact arithmetic it is positive, as
- * every cell's is; where less is left of the sum than its terms' rounding, it is no part of the
- * problem, and a vertex with that much more on its diagonal stays near its initial value.
+ * The amount by which the diagonal of a row with weights of both signs is too small. In exact
+ * arithmetic the diagonal is positive, like that of every cell. If the sum is smaller than the
+ * rounding of its terms, it carries no information on the problem, and a vertex with this amount
+ * added to its diagonal stays near its initial value.
  */
 inline double rowShortfall(
   std::span<const RowEntry> row, double alpha, std::span<const double> precise)
 {
-  // Of numbers in double precision, too: what is built on the row has single precision.
+  // Also for double precision: the data derived from the row have single precision.
   constexpr double Rounding = 1e-8;
   double terms = std::fabs(alpha);
   double diagonal = alpha;

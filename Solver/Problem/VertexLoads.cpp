@@ -49,7 +49,7 @@ void VertexLoads::add(
   {
     return;
   }
-  // Scaled as the cell's stiffness is, so that K grad g still gives back g.
+  // Scaled like the stiffness of the cell, so that the field K grad g still yields g.
   const double weight = cells.flatness() * measure;
   const CellGradients gradients(this->Type, points);
   for (int c = 0; c < count; ++c)

@@ -10,10 +10,8 @@
 namespace smg
 {
 
-/**
- * What cells or boundary facets bring to the diagonal and to the right-hand side of the rows of
- * open vertices, lumped at their corners.
- */
+/** The contributions of cells or boundary facets to the diagonal and to the right-hand side of the
+ * rows of open vertices, lumped at their corners. */
 class VertexLoads
 {
 public:
@@ -22,9 +20,9 @@ public:
   void extend(std::int64_t vertices);
   void release(std::int64_t first);
 
-  /** Screening, source and field of the cell that is prepared, which has a measure. */
+  /** Adds screening, source and field of the prepared cell, which must have a measure. */
   void add(const std::int64_t* corners, const double* const* points, const ProblemCells& cells);
-  /** Flux and heat transfer of a facet with this length or area. */
+  /** Adds flux and heat transfer of a facet with this length or area. */
   void add(const BoundaryFacet& facet, double area);
 
   double alpha(std::int64_t i) const { return this->Alpha[i]; }

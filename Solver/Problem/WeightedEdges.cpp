@@ -52,7 +52,7 @@ void WeightedEdges::take(
     double weight = this->Row[e].weight;
     if (this->Kind == Weights::Clamped)
     {
-      // 0: flat cells alone have the edge.
+      // 0: only flat cells have the edge.
       const double least = this->Scales ? this->RowScales[e].weight : 0.0;
       const double floor =
         (least > 0.0 ? least : 1.0) * cotangentFloor(this->Type, points.at(from), points.at(to));

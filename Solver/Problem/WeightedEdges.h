@@ -18,11 +18,11 @@ namespace smg
 struct RowNeighbour
 {
   std::int64_t to;
-  double weight; ///< finite in single precision, too
+  double weight; ///< also finite in single precision
 };
 
-/** The weight of an edge to a prescribed vertex as the system has it, where alpha and b are made of
- * it: finite elements need not round it. */
+/** The weight of an edge to a prescribed vertex in the system, where it contributes to alpha and b;
+ * for finite elements it is not rounded. */
 inline double knownWeight(Weights weights, const RowNeighbour& neighbour)
 {
   return weights == Weights::Cotangent ? neighbour.weight
@@ -30,12 +30,12 @@ inline double knownWeight(Weights weights, const RowNeighbour& neighbour)
 }
 
 /**
- * The weights of the edges of open vertices: those of the cells, summed in stream order, and what
- * Weights makes of the sums.
+ * The weights of the edges of open vertices: sums over the cells in stream order, modified
+ * according to Weights.
  *
- * The floor of Weights::Clamped scales with the weights of the problem's own. That is a matter of
- * the edge: at a jump of the conductivity its two sides may differ by orders of magnitude, and the
- * floor of the strong side would conduct through the weak one.
+ * The floor of Weights::Clamped scales with the weights of the problem, edge by edge: at a jump of
+ * the conductivity its two sides may differ by orders of magnitude, and the floor of the strong
+ * side would conduct through the weak one.
  */
 class WeightedEdges
 {
@@ -46,9 +46,9 @@ public:
   void release(std::int64_t first);
 
   /**
-   * Adds the weights of a cell to those edges for which wanted(a, b) is true. `scale`: of the
-   * cell's weights (see ProblemCells). The edges of a cell without measure are there as well, with
-   * no weight of theirs, if they have a length.
+   * Adds the weights of a cell to the edges with wanted(a, b). `scale` is that of the weights of
+   * the cell (see ProblemCells). Edges of a cell without measure are also added, without a weight,
+   * if they have a length.
    */
   template <class Wanted>
   void add(const std::int64_t* corners, const double* const* points, const CellWeights& cell,
@@ -66,17 +66,15 @@ public:
     }
   }
 
-  /** Appends the neighbours of vertex `from`, the lowest that is open, in ascending order;
-   * `points`: the positions of open vertices. Throws Error if a weight is too large for single
-   * precision.
-   */
+  /** Appends the neighbours of vertex `from`, the lowest open one, in ascending order; `points` are
+   * the positions of open vertices. Throws Error if a weight is too large for single precision. */
   void take(std::int64_t from, const Ring<double>& points, std::vector<RowNeighbour>& neighbours);
 
-  /** Edges that were raised to the floor. */
+  /** The number of edges raised to the floor. */
   std::int64_t clamped() const { return this->Clamped / 2; }
 
 private:
-  /** Whether an edge has a weight even in a cell without one. */
+  /** Whether an edge has a weight even in a cell without weight. */
   bool hasLength(const double* a, const double* b) const
   {
     return this->Kind == Weights::Uniform ||
@@ -97,7 +95,7 @@ private:
   CellType Type;
   Weights Kind;
   OpenEdges Edges;
-  std::optional<OpenEdges> Scales; // of each edge the least one of its cells
+  std::optional<OpenEdges> Scales; // minimum over the cells of each edge
   std::vector<OpenEdge> Row, RowScales;
   std::int64_t Clamped = 0; // each edge counts twice
 };

@@ -16,7 +16,7 @@
 namespace smg
 {
 
-/** A table of a block file: rows that all have the same columns. */
+/** A table of a block file: rows with the same columns. */
 struct TableSpec
 {
   std::string name;
@@ -102,7 +102,7 @@ private:
   std::unique_ptr<Implementation> Self;
 };
 
-/** Whether the file begins like a block file. */
+/** Whether the file begins with the magic of a block file. */
 SMG_EXPORT bool isBlockFile(const std::filesystem::path& path);
 
 } // namespace smg

@@ -15,10 +15,8 @@
 namespace smg
 {
 
-/**
- * Writes bytes to a file one after the other, on a thread of its own. The bytes are copied into a
- * few chunks of memory, and whoever brings them waits only when all chunks are on their way.
- */
+/** Writes bytes to a file sequentially, on a separate thread. The bytes are copied into a few
+ * chunks of memory; the caller waits only if all chunks are pending. */
 class SMG_EXPORT WriteBehind
 {
 public:

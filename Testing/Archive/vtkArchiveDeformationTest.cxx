@@ -37,7 +37,7 @@ void record(const std::string& name, double value)
   ::testing::Test::RecordProperty(name, text.str());
 }
 
-/** A number of V-cycles a step, and the error that is allowed after them. */
+/** A number of V-cycles per step, and the allowed error after them. */
 struct Figure
 {
   int cycles;

@@ -26,7 +26,7 @@ inline StreamMesh archiveMesh(const std::string& name)
   options.scratch = scratch.path();
   if (name.ends_with(".mesh"))
   {
-    options.cells = CellChoice::Tetrahedra; // beside which there may be triangles
+    options.cells = CellChoice::Tetrahedra; // the file may hold triangles as well
   }
   const std::unique_ptr<OpenedMesh> opened = openMesh(Archive / name, options);
   const std::unique_ptr<MeshSource> source = opened->reader().source();
@@ -45,7 +45,7 @@ inline IndexedTestMesh refinedArmadillo(int levels)
   return mesh;
 }
 
-/** A test that is skipped without the archive. */
+/** A test that is skipped if there is no archive. */
 template <class Base>
 class NeedsArchive : public Base
 {

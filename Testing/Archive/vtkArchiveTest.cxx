@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The solver on real meshes: the same bits in core and out of core, the rate of convergence, and
-// the answer of a direct solve.
+// the solution of a direct solver.
 
 #include "Testing/Archive/vtkArchiveMeshes.h"
 #include "Testing/Support/ArrayProblem.h"
@@ -101,7 +101,7 @@ TEST_P(ArchiveLong, AgreesWithTheDirectSolve)
   checkConvergenceAndAccuracy(archiveMesh(this->GetParam()), Weights::Clamped);
 }
 
-/** The file's name without what a test's name must not have. */
+/** The file's name without characters that a test name must not have. */
 std::string nameOfFile(const ::testing::TestParamInfo<const char*>& test)
 {
   std::string name = test.param;

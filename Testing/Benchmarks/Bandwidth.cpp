@@ -19,7 +19,7 @@ namespace smg::benchmark
 namespace
 {
 
-/** A scratch file without a name: it goes with the program. */
+/** An unnamed scratch file, deleted when the program ends. */
 class NamelessFile
 {
 public:
@@ -94,14 +94,14 @@ double memoryBandwidth(int threads, std::int64_t bytes)
   }
   if (a.front() != 7.0 || a.back() != 7.0)
   {
-    throw Error("The triad went wrong: this is a fault of the program.");
+    throw Error("The triad is wrong: this is a bug in the program.");
   }
   return best;
 }
 
 FileBandwidth fileBandwidth(const std::filesystem::path& folder, std::int64_t bytes)
 {
-  // About as large as a block of rows of the solver.
+  // About the size of a block of rows in the solver.
   std::vector<char> block(std::size_t(1) << 16, 'x');
   const auto step = static_cast<std::int64_t>(block.size());
   const std::int64_t end = std::max<std::int64_t>(1, bytes / step) * step;

@@ -23,7 +23,7 @@ using ::benchmark::State;
 
 constexpr std::int64_t NoLimit = std::int64_t(1) << 40;
 
-/** The rows of a level that stay where they are. */
+/** The rows of a level, in core. */
 struct KeptRows
 {
   Pool pool{ NoLimit };
@@ -43,7 +43,7 @@ struct KeptRows
   }
 };
 
-/** Assembles the mesh to `rows`; `settle` follows each block. */
+/** Assembles the mesh to `rows`; calls `settle` after each block. */
 template <class Settle>
 void assemble(const testing::StreamMesh& mesh, LevelRows& rows, Pool& pool, Settle&& settle)
 {
@@ -98,7 +98,7 @@ void assembling(State& state, const testing::StreamMesh& mesh)
 
 using TimedStep = Coarsening<TimedOperators<Extended>>;
 
-/** Packs the blocks that are final, from node `begin` on; answers where it has come to. */
+/** Packs the final blocks from node `begin` on; returns the end of the last one. */
 std::int64_t pack(Pool& pool, TimedStep& step, const LevelRows& rows, std::int64_t begin)
 {
   const std::int64_t final = step.interpolated();
@@ -151,7 +151,7 @@ void coarsening(State& state, const KeptRows& kept, CellType type)
   }
 }
 
-/** The rows of the levels that are worth measuring. */
+/** The rows of the measured levels. */
 std::vector<std::shared_ptr<KeptRows>> keptRows(const testing::StreamMesh& mesh)
 {
   std::vector<std::shared_ptr<KeptRows>> levels;

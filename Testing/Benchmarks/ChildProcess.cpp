@@ -79,7 +79,7 @@ nlohmann::json runInChild(const std::function<nlohmann::json()>& work)
   {
     close(ends[0]);
     writeAll(ends[1], answerOf(work).dump());
-    // Without the parent's clean-up, which is the parent's.
+    // Skips the clean-up of the parent.
     _exit(0);
   }
   close(ends[1]);

@@ -8,10 +8,8 @@
 namespace smg::benchmark
 {
 
-/**
- * Runs `work` in a child process, so that its memory is measured by itself, and returns its answer.
- * When the child throws or dies, the answer is `{"failed": "why"}`.
- */
+/** Runs `work` in a child process, so that its memory is measured separately, and returns its
+ * result. If the child throws or dies, the result is `{"failed": "why"}`. */
 nlohmann::json runInChild(const std::function<nlohmann::json()>& work);
 
 } // namespace smg::benchmark

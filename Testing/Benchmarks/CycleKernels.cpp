@@ -18,7 +18,7 @@ namespace
 
 using ::benchmark::State;
 
-/** The levels of a solve in core, at rest between two passes. */
+/** The levels of a solve in core, between two passes. */
 class CoreLevels
 {
 public:

@@ -12,7 +12,7 @@ namespace
 
 using Index = std::int64_t;
 
-/** Numbers the midpoints of edges behind the vertices of a mesh. */
+/** Numbers the midpoints of edges after the vertices of a mesh. */
 class Midpoints
 {
 public:
@@ -57,10 +57,8 @@ private:
   std::unordered_map<Index, Index> Numbers;
 };
 
-/**
- * A diagonal of the inner octahedron and the four other midpoints around it, so that the diagonal
- * and two of them that follow each other are a tetrahedron oriented as the whole one.
- */
+/** A diagonal of the inner octahedron and the four other midpoints around it: the diagonal and two
+ * consecutive midpoints form a tetrahedron with the orientation of the whole one. */
 using Diagonal = std::array<Index, 6>;
 
 } // namespace

@@ -18,7 +18,7 @@ namespace smg::benchmark
 namespace
 {
 
-/** Throws when a call of hypre answers with an error. */
+/** Throws if a call of hypre returns an error. */
 void check(HYPRE_Int error, const char* what)
 {
   if (error != 0)
@@ -126,7 +126,7 @@ private:
   HYPRE_IJMatrix Self = nullptr;
 };
 
-/** Conjugate gradients with one V-cycle of BoomerAMG, with hypre's default choices, in front. */
+/** Conjugate gradients preconditioned by one V-cycle of BoomerAMG with hypre's defaults. */
 class Solver
 {
 public:
@@ -180,7 +180,8 @@ nlohmann::json runHypre(const Task& task)
   CpuClock clock;
   testing::DirectSystem system = assemble(task);
   Eigen::MatrixXd x = system.initial();
-  // The correction e of A e = b - A x_0, from zero: hypre's tolerance is then that of the task.
+  // The correction e of A e = b - A x_0, starting from zero: hypre's tolerance is then that of the
+  // task.
   const Eigen::MatrixXd residual = system.rightSide - system.matrix * x;
   const Matrix matrix(system.matrix);
   system.matrix = {};

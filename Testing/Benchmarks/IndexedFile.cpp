@@ -74,7 +74,7 @@ void shuffle(Numbers& numbers, testing::Random& random)
   }
 }
 
-/** In which order a file has the vertices and cells of a mesh. */
+/** The order of the vertices and cells of a mesh in a file. */
 struct FileOrder
 {
   Numbers vertices, cells;

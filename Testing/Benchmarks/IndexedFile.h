@@ -16,8 +16,8 @@ testing::IndexedTestMesh readIndexed(const std::filesystem::path& path);
 
 /**
  * Writes the mesh with single precision coordinates: triangles as binary PLY, tetrahedra as binary
- * legacy VTK. With a seed, vertices and cells are in a random order. At most 2^31 - 1 vertices and
- * cells. Takes 8 bytes a vertex and 4 a cell of memory. Throws Error.
+ * legacy VTK. With a seed, vertices and cells are in random order. At most 2^31 - 1 vertices and
+ * cells. Needs 8 bytes of memory per vertex and 4 per cell. Throws Error.
  */
 void writeIndexed(const testing::IndexedTestMesh& mesh, const std::filesystem::path& path,
   std::optional<std::uint64_t> shuffleSeed = {});

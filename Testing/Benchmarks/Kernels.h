@@ -11,20 +11,18 @@
 namespace smg::benchmark
 {
 
-/** Levels with fewer nodes take next to nothing of a solve: they are not measured. */
+/** Levels with fewer nodes take a negligible part of a solve and are not measured. */
 inline constexpr std::int64_t FewestNodes = 5000;
 
-/**
- * Nanoseconds a node of the level that `seconds` of all iterations are. All times here are
- * processor times: others may use the machine.
- */
+/** Converts `seconds` of all iterations to nanoseconds per node of the level. All times here are
+ * processor times, because the machine may be shared. */
 inline double perNode(double seconds, const ::benchmark::State& state, const Report::Level& level)
 {
   return 1e9 * seconds /
          (static_cast<double>(level.nodes) * static_cast<double>(state.iterations()));
 }
 
-/** Sets the counters that all kernels have, after `seconds` in all iterations. */
+/** Sets the counters that all kernels have; `seconds` is the time of all iterations. */
 inline void setCounters(::benchmark::State& state, const Report::Level& level, double seconds)
 {
   state.counters["nodes"] = static_cast<double>(level.nodes);

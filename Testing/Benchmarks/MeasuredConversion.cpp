@@ -16,7 +16,7 @@ namespace smg::benchmark
 namespace
 {
 
-/** As `ulimit -v`. */
+/** Like `ulimit -v`. */
 void limitAddressSpace(std::int64_t bytes)
 {
   const rlimit limit = { static_cast<rlim_t>(bytes), static_cast<rlim_t>(bytes) };

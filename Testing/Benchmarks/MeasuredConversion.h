@@ -14,16 +14,16 @@ namespace smg::benchmark
 struct ConversionTask
 {
   std::filesystem::path mesh;    ///< of any format that `smg convert` reads without VTK
-  std::filesystem::path output;  ///< a .vsm file, which stays
+  std::filesystem::path output;  ///< a .vsm file, which is kept
   std::filesystem::path scratch; ///< folder for scratch files, which must exist
-  std::string order;             ///< as `smg convert --order`
+  std::string order;             ///< like `smg convert --order`
   std::int64_t memory = 0;       ///< limit of the accounted memory, bytes
   std::int64_t addressSpace = 0; ///< most bytes of address space of the process; 0: no limit
 };
 
 /**
- * Converts the mesh in a process of its own. The answer holds the ConversionReport, `cpu_seconds`
- * and `wall_seconds` of the whole process, `peak_bytes` resident, `scratch_bytes_peak` on disk and
+ * Converts the mesh in a separate process. The result holds the ConversionReport, `cpu_seconds` and
+ * `wall_seconds` of the whole process, `peak_bytes` resident, `scratch_bytes_peak` on disk and
  * `output_bytes`; or `{"failed": "why"}`.
  */
 nlohmann::json measureConversion(const ConversionTask& task);

@@ -9,16 +9,16 @@ namespace smg::benchmark
 {
 
 /**
- * What whoever streams a mesh in the order of a .vsm file holds: `span`, `width` (most vertices
- * alive at a cell) and `mean_window`, the mean over the vertices i of the largest neighbour of the
- * vertices up to i, less i. About 30 bytes a vertex and 2 a cell of memory.
+ * What streaming a mesh in the order of a .vsm file requires: `span`, `width` (most vertices alive
+ * at a cell) and `mean_window`, the mean over the vertices i of the largest neighbour of the
+ * vertices up to i, less i. Needs about 30 bytes of memory per vertex and 2 per cell.
  */
 nlohmann::json orderOfFile(const std::filesystem::path& vsm);
 
 /**
- * The same of the mesh of the file in a breadth-first order made in core, each component begun at
- * the last vertex of two searches; cells as soon as their last vertex is reached. About 250 bytes a
- * triangle of memory, 600 a tetrahedron.
+ * The same for the mesh of the file in a breadth-first order made in core, where each component
+ * starts at the last vertex of two searches and cells come as soon as their last vertex is reached.
+ * Needs about 250 bytes of memory per triangle, 600 per tetrahedron.
  */
 nlohmann::json orderInCore(const std::filesystem::path& vsm);
 

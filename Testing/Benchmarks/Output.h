@@ -12,7 +12,7 @@
 namespace smg::benchmark
 {
 
-/** A number as printf writes it with `format`. */
+/** Formats a number like printf. */
 inline std::string text(const char* format, double value)
 {
   char characters[64];
@@ -20,7 +20,7 @@ inline std::string text(const char* format, double value)
   return characters;
 }
 
-/** Writes the numbers of a benchmark to a file; an empty name: nowhere. Throws Error. */
+/** Writes the numbers of a benchmark to a file; an empty name writes nothing. Throws Error. */
 inline void writeNumbers(const std::string& file, const nlohmann::json& numbers)
 {
   if (!file.empty() && !(std::ofstream(file) << numbers.dump(2) << '\n'))

@@ -8,21 +8,21 @@
 namespace smg::benchmark
 {
 
-/** What every peer is given. */
+/** The input of every peer. */
 struct Task
 {
   std::filesystem::path mesh;     ///< a .vsm file
-  std::filesystem::path solution; ///< where the values go: 3 doubles a vertex, in stream order
+  std::filesystem::path solution; ///< output: 3 doubles per vertex, in stream order
   double tolerance = 1e-6;        ///< of the relative residual
   int threads = 1;                ///< of smg; the peers use one
 };
 
 /**
- * Each solves the task in this process and writes the solution. The answer holds `cpu_assemble`,
- * `cpu_setup`, `cpu_solve` in seconds, as far as they can be told apart, `cpu_total`, `peak_bytes`,
- * `iterations` (hypre's and PETSc's: of the three columns together). For hypre, PETSc and CHOLMOD
- * the peak is counted from the assembled matrix on, without what the assembly needed. Those of smg
- * have the solver's `report`, and in `mesh_seconds` what reading the mesh took of the time.
+ * Each solves the task in this process and writes the solution. The result holds `cpu_assemble`,
+ * `cpu_setup`, `cpu_solve` in seconds, as far as they can be separated, `cpu_total`, `peak_bytes`,
+ * `iterations` (hypre and PETSc: of the three columns together). For hypre, PETSc and CHOLMOD the
+ * peak is measured from the assembled matrix on, without the assembly. Results of smg also hold the
+ * solver's `report`, and in `mesh_seconds` the time for reading the mesh.
  */
 nlohmann::json runStreaming(const Task& task);
 nlohmann::json runInCore(const Task& task);

@@ -13,7 +13,7 @@ namespace smg::benchmark
 namespace
 {
 
-/** Throws when a call of PETSc answers with an error. */
+/** Throws if a call of PETSc returns an error. */
 void check(PetscErrorCode error, const char* what)
 {
   if (error != 0)
@@ -29,7 +29,7 @@ public:
   Library()
   {
     check(PetscInitializeNoArguments(), "its start");
-    // Errors are ours to tell.
+    // This program reports the errors itself.
     PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
   }
   ~Library() { PetscFinalize(); }
@@ -80,7 +80,7 @@ private:
   Vec Self = nullptr;
 };
 
-/** Conjugate gradients with one V-cycle of GAMG, with PETSc's default choices, in front. */
+/** Conjugate gradients preconditioned by one V-cycle of GAMG with PETSc's defaults. */
 class Solver
 {
 public:
@@ -129,7 +129,8 @@ nlohmann::json runPetsc(const Task& task)
   CpuClock clock;
   testing::DirectSystem system = assemble(task);
   Eigen::MatrixXd x = system.initial();
-  // The correction e of A e = b - A x_0, from zero: PETSc's tolerance is then that of the task.
+  // The correction e of A e = b - A x_0, starting from zero: PETSc's tolerance is then that of the
+  // task.
   const Eigen::MatrixXd residual = system.rightSide - system.matrix * x;
   system.rightSide.resize(0, 0);
   const Matrix matrix(system.matrix);

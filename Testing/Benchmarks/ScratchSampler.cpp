@@ -26,7 +26,7 @@ std::int64_t openBytes(const std::string& folder)
   {
     const std::string target = std::filesystem::read_symlink(entry->path(), ignored).string();
     struct stat status = {};
-    // A file may be closed meanwhile.
+    // A file may be closed concurrently.
     if (target.starts_with(folder) && ::stat(entry->path().c_str(), &status) == 0 &&
         S_ISREG(status.st_mode) && counted.emplace(status.st_dev, status.st_ino).second)
     {

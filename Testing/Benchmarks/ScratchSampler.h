@@ -8,10 +8,8 @@
 namespace smg::benchmark
 {
 
-/**
- * Watches how much of the disk this process's open files in a folder take, also those that have no
- * name any more, every few milliseconds on a thread of its own.
- */
+/** Samples the disk space of this process's open files in a folder, including unlinked ones, every
+ * few milliseconds on a separate thread. */
 class ScratchSampler
 {
 public:
@@ -20,9 +18,9 @@ public:
   struct Result
   {
     std::int64_t largest = 0; ///< most bytes on disk at once
-    double cpuSeconds = 0;    ///< of the watching itself
+    double cpuSeconds = 0;    ///< of the sampling itself
   };
-  /** Ends the watching. */
+  /** Ends the sampling. */
   Result finish();
 
 private:
@@ -30,7 +28,7 @@ private:
 
   std::filesystem::path Folder;
   Result Seen;
-  std::jthread Thread; ///< the last member: it uses the others
+  std::jthread Thread; ///< the last member, since it uses the others
 };
 
 } // namespace smg::benchmark

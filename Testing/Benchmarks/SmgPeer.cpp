@@ -18,7 +18,7 @@ namespace smg::benchmark
 namespace
 {
 
-/** A mesh stream, and the time that its reading and decoding takes. */
+/** A mesh stream that measures the time of its reading and decoding. */
 class TimedSource : public MeshSource
 {
 public:
@@ -41,7 +41,7 @@ private:
   double Seconds = 0.0;
 };
 
-/** Copies the solution to the task's file, a stretch at a time. */
+/** Copies the solution to the task's file, one range at a time. */
 void save(const Task& task, Solution& solution)
 {
   constexpr std::int64_t Stretch = 16384;

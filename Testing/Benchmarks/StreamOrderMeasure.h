@@ -8,11 +8,11 @@
 namespace smg::benchmark
 {
 
-/** Measures the order of a compact mesh stream, of which it is given cell after cell. */
+/** Measures the order of a compact mesh stream, cell by cell. */
 class StreamOrderMeasure
 {
 public:
-  /** `corners` are stream indices; new ones follow each other. */
+  /** `corners` are stream indices; new ones are consecutive. */
   void append(std::span<const std::int64_t> corners);
 
   /** Largest index distance between two vertices of a cell. */
@@ -28,7 +28,7 @@ private:
   std::int64_t Span = 0;
   std::vector<std::int64_t> LargestNeighbour; ///< of each vertex; itself if that is larger
   std::vector<std::int64_t> LastCell;         ///< of each vertex
-  std::vector<std::uint8_t> Introduced;       ///< vertices that a cell is the first to use
+  std::vector<std::uint8_t> Introduced; ///< by each cell: vertices that it is the first to use
 };
 
 } // namespace smg::benchmark

@@ -11,7 +11,7 @@
 namespace smg::benchmark
 {
 
-/** The stages from the rows of a level to those of the next one, in their order. */
+/** The stages from the rows of a level to those of the next one, in order. */
 enum class Stage
 {
   Lift,
@@ -28,9 +28,8 @@ inline constexpr std::array<const char*, static_cast<std::size_t>(Stage::None)> 
 };
 
 /**
- * Processor seconds by stage. A stage lasts until another one begins: the clock is read at changes
- * only, which are few, since a stage treats a whole block of nodes; so it does not disturb what it
- * times.
+ * Processor seconds by stage. A stage lasts until another one begins. The clock is read at changes
+ * only, which are few, since a stage treats a whole block of nodes; so the overhead is negligible.
  */
 class StageClock
 {
@@ -67,7 +66,7 @@ private:
   double Since = processSeconds();
 };
 
-/** Another operator set that tells a clock which of its stages is at work. */
+/** Wraps an operator set and reports its active stage to a clock. */
 template <OperatorSet Operators>
 class TimedOperators
 {
@@ -75,7 +74,7 @@ public:
   static constexpr const char* name = Operators::name;
   using Relaxation = typename Operators::Relaxation;
 
-  /** Of no use without a clock; an operator set has such a constructor, and forCells(). */
+  /** Required of an operator set, like forCells(); not usable without a clock. */
   TimedOperators() = default;
   TimedOperators(Operators operators, StageClock& clock)
     : Set(std::move(operators))
@@ -120,7 +119,7 @@ public:
     this->Clock->enter(Stage::Gather);
     this->Set.gather(data, c);
   }
-  /** Takes turns with gather(), and counts as that. */
+  /** Alternates with gather() and is counted as part of it. */
   void sparsify(CoarseningData& data, std::int64_t c) { this->Set.sparsify(data, c); }
 
 private:

@@ -23,7 +23,7 @@ double cpuSeconds()
 
 std::int64_t peakBytes()
 {
-  // Not rusage's ru_maxrss: that cannot be reset, and a child inherits its parent's.
+  // Not rusage's ru_maxrss, which cannot be reset and which a child inherits from its parent.
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;)
   {

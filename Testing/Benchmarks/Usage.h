@@ -9,7 +9,7 @@ namespace smg::benchmark
 /** CPU seconds of all threads of this process so far, in the program and in the kernel. */
 double cpuSeconds();
 
-/** Most bytes of memory resident at once, since the process began or resetPeak() was called. */
+/** Peak resident memory in bytes since the start of the process or the last resetPeak(). */
 std::int64_t peakBytes();
 
 /** Returns freed memory to the system and begins a new measurement of peakBytes(). */

@@ -29,7 +29,7 @@ using smg::benchmark::ConversionTask;
 using smg::benchmark::text;
 
 constexpr std::int64_t Mebibyte = std::int64_t(1) << 20;
-/** Above it the order in core would take more memory than the machine may have. */
+/** For more vertices the order in core may need more memory than the machine has. */
 constexpr std::int64_t MostVerticesInCore = 4'000'000;
 
 struct Options
@@ -40,7 +40,7 @@ struct Options
   std::int64_t addressSpace = 0;
 };
 
-/** Adds how good the order is; `inCore` is filled at the first time. */
+/** Adds the quality of the order; `inCore` is filled at the first call. */
 void judge(json& result, const std::filesystem::path& output, json& inCore)
 {
   using namespace smg::benchmark;
@@ -71,7 +71,7 @@ json measure(const ConversionTask& task, json& inCore)
   return result;
 }
 
-/** The number of an order, and how many times that of the order in core it is. */
+/** The number of an order, and its ratio to that of the order in core. */
 std::string quality(const json& result, const json& inCore, const char* key)
 {
   if (!result.contains("quality") || !result["quality"].contains(key))
@@ -156,7 +156,7 @@ void run(const Options& options)
   const smg::testing::TemporaryFolder folder;
   ConversionTask task;
   task.mesh = options.mesh;
-  // The output stays out of the folder whose size is measured.
+  // The output is outside the folder whose size is measured.
   task.scratch = folder / "scratch";
   task.output = folder / "converted.vsm";
   std::filesystem::create_directory(task.scratch);

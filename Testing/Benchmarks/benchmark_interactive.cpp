@@ -28,7 +28,7 @@ using namespace smg::testing;
 
 constexpr std::int64_t PreviewPoints = 10000;
 
-/** What an update may take, in milliseconds. */
+/** Allowed time of an update in milliseconds. */
 constexpr double UpdateBound = 30.0;
 
 StreamMesh previewOf(const std::string& path)
@@ -49,7 +49,7 @@ smg::DeformOptions onOneThread(smg::Weights weights, int cycles)
   return options;
 }
 
-/** A frame of a drag: other angles of the same handles, and the positions to show. */
+/** A frame of a drag: new angles of the same handles, and the resulting positions. */
 void update(benchmark::State& state, const StreamMesh& mesh, smg::Weights weights, int cycles)
 {
   std::vector<smg::VertexHandles> frames;
@@ -77,7 +77,7 @@ void update(benchmark::State& state, const StreamMesh& mesh, smg::Weights weight
   state.counters["bound_ms"] = UpdateBound;
 }
 
-/** What an update saves: everything from the start. */
+/** The cost that an update avoids: everything from the start. */
 void start(benchmark::State& state, const StreamMesh& mesh, smg::Weights weights, int cycles)
 {
   MemorySource source(mesh);

@@ -65,7 +65,7 @@ json measure(const std::string& peer, const Task& task, bool isChecked)
   return result;
 }
 
-/** CPU microseconds a vertex, or a dash where the peer does not tell. */
+/** CPU microseconds per vertex, or a dash where the peer does not report them. */
 std::string microseconds(const json& result, const char* key, std::int64_t vertices)
 {
   if (!result.contains(key))
@@ -124,7 +124,7 @@ try
     ->check(CLI::IsMember(peerNames()))
     ->capture_default_str();
   app.add_flag("--check,!--no-check", isChecked,
-    "Whether each solution is checked by a system assembled in core, which takes its memory");
+    "Whether to check each solution with a system assembled in core, which needs its memory");
   app.add_option("--json", jsonFile, "Where to write the numbers");
   CLI11_PARSE(app, argc, argv);
 

@@ -39,10 +39,10 @@ struct Options
 };
 
 /**
- * What a pass after the first one reads and writes. Of p passes, the last p - 1 read every file but
- * the history of the acceleration, which is written in them and read from the third one on; the
- * state is written in all, the rest in the first one only. What components without prescribed value
- * take beside the passes is spread over them.
+ * What a pass after the first one reads and writes. Of p passes, the last p - 1 read every file
+ * except the history of the acceleration, which they write, and which is read from the third pass
+ * on. The state is written in all passes, the rest in the first one only. The traffic of components
+ * without prescribed value outside the passes is spread over them.
  */
 json bytesOfPass(const json& report)
 {
@@ -110,7 +110,7 @@ void printBytes(const json& kinds, double vertices)
   print("all", "", [&](const char* key) { return sum(kinds, key); });
 }
 
-/** A bound: what it lets a pass read and write a second. */
+/** A bound on what a pass reads and writes per second. */
 json boundOf(const char* name, double readBandwidth, double writeBandwidth, const json& kinds,
   double measuredSeconds)
 {
@@ -158,7 +158,8 @@ void run(const Options& options)
     const int later = report["passes"].get<int>() - 1;
     if (later < 1)
     {
-      throw smg::Error(options.mesh + ": solved in the first pass, there is no other to measure.");
+      throw smg::Error(
+        options.mesh + ": solved in the first pass; there is no later pass to measure.");
     }
     kinds = bytesOfPass(report);
     vertices = report["vertices"];

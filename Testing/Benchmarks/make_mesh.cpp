@@ -32,14 +32,14 @@ namespace
 
 using namespace smg::testing;
 
-/** Twice as many vertices around the torus as along its tube: its radii are 2 and 1. */
+/** Twice as many vertices around the torus as along its tube, since its radii are 2 and 1. */
 IndexedTestMesh jitteredTorus(double vertices)
 {
   const int along = static_cast<int>(std::lround(std::sqrt(vertices / 2)));
   return torus(2 * along, along, 0.25);
 }
 
-/** Bumps as high as a third of the edges of each of three refinements. */
+/** Bumps of a third of the edge length of each of three refinements. */
 IndexedTestMesh scan(double vertices)
 {
   IndexedTestMesh mesh = bumpy(jitteredTorus(vertices / 16), 0.3, 1);
@@ -145,7 +145,7 @@ try
   CLI11_PARSE(app, argc, argv);
   if (options.isShuffled && options.out.ends_with(".vsm"))
   {
-    throw smg::Error(options.out + ": a stream is in its own order; shuffle a .ply or a .vtk.");
+    throw smg::Error(options.out + ": a stream has its own order; shuffle a .ply or a .vtk.");
   }
   write(options.made(app.get_subcommands().front()->get_name()), options);
   return 0;

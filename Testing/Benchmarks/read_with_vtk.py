@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""read_with_vtk.py MESH OUT.json : what it takes to hold the mesh of a .ply or .vtk file in memory.
+"""read_with_vtk.py MESH OUT.json : the cost of holding the mesh of a .ply or .vtk file in memory.
 
 Reads the file with VTK's own reader in this process, writes the numbers and prints a sentence.
 """
@@ -27,7 +27,7 @@ def cpu_seconds():
 
 
 def peak_bytes():
-    # Not ru_maxrss: a child inherits its parent's.
+    # Not ru_maxrss, which a child inherits from its parent.
     with open("/proc/self/status") as status:
         for line in status:
             if line.startswith("VmHWM:"):

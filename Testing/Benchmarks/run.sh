@@ -1,38 +1,38 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Testing/Benchmarks/run.sh [PART] [OPTION VALUE]... [MESH...] : measures, and leaves tables (.md) and
-# numbers (.json) in build-benchmarks/results. A MESH may have any format that `smg convert` reads,
-# a .vsm is taken as it is; without one a part makes its own. The parts:
+# Testing/Benchmarks/run.sh [PART] [OPTION VALUE]... [MESH...] : measures, and writes tables (.md) and
+# numbers (.json) to build-benchmarks/results. A MESH may have any format that `smg convert` reads,
+# a .vsm is used unchanged; without one a part generates its own. The parts:
 #
-#   solve     (default) the solver beside hypre, PETSc and CHOLMOD, and the interactive deformation of
+#   solve     (default) the solver, hypre, PETSc and CHOLMOD, and the interactive deformation of
 #             each mesh's preview. Its own meshes: tori of 0.25 and 1 million vertices, a box of
-#             tetrahedra of 0.25 million, and a bumpy surface like a scan of 1 million, of which the
-#             preview alone is measured.
-#   convert   the conversion of each mesh, and what VTK's reader takes where ParaView is installed.
-#               --memory 64,256                  limits of the memory in MiB
+#             tetrahedra of 0.25 million, and a bumpy surface like a scan of 1 million, where
+#             only the preview is measured.
+#   convert   the conversion of each mesh, and the cost of VTK's reader if ParaView is installed.
+#               --memory 64,256                  memory limits in MiB
 #               --orders bfs,spectral,axis,keep  which orders
 #               --address-space MiB              as ulimit -v on every conversion, to prove the
 #                                                memory; the program itself and the stacks of its
 #                                                threads count
 #             Its own meshes, refined and shuffled: a torus of 1 million vertices and a box of
-#             tetrahedra of 0.5 million. A larger real one is made by
+#             tetrahedra of 0.5 million. To make a larger real one:
 #               build-benchmarks/bin/make_mesh finer dragon.ply 3 dragon-x64.ply --shuffle
-#   scaling   the growth of memory and time: each mesh is refined again and again, converted and
+#   scaling   the growth of memory and time: each mesh is refined repeatedly, converted and
 #             solved out of core with one and two threads; scaling.md, .json and .svg, with the
 #             exponents of the growth.
 #               --to VERTICES        most vertices of a mesh (3000000)
-#               --peers-to VERTICES  most vertices of a mesh that the others also solve (1000000)
-#             Its own meshes: a torus and a box of tetrahedra of 40 thousand vertices. What the README
-#             shows is kept in Testing/Benchmarks/results.
+#               --peers-to VERTICES  most vertices of a mesh for the other solvers (1000000)
+#             Its own meshes: a torus and a box of tetrahedra of 40 thousand vertices. The results
+#             shown in the README are in Testing/Benchmarks/results.
 #   table3    Table 3 of the paper for these meshes: I/O, hierarchy, multigrid, total time, peak nodes
 #             and memory, out of core and in core; table3.md and .json. Meshes as for solve.
 #               --threads N          of each solve (1)
-#   kernels   nanoseconds a node of each kernel. Its own mesh: a torus of 0.25 million vertices.
-#   roofline  the bytes that a pass moves, and how near it comes to the bandwidths of memory, page
+#   kernels   nanoseconds per node of each kernel. Its own mesh: a torus of 0.25 million vertices.
+#   roofline  the bytes that a pass moves, compared with the bandwidths of memory, page
 #             cache and disk. Its own mesh: a torus of 1 million vertices.
 #               --scratch DIR        on the disk to measure (TMPDIR)
 #               --threads 1,2        of the solves
-#               --file MiB           size of the file that is written and read (1024)
+#               --file MiB           size of the measured file (1024)
 #
 # Scratch files go to TMPDIR, which should be a disk. To repeat a measurement: keep the machine
 # otherwise idle, and run it twice; the spread between the runs is the accuracy of the times.
@@ -89,7 +89,7 @@ measure_conversion() {
   name=$(basename "$1")
   out=$results/${name%.*}-convert
   "$bin/benchmark_convert" "$1" "${options[@]}" --json "$out.json" | tee "$out.md"
-  # Debian's Python, which is the one that ParaView's modules are for. Its reader may fail.
+  # Debian's Python, for which ParaView's modules are built. Its reader may fail.
   if [[ $1 == *.@(ply|vtk) ]] && /usr/bin/python3 -c "import vtkmodules" 2> /dev/null; then
     /usr/bin/python3 Testing/Benchmarks/read_with_vtk.py "$1" "$out-vtk.json" | tee -a "$out.md" ||
       echo "VTK does not read $1" | tee -a "$out.md"
@@ -111,7 +111,7 @@ made_finer() {
   echo "$finer"
 }
 
-# Makes streams of those meshes that are none.
+# Converts those meshes that are not streams.
 convert_meshes() {
   local i name
   for i in "${!meshes[@]}"; do
@@ -150,7 +150,7 @@ scaling_part() {
   if [ ${#meshes[@]} -eq 0 ]; then
     meshes=("$(made torus 40000 ply)" "$(made box 40000 vtk)")
   fi
-  # Debian's Python, which is the one that matplotlib is installed for.
+  # Debian's Python, for which matplotlib is installed.
   /usr/bin/python3 Testing/Benchmarks/scaling.py "$bin" "$results" "${options[@]}" "${meshes[@]}"
 }
 

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """scaling.py BIN OUT MESH... : how time and memory grow with the mesh.
 
-Refines each mesh again and again (a triangle becomes four, a tetrahedron eight), as long as it has
-at most --to vertices, with vertices and cells in a random order; converts it out of core, and solves
-it streaming with one thread and with two, and with the other solvers up to --peers-to vertices. BIN
-is the folder of the programs; OUT/scaling.json, .md and .svg are what comes out, and OUT keeps the
-streams. Every refinement needs the finest mesh in memory, 60 bytes a triangle: the solver does not.
+Refines each mesh repeatedly (a triangle becomes four, a tetrahedron eight) up to --to vertices, with
+vertices and cells in random order; converts it out of core, and solves it streaming with one thread
+and with two, and with the other solvers up to --peers-to vertices. BIN is the folder of the
+programs; the output is OUT/scaling.json, .md and .svg, and OUT keeps the streams. The refinement
+holds the finest mesh in memory, 60 bytes per triangle; the solver does not.
 """
 import argparse
 import json
@@ -21,7 +21,7 @@ SUFFIX = {"triangle": ".ply", "tetrahedron": ".vtk"}
 
 
 def machine():
-    """What the numbers were measured on."""
+    """The machine of the measurement."""
     with open("/proc/cpuinfo", encoding="utf-8") as lines:
         models = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]
     pages = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
@@ -44,7 +44,7 @@ class Series:
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
 
     def numbers(self, program, option, *arguments):
-        """What a program writes as JSON to the file that `option` names."""
+        """The JSON that a program writes to the file given by `option`."""
         file = self.options.out / "scaling-numbers.json"
         self.run(program, *arguments, option, file)
         numbers = json.loads(file.read_text())
@@ -52,7 +52,7 @@ class Series:
         return numbers
 
     def solve(self, stream, threads, *peers):
-        """Without `peers` all there are, and their solutions are checked."""
+        """Without `peers`, uses all that exist and checks their solutions."""
         which = ["--peers", ",".join(peers), "--no-check"] if peers else []
         return self.numbers("benchmark_peers", "--json", stream, "--threads", threads,
                             *which)["results"]

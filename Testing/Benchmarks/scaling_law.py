@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What scaling.py has measured: the exponents of the growth, Markdown tables and a plot."""
+"""The results of scaling.py: exponents of the growth, Markdown tables and a plot."""
 import json
 import math
 
@@ -33,7 +33,7 @@ def streaming(point, threads=1):
     return point["streaming"][str(threads)]
 
 
-# What is fitted against the number of vertices.
+# The quantities that are fitted against the number of vertices.
 GROWTHS = {
     "peak_nodes": lambda point: streaming(point)["report"]["peak_nodes"],
     "pool_bytes": lambda point: streaming(point)["report"]["pool_bytes_peak"],
@@ -77,7 +77,7 @@ def streaming_table(series):
 
 
 def growth_table(series):
-    """A row for each series that has something to fit."""
+    """A row for each series with data to fit."""
     rows = []
     for entry in series:
         if len(entry["points"]) > 1:
@@ -89,7 +89,7 @@ def growth_table(series):
 
 
 def peer_table(series):
-    """A row for each mesh that the others have solved, too."""
+    """A row for each mesh that the other solvers have solved, too."""
     results = [(entry["mesh"], point["vertices"], {"smg": streaming(point), **point["peers"]})
                for entry in series for point in entry["points"] if point["peers"]]
     solvers = [name for name in SOLVERS if any(name in of for _, _, of in results)]
@@ -105,7 +105,7 @@ def peer_table(series):
 
 
 def curve(entry, solver, value):
-    """(vertices, value) of a solver on the meshes of a series where it succeeded."""
+    """(vertices, value) of a solver on the meshes of a series that it has solved."""
     points = []
     for point in entry["points"]:
         result = streaming(point) if solver == "smg" else point["peers"].get(solver, {})
@@ -115,7 +115,7 @@ def curve(entry, solver, value):
 
 
 def plot(series, file):
-    """Memory and time against the vertices, logarithmic, as SVG."""
+    """Plots memory and time against the vertices, logarithmic, as SVG."""
     pyplot.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "smg", "font.size": 9})
     figure, (memory, time) = pyplot.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
     for entry, style in zip(series, ("o-", "s--", "^:", "v-.") * len(series)):
@@ -139,7 +139,7 @@ def plot(series, file):
 
 
 def write(out, numbers):
-    """scaling.md, .json and .svg in the folder `out`."""
+    """Writes scaling.md, .json and .svg to the folder `out`."""
     series, machine = numbers["series"], numbers["machine"]
     (out / "scaling.json").write_text(json.dumps(numbers, indent=1) + "\n")
     (out / "scaling.md").write_text(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The laws that scaling.py's meshes follow are found again in its table and plot."""
+"""Tests that the table and plot of scaling.py reproduce the laws of its data."""
 import pathlib
 import sys
 import tempfile
@@ -8,7 +8,7 @@ import scaling_law
 
 
 def point(vertices):
-    """Nodes like the root of the vertices, memory like the power 2/3, time like the vertices."""
+    """Nodes grow with the power 1/2 of the vertices, memory with 2/3, time linearly."""
     result = {"cpu_total": 3e-6 * vertices, "peak_bytes": 1 << 24, "iterations": 8,
               "report": {"peak_nodes": round(1e3 * vertices ** 0.5),
                          "pool_bytes_peak": round(1e6 * vertices ** (2 / 3)),
@@ -25,8 +25,8 @@ def main():
     for name, law in (("peak_nodes", 1 / 2), ("pool_bytes", 2 / 3), ("cpu_seconds", 1)):
         for which in ("all", "last"):
             assert abs(fits[name][which] - law) < 1e-4, (name, fits)
-    # One point off the line moves the fit over all points, as least squares say: 3 of 20 for the
-    # last of four points at equal distances.
+    # One outlier changes the least-squares fit over all points: by 3/20 for the last of four points
+    # at equal distances.
     fitted = scaling_law.exponent([(1, 1), (10, 1), (100, 1), (1000, 10)])
     assert abs(fitted - 0.3) < 1e-12, fitted
     with tempfile.TemporaryDirectory() as folder:
@@ -36,7 +36,7 @@ def main():
         tables = (out / "scaling.md").read_text()
         svg = (out / "scaling.svg").read_text()
     assert "| wing, all | 0.50 | 0.67 | 1.00 |" in tables and "| dot, all" not in tables, tables
-    # 3 us a vertex and 16 MiB, streaming and hypre.
+    # 3 us per vertex and 16 MiB, streaming and hypre.
     assert "| dot | 10000 | 3.00, 16 | 3.00, 16 | failed |" in tables, tables
     assert "hypre BoomerAMG, wing" in svg and "CHOLMOD" not in svg
 

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The archive of real meshes, for the scripts of this folder; they are skipped where there is none."""
+"""The archive of real meshes, for the scripts of this folder; without it they are skipped."""
 
 import os
 import sys
 
 ARCHIVE = os.environ["SMG_TEST_DATA_DIR"]
-CHOSEN = {"bunny_tet.mesh": ("--cells", "tets")}  # how to convert it, where that must be said
+CHOSEN = {"bunny_tet.mesh": ("--cells", "tets")}  # options of its conversion, where required
 
 if not ARCHIVE:
     print("skipped: SMG_TEST_DATA_DIR names no archive of meshes")

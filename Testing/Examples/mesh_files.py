@@ -17,13 +17,13 @@ class Mesh(NamedTuple):
 
 
 def rounded(points):
-    """The points as the nearest numbers of single precision."""
+    """The points rounded to single precision."""
     flat = array.array("f", [x for point in points for x in point])
     return list(zip(flat[0::3], flat[1::3], flat[2::3]))
 
 
 def same_points(points, expected):
-    """Whether the points are exactly those, of which the text may say as much as tells them."""
+    """Whether the points are exactly equal; texts may hold the shortest digits that identify a number."""
     return (rounded(points) if rounded(expected) == expected else points) == expected
 
 
@@ -36,7 +36,7 @@ def mesh(points, cells, single):
 
 
 def lists(flat):
-    """The lists of `n a b c ...` one after the other."""
+    """The consecutive lists of `n a b c ...`."""
     result, at = [], 0
     while at < len(flat):
         count = flat[at]
@@ -121,7 +121,7 @@ def read_off(data):
 
 
 def read_stl(data):
-    """Each triangle has points of its own."""
+    """Each triangle has its own points."""
     if data.startswith(b"solid"):
         corners = [tuple(map(float, line.split()[1:])) for line in data.decode().splitlines()
                    if line.split()[:1] == ["vertex"]]
@@ -134,7 +134,7 @@ def read_stl(data):
 
 
 def read_medit(data):
-    """Tetrahedra if there are any, else triangles and quadrilaterals."""
+    """Tetrahedra if there are any, otherwise triangles and quadrilaterals."""
     words = data.split()
     single = words[words.index(b"MeshVersionFormatted") + 1] == b"1"
 
@@ -239,7 +239,7 @@ READERS = {".ply": read_ply, ".obj": read_obj, ".off": read_off, ".stl": read_st
 
 
 def read_mesh(name):
-    """The mesh of a file, by its suffix."""
+    """Reads the mesh of a file, by its suffix."""
     with open(name, "rb") as file:
         data = file.read()
     return READERS[name[name.rindex("."):]](data)

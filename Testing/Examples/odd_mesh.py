@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Meshes in which everything occurs that a conversion must carry, for the scripts of this folder."""
+"""Meshes with all special cases of a conversion, for the scripts of this folder."""
 
 import random
 
@@ -9,8 +9,8 @@ from torus import torus
 
 
 def odd_surface(nu=40, nv=20, largest=6):
-    """A torus with a hole, in random order: triangles, quadrangles, polygons of up to `largest`
-    corners, cells that occur twice, cells of no area, and points of no cell."""
+    """A torus with a hole, in random order: triangles, quadrangles, polygons of up to `largest` corners,
+    duplicate cells, cells without area, and isolated points."""
     chance = random.Random(nu)
     points, quadrangles = torus(nu, nv)
     cells = []
@@ -33,7 +33,7 @@ def odd_surface(nu=40, nv=20, largest=6):
 
 
 def odd_solid(n=6):
-    """A cube of tetrahedra in random order, one of them twice, with points of no cell."""
+    """A cube of tetrahedra in random order, one of them duplicate, with isolated points."""
     chance = random.Random(n)
     points, cells = tetrahedra(n)
     points = [tuple(x + chance.random() / 4 for x in point) for point in points]
@@ -42,7 +42,7 @@ def odd_solid(n=6):
 
 
 def shuffled(points, cells, chance):
-    """The mesh in a random order, its points with random last digits of single precision."""
+    """The mesh in random order, with random last digits of the points in single precision."""
     order = list(range(len(points)))
     chance.shuffle(order)
     place = {old: new for new, old in enumerate(order)}

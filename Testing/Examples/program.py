@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the program smg and reads what it writes, for the scripts of this folder."""
+"""Runs the program smg and reads its output, for the scripts of this folder."""
 
 import base64
 import json
@@ -14,7 +14,7 @@ SMG = os.environ["SMG_PROGRAM"]
 
 
 def run(*arguments, code=0):
-    """Runs smg and expects this exit code; an error is one line and nothing else."""
+    """Runs smg and expects this exit code; an error must be exactly one line."""
     done = subprocess.run([SMG, *map(str, arguments)], capture_output=True, text=True, timeout=120)
     assert done.returncode == code, (arguments, done.returncode, done.stdout, done.stderr)
     if code != 0:
@@ -35,7 +35,7 @@ def read_vtk_xml(name):
     arrays = {}
     for array in xml.parse(name).getroot().iter("DataArray"):
         assert array.get("format") == "binary"
-        # The number of bytes is a unit of base64 of its own.
+        # The number of bytes is encoded separately.
         text = array.text.strip()
         size, = struct.unpack("=Q", base64.b64decode(text[:12], validate=True))
         data = base64.b64decode(text[12:], validate=True)

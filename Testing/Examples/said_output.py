@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""said_output.py SOURCE COMMAND... : a lesson prints what the comment at its beginning says."""
+"""said_output.py SOURCE COMMAND... : expects a lesson to print the output in its first comment."""
 
 import subprocess
 import sys

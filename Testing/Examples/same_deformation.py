@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The meshes that the lessons of the deformation made are the same, bit for bit.
+"""The results of the lessons of the deformation are equal bit for bit.
 
-same_deformation.py REST DEFORMED... : the mesh at rest, and what each of them made of it."""
+same_deformation.py REST DEFORMED... : the mesh at rest, and the result of each lesson."""
 
 import math
 import sys
@@ -17,7 +17,7 @@ def arrays(mesh):
 
 
 rest, *results = map(arrays, sys.argv[1:])
-# What is fixed stays, and the head moves by some centimetres.
+# Fixed points stay, and the head moves by some centimetres.
 for before, after in zip(rest["Points"], results[0]["Points"]):
     assert before[1] > 0.05 or math.dist(before, after) < 1e-9
 assert max(map(math.dist, rest["Points"], results[0]["Points"])) > 0.03

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The lessons of the heat conduction come to the same solution, bit for bit, and it is one.
+"""The lessons of the heat conduction compute equal solutions, bit for bit, and correct ones.
 
-same_heat.py MESH SOLVED... : the mesh of the lesson, and what each of them made of it."""
+same_heat.py MESH SOLVED... : the mesh of the lesson, and the result of each lesson."""
 
 import os
 import subprocess
@@ -22,7 +22,7 @@ def arrays(mesh):
     return {name: result[name] for name in names}
 
 
-# The mesh in the tree is what its script makes.
+# The mesh in the tree is the output of its script.
 subprocess.run([sys.executable, SCRIPT, "made.vtk"], check=True)
 with open(sys.argv[1], "rb") as mesh, open("made.vtk", "rb") as made:
     assert mesh.read() == made.read()

@@ -8,7 +8,7 @@ import time
 
 
 class SmallDisk:
-    """A folder with a file system of its own; `allowed` is false where mounting is not."""
+    """A folder with its own file system; `allowed` is false if mounting is not permitted."""
 
     def __init__(self, folder, size):
         self.folder = os.path.abspath(folder)
@@ -25,7 +25,7 @@ class SmallDisk:
 
 
 def can_mount():
-    """Whether a disk can be made here."""
+    """Whether a disk can be created."""
     try:
         with SmallDisk("probe", 1 << 20):
             return True
@@ -34,7 +34,7 @@ def can_mount():
 
 
 def peak_of(folder, work):
-    """The most bytes that were in use on the disk of the folder while `work()` ran."""
+    """The peak number of bytes used on the disk of the folder during `work()`."""
     peak, done = 0, threading.Event()
 
     def watch():

@@ -18,7 +18,7 @@ ORDERS = ("bfs", "spectral", "axis", "keep")
 
 
 class Counts(NamedTuple):
-    """What an independent program counts of a mesh."""
+    """The counts of a mesh by an independent program."""
     used: int
     cells: int
     isolated: int = 0
@@ -61,7 +61,7 @@ def counts(report):
 
 
 def check_restored(vsm, suffix, name):
-    """The restored file has the points and cells of the archive's file, exactly."""
+    """The restored file has exactly the points and cells of the archive's file."""
     whole = read_mesh(in_archive(name))
     run("convert", vsm, "restored" + suffix, "--restore-order", "--quiet")
     mesh = read_mesh("restored" + suffix)

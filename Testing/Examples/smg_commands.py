@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The program smg from outside: its commands, reports, exit codes and what it leaves behind."""
+"""The program smg as a black box: commands, reports, exit codes and remaining files."""
 
 import json
 import os
@@ -36,7 +36,7 @@ def test_convert_and_info():
 
 
 def test_vtk_xml():
-    """What is written is the mesh, and VTK's readers find the same in it."""
+    """The written file is the mesh, and VTK's readers read the same."""
     with open("torus.obj", encoding="utf-8") as file:
         points = [tuple(map(float, line.split()[1:])) for line in file if line.startswith("v ")]
     surface, grid = read_vtk_xml("torus.vtp"), read_vtk_xml("torus.vtu")
@@ -109,7 +109,7 @@ def test_solutions_have_the_order_of_their_mesh():
             assert "OriginalId" not in arrays and "OriginalCellId" not in arrays
     run("info", "o5.ply", "--report", "info.json", "--quiet")
     assert "Solution" in [c["name"] for c in load("info.json")["columns"]["vertices"]]
-    # What is numbered by another file, or has merged points, keeps the order of the stream.
+    # Meshes with the numbers of another file, or with merged points, keep the order of the stream.
     done = run("solve", "numbered.vtu", "o5.vtu", "--problem", name)
     assert "The vertices are in stream order.\n" in done.stdout, done.stdout
     assert sorted(read_vtk_xml("o5.vtu")["OriginalId"]) == [(i,) for i in range(7200)]
@@ -147,7 +147,7 @@ def test_errors():
     assert "1 MiB" in done.stderr, done.stderr
     assert "cannot hold a solution" in run(
         "solve", "torus.vsm", "o2.smb", "--problem", name, code=1).stderr
-    # The folder of OUT is looked at before anything is read.
+    # The folder of OUT is checked before anything is read.
     for command in (("convert", "empty.vsm", "nowhere/o.vsm"), ("preview", "empty.vsm", "nowhere/o.vtp"),
                     ("convert", "empty.vsm", "nowhere/o.obj", "--restore-order"),
                     ("solve", "empty.vsm", "nowhere/o.vtp", "--problem", name),
@@ -162,7 +162,7 @@ def test_errors():
 
 
 def link(target, name):
-    """A symbolic link, rather than that of the run before."""
+    """A symbolic link instead of that of the previous run."""
     if os.path.lexists(name):
         os.remove(name)
     os.symlink(target, name)
@@ -235,7 +235,7 @@ def test_devices_and_pipes_are_no_outputs():
 
 
 def test_check():
-    """Every block of a file is looked at, and damage has a place."""
+    """Every block of a file is checked, and damage is located."""
     assert "checksums" not in run("info", "torus.vsm").stdout
     done = run("info", "torus.vsm", "--check", "--report", "info.json")
     blocks = load("info.json")["checked_blocks"]
@@ -281,7 +281,7 @@ def test_interrupt_cleans_up():
         process.send_signal(kind)
         _, error = process.communicate(timeout=60)
         if process.returncode == 0:
-            # It was quicker than the signal.
+            # It ended before the signal.
             os.remove("large.smb")
         else:
             assert process.returncode in (1, -kind), process.returncode

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""smg convert from outside: nothing of a mesh is lost, whatever the order, the memory and the way."""
+"""smg convert as a black box: no part of a mesh is lost, for any order, memory and format."""
 
 import gzip
 import json
@@ -28,20 +28,20 @@ def write_ply(name, points, cells, kind="double"):
 
 
 def convert(name, out, *arguments):
-    """Converts and gives the report."""
+    """Converts and returns the report."""
     run("convert", name, out, "--quiet", "--report", "report.json", *arguments)
     return load("report.json")
 
 
 def restore(vsm, suffix):
-    """The mesh of the .vsm file in the order of the first file, by way of a file of this suffix."""
+    """The mesh of the .vsm file in the order of the first file, via a file of this suffix."""
     name = "restored" + suffix
     run("convert", vsm, name, "--restore-order", "--quiet")
     return read_mesh(name)
 
 
 def check_restored(vsm, suffix, points, cells):
-    """Points and cells are those given."""
+    """Expects the given points and cells."""
     mesh = restore(vsm, suffix)
     if suffix == ".stl":
         points = [points[corner] for cell in fans(cells) for corner in cell]
@@ -51,7 +51,7 @@ def check_restored(vsm, suffix, points, cells):
 
 
 def test_restored_order():
-    """Each format gets points and cells as they were, and gives them back again."""
+    """Each format preserves points and cells when written and read."""
     points, cells = odd_surface()
     write_ply("odd.ply", points, cells)
     few_points, few_cells = odd_surface(36, 18, largest=4)
@@ -91,7 +91,7 @@ def test_restored_solids():
 
 
 def test_restored_is_the_same_file():
-    """Columns come back too: the second restored file is the first one."""
+    """Columns are restored, too: the second restored file equals the first one."""
     convert("odd.ply", "odd.vsm", "--order", "spectral")
     run("convert", "odd.vsm", "first.ply", "--restore-order", "--quiet")
     convert("first.ply", "second.vsm", "--order", "axis", "--memory", 16)
@@ -102,7 +102,7 @@ def test_restored_is_the_same_file():
 
 
 def test_moved_meshes_keep_their_order():
-    """What deform and solve make of a .vsm file is restored as well, with the points of no cell."""
+    """The results of deform and solve on a .vsm file are restored as well, with isolated points."""
     points, cells = odd_surface(48, 24)
     write_ply("odd.ply", points, cells)
     convert("odd.ply", "odd.vsm")
@@ -124,7 +124,7 @@ def test_moved_meshes_keep_their_order():
                    if points[i][0] >= 2.6), suffix
     run("solve", "odd.vsm", "solved.vsm", "--problem", "problem.json", "--quiet")
     check_restored("solved.vsm", ".ply", points, cells)
-    # Solved on the way it is the same file.
+    # Solving the input directly gives the same file.
     run("solve", "odd.ply", "direct.ply", "--problem", "problem.json", "--quiet")
     with open("restored.ply", "rb") as restored, open("direct.ply", "rb") as direct:
         data = restored.read()
@@ -132,7 +132,7 @@ def test_moved_meshes_keep_their_order():
 
 
 def test_gzip_and_wrong_suffixes():
-    """What a file is says its content, whatever it is called and whether it is compressed."""
+    """The content of a file determines its format, regardless of its name and compression."""
     convert("odd.ply", "odd.vsm", "--order", "keep")
     points, cells = read_mesh("odd.ply")[:2]
     write_medit("tets.mesh", *odd_solid())
@@ -157,7 +157,7 @@ def test_gzip_and_wrong_suffixes():
 
 
 def test_compressed_streams():
-    """Streams may be compressed, too; what is damaged is told by the name of the file."""
+    """Streams may be compressed, too; errors name the damaged file."""
     write_torus("stream.obj", 40, 30)
     run("convert", "stream.obj", "stream.vsm")
     for suffix in (".sma", ".smb", ".vsm"):
@@ -180,7 +180,7 @@ def test_compressed_streams():
 
 
 def test_own_name():
-    """A mesh is not overwritten by its own conversion."""
+    """A conversion does not overwrite its input."""
     write_torus("own.obj", 10, 8)
     with open("own.obj", "rb") as file:
         before = file.read()
@@ -191,7 +191,7 @@ def test_own_name():
 
 
 def test_weld():
-    """Triangles that have points of their own become a closed surface."""
+    """Triangles with separate points become a closed surface."""
     write_torus("torus.obj", 60, 30)
     mesh = read_mesh("torus.obj")
     triangles = fans(mesh.cells)
@@ -208,7 +208,7 @@ def test_weld():
             assert report["isolated_vertices"] == 0, report
             assert report["components"] == 1 and report["boundary_edges"] == 0, report
             assert report["nonmanifold_edges"] == 0 and report["degenerate_cells"] == 0, report
-    # So they do on the way to a solution or a deformation.
+    # The same holds when solving or deforming.
     with open("problem.json", "w", encoding="utf-8") as file:
         json.dump({"screening": 1, "source": 1}, file)
     with open("handles.json", "w", encoding="utf-8") as file:
@@ -221,7 +221,7 @@ def test_weld():
         assert report["vertices"] == 1800 and report["cells"] == 3600, report
         error = run(command[0], "welded.vsm", *command[2:], "--weld", 0, code=1).stderr
         assert "welded.vsm" in error and "smg convert" in error, error
-    # Of the points that are merged none stays where it was.
+    # None of the merged points stays at its position.
     assert min(x for x, _, _ in read_mesh("moved_soup.ply").points) > -2.1
     report = convert("loose.ply", "welded.vsm", "--weld", 0)
     assert report["vertices"] > 1800 and report["boundary_edges"] > 0, report
@@ -283,7 +283,7 @@ def test_parts():
 
 
 def test_same_mesh_for_any_memory():
-    """The bytes are the same, but for bfs, whose pages go by the memory: there the mesh is."""
+    """The bytes are equal, except for bfs, whose pages depend on the memory: there the mesh is equal."""
     write_torus("large.obj", 400, 200)
     for order in ORDERS:
         files = set()

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Damaged files of every format: the program smg answers 1 with one line and leaves nothing."""
+"""Damaged files of every format: smg returns 1, prints one line and leaves no files."""
 
 import base64
 import json
@@ -16,7 +16,7 @@ from tetrahedra import tetrahedra
 from torus import torus
 
 SMG = os.environ["SMG_PROGRAM"]
-# A coordinate that stands in the meshes once, to be made NaN.
+# A coordinate that occurs once in the meshes, to be replaced by NaN.
 MARK = 1234.5
 
 
@@ -113,7 +113,7 @@ def convert(name, out, *options):
 
 
 def samples():
-    """A sound file of each format: (suffix, bytes)."""
+    """A valid file of each format: (suffix, bytes)."""
     surface, solid = marked_torus(), marked_tetrahedra()
     files = [(".ply", ply(*surface)), (".ply", binary_ply(*surface)), (".obj", obj(*surface)),
              (".off", off(*surface)), (".stl", stl(*surface)), (".stl", binary_stl(*surface)),
@@ -134,7 +134,7 @@ def samples():
 
 
 def check(suffix, data, refused, what):
-    """Expects one line and code 1, or, unless it must be refused, success."""
+    """Expects one line and code 1 or, unless the file must be refused, success."""
     name = "damaged" + suffix
     with open(name, "wb") as file:
         file.write(data)
@@ -153,7 +153,7 @@ def check(suffix, data, refused, what):
 
 
 def counts(suffix, data):
-    """Vertices and cells of a sound file."""
+    """Vertices and cells of a valid file."""
     with open("sound" + suffix, "wb") as file:
         file.write(data)
     done = convert("sound" + suffix, "out.vsm", "--report", "report.json")
@@ -166,7 +166,7 @@ def counts(suffix, data):
 
 
 def refuse(suffix, data, what, placed=True):
-    """Expects one line that names the file and, if it is one thing that is wrong, its place."""
+    """Expects one line that names the file and, for a single error, its position."""
     name = "damaged" + suffix
     with open(name, "wb") as file:
         file.write(data)
@@ -182,13 +182,13 @@ def refuse(suffix, data, what, placed=True):
 
 
 def replace_last(data, old, new):
-    """The bounds, which come first, may have the same number."""
+    """The bounds, which come first, may contain the same number."""
     before, _, after = data.rpartition(old)
     return before + new + after
 
 
 def not_a_number(suffix, data):
-    """The file with the marked coordinate made NaN."""
+    """The file with NaN as the marked coordinate."""
     nan = float("nan")
     for text in (b"1234.5", b"1.2345e+03", b"1234.500000"):
         if data.count(text) > 0:
@@ -196,7 +196,7 @@ def not_a_number(suffix, data):
     for code in ("<f", "<d"):
         if struct.pack(code, MARK) in data:
             return replace_last(data, struct.pack(code, MARK), struct.pack(code, nan))
-    # Inline binary data: the number begins at one of the three places of a group.
+    # Inline binary data: the number begins at one of the three positions of a base64 group.
     for code in ("<f", "<d"):
         size = struct.calcsize(code)
         for start in data.split(b"<DataArray")[1:]:
@@ -243,11 +243,11 @@ WRITERS = ((".ply", ply), (".ply", binary_ply), (".obj", obj), (".off", off), ("
 
 
 def test_wrong_numbers():
-    """Corners that are no vertices, and coordinates that are no numbers, with their places."""
+    """Corners that are not vertices, and coordinates that are not numbers, with their positions."""
     for suffix, write in WRITERS:
         points, cells = marked_tetrahedra() if write in (medit, gmsh) else marked_torus()
         middle = len(cells) // 2
-        # What OBJ says with a negative number is counted from the end.
+        # Negative numbers in OBJ count from the end.
         corners = (len(points), len(points) + 5, 2 ** 31 - 1, 2 ** 40, 2 ** 70,
                    -1 - 2 * len(points) if write is obj else -1, -2 ** 31, -2 ** 40)
         for corner in () if write in (stl, binary_stl) else corners:
@@ -275,7 +275,7 @@ def test_wrong_counts():
         for count in (len(points), len(cells)):
             for other in (-1, 2 ** 62, 2 ** 31 - 1, count + 1, count - 1, 0):
                 if write is binary_ply and other == len(points) + 1:
-                    continue  # sound: one more vertex of 12 bytes, an empty face of one, not of 13
+                    continue  # valid: one more vertex of 12 bytes, and an empty face of one byte instead of 13
                 if write is binary_stl:
                     if count == len(points) or not 0 <= other < 2 ** 32:
                         continue
@@ -287,7 +287,7 @@ def test_wrong_counts():
 
 
 def test_cuts():
-    """A file that ends too early is refused, unless all that it lacks says nothing."""
+    """A truncated file is refused, unless the missing part is irrelevant."""
     for suffix, write in WRITERS:
         if write is obj:
             continue
@@ -313,7 +313,7 @@ def test_terminal_gets_no_escapes():
 
 
 def test_crash_and_loop_of_the_reader():
-    """Counts that make VTK's readers crash or loop."""
+    """Counts for which VTK's readers crash or loop."""
     data = vtu(*marked_torus())
     for count in (b"9223372036854775807", b"4611686018427387904", b"0", b"-1"):
         check(".vtu", data.replace(b'NumberOfComponents="3"', b'NumberOfComponents="' + count + b'"'),

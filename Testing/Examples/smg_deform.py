@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""smg deform and smg preview from outside: results, formats, reports, errors and exit codes."""
+"""smg deform and smg preview as black boxes: results, formats, reports, errors and exit codes."""
 
 import json
 import math
@@ -29,7 +29,7 @@ def deform(mesh, out, *arguments, **options):
 
 
 def arrays(name):
-    """The arrays of a mesh file of any format but VTK's."""
+    """The arrays of a mesh file of any format except those of VTK."""
     run("convert", name, "arrays.vtu", "--order", "keep", "--quiet")
     return read_vtk_xml("arrays.vtu")
 
@@ -64,7 +64,7 @@ def solid_file(name, n=6):
 
 
 def test_rigid_motions():
-    """Where all handles move alike, the mesh moves like them."""
+    """If all handles have the same motion, so has the mesh."""
     write_torus("torus.obj", 120, 60)
     run("convert", "torus.obj", "torus.vsm", "--quiet")
     rest = arrays("torus.vsm")
@@ -91,7 +91,7 @@ def test_rigid_motions():
 
 
 def test_report_and_options():
-    """The command line counts more than the file; k cycles a step take 2 k + 1 passes."""
+    """The command line overrides the file; k cycles per step take 2 k + 1 passes."""
     handles({"region": RIGHT, "translate": [0, 0, 1]},
             {"region": LEFT, "rotate": {"axis": [1, 0, 0], "degrees": 60, "center": [-3, 0, 0]}},
             {"region": {"sphere": [3, 0, 0, 0.5]}, "fixed": True}, cycles=3, weights="uniform")
@@ -153,7 +153,7 @@ def test_formats():
 
 
 def test_order_of_files():
-    """A stream or a PLY file comes out in the order in which it went in."""
+    """A stream or a PLY file keeps its order."""
     handles({"region": RIGHT, "translate": [0, 0, 1]}, {"region": LEFT, "fixed": True},
             tolerance=1e-9)
     run("convert", "surface.ply", "in.smb", "--order", "axis", "--quiet")
@@ -168,7 +168,7 @@ def test_order_of_files():
 
 
 def test_notes_on_the_order():
-    """What does not come in the order of its file says so, and what becomes of loose vertices."""
+    """An output without the order of its input says so, and what happens to isolated vertices."""
     with open("surface.ply", encoding="utf-8") as file:
         lines = file.read().split("end_header\n")
     count = len(torus(60, 30)[0])
@@ -213,7 +213,7 @@ def test_solids():
 
 
 def test_normals():
-    """No normals are stale: they are those of the deformed mesh, or gone."""
+    """No normals are stale: they are those of the deformed mesh, or removed."""
     surface_file("normals.ply", normal=True)
     run("convert", "normals.ply", "normals.vsm", "--quiet")
     turned = {"rotate": {"axis": [0, 1, 0], "degrees": 90, "center": [0, 0, 0]}}
@@ -221,7 +221,7 @@ def test_normals():
     deform("normals.vsm", "normals.vtp", "--quiet")
     result = read_vtk_xml("normals.vtp")
     for (x, y, z), normal in zip(result["Points"], result["Normals"]):
-        # The rest position is (-z, y, x); the normal leads away from the circle in the middle.
+        # The rest position is (-z, y, x); the normal points away from the circle in the middle.
         ring = math.hypot(z, y)
         assert math.dist(normal, (x, y * (1 - 2 / ring), z * (1 - 2 / ring))) < 0.1
     deform("normals.vsm", "dropped.vsm", "--normals", "drop", "--quiet")
@@ -264,7 +264,7 @@ def test_bad_handles():
 
 
 def test_notes_on_handles():
-    """What a handle does not do is said, and nothing where all do something."""
+    """Notes report handles without effect, and are empty if all have one."""
     everywhere = {"halfspace": [1, 0, 0, -9]}
     for out in ("out.vsm", "out.ply"):
         handles({"region": RIGHT, "translate": [0, 0, 1]}, {"region": everywhere, "fixed": True})
@@ -309,7 +309,7 @@ def test_errors():
 
 
 def test_preview():
-    """Every point of a preview is a vertex of the mesh, and says which."""
+    """Every point of a preview is a vertex of the mesh and holds its number."""
     run("convert", "torus.obj", "shuffled.vsm", "--order", "axis", "--quiet")
     points = arrays("shuffled.vsm")["Points"]
     originals = torus(120, 60)[0]

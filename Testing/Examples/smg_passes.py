@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How many passes smg solve takes on the real meshes of the archive, held at both ends.
 
-smg_passes.py [all]: the smaller ones, or all."""
+smg_passes.py [all]: the smaller meshes, or all."""
 
 import json
 import sys
@@ -10,7 +10,7 @@ import sys
 from archive_meshes import CHOSEN, in_archive
 from program import load, run
 
-# The most passes to 1e-6 and to 1e-10 on meshes of many slivers; of the others ...
+# The maximum of passes to 1e-6 and to 1e-10 on meshes with many slivers; on the others ...
 SLIVERS = {"dragon.ply": (15, 26), "bunny_tet.mesh": (31, 55), "head_tet336k.vtk": (13, 22)}
 # ... and of all with clamped weights.
 MOST, MOST_CLAMPED = (10, 17), (9, 16)

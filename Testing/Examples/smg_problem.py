@@ -21,7 +21,7 @@ def is_upper(cell):
 
 
 def write_vtk(name, **changed):
-    """The cube with columns, those of the cells as in `changed` where these are named."""
+    """The cube with columns; `changed` replaces columns of the cells."""
     vertices = {"bottom": [int(p[2] == 0) for p in POINTS], "z": [p[2] for p in POINTS],
                 "four": [4] * len(POINTS)}
     cells = {"k": [10 if is_upper(c) else 1 for c in CELLS], "layer": [2 if is_upper(c) else 1 for c in CELLS],
@@ -45,7 +45,7 @@ def write_vtk(name, **changed):
 
 
 def solve(mesh="cube.vsm", out="out.vtu", code=0, tolerance=1e-12, **members):
-    """Solves, and reads what it says: the report, or with another code the error."""
+    """Solves and returns the report or, with another exit code, the error."""
     with open("problem.json", "w", encoding="utf-8") as file:
         json.dump(members, file)
     done = run("solve", mesh, out, "--problem", "problem.json", "--report", "report.json",
@@ -98,12 +98,12 @@ def test_two_materials():
         solutions.add(tuple(arrays["Solution"]))
         assert POINTS[report["minimum"][0]["vertex"]][2] == 0
         assert POINTS[report["maximum"][0]["vertex"]][2] == SIDE
-    # The tensor's weights round otherwise, all others are the same.
+    # The weights of the tensor are rounded differently, all others are equal.
     assert len(solutions) <= 2, len(solutions)
 
 
 def test_where():
-    """However the vertices at both ends are named, the solution is the same."""
+    """The solution is the same for every way to name the vertices at both ends."""
     ends = [i for i, p in enumerate(POINTS) if p[2] == 0]
     solutions = set()
     for where in ({"halfspace": [0, 0, -1, 0]}, {"box": [0, 0, 0, SIDE, SIDE, 0.5]},
@@ -130,12 +130,12 @@ def test_boundary():
     for flux in ({**top, "value": [slope * k]}, {"tag": ["z", SIDE], "value": [slope * k]}):
         report = expect(lambda x, y, z: slope * z, conductivity=k, dirichlet=[BOTTOM],
                         flux=[{**top, "value": [9]}, flux])
-        # The later entry holds wherever the earlier one does.
+        # The later entry overrides the earlier one everywhere.
         assert [c["area"] for c in report["conditions"]] == [SIDE ** 2, 0, SIDE ** 2]
 
 
 def test_everywhere():
-    """An entry that says no place holds everywhere, as the filters' conditions do."""
+    """An entry without a region holds everywhere, like the conditions of the filters."""
     expect(lambda x, y, z: 2, robin=[{"coefficient": 1, "ambient": 2}])
     expect(lambda x, y, z: 5, soft=[{"weight": 3, "value": 5}])
     expect(lambda x, y, z: 7, dirichlet=[{"value": 4}, {"value": 7}])
@@ -154,7 +154,7 @@ def test_densities():
     expect(lambda x, y, z: (2, 5), columns=2,
            soft=[{"sphere": [0, 0, 0, 99], "weight": 3, "value": [2, 5]},
                  {"mask": "bottom", "weight": "four", "value": [2, 5]}])
-    # A field that is the gradient of a function gives it back, with the mean of the initial guess.
+    # A gradient field yields its function, with the mean of the initial guess.
     expect(lambda x, y, z: x + 2 * y + 3 * z - 6 * MIDDLE + 1, field="q", initial=[1])
     expect(lambda x, y, z: (x - MIDDLE, y - MIDDLE, z - MIDDLE), columns=3, conductivity="K",
            field="eye", mesh="fields.vsm")
@@ -164,7 +164,7 @@ def test_earlier_solves():
     solve(out="first.vsm", dirichlet=[BOTTOM, TOP], outputs=["gradient"])
     report = solve(mesh="first.vsm", out="second.vsm", tolerance=1e-6, initial="Solution",
                    dirichlet=[{"mask": "bottom", "value": "Solution"}, TOP])
-    # Nothing is left to do but rounding.
+    # Only rounding errors remain.
     assert report["vertices"] == len(POINTS) and report["mean"] and abs(report["mean"][0] - 0.5) < 1e-8
     run("info", "second.vsm", "--report", "info.json", "--quiet")
     columns = load("info.json")["columns"]
@@ -175,7 +175,7 @@ def test_earlier_solves():
 
 
 def test_errors():
-    # A conductivity alone has the solution 0, which nobody asks for.
+    # A conductivity alone has the solution 0, which is not a useful problem.
     error = solve(conductivity=2, code=1)
     assert "says nothing to solve for" in error, error
     error = solve(conductivity="c", dirichlet=[BOTTOM], code=1)
@@ -223,7 +223,7 @@ BAD = [
 
 
 def test_schema():
-    """What the schema takes the program takes, and nothing else."""
+    """The program accepts exactly what the schema accepts."""
     for example in GOOD:
         solve(tolerance=0.5, **example)
     for example in BAD:

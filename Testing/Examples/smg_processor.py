@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The library for processors with AVX2 is taken where there is AVX2, and gives the same bits."""
+"""The library for processors with AVX2 is loaded if there is AVX2, and gives the same bits."""
 
 import json
 import os
@@ -21,7 +21,7 @@ HANDLES = {"handles": [
 
 
 def library(environment):
-    """The file of the solver's library that the loader takes."""
+    """The file of the solver's library that the loader chooses."""
     done = subprocess.run([SMG, "--version"], env={**environment, "LD_DEBUG": "libs"},
                           capture_output=True, text=True, check=True, timeout=120)
     return next(line.split()[-1] for line in done.stderr.splitlines()
@@ -49,7 +49,8 @@ if not is_wanted():
 FAST = {name: value for name, value in os.environ.items()
         if name not in ("GLIBC_TUNABLES", "LD_PRELOAD")}
 assert FOLDER in library(FAST), library(FAST)
-# What is loaded already is not looked for. The C library, whose sines go by the processor, stays.
+# Loaded libraries are not searched again. The C library, whose sines depend on the processor,
+# stays.
 PLAIN = {**FAST, "LD_PRELOAD": library(FAST).replace(FOLDER, "")}
 assert FOLDER not in library(PLAIN), library(PLAIN)
 write_torus("torus.obj", 120, 60)

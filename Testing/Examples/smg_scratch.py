@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What smg convert leaves on the disk when the disk is full, it is stopped or it is killed: nothing."""
+"""smg convert leaves no files when the disk is full, or when it is stopped or killed."""
 
 import gzip
 import os
@@ -34,7 +34,7 @@ def read(name):
 
 
 def write_binary_ply(name, vertices, cells):
-    """The header of a PLY file of so many vertices and cells, and zeros."""
+    """The header of a PLY file with these counts of vertices and cells, and zeros."""
     with open(name, "wb") as file:
         file.write(b"ply\nformat binary_little_endian 1.0\nelement vertex %d\nproperty float x\n"
                    b"property float y\nproperty float z\nelement face %d\n"
@@ -43,7 +43,7 @@ def write_binary_ply(name, vertices, cells):
 
 
 def test_estimates():
-    """Scratch files, output and memory are about as large as --dry-run says."""
+    """Scratch files, output and memory are about as large as --dry-run predicts."""
     write_medit("solid.mesh", *odd_solid(14))
     write_large()
     run("convert", "large.obj", "large.vsm", "--quiet")
@@ -65,13 +65,13 @@ def test_estimates():
         for estimate, truth in (
                 (dry["scratch_bytes"], peak), (dry["output_bytes"], os.path.getsize("o.vsm")),
                 (dry["cells"], report["cells"])):
-            # Polygons are counted before they are triangles.
+            # Polygons are counted before they become triangles.
             assert 1 / factor <= estimate / truth <= factor, (name, estimate, truth)
         os.remove("o.vsm")
 
 
 def test_counts_of_off():
-    """An OFF file says its counts at the beginning, too."""
+    """An OFF file begins with its counts, too."""
     with open("small.off", "w", encoding="utf-8") as file:
         file.write("OFF\n# a comment\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 1 3 2\n")
     run("convert", "small.off", "o.vsm", "--dry-run", "--report", "dry.json")
@@ -80,7 +80,7 @@ def test_counts_of_off():
 
 
 def test_full_scratch():
-    """Refused before it begins where the file says its counts, else as soon as they are known."""
+    """Refused before it begins if the file states its counts, otherwise as soon as they are known."""
     write_binary_ply("huge.ply", 1 << 20, 1 << 21)
     with SmallDisk("full", 4 * MIB) as disk:
         for name in ("large.obj", "large.vsm", "huge.ply"):
@@ -98,7 +98,7 @@ def test_full_scratch():
 
 
 def test_full_output():
-    """One error that names the file, whatever its format, and nothing on the disk."""
+    """One error that names the file, for every format, and nothing on the disk."""
     with SmallDisk("full", 2 * MIB) as disk:
         for out in ("o.vsm", "o.ply", "o.smb", "o.vtp"):
             path = os.path.join(disk, out)
@@ -112,10 +112,8 @@ def test_full_output():
 
 
 def stopped(kind, delay, *arguments):
-    """
-    The exit code and the errors of a conversion that gets the signal `delay` seconds after it has
-    made its scratch folder.
-    """
+    """The exit code and the errors of a conversion that receives the signal `delay` seconds after creating
+    its scratch folder."""
     before = listing("scratch")
     process = subprocess.Popen([SMG, "convert", *arguments], stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, text=True)
@@ -129,7 +127,7 @@ def stopped(kind, delay, *arguments):
 
 
 def test_signals():
-    """Whenever it is stopped, in whatever order and way, there is nothing left."""
+    """Nothing remains, whenever it is stopped, with every order and signal."""
     write_large()
     run("convert", "large.obj", "large.vsm", "--quiet")
     os.makedirs("scratch", exist_ok=True)
@@ -154,7 +152,7 @@ def test_signals():
 
 
 def test_kill():
-    """What a killed program left is removed by the next one, and nothing else."""
+    """The next run removes the remains of a killed program, and nothing else."""
     os.makedirs("scratch", exist_ok=True)
     os.makedirs("scratch/smg-scratch-mine", exist_ok=True)
     for name in ("scratch/smg-scratch-mine/notes.txt", "scratch/smg-scratch-file", "scratch/other"):
@@ -175,7 +173,7 @@ def test_kill():
     assert read("out/kept.vsm") == kept
 
 
-for folder in ("out", "scratch"):  # what an earlier run that failed has left
+for folder in ("out", "scratch"):  # remains of an earlier failed run
     shutil.rmtree(folder, ignore_errors=True)
 NEED_NO_DISK = (test_counts_of_off, test_signals, test_kill)
 for each in (test_estimates, test_full_scratch, test_full_output) + NEED_NO_DISK:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A cube of n x n x n vertices, six tetrahedra to a unit cube, for the scripts of this folder."""
+"""A cube of n x n x n vertices, six tetrahedra per unit cube, for the scripts of this folder."""
 
 
 def tetrahedra(n):

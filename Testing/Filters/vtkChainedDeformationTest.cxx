@@ -78,7 +78,7 @@ TEST_F(VtkChainedDeformation, ASecondOneDeformsWhatTheFirstMakes)
   deform(source, ends, options)->read(0, expected.vertices(), positions);
   expected.positions = positions;
   inMemory.expectEqual(expected);
-  // Streamed from one another.
+  // Each streams from the one before.
   this->Deformation->SetInteractivePoints(0);
   second->SetInteractivePoints(0);
   collect(1).expectEqual(expected);

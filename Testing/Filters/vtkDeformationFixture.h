@@ -12,7 +12,7 @@
 namespace smg::testing
 {
 
-/** A torus whose ends are held, deformed. */
+/** Deforms a torus whose ends are held. */
 class DeformationFixture : public ::testing::Test
 {
 protected:
@@ -54,7 +54,7 @@ protected:
     return all;
   }
 
-  /** The mesh with the positions that deform() finds for the handles. */
+  /** The mesh with the positions that deform() computes for the handles. */
   StreamMesh deformed(const StreamMesh& mesh) const
   {
     StreamMesh result = mesh;

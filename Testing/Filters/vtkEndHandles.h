@@ -15,12 +15,12 @@
 namespace smg::testing
 {
 
-/** Both ends in x are held: the left one stays, the right one moves. */
+/** Holds both ends in x: the left one stays, the right one moves. */
 struct EndHandles : public Handles
 {
   double left = -2.5, right = 2.5;
   HandleMotion motion;
-  double bad = 0.0; ///< is added to the targets
+  double bad = 0.0; ///< added to the targets
 
   void hold(const double* point, std::uint8_t& mask, double* target, double* rotation,
     double& logScale) const
@@ -49,7 +49,7 @@ struct EndHandles : public Handles
   }
 };
 
-/** Makes the arrays of the handles, as a Mesh Handle does. */
+/** Makes the arrays of the handles like a Mesh Handle. */
 class vtkEndHandles : public vtkPassInputTypeAlgorithm
 {
 public:
@@ -59,7 +59,7 @@ public:
   EndHandles Ends;
   int Executions = 0;
   bool CopiesMesh = false;       ///< makes new points and cells each time
-  std::set<std::string> LeftOut; ///< arrays that are not made
+  std::set<std::string> LeftOut; ///< arrays that are omitted
   int TargetComponents = 3;
 
   void move(const HandleMotion::Parameters& parameters)

@@ -15,7 +15,7 @@
 namespace smg::testing
 {
 
-/** What the handle arrays say of a point. */
+/** The values of the handle arrays at a point. */
 struct HandleValue
 {
   int mask = 0;
@@ -24,7 +24,7 @@ struct HandleValue
   bool operator==(const HandleValue&) const = default;
 };
 
-/** The handle arrays of the points that are no ghosts, by GlobalId. */
+/** The handle arrays of the points that are not ghosts, by GlobalId. */
 struct HandleUnion
 {
   std::map<std::int64_t, HandleValue> values;
@@ -72,7 +72,7 @@ struct HandleUnion
   std::int64_t held() const { return static_cast<std::int64_t>(this->heldIds().size()); }
 };
 
-/** Asks for a piece as a filter that streams does; 0: the pipeline failed. */
+/** Requests a piece like a streaming filter; returns 0 if the pipeline failed. */
 inline int streamPiece(vtkAlgorithm* algorithm, int piece, int pieces)
 {
   using vtkSDDP = vtkStreamingDemandDrivenPipeline;
@@ -101,19 +101,19 @@ inline HandleUnion collectHandles(
   return all;
 }
 
-/** Of all pieces, asked for in order as a view would. */
+/** Of all pieces, requested in order like a view. */
 inline HandleUnion collectPieces(vtkAlgorithm* algorithm, int pieces)
 {
   return collectHandles(algorithm, pieces, updatePiece);
 }
 
-/** Of what a view shows. */
+/** Of the data that a view shows. */
 inline HandleUnion collectWhole(vtkAlgorithm* algorithm)
 {
   return collectPieces(algorithm, 1);
 }
 
-/** Of all pieces, asked for in order as a filter that streams does. */
+/** Of all pieces, requested in order like a streaming filter. */
 inline HandleUnion collectStreamed(vtkAlgorithm* algorithm, int pieces)
 {
   return collectHandles(algorithm, pieces, streamPiece);

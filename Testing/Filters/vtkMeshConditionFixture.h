@@ -23,7 +23,7 @@
 namespace smg::testing
 {
 
-/** Values of an array of the points that are no ghosts, and of the cells, piece after piece. */
+/** Values of an array of the points that are not ghosts, and of the cells, piece by piece. */
 struct Results
 {
   std::vector<double> solution, gradient, flux;
@@ -60,7 +60,7 @@ protected:
     this->Poisson->SetFlux(true);
   }
 
-  /** What the command line makes of a problem. */
+  /** The results of a problem on the command line. */
   Results solve(const std::string& json)
   {
     VsmReader mesh(this->Folder / "mesh.vsm");
@@ -83,7 +83,7 @@ protected:
       numbers(all.cellColumns.back()) };
   }
 
-  /** What the filter makes of its problem, in so many pieces. */
+  /** The results of the filter for its problem, in `pieces` pieces. */
   Results filter(int pieces = 3)
   {
     Results results;

@@ -59,7 +59,7 @@ TEST_F(VtkMeshCondition, NumbersSayWhatAProblemSays)
 
 TEST_F(VtkMeshCondition, AChainHoldsWhatTheRegionsOfAProblemHold)
 {
-  vtkNew<vtkPlane> plane; // the inside is away from its normal
+  vtkNew<vtkPlane> plane; // its inside is opposite to its normal
   plane->SetNormal(-1, 0, 0);
   plane->SetOrigin(2.5, 0, 0);
   vtkNew<vtkBox> box;
@@ -152,7 +152,7 @@ TEST_F(VtkMeshCondition, ArraysThatAreMissingOrMeanTwoThingsAreNamed)
   EXPECT_TRUE(errors.contain("Problem, line 1")) << errors.text();
 }
 
-/** So that a second problem can be said behind the first. */
+/** So that a second problem can follow the first. */
 TEST_F(VtkMeshCondition, ConditionsGoWithTheProblemThatTheySay)
 {
   this->add(vtkMeshCondition::SOURCE, { 4 }).SetRegion(vtkMeshCondition::EVERYWHERE);
@@ -171,7 +171,7 @@ TEST_F(VtkMeshCondition, ConditionsGoWithTheProblemThatTheySay)
   EXPECT_TRUE(before->GetPointData()->HasArray("Condition2"));
 }
 
-/** Results of the cells are those of the problem that was solved, whatever has happened since. */
+/** Results of the cells are those of the problem that was solved, regardless of later changes. */
 TEST_F(VtkMeshCondition, SolutionAndFluxAreOfOneProblem)
 {
   const std::filesystem::path file = this->Folder / "problem.json";
@@ -191,7 +191,7 @@ TEST_F(VtkMeshCondition, SolutionAndFluxAreOfOneProblem)
   EXPECT_TRUE(after == this->solve(R"({"source": [1], "screening": 1, "conductivity": 100})"));
 }
 
-/** As of an earlier solve, which has the name of the result. */
+/** For example of an earlier solve, which has the name of the result. */
 TEST_F(VtkMeshCondition, AnInputArrayMayHaveTheNameOfTheResult)
 {
   const int points = vtkDataObject::FIELD_ASSOCIATION_POINTS;
@@ -219,7 +219,7 @@ TEST_F(VtkMeshCondition, AnInputArrayMayHaveTheNameOfTheResult)
   EXPECT_TRUE(output->GetPointData()->HasArray("Solution"));
 }
 
-/** Arrays that are there already are neither overwritten nor taken away. */
+/** Existing arrays are neither overwritten nor removed. */
 TEST_F(VtkMeshCondition, LeavesArraysOfTheUserAlone)
 {
   StreamMesh mesh = describedMesh();
@@ -243,7 +243,7 @@ TEST_F(VtkMeshCondition, LeavesArraysOfTheUserAlone)
   mesh.cellColumns[1].spec.name = mesh.vertexColumns[0].spec.name = "both";
   writeMesh(this->Folder / "both.vsm", mesh);
   this->Reader->SetFileName((this->Folder / "both.vsm").c_str());
-  // As in JSON, the tag of a Dirichlet condition is that of the points then.
+  // As in JSON, the tag of a Dirichlet condition is then that of the points.
   const double tag = mesh.vertexColumns[0].value(3);
   condition.SetTag(tag);
   const Results byCondition = this->filter(1);
@@ -255,7 +255,7 @@ TEST_F(VtkMeshCondition, LeavesArraysOfTheUserAlone)
   EXPECT_EQ(this->filter(1).solution, byCondition.solution);
 }
 
-/** Nothing is asked of the filter then, and its last answer is to another question. */
+/** The filter is not executed then, and its last outcome belongs to another problem. */
 TEST_F(VtkMeshCondition, HasNotConvergedIfAConditionFails)
 {
   vtkNew<vtkPlane> plane;

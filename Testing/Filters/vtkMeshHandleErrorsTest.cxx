@@ -132,7 +132,8 @@ TEST_F(VtkMeshHandle, AFunctionMustMakeSense)
   vtkNew<vtkCylinder> cylinder;
   cylinder->SetRadius(-1.0);
   this->Handle->SetRegionFunction(cylinder);
-  expectFailure("The cylinder of the region has the radius"); // -1, or what newer VTK makes of it
+  expectFailure(
+    "The cylinder of the region has the radius"); // -1, or the value to which newer VTK clamps it
   vtkNew<vtkPlane> plane;
   plane->SetOrigin(NaN, 0.0, 0.0);
   this->Handle->SetRegionFunction(plane);
@@ -149,7 +150,7 @@ TEST_F(VtkMeshHandle, WarnsOfPointsFarFromTheMesh)
   this->Handle->AddPoint(0.0, 0.0, 11.0);
   EXPECT_EQ(collectWhole(this->Handle).held(), 2);
   EXPECT_TRUE(errors.contain("point 1 is at a distance of 10.")) << errors.text();
-  // Once is enough for the same points.
+  // Reported once for the same points.
   errors.clear();
   EXPECT_EQ(collectStreamed(this->Handle, 6).held(), 2);
   EXPECT_EQ(errors.text(), "");
@@ -216,7 +217,7 @@ TEST_F(VtkMeshHandle, WhatFailedIsNotTakenForAnEmptyMesh)
     EXPECT_FALSE(updatePiece(deformation, 0, 1));
     EXPECT_TRUE(errors.contain("The scale")) << errors.text();
     EXPECT_FALSE(later.contain("no cells")) << later.text();
-    // Nothing has changed: it is neither asked again nor taken for a mesh.
+    // Nothing has changed: it is neither executed again nor treated as a mesh.
     errors.clear();
     EXPECT_FALSE(updatePiece(deformation, 0, 1));
     EXPECT_EQ(errors.text(), "");

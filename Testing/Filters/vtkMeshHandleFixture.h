@@ -13,7 +13,7 @@
 namespace smg::testing
 {
 
-/** A handle on a torus, with a ball as its region. */
+/** A handle on a torus, whose region is a ball. */
 class VtkMeshHandle : public ::testing::Test
 {
 protected:

@@ -25,7 +25,7 @@ protected:
     this->Handle->SetNumberOfPieces(6);
   }
 
-  /** Selects by a list of numbers: ids, places or ranges. */
+  /** Selects by a list of numbers: ids, locations or ranges. */
   template <class Array>
   void select(int content, int field, const std::vector<double>& numbers, int components = 1)
   {
@@ -44,7 +44,7 @@ protected:
     this->Handle->SetInputDataObject(1, this->Selection);
   }
 
-  /** What is held of what is displayed, which is the same for all pieces of the mesh. */
+  /** The held points of the displayed mesh, the same for all numbers of pieces. */
   std::vector<std::int64_t> heldAlike()
   {
     const HandleUnion whole = collectWhole(this->Handle);
@@ -89,8 +89,8 @@ TEST_F(VtkMeshHandleSelection, HoldsPointsOfEveryKind)
   }
   EXPECT_EQ(this->heldAlike(), expected);
 
-  // What is seen, along -z, of the half of space with positive x: left to right, low to high, near
-  // to far.
+  // The part of the half-space of positive x that is seen along -z: left to right, low to high,
+  // near to far.
   std::vector<double> corners;
   for (const double x : { 0.0, 10.0 })
   {
@@ -171,7 +171,7 @@ TEST_F(VtkMeshHandleSelection, OnThePreviewHoldsWhatTheSelectedPointsStandFor)
   EXPECT_GT(streamed.held(), 12);
   EXPECT_EQ(collectStreamed(this->Handle, 2), streamed);
   EXPECT_EQ(this->Handle->GetNumberOfHeldPoints(), streamed.held());
-  // What is displayed, is displayed again.
+  // The displayed data is displayed again.
   EXPECT_EQ(collectWhole(this->Handle), displayed);
 
   this->Handle->SetRadius(0.0);

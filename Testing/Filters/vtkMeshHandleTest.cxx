@@ -210,7 +210,7 @@ TEST_F(VtkMeshHandle, MovingKeepsWhatWasFound)
   this->Handle->SetNumberOfPieces(8);
   this->Handle->AddPoint(3.0, 0.0, 0.0);
   collectStreamed(this->Handle, 5);
-  // The piece that is asked for, the eight to look at, the piece again, and the other four.
+  // The requested piece, the eight to inspect, the piece again, and the other four.
   EXPECT_EQ(watched->Requests.size(), 14U);
   this->Handle->SetMotion(vtkMeshHandle::SIMILARITY);
   this->Handle->SetTranslation(1.0, 0.0, 0.0);
@@ -239,15 +239,14 @@ TEST_F(VtkMeshHandle, MovingTheHandlesBeforeKeepsWhatWasFound)
   this->Handle->AddId(1000);
   this->Handle->SetRings(1);
   const std::vector<std::int64_t> held = collectStreamed(this->Handle, 5).heldIds();
-  // The piece that is asked for, the eight to find the id and to find what is around it, and the
-  // other four.
+  // The requested piece, the eight to find the id and its surroundings, and the other four.
   EXPECT_EQ(watched->Requests.size(), 21U);
   watched->Requests.clear();
   dragged->SetTranslation(1.0, 0.0, 0.0);
   EXPECT_EQ(collectStreamed(this->Handle, 5).heldIds(), held);
   EXPECT_EQ(watched->Requests.size(), 5U);
 
-  // So it is where a preview is displayed.
+  // The same holds where a preview is displayed.
   this->Reader->SetMaximumPointsInMemory(100);
   this->Reader->SetPreviewPoints(300);
   collectWhole(this->Handle);

@@ -15,7 +15,7 @@ namespace smg::testing
 namespace
 {
 
-/** Meshes that no filter can do anything with. */
+/** Meshes that no filter can process. */
 class VtkMeshInput : public DeformationFixture
 {
 protected:

@@ -12,7 +12,7 @@
 namespace smg::testing
 {
 
-/** Makes the point arrays Mask and Values: both ends in x are held at their positions. */
+/** Makes the point arrays Mask and Values, which hold both ends in x at their positions. */
 class vtkEndsFilter : public vtkPassInputTypeAlgorithm
 {
 public:

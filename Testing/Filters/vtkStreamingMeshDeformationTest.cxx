@@ -164,7 +164,7 @@ TEST_F(VtkStreamingMeshDeformation, HierarchyIsKeptWhileOnlyTheMotionChanges)
   expectBuilds(3);
   this->open(torus(50, 30, 0.2));
   expectBuilds(4);
-  // A mesh that is not for memory any more has none.
+  // A mesh of more than InteractivePoints points has none.
   this->Deformation->SetInteractivePoints(0);
   expectBuilds(4);
   this->Deformation->SetInteractivePoints(200000);
@@ -191,8 +191,8 @@ TEST_F(VtkStreamingMeshDeformation, HandlesThatDoNotMoveGiveTheMeshBack)
 
 TEST_F(VtkStreamingMeshDeformation, MeshNeedsNoStreamOrderInMemory)
 {
-  // Points without cells stay, or go to their targets if they are held; nothing says which vertices
-  // of a stream the points are.
+  // Points without cells stay, or move to their targets if they are held; no array identifies the
+  // vertices of a stream.
   ASSERT_TRUE(updatePiece(this->Handles, 0, 1));
   vtkNew<vtkPolyData> mesh;
   mesh->ShallowCopy(this->Handles->GetOutputDataObject(0));

@@ -35,7 +35,7 @@ protected:
     this->Reader->SetFileName((this->Folder / "mesh.vsm").c_str());
   }
 
-  /** Every point is a vertex of the mesh and has its values; no triangle has a point twice. */
+  /** Every point is a vertex of the mesh with its values; no triangle has a point twice. */
   void expectPartOfTheMesh(vtkPolyData* preview) const
   {
     auto* ids = preview->GetPointData()->GetGlobalIds();
@@ -114,7 +114,7 @@ TEST_F(VtkStreamingMeshPreview, SeesTheMeshBehindThePreviewOfTheReader)
   ASSERT_TRUE(updatePiece(this->Preview, 0, 1));
   EXPECT_GE(this->Preview->GetOutput()->GetNumberOfPoints(), 200);
   this->expectPartOfTheMesh(this->Preview->GetOutput());
-  // The reader is left with its own preview.
+  // The reader keeps its own preview.
   auto* shown = vtkPointSet::SafeDownCast(this->Reader->GetOutputDataObject(0));
   EXPECT_TRUE(shown->GetFieldData()->HasArray("Preview"));
   EXPECT_LE(shown->GetNumberOfPoints(), 50);

@@ -69,7 +69,7 @@ TEST_F(VtkStreamingPoissonErrors, FailureEndsStreaming)
     ASSERT_TRUE(updatePiece(this->Reader, 0, 1));
     EXPECT_TRUE(this->Reader->GetOutputDataObject(0)->GetFieldData()->HasArray("Preview"));
   };
-  // The input fails, what it gives is refused, and the solve fails.
+  // The input fails, its output is rejected, and the solve fails.
   this->Poisson->SetSolveFullMesh(true);
   this->Poisson->SetNumberOfPieces(1);
   faulty->FailAtPiece = 0;
@@ -89,7 +89,7 @@ TEST_F(VtkStreamingPoissonErrors, FailureEndsStreaming)
   EXPECT_TRUE(updatePiece(this->Poisson, 0, 1));
   expectPreview();
 
-  // The same when the filter is itself streamed from.
+  // The same if the filter itself is the source of a stream.
   faulty->FailAtPiece = 0;
   faulty->Modified();
   vtkNew<vtkStreamingMeshWriter> writer;

@@ -24,7 +24,7 @@ TEST_F(VtkStreamingPoisson, ServesAnyPieceOfTheSameSolution)
   ASSERT_EQ(whole.values.size(), std::size_t(this->Mesh.vertices()));
   EXPECT_EQ(this->Poisson->GetConverged(), 1);
   const int executions = this->Ends->Executions;
-  // The piece that is asked for before and after the five to solve on.
+  // The requested piece before and after the five to solve on.
   EXPECT_EQ(executions, 7);
   for (const int pieces : { 2, 7, 64 })
   {
@@ -32,7 +32,7 @@ TEST_F(VtkStreamingPoisson, ServesAnyPieceOfTheSameSolution)
     parts.expectEqual(this->Mesh);
     EXPECT_EQ(parts.values, whole.values);
   }
-  // Nothing was pulled again but the pieces that were asked for.
+  // Only the requested pieces were pulled again.
   EXPECT_EQ(this->Ends->Executions, executions + 2 + 7 + 64);
   for (const auto& [id, value] : whole.values)
   {
@@ -75,7 +75,7 @@ TEST_F(VtkStreamingPoisson, PreviewCarriesTheTrueSolutionIfThatIsWanted)
   }
 }
 
-/** At once, and the report says that it is no more than that. */
+/** At once, and the report says that it is a solution on the preview. */
 TEST_F(VtkStreamingPoisson, SolvesOnAPreviewInItsPlace)
 {
   const PieceUnion whole = this->collectPieces(1);
@@ -101,7 +101,7 @@ TEST_F(VtkStreamingPoisson, SolvesOnAPreviewInItsPlace)
   EXPECT_LT(worst, 0.5);
   EXPECT_GT(worst, 1e-6);
 
-  // What is streamed is the solution on the mesh.
+  // The stream delivers the solution on the mesh.
   ASSERT_TRUE(streamPiece(this->Poisson, 0, 1));
   EXPECT_EQ(this->output()->GetNumberOfPoints(), this->Mesh.vertices());
   for (vtkIdType i = 0; i < this->Mesh.vertices(); ++i)
@@ -122,7 +122,7 @@ TEST_F(VtkStreamingPoisson, SolvesAgainOnlyAfterAChange)
   EXPECT_EQ(this->Ends->Executions, 14);
   this->Poisson->SetWeights(vtkStreamingPoisson::UNIFORM);
   ASSERT_TRUE(updatePiece(this->Poisson, 0, 2));
-  // The input still has the piece that is asked for.
+  // The input still has the requested piece.
   EXPECT_EQ(this->Ends->Executions, 20);
 }
 
@@ -270,11 +270,11 @@ TEST_F(VtkStreamingPoisson, CanBeAborted)
   EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));
   EXPECT_EQ(this->Folder.entries(), 1);
   this->Poisson->RemoveObserver(observer);
-  // Only a change makes it try again.
+  // It tries again only after a change.
   this->Ends->Executions = 0;
   updatePiece(this->Poisson, 0, 1);
   EXPECT_EQ(this->Ends->Executions, 0);
-  // The observer was also told of the end.
+  // The observer was also notified of the end.
   this->Poisson->SetAbortExecute(0);
   EXPECT_TRUE(updatePiece(this->Poisson, 0, 1));
   EXPECT_EQ(this->output()->GetNumberOfPoints(), this->Mesh.vertices());

@@ -7,7 +7,7 @@
 namespace smg::testing
 {
 
-/** What a reader of files must not do, whatever bytes it is given. */
+/** Thrown if a reader of files does what it must not do, for any bytes. */
 class Finding : public std::logic_error
 {
 public:

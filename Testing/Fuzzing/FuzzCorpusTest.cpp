@@ -40,7 +40,7 @@ std::vector<Seed> corpusOf(const FuzzTarget& target)
   return corpus;
 }
 
-/** The bytes with some of them changed, taken out or doubled. */
+/** The bytes with some of them changed, removed or doubled. */
 std::string mutated(std::string bytes, Random& random)
 {
   const auto place = [&]
@@ -66,7 +66,7 @@ std::string mutated(std::string bytes, Random& random)
   return bytes;
 }
 
-/** What a target did with the bytes that it must not do; empty: nothing. */
+/** The finding of a target for the bytes; empty if there is none. */
 std::string findingOf(const FuzzTarget& target, std::string_view bytes)
 {
   try
@@ -86,7 +86,7 @@ class FuzzCorpus : public ::testing::TestWithParam<FuzzTarget>
 
 } // namespace
 
-// A file whose name begins with "refused" is a damaged one that once did harm, or cannot be read.
+// A file whose name begins with "refused" is damaged: it once exposed a defect, or cannot be read.
 TEST_P(FuzzCorpus, IsReadUnlessItIsDamaged)
 {
   const std::vector<Seed> corpus = corpusOf(GetParam());

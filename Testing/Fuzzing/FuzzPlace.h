@@ -15,7 +15,7 @@
 namespace smg::testing
 {
 
-/** The folder and the workspace of all runs: to make them takes longer than most runs. */
+/** The folder and the workspace of all runs, since creating them takes longer than most runs. */
 class FuzzPlace
 {
 public:
@@ -27,28 +27,26 @@ public:
 
   Workspace& workspace() { return this->Space; }
 
-  /** Writes a file in place of the one of an earlier run; its name may begin with a folder. */
+  /** Writes a file, replacing that of an earlier run; its name may begin with a folder. */
   std::filesystem::path write(const std::string& name, std::string_view bytes)
   {
     const std::filesystem::path path = this->Folder / name;
     std::filesystem::create_directory(path.parent_path());
-    // Some file systems wait for the disk when a file is made shorter and written again.
+    // Some file systems wait for the disk when a file is truncated and written again.
     std::filesystem::remove(path);
     writeBytes(path, bytes);
     return path;
   }
 
-  /** What the errors of a reader say of names in the file. */
+  /** How the errors of a reader quote names in the file. */
   enum class Names
   {
     Printable, ///< only the characters that a terminal shows
-    Any        ///< what stands in the file
+    Any        ///< the bytes of the file
   };
 
-  /**
-   * Lets a reader read. Answers whether it did, or threw an Error. Throws Finding if the Error does
-   * not name the file, in one line, or if anything is left in the workspace.
-   */
+  /** Runs a reader. Returns whether it succeeded; false if it threw an Error. Throws Finding if the
+   * Error does not name the file, in one line, or if anything is left in the workspace. */
   bool run(const auto& read, Names names = Names::Printable)
   {
     bool accepted = true;
@@ -79,7 +77,8 @@ private:
 
   void checkMessage(std::string_view message, Names names) const
   {
-    // The place may be in another file of the folder: in a piece, or in the nodes of the elements.
+    // The position may be in another file of the folder: in a piece, or in the nodes of the
+    // elements.
     if (message.find(this->Folder.path().string()) == std::string_view::npos)
     {
       throw Finding("the Error does not name the file: " + std::string(message));

@@ -30,10 +30,10 @@ namespace smg::testing
 namespace
 {
 
-/** Separates the files of a format that has several. */
+/** Separates the files of a format that consists of several. */
 constexpr std::string_view FileSeparator = "\n%%\n";
 
-/** The bytes before the first separator, which are taken from `bytes`, and it. */
+/** The bytes before the first separator, which are removed from `bytes` together with it. */
 std::string_view takeFile(std::string_view& bytes)
 {
   const std::size_t end = bytes.find(FileSeparator);
@@ -42,7 +42,7 @@ std::string_view takeFile(std::string_view& bytes)
   return file;
 }
 
-/** Parses the file in the place with the parser of one format. */
+/** Parses the file in the folder with the parser of one format. */
 template <class Parser>
 bool parse(const std::filesystem::path& path, CellChoice cells, Parser parser)
 {
@@ -59,7 +59,7 @@ bool parse(const std::filesystem::path& path, CellChoice cells, Parser parser)
       }
       catch (const MeshError& error)
       {
-        // finish() does not know the file: whoever calls it names the place.
+        // finish() does not know the file: its caller adds the position.
         throw Error(path.string() + ": " + error.what() + '.');
       }
     });
@@ -118,7 +118,7 @@ bool runImport(std::string_view bytes, CellChoice cells)
 bool runStream(std::string_view bytes, CellChoice cells)
 {
   FuzzPlace& place = FuzzPlace::instance();
-  // The suffix counts where the content leaves the format open.
+  // The suffix decides where the content does not determine the format.
   const char* const name = cells == CellChoice::Only        ? "mesh"
                            : cells == CellChoice::Triangles ? "mesh.sma"
                                                             : "mesh.sva";
@@ -126,7 +126,7 @@ bool runStream(std::string_view bytes, CellChoice cells)
   return place.run(
     [&]
     {
-      // Whatever is left of the output when it fails is found in the workspace.
+      // Remains of the output after a failure are found in the workspace.
       const std::filesystem::path out = place.workspace().folder() / "out.vsm";
       checkStreamFile(path);
       streamToVsm(path, out);

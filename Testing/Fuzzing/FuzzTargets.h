@@ -9,14 +9,12 @@
 namespace smg::testing
 {
 
-/** A reader of files that is given any bytes. */
+/** A reader of files that receives arbitrary bytes. */
 struct FuzzTarget
 {
-  std::string_view name; ///< of the folder of its corpus, too
-  /**
-   * Answers whether the bytes were accepted, else they were refused with an Error that names the
-   * file. Throws Finding, or anything but Error, if the reader has a defect.
-   */
+  std::string_view name; ///< also that of the folder of its corpus
+  /** Returns whether the bytes were accepted; otherwise they were refused with an Error that names
+   * the file. Throws Finding, or anything but Error, if the reader has a defect. */
   bool (*run)(std::string_view bytes, CellChoice cells);
 };
 
@@ -26,7 +24,7 @@ std::span<const FuzzTarget> fuzzTargets();
 /** The target of that name. Throws std::invalid_argument if there is none. */
 const FuzzTarget& fuzzTarget(std::string_view name);
 
-/** The choice of cells with which these bytes are tried: all choices come up for some length. */
+/** The choice of cells for these bytes: every choice occurs for some lengths. */
 CellChoice choiceFor(std::string_view bytes);
 
 } // namespace smg::testing

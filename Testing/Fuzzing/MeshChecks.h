@@ -8,21 +8,17 @@
 namespace smg::testing
 {
 
-// Whether what a reader accepted is what its header promises. Throw Finding.
+// Check that an accepted file is what its header promises. Throw Finding.
 
 /** Counts agree, positions are finite, corners are vertices, columns have all tuples. */
 void checkMesh(const RawMesh& mesh);
 
-/**
- * Reads a streaming mesh file element by element: positions are finite, the indices of a pre-order
- * file name vertices that have come, the end comes after the header's counts. Throws Error.
- */
+/** Reads a streaming mesh file element by element: positions are finite, the indices of a pre-order
+ * file name known vertices, the counts are those of the header. Throws Error. */
 void checkStreamFile(const std::filesystem::path& path);
 
-/**
- * Reads a .vsm file as a stream, which must be compact and as long as its header says, and in
- * pieces, which must be the same; then last cells and isolated vertices. Throws Error.
- */
+/** Reads a .vsm file as a stream, which must be compact and have the counts of its header, and in
+ * pieces, which must be the same; then last cells and isolated vertices. Throws Error. */
 void checkVsm(const std::filesystem::path& path);
 
 } // namespace smg::testing

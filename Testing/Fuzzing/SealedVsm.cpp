@@ -31,7 +31,7 @@ BlockFileFront frontOf(std::string_view bytes)
   return front;
 }
 
-/** Bytes of the front and the header in JSON, as far as they are there. */
+/** Bytes of the front and the header in JSON, as far as they exist. */
 std::size_t textEnd(std::string_view bytes)
 {
   const auto most = static_cast<std::int64_t>(std::min(bytes.size(), HeaderBytes));
@@ -40,7 +40,7 @@ std::size_t textEnd(std::string_view bytes)
     front + std::clamp<std::int64_t>(frontOf(bytes).headerBytes, 0, most - front));
 }
 
-/** Puts right the checksums of the columns; the tail must be the whole one. */
+/** Corrects the checksums of the columns; the tail must be complete. */
 void sealColumns(std::string& file, std::size_t tailOffset)
 {
   const std::string_view tail = std::string_view(file).substr(tailOffset);
@@ -67,7 +67,7 @@ void sealColumns(std::string& file, std::size_t tailOffset)
   }
   catch (const Error&)
   {
-    // The index makes no sense: the reader is to say so.
+    // The index is invalid: the reader must detect this.
   }
 }
 

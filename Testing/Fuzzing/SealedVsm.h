@@ -8,9 +8,9 @@ namespace smg::testing
 {
 
 /**
- * The .vsm file of which these bytes are what is left without the zeros that follow the header,
- * with right checksums: of 2^64 changed files the checksums let one pass, so that changes would
- * never meet what comes after them. Bytes that are no such file stay as they are.
+ * Inserts the zeros after the header, which the bytes of the .vsm file lack, and corrects the
+ * checksums: these accept one of 2^64 changed files, so that changes would never reach the code
+ * after them. Other bytes are returned unchanged.
  */
 std::string sealedVsm(std::string_view bytes);
 

@@ -2,16 +2,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Testing/Fuzzing/run.sh [SECONDS [TARGET...]] : builds the fuzzers of the readers of mesh files and
 # runs all of them, or the named ones, SECONDS long each (600 unless given), two at a time, from the
-# corpus in the tree and from what earlier runs have found beside it. Fails on a finding: a crash, a
-# report of a sanitizer, an exception other than Error, a mesh that was accepted and is none, a run
-# of more than 5 seconds or 512 MB.
+# corpus in the tree and the inputs that earlier runs have found. Fails on a finding: a crash, a
+# report of a sanitizer, an exception other than Error, an invalid mesh that was accepted, a run of
+# more than 5 seconds or 512 MB.
 #
 #   build-fuzzers/corpus/TARGET    inputs that reach new code, kept from run to run
 #   build-fuzzers/findings         TARGET-crash-*, TARGET-timeout-*, TARGET-oom-*: inputs that failed
-#   build-fuzzers/logs/TARGET.log  what libFuzzer said
+#   build-fuzzers/logs/TARGET.log  the output of libFuzzer
 #
-# To see a finding again: build-fuzzers/bin/fuzz_TARGET FILE. When the reader is mended, the input
-# goes to Testing/Fuzzing/corpus/TARGET as refused-WHAT, which the test FuzzCorpus runs ever after
+# To reproduce a finding: build-fuzzers/bin/fuzz_TARGET FILE. When the reader is fixed, the input
+# goes to Testing/Fuzzing/corpus/TARGET as refused-WHAT, which the test FuzzCorpus then runs
 # (without "refused" if it is a mesh that is now read). A new target needs a line in FuzzTargets.cpp
 # and a folder with a corpus.
 set -euo pipefail
@@ -33,14 +33,14 @@ if [ ${#targets[@]} -eq 0 ]; then
   mapfile -t targets < <(ls "$corpora")
 fi
 
-# The files of the runs live in memory.
+# The files of the runs are in memory.
 memory=/tmp
 [ ! -w /dev/shm ] || memory=/dev/shm
 TMPDIR=$(mktemp -d "$memory/smg-fuzzing-XXXXXX")
 export TMPDIR
 trap 'rm -rf "$TMPDIR"' EXIT
 
-# Freed memory that is kept back to find its use counts for the 512 MB, too.
+# The quarantine of freed memory counts towards the 512 MB, too.
 export ASAN_OPTIONS=quarantine_size_mb=32:detect_leaks=1
 
 # fuzz TARGET

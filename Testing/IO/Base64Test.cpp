@@ -11,7 +11,7 @@ namespace smg::testing
 namespace
 {
 
-/** The encoding of the bytes, which come in parts of `part` bytes. */
+/** The encoding of the bytes, passed in parts of `part` bytes. */
 std::string encoded(std::string_view bytes, std::size_t part)
 {
   std::string text;

@@ -16,7 +16,7 @@ namespace
 
 using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-/** Expects the order of a mesh to be breadth-first but for its sources. */
+/** Expects the order of a mesh to be breadth-first except for its sources. */
 OrderSize expectGoodOrder(const Neighbours& neighbours, std::span<const double> positions,
   int pageVertices, std::int64_t memory, const BreadthFirstOptions& options = {})
 {
@@ -42,7 +42,7 @@ OrderSize expectGoodOrder(const IndexedTestMesh& mesh, int pageVertices = 64,
   return expectGoodOrder(neighboursOf(mesh), mesh.positions, pageVertices, memory, options);
 }
 
-/** Less is better. */
+/** Lower is better. */
 double costOf(const OrderSize& size)
 {
   return (double(size.span) + size.meanWindow) / 2;
@@ -75,7 +75,7 @@ TEST(BreadthFirstOrder, OfManyComponentsPlannedOrNot)
   }
   const OrderSize whole = expectGoodOrder(shuffled(mesh), 50);
   const OrderSize planned = expectGoodOrder(shuffled(mesh), 50, Workspace::LeastMemory, { 4, 100 });
-  // Components are one after another: no window is larger than the largest component's.
+  // Components are consecutive: no window is larger than that of the largest component.
   EXPECT_LT(whole.span, 300);
   EXPECT_LT(planned.span, 300);
 }
@@ -142,7 +142,7 @@ TEST(BreadthFirstOrder, OfNothing)
   EXPECT_EQ(countComponents(mesh, workspace), 0);
 }
 
-/** What is left of the memory is enough for three pages: they are loaded over and over. */
+/** The remaining memory holds three pages, which are loaded repeatedly. */
 TEST(BreadthFirstOrder, WithAlmostNoMemory)
 {
   const IndexedTestMesh mesh = shuffled(torus(200, 200));

@@ -33,7 +33,7 @@ const Column* findColumn(const std::vector<Column>& columns, const std::string& 
   return found == columns.end() ? nullptr : &*found;
 }
 
-/** Expects that the stream is the mesh, by the original numbers of its vertices and cells. */
+/** Expects the stream to be the mesh, by the original numbers of its vertices and cells. */
 void expectSameMesh(const StreamMesh& stream, const IndexedTestMesh& mesh)
 {
   const Column* ids = findColumn(stream.vertexColumns, OriginalIdName);
@@ -199,7 +199,7 @@ TEST_F(Conversion, OddCellsAreCountedAndFlagged)
       {
         EXPECT_EQ(flags->value(c), expected[static_cast<std::size_t>(ids[c])]);
       }
-      // The flags stay what they are.
+      // The flags do not change.
       const ConversionReport again = convert(
         this->Folder / "out.vsm", this->Folder / "again.vsm", this->options(StreamOrder::Keep));
       EXPECT_EQ(again.degenerate_cells, 2);
@@ -227,7 +227,7 @@ TEST_F(Conversion, AStreamMustHaveTheCellsThatAreWanted)
 
 TEST_F(Conversion, EdgesAndComponentsAreCounted)
 {
-  // Three triangles on one edge, and a fourth one alone.
+  // Three triangles on one edge, and a separate fourth one.
   writeBytes(this->Folder / "fan.off",
     "OFF\n8 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 -1 0\n5 0 0\n6 0 0\n5 1 0\n"
     "3 0 1 2\n3 0 1 3\n3 0 1 4\n3 5 6 7\n");

@@ -26,7 +26,7 @@ std::vector<Triangle> fanOf(std::span<const std::uint32_t> polygon)
   return fan;
 }
 
-/** The polygon of the triangles; empty if they are no fan. */
+/** The polygon of the triangles; empty if they are not a fan. */
 Polygon polygonOf(const std::vector<Triangle>& triangles)
 {
   Polygon corners;
@@ -62,7 +62,7 @@ TEST(FanChain, FindsAPolygonWhateverTheOrder)
   }
 }
 
-/** Which of the polygons that become these triangles it was cannot be known. */
+/** Several polygons yield these triangles; the original one is unknown. */
 TEST(FanChain, FindsAPolygonOfTheSameTrianglesIfCornersAreRepeated)
 {
   Random random(2);

@@ -17,7 +17,7 @@ namespace smg::testing
 namespace
 {
 
-/** A gridGraph of nodes, all masses and weights 1. */
+/** A grid graph with all masses and weights 1. */
 WeightedGraph gridGraph(std::uint32_t columns, std::uint32_t rows)
 {
   WeightedGraph graph;
@@ -80,7 +80,7 @@ TEST(FiedlerVector, OfGridsIsACosineAlongTheLongSide)
 
 TEST(FiedlerVector, RespectsMassesAndWeights)
 {
-  // Two equal clusters with a weak tie: the vector is nearly constant on each, 0 in the mean.
+  // Two equal clusters with a weak link: the vector is nearly constant on each, with mean 0.
   WeightedGraph graph = gridGraph(100, 1);
   std::fill_n(graph.masses.begin(), 50, 3.0f);
   for (std::uint32_t node : { 49u, 50u })

@@ -22,7 +22,7 @@ std::string textOf(const std::string& file)
   return { std::istreambuf_iterator<char>(stream), {} };
 }
 
-/** The suffixes, with their dots, that a hint of a proxy of the plugin names. */
+/** The suffixes, with dots, in a hint of a proxy of the plugin. */
 std::set<std::string> suffixesOfProxy(const std::string& file, const std::string& hint)
 {
   const std::string text = textOf("ParaViewPlugin/StreamingMultigrid/" + file);
@@ -92,7 +92,7 @@ TEST(FormatTable, ParaViewOffersItsFormats)
   const auto isOwn = [](const Format& format) { return format.kind != MeshFileKind::Indexed; };
   EXPECT_EQ(suffixesOfProxy("StreamingMeshReader.xml", "ReaderFactory"), suffixesWhere(isOwn));
   EXPECT_EQ(suffixesOfProxy("StreamingMeshWriter.xml", "WriterFactory"), suffixesWhere(isOwn));
-  // Of TetGen one file is opened; .hdf may be anything; pieces are ParaView's to read.
+  // Only one file of TetGen is opened; .hdf may be anything; ParaView reads the pieces.
   std::set<std::string> parsed = suffixesWhere([](const Format& format) { return format.parse; });
   std::set<std::string> offered = suffixesOfProxy("StreamingMeshConverter.xml", "ReaderFactory");
   for (const char* suffix : { ".ele", ".hdf", ".pvtp", ".pvtu" })

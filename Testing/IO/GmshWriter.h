@@ -21,7 +21,7 @@ struct GmshVariant
 {
   int version = 2; ///< 2.2 or 4.1
   bool binary = false;
-  bool swapped = false; ///< the byte order that this machine has not
+  bool swapped = false; ///< the byte order opposite to this machine's
 };
 inline constexpr std::array<GmshVariant, 6> GmshVariants{ { { 2, false, false },
   { 4, false, false }, { 2, true, false }, { 2, true, true }, { 4, true, false },
@@ -157,7 +157,7 @@ private:
       this->endRow();
       return;
     }
-    // A head, which is a group of one element in a binary file; two tags.
+    // A header, which is a group of one element in a binary file; two tags.
     const std::int64_t binaryHead[] = { element.type, 1, 2, tag };
     const std::int64_t textHead[] = { tag, element.type, 2 };
     for (const std::int64_t number : this->Kind.binary ? std::span<const std::int64_t>(binaryHead)

@@ -28,19 +28,19 @@ protected:
     return handles;
   }
 
-  /** What is wrong with the text, when it is read and when it is prepared on the mesh. */
+  /** The error of the text, when it is read or when it is prepared on the mesh. */
   std::string errorOf(const std::string& json)
   {
     const std::string message = messageOf([&] { this->parse(json); });
     return message.empty() ? "no error" : message;
   }
-  /** What is wrong with a file of a sound handle and this one. */
+  /** The error of a file with a valid handle and this one. */
   std::string errorOfHandle(const std::string& handle)
   {
     return this->errorOf(R"({"handles": [)" + Fixed + ", " + handle + "]}");
   }
 
-  /** What the handles say of all vertices. */
+  /** The values of the handles at all vertices. */
   VertexHandles ask(DescribedHandles& handles)
   {
     VertexHandles all;

@@ -15,7 +15,8 @@ namespace
 
 using Cell = std::array<std::uint32_t, 3>;
 
-/** Expects the cube of 8^3 cells to be a stretch of the curve, from cell to neighbouring cell. */
+/** Expects the cube of 8^3 cells to be a contiguous part of the curve, from cell to neighbouring
+ * cell. */
 void expectCurveThroughCube(const HilbertCurve& curve, const Cell& corner)
 {
   std::map<std::uint64_t, Cell> cells;

@@ -33,7 +33,7 @@ void put(std::string& bytes, T value, bool big = false)
 
 using Numbers = std::vector<std::int64_t>;
 
-/** Imports files whose bytes a test gives. */
+/** Imports files with the given bytes. */
 class ImportFixture : public ::testing::Test
 {
 protected:
@@ -55,7 +55,7 @@ protected:
     return readRaw(mesh);
   }
 
-  /** What the Error says; empty if there is none. */
+  /** The message of the Error; empty if there is none. */
   std::string errorOf(const std::string& name, std::string_view bytes)
   {
     return messageOf([&] { this->read(name, bytes); });
@@ -67,7 +67,7 @@ protected:
     EXPECT_NE(message.find(part), std::string::npos) << "got: '" << message << "'";
   }
 
-  /** Expects that the file is refused with an Error or read, and then is valid. */
+  /** Expects the file to be refused with an Error, or read as a valid mesh. */
   void expectRefusedOrValid(const std::string& name, std::string_view bytes)
   {
     try
@@ -81,7 +81,7 @@ protected:
     }
   }
 
-  /** The same of the file cut off at every byte, and with bytes that are changed. */
+  /** The same for the file truncated at every byte, and with changed bytes. */
   void expectDamageIsFound(const std::string& name, const std::string& bytes, int changes = 400)
   {
     for (std::size_t length = 0; length < bytes.size(); ++length)

@@ -35,7 +35,7 @@ protected:
 const std::string TriangleObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 const std::string Off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
-/** The bytes as one member of a gzip file. */
+/** The bytes as a gzip file of one member. */
 std::string gzip(std::string_view bytes)
 {
   constexpr int onlyGzip = 16;
@@ -198,7 +198,7 @@ TEST_F(ImportFormat, DamageOfCompressedFilesIsFound)
   this->expectError("a.off.gz", bytes + "more", "something comes after the compressed data");
   this->expectError("a.off.gz", bytes + bytes.substr(0, 12), "truncated");
   this->expectError("a.off.gz", gzip(""), "the file is empty");
-  // Errors of the parser call the file by its name, not by that of a scratch file.
+  // Errors of the parser name the file, not a scratch file.
   this->expectError("a.off.gz", gzip("OFF\n1 0 0\n0 0 x\n"), "a.off.gz, line 3: 'x' is no number");
   this->expectError("a.gz", gzip("1 2 3"), "a.gz: the format is not known");
   this->expectDamageIsFound("b.off.gz", bytes);

@@ -97,7 +97,7 @@ TEST_F(ImportGmsh, TagsFarApartTakeSeveralPasses)
   expectFourSolids(this->gmsh(fourSolids(GmshVariants[1], tags)));
   tags[3] = 4294967290;
   expectFourSolids(this->gmsh(fourSolids(GmshVariants[1], tags)));
-  // Only their distance matters, not their size.
+  // Only their range matters, not their size.
   for (std::int64_t& tag : tags)
   {
     tag += std::int64_t(1) << 40;
@@ -137,7 +137,7 @@ TEST_F(ImportGmsh, TagsOfElementsAreColumns)
   EXPECT_EQ(valuesOf(mesh.elementColumns[0]), (std::vector<double>{ 5, 6, 0 }));
   EXPECT_EQ(mesh.elementColumns[1].spec, (ColumnSpec{ "GeometricalTag", ScalarType::Int64, 1 }));
   EXPECT_EQ(valuesOf(mesh.elementColumns[1]), (std::vector<double>{ 1, 8, 1 }));
-  // What says nothing is no column.
+  // Tags without information are not a column.
   EXPECT_TRUE(this->gmsh(Format2 + Nodes2 + Elements2).elementColumns.empty());
 }
 
@@ -190,7 +190,7 @@ TEST_F(ImportGmsh, KindsOfCellsAreChosen)
 
 TEST_F(ImportGmsh, OnlyCornersOfHigherOrderElementsAreUsed)
 {
-  // Types, by their numbers of nodes, as the reference manual of Gmsh lists them.
+  // Types with their numbers of nodes, from the reference manual of Gmsh.
   constexpr std::array<std::pair<int, int>, 31> types{ { { 1, 2 }, { 2, 3 }, { 3, 4 }, { 4, 4 },
     { 5, 8 }, { 6, 6 }, { 7, 5 }, { 8, 3 }, { 9, 6 }, { 10, 9 }, { 11, 10 }, { 12, 27 }, { 13, 18 },
     { 14, 14 }, { 15, 1 }, { 16, 8 }, { 17, 20 }, { 18, 15 }, { 19, 13 }, { 20, 9 }, { 21, 10 },
@@ -272,7 +272,7 @@ TEST_F(ImportGmsh, ParametersOfNodesArePassed)
 TEST_F(ImportGmsh, OtherSectionsOfBinaryFilesArePassed)
 {
   GmshWriter writer(GmshVariants[4]);
-  // Longer than what is in memory of a file, its end between two windows or not.
+  // Longer than the window of a file in memory, with its end between two windows or not.
   std::string periodic((std::size_t(2) << 20) + 12345, '\n');
   periodic.replace(5000, 8, "$EndPeri");
   writer.text("$Periodic\n" + periodic + "\n$EndPeriodic\n");

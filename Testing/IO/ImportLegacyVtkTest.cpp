@@ -82,7 +82,7 @@ protected:
     return readRaw(builder.finish());
   }
 
-  /** A grid of the cells of a type, one after the other, on points that are given. */
+  /** A grid of consecutive cells of one type on the given points. */
   ReadMesh readGrid(
     int type, const std::vector<double>& points, const std::vector<std::int64_t>& cell)
   {
@@ -152,7 +152,7 @@ TEST_F(ImportLegacyVtk, AllLayoutsAreTheSameMesh)
 
 TEST_F(ImportLegacyVtk, ElementsAreNumberedAsVtkNumbersCells)
 {
-  // Strips stand before polygons, and both before the points and lines that VTK numbers first.
+  // Strips precede polygons, and both precede the points and lines that VTK numbers first.
   const ReadMesh mesh = this->read(head(false, "3.0", "POLYDATA") + Square +
                                    "TRIANGLE_STRIPS 1 5\n4 0 1 3 2\nPOLYGONS 2 9\n4 0 1 2 3\n"
                                    "3 3 2 1\nLINES 1 4\n3 0 1 2\nVERTICES 2 4\n1 0\n1 1\n"
@@ -264,7 +264,7 @@ TEST_F(ImportLegacyVtk, NumbersOfTypeVtkIdTypeAreWrittenInFourBytes)
 {
   const std::string text = head(true, "3.0", "POLYDATA") + "POINTS 3 double\n" +
                            bigEndian(std::vector<double>{ 0, 0, 0, 1, 0, 0, 0, 1, 0 }) +
-                           // No line end here: some writers leave it out.
+                           // No line end here: some writers omit it.
                            "POLYGONS 1 4\r\n" + bigEndian(std::vector<std::int32_t>{ 3, 0, 1, 2 }) +
                            "\nPOINT_DATA 3\nSCALARS i vtkIdType\nLOOKUP_TABLE default\n" +
                            bigEndian(std::vector<std::int32_t>{ 5, 6, -7 }) + "\n";
@@ -325,8 +325,8 @@ TEST_F(ImportLegacyVtk, TruncatedFilesAreErrors)
       const std::size_t fields = whole.find("METADATA");
       for (std::size_t size = 1; size + 2 < whole.size(); ++size)
       {
-        // A file may end after its geometry or between two attributes, and its last number in a
-        // text may be cut off.
+        // A file may end after its geometry or between two attributes, and the last number of a
+        // text may be truncated.
         if (size + 4 < geometry || (binary && size > geometry + 13 && size + 2 < fields))
         {
           EXPECT_NE(messageOf([&] { this->read(whole.substr(0, size)); }), "") << size;
@@ -338,7 +338,7 @@ TEST_F(ImportLegacyVtk, TruncatedFilesAreErrors)
 
 TEST_F(ImportLegacyVtk, ManyPolygonsPassThroughTheLeastMemory)
 {
-  // Lists and columns are longer than any window or chunk that is in memory.
+  // Lists and columns are longer than any window or chunk in memory.
   constexpr std::int64_t Cells = 300000;
   std::vector<float> points;
   std::vector<std::int32_t> list;

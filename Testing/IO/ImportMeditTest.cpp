@@ -62,7 +62,7 @@ TEST_F(ImportMedit, ReferencesThatAreZeroAreNoColumns)
   const ReadMesh mesh = this->medit(fourVertices("Tetrahedra\n1\n1 2 3 4 5\n"));
   EXPECT_TRUE(mesh.vertexColumns.empty());
   EXPECT_EQ(mesh.elementColumns.size(), 1u);
-  // Labels may be left out.
+  // Labels may be missing.
   EXPECT_TRUE(this->medit(fourVertices("Tetrahedra\n1\n1 2 3 4\n")).elementColumns.empty());
 }
 

@@ -50,7 +50,7 @@ TEST_F(ImportObj, ColoursOfAllVerticesAreAColumn)
   EXPECT_EQ(mesh.vertexColumns[0].spec, (ColumnSpec{ "Colors", ScalarType::Float32, 3 }));
   EXPECT_EQ(
     valuesOf(mesh.vertexColumns[0]), (std::vector<double>{ 0.5, 0.25, 1, 1, 1, 1, 0, 0, 0.75 }));
-  // A weight is no colour.
+  // A weight is not a colour.
   EXPECT_TRUE(this->read("a.obj", "v 0 0 0 1\nv 1 0 0 1\nv 0 1 0 1\n" + face).counts.notes.empty());
 }
 

@@ -11,7 +11,7 @@ namespace
 
 using ImportPly = ImportFixture;
 
-/** Two triangles and a quadrilateral of a PLY file, faces before vertices, and things around. */
+/** Two triangles and a quadrilateral of a PLY file, faces before vertices, with other elements. */
 std::string binaryPly(bool big)
 {
   std::string bytes =
@@ -197,7 +197,7 @@ TEST_F(ImportPly, ReservedNamesAndHalfGroups)
 
 TEST_F(ImportPly, StripsOfAnyLength)
 {
-  // One list that is longer than the part of the file that is in memory.
+  // One list that is longer than the window of the file in memory.
   constexpr std::int32_t vertices = 600000;
   static_assert(vertices * sizeof(std::int32_t) > 2 * InputFile::WindowBytes);
   writeBytes(this->Folder / "strip.ply", longStrip(vertices));
@@ -243,7 +243,7 @@ TEST_F(ImportPly, UnknownLinesOfTheHeaderAreNoted)
   EXPECT_EQ(mesh.corners, (Numbers{ 0, 1, 2 }));
   ASSERT_EQ(mesh.counts.notes.size(), 1u);
   EXPECT_NE(mesh.counts.notes[0].find("'obj_note'"), std::string::npos) << mesh.counts.notes[0];
-  // What has properties is an element.
+  // An element is recognised by its properties.
   text.replace(text.find("element face"), 7, "elment");
   this->expectError("a.ply", text, "line 8: 'elment' is not a keyword of a PLY header");
   text.replace(text.find("elment face 1"), 13, "elment face 1\ncomment between");

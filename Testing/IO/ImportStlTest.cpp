@@ -69,7 +69,7 @@ TEST_F(ImportStl, CornersAreWelded)
 
 TEST_F(ImportStl, WeldingOutOfCoreIsWeldingInMemory)
 {
-  // A multiple of what the least memory holds: corners and vertices are sorted on disk.
+  // A multiple of the capacity of the minimum memory: corners and vertices are sorted on disk.
   const std::vector<Coordinates> triangles = manyTriangles(400000);
   std::map<std::array<float, 3>, std::int64_t> vertices;
   Numbers corners;

@@ -24,7 +24,7 @@ namespace
 
 using Integers = std::initializer_list<std::int64_t>;
 
-/** Writes the parts of a VTKHDF file by hand. */
+/** Writes the parts of a VTKHDF file. */
 class HdfFile
 {
 public:
@@ -375,7 +375,7 @@ TEST_F(ImportVtkHdf, WhatIsWrongIsSaid)
 namespace
 {
 
-/** Converts, writes in partitions of so many cells, and reads again. */
+/** Converts, writes in partitions of `cells` cells, and reads again. */
 void expectRoundTrip(const TemporaryFolder& folder, const StreamMesh& mesh, std::int64_t cells)
 {
   const std::filesystem::path vsm = folder / "mesh.vsm", hdf = folder / "out.vtkhdf";

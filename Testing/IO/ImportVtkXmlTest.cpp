@@ -42,7 +42,7 @@ protected:
     return readRaw(builder.finish());
   }
 
-  /** Whether the file is refused while it is parsed, or since its mesh is none. */
+  /** Whether the file is refused while it is parsed, or because it holds no mesh. */
   bool isRefused(const std::string& bytes)
   {
     try
@@ -88,7 +88,7 @@ std::string tetrahedra(VtkXmlWriter writer)
   return writer.file("UnstructuredGrid", piece + "</Points>\n</Piece>\n");
 }
 
-/** A piece that is one triangle on three points of the x-axis and above, from `x` on. */
+/** A piece of one triangle with two points on the x-axis from `x` on, and one above. */
 std::string trianglePiece(
   VtkXmlWriter& writer, double x, const std::string& pointData, const std::string& cellData)
 {
@@ -102,7 +102,7 @@ std::string trianglePiece(
          writer.array("offsets", "Int32", std::vector<int>{ 3 }) + "</Polys>\n</Piece>\n";
 }
 
-/** A piece of a grid that is two triangles on a square of which the left edge is at `x`. */
+/** A piece of a grid: two triangles on a square whose left edge is at `x`. */
 std::string squareFile(int x, const std::vector<int>& ghosts, bool numbers)
 {
   VtkXmlWriter writer;
@@ -343,7 +343,7 @@ TEST_F(ImportVtkXml, TruncatedFilesAreErrors)
       for (std::size_t size = 1; size + 4 < whole.size(); size += 5)
       {
         EXPECT_TRUE(this->isRefused(whole.substr(0, size))) << size;
-        // Bytes are missing before the end; so many, that the end cannot be taken for them.
+        // Bytes are missing before the end tag, more than the tag could replace.
         const std::string cut = whole.substr(0, size) + "</VTKFile>\n";
         EXPECT_TRUE(size + 16 >= dataEnd || this->isRefused(cut)) << size;
       }

@@ -54,7 +54,7 @@ protected:
     return vertices;
   }
 
-  /** Expects these vertices of the file, with the values that they have there. */
+  /** Expects these vertices of the file with their values there. */
   void expectIsolated(const char* name, const std::vector<std::int64_t>& ids)
   {
     const IsolatedVertices vertices = this->isolated(name);
@@ -70,7 +70,7 @@ protected:
     }
   }
 
-  /** The vertices of no cell of the PLY file, written again in its order. */
+  /** The isolated vertices of the PLY file, written again in its order. */
   std::string restored(const char* name)
   {
     ConversionOptions options;
@@ -89,7 +89,7 @@ protected:
   TemporaryFolder Folder;
 };
 
-/** The order that needs a bit a vertex too. */
+/** The order of first use with 2 MiB of available memory. */
 OrderedVertices firstUseInLittleMemory(const RawMesh& mesh, Workspace& space)
 {
   const Reservation most(space.pool(), space.available() - (std::int64_t(2) << 20));

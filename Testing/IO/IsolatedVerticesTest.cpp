@@ -156,7 +156,7 @@ TEST_F(IsolatedVerticesTest, HaveZerosWithoutColumns)
   }
 }
 
-/** A file of the four tables that all have, as it was written before there was the fifth. */
+/** A file of only the four mandatory tables, without the optional fifth. */
 TEST_F(IsolatedVerticesTest, AreNoneInFilesWithoutTheTable)
 {
   this->writeWith("new.vsm", [](VsmWriter&) {});

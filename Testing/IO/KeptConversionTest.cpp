@@ -25,7 +25,7 @@ class KeptConversion : public ::testing::Test
 protected:
   void SetUp() override { writeBytes(this->In, meshText(torus(30, 20))); }
 
-  /** Whether the file was converted; else it was up to date. */
+  /** Whether the file was converted; otherwise it was up to date. */
   bool converts(StreamOrder order = StreamOrder::BreadthFirst, bool overwrite = false)
   {
     ConversionOptions options;
@@ -104,7 +104,7 @@ TEST_F(KeptConversion, LeavesOtherFilesAlone)
   EXPECT_EQ(std::filesystem::file_size(this->Out), 8U);
   EXPECT_TRUE(this->converts(StreamOrder::BreadthFirst, true));
 
-  // The conversion of another file, and a .vsm that does not say what it was made of.
+  // The conversion of another file, and a .vsm without information about its input.
   this->In = this->Folder / "other.off";
   writeBytes(this->In, meshText(torus(9, 8)));
   this->expectError("not made from other.off by this converter");
@@ -137,7 +137,7 @@ TEST_F(KeptConversion, FilesOfOneNameAreNotMixedUp)
   std::filesystem::copy(first, this->In);
   std::filesystem::last_write_time(this->In, std::filesystem::last_write_time(first));
   this->expectError("not made from mesh one.off");
-  // The same file by another way is the same.
+  // The same file by another path is the same.
   std::filesystem::create_directory_symlink(this->Folder.path(), this->Folder / "link");
   this->In = this->Folder / "link" / "mesh one.off";
   EXPECT_FALSE(this->converts());

@@ -19,7 +19,7 @@ void expectRefused(const std::filesystem::path& out, const std::string& part)
   expectError([&] { checkOutput(out); }, out.filename().string() + part);
 }
 
-/** Expects it of a process that may not write everywhere. */
+/** Expects the refusal in a process without write access to everything. */
 void expectRefusedForStranger(const std::filesystem::path& out)
 {
   if (::geteuid() == 0 && ::setuid(65534) != 0)

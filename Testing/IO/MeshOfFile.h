@@ -15,10 +15,8 @@
 namespace smg::testing
 {
 
-/**
- * A mesh as its original file has it, of which a mesh stream is made: polygons or tetrahedra,
- * vertices of no cell among the others, and numbers of elements that are no cells.
- */
+/** The mesh of an original file, from which a mesh stream is made: polygons or tetrahedra, isolated
+ * vertices among the others, and numbers of elements that are not cells. */
 struct MeshOfFile
 {
   CellType cellType = CellType::Triangle;
@@ -26,8 +24,8 @@ struct MeshOfFile
   std::vector<double> points;
   std::vector<std::vector<std::int64_t>> cells;
   std::vector<std::int64_t> numbers; ///< OriginalCellId of each cell, ascending
-  std::vector<Column> vertexColumns; ///< a tuple a point
-  std::vector<Column> cellColumns;   ///< a tuple a cell
+  std::vector<Column> vertexColumns; ///< a tuple per point
+  std::vector<Column> cellColumns;   ///< a tuple per cell
 
   std::int64_t vertices() const { return static_cast<std::int64_t>(this->points.size() / 3); }
 };
@@ -159,10 +157,8 @@ inline MeshOfFile randomMeshOfFile(
   return mesh;
 }
 
-/**
- * Writes what a conversion makes of the mesh: polygons as fans, cells in a random order, vertices
- * by first use, isolated ones beside the stream.
- */
+/** Writes the mesh like a conversion: polygons as fans, cells in a random order, vertices by first
+ * use, isolated ones separate from the stream. */
 inline void writeVsmOf(
   const MeshOfFile& mesh, const std::filesystem::path& path, std::uint64_t seed = 1)
 {

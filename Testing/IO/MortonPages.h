@@ -95,7 +95,7 @@ inline std::vector<std::uint32_t> mortonOrder(
   return order;
 }
 
-/** Puts the vertices that cells use into pages in this order of them. */
+/** Puts the vertices that cells use into pages in this order. */
 inline PagedMesh makePages(Workspace& workspace, const CoreMesh& mesh,
   const std::vector<std::vector<std::uint32_t>>& neighbours,
   const std::vector<std::uint32_t>& order, int pageVertices)
@@ -145,8 +145,8 @@ inline std::vector<std::uint32_t> numbersOf(const OrderedVertices& order)
   return numbers;
 }
 
-/** Most vertices alive at once in the stream of an order: each cell comes when its last vertex is
- * reached, each vertex with its first cell. */
+/** Most vertices alive at once in the stream of an order: each cell comes with its last vertex,
+ * each vertex with its first cell. */
 inline std::int64_t widthOf(const CoreMesh& mesh, const std::vector<std::uint32_t>& order)
 {
   std::vector<std::uint32_t> place(mesh.points.size());
@@ -189,7 +189,7 @@ inline std::int64_t widthOf(const CoreMesh& mesh, const std::vector<std::uint32_
   return width;
 }
 
-/** The breadth-first order of a mesh in memory, each component from its end. */
+/** The breadth-first order of a mesh in memory; each component starts at one of its ends. */
 inline std::vector<std::uint32_t> breadthFirstInCore(const CoreMesh& mesh)
 {
   const auto neighbours = neighboursOf(mesh);

@@ -45,7 +45,7 @@ private:
 class MovedMeshes : public ::testing::Test
 {
 protected:
-  /** The mesh, with columns of normals that are wrong and one that is none, as a file. */
+  /** The mesh as a file, with columns of wrong normals and one of other vectors. */
   VsmReader& write(const IndexedTestMesh& indexed, bool doublePositions = true)
   {
     this->Mesh = toStream(indexed);
@@ -91,7 +91,7 @@ using Names = std::vector<std::string>;
 TEST_F(MovedMeshes, HaveTheirPointsMovedAndTheirNormalsComputed)
 {
   const VsmReader& reader = this->write(grid(6, 5, 0.05));
-  // A flat lattice stands up.
+  // A flat lattice is turned upright.
   std::vector<double> moved = this->Mesh.positions;
   for (std::size_t i = 0; i < moved.size(); i += 3)
   {

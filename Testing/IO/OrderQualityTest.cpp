@@ -20,7 +20,7 @@ namespace
 
 const std::filesystem::path Archive = SMG_TEST_DATA_DIR;
 
-/** A mesh of the archive, and what its order may be to the one of breadth-first in core. */
+/** A mesh of the archive, and the allowed ratios of its order to a breadth-first order in core. */
 struct Bound
 {
   std::string file;

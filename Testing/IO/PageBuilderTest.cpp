@@ -27,7 +27,7 @@ namespace
 
 using NeighbourSets = std::map<std::uint32_t, std::set<std::uint32_t>>;
 
-/** What pages hold, by the numbers of the raw mesh. */
+/** The content of pages, by the numbers of the raw mesh. */
 struct Unpacked
 {
   NeighbourSets neighbours;
@@ -154,7 +154,7 @@ void expectPagesOf(const IndexedTestMesh& mesh, PagedMesh& paged, const Unpacked
   EXPECT_DOUBLE_EQ(paged.crossing, double(pages.crossing) / double(pages.edges));
 }
 
-/** The mesh with vertices between its own that are in no cell. */
+/** The mesh with isolated vertices between its own. */
 IndexedTestMesh withIsolatedVertices(const IndexedTestMesh& mesh)
 {
   IndexedTestMesh result{ mesh.cellType, {}, mesh.corners };
@@ -171,7 +171,7 @@ IndexedTestMesh withIsolatedVertices(const IndexedTestMesh& mesh)
   return result;
 }
 
-/** A flat mesh in random order at other places: `place` changes the coordinates of a vertex. */
+/** A flat mesh in random order at other positions: `place` changes the coordinates of a vertex. */
 template <class Place>
 IndexedTestMesh placed(IndexedTestMesh mesh, Place&& place)
 {
@@ -300,7 +300,7 @@ TEST_F(PageBuilder, CoordinatesThatSayNothingGiveWayToTheGraph)
 
 TEST_F(PageBuilder, NumbersInSequenceAreUsedWhereTheyAreBetter)
 {
-  // A strip whose vertices are numbered along it, and lie anywhere.
+  // A strip whose vertices are numbered along it and have random positions.
   IndexedTestMesh strip = grid(2, 20000);
   Random random(1);
   std::ranges::generate(strip.positions, [&random] { return random.uniform(); });
@@ -362,7 +362,7 @@ TEST_F(PageBuilder, NamesTheMemoryThatManyCellsAtAVertexNeed)
   {
     EXPECT_PRED_FORMAT2(::testing::IsSubstring, "raise the memory limit", error.what());
     EXPECT_PRED_FORMAT2(::testing::IsSubstring, "a vertex has 599999 cells", error.what());
-    // What it says is enough.
+    // The stated memory is sufficient.
     const std::string text = error.what();
     const std::int64_t needed = std::stoll(text.substr(text.find("needs ") + 6)) << 20;
     EXPECT_GT(needed, Memory);

@@ -16,7 +16,7 @@ namespace smg::testing
 namespace
 {
 
-/** Ranks instead of vertices: the graph as the pages have it. */
+/** Ranks instead of vertices, as in the pages. */
 Neighbours alongRanks(const Neighbours& neighbours, std::span<const std::uint32_t> curve)
 {
   std::vector<std::uint32_t> ranks(curve.size());
@@ -98,7 +98,7 @@ TEST(PagedSearch, ASourceThatBeginsWhenAllElseIsOver)
   EXPECT_EQ(std::ranges::count(levels, NoIndex), 36);
 }
 
-/** The same order with any cache and queue, and what a probe has promised. */
+/** The same order with any cache and queue, and the size that a probe predicted. */
 TEST(PagedSearch, PlacesDoNotDependOnMemory)
 {
   const IndexedTestMesh mesh = shuffled(torus(60, 40));
@@ -131,7 +131,7 @@ TEST(PagedSearch, PlacesDoNotDependOnMemory)
       const ReadOrder read = readOrder(order);
       expectOrder(torus.neighbours, read, 2400);
       const OrderSize size = orderSize(torus.neighbours, read.ids);
-      // A source is in the queue a little before it is in the window.
+      // A source enters the queue shortly before it enters the window.
       const auto later = static_cast<double>(sources.size());
       EXPECT_LE(size.span, placed.peakQueue);
       EXPECT_NEAR(double(size.span), double(placed.peakQueue), later);
@@ -188,7 +188,7 @@ TEST(PagedSearch, CountsComponents)
   EXPECT_EQ(search.components(), inCoreComponents(many.neighbours));
 }
 
-/** A search that has loaded its pages, or some of them, before it is refused to go on. */
+/** A search that has loaded all or some of its pages before it is stopped. */
 void expectCancelled(const IndexedTestMesh& mesh, bool allPagesFit)
 {
   bool goesOn = true;

@@ -18,7 +18,7 @@ namespace
 class PreviewStreams : public ::testing::Test
 {
 protected:
-  /** A file of the mesh, and what its preview delivers. */
+  /** A file of the mesh, and the stream of its preview. */
   StreamMesh previewOf(const StreamMesh& mesh, std::int64_t points)
   {
     MemorySource source(mesh, 100);

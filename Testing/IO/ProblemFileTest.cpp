@@ -18,7 +18,7 @@ namespace
 class ProblemFile : public RegionFile
 {
 protected:
-  /** What the problem of a file says of the lattice. */
+  /** The values of the problem of a file on the lattice. */
   ProblemAnswers ask(const std::string& json)
   {
     return this->ask(readProblemFile(this->file(json)), this->Source);

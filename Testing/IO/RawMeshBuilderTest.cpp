@@ -21,7 +21,7 @@ using Numbers = std::vector<std::int64_t>;
 class RawMeshBuilderTest : public ::testing::Test
 {
 protected:
-  /** The mesh that `build` makes of five vertices. */
+  /** The mesh that `build` makes from five vertices. */
   ReadMesh built(
     const std::function<void(RawMeshBuilder&)>& build, CellChoice choice = CellChoice::Only)
   {

@@ -16,10 +16,8 @@
 namespace smg::testing
 {
 
-/**
- * Tests of files that name regions of a mesh: a lattice of 5 x 5 vertices whose original numbers
- * are 1000 and more, backwards.
- */
+/** Tests of files that name regions of a mesh: a lattice of 5 x 5 vertices whose original numbers
+ * start at 1000, in reverse order. */
 class RegionFile : public ::testing::Test
 {
 protected:
@@ -42,7 +40,7 @@ protected:
     return mesh;
   }
 
-  /** The name of a file that holds the text. */
+  /** The name of a file with the text. */
   std::filesystem::path file(const std::string& json) const
   {
     writeBytes(this->Folder / "p.json", json);

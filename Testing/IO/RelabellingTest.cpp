@@ -68,7 +68,7 @@ TEST_F(RelabellingTest, AnyNumberOfPassesEqualsATable)
 
 TEST_F(RelabellingTest, LargestNumbersAndThoseNeverPut)
 {
-  // Tables for 2^32 - 1 numbers, of which the last one reaches beyond what 32 bits can say.
+  // Tables for 2^32 - 1 numbers; the last table reaches beyond 32 bits.
   Relabelling numbers(this->Space, std::int64_t(NoIndex), std::int64_t(5) << 20);
   numbers.put(0, 7);
   numbers.put(NoIndex - 1, 8);

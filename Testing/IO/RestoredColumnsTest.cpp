@@ -14,7 +14,7 @@ namespace
 
 using RestoredColumns = RestoredMeshFixture;
 
-/** Columns that the text formats have a place for, and one that they have not. */
+/** Columns that the text formats can hold, and one that they cannot. */
 void giveTextColumns(MeshOfFile& mesh)
 {
   const auto points = static_cast<std::size_t>(mesh.vertices());

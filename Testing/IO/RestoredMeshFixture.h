@@ -19,11 +19,11 @@ namespace smg::testing
 
 using Corners = std::vector<std::int64_t>;
 
-/** Restores meshes by way of a mesh stream. */
+/** Restores meshes from a mesh stream. */
 class RestoredMeshFixture : public ::testing::Test
 {
 protected:
-  /** The file that comes of the mesh by way of a mesh stream. */
+  /** The file restored from a mesh stream of the mesh. */
   FileMesh restored(const MeshOfFile& mesh, const std::string& suffix, std::uint64_t seed = 1)
   {
     this->write(mesh, "out" + suffix, seed);

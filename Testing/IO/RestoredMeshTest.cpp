@@ -54,7 +54,7 @@ TEST_F(RestoredMeshTest, PolygonsAreTheSameInFormatsThatHaveThem)
       }
       else
       {
-        // The text of a float is a number that is nearest to that float.
+        // The text of a float is a number whose nearest float it is.
         EXPECT_EQ(std::vector<float>(back.points.begin(), back.points.end()),
           std::vector<float>(mesh.points.begin(), mesh.points.end()));
       }
@@ -158,7 +158,7 @@ TEST_F(RestoredMeshTest, AFaceOfPlyMayHaveMoreCornersThanAByteCounts)
 
 TEST_F(RestoredMeshTest, CellsThatAreNoFanStayWithTheirOwnValues)
 {
-  // Three triangles of a strip have one number; the last two have another one and are no fan.
+  // Three triangles of a strip have one number; the last two have another one and are not a fan.
   MeshOfFile mesh = randomMeshOfFile(CellType::Triangle, 3, true);
   mesh.cells = { { 10, 11, 12 }, { 12, 11, 13 }, { 12, 13, 14 }, { 20, 21, 22 }, { 20, 23, 24 } };
   mesh.numbers = { 4, 4, 4, 9, 9 };
@@ -276,7 +276,7 @@ TEST_F(RestoredMeshTest, CanBeCancelledAtAnyTime)
   }
 }
 
-/** A quarter of a million vertices, a third of them of no cell, with columns. */
+/** A quarter of a million vertices, a third of them isolated, with columns. */
 class LargeRestoredMesh : public RestoredMeshTest
 {
 protected:

@@ -21,7 +21,7 @@ namespace smg::testing
 namespace
 {
 
-/** A square of a polygon and a triangle, with much beside them. */
+/** A square of a polygon and a triangle, with many other elements. */
 const std::string SquarePly =
   "ply\r\nformat ascii 1.0\r\ncomment  a square\r\n"
   "element camera 1\nproperty float view\nproperty list int short lens\n"
@@ -46,7 +46,7 @@ const std::string SquarePly =
 class RewritePly : public ::testing::Test
 {
 protected:
-  /** The mesh stream that is made of the file. */
+  /** The mesh stream made from the file. */
   std::unique_ptr<MeshSource> streamOf(const std::filesystem::path& in)
   {
     convert(in, this->Folder / "mesh.vsm");
@@ -159,7 +159,7 @@ TEST_F(RewritePly, GivesABinaryFileBackByteForByte)
     write(this->Folder / "keep.vsm", single ? testStream(torus(9, 9), true) : mesh,
       { .single = single });
     writePly(*VsmReader(this->Folder / "keep.vsm").source(), this->Folder / "in.ply");
-    // The stream has another order than the file.
+    // The order of the stream differs from that of the file.
     rewriteMesh(
       this->Folder / "in.ply", this->Folder / "out.ply", *this->streamOf(this->Folder / "in.ply"));
     EXPECT_TRUE(readFile(this->Folder / "in.ply") == readFile(this->Folder / "out.ply"));

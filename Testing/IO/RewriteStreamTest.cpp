@@ -50,7 +50,7 @@ std::vector<Element> elementsOf(const std::filesystem::path& path)
 class RewriteStream : public StreamFormats
 {
 protected:
-  /** Makes a mesh of the file, moves it along x and writes it again. */
+  /** Converts the file, moves the mesh along x and writes it again. */
   std::filesystem::path rewrite(
     const std::filesystem::path& in, const std::string& out, double shift = 0.0)
   {
@@ -64,7 +64,7 @@ protected:
     return this->Folder / out;
   }
 
-  /** Expects the same elements, finality and header, whatever the format. */
+  /** Expects the same elements, finality and header for every format. */
   void expectSameStream(const std::filesystem::path& in, const std::filesystem::path& out)
   {
     EXPECT_TRUE(elementsOf(in) == elementsOf(out)) << in << ' ' << out;
@@ -132,7 +132,7 @@ TEST_F(RewriteStream, IsolatedVerticesStayWhereTheyAre)
   const std::filesystem::path in = this->write("odd.sma", Odd);
   const std::filesystem::path out = this->rewrite(in, "out.sma", 1.0);
   EXPECT_EQ(this->Result.isolatedVertices, 3);
-  // Where a line of finality does not follow a cell of the vertex, it stays a line.
+  // A line of finality that does not follow a cell of the vertex stays a line.
   EXPECT_EQ(readFile(out), "# odd\n# nverts 7\n# nfaces 2\n# bb_min 1 0 0\n# bb_max 9 9 9\n"
                            "v 9 9 9\nv 1 0 0\nv 5 5 5\nv 2 0 0\nv 1 1 0\nx -5\nf 5 2 4\nv 2 1 0\n"
                            "x -2\nf -3 -1 2\nv 2 2 2\n");

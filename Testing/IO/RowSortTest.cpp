@@ -21,7 +21,7 @@ struct Expected
   std::uint64_t sequence;
 };
 
-/** Sorts random keys, of which many are the same, with rows of `rowBytes` bytes. */
+/** Sorts random keys, many of them equal, with rows of `rowBytes` bytes. */
 void expectSortedRows(std::int64_t count, std::size_t rowBytes, std::int64_t memory)
 {
   const TemporaryFolder folder;
@@ -71,7 +71,7 @@ TEST(RowSort, MergesRuns)
   expectSortedRows(300000, 8, 2 << 20);
 }
 
-/** With rows as large as that, two runs of two rows are merged at once: five levels of runs. */
+/** With rows of this size, two runs of two rows are merged at once: five levels of runs. */
 TEST(RowSort, MergesLevelsOfRuns)
 {
   expectSortedRows(101, 500000, 1 << 20);

@@ -45,7 +45,7 @@ TEST(SourcePlan, OneEndOfAPathIsEnough)
   EXPECT_NEAR(plan.cost, 1, 0.1);
 }
 
-/** The arms one after another would be best; to begin at several ends is better than at one. */
+/** The arms one after another would be best; starting at several ends is better than at one. */
 TEST(SourcePlan, ArmsOfAStarAreSearchedTwoAfterTwo)
 {
   Workspace workspace({}, Workspace::LeastMemory);
@@ -58,15 +58,15 @@ TEST(SourcePlan, ArmsOfAStarAreSearchedTwoAfterTwo)
   EXPECT_EQ(std::ranges::min(plan.sources, {}, &PlannedSource::level).level, 0);
 }
 
-/** All samples have the last level of the last bin, which single precision rounds upwards. */
+/** All samples have the last level of the last bin, which single precision rounds up. */
 TEST(SourcePlan, LevelsAreCountedHoweverManyThereAre)
 {
   Workspace workspace({}, Workspace::LeastMemory);
   constexpr std::size_t samples = 100;
   SourceDistances distances(workspace, samples, 1);
   std::fill_n(distances.add(), samples, 44999999);
-  // All are in the last of 150 bins of 300000 levels, which counts for the mean as it is, for the
-  // peak a quarter, as the bin before it sees it.
+  // All are in the last of 150 bins of 300000 levels, which counts fully for the mean, and a
+  // quarter for the peak, as seen from the bin before it.
   const double window = 60000000.0 / 300000;
   EXPECT_NEAR(
     planSources(distances, 60000000, workspace).front().cost, searchCost(window, window / 4), 1e-6);
@@ -117,7 +117,7 @@ TEST(AxisEnds, OfABox)
     }
     along.push_back(sum / double(end.size()));
   }
-  // The ends of the long axis, in any order; those of the other have the middle of it.
+  // The ends of the long axis, in any order; those of the short axis share its middle.
   EXPECT_GT(std::abs(along[0] - along[1]), 970);
   EXPECT_LT(std::abs(along[2]), 20);
   EXPECT_LT(std::abs(along[3]), 20);

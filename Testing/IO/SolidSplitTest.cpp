@@ -79,10 +79,8 @@ void expectFilled(const SolidMesh& mesh, std::size_t tetrahedra, double expected
   } while (std::ranges::next_permutation(numbers).found);
 }
 
-/**
- * A lattice of n^3 cubes that are left as hexahedra, cut into six pyramids, or, a column of them at
- * a time, into pairs of wedges.
- */
+/** A lattice of n^3 cubes, kept as hexahedra, split into six pyramids, or, column by column, into
+ * pairs of wedges. */
 class Lattice
 {
 public:
@@ -132,7 +130,7 @@ private:
     }
     else
     {
-      // Bases that are seen counterclockwise from the middle of the cube.
+      // Bases that are counterclockwise as seen from the middle of the cube.
       constexpr int bases[6][4] = { { 0, 1, 2, 3 }, { 4, 7, 6, 5 }, { 0, 4, 5, 1 }, { 1, 5, 6, 2 },
         { 2, 6, 7, 3 }, { 3, 7, 4, 0 } };
       this->Mesh.points.push_back({ x + 0.5, y + 0.5, z + 0.5 });
@@ -232,7 +230,7 @@ TEST(SolidSplit, NeighboursFitTogether)
 
 TEST(SolidSplit, CollapsedSolidsAreFilledToo)
 {
-  // A hexahedron of which an edge fell together is a wedge; and then a pyramid, a tetrahedron.
+  // A hexahedron with collapsed edges becomes a wedge, then a pyramid, then a tetrahedron.
   const std::vector<std::pair<Corners, double>> collapsed{ { { 0, 1, 2, 2, 4, 5, 6, 6 }, 0.5 },
     { { 0, 1, 2, 3, 4, 4, 4, 4 }, 1.0 / 3 }, { { 0, 1, 2, 2, 4, 4, 4, 4 }, 1.0 / 6 },
     { { 0, 0, 0, 0, 0, 0, 0, 0 }, 0.0 } };

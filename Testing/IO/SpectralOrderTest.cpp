@@ -94,7 +94,7 @@ std::vector<std::uint32_t> spectral(
   return numbers;
 }
 
-/** The order must have each vertex that cells use once. */
+/** The order must contain each vertex that cells use once. */
 void expectPermutation(const CoreMesh& mesh, std::vector<std::uint32_t> order)
 {
   std::vector<std::uint32_t> used = mesh.corners;
@@ -173,7 +173,7 @@ TEST(SpectralOrder, BringsOneComponentAfterTheOther)
   std::vector<std::size_t> ends{ 2400 };
   for (const std::uint32_t size : { 2u, 30u, 3u, 50u, 2u, 9u })
   {
-    // Close together, so that components share pages and runs.
+    // Close together so that components share pages and runs.
     append(mesh, plate(size, size, double(mesh.points.size() % 7) / 10));
     ends.push_back(mesh.points.size());
   }
@@ -217,7 +217,7 @@ TEST(SpectralOrder, DoesNotDependOnTheSizeOfPages)
 
 TEST(SpectralOrder, NeedsLittleMemory)
 {
-  // Arrays and graph are larger than their shares of the memory, so that runs are of pages.
+  // Arrays and graph are larger than their shares of the memory, so that runs consist of pages.
   const CoreMesh mesh = bumpyTorus(1600, 350);
   const std::vector<std::uint32_t> order = spectral(mesh, 32, Workspace::LeastMemory);
   expectPermutation(mesh, order);

@@ -54,7 +54,7 @@ protected:
     AtRandom
   };
 
-  /** The used vertices of the mesh at such places, with their reach. */
+  /** The used vertices of the mesh at these places, with their reach. */
   OrderedVertices order(const ReadMesh& mesh, Places places)
   {
     std::vector<std::uint32_t> ids(static_cast<std::size_t>(mesh.vertices() - 1));

@@ -13,7 +13,7 @@ namespace smg::testing
 namespace
 {
 
-/** With the samples of the archive, some of which other programs have written. */
+/** With the samples of the archive, some of them written by other programs. */
 class StreamFormatsData : public StreamFormats
 {
 protected:

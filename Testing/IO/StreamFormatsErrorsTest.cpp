@@ -135,7 +135,7 @@ TEST_F(StreamFormatsErrors, SurvivesEveryTruncationAndEveryChangedByte)
     for (std::size_t size = 0; size < good.size(); size++)
     {
       const std::string message = this->refusal(name, good.substr(0, size));
-      // Without its last line's end, or digit, a text is still one.
+      // Without its last line end or digit, a text is still valid.
       if (!text || size + 3 < good.size())
       {
         EXPECT_TRUE(std::regex_search(message, place)) << name << size << ": " << message;

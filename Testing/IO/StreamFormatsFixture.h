@@ -23,7 +23,7 @@ inline std::string readFile(const std::filesystem::path& path)
   return { std::istreambuf_iterator<char>(file), {} };
 }
 
-/** The tests' folder and what is done in it. */
+/** The folder of the tests and the operations in it. */
 class StreamFormats : public ::testing::Test
 {
 protected:
@@ -33,14 +33,14 @@ protected:
     return this->Folder / name;
   }
 
-  /** Converts a file, and gives what came out. */
+  /** Converts a file and returns the result. */
   StreamMesh convert(const std::filesystem::path& path, const StreamToVsmOptions& options = {})
   {
     this->Result = streamToVsm(path, this->Folder / "out.vsm", options);
     return collect(*VsmReader(this->Folder / "out.vsm").source());
   }
 
-  /** The message with which a file of that content is refused. */
+  /** The message that rejects a file with this content. */
   std::string refusal(const std::string& name, const std::string& content)
   {
     const std::filesystem::path path = this->write(name, content);

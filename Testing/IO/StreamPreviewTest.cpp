@@ -30,7 +30,7 @@ void expectVerticesOf(const StreamMesh& mesh, const MeshPiece& preview)
   }
 }
 
-/** All points are used, and no three points make two triangles. */
+/** All points are used, and no three points form two triangles. */
 void expectProperTriangles(const MeshPiece& preview)
 {
   std::set<std::array<std::int64_t, 3>> known;
@@ -48,7 +48,7 @@ void expectProperTriangles(const MeshPiece& preview)
   EXPECT_EQ(used.size(), preview.ids.size());
 }
 
-/** Normals of a sphere, which stay near those of the mesh, and triangles that look outwards. */
+/** Normals of a sphere, which stay close to those of the mesh, and triangles that face outwards. */
 TEST(StreamPreview, IsShadedAsTheMesh)
 {
   MemorySource source(toStream(sphere(5)));
@@ -94,7 +94,7 @@ TEST(StreamPreview, HasNearlyAsManyPointsAsAreAskedFor)
     EXPECT_LE(std::int64_t(preview.ids.size()), limit);
     EXPECT_GE(std::int64_t(preview.ids.size()), limit * 7 / 10) << limit;
     expectProperTriangles(preview);
-    // A closed surface has two triangles a point: few are lost where it folds.
+    // A closed surface has two triangles per point; few are lost at folds.
     const auto points = static_cast<double>(preview.ids.size());
     EXPECT_NEAR(static_cast<double>(preview.corners.size()) / 3.0, 2.0 * points, 0.1 * points);
   }
@@ -149,7 +149,7 @@ TEST(StreamPreview, OnePointMeshesDoNotFail)
   EXPECT_TRUE(makePreview(source, 100).corners.empty());
 }
 
-/** The mesh in blocks, of which nothing is known before they come. */
+/** The mesh in blocks, without any information before they arrive. */
 class UnknownSource : public MeshSource
 {
 public:

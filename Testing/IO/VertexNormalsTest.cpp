@@ -34,7 +34,7 @@ protected:
     EXPECT_EQ(this->Folder.entries(), 0);
     std::vector<float> values(mesh.positions.size());
     normals.read(0, mesh.vertices(), values);
-    // Any range of them.
+    // Arbitrary ranges.
     std::vector<float> some(9);
     normals.read(mesh.vertices() - 3, 3, some);
     EXPECT_TRUE(std::equal(some.begin(), some.end(), values.end() - 9));
@@ -72,7 +72,7 @@ TEST_F(VertexNormalsTest, DoNotDependOnBlocksNorMemory)
 
 TEST_F(VertexNormalsTest, DoNotDependOnHowAPlaneAngleIsCut)
 {
-  // A corner of a cube, one of whose faces is cut in two at the corner.
+  // A corner of a cube, where one of the faces is split in two at the corner.
   StreamMesh mesh;
   mesh.positions = { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1 };
   mesh.corners = { 0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1 };
@@ -85,7 +85,7 @@ TEST_F(VertexNormalsTest, DoNotDependOnHowAPlaneAngleIsCut)
 
 TEST_F(VertexNormalsTest, LeaveOutWhatHasNoArea)
 {
-  // A triangle, a point, a line, and a triangle with three times the same corner.
+  // A triangle, a point, a line, and a triangle with three equal corners.
   StreamMesh mesh;
   mesh.positions = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 2, 0, 0, 5, 5, 5 };
   mesh.corners = { 0, 1, 2, 1, 3, 1, 1, 3, 4, 5, 5, 5 };

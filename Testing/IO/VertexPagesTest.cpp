@@ -125,7 +125,7 @@ TEST_P(VertexPagesTest, PlacesAreWrittenBackAlone)
   EXPECT_EQ(std::memcmp(before.data(), after.data(), before.size()), 0);
 }
 
-/** Lists of about 64 KiB: where the beginnings stop to fit into 16 bits. */
+/** Lists of about 64 KiB, where offsets stop fitting into 16 bits. */
 TEST_P(VertexPagesTest, LongListsAreRead)
 {
   for (const std::uint32_t vertices : { 1u, 2u, 5u })

@@ -30,7 +30,7 @@
 namespace smg::testing
 {
 
-/** The volumes of tetrahedra, negative where they are turned over. */
+/** The volumes of tetrahedra, negative if they are inverted. */
 inline std::vector<double> tetrahedronVolumes(const ReadMesh& mesh)
 {
   std::vector<double> volumes;
@@ -53,14 +53,12 @@ inline std::vector<double> tetrahedronVolumes(const ReadMesh& mesh)
   return volumes;
 }
 
-/**
- * Twelve points of a unit cube, a pyramid beside it, a prism on it and a tetrahedron before the
- * prism: convex, together of volume 2.
- */
+/** Twelve points of a unit cube, a pyramid next to it, a prism on it and a tetrahedron in front of
+ * the prism: convex, with a total volume of 2. */
 inline const std::vector<std::array<double, 3>> FourSolidsPoints{ { 0, 0, 0 }, { 1, 0, 0 },
   { 1, 1, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 }, { 2, 0.5, 0.5 },
   { 0.5, 0, 2 }, { 0.5, 1, 2 }, { 0.5, -1, 1.25 } };
-/** Their corners. The prism's first triangle faces in: the order of Gmsh and Medit. */
+/** Their corners. The first triangle of the prism faces inwards: the order of Gmsh and Medit. */
 inline const std::vector<std::vector<std::int64_t>> FourSolids{ { 0, 1, 2, 3, 4, 5, 6, 7 },
   { 1, 2, 6, 5, 8 }, { 4, 9, 5, 7, 10, 6 }, { 4, 5, 9, 11 } };
 
@@ -83,7 +81,7 @@ inline void expectFourSolids(const ReadMesh& mesh)
   }
 }
 
-/** Parses files that it writes to a folder of its own. */
+/** Parses files that it writes to its own folder. */
 class VolumeImport : public ::testing::Test
 {
 protected:
@@ -108,7 +106,7 @@ protected:
 
   void write(const std::string& name, std::string_view bytes)
   {
-    // A file that is overwritten goes to the disk at once on some systems, which takes long.
+    // Some systems write an overwritten file to the disk at once, which is slow.
     std::filesystem::remove(this->Folder / name);
     writeBytes(this->Folder / name, bytes);
   }
@@ -120,7 +118,7 @@ protected:
     return this->readFile(importer, this->Folder / name, choice);
   }
 
-  /** Damages the file in many ways: each time it is read, to a valid mesh, or refused. */
+  /** Damages the file in many ways: each time it must be read as a valid mesh, or refused. */
   void expectSafe(Importer importer, const std::string& name, const std::string& bytes)
   {
     for (std::size_t length = 0; length < bytes.size(); ++length)

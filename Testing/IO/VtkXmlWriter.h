@@ -18,7 +18,7 @@
 namespace smg::testing
 {
 
-/** How the arrays of a file stand in it. */
+/** How the arrays of a file are stored. */
 enum class Way
 {
   Ascii,
@@ -27,7 +27,7 @@ enum class Way
   AppendedRaw
 };
 
-/** Writes .vtu and .vtp files in any of the ways that there are. */
+/** Writes .vtu and .vtp files in all variants. */
 class VtkXmlWriter
 {
 public:
@@ -35,7 +35,7 @@ public:
   bool bigEndian = false, wideHeader = false;
   std::string compressor; ///< class of VTK; empty: none
 
-  /** A DataArray of numbers of a type, as "Int32". */
+  /** A DataArray of numbers of a type, such as "Int32". */
   template <class T>
   std::string array(const std::string& name, const std::string& type, const std::vector<T>& values,
     int components = 1)

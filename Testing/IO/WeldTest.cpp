@@ -43,7 +43,7 @@ protected:
   Workspace Space{ Folder.path(), Workspace::LeastMemory };
 };
 
-/** What welding is said to do, by comparing all points with all. */
+/** The reference result of welding, from comparing all pairs of points. */
 std::vector<std::int64_t> expectedVertices(const std::vector<Point>& points, double tolerance)
 {
   std::vector<std::size_t> order(points.size());

@@ -169,7 +169,7 @@ TEST_F(WritePly, SaysWhatWasRounded)
   EXPECT_EQ(this->writeAsPly(mesh).roundedColumns, (std::vector<std::string>{ "large", "odd" }));
 }
 
-/** A source that says other counts than it has. */
+/** A source that declares other counts than it has. */
 class LyingSource : public MemorySource
 {
 public:

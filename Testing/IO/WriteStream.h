@@ -14,7 +14,7 @@
 namespace smg::testing
 {
 
-/** A mesh in the order of the file that it is written to. */
+/** A mesh in the order of the written file. */
 struct StreamStyle
 {
   StreamFileHeader header;
@@ -23,10 +23,8 @@ struct StreamStyle
   bool bounds = true;
 };
 
-/**
- * Writes a stream: in post-order each vertex after its last cell, else before its first; vertices
- * of the file are numbered as they come.
- */
+/** Writes a stream: in post-order each vertex after its last cell, otherwise before its first;
+ * vertices are numbered in the order of the file. */
 inline void writeStream(const std::filesystem::path& path, const StreamMesh& mesh, StreamStyle file)
 {
   const auto corners = std::size_t(cornersOf(mesh.cellType));

@@ -19,7 +19,7 @@ namespace smg::testing
 namespace
 {
 
-/** A sink without any work of its own, whose input is pulled. */
+/** A sink without work of its own, whose input is pulled. */
 class VtkPieceStream : public ::testing::Test
 {
 protected:

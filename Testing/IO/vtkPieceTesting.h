@@ -36,7 +36,7 @@
 namespace smg::testing
 {
 
-/** Gives the mesh the columns of points and cells that the tests look for. */
+/** Adds the columns of points and cells that the tests expect. */
 inline void addColumns(StreamMesh& mesh)
 {
   std::vector<float> colours;
@@ -54,7 +54,7 @@ inline void addColumns(StreamMesh& mesh)
   mesh.cellColumns = { makeColumn<std::int64_t>("OriginalCellId", cells) };
 }
 
-/** Writes the mesh as it is as a .vsm file. */
+/** Writes the mesh unchanged as a .vsm file. */
 inline void writeMesh(const std::filesystem::path& path, const StreamMesh& mesh)
 {
   MemorySource source(mesh, 500);
@@ -104,7 +104,7 @@ private:
   std::string Text;
 };
 
-/** Asks for a piece; 0: it could not be made. */
+/** Requests a piece; returns 0 if it could not be made. */
 inline int updatePiece(vtkAlgorithm* algorithm, int piece, int pieces)
 {
   auto* executive = vtkStreamingDemandDrivenPipeline::SafeDownCast(algorithm->GetExecutive());
@@ -117,7 +117,7 @@ inline int updatePiece(vtkAlgorithm* algorithm, int piece, int pieces)
   return executive->Update(0, requests) && !isFailed(algorithm->GetOutputDataObject(0));
 }
 
-/** The union of pieces: what is not a ghost, by GlobalId, and the cells by their own ids. */
+/** The union of pieces: points that are not ghosts by GlobalId, and cells by their ids. */
 struct PieceUnion
 {
   std::map<std::int64_t, std::array<double, 3>> points;
@@ -204,7 +204,7 @@ struct PieceUnion
   }
 };
 
-/** A filter that passes its input on, but can be told to fail or to spoil a piece. */
+/** A filter that passes its input on, and on request fails or corrupts a piece. */
 class vtkFaultyFilter : public vtkPassInputTypeAlgorithm
 {
 public:

@@ -101,7 +101,7 @@ TEST_F(VtkStreamingMeshConverter, ConvertsOnlyWhenItMust)
   EXPECT_NE(
     std::string(this->Converter->GetReport()).find("\"order\": \"bfs\""), std::string::npos);
   const auto written = std::filesystem::last_write_time(this->Out);
-  // Modified, or another converter of the same file: nothing has to be done.
+  // Modified, or another converter of the same file: nothing to do.
   const std::string report = this->Converter->GetReport();
   this->Converter->Modified();
   ASSERT_TRUE(updatePiece(this->Converter, 0, 1));
@@ -156,7 +156,7 @@ TEST_F(VtkStreamingMeshConverter, ErrorsAreSaidOnce)
   EXPECT_FALSE(errors.contain("mesh.off")) << errors.text();
   EXPECT_FALSE(std::filesystem::exists(this->Out));
 
-  // A file that was mended is read; a foreign output is left alone unless that is allowed.
+  // A repaired file is read; a foreign output is not overwritten unless this is allowed.
   writeBytes(this->In, meshText(torus(31, 20)));
   writeBytes(this->Out, "a letter");
   this->Converter->Modified();
@@ -190,7 +190,7 @@ TEST_F(VtkStreamingMeshConverter, TriesAgainWhenTheOutputHasChanged)
   Errors errors(this->Converter);
   EXPECT_FALSE(updatePiece(this->Converter, 0, 1));
   EXPECT_TRUE(errors.contain("is there already")) << errors.text();
-  // Nothing is modified but that the letter is gone.
+  // Nothing is modified, but the letter is missing.
   std::filesystem::remove(this->Out);
   errors.clear();
   EXPECT_TRUE(updatePiece(this->Converter, 0, 1));
@@ -210,7 +210,7 @@ TEST_F(VtkStreamingMeshConverter, MakesAContainerAnewThatIsGone)
 TEST_F(VtkStreamingMeshConverter, DamageOfTheContainerIsAnError)
 {
   ASSERT_TRUE(updatePiece(this->Converter, 0, 1));
-  // The middle of the file, so that the header still tells its origin.
+  // The middle of the file, so that the header still names its origin.
   std::fstream file(this->Out, std::ios::binary | std::ios::in | std::ios::out);
   file.seekp(static_cast<std::streamoff>(std::filesystem::file_size(this->Out) / 4));
   file.write("nonsense", 8);

@@ -140,7 +140,7 @@ TEST_F(VtkStreamingMeshReader, WholeMeshRequestGetsThePreview)
     EXPECT_EQ(preview->GetPoint(i)[0], mesh.positions[3 * id]);
     EXPECT_EQ(colours->GetComponent(i, 1), double(id));
   }
-  // Pieces that are small enough are real without any key.
+  // Small pieces are real without any key.
   this->expectUnion(mesh, 64);
 }
 
@@ -217,7 +217,7 @@ TEST_F(VtkStreamingMeshReader, KnowsFilesByTheirContent)
   EXPECT_TRUE(canRead("mesh.sma", "v 0 0 0\n"));
 }
 
-/** Bytes that this process has asked the system for so far. */
+/** Bytes that this process has read from the system so far. */
 std::int64_t bytesRead()
 {
   std::ifstream io("/proc/self/io");

@@ -68,7 +68,7 @@ TEST_F(VtkStreamingMeshWriterRestore, GivesTetrahedraBack)
   }
 }
 
-/** A grid with a point of no cell first and two last. */
+/** A grid with one isolated point first and two last. */
 IndexedTestMesh gridWithIsolatedPoints()
 {
   IndexedTestMesh mesh = grid(6, 6);
@@ -97,7 +97,7 @@ TEST_F(VtkStreamingMeshWriterRestore, KeepsIsolatedPointsBehindAnyFilter)
   EXPECT_EQ(saved.isolatedVertices(), 3);
   EXPECT_GE(findColumn(saved.info().vertexColumns, { "Elevation", ScalarType::Float32, 1 }), 0);
 
-  // Another file, without such points: what the filter passed on of the one before is gone.
+  // Another file, without such points: those of the previous file are gone.
   convert(this->Folder / "in.off", this->Folder / "other.vsm");
   writeBytes(this->Folder / "whole.off", meshText(grid(4, 4)));
   convert(this->Folder / "whole.off", this->Folder / "other.vsm");
@@ -118,7 +118,7 @@ TEST_F(VtkStreamingMeshWriterRestore, SaysThatIsolatedPointsAreLeftOut)
   }
 }
 
-/** Data that came by hand say nothing of a file. */
+/** Data made in memory does not name a file. */
 TEST_F(VtkStreamingMeshWriterRestore, TakesIsolatedPointsFromTheStreamThatIsNamed)
 {
   const IndexedTestMesh mesh = gridWithIsolatedPoints();

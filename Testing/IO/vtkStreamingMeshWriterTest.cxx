@@ -69,7 +69,9 @@ protected:
     EXPECT_EQ(copy.cellColumns[0].bytes, this->Mesh.cellColumns[0].bytes);
   }
 
-  /** Expects the arrays within their elements: appended ones, not every reader of VTK reads. */
+  /**
+   * Expects the arrays within their elements, since some readers of VTK cannot read appended ones.
+   */
   void expectInlineArrays(const std::string& folder)
   {
     for (const auto& entry : std::filesystem::directory_iterator(this->Folder / folder))
@@ -261,7 +263,7 @@ vtkSmartPointer<vtkImageData> waves()
   return image;
 }
 
-/** That `Height` is z and -z at the points of the container. */
+/** Expects `Height` to be z and -z at the points of the container. */
 void expectHeights(const std::filesystem::path& container)
 {
   VsmReader reader(container);
@@ -283,7 +285,7 @@ TEST_F(VtkStreamingMeshWriter, MeshesOfOtherSourcesGetAnOrder)
   vtkNew<vtkContourFilter> contour;
   contour->SetInputData(waves<NotAsUsual>());
   contour->SetValue(0, 5.0);
-  // VTK 9.1 interpolates arrays in flying edges wrongly that are not stored as usual.
+  // The flying edges of VTK 9.1 interpolate arrays of unusual storage wrongly.
   vtkNew<vtkFlyingEdges3D> edges;
   edges->SetInputData(waves<vtkDoubleArray>());
   edges->SetValue(0, 5.0);
@@ -314,7 +316,7 @@ TEST_F(VtkStreamingMeshWriter, MeshesOfOtherSourcesGetAnOrder)
   }
 }
 
-/** What no reader gave ids to, and is larger than what may be in memory, is not there. */
+/** The preview of a mesh beyond the memory limit, without the ids of the reader. */
 TEST_F(VtkStreamingMeshWriter, PreviewsWithoutIdsAreRefused)
 {
   this->start(torus(60, 30));

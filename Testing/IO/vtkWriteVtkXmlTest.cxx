@@ -40,7 +40,7 @@ Column column(const std::string& name, std::int64_t tuples, int components)
   return makeColumn<T>(name, values, components);
 }
 
-/** Columns of every type, with numbers of components that bring every size of a part's rest. */
+/** Columns of every type, with numbers of components that give a part every size of remainder. */
 std::vector<Column> everyColumn(std::int64_t tuples)
 {
   return { column<std::int8_t>("int8", tuples, 1), column<std::uint8_t>("uint8 <&\">", tuples, 2),

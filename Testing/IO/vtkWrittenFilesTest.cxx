@@ -32,7 +32,7 @@ using namespace smg::testing;
 namespace
 {
 
-/** Files that VTK writes are the mesh that VTK has. */
+/** Files written by VTK yield the mesh of VTK. */
 class VtkWrittenFiles : public ::testing::Test
 {
 protected:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""No array property is ever set by itself, whatever the input has active, and what no user means is not
-offered."""
+"""No array property is ever set automatically, regardless of the active arrays of the input, and unsuitable
+arrays are not offered."""
 
 import sys
 
@@ -48,7 +48,7 @@ check(reader, "behind a preview")
 assert Show(reader, GetActiveView()).SelectNormalArray == "Normals"
 reader.MaximumPointsInMemory = 2000000
 
-# A scan in millimetres, scripted as people do: the harmonic field stays between its ends.
+# A scan in millimetres, in a typical script: the harmonic field stays between its end values.
 scaled = Transform(Input=reader)
 scaled.Transform.Scale = [1000.0] * 3
 scaled.UpdatePipeline()

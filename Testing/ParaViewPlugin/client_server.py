@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A pvpython client with a pvserver that has the plugin, too."""
+"""A pvpython client and a pvserver, both with the plugin."""
 
 import os
 import shutil
@@ -41,7 +41,7 @@ try:
     SaveData(path, proxy=poisson)
     assert os.path.getsize(path) > 500000
 
-    # Handles and a deformation of the preview, which is the whole mesh where it is saved.
+    # Handles and a deformation of the preview; the saved file holds the whole mesh.
     reader.MaximumPointsInMemory = 1000
     handles = d.make_handles(reader, MeshHandle)
     deformation = StreamingMeshDeformation(Input=handles)
@@ -62,5 +62,5 @@ try:
 finally:
     server.kill()
 shutil.rmtree(folder, ignore_errors=True)
-# At exit ParaView would say goodbye to the server, which is gone.
+# At exit ParaView would notify the server, which has ended.
 os._exit(0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The converter: a PLY becomes a container once, which is then streamed past the guard."""
+"""The converter: a PLY is converted to a container once, which is then streamed past the guard."""
 
 import json
 import os
@@ -15,7 +15,7 @@ folder = t.make_folder()
 ply, container = os.path.join(folder, "bunny.ply"), os.path.join(folder, "bunny.vsm")
 SaveData(ply, proxy=OpenDataFile(t.BUNNY))
 
-# A fresh proxy, as the Sources menu makes it, has nothing to complain of.
+# A new proxy, as made by the Sources menu, reports no error.
 converter = StreamingMeshConverter()
 converter.UpdatePipelineInformation()
 assert not os.path.exists(container)
@@ -47,7 +47,7 @@ again.UpdatePipeline()
 assert again.GetDataInformation().GetNumberOfPoints() == t.BUNNY_POINTS
 assert os.stat(container).st_mtime_ns == written
 
-# File > Reload Files converts a file that has changed again, and only then.
+# File > Reload Files converts a file again only if it has changed.
 ReloadFiles(converter)
 converter.UpdatePipeline()
 assert os.stat(container).st_mtime_ns == written

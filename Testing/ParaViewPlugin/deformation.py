@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Deformation by handles: a preview that follows, and the whole mesh as the program smg has it."""
+"""Deformation by handles: a preview that follows, and the whole mesh as from the program smg."""
 
 import json
 import os
@@ -60,7 +60,7 @@ assert report["vertices"] == t.BUNNY_POINTS and report["converged"]
 assert [step["name"] for step in report["steps"]] == ["rotation", "position"]
 assert report["passes"] == report["cycles"] + 1 == information("Passes")
 
-# Behind the guard the preview is deformed by itself, again and again on one hierarchy.
+# Above the guard only the preview is deformed, repeatedly on one hierarchy.
 reader.MaximumPointsInMemory = 1000
 reader.PreviewPoints = 10000
 deformation.UpdatePipeline()
@@ -79,7 +79,7 @@ of_preview = json.loads(information("Report"))
 assert of_preview["vertices"] == second.GetNumberOfPoints()
 assert 0 < information("PeakMemory") == of_preview["pool_bytes_peak"]
 
-# What is saved is the whole mesh, whatever is shown.
+# The saved file holds the whole mesh, whatever is shown.
 handles.RotationAngle = d.EARS_ANGLE
 deformation.UpdatePipeline()
 SaveData(saved, proxy=deformation)
@@ -89,7 +89,7 @@ result = t.pull(t.client_object(written), 1)[0]
 for k in (0, 2, 4):
     assert (result[k] == whole[k]).all(), k
 
-# A mesh that is saved with its handles is deformed by the program, too.
+# The program can deform a mesh that was saved with its handles.
 held = os.path.join(folder, "held.vsm")
 SaveData(held, proxy=handles)
 with open(handle_file, "w", encoding="utf-8") as file:

@@ -30,7 +30,7 @@ positions = t.vtk_to_numpy(data.GetPoints().GetData()).copy()
 report = json.loads(data.GetFieldData().GetAbstractArray("Report").GetValue(0))
 assert report["converged"] and report["vertices"] == t.BUNNY_POINTS
 
-# The writer streams in process 0 while the others wait; every piece is part of what it writes.
+# The writer streams in process 0 while the others wait; its output contains every piece.
 path = os.path.join(t.make_shared_folder(), "deformation.vsm")
 SaveData(path, proxy=deformation)
 controller.Barrier()
@@ -41,7 +41,8 @@ whole = t.vtk_to_numpy(alone.GetOutputDataObject(0).GetPoints().GetData())
 assert whole.shape == (t.BUNNY_POINTS, 3)
 assert (positions == whole[ids]).all()
 
-# A second deformation streams from the first one in process 0; each stays right when asked again.
+# A second deformation streams from the first one in process 0; each stays correct when updated
+# again.
 second = MeshHandle(Input=deformation, RegionFunction="Plane", Motion="Fixed")
 second.RegionFunction.Origin = [0, t.FEET, 0]
 second.RegionFunction.Normal = [0, 1, 0]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of the deformation share: the bunny with fixed feet and turned ears."""
+"""Shared code of the deformation tests: the bunny with fixed feet and turned ears."""
 
 import smg_testing as t
 
@@ -13,7 +13,7 @@ HANDLE_FILE = {"weights": "clamped", "handles": [
 
 
 def make_handles(source, MeshHandle):
-    """Two Mesh Handles; the answer is the last one."""
+    """Makes two Mesh Handles and returns the last one."""
     feet = MeshHandle(Input=source, RegionFunction="Plane", Motion="Fixed")
     feet.RegionFunction.Origin = [0, t.FEET, 0]
     feet.RegionFunction.Normal = [0, 1, 0]

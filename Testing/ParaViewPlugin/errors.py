@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is wrong is said in one sentence, and does not crash."""
+"""Errors are reported in one sentence, without a crash."""
 
 import os
 import re
@@ -41,13 +41,13 @@ for name, content in {"cut.smb": data[:600000], "empty.smb": b"", "noise.smb": d
     assert name in text, (name, text)
     Delete(reader)
 
-# A source that is no mesh stream.
+# A source that is not a mesh stream.
 sphere = Sphere()
 poisson = t.make_poisson(t.make_problem(sphere))
 poisson.UpdatePipeline()
 assert "GlobalIds" in said()
 
-# However often a view asks, a failure is one message, until something changes.
+# A failure is reported once, however often a view updates, until something changes.
 reader = OpenDataFile(t.BUNNY)
 poisson = StreamingPoisson(Input=reader, Problem='{"dirichlet": [{"sphere": [9, 9, 9, 1], "value": 1}]}')
 Show(poisson, CreateView("RenderView"))
@@ -65,7 +65,7 @@ assert text.count("no vertex of the mesh is in this region") == 1 and text.count
 poisson.Problem = '{"dirichlet": [{"halfspace": [0, 1, 0, 0.1], "value": 1}]}'
 Render()
 assert said() == "" and "Solution" in poisson.PointData.keys()
-# A view asks again after a failure, wherever it was.
+# A view updates again after a failure anywhere.
 condition = MeshCondition(Input=reader, Region="Ids", Ids=[0])
 other = MeshCondition(Input=condition, Region="Ids", Ids=[9], Value=1)
 poisson.Input = other
@@ -96,7 +96,8 @@ Delete(poisson)
 Delete(other)
 Delete(condition)
 
-# What is written by pieces or not at all: nobody takes the preview in another format for the mesh.
+# Formats that are written by pieces or not at all, so that a preview cannot be mistaken for the
+# mesh.
 folder = t.make_folder()
 reader.MaximumPointsInMemory = 1000
 calculator = Calculator(Input=reader, Function="coordsX", ResultArrayName="X")
@@ -122,13 +123,13 @@ for make in (MeshHandle, StreamingMeshDeformation, StreamingMeshPreview, Streami
     assert "Merge Blocks" in text, (make, text)
     Delete(refused)
 
-# A sphere that was not fitted to the data, since these were not read yet.
+# A sphere that was not fitted to the data, which had not been read yet.
 handle = MeshHandle(Input=StreamingMeshReader(FileName=t.BUNNY))
 handle.UpdatePipeline()
 text = said()
 assert "update the input first" in text or handle.RegionFunction.Radius > 0.0, text
 
-# Too little memory is told before the work, with both figures.
+# Insufficient memory is reported in advance, with both figures.
 reader = OpenDataFile(t.BUNNY)
 poisson = t.make_poisson(t.make_problem(reader))
 poisson.MemoryLimit = 1
@@ -138,5 +139,5 @@ poisson.MemoryLimit = 1024
 poisson.UpdatePipeline()
 text = said()
 assert "Solution" in poisson.PointData.keys(), text
-# What Python prints would go to the window that collects the messages.
+# Output of Python would go to the window that collects the messages.
 os.write(1, b"passed\n")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""An input that fails in one process fails in all, and leaves nobody waiting."""
+"""An input that fails in one process fails in all, and no process keeps waiting."""
 
 import os
 import sys
@@ -16,7 +16,7 @@ controller = vtkMultiProcessController.GetGlobalController()
 rank, ranks = controller.GetLocalProcessId(), controller.GetNumberOfProcesses()
 assert ranks > 1
 
-# The last process reads the damage, the others find out while they work together.
+# The last process reads the damage; the others learn of it during communication.
 path = os.path.join(t.make_shared_folder(), "damaged.vsm")
 SaveData(path, proxy=OpenDataFile(t.BUNNY))
 if rank == 0:
@@ -37,10 +37,10 @@ for first, make in ((True, lambda: StreamingMeshDeformation(Input=d.make_handles
     text = messages.GetOutput()
     vtkOutputWindow.SetInstance(None)
     assert ("Another process failed" in text) == (rank < ranks - 1), text
-    # The reader has not changed since, and says what is wrong once.
+    # The reader has not changed since, and reports the error once.
     assert text.count("checksum") == (1 if first and rank == ranks - 1 else 0), text
 
-# Nothing is left over of what was said between the processes.
+# No messages between the processes remain.
 whole = StreamingMeshDeformation(Input=d.make_handles(OpenDataFile(t.BUNNY), MeshHandle))
 whole.UpdatePipeline()
 assert t.client_object(whole).GetOutputDataObject(0).GetNumberOfPoints() > 0

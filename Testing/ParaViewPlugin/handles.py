@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Mesh handles: what they hold of a mesh that is shown as a preview and streamed past the guard."""
+"""Mesh handles: the points they hold on a mesh shown as a preview and streamed past the guard."""
 
 import os
 import sys
@@ -30,7 +30,7 @@ def arrays(data, *names):
 
 
 def shown(handle):
-    """What is displayed: the preview with its ids, and which of its points are held."""
+    """The displayed data: the preview with its ids, and which of its points are held."""
     handle.UpdatePipeline()
     data = t.servermanager.Fetch(handle)
     assert data.GetFieldData().GetArray("Preview").GetValue(0) == 1
@@ -66,7 +66,7 @@ def around(centers, radius):
     return near
 
 
-# A new handle fits its input, and has nothing to complain of.
+# A new handle fits its input and reports no error.
 handle = MeshHandle(Input=reader)
 low, high = points.min(axis=0), points.max(axis=0)
 assert handle.Region == "Function" and handle.Motion == "Fixed"
@@ -110,7 +110,7 @@ handle.RegionFunction.Radius = 0.02
 across = points[:, [0, 2]] - middle[[0, 2]]
 assert ((streamed(handle)[0] == 1) == ((across ** 2).sum(axis=1) <= 0.02 ** 2)).sum() > t.BUNNY_POINTS - 5
 
-# A chain: the second handle is what counts where both hold; it turns, grows and moves.
+# A chain: the second handle overrides the first; it rotates, scales and translates.
 second = MeshHandle(Input=handle, Motion="Similarity")
 second.RegionFunction.Center = list(middle)
 second.RegionFunction.Radius = 0.03
@@ -140,7 +140,7 @@ mask, transformed, rotation, scale = streamed(second)
 assert abs(transformed - target).max() < 1e-12
 assert abs(rotation[later] - [0, -numpy.radians(160), 0]).max() < 1e-12
 
-# A selection on the preview holds what its points stand for.
+# A selection on the preview holds the vertices that its points represent.
 handle = MeshHandle(Input=reader, Region="Selection")
 numbers = [3, 100, 101, 400]
 handle.Selection = IDSelectionSource(IDs=[n for k in numbers for n in (0, k)], FieldType="POINT")
@@ -160,7 +160,7 @@ assert (numpy.flatnonzero(streamed(handle)[0]) == ids[[3, 100]]).all()
 handle.Selection = IDSelectionSource(IDs=[0, 5, 0, 6], FieldType="CELL")
 assert set(shown(handle)[1]) == set(ids[corners[[5, 6]]].ravel())
 
-# Ids of the mesh, and places with targets.
+# Ids of the mesh, and points with targets.
 handle.Region = "Ids"
 handle.Ids = [17, 30000, 5]
 assert len(shown(handle)[1]) in (2, 3)

@@ -43,13 +43,13 @@ handle.RegionFunction.Radius = 0.05
 ids, own, mine = held(handle)
 assert len(united(own)) == t.BUNNY_POINTS and len(united(mine)) > 100
 
-# Numbers are those in the piece of the process that is named with them.
+# Indices refer to the piece of the process that is given with them.
 handle.Region = "Selection"
 handle.Selection = IDSelectionSource(IDs=[0, 2000, 1, 3000], FieldType="POINT")
 expected = [ids[2000 + 1000 * rank]] if rank < 2 else []
 assert list(held(handle)[2]) == [i for i in expected if i in own]
 
-# Ids, places and what is around them do not end where a piece does.
+# Ids, points and their surroundings extend across pieces.
 handle.Region = "Ids"
 handle.Ids = [5, 30000]
 assert united(held(handle)[2]) == [5, 30000]

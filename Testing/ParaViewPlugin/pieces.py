@@ -48,7 +48,7 @@ assert report["vertices"] == t.BUNNY_POINTS and report["cells"] == t.BUNNY_CELLS
 assert report["converged"] and poisson.GetPropertyValue("Converged") == 1
 assert report["passes"] == report["cycles"] + 1 == poisson.GetPropertyValue("Passes")
 
-# With the guard, the whole mesh is a preview, with the true solution if that is wanted.
+# With the guard, the whole mesh is a preview, with the true solution if requested.
 reader.MaximumPointsInMemory = 1000
 poisson.SolveFullMesh = 1
 poisson.UpdatePipeline()

@@ -27,11 +27,11 @@ for name, value in defaults.items():
     assert found == value, (name, found)
 for name in ("Residual", "Cycles", "Passes", "PeakMemory", "Converged", "Outcome", "Notes", "Report"):
     assert poisson.SMProxy.GetProperty(name).GetInformationOnly(), name
-    # The panel shows the line that has it all, and the notes.
+    # The panel shows the summary line and the notes.
     is_shown = poisson.SMProxy.GetProperty(name).GetPanelVisibility() == "default"
     assert is_shown == (name in ("Outcome", "Notes")), name
 
-# A label is the name with spaces, so that the Python name is the name.
+# A label is the name with spaces, so that the Python name equals the name.
 for proxy in (reader, poisson, MeshHandle(Input=reader)):
     iterator = proxy.SMProxy.NewPropertyIterator()
     iterator.Begin()

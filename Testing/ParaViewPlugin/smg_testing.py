@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of the plugin share."""
+"""Shared code of the tests of the plugin."""
 
 import atexit
 import os
@@ -24,14 +24,14 @@ def skip(reason):
 
 
 def make_folder():
-    """A temporary folder that goes with the test."""
+    """A temporary folder, deleted at the end of the test."""
     folder = tempfile.mkdtemp(prefix="smg-test-")
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return folder
 
 
 def make_shared_folder():
-    """The same for the processes of a parallel test: one folder, which goes with process 0."""
+    """The same for the processes of a parallel test: one folder, deleted by process 0."""
     from paraview.vtk import vtkMultiProcessController, vtkUnsignedCharArray
 
     controller = vtkMultiProcessController.GetGlobalController()
@@ -67,7 +67,7 @@ def client_object(proxy):
 
 
 def pull(algorithm, pieces, array=None):
-    """Asks a VTK algorithm for all pieces: for each, ids, own points, positions, values, cells."""
+    """Requests all pieces of a VTK algorithm: for each, ids, own points, positions, values, cells."""
     result = []
     for piece in range(pieces):
         algorithm.UpdatePiece(piece, pieces, 0)

@@ -43,7 +43,7 @@ ball = OpenDataFile(ball)
 ball.UpdatePipeline()
 assert ball.GetDataInformation().GetNumberOfCells() == 96
 
-# Where a preview is shown, Save Data saves the mesh, behind Calculators and solves, too.
+# Where a preview is shown, Save Data saves the mesh, also after Calculators and solves.
 calculator = Calculator(Input=reader, Function="coordsX", ResultArrayName="X")
 calculator.UpdatePipeline()
 assert calculator.GetDataInformation().GetNumberOfPoints() < 10000
@@ -57,7 +57,7 @@ for name in ("whole.ply", "whole.vtp", "whole.vtkhdf", "whole.pvtp"):
         assert whole.GetDataInformation().GetNumberOfCells() == t.BUNNY_CELLS, name
         assert name.endswith("ply") or array in whole.PointData.keys(), whole.PointData.keys()
         Delete(whole)
-# A preview that the user has asked for is saved as one.
+# A preview that the user requested is saved as a preview.
 preview = StreamingMeshPreview(Input=calculator)
 SaveData(os.path.join(folder, "preview.stl"), proxy=preview)
 shown = OpenDataFile(os.path.join(folder, "preview.stl"))

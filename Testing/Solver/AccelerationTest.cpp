@@ -18,7 +18,7 @@ const char* nameOf(AccelerationKind kind)
   return kind == AccelerationKind::Chebyshev ? "chebyshev" : "cg";
 }
 
-/** A surface or a solid on which V-cycles of one sweep converge slowly, held at its ends. */
+/** A surface or a solid with slowly converging V-cycles of one sweep, fixed at its ends. */
 std::pair<StreamMesh, ArrayProblem> slowTask(bool surface, int columns)
 {
   StreamMesh mesh =
@@ -99,7 +99,7 @@ TEST(Acceleration, StreamingEqualsInCoreBitForBit)
 
 TEST(Acceleration, NeedsFewerPassesWhereVCyclesAreSlow)
 {
-  // Tetrahedra of which many are flat, and all are long.
+  // Elongated tetrahedra, many of them flat.
   IndexedTestMesh indexed = tetBox(13, 12, 14, 0.31);
   for (std::size_t k = 0; k < indexed.positions.size(); k += 3)
   {
@@ -141,7 +141,7 @@ TEST(Acceleration, IsGivenUpWithoutRoomForItsVectors)
   auto [mesh, problem] = slowTask(true, 16);
   SolveOptions options = accurate(1e-8);
   options.inCore = true;
-  options.coreNodes = 0; // else the limit decides which levels live in memory
+  options.coreNodes = 0; // otherwise the limit decides which levels are in memory
   options.acceleration = AccelerationKind::None;
   const Solved plain = solveMesh(mesh, problem, options);
   options.acceleration = AccelerationKind::ConjugateGradients;

@@ -78,7 +78,7 @@ std::vector<TableSpec> testTables()
   return { { "first", columns }, { "second", columns } };
 }
 
-/** Blocks of different sizes, alternately of both tables. */
+/** Blocks of different sizes, alternating between both tables. */
 std::vector<TestBlock> testBlocks(const std::vector<std::int64_t>& sizes)
 {
   std::vector<TestBlock> blocks;
@@ -112,7 +112,7 @@ void expectBlock(BlockFileReader& reader, int table, std::int64_t block, const T
   }
 }
 
-/** Opens the file and reads all of it. */
+/** Opens and reads the whole file. */
 void readAll(const std::filesystem::path& path)
 {
   BlockFileReader reader(path);
@@ -321,7 +321,7 @@ TEST(BlockFile, TellsOfWritesThatFail)
   const TemporaryFolder folder;
   expectError([&] { writeBlocks(folder / "no" / "file", Codec::None, {}); }, "cannot be created");
 
-  // A limit on the size of files does what a full disk does: a write comes back with an error.
+  // A limit on the size of files acts like a full disk: a write fails.
   struct rlimit before = {};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
   struct rlimit small = before;

@@ -170,7 +170,7 @@ TEST(CellWeights, OfADegenerateCellAreNone)
   }
 }
 
-/** In the inside of a flat mesh sum_j w_ij (x_i - x_j) = 0 for every coordinate x. */
+/** In the interior of a flat mesh sum_j w_ij (x_i - x_j) = 0 for every coordinate x. */
 TEST(CellWeights, MakeLinearFunctionsHarmonic)
 {
   for (const bool surface : { true, false })
@@ -226,7 +226,7 @@ TEST(CellWeights, OfAConductivityAreTheElementMatrixWithIt)
   Random random(5);
   for (int trial = 0; trial < 200; ++trial)
   {
-    // K = R R^T + something, with eigenvalues of quite different sizes.
+    // K = R R^T + a diagonal, with eigenvalues of very different sizes.
     Eigen::Matrix3d root;
     for (int k = 0; k < 9; ++k)
     {

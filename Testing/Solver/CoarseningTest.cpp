@@ -24,7 +24,7 @@ TEST(Coarsening, LiftedNodesAreAMaximalIndependentSetOfTheStrongEdges)
           dependsOnLifted || (entry.delta() < 0 && entry.weight() >= strong && entry.weight() > 0 &&
                                lifted[i + entry.delta()] >= 0);
       }
-      // Beside constrained nodes that repel it a node follows its neighbours by more than all.
+      // Next to constrained nodes with negative weights, weights can sum to well over 1.
       const bool exceeds = test.level.alpha[i] < -0.5 * test.level.diagonal(i);
       const bool expected = (!dependsOnLifted || exceeds) && !test.level.rows[i].empty();
       ASSERT_EQ(lifted[i], expected ? next : -1) << test.name << ", node " << i;
@@ -45,7 +45,7 @@ TEST(Coarsening, TheRawProductIsTheGalerkinProduct)
     const Eigen::MatrixXd expected = p.transpose() * test.level.dense() * p;
     const Eigen::MatrixXd product = step.coarse.dense();
     EXPECT_EQ(product, product.transpose());
-    // Entries and row sums are floats on the way.
+    // Intermediate entries and row sums are floats.
     EXPECT_LT((product - expected).cwiseAbs().maxCoeff(), 4e-6 * expected.maxCoeff()) << test.name;
     const Eigen::VectorXd rowSums = expected.rowwise().sum();
     for (std::int64_t c = 0; c < step.coarse.nodes(); ++c)
@@ -72,7 +72,7 @@ TEST(Coarsening, RowSumsOfAFreeComponentAreZeroOnEveryLevel)
   }
 }
 
-/** Meshes whose windows use the same memory for neighbours of a neighbour that are long gone. */
+/** Meshes whose windows reuse the memory of released neighbours of a neighbour. */
 TEST(Coarsening, WhatIsGoneIsNotLookedAt)
 {
   RecordingOperators operators;
@@ -177,7 +177,7 @@ TEST(Coarsening, OfALevelWithoutNodesIsOneWithoutNodes)
 
 TEST(Coarsening, KeepsAWindowOnly)
 {
-  // A long strip: the window is as wide as the strip, whatever its length; also with patches.
+  // A long strip: the window is as wide as the strip for any length; also with patches.
   for (const bool slivers : { false, true })
   {
     std::int64_t peak[2];

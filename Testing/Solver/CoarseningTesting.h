@@ -10,17 +10,17 @@
 namespace smg::testing
 {
 
-/** A level to coarsen, and how. */
+/** A level to coarsen with its properties. */
 struct CoarseningCase
 {
   std::string name;
   TestLevel level;
   RecordingOperators operators;
-  bool free;     ///< no constraint
-  bool positive; ///< no negative weight
+  bool free;     ///< without constraints
+  bool positive; ///< without negative weights
 };
 
-/** Surfaces and tetrahedra, regular and not, with and without constraints, of all weights. */
+/** Regular and irregular surfaces and tetrahedra, with and without constraints, of all weights. */
 inline std::vector<CoarseningCase> coarseningCases()
 {
   RecordingOperators surface, solid;

@@ -16,7 +16,7 @@ namespace smg::testing
 namespace
 {
 
-/** Counts a vertex of the mass 1 whose residual is b. */
+/** Counts a vertex with residual b. */
 void count(Components& parts, std::int32_t label, double b, double x0, double mass = 1.0)
 {
   parts.count(label, &b, &x0, &b, mass);
@@ -26,7 +26,7 @@ void count(Components& parts, std::int32_t label, double b, double x0, double ma
 
 TEST(Components, JoinedLabelsHaveOneRoot)
 {
-  // Against the plainest way: relabel all.
+  // Compared with the simplest method: relabelling all.
   Components parts(1);
   Random random(2);
   std::vector<int> expected(300);
@@ -186,7 +186,7 @@ TEST(ComponentLabels, AreTheSameInMemoryAndInScratch)
         const ComponentLabels::Entries entries = each->block(block);
         EXPECT_TRUE(
           std::ranges::equal(entries.labels, std::span(labels).subspan(1024 * block, count)));
-        // A block of no component has no masses.
+        // A block without components has no masses.
         EXPECT_TRUE(vertices == 1 ? entries.masses.empty()
                                   : std::ranges::equal(entries.masses,
                                       std::span(masses).subspan(1024 * block, count)));

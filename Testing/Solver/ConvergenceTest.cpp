@@ -10,15 +10,18 @@ namespace smg::testing
 namespace
 {
 
-/** The factor by which a V-cycle reduces the residual, the geometric mean of the cycles after the
- * first. */
+/**
+ * The reduction of the residual per V-cycle: the geometric mean over the cycles after the first.
+ */
 double rateOf(const Report& report)
 {
   const auto& r = report.residuals;
   return std::pow(r.back() / r.front(), 1.0 / static_cast<double>(r.size() - 1));
 }
 
-/** Columns that are the positions, prescribed at both ends in z and zero elsewhere at first. */
+/**
+ * Solves for the positions, prescribed at both ends in z, with initial values of zero elsewhere.
+ */
 Solved solveEnds(const IndexedTestMesh& mesh, Weights weights, double tolerance)
 {
   const StreamMesh stream = toStream(mesh);
@@ -101,7 +104,7 @@ TEST(Convergence, TheReportedResidualIsTheTrueOne)
       SolveOptions options = accurate(1e-13);
       options.maxCycles = cycles;
       const Solved solved = solveMesh(mesh, problem, options);
-      // The engine's weights are of single precision, and so is the difference.
+      // The weights of the engine have single precision, which limits the difference.
       const double expected = system.relativeResidual(solved.values);
       EXPECT_NEAR(solved.report.residuals.back(), expected, 1e-3 * expected + 1e-7);
     }
@@ -123,7 +126,7 @@ TEST(Convergence, NotReachedIsSaid)
 TEST(Convergence, AnExactInitialGuessDoesNoHarm)
 {
   const StreamMesh mesh = toStream(grid(50, 40, 0.1));
-  // Linear functions solve the problem of a flat mesh whose border is prescribed.
+  // Linear functions solve the problem of a flat mesh with prescribed border.
   ArrayProblem problem = fixedEnds(mesh, 0.0, true);
   for (std::int64_t v = 0; v < mesh.vertices(); ++v)
   {
@@ -134,7 +137,7 @@ TEST(Convergence, AnExactInitialGuessDoesNoHarm)
   EXPECT_LT(relativeError(solved.values, positionsOf(mesh)), 1e-6);
   EXPECT_TRUE(std::isfinite(solved.values.sum()));
 
-  // And a solution from zero, given as the initial guess, is kept.
+  // A solution from zero is also kept if it is the initial guess.
   ArrayProblem again = heldEnds(mesh, 3, Weights::Uniform);
   const Solved first = solveMesh(mesh, again, accurate(1e-14));
   for (std::int64_t v = 0; v < mesh.vertices(); ++v)

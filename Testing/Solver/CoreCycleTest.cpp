@@ -61,7 +61,7 @@ TEST(CoreCycle, IsTheVCycle)
         CoreCycle<GaussSeidel> cycle;
         cycle.setLevels(levelsOf(h, levels));
         const Eigen::MatrixXd expected = denseCycle(h, levels, 0, b);
-        // Twice: a cycle leaves nothing behind that would disturb the next one.
+        // Twice: a cycle leaves no state that affects the next one.
         for (int run = 0; run < 2; ++run)
         {
           cycle.run();

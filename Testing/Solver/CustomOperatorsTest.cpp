@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-// Operator sets of a program's own.
+// User-defined operator sets.
 
 namespace smg::testing
 {
@@ -101,7 +101,7 @@ TEST(CustomOperators, AnotherRelaxationConvergesToTheDirectSolution)
     EXPECT_TRUE(solved.report.converged);
     EXPECT_LE(solved.report.cycles, 25);
     EXPECT_LT(relativeError(solved.values, solveDirectly(mesh, problem)), 1e-7);
-    // It is another method, not the default one under another name.
+    // It differs from the default method.
     const Solved usual = solveWithSet<Extended>(mesh, problem, accurate());
     EXPECT_NE(solved.report.residuals, usual.report.residuals);
   }

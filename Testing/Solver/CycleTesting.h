@@ -48,7 +48,7 @@ inline bool roundsWeights(const RowBlock& block)
   return block.header().weightBytes == sizeof(BFloat16);
 }
 
-/** Rounds the off-diagonals of the rows of a block as the block does, keeping their sums. */
+/** Rounds the off-diagonals of the rows like the block, preserving the row sums. */
 inline void roundRows(const RowBlock& block, Eigen::MatrixXd& matrix)
 {
   for (Eigen::Index i = block.first(); roundsWeights(block) && i < block.end(); ++i)
@@ -66,7 +66,7 @@ inline void roundRows(const RowBlock& block, Eigen::MatrixXd& matrix)
 }
 
 /**
- * A hierarchy of levels in memory, as the core cycle uses it, with dense copies of its operators.
+ * A hierarchy of levels in memory, as used by the core cycle, with dense copies of its operators.
  */
 template <class Real = float>
 class DenseHierarchy
@@ -97,7 +97,7 @@ public:
     {
       const TestLevel level = l > 0 ? levelOf(*rows[l]) : finest;
       this->Matrices.push_back(level.dense());
-      // The coarsest level is solved by itself, so nothing is known of its patches.
+      // The coarsest level is solved directly and has no patches.
       this->PatchLists.push_back(l + 1 < levels ? patchesOf(level) : PatchList{});
       if (l > 0)
       {
@@ -154,7 +154,7 @@ private:
   std::vector<std::unique_ptr<CoarserLevel>> Coarse;
 };
 
-/** State of a level as a matrix, a row a node, and back. */
+/** Converts the state of a level to a matrix with one row per node, and back. */
 template <class Real>
 Eigen::MatrixXd stateOf(const Ring<Real>& state, int columns)
 {
@@ -182,7 +182,7 @@ void setState(Ring<Real>& state, const Eigen::MatrixXd& values)
   }
 }
 
-/** One forward Gauss-Seidel sweep: a patch is solved at the turn of its last node. */
+/** One forward Gauss-Seidel sweep; a patch is solved when its last node is reached. */
 inline void denseSweep(
   const Eigen::MatrixXd& a, const PatchList& patches, const Eigen::MatrixXd& b, Eigen::MatrixXd& x)
 {

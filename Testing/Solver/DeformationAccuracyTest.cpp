@@ -5,14 +5,14 @@
 
 #include <utility>
 
-// The result of the two steps against that of two direct solves.
+// Compares the result of the two steps with two direct solves.
 
 namespace smg::testing
 {
 namespace
 {
 
-/** Checks the error after 3, 6 and 9 V-cycles a step, and `more` than these. */
+/** Checks the error after 3, 6 and 9 V-cycles per step, plus `more`. */
 void checkErrors(const IndexedTestMesh& given, int more = 0)
 {
   const StreamMesh mesh = toStream(given);
@@ -48,7 +48,7 @@ TEST(DeformationAccuracyLaw, OfASphere)
 
 TEST(DeformationAccuracyLaw, OfASolid)
 {
-  // It converges a little slower and takes one V-cycle more.
+  // It converges slightly slower and takes one more V-cycle.
   checkErrors(tetBox(16, 24, 16, 0.15), 1);
 }
 

@@ -3,14 +3,14 @@
 
 #include <gtest/gtest.h>
 
-// What no handle reaches stays exactly where it is.
+// Components without handles do not move at all.
 
 namespace smg::testing
 {
 namespace
 {
 
-/** Two tori that are held, between things that are not: spheres, single cells, hundreds of them. */
+/** Two held tori among free components: spheres and hundreds of single cells. */
 IndexedTestMesh manyThings()
 {
   IndexedTestMesh mesh = disjointUnion(torus(60, 30, 0.2), sphere(4), { 0.1, 0.2, 9 });
@@ -81,7 +81,7 @@ TEST(DeformationComponents, DoNotDisturbTheOthers)
 
 TEST(DeformationComponents, FlatCellsHoldTheirCornersTogetherAndDuplicatesDoNot)
 {
-  // Flagged cells and cells of no area, on vertices of their own.
+  // Flagged cells and cells without area, on separate vertices.
   IndexedTestMesh given = torus(60, 30, 0.3);
   const IndexedTestMesh flat{ CellType::Triangle, { 0, 0, 7, 1, 0, 7, 2, 0, 7 }, { 0, 1, 2 } };
   const IndexedTestMesh fine{ CellType::Triangle, { 0, 1, 7, 1, 1, 7, 2, 2, 7 }, { 0, 1, 2 } };
@@ -99,7 +99,7 @@ TEST(DeformationComponents, FlatCellsHoldTheirCornersTogetherAndDuplicatesDoNot)
   handles.hold(mesh, [](const Eigen::Vector3d& p) { return p.x() < -2; });
   handles.hold(
     mesh, [](const Eigen::Vector3d& p) { return p.x() > 2 && p.z() < 5; }, anyMotion());
-  // One of them is held: it goes where its handle says.
+  // One of them is held and follows its handle.
   handles.hold(
     mesh, [](const Eigen::Vector3d& p) { return p.x() == 0 && p.z() == 7 && p.y() == 0; },
     anyMotion());
@@ -147,7 +147,7 @@ TEST(DeformationComponents, OneHeldVertexMovesAllOfItsComponent)
 
 TEST(DeformationComponents, AVertexInFlatCellsAloneGoesWithItsNeighbours)
 {
-  // A vertex in the middle of an edge, which a triangle without area joins to its ends.
+  // A vertex in the middle of an edge, connected to its ends by a triangle without area.
   IndexedTestMesh given = torus(60, 30, 0.3);
   const std::int64_t a = given.corners[0];
   const std::int64_t b = given.corners[1];
@@ -171,7 +171,7 @@ TEST(DeformationComponents, AVertexInFlatCellsAloneGoesWithItsNeighbours)
 
 TEST(DeformationComponents, AFarOneDoesNotSpoilTheOthers)
 {
-  // Rounding is that of edges and motions: coordinates of 1e12 elsewhere do not matter.
+  // Rounding is relative to edges and motions, not to coordinates of 1e12 elsewhere.
   const StreamMesh mesh =
     toStream(disjointUnion(torus(60, 30, 0.2), torus(40, 20, 0.2), { 1e12, 0, 0 }));
   ArrayHandles handles(mesh.vertices());

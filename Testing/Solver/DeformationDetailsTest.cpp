@@ -3,15 +3,15 @@
 
 #include <gtest/gtest.h>
 
-// Bumps turn with the surface: the angle between a vertex's Laplacian vector at rest, turned as the
-// handles turn it there, and that of the deformed mesh is small.
+// Bumps rotate with the surface: the angle between the Laplacian vector of a vertex at rest,
+// rotated by the interpolated rotation, and that of the deformed mesh is small.
 
 namespace smg::testing
 {
 namespace
 {
 
-/** Bumps of two sizes on a mesh of triangles. */
+/** Bumps of two sizes on a triangle mesh. */
 StreamMesh withBumps(const IndexedTestMesh& triangles)
 {
   return toStream(bumpy(bumpy(triangles, 0.3, 1), 0.1, 2));

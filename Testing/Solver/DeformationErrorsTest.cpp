@@ -13,14 +13,14 @@
 #include <functional>
 #include <limits>
 
-// What is wrong ends in one sentence, and no scratch file is left.
+// Every failure is an Error with one sentence, and leaves no scratch file.
 
 namespace smg::testing
 {
 namespace
 {
 
-/** The sentence of the Error that deforming ends with. */
+/** The message of the Error of a deformation. */
 std::string errorOfDeform(MeshSource& source, Handles& handles, const DeformOptions& options = {})
 {
   return scratchErrorOf(
@@ -163,7 +163,7 @@ TEST(DeformationErrors, OptionsOutOfRange)
 
 TEST(DeformationErrors, OfTheHandlesPassThrough)
 {
-  /** Handles that fail where the mesh is half read. */
+  /** Handles that fail in the middle of the mesh. */
   class Failing : public ArrayHandles
   {
   public:
@@ -185,7 +185,7 @@ TEST(DeformationErrors, OfTheHandlesPassThrough)
 
 TEST(DeformationErrors, HandlesOfAnotherSize)
 {
-  /** Handles that change the number of entries, and hold all there are. */
+  /** Handles that change the number of entries and hold all vertices. */
   class Resizing : public Handles
   {
   public:

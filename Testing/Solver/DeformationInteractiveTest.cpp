@@ -6,20 +6,20 @@
 
 #include <limits>
 
-// An interactive deformation gives the bits of deform(), whatever came before.
+// An interactive deformation equals deform() bit for bit, independent of previous updates.
 
 namespace smg::testing
 {
 namespace
 {
 
-/** What an interactive deformation holds now. */
+/** The current positions of an interactive deformation. */
 Eigen::MatrixXd shown(InteractiveDeformation& deformation)
 {
   return valuesOf(deformation);
 }
 
-/** And a mesh with a component that nothing holds. */
+/** The deformation meshes, and a mesh with a free component. */
 std::vector<StreamMesh> interactiveMeshes()
 {
   std::vector<StreamMesh> meshes = deformationMeshes();
@@ -110,7 +110,7 @@ TEST(InteractiveDeformation, RefusesOtherHeldVertices)
     EXPECT_FALSE(deformation.update(other.Values));
     EXPECT_TRUE(sameBits(shown(deformation), before));
   }
-  // By how many handles does not matter.
+  // The number of handles of a vertex has no effect.
   ArrayHandles shared = handles;
   shared.Values.mask[held - mask.begin()] = 3;
   EXPECT_TRUE(deformation.update(shared.Values));

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-// Memory of a deformation grows with the width of the stream and stays within the limit.
+// The memory of a deformation grows with the width of the stream and stays within the limit.
 
 namespace smg::testing
 {
@@ -30,7 +30,7 @@ TEST(DeformationMemoryLaw, OfASurfaceIsTheSquareRoot)
 
 TEST(DeformationMemoryLaw, OfASolidIsThePowerTwoThirds)
 {
-  // Plane after plane. Coarse rows become longer with the number of levels.
+  // Ordered plane by plane. Coarse rows become longer with the number of levels.
   const auto planes = [](int n) { return toStream(tetBox(n, n, n), TestOrder::Keep); };
   expectGrowth(oneCycleAStep, { planes(32), planes(64) }, 4.4, 6.5);
 }

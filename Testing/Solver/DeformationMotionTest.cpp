@@ -5,14 +5,14 @@
 
 #include <numbers>
 
-// What the handles do, the mesh does.
+// The mesh follows the handles.
 
 namespace smg::testing
 {
 namespace
 {
 
-/** The error against the motion when all handles of a figure move alike. */
+/** The difference from the motion if all handles of a figure have the same motion. */
 double errorOfCommonMotion(
   const StreamMesh& mesh, const Motion& motion, const DeformOptions& options)
 {
@@ -109,7 +109,7 @@ TEST(DeformationMotion, ScalesAboutOneCentreAreASimilarity)
 
 TEST(DeformationMotion, TurnsTheLongWayRound)
 {
-  // One end turns by 200 degrees: the middle by 100, not by -80.
+  // One end is rotated by 200 degrees: the middle by 100, not by -80.
   const StreamMesh surface = toStream(tube(48, 161, 20.0, 0.2));
   IndexedTestMesh box = tetBox(7, 7, 61, 0.1);
   for (std::size_t k = 0; k < box.positions.size(); ++k)
@@ -127,7 +127,7 @@ TEST(DeformationMotion, TurnsTheLongWayRound)
         EXPECT_TRUE(solved.report.converged);
         for (const double part : { 0.25, 0.5, 0.75 })
         {
-          // The held ends are 5 % each: between them the angle grows evenly.
+          // The held ends are 5 % each; the angle is linear between them.
           const double expected = degrees * (part - 0.05) / 0.9;
           const double found = angleAt(mesh, solved.values, 20.0 * part, 0.4);
           EXPECT_NEAR(std::remainder(found - expected, 360.0), 0.0, 4.0)
@@ -140,7 +140,7 @@ TEST(DeformationMotion, TurnsTheLongWayRound)
 
 TEST(DeformationMotion, ATranslatedEndShearsWithoutTurning)
 {
-  // A handle that says nothing of rotation: what is between follows harmonically.
+  // A handle without rotation: the mesh in between is interpolated harmonically.
   const StreamMesh mesh = toStream(tube(32, 101, 10.0, 0.2));
   Motion motion;
   motion.translation = { 4, 0, 0 };

@@ -3,14 +3,14 @@
 
 #include <gtest/gtest.h>
 
-// What the report of a deformation tells.
+// The content of the report of a deformation.
 
 namespace smg::testing
 {
 namespace
 {
 
-/** The residuals of both steps are listed in order, and each step has the last of its own. */
+/** The residuals of both steps are listed in order, and each step has its last one. */
 void expectStepsToAgree(const Report& report)
 {
   ASSERT_EQ(report.steps.size(), 2u);

@@ -6,14 +6,14 @@
 
 #include <gtest/gtest.h>
 
-// Streaming gives the bits of the in-core deformation, whatever the windows.
+// Streaming equals the in-core deformation bit for bit, for all windows.
 
 namespace smg::testing
 {
 namespace
 {
 
-/** A fixed number of cycles, and as many as a tolerance needs. */
+/** A fixed number of cycles, and a tolerance. */
 const std::vector<DeformOptions> ManyWays = { withCycles(2), withCycles(3, Weights::Uniform),
   byTolerance(1e-5) };
 
@@ -23,8 +23,7 @@ Solved inCore(const StreamMesh& mesh, ArrayHandles& handles, DeformOptions optio
   return deformMesh(mesh, handles, options);
 }
 
-/** Checks that bits and residuals are those in core, for all meshes and options that `vary` tries.
- */
+/** Checks that results and residuals equal those in core, for all meshes and options of `vary`. */
 template <class Vary>
 void expectBits(Vary vary)
 {

@@ -75,7 +75,7 @@ inline Motion anyMotion()
   return motion;
 }
 
-/** Surfaces and solids of some thousand vertices, in a good order and in none at all. */
+/** Surfaces and solids of a few thousand vertices, in a good and in a random order. */
 inline std::vector<StreamMesh> deformationMeshes()
 {
   const IndexedTestMesh surface = shuffled(bumpy(torus(110, 60, 0.4), 0.2));

@@ -21,7 +21,7 @@ const ColumnTag Left{ "tag", 3 };
 class Described : public ::testing::Test
 {
 protected:
-  /** What the description says, which must not depend on blocks and batches. */
+  /** The data of the description, which must not depend on blocks and batches. */
   ProblemAnswers ask(const ProblemDescription& description)
   {
     this->Source.rewind(7);
@@ -46,7 +46,7 @@ protected:
     return this->Mesh.vertexColumns[2].value(vertex) != 0;
   }
   bool isLeft(std::int64_t cell) const { return this->Mesh.cellColumns[4].value(cell) == 3; }
-  /** Whether `holds` for all corners of a cell, but for one that may be left out. */
+  /** Whether `holds` for all corners of a cell, optionally except one. */
   bool all(std::int64_t cell, auto holds, int but = -1) const
   {
     bool result = true;
@@ -151,7 +151,7 @@ TEST_F(Described, TensorsAreGivenByTheirNumbersOrTheirDiagonals)
   }
 }
 
-/** 0.1 in single precision is not 0.1, but nobody else calls it anything else. */
+/** 0.1 in single precision is not 0.1 in double precision, but users write 0.1. */
 TEST_F(Described, ATagIsComparedInThePrecisionOfItsColumn)
 {
   std::vector<float> tenths(static_cast<std::size_t>(this->Mesh.vertices()), 0.2F);

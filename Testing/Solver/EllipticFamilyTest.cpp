@@ -5,7 +5,7 @@
 
 #include <functional>
 
-// Each datum of the family of problems, against a system assembled by other code.
+// Compares each datum of a problem with an independently assembled system.
 
 namespace smg::testing
 {
@@ -25,7 +25,7 @@ struct Datum
   std::function<void(ElementProblem&)> set;
 };
 
-/** One end is held; what else there is differs. */
+/** Prescribes one end; the other data vary. */
 void holdOneEnd(ElementProblem& problem)
 {
   problem.DirichletConditions.push_back({ below(0, 0.6), columnsOf(Columns, wave) });
@@ -150,7 +150,7 @@ TEST(EllipticFamily, DoesNotDependOnBlocksNorThreads)
 
 TEST(EllipticFamily, DoesNotDependOnTheUnits)
 {
-  // Lengths in mm instead of m, and a conductivity in another unit: u is the same.
+  // Lengths in mm instead of m, and a conductivity in another unit: u does not change.
   for (StreamMesh mesh : meshes())
   {
     const auto solve = [&](double length, double unit)
@@ -190,7 +190,7 @@ TEST(EllipticFamily, AFieldThatIsAGradientGivesItsFunctionBack)
     problem.Conductivity = someTensor;
     problem.CellField = [&](const Point& p) -> Eigen::MatrixXd { return someTensor(p) * slope; };
     problem.Initial = columnsOf(1, [&](const Point& p, int) { return p.dot(slope); });
-    // The function is the initial value; and it is found from zero, but for its mean.
+    // The function is the initial value; from zero, it is found up to its mean.
     const Solved there = solveMesh(mesh, problem, accurate());
     if (mesh.cellType == CellType::Tetrahedron)
     {
@@ -216,7 +216,7 @@ TEST(EllipticFamily, ABoundaryThatTransfersHeatDeterminesTheSolution)
   }
 }
 
-/** Their first residual is as large as they are, and no measure of what is left. */
+/** Their initial residual is as large as the conditions, which is no measure for other rows. */
 TEST(EllipticFamily, StiffConditionsAreSolvedLikeOthers)
 {
   for (const StreamMesh& mesh : meshes())
@@ -276,7 +276,7 @@ TEST(EllipticFamily, ConditionsInsideAreNoBoundary)
     holdOneEnd(problem);
     const Solved expected = solveMesh(mesh, problem, accurate());
     const bool closed = mesh.cellType == CellType::Triangle;
-    // Everywhere on a closed surface, or inside a solid.
+    // Everywhere on a closed surface, or in the interior of a solid.
     problem.FluxConditions.push_back({ [=](const Point& p)
       { return closed || (p.minCoeff() > 0.5 && p[0] < 6.0 && p[1] < 4.5 && p[2] < 6.5); },
       columnsOf(Columns, wave) });

@@ -36,7 +36,7 @@ inline StreamMesh block(int nx = 7, int ny = 6, int nz = 8)
 
 using Point = ElementProblem::Point;
 
-/** A function of a place and a column, as a field of `columns` values. */
+/** A function of position and column, as a field of `columns` values. */
 template <class F>
 ElementProblem::Values columnsOf(int columns, F f)
 {
@@ -60,7 +60,7 @@ inline ElementProblem::Where above(int axis, double at)
   return [=](const Point& p) { return p[axis] > at; };
 }
 
-/** A full tensor that varies from place to place. */
+/** A full tensor that depends on the position. */
 inline Eigen::Matrix3d someTensor(const Point& p)
 {
   Eigen::Matrix3d k;

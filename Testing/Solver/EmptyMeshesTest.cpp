@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-// Meshes without vertices, without cells, and with vertices that belong to none.
+// Meshes without vertices, without cells, and with isolated vertices.
 
 namespace smg::testing
 {
 namespace
 {
 
-/** Vertices in a row, of which the first three make a triangle if `hasCell`. */
+/** A row of vertices, of which the first three form a triangle if `hasCell`. */
 StreamMesh rowOf(int vertices, bool hasCell)
 {
   StreamMesh mesh;
@@ -33,7 +33,7 @@ StreamMesh rowOf(int vertices, bool hasCell)
   return mesh;
 }
 
-/** Holds the given vertices by a motion. */
+/** Holds the given vertices with a motion. */
 ArrayHandles holding(
   const StreamMesh& mesh, const std::vector<std::int64_t>& held, const Motion& motion)
 {
@@ -61,7 +61,7 @@ std::vector<DeformOptions> deformWays()
   return ways;
 }
 
-/** Checks where the vertices come to, in every way, within `slack` of `expected`. */
+/** Checks that the vertices are within `slack` of `expected` for all options. */
 void expectDeformed(
   const StreamMesh& mesh, ArrayHandles& handles, const Eigen::MatrixXd& expected, double slack)
 {
@@ -125,7 +125,7 @@ TEST(EmptyMeshes, VerticesWithoutCellsKeepTheirValues)
       {
         problem.Value[v] = 7.0 + v;
       }
-      // Of the triangle one vertex is prescribed, so that the others take its value.
+      // One vertex of the triangle is prescribed, so that the others take its value.
       problem.Prescribed[0] = 1;
       for (const bool core : { false, true })
       {
@@ -160,12 +160,12 @@ TEST(EmptyMeshes, VerticesWithoutCellsStayUnlessTheyAreHeld)
   {
     const StreamMesh mesh = rowOf(6, hasCell);
     const Eigen::MatrixXd turned = moved(mesh, quarterTurn());
-    // The last vertex alone: a triangle that no handle reaches stays, too.
+    // Only the last vertex is held: the free triangle does not move.
     ArrayHandles last = holding(mesh, { 5 }, quarterTurn());
     Eigen::MatrixXd expected = positionsOf(mesh);
     expected.row(5) = turned.row(5);
     expectDeformed(mesh, last, expected, 0.0);
-    // One of the triangle moves all of it.
+    // A held vertex of the triangle moves all of it.
     ArrayHandles two = holding(mesh, { 1, 4 }, quarterTurn());
     expected = positionsOf(mesh);
     expected.row(4) = turned.row(4);

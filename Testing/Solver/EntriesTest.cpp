@@ -63,7 +63,7 @@ TEST(CoarseEntry, KeepsFloats)
     entries.emplace_back(static_cast<CoarseIndex>(k), value);
     EXPECT_EQ(entries.back().value(), value);
   }
-  // One is changed and its neighbours stay.
+  // Changing one does not affect its neighbours.
   const float before = entries[499].value();
   const float after = entries[501].value();
   entries[500].setValue(-0.25F);
@@ -117,7 +117,7 @@ TEST(WideIndex, KeepsAsManyBitsAsARowEntry)
   const std::vector<std::int32_t> expected = { -Most - 1, Most, -1, 0, -257, 255, 32768 };
   for (const int before : { 0, 255 })
   {
-    // As in a block, something precedes them, which they do not depend on.
+    // As in a block, they are preceded by other data.
     std::vector<std::uint8_t> bytes(8 + expected.size() * sizeof(WideIndex));
     bytes[7] = static_cast<std::uint8_t>(before);
     auto* index = reinterpret_cast<WideIndex*>(bytes.data() + 8);

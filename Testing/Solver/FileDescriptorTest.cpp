@@ -19,7 +19,7 @@ namespace smg::testing
 namespace
 {
 
-/** Asks the system to keep nothing of a file in memory. */
+/** Removes a file from the cache of the system. */
 void dropFromMemory(const std::filesystem::path& path)
 {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);

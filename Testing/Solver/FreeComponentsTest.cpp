@@ -23,7 +23,7 @@ ArrayProblem randomSources(const StreamMesh& mesh, int columns, std::uint64_t se
   return problem;
 }
 
-/** Takes from each source what makes M f sum to zero on the whole mesh. */
+/** Subtracts a constant from each source so that M f sums to zero on the whole mesh. */
 void makeCompatible(const StreamMesh& mesh, ArrayProblem& problem)
 {
   MemorySource source(mesh);
@@ -42,7 +42,7 @@ void makeCompatible(const StreamMesh& mesh, ArrayProblem& problem)
   }
 }
 
-/** The mean of values, a row a vertex, weighted with the masses. */
+/** The mean of values, one row per vertex, weighted by the masses. */
 Eigen::RowVectorXd meanOf(
   const StreamMesh& mesh, ArrayProblem problem, const Eigen::MatrixXd& values)
 {
@@ -116,7 +116,7 @@ TEST(FreeComponents, ACompatibleRightSideIsNotTouched)
 
 TEST(FreeComponents, AConstantSourceLeavesAConstant)
 {
-  // Graded: the areas of the torus' triangles differ, and the box is stretched.
+  // Graded: the triangles of the torus have different areas, and the box is stretched.
   StreamMesh box = toStream(tetBox(12, 11, 10, 0.15));
   for (std::size_t k = 0; k < box.positions.size(); k += 3)
   {
@@ -138,7 +138,7 @@ TEST(FreeComponents, AConstantSourceLeavesAConstant)
         options.tolerance = 1e-14;
         const Solved solved = solveMesh(mesh, problem, options);
         EXPECT_TRUE(solved.report.converged);
-        EXPECT_LT(solved.report.residuals.back(), 1e-12); // of the sources, not of nothing
+        EXPECT_LT(solved.report.residuals.back(), 1e-12); // relative to the sources
         EXPECT_TRUE(hasNote(solved.report, "100 % of their size"));
         EXPECT_LT((solved.values.array() - 2.0).abs().maxCoeff(), 1e-11);
       }

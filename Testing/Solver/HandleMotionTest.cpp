@@ -28,7 +28,7 @@ Vector moved(const HandleMotion& motion, const Vector& point)
   return motion.apply(point);
 }
 
-/** What the motion of these parameters complains of. */
+/** The error message of a motion with these parameters. */
 std::string complaint(const std::function<void(HandleMotion::Parameters&)>& change)
 {
   HandleMotion::Parameters parameters;
@@ -147,7 +147,7 @@ TEST(HandleMotion, MatrixOfTheSameMotionSaysTheSame)
 
 TEST(HandleMotion, MatrixIsKeptAndItsRotationIsTheNearest)
 {
-  // Stretched along its own axes, then turned: the turn is what a polar decomposition finds.
+  // A stretch followed by a rotation, which the polar decomposition recovers.
   const HandleMotion motion =
     HandleMotion::fromMatrix(matrixOf({ 0, -4, 0, 2, 0, 0, 0, 0, 1 }, { 0, 0, 0 }));
   expectNear(motion.rotation(), { 0, 0, std::numbers::pi / 2 });

@@ -23,14 +23,14 @@
 namespace smg::testing
 {
 
-/** The rows of a level, all of them. */
+/** All rows of a level. */
 struct TestLevel
 {
   std::vector<std::vector<RowEntry>> rows;
   std::vector<double> alpha;
-  /** The weights of some rows in double precision; empty: of none. */
+  /** The weights of some rows in double precision; empty: none. */
   std::vector<std::vector<double>> precise;
-  bool finest = true; ///< or one that was coarsened from another
+  bool finest = true; ///< otherwise coarsened from another level
 
   std::int64_t nodes() const { return static_cast<std::int64_t>(this->rows.size()); }
 
@@ -86,7 +86,7 @@ struct TestLevel
     return a;
   }
 
-  /** Appends rows [begin, end) to the level's window. `stiff` is asked row by row. */
+  /** Appends rows [begin, end) to the window of the level. `stiff` is called row by row. */
   void append(LevelRows& to, std::int64_t begin, std::int64_t end, StiffRows& stiff) const
   {
     for (std::int64_t i = begin; i < end; ++i)
@@ -162,7 +162,7 @@ inline TestLevel finestLevel(const StreamMesh& mesh, Weights weights, std::int64
   return level;
 }
 
-/** What a coarsening did, to look at when its windows have moved on. */
+/** A record of a coarsening, for checks after its windows have been released. */
 struct CoarseningRecord
 {
   struct Parent
@@ -171,13 +171,13 @@ struct CoarseningRecord
     int quanta;
     bool operator==(const Parent&) const = default;
   };
-  /** A row of P while it is relaxed. */
+  /** A row of P during relaxation. */
   struct Relaxed
   {
     std::vector<std::pair<std::int64_t, float>> entries; ///< coarse node, weight
     float sum = 0.0F;
   };
-  std::vector<std::int64_t> lifted;         ///< of each fine node: its coarse node, or -1
+  std::vector<std::int64_t> lifted;         ///< coarse node of each fine node, or -1
   std::vector<std::vector<Relaxed>> sweeps; ///< the rows after each sweep, from that of P0
   std::vector<std::vector<Parent>> parents;
   TestLevel raw; ///< P^T A P before sparsification
@@ -198,8 +198,7 @@ struct CoarseningRecord
   }
 };
 
-/** An operator set from the parts of the default one, with chosen parameters, that keeps a record.
- */
+/** An operator set of the default parts with given parameters, which keeps a record. */
 class RecordingOperators
 {
 public:
@@ -294,12 +293,12 @@ private:
 
   ExtendedInterpolation Interpolation;
   GalerkinProduct Product;
-  std::vector<int> Turns; // that each node has had in the sweeps
+  std::vector<int> Turns; // number of relaxations of each node
 };
 
 static_assert(OperatorSet<RecordingOperators>);
 
-/** A level, what became of it, and the next level. */
+/** A level, the record of its coarsening, and the next level. */
 struct CoarsenedLevel
 {
   TestLevel fine;
@@ -307,7 +306,7 @@ struct CoarsenedLevel
   TestLevel coarse;
 };
 
-/** Coarsens a level whose rows come `batch` at a time; their copies are kept as a solve does. */
+/** Coarsens a level whose rows are appended in batches; copies are kept as in a solve. */
 inline CoarsenedLevel coarsen(const TestLevel& fine, RecordingOperators operators,
   std::int64_t batch = std::numeric_limits<std::int64_t>::max(), StiffRows stiff = {})
 {

@@ -11,17 +11,15 @@ namespace smg::testing
 namespace
 {
 
-/** A row of P in double precision: a weight for each coarse node, and their sum, kept apart. */
+/** A row of P in double precision: a weight for each coarse node, and separately their sum. */
 struct Row
 {
   Eigen::RowVectorXd weights;
   double sum = 0.0;
 };
 
-/**
- * Checks the relaxed rows of a recorded interpolation one by one against the formula, given those
- * rows that the formula says they were made of.
- */
+/** Checks each relaxed row of a recorded interpolation against the formula, given the rows that it
+ * depends on. */
 class RelaxationCheck
 {
 public:
@@ -72,7 +70,7 @@ public:
     return row;
   }
 
-  /** The nodes that are relaxed together with i, a retained one. */
+  /** The nodes that are relaxed together with the retained node i. */
   std::vector<std::int64_t> together(std::int64_t i) const
   {
     std::vector<std::int64_t> nodes;
@@ -86,14 +84,14 @@ public:
     return nodes;
   }
 
-  /** The row of m that is the newest one in a sweep at the turn of node `turn`. */
+  /** The latest row of m in a sweep when node `turn` is relaxed. */
   Row newest(std::size_t sweep, std::int64_t turn, std::int64_t m) const
   {
     const std::int64_t done = this->lifted(m) ? m : this->together(m).back();
     return this->recorded(done < turn ? sweep : sweep - 1, m);
   }
 
-  /** Row i after a sweep, of all columns. */
+  /** Row i after a sweep, with all columns. */
   Row relaxed(std::size_t sweep, std::int64_t i) const
   {
     const std::vector<std::int64_t> nodes = this->together(i);
@@ -118,7 +116,7 @@ public:
     return { inverse.row(own) * outside, (inverse.row(own) * sums)[0] };
   }
 
-  /** The coarse nodes that occur in P0 of a neighbour of i. */
+  /** The coarse nodes in P0 of the neighbours of i. */
   std::set<std::int64_t> pattern(std::int64_t i) const
   {
     std::set<std::int64_t> columns;
@@ -132,7 +130,7 @@ public:
     return columns;
   }
 
-  /** Whether a patch is too close to singular to be relaxed as one. */
+  /** Whether a patch is too close to singular to be relaxed as a unit. */
   bool singular(std::int64_t i) const
   {
     return nearlySingular(partOf(this->A, this->together(i)), 1e-5);
@@ -145,8 +143,8 @@ private:
   PatchList PatchOf;
 };
 
-/** What is left of a row when only `most` columns of a pattern stay: they take over what the others
- * had. Answers the smallest magnitude that stays. */
+/** Truncates a row to `most` columns of a pattern, preserving the sum. Returns the smallest
+ * remaining magnitude. */
 double truncate(
   Row& row, const std::set<std::int64_t>& pattern, int most, const CoarseningRecord::Relaxed& kept)
 {
@@ -157,7 +155,7 @@ double truncate(
   }
   std::ranges::sort(sizes, std::greater<>());
   sizes.resize(std::min<std::size_t>(sizes.size(), most));
-  // Which of two equal columns stays is open.
+  // The choice between equal columns is not specified.
   Eigen::RowVectorXd rest = Eigen::RowVectorXd::Zero(row.weights.size());
   for (const auto& [coarse, weight] : kept.entries)
   {
@@ -260,7 +258,7 @@ TEST(Interpolation, IsRoundedToQuantaThatKeepTheRowSum)
         const auto entry =
           std::ranges::find(relaxed.entries, parent.coarse, [](const auto& e) { return e.first; });
         ASSERT_NE(entry, relaxed.entries.end());
-        // Rounding moves each by half a quantum, the largest one by that of all others.
+        // Rounding changes each by half a quantum, the largest one by that of all others.
         if (size < 1.0)
         {
           EXPECT_NEAR(parent.quanta, 127.0 * entry->second, 0.5 * test.operators.entries)
@@ -275,7 +273,7 @@ TEST(Interpolation, IsRoundedToQuantaThatKeepTheRowSum)
   }
 }
 
-/** Rows whose weights cancel, those of slivers, have as many as on coarse levels. */
+/** Rows with cancelling weights (slivers) have as many as on coarse levels. */
 TEST(Interpolation, MayHaveFewerEntriesOnTheFinestLevel)
 {
   const double cancelling = ExtendedInterpolation().cancelling;

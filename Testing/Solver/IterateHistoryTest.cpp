@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-// On a diagonal model: A is the identity, and a V-cycle T multiplies the error of node i by t_i.
+// A diagonal model: A is the identity, and a V-cycle T multiplies the error of node i by t_i.
 
 namespace smg::testing
 {
@@ -91,7 +91,7 @@ TEST(IterateHistory, ChebyshevWeightsGiveChebyshevPolynomials)
     for (Eigen::Index i = 0; i < factors.size(); ++i)
     {
       const double expected = chebyshev(k, factors[i] / bound) / chebyshev(k, 1 / bound);
-      // Steps are kept in single precision.
+      // Steps are stored in single precision.
       EXPECT_NEAR(model.error()[i], expected, 1e-6 * std::max(1.0, std::fabs(expected))) << k;
     }
   }
@@ -107,7 +107,7 @@ TEST(IterateHistory, ConjugateResidualsEndAfterAsManyStepsAsThereAreFactors)
   }
   DiagonalModel model(factors, KeptResiduals::Sampled);
   ConjugateResiduals directions;
-  // The first pass begins, the second one gives the first direction: then one for each factor.
+  // The second pass yields the first direction; then one more for each factor.
   for (int k = 0; k < 2 + 4; ++k)
   {
     model.pass(directions.next(model.products()));
@@ -117,8 +117,8 @@ TEST(IterateHistory, ConjugateResidualsEndAfterAsManyStepsAsThereAreFactors)
 
 TEST(IterateHistory, ASampleOfTheNodesTellsTheWeightsOfAllOfThem)
 {
-  // The groups differ, in a pattern of eight: one group in eight or sixteen, if it is not always
-  // the same one, gives nearly the weights of all.
+  // The groups differ in a pattern of eight: one group in eight or sixteen, if not always the same
+  // one, yields nearly the weights of all.
   const auto weightsOf = [](std::int64_t nodes, KeptResiduals residuals)
   {
     Eigen::VectorXd factors(nodes);

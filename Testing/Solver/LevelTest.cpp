@@ -22,7 +22,7 @@ TestLevel solidLevel()
   return finestLevel(toStream(shuffled(tetBox(9, 8, 8, 0.15))), Weights::Clamped, 23);
 }
 
-/** Levels without patches and with many, some of which cross blocks. */
+/** Levels without patches and with many patches, some of which cross blocks. */
 std::vector<TestLevel> levels()
 {
   std::vector<TestLevel> levels = levelsWithPatches();
@@ -49,7 +49,7 @@ TEST(Level, RelaxationIsForwardGaussSeidelWithPatchesSolved)
       DenseHierarchy<double> h(level, 2, columns, 3, columns == 5);
       const Eigen::MatrixXd b = randomMatrix(level.nodes(), columns, 1);
       setState(h.finest().window().b(), b);
-      // The first sweep is to take x as zero, whatever is in memory.
+      // The first sweep must take x as zero, independent of the memory.
       setState(h.finest().window().x(), randomMatrix(level.nodes(), columns, 7));
       h.finest().relaxDown();
       Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(level.nodes(), columns);
@@ -350,12 +350,12 @@ TEST(RowBlockPacker, KeepsPatchesAndPreciseRows)
   EXPECT_GT(across, 0);
 }
 
-/** Weights that single precision cannot tell apart. */
+/** Weights that are equal in single precision. */
 TEST(Level, SweepsAndResidualsUsePreciseWeights)
 {
   TestLevel level = surfaceLevel();
   const Eigen::MatrixXd rough = level.dense();
-  // Some rows are precise, and of a patch all or none.
+  // Some rows are precise; of a patch, all or none.
   const PatchList patches = patchesOf(level);
   level.precise.resize(level.nodes());
   for (std::int64_t i = 0; i < level.nodes(); ++i)

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-// Solutions that are known, on refined meshes: second order for u, first for its gradient.
+// Known solutions on refined meshes: second order for u, first order for its gradient.
 
 namespace smg::testing
 {
@@ -21,7 +21,7 @@ struct Errors
 
 using Gradient = std::function<Eigen::Vector3d(const Point&)>;
 
-/** The errors of a solve against a function and its gradient in the cell's plane. */
+/** The errors of a solve relative to a function and its gradient in the plane of the cell. */
 Errors errorsOf(ElementProblem& problem, const ElementProblem::Field<double>& u, const Gradient& du)
 {
   const StreamMesh& mesh = problem.mesh();

@@ -11,10 +11,8 @@
 namespace smg::testing
 {
 
-/**
- * Checks that memory, in the reports that `run` gives of the meshes, grows by at most the factors
- * `nodes` and `bytes` from each mesh to the next.
- */
+/** Checks that memory, in the reports of `run` for the meshes, grows by at most the factors `nodes`
+ * and `bytes` from each mesh to the next. */
 template <class Run>
 void expectGrowth(Run run, const std::vector<StreamMesh>& meshes, double nodes, double bytes)
 {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-// Memory grows with the width of the stream, not with the mesh: like the square root of the
-// vertices of a surface, like the power 2/3 of those of a solid.
+// Memory grows with the width of the stream, not with the mesh: like the square root of the number
+// of vertices for surfaces, and like its 2/3 power for solids.
 
 namespace smg::testing
 {
@@ -31,21 +31,21 @@ TEST(MemoryLaw, OfASurfaceIsTheSquareRoot)
 
 TEST(MemoryLaw, OfASolidIsThePowerTwoThirds)
 {
-  // Plane after plane. Coarse rows become longer with the number of levels, hence more bytes a
-  // node.
+  // Ordered plane by plane. Coarse rows become longer with the number of levels, hence more bytes
+  // per node.
   const auto planes = [](int n) { return toStream(tetBox(n, n, n), TestOrder::Keep); };
   expectGrowth(twoPasses, { planes(32), planes(64) }, 4.4, 6.5);
 }
 
 TEST(MemoryLaw, OfASolidInBreadthFirstOrderIsSublinear)
 {
-  // Its fronts are wide: in the smaller box most of the mesh is in memory at once.
+  // Its fronts are wide: most of the smaller box is in memory at once.
   expectGrowth(twoPasses, { toStream(tetBox(32, 32, 32)), toStream(tetBox(64, 64, 64)) }, 5.5, 6.5);
 }
 
 TEST(MemoryLaw, OfAStripIsItsWidth)
 {
-  // Whatever the length; but every level more keeps some blocks.
+  // Independent of the length, except that every additional level keeps some blocks.
   expectGrowth(twoPasses, { toStream(grid(2000, 40)), toStream(grid(8000, 40)) }, 1.2, 1.25);
 }
 

@@ -13,10 +13,8 @@
 namespace smg::testing
 {
 
-/**
- * Checks that `run`, with options of ever larger memory limits up to `last`, fails until the limit
- * is enough and then stays within it.
- */
+/** Checks that `run`, with increasing memory limits up to `last`, fails until the limit is
+ * sufficient and then stays within it. */
 template <class Options>
 void expectLimitsKept(Options options, std::int64_t last, const auto& run)
 {
@@ -38,10 +36,8 @@ void expectLimitsKept(Options options, std::int64_t last, const auto& run)
   EXPECT_LE(done, 8);
 }
 
-/**
- * Checks that `run`, which gets a source of the mesh and the options, says at once that their
- * memory limit is below the need.
- */
+/** Checks that `run`, which receives a source of the mesh and the options, immediately reports that
+ * the memory limit is too low. */
 template <class Options>
 void expectLimitRefused(const StreamMesh& mesh, const Options& options, const auto& run)
 {

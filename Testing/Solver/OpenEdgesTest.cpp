@@ -106,7 +106,7 @@ TEST(OpenEdges, KeepMemoryForOpenVerticesOnly)
   EXPECT_LT(pool.peak(), 200000);
 }
 
-/** The time for a vertex is in proportion to its neighbours, not to their square. */
+/** The time per vertex is linear in its number of neighbours, not quadratic. */
 TEST(OpenEdges, AVertexMayHaveVeryManyNeighbours)
 {
   Pool pool(1 << 25);

@@ -9,14 +9,14 @@
 #include <limits>
 #include <numeric>
 
-// Weights of a problem's own, asked for in batches of cells.
+// Weights of a problem, queried in batches of cells.
 
 namespace smg::testing
 {
 namespace
 {
 
-/** A problem whose weights are what a function makes of the cotangent ones. */
+/** A problem whose weights are a function of the cotangent weights. */
 class Weighed : public ArrayProblem
 {
 public:
@@ -35,7 +35,7 @@ private:
   Weigh Function;
 };
 
-/** Surfaces and solids, with obtuse cells whose weights are below the floor. */
+/** Surfaces and solids with obtuse cells whose weights are below the floor. */
 std::vector<StreamMesh> meshes()
 {
   return { toStream(shuffled(torus(60, 40, 0.4))), toStream(shuffled(tetBox(9, 10, 11, 0.15))) };
@@ -51,7 +51,7 @@ Solved shortSolve(const StreamMesh& mesh, Problem& problem, std::int64_t blockCe
   return solveMesh(mesh, problem, options, blockCells);
 }
 
-/** The cotangent weights, from the points that a batch gives. */
+/** The cotangent weights, from the points of a batch. */
 void cotangent(CellBatch& batch)
 {
   for (std::size_t c = 0; c < batch.cells(); ++c)
@@ -153,7 +153,7 @@ TEST(OwnWeights, OfFiniteElementsScaleAlikeHoweverFlatTheCellsAre)
 {
   for (StreamMesh mesh : meshes())
   {
-    // One vertex almost in the plane of the others of a cell.
+    // One vertex of a cell is almost in the plane of the others.
     const std::int64_t* cell = &mesh.corners[cornersOf(mesh.cellType) * (mesh.cells() / 2)];
     for (int d = 0; d < 3; ++d)
     {
@@ -356,7 +356,7 @@ TEST(OwnWeights, ThatAreNotValidAreAnError)
       Weighed own(heldEnds(mesh, 1, Weights::Clamped), weigh);
       return messageOf([&] { shortSolve(mesh, own, 300); });
     };
-    // Something is wrong with cell 700 of the stream alone.
+    // Only cell 700 of the stream is invalid.
     const auto errorOfCell = [&](const std::function<void(CellBatch&, std::size_t)>& spoil)
     {
       return errorOf(

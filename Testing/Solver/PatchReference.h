@@ -10,10 +10,10 @@
 namespace smg::testing
 {
 
-/** Of each node the nodes of its patch, ascending, itself at least. */
+/** The nodes of the patch of each node, ascending, including itself. */
 using PatchList = std::vector<std::vector<std::int64_t>>;
 
-/** The patches of a level, by their rule alone. */
+/** The patches of a level, directly from their definition. */
 inline PatchList patchesOf(const TestLevel& level)
 {
   const std::int64_t nodes = level.nodes();
@@ -63,7 +63,7 @@ inline Eigen::MatrixXd partOf(const Eigen::MatrixXd& a, const std::vector<std::i
   return a(nodes, nodes);
 }
 
-/** Whether a pivot of Cholesky's method is below `least` times its diagonal entry. */
+/** Whether a pivot of the Cholesky factorisation is below `least` times its diagonal entry. */
 inline bool nearlySingular(const Eigen::MatrixXd& a, double least)
 {
   const Eigen::LLT<Eigen::MatrixXd> factor(a);
@@ -75,7 +75,7 @@ inline bool nearlySingular(const Eigen::MatrixXd& a, double least)
   return (root * root < least * a.diagonal().array()).any();
 }
 
-/** Levels with many patches: flat tetrahedra, obtuse triangles, rows of vertices that lie close. */
+/** Levels with many patches: flat tetrahedra, obtuse triangles, rows of close vertices. */
 inline std::vector<TestLevel> levelsWithPatches()
 {
   IndexedTestMesh close = grid(30, 41, 0.3);

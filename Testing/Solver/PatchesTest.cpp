@@ -31,7 +31,7 @@ Eigen::MatrixXd denseOf(const PatchMatrix& matrix)
     { return matrix.at(static_cast<int>(a), static_cast<int>(b)); });
 }
 
-/** A path of nodes with these weights between one and the next, and alpha on every node. */
+/** A path of nodes with these weights between consecutive nodes, and alpha on every node. */
 TestLevel path(const std::vector<float>& weights, double alpha)
 {
   TestLevel level;
@@ -166,7 +166,7 @@ TEST(PatchMatrix, InvertsAsEigenDoes)
   }
 }
 
-/** A component of its own: a triangle that is nearly a needle. */
+/** A separate component: a triangle that is nearly a needle. */
 TEST(PatchMatrix, TheInverseOfASingularMatrixIsAGeneralisedOne)
 {
   const double weights[3] = { 1e4, -0.3, 0.7 }; // of the edges 01, 02, 12

@@ -54,7 +54,7 @@ std::vector<double> pointsNear(const StreamMesh& mesh, int count, double away)
   return points;
 }
 
-/** The nearest vertex, found by looking at all of them. */
+/** The nearest vertex by brute force. */
 std::int64_t nearestOf(const StreamMesh& mesh, std::span<const double, 3> point)
 {
   std::int64_t nearest = 0;
@@ -71,7 +71,7 @@ std::int64_t nearestOf(const StreamMesh& mesh, std::span<const double, 3> point)
   return nearest;
 }
 
-/** What influences each vertex, found by looking at all points. */
+/** The point that influences each vertex, by brute force. */
 std::vector<std::int64_t> influencesOf(
   const StreamMesh& mesh, const std::vector<std::int64_t>& nearest, const Influence& influence)
 {
@@ -143,8 +143,8 @@ TEST(PointProjection, FindsNearestVerticesAndTheirSurroundings)
 
 TEST(PointProjection, FindsRingsThroughWindowsThatForget)
 {
-  // Larger than what the points are compared with at once, so that what is old is forgotten; all of
-  // it would take 20 MiB.
+  // Larger than a batch of compared vertices, so that old cells are discarded; the whole mesh would
+  // take 20 MiB.
   const StreamMesh mesh = toStream(torus(1000, 150, 0.2));
   const std::vector<double> points = pointsNear(mesh, 40, 0.1);
   const PointProjection whole = projected(mesh, points, { 0.0, 3 }, mesh.cells());
@@ -157,7 +157,7 @@ TEST(PointProjection, FindsRingsThroughWindowsThatForget)
     ASSERT_EQ(parts.influencing(v, position), by);
     influenced += by >= 0;
   }
-  // 1 + 6 + 12 + 18 in a mesh of six triangles a vertex, where rings do not overlap.
+  // 1 + 6 + 12 + 18 in a mesh of six triangles per vertex without overlapping rings.
   EXPECT_LE(influenced, 40 * 37);
   EXPECT_GE(influenced, 40 * 30);
   for (std::size_t p = 0; p < 40; ++p)
@@ -175,7 +175,7 @@ TEST(PointProjection, TakesTheFirstOfEquallyNearOnes)
 {
   const IndexedTestMesh square = grid(2, 2);
   const StreamMesh mesh = toStream(disjointUnion(square, square));
-  // Each place has two vertices, of which the second one lies in the other square.
+  // Each position has two vertices, the second one in the other square.
   for (std::int64_t v = 0; v < mesh.vertices(); ++v)
   {
     const auto place = pointOf(mesh.positions, v);
@@ -183,7 +183,7 @@ TEST(PointProjection, TakesTheFirstOfEquallyNearOnes)
     const PointProjection projection = projected(mesh, points, {}, 1);
     EXPECT_EQ(projection.projected()[0].vertex, v % 4);
     EXPECT_EQ(projection.projected()[0].distance, 0.0);
-    // What lies at the same place is held alike.
+    // Vertices at the same position are treated alike.
     EXPECT_EQ(projection.influencing((v + 4) % 8, place), 0);
   }
   // Of two points at the same vertex, the first one counts.
@@ -207,7 +207,7 @@ TEST(PointProjection, TellsWhichPointsAreFar)
 
 TEST(PointProjection, KeepsANearestPointForEachVertexOnly)
 {
-  // Each vertex lies in the rings of some twenty points.
+  // Each vertex is in the rings of about twenty points.
   const StreamMesh mesh = toStream(torus(300, 150, 0.2));
   const std::vector<double> points = pointsNear(mesh, 300, 0.01);
   const Influence influence{ 0.0, 30 };
@@ -217,7 +217,7 @@ TEST(PointProjection, KeepsANearestPointForEachVertexOnly)
     addAll(projection, mesh, 1000);
     projection.finish();
   };
-  // What 45,000 vertices and 90,000 triangles take.
+  // The memory of 45,000 vertices and 90,000 triangles.
   withLimit(std::int64_t(8) << 20);
   const auto tooLittle = [&] { withLimit(std::int64_t(2) << 20); };
   expectError(tooLittle, "30 rings around the 300 points");

@@ -74,7 +74,7 @@ TEST(PointTree, ComparesWithFewPoints)
   const double few = meanCompared(1000);
   EXPECT_GT(few, 1.0);
   EXPECT_LT(few, 100.0);
-  // A hundred times as many points cost some more levels of the tree, not a hundred times as much.
+  // A hundred times as many points take a few more levels of the tree, not a hundred times as long.
   EXPECT_LT(meanCompared(100000), 2.0 * few);
 }
 

@@ -56,7 +56,7 @@ TEST(Pool, RefusesSizesWhoseSumIsNoNumber)
     EXPECT_NE(messageOf([&] { pool.acquire(bytes); }), "");
     EXPECT_EQ(pool.used(), 600);
   }
-  // Sizes that no pool can count, as of a buffer whose size overflows.
+  // Sizes that no pool can count, such as that of a buffer whose size overflows.
   for (const std::size_t bytes : { SIZE_MAX, SIZE_MAX - 63, SIZE_MAX / 2 + 1 })
   {
     EXPECT_NE(messageOf([&] { const Buffer buffer(pool, bytes); }), "");

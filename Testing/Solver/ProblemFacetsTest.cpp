@@ -20,7 +20,7 @@ namespace
 
 using Facet = std::vector<std::int64_t>;
 
-/** A problem that says something of every facet: one number for each of its corners. */
+/** A problem with data on every facet: one number per corner. */
 class Everywhere : public Problem
 {
 public:
@@ -59,7 +59,7 @@ public:
   }
 };
 
-/** The facets that are found, with the blocks' vertices final as soon as may be. */
+/** The boundary facets, with the vertices of the blocks final as early as possible. */
 std::vector<Facet> boundaryOf(
   const StreamMesh& mesh, std::int64_t blockCells, Problem& problem, Pool& pool)
 {
@@ -113,7 +113,7 @@ std::vector<Facet> boundaryOf(const StreamMesh& mesh, std::int64_t blockCells = 
   return boundaryOf(mesh, blockCells, problem, pool);
 }
 
-/** The facets that one cell has, by a map of all of them. */
+/** The facets of exactly one cell, by a map of all facets. */
 std::set<Facet> expectedOf(const StreamMesh& mesh)
 {
   const int size = cornersOf(mesh.cellType);
@@ -185,7 +185,7 @@ TEST(ProblemFacets, NeedMemoryForTheOpenOnesAlone)
     Everywhere problem;
     Pool pool(std::int64_t(1) << 30);
     const auto found = boundaryOf(toStream(tetBox(length, 5, 5)), 50, problem, pool);
-    // Two triangles a square: two ends of 16 squares and four sides.
+    // Two triangles per square: two ends of 16 squares and four sides.
     EXPECT_EQ(found.size(), 2u * (2u * 16u + 4u * 4u * static_cast<std::size_t>(length - 1)));
     EXPECT_EQ(pool.used(), 0);
     return pool.peak();
@@ -283,7 +283,7 @@ TEST(ProblemFacets, ValuesThatAreNotValidNameTheCellOnTheBoundaryAndDoNotMatterI
   }
   EXPECT_TRUE(isNamed(errorOf(outer, [](FacetBatch& b, std::size_t f) { b.flux[f] = 1; })));
   EXPECT_TRUE(isNamed(errorOf(outer, [](FacetBatch& b, std::size_t f) { b.robin[f] = 5; })));
-  // Where no condition holds, values are no one's business.
+  // Values without a condition are not used.
   EXPECT_EQ(errorOf(outer,
               [](FacetBatch& b, std::size_t f)
               {

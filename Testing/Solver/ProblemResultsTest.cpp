@@ -19,7 +19,7 @@ double wave(const Point& p, int k)
   return std::sin(0.7 * p[0] + k) + 0.3 * std::cos(p[1] - 0.5 * p[2]);
 }
 
-/** A problem that has every kind of datum, with two Dirichlet conditions that touch. */
+/** A problem with every type of datum, and two adjacent Dirichlet conditions. */
 ElementProblem wholeFamily(const StreamMesh& mesh)
 {
   ElementProblem problem(mesh);
@@ -39,7 +39,7 @@ ElementProblem wholeFamily(const StreamMesh& mesh)
   return problem;
 }
 
-/** What the results of a problem are, and of which solution. */
+/** The results of a problem, and their solution. */
 struct Told
 {
   Eigen::MatrixXd values;
@@ -70,7 +70,7 @@ std::vector<StreamMesh> meshesOfResults()
   return { patch(), block() };
 }
 
-/** A cell's gradient in the results, of a column. */
+/** The gradient of a cell in the results, for a column. */
 Eigen::Vector3d vectorOf(const std::vector<double>& numbers, std::int64_t cell, int columns, int k)
 {
   return Eigen::Vector3d::Map(&numbers[3 * (cell * columns + k)]);
@@ -219,7 +219,7 @@ TEST(ProblemResults, FluxesBalanceToTheTolerance)
   }
 }
 
-/** What a loose solve leaves is no flow that could miss its balance. */
+/** The residual of a loose solve is not a flow that violates the balance. */
 TEST(ProblemResults, BalanceWhereNothingFlows)
 {
   for (const StreamMesh& mesh : meshesOfResults())
@@ -316,7 +316,7 @@ TEST(ProblemResults, AConditionWithoutFacetsHasTheMeanOfItsVertices)
 
 TEST(ProblemResults, SayByHowMuchFlatCellsMayHaveChangedTheSolution)
 {
-  // A vertex that almost lies on the edge opposite to it.
+  // A vertex almost on the opposite edge.
   StreamMesh mesh = toStream(grid(20, 20));
   const std::int64_t* cell = &mesh.corners[3 * (mesh.cells() / 2)];
   for (int d = 0; d < 3; ++d)

@@ -27,7 +27,7 @@ Eigen::MatrixXd sample(const StreamMesh& mesh, const Function& f)
   return values;
 }
 
-/** -Laplace u = f with u prescribed within `margin` of the border of the mesh's box. */
+/** -Laplace u = f with u prescribed within `margin` of the border of the bounds. */
 ArrayProblem manufactured(
   const StreamMesh& mesh, const Function& u, const Function& f, double margin)
 {
@@ -86,7 +86,7 @@ TEST(Problem, LinearFunctionsOnAFlatMeshAreExact)
 
 TEST(Problem, LinearFunctionsOnARegularMeshAreExactToNineDigits)
 {
-  // All weights of an equilateral mesh are alike, and rounded alike.
+  // All weights of an equilateral mesh are equal, also after rounding.
   const StreamMesh mesh = toStream(grid(60, 50));
   const Function u = [](double x, double y, double) { return 3 - 2 * x + 0.5 * y; };
   const Eigen::MatrixXd exact = sample(mesh, u);

@@ -19,7 +19,7 @@ inline std::span<const double, 3> pointOf(const std::vector<double>& numbers, st
   return std::span(numbers).subspan(3 * static_cast<std::size_t>(i)).first<3>();
 }
 
-/** The vertices within `rings` edges, found by walking through all cells once for each ring. */
+/** The vertices within `rings` edges, by one loop over all cells per ring. */
 inline Indices ringsOf(const StreamMesh& mesh, std::int64_t vertex, int rings)
 {
   Indices found{ vertex };

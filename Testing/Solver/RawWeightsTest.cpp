@@ -13,8 +13,8 @@ namespace smg::testing
 namespace
 {
 
-/** A flat grid of triangles most of which are obtuse; its columns are the positions, prescribed at
- * the border and zero elsewhere. */
+/** A flat grid of mostly obtuse triangles; the columns are the positions, prescribed at the border,
+ * with initial values of zero. */
 std::pair<StreamMesh, ArrayProblem> obtuseGrid()
 {
   IndexedTestMesh indexed = grid(40, 40, 0.3);
@@ -60,8 +60,8 @@ double errorOfLinear(const StreamMesh& mesh, ArrayProblem& problem)
   return (solved.values - positionsOf(mesh)).cwiseAbs().maxCoeff();
 }
 
-/** The mesh and 60 strips of one to five needles, each a component, up to ten thousand times as
- * long as high. */
+/** The mesh and 60 strips of one to five needles, each a component, with aspect ratios up to ten
+ * thousand. */
 IndexedTestMesh withCrumbs(IndexedTestMesh mesh)
 {
   for (int crumb = 0; crumb < 60; ++crumb)
@@ -119,7 +119,7 @@ TEST(RawWeights, OfSliversConvergeHoweverFlatTheyAre)
     const Solved solved = solveMesh(mesh, problem, options);
     EXPECT_TRUE(solved.report.converged);
     EXPECT_LE(solved.report.passes, 17) << height;
-    // Weights are kept in single precision, and nearly cancel here.
+    // Weights have single precision, and nearly cancel here.
     const Eigen::MatrixXd direct = solveDirectly(mesh, problem);
     EXPECT_LT((solved.values - direct).cwiseAbs().maxCoeff(), 1e-5 * direct.cwiseAbs().maxCoeff());
 
@@ -134,7 +134,7 @@ TEST(RawWeights, OfSliversConvergeHoweverFlatTheyAre)
   }
 }
 
-/** With one sweep a patch may end in a block that comes after its first nodes were relaxed. */
+/** With one sweep, a patch may end in a block that is loaded after its first nodes are relaxed. */
 TEST(RawWeights, OfSliversStreamWithOneSweep)
 {
   const StreamMesh mesh = toStream(sliverChains(60, 48, 2e-3));
@@ -152,8 +152,8 @@ TEST(RawWeights, OfSliversStreamWithOneSweep)
   }
 }
 
-/** Scans have crumbs: components of a few needles without anything prescribed. They start from
- * values of their own, and only the mean of those is kept. */
+/** Scans have debris: unconstrained components of a few needles. Only the mean of their initial
+ * values is kept. */
 TEST(RawWeights, OfFreeComponentsOfNeedlesConvergeAsFast)
 {
   const IndexedTestMesh indexed = torus(60, 20, 0.4);
@@ -173,8 +173,8 @@ TEST(RawWeights, OfFreeComponentsOfNeedlesConvergeAsFast)
   EXPECT_LE(passesOf(withCrumbs(indexed)), passes + 7);
 }
 
-/** What screening brings to the diagonal of a needle is less than the rounding of the diagonal, and
- * yet alone determines the level of its component: u = f / s. */
+/** The screening on the diagonal of a needle is smaller than the rounding of the diagonal, but
+ * alone determines the mean of its component: u = f / s. */
 TEST(RawWeights, LittleScreeningDeterminesTheLevelOfNeedles)
 {
   const StreamMesh mesh = toStream(withCrumbs(torus(60, 20, 0.4)));
@@ -247,7 +247,7 @@ TEST(RawWeights, ARowThatRoundingHasLeftWithoutDiagonalIsRaised)
   const RowEntry sound[] = { { -1, 2.0F }, { 2, -1.0F } };
   EXPECT_EQ(rowShortfall(sound, 0.0, {}), 0.0);
   EXPECT_GT(rowShortfall({}, 0.0, {}), 0.0);
-  // Weights in double precision say what their floats have lost.
+  // Weights in double precision contain what their floats have lost.
   const double precise[] = { 1e5, -1e5, 0.01 };
   EXPECT_EQ(rowShortfall(cancelling, 0.0, precise), 0.0);
 }

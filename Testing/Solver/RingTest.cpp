@@ -35,7 +35,7 @@ TEST(Ring, ItemsKeepTheirValuesWhileTheWindowMovesAndGrows)
       {
         ASSERT_EQ(ring.at(i)[lanes - 1], value(i, lanes - 1));
       }
-      // The same from any item, over the end of the memory.
+      // The same from any item, beyond the end of the memory.
       ASSERT_EQ(ring.at(first)[lanes * (end - 1 - first)], value(end - 1, 0));
       first += random.below(end - first + 1);
       ring.release(first);
@@ -131,7 +131,7 @@ TEST(RaggedRing, GrowsWithoutASecondCopy)
 {
   Pool pool(1 << 30);
   RaggedRing<std::int64_t> rows(pool);
-  std::int64_t small = 0; // used before the memory is so large that the system moves it
+  std::int64_t small = 0; // used before the memory is large enough for mremap()
   std::int64_t first = 0;
   for (std::int64_t window = 1000; window < 40000; window += 500)
   {

@@ -18,7 +18,7 @@ namespace
 
 using Centers = std::vector<std::int64_t>;
 
-/** Goes through the mesh with a window that forgets after every block what it may. */
+/** Reads the mesh with a window that discards as much as possible after every block. */
 RingWindow windowOf(
   const StreamMesh& mesh, int rings, const Centers& centers, std::int64_t blockCells)
 {
@@ -57,7 +57,7 @@ TEST(RingWindow, ForgetsWhatNoRingCanNeed)
   {
     window.add(block);
     window.forget({});
-    // Both fronts of the breadth-first search are alive, with two rings behind each.
+    // Both fronts of the breadth-first search are active, with two rings behind each.
     EXPECT_LT(window.cells(), 3000);
   }
   EXPECT_EQ(source.info().cells, 240000);
@@ -95,7 +95,7 @@ TEST(RingWindow, KeepsTheRingsOfItsCenters)
 
 TEST(RingWindow, CentersMayChange)
 {
-  // As when a vertex comes that is nearer to a point than the ones before.
+  // As for a vertex that is nearer to a point than the previous ones.
   const StreamMesh mesh = toStream(grid(40, 40));
   MemorySource source(mesh, 20);
   RingWindow window(mesh.cellType, 3);

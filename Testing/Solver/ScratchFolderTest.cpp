@@ -61,7 +61,7 @@ TEST(ScratchFolder, WhatAKilledProgramLeftIsRemovedByTheNextAndNothingElse)
   const TemporaryFolder folder;
   const ScratchFolder living(folder.path());
   std::ofstream(living.path() / "data") << "in use";
-  // Somebody's own folders, whatever their names.
+  // Other folders, with any names.
   for (const char* name : { "smg-scratch-abcdef", "smg-scratch-", "smg-mesh01" })
   {
     std::filesystem::create_directory(folder / name);

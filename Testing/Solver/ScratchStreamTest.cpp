@@ -14,7 +14,7 @@ namespace smg::testing
 namespace
 {
 
-/** Block `index` of generation `generation`: 0 to 2000 numbers that tell both. */
+/** Block `index` of generation `generation`: 0 to 2000 numbers that identify both. */
 std::vector<std::int32_t> blockOf(int generation, int index)
 {
   return std::vector<std::int32_t>((index * 37 + generation) % 2000, 1000 * generation + index);
@@ -70,7 +70,7 @@ TEST(ScratchStream, APassReadsWhatTheLastRewritingPassWrote)
       for (int i = 0; i < Blocks; ++i)
       {
         EXPECT_EQ(readNext(stream), blockOf(generation, i));
-        // Written a little behind, as windows do.
+        // Written with a delay, like windows.
         if (rewrite && i >= 3)
         {
           append(stream, generation + 1, i - 3);

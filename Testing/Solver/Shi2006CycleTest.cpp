@@ -4,14 +4,14 @@
 
 #include <gtest/gtest.h>
 
-// What a V-cycle of the paper's equations arrives at.
+// The result of a V-cycle of the equations of the paper.
 
 namespace smg::testing
 {
 namespace
 {
 
-/** The values after so many V-cycles, on a hierarchy of several levels. */
+/** The values after a number of V-cycles, on a hierarchy of several levels. */
 Eigen::MatrixXd valuesAfter(
   int cycles, const StreamMesh& mesh, ArrayProblem problem, int sweeps, double start = 0.0)
 {
@@ -100,7 +100,7 @@ TEST(Shi2006Cycle, TheResultIsNotTheSolution)
 
 TEST(Shi2006Cycle, PartsThatNoConstraintReachesStayFinite)
 {
-  // A triangle that is free, and has a source, beside two that hang on a prescribed vertex.
+  // A free triangle with a source, beside two that share a prescribed vertex.
   const StreamMesh mesh{ CellType::Triangle,
     { 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 5, 0, 0, 6, 0, 0, 5, 1, 0 },
     { 0, 1, 2, 0, 3, 4, 5, 6, 7 }, {}, {}, {} };

@@ -9,7 +9,7 @@
 
 #include <functional>
 
-// The operators one by one against dense algebra.
+// Compares each operator with dense algebra.
 
 namespace smg::testing
 {
@@ -19,7 +19,7 @@ namespace
 using shi2006::Edge;
 using shi2006::Level;
 
-/** Two steps of coarsening of a problem with all that a problem can have. */
+/** Two steps of coarsening of a problem with all data. */
 struct Hierarchy
 {
   explicit Hierarchy(const StreamMesh& mesh, ArrayProblem problem)
@@ -30,7 +30,7 @@ struct Hierarchy
   }
   Level& finest() { return this->assembled.level; }
 
-  /** Restricts to level 2, with sweeps on the way: no value is zero. */
+  /** Restricts to level 2, with intermediate sweeps, so that no value is zero. */
   void restrictAll()
   {
     shi2006::relax(this->finest());
@@ -44,7 +44,7 @@ struct Hierarchy
   Level next, last;
 };
 
-/** Scattered constraints, a source, screening, targets that are no differences. */
+/** Scattered constraints, a source, screening, non-integrable targets. */
 ArrayProblem richProblem(const StreamMesh& mesh, Weights weights)
 {
   ArrayProblem problem;
@@ -79,7 +79,7 @@ void forHierarchies(const std::function<void(Hierarchy&)>& check)
   }
 }
 
-/** As forHierarchies, for both steps: check(fine, coarse). */
+/** Like forHierarchies, for both steps: check(fine, coarse). */
 void forSteps(bool restricted, const std::function<void(Level&, Level&)>& check)
 {
   forHierarchies(
@@ -158,7 +158,7 @@ TEST(Shi2006Operators, TheCoarseMatrixIsTheSchurComplementOfTheTruncatedOne)
         a(split.lifted, split.lifted) - between * retained.inverse() * between.transpose();
       const Eigen::MatrixXd s = denseMatrix(coarse);
       EXPECT_LT(largest(s - schur), 1e-14 * largest(schur));
-      // The rest of the paper's interpolation is what its coarse operator lacks of P^T A P.
+      // The coarse operator of the paper differs from P^T A P by the omitted edges.
       const Eigen::MatrixXd p = denseInterpolation(fine, coarse);
       const Eigen::MatrixXd full = denseMatrix(fine);
       const Eigen::MatrixXd galerkin = p.transpose() * full * p;
@@ -363,7 +363,7 @@ TEST(Shi2006Operators, TheFinestLevelIsTheProblem)
     EXPECT_LT(largest(a - Eigen::MatrixXd(direct.matrix)), 1e-13 * largest(a));
     const Eigen::MatrixXd b = rowsOf(level.rightSide)(free, AllIndices);
     EXPECT_LT(largest(b - direct.rightSide), 1e-13 * largest(b));
-    // Each edge has the target that the problem says.
+    // Each edge has the target of the problem.
     forEdges(level,
       [&](std::int64_t i, const Edge& edge, const double* target)
       {
@@ -374,7 +374,7 @@ TEST(Shi2006Operators, TheFinestLevelIsTheProblem)
           ASSERT_EQ(target[k], expected[k]);
         }
       });
-    // xi0: what the constrained neighbours and the source bring.
+    // xi0: contributions of the constrained neighbours and the source.
     EdgeWeights edges(source.info(), Weights::Uniform);
     source.rewind(1000);
     MeshBlock block;

@@ -10,7 +10,7 @@
 
 #include <numeric>
 
-// A solve by the operator set shi2006: what its report says of it, and what it refuses.
+// A solve with the operator set shi2006: its report and its errors.
 
 namespace smg::testing
 {
@@ -100,7 +100,7 @@ TEST(Shi2006Solve, InitialValuesThatAreTheSolutionAreLeftAlone)
   EXPECT_TRUE(solved.report.converged);
   EXPECT_EQ(solved.report.cycles, 0);
   EXPECT_TRUE(sameBits(solved.values, solution));
-  // Nearly the solution: the V-cycle makes it worse, and that is what the report says.
+  // Nearly the solution: the V-cycle increases the residual, as the report states.
   problem.Value[7] += problem.Prescribed[7] ? 0.0 : 1e-9;
   problem.Value[300] += problem.Prescribed[300] ? 0.0 : 1e-9;
   const Report report = solveMesh(mesh, problem, literal()).report;

@@ -18,7 +18,7 @@ namespace smg::testing
 /** A value at a point of the mesh, `column` by column. */
 using PointFunction = double (*)(const double* p, int column);
 
-/** Some function that is far from linear. */
+/** A strongly nonlinear function. */
 inline double wavy(const double* p, int column)
 {
   return std::sin(2.0 * p[0] + column) + p[1] * p[2] + 0.3 * p[column % 3];
@@ -36,8 +36,8 @@ inline ArrayProblem::EdgeTarget differencesOf(PointFunction u, int columns)
   };
 }
 
-/** Edge targets that no field has as its differences, as a deformation has them: the edge itself,
- * scaled by the mean of a scale at its ends. */
+/** Non-integrable edge targets, as in a deformation: the edge, scaled by the mean of a scale at its
+ * ends. */
 inline ArrayProblem::EdgeTarget scaledEdges(int columns)
 {
   return [columns](const double* p, const double* q, double* target)
@@ -49,7 +49,7 @@ inline ArrayProblem::EdgeTarget scaledEdges(int columns)
   };
 }
 
-/** heldEnds() with the values of `u`, which the targets then fit or not. */
+/** heldEnds() with the values of `u`, which may or may not match the targets. */
 inline ArrayProblem heldEndsOf(
   const StreamMesh& mesh, PointFunction u, int columns, Weights weights)
 {
@@ -83,7 +83,7 @@ struct AssembledLevel
     shi2006::sumRightSide(this->level);
   }
 
-  /** Lifts `fine` and makes the next level of it. */
+  /** Lifts `fine` and builds the next level. */
   shi2006::Level coarsen(shi2006::Level& fine)
   {
     shi2006::lift(fine);
@@ -115,7 +115,7 @@ inline bool bothRetained(const shi2006::Level& level, std::int64_t i, std::int64
   return !level.node[i].lifted() && !level.node[j].lifted();
 }
 
-/** The level's matrix; `truncated`: without the edges between retained nodes. */
+/** The matrix of the level; `truncated`: without the edges between retained nodes. */
 inline Eigen::MatrixXd denseMatrix(const shi2006::Level& level, bool truncated = false)
 {
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(level.nodes(), level.nodes());
@@ -142,7 +142,7 @@ inline Eigen::MatrixXd rowsOf(const Ring<double>& ring)
     ring.at(0), ring.end(), ring.lanes());
 }
 
-/** What is left of equation (2): xi_i + sum_j w_ij g_ij; `truncated` as above. */
+/** The residual of equation (2): xi_i + sum_j w_ij g_ij; `truncated` as above. */
 inline Eigen::MatrixXd denseResidual(const shi2006::Level& level, bool truncated)
 {
   const Eigen::MatrixXd v = rowsOf(level.value);

@@ -9,14 +9,14 @@
 
 #include <functional>
 
-// What is wrong ends in one sentence, and no scratch file is left.
+// Every failure is an Error with one sentence, and leaves no scratch file.
 
 namespace smg::testing
 {
 namespace
 {
 
-/** The sentence of the Error that solving ends with. */
+/** The message of the Error of a solve. */
 std::string errorOfSolve(MeshSource& source, Problem& problem, const SolveOptions& options = {})
 {
   return scratchErrorOf(
@@ -69,7 +69,7 @@ TEST(SolveErrors, NumbersThatAreNotFinite)
 
 TEST(SolveErrors, ConditionsThatAreNone)
 {
-  /** All vertices have the Dirichlet condition 3. */
+  /** All vertices have the Dirichlet condition 3, which does not exist. */
   class Strange : public ArrayProblem
   {
   public:
@@ -163,7 +163,7 @@ TEST(SolveErrors, FinalVerticesThatBecomeFewer)
 
 TEST(SolveErrors, OfTheSourcePassThrough)
 {
-  /** A file that ends too early. */
+  /** A truncated file. */
   class Truncated : public MemorySource
   {
   public:

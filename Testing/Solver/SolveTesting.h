@@ -16,14 +16,14 @@
 namespace smg::testing
 {
 
-/** The same system, assembled in another way and solved directly. */
+/** Assembles the same system independently and solves it directly. */
 inline Eigen::MatrixXd solveDirectly(const StreamMesh& mesh, Problem& problem)
 {
   MemorySource source(mesh);
   return solveDirect(assembleDirect(source, problem));
 }
 
-/** Options for a solve to nearly the last digit. */
+/** Options for a solve to high accuracy. */
 inline SolveOptions accurate(double tolerance = 1e-10)
 {
   SolveOptions options;
@@ -31,7 +31,7 @@ inline SolveOptions accurate(double tolerance = 1e-10)
   return options;
 }
 
-/** Whether one of the report's notes contains `text`. */
+/** Whether a note of the report contains `text`. */
 inline bool hasNote(const Report& report, const std::string& text)
 {
   for (const std::string& note : report.notes)
@@ -76,14 +76,14 @@ inline ArrayProblem heldEnds(const StreamMesh& mesh, int columns, Weights weight
   return problem;
 }
 
-/** The positions of all vertices, a row each. */
+/** The positions of all vertices, one row per vertex. */
 inline Eigen::MatrixXd positionsOf(const StreamMesh& mesh)
 {
   return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>>(
     mesh.positions.data(), mesh.vertices(), 3);
 }
 
-/** Delivers blocks as they are, valid or not. */
+/** Delivers the given blocks, valid or not. */
 class BlockSource : public MeshSource
 {
 public:
@@ -108,7 +108,7 @@ public:
     block = this->Blocks[this->Next++];
     return true;
   }
-  /** How many blocks have been asked for. */
+  /** The number of requested blocks. */
   std::size_t delivered() const { return this->Next; }
 
 private:

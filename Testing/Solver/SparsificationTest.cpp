@@ -11,7 +11,7 @@ namespace smg::testing
 namespace
 {
 
-/** Sparsification by its rule, of dense rows, pair by pair in the order of the stream. */
+/** Sparsification of dense rows by its definition, pair by pair in stream order. */
 class DenseSparsification
 {
 public:
@@ -29,7 +29,7 @@ public:
         this->Before(c, c + entry.delta()) = entry.weight();
         terms += std::fabs(entry.weight());
       }
-      // Of a pair the weight in its upper row counts.
+      // The weight in the upper row of a pair counts.
       this->After.row(c).tail(this->Raw.nodes() - c) =
         this->Before.row(c).tail(this->Raw.nodes() - c);
       this->Kept.push_back(
@@ -41,7 +41,7 @@ public:
     }
   }
 
-  /** The weight of a pair, 0 if it has none. */
+  /** The weight of a pair, 0 if there is none. */
   float weight(std::int64_t c, std::int64_t k) const
   {
     return this->After(std::min(c, k), std::max(c, k));
@@ -86,7 +86,7 @@ private:
     }
   }
 
-  /** Whether the entry of row c and column m is large, for all that row c knows. */
+  /** Whether the entry of row c and column m is large, as seen from row c. */
   bool large(std::int64_t c, std::int64_t m) const
   {
     const float weight = this->Before(c, m);

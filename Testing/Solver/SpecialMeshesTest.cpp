@@ -11,7 +11,7 @@ namespace smg::testing
 namespace
 {
 
-/** Solves in both ways, which must agree to the last bit, and directly. */
+/** Solves out of core and in core, which must agree bit for bit, and directly. */
 Solved solveInAllWays(const StreamMesh& mesh, ArrayProblem problem, double tolerance = 1e-10)
 {
   SolveOptions options = accurate(tolerance);
@@ -123,7 +123,7 @@ TEST(SpecialMeshes, HeldVerticesKeepTheirValue)
   StreamMesh mesh = toStream(grid(20, 20));
   const std::int64_t before = mesh.vertices();
   mesh.positions.insert(mesh.positions.end(), { 50, 0, 0, 51, 0, 0, 52, 0, 0, 60, 0, 0 });
-  // A cell without area, and one that is flat because a corner is repeated.
+  // A cell without area, and one with a repeated corner.
   mesh.corners.insert(
     mesh.corners.end(), { before, before + 1, before + 2, before + 3, before + 3, 3 });
   for (const double screening : { 0.0, 1.0 })
@@ -196,7 +196,7 @@ TEST(SpecialMeshes, DuplicatesWithoutFlagAddTheirWeight)
 
 TEST(SpecialMeshes, ANonManifoldEdge)
 {
-  // Three sheets that share a line.
+  // Three sheets with a common line.
   IndexedTestMesh mesh = grid(20, 20);
   const std::int64_t vertices = mesh.vertices();
   for (std::int64_t j = 0; j < 20; ++j)
@@ -259,7 +259,7 @@ TEST(SpecialMeshes, AHubThatIsPrescribed)
 
 TEST(SpecialMeshes, ScaleAndPlaceDoNotMatter)
 {
-  // A power of two changes no bit of the cotangent weights of a surface.
+  // Scaling by a power of two does not change the cotangent weights of a surface at all.
   IndexedTestMesh mesh = torus(60, 30, 0.3);
   const StreamMesh plain = toStream(mesh);
   for (double& p : mesh.positions)

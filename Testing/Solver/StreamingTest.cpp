@@ -9,15 +9,15 @@
 #include <cstdint>
 #include <thread>
 
-// Streaming gives the bits of the in-core method, whatever the windows.
+// Streaming equals the in-core method bit for bit, for all windows.
 
 namespace smg::testing
 {
 namespace
 {
 
-/** Surfaces and solids, in a good order and in none at all, of all weights: many vertices of the
- * flat tetrahedra and of the chains of slivers are relaxed together. */
+/** Surfaces and solids in a good and in a random order, with all weights; many vertices of the flat
+ * tetrahedra and of the chains of slivers form patches. */
 std::vector<std::pair<StreamMesh, ArrayProblem>> tasks()
 {
   std::vector<std::pair<StreamMesh, ArrayProblem>> list;
@@ -218,7 +218,7 @@ TEST(Streaming, TellsItsTrafficByKind)
     SolveOptions options = shortSolve();
     options.maxCycles = cycles;
     options.coreNodes = 500;
-    options.acceleration = AccelerationKind::None; // it has files of its own
+    options.acceleration = AccelerationKind::None; // it has separate files
     return solveMesh(mesh, problem, options).report;
   };
   const Report reports[] = { after(1), after(2), after(3) };
@@ -251,7 +251,7 @@ TEST(Streaming, TellsItsTrafficByKind)
     }
     if (first.kind == "right_side")
     {
-      // Blocks of zeros, which lie away from the constraints, take no room.
+      // Blocks of zeros, away from the constraints, take no space.
       EXPECT_GT(pass, 0);
       EXPECT_LT(pass, mesh.vertices() * problem.Columns * std::int64_t(sizeof(double)));
     }
@@ -265,7 +265,7 @@ TEST(Streaming, TellsItsTrafficByKind)
 
 TEST(Streaming, DoesNotDependOnTheCountsThatTheSourceClaims)
 {
-  /** A mesh whose source says that it has another number of vertices. */
+  /** A mesh whose source declares a wrong number of vertices. */
   class Claiming : public MemorySource
   {
   public:

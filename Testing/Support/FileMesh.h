@@ -14,7 +14,7 @@ namespace smg::testing
 struct FileMesh
 {
   std::vector<double> points;                   ///< x, y, z per point
-  std::vector<std::vector<std::int64_t>> cells; ///< corners of each cell
+  std::vector<std::vector<std::int64_t>> cells; ///< corners of each cell cell
   /** Values of the attributes, all components; in PLY, by the name of the property. */
   std::map<std::string, std::vector<double>> pointData, cellData;
 };

@@ -12,7 +12,7 @@ TENSOR = [2.0, 1.0, 0.5, 0.3, 0.2, 0.1]  # xx, yy, zz, xy, yz, xz
 
 
 class Case(NamedTuple):
-    """A problem, and what its error is compared with if not with the range of its solution."""
+    """A problem, and the scale of its error if that is not the range of its solution."""
     name: str
     problem: dict
     scale: float | None = None

@@ -3,8 +3,8 @@
 """convergence.py SMG [--out FOLDER] : orders of convergence of smg towards known solutions.
 
 Each problem of manufactured.py is solved on four meshes, each of half the size of the one before. Fails
-unless the error of u in L2 falls with an order of at least 1.8 and that of its gradient with 0.9, from
-each mesh to the next. FOLDER is given convergence.md and convergence.svg.
+unless the error of u in L2 decreases with an order of at least 1.8 and that of its gradient with 0.9,
+from each mesh to the next. Writes convergence.md and convergence.svg to FOLDER.
 """
 import argparse
 import os
@@ -36,7 +36,7 @@ def quadrature(corners):
     t, w = (t + 1) / 2, w / 2
     points, weights = np.ones((1, 1)), np.ones(1)
     for dimension in range(1, corners):
-        # A simplex is a cone over one of a dimension less: s = 0 is its tip.
+        # A simplex is a cone over one of a lower dimension: s = 0 is its apex.
         points = np.concatenate([np.hstack([s * points, np.full((len(points), 1), 1 - s)])
                                  for s in t])
         weights = np.concatenate([dimension * s**(dimension - 1) * v * weights
@@ -45,7 +45,7 @@ def quadrature(corners):
 
 
 def errors(study, elements, u, gradient):
-    """The L2 norms of what u (vertices,) and its gradient (cells, 3) miss."""
+    """The L2 norms of the errors of u (vertices,) and its gradient (cells, 3)."""
     value, slope = 0.0, 0.0
     for coordinates, weight in zip(*quadrature(elements.corners)):
         x = study.onto(np.einsum("k,ckd->cd", coordinates, elements.points[elements.cells]))
@@ -87,7 +87,7 @@ def table(results):
 
 
 def plot(results, name):
-    import matplotlib  # needed for the picture alone
+    import matplotlib  # needed for the plot only
     matplotlib.use("svg")
     from matplotlib import pyplot
     matplotlib.rcParams["svg.hashsalt"] = "smg"

@@ -3,13 +3,13 @@
 import numpy as np
 from scipy.sparse import linalg
 
-SMALL = 64  # vertices that are not divided any more
+SMALL = 64  # vertices that are not divided further
 REFINEMENTS = 3
 
 
 def nested_dissection(matrix, points):
-    """An order of the rows with little fill: the points are halved again and again along the longest
-    side of their bounds; of two halves come first what lies inside, then what separates them.
+    """An order of the rows with little fill: nested dissection of the points along the longest side of
+    their bounds; the interior of both halves comes first, then their separator.
 
     matrix  of the graph, in CSR form with n rows
     points  (n, 3)
@@ -36,7 +36,7 @@ def direct_solve(matrix, rhs, residual, points=None):
     """The solution (n, columns) of a system in CSR form, with steps of iterative refinement.
 
     residual  of a solution (n, columns), more accurately than rhs - matrix @ solution
-    points    (n, 3): for nested dissection, which pays in three dimensions; else minimum degree
+    points    (n, 3): for nested dissection, efficient in three dimensions; otherwise minimum degree
     """
     if matrix.shape[0] == 0:
         return np.zeros_like(rhs)

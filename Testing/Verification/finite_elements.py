@@ -2,7 +2,7 @@
 """Linear finite elements on triangles in space and on tetrahedra, assembled with NumPy and solved
 directly, independent of smg: -div(K grad u - q) + s u = f with Dirichlet, flux and Robin conditions.
 
-Integrals of s, f, fluxes and Robin terms are lumped at the corners, as smg has them: measure over
+Integrals of s, f, fluxes and Robin terms are lumped at the corners, as in smg: measure over
 number of corners at each. Stiffness and the integral of q . grad phi are exact.
 """
 import numpy as np
@@ -11,7 +11,7 @@ from scipy.sparse import csgraph
 
 from direct_solve import direct_solve
 
-FLAT = 1e-14  # a cell of less measure than this share of (longest edge)^dimension is none
+FLAT = 1e-14  # cells of less measure than this share of (longest edge)^dimension are ignored
 
 
 def tensor_matrices(conductivity):
@@ -33,7 +33,7 @@ def facet_measure(points, facets):
 
 
 class FiniteElements:
-    """A mesh of triangles or tetrahedra with what its elements contribute.
+    """A mesh of triangles or tetrahedra with the contributions of its elements.
 
     points   (vertices, 3)
     cells    (cells, 3 or 4), corners from 0
@@ -97,7 +97,7 @@ class FiniteElements:
         return sparse.coo_matrix((local.ravel(), (rows, columns)), (size, size)).tocsr()
 
     def lumped(self, density=None):
-        """What a density of the cells (cells,) or (cells, columns) gives the vertices; 1 unless given."""
+        """Integrals at the vertices of a density of the cells (cells,) or (cells, columns); 1 unless given."""
         share = self.measure / self.corners
         density = np.ones(len(self.cells)) if density is None else np.asarray(density)
         weighted = (share * density.T).T
@@ -124,12 +124,12 @@ class FiniteElements:
         return facets[single], numbers[single % len(numbers)]
 
     def boundary_lumped(self, facets):
-        """The measure of the facets (n, corners - 1) that falls to each vertex (vertices,)."""
+        """The share of each vertex (vertices,) in the measure of the facets (n, corners - 1)."""
         share = facet_measure(self.points, facets) / facets.shape[1]
         return self.at_corners(facets, np.stack([share] * facets.shape[1], axis=1))
 
     def components(self):
-        """(vertices,): the number of each vertex's component; cells without weight join nothing."""
+        """(vertices,): the number of each vertex's component; cells without weight connect nothing."""
         cells = self.cells[self.measure > 0.0]
         rows = np.repeat(cells[:, 0], self.corners - 1)
         graph = sparse.coo_matrix((np.ones(len(rows)), (rows, cells[:, 1:].ravel())),
@@ -138,12 +138,12 @@ class FiniteElements:
 
 
 def solve(elements, stiffness, diagonal, rhs, held, initial):
-    """The solution (vertices, columns) with held values. A component of the mesh that neither held
-    values nor the diagonal determine loses the mass-weighted mean of its right-hand side, and its
-    solution has the mass-weighted mean of the initial values.
+    """The solution (vertices, columns) with held values. In a component of the mesh that neither
+    held values nor the diagonal determine, the mass-weighted mean of the right-hand side is removed,
+    and the solution has the mass-weighted mean of the initial values.
 
     stiffness  the sparse matrix of conduction
-    diagonal   (vertices,): what screening and Robin terms add to it
+    diagonal   (vertices,): contributions of screening and Robin terms
     rhs        (vertices, columns)
     held       (vertices,) of bool
     initial    (vertices, columns): the held values, and the start values elsewhere
@@ -163,7 +163,8 @@ def solve(elements, stiffness, diagonal, rhs, held, initial):
     edges = stiffness.tocoo()
 
     def residual(x):
-        """By differences: what a needle resists does not drown what little determines its level."""
+        """By differences, so that the stiffness of a needle does not cancel the small terms that determine
+        its level."""
         u[unknown] = x
         flow = edges.data[:, None] * (u[edges.col] - u[edges.row])
         taken = np.stack([np.bincount(edges.row, column, len(u)) for column in flow.T], axis=1)

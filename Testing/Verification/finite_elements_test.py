@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""finite_elements_test.py [SMG MESH...] : finite_elements.py beside GetFEM. Two independent codes have
-the same matrices and vectors, on meshes made here and on those files, which smg reads.
+"""finite_elements_test.py [SMG MESH...] : compares finite_elements.py with GetFEM. Two independent codes
+yield the same matrices and vectors, on generated meshes and on those files, which smg reads.
 
 Skipped (77) where GetFEM (Debian: python3-getfem) is not installed."""
 import os
@@ -83,7 +83,7 @@ def compare(name, points, cells):
 
 
 def curved(points, cells):
-    """The flat mesh as a piece of a curved surface."""
+    """The flat mesh as part of a curved surface."""
     x, y = points[:, 0], points[:, 1]
     return np.stack([x, y, 0.3 * np.sin(4 * x) * (1 + y)], axis=1), cells
 

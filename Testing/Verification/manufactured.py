@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Problems whose solutions are known functions, on families of meshes."""
+"""Problems with known solutions, on families of meshes."""
 import numpy as np
 
 import meshes

@@ -12,11 +12,11 @@ LEGACY_TYPES = {"f4": "float", "f8": "double", "i4": "int"}
 
 
 def read_arrays(name):
-    """All arrays of a .vtp or .vtu file as smg writes it, by name; positions are `Points`."""
+    """All arrays of a .vtp or .vtu file written by smg, by name; positions are `Points`."""
     arrays = {}
     for element in xml.parse(name).getroot().iter("DataArray"):
         text = element.text.strip()
-        # The number of bytes is a unit of base64 of its own.
+        # The number of bytes is encoded separately.
         size = int(np.frombuffer(base64.b64decode(text[:12]), "u8")[0])
         data = base64.b64decode(text[12:])
         assert len(data) == size, (name, element.attrib, size, len(data))

@@ -17,7 +17,7 @@ def box(n):
     """The unit cube of n x n x n cells, six tetrahedra each, inner vertices moved off the grid."""
     t = np.linspace(0, 1, n + 1)
     grid = np.stack(np.meshgrid(t, t, t, indexing="ij"), axis=-1).reshape(-1, 3)
-    bump = np.prod(np.sin(np.pi * grid), axis=1)  # smooth, so that refinements are alike
+    bump = np.prod(np.sin(np.pi * grid), axis=1)  # smooth, so that refinements are similar
     points = grid + 0.1 * bump[:, None] * np.array([1.0, -0.7, 0.5])
     base = np.arange(n)
     first = (((base[:, None] * (n + 1) + base)[:, :, None]) * (n + 1) + base).ravel()
@@ -34,14 +34,14 @@ def half_cylinder(n, grading):
 
 
 def welded(points, cells):
-    """The mesh with points of equal coordinates, up to rounding, made one."""
+    """Merges points of equal coordinates, up to rounding."""
     _, first, number = np.unique(np.round(points, 9), axis=0, return_index=True,
                                  return_inverse=True)
     return points[first], number.reshape(-1)[cells]
 
 
 def compacted(points, cells):
-    """The mesh without the points that no cell has."""
+    """The mesh without isolated points."""
     used, number = np.unique(cells, return_inverse=True)
     return points[used], number.reshape(cells.shape)
 
@@ -58,8 +58,8 @@ def sphere(n):
 
 
 def ball(n):
-    """The unit ball: an octahedron of eight tetrahedra, each divided into n^3, its concentric shells
-    moved onto spheres."""
+    """The unit ball: an octahedron of eight tetrahedra, each divided into n^3, with concentric
+    shells moved onto spheres."""
     # Cubes divided along their diagonal divide the simplex 0 <= a <= b <= c <= n, too.
     cube, six = box(n)
     grid = np.round(n * np.stack(np.meshgrid(*[np.linspace(0, 1, n + 1)] * 3, indexing="ij"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Where the data of problem files hold on a mesh, and what they are there, as docs/problem.md says."""
+"""Regions and values of the data of problem files on a mesh, as specified in docs/problem.md."""
 import numpy as np
 from scipy.spatial import cKDTree
 
@@ -15,7 +15,7 @@ def duplicates(cells):
 
 
 class PlacedData:
-    """A mesh with its columns, see StreamedMesh, as what the data of problems are taken from."""
+    """A mesh with its columns, see StreamedMesh, which supplies the data of problems."""
 
     def __init__(self, points, cells, vertex_columns=None, cell_columns=None):
         ignored = duplicates(cells)
@@ -34,7 +34,7 @@ class PlacedData:
     # Where
 
     def _in_region(self, where):
-        """(vertices,) of bool, or None if a column says where."""
+        """(vertices,) of bool, or None if a column selects the region."""
         x = self.points
         if "halfspace" in where:
             a, b, c, d = where["halfspace"]
@@ -58,7 +58,7 @@ class PlacedData:
         return result
 
     def _selected(self, where):
-        """Vertices (vertices,) and cells (cells,) of bool that a column selects; None: not its kind."""
+        """Vertices (vertices,) and cells (cells,) of bool that a column selects; None for the other kind."""
         name = where["tag"][0] if "tag" in where else where["mask"]
         wanted = (lambda v: v == where["tag"][1]) if "tag" in where else (lambda v: v != 0)
         if name in self.vertex_columns:
@@ -96,7 +96,7 @@ class PlacedData:
     # Data
 
     def cell_values(self, given, default):
-        """A coefficient in the cells, as of tensor_matrices(): (cells, 3, 3)."""
+        """A coefficient in the cells, see tensor_matrices(): (cells, 3, 3)."""
         if given is None:
             given = default
         if isinstance(given, str):
@@ -111,15 +111,15 @@ class PlacedData:
                                                (len(self.cells),) + np.shape(given)))
 
     def density(self, given, columns):
-        """What a density adds to the vertices (vertices, columns): numbers, or a column's name."""
+        """The integrals of a density at the vertices (vertices, columns): numbers, or a column's name."""
         mass = self.elements.lumped()[:, None]
         if isinstance(given, str) and given in self.cell_columns:
             return self.elements.lumped(self.cell_columns[given].reshape(len(self.cells), -1))
         return mass * self.vertex_values(given, columns)
 
     def screening(self, given):
-        """What a screening adds to the diagonal (vertices,). A list holds at the vertices, but in the
-        cells if an entry names a column of these."""
+        """The contribution of a screening to the diagonal (vertices,). A list holds at the vertices, or in
+        the cells if an entry names a column of the cells."""
         if not isinstance(given, list):
             return self.density(given, 1)[:, 0]
         named = {name for entry in given

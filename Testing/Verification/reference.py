@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Problem files as smg reads them, understood a second time: assembled with finite_elements.py and
-solved directly."""
+"""An independent implementation of the problem files of smg: assembled with finite_elements.py and solved
+directly."""
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +10,7 @@ from placed_data import PlacedData
 
 
 class Condition(NamedTuple):
-    """What is said of a Dirichlet, flux or Robin condition; flux is positive into the body."""
+    """The results for a Dirichlet, flux or Robin condition; flux is positive into the body."""
     area: float
     mean: np.ndarray  # of the solution, a column; NaN without area
     flux: np.ndarray
@@ -19,23 +19,23 @@ class Condition(NamedTuple):
 class Answer(NamedTuple):
     """A problem's solution by finite elements."""
     u: np.ndarray         # (vertices, columns)
-    gradient: np.ndarray  # (cells, 3 * columns) where it is an output, else None
+    gradient: np.ndarray  # (cells, 3 * columns) if it is an output, otherwise None
     flux: np.ndarray      # the same of -K grad u
     conditions: dict      # Condition by name, such as dirichlet[0]
     energy: np.ndarray    # a column: half the integral of grad u . K grad u + s u^2, where the
                           # weights of soft constraints are part of s
     mean: np.ndarray      # a column: weighted by the mass
-    load: np.ndarray      # (vertices, columns): what sources bring, less the means that components
-                          # without any condition lose; this and all fluxes sum to what screening takes
-    screened: np.ndarray  # (vertices,): what screening takes there, times u
-    traffic: np.ndarray   # a column: the magnitudes of all that flows in, by vertex; where nothing
-                          # flows, what would flow in from a value of the whole range
-    residual: np.ndarray  # a column: the most that a residual of the initial one's norm sums up to
+    load: np.ndarray      # (vertices, columns): of sources, less the removed means of components
+                          # without any condition; this and all fluxes sum to the loss by screening
+    screened: np.ndarray  # (vertices,): screening integrals; times u, the loss by screening
+    traffic: np.ndarray   # a column: the magnitudes of all inflow, by vertex; without any flow,
+                          # the inflow for a value of the whole range
+    residual: np.ndarray  # a column: the largest sum of a residual with the initial one's norm
 
 
 class BoundaryTerm(NamedTuple):
-    """What a flux or Robin condition brings: share * value at each corner of its facets, less share
-    * u with Robin."""
+    """The contribution of a flux or Robin condition: share * value at each corner of its facets, less
+    share * u with Robin."""
     name: str
     facets: np.ndarray  # numbers of its facets
     share: np.ndarray   # (facets, corners, 1)
@@ -44,7 +44,7 @@ class BoundaryTerm(NamedTuple):
 
 
 class System:
-    """A problem, given as what its JSON file says, assembled on a PlacedData."""
+    """A problem, given as the content of its JSON file, assembled on a PlacedData."""
 
     def __init__(self, data, problem):
         self.data, self.columns = data, problem.get("columns", 1)
@@ -84,7 +84,7 @@ class System:
             yield BoundaryTerm(f"{'robin' if isRobin else 'flux'}[{k}]", mine, share, value, isRobin)
 
     def _hold(self, problem):
-        """Which Dirichlet condition holds a vertex (-1: none), and held and initial values."""
+        """The Dirichlet condition that holds a vertex (-1: none), and held and initial values."""
         entries = problem.get("dirichlet", [])
         start = problem.get("initial")
         if start is None:
@@ -111,8 +111,8 @@ class System:
 
 
     def first_residual(self):
-        """(columns,): what a residual with the norm of the initial one can sum up to: the norm times
-        the root of the number of its entries (Cauchy and Schwarz)."""
+        """(columns,): the largest sum of a residual with the norm of the initial one: the norm times the root
+        of the number of its entries (Cauchy-Schwarz)."""
         matrix_u = self.stiffness @ self.initial + self.diagonal[:, None] * self.initial
         residual = self.rhs - self.removed() - matrix_u
         free = residual[self.owner < 0]
@@ -130,7 +130,7 @@ class Reference:
         return self.data.elements
 
     def solve(self, problem):
-        """The Answer to a problem, given as what its JSON file says."""
+        """The Answer to a problem, given as the content of its JSON file."""
         system = System(self.data, problem)
         u = system.solution()
         gradient, flow = self._outputs(system, u) if "outputs" in problem else (None, None)
@@ -152,7 +152,7 @@ class Reference:
         return gradient.reshape(len(flow), -1), flow.reshape(len(flow), -1)
 
     def _conditions(self, system, u):
-        """The Condition of each by its name, and the magnitudes of all that flows in (columns,)."""
+        """The Conditions by name, and the magnitudes of all inflow (columns,)."""
         reaction = system.stiffness @ u + system.diagonal[:, None] * u - system.rhs
         magnitude = np.abs(reaction[system.owner >= 0]).sum(axis=0)
         conditions = {}

@@ -11,7 +11,7 @@ from mesh_arrays import read_arrays, write_legacy_vtk
 
 
 class Solution(NamedTuple):
-    """What smg answers, in the order of the mesh that was converted."""
+    """The results of smg, in the order of the converted mesh."""
     u: np.ndarray       # (vertices, columns); NaN at vertices of no cell
     gradient: np.ndarray | None  # (cells, 3 * columns), if the problem's outputs name it
     flux: np.ndarray | None      # the same of -K grad u
@@ -22,7 +22,7 @@ class StreamedMesh:
     """A mesh in a folder: mesh.vtk with its columns, and mesh.vsm, which smg makes of it.
 
     program         the program smg
-    folder          an existing folder of its own
+    folder          its own existing folder
     points, cells   (vertices, 3), (cells, 3 or 4)
     vertex_columns  {name: array}, see write_legacy_vtk; the same cell_columns
     """
@@ -44,7 +44,7 @@ class StreamedMesh:
             raise RuntimeError(done.stderr.strip())
 
     def solve(self, problem, tolerance=1e-10, *options):
-        """Solves a problem, given as what its JSON file says, to a relative residual."""
+        """Solves a problem, given as the content of its JSON file, to a relative residual."""
         with open(self._path("problem.json"), "w", encoding="utf-8") as file:
             json.dump(problem, file)
         out = self._path("out.vtp" if self.cells.shape[1] == 3 else "out.vtu")
@@ -60,7 +60,7 @@ class StreamedMesh:
 
     @staticmethod
     def _restored(arrays, name, numbers, count):
-        """The rows of an array at the places that its numbers say; None if there is no such array."""
+        """The rows of an array at the positions given by its numbers; None if there is no such array."""
         if name not in arrays:
             return None
         values = arrays[name].astype(float).reshape(len(arrays[numbers]), -1)

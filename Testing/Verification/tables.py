@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""tables.py RESULTS DOCS : writes what was measured into the documentation.
+"""tables.py RESULTS DOCS : writes the measurements into the documentation.
 
 RESULTS is the folder of run.sh: verify.json, convergence.md and .svg, and
-peers-TOLERANCE-MESH.json. DOCS/verification is given the table of all errors and the plot; in
+peers-TOLERANCE-MESH.json. DOCS/verification receives the table of all errors and the plot; in
 DOCS/verification.md the tables between the lines `<!-- NAME -->` and `<!-- end -->` are replaced.
 """
 import json
@@ -31,7 +31,7 @@ def largest(results, key):
 
 
 def spread(results):
-    """The fewest and the most V-cycles, and how often they were not enough."""
+    """The minimum and maximum of V-cycles, and the number of solves that did not converge."""
     cycles = [each["cycles"] for each in results]
     missing = sum(not each["converged"] for each in results)
     return f"{min(cycles)} - {max(cycles)}" + (f", {missing} not converged" if missing else "")
@@ -80,7 +80,7 @@ def our_cycles(measured):
 
 
 def their_iterations(measured):
-    """Of hypre, which solves one of the three columns after the other: a column, likewise."""
+    """Of hypre, which solves the three columns one by one: per column, likewise."""
     theirs = measured["results"]["hypre"]
     if "failed" in theirs:
         return "fails"

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""verify.py SMG [--json FILE] [--answers FOLDER] [MESH...] : smg beside independent finite elements.
+"""verify.py SMG [--json FILE] [--answers FOLDER] [MESH...] : compares smg with independent finite elements.
 
 On each mesh, a file of any format that smg reads, every problem of cases.py is solved by smg with its
-default weights and directly (reference.py); without a MESH on meshes made here. Printed are V-cycles,
-the largest error in % of the range of the solution, the mean one of its columns Gradient and Flux where
-they are asked for, the largest of an area, a mean, a flux or the energy in the report, and by how much
-fluxes and sources miss a balance, over all that flows. Fails where an error exceeds 1e-4 % (or KNOWN_ERRORS), what is
-missing the tolerance times all that flows or what the norm of the initial residual allows, or smg
-does not converge. A MESH that is no path is one of the archive that SMG_TEST_DATA_DIR names; `archive` stands
-for all of these. Without an archive it is skipped (77). The direct solutions, which take most of the
-time, are kept in FOLDER and taken from there in the next run.
+default weights and directly (reference.py); without a MESH on generated meshes. Prints V-cycles, the
+largest error in % of the range of the solution, the mean error of its columns Gradient and Flux if
+requested, the largest error of an area, a mean, a flux or the energy in the report, and the imbalance
+of fluxes and sources, over all inflow. Fails if an error exceeds 1e-4 % (or KNOWN_ERRORS), if the
+imbalance exceeds the tolerance times the larger of all inflow and the largest sum of a residual with
+the norm of the initial one, or if smg does not converge. A MESH that is not a path is one of the archive in SMG_TEST_DATA_DIR;
+`archive` stands for all of these. Without an archive it is skipped (77). The direct solutions, which
+take most of the time, are stored in FOLDER and reused in the next run.
 """
 import argparse
 import json
@@ -34,7 +34,7 @@ from streamed_mesh import StreamedMesh, read_with_smg
 
 TOLERANCE = 1e-10
 MOST_ERROR = 1e-4  # in %
-# Two pairs of vertices that are held by one sliver each, whose weights are in single precision.
+# Two pairs of vertices, each connected by one sliver, whose weights are in single precision.
 KNOWN_ERRORS = {("head_tet336k.vtk", "Robin"): 2e-4}
 ARCHIVE = ("armadillo43k.obj", "brain168k.vtk", "bunny.ply", "dragon.ply", "dragon_res3.ply",
            "elephant44k.off", "head_mri_1m.ply", "horse_be.ply", "lucy50k.ply",
@@ -53,7 +53,7 @@ def flattened(points, cells):
 
 
 def imbalance(u, conditions, answer):
-    """The sum of all that flows in (columns,); None if there are no conditions."""
+    """The sum of all inflow (columns,); None if there are no conditions."""
     if not answer.conditions:
         return None
     total = answer.load.sum(axis=0) - answer.screened @ u
@@ -61,7 +61,7 @@ def imbalance(u, conditions, answer):
 
 
 def share(missing, whole):
-    """The largest share that is missing in a column; None if nothing is known."""
+    """The largest imbalance of a column as a share of the inflow; None if unknown."""
     return None if missing is None else float(np.max(missing / whole))
 
 
@@ -69,7 +69,7 @@ def report_error(report, conditions, answer, span):
     """In %: the largest error of areas, of means over the span of the solution, of the energy, and of
     fluxes over all that flows."""
     worst = np.max(np.abs(report["mean"] - answer.mean)) / span
-    if np.ptp(answer.u) > 1e-9 * span:  # else it has none but that of rounding
+    if np.ptp(answer.u) > 1e-9 * span:  # otherwise it has only the rounding error
         scale = np.maximum(answer.energy, 1e-9 * span * answer.traffic)
         worst = max(worst, np.max(np.abs(report["energy"] - answer.energy) / scale))
     for name, expected in answer.conditions.items():
@@ -92,7 +92,7 @@ def output_error(solution, answer, measure):
 
 
 def result(case, solution, answer, measure):
-    """What came out of a case, the numbers of the table; measure (cells,) are areas or volumes."""
+    """The results of a case, the numbers of the table; measure (cells,) are areas or volumes."""
     conditions = {each["name"]: each for each in solution.report["conditions"]}
     span = case.scale or np.ptp(answer.u)
     missing = imbalance(solution.u, conditions, answer)
@@ -143,7 +143,7 @@ def direct_answer(reference, problem, folder):
 
 
 def verify(program, name, answers):
-    """Prints and answers the results of a mesh."""
+    """Prints and returns the results of a mesh."""
     with tempfile.TemporaryDirectory() as folder:
         domain = Domain(*(MADE[name]() if name in MADE else read_with_smg(program, folder, name)))
         columns = domain.vertex_columns, domain.cell_columns

@@ -46,7 +46,7 @@ TEST_F(VtkMovedPiece, PrecisionOfThePointsIsKept)
   }
 }
 
-/** The reader's mesh with normals, of which every piece has the same values. */
+/** The reader's mesh with normals that have the same values in every piece. */
 class VtkMovedNormals : public DeformationFixture
 {
 protected:
@@ -112,7 +112,7 @@ TEST_F(VtkMovedNormals, AreThoseOfTheWholeDeformedMesh)
   auto* otherCells = expected->GetOutput()->GetCellData()->GetNormals();
   for (const auto& [id, normal] : ofPoints)
   {
-    // Weighted in another way, so they are only alike.
+    // Weighted differently, so they are only similar.
     const double* n = other->GetTuple(id);
     EXPECT_GT(n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2], 0.95);
     EXPECT_NEAR(std::hypot(normal[0], normal[1], normal[2]), 1.0, 1e-6);

@@ -14,7 +14,7 @@ import sys
 
 from paraview_gui import AUTO_APPLY, PROPERTIES, Session, read_arguments
 
-# Where the handles are: fixed below a height, turned within a ball. By the name of the mesh.
+# The handles by the name of the mesh: fixed below a height, turned within a ball.
 SCENES = {
     "bunny": {"floor": (-0.017, 0.06, 0.0), "ball": (-0.065, 0.145, 0.005), "radius": 0.05,
               "angle": 40, "scale": 1.2, "center": (-0.05, 0.12, 0.0)},
@@ -65,7 +65,7 @@ def play(arguments):
     session.checkpoint("deformed")
     session.picture("deformed")
 
-    # The second handle again, now by its box, which is dragged with the mouse.
+    # The second handle again, now by dragging its box with the mouse.
     session.checkpoint("select_handle")
     session.event(f"{PROPERTIES}/{WIDGET}InteractiveSphere/show3DWidget", "set_boolean", "false")
     session.choose("Motion", "Transform")
@@ -153,7 +153,7 @@ def select_handle():
 
 
 def boxed():
-    # The middle of the box into the middle of the view, where the mouse will take it, and its faces
+    # Moves the middle of the box to the middle of the view, where the mouse picks it, and its faces
     # to the sides.
     view = GetActiveView()
     middle = [(low + high) / 2 for low, high in zip(notes.bounds[0::2], notes.bounds[1::2])]

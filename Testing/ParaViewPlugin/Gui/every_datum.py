@@ -55,7 +55,7 @@ def make_mesh(simple, plain, path):
 
 
 def by_arrays(simple, mesh):
-    """The filter, asked by all properties but those of a problem file."""
+    """The filter with all properties set except those of a problem file."""
     ends = simple.MeshCondition(Input=mesh, Region="Points", Condition="Dirichlet", Value=30)
     ends.Points = CORNER
     metal = simple.MeshCondition(Input=ends, Region="Tag", TagArray="Material", Tag=2)

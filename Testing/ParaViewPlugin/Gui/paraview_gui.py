@@ -17,7 +17,7 @@ from xml.sax.saxutils import quoteattr
 
 
 def paraview_version():
-    """As "5.11"."""
+    """Such as "5.11"."""
     import paraview
     return ".".join(paraview.__version__.split(".")[:2])
 
@@ -29,7 +29,7 @@ PROPERTIES = PANEL + ("/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetConten
 VIEW = WINDOW + ("/centralwidget/MultiViewWidget/CoreWidget/qt_tabwidget_stackedwidget"
                  "/MultiViewWidget1/Container/Frame.0/CentralWidgetFrame/Viewport"
                  "/1QVTKOpenGLNativeWidget0")
-# Buttons that have no names: Auto Apply, where it is none, and Select Points On.
+# Buttons without names: Auto Apply, where it has none, and Select Points On.
 AUTO_APPLY = WINDOW + "/MainControlsToolbar/" + (
     "1QToolButton10" if paraview_version() == "5.11" else "actionAutoApply")
 SELECT_POINTS = VIEW.split("/CentralWidgetFrame")[0] + "/TitleBar/ToolBar/1QToolButton9"
@@ -69,7 +69,7 @@ class Session:
         if paraview_version() == "5.11":
             self.menu(menu + "/Streaming Multigrid", name)
         else:
-            # A menu that opens looks which of its entries can be chosen.
+            # A menu that opens updates which of its entries are enabled.
             self.event(f"{WINDOW}/menubar", "activate", "menu" + menu)
             self.event(f"{WINDOW}/menubar/menu{menu}/pqProxyGroupMenuManager0/{name}", "activate")
 
@@ -106,7 +106,7 @@ class Session:
         self.event(f"{PROPERTIES}/{widget}/ComboBox", "set_string", entry)
 
     def drag(self, begin, end, steps=8):
-        """With the left button in the view; places from (0, 0) at the top left to (1, 1)."""
+        """With the left button in the view; positions from (0, 0) at the top left to (1, 1)."""
         place = lambda t: tuple(b + t * (e - b) for b, e in zip(begin, end))
         at = lambda command, t, button, buttons: self.event(
             VIEW, command, "(%.5f,%.5f,%d,%d,0)" % (*place(t), button, buttons))
@@ -123,7 +123,7 @@ class Session:
         self.menu("Macros", function)
 
     def picture(self, name):
-        """Of the whole screen, if pictures are wanted."""
+        """Of the whole screen, if pictures are requested."""
         if self.pictures:
             path = os.path.join(self.pictures, name + ".png")
             self.macros["picture_" + name] = (
@@ -132,7 +132,7 @@ class Session:
             self.menu("Macros", "picture_" + name)
 
     def run(self, timeout=200):
-        """Plays the session; returns what ParaView said. Raises RuntimeError if that has errors."""
+        """Plays the session; returns the messages of ParaView. Raises RuntimeError if they contain errors."""
         settings = os.path.join(self.folder, "settings")
         screen = os.path.join(self.folder, "screen")
         macros = os.path.join(settings, "ParaView", "Macros")
@@ -158,7 +158,7 @@ class Session:
         command = ["xvfb-run", "-a", "-s", f"-screen 0 {width}x{height}x24 -noreset -nocursor -fbdir {screen}",
                    "paraview", "-qwindowgeometry", f"{width}x{height}+0+0",
                    "--test-script=" + script, "--exit"]
-        # In a process group of its own, so that nothing is left of it if it hangs in a dialog.
+        # In its own process group, so that it can be ended completely if it hangs in a dialog.
         process = subprocess.Popen(command, env=environment, text=True, start_new_session=True,
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         try:
