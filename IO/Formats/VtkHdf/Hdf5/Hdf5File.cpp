@@ -3,6 +3,7 @@
 
 #include "IO/Files/InQuotes.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Handle.h"
+#include "IO/Formats/VtkHdf/Hdf5/Hdf5OtherFiles.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -103,73 +104,10 @@ void Hdf5File::fail(const std::string& sentence) const
   throw Error(this->Name + ": " + sentence + '.');
 }
 
-/** Throws Error unless the other file that an object names is in the folder of this one or below.
- */
-void Hdf5File::requireBeside(const std::string& object, const std::filesystem::path& other) const
-{
-  if (other.is_absolute() || std::ranges::find(other, "..") != other.end())
-  {
-    this->fail(inQuotes(object) + " lies in " + inQuotes(other.string()) +
-               ": only files in the same folder, or below it, are read");
-  }
-}
-
-/** Throws Error if a link on the path to an object leads to another folder. */
-void Hdf5File::checkLinks(const std::string& object) const
-{
-  for (std::size_t end = 0; end != std::string::npos;)
-  {
-    end = object.find('/', end + 1);
-    const std::string path = object.substr(0, end);
-    H5L_info_t link{};
-    if (H5Lget_info(this->File, path.c_str(), &link, H5P_DEFAULT) < 0)
-    {
-      return; // there is no such object
-    }
-    if (link.type == H5L_TYPE_EXTERNAL)
-    {
-      std::vector<char> value(link.u.val_size);
-      const char* file = nullptr;
-      const char* target = nullptr;
-      if (H5Lget_val(this->File, path.c_str(), value.data(), value.size(), H5P_DEFAULT) < 0 ||
-          H5Lunpack_elink_val(value.data(), value.size(), nullptr, &file, &target) < 0)
-      {
-        this->fail("the link " + inQuotes(path) + " cannot be read");
-      }
-      this->requireBeside(path, file);
-    }
-  }
-}
-
-/** The same of the files that a dataset made with these properties has its numbers in. */
-void Hdf5File::checkSources(const std::string& dataset, std::int64_t properties) const
-{
-  if (H5Pget_layout(properties) == H5D_VIRTUAL)
-  {
-    std::size_t count = 0;
-    H5Pget_virtual_count(properties, &count);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const ssize_t length = H5Pget_virtual_filename(properties, i, nullptr, 0);
-      std::string name(static_cast<std::size_t>(std::max<ssize_t>(length, 0)) + 1, '\0');
-      H5Pget_virtual_filename(properties, i, name.data(), name.size());
-      this->requireBeside(dataset, name.c_str());
-    }
-  }
-  const int external = H5Pget_external_count(properties);
-  for (int i = 0; i < external; ++i)
-  {
-    std::array<char, 4096> name{};
-    H5Pget_external(
-      properties, static_cast<unsigned>(i), name.size() - 1, name.data(), nullptr, nullptr);
-    this->requireBeside(dataset, name.data());
-  }
-}
-
 bool Hdf5File::exists(const std::string& object) const
 {
   const Hdf5Silence silence;
-  this->checkLinks(object);
+  checkLinks(this->File, this->Name, object);
   // Each group on the way must be asked for.
   for (std::size_t at = object.find('/', 1); at != std::string::npos; at = object.find('/', at + 1))
   {
@@ -204,7 +142,7 @@ std::vector<std::string> Hdf5File::datasets(const std::string& group) const
     H5Lget_name_by_idx(
       handle.id(), ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(), H5P_DEFAULT);
     name.pop_back();
-    this->checkLinks(group + '/' + name);
+    checkLinks(this->File, this->Name, group + '/' + name);
     const Hdf5Handle<H5Dclose> set(H5Dopen2(handle.id(), name.c_str(), H5P_DEFAULT));
     if (set.valid())
     {
@@ -217,7 +155,7 @@ std::vector<std::string> Hdf5File::datasets(const std::string& group) const
 Hdf5Shape Hdf5File::shape(const std::string& dataset) const
 {
   const Hdf5Silence silence;
-  this->checkLinks(dataset);
+  checkLinks(this->File, this->Name, dataset);
   const Hdf5Handle<H5Dclose> set(H5Dopen2(this->File, dataset.c_str(), H5P_DEFAULT));
   if (!set.valid())
   {
@@ -244,7 +182,7 @@ Hdf5Shape Hdf5File::shape(const std::string& dataset) const
     }
   }
   const Hdf5Handle<H5Pclose> properties(H5Dget_create_plist(set.id()));
-  this->checkSources(dataset, properties.id());
+  checkSources(properties.id(), this->Name, dataset);
   shape.chunkBytes = chunkBytesOf(properties.id(), H5Tget_size(type.id()));
   return shape;
 }
@@ -252,7 +190,7 @@ Hdf5Shape Hdf5File::shape(const std::string& dataset) const
 std::optional<std::string> Hdf5File::text(const std::string& object, const char* attribute) const
 {
   const Hdf5Silence silence;
-  this->checkLinks(object);
+  checkLinks(this->File, this->Name, object);
   const Hdf5Handle<H5Aclose> handle(
     H5Aopen_by_name(this->File, object.c_str(), attribute, H5P_DEFAULT, H5P_DEFAULT));
   if (!handle.valid())

@@ -64,10 +64,6 @@ public:
   std::int64_t handle() const { return this->File; }
 
 private:
-  void requireBeside(const std::string& object, const std::filesystem::path& other) const;
-  void checkLinks(const std::string& object) const;
-  void checkSources(const std::string& dataset, std::int64_t properties) const;
-
   std::string Name;
   std::int64_t File = -1;
 };
