@@ -28,7 +28,7 @@ public:
   const std::filesystem::path& in() const { return this->In; }
   const std::filesystem::path& out() const { return this->Out; }
   const ConversionOptions& options() const { return this->Options; }
-  /** The requested part of the input. */
+  /** Which part of the input is read. */
   MeshPart part() const { return { this->Options.timeStep, this->Options.partition }; }
   /** The memory limit in bytes. */
   std::int64_t memory() const { return this->Memory; }

@@ -10,11 +10,11 @@
 namespace smg
 {
 
-/** The byte order opposite to that of this machine. */
+/** The byte order that is not that of this machine. */
 inline constexpr std::endian OtherByteOrder =
   std::endian::native == std::endian::little ? std::endian::big : std::endian::little;
 
-/** The number with its bytes reversed. */
+/** Returns a number with its bytes in reverse order. */
 template <class T>
 T byteSwapped(T value)
 {
@@ -36,7 +36,7 @@ T byteSwapped(T value)
   }
 }
 
-/** The number that begins at `bytes`, in their byte order. */
+/** Returns the number that begins at `bytes`, in their byte order. */
 template <class T>
 T numberAt(const void* bytes, std::endian order)
 {

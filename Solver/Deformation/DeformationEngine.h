@@ -21,7 +21,7 @@ namespace smg
 {
 
 /** Deforms a mesh: the first pass builds the hierarchy and begins the first V-cycle of the
- * rotations; the steps follow. */
+ * rotations; DeformationSteps does the rest. */
 template <OperatorSet Operators>
 class DeformationEngine
 {
@@ -47,7 +47,7 @@ public:
   /** Returns the positions after deform() and releases everything else. */
   std::unique_ptr<Solution> takeSolution();
 
-  // The parts, to deform again.
+  // The parts, for further deformations.
 
   SolveRun& run() { return *this->Run; }
   Hierarchy<Relaxation>& levels() { return this->Levels; }

@@ -135,7 +135,7 @@ void InteractiveEngine<Operators>::take(const VertexHandles& handles)
     });
 }
 
-/** The right-hand side of the rotations, as in Assembly. */
+/** Computes right-hand side and first sweeps of the rotations, like Assembly and the first pass. */
 template <OperatorSet Operators>
 FirstResidual InteractiveEngine<Operators>::findRightSide()
 {

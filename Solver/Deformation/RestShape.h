@@ -126,7 +126,7 @@ public:
   RestBlock next();
   void endPass();
   /**
-   * Adds the start of the displacements of vertices [first, first + count), any range: the
+   * Adds to the displacements of vertices [first, first + count), any range, their start: the
    * positions at rest, or the targets of held vertices.
    */
   void addStart(std::int64_t first, std::int64_t count, double* values);

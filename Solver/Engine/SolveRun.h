@@ -10,6 +10,7 @@
 #include "Solver/Storage/Pool.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "Solver/Storage/ScratchTraffic.h"
+#include "smg/Export.h"
 #include "smg/Report.h"
 #include "smg/Solve.h"
 
@@ -22,7 +23,7 @@ namespace smg
 
 /** The shared data of all parts of a solve and of its solution: options, memory, scratch files,
  * threads, the components of the mesh, progress and report. */
-struct SolveRun
+struct SMG_EXPORT SolveRun
 {
   /** For problems of `columns` columns. */
   SolveRun(int columns, const SolveOptions& solveOptions);

@@ -3,6 +3,7 @@
 
 #include "Solver/Cycle/LevelWindow.h"
 #include "Solver/Engine/SolveRun.h"
+#include "smg/Export.h"
 #include "smg/Solution.h"
 
 #include <cstdint>
@@ -13,7 +14,7 @@ namespace smg
 {
 
 /** The result of a solve: the values of the finest level, on disk or in memory. */
-class StreamedSolution final : public Solution
+class SMG_EXPORT StreamedSolution final : public Solution
 {
 public:
   /** `window` was created in `run` and holds only the solution. */

@@ -15,10 +15,12 @@ void OpenComponents::extend(std::int64_t vertices)
 
 void OpenComponents::join(const std::int64_t* corners, int count)
 {
+  std::int32_t* of[4] = {};
   std::int32_t label = -1;
   for (int k = 0; k < count; ++k)
   {
-    const std::int32_t other = this->Labels[corners[k]];
+    of[k] = this->Labels.at(corners[k]);
+    const std::int32_t other = *of[k];
     label = label < 0                     ? other
             : other < 0 || other == label ? label
                                           : this->Parts.join(label, other);
@@ -26,7 +28,7 @@ void OpenComponents::join(const std::int64_t* corners, int count)
   label = label < 0 ? this->Parts.add() : label;
   for (int k = 0; k < count; ++k)
   {
-    this->Labels[corners[k]] = label;
+    *of[k] = label;
   }
 }
 

@@ -42,20 +42,18 @@ CellWeights WeightPolicy::weigh(
     this->Scale = this->Own->scale();
     this->Scaled = true;
   }
-  return this->limited(
-    cell, this->Own ? this->Own->flatness() : flatnessFactor(this->Type, points, cell));
+  const double flatness =
+    this->Own ? this->Own->flatness() : flatnessFactor(this->Type, points, cell);
+  return flatness < 1.0 ? this->limited(cell, flatness) : cell;
 }
 
 CellWeights WeightPolicy::limited(CellWeights cell, double flatness)
 {
-  if (flatness < 1.0)
+  ++this->Limited;
+  this->LeastFlatness = std::min(this->LeastFlatness, flatness);
+  for (double& weight : cell.weight)
   {
-    ++this->Limited;
-    this->LeastFlatness = std::min(this->LeastFlatness, flatness);
-    for (double& weight : cell.weight)
-    {
-      weight *= flatness;
-    }
+    weight *= flatness;
   }
   return cell;
 }

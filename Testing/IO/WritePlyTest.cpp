@@ -196,10 +196,7 @@ TEST_F(WritePly, RefusesWhatItCannotHold)
   };
   const auto contains = [](const std::string& message, const std::string& part)
   { EXPECT_NE(message.find(part), std::string::npos) << message; };
-  MemorySource tets(toStream(tetBox(3, 3, 3)));
-  contains(refusal(tets, "out.ply"), "PLY holds no tetrahedra");
   MemorySource good(toStream(sphere(1)));
-  contains(refusal(good, "out.plx"), "must end with .ply");
   LyingSource gigantic(good.mesh(), std::int64_t(1) << 31, 0);
   contains(refusal(gigantic, "out.ply"), "2147483647 vertices");
   for (const auto& [vertices, cells] : { std::pair{ 1, 0 }, { 0, 1 }, { -1, 0 }, { 0, -1 } })

@@ -107,6 +107,21 @@ TEST(CustomOperators, AnotherRelaxationConvergesToTheDirectSolution)
   }
 }
 
+TEST(CustomOperators, ParametersAreValues)
+{
+  for (auto& [mesh, problem] : tasks())
+  {
+    MemorySource source(mesh);
+    PoissonSolver<Extended> solver(
+      Extended::forFewCycles(mesh.cellType), problem.columns(), accurate());
+    const std::unique_ptr<Solution> solution = solver.solve(source, problem);
+    EXPECT_LT(relativeError(valuesOf(*solution), solveDirectly(mesh, problem)), 1e-7);
+    const Solved usual = solveWithSet<Extended>(mesh, problem, accurate());
+    EXPECT_LE(solution->report().cycles, usual.report.cycles);
+    EXPECT_NE(solution->report().residuals, usual.report.residuals);
+  }
+}
+
 TEST(CustomOperators, StreamingEqualsInCoreBitForBit)
 {
   SolveOptions options;

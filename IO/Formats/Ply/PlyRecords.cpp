@@ -72,6 +72,28 @@ PlyRecords::PlyRecords(const std::string& name, std::int64_t count)
 {
 }
 
+void PlyRecords::addPositions(bool isDouble)
+{
+  this->DoublePositions = isDouble;
+  for (const char* name : { "x", "y", "z" })
+  {
+    this->add({ name, isDouble ? ScalarType::Float64 : ScalarType::Float32, 1 });
+  }
+}
+
+void PlyRecords::add(const std::vector<ColumnSpec>& columns, WrittenPly& written)
+{
+  for (const ColumnSpec& column : columns)
+  {
+    this->Places.push_back(this->add(column));
+    if (this->Places.back() < 0)
+    {
+      written.droppedColumns.push_back(column.name);
+    }
+  }
+}
+
+/** Answers the place of a column in the record, or -1 if a property has its name already. */
 std::ptrdiff_t PlyRecords::add(const ColumnSpec& spec)
 {
   const std::vector<std::string> names = namesOf(spec);
@@ -92,12 +114,11 @@ std::ptrdiff_t PlyRecords::add(const ColumnSpec& spec)
   return place;
 }
 
-std::ptrdiff_t PlyRecords::add(const std::string& property, std::size_t bytes)
+void PlyRecords::add(const std::string& property, std::size_t bytes)
 {
   this->Header += "property " + property + '\n';
   this->Names.push_back(property.substr(property.rfind(' ') + 1));
   this->RecordBytes += bytes;
-  return static_cast<std::ptrdiff_t>(this->RecordBytes - bytes);
 }
 
 void PlyRecords::begin(std::size_t count)
@@ -116,6 +137,32 @@ void PlyRecords::fill(std::ptrdiff_t place, std::span<const std::byte> tuples, s
   }
 }
 
+void PlyRecords::fillPositions(std::span<const double> positions)
+{
+  if (this->DoublePositions)
+  {
+    this->fill(0, std::as_bytes(positions), 3 * sizeof(double));
+    return;
+  }
+  this->Single.assign(positions.begin(), positions.end());
+  this->fill(0, std::as_bytes(std::span(this->Single)), 3 * sizeof(float));
+}
+
+void PlyRecords::fill(const std::vector<Column>& columns, WrittenPly& written)
+{
+  std::vector<std::string>& rounded = written.roundedColumns;
+  for (std::size_t i = 0; i < this->Places.size(); ++i)
+  {
+    const std::string& name = columns[i].spec.name;
+    if (this->Places[i] >= 0 && this->fill(this->Places[i], columns[i]) &&
+        std::find(rounded.begin(), rounded.end(), name) == rounded.end())
+    {
+      rounded.push_back(name);
+    }
+  }
+}
+
+/** Answers whether a value was rounded. */
 bool PlyRecords::fill(std::ptrdiff_t place, const Column& column)
 {
   if (!isLongInteger(column.spec.type))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Formats/Ply/WritePly.h"
 #include "smg/Column.h"
 
 #include <cstddef>
@@ -23,28 +24,40 @@ public:
   /** The element `name` with `count` records. */
   PlyRecords(const std::string& name, std::int64_t count);
 
-  /** Adds the properties of a column (see writePly); returns their position in the record, or -1,
-   * without adding anything, if a property already has that name. */
-  std::ptrdiff_t add(const ColumnSpec& spec);
+  /** Adds the coordinates x, y and z. */
+  void addPositions(bool isDouble);
   /** Adds `bytes` bytes described by the line `property`. */
-  std::ptrdiff_t add(const std::string& property, std::size_t bytes);
+  void add(const std::string& property, std::size_t bytes);
+  /**
+   * Adds the properties of columns, named as writePly() says. A column of whose names there is a
+   * property already is left out, which is noted.
+   */
+  void add(const std::vector<ColumnSpec>& columns, WrittenPly& written);
 
   const std::string& header() const { return this->Header; }
   std::size_t recordBytes() const { return this->RecordBytes; }
 
   /** Makes `count` records, whose fields must be filled. */
   void begin(std::size_t count);
+  /** Fills in the coordinates, which are the first properties. */
+  void fillPositions(std::span<const double> positions);
   /** Fills in tuples of `bytes` bytes, one per record, at a position of the record. */
   void fill(std::ptrdiff_t place, std::span<const std::byte> tuples, std::size_t bytes);
-  /** Fills in a column that was added at this position; returns whether a value was rounded. */
-  bool fill(std::ptrdiff_t place, const Column& column);
+  /** Fills in the columns that were added. Rounded values are noted. */
+  void fill(const std::vector<Column>& columns, WrittenPly& written);
   std::span<const std::byte> records() const { return this->Records; }
 
 private:
+  std::ptrdiff_t add(const ColumnSpec& spec);
+  bool fill(std::ptrdiff_t place, const Column& column);
+
   std::string Header;
   std::vector<std::string> Names;
   std::size_t RecordBytes = 0;
+  std::vector<std::ptrdiff_t> Places; ///< of each column in the record; -1: left out
+  bool DoublePositions = true;
   std::vector<std::byte> Records;
+  std::vector<float> Single;
   std::vector<double> Doubles;
 };
 

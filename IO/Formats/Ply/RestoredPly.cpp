@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/SequentialOutput.h"
-#include "IO/Formats/Ply/PlyColumns.h"
 #include "IO/Formats/Ply/PlyFormat.h"
 #include "IO/Formats/Ply/PlyRecords.h"
 #include "IO/Restore/RestoredMesh.h"
@@ -24,14 +23,8 @@ public:
     , Vertices("vertex", info.vertices)
     , Faces("face", info.elements)
     , ManyCorners(info.mostCorners > UINT8_MAX)
-    , PositionBytes(0)
   {
-    const ScalarType real = info.doublePositions ? ScalarType::Float64 : ScalarType::Float32;
-    for (const char* name : { "x", "y", "z" })
-    {
-      this->Vertices.add({ name, real, 1 });
-    }
-    this->PositionBytes = this->Vertices.recordBytes();
+    this->Vertices.addPositions(info.doublePositions);
     // The list precedes each record and is not part of it.
     this->Faces.add(
       this->ManyCorners ? "list int int vertex_indices" : "list uchar int vertex_indices", 0);
@@ -40,21 +33,21 @@ public:
   WrittenPly write(RestoredMesh& mesh)
   {
     WrittenPly written;
-    const PlyColumns pointData(this->Vertices, this->Info.vertexColumns, written);
-    const PlyColumns cellData(this->Faces, this->Info.elementColumns, written);
+    this->Vertices.add(this->Info.vertexColumns, written);
+    this->Faces.add(this->Info.elementColumns, written);
     this->Out.put(
       plyFormatLines() + this->Vertices.header() + this->Faces.header() + "end_header\n");
     for (RestoredVertices vertices; mesh.next(vertices);)
     {
       this->Vertices.begin(static_cast<std::size_t>(vertices.count()));
-      this->fillPositions(vertices.positions);
-      pointData.fill(this->Vertices, vertices.columns, written);
+      this->Vertices.fillPositions(vertices.positions);
+      this->Vertices.fill(vertices.columns, written);
       this->Out.put(this->Vertices.records());
     }
     for (RestoredElements elements; mesh.next(elements);)
     {
       this->Faces.begin(elements.sizes.size());
-      cellData.fill(this->Faces, elements.columns, written);
+      this->Faces.fill(elements.columns, written);
       this->writeFaces(elements);
     }
     this->Out.finish();
@@ -62,17 +55,6 @@ public:
   }
 
 private:
-  void fillPositions(const std::vector<double>& positions)
-  {
-    if (this->Info.doublePositions)
-    {
-      this->Vertices.fill(0, std::as_bytes(std::span(positions)), this->PositionBytes);
-      return;
-    }
-    this->Single.assign(positions.begin(), positions.end());
-    this->Vertices.fill(0, std::as_bytes(std::span(this->Single)), this->PositionBytes);
-  }
-
   void writeFaces(const RestoredElements& elements)
   {
     this->Bytes.clear();
@@ -103,8 +85,6 @@ private:
   SequentialOutput Out;
   PlyRecords Vertices, Faces;
   const bool ManyCorners; ///< whether a face has more corners than a byte can count
-  std::size_t PositionBytes;
-  std::vector<float> Single;
   std::vector<std::byte> Bytes;
 };
 
@@ -112,7 +92,7 @@ private:
 
 WriteNotes writeRestoredPly(RestoredMesh& mesh, const std::filesystem::path& path)
 {
-  checkPlyPath(path, mesh.info().cellType, mesh.info().vertices);
+  checkPlyVertices(path, mesh.info().vertices);
   return notesOn(RestoredPlyWriter(mesh.info(), path).write(mesh));
 }
 

@@ -3,14 +3,11 @@
 
 #include "IO/Files/InQuotes.h"
 #include "IO/Files/PositionedFile.h"
-#include "IO/Files/Suffix.h"
-#include "IO/Formats/Ply/PlyColumns.h"
 #include "IO/Formats/Ply/PlyRecords.h"
 #include "smg/Error.h"
 
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <span>
 
 namespace smg
@@ -31,14 +28,10 @@ public:
     , Vertices("vertex", info.vertices)
     , Faces("face", info.cells)
   {
-    for (const char* name : { "x", "y", "z" })
-    {
-      this->Vertices.add(
-        { name, info.doublePositions ? ScalarType::Float64 : ScalarType::Float32, 1 });
-    }
+    this->Vertices.addPositions(info.doublePositions);
     this->Faces.add("list uchar int vertex_indices", 1 + 3 * sizeof(std::int32_t));
-    this->PointData.emplace(this->Vertices, info.vertexColumns, this->Written);
-    this->CellData.emplace(this->Faces, info.cellColumns, this->Written);
+    this->Vertices.add(info.vertexColumns, this->Written);
+    this->Faces.add(info.cellColumns, this->Written);
     const std::string header =
       plyFormatLines() + this->Vertices.header() + this->Faces.header() + "end_header\n";
     this->File.write(0, std::as_bytes(std::span(header)));
@@ -50,16 +43,8 @@ public:
   void append(const MeshBlock& block)
   {
     this->Vertices.begin(static_cast<std::size_t>(block.vertices()));
-    if (this->Info.doublePositions)
-    {
-      this->Vertices.fill(0, std::as_bytes(std::span(block.positions)), 3 * sizeof(double));
-    }
-    else
-    {
-      this->Single.assign(block.positions.begin(), block.positions.end());
-      this->Vertices.fill(0, std::as_bytes(std::span(this->Single)), 3 * sizeof(float));
-    }
-    this->PointData->fill(this->Vertices, block.vertexColumns, this->Written);
+    this->Vertices.fillPositions(block.positions);
+    this->Vertices.fill(block.vertexColumns, this->Written);
     this->write(this->Vertices, this->VertexEnd);
 
     this->Corners.assign(block.corners.begin(), block.corners.end());
@@ -67,7 +52,7 @@ public:
     this->Faces.begin(this->Counts.size());
     this->Faces.fill(0, this->Counts, 1);
     this->Faces.fill(1, std::as_bytes(std::span(this->Corners)), 3 * sizeof(std::int32_t));
-    this->CellData->fill(this->Faces, block.cellColumns, this->Written);
+    this->Faces.fill(block.cellColumns, this->Written);
     this->write(this->Faces, this->FaceEnd);
   }
 
@@ -96,9 +81,7 @@ private:
   const StreamInfo& Info;
   PositionedFile File;
   PlyRecords Vertices, Faces;
-  std::optional<PlyColumns> PointData, CellData;
   std::int64_t VertexEnd = 0, FirstFace = 0, FaceEnd = 0;
-  std::vector<float> Single;
   std::vector<std::int32_t> Corners;
   std::vector<std::byte> Counts; ///< of corners, each 3
   WrittenPly Written;
@@ -122,16 +105,8 @@ std::vector<std::string> notesOn(const WrittenPly& written)
   return notes;
 }
 
-void checkPlyPath(const std::filesystem::path& path, CellType cellType, std::int64_t vertices)
+void checkPlyVertices(const std::filesystem::path& path, std::int64_t vertices)
 {
-  if (lowerSuffix(path) != ".ply")
-  {
-    throw Error(path.string() + ": the name of a PLY file must end with .ply.");
-  }
-  if (cellType != CellType::Triangle)
-  {
-    throw Error(path.string() + ": PLY holds no tetrahedra: choose .vsm or .vtu.");
-  }
   constexpr std::int64_t most = std::numeric_limits<std::int32_t>::max();
   if (vertices > most)
   {
@@ -144,7 +119,7 @@ WrittenPly writePly(
   MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress)
 {
   const StreamInfo& info = source.info();
-  checkPlyPath(path, info.cellType, info.vertices);
+  checkPlyVertices(path, info.vertices);
   Progress reported(progress);
   PlyWriter writer(info, path);
   for (MeshBlock block; source.next(block);)

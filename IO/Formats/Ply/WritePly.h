@@ -29,13 +29,13 @@ struct WrittenPly
  *
  * Columns become properties of the vertices or faces, named so that importMesh() restores the same
  * columns: `Normals` of 3 components nx, ny, nz; `Colors` of 3 or 4 red, green, blue, alpha; a
- * column of one component its own name, and one of several NAME_0, NAME_1 ..., which are read
- * as separate columns. Characters in a name that are not visible ASCII become underscores. PLY has
- * no 64-bit integers: they are written, and read, as double, which is exact up to 2^53. So
- * convert() treats the `OriginalId` of a PLY file as an attribute (see there); its own are the
- * indices in the PLY file.
- * @throws Error if checkPlyPath() does, the stream differs from its counts, or the file cannot
- * be written; Cancelled. No file is left then.
+ * column of one component its own name, and one of several NAME_0, NAME_1 ..., which come back as
+ * columns of their own. What is no visible ASCII character in a name becomes an underscore. PLY has
+ * no 64-bit integers: they are written, and come back, as double, which is exact up to 2^53. So
+ * convert() takes the `OriginalId` of a PLY file for an attribute (see there): its own are the
+ * places in the PLY file.
+ * @throws Error if checkPlyVertices() does, the stream has not the counts that it says, or the file
+ * cannot be written; Cancelled. Nothing is left of the file then.
  */
 WrittenPly writePly(
   MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress = {});
@@ -43,10 +43,7 @@ WrittenPly writePly(
 /** Notes for the user, a sentence per column. */
 std::vector<std::string> notesOn(const WrittenPly& written);
 
-/**
- * Throws Error unless `path` ends with .ply, the cells are triangles, and there are no more
- * vertices (0: unknown yet) than PLY can number.
- */
-void checkPlyPath(const std::filesystem::path& path, CellType cellType, std::int64_t vertices = 0);
+/** Throws Error if there are more vertices than PLY has numbers for. */
+void checkPlyVertices(const std::filesystem::path& path, std::int64_t vertices);
 
 } // namespace smg

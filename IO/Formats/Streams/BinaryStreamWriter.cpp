@@ -9,7 +9,7 @@ namespace smg
 
 BinaryStreamWriter::BinaryStreamWriter(
   std::filesystem::path path, const StreamFileHeader& header, const StreamFileStyle& style)
-  : StreamFileWriterBase(std::move(path), header, style)
+  : StreamFileWriter(std::move(path), header, style)
   , Swapped(style.bigEndian != (std::endian::native == std::endian::big))
   , ElementWords(cornersOf(cellTypeOf(header.format)))
 {

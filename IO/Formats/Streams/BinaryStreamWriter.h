@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/Formats/Streams/BinaryStreamHeader.h"
-#include "IO/Formats/Streams/StreamFileWriterBase.h"
+#include "IO/Formats/Streams/StreamFileWriter.h"
 
 #include <array>
 
@@ -10,7 +10,7 @@ namespace smg
 {
 
 /** Writes SMB and SVB. */
-class BinaryStreamWriter : public StreamFileWriterBase
+class BinaryStreamWriter : public StreamFileWriter
 {
 public:
   BinaryStreamWriter(

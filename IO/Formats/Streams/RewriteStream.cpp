@@ -3,7 +3,6 @@
 
 #include "IO/Files/PartialProgress.h"
 #include "IO/Files/SinglePrecision.h"
-#include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Streams/StreamFileWriter.h"
 
@@ -165,7 +164,6 @@ void rewriteStream(const std::filesystem::path& in, const std::filesystem::path&
 {
   StreamFileHeader header = openStreamFile(in)->header();
   const CellType cellType = cellTypeOf(header.format);
-  checkStreamPath(out, cellType);
   header.format = *streamFormatOfName(out);
   if (!isText(header.format))
   {

@@ -171,25 +171,12 @@ StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesy
   return result;
 }
 
-void checkStreamPath(const std::filesystem::path& path, CellType cellType)
-{
-  const std::optional<StreamFormat> format = streamFormatOfName(path);
-  if (!format || cellTypeOf(*format) != cellType)
-  {
-    throw Error(path.string() + ": " +
-                (cellType == CellType::Triangle ? "triangles are written as .sma or .smb"
-                                                : "tetrahedra are written as .sva or .svb") +
-                ", so give the file such a suffix.");
-  }
-}
-
 std::int64_t vsmToStream(const std::filesystem::path& in, const std::filesystem::path& out,
   const ProgressFunction& progressFunction)
 {
   Progress progress(progressFunction);
   VsmReader reader(in);
   const StreamInfo& info = reader.info();
-  checkStreamPath(out, info.cellType);
   StreamFileHeader header;
   header.format = *streamFormatOfName(out);
   header.vertices = info.vertices;

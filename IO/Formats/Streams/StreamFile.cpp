@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Streams/StreamFile.h"
 
-#include "IO/Files/SequentialInput.h"
 #include "IO/Files/Suffix.h"
 #include "IO/Files/Tokens.h"
 #include "IO/Formats/Streams/BinaryStreamHeader.h"
@@ -103,6 +102,50 @@ StreamFormat detectStreamFormat(const std::filesystem::path& path)
     refuse("is none of the formats SMA, SMB, SVA and SVB, or is damaged in its first bytes.");
   }
   return byName && isText(*byName) ? *byName : *byText;
+}
+
+void StreamFileReader::next(StreamEvent& event)
+{
+  event.floats.clear();
+  event.ints.clear();
+  event.finalMask = 0;
+  if (!this->read(event))
+  {
+    this->checkEnd();
+    event.kind = StreamEvent::End;
+  }
+  this->Vertices += event.kind == StreamEvent::Vertex ? 1 : 0;
+  this->Cells += event.kind == StreamEvent::Cell ? 1 : 0;
+}
+
+double StreamFileReader::fraction() const
+{
+  return this->Input.size() > 0
+           ? static_cast<double>(this->Input.position()) / static_cast<double>(this->Input.size())
+           : 1.0;
+}
+
+void StreamFileReader::fail(const std::string& what) const
+{
+  throw Error(this->Input.name() + ": " + this->place() + ": " + what);
+}
+
+void StreamFileReader::checkEnd() const
+{
+  const StreamFileHeader& header = this->Header;
+  const bool vertices = header.vertices >= 0 && this->Vertices != header.vertices;
+  const bool cells = header.cells >= 0 && this->Cells != header.cells;
+  if (vertices || cells)
+  {
+    this->fail("the file ends with " + std::to_string(vertices ? this->Vertices : this->Cells) +
+               (vertices ? " vertices" : " cells") + ", but its header says " +
+               std::to_string(vertices ? header.vertices : header.cells) +
+               ": it is truncated or damaged.");
+  }
+  if (this->Cells == 0)
+  {
+    this->fail("the file ends without a cell.");
+  }
 }
 
 std::unique_ptr<StreamFileReader> openStreamFile(const std::filesystem::path& path)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Files/SequentialInput.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 
@@ -103,14 +104,31 @@ class StreamFileReader
 {
 public:
   virtual ~StreamFileReader() = default;
-  virtual const StreamFileHeader& header() const = 0;
-  virtual std::string name() const = 0;
+  const StreamFileHeader& header() const { return this->Header; }
+  std::string name() const { return this->Input.name(); }
   /** The next element; `End` at the end and after it. */
-  virtual void next(StreamEvent& event) = 0;
+  void next(StreamEvent& event);
   /** The position of the last element: "line 12", or "element 7 at byte 112". */
   virtual std::string place() const = 0;
   /** The fraction of the file that has been read, 0 to 1. */
-  virtual double fraction() const = 0;
+  double fraction() const;
+
+protected:
+  explicit StreamFileReader(const std::filesystem::path& path)
+    : Input(path)
+  {
+  }
+
+  /** Fills in an element that has no further values yet; false at the end of the file. */
+  virtual bool read(StreamEvent& event) = 0;
+  [[noreturn]] void fail(const std::string& what) const;
+
+  SequentialInput Input;
+  StreamFileHeader Header;
+  std::int64_t Vertices = 0, Cells = 0; ///< so far
+
+private:
+  void checkEnd() const;
 };
 
 /** Opens a streaming mesh file of any of the four formats. */

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Files/SequentialOutput.h"
 #include "IO/Formats/Streams/StreamFile.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 
 namespace smg
 {
@@ -45,9 +49,31 @@ public:
     std::span<const std::int32_t> ints = {}) = 0;
   /** Declares that no later cell uses the vertex, where a cell cannot: in text formats in
    * pre-order. The others cannot hold this, and nothing is written. */
-  virtual void finalization(std::int64_t vertex) = 0;
+  virtual void finalization(std::int64_t) {}
   /** Completes the file. Throws Error if the counts are not those of the header. */
-  virtual void finish() = 0;
+  void finish();
+
+protected:
+  StreamFileWriter(
+    std::filesystem::path path, const StreamFileHeader& header, const StreamFileStyle& style);
+
+  [[noreturn]] void fail(const std::string& what) const;
+  /** Whether the bounds of all values of a vertex are known, so that they can be written. */
+  bool hasBounds() const;
+  /** Least (upper false) or largest value `k` of the vertices. */
+  float bound(int k, bool upper) const;
+  /** Counts a vertex. */
+  void countVertex(std::size_t floats, std::size_t ints);
+  /** Counts a cell and makes of its corners the indices that stand in the file. */
+  void countCell(std::span<const std::int64_t> corners, unsigned finalMask, std::size_t ints);
+  /** Called by finish() when the counts are right. */
+  virtual void complete() {}
+
+  SequentialOutput Output;
+  const StreamFileHeader Header;
+  const StreamFileStyle Style;
+  std::int64_t Vertices = 0, Cells = 0;
+  std::array<std::int32_t, 4> Indices{};
 };
 
 /** Begins a file. Throws Error for counts beyond the 31 bits that the formats have. */

@@ -26,28 +26,16 @@ bool isBodyKey(std::string_view key)
 } // namespace
 
 TextStreamReader::TextStreamReader(const std::filesystem::path& path, StreamFormat format)
-  : Input(path)
+  : StreamFileReader(path)
   , CellKey(cellTypeOf(format) == CellType::Triangle ? 'f' : 'c')
 {
   this->Header.format = format;
   this->readHeader();
 }
 
-void TextStreamReader::fail(const std::string& what) const
-{
-  throw Error(this->Input.name() + ": " + this->place() + ": " + what);
-}
-
 std::string TextStreamReader::place() const
 {
   return "line " + std::to_string(this->Input.lineNumber());
-}
-
-double TextStreamReader::fraction() const
-{
-  return this->Input.size() > 0
-           ? static_cast<double>(this->Input.position()) / static_cast<double>(this->Input.size())
-           : 1.0;
 }
 
 void TextStreamReader::readHeader()
@@ -173,16 +161,11 @@ bool TextStreamReader::nextBodyLine()
   return true;
 }
 
-void TextStreamReader::next(StreamEvent& event)
+bool TextStreamReader::read(StreamEvent& event)
 {
-  event.floats.clear();
-  event.ints.clear();
-  event.finalMask = 0;
   if (!this->nextBodyLine())
   {
-    this->checkEnd();
-    event.kind = StreamEvent::End;
-    return;
+    return false;
   }
   Tokens tokens(this->Line);
   const std::string_view key = tokens.word();
@@ -217,6 +200,7 @@ void TextStreamReader::next(StreamEvent& event)
   {
     this->fail("there is more on the line than there should be.");
   }
+  return true;
 }
 
 void TextStreamReader::readVertex(Tokens& tokens, StreamEvent& event)
@@ -238,7 +222,6 @@ void TextStreamReader::readVertex(Tokens& tokens, StreamEvent& event)
                std::to_string(3 + this->Header.vertexFloats + this->Header.vertexInts) +
                " numbers that the header says.");
   }
-  this->Vertices++;
 }
 
 void TextStreamReader::readCell(Tokens& tokens, StreamEvent& event)
@@ -256,7 +239,6 @@ void TextStreamReader::readCell(Tokens& tokens, StreamEvent& event)
     this->fail("the cell has not the " + std::to_string(this->Header.cellInts) +
                " integers that the header says.");
   }
-  this->Cells++;
 }
 
 std::int64_t TextStreamReader::readIndex(Tokens& tokens, bool& final)
@@ -287,23 +269,6 @@ std::int64_t TextStreamReader::readIndex(Tokens& tokens, bool& final)
                                        : " is of a vertex that has not come yet."));
   }
   return vertex;
-}
-
-void TextStreamReader::checkEnd() const
-{
-  const bool vertices = this->Header.vertices >= 0 && this->Vertices != this->Header.vertices;
-  const bool cells = this->Header.cells >= 0 && this->Cells != this->Header.cells;
-  if (vertices || cells)
-  {
-    this->fail("the file ends with " + std::to_string(vertices ? this->Vertices : this->Cells) +
-               (vertices ? " vertices" : " cells") + ", but its header says " +
-               std::to_string(vertices ? this->Header.vertices : this->Header.cells) +
-               ": it is truncated or damaged.");
-  }
-  if (this->Cells == 0)
-  {
-    this->fail("the file ends without a cell.");
-  }
 }
 
 } // namespace smg

@@ -9,7 +9,7 @@ namespace smg
 
 TextStreamWriter::TextStreamWriter(
   std::filesystem::path path, const StreamFileHeader& header, const StreamFileStyle& style)
-  : StreamFileWriterBase(std::move(path), header, style)
+  : StreamFileWriter(std::move(path), header, style)
 {
   this->writeHeader();
 }

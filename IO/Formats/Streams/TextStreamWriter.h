@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Formats/Streams/StreamFileWriterBase.h"
+#include "IO/Formats/Streams/StreamFileWriter.h"
 
 #include <string>
 
@@ -9,7 +9,7 @@ namespace smg
 {
 
 /** Writes SMA and SVA. */
-class TextStreamWriter : public StreamFileWriterBase
+class TextStreamWriter : public StreamFileWriter
 {
 public:
   TextStreamWriter(

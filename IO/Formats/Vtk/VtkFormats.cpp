@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vtk/VtkFormats.h"
 
+#include "IO/Files/InputFile.h"
 #include "IO/Files/TextStart.h"
+#include "IO/Formats/Vtk/LegacyVtkLayout.h"
+#include "IO/Formats/Vtk/VtkMeshReader.h"
+#include "IO/Formats/Vtk/VtkXmlLayout.h"
 #include "IO/Formats/Vtk/WriteVtkXml.h"
+#include "IO/Raw/RawMeshBuilder.h"
 
 #include <algorithm>
 
@@ -63,6 +68,18 @@ constexpr FileSuffix ParallelSuffixes[] = { { ".pvtp", true, false }, { ".pvtu" 
 constexpr std::string_view AllColumns = "all columns";
 
 } // namespace
+
+void importLegacyVtk(InputFile& file, RawMeshBuilder& builder)
+{
+  readVtkMesh(file, legacyVtkLayout(file), builder);
+}
+
+void importVtkXml(InputFile& file, RawMeshBuilder& builder)
+{
+  VtkLayout layout;
+  addVtkXmlLayout(file, layout, builder.workspace().available() / 2);
+  readVtkMesh(file, layout, builder);
+}
 
 const Format LegacyVtkFormat{
   .name = "legacy VTK",

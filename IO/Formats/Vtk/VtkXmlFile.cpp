@@ -9,9 +9,25 @@
 namespace smg
 {
 
+namespace
+{
+
+/** What VTK calls a cell. */
+std::uint8_t vtkTypeOf(std::uint32_t corners, CellType cellType)
+{
+  constexpr std::uint8_t Triangle = 5, Polygon = 7, Quadrilateral = 9, Tetrahedron = 10;
+  return cellType == CellType::Tetrahedron ? Tetrahedron
+         : corners == 3                    ? Triangle
+         : corners == 4                    ? Quadrilateral
+                                           : Polygon;
+}
+
+} // namespace
+
 VtkXmlFile::VtkXmlFile(const std::filesystem::path& path, const VtkXmlContent& content)
   : PolyData(lowerSuffix(path) == ".vtp")
   , DoublePositions(content.doublePositions)
+  , CellKind(content.cellType)
   , File(path)
   , Points({ "Points", content.doublePositions ? ScalarType::Float64 : ScalarType::Float32, 3 },
       content.points)
@@ -97,14 +113,20 @@ void VtkXmlFile::appendPoints(std::span<const double> positions, const std::vect
 }
 
 void VtkXmlFile::appendCells(std::span<const std::int64_t> corners,
-  std::span<const std::int64_t> ends, std::span<const std::uint8_t> kinds,
-  const std::vector<Column>& columns)
+  std::span<const std::uint32_t> sizes, const std::vector<Column>& columns)
 {
+  this->CellEnds.clear();
+  this->CellKinds.clear();
+  for (const std::uint32_t size : sizes)
+  {
+    this->CellEnds.push_back(this->LastEnd += size);
+    this->CellKinds.push_back(vtkTypeOf(size, this->CellKind));
+  }
   this->Corners.append(this->File, std::as_bytes(corners));
-  this->Ends.append(this->File, std::as_bytes(ends));
+  this->Ends.append(this->File, std::as_bytes(std::span(this->CellEnds)));
   if (!this->PolyData)
   {
-    this->Kinds.append(this->File, std::as_bytes(kinds));
+    this->Kinds.append(this->File, std::as_bytes(std::span(this->CellKinds)));
   }
   for (std::size_t i = 0; i < this->CellData.size(); ++i)
   {

@@ -4,6 +4,7 @@
 #include "IO/Files/PositionedFile.h"
 #include "IO/Formats/Vtk/InlineArray.h"
 #include "smg/Column.h"
+#include "smg/MeshSource.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,6 +18,7 @@ namespace smg
 /** What a VTK XML file is to hold. */
 struct VtkXmlContent
 {
+  CellType cellType = CellType::Triangle; ///< with triangles any polygons
   bool doublePositions = true;
   std::int64_t points = 0;
   std::int64_t cells = 0;
@@ -34,29 +36,15 @@ struct VtkXmlContent
 class VtkXmlFile
 {
 public:
-  /** Types of cells that VTK has. */
-  enum CellKind : std::uint8_t
-  {
-    Triangle = 5,
-    Polygon = 7,
-    Quadrilateral = 9,
-    Tetrahedron = 10
-  };
-
   /** Throws Error if the file cannot be made. Without finish(), nothing is left of it. */
   VtkXmlFile(const std::filesystem::path& path, const VtkXmlContent& content);
 
   /** Appends points with a tuple each of the columns, which are those of the point data. */
   void appendPoints(std::span<const double> positions, const std::vector<Column>& columns);
 
-  /**
-   * Appends cells: their corners, how many corners all cells up to each of them have, and what
-   * they are (that is not used for PolyData).
-   */
-  void appendCells(std::span<const std::int64_t> corners, std::span<const std::int64_t> ends,
-    std::span<const std::uint8_t> kinds, const std::vector<Column>& columns);
-
-  bool isPolyData() const { return this->PolyData; }
+  /** Appends cells: their corners, and how many of these each has. */
+  void appendCells(std::span<const std::int64_t> corners, std::span<const std::uint32_t> sizes,
+    const std::vector<Column>& columns);
 
   /** Ends the file, once everything has come, and gives it its name. Throws Error. */
   void finish();
@@ -67,12 +55,16 @@ private:
   void place(InlineArray& array);
 
   const bool PolyData, DoublePositions;
+  const CellType CellKind;
   PositionedFile File;
   InlineArray Points, Corners, Ends, Kinds;
   std::vector<InlineArray> PointData, CellData;
   std::vector<InlineArray*> Arrays; ///< those of the file
   std::int64_t End = 0;             ///< where the next text of the frame goes
+  std::int64_t LastEnd = 0;         ///< corners of all cells so far
   std::vector<float> Single;
+  std::vector<std::int64_t> CellEnds;
+  std::vector<std::uint8_t> CellKinds;
 };
 
 } // namespace smg

@@ -15,13 +15,9 @@ namespace smg
  * triangles, .vtu for triangles or tetrahedra, with all columns as point and cell data, points in
  * stream order (see VtkXmlFile.h). The data are written as they come, in the memory of a few
  * blocks.
- * @throws Error if the suffix does not go with the cells or the file cannot be written; Cancelled.
- * Nothing is left of the file then.
+ * @throws Error if the file cannot be written; Cancelled. Nothing is left of the file then.
  */
 SMG_EXPORT void writeVtkXml(
   MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress = {});
-
-/** Throws Error unless `path` ends with .vtu, or with .vtp and the cells are triangles. */
-void checkVtkXmlPath(const std::filesystem::path& path, CellType cellType);
 
 } // namespace smg

@@ -3,6 +3,7 @@
 
 #include "IO/Files/InQuotes.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Handle.h"
+#include "IO/Formats/VtkHdf/Hdf5/Hdf5OtherFiles.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -103,29 +104,10 @@ void Hdf5File::fail(const std::string& sentence) const
   throw Error(this->Name + ": " + sentence + '.');
 }
 
-/** Throws Error if a link on the way to an object leads to another file. */
-void Hdf5File::requireOwn(const std::string& object) const
-{
-  for (std::size_t end = 0; end != std::string::npos;)
-  {
-    end = object.find('/', end + 1);
-    const std::string path = object.substr(0, end);
-    H5L_info_t link{};
-    if (H5Lget_info(this->File, path.c_str(), &link, H5P_DEFAULT) < 0)
-    {
-      return; // there is no such object
-    }
-    if (link.type == H5L_TYPE_EXTERNAL)
-    {
-      this->fail(inQuotes(path) + " lies in another file, which is not read: put all into one");
-    }
-  }
-}
-
 bool Hdf5File::exists(const std::string& object) const
 {
   const Hdf5Silence silence;
-  this->requireOwn(object);
+  checkLinks(this->File, this->Name, object);
   // Each group on the way must be asked for.
   for (std::size_t at = object.find('/', 1); at != std::string::npos; at = object.find('/', at + 1))
   {
@@ -160,7 +142,7 @@ std::vector<std::string> Hdf5File::datasets(const std::string& group) const
     H5Lget_name_by_idx(
       handle.id(), ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(), H5P_DEFAULT);
     name.pop_back();
-    this->requireOwn(group + '/' + name);
+    checkLinks(this->File, this->Name, group + '/' + name);
     const Hdf5Handle<H5Dclose> set(H5Dopen2(handle.id(), name.c_str(), H5P_DEFAULT));
     if (set.valid())
     {
@@ -173,7 +155,7 @@ std::vector<std::string> Hdf5File::datasets(const std::string& group) const
 Hdf5Shape Hdf5File::shape(const std::string& dataset) const
 {
   const Hdf5Silence silence;
-  this->requireOwn(dataset);
+  checkLinks(this->File, this->Name, dataset);
   const Hdf5Handle<H5Dclose> set(H5Dopen2(this->File, dataset.c_str(), H5P_DEFAULT));
   if (!set.valid())
   {
@@ -200,11 +182,7 @@ Hdf5Shape Hdf5File::shape(const std::string& dataset) const
     }
   }
   const Hdf5Handle<H5Pclose> properties(H5Dget_create_plist(set.id()));
-  if (H5Pget_layout(properties.id()) == H5D_VIRTUAL || H5Pget_external_count(properties.id()) > 0)
-  {
-    this->fail("the numbers of the dataset " + inQuotes(dataset) +
-               " lie in other files, which are not read: put all into one");
-  }
+  checkSources(properties.id(), this->Name, dataset);
   shape.chunkBytes = chunkBytesOf(properties.id(), H5Tget_size(type.id()));
   return shape;
 }
@@ -212,7 +190,7 @@ Hdf5Shape Hdf5File::shape(const std::string& dataset) const
 std::optional<std::string> Hdf5File::text(const std::string& object, const char* attribute) const
 {
   const Hdf5Silence silence;
-  this->requireOwn(object);
+  checkLinks(this->File, this->Name, object);
   const Hdf5Handle<H5Aclose> handle(
     H5Aopen_by_name(this->File, object.c_str(), attribute, H5P_DEFAULT, H5P_DEFAULT));
   if (!handle.valid())

@@ -32,8 +32,8 @@ struct Hdf5Shape
 
 /**
  * An HDF5 file that is read, by the C library. Errors are those of this project: they name the file
- * and the object. Objects are named by their paths, as "/VTKHDF/Points". What lies in other files
- * is refused.
+ * and the object. Objects are named by their paths, as "/VTKHDF/Points". Other files that
+ * it names are read if they are in its folder or below.
  */
 class Hdf5File
 {
@@ -64,8 +64,6 @@ public:
   std::int64_t handle() const { return this->File; }
 
 private:
-  void requireOwn(const std::string& object) const;
-
   std::string Name;
   std::int64_t File = -1;
 };
