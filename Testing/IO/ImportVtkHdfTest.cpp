@@ -304,7 +304,7 @@ TEST_F(ImportVtkHdf, ABlockOfTheUsersMayComeFirst)
 // named. A mesh from somebody else must not make a program read files anywhere.
 TEST_F(ImportVtkHdf, OtherFilesAreReadBesideItOnly)
 {
-  for (const std::string& object : { "/VTKHDF/Points", "/VTKHDF/PointData/Height", "/VTKHDF" })
+  for (const std::string object : { "/VTKHDF/Points", "/VTKHDF/PointData/Height", "/VTKHDF" })
   {
     const std::filesystem::path elsewhere = this->Folder / "other.hdf";
     for (const std::string& target : { std::string("other.hdf"), std::string("x/../other.hdf"),
