@@ -192,8 +192,9 @@ inline void writeVsmOf(
   block.vertexColumns.insert(block.vertexColumns.begin(), numbersColumn("OriginalId", ids));
   block.cellColumns = gathered(mesh.cellColumns, cells);
   block.cellColumns.push_back(numbersColumn("OriginalCellId", numbers));
-  block.cellColumns.push_back(
-    { { CellFlagsName, ScalarType::UInt8, 1 }, std::vector<std::byte>(cells.size()) });
+  Column flags{ { CellFlagsName, ScalarType::UInt8, 1 }, {} };
+  flags.resize(cells.size());
+  block.cellColumns.push_back(std::move(flags));
 
   StreamInfo info;
   info.cellType = mesh.cellType;
