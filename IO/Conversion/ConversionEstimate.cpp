@@ -135,7 +135,7 @@ void checkScratchRoom(const std::filesystem::path& folder, std::int64_t bytes, s
   const std::filesystem::path place = scratchFolder(folder);
   std::error_code unknown;
   const std::filesystem::space_info room = std::filesystem::space(place, unknown);
-  // A mesh that fits the memory takes half as much as one that does not.
+  // A mesh that fits into the memory needs half as much as one that does not.
   if (!unknown && static_cast<std::int64_t>(room.available) < bytes / 2 - written)
   {
     const auto mebibytes = [](std::int64_t count) { return std::to_string((count >> 20) + 1); };

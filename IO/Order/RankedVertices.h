@@ -21,10 +21,10 @@ struct RankedVertex
 };
 
 /**
- * Sorts the vertices that are in use by their keys, and those of equal keys by their numbers, in
- * `memory` bytes. The place of each is its rank, which `ranks` is told.
+ * Sorts the used vertices by their keys, and those of equal keys by their numbers, in `memory`
+ * bytes. The position of each is its rank, which is stored in `ranks`.
  *
- * @param key answers the key of a vertex, called in ascending order of the numbers with the number
+ * @param key returns the key of a vertex; called in ascending order of the numbers with the number
  * and the coordinates
  */
 template <class Real, class Key>

@@ -93,7 +93,7 @@ void PlyRecords::add(const std::vector<ColumnSpec>& columns, WrittenPly& written
   }
 }
 
-/** Answers the place of a column in the record, or -1 if a property has its name already. */
+/** Returns the position of a column in the record, or -1 if a property already has its name. */
 std::ptrdiff_t PlyRecords::add(const ColumnSpec& spec)
 {
   const std::vector<std::string> names = namesOf(spec);
@@ -162,7 +162,7 @@ void PlyRecords::fill(const std::vector<Column>& columns, WrittenPly& written)
   }
 }
 
-/** Answers whether a value was rounded. */
+/** Returns whether a value was rounded. */
 bool PlyRecords::fill(std::ptrdiff_t place, const Column& column)
 {
   if (!isLongInteger(column.spec.type))

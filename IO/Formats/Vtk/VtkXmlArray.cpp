@@ -68,7 +68,7 @@ VtkArray vtkXmlArray(
   array.encoding = VtkEncoding::Base64;
   if (format == "appended")
   {
-    // Where the appended data begin and how they are written is told after all arrays.
+    // The offset and the encoding of the appended data follow after all arrays.
     array.encoding = VtkEncoding::Raw;
     array.begin = static_cast<std::size_t>(vtkXmlCount(file, tag, "offset"));
   }

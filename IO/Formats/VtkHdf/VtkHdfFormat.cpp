@@ -12,7 +12,9 @@ namespace smg
 namespace
 {
 
-/** Loads the library; it stays. Throws Error if it, or one that it needs, is not there. */
+/**
+ * Loads the library permanently. Throws Error if it, or a library that it needs, does not exist.
+ */
 const VtkHdfLibrary& library()
 {
   static const VtkHdfLibrary* const loaded = []
@@ -32,8 +34,7 @@ const VtkHdfLibrary& library()
   return *loaded;
 }
 
-/** The signature stands at the beginning, or behind a block for the user's own of 512, 1024 ...
- * bytes. */
+/** The signature is at the beginning, or after a user block of 512, 1024 ... bytes. */
 bool isHdf5(std::string_view start)
 {
   constexpr std::string_view Signature = "\x89HDF\r\n\x1a\n";

@@ -7,10 +7,8 @@
 namespace smg
 {
 
-/**
- * What needs the HDF5 library, which takes long to load, with thirty others: it is a library of its
- * own (the folder Hdf5), which is loaded when a file of the format is read or written.
- */
+/** The code that needs the HDF5 library, which is slow to load, with thirty others: a separate
+ * library (the folder Hdf5), which is loaded when a file of the format is read or written. */
 struct VtkHdfLibrary
 {
   void (*import)(InputFile& file, RawMeshBuilder& builder, const MeshPart& part);
@@ -21,5 +19,5 @@ struct VtkHdfLibrary
 
 } // namespace smg
 
-/** The library's only symbol that is looked up. */
+/** The only symbol of the library that is looked up. */
 extern "C" SMG_EXPORT const smg::VtkHdfLibrary* smgVtkHdfLibrary();

@@ -33,14 +33,14 @@ public:
   }
 
 private:
-  /** Of a chunk, and once more while it is decompressed. */
+  /** The bytes of a chunk, twice while it is decompressed. */
   static std::int64_t memoryOf(std::uint64_t chunkBytes)
   {
     constexpr std::uint64_t Most = std::uint64_t(1) << 60;
     return static_cast<std::int64_t>(2 * std::min(chunkBytes, Most));
   }
 
-  Hdf5Numbers Numbers; // reads no chunk before it is asked for numbers
+  Hdf5Numbers Numbers; // reads no chunk before numbers are requested
   Reservation Chunk;
   InputFile& File;
 };

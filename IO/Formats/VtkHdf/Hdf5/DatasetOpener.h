@@ -11,7 +11,7 @@ namespace smg
 
 class Hdf5File;
 
-/** Opens a dataset for those who read arrays of VTK's files. The file must outlive it. */
+/** Opens a dataset for the readers of arrays of VTK's files. The file must outlive this object. */
 class DatasetOpener : public VtkArrayOpener
 {
 public:

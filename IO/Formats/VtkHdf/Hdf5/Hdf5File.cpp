@@ -47,7 +47,7 @@ std::optional<ScalarType> scalarTypeOf(hid_t type)
   }
 }
 
-/** Of a dataset that was made with these properties. */
+/** Of a dataset created with these properties. */
 std::uint64_t chunkBytesOf(hid_t properties, std::size_t numberBytes)
 {
   if (H5Pget_layout(properties) != H5D_CHUNKED)
@@ -84,7 +84,7 @@ Hdf5File::Hdf5File(const std::filesystem::path& path, std::string name)
 {
   const Hdf5Silence silence;
   const Hdf5Handle<H5Pclose> access(H5Pcreate(H5P_FILE_ACCESS));
-  // Some file systems have no locks, and nobody else's lock matters to a reader.
+  // Some file systems have no locks, and locks of others are irrelevant to a reader.
   H5Pset_file_locking(access.id(), false, true);
   this->File = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id());
   if (this->File < 0)
@@ -108,7 +108,7 @@ bool Hdf5File::exists(const std::string& object) const
 {
   const Hdf5Silence silence;
   checkLinks(this->File, this->Name, object);
-  // Each group on the way must be asked for.
+  // Each group of the path must be tested.
   for (std::size_t at = object.find('/', 1); at != std::string::npos; at = object.find('/', at + 1))
   {
     if (H5Lexists(this->File, object.substr(0, at).c_str(), H5P_DEFAULT) <= 0)
@@ -272,7 +272,7 @@ Hdf5Numbers::Hdf5Numbers(
 {
   const Hdf5Silence silence;
   const Hdf5Handle<H5Pclose> access(H5Pcreate(H5P_DATASET_ACCESS));
-  // Rows are read once, from first to last: one chunk is enough.
+  // Rows are read once, sequentially: one chunk is sufficient.
   constexpr std::size_t Slots = 101;
   H5Pset_chunk_cache(access.id(), Slots, this->Shape.chunkBytes + 1, 1.0);
   this->Set = H5Dopen2(file.handle(), this->Name.c_str(), access.id());

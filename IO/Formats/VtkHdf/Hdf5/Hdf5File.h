@@ -16,29 +16,31 @@ namespace smg
 /** A dataset of an HDF5 file. */
 struct Hdf5Shape
 {
-  /** Of its numbers; none if it holds texts or anything else. */
+  /** The type of its numbers; none if it holds texts or other data. */
   std::optional<ScalarType> type;
   std::vector<std::uint64_t> extents;
-  /** Bytes of a chunk, 0 if it is not stored in chunks. */
+  /** The bytes of a chunk, 0 if it is not stored in chunks. */
   std::uint64_t chunkBytes = 0;
 
   std::int64_t rows() const
   {
     return this->extents.empty() ? 1 : static_cast<std::int64_t>(this->extents[0]);
   }
-  /** Numbers of a row. */
+  /** The number of values of a row. */
   std::int64_t components() const;
 };
 
 /**
- * An HDF5 file that is read, by the C library. Errors are those of this project: they name the file
- * and the object. Objects are named by their paths, as "/VTKHDF/Points". Other files that
- * it names are read if they are in its folder or below.
+ * An HDF5 file for reading, by the C library. Errors are those of this project: they name the file
+ * and the object. Objects are identified by their paths, such as "/VTKHDF/Points". Other files to
+ * which it refers are read if they are in its folder or below.
  */
 class Hdf5File
 {
 public:
-  /** Throws Error if it is none, or truncated. `name`: what errors call it. */
+  /**
+   * Throws Error if it is not an HDF5 file, or truncated. `name`: the name of the file in errors.
+   */
   Hdf5File(const std::filesystem::path& path, std::string name);
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
@@ -46,7 +48,7 @@ public:
 
   const std::string& name() const { return this->Name; }
   bool exists(const std::string& object) const;
-  /** Names of the datasets of a group, in the order of the alphabet. */
+  /** The names of the datasets of a group, in alphabetical order. */
   std::vector<std::string> datasets(const std::string& group) const;
   Hdf5Shape shape(const std::string& dataset) const;
 
@@ -68,11 +70,11 @@ private:
   std::int64_t File = -1;
 };
 
-/** Reads the numbers of a dataset one after the other, a range of whole rows at a time. */
+/** Reads the numbers of a dataset sequentially, a range of whole rows at a time. */
 class Hdf5Numbers
 {
 public:
-  /** Begins at a number. A chunk is kept in memory. Throws Error. */
+  /** Starts at a number. A chunk is kept in memory. Throws Error. */
   Hdf5Numbers(const Hdf5File& file, std::string dataset, ScalarType type, std::int64_t begin);
   ~Hdf5Numbers();
   Hdf5Numbers(const Hdf5Numbers&) = delete;
@@ -81,7 +83,7 @@ public:
   /** Bytes of a chunk, see Hdf5Shape. */
   std::uint64_t chunkBytes() const { return this->Shape.chunkBytes; }
 
-  /** Fills with the next numbers, as many bytes of them. Throws Error if there are fewer. */
+  /** Fills the span with the next numbers. Throws Error if there are fewer. */
   void read(std::byte* values, std::size_t bytes);
 
 private:
@@ -93,7 +95,7 @@ private:
   std::int64_t At;
   Hdf5Shape Shape;
   std::int64_t Set = -1, Space = -1;
-  std::vector<std::byte> Row; ///< of a row that is read in parts
+  std::vector<std::byte> Row; ///< of a row read in parts
 };
 
 } // namespace smg

@@ -8,7 +8,7 @@
 namespace smg
 {
 
-/** A handle of the library, which is closed. */
+/** A handle of the library, closed by the destructor. */
 template <herr_t (*Close)(hid_t)>
 class Hdf5Handle
 {
@@ -34,7 +34,7 @@ private:
   hid_t Id;
 };
 
-/** As long as it lives, the library does not print its errors. */
+/** Prevents the library from printing its errors during its lifetime. */
 class Hdf5Silence
 {
 public:

@@ -26,7 +26,7 @@ void requireBeside(
   }
 }
 
-/** The file that an external link of `bytes` bytes leads to. */
+/** The target file of an external link of `bytes` bytes. */
 std::string targetOf(hid_t file, const std::string& link, std::size_t bytes)
 {
   std::vector<char> value(bytes);
@@ -49,7 +49,7 @@ void checkLinks(std::int64_t file, const std::string& name, const std::string& o
     H5L_info_t link{};
     if (H5Lget_info(file, path.c_str(), &link, H5P_DEFAULT) < 0)
     {
-      return; // there is no such object
+      return; // no such object
     }
     if (link.type == H5L_TYPE_EXTERNAL)
     {

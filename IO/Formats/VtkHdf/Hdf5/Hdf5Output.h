@@ -14,10 +14,8 @@
 namespace smg
 {
 
-/**
- * An HDF5 file that is written: datasets to which rows are appended. The file gets its name by
- * finish(); until then, or if that is never called, nothing of it is left. Throws Error.
- */
+/** An HDF5 file for writing: datasets to which rows are appended. finish() renames the file;
+ * without finish() it is removed. Throws Error. */
 class Hdf5Output
 {
 public:
@@ -34,7 +32,7 @@ public:
    * be appended. */
   void addDataset(const std::string& name, ScalarType type, int components, std::int64_t rows = 0);
 
-  /** Appends rows of the dataset's type. */
+  /** Appends rows of the type of the dataset. */
   void append(const std::string& dataset, std::span<const std::byte> rows);
   template <class T>
   void append(const std::string& dataset, std::span<const T> values)
@@ -53,7 +51,7 @@ private:
     std::uint64_t rows = 0;
   };
 
-  /** Returns whether all could be closed. */
+  /** Returns whether everything could be closed. */
   bool close() noexcept;
   [[noreturn]] void fail() const;
 

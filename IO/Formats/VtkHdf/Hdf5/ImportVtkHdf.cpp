@@ -16,7 +16,7 @@ namespace smg
 namespace
 {
 
-/** As "The file has 5 time steps, of which number 3, counted from 0, is read." */
+/** For example "The file has 5 time steps, of which number 3, counted from 0, is read." */
 std::string noteOn(std::int64_t count, const char* what, std::int64_t chosen)
 {
   return "The file has " + std::to_string(count) + what + ", of which " +
@@ -52,7 +52,7 @@ FileCounts readCounts(InputFile& file, const MeshPart& part)
   constexpr std::int64_t MostBytes = std::int64_t(16) << 20;
   const VtkHdfLayout layout = vtkHdfLayout(hdf, part, MostBytes);
   FileCounts counts;
-  // Points that partitions share are counted with each.
+  // Points shared by partitions are counted in each.
   counts.counted = layout.pieces.size() == 1;
   for (const VtkPiece& piece : layout.pieces)
   {
@@ -66,7 +66,7 @@ FileCounts readCounts(InputFile& file, const MeshPart& part)
       }
     }
   }
-  // A surface has about two triangles a vertex, a solid five to six tetrahedra.
+  // A surface has about two triangles per vertex, a solid five to six tetrahedra.
   counts.corners = counts.cells > 3 * counts.vertices ? 4 : 3;
   return counts;
 }
@@ -81,7 +81,7 @@ std::optional<FileCounts> countsOfVtkHdf(InputFile& file, const MeshPart& part)
   }
   catch (const Error&)
   {
-    // What is wrong is said when the mesh is read.
+    // Errors are reported when the mesh is read.
     return {};
   }
 }

@@ -59,11 +59,11 @@ public:
   }
 
 private:
-  /** Cells of one kind, of all partitions. */
+  /** The cells of one kind of all partitions. */
   struct Cells
   {
     std::string group; ///< with a slash at its end
-    int type;          ///< 0: each has its own
+    int type;          ///< 0: individual types
     std::vector<std::int64_t> cells, points;
     std::int64_t firstCell = 0, firstPoint = 0; ///< of the time step, then of a partition
   };
@@ -89,7 +89,7 @@ private:
     }
   }
 
-  /** Refuses more partitions than there is memory for. */
+  /** Refuses more partitions than fit into the memory. */
   void checkMemory()
   {
     constexpr std::int64_t PieceBytes = 2000, ArrayBytes = 300;
@@ -134,7 +134,7 @@ private:
     return this->part(this->File.integers(VtkHdfRoot + name), name);
   }
 
-  /** The shape of a dataset, which is asked for once. */
+  /** The shape of a dataset, which is queried once. */
   const Hdf5Shape& shapeOf(const std::string& dataset)
   {
     const auto found = this->Shapes.find(dataset);
@@ -226,8 +226,8 @@ private:
     }
   }
 
-  /** The arrays of a piece; `first`: of its rows, from the time step's first on, which is
-   * `stepFirst` unless the file says it of the array. */
+  /** The arrays of a piece; `first`: index of its first row in the time step, which begins at
+   * `stepFirst` unless the file specifies another offset for the array. */
   std::vector<VtkArray> attributesOf(const std::vector<Attribute>& attributes,
     const std::string& group, std::int64_t stepFirst, std::int64_t first, std::int64_t count)
   {
@@ -249,7 +249,7 @@ private:
     return this->rowsOf(array, path, first, count);
   }
 
-  /** The cells of a kind in a partition, which begins where the list says. */
+  /** The cells of a kind in a partition, which begins at the position in the list. */
   VtkCellList listOf(const Cells& list, std::size_t part)
   {
     VtkCellList cells;
@@ -257,7 +257,7 @@ private:
     cells.type = list.type;
     if (cells.cells > 0)
     {
-      // A partition has a 0 before the ends of its cells.
+      // A partition stores a 0 before the ends of its cells.
       const std::int64_t firstOffset =
         list.firstCell + this->FirstPart + static_cast<std::int64_t>(part);
       cells.points =
@@ -271,7 +271,8 @@ private:
     return cells;
   }
 
-  /** A partition, whose points and cells begin so many behind the time step's first. */
+  /** A partition, whose points and cells begin at these offsets from the first ones of the time
+   * step. */
   VtkPiece pieceOf(std::size_t part, std::int64_t firstPoint, std::int64_t firstCell)
   {
     VtkPiece piece;
@@ -326,7 +327,7 @@ private:
     }
   }
 
-  /** The array that the file says to be the points' global numbers, or one that is called so. */
+  /** The array that the file declares as the global numbers of the points, or one of that name. */
   std::string globalIds() const
   {
     const std::string said = this->File.text(VtkHdfRoot + "PointData", "GlobalIds").value_or("");

@@ -14,18 +14,18 @@ namespace smg
 
 class Hdf5File;
 
-/** What a VTKHDF file says of its mesh in a time step. */
+/** The description of the mesh of a VTKHDF file in a time step. */
 struct VtkHdfLayout : VtkLayout
 {
   std::vector<std::unique_ptr<VtkArrayOpener>> openers; ///< of the datasets
-  std::int64_t timeSteps = 0;                           ///< of the file; 0: it has none
+  std::int64_t timeSteps = 0;                           ///< of the file; 0: none
   std::int64_t partitions = 0;                          ///< of the time step
 };
 
 /**
  * Reads the layout of a file of the type UnstructuredGrid or PolyData, versions 1 and 2 (VTK File
  * Formats, "VTKHDF"). Each partition is a piece, whose cells name its own points. Throws Error if
- * it is of another type, has no such part, counts contradict each other, or it takes more than
+ * it has another type or no such part, if counts are inconsistent, or if it needs more than
  * `mostBytes` of memory.
  */
 VtkHdfLayout vtkHdfLayout(const Hdf5File& file, const MeshPart& part, std::int64_t mostBytes);

@@ -8,7 +8,7 @@
 
 extern "C" const smg::VtkHdfLibrary* smgVtkHdfLibrary()
 {
-  // What the library does with files that it could not close, at the end of a program, may crash.
+  // At the end of a program, the library may crash on files that it could not close.
   H5dont_atexit();
   static constexpr smg::VtkHdfLibrary library{ smg::importVtkHdf, smg::countsOfVtkHdf,
     [](const std::filesystem::path& vsm, const std::filesystem::path& path,

@@ -6,7 +6,7 @@
 namespace smg
 {
 
-/** The group of a file that everything stands in. */
+/** The root group of all data in a file. */
 inline const std::string VtkHdfRoot = "/VTKHDF/";
 
 } // namespace smg

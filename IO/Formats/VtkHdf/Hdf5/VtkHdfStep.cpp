@@ -63,7 +63,7 @@ VtkHdfStep::Partitions VtkHdfStep::partitions(std::int64_t all) const
   return own;
 }
 
-/** Where the partitions of another time step begin, behind those of this one; or the end. */
+/** The begin of the next time step's partitions after those of this one, or the end. */
 std::int64_t VtkHdfStep::nextPartition(std::int64_t first, std::int64_t all) const
 {
   const std::string offsets = Group + "/PartOffsets";

@@ -10,21 +10,19 @@ namespace smg
 
 class Hdf5File;
 
-/**
- * A time step of a VTKHDF file: where its partitions, points and cells begin in the datasets, which
- * hold those of all time steps one behind the other. A file without time steps is one of them.
- */
+/** A time step of a VTKHDF file: the offsets of its partitions, points and cells in the datasets,
+ * which hold those of all time steps consecutively. A file without time steps has one. */
 class VtkHdfStep
 {
 public:
   /** Throws Error if the file has no time step of this number, from 0. */
   VtkHdfStep(const Hdf5File& file, std::int64_t step);
 
-  /** Time steps of the file; 0: it has none. */
+  /** The number of time steps of the file; 0: none. */
   std::int64_t steps() const { return this->Steps; }
 
-  /** What the file says of a count or a place in this time step, in one of several columns;
-   * `otherwise` if it says nothing. */
+  /** The count or offset of this time step in the file, in one of several columns; `otherwise` if
+   * there is none. */
   std::int64_t number(const std::string& name, std::int64_t otherwise, std::size_t column = 0,
     std::size_t columns = 1) const;
 
@@ -42,7 +40,7 @@ private:
   std::int64_t Step, Steps = 0;
 };
 
-/** Counts and places above this cannot be right. */
+/** Counts and offsets above this are invalid. */
 inline constexpr std::int64_t VtkHdfMostRows = std::int64_t(1) << 48;
 
 } // namespace smg

@@ -81,14 +81,14 @@ public:
   const WriteNotes& notes() const { return this->Notes; }
 
 private:
-  /** Adds a dataset for each column; `names`: theirs. */
+  /** Adds a dataset for each column, with these names. */
   void addColumns(const std::string& group, const std::vector<ColumnSpec>& columns,
     std::int64_t rows, std::vector<std::string>& names)
   {
     for (const ColumnSpec& column : columns)
     {
       std::string name = column.name;
-      // A slash would make a group of its own, and a point is the group itself.
+      // A slash would create another group, and a dot is the group itself.
       std::ranges::replace(name, '/', '_');
       name = name == "." ? "_" : name;
       while (std::ranges::find(names, group + '/' + name) != names.end())
