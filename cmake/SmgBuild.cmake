@@ -76,4 +76,6 @@ function (smg_library target name headers)
   set_target_properties(${target}Static PROPERTIES LINKER_LANGUAGE CXX)
   target_include_directories(${target}Static INTERFACE "${headers}")
   target_link_libraries(${target}Static INTERFACE ${arg_DEPENDENCIES})
+  # A library that is loaded when it is needed is looked for on the path of the program.
+  target_link_options(${target}Static INTERFACE "-Wl,-rpath,${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
 endfunction ()
