@@ -76,6 +76,9 @@ function (smg_library target name headers)
   set_target_properties(${target}Static PROPERTIES LINKER_LANGUAGE CXX)
   target_include_directories(${target}Static INTERFACE "${headers}")
   target_link_libraries(${target}Static INTERFACE ${arg_DEPENDENCIES})
+  # Templates of the library, Eigen's included, are compiled in its way, whichever copy is linked.
+  target_compile_definitions(${target}Static INTERFACE EIGEN_DONT_VECTORIZE)
+  target_compile_options(${target}Static INTERFACE ${smg_kernel_options})
   # A library that is loaded when it is needed is looked for on the path of the program.
   target_link_options(${target}Static INTERFACE "-Wl,-rpath,${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
 endfunction ()

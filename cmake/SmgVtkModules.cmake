@@ -15,7 +15,7 @@ set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
 # The modules are a separate package, so that StreamingMultigrid::Solver and ::IOCore can be found
-# without VTK. Their headers are installed flat beside the folder Solver, like those of VTK.
+# without VTK. Their headers are installed flat beside the folder smg, like those of VTK.
 vtk_module_build(
   MODULES ${smg_vtk_modules}
   PACKAGE StreamingMultigridVTK

@@ -11,7 +11,7 @@ namespace smg
 {
 
 /** The conditions of a mesh: the field array `MeshConditions` of strings, each a part of a problem
- * in the JSON of a problem file (see IO/Problem/ProblemFile.h). */
+ * in the JSON of a problem file (see smg/DescriptionFiles.h). */
 inline constexpr const char* MeshConditionsName = "MeshConditions";
 
 /** An unused name for the point array of another condition, which is not 0 in its region. */

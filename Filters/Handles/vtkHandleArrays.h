@@ -14,7 +14,7 @@ class vtkUnsignedCharArray;
 namespace smg
 {
 
-/** The point arrays of a piece that store handles (see Solver/Deformation/Handles.h). */
+/** The point arrays of a piece that store handles (see smg/Handles.h). */
 class HandleArrays
 {
 public:

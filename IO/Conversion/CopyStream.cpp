@@ -3,6 +3,7 @@
 
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Order/CellFlagger.h"
+#include "Solver/Core/Progress.h"
 #include "Solver/Stream/AddedColumn.h"
 
 #include <cstring>

@@ -2,6 +2,7 @@
 #include "smg/OpenMesh.h"
 
 #include "IO/AnyFormat/MeshFile.h"
+#include "IO/Formats/MeshPart.h"
 #include "Solver/Storage/ScratchFolder.h"
 
 #include <optional>
@@ -41,6 +42,7 @@ std::unique_ptr<OpenedMesh> openMesh(
   const MeshFileKind kind = kindOfInput(path);
   if (kind == MeshFileKind::Vsm)
   {
+    checkIsWhole({ options.timeStep, options.partition }, path.string());
     mesh.reader.emplace(path);
     return opened;
   }

@@ -2,6 +2,7 @@
 #include "IO/Motion/MovedVertices.h"
 
 #include "IO/Formats/Vsm/AttributeNames.h"
+#include "Solver/Core/Progress.h"
 #include "Solver/Stream/OriginalNumbers.h"
 #include "smg/Error.h"
 

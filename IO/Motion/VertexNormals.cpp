@@ -3,6 +3,7 @@
 
 #include "IO/Formats/Vsm/PagedArray.h"
 #include "IO/Motion/CellNormals.h"
+#include "Solver/Core/Progress.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "smg/Error.h"
 

@@ -4,6 +4,7 @@
 #include "IO/Preview/ClusterGrid.h"
 #include "IO/Preview/KeptRows.h"
 #include "IO/Preview/OpenFaces.h"
+#include "Solver/Core/Progress.h"
 
 #include <algorithm>
 #include <cmath>

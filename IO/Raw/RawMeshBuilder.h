@@ -18,7 +18,7 @@ namespace smg
 {
 
 /** An error in a parsed mesh: a sentence without position and full stop. */
-class MeshError : public std::runtime_error
+class SMG_EXPORT MeshError : public std::runtime_error
 {
 public:
   using std::runtime_error::runtime_error;

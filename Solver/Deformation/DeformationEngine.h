@@ -42,6 +42,9 @@ public:
     }
   }
 
+  DeformationEngine(const DeformationEngine&) = delete;
+  DeformationEngine& operator=(const DeformationEngine&) = delete;
+
   /** To be called once. */
   void deform(MeshSource& mesh, Handles& handles);
   /** Returns the positions after deform() and releases everything else. */

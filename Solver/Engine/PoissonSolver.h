@@ -28,6 +28,9 @@ public:
   {
   }
 
+  PoissonSolver(const PoissonSolver&) = delete;
+  PoissonSolver& operator=(const PoissonSolver&) = delete;
+
   /** To be called once. */
   std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem);
 

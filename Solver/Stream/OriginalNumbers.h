@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "smg/Column.h"
+#include "smg/MeshSource.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -10,12 +10,6 @@
 
 namespace smg
 {
-
-/** Names of the columns that a conversion adds: int64 indices in the original file, from 0. */
-inline constexpr const char* OriginalIdName = "OriginalId";
-inline const ColumnSpec OriginalIdSpec{ OriginalIdName, ScalarType::Int64, 1 };
-inline constexpr const char* OriginalCellIdName = "OriginalCellId";
-inline const ColumnSpec OriginalCellIdSpec{ OriginalCellIdName, ScalarType::Int64, 1 };
 
 /** A name for a vertex or cell in messages, by its index in the original file or in the stream. */
 inline std::string nameOfRow(std::int64_t number, bool original)

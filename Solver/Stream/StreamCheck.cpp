@@ -60,7 +60,7 @@ void StreamCheck::addCells(const MeshBlock& block)
     throw Error("the mesh stream is not valid: cell " +
                 std::to_string(this->Cells + (bad - block.corners.begin()) / corners) +
                 " uses vertex " + std::to_string(*bad) + ", which " +
-                (*bad >= this->Vertices ? "has not come yet" : "was declared final"));
+                (*bad >= this->Vertices ? "is not defined yet" : "was declared final"));
   }
   this->Cells += static_cast<std::int64_t>(block.corners.size()) / corners;
 }

@@ -197,7 +197,7 @@ TEST_F(Container, RefusesWhatIsNoStream)
   expectError(append([&](MeshBlock& b) { b.positions[4] = 0.1; }), "single precision");
   expectError(append([](MeshBlock& b) { b.corners[2] = -1; }), "which does not exist");
   expectError(append([](MeshBlock& b) { b.corners[2] = 3; }), "before any cell uses vertex 2");
-  expectError(append([](MeshBlock& b) { b.positions.resize(9); }), "which has not come yet");
+  expectError(append([](MeshBlock& b) { b.positions.resize(9); }), "which is not defined yet");
   expectError(append([](MeshBlock& b) { b.positions.resize(10); }), "incomplete");
   expectError(append([](MeshBlock& b) { b.corners.resize(5); }), "incomplete");
   expectError(append(

@@ -120,6 +120,18 @@ protected:
     file.bytes("Types", { 5, 5 });
   }
 
+  /** The same in the files other.hdf and a.vtkhdf; returns the latter, open to be changed. */
+  hid_t writeTwoSquares()
+  {
+    for (const char* path : { "a.vtkhdf", "other.hdf" })
+    {
+      HdfFile file(this->Folder / path, "UnstructuredGrid");
+      this->writeSquareGrid(file);
+      file.finish();
+    }
+    return H5Fopen((this->Folder / "a.vtkhdf").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  }
+
   void expectSquare(const ReadMesh& mesh)
   {
     EXPECT_EQ(mesh.positions, (std::vector<double>{ 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0 }));
@@ -300,36 +312,65 @@ TEST_F(ImportVtkHdf, ABlockOfTheUsersMayComeFirst)
   }
 }
 
-// ParaView's parallel writer puts the numbers of each process into a file beside the one that is
-// named. A mesh from somebody else must not make a program read files anywhere.
-TEST_F(ImportVtkHdf, OtherFilesAreReadBesideItOnly)
+// A mesh from an untrusted source must not make a program read files anywhere.
+TEST_F(ImportVtkHdf, LinksAreRefused)
 {
   for (const std::string object : { "/VTKHDF/Points", "/VTKHDF/PointData/Height", "/VTKHDF" })
   {
-    const std::filesystem::path elsewhere = this->Folder / "other.hdf";
-    for (const std::string& target : { std::string("other.hdf"), std::string("x/../other.hdf"),
-           std::string("../other.hdf"), elsewhere.string() })
+    for (const bool external : { false, true })
     {
-      for (const char* path : { "a.vtkhdf", "other.hdf" })
-      {
-        HdfFile file(this->Folder / path, "UnstructuredGrid");
-        this->writeSquareGrid(file);
-        file.finish();
-      }
-      const hid_t file = H5Fopen((this->Folder / "a.vtkhdf").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
-      ASSERT_GE(H5Ldelete(file, object.c_str(), H5P_DEFAULT), 0);
-      ASSERT_GE(H5Lcreate_external(
-                  target.c_str(), object.c_str(), file, object.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-        0);
+      const hid_t file = this->writeTwoSquares();
+      ASSERT_GE(H5Lmove(file, object.c_str(), file, "/hidden", H5P_DEFAULT, H5P_DEFAULT), 0);
+      const herr_t made =
+        external ? H5Lcreate_external(
+                     "other.hdf", object.c_str(), file, object.c_str(), H5P_DEFAULT, H5P_DEFAULT)
+                 : H5Lcreate_soft("/hidden", file, object.c_str(), H5P_DEFAULT, H5P_DEFAULT);
       H5Fclose(file);
-      if (target == "other.hdf")
-      {
-        this->expectSquare(this->readHdf());
-      }
-      else
-      {
-        this->expectRefused({}, "'" + object + "' lies in '" + target + "'");
-      }
+      ASSERT_GE(made, 0);
+      this->expectRefused({}, "'" + object + "' is a link");
+    }
+  }
+}
+
+// ParaView's parallel writer puts the numbers of each process into a file beside the one that is
+// named, and virtual datasets into that.
+TEST_F(ImportVtkHdf, VirtualDatasetsAreReadBesideTheFileOnly)
+{
+  const std::string points = "/VTKHDF/Points";
+  struct Case
+  {
+    std::string source, dataset, refused;
+  };
+  const std::string outside = (this->Folder / "other.hdf").string();
+  for (const Case& tried : { Case{ "other.hdf", points, "" }, Case{ ".", "/hidden", "" },
+         Case{ outside, points, "'/VTKHDF/Points' lies in '" + outside + "'" },
+         Case{ "../other.hdf", points, "'/VTKHDF/Points' lies in '../other.hdf'" },
+         Case{ "none.hdf", points, "'/VTKHDF/Points' lies in 'none.hdf'" },
+         Case{ ".", "/raw", "'/raw' has its numbers elsewhere" } })
+  {
+    const hid_t file = this->writeTwoSquares();
+    ASSERT_GE(H5Lmove(file, points.c_str(), file, "/hidden", H5P_DEFAULT, H5P_DEFAULT), 0);
+    const hid_t old = H5Dopen2(file, "/hidden", H5P_DEFAULT);
+    const hid_t type = H5Dget_type(old), space = H5Dget_space(old);
+    const hid_t raw = H5Pcreate(H5P_DATASET_CREATE);
+    ASSERT_GE(H5Pset_external(raw, "/etc/hostname", 0, H5F_UNLIMITED), 0);
+    H5Dclose(H5Dcreate2(file, "/raw", type, space, H5P_DEFAULT, raw, H5P_DEFAULT));
+    const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
+    ASSERT_GE(H5Pset_virtual(list, space, tried.source.c_str(), tried.dataset.c_str(), space), 0);
+    H5Dclose(H5Dcreate2(file, points.c_str(), type, space, H5P_DEFAULT, list, H5P_DEFAULT));
+    H5Pclose(list);
+    H5Pclose(raw);
+    H5Sclose(space);
+    H5Tclose(type);
+    H5Dclose(old);
+    H5Fclose(file);
+    if (tried.refused.empty())
+    {
+      this->expectSquare(this->readHdf());
+    }
+    else
+    {
+      this->expectRefused({}, tried.refused);
     }
   }
 }

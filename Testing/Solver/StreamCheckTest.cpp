@@ -43,7 +43,7 @@ TEST(StreamCheck, NamesWhatIsWrong)
     { [](MeshBlock& b) { b.corners.pop_back(); }, "in the middle" },
     { [](MeshBlock& b) { b.positions[1] = std::numeric_limits<double>::quiet_NaN(); },
       "vertex 3 is not a finite number" },
-    { [](MeshBlock& b) { b.corners[1] = 4; }, "cell 1 uses vertex 4, which has not come yet" },
+    { [](MeshBlock& b) { b.corners[1] = 4; }, "cell 1 uses vertex 4, which is not defined yet" },
     { [](MeshBlock& b) { b.corners[2] = 0; }, "cell 1 uses vertex 0, which was declared final" },
     { [](MeshBlock& b) { b.finalized = 5; }, "declares 5 vertices final but only 4" },
   };

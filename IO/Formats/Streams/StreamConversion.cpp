@@ -6,6 +6,7 @@
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Streams/StreamFileWriter.h"
 #include "IO/Formats/Vsm/PagedArray.h"
+#include "Solver/Core/Progress.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 

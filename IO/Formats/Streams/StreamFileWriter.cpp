@@ -56,7 +56,7 @@ void StreamFileWriter::countVertex(std::size_t floats, std::size_t ints)
       ints != std::size_t(this->Header.vertexInts) || this->Vertices == MaxCount)
   {
     this->fail("vertex " + std::to_string(this->Vertices) +
-               " has not the values that the header says, or is one too many.");
+               " does not have the values of the header, or exceeds its count.");
   }
   this->Vertices++;
 }
@@ -71,14 +71,14 @@ void StreamFileWriter::countCell(
       ints != std::size_t(this->Header.cellInts) || this->Cells == MaxCount)
   {
     this->fail("cell " + std::to_string(this->Cells) +
-               " has not the values that the header says, or is one too many.");
+               " does not have the values of the header, or exceeds its count.");
   }
   for (std::size_t k = 0; k < corners.size(); k++)
   {
     if (corners[k] < 0 || corners[k] >= most)
     {
       this->fail("cell " + std::to_string(this->Cells) + " uses vertex " +
-                 std::to_string(corners[k]) + ", which has not come.");
+                 std::to_string(corners[k]) + ", which is not defined yet.");
     }
     const bool final = relative && (finalMask >> k & 1U) != 0;
     this->Indices[k] =

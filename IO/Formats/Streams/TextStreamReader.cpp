@@ -188,7 +188,7 @@ bool TextStreamReader::read(StreamEvent& event)
     event.corners[0] = this->readIndex(tokens, final);
     if (event.corners[0] >= this->Vertices)
     {
-      this->fail("a vertex that has not come yet cannot be final.");
+      this->fail("a vertex that is not defined yet cannot be final.");
     }
   }
   else
@@ -266,7 +266,7 @@ std::int64_t TextStreamReader::readIndex(Tokens& tokens, bool& final)
   {
     this->fail("index " + std::to_string(index) +
                (this->Header.postOrder ? " is larger than the number of vertices."
-                                       : " is of a vertex that has not come yet."));
+                                       : " is of a vertex that is not defined yet."));
   }
   return vertex;
 }

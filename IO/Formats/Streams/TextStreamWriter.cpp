@@ -148,7 +148,8 @@ void TextStreamWriter::finalization(std::int64_t vertex)
   }
   if (vertex < 0 || vertex >= this->Vertices)
   {
-    this->fail("vertex " + std::to_string(vertex) + " cannot be final, since it has not come.");
+    this->fail(
+      "vertex " + std::to_string(vertex) + " cannot be final, since it is not defined yet.");
   }
   this->Line.assign(1, 'x');
   this->add(vertex - this->Vertices);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/CheckVsm.h"
 
+#include "Solver/Core/Progress.h"
 #include "Solver/Storage/BlockFile.h"
 
 #include <cstddef>

@@ -263,7 +263,7 @@ void VsmWriter::Implementation::addCell(const std::int64_t* corners)
                    : v > this->Introduced
                      ? " before any cell uses vertex " + std::to_string(this->Introduced) +
                          ": vertices are to be numbered by first use."
-                     : ", which has not come yet."));
+                     : ", which is not defined yet."));
     }
     this->Distances.push_back(static_cast<std::uint64_t>(this->Introduced - v));
     if (v == this->Introduced)

@@ -4,6 +4,7 @@
 #include "IO/Formats/Vsm/Columns.h"
 #include "IO/Formats/Vsm/VsmFormat.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
+#include "Solver/Core/Progress.h"
 #include "smg/VsmReader.h"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include "IO/Formats/Vtk/WriteVtkXml.h"
 
 #include "IO/Formats/Vtk/VtkXmlFile.h"
+#include "Solver/Core/Progress.h"
 #include "smg/Error.h"
 
 #include <cstdint>

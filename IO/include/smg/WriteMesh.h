@@ -60,7 +60,7 @@ struct RewriteOptions
 {
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
-  /** Memory for positions that wait for their turn, bytes. */
+  /** Memory for positions that are being sorted, bytes; less than 16 MiB counts as 16 MiB. */
   std::int64_t memory = std::int64_t(64) << 20;
   /** Progress callback; empty: none. */
   ProgressFunction progress;

@@ -35,6 +35,15 @@ enum CellFlag : std::uint8_t
   DuplicateCell = 2   ///< an earlier cell has the same corners
 };
 
+/** Vertex column (int64) that a conversion adds: indices in the original file, from 0. */
+inline constexpr const char* OriginalIdName = "OriginalId";
+/** The specification of the column OriginalId. */
+inline const ColumnSpec OriginalIdSpec{ OriginalIdName, ScalarType::Int64, 1 };
+/** Cell column (int64) that a conversion adds: indices in the original file, from 0. */
+inline constexpr const char* OriginalCellIdName = "OriginalCellId";
+/** The specification of the column OriginalCellId. */
+inline const ColumnSpec OriginalCellIdSpec{ OriginalCellIdName, ScalarType::Int64, 1 };
+
 /**
  * Information on a mesh stream that is known before it is read.
  *

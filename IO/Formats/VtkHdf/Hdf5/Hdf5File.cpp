@@ -161,6 +161,7 @@ Hdf5Shape Hdf5File::shape(const std::string& dataset) const
   {
     this->fail("the dataset " + inQuotes(dataset) + " is missing");
   }
+  checkSources(set.id(), this->Name, dataset);
   const Hdf5Handle<H5Tclose> type(H5Dget_type(set.id()));
   const Hdf5Handle<H5Sclose> space(H5Dget_space(set.id()));
   Hdf5Shape shape;
@@ -182,7 +183,6 @@ Hdf5Shape Hdf5File::shape(const std::string& dataset) const
     }
   }
   const Hdf5Handle<H5Pclose> properties(H5Dget_create_plist(set.id()));
-  checkSources(properties.id(), this->Name, dataset);
   shape.chunkBytes = chunkBytesOf(properties.id(), H5Tget_size(type.id()));
   return shape;
 }
@@ -228,6 +228,7 @@ std::optional<std::int64_t> Hdf5File::integer(
   const std::string& object, const char* attribute) const
 {
   const Hdf5Silence silence;
+  checkLinks(this->File, this->Name, object);
   const Hdf5Handle<H5Aclose> handle(
     H5Aopen_by_name(this->File, object.c_str(), attribute, H5P_DEFAULT, H5P_DEFAULT));
   if (!handle.valid())

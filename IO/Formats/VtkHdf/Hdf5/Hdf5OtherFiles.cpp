@@ -2,13 +2,12 @@
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5OtherFiles.h"
 
 #include "IO/Files/InQuotes.h"
+#include "IO/Formats/VtkHdf/Hdf5/Hdf5Handle.h"
 #include "smg/Error.h"
 
-#include <hdf5.h>
-
 #include <algorithm>
-#include <array>
 #include <filesystem>
+#include <system_error>
 #include <vector>
 
 namespace smg
@@ -16,26 +15,54 @@ namespace smg
 namespace
 {
 
-void requireBeside(
-  const std::filesystem::path& other, const std::string& name, const std::string& object)
+[[noreturn]] void refuse(
+  const std::string& name, const std::string& object, const std::string& reason)
 {
-  if (other.is_absolute() || std::ranges::find(other, "..") != other.end())
-  {
-    throw Error(name + ": " + inQuotes(object) + " lies in " + inQuotes(other.string()) +
-                ": only files in the same folder, or below it, are read.");
-  }
+  throw Error(name + ": " + inQuotes(object) + ' ' + reason + '.');
 }
 
-/** The target file of an external link of `bytes` bytes. */
-std::string targetOf(hid_t file, const std::string& link, std::size_t bytes)
+/** Whether a dataset has its numbers in the file itself or, with `virtualToo`, in virtual parts. */
+bool isStored(hid_t properties, bool virtualToo)
 {
-  std::vector<char> value(bytes);
-  const char* target = nullptr;
-  const char* object = nullptr;
-  const bool found =
-    H5Lget_val(file, link.c_str(), value.data(), value.size(), H5P_DEFAULT) >= 0 &&
-    H5Lunpack_elink_val(value.data(), value.size(), nullptr, &target, &object) >= 0;
-  return found ? target : std::string("..");
+  return H5Pget_external_count(properties) == 0 &&
+         (virtualToo || H5Pget_layout(properties) != H5D_VIRTUAL);
+}
+
+/** A text that HDF5 gives by a function of its size and place. */
+template <class Get>
+std::string textOf(Get&& get)
+{
+  const ssize_t length = get(nullptr, 0);
+  std::vector<char> text(static_cast<std::size_t>(std::max<ssize_t>(length, 0)) + 1);
+  get(text.data(), text.size());
+  return text.data();
+}
+
+/** The file of a part of a virtual dataset, if it is in `folder` or below; else empty. */
+std::filesystem::path sourceIn(
+  const std::filesystem::path& folder, const std::filesystem::path& source)
+{
+  std::error_code error;
+  const std::filesystem::path root = std::filesystem::canonical(folder, error);
+  const std::filesystem::path file =
+    error ? std::filesystem::path{} : std::filesystem::canonical(root / source, error);
+  if (error || source.is_absolute() ||
+      std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first != root.end())
+  {
+    return {};
+  }
+  return file;
+}
+
+void checkSource(hid_t file, const std::string& name, const std::string& object)
+{
+  checkLinks(file, name, object);
+  const Hdf5Handle<H5Dclose> set(H5Dopen2(file, object.c_str(), H5P_DEFAULT));
+  const Hdf5Handle<H5Pclose> properties(set.valid() ? H5Dget_create_plist(set.id()) : -1);
+  if (!properties.valid() || !isStored(properties.id(), false))
+  {
+    refuse(name, object, "has its numbers elsewhere, which is not followed any further");
+  }
 }
 
 } // namespace
@@ -49,36 +76,53 @@ void checkLinks(std::int64_t file, const std::string& name, const std::string& o
     H5L_info_t link{};
     if (H5Lget_info(file, path.c_str(), &link, H5P_DEFAULT) < 0)
     {
-      return; // no such object
+      return; // there is no such object
     }
-    if (link.type == H5L_TYPE_EXTERNAL)
+    if (link.type != H5L_TYPE_HARD)
     {
-      requireBeside(targetOf(file, path, link.u.val_size), name, path);
+      refuse(name, path, "is a link, which is not followed: write all data into the file itself");
     }
   }
 }
 
-void checkSources(std::int64_t properties, const std::string& name, const std::string& dataset)
+void checkSources(std::int64_t dataset, const std::string& name, const std::string& object)
 {
-  if (H5Pget_layout(properties) == H5D_VIRTUAL)
+  const Hdf5Handle<H5Pclose> properties(H5Dget_create_plist(dataset));
+  if (!properties.valid() || !isStored(properties.id(), true))
   {
-    std::size_t count = 0;
-    H5Pget_virtual_count(properties, &count);
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      const ssize_t length = H5Pget_virtual_filename(properties, i, nullptr, 0);
-      std::vector<char> source(static_cast<std::size_t>(std::max<ssize_t>(length, 0)) + 1);
-      H5Pget_virtual_filename(properties, i, source.data(), source.size());
-      requireBeside(source.data(), name, dataset);
-    }
+    refuse(name, object, "has its numbers in a file without structure, which is not read");
   }
-  const int external = H5Pget_external_count(properties);
-  for (int i = 0; i < external; ++i)
+  if (H5Pget_layout(properties.id()) != H5D_VIRTUAL)
   {
-    std::array<char, 4096> source{};
-    H5Pget_external(
-      properties, static_cast<unsigned>(i), source.size() - 1, source.data(), nullptr, nullptr);
-    requireBeside(source.data(), name, dataset);
+    return;
+  }
+  const hid_t list = properties.id();
+  const Hdf5Handle<H5Fclose> own(H5Iget_file_id(dataset));
+  const std::filesystem::path path =
+    textOf([&](char* text, std::size_t size) { return H5Fget_name(own.id(), text, size); });
+  std::size_t count = 0;
+  H5Pget_virtual_count(list, &count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const std::string source = textOf(
+      [&](char* text, std::size_t size) { return H5Pget_virtual_filename(list, i, text, size); });
+    const std::string part = textOf(
+      [&](char* text, std::size_t size) { return H5Pget_virtual_dsetname(list, i, text, size); });
+    if (source == ".")
+    {
+      checkSource(own.id(), name, part);
+      continue;
+    }
+    const std::filesystem::path other = sourceIn(path.parent_path() / ".", source);
+    const Hdf5Handle<H5Fclose> file(
+      other.empty() ? -1 : H5Fopen(other.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+    if (!file.valid())
+    {
+      refuse(name, object,
+        "lies in " + inQuotes(source) +
+          ": only HDF5 files in the same folder, or below it, are read");
+    }
+    checkSource(file.id(), other.string(), part);
   }
 }
 

@@ -7,13 +7,15 @@
 namespace smg
 {
 
-// An HDF5 file may refer to other files, like those of ParaView's parallel writer. A foreign mesh
-// must not make a program read arbitrary files: only those in its folder or below.
+// An HDF5 file may name other files. A mesh from an untrusted source must not make a program read
+// files anywhere: only virtual datasets are followed, as ParaView's parallel writer makes them, to
+// datasets of files in the folder of the file or below.
 
-/** Throws Error if a link on the path to an object of the file `name` leads elsewhere. */
+/** Throws Error if the path to an object of a file, called `name`, contains a link that is not a
+ * plain (hard) one. */
 void checkLinks(std::int64_t file, const std::string& name, const std::string& object);
 
-/** Throws Error if a dataset with these creation properties has numbers in a file elsewhere. */
-void checkSources(std::int64_t properties, const std::string& name, const std::string& dataset);
+/** Throws Error if an open dataset of the file `name` has its numbers anywhere else. */
+void checkSources(std::int64_t dataset, const std::string& name, const std::string& object);
 
 } // namespace smg

@@ -98,10 +98,10 @@ private:
     this->Layout.bytes = (this->Partition ? 1 : this->Parts) * (PieceBytes + ArrayBytes * arrays);
     if (this->Layout.bytes > this->MostBytes)
     {
-      this->File.fail(std::to_string(this->Parts) + " partitions take " +
-                      std::to_string((this->Layout.bytes >> 20) + 1) +
-                      " MiB, more than is allowed for what the file says of itself: allow more "
-                      "memory");
+      this->File.fail(
+        std::to_string(this->Parts) + " partitions take " +
+        std::to_string((this->Layout.bytes >> 20) + 1) +
+        " MiB, more than the memory limit allows for the layout of the file: raise it");
     }
   }
 

@@ -5,6 +5,7 @@
 #include "IO/Formats/Vsm/ReservedNames.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Output.h"
 #include "IO/Formats/VtkHdf/Hdf5/VtkHdfRoot.h"
+#include "Solver/Core/Progress.h"
 #include "smg/VsmReader.h"
 
 #include <algorithm>
