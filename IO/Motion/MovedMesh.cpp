@@ -5,6 +5,7 @@
 #include "IO/Motion/MovedPoints.h"
 #include "IO/Motion/VertexNormals.h"
 #include "Solver/Stream/AddedColumn.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <optional>
@@ -62,6 +63,12 @@ MovedMesh::MovedMesh(
   : Self(new Implementation{ mesh, positions, options, {} })
 {
   const StreamInfo& info = mesh.info();
+  if (positions.columns() != 3 || positions.vertices() != info.vertices)
+  {
+    throw Error("a solution of " + std::to_string(positions.columns()) + " columns for " +
+                std::to_string(positions.vertices()) + " vertices holds no positions of the " +
+                std::to_string(info.vertices) + " vertices of " + mesh.path().string());
+  }
   if (normals == MovedNormals::Drop || info.cellType != CellType::Triangle)
   {
     return;

@@ -4,6 +4,7 @@
 #include "Solver/Results/ProblemResults.h"
 #include "Solver/Results/RenumberExtremes.h"
 #include "Solver/Stream/OriginalNumbers.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <cstring>
@@ -43,6 +44,12 @@ struct SolvedMesh::Implementation
     , info(source->info())
     , file(mesh.path())
   {
+    if (solution.vertices() != this->info.vertices)
+    {
+      throw Error(this->file.string() + " has " + std::to_string(this->info.vertices) +
+                  " vertices, the solution " + std::to_string(solution.vertices()) +
+                  ": it is that of another mesh.");
+    }
     const int columns = problem.columns();
     for (std::vector<ColumnSpec>* specs : { &this->info.vertexColumns, &this->info.cellColumns })
     {
@@ -64,6 +71,7 @@ struct SolvedMesh::Implementation
   ResultOptions wanted;
   StreamInfo info;
   std::filesystem::path file;
+  bool ended = false; ///< the stream has been read to its end
 };
 
 SolvedMesh::SolvedMesh(
@@ -83,6 +91,7 @@ bool SolvedMesh::next(MeshBlock& block)
 {
   if (!this->Self->source->next(block))
   {
+    this->Self->ended = true;
     return false;
   }
   // The problem may use the columns of an earlier solve.
@@ -106,6 +115,10 @@ bool SolvedMesh::next(MeshBlock& block)
 
 void SolvedMesh::finish(Report& report)
 {
+  if (!this->Self->ended)
+  {
+    throw Error("the results of a solution are known when its mesh has been read to the end");
+  }
   this->Self->results.finish(report);
   if (findColumn(this->Self->info.vertexColumns, OriginalIdSpec) < 0)
   {

@@ -57,6 +57,13 @@ void OpenVertices::ask(const MeshBlock& block)
   given.source.assign(values, 0.0);
   given.screening.assign(count, 0.0);
   this->Given.conditions(block, given);
+  if (given.dirichlet.size() != count || given.value.size() != values ||
+      given.source.size() != values || given.screening.size() != count)
+  {
+    throw Error("the problem has changed the size of its conditions: a block of " +
+                std::to_string(count) + " vertices has one number each, values and sources " +
+                std::to_string(this->Columns));
+  }
 
   const auto vertex = [&block](std::ptrdiff_t k)
   {

@@ -132,6 +132,14 @@ TEST_F(MovedMeshes, DropTheirNormals)
   EXPECT_EQ(collect(*source).positions, this->Mesh.positions);
 }
 
+TEST_F(MovedMeshes, NeedPositionsOfThisMesh)
+{
+  const VsmReader& reader = this->write(grid(6, 5));
+  Positions positions(std::vector<double>(this->Mesh.positions.size() - 3));
+  const std::string message = messageOf([&] { MovedMesh(reader, positions, MovedNormals::Drop); });
+  EXPECT_NE(message.find("a solution of 3 columns for"), std::string::npos) << message;
+}
+
 TEST_F(MovedMeshes, ComputeNormalsOfAnyType)
 {
   StreamMesh mesh = toStream(grid(6, 5));

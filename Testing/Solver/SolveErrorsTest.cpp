@@ -67,6 +67,28 @@ TEST(SolveErrors, NumbersThatAreNotFinite)
   }
 }
 
+TEST(SolveErrors, ConditionsOfAnotherSize)
+{
+  struct Resizing : ArrayProblem
+  {
+    std::vector<double> VertexConditions::*Which = nullptr;
+    void conditions(const MeshBlock& block, VertexConditions& conditions) override
+    {
+      ArrayProblem::conditions(block, conditions);
+      (conditions.*this->Which).push_back(0.0);
+    }
+  };
+  const StreamMesh mesh = toStream(grid(4, 4));
+  for (const auto which :
+    { &VertexConditions::value, &VertexConditions::source, &VertexConditions::screening })
+  {
+    Resizing problem;
+    problem.Which = which;
+    EXPECT_NE(
+      errorOfSolve(mesh, problem).find("changed the size of its conditions"), std::string::npos);
+  }
+}
+
 TEST(SolveErrors, ConditionsThatAreNone)
 {
   /** All vertices have the Dirichlet condition 3, which does not exist. */

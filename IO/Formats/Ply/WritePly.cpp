@@ -4,6 +4,7 @@
 #include "IO/Files/InQuotes.h"
 #include "IO/Files/PositionedFile.h"
 #include "IO/Formats/Ply/PlyRecords.h"
+#include "IO/Formats/Shared/OtherCounts.h"
 #include "Solver/Core/Progress.h"
 #include "smg/Error.h"
 
@@ -63,10 +64,7 @@ public:
       this->FirstFace + this->Info.cells * static_cast<std::int64_t>(this->Faces.recordBytes());
     if (this->VertexEnd != this->FirstFace || this->FaceEnd != end)
     {
-      throw Error(path.string() + ": the mesh stream has not the " +
-                  std::to_string(this->Info.vertices) + " vertices and " +
-                  std::to_string(this->Info.cells) +
-                  " cells that it says: write it to a .vsm file first.");
+      throw Error(otherCounts(path.string(), this->Info));
     }
     this->File.finish();
     return this->Written;

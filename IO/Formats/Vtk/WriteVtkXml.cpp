@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vtk/WriteVtkXml.h"
 
+#include "IO/Formats/Shared/OtherCounts.h"
 #include "IO/Formats/Vtk/VtkXmlFile.h"
 #include "Solver/Core/Progress.h"
 #include "smg/Error.h"
@@ -19,15 +20,22 @@ void writeVtkXml(
   const auto corners = static_cast<std::uint32_t>(cornersOf(info.cellType));
   VtkXmlFile file(path, { info.cellType, info.doublePositions, info.vertices, info.cells,
                           info.cells * corners, info.vertexColumns, info.cellColumns });
+  std::int64_t vertices = 0, cells = 0;
   std::vector<std::uint32_t> sizes;
   for (MeshBlock block; source.next(block);)
   {
     file.appendPoints(block.positions, block.vertexColumns);
     sizes.assign(block.corners.size() / corners, corners);
     file.appendCells(block.corners, sizes, block.cellColumns);
+    vertices += block.vertices();
+    cells += static_cast<std::int64_t>(sizes.size());
     const auto end =
       static_cast<double>(block.firstCell) + static_cast<double>(block.corners.size()) / corners;
     reported.update(end / static_cast<double>(info.cells));
+  }
+  if (vertices != info.vertices || cells != info.cells)
+  {
+    throw Error(otherCounts(path.string(), info));
   }
   file.finish();
 }

@@ -35,7 +35,8 @@ public:
    * @param problem the problem of the solution; asked once more while the stream is read
    * @param solution the solution
    * @param options which results to compute
-   * @throws Error if the solution has another number of columns than the problem, or the problem
+   * @throws Error if the solution has another number of columns than the problem, or of vertices than
+   * the mesh, or the problem
    * has edge targets
    */
   SolvedMesh(
