@@ -35,9 +35,8 @@ public:
    * @param problem the problem of the solution; asked once more while the stream is read
    * @param solution the solution
    * @param options which results to compute
-   * @throws Error if the solution has another number of columns than the problem, or of vertices than
-   * the mesh, or the problem
-   * has edge targets
+   * @throws Error if the solution has another number of columns than the problem, or of vertices
+   * than the mesh, or the problem has edge targets
    */
   SolvedMesh(
     const VsmReader& mesh, Problem& problem, Solution& solution, const ResultOptions& options = {});
