@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/MovedMesh.h"
-#include "IO/Formats/Vsm/AttributeNames.h"
 
+#include "IO/Formats/Vsm/AttributeNames.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemorySource.h"

@@ -59,7 +59,7 @@ TEST_F(StreamFormatsErrors, RefusesWrongLines)
   this->expectRefusal("a.sma", three + "f 1 2\n", "line 4: the indices");
   this->expectRefusal("a.sma", three + "f 1 2 0\n", "line 4: the indices");
   this->expectRefusal("a.sma", three + "f 1/1 2 3\n", "line 4: the indices");
-  this->expectRefusal("a.sma", three + "f 1 2 4\n", "line 4: index 4 is of a vertex that has not");
+  this->expectRefusal("a.sma", three + "f 1 2 4\n", "line 4: index 4 is of a vertex that is not");
   this->expectRefusal("a.sma", three + "f 1 2 -4\n", "line 4: index -4 goes back");
   this->expectRefusal("a.sma", three + "f 1 2 99999999999999999999\n", "line 4: the indices");
   this->expectRefusal("a.sma", three + "f 1 2 3 1\n", "line 4: there is more");

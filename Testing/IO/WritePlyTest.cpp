@@ -6,6 +6,7 @@
 #include "Testing/Support/RawMeshReading.h"
 #include "smg/Convert.h"
 #include "smg/VsmReader.h"
+#include "smg/WriteMesh.h"
 
 #include <gtest/gtest.h>
 
@@ -202,7 +203,10 @@ TEST_F(WritePly, RefusesWhatItCannotHold)
   for (const auto& [vertices, cells] : { std::pair{ 1, 0 }, { 0, 1 }, { -1, 0 }, { 0, -1 } })
   {
     LyingSource lying(good.mesh(), vertices, cells);
-    contains(refusal(lying, "out.ply"), "cells that it says");
+    contains(refusal(lying, "out.ply"), "cells of its info");
+    LyingSource again(good.mesh(), vertices, cells);
+    contains(messageOf([&] { writeMesh(again, this->Folder / "out.vtu"); }), "cells of its info");
+    EXPECT_EQ(this->Folder.entries(), 0);
   }
   contains(refusal(good, "missing/out.ply"), "missing");
   EXPECT_THROW(writePly(good, this->Folder / "out.ply", [](double) { return false; }), Cancelled);
