@@ -20,6 +20,7 @@ smg_library(smgIOCore IOCore "${PROJECT_SOURCE_DIR}/IO/include"
 target_link_libraries(smgIOCoreStatic INTERFACE smgSolverStatic)
 
 # Loaded by the other one when it is needed.
+# The sanitizers' dlopen() does not look where that one says: their presets name the folder.
 add_library(smgVtkHdfObjects OBJECT ${smg_hdf5_sources})
 target_include_directories(smgVtkHdfObjects PUBLIC
   "${PROJECT_SOURCE_DIR}/Solver/include" "${PROJECT_SOURCE_DIR}/IO/include")
