@@ -16,8 +16,7 @@ namespace
 
 std::ptrdiff_t requireIds(const StreamInfo& info)
 {
-  const std::ptrdiff_t ids =
-    findColumn(info.vertexColumns, { OriginalIdName, ScalarType::Int64, 1 });
+  const std::ptrdiff_t ids = findColumn(info.vertexColumns, OriginalIdSpec);
   if (ids < 0)
   {
     throw Error(std::string("The mesh has no column ") + OriginalIdName +

@@ -107,17 +107,7 @@ void Hdf5File::fail(const std::string& sentence) const
 bool Hdf5File::exists(const std::string& object) const
 {
   const Hdf5Silence silence;
-  checkLinks(this->File, this->Name, object);
-  // Each group of the path must be tested.
-  for (std::size_t at = object.find('/', 1); at != std::string::npos; at = object.find('/', at + 1))
-  {
-    if (H5Lexists(this->File, object.substr(0, at).c_str(), H5P_DEFAULT) <= 0)
-    {
-      return false;
-    }
-  }
-  return H5Lexists(this->File, object.c_str(), H5P_DEFAULT) > 0 &&
-         H5Oexists_by_name(this->File, object.c_str(), H5P_DEFAULT) > 0;
+  return checkLinks(this->File, this->Name, object);
 }
 
 std::vector<std::string> Hdf5File::datasets(const std::string& group) const

@@ -67,7 +67,7 @@ void checkSource(hid_t file, const std::string& name, const std::string& object)
 
 } // namespace
 
-void checkLinks(std::int64_t file, const std::string& name, const std::string& object)
+bool checkLinks(std::int64_t file, const std::string& name, const std::string& object)
 {
   for (std::size_t end = 0; end != std::string::npos;)
   {
@@ -76,13 +76,14 @@ void checkLinks(std::int64_t file, const std::string& name, const std::string& o
     H5L_info_t link{};
     if (H5Lget_info(file, path.c_str(), &link, H5P_DEFAULT) < 0)
     {
-      return; // there is no such object
+      return false;
     }
     if (link.type != H5L_TYPE_HARD)
     {
       refuse(name, path, "is a link, which is not followed: write all data into the file itself");
     }
   }
+  return true;
 }
 
 void checkSources(std::int64_t dataset, const std::string& name, const std::string& object)
