@@ -10,8 +10,8 @@
 #include "IO/vtkSelectedColumns.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Storage/BlockFile.h"
+#include "smg/Convert.h"
 #include "smg/Error.h"
-#include "smg/OpenMesh.h"
 #include "smg/VsmReader.h"
 
 #include "vtkDataArraySelection.h"

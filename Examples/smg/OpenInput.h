@@ -4,7 +4,7 @@
 #include "CommonOptions.h"
 #include "InputOptions.h"
 
-#include "smg/OpenMesh.h"
+#include "smg/Convert.h"
 
 /** Opens a mesh file of any format. A file that is not a stream is converted to `order`, within the
  * memory limit of the options and according to `input`. Throws smg::Error. */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Handles/vtkHandleArrays.h"
 
+#include "smg/Deform.h"
 #include "smg/Error.h"
-#include "smg/Handles.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkPointData.h"

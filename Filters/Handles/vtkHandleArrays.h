@@ -14,7 +14,7 @@ class vtkUnsignedCharArray;
 namespace smg
 {
 
-/** The point arrays of a piece that store handles (see smg/Handles.h). */
+/** The point arrays of a piece that store handles (see smg/Deform.h). */
 class HandleArrays
 {
 public:

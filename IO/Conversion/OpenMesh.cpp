@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "smg/OpenMesh.h"
+#include "smg/Convert.h"
 
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/Formats/MeshPart.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/DeformationDescription.h"
 
-#include "smg/Handles.h"
+#include "smg/Deform.h"
 
 namespace smg
 {

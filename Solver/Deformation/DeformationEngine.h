@@ -11,8 +11,7 @@
 #include "Solver/Engine/SolveRun.h"
 #include "smg/Deform.h"
 #include "smg/Error.h"
-#include "smg/Handles.h"
-#include "smg/Solution.h"
+#include "smg/Solve.h"
 
 #include <memory>
 #include <utility>

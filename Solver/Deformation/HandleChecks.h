@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "smg/Handles.h"
+#include "smg/Deform.h"
 
 #include <cstddef>
 #include <cstdint>

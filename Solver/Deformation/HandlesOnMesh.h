@@ -3,8 +3,8 @@
 
 #include "Solver/Description/Selection.h"
 #include "Solver/Description/ValueOnMesh.h"
+#include "smg/Deform.h"
 #include "smg/DeformationDescription.h"
-#include "smg/Handles.h"
 
 #include <filesystem>
 #include <memory>

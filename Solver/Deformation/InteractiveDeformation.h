@@ -3,8 +3,7 @@
 
 #include "smg/Deform.h"
 #include "smg/Export.h"
-#include "smg/Handles.h"
-#include "smg/Solution.h"
+#include "smg/Solve.h"
 
 #include <memory>
 

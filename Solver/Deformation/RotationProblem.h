@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Deformation/RestShape.h"
-#include "smg/Handles.h"
+#include "smg/Deform.h"
 #include "smg/Problem.h"
 
 namespace smg

@@ -4,7 +4,7 @@
 #include "Solver/Cycle/LevelWindow.h"
 #include "Solver/Engine/SolveRun.h"
 #include "smg/Export.h"
-#include "smg/Solution.h"
+#include "smg/Solve.h"
 
 #include <cstdint>
 #include <memory>

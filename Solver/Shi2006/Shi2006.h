@@ -5,7 +5,6 @@
 #include "Solver/Engine/SolveProgress.h"
 #include "Solver/Shi2006/VCycle.h"
 #include "smg/Problem.h"
-#include "smg/Solution.h"
 #include "smg/Solve.h"
 
 namespace smg

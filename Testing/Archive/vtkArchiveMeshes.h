@@ -4,7 +4,7 @@
 #include "Testing/Support/Refinement.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
-#include "smg/OpenMesh.h"
+#include "smg/Convert.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "Testing/IO/vtkPieceTesting.h"
+#include "smg/Deform.h"
 #include "smg/DeformationDescription.h"
-#include "smg/Handles.h"
 
 #include "vtkDoubleArray.h"
 

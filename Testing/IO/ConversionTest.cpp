@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Convert.h"
-#include "smg/OpenMesh.h"
 
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/Formats/Streams/StreamConversion.h"

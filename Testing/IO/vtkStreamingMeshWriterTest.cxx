@@ -5,7 +5,7 @@
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
-#include "smg/OpenMesh.h"
+#include "smg/Convert.h"
 #include "smg/VsmReader.h"
 
 #include "vtkContourFilter.h"

@@ -40,7 +40,7 @@ END
 xvfb-run -a pvpython plugin.py
 smg info deformed.vsm --check
 
-for project in Solver Filters; do
+for project in Lessons CustomOperators Filters; do
   cmake -S "$tree/Testing/Install/$project" -B "$project" -DCMAKE_BUILD_TYPE=Release
   cmake --build "$project"
   ctest --test-dir "$project" --output-on-failure --no-tests=error

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Testing/Support/StreamMesh.h"
-#include "smg/Handles.h"
+#include "smg/Deform.h"
 
 #include <Eigen/Core>
 

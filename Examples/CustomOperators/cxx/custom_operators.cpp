@@ -26,7 +26,7 @@ Run it:
     wires, over-relaxed: converged after 7 cycles, relative residual 2.73623e-11
 */
 
-#include <smg/OpenMesh.h>
+#include <smg/Convert.h>
 #include <smg/SolveWith.h>
 
 #include <cmath>

@@ -25,11 +25,11 @@ Run it:
       position: 5 cycles, relative residual 1.7581e-07
 */
 
+#include <smg/Convert.h>
 #include <smg/Deform.h>
 #include <smg/DescribedHandles.h>
 #include <smg/DescriptionFiles.h>
 #include <smg/MovedMesh.h>
-#include <smg/OpenMesh.h>
 #include <smg/WriteMesh.h>
 
 #include <iostream>

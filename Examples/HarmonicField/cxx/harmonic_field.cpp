@@ -21,9 +21,9 @@ Run it:
     isolines.obj: 7378 segments of 23 isolines
 */
 
+#include <smg/Convert.h>
 #include <smg/DescribedProblem.h>
 #include <smg/Error.h>
-#include <smg/OpenMesh.h>
 #include <smg/Solve.h>
 
 #include <array>

@@ -27,8 +27,8 @@ Run it:
     relative imbalance of all flows: -1.04355e-09
 */
 
+#include <smg/Convert.h>
 #include <smg/DescribedProblem.h>
-#include <smg/OpenMesh.h>
 #include <smg/Solve.h>
 #include <smg/SolvedMesh.h>
 #include <smg/WriteMesh.h>

@@ -4,7 +4,7 @@
 #include "smg/Error.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
-#include "smg/Solution.h"
+#include "smg/Solve.h"
 #include "smg/VsmReader.h"
 
 #include <cstdint>

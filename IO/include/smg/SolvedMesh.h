@@ -5,10 +5,12 @@
 #include "smg/MeshSource.h"
 #include "smg/Problem.h"
 #include "smg/Report.h"
-#include "smg/Solution.h"
+#include "smg/Solve.h"
 #include "smg/VsmReader.h"
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace smg
 {
@@ -53,6 +55,36 @@ public:
    * column OriginalId.
    */
   void finish(Report& report);
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> Self;
+};
+
+/**
+ * The stream of a mesh with a solution as vertex columns, which replace those of the same names.
+ * Values of integer columns are rounded to the nearest integer that the type holds.
+ */
+class SMG_EXPORT ReplacedColumns : public MeshSource
+{
+public:
+  /**
+   * Opens the stream. The solution must outlive it.
+   * @param mesh the mesh of the solution
+   * @param solution the solution
+   * @param columns the columns; their components are those of the solution, in order
+   * @throws Error if the solution has another number of vertices than the mesh, or of columns than
+   * the components of `columns`
+   */
+  ReplacedColumns(const StoredMesh& mesh, Solution& solution, std::vector<ColumnSpec> columns);
+  ~ReplacedColumns() override;
+
+  const StreamInfo& info() const override;
+  bool next(MeshBlock& block) override;
+
+  /** The values so far that were outside the range of an integer column by more than rounding, and
+   * were set to its smallest or largest number. */
+  std::int64_t clipped() const;
 
 private:
   struct Implementation;

@@ -50,7 +50,7 @@ struct IsolatedVertices
  * function throws Error naming the file if that cannot be read or is damaged. Not for two threads
  * at once; the sources that it makes may be used on other threads.
  */
-class SMG_EXPORT VsmReader
+class SMG_EXPORT VsmReader : public StoredMesh
 {
 public:
   /**
@@ -61,14 +61,14 @@ public:
    * @throws Error if it is not a .vsm file or its header is damaged
    */
   explicit VsmReader(std::filesystem::path path, IoStatistics* statistics = nullptr);
-  ~VsmReader();
+  ~VsmReader() override;
   VsmReader(const VsmReader&) = delete;
   VsmReader& operator=(const VsmReader&) = delete;
 
   /** The file, as given to the constructor. */
   const std::filesystem::path& path() const;
   /** Counts, bounds, width, span, precision and all columns. */
-  const StreamInfo& info() const;
+  const StreamInfo& info() const override;
   /** Mean over the cells of the number of vertices alive (see StreamInfo::width). */
   double meanWidth() const;
   /** The header of the file: a JSON object with the kind of cells, precision, counts, bounds,
@@ -91,15 +91,8 @@ public:
    * may outlive the reader.
    */
   std::unique_ptr<MeshSource> source() const;
-  /**
-   * The mesh stream with some of its columns only.
-   * @param vertexColumns names of vertex columns, in the order in which blocks have them
-   * @param cellColumns names of cell columns, likewise. CellFlags is appended if the file has it:
-   * without it, flagged cells would have weight.
-   * @throws Error if a column does not exist
-   */
   std::unique_ptr<MeshSource> source(
-    std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const;
+    std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const override;
 
   /**
    * Selects the columns that readPiece() delivers, as for source(); at first these are all columns.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Deform.h"
 #include "smg/DeformationDescription.h"
 #include "smg/Export.h"
-#include "smg/Handles.h"
 #include "smg/MeshSource.h"
 
 #include <filesystem>

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace smg
@@ -110,6 +112,26 @@ public:
    * @throws Error if the mesh cannot be read or is not valid
    */
   virtual bool next(MeshBlock& block) = 0;
+};
+
+/** A mesh that can be read as a stream any number of times, on disk or in memory. */
+class SMG_EXPORT StoredMesh
+{
+public:
+  virtual ~StoredMesh() = default;
+
+  /** What is known of the stream, with all columns. */
+  virtual const StreamInfo& info() const = 0;
+
+  /**
+   * The mesh stream with some of its columns, from its first block.
+   * @param vertexColumns names of vertex columns, in the order in which blocks have them
+   * @param cellColumns names of cell columns, likewise. CellFlags is appended if the mesh has it:
+   * without it, flagged cells would have weight.
+   * @throws Error if a column does not exist
+   */
+  virtual std::unique_ptr<MeshSource> source(
+    std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const = 0;
 };
 
 } // namespace smg
