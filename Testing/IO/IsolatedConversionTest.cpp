@@ -5,6 +5,7 @@
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Order/FirstUseOrder.h"
 #include "IO/Order/TakeIsolated.h"
+#include "IO/Raw/RawMeshBuilder.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/VsmReader.h"
