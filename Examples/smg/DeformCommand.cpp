@@ -2,16 +2,13 @@
 #include "SolvingCommand.h"
 
 #include "IO/AnyFormat/FormatTable.h"
-#include "IO/AnyFormat/MeshFile.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Problem/WeightsName.h"
 #include "smg/Deform.h"
 #include "smg/DescribedHandles.h"
 #include "smg/DescriptionFiles.h"
 #include "smg/MovedMesh.h"
-#include "smg/WriteMesh.h"
 
-#include <algorithm>
 #include <optional>
 
 namespace
@@ -28,10 +25,10 @@ public:
   void addOptions(CLI::App& command)
   {
     this->addSolverOptions(command,
-      "The deformed mesh: " + smg::suffixList(smg::FormatUse::WriteColumns, "or") +
-        " with all columns of IN; or .sma, .smb, .sva, .svb. The order of IN is kept from .vsm to "
-        "any of these, from a streaming format to a "
-        "streaming format, and from PLY to PLY; otherwise the vertices are in stream order",
+      "The deformed mesh: " + smg::suffixList(smg::FormatUse::Write, "or") +
+        " in stream order; of a mesh file IN, " + smg::suffixList(smg::FormatUse::Restore, "and") +
+        " in the order of IN, unless that has a column OriginalId or points are welded. From .vsm, "
+        "and from a streaming format to a streaming format, the order is kept",
       this->Deform);
     command.get_option("--max-cycles")
       ->description("Maximum number of V-cycles of each of the two steps");
@@ -61,14 +58,13 @@ public:
   }
 
 protected:
-  void checkOutputName() const override { smg::checkOutput(this->Out); }
+  std::string resultColumns() const override { return {}; }
 
   void readTask() override { this->Description = smg::readHandleFile(this->File); }
 
   std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) override
   {
-    smg::checkOutput(this->Out, mesh.info().cellType);
     smg::DescribedHandles handles(this->Description, mesh.info(), this->File.string());
     const auto source = [&] { return mesh.source(handles.vertexColumns(), handles.cellColumns()); };
     handles.prepare(*source(), this->scratch);
@@ -80,14 +76,8 @@ protected:
     return positions;
   }
 
-  /** Of merged points only one moves, so that IN cannot be rewritten. */
-  bool rewritesInput() const override
-  {
-    return !this->Input.welds() && smg::canRewrite(this->In, this->Out);
-  }
-
-  std::vector<std::string> write(const smg::VsmReader& mesh, smg::Solution& positions,
-    smg::Report& /*report*/, const smg::ProgressFunction& progress) const override
+  void writeResult(const smg::VsmReader& mesh, smg::Solution& positions, const Writer& write,
+    smg::Report& report, const smg::ProgressFunction& progress) const override
   {
     smg::NormalsOptions normals;
     normals.scratch = this->scratch;
@@ -95,25 +85,8 @@ protected:
     normals.progress = smg::partOf(progress, 0.0, 0.3);
     const smg::MovedMesh moved(mesh, positions,
       this->Normals == "drop" ? smg::MovedNormals::Drop : smg::MovedNormals::Recompute, normals);
-    const std::unique_ptr<smg::MeshSource> source = moved.source();
-    // Keeps the order of the input file.
-    if (this->rewritesInput())
-    {
-      smg::RewriteOptions options;
-      options.scratch = this->scratch;
-      options.memory = this->writerMemory();
-      options.progress = smg::partOf(progress, 0.3, 1.0);
-      smg::rewriteMesh(this->In, this->Out, *source, options);
-      return this->Notes;
-    }
-    smg::WriteMeshOptions options;
-    options.scratch = this->scratch;
-    options.isolatedFrom = mesh.path();
-    options.progress = smg::partOf(progress, 0.3, 1.0);
-    std::vector<std::string> notes = this->Notes;
-    const std::vector<std::string> more = smg::writeMesh(*source, this->Out, options);
-    notes.insert(notes.end(), more.begin(), more.end());
-    return notes;
+    write(*moved.source(), smg::partOf(progress, 0.3, 1.0));
+    report.notes.insert(report.notes.end(), this->Notes.begin(), this->Notes.end());
   }
 
   const smg::SolveOptions& solveOptions() const override { return this->Deform; }
@@ -135,12 +108,6 @@ private:
       this->Deform.cycles = 0;
       this->Deform.tolerance = *this->Tolerance;
     }
-  }
-
-  /** Bytes for the buffers of the writer. */
-  std::int64_t writerMemory() const
-  {
-    return std::min(this->Deform.memoryLimit / 4, smg::NormalsOptions().memory);
   }
 
   smg::DeformationDescription Description; ///< from the handle file

@@ -2,10 +2,6 @@
 #include "SolvingCommand.h"
 
 #include "IO/AnyFormat/FormatTable.h"
-#include "IO/AnyFormat/MeshFile.h"
-#include "IO/AnyFormat/WriteRestored.h"
-#include "IO/External/Workspace.h"
-#include "IO/Files/PartialProgress.h"
 #include "IO/Problem/ProblemKeys.h"
 #include "Solver/Description/ComposeDescriptions.h"
 #include "Solver/Engine/CheckOptions.h"
@@ -13,10 +9,8 @@
 #include "smg/DescriptionFiles.h"
 #include "smg/Error.h"
 #include "smg/SolvedMesh.h"
-#include "smg/WriteMesh.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace
 {
@@ -49,9 +43,9 @@ public:
   {
     this->addSolverOptions(command,
       "The mesh with its solution: " + smg::suffixList(smg::FormatUse::WriteColumns, "or") +
-        ". Of these .ply, .vtp and .vtu have the order of IN, "
-        "unless that has a column OriginalId or points are welded: then the vertices are in stream "
-        "order",
+        " in stream order; of a mesh file IN, " +
+        smg::suffixList(smg::FormatUse::RestoreColumns, "and") +
+        " in the order of IN, unless that has a column OriginalId or points are welded",
       this->Solve, { "extended", "shi2006" });
     command.get_option("--operators")
       ->description("Operator set; shi2006: the paper's printed equations, biased, --in-core only");
@@ -75,15 +69,7 @@ public:
   }
 
 protected:
-  void checkOutputName() const override
-  {
-    if (smg::kindOfOutput(this->Out) == smg::MeshFileKind::Stream)
-    {
-      throw smg::Error(this->Out.string() + ": this format cannot hold a solution: write it as " +
-                       smg::suffixList(smg::FormatUse::WriteColumns, "or") + '.');
-    }
-    smg::checkOutput(this->Out);
-  }
+  std::string resultColumns() const override { return "a solution"; }
 
   void readTask() override
   {
@@ -101,7 +87,6 @@ protected:
   std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) override
   {
-    smg::checkOutput(this->Out, mesh.info().cellType);
     this->Problem =
       std::make_unique<smg::DescribedProblem>(this->Description, mesh.info(), this->File.string());
     this->Problem->prepare(*this->sourceOf(mesh), this->scratch);
@@ -109,7 +94,7 @@ protected:
     return smg::solve(*this->sourceOf(mesh), *this->Problem, this->Solve);
   }
 
-  std::vector<std::string> write(const smg::VsmReader& mesh, smg::Solution& solution,
+  void writeResult(const smg::VsmReader& mesh, smg::Solution& solution, const Writer& write,
     smg::Report& report, const smg::ProgressFunction& progress) const override
   {
     smg::ResultOptions results;
@@ -117,60 +102,19 @@ protected:
     results.flux = this->Description.fluxOutput;
     results.memoryLimit = this->Solve.memoryLimit;
     smg::SolvedMesh source(mesh, *this->Problem, solution, results);
-    return this->keepsOrder() ? this->writeInOrder(mesh, source, report, progress)
-                              : this->writeStream(mesh, source, report, progress);
+    write(source, progress);
+    source.finish(report);
   }
 
-  bool keepsOrder() const override
+  std::string fateOfIsolated(std::int64_t vertices, bool ordered) const override
   {
-    const bool canKeep = smg::suffixFor(smg::FormatUse::Write, this->Out) &&
-                         smg::suffixFor(smg::FormatUse::Restore, this->Out);
-    return canKeep && this->Conversion &&
-           smg::kindOfInput(this->In) == smg::MeshFileKind::Indexed &&
-           !this->Conversion->keeps_numbers && !this->Input.welds();
-  }
-
-  std::string fateOfIsolated(std::int64_t vertices) const override
-  {
-    return this->keepsOrder() ? vertices == 1 ? "has the Solution 0." : "have the Solution 0."
-                              : this->SolvingCommand::fateOfIsolated(vertices);
+    return ordered ? vertices == 1 ? "has the Solution 0." : "have the Solution 0."
+                   : this->SolvingCommand::fateOfIsolated(vertices, ordered);
   }
 
   const smg::SolveOptions& solveOptions() const override { return this->Solve; }
 
 private:
-  std::vector<std::string> writeStream(const smg::VsmReader& mesh, smg::SolvedMesh& source,
-    smg::Report& report, const smg::ProgressFunction& progress) const
-  {
-    smg::WriteMeshOptions options;
-    options.scratch = this->scratch;
-    options.isolatedFrom = mesh.path();
-    options.progress = progress;
-    std::vector<std::string> notes = smg::writeMesh(source, this->Out, options);
-    source.finish(report);
-    return notes;
-  }
-
-  /** Writes vertices and cells in the order of IN, by sorting a temporary .vsm file. */
-  std::vector<std::string> writeInOrder(const smg::VsmReader& mesh, smg::SolvedMesh& source,
-    smg::Report& report, const smg::ProgressFunction& progress) const
-  {
-    // The solver still holds its memory.
-    constexpr std::int64_t MostMemory = std::int64_t(64) << 20;
-    smg::Workspace space(this->scratch,
-      std::clamp(this->Solve.memoryLimit / 4, smg::Workspace::LeastMemory, MostMemory),
-      smg::partOf(progress, 0.4, 1.0));
-    smg::WriteMeshOptions options;
-    options.codec = smg::Codec::Lz4;
-    options.isolatedFrom = mesh.path();
-    options.progress = smg::partOf(progress, 0.0, 0.4);
-    const std::filesystem::path solved = space.folder() / "solved.vsm";
-    smg::writeMesh(source, solved, options);
-    source.finish(report);
-    space.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
-    return smg::writeRestored(solved, this->Out, space);
-  }
-
   /** The mesh with the columns of the problem. */
   std::unique_ptr<smg::MeshSource> sourceOf(const smg::VsmReader& mesh) const
   {

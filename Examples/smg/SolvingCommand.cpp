@@ -5,9 +5,11 @@
 #include "ProgressBar.h"
 
 #include "IO/AnyFormat/MeshFile.h"
+#include "IO/External/Workspace.h"
 #include "IO/Files/PartialProgress.h"
 #include "Solver/Stream/OriginalNumbers.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -64,7 +66,8 @@ void SolvingCommand::run()
   const auto start = std::chrono::steady_clock::now();
   const auto secondsSince = [](std::chrono::steady_clock::time_point then)
   { return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count(); };
-  this->checkOutputName();
+  ResultFile out(
+    { this->In, this->Out, this->scratch, this->Input.welds(), this->resultColumns() });
   smg::checkIsNotInput(this->In, this->Out);
   smg::checkIsNotInput(this->File, this->Out, "the file that says what to do");
   this->checkReport({ this->In, this->Out, this->File });
@@ -80,15 +83,11 @@ void SolvingCommand::run()
     }
     const double convertSeconds = this->Conversion ? secondsSince(start) : 0.0;
     const double begin = this->Conversion ? 0.2 : 0.0;
-    const std::unique_ptr<smg::Solution> solution =
-      this->solveOn(mesh->reader(), smg::partOf(bar.function(), begin, 0.9));
-    report = solution->report();
-    const std::vector<std::string> notes =
-      this->write(mesh->reader(), *solution, report, smg::partOf(bar.function(), 0.9, 1.0));
-    report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+    out.chooseOrder(mesh->reader(), mesh->conversion());
+    report = this->solveAndWrite(mesh->reader(), out, smg::partOf(bar.function(), begin, 1.0));
     if (this->Conversion)
     {
-      const std::vector<std::string> more = this->notesOn(*this->Conversion);
+      const std::vector<std::string> more = this->notesOn(*this->Conversion, out);
       report.notes.insert(report.notes.end(), more.begin(), more.end());
     }
     report.seconds.convert = convertSeconds;
@@ -102,9 +101,32 @@ void SolvingCommand::run()
   }
 }
 
-std::vector<std::string> SolvingCommand::notesOn(const smg::ConversionReport& conversion) const
+smg::Report SolvingCommand::solveAndWrite(
+  const smg::VsmReader& mesh, const ResultFile& out, const smg::ProgressFunction& progress)
 {
-  const bool ordered = this->keepsOrder();
+  const std::unique_ptr<smg::Solution> solution =
+    this->solveOn(mesh, smg::partOf(progress, 0.0, 0.9));
+  smg::Report report = solution->report();
+  std::vector<std::string> notes;
+  this->writeResult(
+    mesh, *solution,
+    [&](smg::MeshSource& result, const smg::ProgressFunction& writing)
+    { notes = out.write(mesh, result, this->writerMemory(), writing); },
+    report, smg::partOf(progress, 0.9, 1.0));
+  report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+  return report;
+}
+
+std::int64_t SolvingCommand::writerMemory() const
+{
+  constexpr std::int64_t MostMemory = std::int64_t(64) << 20;
+  return std::clamp(this->solveOptions().memoryLimit / 4, smg::Workspace::LeastMemory, MostMemory);
+}
+
+std::vector<std::string> SolvingCommand::notesOn(
+  const smg::ConversionReport& conversion, const ResultFile& out) const
+{
+  const bool ordered = out.keepsOrder();
   const bool whole = ordered || smg::kindOfOutput(this->Out) == smg::MeshFileKind::Vsm;
   std::vector<std::string> notes;
   if (const std::int64_t isolated = conversion.isolated_vertices; isolated > 0)
@@ -112,11 +134,11 @@ std::vector<std::string> SolvingCommand::notesOn(const smg::ConversionReport& co
     notes.push_back(
       std::to_string(isolated) +
       (isolated == 1 ? " vertex belongs to no cell: it " : " vertices belong to no cell: they ") +
-      (whole            ? this->fateOfIsolated(isolated)
+      (whole            ? this->fateOfIsolated(isolated, ordered)
         : isolated == 1 ? "is left out."
                         : "are left out."));
   }
-  if (!this->rewritesInput())
+  if (!out.rewritesInput())
   {
     notes.insert(notes.end(), conversion.notes.begin(), conversion.notes.end());
   }

@@ -94,9 +94,11 @@ bool canBeUsed(const Format& format, FormatUse use)
     case FormatUse::Write:
       return writes;
     case FormatUse::WriteColumns:
-      return writes && format.kind != MeshFileKind::Stream;
+      return writes && format.holdsColumns();
     case FormatUse::Restore:
       return format.restore != nullptr;
+    case FormatUse::RestoreColumns:
+      return format.restore && format.holdsColumns();
   }
   return false;
 }

@@ -36,9 +36,10 @@ const Format* formatOfStart(
 enum class FormatUse
 {
   Read,
-  Write,        ///< in stream order
-  WriteColumns, ///< in stream order with all columns
-  Restore       ///< in the order of the original file
+  Write,         ///< in stream order
+  WriteColumns,  ///< in stream order with all columns
+  Restore,       ///< in the order of the original file
+  RestoreColumns ///< the same with all columns
 };
 
 /** The suffix of the path, if it supports the operation; null otherwise. */

@@ -29,7 +29,7 @@ SMG_EXPORT void checkOutput(const std::filesystem::path& path);
 
 /** Throws Error if a file of any format cannot be created there: the path is a folder, a device or
  * a pipe, or its folder does not exist or is not writable. */
-void checkOutputPlace(const std::filesystem::path& path);
+SMG_EXPORT void checkOutputPlace(const std::filesystem::path& path);
 
 /** Throws Error if the output is an input, also by another name or link. `what` describes the
  * input, for example "the mesh itself". */

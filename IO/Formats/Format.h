@@ -62,6 +62,9 @@ struct VertexShare
 /** A sentence for each difference between a written file and the mesh. */
 using WriteNotes = std::vector<std::string>;
 
+/** Format::attributes of a format that has every column of a mesh. */
+inline constexpr std::string_view AllColumns = "all columns";
+
 /** The number of bytes at the beginning of a file that identify its format. */
 inline constexpr std::size_t FormatBytes = 4096;
 
@@ -77,6 +80,8 @@ struct Format
   /** The data besides positions and cells, for tables and help. */
   std::string_view attributes;
   MeshFileKind kind = MeshFileKind::Indexed;
+
+  bool holdsColumns() const { return this->attributes == AllColumns; }
 
   /** Whether the first bytes of a file have the signature of this format. */
   bool (*hasSign)(std::string_view start) = nullptr;

@@ -8,6 +8,8 @@ import os
 import re
 import sys
 
+from mesh_files import read_mesh
+from odd_mesh import odd_solid, odd_surface
 from program import load, read_vtk_xml, run, write_medit, write_torus
 from tetrahedra import tetrahedra
 from torus import torus
@@ -153,7 +155,7 @@ def test_formats():
 
 
 def test_order_of_files():
-    """A stream or a PLY file keeps its order."""
+    """A stream or a PLY file is written again in its order."""
     handles({"region": RIGHT, "translate": [0, 0, 1]}, {"region": LEFT, "fixed": True},
             tolerance=1e-9)
     run("convert", "surface.ply", "in.smb", "--order", "axis", "--quiet")
@@ -165,6 +167,65 @@ def test_order_of_files():
         held = [(a, b) for a, b in zip(rest["Points"], result["Points"]) if abs(a[0]) > 2.801]
         assert len(held) > 20
         assert all(math.dist((a[0], a[1], a[2] + (a[0] > 0)), b) < 1e-6 for a, b in held), name
+
+
+def same_file(name, other):
+    with open(name, "rb") as one, open(other, "rb") as two:
+        return one.read() == two.read()
+
+
+def check_orders(rest, suffixes):
+    """Every format in and out has the bits of the way through .vsm and --restore-order."""
+    for source in suffixes:
+        run("convert", rest, "in" + source, "--restore-order", "--quiet")
+        run("convert", "in" + source, "in.vsm", "--quiet")
+        deform("in.vsm", "moved.vsm", "--quiet")
+        for out in suffixes:
+            done = deform("in" + source, "direct" + out)
+            assert "stream order" not in done.stdout, done.stdout
+            run("convert", "moved.vsm", "restored" + out, "--restore-order", "--quiet")
+            if source == out == ".ply":
+                direct, restored = read_mesh("direct.ply"), read_mesh("restored.ply")
+                assert direct.points == restored.points and direct.cells == restored.cells
+            else:
+                assert same_file("direct" + out, "restored" + out), (source, out)
+            if out == ".node":
+                assert same_file("direct.ele", "restored.ele"), source
+
+
+def test_every_format_keeps_its_order():
+    points, cells = odd_surface(36, 18, largest=4)
+    with open("odd.off", "w", encoding="utf-8") as file:
+        file.write("OFF\n%d %d 0\n" % (len(points), len(cells)))
+        file.writelines("%r %r %r\n" % point for point in points)
+        file.writelines(" ".join(map(str, (len(cell), *cell))) + "\n" for cell in cells)
+    run("convert", "odd.off", "odd.vsm", "--quiet")
+    handles({"region": RIGHT, "translate": [0, 0, 1]}, {"region": LEFT, "fixed": True}, cycles=2)
+    check_orders("odd.vsm", (".ply", ".obj", ".off", ".stl", ".mesh", ".msh", ".vtk", ".vtp", ".vtu"))
+    done = deform("odd.off", "moved.obj")
+    assert "9 vertices belong to no cell: they stay where they are." in done.stdout, done.stdout
+    moved, used = read_mesh("moved.obj"), {corner for cell in cells for corner in cell}
+    assert moved.cells == cells and len(moved.points) == len(points)
+    assert all(moved.points[i] == points[i] for i in range(len(points)) if i not in used)
+    assert sum(a != b for a, b in zip(moved.points, points)) > len(points) / 2
+    write_medit("odd.mesh", *odd_solid())
+    run("convert", "odd.mesh", "odd.vsm", "--quiet")
+    handles({"region": {"halfspace": [0, 0, -1, -1]}, "fixed": True},
+            {"region": {"halfspace": [0, 0, 1, 4]}, "translate": [0, 0, 1]}, cycles=2)
+    check_orders("odd.vsm", (".mesh", ".msh", ".node", ".vtk", ".vtu"))
+    assert "tetrahedra" in deform("odd.mesh", "bad.obj", code=1).stderr
+
+
+def test_orders_that_cannot_be_kept():
+    """Without the numbers of IN, formats that need its order are an error before the work."""
+    handles({"region": RIGHT, "translate": [0, 0, 1]}, {"region": LEFT, "fixed": True})
+    run("convert", "surface.vsm", "numbered.vtu", "--order", "keep", "--quiet")
+    done = deform("numbered.vtu", "bad.obj", code=1)
+    assert "numbered.vtu has a column OriginalId of its own" in done.stderr, done.stderr
+    assert "stream order" in deform("numbered.vtu", "moved.vtu").stdout
+    for arguments in (("surface.vsm", "bad.off"), ("surface.ply", "bad.off", "--weld", 0)):
+        assert "--restore-order" in deform(*arguments, code=1).stderr
+    assert not any(name.startswith("bad") for name in os.listdir("."))
 
 
 def test_notes_on_the_order():
@@ -184,13 +245,16 @@ def test_notes_on_the_order():
     assert loose + "stay where they are." in done.stdout, done.stdout
     assert "stream order" not in done.stdout
     done = deform("loose.ply", "moved.vtp")
+    assert loose + "stay where they are." in done.stdout, done.stdout
+    assert "stream order" not in done.stdout
+    done = deform("loose.ply", "moved.vtkhdf")
     assert loose + "are left out." in done.stdout, done.stdout
     assert "stream order; OriginalId names their places in loose.ply." in done.stdout
     done = deform("loose.ply", "moved.smb", "--report", "report.json")
     assert "The vertices are in stream order." in load("report.json")["notes"]
     done = deform("surface.vsm", "moved.vtp")
     assert "stream order" not in done.stdout and "no cell" not in done.stdout
-    assert "from PLY to PLY" in " ".join(run("deform", "--help").stdout.split())
+    assert ".msh" in run("deform", "--help").stdout
 
 
 def test_solids():
@@ -202,11 +266,10 @@ def test_solids():
     deform("solid.mesh", "solid.vtu", "--quiet", "--report", "report.json")
     assert load("report.json")["converged"]
     result = read_vtk_xml("solid.vtu")
-    places = dict(zip((id for id, in result["OriginalId"]), result["Points"]))
-    for id, (x, y, z) in enumerate(tetrahedra(6)[0]):
+    for (x, y, z), place in zip(tetrahedra(6)[0], result["Points"]):
         if z in (0, 5):
             expected = (x, y, z) if z == 0 else (2.5 - 2 * (y - 2.5), 2.5 + 2 * (x - 2.5), 10)
-            assert math.dist(places[id], expected) < 1e-12
+            assert math.dist(place, expected) < 1e-12
     for name in ("solid.smb", "solid.ply", "solid.vtp"):
         deform("solid.mesh", "new-" + name, "--quiet", code=1)
         assert not os.path.exists("new-" + name)
@@ -361,6 +424,7 @@ def test_preview_errors():
 
 
 for each in (test_rigid_motions, test_report_and_options, test_formats, test_order_of_files,
+             test_every_format_keeps_its_order, test_orders_that_cannot_be_kept,
              test_notes_on_the_order, test_solids, test_normals, test_bad_handles, test_notes_on_handles,
              test_help, test_errors,
              test_preview, test_preview_of_solids, test_preview_errors):

@@ -85,6 +85,7 @@ TEST(FormatTable, ListsFollowFromIt)
   EXPECT_EQ(suffixFor(FormatUse::Write, "a.ply.gz"), nullptr);
   EXPECT_EQ(suffixFor(FormatUse::Restore, "A.OBJ")->text, ".obj");
   EXPECT_EQ(suffixFor(FormatUse::WriteColumns, "a.sma"), nullptr);
+  EXPECT_EQ(suffixList(FormatUse::RestoreColumns, "or"), ".ply, .vtk, .vtp or .vtu");
 }
 
 TEST(FormatTable, ParaViewOffersItsFormats)

@@ -64,7 +64,7 @@ constexpr FileSuffix PlySuffixes[] = { { ".ply", true, false } };
 const Format PlyFormat{
   .name = "PLY",
   .suffixes = PlySuffixes,
-  .attributes = "all columns",
+  .attributes = AllColumns,
   .hasSign = isPly,
   .parse = parseWith<importPly>,
   .counts = countsOfPly,

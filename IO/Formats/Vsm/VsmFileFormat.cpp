@@ -30,7 +30,7 @@ constexpr FileSuffix VsmSuffixes[] = { { ".vsm" } };
 const Format VsmFileFormat{
   .name = "VSM",
   .suffixes = VsmSuffixes,
-  .attributes = "all columns",
+  .attributes = AllColumns,
   .kind = MeshFileKind::Vsm,
   .write = write,
 };

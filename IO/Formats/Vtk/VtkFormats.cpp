@@ -65,7 +65,6 @@ void parseParallel(
 constexpr FileSuffix LegacySuffixes[] = { { ".vtk" } };
 constexpr FileSuffix XmlSuffixes[] = { { ".vtp", true, false }, { ".vtu" } };
 constexpr FileSuffix ParallelSuffixes[] = { { ".pvtp", true, false }, { ".pvtu" } };
-constexpr std::string_view AllColumns = "all columns";
 
 } // namespace
 

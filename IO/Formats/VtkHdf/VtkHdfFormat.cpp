@@ -70,7 +70,7 @@ constexpr FileSuffix VtkHdfSuffixes[] = { { ".vtkhdf" }, { ".hdf" } };
 const Format VtkHdfFormat{
   .name = "VTKHDF",
   .suffixes = VtkHdfSuffixes,
-  .attributes = "all columns",
+  .attributes = AllColumns,
   .hasSign = isHdf5,
   .parse = parse,
   .counts = counts,

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ResultFile.h"
+
+#include "IO/AnyFormat/FormatTable.h"
+#include "IO/AnyFormat/MeshFile.h"
+#include "IO/AnyFormat/WriteRestored.h"
+#include "IO/External/Workspace.h"
+#include "IO/Files/PartialProgress.h"
+#include "smg/WriteMesh.h"
+
+#include <limits>
+#include <utility>
+
+ResultFile::ResultFile(Options options)
+  : Files(std::move(options))
+{
+  if (this->mayRestore())
+  {
+    smg::checkOutputPlace(this->Files.out);
+    return;
+  }
+  const bool isFormat = smg::suffixFor(smg::FormatUse::Write, this->Files.out) ||
+                        smg::suffixFor(smg::FormatUse::Restore, this->Files.out);
+  if (!this->Files.columns.empty() && isFormat &&
+      !smg::suffixFor(smg::FormatUse::WriteColumns, this->Files.out) &&
+      !smg::suffixFor(smg::FormatUse::RestoreColumns, this->Files.out))
+  {
+    throw smg::Error(this->Files.out.string() + ": this format cannot hold " + this->Files.columns +
+                     ": write it as " + smg::suffixList(smg::FormatUse::WriteColumns, "or") + '.');
+  }
+  smg::checkOutput(this->Files.out);
+}
+
+bool ResultFile::mayRestore() const
+{
+  const smg::FormatUse use =
+    this->Files.columns.empty() ? smg::FormatUse::Restore : smg::FormatUse::RestoreColumns;
+  return !this->Files.welds && smg::suffixFor(use, this->Files.out) &&
+         smg::kindOfInput(this->Files.in) == smg::MeshFileKind::Indexed;
+}
+
+void ResultFile::chooseOrder(const smg::VsmReader& mesh, const smg::ConversionReport* conversion)
+{
+  const smg::CellType cells = mesh.info().cellType;
+  // Of merged points only one moves, so that IN cannot be rewritten.
+  if (this->Files.columns.empty() && !this->Files.welds &&
+      smg::canRewrite(this->Files.in, this->Files.out))
+  {
+    this->Order = Orders::Rewritten;
+    smg::checkOutput(this->Files.out, cells);
+    return;
+  }
+  if (this->mayRestore() && conversion && !conversion->keeps_numbers)
+  {
+    this->Order = Orders::Restored;
+    smg::checkRestoredPath(this->Files.out, cells);
+    return;
+  }
+  if (!smg::suffixFor(smg::FormatUse::Write, this->Files.out))
+  {
+    throw smg::Error(this->Files.out.string() + ": " + this->Files.in.string() +
+                     " has a column OriginalId of its own, with which the result can be written in "
+                     "stream order only: choose " +
+                     smg::suffixList(smg::FormatUse::Write, cells, "or") + '.');
+  }
+  smg::checkOutput(this->Files.out, cells);
+}
+
+std::vector<std::string> ResultFile::write(const smg::VsmReader& mesh, smg::MeshSource& result,
+  std::int64_t memory, const smg::ProgressFunction& progress) const
+{
+  if (this->Order == Orders::Rewritten)
+  {
+    smg::RewriteOptions options;
+    options.scratch = this->Files.scratch;
+    options.memory = memory;
+    options.progress = progress;
+    smg::rewriteMesh(this->Files.in, this->Files.out, result, options);
+    return {};
+  }
+  if (this->Order == Orders::Restored)
+  {
+    return this->writeRestored(mesh, result, memory, progress);
+  }
+  smg::WriteMeshOptions options;
+  options.scratch = this->Files.scratch;
+  options.isolatedFrom = mesh.path();
+  options.progress = progress;
+  return smg::writeMesh(result, this->Files.out, options);
+}
+
+std::vector<std::string> ResultFile::writeRestored(const smg::VsmReader& mesh,
+  smg::MeshSource& result, std::int64_t memory, const smg::ProgressFunction& progress) const
+{
+  smg::Workspace space(this->Files.scratch, memory, smg::partOf(progress, 0.4, 1.0));
+  smg::WriteMeshOptions options;
+  options.codec = smg::Codec::Lz4;
+  options.isolatedFrom = mesh.path();
+  options.progress = smg::partOf(progress, 0.0, 0.4);
+  const std::filesystem::path stream = space.folder() / "result.vsm";
+  smg::writeMesh(result, stream, options);
+  space.beginPart(1.0, std::numeric_limits<std::int64_t>::max());
+  return smg::writeRestored(stream, this->Files.out, space);
+}
