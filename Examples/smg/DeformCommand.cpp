@@ -53,7 +53,7 @@ public:
       ->capture_default_str();
     command.footer(
       "Keys of a handle file: handles [region {sphere | box | halfspace | vertices | tag "
-      "| mask | nearest}, fixed | translate, rotate {axis, degrees, center}, scale, "
+      "| mask | nearest | boundary}, fixed | translate, rotate {axis, degrees, center}, scale, "
       "center | target, rotation, logScale], weights, cycles | tolerance");
   }
 

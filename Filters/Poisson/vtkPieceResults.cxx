@@ -78,11 +78,12 @@ void checkCellResults(const ProblemDescription& problem)
 {
   for (const PlacedValue& entry : problem.conductivity.entries)
   {
-    if (problem.fluxOutput && std::holds_alternative<NearestVertices>(entry.where))
+    if (problem.fluxOutput && (std::holds_alternative<NearestVertices>(entry.where) ||
+                                std::holds_alternative<OnBoundary>(entry.where)))
     {
       throw Error(
         "The cell array Flux needs a conductivity that a cell knows by itself: choose its "
-        "cells by a region, a tag or a mask instead of the nearest points.");
+        "cells by a region, a tag or a mask instead of the nearest points or the boundary.");
     }
   }
 }

@@ -118,6 +118,14 @@ Where parseWhere(const JsonNode& object, bool everywhere)
   {
     return nearestOf(node);
   }
+  if (key == "boundary")
+  {
+    if (!node.isTrue())
+    {
+      node.fail("can only be true: leave it out for another place");
+    }
+    return OnBoundary{};
+  }
   return regionOf(object, key);
 }
 

@@ -15,8 +15,8 @@ void ProblemOnMesh::conditions(const MeshBlock& block, VertexConditions& conditi
     if (datum->needsPreparing())
     {
       throw Error(
-        "Nearest vertices and the vertices of cells are found by a previous reading of the "
-        "mesh: call DescribedProblem::prepare().");
+        "Nearest vertices, the vertices of cells and the boundary are found by a previous reading "
+        "of the mesh: call DescribedProblem::prepare().");
     }
     datum->startBlock(block);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Description/Selection.h"
 
+#include "Solver/Description/BoundarySelection.h"
 #include "Solver/Description/CellSelection.h"
 #include "Solver/Description/ColumnSelection.h"
 #include "Solver/Description/NearestSelection.h"
@@ -48,6 +49,10 @@ std::unique_ptr<Selection> Selection::make(const Where& where, DataPlace place,
   if (const auto* nearest = std::get_if<NearestVertices>(&where))
   {
     return std::make_unique<NearestSelection>(*nearest, place, key, columns);
+  }
+  if (std::holds_alternative<OnBoundary>(where))
+  {
+    return std::make_unique<BoundarySelection>(place, key, columns);
   }
   const auto ofColumn = [&](const std::string& name, const char* what,
                           std::optional<double> value) -> std::unique_ptr<Selection>

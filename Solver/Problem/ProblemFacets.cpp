@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/ProblemFacets.h"
 
+#include "Solver/Problem/CellFacets.h"
 #include "Solver/Problem/FlatCells.h"
 #include "Solver/Stream/OriginalNumbers.h"
 #include "smg/CellWeights.h"
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <cstring>
 #include <string>
-#include <utility>
 
 namespace smg
 {
@@ -82,37 +82,16 @@ void ProblemFacets::addCell(const MeshBlock& block, std::size_t first, std::size
   }
   for (int k = 0; k < corners; ++k)
   {
-    std::int64_t vertex[3] = {};
-    int order[3] = { 0, 1, 2 };
-    for (int e = 0, other = 0; e < corners; ++e)
-    {
-      if (e != k)
-      {
-        vertex[other++] = corner[e];
-      }
-    }
-    if (!this->Asks && !this->isWanted(vertex))
+    const CellFacet sorted = facetOf(this->Type, corner, k);
+    if (!this->Asks && !this->isWanted(sorted.vertex))
     {
       continue;
     }
-    const auto sort = [&](int& a, int& b)
-    {
-      if (vertex[a] > vertex[b])
-      {
-        std::swap(a, b);
-      }
-    };
-    sort(order[0], order[1]);
-    if (this->Type == CellType::Tetrahedron)
-    {
-      sort(order[1], order[2]);
-      sort(order[0], order[1]);
-    }
     const std::size_t facet = c * static_cast<std::size_t>(corners) + static_cast<std::size_t>(k);
     const std::int32_t data =
-      this->keep(order, facet, block.firstCell + static_cast<std::int64_t>(first + c));
+      this->keep(sorted.order, facet, block.firstCell + static_cast<std::int64_t>(first + c));
     const std::int32_t before =
-      this->Open.add(vertex[order[0]], vertex[order[1]], vertex[order[2]], data);
+      this->Open.add(sorted.vertex[0], sorted.vertex[1], sorted.vertex[2], data);
     if (before != OpenFacets::Fresh)
     {
       this->forget(before);

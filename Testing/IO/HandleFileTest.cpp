@@ -4,6 +4,7 @@
 
 #include "Testing/IO/RegionFileFixture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -253,6 +254,9 @@ TEST_F(HandleFileText, HandlesStandInColumnsToo)
     EXPECT_EQ(handles.rotation[3 * i + 2], held && !near ? 1.0 : 0.0);
     EXPECT_EQ(handles.logScale[i], held && !near ? 0.5 : 0.0);
   }
+  const VertexHandles border =
+    this->ask(R"({"handles": [{"region": {"boundary": true}, "fixed": true}]})");
+  EXPECT_EQ(std::ranges::count(border.mask, 1), 16);
   EXPECT_CONTAINS(this->errorOfHandle(R"({"region": {"mask": "hold"}, "fixed": true})"),
     "handles[1].region.mask: the mesh has no column 'hold'");
   EXPECT_CONTAINS(this->errorOfHandle(R"({"region": {"mask": "held"}, "target": "held"})"),

@@ -145,7 +145,7 @@ TEST_F(ProblemFile, EveryDatumSaysTheSameInJsonAndInCxx)
     { ColumnMask{ "mask" }, { { Everywhere{}, "one" }, { ColumnTag{ "tag", 3 }, "k" } },
       Position{} } };
   same.soft = { { ColumnMask{ "mask" }, 3.0, "three" },
-    { ColumnTag{ "tag", 1 }, "one", DataValue{ 1, 1, 1 } } };
+    { ColumnTag{ "tag", 1 }, "one", DataValue{ 1, 1, 1 } }, { OnBoundary{}, 0.5, Position{} } };
   same.gradientOutput = same.fluxOutput = true;
 
   const ProblemDescription parsed = readProblemFile(this->file(EveryDatumOfDescribedMesh));
@@ -215,8 +215,8 @@ TEST_F(ProblemFile, ErrorsNameThePlace)
   EXPECT_CONTAINS(this->errorOf(R"({"dirichlet": {}})"), "dirichlet: must be an array");
   EXPECT_CONTAINS(
     this->errorOf(R"({"dirichlet": [{"mask": "a", "box": [0, 0, 0, 1, 1, 1], "value": [0]}]})"),
-    "dirichlet[0]: must have at most one of halfspace, box, sphere, vertices, tag, mask and "
-    "nearest");
+    "dirichlet[0]: must have at most one of halfspace, box, sphere, vertices, tag, mask, "
+    "nearest and boundary");
   EXPECT_CONTAINS(this->errorOf(R"({"source": [{"mask": "a", "nearest": [], "value": [0]}]})"),
     "source[0]: must have at most one of halfspace");
   EXPECT_CONTAINS(this->errorOf(R"({"dirichlet": [{"sphere": [0, 0, 0, 9]}]})"), "has no 'value'");
@@ -225,6 +225,8 @@ TEST_F(ProblemFile, ErrorsNameThePlace)
     "flux[0].ambient: is not known");
   EXPECT_CONTAINS(this->errorOf(R"({"flux": [{"tag": ["a"], "value": [0]}]})"),
     "flux[0].tag: must be [\"name of a column\", value]");
+  EXPECT_CONTAINS(this->errorOf(R"({"flux": [{"boundary": false, "value": [0]}]})"),
+    "flux[0].boundary: can only be true");
   EXPECT_CONTAINS(this->errorOf(R"({"flux": [{"nearest": [[0, 0]], "value": [0]}]})"),
     "flux[0].nearest[0]: must be an array of 3 numbers");
   EXPECT_CONTAINS(

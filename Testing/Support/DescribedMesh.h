@@ -75,7 +75,8 @@ inline constexpr const char* EveryDatumOfDescribedMesh = R"({ "weights": "clampe
              {"mask": "mask", "coefficient": [ {"value": "one"}, {"tag": ["tag", 3], "value": "k"} ],
               "ambient": "position"} ],
   "soft": [ {"mask": "mask", "weight": 3, "value": "three"},
-            {"tag": ["tag", 1], "weight": "one", "value": [1, 1, 1]} ],
+            {"tag": ["tag", 1], "weight": "one", "value": [1, 1, 1]},
+            {"boundary": true, "weight": 0.5, "value": "position"} ],
   "outputs": ["gradient", "flux"] })";
 
 /** All data of a problem on a mesh. */

@@ -51,6 +51,8 @@ class PlacedData:
         elif "nearest" in where:
             used = np.unique(self.cells)
             result[used[cKDTree(x[used]).query(where["nearest"])[1]]] = True
+        elif "boundary" in where:
+            result[self.facets] = True
         elif "tag" not in where and "mask" not in where:
             result[:] = True
         else:

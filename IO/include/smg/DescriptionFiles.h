@@ -30,6 +30,7 @@ namespace smg
  *     WHERE = "halfspace": [nx, ny, nz, d] | "box": [x0, y0, z0, x1, y1, z1]
  *             | "sphere": [x, y, z, r] | "vertices": [original numbers]
  *             | "tag": ["column", value] | "mask": "column" | "nearest": [[x, y, z], ...]
+ *             | "boundary": true
  *
  * An entry without WHERE holds everywhere. Every key is optional; ProblemDescription states what it
  * means. The entries of a list in C cannot be lists themselves. `raw-cotangent` is an old name of

@@ -48,8 +48,9 @@ public:
 
   /**
    * Reads the stream once and checks that every handle holds a vertex. Required only where vertices
-   * are selected by a cell column or as the nearest ones; optional otherwise. Writes an unnamed
-   * scratch file of one bit a vertex for each cell column that selects.
+   * are selected by a cell column, as the nearest ones or as the boundary; optional otherwise.
+   * Writes an unnamed scratch file of one bit a vertex for each cell column that selects, and for
+   * each boundary.
    * @param mesh the stream, from its first block
    * @param scratch folder for scratch files; empty: the system's temporary folder
    * @throws Error naming the handle if it holds no vertex, or names a vertex that the mesh lacks

@@ -49,9 +49,9 @@ public:
 
   /**
    * Reads the stream once, unless the description selects no part of the mesh, and checks that no
-   * selection is empty. Required only where vertices are selected by a cell column or as the
-   * nearest ones; optional otherwise. Writes an unnamed scratch file of one bit a vertex for each
-   * cell column that selects.
+   * selection is empty. Required only where vertices are selected by a cell column, as the
+   * nearest ones or as the boundary; optional otherwise. Writes an unnamed scratch file of one bit
+   * a vertex for each cell column that selects, and for each boundary.
    * @param mesh the stream, from its first block
    * @param scratch folder for scratch files; empty: the system's temporary folder
    * @throws Error naming the place in the description if it selects nothing or names a vertex that

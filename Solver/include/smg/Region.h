@@ -99,13 +99,21 @@ struct NearestVertices
 };
 
 /**
+ * The boundary: the ends of the open edges of a surface, which belong to exactly one triangle, or
+ * the corners of the faces of exactly one tetrahedron. Cells flagged as duplicates do not count.
+ */
+struct OnBoundary
+{
+};
+
+/**
  * A part of a mesh.
  *
- * A region, a column of the vertices and points select vertices; cells and boundary facets are
- * selected if all their corners are. A column of the cells selects cells, their vertices and their
- * facets. If vertices and cells have columns of the same name, conductivity and field refer to that
- * of the cells, everything else to that of the vertices.
+ * A region, a column of the vertices, points and the boundary select vertices; cells and boundary
+ * facets are selected if all their corners are. A column of the cells selects cells, their vertices
+ * and their facets. If vertices and cells have columns of the same name, conductivity and field
+ * refer to that of the cells, everything else to that of the vertices.
  */
-using Where = std::variant<Everywhere, Region, ColumnTag, ColumnMask, NearestVertices>;
+using Where = std::variant<Everywhere, Region, ColumnTag, ColumnMask, NearestVertices, OnBoundary>;
 
 } // namespace smg

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Description/Selection.h"
+#include "Solver/Description/VertexSetFile.h"
+#include "Solver/Problem/BoundaryFacets.h"
+
+#include <optional>
+
+namespace smg
+{
+
+/** The vertices of the boundary, determined by a previous reading of the stream: a vertex precedes
+ * the cells that could close the facets around it. Cells and facets are selected by their corners;
+ * that some cell has all of its corners on the boundary is not required. */
+class BoundarySelection : public Selection
+{
+public:
+  BoundarySelection(DataPlace place, const std::string& key, const MeshColumns& columns)
+    : Selection(place, key, columns)
+  {
+  }
+
+  bool needsPreparing() const override { return !this->Vertices; }
+  void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
+  void endPreparing() override;
+
+protected:
+  void select(const MeshBlock& block, std::span<std::uint8_t> selected) override;
+  std::string predicate() const override { return "is on a boundary: the mesh is closed"; }
+
+private:
+  /** The open vertices during preparation. */
+  struct Window
+  {
+    explicit Window(CellType type)
+      : facets(this->memory, type)
+    {
+    }
+
+    Pool memory{ INT64_MAX };
+    BoundaryFacets facets;
+    OpenValues<std::uint8_t> marks; ///< 1: on the boundary
+    std::int64_t vertices = 0, written = 0;
+  };
+
+  /** Marks the vertices of boundary facets. */
+  auto marker();
+  void write(std::int64_t finalized);
+
+  std::optional<Window> Open;
+  std::optional<VertexSetFile> Vertices;
+};
+
+} // namespace smg

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Problem/OpenFacets.h"
+#include "smg/MeshSource.h"
+
+#include <cstdint>
+
+namespace smg
+{
+
+/** Finds the boundary facets of a mesh stream in one pass: the facets of exactly one cell. Cells
+ * that use a vertex twice or are flagged as duplicates do not count. */
+class BoundaryFacets
+{
+public:
+  BoundaryFacets(Pool& pool, CellType type)
+    : Type(type)
+    , Open(pool)
+  {
+  }
+
+  /** Adds the next block and calls found(low, middle, high) for each boundary facet whose lowest
+   * vertex is final, in the order of these; `high` is 0 for an edge. */
+  template <class Found>
+  void add(const MeshBlock& block, Found&& found)
+  {
+    this->Vertices = block.firstVertex + block.vertices();
+    this->Open.extend(this->Vertices);
+    this->addCells(block);
+    this->take(block.finalized, found);
+  }
+
+  /** Calls found() for the other boundary facets, after the last block. */
+  template <class Found>
+  void finish(Found&& found)
+  {
+    this->take(this->Vertices, found);
+  }
+
+private:
+  void addCells(const MeshBlock& block);
+
+  template <class Found>
+  void take(std::int64_t end, Found& found)
+  {
+    for (; this->Final < end; ++this->Final)
+    {
+      this->Open.take(this->Final, [&](std::int64_t middle, std::int64_t high, std::int32_t)
+        { found(this->Final, middle, this->Type == CellType::Triangle ? 0 : high); });
+    }
+    this->Open.release(this->Final);
+  }
+
+  CellType Type;
+  OpenFacets Open;
+  std::int64_t Vertices = 0, Final = 0;
+};
+
+} // namespace smg
