@@ -50,4 +50,5 @@ void addInfoCommand(CLI::App& program, Action& action);
 void addConvertCommand(CLI::App& program, Action& action);
 void addSolveCommand(CLI::App& program, Action& action);
 void addDeformCommand(CLI::App& program, Action& action);
+void addSmoothCommand(CLI::App& program, Action& action);
 void addPreviewCommand(CLI::App& program, Action& action);

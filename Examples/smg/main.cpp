@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// smg: Poisson problems and deformations on meshes of any size.
+// smg: Poisson problems, deformations and smoothing on meshes of any size.
 //
 //   smg info bunny.ply
 //   smg convert bunny.ply bunny.vsm
 //   smg solve bunny.vsm harmonic.vtp --problem harmonic.json --report report.json
 //   smg deform bunny.vsm bent.ply --handles handles.json --memory 128
+//   smg smooth scan.ply smooth.ply --size 6edges
 //   smg preview bunny.vsm preview.vtp --points 5000
 //
 // Exit status: 0; 1 with one line on standard error; 2 for wrong usage.
@@ -50,7 +51,8 @@ int succeed()
 int main(int argc, char** argv)
 {
   CLI::App program(
-    "Streaming multigrid for Poisson problems and deformations on meshes of any size", "smg");
+    "Streaming multigrid for Poisson problems, deformations and smoothing on meshes of any size",
+    "smg");
   program.set_version_flag("--version", SMG_VERSION);
   program.require_subcommand(1);
   Action action;
@@ -58,6 +60,7 @@ int main(int argc, char** argv)
   addConvertCommand(program, action);
   addSolveCommand(program, action);
   addDeformCommand(program, action);
+  addSmoothCommand(program, action);
   addPreviewCommand(program, action);
   try
   {

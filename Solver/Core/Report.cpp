@@ -58,6 +58,11 @@ std::string Report::json(int indent) const
     out["steps"].push_back({ { "name", step.name }, { "cycles", step.cycles },
       { "residual", step.residual }, { "converged", step.converged } });
   }
+  if (this->volume)
+  {
+    out["volume"] = { { "before", this->volume->before }, { "after", this->volume->after },
+      { "swept", this->volume->swept } };
+  }
   out["peak_nodes"] = this->peak_nodes;
   out["pool_bytes_peak"] = this->pool_bytes_peak;
   out["rss_bytes_peak"] = this->rss_bytes_peak;

@@ -46,7 +46,7 @@ void BoundarySelection::write(std::int64_t finalized)
   }
 }
 
-void BoundarySelection::endPreparing()
+std::int64_t BoundarySelection::finish()
 {
   if (this->Open)
   {
@@ -55,6 +55,12 @@ void BoundarySelection::endPreparing()
     this->Vertices->finish();
     this->Open.reset();
   }
+  return this->Count;
+}
+
+void BoundarySelection::endPreparing()
+{
+  this->finish();
   this->Selection::endPreparing();
 }
 

@@ -24,6 +24,9 @@ public:
   bool needsPreparing() const override { return !this->Vertices; }
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
   void endPreparing() override;
+  /** As endPreparing(), but a mesh without a boundary is no error. Returns the number of vertices.
+   */
+  std::int64_t finish();
 
 protected:
   void select(const MeshBlock& block, std::span<std::uint8_t> selected) override;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "smg/Deform.h"
+#include "smg/Smooth.h"
 #include "smg/Solve.h"
 
 namespace smg
@@ -13,6 +14,8 @@ SMG_EXPORT void checkOptions(const SolveOptions& options);
 /** The same for the options of a deformation, including the name of the operator set; deform() does
  * so, too. */
 SMG_EXPORT void checkOptions(const DeformOptions& options);
+/** The same for the options of smoothing; smooth() does so, too. */
+SMG_EXPORT void checkOptions(const SmoothingOptions& options);
 /** Throws Error unless the library has an operator set of that name that supports the other
  * options; solve() does so, too. */
 SMG_EXPORT void checkOperators(const SolveOptions& options);

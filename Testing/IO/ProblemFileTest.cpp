@@ -272,4 +272,22 @@ TEST_F(ProblemFile, WithoutOriginalNumbersTheStreamCounts)
   EXPECT_NO_THROW(problem.prepare(plain));
 }
 
+TEST_F(ProblemFile, PlacesStandAloneOrInAList)
+{
+  const auto places = [&](const std::string& json) { return readPlacesFile(this->file(json)); };
+  ASSERT_EQ(places(R"({"boundary": true})").size(), 1U);
+  EXPECT_TRUE(std::holds_alternative<OnBoundary>(places(R"({"boundary": true})")[0]));
+  const std::vector<Where> two =
+    readPlacesText(R"([{"tag": ["part", 3]}, {"sphere": [0, 0, 0, 1]}])", "--hold");
+  ASSERT_EQ(two.size(), 2U);
+  EXPECT_EQ(std::get<ColumnTag>(two[0]).value, 3.0);
+  EXPECT_TRUE(std::holds_alternative<Region>(two[1]));
+  EXPECT_TRUE(places("[]").empty());
+  const auto error = [](const char* text)
+  { return messageOf([text] { readPlacesText(text, "--hold"); }); };
+  EXPECT_CONTAINS(error("{}"), "--hold: must have exactly one of halfspace");
+  EXPECT_CONTAINS(error("[3]"), "--hold: [0]: must be an object");
+  EXPECT_CONTAINS(error(R"({"boundary": true, "value": 3})"), "--hold: value: is not known here");
+}
+
 } // namespace smg::testing

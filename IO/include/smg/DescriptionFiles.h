@@ -4,9 +4,11 @@
 #include "smg/DeformationDescription.h"
 #include "smg/Export.h"
 #include "smg/ProblemDescription.h"
+#include "smg/Region.h"
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace smg
 {
@@ -51,6 +53,22 @@ SMG_EXPORT ProblemDescription readProblemFile(
  */
 SMG_EXPORT ProblemDescription readProblemText(
   const std::string& text, const std::string& name, const ProblemDescription& defaults = {});
+
+/**
+ * Reads parts of a mesh from JSON: an object with a single key, WHERE of readProblemFile(), or a
+ * list of these.
+ * @param path the file
+ * @throws Error naming the file and the place in it
+ */
+SMG_EXPORT std::vector<Where> readPlacesFile(const std::filesystem::path& path);
+
+/**
+ * As readPlacesFile(), from a text.
+ * @param text the JSON, for instance `{"boundary": true}`
+ * @param name what error messages call the text
+ * @throws Error naming the text and the place in it
+ */
+SMG_EXPORT std::vector<Where> readPlacesText(const std::string& text, const std::string& name);
 
 /**
  * Reads a handle file, which states a deformation in JSON:

@@ -3,6 +3,7 @@
 
 #include "smg/Export.h"
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,8 +38,8 @@ struct SMG_EXPORT Report
   /** Traffic of the scratch files of a kind. */
   struct Traffic
   {
-    /** rows, right_side (finest level), state, history (of accelerated V-cycles), labels, or rest
-     * (deformation). */
+    /** rows, right_side (finest level), state, history (of accelerated V-cycles), labels, rest
+     * (deformation), or smoothed (values between the steps of smoothing). */
     std::string kind;
     int level = -1;           ///< level of the files, 0: the finest; -1: of no level
     std::int64_t read = 0;    ///< bytes
@@ -48,11 +49,20 @@ struct SMG_EXPORT Report
   /** One of several problems that are solved one after the other. */
   struct Step
   {
-    std::string name; ///< "rotation" or "position"
+    std::string name; ///< "rotation" or "position"; of smoothing "step 1", "presmoothing 1" ...
     int cycles = 0;   ///< V-cycles
     /** ||b - A x|| / ||b - A x_0|| of this step after its last V-cycle; 0 if it needed none. */
     double residual = 0;
     bool converged = false; ///< as Report::converged
+  };
+
+  /** The volume that a surface encloses. */
+  struct Volume
+  {
+    double before = 0; ///< of the given mesh; NaN if it has a boundary
+    double after = 0;  ///< of the smoothed mesh; NaN if it has a boundary
+    /** Volume that the surface has swept, positive where it moved along its normals. */
+    double swept = 0;
   };
 
   /** A Dirichlet, flux or Robin condition and what the solution makes of it. */
@@ -90,7 +100,8 @@ struct SMG_EXPORT Report
   std::vector<double> residuals;
   /** The acceleration used: "none", "chebyshev" or "cg"; see AccelerationKind. */
   std::string acceleration = "none";
-  std::vector<Step> steps; ///< of a deformation: rotation and position; else empty
+  std::vector<Step> steps;      ///< of a deformation or of smoothing; else empty
+  std::optional<Volume> volume; ///< if positions are smoothed
   /** Whether the solve, or all of its steps, reached the tolerance or the limit of rounding, or did
    * the fixed number of V-cycles (DeformOptions::cycles). */
   bool converged = false;

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "SolvingCommand.h"
+
+#include "IO/AnyFormat/FormatTable.h"
+#include "IO/Files/PartialProgress.h"
+#include "Solver/Engine/CheckOptions.h"
+#include "smg/DescriptionFiles.h"
+#include "smg/MovedMesh.h"
+#include "smg/Smooth.h"
+#include "smg/SolvedMesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+namespace
+{
+
+/** In the order of smg::SmoothedBoundary. */
+const std::vector<std::string> Boundaries{ "smooth", "fixed", "free" };
+
+/** Reads a size: a number, in the unit of the mesh or followed by a unit. Returns whether it is
+ * one. */
+bool readSize(const std::string& text, smg::SmoothingSize& size)
+{
+  char* end = nullptr;
+  size.value = std::strtod(text.c_str(), &end);
+  const std::string unit = end;
+  size.unit = unit == "edges" ? smg::SmoothingSize::MeanEdges
+              : unit == "%"   ? smg::SmoothingSize::Diagonal
+                              : smg::SmoothingSize::Mesh;
+  size.value /= unit == "%" ? 100.0 : 1.0;
+  return end != text.c_str() && std::isfinite(size.value) && size.value > 0.0 &&
+         (unit.empty() || size.unit != smg::SmoothingSize::Mesh);
+}
+
+class SmoothCommand : public SolvingCommand
+{
+public:
+  SmoothCommand()
+    : SolvingCommand("smoothing")
+  {
+  }
+
+  void addOptions(CLI::App& command)
+  {
+    this->addSolverOptions(command,
+      "The smoothed mesh: " + smg::suffixList(smg::FormatUse::WriteColumns, "or") +
+        " with all columns of IN; or, of smoothed positions, any other format that is written. The "
+        "order of IN is kept wherever the format can have it",
+      this->Smooth);
+    command.get_option("--max-cycles")->description("Maximum number of V-cycles of each step");
+    this->addSmoothing(command);
+    addTolerance(command, this->Smooth.tolerance)->capture_default_str();
+    command
+      .add_option(
+        "--normals", this->Normals, "Columns Normals of IN: recompute (tetrahedra: drop) or drop")
+      ->check(oneOf({ "recompute", "drop" }))
+      ->capture_default_str();
+  }
+
+protected:
+  std::string resultColumns() const override
+  {
+    return this->Smooth.column.empty() ? std::string() : "the column " + this->Smooth.column;
+  }
+
+  void readTask() override
+  {
+    smg::checkOptions(this->Smooth);
+    for (const std::string& given : this->Places)
+    {
+      const bool isJson = given.starts_with('{') || given.starts_with('[');
+      const std::vector<smg::Where> places =
+        isJson ? smg::readPlacesText(given, "--hold") : smg::readPlacesFile(given);
+      this->Smooth.hold.insert(this->Smooth.hold.end(), places.begin(), places.end());
+    }
+  }
+
+  std::unique_ptr<smg::Solution> solveOn(
+    const smg::VsmReader& mesh, smg::ProgressFunction progress) override
+  {
+    this->applyTo(this->Smooth, std::move(progress));
+    return smg::smooth(mesh, this->Smooth);
+  }
+
+  void writeResult(const smg::VsmReader& mesh, smg::Solution& solution, const Writer& write,
+    smg::Report& report, const smg::ProgressFunction& progress) const override
+  {
+    if (!this->Smooth.column.empty())
+    {
+      const std::vector<smg::ColumnSpec>& specs = mesh.info().vertexColumns;
+      const auto column = std::ranges::find(specs, this->Smooth.column, &smg::ColumnSpec::name);
+      smg::ReplacedColumns smoothed(mesh, solution, { *column });
+      write(smoothed, progress);
+      if (smoothed.clipped() > 0)
+      {
+        report.notes.push_back(std::to_string(smoothed.clipped()) +
+                               " values were outside the range of the column's type and were set "
+                               "to its smallest or largest number.");
+      }
+      return;
+    }
+    smg::NormalsOptions normals;
+    normals.scratch = this->scratch;
+    normals.memory = this->writerMemory();
+    normals.progress = smg::partOf(progress, 0.0, 0.3);
+    const smg::MovedMesh moved(mesh, solution,
+      this->Normals == "drop" ? smg::MovedNormals::Drop : smg::MovedNormals::Recompute, normals);
+    write(*moved.source(), smg::partOf(progress, 0.3, 1.0));
+  }
+
+  const smg::SolveOptions& solveOptions() const override { return this->Smooth; }
+
+private:
+  void addSmoothing(CLI::App& command)
+  {
+    command
+      .add_option_function<std::string>(
+        "--size",
+        [this](const std::string& text)
+        {
+          if (!readSize(text, this->Smooth.size))
+          {
+            throw CLI::ValidationError(
+              "--size", '\'' + text + "' is no size: give a number above 0, as 2.5, 1% or 6edges");
+          }
+        },
+        "Size of the details that are halved: in the unit of the mesh, in % of the diagonal of its "
+        "bounds, or in mean edges, as 6edges")
+      ->default_str("6edges");
+    command.add_option("--steps", this->Smooth.steps, "Implicit steps")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+    command
+      .add_option("--keep-edges", this->Smooth.keepEdges,
+        "Keep edges at which the surface turns by more than this angle in degrees, about 30 for "
+        "machined parts; with about 5 steps")
+      ->type_name("DEGREES");
+    command.add_flag("--keep-volume,!--no-keep-volume", this->Smooth.keepVolume,
+      "Move the surface along its normals so that it keeps its volume (default), or do not");
+    command
+      .add_option("--hold", this->Places,
+        "A part of the mesh that does not move, as WHERE of a problem file: JSON, as "
+        "'{\"sphere\": [0, 0, 0, 1]}', a list of these, or a file; may be given several times")
+      ->allow_extra_args(false)
+      ->type_name("WHERE");
+    command
+      .add_option_function<std::string>(
+        "--boundary",
+        [this](const std::string& name)
+        {
+          const auto place = std::ranges::find(Boundaries, name);
+          this->Smooth.boundary = static_cast<smg::SmoothedBoundary>(place - Boundaries.begin());
+        },
+        "Boundary of a surface: smooth, as curves (default of positions), fixed, or free (default "
+        "of a column)")
+      ->check(oneOf(Boundaries));
+    command.add_option("--column", this->Smooth.column,
+      "Smooth this column of the vertices instead of their positions");
+  }
+
+  std::vector<std::string> Places;
+  std::string Normals = "recompute";
+  smg::SmoothingOptions Smooth;
+};
+
+} // namespace
+
+void addSmoothCommand(CLI::App& program, Action& action)
+{
+  auto smooth = std::make_shared<SmoothCommand>();
+  CLI::App* command =
+    program.add_subcommand("smooth", "Smooth a surface, or a column of the vertices of any mesh");
+  smooth->addOptions(*command);
+  command->callback([smooth, &action] { action = [smooth] { smooth->run(); }; });
+}

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Storage/Ring.h"
+#include "smg/MeshSource.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace smg
+{
+
+/** The diagonal, the mean edge and the volume of a mesh, from one reading of its stream. Cells that
+ * are flagged or use a vertex twice are left out. */
+class MeshMeasures
+{
+public:
+  MeshMeasures(Pool& pool, CellType type)
+    : Type(type)
+    , Points(pool, 3)
+  {
+  }
+
+  /** Adds the next block. */
+  void add(const MeshBlock& block);
+
+  /** The diagonal of the bounds of the vertices; 0 without vertices. */
+  double diagonal() const;
+  /** The mean length of the edges of the cells, each counted for each of its cells; 0 without
+   * cells. */
+  double meanEdge() const;
+  /** The volume that triangles enclose if they are closed and their normals point outwards. */
+  double volume() const { return this->Volume / 6.0; }
+
+private:
+  void addCell(const std::int64_t* corners);
+
+  CellType Type;
+  Ring<double> Points;
+  std::array<double, 3> Low{ Infinity, Infinity, Infinity };
+  std::array<double, 3> High{ -Infinity, -Infinity, -Infinity };
+  std::array<double, 3> Origin{}; ///< of volumes: the first vertex
+  double Lengths = 0.0, Volume = 0.0;
+  std::int64_t Edges = 0;
+  std::int64_t Finalized = 0; ///< after the previous block
+
+  static constexpr double Infinity = std::numeric_limits<double>::infinity();
+};
+
+} // namespace smg

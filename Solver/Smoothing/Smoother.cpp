@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Smoothing/Smoother.h"
+
+#include "Solver/Problem/BoundaryFacets.h"
+#include "Solver/Stream/StreamCheck.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace smg
+{
+
+namespace
+{
+
+SmoothedBoundary boundaryOf(const SmoothingOptions& options)
+{
+  return options.boundary.value_or(
+    options.column.empty() ? SmoothedBoundary::Smooth : SmoothedBoundary::Free);
+}
+
+/** The column to smooth; none: the positions. */
+std::optional<NamedColumn> columnOf(
+  const std::string& name, CellType cellType, MeshColumns& columns)
+{
+  if (name.empty())
+  {
+    if (cellType != CellType::Triangle)
+    {
+      throw Error("the positions of tetrahedra cannot be smoothed, only those of triangles: name a "
+                  "column of the vertices to smooth instead");
+    }
+    return std::nullopt;
+  }
+  const NamedColumn column = columns.require(name, ColumnOwner::Vertices, "column");
+  if (column.owner == ColumnOwner::Cells)
+  {
+    columns.fail("column", '\'' + name + "' is a column of the cells: name one of the vertices");
+  }
+  if (column.components > 64)
+  {
+    columns.fail("column", '\'' + name + "' has more than 64 components");
+  }
+  return column;
+}
+
+} // namespace
+
+Smoother::Smoother(const StoredMesh& mesh, const SmoothingOptions& options)
+  : Mesh(mesh)
+  , Options(options)
+  , Columns(mesh.info(), "smooth")
+  , Column(columnOf(options.column, mesh.info().cellType, this->Columns))
+  , Held(options.hold,
+      boundaryOf(options) == SmoothedBoundary::Fixed ||
+        (this->movesPoints() && boundaryOf(options) == SmoothedBoundary::Free),
+      this->Columns)
+  , Result(std::make_unique<SmoothedValues>(options, this->Column ? this->Column->components : 3))
+  , Next(this->Result->storage, this->Result->columns())
+{
+  if (boundaryOf(options) == SmoothedBoundary::Smooth)
+  {
+    this->Curves.emplace(this->Result->memory);
+  }
+  for (std::optional<VertexFile>* file : { &this->Presmoothed, &this->Normals })
+  {
+    if (options.keepEdges || (options.keepVolume && this->movesPoints()))
+    {
+      file->emplace(this->Result->storage, 3);
+    }
+  }
+}
+
+std::unique_ptr<Solution> Smoother::run()
+{
+  // The survey reads the mesh once, a step several times.
+  const double surveyed = 1.0 / (1.0 + 10.0 * this->Options.steps);
+  this->survey({ 0.0, surveyed });
+  for (int k = 0; k<this->Options.steps&& this->Result->vertices()> 0; ++k)
+  {
+    const double steps = this->Options.steps;
+    this->step(k, Part{ surveyed, 1.0 }.of(k / steps, (k + 1) / steps));
+  }
+  return this->finish();
+}
+
+void Smoother::read(Part part, const Visit& visit)
+{
+  const auto source = this->Mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns());
+  const std::int64_t cells = std::max<std::int64_t>(source->info().cells, 1);
+  for (MeshBlock block; source->next(block);)
+  {
+    visit(block);
+    const double done =
+      std::min(1.0, static_cast<double>(block.firstCell) / static_cast<double>(cells));
+    if (this->Options.progress && !this->Options.progress(part.at(done)))
+    {
+      throw Cancelled();
+    }
+  }
+  ++this->Result->total.passes;
+}
+
+/** The first reading: what is held, the values, the lengths that sizes refer to. */
+void Smoother::survey(Part part)
+{
+  const CellType type = this->Mesh.info().cellType;
+  StreamCheck check(type);
+  MeshMeasures measures(this->Result->memory, type);
+  std::optional<BoundaryFacets> facets;
+  if (this->Curves)
+  {
+    facets.emplace(this->Result->memory, type);
+  }
+  const auto addEdge = [this](std::int64_t low, std::int64_t high, std::int64_t /*none*/)
+  { this->Curves->add(low, high); };
+  this->read(part,
+    [&](const MeshBlock& block)
+    {
+      check.add(block);
+      measures.add(block);
+      this->Held.prepare(block, this->Options.scratch);
+      this->keepValues(block);
+      if (facets)
+      {
+        facets->add(block, addEdge);
+      }
+    });
+  this->Held.endPreparing(boundaryOf(this->Options) == SmoothedBoundary::Fixed);
+  if (facets)
+  {
+    facets->finish(addEdge);
+    this->Curves->begin(this->Result->values);
+    this->holdCurves();
+  }
+  this->setSize(measures);
+  if (this->movesPoints())
+  {
+    const bool isClosed = !this->Held.hasBoundary() && !this->hasCurves();
+    this->Result->total.volume.emplace();
+    this->Result->total.volume->before = isClosed ? measures.volume() : std::nan("");
+  }
+}
+
+void Smoother::keepValues(const MeshBlock& block)
+{
+  if (!this->Column)
+  {
+    this->Result->values.append(block.positions);
+    return;
+  }
+  const auto components = static_cast<std::size_t>(this->Column->components);
+  const smg::Column& column = this->Column->in(block);
+  this->Values.resize(static_cast<std::size_t>(block.vertices()) * components);
+  for (std::size_t k = 0; k < this->Values.size(); ++k)
+  {
+    this->Values[k] = column.value(k / components, static_cast<int>(k % components));
+    if (!std::isfinite(this->Values[k]))
+    {
+      this->Columns.fail("column", '\'' + this->Column->name + "' is not a finite number at " +
+                                     this->Columns.vertexName(block, k / components));
+    }
+  }
+  this->Result->values.append(this->Values);
+}
+
+/** Fixes the vertices of the boundary that are held. */
+void Smoother::holdCurves()
+{
+  if (!this->Options.hold.empty() && this->hasCurves())
+  {
+    this->read({ 0.0, 0.0 }, [this](const MeshBlock& block)
+      { this->Curves->hold(block.firstVertex, this->Held.at(block)); });
+  }
+}
+
+void Smoother::setSize(const MeshMeasures& measures)
+{
+  const SmoothingSize size = this->Options.size;
+  const double unit = size.unit == SmoothingSize::MeanEdges  ? measures.meanEdge()
+                      : size.unit == SmoothingSize::Diagonal ? measures.diagonal()
+                                                             : 1.0;
+  this->Size = size.value * unit;
+  const double root = this->Size / (2.0 * std::numbers::pi);
+  this->Time = (std::exp2(1.0 / this->Options.steps) - 1.0) * root * root;
+  if (this->Result->vertices() > 0 &&
+      !(std::isnormal(this->Time) && std::isnormal(1.0 / this->Time)))
+  {
+    throw Error("the size of the details to smooth, " + std::to_string(this->Size) +
+                " in the unit of the mesh, is too small or too large to compute with");
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""smg smooth as a black box: results, options, formats, reports and errors."""
+
+import json
+import math
+import random
+import sys
+
+from mesh_files import read_mesh
+from program import load, read_vtk_xml, run, write_medit
+from tetrahedra import tetrahedra
+from torus import torus
+
+
+def obj(name, noise=0.0, keep=lambda k: True):
+    """A torus of squares as OBJ, with each coordinate moved by up to `noise`."""
+    numbers = random.Random(5)
+    points, quadrangles = torus(120, 60)
+    with open(name, "w", encoding="utf-8") as file:
+        for point in points:
+            file.write("v %r %r %r\n" % tuple(x + numbers.uniform(-noise, noise) for x in point))
+        for k, quadrangle in enumerate(quadrangles):
+            if keep(k):
+                file.write("f %d %d %d %d\n" % tuple(corner + 1 for corner in quadrangle))
+
+
+def smooth(mesh, out, *arguments, **options):
+    done = run("smooth", mesh, out, "--report", "report.json", *arguments, **options)
+    return done if "code" in options else load("report.json")
+
+
+def points_of(name):
+    return read_mesh(name)[0]
+
+
+def deviation(name):
+    """The root mean square of the distance of the points from the torus."""
+    squares = [(math.hypot(math.hypot(x, y) - 2, z) - 1)**2 for x, y, z in points_of(name)]
+    return math.sqrt(sum(squares) / len(squares))
+
+
+def test_noise_goes_and_volume_stays():
+    obj("noisy.obj", 0.03)
+    report = smooth("noisy.obj", "smooth.obj")
+    assert deviation("smooth.obj") < 0.5 * deviation("noisy.obj")
+    volume = report["volume"]
+    assert math.isclose(volume["before"], volume["after"], rel_tol=1e-9), volume
+    assert 2 * math.pi**2 * 2 * 0.97 < volume["before"] < 2 * math.pi**2 * 2, volume
+    assert [step["name"] for step in report["steps"]] == ["step 1"] and report["converged"]
+    report = smooth("noisy.obj", "shrunk.obj", "--no-keep-volume", "--size", "1.5", "--steps", "2")
+    volume = report["volume"]
+    assert volume["after"] < 0.98 * volume["before"], volume
+    assert math.isclose(volume["after"] - volume["before"], volume["swept"], rel_tol=1e-9)
+    assert len(report["steps"]) == 2
+
+
+def test_the_order_and_the_polygons_of_the_input_stay():
+    before, after = read_mesh("noisy.obj"), read_mesh("smooth.obj")
+    assert before[1] == after[1]
+    assert max(math.dist(a, b) for a, b in zip(before[0], after[0])) < 0.3
+
+
+def test_every_way_gives_the_same_points():
+    expected = points_of("smooth.obj")
+    for options in (("--in-core",), ("--threads", "1"), ("--memory", "64"), ("--size", "6edges")):
+        smooth("noisy.obj", "again.obj", *options)
+        assert points_of("again.obj") == expected, options
+    run("convert", "noisy.obj", "noisy.vsm", "--quiet")
+    smooth("noisy.vsm", "again.vsm")
+    run("convert", "again.vsm", "again.obj", "--restore-order", "--quiet")
+    other = points_of("again.obj")
+    assert max(math.dist(a, b) for a, b in zip(other, expected)) < 1e-6
+
+
+def test_sizes():
+    """The diagonal of the bounds of the exact torus is known."""
+    obj("torus.obj")
+    diagonal = math.sqrt(36 + 36 + 4)
+    smooth("torus.obj", "a.obj", "--size", "10%")
+    smooth("torus.obj", "b.obj", "--size", repr(diagonal / 10))
+    assert max(math.dist(a, b) for a, b in zip(points_of("a.obj"), points_of("b.obj"))) < 1e-3
+    for size in ("0", "-1", "nan", "inf", "1km", "%", "edges", ""):
+        error = smooth("torus.obj", "c.obj", "--size", size, code=2).stderr
+        assert "is no size" in error or "--size" in error, error
+
+
+def test_what_is_held_does_not_move():
+    obj("open.obj", 0.03, keep=lambda k: k >= 1200)
+    held = '{"halfspace": [1, 0, 0, 1.5]}'
+    with open("hold.json", "w", encoding="utf-8") as file:
+        json.dump([{"halfspace": [0, 0, 1, 0.9]}, {"boundary": True}], file)
+    report = smooth("open.obj", "held.obj", "--hold", held, "--hold", "hold.json")
+    assert report["volume"]["before"] is None and report["prescribed"] > 1000
+    moved = 0
+    for a, b in zip(points_of("open.obj"), points_of("held.obj")):
+        isHeld = a[0] >= 1.5 or a[2] >= 0.9
+        assert not isHeld or math.dist(a, b) < 1e-6, (a, b)
+        moved += a != b
+    assert moved > 1000
+    rims = {}
+    for boundary in ("smooth", "fixed", "free"):
+        report = smooth("open.obj", boundary + ".obj", "--boundary", boundary)
+        rims[boundary] = (report["prescribed"], points_of(boundary + ".obj"))
+    assert rims["smooth"][0] == rims["fixed"][0] > 0 == rims["free"][0]
+    assert rims["smooth"][1] != rims["fixed"][1] != rims["free"][1]
+
+
+def test_a_column_keeps_its_type():
+    points, cells = tetrahedra(6)
+    write_medit("solid.mesh", points, cells)
+    run("convert", "solid.mesh", "solid.vsm", "--quiet")
+    with open("heat.json", "w", encoding="utf-8") as file:
+        json.dump({"source": [{"value": 0}, {"halfspace": [1, 0, 0, 0.5], "value": 1}],
+                   "screening": 100}, file)
+    run("solve", "solid.vsm", "heat.vsm", "--problem", "heat.json", "--quiet")
+    report = smooth("heat.vsm", "even.vsm", "--column", "Solution", "--size", "50%")
+    assert "volume" not in report
+    arrays = {}
+    for name in ("heat", "even"):
+        run("convert", name + ".vsm", name + ".vtu", "--order", "keep", "--quiet")
+        arrays[name] = read_vtk_xml(name + ".vtu")
+    spread = {name: max(all["Solution"])[0] - min(all["Solution"])[0]
+              for name, all in arrays.items()}
+    assert spread["even"] < 0.8 * spread["heat"], spread
+    assert arrays["heat"]["Points"] == arrays["even"]["Points"]
+    # Whole numbers are rounded.
+    report = smooth("heat.vsm", "ids.vsm", "--column", "OriginalId", "--size", "20%")
+    run("convert", "ids.vsm", "ids.vtu", "--order", "keep", "--quiet")
+    ids = read_vtk_xml("ids.vtu")["OriginalId"]
+    assert all(isinstance(number, int) for number, in ids)
+    assert ids != arrays["heat"]["OriginalId"]
+
+
+def test_errors():
+    def says(text, *arguments, code=1):
+        error = run("smooth", *arguments, code=code).stderr
+        assert text in error, error
+
+    says("has no column 'x'", "torus.obj", "c.vsm", "--column", "x")
+    says("name a column of the vertices", "solid.vsm", "c.vsm")
+    says("between 0 and 180", "torus.obj", "c.vsm", "--keep-edges", "180")
+    says("steps", "torus.obj", "c.vsm", "--steps", "0", code=2)
+    says("hold[0]: no vertex", "torus.obj", "c.vsm", "--hold", '{"sphere": [9, 9, 9, 1]}')
+    says("--hold: sphere: must be", "torus.obj", "c.vsm", "--hold", '{"sphere": [9, 9]}')
+    says("cannot be opened", "torus.obj", "c.vsm", "--hold", "missing.json")
+    says("boundary", "torus.obj", "c.vsm", "--boundary", "none", code=2)
+
+
+def test_edges_are_kept():
+    """A box of squares: its top stays flat up to the edge."""
+    n = 12
+    numbers = random.Random(3)
+    places = {}
+    faces = []
+    for axis in range(3):
+        for side in (0, n):
+            for i in range(n):
+                for j in range(n):
+                    corners = []
+                    for di, dj in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                        point = [0, 0, 0]
+                        point[axis], point[axis - 2], point[axis - 1] = side, i + di, j + dj
+                        corners.append(places.setdefault(tuple(point), len(places)))
+                    faces.append(corners if side else corners[::-1])
+    with open("box.obj", "w", encoding="utf-8") as file:
+        for point in places:
+            file.write("v %r %r %r\n" % tuple(x + numbers.uniform(-0.3, 0.3) for x in point))
+        for corners in faces:
+            file.write("f %d %d %d %d\n" % tuple(corner + 1 for corner in corners))
+
+    def unevenness(name):
+        heights = [p[2] - n for p, place in zip(points_of(name), places)
+                   if place[2] == n and min(place[:2]) > 0 and max(place[:2]) < n]
+        return math.sqrt(sum(h * h for h in heights) / len(heights))
+
+    smooth("box.obj", "round.obj", "--steps", "5", "--size", "8edges")
+    report = smooth("box.obj", "sharp.obj", "--steps", "5", "--size", "8edges", "--keep-edges", "30")
+    assert report["steps"][0]["name"] == "presmoothing 1" and len(report["steps"]) == 10
+    assert unevenness("sharp.obj") < 0.4 * unevenness("box.obj")
+    assert unevenness("sharp.obj") < 0.4 * unevenness("round.obj")
+
+
+for each in (test_noise_goes_and_volume_stays, test_the_order_and_the_polygons_of_the_input_stay,
+             test_every_way_gives_the_same_points, test_sizes, test_what_is_held_does_not_move,
+             test_a_column_keeps_its_type, test_errors, test_edges_are_kept):
+    each()
+    print("passed", each.__name__)
+sys.exit(0)

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Solver/SmoothTesting.h"
+#include "Testing/Support/ErrorMessage.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace smg::testing
+{
+namespace
+{
+
+std::string errorOf(const StreamMesh& mesh, const std::function<void(SmoothingOptions&)>& change)
+{
+  SmoothingOptions options;
+  change(options);
+  return messageOf([&] { smoothed(mesh, options); });
+}
+
+#define EXPECT_SAYS(text, part) EXPECT_PRED_FORMAT2(::testing::IsSubstring, part, text)
+
+} // namespace
+
+TEST(SmoothErrors, OptionsOutOfRange)
+{
+  const StreamMesh mesh = toStream(torus(9, 6));
+  for (const double size : { 0.0, -1.0, static_cast<double>(NAN), static_cast<double>(INFINITY) })
+  {
+    EXPECT_SAYS(errorOf(mesh, [=](auto& o) { o.size.value = size; }), "must be a positive number");
+  }
+  EXPECT_SAYS(errorOf(mesh,
+                [](auto& o) {
+                  o.size = { 1e-300, SmoothingSize::Mesh };
+                }),
+    "is too small or too large");
+  EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.steps = 0; }), "steps must be from 1 to 1000");
+  EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.keepEdges = 0.0; }), "between 0 and 180 degrees");
+  EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.tolerance = 2.0; }), "tolerance");
+  EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.operators = "shi2006"; }), "use extended");
+  EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.memoryLimit = 100000; }), "raise the memory limit");
+}
+
+TEST(SmoothErrors, ColumnsAndPartsThatTheMeshDoesNotHave)
+{
+  StreamMesh mesh = toStream(torus(9, 6));
+  std::vector<double> values(static_cast<std::size_t>(mesh.vertices()), 1.0);
+  values[4] = NAN;
+  mesh.vertexColumns = { makeColumn<double>("v", values) };
+  mesh.cellColumns = { makeColumn<double>(
+    "c", std::vector<double>(static_cast<std::size_t>(mesh.cells()))) };
+  EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.column = "w"; }),
+    "smooth: column: the mesh has no column 'w'; its vertices have 'v', its cells 'c'");
+  EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.column = "c"; }), "is a column of the cells");
+  EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.column = "v"; }),
+    "'v' is not a finite number at vertex 4 of the stream");
+  EXPECT_SAYS(errorOf(mesh,
+                [](auto& o)
+                {
+                  o.column = "v";
+                  o.keepEdges = 20.0;
+                }),
+    "name no column, or keep no edges");
+  EXPECT_SAYS(errorOf(mesh,
+                [](auto& o)
+                {
+                  o.column = "v";
+                  o.boundary = SmoothedBoundary::Smooth;
+                }),
+    "fix it or leave it free");
+  EXPECT_SAYS(errorOf(mesh,
+                [](auto& o) {
+                  o.hold = { Region::Sphere{ { 0, 0, 0 }, 9 }, Region::Sphere{ { 50, 0, 0 }, 1 } };
+                }),
+    "smooth: hold[1]: no vertex of the mesh is in this region");
+  EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.hold = { OnBoundary{} }; }), "the mesh is closed");
+}
+
+TEST(SmoothErrors, PositionsOfTetrahedra)
+{
+  EXPECT_SAYS(errorOf(toStream(tetBox(3, 3, 3)), [](auto&) {}), "name a column of the vertices");
+}
+
+TEST(SmoothErrors, EverythingHeldAndEmptyMeshesStayAsTheyAre)
+{
+  const StreamMesh mesh = toStream(torus(9, 6));
+  SmoothingOptions options;
+  options.hold = { Everywhere{} };
+  const Solved result = smoothed(mesh, options);
+  EXPECT_TRUE(sameBits(result.values, pointsOf(mesh)));
+  EXPECT_TRUE(result.report.converged);
+  EXPECT_EQ(smoothed(StreamMesh{}, {}).values.rows(), 0);
+}
+
+TEST(SmoothErrors, CancelledByTheProgressCallback)
+{
+  const MemoryMesh mesh(toStream(torus(30, 20)), 50);
+  for (const double until : { 0.0, 0.1, 0.5, 0.95 })
+  {
+    SmoothingOptions options;
+    options.steps = 2;
+    options.keepEdges = 30.0;
+    double last = 0.0;
+    options.progress = [&](double done)
+    {
+      EXPECT_GE(done, last - 1e-12);
+      EXPECT_LE(done, 1.0);
+      last = std::max(last, done);
+      return done <= until;
+    };
+    EXPECT_THROW(smooth(mesh, options), Cancelled);
+  }
+}
+
+TEST(SmoothErrors, MemoryIsAccountedAndWithinTheLimit)
+{
+  const StreamMesh mesh = noisy(toStream(grid(150, 100)), 0.1);
+  SmoothingOptions options;
+  options.coreNodes = 500;
+  const std::int64_t need = smoothed(mesh, options).report.pool_bytes_peak;
+  options.memoryLimit = need + need / 10;
+  const Solved again = smoothed(mesh, options);
+  EXPECT_LE(again.report.pool_bytes_peak, options.memoryLimit);
+  options.memoryLimit = need / 4;
+  EXPECT_SAYS(messageOf([&] { smoothed(mesh, options); }), "memory");
+}
+
+} // namespace smg::testing
