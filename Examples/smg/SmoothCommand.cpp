@@ -129,7 +129,7 @@ private:
         },
         "Size of the details that are halved: in the unit of the mesh, in % of the diagonal of its "
         "bounds, or in mean edges, as 6edges")
-      ->default_str("6edges");
+      ->default_str("4edges");
     command.add_option("--steps", this->Smooth.steps, "Implicit steps")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

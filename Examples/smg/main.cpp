@@ -6,7 +6,7 @@
 //   smg convert bunny.ply bunny.vsm
 //   smg solve bunny.vsm harmonic.vtp --problem harmonic.json --report report.json
 //   smg deform bunny.vsm bent.ply --handles handles.json --memory 128
-//   smg smooth scan.ply smooth.ply --size 6edges
+//   smg smooth scan.ply smooth.ply --size 4edges
 //   smg preview bunny.vsm preview.vtp --points 5000
 //
 // Exit status: 0; 1 with one line on standard error; 2 for wrong usage.

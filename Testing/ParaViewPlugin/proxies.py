@@ -31,8 +31,14 @@ for name in ("Residual", "Cycles", "Passes", "PeakMemory", "Converged", "Outcome
     is_shown = poisson.SMProxy.GetProperty(name).GetPanelVisibility() == "default"
     assert is_shown == (name in ("Outcome", "Notes")), name
 
+smoothing = StreamingMeshSmoothing(Input=reader)
+defaults = {"Size": 4.0, "SizeUnit": "Mean Edges", "Steps": 1, "KeepVolume": 1, "KeepEdges": 0,
+            "EdgeAngle": 30.0, "Boundary": "Automatic", "Hold": "", "Column": ""}
+for name, value in defaults.items():
+    assert smoothing.GetPropertyValue(name) == value, (name, smoothing.GetPropertyValue(name))
+
 # A label is the name with spaces, so that the Python name equals the name.
-for proxy in (reader, poisson, MeshHandle(Input=reader)):
+for proxy in (reader, poisson, smoothing, MeshHandle(Input=reader)):
     iterator = proxy.SMProxy.NewPropertyIterator()
     iterator.Begin()
     while not iterator.IsAtEnd():

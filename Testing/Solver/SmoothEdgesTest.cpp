@@ -87,6 +87,7 @@ TEST(SmoothEdges, ANoisyCubeKeepsThemAndBecomesFlat)
   const StreamMesh rough = noisy(exact, 0.35); // 0.2 in the mean square, of edges of 1 and 1.4
   const Eigen::MatrixXd goal = pointsOf(exact);
   SmoothingOptions options;
+  options.size.value = 6.0;
   options.steps = 5;
   const Eigen::MatrixXd round = smoothed(rough, options).values;
   options.keepEdges = 30.0;

@@ -288,11 +288,11 @@ TEST(Smooth, SizesAreInTheUnitOfTheMeshInEdgesOrInDiagonals)
     lengths += (x.row(Torus.corners[k]) - x.row(Torus.corners[next])).norm();
   }
   const double edge = lengths / static_cast<double>(3 * Torus.cells());
-  SmoothingOptions options = plainStep(6.0 * edge);
+  SmoothingOptions options = plainStep(4.0 * edge);
   const Eigen::MatrixXd expected = smoothed(Torus, options).values;
   options.size = SmoothingSize{};
   EXPECT_LT(farthest(smoothed(Torus, options).values, expected), 1e-12);
-  options.size = { 6.0 * edge / diagonalOf(x), SmoothingSize::Diagonal };
+  options.size = { 4.0 * edge / diagonalOf(x), SmoothingSize::Diagonal };
   EXPECT_LT(farthest(smoothed(Torus, options).values, expected), 1e-12);
 }
 

@@ -25,7 +25,7 @@ struct SmoothingSize
     Diagonal   ///< the diagonal of the bounds of the mesh
   };
 
-  double value = 6;      ///< more than 0
+  double value = 4;      ///< more than 0
   Unit unit = MeanEdges; ///< what it is a multiple of
 };
 

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Smoothing/vtkSmoothingTask.h"
+
+#include "Filters/Deformation/DeformedVertices.h"
+#include "Filters/Mesh/vtkPieceBlock.h"
+#include "IO/Files/PartialProgress.h"
+#include "IO/vtkMeshPieceData.h"
+#include "Solver/Description/ComposeDescriptions.h"
+#include "Solver/Engine/CheckOptions.h"
+#include "Solver/Stream/OriginalNumbers.h"
+
+#include "vtkPointSet.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+namespace smg
+{
+namespace
+{
+
+/** The share of the smoothing in the progress; normals take the rest. */
+constexpr double SmoothShare = 0.9;
+
+/** The columns that the options name. */
+std::set<std::string> namesIn(const SmoothingOptions& options)
+{
+  ProblemDescription held;
+  for (const Where& part : options.hold)
+  {
+    held.dirichlet.push_back({ part, 0.0 });
+  }
+  std::set<std::string> names = namedColumns(held);
+  if (!options.column.empty())
+  {
+    names.insert(options.column);
+  }
+  return names;
+}
+
+/** A VTK mesh in memory as one block, with all columns that are named. */
+class StoredBlock : public StoredMesh
+{
+public:
+  StoredBlock(vtkPointSet& mesh, std::set<std::string> names)
+    : Block(mesh, std::move(names))
+  {
+  }
+
+  const StreamInfo& info() const override { return this->Block.info(); }
+  std::unique_ptr<MeshSource> source(std::vector<std::string> /*vertexColumns*/,
+    std::vector<std::string> /*cellColumns*/) const override
+  {
+    return this->Block.source();
+  }
+
+private:
+  PieceBlock Block;
+};
+
+} // namespace
+
+void SmoothingTask::check() const
+{
+  checkOptions(this->options);
+}
+
+PieceColumns SmoothingTask::columns() const
+{
+  const std::set<std::string> names = namesIn(this->options);
+  return { .all = false,
+    .required = { names.begin(), names.end() },
+    .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
+}
+
+std::unique_ptr<Solution> SmoothingTask::smoothed(
+  const StoredMesh& mesh, bool inCore, const ProgressFunction& progress) const
+{
+  const bool hasNormals = this->needsNormals && this->options.column.empty();
+  SmoothingOptions given = this->options;
+  given.inCore = inCore;
+  given.progress = partOf(progress, 0.0, hasNormals ? SmoothShare : 1.0);
+  std::unique_ptr<Solution> solution = smooth(mesh, given);
+  if (!hasNormals)
+  {
+    return solution;
+  }
+  NormalsOptions normals;
+  normals.scratch = given.scratch;
+  normals.memory = std::min(normals.memory, given.memoryLimit / 4);
+  normals.progress = partOf(progress, SmoothShare, 1.0);
+  auto moved = std::make_unique<DeformedVertices>(std::move(solution));
+  moved->addNormals(mesh.source({}, {}), normals);
+  return moved;
+}
+
+std::unique_ptr<Solution> SmoothingTask::solve(
+  const VsmReader& mesh, const ProgressFunction& progress, Report& report) const
+{
+  std::unique_ptr<Solution> solution = this->smoothed(mesh, false, progress);
+  report = solution->report();
+  return solution;
+}
+
+SolveSummary SmoothingTask::solveInMemory(
+  vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) const
+{
+  this->check();
+  const StoredBlock stored(mesh, namesIn(this->options));
+  const std::unique_ptr<Solution> solution = this->smoothed(stored, true, progress);
+  values.resize(static_cast<std::size_t>(solution->vertices() * solution->columns()));
+  solution->read(0, solution->vertices(), values);
+  Report report = solution->report();
+  if (isPreview(mesh))
+  {
+    report.notes.push_back("this is the smoothed preview, a mesh of " +
+                           std::to_string(report.vertices) +
+                           " vertices with longer edges than those of the full mesh, which is "
+                           "smoothed when it is saved");
+  }
+  return SolveSummary::of(report, solution->columns());
+}
+
+} // namespace smg

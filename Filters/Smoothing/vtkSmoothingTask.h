@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Filters/Streaming/SolveSummary.h"
+#include "Filters/Streaming/vtkStreamedTask.h"
+#include "smg/Smooth.h"
+
+#include <vector>
+
+class vtkPointSet;
+
+namespace smg
+{
+
+/** The smoothing of a mesh in pieces: of its positions, with normals as DeformedVertices if they
+ * are needed, or of an array of its points. */
+class SmoothingTask : public StreamedTask
+{
+public:
+  SmoothingOptions options;  ///< except for the progress function
+  bool needsNormals = false; ///< of the vertices; tetrahedra have none
+
+  void check() const override;
+  PieceColumns columns() const override;
+  std::unique_ptr<Solution> solve(
+    const VsmReader& mesh, const ProgressFunction& progress, Report& report) const override;
+
+  /** Smooths a mesh in memory, which has cells, and sets the values at its points. Throws Error and
+   * Cancelled. */
+  SolveSummary solveInMemory(
+    vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) const;
+
+private:
+  std::unique_ptr<Solution> smoothed(
+    const StoredMesh& mesh, bool inCore, const ProgressFunction& progress) const;
+};
+
+} // namespace smg

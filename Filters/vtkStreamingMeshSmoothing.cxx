@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkStreamingMeshSmoothing.h"
+
+#include "Filters/Deformation/vtkMovedPiece.h"
+#include "Filters/Smoothing/vtkSmoothedArray.h"
+#include "Filters/Smoothing/vtkSmoothingTask.h"
+#include "Filters/Streaming/SolveSummary.h"
+#include "IO/vtkMeshPieceData.h"
+#include "smg/DescriptionFiles.h"
+#include "smg/Error.h"
+
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+
+#include <string>
+
+vtkStandardNewMacro(vtkStreamingMeshSmoothing);
+
+struct vtkStreamingMeshSmoothing::Internals
+{
+  explicit Internals(vtkStreamingMeshSmoothing& self)
+    : Self(self)
+  {
+  }
+
+  std::string column() const { return this->Self.Column ? this->Self.Column : ""; }
+
+  smg::SmoothingOptions options() const
+  {
+    smg::SmoothingOptions options;
+    this->Self.FillOptions(options);
+    // Both enumerations have the same order.
+    options.size = { this->Self.Size, static_cast<smg::SmoothingSize::Unit>(this->Self.SizeUnit) };
+    options.steps = this->Self.Steps;
+    options.keepVolume = this->Self.KeepVolume;
+    options.column = this->column();
+    if (this->Self.KeepEdges)
+    {
+      options.keepEdges = this->Self.EdgeAngle;
+    }
+    if (this->Self.Boundary != AUTOMATIC)
+    {
+      options.boundary = static_cast<smg::SmoothedBoundary>(this->Self.Boundary - SMOOTH);
+    }
+    if (this->Self.Hold && *this->Self.Hold)
+    {
+      options.hold = smg::readPlacesText(this->Self.Hold, "Hold");
+    }
+    return options;
+  }
+
+  std::unique_ptr<smg::SmoothingTask> task(vtkPointSet& input) const
+  {
+    auto task = std::make_unique<smg::SmoothingTask>();
+    task->options = this->options();
+    task->needsNormals = this->column().empty() && this->Self.Normals == RECOMPUTE &&
+                         vtkPolyData::SafeDownCast(&input) &&
+                         smg::findNormals(*input.GetPointData());
+    return task;
+  }
+
+  vtkStreamingMeshSmoothing& Self;
+};
+
+vtkStreamingMeshSmoothing::vtkStreamingMeshSmoothing()
+  : Internal(new Internals(*this))
+{
+}
+
+vtkStreamingMeshSmoothing::~vtkStreamingMeshSmoothing()
+{
+  this->SetHold(nullptr);
+  this->SetColumn(nullptr);
+}
+
+std::unique_ptr<smg::StreamedTask> vtkStreamingMeshSmoothing::MakeTask(vtkPointSet& input)
+{
+  return this->Internal->task(input);
+}
+
+bool vtkStreamingMeshSmoothing::IsForMemory(vtkPointSet& input, bool isWhole)
+{
+  return smg::isPreview(input) || (isWhole && input.GetNumberOfPoints() <= this->InteractivePoints);
+}
+
+smg::SolveSummary vtkStreamingMeshSmoothing::SolveInMemory(
+  vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values)
+{
+  if (input.GetNumberOfCells() == 0)
+  {
+    if (smg::isPreview(input))
+    {
+      return this->SummaryOfNothing(3);
+    }
+    throw smg::Error("The input has no cells: give it a mesh of triangles or tetrahedra.");
+  }
+  return this->Internal->task(input)->solveInMemory(input, progress, values);
+}
+
+void vtkStreamingMeshSmoothing::Deliver(
+  vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output)
+{
+  if (!this->Internal->column().empty())
+  {
+    smg::replaceArray(piece, this->Internal->column(), values, output);
+    return;
+  }
+  smg::movePiece(piece,
+    { .values = values,
+      .columns = this->GetSummary().columns,
+      .needsCellNormals = this->Normals == RECOMPUTE },
+    output);
+}
+
+void vtkStreamingMeshSmoothing::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  constexpr const char* units[] = { "mean edges", "mesh unit", "diagonal" };
+  constexpr const char* boundaries[] = { "automatic", "smooth", "fixed", "free" };
+  os << indent << "Size: " << this->Size << "\n";
+  os << indent << "SizeUnit: " << units[this->SizeUnit] << "\n";
+  os << indent << "Steps: " << this->Steps << "\n";
+  os << indent << "KeepVolume: " << this->KeepVolume << "\n";
+  os << indent << "KeepEdges: " << this->KeepEdges << "\n";
+  os << indent << "EdgeAngle: " << this->EdgeAngle << "\n";
+  os << indent << "Boundary: " << boundaries[this->Boundary] << "\n";
+  os << indent << "Hold: " << (this->Hold ? this->Hold : "(none)") << "\n";
+  os << indent << "Column: " << (this->Column ? this->Column : "(none)") << "\n";
+  os << indent << "Normals: " << (this->Normals == RECOMPUTE ? "recompute" : "drop") << "\n";
+  os << indent << "InteractivePoints: " << this->InteractivePoints << "\n";
+}

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkStreamingMeshSmoothing
+ * @brief   Smooths a very large surface, or a point array of any very large mesh
+ *
+ * Smooths the points of a mesh of triangles by implicit fairing: details below Size vanish, the
+ * volume is kept, and any step is stable. With KeepEdges, sharp edges stay sharp. With Column, it
+ * smooths that point array of a mesh of triangles or tetrahedra instead. The output is the input
+ * with its points moved, in their precision, or with the smoothed array, in its type; other arrays
+ * are kept, except old normals (see Normals) and active tangents.
+ *
+ * - For streamed requests (see vtkStreamingMeshKeys), those of writers and other streaming filters,
+ *   the whole mesh is smoothed once, out of core, as described at vtkStreamingSolver.
+ * - For other requests, if the input is a preview, the preview itself is smoothed in memory. Its
+ *   edges are longer than those of the mesh: a size in mean edges is then larger, too.
+ * - Other requests for the whole of a mesh of at most InteractivePoints points are treated like
+ *   previews; those for larger meshes, or with several processes, like streamed requests.
+ *
+ * Weights has no effect: the cotangent weights are used.
+ *
+ * @sa vtkStreamingSolver vtkStreamingMeshDeformation vtkStreamingMeshReader
+ */
+#ifndef vtkStreamingMeshSmoothing_h
+#define vtkStreamingMeshSmoothing_h
+
+#include "vtkStreamingMultigridFiltersModule.h" // For export macro
+#include "vtkStreamingSolver.h"
+
+class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkStreamingMeshSmoothing : public vtkStreamingSolver
+{
+public:
+  static vtkStreamingMeshSmoothing* New();
+  vtkTypeMacro(vtkStreamingMeshSmoothing, vtkStreamingSolver);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /** What Size is a multiple of. */
+  enum SizeUnits
+  {
+    MEAN_EDGES = 0, ///< the mean length of the edges of the mesh
+    MESH_UNIT = 1,  ///< 1: Size is in the unit of the mesh
+    DIAGONAL = 2    ///< the diagonal of the bounds of the mesh
+  };
+  /** What becomes of the boundary of a surface. */
+  enum BoundaryTypes
+  {
+    AUTOMATIC = 0, ///< SMOOTH for points, FREE for an array
+    SMOOTH = 1,    ///< it is smoothed as curves, by the same size; not for an array
+    FIXED = 2,     ///< it does not change
+    FREE = 3       ///< it is smoothed with the surface
+  };
+  /** The treatment of normals. */
+  enum NormalsTypes
+  {
+    RECOMPUTE = 0, ///< they are recomputed
+    DROP = 1       ///< they are dropped
+  };
+
+  ///@{
+  /** Waves of this length are halved by all steps together, in SizeUnit. Default: 4. */
+  vtkSetMacro(Size, double);
+  vtkGetMacro(Size, double);
+  ///@}
+
+  ///@{
+  /** The unit of Size. Default: MEAN_EDGES. */
+  vtkSetClampMacro(SizeUnit, int, MEAN_EDGES, DIAGONAL);
+  vtkGetMacro(SizeUnit, int);
+  ///@}
+
+  ///@{
+  /** Implicit steps, 1 to 1000. Default: 1. */
+  vtkSetClampMacro(Steps, int, 1, 1000);
+  vtkGetMacro(Steps, int);
+  ///@}
+
+  ///@{
+  /** Whether each step moves the points along their normals, by the distance with which the surface
+   * sweeps no volume. Default: on. */
+  vtkSetMacro(KeepVolume, bool);
+  vtkGetMacro(KeepVolume, bool);
+  vtkBooleanMacro(KeepVolume, bool);
+  ///@}
+
+  ///@{
+  /** Whether to keep edges at which the surface turns by more than EdgeAngle. Needs about 5 Steps.
+   * Default: off. */
+  vtkSetMacro(KeepEdges, bool);
+  vtkGetMacro(KeepEdges, bool);
+  vtkBooleanMacro(KeepEdges, bool);
+  ///@}
+
+  ///@{
+  /** The angle of KeepEdges in degrees, between 0 and 180. Default: 30, for machined parts. */
+  vtkSetMacro(EdgeAngle, double);
+  vtkGetMacro(EdgeAngle, double);
+  ///@}
+
+  ///@{
+  /** What becomes of the boundary of a surface. Default: AUTOMATIC. */
+  vtkSetClampMacro(Boundary, int, AUTOMATIC, FREE);
+  vtkGetMacro(Boundary, int);
+  ///@}
+
+  ///@{
+  /** The parts that do not change: WHERE of a problem file in JSON, or a list of these, for example
+   * {"mask": "HandleMask"} after Mesh Handles. Columns are arrays of the input. Default: none. */
+  vtkSetStringMacro(Hold);
+  vtkGetStringMacro(Hold);
+  ///@}
+
+  ///@{
+  /** Name of the point array to smooth instead of the points. Default: none. */
+  vtkSetStringMacro(Column);
+  vtkGetStringMacro(Column);
+  ///@}
+
+  ///@{
+  /** The treatment of the normals of points and of cells (the active normals and arrays `Normals`)
+   * if points move: see vtkStreamingMeshDeformation. Default: RECOMPUTE. */
+  vtkSetClampMacro(Normals, int, RECOMPUTE, DROP);
+  vtkGetMacro(Normals, int);
+  ///@}
+
+  ///@{
+  /** Meshes of at most this many points are smoothed in memory. Default: 200,000. 0: only previews.
+   */
+  vtkSetClampMacro(InteractivePoints, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(InteractivePoints, vtkIdType);
+  ///@}
+
+protected:
+  vtkStreamingMeshSmoothing();
+  ~vtkStreamingMeshSmoothing() override;
+
+  std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
+  void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
+  bool IsForMemory(vtkPointSet& input, bool isWhole) override;
+  smg::SolveSummary SolveInMemory(vtkPointSet& input, const std::function<bool(double)>& progress,
+    std::vector<double>& values) override;
+
+private:
+  vtkStreamingMeshSmoothing(const vtkStreamingMeshSmoothing&) = delete;
+  void operator=(const vtkStreamingMeshSmoothing&) = delete;
+
+  struct Internals;
+
+  double Size = 4.0;
+  int SizeUnit = MEAN_EDGES;
+  int Steps = 1;
+  bool KeepVolume = true;
+  bool KeepEdges = false;
+  double EdgeAngle = 30.0;
+  int Boundary = AUTOMATIC;
+  char* Hold = nullptr;
+  char* Column = nullptr;
+  int Normals = RECOMPUTE;
+  vtkIdType InteractivePoints = 200000;
+
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif
