@@ -14,7 +14,7 @@ namespace smg
 namespace
 {
 
-void require(bool holds, const std::string& sentence)
+void requireThat(bool holds, const std::string& sentence)
 {
   if (!holds)
   {
@@ -26,19 +26,19 @@ void require(bool holds, const std::string& sentence)
 
 void checkOptions(const SmoothingOptions& options)
 {
-  require(options.operators == Extended::name,
+  requireThat(options.operators == Extended::name,
     "smoothing needs solutions, which the operator set " + options.operators +
       " does not give: use " + Extended::name);
   checkOptions(static_cast<const SolveOptions&>(options));
-  require(std::isfinite(options.size.value) && options.size.value > 0.0,
+  requireThat(std::isfinite(options.size.value) && options.size.value > 0.0,
     "the size of the details to smooth must be a positive number");
-  require(
+  requireThat(
     options.steps >= 1 && options.steps <= 1000, "the number of steps must be from 1 to 1000");
-  require(!options.keepEdges || (*options.keepEdges > 0.0 && *options.keepEdges < 180.0),
+  requireThat(!options.keepEdges || (*options.keepEdges > 0.0 && *options.keepEdges < 180.0),
     "the angle of the edges to keep must lie between 0 and 180 degrees, both excluded");
-  require(options.column.empty() || !options.keepEdges,
+  requireThat(options.column.empty() || !options.keepEdges,
     "edges are kept when positions are smoothed: name no column, or keep no edges");
-  require(options.column.empty() || options.boundary != SmoothedBoundary::Smooth,
+  requireThat(options.column.empty() || options.boundary != SmoothedBoundary::Smooth,
     "the boundary is smoothed as curves only with the positions: of a column, fix it or leave it "
     "free");
 }

@@ -21,9 +21,9 @@ namespace
  */
 constexpr std::int64_t BytesPerEdge = 112, SystemBytesPerEdge = 400;
 
-using Position = std::array<double, 3>;
+using CurvePoint = std::array<double, 3>;
 
-Eigen::RowVector3d rowOf(const Position& position)
+Eigen::RowVector3d rowOf(const CurvePoint& position)
 {
   return { position[0], position[1], position[2] };
 }
@@ -40,7 +40,7 @@ public:
   {
   }
 
-  void setVertex(std::size_t v, const Position& position, bool isHeld)
+  void setVertex(std::size_t v, const CurvePoint& position, bool isHeld)
   {
     this->Fixed[v] = isHeld || !(this->Diagonal[v] > 0.0);
     this->Diagonal[v] = this->Fixed[v] ? 1.0 : this->Diagonal[v];
@@ -48,8 +48,8 @@ public:
   }
 
   /** To be called when all vertices are set. */
-  void addEdge(
-    const std::array<std::int64_t, 2>& ends, double weight, const std::vector<Position>& positions)
+  void addEdge(const std::array<std::int64_t, 2>& ends, double weight,
+    const std::vector<CurvePoint>& positions)
   {
     for (const auto& [from, to] : { std::pair(ends[0], ends[1]), std::pair(ends[1], ends[0]) })
     {
@@ -71,7 +71,7 @@ public:
   }
 
   /** Replaces the positions by the solution. Throws Error. */
-  void solve(std::vector<Position>& positions)
+  void solve(std::vector<CurvePoint>& positions)
   {
     const Eigen::Index size = this->RightSide.rows();
     for (Eigen::Index v = 0; v < size; ++v)

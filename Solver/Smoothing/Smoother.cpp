@@ -64,12 +64,13 @@ Smoother::Smoother(const StoredMesh& mesh, const SmoothingOptions& options)
   {
     this->Curves.emplace(this->Result->memory);
   }
-  for (std::optional<VertexFile>* file : { &this->Presmoothed, &this->Normals })
+  if (options.keepEdges)
   {
-    if (options.keepEdges || (options.keepVolume && this->movesPoints()))
-    {
-      file->emplace(this->Result->storage, 3);
-    }
+    this->Presmoothed.emplace(this->Result->storage, 3);
+  }
+  if (options.keepEdges || (options.keepVolume && this->movesPoints()))
+  {
+    this->Normals.emplace(this->Result->storage, 3);
   }
 }
 
@@ -116,7 +117,7 @@ void Smoother::survey(Part part)
   }
   const auto addEdge = [this](std::int64_t low, std::int64_t high, std::int64_t /*none*/)
   { this->Curves->add(low, high); };
-  this->read(part,
+  this->read(part.of(0.0, 0.8),
     [&](const MeshBlock& block)
     {
       check.add(block);
@@ -133,7 +134,7 @@ void Smoother::survey(Part part)
   {
     facets->finish(addEdge);
     this->Curves->begin(this->Result->values);
-    this->holdCurves();
+    this->holdCurves(part.of(0.8, 1.0));
   }
   this->setSize(measures);
   if (this->movesPoints())
@@ -167,11 +168,11 @@ void Smoother::keepValues(const MeshBlock& block)
 }
 
 /** Fixes the vertices of the boundary that are held. */
-void Smoother::holdCurves()
+void Smoother::holdCurves(Part part)
 {
   if (!this->Options.hold.empty() && this->hasCurves())
   {
-    this->read({ 0.0, 0.0 }, [this](const MeshBlock& block)
+    this->read(part, [this](const MeshBlock& block)
       { this->Curves->hold(block.firstVertex, this->Held.at(block)); });
   }
 }

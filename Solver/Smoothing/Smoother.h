@@ -51,7 +51,7 @@ private:
   void survey(Part part);
   void keepValues(const MeshBlock& block);
   void setSize(const MeshMeasures& measures);
-  void holdCurves();
+  void holdCurves(Part part);
 
   void step(int k, Part part);
   void findEdges(int k, Part part);

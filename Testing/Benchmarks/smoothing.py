@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """smoothing.py SMG MESH... : smoothing beside vtkWindowedSincPolyDataFilter.
 
-Adds noise of 0.2 mean edges to the points of each mesh (.ply, .obj or .off of triangles), smooths it with
+Adds noise of 0.2 mean edges to the points of a cube and of each mesh (.ply or .obj of triangles), smooths it with
 `SMG smooth` and with VTK, and prints a table: the processor time of the smoothing, from a .vsm file to a .vsm
 file and from memory to memory; the peak memory of the processes; and how far the surface is from the mesh
 without noise: the root mean square of the distances of the points along its normals, in mean edges, and the
@@ -19,6 +19,9 @@ import numpy as np
 
 NOISE = 0.2
 SMG_OPTIONS = ([], ["--steps", "3"], ["--steps", "5", "--keep-edges", "30"])
+CUBE_OPTIONS = (["--steps", "5", "--size", "8edges"],
+                ["--steps", "5", "--size", "8edges", "--keep-edges", "30"])
+CUBE_EDGES = 24  # along a side
 VTK_OPTIONS = ((20, 0.1), (20, 0.05))
 
 
@@ -34,6 +37,22 @@ def read(path):
     mesh = reader.GetOutput()
     triangles = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3)
     return vtk_to_numpy(mesh.GetPoints().GetData()).astype(float), triangles
+
+
+def cube(n):
+    """The surface of a cube with n squares along a side, each cut into two triangles."""
+    places, triangles = {}, []
+    for axis in range(3):
+        for side in (0, n):
+            for i, j in np.ndindex(n, n):
+                corners = []
+                for di, dj in ((0, 0), (1, 0), (1, 1), (0, 1)):
+                    point = [0, 0, 0]
+                    point[axis], point[axis - 2], point[axis - 1] = side, i + di, j + dj
+                    corners.append(places.setdefault(tuple(point), len(places)))
+                a, b, c, d = corners if side else corners[::-1]
+                triangles += [(a, b, c), (a, c, d)]
+    return np.array(list(places), float), np.array(triangles)
 
 
 def write(path, points, triangles):
@@ -118,13 +137,12 @@ def smooth_with_vtk(source, result, iterations, band):
     print(json.dumps({"seconds": seconds, "bytes": peak_bytes()}))
 
 
-def measure(smg, path):
-    points, triangles = read(path)
+def measure(smg, name, points, triangles, smg_options):
     original = Original(points, triangles)
     noise = np.random.default_rng(1).normal(size=points.shape) * NOISE * original.edge
     write("noisy.ply", points + noise, triangles)
     subprocess.run([smg, "convert", "noisy.ply", "noisy.vsm", "--quiet"], check=True)
-    print(f"\n{path.name}, {len(points)} vertices, {len(triangles)} triangles:\n")
+    print(f"\n{name}, {len(points)} vertices, {len(triangles)} triangles:\n")
     print("| | CPU s | MiB | distance | angle | volume |\n|---|---|---|---|---|---|")
 
     def row(name, seconds, size, errors):
@@ -134,7 +152,7 @@ def measure(smg, path):
               flush=True)
 
     row("with noise", 0, 0, original.errors(points + noise))
-    for options in SMG_OPTIONS:
+    for options in smg_options:
         subprocess.run([smg, "smooth", "noisy.vsm", "smooth.vsm", "--quiet", "--report", "report.json",
                         *options], check=True)
         subprocess.run([smg, "convert", "smooth.vsm", "smooth.ply", "--restore-order", "--quiet"],
@@ -154,5 +172,6 @@ if __name__ == "__main__":
     if sys.argv[1] == "--vtk":
         smooth_with_vtk(sys.argv[2], sys.argv[3], int(sys.argv[4]), float(sys.argv[5]))
     else:
-        for mesh in sys.argv[2:]:
-            measure(sys.argv[1], pathlib.Path(mesh))
+        measure(sys.argv[1], "cube", *cube(CUBE_EDGES), CUBE_OPTIONS)
+        for mesh in map(pathlib.Path, sys.argv[2:]):
+            measure(sys.argv[1], mesh.name, *read(mesh), SMG_OPTIONS)

@@ -116,7 +116,8 @@ reader.MaximumPointsInMemory = 2000000
 
 # A data set of several blocks.
 blocks = GroupDatasets(Input=[Sphere(), Sphere()])
-for make in (MeshHandle, StreamingMeshDeformation, StreamingMeshPreview, StreamingPoisson):
+for make in (MeshHandle, StreamingMeshDeformation, StreamingMeshPreview, StreamingMeshSmoothing,
+             StreamingPoisson):
     refused = make(Input=blocks)
     refused.UpdatePipeline()
     text = said()

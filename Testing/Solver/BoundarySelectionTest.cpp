@@ -29,7 +29,7 @@ ProblemAnswers answersOf(MemorySource& mesh, std::int64_t blockCells)
 }
 
 /** Whether each vertex is on the boundary, whatever the blocks. */
-std::vector<bool> boundaryOf(const StreamMesh& mesh)
+std::vector<bool> isOnBoundary(const StreamMesh& mesh)
 {
   MemorySource source(mesh);
   std::vector<bool> first;
@@ -62,7 +62,7 @@ StreamMesh meshOf(CellType type, std::vector<std::int64_t> corners)
 TEST(BoundarySelection, OfASquareAreTheVerticesOfItsSides)
 {
   const StreamMesh mesh = toStream(shuffled(grid(9, 6)));
-  const std::vector<bool> boundary = boundaryOf(mesh);
+  const std::vector<bool> boundary = isOnBoundary(mesh);
   EXPECT_EQ(std::ranges::count(boundary, true), 2 * (9 + 6) - 4);
   for (std::size_t v = 0; v < boundary.size(); ++v)
   {
@@ -75,7 +75,7 @@ TEST(BoundarySelection, OfASquareAreTheVerticesOfItsSides)
 TEST(BoundarySelection, OfABoxOfTetrahedraAreTheVerticesOfItsSides)
 {
   const StreamMesh mesh = toStream(tetBox(5, 4, 6, 0.1));
-  const std::vector<bool> boundary = boundaryOf(mesh);
+  const std::vector<bool> boundary = isOnBoundary(mesh);
   const auto isOuter = [](double x, double most) { return x < 0.5 || x > most - 0.5; };
   for (std::size_t v = 0; v < boundary.size(); ++v)
   {
@@ -89,7 +89,7 @@ TEST(BoundarySelection, AnEdgeOfThreeTrianglesIsNotOpen)
   // A closed tetrahedral surface with a fin on its edge 0-1.
   const StreamMesh mesh =
     meshOf(CellType::Triangle, { 0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0, 0, 1, 4 });
-  EXPECT_EQ(boundaryOf(mesh), (std::vector<bool>{ true, true, false, false, true }));
+  EXPECT_EQ(isOnBoundary(mesh), (std::vector<bool>{ true, true, false, false, true }));
 }
 
 TEST(BoundarySelection, CellsThatAreDuplicatesOrUseAVertexTwiceDoNotCount)
@@ -97,7 +97,7 @@ TEST(BoundarySelection, CellsThatAreDuplicatesOrUseAVertexTwiceDoNotCount)
   StreamMesh mesh = meshOf(CellType::Tetrahedron, { 0, 1, 2, 3, 3, 2, 1, 0, 1, 1, 2, 3 });
   const std::vector<std::uint8_t> flags{ 0, DuplicateCell, DegenerateCell };
   mesh.cellColumns = { makeColumn<std::uint8_t>(CellFlagsName, flags) };
-  EXPECT_EQ(boundaryOf(mesh), std::vector<bool>(4, true));
+  EXPECT_EQ(isOnBoundary(mesh), std::vector<bool>(4, true));
   // Without the flag, the first two close each other.
   mesh.cellColumns.clear();
   MemorySource source(mesh);
@@ -126,14 +126,14 @@ TEST(BoundarySelection, AFluxOnTheBoundaryIsAFluxEverywhere)
     source.rewind(7);
     return solveMesh(source, problem, {}).values;
   };
-  EXPECT_TRUE(sameBits(solved(OnBoundary{}), solved(Everywhere{})));
+  EXPECT_TRUE(sameBits(solved(OnBoundary{}), solved(smg::Everywhere{})));
 }
 
 TEST(BoundarySelection, CellsAreSelectedByTheirCorners)
 {
   const StreamMesh mesh = toStream(grid(7, 7));
   MemorySource source(mesh);
-  const std::vector<bool> boundary = boundaryOf(mesh);
+  const std::vector<bool> boundary = isOnBoundary(mesh);
   ProblemDescription description;
   description.conductivity = { { OnBoundary{}, 5.0 } };
   DescribedProblem problem(description, source.info());

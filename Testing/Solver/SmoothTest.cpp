@@ -22,7 +22,7 @@ double farthest(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 }
 
 /** 1 at the vertices of edges of one triangle. */
-std::vector<std::uint8_t> boundaryOf(const StreamMesh& mesh)
+std::vector<std::uint8_t> onBoundary(const StreamMesh& mesh)
 {
   std::map<std::pair<std::int64_t, std::int64_t>, int> uses;
   for (std::int64_t c = 0; c < mesh.cells(); ++c)
@@ -82,7 +82,7 @@ TEST(Smooth, AFreeBoundaryIsThatOfTheDirectSolveAndAFixedOneDoesNotMove)
     farthest(smoothed(Sheet, options).values, smoothDirectly(mass, L, timeOf(4.0, 1), x, {})),
     1e-9);
   options.boundary = SmoothedBoundary::Fixed;
-  const std::vector<std::uint8_t> boundary = boundaryOf(Sheet);
+  const std::vector<std::uint8_t> boundary = onBoundary(Sheet);
   const Eigen::MatrixXd fixed = smoothed(Sheet, options).values;
   EXPECT_LT(farthest(fixed, smoothDirectly(mass, L, timeOf(4.0, 1), x, boundary)), 1e-9);
   for (Eigen::Index v = 0; v < x.rows(); ++v)
@@ -97,7 +97,7 @@ TEST(Smooth, ABoundaryIsSmoothedAsCurvesAndHoldsTheSurface)
   options.boundary = SmoothedBoundary::Smooth;
   options.steps = 2;
   // The boundary as a dense matrix: finite elements of edges with stiffness at rest.
-  const std::vector<std::uint8_t> boundary = boundaryOf(Sheet);
+  const std::vector<std::uint8_t> boundary = onBoundary(Sheet);
   const Eigen::MatrixXd rest = pointsOf(Sheet);
   Eigen::MatrixXd x = rest;
   Eigen::MatrixXd L = Eigen::MatrixXd::Zero(x.rows(), x.rows());

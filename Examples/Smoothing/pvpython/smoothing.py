@@ -55,7 +55,7 @@ def draw(meshes, path):
         view.UseColorPaletteForBackground = 0
         view.Background = [0.93, 0.94, 0.96]
         surface = Show(mesh, view)
-        ColorBy(surface, None)
+        surface.ColorArrayName = ["POINTS", ""]
         surface.DiffuseColor = [0.84, 0.82, 0.78]
         surface.Interpolation = "Flat"
         view.CameraPosition = [-0.12, 0.22, 0.45]
