@@ -3,6 +3,7 @@
 
 #include "Solver/Problem/Vector.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace smg
@@ -11,7 +12,8 @@ namespace smg
 double EdgeConductivity::factor(double curvature) const
 {
   const double turns = curvature * this->Length / this->Limit;
-  return 1.0 / (1.0 + turns * turns * turns * turns);
+  // The least conductivity keeps K definite.
+  return std::max(1.0 / (1.0 + turns * turns * turns * turns), 1e-6);
 }
 
 std::array<double, 6> EdgeConductivity::at(

@@ -11,7 +11,7 @@ namespace smg
  * small across edges and 1 along them. The gradient of the unit normals, linear in a triangle, is
  * its shape operator. The surface turns by the angle phi = |kappa| * length along a principal
  * direction e of curvature kappa; K is the sum of e e^T / (1 + (phi / limit)^4) over the two
- * directions, and 1 along the normal.
+ * directions, at least 1e-6 each, and 1 along the normal.
  */
 class EdgeConductivity
 {

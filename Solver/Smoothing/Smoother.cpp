@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Smoothing/Smoother.h"
 
+#include "Solver/Engine/Convergence.h"
 #include "Solver/Problem/BoundaryFacets.h"
 #include "Solver/Stream/StreamCheck.h"
 #include "smg/Error.h"
@@ -189,8 +190,11 @@ void Smoother::setSize(const MeshMeasures& measures)
   if (this->Result->vertices() > 0 &&
       !(std::isnormal(this->Time) && std::isnormal(1.0 / this->Time)))
   {
-    throw Error("the size of the details to smooth, " + std::to_string(this->Size) +
-                " in the unit of the mesh, is too small or too large to compute with");
+    throw Error(unit > 0.0
+                  ? "the size of the details to smooth, " + scientific(this->Size) +
+                      " in the unit of the mesh, is too small or too large to compute with"
+                  : "no cell of the mesh has an area or volume that a size could refer to: "
+                    "give the size of the details to smooth in the unit of the mesh");
   }
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Smoothing/SmoothingProblem.h"
 
+#include "Solver/Problem/FlatCells.h"
+
 #include <algorithm>
+#include <cmath>
 
 namespace smg
 {
@@ -86,7 +89,7 @@ void SmoothingProblem::cells(CellBatch& batch)
 void SmoothingProblem::setWeights(
   CellBatch& batch, std::size_t cell, const double* const* points) const
 {
-  CellWeights own = cellWeights(batch.type, points);
+  const CellWeights own = cellWeights(batch.type, points);
   const double rest = batch.measure[cell];
   if (own.measure > 0.0 && this->Edges)
   {
@@ -97,7 +100,15 @@ void SmoothingProblem::setWeights(
     }
     const CellWeights across =
       conductivityWeights(batch.type, points, this->Edges->at(points, normals).data());
-    std::copy_n(across.weight, edgesOf(batch.type), batch.weightsOf(cell).begin());
+    // Of a flat triangle, they may be lost in rounding.
+    const std::span<const double> weights(across.weight, 3);
+    if (std::ranges::all_of(weights, [](double weight) { return std::isfinite(weight); }) &&
+        *std::ranges::max_element(weights) > 0.0)
+    {
+      const double factor = flatnessFactor(batch.type, points, across);
+      std::ranges::transform(weights, batch.weightsOf(cell).begin(),
+        [factor](double weight) { return factor * weight; });
+    }
   }
   // A triangle that has collapsed keeps its stiffness at rest, and hardly any mass.
   constexpr double LeastShare = 1e-6;

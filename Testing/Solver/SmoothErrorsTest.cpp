@@ -92,6 +92,38 @@ TEST(SmoothErrors, EverythingHeldAndEmptyMeshesStayAsTheyAre)
   EXPECT_EQ(smoothed(StreamMesh{}, {}).values.rows(), 0);
 }
 
+TEST(SmoothErrors, MeshesWithoutAnyAreaStayAsTheyAre)
+{
+  StreamMesh mesh = toStream(grid(5, 4));
+  for (std::size_t k = 1; k < mesh.positions.size(); k += 3)
+  {
+    mesh.positions[k] = 0.0;
+  }
+  const std::vector<std::uint8_t> flags(static_cast<std::size_t>(mesh.cells()), DegenerateCell);
+  mesh.cellColumns = { makeColumn<std::uint8_t>(CellFlagsName, flags) };
+  EXPECT_SAYS(errorOf(mesh, [](auto&) {}), "give the size of the details to smooth in the unit");
+  SmoothingOptions options = plainStep();
+  options.keepEdges = 30.0;
+  EXPECT_TRUE(sameBits(smoothed(mesh, options).values, pointsOf(mesh)));
+}
+
+TEST(SmoothErrors, EdgesOfMeshesWithSlivers)
+{
+  for (const double height : { 1e-3, 1e-7, 1e-12 })
+  {
+    const StreamMesh mesh = toStream(sliverChains(13, 13, height));
+    SmoothingOptions options;
+    options.steps = 2;
+    options.keepEdges = 10.0;
+    const Solved result = smoothed(mesh, options);
+    EXPECT_TRUE(result.values.allFinite());
+    EXPECT_TRUE(result.report.converged) << height;
+    // The flat lattice stays flat, and within its bounds.
+    EXPECT_LT(result.values.col(2).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LE(diagonalOf(result.values), diagonalOf(pointsOf(mesh)) + 1e-9);
+  }
+}
+
 TEST(SmoothErrors, CancelledByTheProgressCallback)
 {
   const MemoryMesh mesh(toStream(grid(30, 20)), 50);
