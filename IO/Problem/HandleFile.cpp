@@ -111,10 +111,27 @@ DataValue parseValue(const JsonNode& node, bool position)
   return node.columnName();
 }
 
+/** Whether a target is a list of positions. */
+bool isList(const JsonNode& target)
+{
+  return target.value().is_array() && !target.value().empty() && target.value()[0].is_array();
+}
+
 HandleDescription::Values parseValues(const JsonNode& handle)
 {
   HandleDescription::Values values;
-  values.target = parseValue(handle.member("target"), true);
+  const JsonNode target = handle.member("target");
+  if (isList(target))
+  {
+    for (const JsonNode& position : target.elements())
+    {
+      values.targets.push_back(parseVector(position));
+    }
+  }
+  else
+  {
+    values.target = parseValue(target, true);
+  }
   if (handle.has("rotation"))
   {
     values.rotation = parseValue(handle.member("rotation"), false);

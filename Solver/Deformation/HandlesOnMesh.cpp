@@ -61,7 +61,11 @@ HandlesOnMesh::Handle HandlesOnMesh::compile(
     { return ValueOnMesh(value, DataPlace::Vertices, rules, key + member, this->OfMesh); };
     handle.values.emplace(Values{ valueOf(values->target, vectorRules(true), ".target"),
       valueOf(values->rotation, vectorRules(false), ".rotation"),
-      valueOf(values->logScale, { .components = { 1 } }, ".logScale") });
+      valueOf(values->logScale, { .components = { 1 } }, ".logScale"), {} });
+    if (!values->targets.empty())
+    {
+      this->compileTargets(description, values->targets, handle);
+    }
   }
   else
   {
@@ -69,6 +73,29 @@ HandlesOnMesh::Handle HandlesOnMesh::compile(
     handle.moves = !handle.motion.isIdentity();
   }
   return handle;
+}
+
+void HandlesOnMesh::compileTargets(const HandleDescription& description,
+  const std::vector<std::array<double, 3>>& targets, Handle& handle)
+{
+  const auto* nearest = std::get_if<NearestVertices>(&description.where);
+  if (!nearest || nearest->points.size() != targets.size())
+  {
+    const std::string points =
+      nearest ? "the region " + std::to_string(nearest->points.size()) : "the region no nearest";
+    this->OfMesh.fail(handle.key + ".target", "has " + std::to_string(targets.size()) +
+                                                " positions, " + points +
+                                                " points: give one position for each");
+  }
+  for (const std::array<double, 3>& target : targets)
+  {
+    if (!std::ranges::all_of(target, [](double number) { return std::isfinite(number); }))
+    {
+      this->OfMesh.fail(handle.key + ".target", "must have finite coordinates");
+    }
+  }
+  handle.nearest = dynamic_cast<const NearestSelection*>(handle.where.get());
+  handle.values->targets = targets;
 }
 
 std::span<const std::uint8_t> HandlesOnMesh::startBlock(Handle& handle, const MeshBlock& block)
@@ -127,7 +154,16 @@ void HandlesOnMesh::hold(
   to.mask[i] = static_cast<std::uint8_t>(std::min(to.mask[i] + count, MostHandles));
   if (handle.values)
   {
-    this->read(handle.values->target, handle, block, i, to.target.data() + 3 * i);
+    if (handle.nearest)
+    {
+      const auto vertex = block.firstVertex + static_cast<std::int64_t>(i);
+      std::ranges::copy(
+        handle.values->targets[handle.nearest->pointOf(vertex)], to.target.data() + 3 * i);
+    }
+    else
+    {
+      this->read(handle.values->target, handle, block, i, to.target.data() + 3 * i);
+    }
     this->read(handle.values->rotation, handle, block, i, to.rotation.data() + 3 * i);
     this->read(handle.values->logScale, handle, block, i, &to.logScale[i]);
     return;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Description/NearestSelection.h"
 #include "Solver/Description/Selection.h"
 #include "Solver/Description/ValueOnMesh.h"
 #include "smg/Deform.h"
 #include "smg/DeformationDescription.h"
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -44,13 +46,15 @@ private:
   struct Values
   {
     ValueOnMesh target, rotation, logScale;
+    std::vector<std::array<double, 3>> targets; ///< one for each nearest vertex, or none
   };
   struct Handle
   {
-    std::unique_ptr<Selection> where; ///< null: everywhere
-    std::optional<NamedColumn> mask;  ///< which selects and counts
-    const Column* counts = nullptr;   ///< the mask in the current block; null: none
-    HandleMotion motion;              ///< if there are no values
+    std::unique_ptr<Selection> where;          ///< null: everywhere
+    const NearestSelection* nearest = nullptr; ///< the same, of targets
+    std::optional<NamedColumn> mask;           ///< which selects and counts
+    const Column* counts = nullptr;            ///< the mask in the current block; null: none
+    HandleMotion motion;                       ///< if there are no values
     std::optional<Values> values;
     std::string key;
     std::int64_t following = 0; ///< vertices so far not held by a later handle
@@ -58,6 +62,9 @@ private:
   };
 
   Handle compile(const HandleDescription& handle, const std::string& key);
+  /** Adds the targets of nearest vertices. */
+  void compileTargets(const HandleDescription& description,
+    const std::vector<std::array<double, 3>>& targets, Handle& handle);
   /** Starts a block; returns whether the handle holds each of its vertices. */
   std::span<const std::uint8_t> startBlock(Handle& handle, const MeshBlock& block);
   /** Sets the values of the handle at held vertex `i` of the block. */

@@ -49,9 +49,22 @@ void NearestSelection::endPreparing()
   std::erase(this->Vertices, -1);
   this->Count = static_cast<std::int64_t>(this->Vertices.size());
   this->Selection::endPreparing();
+  const std::vector<std::int64_t> nearest = this->Vertices;
   std::ranges::sort(this->Vertices);
   this->Vertices.erase(
     std::unique(this->Vertices.begin(), this->Vertices.end()), this->Vertices.end());
+  this->Numbers.resize(this->Vertices.size());
+  for (std::size_t n = 0; n < nearest.size(); ++n)
+  {
+    const auto place = std::ranges::lower_bound(this->Vertices, nearest[n]);
+    this->Numbers[static_cast<std::size_t>(place - this->Vertices.begin())] = n;
+  }
+}
+
+std::size_t NearestSelection::pointOf(std::int64_t vertex) const
+{
+  const auto place = std::ranges::lower_bound(this->Vertices, vertex);
+  return this->Numbers[static_cast<std::size_t>(place - this->Vertices.begin())];
 }
 
 void NearestSelection::select(const MeshBlock& block, std::span<std::uint8_t> selected)

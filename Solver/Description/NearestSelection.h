@@ -19,6 +19,10 @@ public:
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
   void endPreparing() override;
 
+  /** The number of the point to which a selected vertex is nearest, from 0; of several, the last
+   * one. */
+  std::size_t pointOf(std::int64_t vertex) const;
+
 protected:
   void select(const MeshBlock& block, std::span<std::uint8_t> selected) override;
 
@@ -27,6 +31,7 @@ private:
   std::vector<double>
     Distances; ///< squared, of the nearest vertex so far to each point; finally empty
   std::vector<std::int64_t> Vertices; ///< those vertices; finally ascending without duplicates
+  std::vector<std::size_t> Numbers;   ///< of the points of these, finally
 };
 
 } // namespace smg

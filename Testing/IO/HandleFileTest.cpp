@@ -268,6 +268,34 @@ TEST_F(HandleFileText, HandlesStandInColumnsToo)
     "handles[1]: goes by its target");
 }
 
+TEST_F(HandleFileText, NearestVerticesHaveTargetsOfTheirOwn)
+{
+  const auto point = [this](std::int64_t v)
+  {
+    return "[" + std::to_string(this->position(v, 0)) + ", " +
+           std::to_string(this->position(v, 1)) + ", 0.125]";
+  };
+  const std::string near =
+    R"({"region": {"nearest": [)" + point(17) + ", " + point(3) + ", " + point(17) + "]}, ";
+  const VertexHandles handles =
+    this->ask(R"({"handles": [)" + near +
+              R"("target": [[9, 9, 9], [3, 4, 5], [6, 7, 8]], "rotation": [0, 0, 1]}]})");
+  EXPECT_EQ(std::ranges::count(handles.mask, 1), 2);
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    EXPECT_EQ(handles.target[3 * 3 + k], 3.0 + static_cast<double>(k));
+    EXPECT_EQ(handles.target[3 * 17 + k], 6.0 + static_cast<double>(k)); // the last point counts
+  }
+  EXPECT_EQ(handles.rotation[3 * 17 + 2], 1.0);
+  EXPECT_CONTAINS(this->errorOfHandle(near + R"("target": [[1, 2, 3]]})"),
+    "handles[1].target: has 1 positions, the region 3 points");
+  EXPECT_CONTAINS(
+    this->errorOfHandle(R"({"region": {"sphere": [0, 0, 0, 9]}, "target": [[1, 2, 3]]})"),
+    "handles[1].target: has 1 positions, the region no nearest points");
+  EXPECT_CONTAINS(this->errorOfHandle(near + R"("target": [[1, 2, 3], [1, 2], [0, 0, 0]]})"),
+    "handles[1].target[1]: must be an array of 3 numbers");
+}
+
 TEST_F(HandleFileText, ErrorsOfHandlesNameThePlace)
 {
   const auto errorWith = [this](const std::string& members)

@@ -91,10 +91,10 @@ SMG_EXPORT std::vector<Where> readPlacesText(const std::string& text, const std:
  *   same centre first, then translation. The axis has any length but 0; the angle, from -1e6 to 1e6
  *   degrees, may exceed a half-turn: 200 is not -160. The centre is in the rotation or in the
  *   handle; by default it is the middle of a sphere or box, and required for other regions;
- * - `target`, the new position of each vertex: the name of a vertex column, [x, y, z] or
- *   "position"; with it, if they are not 0, `rotation` (the unit axis times the angle in radians: a
- *   column or three numbers) and `logScale` (the natural logarithm of the scale: a column or a
- *   number).
+ * - `target`, the new position of each vertex: the name of a vertex column, [x, y, z], "position",
+ *   or, of nearest vertices, a list of [x, y, z], one for each point; with it, if they are not 0,
+ * `rotation` (the unit axis times the angle in radians: a column or three numbers) and `logScale`
+ * (the natural logarithm of the scale: a column or a number).
  *
  * `cycles` (V-cycles of each step, 1 to 1,000,000) or `tolerance` (between 0 and 1, both excluded),
  * but not both, determine when a step stops. They and `weights` (see smg::Weights) are optional.

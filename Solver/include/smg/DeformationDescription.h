@@ -94,6 +94,10 @@ struct HandleDescription
     DataValue target = Position{};          ///< 3 numbers: the new position
     DataValue rotation = { 0.0, 0.0, 0.0 }; ///< 3 numbers: the unit axis times the angle in radians
     DataValue logScale = 0.0;               ///< 1 number: the natural logarithm of the scale
+    /** Of NearestVertices, instead of `target`: the new position (x, y, z) of the vertex of each of
+     * its points. A vertex that is nearest to several points follows the last one. Empty: `target`
+     * holds. */
+    std::vector<std::array<double, 3>> targets = {};
   };
 
   /** The vertices that are held. A selected vertex of a ColumnMask counts as held by as many
