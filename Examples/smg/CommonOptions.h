@@ -51,4 +51,5 @@ void addConvertCommand(CLI::App& program, Action& action);
 void addSolveCommand(CLI::App& program, Action& action);
 void addDeformCommand(CLI::App& program, Action& action);
 void addSmoothCommand(CLI::App& program, Action& action);
+void addBlendCommand(CLI::App& program, Action& action);
 void addPreviewCommand(CLI::App& program, Action& action);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "HoldOption.h"
 #include "SolvingCommand.h"
 
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/Files/PartialProgress.h"
 #include "Solver/Engine/CheckOptions.h"
-#include "smg/DescriptionFiles.h"
 #include "smg/MovedMesh.h"
 #include "smg/Smooth.h"
 #include "smg/SolvedMesh.h"
@@ -69,13 +69,7 @@ protected:
   void readTask() override
   {
     smg::checkOptions(this->Smooth);
-    for (const std::string& given : this->Places)
-    {
-      const bool isJson = given.starts_with('{') || given.starts_with('[');
-      const std::vector<smg::Where> places =
-        isJson ? smg::readPlacesText(given, "--hold") : smg::readPlacesFile(given);
-      this->Smooth.hold.insert(this->Smooth.hold.end(), places.begin(), places.end());
-    }
+    this->Smooth.hold = this->Hold.places();
   }
 
   std::unique_ptr<smg::Solution> solveOn(
@@ -140,12 +134,7 @@ private:
       ->type_name("DEGREES");
     command.add_flag("--keep-volume,!--no-keep-volume", this->Smooth.keepVolume,
       "Move the surface along its normals so that it keeps its volume (default), or do not");
-    command
-      .add_option("--hold", this->Places,
-        "A part of the mesh that does not move, as WHERE of a problem file: JSON, as "
-        "'{\"sphere\": [0, 0, 0, 1]}', a list of these, or a file; may be given several times")
-      ->allow_extra_args(false)
-      ->type_name("WHERE");
+    this->Hold.addTo(command, "does not move");
     command
       .add_option_function<std::string>(
         "--boundary",
@@ -161,7 +150,7 @@ private:
       "Smooth this column of the vertices instead of their positions");
   }
 
-  std::vector<std::string> Places;
+  HoldOption Hold;
   std::string Normals = "recompute";
   smg::SmoothingOptions Smooth;
 };

@@ -225,6 +225,11 @@ void SolvingCommand::print(const smg::Report& report) const
     std::printf("  %s: %smean%s, flux into the body%s\n", condition.name.c_str(),
       extentOf(condition).c_str(), listOf(condition.mean).c_str(), listOf(condition.flux).c_str());
   }
+  for (const smg::Report::Seam& seam : report.seams)
+  {
+    std::printf("  %s: the largest step between patches was %.3g and is %.3g\n",
+      seam.column.c_str(), seam.before, seam.after);
+  }
   std::printf("%.2f s (%.2f s of CPU), %.1f MiB of accounted memory, %.1f MiB resident\n",
     report.seconds.total, report.cpu_seconds,
     static_cast<double>(report.pool_bytes_peak) / (1 << 20),

@@ -7,6 +7,7 @@
 //   smg solve bunny.vsm harmonic.vtp --problem harmonic.json --report report.json
 //   smg deform bunny.vsm bent.ply --handles handles.json --memory 128
 //   smg smooth scan.ply smooth.ply --size 4edges
+//   smg blend scan.ply blended.ply --patch scan --columns Colors
 //   smg preview bunny.vsm preview.vtp --points 5000
 //
 // Exit status: 0; 1 with one line on standard error; 2 for wrong usage.
@@ -61,6 +62,7 @@ int main(int argc, char** argv)
   addSolveCommand(program, action);
   addDeformCommand(program, action);
   addSmoothCommand(program, action);
+  addBlendCommand(program, action);
   addPreviewCommand(program, action);
   try
   {

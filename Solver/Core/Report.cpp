@@ -100,6 +100,15 @@ std::string Report::json(int indent) const
   {
     out["removed_source"] = this->removed_source;
   }
+  for (const Seam& seam : this->seams)
+  {
+    out["seams"].push_back(
+      { { "column", seam.column }, { "before", seam.before }, { "after", seam.after } });
+  }
+  if (!this->seams.empty())
+  {
+    out["clipped"] = this->clipped;
+  }
   if (!this->mean.empty())
   {
     addResults(*this, out);

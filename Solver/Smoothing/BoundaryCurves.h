@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Smoothing/VertexFile.h"
 #include "Solver/Storage/Pool.h"
+#include "Solver/Storage/VertexFile.h"
 
 #include <array>
 #include <cstddef>

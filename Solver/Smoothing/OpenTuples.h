@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Smoothing/VertexFile.h"
 #include "Solver/Storage/Ring.h"
+#include "Solver/Storage/VertexFile.h"
 #include "smg/MeshSource.h"
 
 #include <cstdint>

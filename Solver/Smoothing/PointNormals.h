@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Smoothing/OpenTuples.h"
-#include "Solver/Smoothing/VertexFile.h"
+#include "Solver/Storage/VertexFile.h"
 #include "smg/MeshSource.h"
 
 #include <cstdint>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "Solver/Engine/VertexRange.h"
-#include "Solver/Smoothing/VertexFile.h"
 #include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Storage/VertexFile.h"
 #include "smg/Solve.h"
 
 #include <optional>

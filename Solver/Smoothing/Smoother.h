@@ -2,13 +2,13 @@
 #pragma once
 
 #include "Solver/Core/Timer.h"
+#include "Solver/Description/HeldVertices.h"
 #include "Solver/Description/MeshColumns.h"
 #include "Solver/Smoothing/BoundaryCurves.h"
-#include "Solver/Smoothing/HeldVertices.h"
 #include "Solver/Smoothing/MeshMeasures.h"
 #include "Solver/Smoothing/SmoothedValues.h"
 #include "Solver/Smoothing/SmoothingProblem.h"
-#include "Solver/Smoothing/VertexFile.h"
+#include "Solver/Storage/VertexFile.h"
 #include "smg/Smooth.h"
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Description/HeldVertices.h"
 #include "Solver/Smoothing/BoundaryCurves.h"
 #include "Solver/Smoothing/EdgeConductivity.h"
-#include "Solver/Smoothing/HeldVertices.h"
 #include "Solver/Smoothing/OpenTuples.h"
 #include "smg/Problem.h"
 

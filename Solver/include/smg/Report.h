@@ -39,7 +39,8 @@ struct SMG_EXPORT Report
   struct Traffic
   {
     /** rows, right_side (finest level), state, history (of accelerated V-cycles), labels, rest
-     * (deformation), or smoothed (values between the steps of smoothing). */
+     * (deformation), smoothed (values between the steps of smoothing), or original (values before
+     * a blend). */
     std::string kind;
     int level = -1;           ///< level of the files, 0: the finest; -1: of no level
     std::int64_t read = 0;    ///< bytes
@@ -79,6 +80,15 @@ struct SMG_EXPORT Report
     /** Per column: the total of (K grad u - q) . n, positive into the body. Of a Dirichlet
      * condition the reaction of its vertices, so that all fluxes balance. */
     std::vector<double> flux;
+  };
+
+  /** The largest difference of a column, over its components, between the ends of the edges that
+   * are not in one patch. */
+  struct Seam
+  {
+    std::string column; ///< its name
+    double before = 0;  ///< in the original values
+    double after = 0;   ///< in the blended values, not rounded to the type of the column
   };
 
   /** An extreme value. */
@@ -125,6 +135,10 @@ struct SMG_EXPORT Report
   /** Per column: the total that was taken from the sources of free components, so that their mean
    * is 0; empty if nothing was. */
   std::vector<double> removed_source;
+  std::vector<Seam> seams; ///< of a blend: one for each column; else empty
+  /** Of a blend: values outside the range of an integer column, set by who rounds them (see
+   * ReplacedColumns::clipped()). */
+  std::int64_t clipped = 0;
   std::vector<Condition> conditions; ///< of the problem: Dirichlet, flux, then Robin
   /** Per column: 1/2 the integral of grad u . K grad u + s u^2 over the piecewise linear u, s u^2
    * lumped at the vertices. */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Smoothing/HeldVertices.h"
+#include "Solver/Description/HeldVertices.h"
 
 #include <string>
 

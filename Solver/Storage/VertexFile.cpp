@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Smoothing/VertexFile.h"
+#include "Solver/Storage/VertexFile.h"
 
 #include <algorithm>
 
@@ -36,6 +36,7 @@ void VertexFile::append(std::span<const double> values)
   {
     this->Values.grow(*this->Memory, std::max(end, begin + begin / 8));
   }
+  this->Values.resize(end); // what a growth keeps
   std::ranges::copy(std::as_bytes(values), this->Values.data() + begin);
 }
 

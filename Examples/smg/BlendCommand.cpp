@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "HoldOption.h"
+#include "SolvingCommand.h"
+
+#include "IO/AnyFormat/FormatTable.h"
+#include "Solver/Engine/CheckOptions.h"
+#include "smg/Blend.h"
+#include "smg/SolvedMesh.h"
+
+namespace
+{
+
+class BlendCommand : public SolvingCommand
+{
+public:
+  BlendCommand()
+    : SolvingCommand("blending")
+  {
+  }
+
+  void addOptions(CLI::App& command)
+  {
+    this->addSolverOptions(command,
+      "The mesh with the blended columns: " + smg::suffixList(smg::FormatUse::WriteColumns, "or") +
+        " in stream order; of a mesh file IN, " +
+        smg::suffixList(smg::FormatUse::RestoreColumns, "and") +
+        " in the order of IN, unless that has a column OriginalId or points are welded",
+      this->Solve);
+    addTolerance(command, this->Solve.tolerance)->capture_default_str();
+    command
+      .add_option("--patch", this->Description.patch,
+        "Column of one component with the patch of each vertex, or of each cell")
+      ->required()
+      ->type_name("COLUMN");
+    command
+      .add_option("--columns", this->Description.columns,
+        "Columns of the vertices to blend, separated by commas")
+      ->required()
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("COLUMN,...");
+    this->Hold.addTo(command, "keeps its values");
+    command
+      .add_option("--anchor", this->Description.anchor,
+        "How strongly all values are pulled towards the original ones: corrections over less than "
+        "1 / sqrt(anchor) diagonals of the bounding box are hardly pulled; 0: not at all")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+    command.footer("Steps of the columns between patches are removed; inside the patches their "
+                   "gradients are kept. docs/blend.md explains it");
+  }
+
+protected:
+  std::string resultColumns() const override { return "columns of vertices"; }
+
+  void readTask() override
+  {
+    smg::checkOptions(this->Solve);
+    this->Description.hold = this->Hold.places();
+  }
+
+  std::unique_ptr<smg::Solution> solveOn(
+    const smg::VsmReader& mesh, smg::ProgressFunction progress) override
+  {
+    this->applyTo(this->Solve, std::move(progress));
+    return smg::blend(mesh, this->Description, this->Solve);
+  }
+
+  void writeResult(const smg::VsmReader& mesh, smg::Solution& solution, const Writer& write,
+    smg::Report& report, const smg::ProgressFunction& progress) const override
+  {
+    smg::ReplacedColumns source(
+      mesh, solution, smg::blendedColumns(mesh.info(), this->Description));
+    write(source, progress);
+    report.clipped = source.clipped();
+    if (report.clipped > 0)
+    {
+      report.notes.push_back(std::to_string(report.clipped) +
+                             (report.clipped == 1 ? " value was" : " values were") +
+                             " outside the range of the type of a column, and became the smallest "
+                             "or largest number of it.");
+    }
+  }
+
+  std::string fateOfIsolated(std::int64_t vertices, bool /*ordered*/) const override
+  {
+    return vertices == 1 ? "keeps its values." : "keep their values.";
+  }
+
+  const smg::SolveOptions& solveOptions() const override { return this->Solve; }
+
+private:
+  smg::BlendDescription Description;
+  HoldOption Hold;
+  smg::SolveOptions Solve;
+};
+
+} // namespace
+
+void addBlendCommand(CLI::App& program, Action& action)
+{
+  auto blend = std::make_shared<BlendCommand>();
+  CLI::App* command =
+    program.add_subcommand("blend", "Remove the steps of columns between patches of a mesh");
+  blend->addOptions(*command);
+  command->callback([blend, &action] { action = [blend] { blend->run(); }; });
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "smg/Blend.h"
+
+#include "Solver/Blending/BlendProblem.h"
+#include "Solver/Blending/BlendedValues.h"
+#include "Solver/Core/Timer.h"
+#include "Solver/Engine/CheckOptions.h"
+#include "Solver/Storage/Pool.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace smg
+{
+
+namespace
+{
+
+/** Bytes of what a blend holds beside the solver. */
+std::int64_t ownBytes(const StreamInfo& mesh, std::int64_t columns, bool inCore)
+{
+  constexpr std::int64_t Number = sizeof(double);
+  // Released values are removed when they are half of a vector, whose capacity may be twice its
+  // size.
+  const std::int64_t open = mesh.width > 0 ? 4 * mesh.width * (columns + 1) * Number : 0;
+  return open + (inCore && mesh.vertices > 0 ? mesh.vertices * columns * Number : 0);
+}
+
+/** The progress when the mesh has been read once, and when the problem is solved. */
+constexpr double Prepared = 0.1, Solved = 0.9;
+
+/** Calls visit(block) for each block of a mesh; the progress is from `begin` to `end`. */
+void visitBlocks(MeshSource& mesh, const ProgressFunction& progress, double begin, double end,
+  const std::function<void(const MeshBlock&)>& visit)
+{
+  const auto cells = static_cast<double>(std::max<std::int64_t>(mesh.info().cells, 1));
+  for (MeshBlock block; mesh.next(block);)
+  {
+    visit(block);
+    const double done = std::min(1.0, static_cast<double>(block.firstCell) / cells);
+    if (progress && !progress(begin + done * (end - begin)))
+    {
+      throw Cancelled();
+    }
+  }
+}
+
+/** Solves for the correction. */
+void solveFor(
+  BlendProblem& problem, MeshSource& mesh, const SolveOptions& options, BlendedValues& blended)
+{
+  problem.keepIn(blended.originals);
+  const std::int64_t own = ownBytes(mesh.info(), problem.columns(), options.inCore);
+  if (own >= options.memoryLimit)
+  {
+    throw Error(memoryLimitSentence(own, options.memoryLimit));
+  }
+  SolveOptions solving = options;
+  solving.memoryLimit -= own;
+  if (options.progress)
+  {
+    solving.progress = [&options](double done)
+    { return options.progress(Prepared + done * (Solved - Prepared)); };
+  }
+  blended.correction = solve(mesh, problem, solving);
+  blended.total = blended.correction->report();
+  blended.total.pool_bytes_peak += own;
+}
+
+/** The steps between patches in the blended values. */
+SeamSteps stepsIn(Solution& blended, const std::vector<ColumnSpec>& columns, const StoredMesh& mesh,
+  PatchLabels& patches, const ProgressFunction& progress)
+{
+  SeamSteps steps(columns);
+  PatchedValues open(patches, blended.columns());
+  const auto source = mesh.source(patches.vertexColumns(), {});
+  const auto corners = static_cast<std::size_t>(cornersOf(mesh.info().cellType));
+  visitBlocks(*source, progress, Solved, 1.0,
+    [&](const MeshBlock& block)
+    {
+      blended.read(block.firstVertex, block.vertices(), open.startBlock(block));
+      for (std::size_t c = 0; c < block.corners.size(); c += corners)
+      {
+        steps.add(std::span(block.corners).subspan(c, corners), open);
+      }
+    });
+  return steps;
+}
+
+void addSeams(const BlendProblem& problem, const SeamSteps& after, Report& report)
+{
+  const std::vector<double> stepsBefore = problem.steps().largest(), stepsAfter = after.largest();
+  for (std::size_t k = 0; k < problem.specs().size(); ++k)
+  {
+    report.seams.push_back({ problem.specs()[k].name, stepsBefore[k], stepsAfter[k] });
+  }
+}
+
+void addOriginalTraffic(const IoStatistics& traffic, Report& report)
+{
+  report.bytes_read += traffic.bytesRead;
+  report.bytes_written += traffic.bytesWritten;
+  report.bytes_by_kind.push_back({ "original", -1, traffic.bytesRead, traffic.bytesWritten });
+}
+
+} // namespace
+
+std::vector<ColumnSpec> blendedColumns(const StreamInfo& mesh, const BlendDescription& description)
+{
+  return BlendProblem(description, mesh).specs();
+}
+
+std::unique_ptr<Solution> blend(
+  const StoredMesh& mesh, const BlendDescription& description, const SolveOptions& options)
+{
+  const Timer wall;
+  const double cpuAtStart = processSeconds();
+  checkOptions(options);
+  BlendProblem problem(description, mesh.info());
+  const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
+  visitBlocks(*source(), options.progress, 0.0, Prepared,
+    [&](const MeshBlock& block) { problem.prepare(block, options.scratch); });
+  problem.endPreparing();
+
+  auto blended = std::make_unique<BlendedValues>(options, problem.columns());
+  solveFor(problem, *source(), options, *blended);
+  const SeamSteps after =
+    stepsIn(*blended, problem.specs(), mesh, problem.patches(), options.progress);
+
+  Report& report = blended->total;
+  report.passes += 2;
+  addSeams(problem, after, report);
+  addOriginalTraffic(blended->traffic, report);
+  report.seconds.total = wall.seconds();
+  report.cpu_seconds = processSeconds() - cpuAtStart;
+  if (after.edges() == 0)
+  {
+    report.notes.push_back("No edge connects two patches of the column '" + description.patch +
+                           "': the columns stay as they are.");
+  }
+  if (options.progress && !options.progress(1.0))
+  {
+    throw Cancelled();
+  }
+  return blended;
+}
+
+} // namespace smg

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Blending/BlendedColumns.h"
+#include "Solver/Blending/PatchedValues.h"
+#include "Solver/Blending/SeamSteps.h"
+#include "Solver/Description/HeldVertices.h"
+#include "Solver/Problem/Vector.h"
+#include "Solver/Storage/VertexFile.h"
+#include "Solver/Stream/StreamCheck.h"
+#include "smg/Blend.h"
+#include "smg/Problem.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * The problem of blend() for the correction v = u - c: -div(grad v - r) + s v = 0, where r is
+ * q - grad c: -grad c in cells between patches and 0 in all others. Thus rounding affects the
+ * correction only, and the values do not change where there is none.
+ */
+class BlendProblem : public Problem
+{
+public:
+  /** Throws Error if the description is not valid. */
+  BlendProblem(const BlendDescription& description, const StreamInfo& mesh);
+  BlendProblem(const BlendProblem&) = delete;
+  BlendProblem& operator=(const BlendProblem&) = delete;
+
+  /** The columns that the mesh source must deliver. */
+  std::vector<std::string> vertexColumns() const { return this->OfMesh.vertexColumns(); }
+  std::vector<std::string> cellColumns() const { return this->OfMesh.cellColumns(); }
+  /** The columns that are blended. */
+  const std::vector<ColumnSpec>& specs() const { return this->Blended.specs(); }
+  PatchLabels& patches() { return this->Patches; }
+
+  /** To be called with all blocks of the stream, followed by endPreparing(): finds the patches, the
+   * bounds and what is held. Scratch files are created in `scratch`. */
+  void prepare(const MeshBlock& block, const std::filesystem::path& scratch);
+  /** Throws Error if a held part is empty. */
+  void endPreparing();
+
+  /** Passes the values of each block to `originals` from then on. */
+  void keepIn(VertexFile& originals) { this->Originals = &originals; }
+  /** The steps between patches in the original values, once all cells have been asked for. */
+  const SeamSteps& steps() const { return this->Steps; }
+
+  int columns() const override { return this->Blended.components(); }
+  void conditions(const MeshBlock& block, VertexConditions& conditions) override;
+  bool hasCells() const override { return true; }
+  void cells(CellBatch& batch) override;
+
+private:
+  MeshColumns OfMesh;
+  BlendedColumns Blended;
+  PatchLabels Patches;
+  PatchedValues Open;
+  SeamSteps Steps;
+  HeldVertices Held;
+  StreamCheck Check;
+  Vector Low, High; ///< the corners of the bounding box
+  double Anchor;
+  double Screening = 0.0;
+  VertexFile* Originals = nullptr;
+};
+
+} // namespace smg

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Solver/BlendTesting.h"
+#include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/ProgressRecord.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace smg::testing
+{
+namespace
+{
+
+StreamMesh meshOfErrors()
+{
+  StreamMesh mesh = toStream(grid(9, 8));
+  addColumn<std::int32_t>(mesh, "patch", { quarter });
+  addColumn(mesh, "c", { recordedSignal });
+  addColumn(mesh, "wide", std::vector<VertexFunction>(60, smoothSignal));
+  addColumn(mesh, "rest", std::vector<VertexFunction>(4, smoothSignal));
+  addColumn<float>(mesh, "nan", { [](const double* p) { return p[0] > 3 ? NAN : 1.0F; } });
+  addColumn<std::int64_t>(mesh, "large", { [](const double*) { return 9007199254740992.0; } });
+  addColumn<std::int64_t>(mesh, OriginalIdName, { [](const double*) { return 5.0; } });
+  mesh.cellColumns.push_back(makeColumn<double>(
+    "ofCells", std::vector<double>(static_cast<std::size_t>(mesh.cells()), NAN)));
+  return mesh;
+}
+
+std::string blendErrorOf(const BlendDescription& description, const SolveOptions& options = {})
+{
+  return messageOf([&] { blend(MemoryMesh(meshOfErrors()), description, options); });
+}
+
+} // namespace
+
+TEST(BlendErrors, OfTheDescription)
+{
+  EXPECT_EQ(blendErrorOf(blendOf({ "c" })), "");
+  const auto expect = [](const std::vector<std::string>& columns, const std::string& part) {
+    EXPECT_TRUE(contains(blendErrorOf(blendOf(columns)), part)) << blendErrorOf(blendOf(columns));
+  };
+  expect({}, "blend: columns: must name at least one column");
+  expect({ "b" }, "columns: the mesh has no column 'b'; its vertices have 'patch', 'c'");
+  expect({ "ofCells" }, "'ofCells' is a column of the cells");
+  expect({ "c", "c" }, "name 'c' twice");
+  expect({ "patch" }, "'patch' numbers the patches");
+  expect({ OriginalIdName }, "numbers the vertices");
+  expect({ "wide", "c", "rest" }, "have 65 components together; at most 64");
+  BlendDescription description = blendOf({ "wide", "rest" });
+  EXPECT_EQ(blendErrorOf(description), "");
+  for (const double anchor : { -1.0, static_cast<double>(NAN), HUGE_VAL })
+  {
+    description.anchor = anchor;
+    EXPECT_TRUE(
+      contains(blendErrorOf(description), "anchor: must be a finite number of at least 0"));
+  }
+  description = blendOf({ "c" });
+  description.hold = { Everywhere{}, Region::Sphere{ { 99, 0, 0 }, 1 } };
+  EXPECT_TRUE(
+    contains(blendErrorOf(description), "hold[1]: no vertex of the mesh is in this region"));
+}
+
+TEST(BlendErrors, OfPatchesAndValues)
+{
+  const auto patchError = [](const std::string& name)
+  {
+    BlendDescription description = blendOf({ "c" });
+    description.patch = name;
+    return blendErrorOf(description);
+  };
+  EXPECT_TRUE(contains(patchError("none"), "patch: the mesh has no column 'none'"));
+  EXPECT_TRUE(contains(patchError("wide"), "has 60 components, but must have one"));
+  EXPECT_TRUE(contains(patchError("nan"), "'nan' is not a number at vertex 5 of the mesh's file"))
+    << patchError("nan");
+  EXPECT_TRUE(contains(patchError("ofCells"), "'ofCells' is not a number in cell 0"));
+  EXPECT_TRUE(contains(patchError("large"), "has an integer of 2^53 or more at vertex 5"));
+  EXPECT_TRUE(
+    contains(blendErrorOf(blendOf({ "c", "nan" })), "'nan' is not a finite number at vertex 5"));
+}
+
+TEST(BlendErrors, ProgressRisesAndCancels)
+{
+  const MemoryMesh mesh(meshOfErrors(), 2);
+  ProgressRecord record;
+  SolveOptions options;
+  options.progress = record.function();
+  blend(mesh, blendOf({ "c" }), options);
+  record.expectRise(0.4);
+  for (const double end : { 0.0, 0.05, 0.5, 0.95, 1.0 })
+  {
+    options.progress = [end](double done) { return done < end; };
+    EXPECT_THROW(blend(mesh, blendOf({ "c" }), options), Cancelled) << end;
+  }
+}
+
+TEST(BlendErrors, AMeshWithoutExtentStays)
+{
+  StreamMesh point;
+  point.positions.assign(12, 0.5);
+  point.corners = { 0, 1, 2, 1, 2, 3 };
+  addColumn(point, "patch", { [n = 0](const double*) mutable { return n++ / 2; } });
+  addColumn(point, "c", { [n = 0](const double*) mutable { return 5.0 * n++; } });
+  const auto blended = blend(MemoryMesh(point), blendOf({ "c" }));
+  std::vector<double> values(4);
+  blended->read(0, 4, values);
+  EXPECT_EQ(values, (std::vector<double>{ 0, 5, 10, 15 }));
+  EXPECT_EQ(blended->report().seams.at(0).after, 10.0);
+}
+
+TEST(BlendErrors, OfTheMemoryLimit)
+{
+  SolveOptions options;
+  options.memoryLimit = 1000;
+  EXPECT_TRUE(contains(blendErrorOf(blendOf({ "c" }), options), "limit"));
+  options.memoryLimit = 0;
+  EXPECT_TRUE(contains(blendErrorOf(blendOf({ "c" }), options), "must be positive"));
+}
+
+} // namespace smg::testing
