@@ -2,7 +2,7 @@
 #include "Filters/vtkStreamingMeshSmoothing.h"
 
 #include "Filters/Deformation/vtkMovedPiece.h"
-#include "Filters/Smoothing/vtkSmoothedArray.h"
+#include "Filters/Mesh/vtkReplacedArray.h"
 #include "Filters/Smoothing/vtkSmoothingTask.h"
 #include "Filters/Streaming/SolveSummary.h"
 #include "IO/vtkMeshPieceData.h"
@@ -104,7 +104,9 @@ void vtkStreamingMeshSmoothing::Deliver(
 {
   if (!this->Internal->column().empty())
   {
-    smg::replaceArray(piece, this->Internal->column(), values, output);
+    output.ShallowCopy(&piece);
+    const auto components = static_cast<std::size_t>(this->GetSummary().columns);
+    smg::replaceArray(output, this->Internal->column(), values, 0, components);
     return;
   }
   smg::movePiece(piece,

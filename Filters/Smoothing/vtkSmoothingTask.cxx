@@ -2,7 +2,7 @@
 #include "Filters/Smoothing/vtkSmoothingTask.h"
 
 #include "Filters/Deformation/DeformedVertices.h"
-#include "Filters/Mesh/vtkPieceBlock.h"
+#include "Filters/Mesh/vtkStoredBlock.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/vtkMeshPieceData.h"
 #include "Solver/Description/ComposeDescriptions.h"
@@ -38,26 +38,6 @@ std::set<std::string> namesIn(const SmoothingOptions& options)
   }
   return names;
 }
-
-/** A VTK mesh in memory as one block, with all columns that are named. */
-class StoredBlock : public StoredMesh
-{
-public:
-  StoredBlock(vtkPointSet& mesh, std::set<std::string> names)
-    : Block(mesh, std::move(names))
-  {
-  }
-
-  const StreamInfo& info() const override { return this->Block.info(); }
-  std::unique_ptr<MeshSource> source(std::vector<std::string> /*vertexColumns*/,
-    std::vector<std::string> /*cellColumns*/) const override
-  {
-    return this->Block.source();
-  }
-
-private:
-  PieceBlock Block;
-};
 
 } // namespace
 

@@ -37,8 +37,11 @@ defaults = {"Size": 4.0, "SizeUnit": "Mean Edges", "Steps": 1, "KeepVolume": 1, 
 for name, value in defaults.items():
     assert smoothing.GetPropertyValue(name) == value, (name, smoothing.GetPropertyValue(name))
 
+blend = StreamingBlend(Input=reader, Patch="scan", Columns=["Colors", "Heat"])
+assert list(blend.Columns) == ["Colors", "Heat"] and blend.Anchor == 0.01 and blend.Hold == ""
+
 # A label is the name with spaces, so that the Python name equals the name.
-for proxy in (reader, poisson, smoothing, MeshHandle(Input=reader)):
+for proxy in (reader, poisson, smoothing, blend, MeshHandle(Input=reader)):
     iterator = proxy.SMProxy.NewPropertyIterator()
     iterator.Begin()
     while not iterator.IsAtEnd():

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Blending/vtkBlendTask.h"
+
+#include "Filters/Mesh/vtkStoredBlock.h"
+#include "IO/vtkMeshPieceData.h"
+#include "Solver/Description/ComposeDescriptions.h"
+#include "Solver/Engine/CheckOptions.h"
+#include "smg/Error.h"
+
+#include <set>
+#include <string>
+
+namespace smg
+{
+namespace
+{
+
+/** The columns that the description names. */
+std::set<std::string> namesInBlend(const BlendDescription& description)
+{
+  ProblemDescription held;
+  for (const Where& part : description.hold)
+  {
+    held.dirichlet.push_back({ part, 0.0 });
+  }
+  std::set<std::string> names = namedColumns(held);
+  names.insert(description.columns.begin(), description.columns.end());
+  names.insert(description.patch);
+  return names;
+}
+
+} // namespace
+
+void BlendTask::check() const
+{
+  checkOptions(this->options);
+  if (this->description.patch.empty())
+  {
+    throw Error("Patch must name the array with the patch of each point or cell.");
+  }
+  if (this->description.columns.empty())
+  {
+    throw Error("Columns must name at least one point array to blend.");
+  }
+}
+
+PieceColumns BlendTask::columns() const
+{
+  const std::set<std::string> names = namesInBlend(this->description);
+  return { .all = false,
+    .required = { names.begin(), names.end() },
+    .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
+}
+
+std::unique_ptr<Solution> BlendTask::solve(
+  const VsmReader& mesh, const ProgressFunction& progress, Report& report) const
+{
+  SolveOptions given = this->options;
+  given.progress = progress;
+  std::unique_ptr<Solution> solution = blend(mesh, this->description, given);
+  report = solution->report();
+  return solution;
+}
+
+SolveSummary BlendTask::solveInMemory(
+  vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) const
+{
+  this->check();
+  SolveOptions given = this->options;
+  given.inCore = true;
+  given.progress = progress;
+  const StoredBlock stored(mesh, namesInBlend(this->description));
+  const std::unique_ptr<Solution> solution = blend(stored, this->description, given);
+  values.resize(static_cast<std::size_t>(solution->vertices() * solution->columns()));
+  solution->read(0, solution->vertices(), values);
+  Report report = solution->report();
+  if (isPreview(mesh))
+  {
+    report.notes.push_back("this is the blended preview, a mesh of " +
+                           std::to_string(report.vertices) +
+                           " vertices; the full mesh is blended when it is saved");
+  }
+  return SolveSummary::of(report, solution->columns());
+}
+
+} // namespace smg

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Filters/Streaming/SolveSummary.h"
+#include "Filters/Streaming/vtkStreamedTask.h"
+#include "smg/Blend.h"
+
+#include <vector>
+
+class vtkPointSet;
+
+namespace smg
+{
+
+/** A blend of point arrays of a mesh in pieces. */
+class BlendTask : public StreamedTask
+{
+public:
+  BlendDescription description;
+  SolveOptions options; ///< except for the progress function
+
+  void check() const override;
+  PieceColumns columns() const override;
+  std::unique_ptr<Solution> solve(
+    const VsmReader& mesh, const ProgressFunction& progress, Report& report) const override;
+
+  /** Blends on a mesh in memory, which has cells, and sets the values at its points. Throws Error
+   * and Cancelled. */
+  SolveSummary solveInMemory(
+    vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) const;
+};
+
+} // namespace smg

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkStreamingBlend.h"
+
+#include "Filters/Blending/vtkBlendTask.h"
+#include "Filters/Mesh/vtkReplacedArray.h"
+#include "Filters/Streaming/SolveSummary.h"
+#include "IO/vtkMeshPieceData.h"
+#include "smg/DescriptionFiles.h"
+#include "smg/Error.h"
+
+#include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
+
+#include <string>
+#include <vector>
+
+vtkStandardNewMacro(vtkStreamingBlend);
+
+struct vtkStreamingBlend::Internals
+{
+  explicit Internals(vtkStreamingBlend& self)
+    : Self(self)
+  {
+  }
+
+  std::unique_ptr<smg::BlendTask> task() const
+  {
+    auto task = std::make_unique<smg::BlendTask>();
+    this->Self.FillOptions(task->options);
+    task->description.patch = this->Self.Patch ? this->Self.Patch : "";
+    task->description.columns = this->Columns;
+    task->description.anchor = this->Self.Anchor;
+    if (this->Self.Hold && *this->Self.Hold)
+    {
+      task->description.hold = smg::readPlacesText(this->Self.Hold, "Hold");
+    }
+    return task;
+  }
+
+  vtkStreamingBlend& Self;
+  std::vector<std::string> Columns;
+};
+
+vtkStreamingBlend::vtkStreamingBlend()
+  : Internal(new Internals(*this))
+{
+}
+
+vtkStreamingBlend::~vtkStreamingBlend()
+{
+  this->SetPatch(nullptr);
+  this->SetHold(nullptr);
+}
+
+void vtkStreamingBlend::AddColumn(const char* name)
+{
+  if (name && *name)
+  {
+    this->Internal->Columns.emplace_back(name);
+    this->Modified();
+  }
+}
+
+void vtkStreamingBlend::RemoveAllColumns()
+{
+  if (!this->Internal->Columns.empty())
+  {
+    this->Internal->Columns.clear();
+    this->Modified();
+  }
+}
+
+int vtkStreamingBlend::GetNumberOfColumns() const
+{
+  return static_cast<int>(this->Internal->Columns.size());
+}
+
+const char* vtkStreamingBlend::GetColumn(int number) const
+{
+  return number >= 0 && number < this->GetNumberOfColumns()
+           ? this->Internal->Columns[static_cast<std::size_t>(number)].c_str()
+           : nullptr;
+}
+
+std::unique_ptr<smg::StreamedTask> vtkStreamingBlend::MakeTask(vtkPointSet& /*input*/)
+{
+  return this->Internal->task();
+}
+
+bool vtkStreamingBlend::IsForMemory(vtkPointSet& input, bool isWhole)
+{
+  return smg::isPreview(input) || (isWhole && input.GetNumberOfPoints() <= this->InteractivePoints);
+}
+
+smg::SolveSummary vtkStreamingBlend::SolveInMemory(
+  vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values)
+{
+  if (input.GetNumberOfCells() == 0)
+  {
+    if (smg::isPreview(input))
+    {
+      return this->SummaryOfNothing(0);
+    }
+    throw smg::Error("The input has no cells: give it a mesh of triangles or tetrahedra.");
+  }
+  return this->Internal->task()->solveInMemory(input, progress, values);
+}
+
+void vtkStreamingBlend::Deliver(
+  vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output)
+{
+  output.ShallowCopy(&piece);
+  const auto stride = static_cast<std::size_t>(this->GetSummary().columns);
+  std::size_t first = 0;
+  for (const std::string& column : this->Internal->Columns)
+  {
+    first += smg::replaceArray(output, column, values, first, stride);
+  }
+}
+
+void vtkStreamingBlend::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Patch: " << (this->Patch ? this->Patch : "(none)") << "\n";
+  os << indent << "Columns:";
+  for (const std::string& column : this->Internal->Columns)
+  {
+    os << ' ' << column;
+  }
+  os << "\n" << indent << "Hold: " << (this->Hold ? this->Hold : "(none)") << "\n";
+  os << indent << "Anchor: " << this->Anchor << "\n";
+  os << indent << "InteractivePoints: " << this->InteractivePoints << "\n";
+}

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkStreamingBlend
+ * @brief   Removes the steps of point arrays between the patches of a very large mesh
+ *
+ * Blends point arrays that were recorded in patches with different gains and offsets, in the
+ * gradient domain: the steps between patches vanish, the gradients inside them stay. The output is
+ * the input with these arrays, in their types; all else is kept.
+ *
+ * - For streamed requests (see vtkStreamingMeshKeys), those of writers and other streaming filters,
+ *   the whole mesh is blended once, out of core, as described at vtkStreamingSolver.
+ * - For other requests, if the input is a preview, the preview itself is blended in memory.
+ * - Other requests for the whole of a mesh of at most InteractivePoints points are treated like
+ *   previews; those for larger meshes, or with several processes, like streamed requests.
+ *
+ * Weights has no effect: those of finite elements are used.
+ *
+ * @sa vtkStreamingSolver vtkStreamingPoisson vtkStreamingMeshReader
+ */
+#ifndef vtkStreamingBlend_h
+#define vtkStreamingBlend_h
+
+#include "vtkStreamingMultigridFiltersModule.h" // For export macro
+#include "vtkStreamingSolver.h"
+
+class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkStreamingBlend : public vtkStreamingSolver
+{
+public:
+  static vtkStreamingBlend* New();
+  vtkTypeMacro(vtkStreamingBlend, vtkStreamingSolver);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Name of the array of one component with the patch of each point, or of each cell: points of
+   * cells of several patches then are in no patch. That of the points counts if both have it. */
+  vtkSetStringMacro(Patch);
+  vtkGetStringMacro(Patch);
+  ///@}
+
+  ///@{
+  /** Names of the point arrays to blend, with at most 64 components together. Default: none. */
+  void AddColumn(const char* name);
+  void RemoveAllColumns();
+  int GetNumberOfColumns() const;
+  /** Null if there is no such number. */
+  const char* GetColumn(int number) const;
+  ///@}
+
+  ///@{
+  /** The parts that keep their values: WHERE of a problem file in JSON, or a list of these, for
+   * example {"sphere": [0, 0, 0, 1]}. Columns are arrays of the input. Default: none. */
+  vtkSetStringMacro(Hold);
+  vtkGetStringMacro(Hold);
+  ///@}
+
+  ///@{
+  /** How strongly all values are pulled towards the original ones, at least 0: corrections over
+   * less than 1 / sqrt(Anchor) diagonals of the bounds are hardly pulled. Default: 0.01. */
+  vtkSetMacro(Anchor, double);
+  vtkGetMacro(Anchor, double);
+  ///@}
+
+  ///@{
+  /** Meshes of at most this many points are blended in memory. Default: 200,000. 0: only previews.
+   */
+  vtkSetClampMacro(InteractivePoints, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(InteractivePoints, vtkIdType);
+  ///@}
+
+protected:
+  vtkStreamingBlend();
+  ~vtkStreamingBlend() override;
+
+  std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
+  void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
+  bool IsForMemory(vtkPointSet& input, bool isWhole) override;
+  smg::SolveSummary SolveInMemory(vtkPointSet& input, const std::function<bool(double)>& progress,
+    std::vector<double>& values) override;
+
+private:
+  vtkStreamingBlend(const vtkStreamingBlend&) = delete;
+  void operator=(const vtkStreamingBlend&) = delete;
+
+  struct Internals;
+
+  char* Patch = nullptr;
+  char* Hold = nullptr;
+  double Anchor = 0.01;
+  vtkIdType InteractivePoints = 200000;
+
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif
