@@ -25,7 +25,12 @@ struct vtkStreamingMeshSmoothing::Internals
   {
   }
 
-  std::string column() const { return this->Self.Column ? this->Self.Column : ""; }
+  /** "None" is what ParaView offers for no array. */
+  std::string column() const
+  {
+    const std::string name = this->Self.Column ? this->Self.Column : "";
+    return name == "None" ? "" : name;
+  }
 
   smg::SmoothingOptions options() const
   {

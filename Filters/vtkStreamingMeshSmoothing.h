@@ -69,7 +69,7 @@ public:
 
   ///@{
   /** Implicit steps, 1 to 1000. Default: 1. */
-  vtkSetClampMacro(Steps, int, 1, 1000);
+  vtkSetMacro(Steps, int);
   vtkGetMacro(Steps, int);
   ///@}
 
@@ -109,7 +109,8 @@ public:
   ///@}
 
   ///@{
-  /** Name of the point array to smooth instead of the points. Default: none. */
+  /** Name of the point array to smooth instead of the points. Empty (default) or "None": the
+   * points. */
   vtkSetStringMacro(Column);
   vtkGetStringMacro(Column);
   ///@}

@@ -85,7 +85,8 @@ TEST_F(VtkStreamingMeshSmoothing, EveryWayGivesThePointsOfTheLibrary)
 {
   const StreamMesh expected = this->movedBy({});
   EXPECT_NE(expected.positions, this->Mesh.positions);
-  // In memory, then out of core.
+  // ParaView's name of no array. In memory, then out of core.
+  this->Smoothing->SetColumn("None");
   this->collectPieces(1).expectEqual(expected);
   this->Smoothing->SetInteractivePoints(0);
   for (const int pieces : { 1, 3, 16 })
@@ -220,12 +221,15 @@ TEST_F(VtkStreamingMeshSmoothing, MistakesAreOneErrorEach)
       this->Smoothing->SetHold(nullptr);
       this->Smoothing->SetColumn(nullptr);
       this->Smoothing->SetSize(4.0);
+      this->Smoothing->SetSteps(1);
     }
   };
   expect("Hold: sphere: must be", [&] { this->Smoothing->SetHold(R"({"sphere": [1]})"); });
   expect("hold[0]: no vertex", [&] { this->Smoothing->SetHold(R"({"sphere": [9, 9, 9, 1]})"); });
   expect("Missing", [&] { this->Smoothing->SetColumn("Missing"); });
   expect("must be a positive number", [&] { this->Smoothing->SetSize(-1.0); });
+  expect("from 1 to 1000", [&] { this->Smoothing->SetSteps(0); });
+  expect("from 1 to 1000", [&] { this->Smoothing->SetSteps(1001); });
   this->open(tetBox(4, 4, 4));
   expect("name a column of the vertices", [] {});
 }

@@ -48,6 +48,23 @@ assert report["vertices"] == t.BUNNY_POINTS and report["cells"] == t.BUNNY_CELLS
 assert report["converged"] and poisson.GetPropertyValue("Converged") == 1
 assert report["passes"] == report["cycles"] + 1 == poisson.GetPropertyValue("Passes")
 
+# Likewise the smoothed mesh; a request for all of it is answered in memory.
+smooth = os.path.join(folder, "smooth.vsm")
+t.run_smg("smooth", container, smooth, "--size", "8edges", "--steps", 2)
+smoothing = StreamingMeshSmoothing(Input=reader, Size=8, Steps=2)
+smoothing.UpdatePipeline()
+expected = OpenDataFile(smooth)
+expected.UpdatePipeline()
+smooth = t.pull(t.client_object(expected), 1)[0]
+assert (smooth[2] != whole[2]).any()
+for pieces in (1, 7, 64):
+    parts = t.pull(t.client_object(smoothing), pieces)
+    ids = numpy.concatenate([p[0] for p in parts])
+    assert (numpy.concatenate([p[2] for p in parts]) == smooth[2][ids]).all(), pieces
+    own = numpy.concatenate([p[0][p[1]] for p in parts])
+    assert (numpy.sort(own) == numpy.arange(t.BUNNY_POINTS)).all(), pieces
+    assert (numpy.concatenate([p[4] for p in parts]) == smooth[4]).all(), pieces
+
 # With the guard, the whole mesh is a preview, with the true solution if requested.
 reader.MaximumPointsInMemory = 1000
 poisson.SolveFullMesh = 1

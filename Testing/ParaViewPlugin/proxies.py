@@ -33,7 +33,7 @@ for name in ("Residual", "Cycles", "Passes", "PeakMemory", "Converged", "Outcome
 
 smoothing = StreamingMeshSmoothing(Input=reader)
 defaults = {"Size": 4.0, "SizeUnit": "Mean Edges", "Steps": 1, "KeepVolume": 1, "KeepEdges": 0,
-            "EdgeAngle": 30.0, "Boundary": "Automatic", "Hold": "", "Column": ""}
+            "EdgeAngle": 30.0, "Boundary": "Automatic", "Hold": "", "Column": "None"}
 for name, value in defaults.items():
     assert smoothing.GetPropertyValue(name) == value, (name, smoothing.GetPropertyValue(name))
 
