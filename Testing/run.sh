@@ -3,9 +3,12 @@
 # Builds and tests everything on a Debian 12 or 13 machine (as root, or as a user with sudo):
 #   main        build/             ParaView's VTK, plugin, Python; all tests except the long ones; unity
 #                                  build: names in unnamed namespaces must differ
-#   vtk         build-vtk/         Debian's standalone VTK; the tests that use VTK; no unity build: each
-#                                  source must include what it uses; with assertions
-#   asan-ubsan  build-asan-ubsan/  Solver, IO and smg without VTK, under two sanitizers
+#   vtk         build-vtk/         Debian's standalone VTK, on the libraries Solver and IOCore of build/; the
+#                                  tests that use VTK; no unity build; with assertions
+#   asan-ubsan  build-asan-ubsan/  Solver, IO and smg without VTK, under two sanitizers; no unity build;
+#                                  with assertions
+# Without a unity build, each source must include what it uses. The tests themselves are built for few
+# seconds of compilation: without full optimization, and under sanitizers with unity sources.
 # Stops at the first failing configuration, with the summary of ctest as its last lines.
 #
 # Environment:
@@ -20,13 +23,19 @@ jobs=${SMG_JOBS:-$(nproc)}
 data=${SMG_TEST_DATA_DIR:-}
 [ -z "$data" ] || data=$(realpath "$data")
 
-# configure_build_test PRESET
-configure_build_test() {
-  echo "== $1: configure, build, test ($(date +%T))"
+# configure_build PRESET
+configure_build() {
+  echo "== $1: configure, build ($(date +%T))"
   local launcher=()
   ! command -v ccache > /dev/null || launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   cmake --preset "$1" "${launcher[@]}" -DSMG_TEST_DATA_DIR="$data"
   cmake --build --preset "$1" --parallel "$jobs"
+}
+
+# configure_build_test PRESET
+configure_build_test() {
+  configure_build "$1"
+  echo "== $1: test ($(date +%T))"
   ctest --preset "$1" --parallel "$jobs"
 }
 
@@ -35,6 +44,7 @@ for configuration in ${SMG_CONFIGURATIONS:-main vtk asan-ubsan}; do
   case $configuration in
     main) configure_build_test release ;;
     vtk)
+      configure_build release
       bash cmake/vtk-prefix.sh build-vtk/vtk
       configure_build_test vtk
       ;;

@@ -30,6 +30,9 @@ install(FILES
   "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridConfigVersion.cmake"
   DESTINATION "${smg_package_dir}" COMPONENT development)
 
+if (SMG_CORE_BUILD)
+  return () # the targets are those of that folder
+endif ()
 export(EXPORT StreamingMultigrid NAMESPACE StreamingMultigrid::
   FILE "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridTargets.cmake")
 install(EXPORT StreamingMultigrid NAMESPACE StreamingMultigrid::

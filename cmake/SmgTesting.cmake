@@ -22,6 +22,12 @@ function (smg_add_gtest name)
   target_compile_definitions(${name} PRIVATE
     SMG_TEST_DATA_DIR="${smg_test_data}"
     SMG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  # Tests are compiled more often than they run; the libraries are optimized as they are used.
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  if (SMG_SANITIZE)
+    # Instrumented, tests take longer to compile than the libraries, whose sources stay separate.
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+  endif ()
   smg_discover(${name} "-*Data.*:*Law.*:*Long.*" 120 "${arg_LABELS}")
   smg_discover(${name} "*Law.*" 120 "${arg_LABELS};law")
   smg_discover(${name} "*Data.*" 300 "${arg_LABELS};data")

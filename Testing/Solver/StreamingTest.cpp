@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Solver/SolveTesting.h"
 #include "Testing/Support/AtOnce.h"
+#include "Testing/Support/Combinations.h"
 #include "Testing/Support/SolutionRanges.h"
 #include "Testing/Support/TemporaryFolder.h"
 
@@ -60,6 +61,7 @@ Solved inCore(const StreamMesh& mesh, ArrayProblem problem)
 
 TEST(Streaming, EqualsInCoreBitForBit)
 {
+  Combinations chosen;
   for (auto& [mesh, problem] : tasks())
   {
     const Solved expected = inCore(mesh, problem);
@@ -67,6 +69,10 @@ TEST(Streaming, EqualsInCoreBitForBit)
     {
       for (const std::int64_t blockNodes : { 64, 1000, 4096, 1 << 20 })
       {
+        if (!chosen.next())
+        {
+          continue;
+        }
         SolveOptions options = shortSolve();
         options.coreNodes = coreNodes;
         options.blockNodes = blockNodes;
@@ -83,11 +89,16 @@ TEST(Streaming, EqualsInCoreBitForBit)
 
 TEST(Streaming, DoesNotDependOnHowTheMeshComesInBlocks)
 {
+  Combinations chosen;
   for (auto& [mesh, problem] : tasks())
   {
     const Solved expected = inCore(mesh, problem);
     for (const std::int64_t blockCells : { 1, 17, 5000, 1 << 20 })
     {
+      if (!chosen.next())
+      {
+        continue;
+      }
       SolveOptions options = shortSolve();
       options.coreNodes = 500;
       EXPECT_TRUE(sameBits(solveMesh(mesh, problem, options, blockCells).values, expected.values))
@@ -98,6 +109,7 @@ TEST(Streaming, DoesNotDependOnHowTheMeshComesInBlocks)
 
 TEST(Streaming, DoesNotDependOnTheNumberOfThreads)
 {
+  Combinations chosen;
   for (auto& [mesh, problem] : tasks())
   {
     const Solved expected = inCore(mesh, problem);
@@ -105,6 +117,10 @@ TEST(Streaming, DoesNotDependOnTheNumberOfThreads)
     {
       for (const bool core : { false, true })
       {
+        if (!chosen.next())
+        {
+          continue;
+        }
         SolveOptions options = shortSolve();
         options.coreNodes = 500;
         options.threads = threads;
