@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -135,4 +136,13 @@ std::function<std::string(const std::string&)> oneOf(std::vector<std::string> va
     }
     return '\'' + value + "' is none of " + names;
   };
+}
+
+std::string wholeNumber(const std::string& value)
+{
+  std::int64_t number = 0;
+  const char* const end = value.data() + value.size();
+  const auto [rest, error] = std::from_chars(value.data(), end, number);
+  const bool isValid = error == std::errc() && rest == end && number >= 0;
+  return isValid ? std::string() : '\'' + value + "' is not a whole number from 0 on";
 }

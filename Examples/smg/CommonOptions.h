@@ -41,6 +41,8 @@ struct CommonOptions
 
 /** Checks that the value of an option is one of these; the error lists them. */
 std::function<std::string(const std::string&)> oneOf(std::vector<std::string> values);
+/** Checks that the value of an option is a whole number from 0 on. */
+std::string wholeNumber(const std::string& value);
 
 /** Runs the selected command. */
 using Action = std::function<void()>;

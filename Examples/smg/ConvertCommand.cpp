@@ -21,26 +21,30 @@ void print(const smg::ConversionReport& report)
     std::printf("width %lld, span %lld, ", number(report.width), number(report.span));
   }
   std::printf("%.2f s\n", report.seconds.total);
-  const auto line = [&number](std::int64_t count, const char* what)
+  const auto line = [&number](std::int64_t count, const char* one, const char* several)
   {
     if (count > 0)
     {
-      std::printf("  %lld %s\n", number(count), what);
+      std::printf("  %lld %s\n", number(count), count == 1 ? one : several);
     }
   };
-  line(report.components, "components");
-  line(report.isolated_vertices, "isolated vertices, which are not part of the stream");
-  line(report.dropped_cells, "cells of other types omitted");
-  line(report.triangulated_polygons, "polygons split into triangles");
-  line(report.split_cells, "hexahedra, wedges and pyramids split into tetrahedra");
-  line(report.higher_order_cells, "higher-order cells, of which only the corners are used");
-  line(report.merged_points, "points merged with others");
-  line(report.degenerate_cells, "degenerate cells");
-  line(report.duplicate_cells, "duplicate cells");
-  line(report.boundary_edges, "boundary edges");
-  line(report.nonmanifold_edges, "non-manifold edges");
-  line(report.nonmanifold_vertices, "non-manifold vertices");
-  line(report.inverted_cells, "inverted tetrahedra");
+  line(report.components, "component", "components");
+  line(report.isolated_vertices, "isolated vertex, which is not part of the stream",
+    "isolated vertices, which are not part of the stream");
+  line(report.dropped_cells, "cell of another type omitted", "cells of other types omitted");
+  line(
+    report.triangulated_polygons, "polygon split into triangles", "polygons split into triangles");
+  line(report.split_cells, "hexahedron, wedge or pyramid split into tetrahedra",
+    "hexahedra, wedges and pyramids split into tetrahedra");
+  line(report.higher_order_cells, "higher-order cell, of which only the corners are used",
+    "higher-order cells, of which only the corners are used");
+  line(report.merged_points, "point merged with others", "points merged with others");
+  line(report.degenerate_cells, "degenerate cell", "degenerate cells");
+  line(report.duplicate_cells, "duplicate cell", "duplicate cells");
+  line(report.boundary_edges, "boundary edge", "boundary edges");
+  line(report.nonmanifold_edges, "non-manifold edge", "non-manifold edges");
+  line(report.nonmanifold_vertices, "non-manifold vertex", "non-manifold vertices");
+  line(report.inverted_cells, "inverted tetrahedron", "inverted tetrahedra");
   for (const std::string& note : report.notes)
   {
     std::printf("  %s\n", note.c_str());

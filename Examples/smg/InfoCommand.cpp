@@ -112,6 +112,7 @@ void print(const std::filesystem::path& file, smg::OpenedMesh& mesh)
 struct InfoOptions : CommonOptions
 {
   std::filesystem::path file;
+  InputOptions input;
   bool check = false;
 
   void run() const
@@ -126,7 +127,7 @@ struct InfoOptions : CommonOptions
     ProgressBar bar("reading", this->quiet);
     // The figures refer to the order of the file.
     const std::unique_ptr<smg::OpenedMesh> mesh =
-      openInput(this->file, *this, bar.function(), smg::StreamOrder::Keep);
+      openInput(this->file, *this, bar.function(), smg::StreamOrder::Keep, this->input);
     nlohmann::ordered_json report = describe(this->file, *mesh);
     if (this->check)
     {
@@ -154,6 +155,7 @@ void addInfoCommand(CLI::App& program, Action& action)
   command->add_option("FILE", options->file, "The mesh")->required();
   command->add_flag("--check", options->check,
     "Read an entire .vsm file and verify its checksums; an error names the first damaged block");
+  options->input.addTo(*command);
   options->addTo(*command);
   options->addThreadsTo(*command);
   command->callback([options, &action] { action = [options] { options->run(); }; });

@@ -3,8 +3,22 @@
 
 #include "CommonOptions.h"
 
-#include "IO/AnyFormat/MeshFile.h"
-#include "smg/Error.h"
+#include <cmath>
+#include <cstdlib>
+
+namespace
+{
+
+/** Checks that the value of an option is a distance: finite and not negative. */
+std::string distance(const std::string& value)
+{
+  char* rest = nullptr;
+  const double number = std::strtod(value.c_str(), &rest);
+  const bool isValid = !value.empty() && *rest == '\0' && std::isfinite(number) && number >= 0.0;
+  return isValid ? std::string() : '\'' + value + "' is not a finite distance from 0 on";
+}
+
+} // namespace
 
 void InputOptions::addTo(CLI::App& command)
 {
@@ -15,17 +29,17 @@ void InputOptions::addTo(CLI::App& command)
   command
     .add_option(
       "--weld", this->Weld, "Merge points within this distance of each other; 0: equal coordinates")
-    ->check(CLI::NonNegativeNumber)
+    ->check(distance)
     ->type_name("DISTANCE");
   command
     .add_option("--time-step", this->TimeStep, "Which time step to read of a VTKHDF file, from 0")
-    ->check(CLI::NonNegativeNumber)
+    ->check(wholeNumber)
     ->capture_default_str()
     ->type_name("N");
   command
     .add_option("--partition", this->Partition,
       "Which partition to read of a VTKHDF file, from 0; all, joined, unless given")
-    ->check(CLI::NonNegativeNumber)
+    ->check(wholeNumber)
     ->type_name("K");
 }
 
@@ -37,15 +51,4 @@ void InputOptions::applyTo(smg::ConversionOptions& options) const
   options.weld = this->Weld;
   options.timeStep = this->TimeStep;
   options.partition = this->Partition;
-}
-
-void InputOptions::checkIsConverted(const std::filesystem::path& in) const
-{
-  const bool asksForSome =
-    this->Weld || !this->Cells.empty() || this->TimeStep != 0 || this->Partition;
-  if (asksForSome && smg::kindOfInput(in) == smg::MeshFileKind::Vsm)
-  {
-    throw smg::Error(in.string() + ": a .vsm file is used as it is: leave --cells, --weld, "
-                                   "--time-step and --partition out, or give them to smg convert.");
-  }
 }

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -19,9 +18,6 @@ public:
 
   /** Applies the options. */
   void applyTo(smg::ConversionOptions& options) const;
-
-  /** Throws smg::Error if `in` is a .vsm file, which is not converted, and an option was given. */
-  void checkIsConverted(const std::filesystem::path& in) const;
 
   bool welds() const { return this->Weld.has_value(); }
 

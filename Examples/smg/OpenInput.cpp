@@ -7,7 +7,6 @@ std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
   const CommonOptions& common, smg::ProgressFunction progress, smg::StreamOrder order,
   const InputOptions& input)
 {
-  input.checkIsConverted(path);
   smg::ConversionOptions options;
   options.order = order;
   input.applyTo(options);

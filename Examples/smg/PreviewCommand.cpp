@@ -20,6 +20,7 @@ namespace
 struct PreviewOptions : CommonOptions
 {
   std::filesystem::path in, out;
+  InputOptions input;
   std::int64_t points = smg::DefaultPreviewPoints;
 
   void run() const;
@@ -50,8 +51,8 @@ void PreviewOptions::run() const
   std::vector<std::string> notes;
   {
     ProgressBar bar("reading", this->quiet);
-    const std::unique_ptr<smg::OpenedMesh> mesh =
-      openInput(this->in, *this, smg::partOf(bar.function(), 0.0, 0.5));
+    const std::unique_ptr<smg::OpenedMesh> mesh = openInput(this->in, *this,
+      smg::partOf(bar.function(), 0.0, 0.5), smg::StreamOrder::BreadthFirst, this->input);
     const double begin = mesh->conversion() ? 0.5 : 0.0;
     smg::PreviewSource preview(
       mesh->reader(), this->points, smg::partOf(bar.function(), begin, 0.95), this->in.string());
@@ -100,6 +101,7 @@ void addPreviewCommand(CLI::App& program, Action& action)
     ->check(CLI::Range(smg::LeastPreviewPoints, smg::MostPreviewPoints))
     ->capture_default_str()
     ->type_name("N");
+  options->input.addTo(*command);
   options->addTo(*command);
   command->get_option("--memory")
     ->description("Memory limit in MiB for converting IN; a .vsm file is not converted");

@@ -2,8 +2,8 @@
 #include "smg/Convert.h"
 
 #include "IO/AnyFormat/MeshFile.h"
-#include "IO/Formats/MeshPart.h"
 #include "Solver/Storage/ScratchFolder.h"
+#include "smg/Error.h"
 
 #include <optional>
 
@@ -42,7 +42,14 @@ std::unique_ptr<OpenedMesh> openMesh(
   const MeshFileKind kind = kindOfInput(path);
   if (kind == MeshFileKind::Vsm)
   {
-    checkIsWhole({ options.timeStep, options.partition }, path.string());
+    if (options.weld || options.cells != CellChoice::Only || options.timeStep != 0 ||
+        options.partition)
+    {
+      throw Error(
+        path.string() +
+        ": a .vsm file is read as it is: leave the choice of cells, of a time step and of "
+        "a partition, and the merging of points, to its conversion (smg convert).");
+    }
     mesh.reader.emplace(path);
     return opened;
   }

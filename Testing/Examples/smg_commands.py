@@ -124,6 +124,12 @@ def test_errors():
     for wrong in (("--operators", "foo"), ("--tolerance", 0), ("--tolerance", 1),
                   ("--tolerance", "nan"), ("--tolerance", "small")):
         run("solve", "torus.vsm", "o.vsm", "--problem", "problem.json", *wrong, code=2)
+    for wrong in (("--weld", -1), ("--weld", "nan"), ("--weld", "1x"), ("--time-step", 1.5),
+                  ("--time-step", -1), ("--partition", "first")):
+        said = run("convert", "torus.obj", "o2.vsm", *wrong, code=2).stderr
+        assert "'%s' is not" % wrong[1] in said and len(said) < 120, said
+    for command in (("info", "torus.vsm"), ("preview", "torus.vsm", "o2.vtp")):
+        assert "read as it is" in run(*command, "--weld", 0, code=1).stderr, command
     for report in (".", os.path.join("nowhere", "r.json")):
         for command in (("info", "torus.vsm"), ("convert", "torus.obj", "o2.vsm"),
                         ("solve", "torus.vsm", "o2.vsm", "--problem", "problem.json")):

@@ -176,7 +176,8 @@ private:
  * file is converted to a .vsm file in the scratch folder, which lives as long as the OpenedMesh.
  * @param path the mesh file
  * @param options how to convert; a streaming format (SMA, SMB, SVA, SVB) keeps its order
- * @throws Error as convert()
+ * @throws Error as convert(), and if the file is a .vsm file but `cells`, `weld`, `timeStep` or
+ * `partition` asks for a part or another mesh
  * @throws Cancelled as convert()
  */
 SMG_EXPORT std::unique_ptr<OpenedMesh> openMesh(
