@@ -19,6 +19,7 @@ constexpr std::int64_t BatchRows = 256;
 Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, AssembledRows& rows,
   Components& components, ComponentLabels& labels, RowListener* listener)
   : Type(info.cellType)
+  , Info(info)
   , Check(info.cellType)
   , Listener(listener)
   , Policy(info.cellType, problem, rows.weightScale)
@@ -44,6 +45,7 @@ void Assembly::add(const MeshBlock& block)
 
 void Assembly::finish()
 {
+  this->Check.finish(this->Info);
   this->finalize(this->vertices());
 }
 

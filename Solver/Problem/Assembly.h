@@ -50,7 +50,9 @@ public:
   /** Adds a block and completes the rows of the vertices that it finalises. Throws Error on an
    * invalid block. */
   void add(const MeshBlock& block);
-  /** Completes the remaining rows. */
+  /** Completes the remaining rows. Throws Error if the stream ended before the counts of its
+   * StreamInfo.
+   */
   void finish();
 
   std::int64_t vertices() const { return this->Vertices.end(); }
@@ -79,6 +81,7 @@ private:
   void release();
 
   CellType Type;
+  StreamInfo Info;
   StreamCheck Check;
   RowListener* Listener;
   WeightPolicy Policy;

@@ -65,4 +65,15 @@ void StreamCheck::addCells(const MeshBlock& block)
   this->Cells += static_cast<std::int64_t>(block.corners.size()) / corners;
 }
 
+void StreamCheck::finish(const StreamInfo& info) const
+{
+  if (this->Vertices < info.vertices || this->Cells < info.cells)
+  {
+    throw Error("the mesh stream ends early: after " + std::to_string(this->Vertices) +
+                " vertices and " + std::to_string(this->Cells) + " cells, but it states " +
+                std::to_string(info.vertices) + " and " + std::to_string(info.cells) +
+                " (0 or less: not known)");
+  }
+}
+
 } // namespace smg

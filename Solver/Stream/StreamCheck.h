@@ -24,6 +24,10 @@ public:
    */
   void add(const MeshBlock& block);
 
+  /** To be called after the last block: throws Error if the stream ended before the counts that
+   * `info` states. */
+  void finish(const StreamInfo& info) const;
+
   /** The number of vertices so far. */
   std::int64_t vertices() const { return this->Vertices; }
 

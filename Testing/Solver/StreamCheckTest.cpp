@@ -29,6 +29,7 @@ TEST(StreamCheck, AcceptsValidStreams)
       check.add(block);
     }
     EXPECT_EQ(check.vertices(), mesh.vertices());
+    check.finish(source.info());
   }
 }
 
@@ -55,6 +56,25 @@ TEST(StreamCheck, NamesWhatIsWrong)
     damage(block);
     expectError([&] { check.add(block); }, part);
   }
+}
+
+TEST(StreamCheck, NoticesAStreamThatEndsEarly)
+{
+  StreamCheck check(CellType::Triangle);
+  for (const MeshBlock& block : twoBlocks())
+  {
+    check.add(block);
+  }
+  StreamInfo info; // no counts
+  check.finish(info);
+  info.vertices = 4;
+  info.cells = 2;
+  check.finish(info);
+  info.cells = 3;
+  expectError([&] { check.finish(info); }, "4 vertices and 2 cells, but it states 4 and 3");
+  info.cells = 0;
+  info.vertices = 5;
+  expectError([&] { check.finish(info); }, "4 vertices and 2 cells, but it states 5 and 0");
 }
 
 } // namespace smg::testing

@@ -2,6 +2,7 @@
 #include "Testing/Solver/SolveTesting.h"
 #include "Testing/Support/AtOnce.h"
 #include "Testing/Support/Combinations.h"
+#include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/SolutionRanges.h"
 #include "Testing/Support/TemporaryFolder.h"
 
@@ -279,7 +280,7 @@ TEST(Streaming, TellsItsTrafficByKind)
   }
 }
 
-TEST(Streaming, DoesNotDependOnTheCountsThatTheSourceClaims)
+TEST(Streaming, AcceptsMoreThanTheCountsThatTheSourceClaimsAndRefusesFewer)
 {
   /** A mesh whose source declares a wrong number of vertices. */
   class Claiming : public MemorySource
@@ -299,13 +300,18 @@ TEST(Streaming, DoesNotDependOnTheCountsThatTheSourceClaims)
   };
   auto [mesh, problem] = tasks()[0];
   const Solved expected = inCore(mesh, problem);
-  for (const std::int64_t vertices : { std::int64_t(-1), std::int64_t(10), std::int64_t(1) << 40 })
+  SolveOptions options = shortSolve();
+  options.coreNodes = 500;
+  for (const std::int64_t vertices : { -1, 10 })
   {
-    SolveOptions options = shortSolve();
-    options.coreNodes = 500;
     Claiming source(mesh, vertices);
     const std::unique_ptr<Solution> solution = solve(source, problem, options);
     EXPECT_TRUE(sameBits(valuesOf(*solution), expected.values)) << vertices << " claimed";
+  }
+  for (const std::int64_t vertices : { mesh.vertices() + 1, std::int64_t(1) << 40 })
+  {
+    Claiming source(mesh, vertices);
+    expectError([&] { solve(source, problem, options); }, "the mesh stream ends early");
   }
 }
 
