@@ -11,6 +11,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace smg
@@ -73,6 +74,12 @@ PreviewSource::PreviewSource(VsmReader& mesh, std::int64_t maximumPoints,
   const ProgressFunction& progress, const std::string& name, const std::filesystem::path& scratch)
   : Self(new Implementation{ { scratch, OrderMemory, partOf(progress, 0.95, 1.0) }, {}, {}, {} })
 {
+  if (maximumPoints < LeastPreviewPoints || maximumPoints > MostPreviewPoints)
+  {
+    throw Error("the limit of a preview is " + std::to_string(maximumPoints) +
+                " points; expected " + std::to_string(LeastPreviewPoints) + " to " +
+                std::to_string(MostPreviewPoints) + ".");
+  }
   const MeshPiece piece = makePreviewPiece(mesh, maximumPoints, partOf(progress, 0.0, 0.95));
   if (piece.corners.empty())
   {

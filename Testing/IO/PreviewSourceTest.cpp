@@ -88,6 +88,16 @@ TEST_F(PreviewStreams, OfTetrahedraAreTheirSurface)
   EXPECT_EQ(preview.cells(), 6 * 2 * 16);
 }
 
+TEST_F(PreviewStreams, OfFewerOrMorePointsThanAllowedAreRefused)
+{
+  const StreamMesh mesh = toStream(grid(3, 3));
+  for (const std::int64_t points :
+    { std::int64_t(-1), LeastPreviewPoints - 1, MostPreviewPoints + 1 })
+  {
+    expectError([&] { this->previewOf(mesh, points); }, "expected 8 to 1000000");
+  }
+}
+
 TEST_F(PreviewStreams, OfNothingAreRefused)
 {
   StreamMesh mesh = toStream(grid(3, 3));
