@@ -286,6 +286,15 @@ TEST_F(ImportVtkXml, AMissingPieceIsNamed)
   expectError([this] { this->readParallel(parallel({})); }, "no pieces");
 }
 
+TEST_F(ImportVtkXml, PiecesElsewhereAreNotRead)
+{
+  for (const char* elsewhere : { "/etc/0.vtu", "../0.vtu", "sub/../../0.vtu" })
+  {
+    expectError(
+      [&] { this->readParallel(parallel({ elsewhere })); }, "folder of the file or below");
+  }
+}
+
 TEST_F(ImportVtkXml, AnUnknownCompressorIsRefusedByName)
 {
   VtkXmlWriter writer;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/InQuotes.h"
 #include "IO/Files/InputFile.h"
+#include "IO/Files/NearbyFile.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Formats/Vtk/VtkMeshReader.h"
 #include "IO/Formats/Vtk/VtkXmlLayout.h"
@@ -49,6 +50,12 @@ std::vector<std::filesystem::path> pieceFiles(InputFile& file)
       {
         file.fail(tag.begin,
           "there are more than " + std::to_string(MostPieces) + " pieces, which are too many");
+      }
+      if (nearbyFile(folder, source).empty())
+      {
+        file.fail(tag.begin, "the piece " + inQuotes(source) +
+                               " is not in the folder of the file or below: only such "
+                               "files are read");
       }
       files.push_back(folder / source);
     }

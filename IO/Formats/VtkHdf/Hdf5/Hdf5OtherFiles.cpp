@@ -2,12 +2,12 @@
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5OtherFiles.h"
 
 #include "IO/Files/InQuotes.h"
+#include "IO/Files/NearbyFile.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5Handle.h"
 #include "smg/Error.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <system_error>
 #include <vector>
 
 namespace smg
@@ -36,22 +36,6 @@ std::string textOf(Get&& get)
   std::vector<char> text(static_cast<std::size_t>(std::max<ssize_t>(length, 0)) + 1);
   get(text.data(), text.size());
   return text.data();
-}
-
-/** The file of a part of a virtual dataset, if it is in `folder` or below; else empty. */
-std::filesystem::path sourceIn(
-  const std::filesystem::path& folder, const std::filesystem::path& source)
-{
-  std::error_code error;
-  const std::filesystem::path root = std::filesystem::canonical(folder, error);
-  const std::filesystem::path file =
-    error ? std::filesystem::path{} : std::filesystem::canonical(root / source, error);
-  if (error || source.is_absolute() ||
-      std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first != root.end())
-  {
-    return {};
-  }
-  return file;
 }
 
 void checkSource(hid_t file, const std::string& name, const std::string& object)
@@ -114,7 +98,7 @@ void checkSources(std::int64_t dataset, const std::string& name, const std::stri
       checkSource(own.id(), name, part);
       continue;
     }
-    const std::filesystem::path other = sourceIn(path.parent_path() / ".", source);
+    const std::filesystem::path other = nearbyFile(path.parent_path(), source);
     const Hdf5Handle<H5Fclose> file(
       other.empty() ? -1 : H5Fopen(other.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
     if (!file.valid())
