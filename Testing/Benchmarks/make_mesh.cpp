@@ -7,6 +7,8 @@
 // VTK): every triangle becomes four, every tetrahedron eight, TIMES times. Each triangle made takes
 // about 60 bytes of memory.
 //
+// --noise A moves every vertex along its normal, by up to A mean edges to either side.
+//
 // OUT.vsm is in breadth-first order. OUT.ply (triangles) and OUT.vtk (tetrahedra), both binary, are
 // in the order that the mesh is made in, or with --shuffle in a random one, the worst case for a
 // conversion.
@@ -73,9 +75,17 @@ struct Options
   std::string mesh, out;
   int times = 0;
   bool isShuffled = false;
+  double noise = 0;
   std::uint64_t seed = 1;
 
   IndexedTestMesh made(const std::string& shape) const
+  {
+    IndexedTestMesh mesh = this->smooth(shape);
+    return this->noise > 0 ? bumpy(mesh, this->noise, this->seed) : std::move(mesh);
+  }
+
+private:
+  IndexedTestMesh smooth(const std::string& shape) const
   {
     return shape == "torus"  ? jitteredTorus(this->vertices)
            : shape == "scan" ? scan(this->vertices)
@@ -129,7 +139,11 @@ void addOptions(CLI::App& app, Options& options)
     shape->add_option("OUT", options.out, "A .vsm, .ply or .vtk file")->required();
     shape->add_flag(
       "--shuffle", options.isShuffled, "Vertices and cells of a .ply or .vtk in a random order");
-    shape->add_option("--seed", options.seed, "Of the random order")->capture_default_str();
+    shape->add_option("--seed", options.seed, "Of order and noise")->capture_default_str();
+    shape
+      ->add_option(
+        "--noise", options.noise, "Mean edges by which vertices move along normals; triangles")
+      ->check(CLI::Range(0.0, 10.0));
   }
   app.require_subcommand(1);
 }

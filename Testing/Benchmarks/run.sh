@@ -33,13 +33,21 @@
 #               --scratch DIR        on the disk to measure (TMPDIR)
 #               --threads 1,2        of the solves
 #               --file MiB           size of the measured file (1024)
+#   story     what people do with one large scan, all with the same memory limit: convert, smooth,
+#             distances from a point, a picture with isolines; story.md, .json and .png. MESH is
+#             refined and gets noise; without one it is a torus of 40 thousand vertices.
+#               --times N            refinements, each with four times the vertices (3)
+#               --memory MiB         limit of every step (128)
+#               --size S             of smg smooth (8edges)
+#               --source WHERE       of smg distance ({"vertices": [0]})
+#               --plugin FILE        StreamingMultigrid.so, for the picture
 #
 # Scratch files go to TMPDIR, which should be a disk. To repeat a measurement: keep the machine
 # otherwise idle, and run it twice; the spread between the runs is the accuracy of the times.
 set -euo pipefail
 part=solve
 case "${1:-}" in
-  solve | convert | scaling | table3 | kernels | roofline)
+  solve | convert | scaling | table3 | kernels | roofline | story)
     part=$1
     shift
     ;;
@@ -49,7 +57,8 @@ options=()
 while [ $# -gt 0 ]; do
   case "$part$1" in
     convert--memory | convert--orders | convert--address-space | scaling--to | scaling--peers-to | \
-      table3--threads | roofline--scratch | roofline--threads | roofline--file)
+      table3--threads | roofline--scratch | roofline--threads | roofline--file | story--times | \
+      story--memory | story--size | story--source | story--plugin)
       options+=("$1" "${2:?"$1 needs a value"}")
       shift
       ;;
@@ -184,6 +193,13 @@ roofline_part() {
   for mesh in "${meshes[@]}"; do
     out=$results/$(basename "$mesh" .vsm)-roofline
     "$bin/benchmark_roofline" "$mesh" "${options[@]}" --json "$out.json" | tee "$out.md"
+  done
+}
+
+story_part() {
+  [ ${#meshes[@]} -gt 0 ] || meshes=("$(made torus 40000 ply)")
+  for mesh in "${meshes[@]}"; do
+    python3 Testing/Benchmarks/story.py "$bin" "$results" "$mesh" "${options[@]}"
   done
 }
 
