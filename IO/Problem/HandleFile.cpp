@@ -112,7 +112,7 @@ DataValue parseValue(const JsonNode& node, bool position)
 }
 
 /** Whether a target is a list of positions. */
-bool isList(const JsonNode& target)
+bool isListOfPositions(const JsonNode& target)
 {
   return target.value().is_array() && !target.value().empty() && target.value()[0].is_array();
 }
@@ -121,7 +121,7 @@ HandleDescription::Values parseValues(const JsonNode& handle)
 {
   HandleDescription::Values values;
   const JsonNode target = handle.member("target");
-  if (isList(target))
+  if (isListOfPositions(target))
   {
     for (const JsonNode& position : target.elements())
     {
