@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "HoldOption.h"
+#include "PlacesOption.h"
 #include "SolvingCommand.h"
 
 #include "IO/AnyFormat/FormatTable.h"
@@ -39,7 +39,7 @@ public:
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("COLUMN,...");
-    this->Hold.addTo(command, "keeps its values");
+    this->Hold.addTo(command, "A part of the mesh that keeps its values");
     command
       .add_option("--anchor", this->Description.anchor,
         "How strongly all values are pulled towards the original ones: corrections over less than "
@@ -91,7 +91,7 @@ protected:
 
 private:
   smg::BlendDescription Description;
-  HoldOption Hold;
+  PlacesOption Hold{ "--hold" };
   smg::SolveOptions Solve;
 };
 

@@ -54,4 +54,5 @@ void addSolveCommand(CLI::App& program, Action& action);
 void addDeformCommand(CLI::App& program, Action& action);
 void addSmoothCommand(CLI::App& program, Action& action);
 void addBlendCommand(CLI::App& program, Action& action);
+void addDistanceCommand(CLI::App& program, Action& action);
 void addPreviewCommand(CLI::App& program, Action& action);

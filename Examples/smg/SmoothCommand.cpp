@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "HoldOption.h"
+#include "PlacesOption.h"
 #include "SolvingCommand.h"
 
 #include "IO/AnyFormat/FormatTable.h"
@@ -134,7 +134,7 @@ private:
       ->type_name("DEGREES");
     command.add_flag("--keep-volume,!--no-keep-volume", this->Smooth.keepVolume,
       "Move the surface along its normals so that it keeps its volume (default), or do not");
-    this->Hold.addTo(command, "does not move");
+    this->Hold.addTo(command, "A part of the mesh that does not move");
     command
       .add_option_function<std::string>(
         "--boundary",
@@ -150,7 +150,7 @@ private:
       "Smooth this column of the vertices instead of their positions");
   }
 
-  HoldOption Hold;
+  PlacesOption Hold{ "--hold" };
   std::string Normals = "recompute";
   smg::SmoothingOptions Smooth;
 };

@@ -1,36 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "CommonOptions.h"
-#include "InputOptions.h"
-#include "ResultFile.h"
+#include "MeshCommand.h"
 
-#include "smg/Convert.h"
-#include "smg/Solve.h"
-#include "smg/VsmReader.h"
-
-#include <functional>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-/** Base of the commands that solve on a mesh: opens the mesh, solves, writes the mesh with the
- * result and reports. */
-class SolvingCommand : public CommonOptions
+/** Base of the commands that solve equations on a mesh: the options of the solver, its warnings and
+ * figures. */
+class SolvingCommand : public MeshCommand
 {
-public:
-  virtual ~SolvingCommand() = default;
-
-  /** Runs the command. Throws smg::Error. */
-  void run();
-
 protected:
-  /** `title` is the title of the progress bar. */
-  explicit SolvingCommand(std::string title)
-    : Title(std::move(title))
-  {
-  }
+  using MeshCommand::MeshCommand;
 
   /** Adds IN, OUT and the options of the solver, except the tolerance. `result` describes OUT,
    * `operators` are the available operator sets. */
@@ -48,47 +29,13 @@ protected:
   /** Applies the common options. */
   void applyTo(smg::SolveOptions& options, smg::ProgressFunction progress) const;
 
-  /** The columns of the result, as ResultFile::Options::columns. */
-  virtual std::string resultColumns() const = 0;
-  /** Reads the task file, before the mesh is read. */
-  virtual void readTask() = 0;
-  /** Solves; foreseeable failures are reported first. */
-  virtual std::unique_ptr<smg::Solution> solveOn(
-    const smg::VsmReader& mesh, smg::ProgressFunction progress) = 0;
-  /** The treatment of this many isolated vertices in an output with all of IN, as the end of a
-   * sentence. `ordered`: the output has the order of the mesh file IN. */
-  virtual std::string fateOfIsolated(std::int64_t vertices, bool /*ordered*/) const
-  {
-    return vertices == 1 ? "stays where it is." : "stay where they are.";
-  }
-  /** Writes a mesh stream, which it reads to its end, as OUT. */
-  using Writer = std::function<void(smg::MeshSource& result, const smg::ProgressFunction&)>;
-  /** Passes the mesh with the result, as a stream, to `write`. May add to the report. */
-  virtual void writeResult(const smg::VsmReader& mesh, smg::Solution& solution, const Writer& write,
-    smg::Report& report, const smg::ProgressFunction& progress) const = 0;
   /** The options last used by solveOn(). */
   virtual const smg::SolveOptions& solveOptions() const = 0;
-  /** Bytes for the buffers of a writer while the solution holds its memory. */
-  std::int64_t writerMemory() const;
-
-  std::filesystem::path In, Out;
-  InputOptions Input;         ///< of a file that is not a .vsm
-  std::filesystem::path File; ///< the task: problem or handles
-  /** The report on the conversion of IN; none if IN is a .vsm file. */
-  std::optional<smg::ConversionReport> Conversion;
+  std::int64_t memoryLimit() const override { return this->solveOptions().memoryLimit; }
+  void warn(const smg::Report& report) const override;
+  void print(const smg::Report& report) const override;
 
 private:
   /** CLI::Range includes its ends and accepts nan. */
   static std::string checkTolerance(const std::string& text);
-  /** Solves, writes OUT and returns the report. */
-  smg::Report solveAndWrite(
-    const smg::VsmReader& mesh, const ResultFile& out, const smg::ProgressFunction& progress);
-  /** Notes for the user on the conversion of IN. */
-  std::vector<std::string> notesOn(
-    const smg::ConversionReport& conversion, const ResultFile& out) const;
-  /** Warns of steps that did not converge. */
-  void warn(const smg::Report& report) const;
-  void print(const smg::Report& report) const;
-
-  std::string Title;
 };

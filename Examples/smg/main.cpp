@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// smg: Poisson problems, deformations and smoothing on meshes of any size.
+// smg: Poisson problems, deformations, smoothing and distances on meshes of any size.
 //
 //   smg info bunny.ply
 //   smg convert bunny.ply bunny.vsm
@@ -8,6 +8,7 @@
 //   smg deform bunny.vsm bent.ply --handles handles.json --memory 128
 //   smg smooth scan.ply smooth.ply --size 4edges
 //   smg blend scan.ply blended.ply --patch scan --columns Colors
+//   smg distance bunny.vsm distance.vtp --from '{"vertices": [5]}'
 //   smg preview bunny.vsm preview.vtp --points 5000
 //
 // Exit status: 0; 1 with one line on standard error; 2 for wrong usage.
@@ -52,7 +53,8 @@ int succeed()
 int main(int argc, char** argv)
 {
   CLI::App program(
-    "Streaming multigrid for Poisson problems, deformations and smoothing on meshes of any size",
+    "Streaming multigrid for Poisson problems, deformations, smoothing and distances on meshes of "
+    "any size",
     "smg");
   program.set_version_flag("--version", SMG_VERSION);
   program.require_subcommand(1);
@@ -63,6 +65,7 @@ int main(int argc, char** argv)
   addDeformCommand(program, action);
   addSmoothCommand(program, action);
   addBlendCommand(program, action);
+  addDistanceCommand(program, action);
   addPreviewCommand(program, action);
   try
   {

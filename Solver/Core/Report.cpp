@@ -113,6 +113,13 @@ std::string Report::json(int indent) const
   {
     addResults(*this, out);
   }
+  if (this->distance)
+  {
+    out["distance"] = { { "sources", this->distance->sources },
+      { "unreached", this->distance->unreached }, { "unsettled", this->distance->unsettled },
+      { "mesh_readings", this->distance->mesh_readings }, { "maximum", this->distance->maximum },
+      { "mean", this->distance->mean } };
+  }
   out["notes"] = this->notes;
   return out.dump(indent);
 }

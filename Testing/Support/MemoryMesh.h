@@ -20,15 +20,17 @@ public:
   explicit MemoryMesh(StreamMesh mesh, std::int64_t blockCells = 1000)
     : Mesh(std::move(mesh))
     , BlockCells(blockCells)
-    , All(this->Mesh)
+    , Info(MemorySource(this->Mesh).info())
   {
   }
 
-  const StreamInfo& info() const override { return this->All.info(); }
+  const StreamInfo& info() const override { return this->Info; }
+  StreamInfo& info() { return this->Info; }
 
   std::unique_ptr<MeshSource> source(
     std::vector<std::string> vertexColumns, std::vector<std::string> cellColumns) const override
   {
+    ++this->Readings;
     StreamMesh part = this->Mesh;
     part.vertexColumns = chosen(this->Mesh.vertexColumns, vertexColumns);
     if (hasColumn(this->Mesh.cellColumns, CellFlagsName) &&
@@ -41,6 +43,8 @@ public:
   }
 
   const StreamMesh& mesh() const { return this->Mesh; }
+  /** How often the mesh was read. */
+  int readings() const { return this->Readings; }
 
 private:
   static bool hasColumn(const std::vector<Column>& columns, const std::string& name)
@@ -67,7 +71,8 @@ private:
 
   StreamMesh Mesh;
   std::int64_t BlockCells;
-  MemorySource All;
+  StreamInfo Info;
+  mutable int Readings = 0;
 };
 
 } // namespace smg::testing

@@ -66,6 +66,20 @@ struct SMG_EXPORT Report
     double swept = 0;
   };
 
+  /** What a distance found. */
+  struct Distance
+  {
+    std::int64_t sources = 0;   ///< source vertices, or wall triangles
+    std::int64_t unreached = 0; ///< vertices whose distance is infinite
+    /** Vertices that had changes to pass on when the last pass ended: 0 unless it was the last one
+     * allowed. */
+    std::int64_t unsettled = 0;
+    /** How often the passes read the mesh, the parts of it that they skip left out. */
+    double mesh_readings = 0;
+    double maximum = 0; ///< of the distances that are finite
+    double mean = 0;    ///< of the vertices whose distance is finite
+  };
+
   /** A Dirichlet, flux or Robin condition and what the solution makes of it. */
   struct Condition
   {
@@ -152,6 +166,7 @@ struct SMG_EXPORT Report
    * the sum of the magnitudes of all terms, from -1 to 1; of the size of the tolerance. 0 if
    * nothing flows. */
   std::vector<double> balance;
+  std::optional<Distance> distance; ///< of a distance; else none
   /** Remarks for the user, a sentence each: how free components were treated, why the solve did not
    * converge ... */
   std::vector<std::string> notes;

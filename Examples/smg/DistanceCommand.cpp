@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshCommand.h"
+#include "PlacesOption.h"
+
+#include "IO/AnyFormat/FormatTable.h"
+#include "IO/AnyFormat/MeshFile.h"
+#include "smg/Distance.h"
+#include "smg/SolvedMesh.h"
+
+#include <cstdio>
+#include <utility>
+
+namespace
+{
+
+class DistanceCommand : public MeshCommand
+{
+public:
+  DistanceCommand()
+    : MeshCommand("measuring")
+  {
+  }
+
+  void addOptions(CLI::App& command)
+  {
+    this->addFiles(command,
+      "The mesh with its distances: " + smg::suffixList(smg::FormatUse::WriteColumns, "or") +
+        " in stream order; of a mesh file IN, " +
+        smg::suffixList(smg::FormatUse::RestoreColumns, "and") +
+        " in the order of IN, unless that has a column OriginalId or points are welded");
+    this->From.addTo(
+      command, "The sources, or with --wall the wall, which is the whole boundary by default");
+    command.add_flag("--wall", this->Description.wall,
+      "Of tetrahedra: the Euclidean distance to the boundary instead of that along paths");
+    command.add_flag("--source", this->Description.source,
+      "Add the column DistanceSource: the number of the nearest source vertex");
+    command.add_flag("--direction", this->Description.direction,
+      "Add the column DistanceDirection: the unit gradient of the distance");
+    command
+      .add_option("--max-passes", this->Options.maxPasses, "Maximum number of passes over the mesh")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+    this->addInputAndCommon(command, this->Options.memoryLimit);
+    command.footer(
+      "WHERE is one of {\"vertices\": [numbers]}, {\"nearest\": [[x, y, z], ...]}, "
+      "{\"boundary\": true}, {\"sphere\": [x, y, z, r]}, {\"box\": [x0, y0, z0, x1, y1, z1]}, "
+      "{\"halfspace\": [nx, ny, nz, d]}, {\"tag\": [\"column\", value]}, {\"mask\": \"column\"}");
+  }
+
+  /** Throws CLI::Error if the options do not say from what the distance is. */
+  void checkUsage() const
+  {
+    if (this->From.given().empty() && !this->Description.wall)
+    {
+      throw CLI::RequiredError("--from or --wall");
+    }
+  }
+
+protected:
+  std::string resultColumns() const override { return "a distance"; }
+
+  void readTask() override
+  {
+    for (const std::string& from : this->From.given())
+    {
+      smg::checkIsNotInput(from, this->Out, "the file that says where the distance is 0");
+    }
+    this->Description.from = this->From.places();
+  }
+
+  std::unique_ptr<smg::Solution> solveOn(
+    const smg::VsmReader& mesh, smg::ProgressFunction progress) override
+  {
+    this->Options.memoryLimit = this->memoryBytes(this->Options.memoryLimit);
+    this->Options.threads = this->threads;
+    this->Options.scratch = this->scratch;
+    this->Options.progress = std::move(progress);
+    return smg::distance(mesh, this->Description, this->Options, "--from");
+  }
+
+  std::string fateOfIsolated(std::int64_t vertices, bool ordered) const override
+  {
+    return ordered ? vertices == 1 ? "has the Distance 0." : "have the Distance 0."
+                   : this->MeshCommand::fateOfIsolated(vertices, ordered);
+  }
+
+  void writeResult(const smg::VsmReader& mesh, smg::Solution& solution, const Writer& write,
+    smg::Report& /*report*/, const smg::ProgressFunction& progress) const override
+  {
+    smg::ReplacedColumns result(mesh, solution, smg::distanceColumns(this->Description));
+    write(result, progress);
+  }
+
+  std::int64_t memoryLimit() const override { return this->Options.memoryLimit; }
+
+  void print(const smg::Report& report) const override
+  {
+    const smg::Report::Distance& found = *report.distance;
+    std::printf("%lld vertices, %lld cells, %lld %s, %d passes (the mesh read %.2f times)\n",
+      static_cast<long long>(report.vertices), static_cast<long long>(report.cells),
+      static_cast<long long>(found.sources), this->Description.wall ? "wall faces" : "sources",
+      report.passes, found.mesh_readings);
+    std::printf("  distance: maximum %.6g, mean %.6g", found.maximum, found.mean);
+    if (found.unreached > 0)
+    {
+      std::printf(", %lld vertices not reached", static_cast<long long>(found.unreached));
+    }
+    std::printf("\n");
+  }
+
+private:
+  PlacesOption From{ "--from" };
+  smg::DistanceDescription Description;
+  smg::DistanceOptions Options;
+};
+
+} // namespace
+
+void addDistanceCommand(CLI::App& program, Action& action)
+{
+  auto distance = std::make_shared<DistanceCommand>();
+  CLI::App* command =
+    program.add_subcommand("distance", "Measure the distance of all vertices from some of them");
+  distance->addOptions(*command);
+  command->callback(
+    [distance, &action]
+    {
+      distance->checkUsage();
+      action = [distance] { distance->run(); };
+    });
+}

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "MeshCommand.h"
+
+#include "OpenInput.h"
+#include "ProgressBar.h"
+
+#include "IO/AnyFormat/MeshFile.h"
+#include "IO/External/Workspace.h"
+#include "IO/Files/PartialProgress.h"
+#include "Solver/Stream/OriginalNumbers.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+namespace
+{
+
+/** Prints time and memory, and the notes. */
+void printCosts(const smg::Report& report)
+{
+  std::printf("%.2f s (%.2f s of CPU), %.1f MiB of accounted memory, %.1f MiB resident\n",
+    report.seconds.total, report.cpu_seconds,
+    static_cast<double>(report.pool_bytes_peak) / (1 << 20),
+    static_cast<double>(report.rss_bytes_peak) / (1 << 20));
+  for (const std::string& note : report.notes)
+  {
+    std::printf("%s\n", note.c_str());
+  }
+}
+
+} // namespace
+
+void MeshCommand::addFiles(CLI::App& command, const std::string& result)
+{
+  command.add_option("IN", this->In, "The mesh, preferably a .vsm file")->required();
+  command.add_option("OUT", this->Out, result)->required();
+}
+
+void MeshCommand::addInputAndCommon(CLI::App& command, std::int64_t memoryLimit)
+{
+  this->Input.addTo(command);
+  this->addTo(command, std::to_string(memoryLimit >> 20));
+  command.get_option("--memory")
+    ->description("Memory limit in MiB; without it, 256 MiB to convert IN");
+  this->addThreadsTo(command);
+}
+
+void MeshCommand::run()
+{
+  const auto start = std::chrono::steady_clock::now();
+  const auto secondsSince = [](std::chrono::steady_clock::time_point then)
+  { return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count(); };
+  ResultFile out(
+    { this->In, this->Out, this->scratch, this->Input.welds(), this->resultColumns() });
+  smg::checkIsNotInput(this->In, this->Out);
+  smg::checkIsNotInput(this->File, this->Out, "the file that says what to do");
+  this->checkReport({ this->In, this->Out, this->File });
+  this->readTask();
+  smg::Report report;
+  {
+    ProgressBar bar(this->Title, this->quiet);
+    const std::unique_ptr<smg::OpenedMesh> mesh = openInput(this->In, *this,
+      smg::partOf(bar.function(), 0.0, 0.2), smg::StreamOrder::BreadthFirst, this->Input);
+    if (mesh->conversion())
+    {
+      this->Conversion = *mesh->conversion();
+    }
+    const double convertSeconds = this->Conversion ? secondsSince(start) : 0.0;
+    const double begin = this->Conversion ? 0.2 : 0.0;
+    out.chooseOrder(mesh->reader(), mesh->conversion());
+    report = this->solveAndWrite(mesh->reader(), out, smg::partOf(bar.function(), begin, 1.0));
+    if (this->Conversion)
+    {
+      const std::vector<std::string> more = this->notesOn(*this->Conversion, out);
+      report.notes.insert(report.notes.end(), more.begin(), more.end());
+    }
+    report.seconds.convert = convertSeconds;
+    report.seconds.total = secondsSince(start);
+  }
+  this->writeReport(report.json());
+  this->warn(report);
+  if (!this->quiet)
+  {
+    this->print(report);
+    printCosts(report);
+  }
+}
+
+smg::Report MeshCommand::solveAndWrite(
+  const smg::VsmReader& mesh, const ResultFile& out, const smg::ProgressFunction& progress)
+{
+  const std::unique_ptr<smg::Solution> solution =
+    this->solveOn(mesh, smg::partOf(progress, 0.0, 0.9));
+  smg::Report report = solution->report();
+  std::vector<std::string> notes;
+  this->writeResult(
+    mesh, *solution,
+    [&](smg::MeshSource& result, const smg::ProgressFunction& writing)
+    { notes = out.write(mesh, result, this->writerMemory(), writing); },
+    report, smg::partOf(progress, 0.9, 1.0));
+  report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+  return report;
+}
+
+std::int64_t MeshCommand::writerMemory() const
+{
+  constexpr std::int64_t MostMemory = std::int64_t(64) << 20;
+  return std::clamp(this->memoryLimit() / 4, smg::Workspace::LeastMemory, MostMemory);
+}
+
+std::vector<std::string> MeshCommand::notesOn(
+  const smg::ConversionReport& conversion, const ResultFile& out) const
+{
+  const bool ordered = out.keepsOrder();
+  const bool whole = ordered || smg::kindOfOutput(this->Out) == smg::MeshFileKind::Vsm;
+  std::vector<std::string> notes;
+  if (const std::int64_t isolated = conversion.isolated_vertices; isolated > 0)
+  {
+    notes.push_back(
+      std::to_string(isolated) +
+      (isolated == 1 ? " vertex belongs to no cell: it " : " vertices belong to no cell: they ") +
+      (whole            ? this->fateOfIsolated(isolated, ordered)
+        : isolated == 1 ? "is left out."
+                        : "are left out."));
+  }
+  if (!out.rewritesInput())
+  {
+    notes.insert(notes.end(), conversion.notes.begin(), conversion.notes.end());
+  }
+  if (!ordered && smg::kindOfInput(this->In) == smg::MeshFileKind::Indexed)
+  {
+    const bool hasIds =
+      smg::kindOfOutput(this->Out) != smg::MeshFileKind::Stream && !conversion.keeps_numbers;
+    notes.push_back(hasIds
+                      ? std::string("The vertices are in stream order; ") + smg::OriginalIdName +
+                          " names their places in " + this->In.string() + '.'
+                      : "The vertices are in stream order.");
+  }
+  return notes;
+}

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CommonOptions.h"
+#include "InputOptions.h"
+#include "ResultFile.h"
+
+#include "smg/Convert.h"
+#include "smg/Solve.h"
+#include "smg/VsmReader.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/** Base of the commands that compute something on a mesh: opens the mesh, computes, writes the mesh
+ * with the result and reports. */
+class MeshCommand : public CommonOptions
+{
+public:
+  virtual ~MeshCommand() = default;
+
+  /** Runs the command. Throws smg::Error. */
+  void run();
+
+protected:
+  /** `title` is the title of the progress bar. */
+  explicit MeshCommand(std::string title)
+    : Title(std::move(title))
+  {
+  }
+
+  /** Adds IN and OUT; `result` describes OUT. */
+  void addFiles(CLI::App& command, const std::string& result);
+  /** Adds the options of the input and the common ones; `memoryLimit` is the default limit. */
+  void addInputAndCommon(CLI::App& command, std::int64_t memoryLimit);
+
+  /** The columns of the result, as ResultFile::Options::columns. */
+  virtual std::string resultColumns() const = 0;
+  /** Reads the task file, before the mesh is read. */
+  virtual void readTask() = 0;
+  /** Computes the result; foreseeable failures are reported first. */
+  virtual std::unique_ptr<smg::Solution> solveOn(
+    const smg::VsmReader& mesh, smg::ProgressFunction progress) = 0;
+  /** The treatment of this many isolated vertices in an output with all of IN, as the end of a
+   * sentence. `ordered`: the output has the order of the mesh file IN. */
+  virtual std::string fateOfIsolated(std::int64_t vertices, bool /*ordered*/) const
+  {
+    return vertices == 1 ? "stays where it is." : "stay where they are.";
+  }
+  /** Writes a mesh stream, which it reads to its end, as OUT. */
+  using Writer = std::function<void(smg::MeshSource& result, const smg::ProgressFunction&)>;
+  /** Passes the mesh with the result, as a stream, to `write`. May add to the report. */
+  virtual void writeResult(const smg::VsmReader& mesh, smg::Solution& solution, const Writer& write,
+    smg::Report& report, const smg::ProgressFunction& progress) const = 0;
+  /** The memory limit of solveOn(), bytes. */
+  virtual std::int64_t memoryLimit() const = 0;
+  /** Warns of what the user must know at once. */
+  virtual void warn(const smg::Report& /*report*/) const {}
+  /** Prints what was found; what it cost follows. */
+  virtual void print(const smg::Report& report) const = 0;
+  /** Bytes for the buffers of a writer while the solution holds its memory. */
+  std::int64_t writerMemory() const;
+
+  std::filesystem::path In, Out;
+  InputOptions Input;         ///< of a file that is not a .vsm
+  std::filesystem::path File; ///< the task: problem or handles
+  /** The report on the conversion of IN; none if IN is a .vsm file. */
+  std::optional<smg::ConversionReport> Conversion;
+
+private:
+  /** Computes, writes OUT and returns the report. */
+  smg::Report solveAndWrite(
+    const smg::VsmReader& mesh, const ResultFile& out, const smg::ProgressFunction& progress);
+  /** Notes for the user on the conversion of IN. */
+  std::vector<std::string> notesOn(
+    const smg::ConversionReport& conversion, const ResultFile& out) const;
+
+  std::string Title;
+};

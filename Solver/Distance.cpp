@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "smg/Distance.h"
+
+#include "Solver/Distance/DistanceRun.h"
+#include "Solver/Distance/PathDistance.h"
+#include "smg/Error.h"
+
+namespace smg
+{
+
+namespace
+{
+
+void require(bool holds, const char* sentence)
+{
+  if (!holds)
+  {
+    throw Error(sentence);
+  }
+}
+
+} // namespace
+
+std::vector<ColumnSpec> distanceColumns(const DistanceDescription& description)
+{
+  std::vector<ColumnSpec> columns{ { DistanceName, ScalarType::Float64, 1 } };
+  if (description.source)
+  {
+    columns.push_back({ DistanceSourceName, ScalarType::Int64, 1 });
+  }
+  if (description.direction)
+  {
+    columns.push_back({ DistanceDirectionName, ScalarType::Float64, 3 });
+  }
+  return columns;
+}
+
+std::unique_ptr<Solution> distance(const StoredMesh& mesh, const DistanceDescription& description,
+  const DistanceOptions& options, const std::string& name)
+{
+  require(options.memoryLimit > 0, "the memory limit must be positive");
+  require(options.threads >= 0, "the number of threads must not be negative");
+  require(options.maxPasses >= 1, "at least one pass must be allowed");
+  return pathDistance(mesh, description, std::make_unique<DistanceRun>(options), name);
+}
+
+} // namespace smg

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Distance/DistanceRun.h"
+
+namespace smg
+{
+
+void DistanceRun::finishReport()
+{
+  Report& r = this->report;
+  r.pool_bytes_peak = this->pool.peak();
+  r.rss_bytes_peak = peakResidentBytes();
+  for (const auto& [name, level, statistics] : this->traffic.kinds())
+  {
+    r.bytes_by_kind.push_back({ name, level, statistics.bytesRead, statistics.bytesWritten });
+    r.bytes_read += statistics.bytesRead;
+    r.bytes_written += statistics.bytesWritten;
+  }
+  r.seconds.io_wait = this->traffic.waitSeconds();
+  r.seconds.total = this->Wall.seconds();
+  r.seconds.solve = r.seconds.total - r.seconds.build;
+  r.cpu_seconds = processSeconds() - this->CpuAtStart;
+}
+
+} // namespace smg

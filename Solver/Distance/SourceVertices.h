@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Description/Selection.h"
+#include "smg/MeshSource.h"
+#include "smg/Region.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** The sources of a distance: selections on a mesh. */
+class SourceVertices
+{
+public:
+  /** `name` is the name of the description in messages. Throws Error if a selection is invalid, or
+   * there is none. */
+  SourceVertices(const std::vector<Where>& from, const StreamInfo& mesh, const std::string& name);
+
+  /** The stream with the columns that the selections need. */
+  std::unique_ptr<MeshSource> read(const StoredMesh& mesh) const;
+
+  /** Reads the mesh, if a selection needs that before the stream of the march. */
+  void prepare(const StoredMesh& mesh, const std::filesystem::path& scratch);
+  /** For the vertices of the next block of the stream: 1 at sources, else 0. */
+  std::span<const std::uint8_t> at(const MeshBlock& block);
+  /** The number of vertex `i` of the block in the original file, or in the stream. */
+  std::int64_t numberOf(const MeshBlock& block, std::size_t i) const;
+  /** To be called after the last block: throws Error if a selection was empty. */
+  void finish();
+
+private:
+  MeshColumns Columns;
+  std::vector<std::unique_ptr<Selection>> Selections; ///< null: everywhere
+  bool Prepared = false;
+  std::vector<std::uint8_t> Selected; ///< of the block
+};
+
+} // namespace smg

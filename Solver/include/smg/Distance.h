@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "smg/Error.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
+#include "smg/Region.h"
+#include "smg/Solve.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** Vertex column with the distance (float64), in the unit of the mesh; infinite where no source is
+ * reached. */
+inline constexpr const char* DistanceName = "Distance";
+/** Vertex column with the number of the nearest source (int64); -1: none. */
+inline constexpr const char* DistanceSourceName = "DistanceSource";
+/** Vertex column with the unit gradient of the distance (3 x float64); 0 where there is none. */
+inline constexpr const char* DistanceDirectionName = "DistanceDirection";
+
+/** A distance: from what, and which of its results are wanted. */
+struct DistanceDescription
+{
+  /**
+   * The sources, at least one: vertices with the distance 0. What selects cells selects their
+   * vertices. Of a wall distance they select faces of the boundary; without any, all of it is wall.
+   */
+  std::vector<Where> from;
+  /**
+   * Of a tetrahedral mesh: the Euclidean distance to the nearest boundary triangle, through
+   * anything, instead of the length of the shortest path within the mesh.
+   */
+  bool wall = false;
+  /**
+   * The nearest source of each vertex: the number of a vertex in the original file, or in the
+   * stream if the mesh has no column OriginalId. Of a wall distance that of the nearest corner of
+   * the nearest triangle.
+   */
+  bool source = false;
+  /** The unit gradient: where the shortest path comes from, away from the source. 0 at sources. */
+  bool direction = false;
+};
+
+/** How to compute distances. The result depends on `maxPasses` alone. */
+struct DistanceOptions
+{
+  /** Limit of the accounted memory, bytes; more than 0. */
+  std::int64_t memoryLimit = std::int64_t(1) << 30;
+  /** Compute threads of a wall distance, at least 1; 0: one a core. */
+  int threads = 0;
+  /** Largest number of passes over the mesh, at least 1. */
+  int maxPasses = 200;
+  /** Folder for scratch files; empty: the system's temporary folder. */
+  std::filesystem::path scratch;
+  /** Progress callback; empty: none. */
+  ProgressFunction progress;
+};
+
+/** The columns of the distances of a description: Distance, then DistanceSource and
+ * DistanceDirection if wanted. Their components are the columns of the Solution. */
+SMG_EXPORT std::vector<ColumnSpec> distanceColumns(const DistanceDescription& description);
+
+/**
+ * Computes the distance of every vertex from sources: along a surface, through a tetrahedral mesh,
+ * or to its walls.
+ *
+ * Distances along paths solve the eikonal equation |grad d| = 1 by a front that marches through a
+ * window of the stream, forwards and backwards until nothing changes: docs/distance.md. The memory
+ * grows with the span of the stream; if that is not known, the mesh is read once more.
+ *
+ * @param mesh the mesh; read once, and once more if sources are selected by points, cells or the
+ * boundary; of a wall distance read twice or more
+ * @param description sources and wanted results
+ * @param options memory, scratch files, progress
+ * @param name what error messages call the description, for instance its file
+ * @return the columns of distanceColumns(); Report::distance has the figures. It keeps its scratch
+ * files until it is destroyed.
+ * @throws Error if there is no source or a selection is empty or not valid, an option is out of
+ * range, the mesh is not valid, the memory limit is below the need (with both figures, and before
+ * the mesh is read if its span is known), or a scratch file cannot be written or read. Vertices
+ * that no source reaches are no error: see Report::Distance::unreached.
+ * @throws Cancelled if the progress callback returns false
+ */
+SMG_EXPORT std::unique_ptr<Solution> distance(const StoredMesh& mesh,
+  const DistanceDescription& description, const DistanceOptions& options = {},
+  const std::string& name = "distance");
+
+} // namespace smg

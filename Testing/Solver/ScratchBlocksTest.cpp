@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Storage/ScratchBlocks.h"
+#include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace smg::testing
+{
+namespace
+{
+
+std::vector<std::byte> bytesOf(std::size_t count, int value)
+{
+  return std::vector<std::byte>(count, static_cast<std::byte>(value));
+}
+
+std::vector<std::byte> readAll(ScratchBlocks& blocks, std::int64_t index)
+{
+  std::vector<std::byte> bytes(blocks.bytes(index));
+  blocks.read(index, bytes);
+  return bytes;
+}
+
+} // namespace
+
+TEST(ScratchBlocks, AreWrittenAndReadInAnyOrder)
+{
+  const TemporaryFolder folder;
+  IoStatistics statistics;
+  ScratchBlocks blocks(folder.path() / "blocks", statistics);
+  blocks.write(3, bytesOf(100, 3));
+  blocks.write(0, bytesOf(50, 1));
+  blocks.write(5, bytesOf(200, 5));
+  blocks.willRead(3);
+  EXPECT_EQ(readAll(blocks, 5), bytesOf(200, 5));
+  EXPECT_EQ(readAll(blocks, 0), bytesOf(50, 1));
+  EXPECT_EQ(readAll(blocks, 3), bytesOf(100, 3));
+  EXPECT_EQ(statistics.bytesWritten, 350);
+  EXPECT_EQ(statistics.bytesRead, 350);
+  EXPECT_EQ(folder.entries(), 0) << "the file has a name";
+}
+
+TEST(ScratchBlocks, AreRewritten)
+{
+  const TemporaryFolder folder;
+  IoStatistics statistics;
+  ScratchBlocks blocks(folder.path() / "blocks", statistics);
+  blocks.write(0, bytesOf(100, 1));
+  blocks.write(1, bytesOf(100, 2));
+  blocks.write(0, bytesOf(60, 3));
+  EXPECT_EQ(readAll(blocks, 0), bytesOf(60, 3));
+  blocks.write(0, bytesOf(300, 4));
+  EXPECT_EQ(readAll(blocks, 0), bytesOf(300, 4));
+  EXPECT_EQ(readAll(blocks, 1), bytesOf(100, 2));
+}
+
+TEST(ScratchBlocks, HaveNoBytesBeforeTheyAreWritten)
+{
+  const TemporaryFolder folder;
+  IoStatistics statistics;
+  ScratchBlocks blocks(folder.path() / "blocks", statistics);
+  EXPECT_EQ(blocks.bytes(7), 0U);
+  EXPECT_TRUE(readAll(blocks, 7).empty());
+  blocks.write(1, {});
+  EXPECT_TRUE(readAll(blocks, 1).empty());
+  std::vector<std::byte> room(4);
+  expectError([&] { blocks.read(1, room); }, "blocks");
+}
+
+} // namespace smg::testing
