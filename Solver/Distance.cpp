@@ -3,7 +3,10 @@
 
 #include "Solver/Distance/DistanceRun.h"
 #include "Solver/Distance/PathDistance.h"
+#include "Solver/Distance/WallDistance.h"
 #include "smg/Error.h"
+
+#include <utility>
 
 namespace smg
 {
@@ -41,7 +44,9 @@ std::unique_ptr<Solution> distance(const StoredMesh& mesh, const DistanceDescrip
   require(options.memoryLimit > 0, "the memory limit must be positive");
   require(options.threads >= 0, "the number of threads must not be negative");
   require(options.maxPasses >= 1, "at least one pass must be allowed");
-  return pathDistance(mesh, description, std::make_unique<DistanceRun>(options), name);
+  auto run = std::make_unique<DistanceRun>(options);
+  return description.wall ? wallDistance(mesh, description, std::move(run), name)
+                          : pathDistance(mesh, description, std::move(run), name);
 }
 
 } // namespace smg

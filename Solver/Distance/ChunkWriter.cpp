@@ -45,7 +45,7 @@ void ChunkWriter::CellList::add(Pool& pool, const std::uint32_t* corners, std::s
   this->Used += bytes;
 }
 
-ChunkWriter::ChunkWriter(ChunkedMesh& to, SourceVertices& sources, Pool& pool)
+ChunkWriter::ChunkWriter(ChunkedMesh& to, DistanceSources& sources, Pool& pool)
   : To(to)
   , From(sources)
   , Owner(pool)
@@ -93,7 +93,7 @@ void ChunkWriter::addVertices(const MeshBlock& block)
   {
     this->Numbers.extendRaw(end);
   }
-  const std::span<const std::uint8_t> isSource = this->From.at(block);
+  const std::span<const std::uint8_t> isSource = this->From.verticesAt(block);
   for (std::size_t i = 0; i < isSource.size(); ++i)
   {
     const std::int64_t vertex = first + static_cast<std::int64_t>(i);

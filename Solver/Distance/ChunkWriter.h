@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Distance/ChunkedMesh.h"
-#include "Solver/Distance/SourceVertices.h"
+#include "Solver/Distance/DistanceSources.h"
 #include "Solver/Storage/Buffer.h"
 #include "Solver/Storage/Ring.h"
 
@@ -17,7 +17,7 @@ namespace smg
 class ChunkWriter
 {
 public:
-  ChunkWriter(ChunkedMesh& to, SourceVertices& sources, Pool& pool);
+  ChunkWriter(ChunkedMesh& to, DistanceSources& sources, Pool& pool);
 
   /** Adds the next block, which has been checked: see StreamCheck. */
   void add(const MeshBlock& block);
@@ -54,7 +54,7 @@ private:
   void writeState(std::int64_t chunk, std::int64_t first, std::int64_t count);
 
   ChunkedMesh& To;
-  SourceVertices& From;
+  DistanceSources& From;
   Pool& Owner;
   Ring<double> Points;
   Ring<std::uint8_t> Marks;   ///< VertexFlag of open vertices

@@ -97,7 +97,7 @@ void checkExtent(const std::vector<double>& low, const std::vector<double>& high
 
 /** Cuts the mesh into chunks. */
 void readMesh(
-  const StoredMesh& mesh, SourceVertices& sources, ChunkedMesh& chunks, DistanceRun& run)
+  const StoredMesh& mesh, DistanceSources& sources, ChunkedMesh& chunks, DistanceRun& run)
 {
   const std::unique_ptr<MeshSource> source = sources.read(mesh);
   StreamCheck check(chunks.plan.cellType);
@@ -170,7 +170,11 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   std::int64_t chunkVertices)
 {
   const StreamInfo& info = mesh.info();
-  SourceVertices sources(description.from, info, name);
+  if (description.from.empty())
+  {
+    throw Error(name + ": a distance needs at least one source.");
+  }
+  DistanceSources sources(description.from, DataPlace::Vertices, info, name);
   ChunkPlan plan =
     ChunkPlan::of(info, info.span >= 0 ? info.span : measuredSpan(mesh), description.source);
   if (chunkVertices > 0)

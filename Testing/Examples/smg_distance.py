@@ -1,0 +1,94 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""smg distance as a black box: results, orders of files, reports, errors and exit codes."""
+
+import json
+import math
+
+from program import load, read_vtk_xml, run, write_medit, write_torus
+from tetrahedra import tetrahedra
+from torus import torus
+
+POINTS, _ = torus(60, 30)
+
+
+def distances(mesh, out, *arguments, **options):
+    """Runs smg distance and returns the arrays of the result."""
+    run("distance", mesh, out, *arguments, **options)
+    return read_vtk_xml(out)
+
+
+def flat(values):
+    return [value[0] for value in values]
+
+
+def test_columns_in_the_order_of_the_file():
+    write_torus("torus.obj", 60, 30)
+    done = run("distance", "torus.obj", "torus.vtp", "--from", '{"vertices": [7]}', "--source",
+               "--direction", "--report", "report.json")
+    assert done.stderr == "" and "1 sources" in done.stdout and "maximum" in done.stdout
+    arrays = read_vtk_xml("torus.vtp")
+    distance, report = flat(arrays["Distance"]), load("report.json")
+    assert distance[7] == 0 and min(distance[:7] + distance[8:]) > 0
+    assert max(distance) == report["distance"]["maximum"]
+    assert report["distance"]["sources"] == 1 and report["distance"]["unreached"] == 0
+    assert report["converged"] and report["passes"] == 1 and report["vertices"] == 1800
+    assert set(flat(arrays["DistanceSource"])) == {7}
+    for point, value, direction in zip(POINTS, distance, arrays["DistanceDirection"]):
+        # No path is shorter than the straight line, nor longer than half around both circles.
+        assert math.dist(point, POINTS[7]) <= value * (1 + 1e-6) < 15
+        assert abs(math.hypot(*direction) - (value > 0)) < 1e-6
+
+
+def test_sources_add_up():
+    write_torus("torus.obj", 60, 30)
+    with open("places.json", "w", encoding="utf-8") as file:
+        json.dump([{"vertices": [900]}, {"nearest": [POINTS[33]]}], file)
+    single = [flat(distances("torus.obj", "one.vtp", "--from", '{"vertices": [%d]}' % v)["Distance"])
+              for v in (7, 900, 33)]
+    both = flat(distances("torus.obj", "both.vtp", "--from", '{"vertices": [7]}', "--from",
+                          "places.json")["Distance"])
+    assert all(abs(a - min(b)) < 0.1 for a, b in zip(both, zip(*single)))
+    assert both[7] == both[900] == both[33] == 0
+
+
+def test_the_same_for_any_memory():
+    write_torus("torus.obj", 300, 200)
+    run("convert", "torus.obj", "torus.vsm", "--quiet")
+    results = [distances("torus.vsm", "torus.vtp", "--from", '{"vertices": [1]}', *memory)
+               for memory in ((), ("--memory", "16"))]
+    assert results[0]["Distance"] == results[1]["Distance"]
+
+
+def test_walls_of_a_box():
+    points, cells = tetrahedra(5)
+    write_medit("box.mesh", points, cells)
+    wall = flat(distances("box.mesh", "box.vtu", "--wall")["Distance"])
+    for point, value in zip(points, wall):
+        expected = min(min(x, 4 - x) for x in point)
+        assert abs(value - expected) < 1e-6, (point, value, expected)
+    floor = flat(distances("box.mesh", "box.vtu", "--wall", "--from",
+                           '{"halfspace": [0, 0, -1, 0]}')["Distance"])
+    assert all(abs(value - point[2]) < 1e-6 for point, value in zip(points, floor))
+
+
+def test_errors():
+    write_torus("torus.obj", 60, 30)
+    usage = run("distance", "torus.obj", "out.vtp", code=2).stderr
+    assert "--from or --wall is required" in usage
+    for arguments, sentence in (
+            (("--from", "{"), "--from"),
+            (("--from", "absent.json"), "absent.json: cannot be opened"),
+            (("--from", '{"vertices": [1800]}'), "--from: from[0].vertices: the mesh has no vertex"),
+            (("--from", '{"boundary": true}'), "--from: from[0]: no vertex of the mesh is on a boundary"),
+            (("--wall",), "a wall distance is that of a tetrahedral mesh")):
+        error = run("distance", "torus.obj", "out.vtp", *arguments, code=1).stderr
+        assert sentence in error, error
+    error = run("distance", "torus.obj", "out.obj", "--from", '{"vertices": [1]}', code=1).stderr
+    assert "cannot hold a distance" in error, error
+
+
+for each in (test_columns_in_the_order_of_the_file, test_sources_add_up,
+             test_the_same_for_any_memory, test_walls_of_a_box, test_errors):
+    each()
+    print("passed", each.__name__)

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Solver/DistanceTesting.h"
+#include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/SolutionRanges.h"
+
+#include "Solver/Distance/TriangleTree.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+// Distances to the walls of tetrahedral meshes, against exact ones and all triangles.
+
+namespace smg::testing
+{
+namespace
+{
+
+DistanceDescription wallOf(std::vector<Where> from = {})
+{
+  DistanceDescription description;
+  description.from = std::move(from);
+  description.wall = description.source = description.direction = true;
+  return description;
+}
+
+/** The boundary triangles of a mesh in memory. */
+std::vector<TrianglePoints> boundaryOf(const StreamMesh& mesh)
+{
+  std::map<std::vector<std::int64_t>, int> uses;
+  for (std::int64_t c = 0; c < mesh.cells(); ++c)
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      std::vector<std::int64_t> face;
+      for (int n = 1; n < 4; ++n)
+      {
+        face.push_back(mesh.corners[4 * c + (k + n) % 4]);
+      }
+      std::ranges::sort(face);
+      ++uses[face];
+    }
+  }
+  std::vector<TrianglePoints> boundary;
+  for (const auto& [face, count] : uses)
+  {
+    for (int k = 0; k < 3 && count == 1; ++k)
+    {
+      TrianglePoints& triangle = k == 0 ? boundary.emplace_back() : boundary.back();
+      std::copy_n(mesh.positions.data() + 3 * face[k], 3, triangle.point[k]);
+    }
+  }
+  return boundary;
+}
+
+/** The distance of a point to the nearest of the triangles. */
+double leastOf(const std::vector<TrianglePoints>& triangles, const double* point)
+{
+  double least = HUGE_VAL;
+  for (const TrianglePoints& triangle : triangles)
+  {
+    const Vector way = difference(nearestPoint(triangle, point).data(), point);
+    least = std::min(least, std::sqrt(dot(way, way)));
+  }
+  return least;
+}
+
+/** A cube with a spherical hole: the corners of cells near its middle are removed. */
+StreamMesh hollowCube(int n)
+{
+  IndexedTestMesh cube = unitCube(n);
+  IndexedTestMesh hollow = cube;
+  hollow.corners.clear();
+  for (std::int64_t c = 0; c < cube.cells(); ++c)
+  {
+    const std::int64_t* corner = cube.corners.data() + 4 * c;
+    double middle[3] = {};
+    for (int k = 0; k < 12; ++k)
+    {
+      middle[k % 3] += cube.positions[3 * corner[k / 3] + k % 3] / 4;
+    }
+    if (std::hypot(middle[0] - 0.5, middle[1] - 0.5, middle[2] - 0.5) > 0.2)
+    {
+      hollow.corners.insert(hollow.corners.end(), corner, corner + 4);
+    }
+  }
+  return toStream(hollow);
+}
+
+} // namespace
+
+TEST(WallDistance, IsThatOfAllBoundaryTriangles)
+{
+  const MemoryMesh mesh(hollowCube(12));
+  const Solved solved = measure(mesh, wallOf());
+  const std::vector<TrianglePoints> boundary = boundaryOf(mesh.mesh());
+  EXPECT_EQ(solved.report.distance->sources, static_cast<std::int64_t>(boundary.size()));
+  EXPECT_EQ(solved.report.passes, 1);
+  for (std::int64_t v = 0; v < mesh.mesh().vertices(); ++v)
+  {
+    EXPECT_NEAR(
+      solved.values(v, 0), leastOf(boundary, mesh.mesh().positions.data() + 3 * v), 1e-14);
+  }
+}
+
+TEST(WallDistance, PointsAwayFromTheWall)
+{
+  const MemoryMesh mesh(hollowCube(10));
+  const Solved solved = measure(mesh, wallOf());
+  const std::vector<TrianglePoints> boundary = boundaryOf(mesh.mesh());
+  for (std::int64_t v = 0; v < mesh.mesh().vertices(); ++v)
+  {
+    const double distance = solved.values(v, 0);
+    const Eigen::RowVector3d direction = solved.values.row(v).tail(3);
+    EXPECT_NEAR(direction.norm(), distance > 0 ? 1 : 0, 1e-6);
+    const Eigen::RowVector3d foot =
+      Eigen::Map<const Eigen::RowVector3d>(mesh.mesh().positions.data() + 3 * v) -
+      distance * direction;
+    EXPECT_NEAR(leastOf(boundary, foot.data()), 0, 1e-6);
+    const double* source =
+      mesh.mesh().positions.data() + 3 * static_cast<std::int64_t>(solved.values(v, 1));
+    EXPECT_LT((Eigen::Map<const Eigen::RowVector3d>(source) - foot).norm(), 0.15);
+  }
+}
+
+TEST(WallDistance, MayBeThatOfAPart)
+{
+  const MemoryMesh mesh(toStream(unitCube(12)));
+  const Solved solved = measure(mesh, wallOf({ Region(Region::HalfSpace{ { 0, -1, 0 }, 0 }),
+                                        Region(Region::HalfSpace{ { 1, 0, 0 }, 1 }) }));
+  EXPECT_EQ(solved.report.distance->sources, 2 * 2 * 12 * 12);
+  for (std::int64_t v = 0; v < mesh.mesh().vertices(); ++v)
+  {
+    const double* p = mesh.mesh().positions.data() + 3 * v;
+    EXPECT_NEAR(solved.values(v, 0), std::min(p[1], 1 - p[0]), 1e-15);
+  }
+}
+
+TEST(WallDistance, DoesNotDependOnMemoryThreadsAndBlocks)
+{
+  // The boundary in parts: as many passes as there are.
+  const StreamMesh stream = toStream(unitCube(30));
+  const Solved whole = measure(MemoryMesh(stream), wallOf());
+  EXPECT_EQ(whole.report.passes, 1);
+  DistanceOptions options;
+  options.threads = 1;
+  options.memoryLimit = whole.report.pool_bytes_peak - 400000;
+  const Solved parts = measure(MemoryMesh(stream, 77), wallOf(), options);
+  EXPECT_GT(parts.report.passes, 1);
+  EXPECT_LE(parts.report.pool_bytes_peak, options.memoryLimit);
+  EXPECT_TRUE(sameBits(parts.values.col(0), whole.values.col(0)));
+}
+
+TEST(WallDistance, HasErrors)
+{
+  expectError([] { measure(MemoryMesh(toStream(unitSquare(4))), wallOf()); },
+    "a wall distance is that of a tetrahedral mesh");
+  const MemoryMesh cube(toStream(unitCube(6)));
+  expectError(
+    [&] {
+      measure(cube, wallOf({ Region(Region::Box{ { 0.3, 0.3, 0.3 }, { 0.7, 0.7, 0.7 } }) }));
+    },
+    "no face of the boundary of the mesh is wall");
+  expectError(
+    [&] {
+      measure(cube, wallOf({ Region(Region::Sphere{ { 9, 9, 9 }, 1 }) }));
+    },
+    "from[0]: no face of the mesh is in this region");
+  DistanceOptions options;
+  options.memoryLimit = 1 << 20;
+  const std::string sentence = messageOf([&] { measure(cube, wallOf(), options); });
+  EXPECT_TRUE(contains(sentence, "a distance needs at least")) << sentence;
+}
+
+TEST(TriangleTree, FindsTheFirstOfTheNearest)
+{
+  // Triangles of all sizes, some without area, many of them twice.
+  Random random(3);
+  std::vector<TrianglePoints> triangles(500);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    const double size = std::pow(10.0, random.uniform(-4, 0));
+    for (int k = 0; k < 9; ++k)
+    {
+      const double centre = triangles[t].point[0][k % 3];
+      triangles[t].point[k / 3][k % 3] = k < 3 ? random.uniform()
+                                         : t % 7 == 0 && k > 5
+                                           ? triangles[t].point[1][k % 3]
+                                           : centre + size * random.uniform(-1, 1);
+    }
+    if (t % 5 == 4)
+    {
+      triangles[t] = triangles[static_cast<std::size_t>(random.below(std::int64_t(t)))];
+    }
+  }
+  Pool pool(1 << 20);
+  const TriangleTree tree(pool, triangles);
+  for (int trial = 0; trial < 500; ++trial)
+  {
+    const double point[3] = { random.uniform(-0.5, 1.5), random.uniform(-0.5, 1.5),
+      random.uniform(-0.5, 1.5) };
+    const double least = leastOf(triangles, point);
+    const TriangleTree::Nearest nearest =
+      tree.nearest(point, HUGE_VAL, trial % 2 ? random.below(500) : -1);
+    EXPECT_DOUBLE_EQ(std::sqrt(nearest.square), least);
+    const auto first = std::ranges::find_if(triangles,
+      [&](const TrianglePoints& t)
+      {
+        const Vector way = difference(nearestPoint(t, point).data(), point);
+        return dot(way, way) == nearest.square;
+      });
+    EXPECT_EQ(nearest.triangle, first - triangles.begin());
+    EXPECT_EQ(tree.nearest(point, 0.999 * least, -1).triangle, -1);
+  }
+}
+
+} // namespace smg::testing
