@@ -36,6 +36,32 @@ void addResults(const Report& report, nlohmann::ordered_json& out)
   out["balance"] = report.balance;
 }
 
+/** The figures of a smoothing, a blend or a distance. */
+void addJob(const Report& report, nlohmann::ordered_json& out)
+{
+  if (report.volume)
+  {
+    out["volume"] = { { "before", report.volume->before }, { "after", report.volume->after },
+      { "swept", report.volume->swept } };
+  }
+  for (const Report::Seam& seam : report.seams)
+  {
+    out["seams"].push_back(
+      { { "column", seam.column }, { "before", seam.before }, { "after", seam.after } });
+  }
+  if (!report.seams.empty())
+  {
+    out["clipped"] = report.clipped;
+  }
+  if (report.distance)
+  {
+    out["distance"] = { { "sources", report.distance->sources },
+      { "unreached", report.distance->unreached }, { "unsettled", report.distance->unsettled },
+      { "mesh_readings", report.distance->mesh_readings }, { "maximum", report.distance->maximum },
+      { "mean", report.distance->mean } };
+  }
+}
+
 } // namespace
 
 std::string Report::json(int indent) const
@@ -57,11 +83,6 @@ std::string Report::json(int indent) const
   {
     out["steps"].push_back({ { "name", step.name }, { "cycles", step.cycles },
       { "residual", step.residual }, { "converged", step.converged } });
-  }
-  if (this->volume)
-  {
-    out["volume"] = { { "before", this->volume->before }, { "after", this->volume->after },
-      { "swept", this->volume->swept } };
   }
   out["peak_nodes"] = this->peak_nodes;
   out["pool_bytes_peak"] = this->pool_bytes_peak;
@@ -100,26 +121,11 @@ std::string Report::json(int indent) const
   {
     out["removed_source"] = this->removed_source;
   }
-  for (const Seam& seam : this->seams)
-  {
-    out["seams"].push_back(
-      { { "column", seam.column }, { "before", seam.before }, { "after", seam.after } });
-  }
-  if (!this->seams.empty())
-  {
-    out["clipped"] = this->clipped;
-  }
   if (!this->mean.empty())
   {
     addResults(*this, out);
   }
-  if (this->distance)
-  {
-    out["distance"] = { { "sources", this->distance->sources },
-      { "unreached", this->distance->unreached }, { "unsettled", this->distance->unsettled },
-      { "mesh_readings", this->distance->mesh_readings }, { "maximum", this->distance->maximum },
-      { "mean", this->distance->mean } };
-  }
+  addJob(*this, out);
   out["notes"] = this->notes;
   return out.dump(indent);
 }
