@@ -308,7 +308,7 @@ TEST(Blend, ValuesAreReadInAnyRange)
   const StreamMesh mesh = patched(toStream(torus(80, 40)));
   const auto blended = blend(MemoryMesh(mesh), blendOf({ "c" }));
   const Eigen::MatrixXd all = valuesOf(*blended);
-  for (const auto [first, count] : { std::pair{ 3000, 200 }, { 1000, 1100 }, { 5, 0 }, { 0, 1 } })
+  for (const auto& [first, count] : { std::pair{ 3000, 200 }, { 1000, 1100 }, { 5, 0 }, { 0, 1 } })
   {
     std::vector<double> values(2 * static_cast<std::size_t>(count));
     blended->read(first, count, values);
