@@ -88,7 +88,13 @@ SolveSummary SmoothingTask::solveInMemory(
 {
   this->check();
   const StoredBlock stored(mesh, namesIn(this->options));
-  const std::unique_ptr<Solution> solution = this->smoothed(stored, true, progress);
+  SmoothingTask task = *this;
+  if (isPreview(mesh) && !task.options.boundary)
+  {
+    // The rims of the gaps that clustering leaves are no boundary of the mesh.
+    task.options.boundary = SmoothedBoundary::Free;
+  }
+  const std::unique_ptr<Solution> solution = task.smoothed(stored, true, progress);
   values.resize(static_cast<std::size_t>(solution->vertices() * solution->columns()));
   solution->read(0, solution->vertices(), values);
   Report report = solution->report();
