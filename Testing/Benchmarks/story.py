@@ -50,8 +50,8 @@ class Story:
     def smg(self, command, *arguments):
         """Runs a command of smg within the memory limit; `arguments` begin with IN and OUT."""
         report = self.file("report.json")
-        step = self.run(command, arguments[1], self.options.bin / "smg", "--report", report,
-                        "--memory", self.options.memory, "--quiet", command, *arguments)
+        step = self.run(command, arguments[1], self.options.bin / "smg", command, *arguments,
+                        "--report", report, "--memory", self.options.memory, "--quiet")
         step["report"] = json.loads(report.read_text())
         report.unlink()
 
