@@ -4,6 +4,7 @@
 #include "Solver/Storage/Buffer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 
@@ -11,7 +12,7 @@ namespace smg
 {
 
 /** A queue of vertices of a window by their distances: a heap with four children a node. Its order
- * is that of the distances in single precision, which is enough for a march that corrects. */
+ * is that of the distances to 21 binary digits, which is enough for a march that corrects. */
 class MarchQueue
 {
 public:
@@ -35,7 +36,7 @@ public:
   /** Adds the vertex, or moves it forward if it is in the queue. */
   void put(std::uint32_t vertex, double distance)
   {
-    const Entry entry{ static_cast<float>(distance), vertex };
+    const Entry entry{ keyOf(distance), vertex };
     std::uint32_t place = this->Places[vertex];
     if (place == 0)
     {
@@ -70,9 +71,16 @@ public:
 private:
   struct Entry
   {
-    float key;
+    std::uint32_t key;
     std::uint32_t vertex;
   };
+
+  /** The exponent of a distance and the first digits, which order numbers from 0 on of any size:
+   * single precision would not tell those of a tiny or a huge mesh apart. */
+  static std::uint32_t keyOf(double distance)
+  {
+    return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(distance) >> 31);
+  }
 
   void set(std::uint32_t place, const Entry& entry)
   {

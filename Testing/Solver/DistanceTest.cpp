@@ -21,6 +21,24 @@ TEST(Distance, InAFlatSquareIsExact)
   EXPECT_LT(errors.largest, 1e-6);
 }
 
+TEST(Distance, InAnyUnitIsTheSame)
+{
+  const IndexedTestMesh square = unitSquare(20);
+  const Eigen::MatrixXd expected =
+    measure(MemoryMesh(toStream(square)), fromVertices({ 0 })).values;
+  for (const int exponent : { -150, 150 })
+  {
+    IndexedTestMesh scaled = square;
+    for (double& x : scaled.positions)
+    {
+      x = std::ldexp(x, exponent);
+    }
+    Eigen::MatrixXd values = measure(MemoryMesh(toStream(scaled)), fromVertices({ 0 })).values;
+    values *= std::ldexp(1.0, -exponent);
+    EXPECT_EQ(values, expected) << "unit 2^" << exponent;
+  }
+}
+
 TEST(Distance, InAnObtuseMeshIsExact)
 {
   for (const double stretch : { 4.0, 16.0 })
