@@ -96,10 +96,11 @@ protected:
   void print(const smg::Report& report) const override
   {
     const smg::Report::Distance& found = *report.distance;
-    std::printf("%lld vertices, %lld cells, %lld %s, %d passes (the mesh read %.2f times)\n",
+    const std::string sources = this->Description.wall ? "wall face" : "source";
+    std::printf("%lld vertices, %lld cells, %lld %s, %d pass%s (the mesh read %.2f times)\n",
       static_cast<long long>(report.vertices), static_cast<long long>(report.cells),
-      static_cast<long long>(found.sources), this->Description.wall ? "wall faces" : "sources",
-      report.passes, found.mesh_readings);
+      static_cast<long long>(found.sources), (found.sources == 1 ? sources : sources + "s").c_str(),
+      report.passes, report.passes == 1 ? "" : "es", found.mesh_readings);
     std::printf("  distance: maximum %.6g, mean %.6g", found.maximum, found.mean);
     if (found.unreached > 0)
     {
