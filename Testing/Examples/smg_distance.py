@@ -26,7 +26,7 @@ def test_columns_in_the_order_of_the_file():
     write_torus("torus.obj", 60, 30)
     done = run("distance", "torus.obj", "torus.vtp", "--from", '{"vertices": [7]}', "--source",
                "--direction", "--report", "report.json")
-    assert done.stderr == "" and "1 sources" in done.stdout and "maximum" in done.stdout
+    assert done.stderr == "" and "1 source," in done.stdout and "maximum" in done.stdout
     arrays = read_vtk_xml("torus.vtp")
     distance, report = flat(arrays["Distance"]), load("report.json")
     assert distance[7] == 0 and min(distance[:7] + distance[8:]) > 0
