@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Testing/Support/Sanitized.h"
+
 #include <cstdint>
 
 namespace smg::testing
@@ -8,9 +10,9 @@ namespace smg::testing
 
 /**
  * Chooses among the combinations that nested loops visit: all of them, or every seventh in a build
- * with sanitizers. Those find errors in the paths that a combination takes, not in results, and
- * take ten times as long. Seven has no divisor in common with the usual numbers of values, so that
- * each value of each loop is still visited.
+ * with sanitizers, which find errors in the paths that a combination takes, not in results. Seven
+ * has no divisor in common with the usual numbers of values, so that each value of each loop is
+ * still visited.
  */
 class Combinations
 {
@@ -19,11 +21,7 @@ public:
   bool next() { return this->Visited++ % Stride == 0; }
 
 private:
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  static constexpr std::int64_t Stride = 7;
-#else
-  static constexpr std::int64_t Stride = 1;
-#endif
+  static constexpr std::int64_t Stride = Sanitized ? 7 : 1;
   std::int64_t Visited = 0;
 };
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace smg::testing
+{
+
+/** Whether this build has AddressSanitizer or ThreadSanitizer, under which tests take ten times as
+ * long: their meshes may then be smaller, as long as they take the same paths. */
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool Sanitized = true;
+#else
+inline constexpr bool Sanitized = false;
+#endif
+
+} // namespace smg::testing
