@@ -47,10 +47,18 @@ std::string SolveSummary::outcome() const
   }
   constexpr double MiB = 1 << 20;
   std::ostringstream text;
-  text << (this->converged ? "Converged" : "Not converged") << " after " << this->cycles
-       << " V-cycles in " << this->passes << " passes, relative residual " << std::setprecision(3)
-       << this->residual << ", " << std::fixed << std::setprecision(1)
-       << static_cast<double>(this->peakMemory) / MiB << " MiB";
+  text << (this->converged ? "Converged" : "Not converged");
+  if (this->cycles > 0)
+  {
+    text << " after " << this->cycles << " V-cycles";
+  }
+  text << " in " << this->passes << (this->passes == 1 ? " pass, " : " passes, ");
+  if (this->cycles > 0)
+  {
+    text << "relative residual " << std::setprecision(3) << this->residual << ", ";
+  }
+  text << std::fixed << std::setprecision(1) << static_cast<double>(this->peakMemory) / MiB
+       << " MiB";
   return text.str();
 }
 

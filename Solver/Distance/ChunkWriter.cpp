@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Distance/ChunkWriter.h"
 
+#include "Solver/Problem/FlatCells.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -12,18 +13,6 @@ namespace smg
 
 namespace
 {
-
-bool hasRepeatedCorner(const std::int64_t* corners, int count)
-{
-  for (int k = 1; k < count; ++k)
-  {
-    if (std::find(corners, corners + k, corners[k]) != corners + k)
-    {
-      return true;
-    }
-  }
-  return false;
-}
 
 template <class T>
 std::span<T> valuesIn(const Buffer& buffer, std::int64_t count)

@@ -183,6 +183,7 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   }
   if (info.vertices > 0)
   {
+    plan.length = std::max(std::min(plan.length, info.vertices), plan.span);
     // With the mean number of cells of a chunk; the exact need is known after the first reading.
     const std::int64_t cells = info.cells / info.vertices * std::min(plan.length, info.vertices);
     checkMemory(

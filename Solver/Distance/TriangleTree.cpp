@@ -15,7 +15,7 @@ namespace
 {
 
 /** The point of the way from a to b, at `part` of `whole`; a if there is no way. */
-Vector between(const double* a, const Vector& way, double part, double whole)
+Vector pointBetween(const double* a, const Vector& way, double part, double whole)
 {
   const double share = whole > 0 ? part / whole : 0;
   return { a[0] + share * way[0], a[1] + share * way[1], a[2] + share * way[2] };
@@ -46,7 +46,7 @@ Vector nearestPoint(const TrianglePoints& triangle, const double* point)
   const double vc = d1 * d4 - d3 * d2;
   if (vc <= 0 && d1 >= 0 && d3 <= 0)
   {
-    return between(a, ab, d1, d1 - d3);
+    return pointBetween(a, ab, d1, d1 - d3);
   }
   const Vector cp = difference(point, c);
   const double d5 = dot(ab, cp), d6 = dot(ac, cp);
@@ -57,12 +57,12 @@ Vector nearestPoint(const TrianglePoints& triangle, const double* point)
   const double vb = d5 * d2 - d1 * d6;
   if (vb <= 0 && d2 >= 0 && d6 <= 0)
   {
-    return between(a, ac, d2, d2 - d6);
+    return pointBetween(a, ac, d2, d2 - d6);
   }
   const double va = d3 * d6 - d5 * d4;
   if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
   {
-    return between(b, difference(c, b), d4 - d3, (d4 - d3) + (d5 - d6));
+    return pointBetween(b, difference(c, b), d4 - d3, (d4 - d3) + (d5 - d6));
   }
   const double share = 1 / (va + vb + vc);
   Vector nearest{};

@@ -117,7 +117,7 @@ reader.MaximumPointsInMemory = 2000000
 # A data set of several blocks.
 blocks = GroupDatasets(Input=[Sphere(), Sphere()])
 for make in (MeshHandle, StreamingMeshDeformation, StreamingMeshPreview, StreamingMeshSmoothing,
-             StreamingPoisson, StreamingBlend):
+             StreamingPoisson, StreamingBlend, StreamingDistance):
     refused = make(Input=blocks)
     refused.UpdatePipeline()
     text = said()

@@ -40,8 +40,13 @@ for name, value in defaults.items():
 blend = StreamingBlend(Input=reader, Patch="scan", Columns=["Colors", "Heat"])
 assert list(blend.Columns) == ["Colors", "Heat"] and blend.Anchor == 0.01 and blend.Hold == ""
 
+distance = StreamingDistance(Input=reader)
+defaults = {"From": "", "Wall": 0, "Source": 0, "Direction": 0, "MaximumPasses": 200}
+for name, value in defaults.items():
+    assert distance.GetPropertyValue(name) == value, (name, distance.GetPropertyValue(name))
+
 # A label is the name with spaces, so that the Python name equals the name.
-for proxy in (reader, poisson, smoothing, blend, MeshHandle(Input=reader)):
+for proxy in (reader, poisson, smoothing, blend, distance, MeshHandle(Input=reader)):
     iterator = proxy.SMProxy.NewPropertyIterator()
     iterator.Begin()
     while not iterator.IsAtEnd():

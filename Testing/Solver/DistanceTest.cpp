@@ -101,7 +101,7 @@ namespace
 {
 
 /** The ring between the radii 0.3 and 1, in `n` rings of 2 n vertices. */
-StreamMesh ring(int n)
+StreamMesh ringMesh(int n)
 {
   IndexedTestMesh mesh;
   for (int r = 0; r <= n; ++r)
@@ -130,7 +130,7 @@ TEST(Distance, FromACircleConverges)
   double before = 0.025;
   for (const int n : { 40, 80 })
   {
-    const MemoryMesh mesh(ring(n));
+    const MemoryMesh mesh(ringMesh(n));
     const RelativeErrors errors = errorsOf(measure(mesh, description), mesh.mesh(),
       [](const double* p)
       { return std::hypot(p[0], p[1]) < 0.3 + 1e-9 ? 0 : std::hypot(p[0], p[1]) - 0.3; });

@@ -12,12 +12,12 @@ namespace smg::testing
 namespace
 {
 
-std::vector<std::byte> bytesOf(std::size_t count, int value)
+std::vector<std::byte> filledBytes(std::size_t count, int value)
 {
   return std::vector<std::byte>(count, static_cast<std::byte>(value));
 }
 
-std::vector<std::byte> readAll(ScratchBlocks& blocks, std::int64_t index)
+std::vector<std::byte> readBlock(ScratchBlocks& blocks, std::int64_t index)
 {
   std::vector<std::byte> bytes(blocks.bytes(index));
   blocks.read(index, bytes);
@@ -31,13 +31,13 @@ TEST(ScratchBlocks, AreWrittenAndReadInAnyOrder)
   const TemporaryFolder folder;
   IoStatistics statistics;
   ScratchBlocks blocks(folder.path() / "blocks", statistics);
-  blocks.write(3, bytesOf(100, 3));
-  blocks.write(0, bytesOf(50, 1));
-  blocks.write(5, bytesOf(200, 5));
+  blocks.write(3, filledBytes(100, 3));
+  blocks.write(0, filledBytes(50, 1));
+  blocks.write(5, filledBytes(200, 5));
   blocks.willRead(3);
-  EXPECT_EQ(readAll(blocks, 5), bytesOf(200, 5));
-  EXPECT_EQ(readAll(blocks, 0), bytesOf(50, 1));
-  EXPECT_EQ(readAll(blocks, 3), bytesOf(100, 3));
+  EXPECT_EQ(readBlock(blocks, 5), filledBytes(200, 5));
+  EXPECT_EQ(readBlock(blocks, 0), filledBytes(50, 1));
+  EXPECT_EQ(readBlock(blocks, 3), filledBytes(100, 3));
   EXPECT_EQ(statistics.bytesWritten, 350);
   EXPECT_EQ(statistics.bytesRead, 350);
   EXPECT_EQ(folder.entries(), 0) << "the file has a name";
@@ -48,13 +48,13 @@ TEST(ScratchBlocks, AreRewritten)
   const TemporaryFolder folder;
   IoStatistics statistics;
   ScratchBlocks blocks(folder.path() / "blocks", statistics);
-  blocks.write(0, bytesOf(100, 1));
-  blocks.write(1, bytesOf(100, 2));
-  blocks.write(0, bytesOf(60, 3));
-  EXPECT_EQ(readAll(blocks, 0), bytesOf(60, 3));
-  blocks.write(0, bytesOf(300, 4));
-  EXPECT_EQ(readAll(blocks, 0), bytesOf(300, 4));
-  EXPECT_EQ(readAll(blocks, 1), bytesOf(100, 2));
+  blocks.write(0, filledBytes(100, 1));
+  blocks.write(1, filledBytes(100, 2));
+  blocks.write(0, filledBytes(60, 3));
+  EXPECT_EQ(readBlock(blocks, 0), filledBytes(60, 3));
+  blocks.write(0, filledBytes(300, 4));
+  EXPECT_EQ(readBlock(blocks, 0), filledBytes(300, 4));
+  EXPECT_EQ(readBlock(blocks, 1), filledBytes(100, 2));
 }
 
 TEST(ScratchBlocks, HaveNoBytesBeforeTheyAreWritten)
@@ -63,9 +63,9 @@ TEST(ScratchBlocks, HaveNoBytesBeforeTheyAreWritten)
   IoStatistics statistics;
   ScratchBlocks blocks(folder.path() / "blocks", statistics);
   EXPECT_EQ(blocks.bytes(7), 0U);
-  EXPECT_TRUE(readAll(blocks, 7).empty());
+  EXPECT_TRUE(readBlock(blocks, 7).empty());
   blocks.write(1, {});
-  EXPECT_TRUE(readAll(blocks, 1).empty());
+  EXPECT_TRUE(readBlock(blocks, 1).empty());
   std::vector<std::byte> room(4);
   expectError([&] { blocks.read(1, room); }, "blocks");
 }

@@ -26,7 +26,7 @@ DistanceDescription wallOf(std::vector<Where> from = {})
 }
 
 /** The boundary triangles of a mesh in memory. */
-std::vector<TrianglePoints> boundaryOf(const StreamMesh& mesh)
+std::vector<TrianglePoints> boundaryTriangles(const StreamMesh& mesh)
 {
   std::map<std::vector<std::int64_t>, int> uses;
   for (std::int64_t c = 0; c < mesh.cells(); ++c)
@@ -94,7 +94,7 @@ TEST(WallDistance, IsThatOfAllBoundaryTriangles)
 {
   const MemoryMesh mesh(hollowCube(12));
   const Solved solved = measure(mesh, wallOf());
-  const std::vector<TrianglePoints> boundary = boundaryOf(mesh.mesh());
+  const std::vector<TrianglePoints> boundary = boundaryTriangles(mesh.mesh());
   EXPECT_EQ(solved.report.distance->sources, static_cast<std::int64_t>(boundary.size()));
   EXPECT_EQ(solved.report.passes, 1);
   for (std::int64_t v = 0; v < mesh.mesh().vertices(); ++v)
@@ -108,7 +108,7 @@ TEST(WallDistance, PointsAwayFromTheWall)
 {
   const MemoryMesh mesh(hollowCube(10));
   const Solved solved = measure(mesh, wallOf());
-  const std::vector<TrianglePoints> boundary = boundaryOf(mesh.mesh());
+  const std::vector<TrianglePoints> boundary = boundaryTriangles(mesh.mesh());
   for (std::int64_t v = 0; v < mesh.mesh().vertices(); ++v)
   {
     const double distance = solved.values(v, 0);

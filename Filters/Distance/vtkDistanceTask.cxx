@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Distance/vtkDistanceTask.h"
+
+#include "Filters/Mesh/vtkStoredBlock.h"
+#include "IO/vtkMeshPieceData.h"
+#include "Solver/Description/ComposeDescriptions.h"
+#include "smg/Error.h"
+
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+
+#include <set>
+#include <string>
+
+namespace smg
+{
+namespace
+{
+
+/** The columns that the sources name. */
+std::set<std::string> namesInSources(const DistanceDescription& description)
+{
+  ProblemDescription sources;
+  for (const Where& part : description.from)
+  {
+    sources.dirichlet.push_back({ part, 0.0 });
+  }
+  return namedColumns(sources);
+}
+
+/** A remark on the distances of a preview. */
+std::string noteOnPreview(const Report& report, bool isSolid)
+{
+  const std::string which = "these are distances on the preview, a mesh of " +
+                            std::to_string(report.vertices) + " vertices";
+  return which +
+         (isSolid ? ", along the surface of the solid; those of the full mesh are computed when it "
+                    "is saved"
+                  : "; those of the full mesh are computed when it is saved");
+}
+
+} // namespace
+
+void DistanceTask::check() const
+{
+  if (this->description.from.empty() && !this->description.wall)
+  {
+    throw Error("From must say where the distance is 0, for example {\"vertices\": [5]}.");
+  }
+}
+
+PieceColumns DistanceTask::columns() const
+{
+  const std::set<std::string> names = namesInSources(this->description);
+  return { .all = false,
+    .required = { names.begin(), names.end() },
+    .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
+}
+
+std::unique_ptr<Solution> DistanceTask::solve(
+  const VsmReader& mesh, const ProgressFunction& progress, Report& report) const
+{
+  DistanceOptions given = this->options;
+  given.progress = progress;
+  std::unique_ptr<Solution> solution = distance(mesh, this->description, given, "From");
+  report = solution->report();
+  return solution;
+}
+
+SolveSummary DistanceTask::solveInMemory(
+  vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) const
+{
+  this->check();
+  const bool isSolid = !vtkPolyData::SafeDownCast(&mesh);
+  if (isPreview(mesh) && isSolid && this->description.wall)
+  {
+    throw Error("The preview of a solid is its surface, which has no distance to its walls: save "
+                "the mesh, or raise MaximumPointsInMemory of the reader.");
+  }
+  DistanceOptions given = this->options;
+  given.progress = progress;
+  const StoredBlock stored(mesh, namesInSources(this->description));
+  const std::unique_ptr<Solution> solution = distance(stored, this->description, given, "From");
+  values.resize(static_cast<std::size_t>(solution->vertices() * solution->columns()));
+  solution->read(0, solution->vertices(), values);
+  Report report = solution->report();
+  if (isPreview(mesh))
+  {
+    report.notes.push_back(noteOnPreview(report, isSolid));
+  }
+  return SolveSummary::of(report, solution->columns());
+}
+
+} // namespace smg

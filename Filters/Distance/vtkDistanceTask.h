@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Filters/Streaming/SolveSummary.h"
+#include "Filters/Streaming/vtkStreamedTask.h"
+#include "smg/Distance.h"
+
+#include <vector>
+
+class vtkPointSet;
+
+namespace smg
+{
+
+/** Distances on a mesh in pieces. */
+class DistanceTask : public StreamedTask
+{
+public:
+  DistanceDescription description;
+  DistanceOptions options; ///< except for the progress function
+
+  void check() const override;
+  PieceColumns columns() const override;
+  std::unique_ptr<Solution> solve(
+    const VsmReader& mesh, const ProgressFunction& progress, Report& report) const override;
+
+  /** Measures on a mesh in memory, which has cells, and sets the values at its points. Throws Error
+   * and Cancelled. */
+  SolveSummary solveInMemory(
+    vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) const;
+};
+
+} // namespace smg

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkStreamingDistance
+ * @brief   Computes distances on a very large mesh
+ *
+ * The distance of every point from sources: along a surface, through a tetrahedral mesh, or (Wall)
+ * to its boundary in a straight line. The output is the input with the point arrays Distance
+ * (infinite where no source is reached) and, if wanted, DistanceSource and DistanceDirection.
+ *
+ * - For streamed requests (see vtkStreamingMeshKeys), those of writers and other streaming filters,
+ *   the distances of the whole mesh are computed once, out of core, as described at
+ *   vtkStreamingSolver.
+ * - For other requests, if the input is a preview, those of the preview are computed in memory.
+ * - Other requests for the whole of a mesh of at most InteractivePoints points are treated like
+ *   previews; those for larger meshes, or with several processes, like streamed requests.
+ *
+ * Weights, Operators, Sweeps, Tolerance and MaximumCycles have no effect.
+ *
+ * @sa vtkStreamingSolver vtkStreamingPoisson vtkStreamingMeshReader
+ */
+#ifndef vtkStreamingDistance_h
+#define vtkStreamingDistance_h
+
+#include "vtkStreamingMultigridFiltersModule.h" // For export macro
+#include "vtkStreamingSolver.h"
+
+namespace smg
+{
+class DistanceTask;
+} // namespace smg
+
+class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkStreamingDistance : public vtkStreamingSolver
+{
+public:
+  static vtkStreamingDistance* New();
+  vtkTypeMacro(vtkStreamingDistance, vtkStreamingSolver);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** Where the distance is 0: WHERE of a problem file in JSON, or a list of these, for example
+   * {"vertices": [5]} or, after vtkMeshHandle, {"mask": "HandleMask"}. Columns are arrays of the
+   * input. With Wall, the wall; none (default): the whole boundary. */
+  vtkSetStringMacro(From);
+  vtkGetStringMacro(From);
+  ///@}
+
+  ///@{
+  /** Whether to compute the Euclidean distance to the boundary of a tetrahedral mesh instead of
+   * that along paths. Default: off. */
+  vtkSetMacro(Wall, bool);
+  vtkGetMacro(Wall, bool);
+  vtkBooleanMacro(Wall, bool);
+  ///@}
+
+  ///@{
+  /** Whether to add DistanceSource, the number of the nearest source in the original file; -1 where
+   * there is none. Default: off. */
+  vtkSetMacro(Source, bool);
+  vtkGetMacro(Source, bool);
+  vtkBooleanMacro(Source, bool);
+  ///@}
+
+  ///@{
+  /** Whether to add DistanceDirection, the unit gradient of the distance. Default: off. */
+  vtkSetMacro(Direction, bool);
+  vtkGetMacro(Direction, bool);
+  vtkBooleanMacro(Direction, bool);
+  ///@}
+
+  ///@{
+  /** The maximum number of passes over the mesh, at least 1. Default: 200. */
+  vtkSetClampMacro(MaximumPasses, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MaximumPasses, int);
+  ///@}
+
+  ///@{
+  /** Distances of meshes of at most this many points are computed in memory. Default: 200,000. 0:
+   * only those of previews. */
+  vtkSetClampMacro(InteractivePoints, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(InteractivePoints, vtkIdType);
+  ///@}
+
+protected:
+  vtkStreamingDistance();
+  ~vtkStreamingDistance() override;
+
+  std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
+  void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
+  bool IsForMemory(vtkPointSet& input, bool isWhole) override;
+  smg::SolveSummary SolveInMemory(vtkPointSet& input, const std::function<bool(double)>& progress,
+    std::vector<double>& values) override;
+
+private:
+  vtkStreamingDistance(const vtkStreamingDistance&) = delete;
+  void operator=(const vtkStreamingDistance&) = delete;
+
+  std::unique_ptr<smg::DistanceTask> DescribedTask() const;
+
+  char* From = nullptr;
+  bool Wall = false;
+  bool Source = false;
+  bool Direction = false;
+  int MaximumPasses = 200;
+  vtkIdType InteractivePoints = 200000;
+};
+
+#endif

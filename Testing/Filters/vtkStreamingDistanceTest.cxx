@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkStreamingDistance.h"
+#include "IO/vtkStreamingMeshReader.h"
+#include "IO/vtkStreamingMeshWriter.h"
+#include "Testing/IO/vtkPieceTesting.h"
+#include "Testing/Support/MemoryMesh.h"
+#include "Testing/Support/SolveMesh.h"
+#include "Testing/Support/TemporaryFolder.h"
+#include "smg/Distance.h"
+#include "smg/VsmReader.h"
+
+#include "vtkFieldData.h"
+
+#include <functional>
+
+namespace smg::testing
+{
+namespace
+{
+
+class VtkStreamingDistance : public ::testing::Test
+{
+protected:
+  VtkStreamingDistance()
+  {
+    this->open(torus(60, 30, 0.2));
+    this->Distance->SetInputConnection(this->Reader->GetOutputPort());
+    this->Distance->SetNumberOfPieces(5);
+    this->Distance->SetScratchDirectory(this->Folder.path().c_str());
+    this->Distance->SetFrom(R"({"vertices": [7]})");
+  }
+
+  void open(const IndexedTestMesh& mesh)
+  {
+    this->Mesh = toStream(mesh);
+    const std::string name = "mesh" + std::to_string(this->Folder.entries()) + ".vsm";
+    writeMesh(this->Folder / name, this->Mesh);
+    this->Reader->SetFileName((this->Folder / name).c_str());
+  }
+
+  vtkPointSet* output()
+  {
+    return vtkPointSet::SafeDownCast(this->Distance->GetOutputDataObject(0));
+  }
+
+  /** Expects the values of the library, in so many pieces. */
+  void expectDistances(const DistanceDescription& description, int pieces)
+  {
+    const auto expected = distance(MemoryMesh(this->Mesh), description);
+    const Eigen::MatrixXd values = valuesOf(*expected);
+    const std::vector<ColumnSpec> columns = distanceColumns(description);
+    for (int piece = 0; piece < pieces; ++piece)
+    {
+      ASSERT_TRUE(updatePiece(this->Distance, piece, pieces));
+      vtkPointData* points = this->output()->GetPointData();
+      EXPECT_EQ(points->HasArray(DistanceSourceName), description.source);
+      int first = 0;
+      for (const ColumnSpec& column : columns)
+      {
+        vtkDataArray* array = points->GetArray(column.name.c_str());
+        ASSERT_TRUE(array);
+        ASSERT_EQ(array->GetNumberOfComponents(), column.components);
+        for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+        {
+          const auto id = static_cast<Eigen::Index>(points->GetGlobalIds()->GetTuple1(i));
+          for (int k = 0; k < column.components; ++k)
+          {
+            ASSERT_EQ(array->GetComponent(i, k), values(id, first + k));
+          }
+        }
+        first += column.components;
+      }
+    }
+  }
+
+  static DistanceDescription from(Where where)
+  {
+    DistanceDescription description;
+    description.from.push_back(std::move(where));
+    return description;
+  }
+
+  TemporaryFolder Folder;
+  StreamMesh Mesh;
+  vtkNew<vtkStreamingMeshReader> Reader;
+  vtkNew<vtkStreamingDistance> Distance;
+};
+
+TEST_F(VtkStreamingDistance, EveryWayGivesTheValuesOfTheLibrary)
+{
+  DistanceDescription description = from(Region(Region::Vertices{ { 7 } }));
+  this->expectDistances(description, 1);
+  description.source = description.direction = true;
+  this->Distance->SourceOn();
+  this->Distance->DirectionOn();
+  for (const vtkIdType interactive : { 200000, 0 })
+  {
+    this->Distance->SetInteractivePoints(interactive);
+    for (const int pieces : { 1, 3, 16 })
+    {
+      this->expectDistances(description, pieces);
+    }
+  }
+  EXPECT_EQ(this->Distance->GetConverged(), 1);
+  EXPECT_NE(std::string(this->Distance->GetReport()).find("\"sources\": 1"), std::string::npos);
+  EXPECT_NE(
+    std::string(this->Distance->GetOutcome()).find("Converged in 1 pass, "), std::string::npos)
+    << this->Distance->GetOutcome();
+}
+
+TEST_F(VtkStreamingDistance, WallsOfASolid)
+{
+  this->open(tetBox(8, 7, 6));
+  DistanceDescription description;
+  description.wall = true;
+  this->Distance->SetFrom(nullptr);
+  this->Distance->WallOn();
+  for (const vtkIdType interactive : { 200000, 0 })
+  {
+    this->Distance->SetInteractivePoints(interactive);
+    this->expectDistances(description, 2);
+  }
+  description.from.emplace_back(Region(Region::HalfSpace{ { 0, 0, -1 }, 0 }));
+  this->Distance->SetFrom(R"({"halfspace": [0, 0, -1, 0]})");
+  this->expectDistances(description, 2);
+}
+
+TEST_F(VtkStreamingDistance, WhatIsWrittenIsTheWholeMeshAndAPreviewIsMeasuredByItself)
+{
+  this->Reader->SetMaximumPointsInMemory(100);
+  this->Reader->SetPreviewPoints(300);
+  this->Distance->SetFrom(R"({"sphere": [2, 0, 1, 0.5]})");
+  ASSERT_TRUE(updatePiece(this->Distance, 0, 1));
+  EXPECT_TRUE(this->output()->GetFieldData()->HasArray("Preview"));
+  EXPECT_TRUE(this->output()->GetPointData()->HasArray(DistanceName));
+  EXPECT_NE(std::string(this->Distance->GetNotes()).find("these are distances on the preview"),
+    std::string::npos);
+  vtkNew<vtkStreamingMeshWriter> writer;
+  writer->SetInputConnection(this->Distance->GetOutputPort());
+  writer->SetFileName((this->Folder / "out.vsm").c_str());
+  ASSERT_TRUE(writer->Write());
+  Column written;
+  VsmReader(this->Folder / "out.vsm")
+    .readVertexColumn(DistanceName, 0, this->Mesh.vertices(), written);
+  const auto expected =
+    distance(MemoryMesh(this->Mesh), from(Region(Region::Sphere{ { 2, 0, 1 }, 0.5 })));
+  const Eigen::MatrixXd values = valuesOf(*expected);
+  for (std::size_t v = 0; v < written.tuples(); ++v)
+  {
+    ASSERT_EQ(written.value(v), values(static_cast<Eigen::Index>(v), 0));
+  }
+}
+
+TEST_F(VtkStreamingDistance, MistakesAreOneErrorEach)
+{
+  Errors errors(this->Distance);
+  const auto expect = [&](const std::string& words, const std::function<void()>& spoil)
+  {
+    for (const vtkIdType interactive : { 200000, 0 })
+    {
+      errors.clear();
+      this->Distance->SetInteractivePoints(interactive);
+      spoil();
+      EXPECT_FALSE(updatePiece(this->Distance, 0, 1));
+      EXPECT_TRUE(errors.contain(words)) << errors.text();
+      this->Distance->SetFrom(R"({"vertices": [7]})");
+      this->Distance->WallOff();
+    }
+  };
+  expect("From must say", [&] { this->Distance->SetFrom(nullptr); });
+  expect("From: sphere: must be", [&] { this->Distance->SetFrom(R"({"sphere": [1]})"); });
+  expect("from[0]: no vertex", [&] { this->Distance->SetFrom(R"({"sphere": [9, 9, 9, 1]})"); });
+  expect("Missing", [&] { this->Distance->SetFrom(R"({"mask": "Missing"})"); });
+  expect("tetrahedral mesh", [&] { this->Distance->WallOn(); });
+}
+
+} // namespace
+} // namespace smg::testing
