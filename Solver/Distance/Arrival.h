@@ -19,47 +19,38 @@ namespace smg
  */
 struct Arrival
 {
+  /** Whether there is no such path. */
+  bool isNone() const { return this->distance == std::numeric_limits<double>::infinity(); }
+  /** The number of the corner of the facet that is nearest to the path, by the weights. */
+  int nearestCorner() const
+  {
+    const double rest = 1 - this->weight[0] - this->weight[1];
+    return rest >= std::max(this->weight[0], this->weight[1]) ? 0
+           : this->weight[0] >= this->weight[1]               ? 1
+                                                              : 2;
+  }
+
   double distance = std::numeric_limits<double>::infinity();
-  double curvature = 0; ///< of the front at w
+  bool isStraight = false; ///< the front at w: see FrontCorner
   /** Of corners 1 and 2 of the facet, at the point where the path crosses it. */
   double weight[2] = { 0, 0 };
 };
 
-/** A corner that the front has passed. */
+/** A corner that the front has passed. The front of a point is *round*: its radius is the distance.
+ * That of a curve or a surface is *straight*. */
 struct FrontCorner
 {
   const double* point;
   double distance;
-  double curvature; ///< of the front; not used if all fronts are of point sources
-};
-
-/** The curvature of an isolated source: its radius is negligible, its products are finite. */
-inline constexpr float PointCurvature = 1e30F;
-
-/** How a front moves: from point sources alone, whose distance is that from the virtual source; or
- * from curves and surfaces, too. */
-enum class Front
-{
-  OfPoints,
-  OfCurves
+  bool isStraight;
 };
 
 /** The path from a corner straight to w. */
-template <Front Kind>
-Arrival fromCorner(const FrontCorner& a, double length)
+inline Arrival fromCorner(const FrontCorner& a, double length)
 {
-  Arrival arrival;
-  arrival.distance = a.distance + length;
-  if constexpr (Kind == Front::OfCurves)
-  {
-    // The front from the end of a curve is round.
-    arrival.curvature = a.distance == 0 ? 1 / length : a.curvature / (1 + a.curvature * length);
-  }
-  return arrival;
+  // The front from the end of a curve is round.
+  return { a.distance + length, a.isStraight && a.distance > 0 };
 }
-
-/** Below this product of curvature and length, a front counts as straight within a cell. */
-inline constexpr double StraightFront = 1e-6;
 
 /** A straight front crosses a facet at its ends, too, up to rounding: there, that of a curve goes
  * straight on. Relative to the facet. */
@@ -193,56 +184,40 @@ inline double straightAcrossFace(
   return std::numeric_limits<double>::infinity();
 }
 
-/** The path to w that crosses the inside of the edge from a to b; `f` is its frame. */
-template <Front Kind>
-Arrival acrossEdge(const EdgeFrame& f, const FrontCorner& a, const FrontCorner& b)
+/** The path to w that crosses the inside of the edge from a to b; `f` is its frame. Where a
+ * straight and a round front meet, the front is that of the corner nearest to the path. */
+inline Arrival acrossEdge(const EdgeFrame& f, const FrontCorner& a, const FrontCorner& b)
 {
   Arrival arrival;
-  if constexpr (Kind == Front::OfPoints)
-  {
-    arrival.distance = roundAcrossEdge(f, a.distance, b.distance, arrival.weight[0]);
-    return arrival;
-  }
-  const FrontCorner& flattest = a.curvature < b.curvature ? a : b;
-  if (flattest.curvature * flattest.curvature * f.ee < StraightFront * StraightFront)
+  if (a.isStraight || b.isStraight)
   {
     arrival.distance = straightAcrossEdge(f, a.distance, b.distance, arrival.weight[0]);
-    arrival.curvature = flattest.curvature;
-    return arrival;
+    arrival.isStraight = (arrival.nearestCorner() == 0 ? a : b).isStraight;
+    if (arrival.isStraight || arrival.isNone())
+    {
+      return arrival;
+    }
   }
-  const double shift = flattest.distance - 1 / flattest.curvature;
-  const double radius =
-    roundAcrossEdge(f, a.distance - shift, b.distance - shift, arrival.weight[0]);
-  arrival.distance = shift + radius;
-  arrival.curvature = 1 / radius;
+  arrival.distance = roundAcrossEdge(f, a.distance, b.distance, arrival.weight[0]);
   return arrival;
 }
 
-/** The path to w that crosses the inside of the face of a, b and c; `f` is its frame. */
-template <Front Kind>
-Arrival acrossFace(
+/** As acrossEdge(), of a face. */
+inline Arrival acrossFace(
   const FaceFrame& f, const FrontCorner& a, const FrontCorner& b, const FrontCorner& c)
 {
   Arrival arrival;
-  if constexpr (Kind == Front::OfPoints)
-  {
-    arrival.distance = roundAcrossFace(f, a.distance, b.distance, c.distance, arrival.weight);
-    return arrival;
-  }
-  const FrontCorner& flatter = a.curvature < b.curvature ? a : b;
-  const FrontCorner& flattest = flatter.curvature < c.curvature ? flatter : c;
-  if (flattest.curvature * flattest.curvature * std::max(f.ee, f.ff) <
-      StraightFront * StraightFront)
+  if (a.isStraight || b.isStraight || c.isStraight)
   {
     arrival.distance = straightAcrossFace(f, a.distance, b.distance, c.distance, arrival.weight);
-    arrival.curvature = flattest.curvature;
-    return arrival;
+    const int nearest = arrival.nearestCorner();
+    arrival.isStraight = (nearest == 0 ? a : nearest == 1 ? b : c).isStraight;
+    if (arrival.isStraight || arrival.isNone())
+    {
+      return arrival;
+    }
   }
-  const double shift = flattest.distance - 1 / flattest.curvature;
-  const double radius =
-    roundAcrossFace(f, a.distance - shift, b.distance - shift, c.distance - shift, arrival.weight);
-  arrival.distance = shift + radius;
-  arrival.curvature = 1 / radius;
+  arrival.distance = roundAcrossFace(f, a.distance, b.distance, c.distance, arrival.weight);
   return arrival;
 }
 

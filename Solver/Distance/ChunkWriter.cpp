@@ -53,8 +53,9 @@ void ChunkWriter::add(const MeshBlock& block)
   for (std::size_t c = 0; c < cells; ++c)
   {
     const std::int64_t* cell = block.corners.data() + c * corners;
-    if ((flags && flags->as<std::uint8_t>()[c] != 0) ||
-        hasRepeatedCorner(cell, static_cast<int>(corners)))
+    // Those without area or volume take part: the surface may hang together by them alone.
+    const unsigned flag = flags ? flags->as<std::uint8_t>()[c] : 0U;
+    if ((flag & DuplicateCell) != 0 || hasRepeatedCorner(cell, static_cast<int>(corners)))
     {
       ++this->Skipped;
     }
@@ -121,10 +122,9 @@ void ChunkWriter::addCell(const std::int64_t* corners)
   for (int k = 0; k < count && (crosses || sources > 1); ++k)
   {
     std::uint8_t& mark = this->Marks[corners[k]];
-    mark |= sources > 1 && (mark & Dirty) != 0 ? CurveVertex : 0;
+    mark |= sources > 1 && (mark & Dirty) != 0 ? Straight : 0;
     mark |= !crosses ? 0 : corners[k] / plan.length == chunk ? ReachesBack : ReachesOn;
   }
-  this->To.curved = this->To.curved || sources > 1;
   const auto open = static_cast<std::size_t>(chunk - this->To.count());
   if (open >= this->Open.size())
   {

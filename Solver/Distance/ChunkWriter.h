@@ -26,7 +26,7 @@ public:
 
   std::int64_t sources() const { return this->SourceCount; }
   std::int64_t cells() const { return this->Cells; }
-  /** Cells that take no part: flagged, or with a repeated corner. */
+  /** Cells that take no part: duplicates, and those with a repeated corner. */
   std::int64_t skipped() const { return this->Skipped; }
 
 private:

@@ -45,7 +45,7 @@ struct ChunkPlan
 enum VertexFlag : std::uint8_t
 {
   Dirty = 1,       ///< its distance has changed, and some cell has not seen it
-  CurveVertex = 2, ///< a source that shares a cell with another source
+  Straight = 2,    ///< the front is straight; otherwise round, with the distance as its radius
   Changed = 4,     ///< differs from what the file has
   ReachesBack = 8, ///< is a corner of a crossing cell of its own chunk
   ReachesOn = 16   ///< is a corner of a crossing cell of the next chunk
@@ -66,9 +66,8 @@ struct ChunkedMesh
   enum StatePart
   {
     Flags,
-    Distances,  ///< none: all are infinite
-    Curvatures, ///< of the front; none: only those of sources are known
-    Sources,    ///< none: all are -1
+    Distances, ///< none: all are infinite
+    Sources,   ///< none: all are -1
     StateParts
   };
   struct Chunk
@@ -97,7 +96,6 @@ struct ChunkedMesh
   ScratchBlocks state; ///< block chunk * StateParts + StatePart
   std::vector<Chunk> chunks;
   std::int64_t vertices = 0;
-  bool curved = false; ///< whether some sources share a cell
 };
 
 } // namespace smg

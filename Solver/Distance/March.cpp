@@ -14,6 +14,9 @@ namespace
 
 constexpr double Infinite = std::numeric_limits<double>::infinity();
 
+/** Cosine up to which two directions count as perpendicular. */
+constexpr double Perpendicular = 1e-6;
+
 } // namespace
 
 int March::run(int maxPasses, Progress& progress, double begin)
@@ -54,23 +57,14 @@ void March::pass(bool forwards, Progress& progress, double begin, double end)
     {
       this->Window.show(first, last);
       const bool triangles = mesh.plan.cellType == CellType::Triangle;
-      if (mesh.curved)
-      {
-        triangles ? this->settle<3, Front::OfCurves>(first, last)
-                  : this->settle<4, Front::OfCurves>(first, last);
-      }
-      else
-      {
-        triangles ? this->settle<3, Front::OfPoints>(first, last)
-                  : this->settle<4, Front::OfPoints>(first, last);
-      }
+      triangles ? this->settle<3>(first, last) : this->settle<4>(first, last);
     }
     progress.update(
       begin + (end - begin) * static_cast<double>(p + 1) / static_cast<double>(positions));
   }
 }
 
-template <int Corners, Front Kind>
+template <int Corners>
 void March::settle(std::int64_t first, std::int64_t last)
 {
   ChunkedMesh& mesh = this->Window.mesh();
@@ -94,7 +88,7 @@ void March::settle(std::int64_t first, std::int64_t last)
     const bool hasAll = this->Window.hasAllCellsOf(v);
     if (!hasAll && distances[v] == 0)
     {
-      // The cells of a source with other sources come first: whether it is the end of a curve.
+      // Which of its cells have other sources must be known: see isBesideCurve().
       continue;
     }
     flags[v] |= Changed;
@@ -113,7 +107,7 @@ void March::settle(std::int64_t first, std::int64_t last)
           others[k] = cell[c];
           k += cell[c] != v ? 1 : 0;
         }
-        this->passOn<Kind>(v, others);
+        this->passOn(v, others);
       });
   }
   for (std::int64_t chunk = first; chunk <= last; ++chunk)
@@ -124,28 +118,24 @@ void March::settle(std::int64_t first, std::int64_t last)
   }
 }
 
-template <Front Kind>
 FrontCorner March::corner(std::uint32_t vertex) const
 {
   return { this->Window.point(vertex), this->Window.distance()[vertex],
-    Kind == Front::OfCurves ? this->Window.curvature()[vertex] : 0 };
+    (this->Window.flags()[vertex] & Straight) != 0 };
 }
 
 void March::offer(std::uint32_t w, const Arrival& arrival, std::uint32_t from)
 {
   double& distance = this->Window.distance()[w];
-  float* curvature = this->Window.curvature();
-  // Of two fronts that arrive at the same time, the flatter one goes ahead.
-  const bool isFlatter = curvature && arrival.curvature < 0.5 * curvature[w] &&
-                         arrival.distance < distance * (1 + Tolerance);
-  if (arrival.distance < distance * (1 - Tolerance) || isFlatter)
+  std::uint8_t& flags = this->Window.flags()[w];
+  // Of two fronts that arrive at the same time, the straight one goes ahead.
+  const bool isStraighter =
+    arrival.isStraight && (flags & Straight) == 0 && arrival.distance < distance * (1 + Tolerance);
+  if (arrival.distance < distance * (1 - Tolerance) || isStraighter)
   {
     distance = std::min(distance, arrival.distance);
-    this->Window.flags()[w] |= Dirty | Changed;
-    if (curvature)
-    {
-      curvature[w] = static_cast<float>(arrival.curvature);
-    }
+    flags = static_cast<std::uint8_t>(
+      (flags & ~Straight) | Dirty | Changed | (arrival.isStraight ? Straight : 0));
     if (std::int64_t* source = this->Window.source())
     {
       source[w] = source[from];
@@ -154,11 +144,42 @@ void March::offer(std::uint32_t w, const Arrival& arrival, std::uint32_t from)
   }
 }
 
+template <int Corners>
+bool March::isBesideCurve(std::uint32_t v, std::uint32_t w) const
+{
+  const double* point = this->Window.point(v);
+  const Vector way = difference(this->Window.point(w), point);
+  bool isBeside = false;
+  this->Window.forCellsOf<Corners>(v,
+    [&](const std::uint32_t* cell)
+    {
+      for (int c = 0; c < Corners && !isBeside; ++c)
+      {
+        const Vector edge = difference(this->Window.point(cell[c]), point);
+        const double margin = Perpendicular * std::sqrt(dot(way, way) * dot(edge, edge));
+        isBeside =
+          cell[c] != v && this->Window.distance()[cell[c]] == 0 && dot(way, edge) > -margin;
+      }
+    });
+  return isBeside;
+}
+
+template <int Corners>
+void March::offerEdge(std::uint32_t v, std::uint32_t w, double length)
+{
+  const FrontCorner from = this->corner(v);
+  Arrival arrival = fromCorner(from, length);
+  if (from.isStraight && from.distance == 0)
+  {
+    arrival.isStraight = this->isBesideCurve<Corners>(v, w);
+  }
+  this->offer(w, arrival, v);
+}
+
 /** Offers paths from v, and across its edges, to the other two corners of a triangle. */
-template <Front Kind>
 void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 3>& others)
 {
-  const FrontCorner from = this->corner<Kind>(v);
+  const FrontCorner from = this->corner(v);
   const Vector e[2] = { difference(this->Window.point(others[0]), from.point),
     difference(this->Window.point(others[1]), from.point) };
   const double square[2] = { dot(e[0], e[0]), dot(e[1], e[1]) };
@@ -166,30 +187,29 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 3>& others)
   for (int k = 0; k < 2; ++k)
   {
     const std::uint32_t w = others[k], b = others[1 - k];
-    const FrontCorner passed = this->corner<Kind>(b);
+    const FrontCorner passed = this->corner(b);
     if (this->Window.distance()[w] <= std::min(from.distance, passed.distance))
     {
       continue;
     }
     if (passed.distance < Infinite)
     {
-      const Arrival across = acrossEdge<Kind>({ square[1 - k], product, square[k] }, from, passed);
+      const Arrival across = acrossEdge({ square[1 - k], product, square[k] }, from, passed);
       if (across.distance < Infinite)
       {
         // No longer than the paths along the edges.
-        this->offer(w, across, across.weight[0] > 0.5 ? b : v);
+        this->offer(w, across, across.nearestCorner() == 0 ? v : b);
         continue;
       }
     }
-    this->offer(w, fromCorner<Kind>(from, std::sqrt(square[k])), v);
+    this->offerEdge<3>(v, w, std::sqrt(square[k]));
   }
 }
 
 /** The same for the other three corners of a tetrahedron. */
-template <Front Kind>
 void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
 {
-  const FrontCorner from = this->corner<Kind>(v);
+  const FrontCorner from = this->corner(v);
   Vector e[3];
   double product[3][3];
   for (int i = 0; i < 3; ++i)
@@ -204,7 +224,7 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
   {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
     const std::uint32_t w = others[k];
-    const FrontCorner b = this->corner<Kind>(others[i]), c = this->corner<Kind>(others[j]);
+    const FrontCorner b = this->corner(others[i]), c = this->corner(others[j]);
     const double before = this->Window.distance()[w];
     if (before <= std::min({ from.distance, b.distance, c.distance }))
     {
@@ -212,17 +232,12 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
     }
     if (std::max(b.distance, c.distance) < Infinite)
     {
-      const Arrival across = acrossFace<Kind>({ product[i][i], product[i][j], product[j][j],
-                                                product[k][i], product[k][j], product[k][k] },
+      const Arrival across = acrossFace({ product[i][i], product[i][j], product[j][j],
+                                          product[k][i], product[k][j], product[k][k] },
         from, b, c);
       if (across.distance < Infinite)
       {
-        const double rest = 1 - across.weight[0] - across.weight[1];
-        const bool isFirst = rest >= std::max(across.weight[0], across.weight[1]);
-        this->offer(w, across,
-          isFirst                                ? v
-          : across.weight[0] >= across.weight[1] ? others[i]
-                                                 : others[j]);
+        this->offer(w, across, std::array{ v, others[i], others[j] }[across.nearestCorner()]);
         continue;
       }
     }
@@ -233,14 +248,14 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
       if (passed.distance < Infinite)
       {
         const Arrival across =
-          acrossEdge<Kind>({ product[n][n], product[k][n], product[k][k] }, from, passed);
+          acrossEdge({ product[n][n], product[k][n], product[k][k] }, from, passed);
         crosses = crosses || across.distance < Infinite;
-        this->offer(w, across, across.weight[0] > 0.5 ? others[n] : v);
+        this->offer(w, across, across.nearestCorner() == 0 ? v : others[n]);
       }
     }
     if (!crosses)
     {
-      this->offer(w, fromCorner<Kind>(from, std::sqrt(product[k][k])), v);
+      this->offerEdge<4>(v, w, std::sqrt(product[k][k]));
     }
   }
 }

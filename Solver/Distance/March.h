@@ -33,10 +33,10 @@ public:
   }
 
   /** Memory for chunks of at most so many cells, inner and crossing ones. */
-  static std::int64_t bytes(const ChunkPlan& plan, std::int64_t vertices, bool curved,
-    std::int64_t innerCells, std::int64_t crossingCells)
+  static std::int64_t bytes(const ChunkPlan& plan, std::int64_t vertices, std::int64_t innerCells,
+    std::int64_t crossingCells)
   {
-    return MarchWindow::bytes(plan, vertices, curved, innerCells, crossingCells) +
+    return MarchWindow::bytes(plan, vertices, innerCells, crossingCells) +
            MarchQueue::bytes(std::min(plan.window(), vertices));
   }
 
@@ -62,16 +62,20 @@ private:
 
   void pass(bool forwards, Progress& progress, double begin, double end);
   /** Settles the shown chunks. */
-  template <int Corners, Front Kind>
+  template <int Corners>
   void settle(std::int64_t first, std::int64_t last);
   /** Passes the distance of vertex v on to the other corners of a triangle ... */
-  template <Front Kind>
   void passOn(std::uint32_t v, const std::array<std::uint32_t, 3>& others);
   /** ... or of a tetrahedron; v is the last element. */
-  template <Front Kind>
   void passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others);
-  template <Front Kind>
   FrontCorner corner(std::uint32_t vertex) const;
+  /** Whether the nearest point of a curve or surface of sources at source `v` may be beside v: a
+   * path from v to `w` ahead of one of the edges of the curve at v is not that from its end. */
+  template <int Corners>
+  bool isBesideCurve(std::uint32_t v, std::uint32_t w) const;
+  /** Offers the path from vertex `v` along an edge to vertex `w`. */
+  template <int Corners>
+  void offerEdge(std::uint32_t v, std::uint32_t w, double length);
   /** Offers a path to vertex `w` whose source is that of vertex `from`. */
   void offer(std::uint32_t w, const Arrival& arrival, std::uint32_t from);
 

@@ -35,42 +35,41 @@ Vector pointOf(const FrontCorner* const* corners, const double (&weight)[2])
 }
 
 /** The shortest path to w through the inside of the facet of N corners. */
-template <Front Kind, int N>
+template <int N>
 Path throughInside(const double* w, const FrontCorner* const* corners)
 {
   const Vector to = difference(w, corners[0]->point);
   Arrival arrival;
   if constexpr (N == 1)
   {
-    arrival = fromCorner<Kind>(*corners[0], std::sqrt(dot(to, to)));
+    arrival = fromCorner(*corners[0], std::sqrt(dot(to, to)));
   }
   else
   {
     const Vector e = difference(corners[1]->point, corners[0]->point);
     if constexpr (N == 2)
     {
-      arrival = acrossEdge<Kind>({ dot(e, e), dot(e, to), dot(to, to) }, *corners[0], *corners[1]);
+      arrival = acrossEdge({ dot(e, e), dot(e, to), dot(to, to) }, *corners[0], *corners[1]);
     }
     else
     {
       const Vector f = difference(corners[2]->point, corners[0]->point);
-      arrival =
-        acrossFace<Kind>({ dot(e, e), dot(e, f), dot(f, f), dot(e, to), dot(f, to), dot(to, to) },
-          *corners[0], *corners[1], *corners[2]);
+      arrival = acrossFace({ dot(e, e), dot(e, f), dot(f, f), dot(e, to), dot(f, to), dot(to, to) },
+        *corners[0], *corners[1], *corners[2]);
     }
   }
   return { arrival.distance, pointOf(corners, arrival.weight) };
 }
 
 /** The shortest path to w through the facet of N corners. */
-template <Front Kind, int N>
+template <int N>
 Path through(const double* w, const FrontCorner* const* corners)
 {
   const auto isReached = [](const FrontCorner* corner) { return std::isfinite(corner->distance); };
   Path path;
   if (std::all_of(corners, corners + N, isReached))
   {
-    path = throughInside<Kind, N>(w, corners);
+    path = throughInside<N>(w, corners);
   }
   if constexpr (N > 1)
   {
@@ -80,7 +79,7 @@ Path through(const double* w, const FrontCorner* const* corners)
     {
       const FrontCorner* others[N - 1];
       std::copy(corners + k + 1, corners + N, std::copy_n(corners, k, others));
-      const Path other = through<Kind, N - 1>(w, others);
+      const Path other = through<N - 1>(w, others);
       path = other.distance < path.distance ? other : path;
     }
   }
@@ -98,14 +97,14 @@ MarchDirections::MarchDirections(ChunkedMesh& mesh, Pool& pool)
   this->Direction = reinterpret_cast<float*>(this->Shortest + vertices);
 }
 
-std::int64_t MarchDirections::bytes(const ChunkPlan& plan, std::int64_t vertices, bool curved,
-  std::int64_t innerCells, std::int64_t crossingCells)
+std::int64_t MarchDirections::bytes(
+  const ChunkPlan& plan, std::int64_t vertices, std::int64_t innerCells, std::int64_t crossingCells)
 {
-  return MarchWindow::bytes(plan, vertices, curved, innerCells, crossingCells) +
+  return MarchWindow::bytes(plan, vertices, innerCells, crossingCells) +
          std::min(plan.window(), vertices) * VertexBytes;
 }
 
-template <int Corners, Front Kind>
+template <int Corners>
 void MarchDirections::addCells(std::span<const std::uint32_t> corners)
 {
   for (; !corners.empty(); corners = corners.subspan(Corners))
@@ -114,7 +113,7 @@ void MarchDirections::addCells(std::span<const std::uint32_t> corners)
     for (int k = 0; k < Corners; ++k)
     {
       all[k] = { this->Window.point(corners[k]), this->Window.distance()[corners[k]],
-        Kind == Front::OfCurves ? this->Window.curvature()[corners[k]] : 0 };
+        (this->Window.flags()[corners[k]] & Straight) != 0 };
     }
     for (int k = 0; k < Corners; ++k)
     {
@@ -128,7 +127,7 @@ void MarchDirections::addCells(std::span<const std::uint32_t> corners)
       {
         others[n - 1] = &all[(k + n) % Corners];
       }
-      const Path path = through<Kind, Corners - 1>(all[k].point, others);
+      const Path path = through<Corners - 1>(all[k].point, others);
       const Vector along = difference(all[k].point, path.crossing.data());
       const double length = std::sqrt(dot(along, along));
       if (path.distance < this->Shortest[w] && length > 0)
@@ -151,16 +150,7 @@ void MarchDirections::addChunk(std::int64_t chunk)
   for (const std::span<const std::uint32_t> cells :
     { this->Window.innerCells(chunk), this->Window.crossingCells(chunk) })
   {
-    if (mesh.plan.cellType == CellType::Triangle)
-    {
-      mesh.curved ? this->addCells<3, Front::OfCurves>(cells)
-                  : this->addCells<3, Front::OfPoints>(cells);
-    }
-    else
-    {
-      mesh.curved ? this->addCells<4, Front::OfCurves>(cells)
-                  : this->addCells<4, Front::OfPoints>(cells);
-    }
+    mesh.plan.cellType == CellType::Triangle ? this->addCells<3>(cells) : this->addCells<4>(cells);
   }
 }
 

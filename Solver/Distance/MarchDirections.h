@@ -21,15 +21,15 @@ public:
   MarchDirections(ChunkedMesh& mesh, Pool& pool);
 
   /** Memory for chunks of at most so many cells, inner and crossing ones. */
-  static std::int64_t bytes(const ChunkPlan& plan, std::int64_t vertices, bool curved,
-    std::int64_t innerCells, std::int64_t crossingCells);
+  static std::int64_t bytes(const ChunkPlan& plan, std::int64_t vertices, std::int64_t innerCells,
+    std::int64_t crossingCells);
 
   /** Writes three floats a vertex; block n has those of chunk n. */
   void write(ScratchBlocks& to, Progress& progress);
 
 private:
   /** Takes note of the paths through some cells. */
-  template <int Corners, Front Kind>
+  template <int Corners>
   void addCells(std::span<const std::uint32_t> corners);
   void addChunk(std::int64_t chunk);
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Distance/MarchWindow.h"
 
-#include "Solver/Distance/Arrival.h"
-
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -14,11 +12,10 @@ namespace
 {
 
 /** Bytes of the state and position of a vertex. */
-std::int64_t vertexBytes(bool sources, bool curved)
+std::int64_t vertexBytes(bool sources)
 {
   return 4 * std::int64_t(sizeof(double)) + std::int64_t(sizeof(std::uint8_t)) +
-         (sources ? std::int64_t(sizeof(std::int64_t)) : 0) +
-         (curved ? std::int64_t(sizeof(float)) : 0);
+         (sources ? std::int64_t(sizeof(std::int64_t)) : 0);
 }
 
 /** The vertices of a window, which may be longer than the mesh. */
@@ -36,12 +33,12 @@ std::int64_t slotBytes(const ChunkPlan& plan, std::int64_t innerCells, std::int6
 
 } // namespace
 
-std::int64_t MarchWindow::bytes(const ChunkPlan& plan, std::int64_t vertices, bool curved,
-  std::int64_t innerCells, std::int64_t crossingCells)
+std::int64_t MarchWindow::bytes(
+  const ChunkPlan& plan, std::int64_t vertices, std::int64_t innerCells, std::int64_t crossingCells)
 {
   const std::int64_t slots =
     std::min(ChunkPlan::WindowChunks, (vertices + plan.length - 1) / plan.length);
-  return windowVertices(plan, vertices) * vertexBytes(plan.sources, curved) +
+  return windowVertices(plan, vertices) * vertexBytes(plan.sources) +
          slots * slotBytes(plan, innerCells, crossingCells);
 }
 
@@ -51,8 +48,7 @@ MarchWindow::MarchWindow(ChunkedMesh& mesh, Pool& pool)
   , Span(static_cast<std::uint32_t>(mesh.plan.span))
 {
   const std::int64_t vertices = windowVertices(mesh.plan, mesh.vertices);
-  this->Memory =
-    Buffer(pool, static_cast<std::size_t>(vertices * vertexBytes(mesh.plan.sources, mesh.curved)));
+  this->Memory = Buffer(pool, static_cast<std::size_t>(vertices * vertexBytes(mesh.plan.sources)));
   std::byte* next = this->Memory.data();
   const auto part = [&]<class T>(T*& values, std::int64_t components)
   {
@@ -64,10 +60,6 @@ MarchWindow::MarchWindow(ChunkedMesh& mesh, Pool& pool)
   if (mesh.plan.sources)
   {
     part(this->Source, 1);
-  }
-  if (mesh.curved)
-  {
-    part(this->Curvature, 1);
   }
   part(this->Flag, 1);
 
@@ -213,16 +205,6 @@ void MarchWindow::loadState(std::int64_t chunk)
   {
     readOr(this->Source, ChunkedMesh::Sources, std::int64_t(-1));
   }
-  if (this->Curvature)
-  {
-    const bool stored = file.bytes(index + ChunkedMesh::Curvatures) > 0;
-    const std::span<float> curvatures = this->of(this->Curvature, chunk);
-    readOr(this->Curvature, ChunkedMesh::Curvatures, 0.0F);
-    for (std::size_t i = 0; i < curvatures.size() && !stored; ++i)
-    {
-      curvatures[i] = distances[i] == 0 && (flags[i] & CurveVertex) == 0 ? PointCurvature : 0.0F;
-    }
-  }
 }
 
 void MarchWindow::write(std::int64_t chunk)
@@ -246,7 +228,6 @@ void MarchWindow::write(std::int64_t chunk)
   }
   store(this->Flag, ChunkedMesh::Flags);
   store(this->Distance, ChunkedMesh::Distances);
-  store(this->Curvature, ChunkedMesh::Curvatures);
   store(this->Source, ChunkedMesh::Sources);
 }
 

@@ -23,8 +23,8 @@ public:
   MarchWindow(ChunkedMesh& mesh, Pool& pool);
 
   /** Memory of a window on chunks of at most so many cells, inner and crossing ones. */
-  static std::int64_t bytes(const ChunkPlan& plan, std::int64_t vertices, bool curved,
-    std::int64_t innerCells, std::int64_t crossingCells);
+  static std::int64_t bytes(const ChunkPlan& plan, std::int64_t vertices, std::int64_t innerCells,
+    std::int64_t crossingCells);
 
   /** Provides exactly the chunks [first, last]. */
   void show(std::int64_t first, std::int64_t last);
@@ -78,8 +78,6 @@ public:
   const double* point(std::uint32_t vertex) const { return this->Point + 3 * std::size_t(vertex); }
   double* distance() const { return this->Distance; }
   std::uint8_t* flags() const { return this->Flag; }
-  /** Null if all sources are isolated. */
-  float* curvature() const { return this->Curvature; }
   /** Null if they are not wanted. */
   std::int64_t* source() const { return this->Source; }
 
@@ -121,7 +119,6 @@ private:
   Buffer Memory; ///< of the vertices
   double *Point, *Distance;
   std::int64_t* Source = nullptr;
-  float* Curvature = nullptr;
   std::uint8_t* Flag;
   std::int64_t Read = 0;
   std::int64_t Shown = -1; ///< first chunk shown last

@@ -51,13 +51,13 @@ std::int64_t measuredSpan(const StoredMesh& mesh)
 }
 
 /** Memory of the march, for chunks of at most so many cells. */
-std::int64_t neededBytes(const ChunkPlan& plan, std::int64_t vertices, bool curved, bool directions,
+std::int64_t neededBytes(const ChunkPlan& plan, std::int64_t vertices, bool directions,
   std::int64_t innerCells, std::int64_t crossingCells)
 {
-  const std::int64_t march = March::bytes(plan, vertices, curved, innerCells, crossingCells);
-  return directions ? std::max(march,
-                        MarchDirections::bytes(plan, vertices, curved, innerCells, crossingCells))
-                    : march;
+  const std::int64_t march = March::bytes(plan, vertices, innerCells, crossingCells);
+  return directions
+           ? std::max(march, MarchDirections::bytes(plan, vertices, innerCells, crossingCells))
+           : march;
 }
 
 void checkMemory(std::int64_t needed, const Pool& pool)
@@ -186,8 +186,7 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
     plan.length = std::max(std::min(plan.length, info.vertices), plan.span);
     // With the mean number of cells of a chunk; the exact need is known after the first reading.
     const std::int64_t cells = info.cells / info.vertices * std::min(plan.length, info.vertices);
-    checkMemory(
-      neededBytes(plan, info.vertices, false, description.direction, cells, 0), run->pool);
+    checkMemory(neededBytes(plan, info.vertices, description.direction, cells, 0), run->pool);
   }
   run->report.distance.emplace();
   auto files = std::make_shared<DistanceFiles>(plan, *run);
@@ -197,8 +196,8 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   readMesh(mesh, sources, chunks, *run);
   run->report.seconds.build = building.seconds();
   const ChunkedMesh::Chunk largest = largestOf(chunks);
-  checkMemory(neededBytes(plan, chunks.vertices, chunks.curved, description.direction,
-                largest.innerCells, largest.crossingCells),
+  checkMemory(neededBytes(plan, chunks.vertices, description.direction, largest.innerCells,
+                largest.crossingCells),
     run->pool);
   march(chunks, *run);
   if (description.direction)

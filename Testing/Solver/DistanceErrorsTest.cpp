@@ -2,6 +2,7 @@
 #include "Testing/Solver/DistanceTesting.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/NotNumbers.h"
+#include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
@@ -32,16 +33,74 @@ TEST(DistanceErrors, ComponentsWithoutSourceAreInfinite)
   }
 }
 
-TEST(DistanceErrors, FlaggedCellsHaveNoPart)
+TEST(DistanceErrors, DuplicatesHaveNoPart)
 {
   StreamMesh strip = toStream(grid(3, 40), TestOrder::Keep);
   std::vector<std::uint8_t> flags(static_cast<std::size_t>(strip.cells()));
-  std::fill_n(flags.begin() + strip.cells() / 2, 8, DegenerateCell);
+  std::fill_n(flags.begin() + strip.cells() / 2, 8, DuplicateCell);
   strip.cellColumns.push_back(makeColumn<std::uint8_t>(CellFlagsName, flags));
   const MemoryMesh mesh(strip);
   const Solved solved = measure(mesh, fromVertices({ 0 }));
   EXPECT_GT(solved.report.distance->unreached, strip.vertices() / 3);
   EXPECT_EQ(solved.report.degenerate_cells, 8);
+}
+
+TEST(DistanceErrors, CellsWithoutAreaJoinWhatTheyTouch)
+{
+  // The square in two halves, the upper one with the edges of the seam halved: triangles without
+  // area between the halves close it.
+  constexpr int N = 20;
+  IndexedTestMesh square;
+  std::vector<std::uint8_t> flags;
+  const auto addRow = [&square](int parts, double y)
+  {
+    const std::int64_t first = square.vertices();
+    for (int i = 0; i <= parts; ++i)
+    {
+      square.positions.insert(square.positions.end(), { double(i) / parts, y, 0.0 });
+    }
+    return first;
+  };
+  const auto addStrip = [&square](std::int64_t below, std::int64_t above, int parts)
+  {
+    for (int i = 0; i < parts; ++i)
+    {
+      const std::int64_t a = below + i, c = above + i;
+      square.corners.insert(square.corners.end(), { a, a + 1, c, a + 1, c + 1, c });
+    }
+  };
+  std::int64_t below = addRow(N, 0);
+  for (int k = 1; k <= N / 2; ++k)
+  {
+    const std::int64_t row = addRow(N, double(k) / N);
+    addStrip(below, row, N);
+    below = row;
+  }
+  std::int64_t above = addRow(2 * N, 0.5);
+  flags.resize(static_cast<std::size_t>(square.cells()));
+  for (int i = 0; i < N; ++i)
+  {
+    const std::int64_t a = below + i, c = above + 2 * i;
+    square.corners.insert(
+      square.corners.end(), { a, a + 1, c + 1, a, c + 1, c, a + 1, c + 2, c + 1 });
+  }
+  flags.resize(static_cast<std::size_t>(square.cells()), DegenerateCell);
+  for (int k = 1; k <= N; ++k)
+  {
+    const std::int64_t row = addRow(2 * N, 0.5 + 0.5 * k / N);
+    addStrip(above, row, 2 * N);
+    above = row;
+  }
+  flags.resize(static_cast<std::size_t>(square.cells()));
+  StreamMesh stream = toStream(square, TestOrder::Keep);
+  stream.cellColumns.push_back(makeColumn<std::uint8_t>(CellFlagsName, flags));
+  const MemoryMesh mesh(stream);
+  const std::int64_t source = nearestTo(mesh.mesh(), 0.3, 0.2, 0);
+  const Solved solved = measure(mesh, fromVertices({ source }));
+  EXPECT_EQ(solved.report.distance->unreached, 0);
+  EXPECT_EQ(solved.report.degenerate_cells, 0);
+  const RelativeErrors errors = errorsOf(solved, mesh.mesh(), straightFrom(mesh.mesh(), source));
+  EXPECT_LT(errors.largest, 1e-6);
 }
 
 TEST(DistanceErrors, DegenerateCellsAreHarmless)
@@ -128,12 +187,18 @@ TEST(DistanceErrors, MeshesAreChecked)
   }
 }
 
-TEST(DistanceErrors, CanBeCancelled)
+TEST(DistanceErrors, CancellingLeavesNothing)
 {
   const MemoryMesh mesh(toStream(unitSquare(20)));
+  const TemporaryFolder scratch;
   DistanceOptions options;
-  options.progress = [](double done) { return done < 0.5; };
-  EXPECT_THROW(measure(mesh, fromVertices({ 0 }), options), Cancelled);
+  options.scratch = scratch.path();
+  for (const double end : { 0.01, 0.2, 0.5 })
+  {
+    options.progress = [end](double done) { return done < end; };
+    EXPECT_THROW(measure(mesh, fromVertices({ 0 }), options), Cancelled);
+    EXPECT_EQ(scratch.entries(), 0);
+  }
 }
 
 } // namespace smg::testing

@@ -24,18 +24,24 @@ TEST(Distance, InAFlatSquareIsExact)
 TEST(Distance, InAnyUnitIsTheSame)
 {
   const IndexedTestMesh square = unitSquare(20);
-  const Eigen::MatrixXd expected =
-    measure(MemoryMesh(toStream(square)), fromVertices({ 0 })).values;
-  for (const int exponent : { -150, 150 })
+  // A point, and a part of an edge.
+  for (const std::vector<std::int64_t>& ids : { std::vector<std::int64_t>{ 0 }, { 0, 1, 2, 3, 4 } })
   {
-    IndexedTestMesh scaled = square;
-    for (double& x : scaled.positions)
+    const auto measured = [&](double unit)
     {
-      x = std::ldexp(x, exponent);
+      IndexedTestMesh scaled = square;
+      std::ranges::for_each(scaled.positions, [unit](double& x) { x *= unit; });
+      return measure(MemoryMesh(toStream(scaled, TestOrder::Keep)), fromVertices(ids)).values;
+    };
+    const Eigen::MatrixXd expected = measured(1);
+    for (const double unit : { 0x1p-150, 0x1p-100, 0x1p100, 0x1p150 })
+    {
+      EXPECT_EQ(measured(unit) / unit, expected) << "unit " << unit;
     }
-    Eigen::MatrixXd values = measure(MemoryMesh(toStream(scaled)), fromVertices({ 0 })).values;
-    values *= std::ldexp(1.0, -exponent);
-    EXPECT_EQ(values, expected) << "unit 2^" << exponent;
+    for (const double unit : { 1e-30, 1e30 })
+    {
+      EXPECT_LT((measured(unit) / unit - expected).cwiseAbs().maxCoeff(), 1e-6) << "unit " << unit;
+    }
   }
 }
 
@@ -92,9 +98,49 @@ TEST(Distance, FromHalfAnEdgeHasAStraightAndARoundFront)
   const MemoryMesh mesh(toStream(unitSquare(100)));
   DistanceDescription description;
   description.from.emplace_back(Region(Region::Box{ { 0, 0, 0 }, { 0, 0.5, 0 } }));
+  const Solved solved = measure(mesh, description);
+  const auto exact = [](const double* p) { return std::hypot(p[0], std::max(p[1] - 0.5, 0.0)); };
+  EXPECT_LT(errorsOf(solved, mesh.mesh(), exact).mean, 5e-4);
+  for (std::int64_t v = 0; v < mesh.mesh().vertices(); ++v)
+  {
+    // A tenth of an edge.
+    EXPECT_NEAR(solved.values(v, 0), exact(mesh.mesh().positions.data() + 3 * v), 1e-3);
+  }
+}
+
+TEST(Distance, FromAnInnerSegmentIsExactInARegularMesh)
+{
+  // The normals at its ends are edges of the mesh.
+  const MemoryMesh mesh(toStream(unitSquare(50, 0)));
+  DistanceDescription description;
+  description.from.emplace_back(Region(Region::Box{ { 0.5, 0.3, 0 }, { 0.5, 0.7, 0 } }));
   const RelativeErrors errors = errorsOf(measure(mesh, description), mesh.mesh(),
-    [](const double* p) { return std::hypot(p[0], std::max(p[1] - 0.5, 0.0)); });
-  EXPECT_LT(errors.mean, 2e-3);
+    [](const double* p) {
+      return std::hypot(p[0] - 0.5, std::max({ 0.3 - p[1], p[1] - 0.7, 0.0 }));
+    });
+  EXPECT_LT(errors.mean, 1e-6);
+  EXPECT_LT(errors.largest, 1e-6);
+}
+
+TEST(Distance, FromTwoNeighboursIsLocal)
+{
+  // They are a curve of one edge; what another source reaches first stays exact.
+  const MemoryMesh mesh(toStream(unitSquare(60, 0)));
+  const auto at = [&](double x, double y) { return nearestTo(mesh.mesh(), x, y, 0); };
+  const std::vector<std::int64_t> sources{ at(0.8, 0.5), at(0.8, 0.5 + 1.0 / 60), at(0.1, 0.1) };
+  const Solved solved = measure(mesh, fromVertices(sources));
+  const auto straight = straightFrom(mesh.mesh(), sources[2]);
+  for (std::int64_t v = 0; v < mesh.mesh().vertices(); ++v)
+  {
+    const double* p = mesh.mesh().positions.data() + 3 * v;
+    const double beyond = std::max({ 0.5 - p[1], p[1] - 0.5 - 1.0 / 60, 0.0 });
+    const double other = std::hypot(p[0] - 0.8, beyond);
+    EXPECT_NEAR(solved.values(v, 0), std::min(straight(p), other), 0.5 / 60);
+    if (straight(p) < other - 0.1)
+    {
+      EXPECT_NEAR(solved.values(v, 0), straight(p), 1e-6);
+    }
+  }
 }
 
 namespace
