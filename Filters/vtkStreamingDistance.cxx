@@ -4,6 +4,8 @@
 #include "Filters/Distance/vtkDistanceTask.h"
 #include "Filters/Streaming/SolveSummary.h"
 #include "IO/vtkMeshPieceData.h"
+#include "IO/vtkPieceColumns.h"
+#include "smg/Deform.h"
 #include "smg/DescriptionFiles.h"
 #include "smg/Error.h"
 
@@ -14,6 +16,7 @@
 #include "vtkSmartPointer.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 vtkStandardNewMacro(vtkStreamingDistance);
@@ -25,7 +28,7 @@ vtkStreamingDistance::~vtkStreamingDistance()
   this->SetFrom(nullptr);
 }
 
-std::unique_ptr<smg::DistanceTask> vtkStreamingDistance::DescribedTask() const
+std::unique_ptr<smg::DistanceTask> vtkStreamingDistance::DescribedTask(vtkPointSet& input) const
 {
   auto task = std::make_unique<smg::DistanceTask>();
   smg::SolveOptions common;
@@ -41,12 +44,16 @@ std::unique_ptr<smg::DistanceTask> vtkStreamingDistance::DescribedTask() const
   {
     task->description.from = smg::readPlacesText(this->From, "From");
   }
+  else if (!this->Wall && input.GetPointData()->HasArray(smg::HandleMaskName))
+  {
+    task->description.from.emplace_back(smg::ColumnMask{ smg::HandleMaskName });
+  }
   return task;
 }
 
-std::unique_ptr<smg::StreamedTask> vtkStreamingDistance::MakeTask(vtkPointSet& /*input*/)
+std::unique_ptr<smg::StreamedTask> vtkStreamingDistance::MakeTask(vtkPointSet& input)
 {
-  return this->DescribedTask();
+  return this->DescribedTask(input);
 }
 
 bool vtkStreamingDistance::IsForMemory(vtkPointSet& input, bool isWhole)
@@ -65,7 +72,7 @@ smg::SolveSummary vtkStreamingDistance::SolveInMemory(
     }
     throw smg::Error("The input has no cells: give it a mesh of triangles or tetrahedra.");
   }
-  return this->DescribedTask()->solveInMemory(input, progress, values);
+  return this->DescribedTask(input)->solveInMemory(input, progress, values);
 }
 
 void vtkStreamingDistance::Deliver(
@@ -74,23 +81,23 @@ void vtkStreamingDistance::Deliver(
   output.ShallowCopy(&piece);
   const auto stride = static_cast<std::size_t>(this->GetSummary().columns);
   std::size_t first = 0;
-  for (const smg::ColumnSpec& spec : smg::distanceColumns(this->DescribedTask()->description))
+  const auto points = stride == 0 ? 0 : static_cast<std::size_t>(piece.GetNumberOfPoints());
+  for (const smg::ColumnSpec& spec : smg::distanceColumns(this->DescribedTask(piece)->description))
   {
-    const auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(
-      spec.type == smg::ScalarType::Int64 ? VTK_TYPE_INT64 : VTK_DOUBLE));
-    array->SetName(spec.name.c_str());
-    array->SetNumberOfComponents(spec.components);
-    array->SetNumberOfTuples(stride == 0 ? 0 : piece.GetNumberOfPoints());
-    for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
-    {
-      for (int k = 0; k < spec.components; ++k)
+    smg::Column column{ spec, {} };
+    column.resize(points);
+    const auto components = static_cast<std::size_t>(spec.components);
+    smg::dispatch(spec.type,
+      [&]<class T>(T)
       {
-        array->SetComponent(
-          i, k, values[static_cast<std::size_t>(i) * stride + first + static_cast<std::size_t>(k)]);
-      }
-    }
-    output.GetPointData()->AddArray(array);
-    first += static_cast<std::size_t>(spec.components);
+        const std::span<T> to = column.as<T>();
+        for (std::size_t i = 0; i < to.size(); ++i)
+        {
+          to[i] = static_cast<T>(values[i / components * stride + first + i % components]);
+        }
+      });
+    output.GetPointData()->AddArray(smg::makeArray(column));
+    first += components;
   }
   output.GetPointData()->SetActiveScalars(smg::DistanceName);
 }

@@ -38,8 +38,8 @@ public:
 
   ///@{
   /** Where the distance is 0: WHERE of a problem file in JSON, or a list of these, for example
-   * {"vertices": [5]} or, after vtkMeshHandle, {"mask": "HandleMask"}. Columns are arrays of the
-   * input. With Wall, the wall; none (default): the whole boundary. */
+   * {"vertices": [5]}. Columns are arrays of the input. None (default): what is held by
+   * vtkMeshHandle, {"mask": "HandleMask"}. With Wall, the wall; none: the whole boundary. */
   vtkSetStringMacro(From);
   vtkGetStringMacro(From);
   ///@}
@@ -94,7 +94,8 @@ private:
   vtkStreamingDistance(const vtkStreamingDistance&) = delete;
   void operator=(const vtkStreamingDistance&) = delete;
 
-  std::unique_ptr<smg::DistanceTask> DescribedTask() const;
+  /** For a mesh of which `input` is some piece. */
+  std::unique_ptr<smg::DistanceTask> DescribedTask(vtkPointSet& input) const;
 
   char* From = nullptr;
   bool Wall = false;

@@ -23,7 +23,7 @@ namespace smg
 std::optional<ScalarType> scalarTypeOf(vtkDataArray& array);
 
 /** Creates a named VTK array with the type and the values of the column. */
-vtkSmartPointer<vtkDataArray> makeArray(const Column& column);
+VTKSTREAMINGMULTIGRIDIO_EXPORT vtkSmartPointer<vtkDataArray> makeArray(const Column& column);
 
 /** The columns of the named numeric arrays, without those of the piece contract. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<ColumnSpec> columnSpecs(vtkDataSetAttributes& arrays);

@@ -39,13 +39,23 @@ std::string noteOnPreview(const Report& report, bool isSolid)
                   : "; those of the full mesh are computed when it is saved");
 }
 
+/** What to do about sources that a preview does not have. */
+std::string hintOnPreview()
+{
+  return " This is about the preview, which has few vertices of the mesh: Save Data measures on "
+         "the "
+         "mesh itself; {\"nearest\": [[x, y, z]]} and Mesh Handles select sources on both.";
+}
+
 } // namespace
 
 void DistanceTask::check() const
 {
   if (this->description.from.empty() && !this->description.wall)
   {
-    throw Error("From must say where the distance is 0, for example {\"vertices\": [5]}.");
+    throw Error(
+      "From must say where the distance is 0, for example {\"vertices\": [5]}; or hold points "
+      "with a Mesh Handle before this filter.");
   }
 }
 
@@ -80,7 +90,23 @@ SolveSummary DistanceTask::solveInMemory(
   DistanceOptions given = this->options;
   given.progress = progress;
   const StoredBlock stored(mesh, namesInSources(this->description));
-  const std::unique_ptr<Solution> solution = distance(stored, this->description, given, "From");
+  std::unique_ptr<Solution> solution;
+  try
+  {
+    solution = distance(stored, this->description, given, "From");
+  }
+  catch (const Cancelled&)
+  {
+    throw;
+  }
+  catch (const Error& error)
+  {
+    if (isPreview(mesh))
+    {
+      throw Error(error.what() + hintOnPreview());
+    }
+    throw;
+  }
   values.resize(static_cast<std::size_t>(solution->vertices() * solution->columns()));
   solution->read(0, solution->vertices(), values);
   Report report = solution->report();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingDistance.h"
+#include "Filters/vtkMeshHandle.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
 #include "Testing/IO/vtkPieceTesting.h"
@@ -9,6 +10,8 @@
 #include "smg/Distance.h"
 #include "smg/VsmReader.h"
 
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
 #include "vtkFieldData.h"
 
 #include <functional>
@@ -151,6 +154,41 @@ TEST_F(VtkStreamingDistance, WhatIsWrittenIsTheWholeMeshAndAPreviewIsMeasuredByI
   }
 }
 
+TEST_F(VtkStreamingDistance, WithoutFromTheSourcesAreTheHandles)
+{
+  const vtkNew<vtkMeshHandle> handle;
+  handle->SetInputConnection(this->Reader->GetOutputPort());
+  handle->SetRegion(vtkMeshHandle::IDS);
+  handle->AddId(7);
+  handle->AddId(500);
+  this->Distance->SetInputConnection(handle->GetOutputPort());
+  this->Distance->SetFrom(nullptr);
+  for (const vtkIdType interactive : { 200000, 0 })
+  {
+    this->Distance->SetInteractivePoints(interactive);
+    this->expectDistances(from(Region(Region::Vertices{ { 7, 500 } })), 3);
+  }
+}
+
+TEST_F(VtkStreamingDistance, CanBeAborted)
+{
+  const vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback([](vtkObject* filter, unsigned long, void*, void*)
+    { static_cast<vtkAlgorithm*>(filter)->SetAbortExecute(1); });
+  for (const vtkIdType interactive : { 200000, 0 })
+  {
+    this->Distance->SetInteractivePoints(interactive);
+    const unsigned long observer = this->Distance->AddObserver(vtkCommand::ProgressEvent, abort);
+    const Errors errors(this->Distance);
+    EXPECT_FALSE(updatePiece(this->Distance, 0, 1));
+    EXPECT_EQ(this->Folder.entries(), 1);
+    this->Distance->RemoveObserver(observer);
+    this->Distance->SetAbortExecute(0);
+    EXPECT_TRUE(updatePiece(this->Distance, 0, 1));
+    EXPECT_TRUE(this->output()->GetPointData()->HasArray(DistanceName));
+  }
+}
+
 TEST_F(VtkStreamingDistance, MistakesAreOneErrorEach)
 {
   Errors errors(this->Distance);
@@ -170,6 +208,10 @@ TEST_F(VtkStreamingDistance, MistakesAreOneErrorEach)
   expect("From must say", [&] { this->Distance->SetFrom(nullptr); });
   expect("From: sphere: must be", [&] { this->Distance->SetFrom(R"({"sphere": [1]})"); });
   expect("from[0]: no vertex", [&] { this->Distance->SetFrom(R"({"sphere": [9, 9, 9, 1]})"); });
+  this->Reader->SetMaximumPointsInMemory(100);
+  this->Reader->SetPreviewPoints(300);
+  expect("This is about the preview", [&] { this->Distance->SetFrom(R"({"vertices": [7000]})"); });
+  this->Reader->SetMaximumPointsInMemory(2000000);
   expect("Missing", [&] { this->Distance->SetFrom(R"({"mask": "Missing"})"); });
   expect("tetrahedral mesh", [&] { this->Distance->WallOn(); });
 }

@@ -65,6 +65,22 @@ for pieces in (1, 7, 64):
     assert (numpy.sort(own) == numpy.arange(t.BUNNY_POINTS)).all(), pieces
     assert (numpy.concatenate([p[4] for p in parts]) == smooth[4]).all(), pieces
 
+# Likewise the distances.
+measured = os.path.join(folder, "measured.vsm")
+t.run_smg("distance", container, measured, "--from", '{"vertices": [100]}')
+distance = StreamingDistance(Input=reader, From='{"vertices": [100]}')
+distance.UpdatePipeline()
+expected = OpenDataFile(measured)
+expected.UpdatePipeline()
+measured = t.pull(t.client_object(expected), 1, "Distance")[0]
+assert measured[3].max() > 0.1
+for pieces in (1, 7, 64):
+    parts = t.pull(t.client_object(distance), pieces, "Distance")
+    own = numpy.concatenate([p[0][p[1]] for p in parts])
+    assert (numpy.sort(own) == numpy.arange(t.BUNNY_POINTS)).all(), pieces
+    for p in parts:
+        assert (p[3] == measured[3][p[0]]).all(), pieces
+
 # With the guard, the whole mesh is a preview, with the true solution if requested.
 reader.MaximumPointsInMemory = 1000
 poisson.SolveFullMesh = 1

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The steps of Examples/Distance/gui in the real ParaView: opens the bunny, holds the tip of an ear
+with a Mesh Handle, shows the distances from it, names another source while a preview is shown, and
+saves the mesh: the same bits as those of smg distance.
+
+    distance.py PLUGIN MESH FOLDER [--pictures FOLDER] [--guard POINTS] [--timeout SECONDS]
+
+The environment variable SMG_PROGRAM names smg. The functions without arguments at the end are the
+checkpoints, which run inside ParaView.
+"""
+
+import os
+import subprocess
+import sys
+
+from paraview_gui import PROPERTIES, Session, read_arguments
+
+EAR, RADIUS = (-0.0175, 0.187, -0.02), 0.004
+FROM = '{"nearest": [[-0.0175, 0.187, -0.02]]}'
+WIDGET = "RegionFunction/ProxySelectionWidget/frame/ChosenProxyWidget/InteractiveSphere/"
+# An update of 10,000 points, so that the preview follows; on a machine that others share.
+FOLLOWS_SECONDS = 0.05
+
+
+def values(simple, path):
+    """The bytes of the points and of their distances."""
+    from paraview import servermanager
+    from paraview.vtk.util.numpy_support import vtk_to_numpy
+
+    data = servermanager.Fetch(simple.StreamingMeshReader(FileName=path))
+    return [vtk_to_numpy(array).tobytes()
+            for array in (data.GetPoints().GetData(), data.GetPointData().GetArray("Distance"))]
+
+
+def play(arguments):
+    from paraview import simple
+
+    folder = os.path.abspath(arguments.folder)
+    result, expected = (os.path.join(folder, name) for name in ("gui.vsm", "smg.vsm"))
+    subprocess.run([os.environ["SMG_PROGRAM"], "distance", arguments.mesh, expected, "--quiet",
+                    "--from", FROM], check=True)
+
+    session = Session(folder, arguments.plugin, __file__, arguments.pictures)
+    session.open(arguments.mesh)
+    session.apply()
+    session.checkpoint("opened")
+    session.filter("MeshHandle")
+    session.write_vector(WIDGET + "center", "XYZ", EAR)
+    session.write(WIDGET + "radius", RADIUS)
+    session.event(f"{PROPERTIES}/{WIDGET}show3DWidget", "set_boolean", "false")
+    session.apply()
+    session.filter("StreamingDistance")
+    session.apply()
+    session.checkpoint("measured_from_the_handle")
+    session.picture("distance-handle")
+    session.write("From/From", FROM)
+    session.apply()
+    session.checkpoint("measured_from_the_tip")
+    session.picture("distance-from")
+    session.checkpoint("select_mesh")
+    session.write("MaximumPointsInMemory/LineEdit0", arguments.guard)
+    session.apply()
+    session.checkpoint("select_distance")
+    session.checkpoint("follow")
+    session.save_data(result)
+    session.run(arguments.timeout)
+
+    simple.LoadPlugin(arguments.plugin, ns=simple.__dict__)
+    assert values(simple, result) == values(simple, expected)
+    os.write(1, b"passed\n")
+
+
+if __name__ == "__main__":
+    play(read_arguments())
+    sys.exit()
+
+import json
+import time
+
+from paraview.simple import *
+
+notes = sys.modules.setdefault("distance_notes", type(sys)("distance_notes"))
+
+
+def opened():
+    notes.mesh = GetActiveSource()
+    camera = GetActiveCamera()
+    camera.SetPosition(-0.12, 0.22, 0.45)
+    camera.SetFocalPoint(-0.017, 0.11, 0.0)
+    camera.SetViewUp(0, 1, 0)
+    Render()
+
+
+def report():
+    notes.distance.UpdatePropertyInformation()
+    found = json.loads(notes.distance.GetPropertyValue("Report"))
+    assert found["converged"], found
+    assert notes.distance.GetPropertyValue("Outcome").startswith("Converged in "), found
+    return found
+
+
+def largest():
+    return notes.distance.PointData["Distance"].GetRange()[1]
+
+
+def measured_from_the_handle():
+    notes.distance = GetActiveSource()
+    assert notes.distance.From == ""
+    found = report()
+    assert found["vertices"] == 34834 and 1 < found["distance"]["sources"] < 500, found
+    notes.largest = largest()
+    Render()
+
+
+def measured_from_the_tip():
+    found = report()
+    assert notes.distance.From == FROM and found["distance"]["sources"] == 1, found
+    assert 0 < largest() - notes.largest < 2 * RADIUS
+    Render()
+
+
+def select_mesh():
+    SetActiveSource(notes.mesh)
+
+
+def select_distance():
+    SetActiveSource(notes.distance)
+    Render()
+    assert report()["vertices"] <= 10000
+    assert "these are distances on the preview" in notes.distance.GetPropertyValue("Notes")
+    assert abs(largest() - notes.largest) < 0.1 * notes.largest
+
+
+def follow():
+    """The distances of the preview follow their source."""
+    times = []
+    for step in range(10):
+        notes.distance.From = '{"nearest": [[-0.0175, %g, -0.02]]}' % (0.187 - 0.01 * step)
+        begin = time.monotonic()
+        notes.distance.UpdatePipeline()
+        times.append(time.monotonic() - begin)
+        assert report()["distance"]["sources"] == 1
+    assert sorted(times)[len(times) // 2] < FOLLOWS_SECONDS, times
+    notes.distance.From = FROM
+    notes.distance.UpdatePipeline()
