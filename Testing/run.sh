@@ -5,10 +5,11 @@
 #                                  build: names in unnamed namespaces must differ
 #   vtk         build-vtk/         Debian's standalone VTK, on the libraries Solver and IOCore of build/; the
 #                                  tests that use VTK; no unity build; with assertions
-#   asan-ubsan  build-asan-ubsan/  Solver, IO and smg without VTK, under two sanitizers; no unity build;
-#                                  with assertions
-# Without a unity build, each source must include what it uses. The tests themselves are built for few
-# seconds of compilation: without full optimization, and under sanitizers with unity sources.
+#   asan-ubsan  build-asan-ubsan/  Solver, IO and smg without VTK, under two sanitizers; unity build; with
+#                                  assertions
+#   debug       build-debug/       main without a unity build, where each source must include what it uses;
+#                                  with assertions; not by default, since it takes as long as all others
+# The tests themselves are built for few seconds of compilation: without full optimization.
 # Stops at the first failing configuration, with the summary of ctest as its last lines.
 #
 # Environment:
@@ -48,7 +49,7 @@ for configuration in ${SMG_CONFIGURATIONS:-main vtk asan-ubsan}; do
       bash cmake/vtk-prefix.sh build-vtk/vtk
       configure_build_test vtk
       ;;
-    asan-ubsan) configure_build_test asan-ubsan ;;
+    asan-ubsan | debug) configure_build_test "$configuration" ;;
     *)
       echo "SMG_CONFIGURATIONS: there is no configuration $configuration" >&2
       exit 2

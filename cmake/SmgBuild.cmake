@@ -22,12 +22,14 @@ if (CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LE
   # g++ 12 reports false overlaps inside operator+ of std::string (GCC bug 105329).
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict>)
 endif ()
-if ((CMAKE_UNITY_BUILD OR SMG_SANITIZE) AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+if (CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   # Unity builds include sources in others, where types in unnamed namespaces cause this warning.
   add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
 endif ()
 if (SMG_SANITIZE)
   add_compile_options(-fsanitize=${SMG_SANITIZE} -fno-omit-frame-pointer)
+  # Under sanitizers Eigen allocates vectors in a way of its own: a program must not mix both.
+  add_compile_definitions(EIGEN_DONT_VECTORIZE)
   add_link_options(-fsanitize=${SMG_SANITIZE})
   if (SMG_SANITIZE MATCHES undefined)
     # Without what AddressSanitizer finds as well: access through null pointers and beyond objects, use

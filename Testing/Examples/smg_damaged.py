@@ -12,10 +12,11 @@ import struct
 import subprocess
 import sys
 
+from program import SMG, Combinations
 from tetrahedra import tetrahedra
 from torus import torus
 
-SMG = os.environ["SMG_PROGRAM"]
+COMBINATIONS = Combinations()
 # A coordinate that occurs once in the meshes, to be replaced by NaN.
 MARK = 1234.5
 
@@ -135,6 +136,8 @@ def samples():
 
 def check(suffix, data, refused, what):
     """Expects one line and code 1 or, unless the file must be refused, success."""
+    if not COMBINATIONS.next():
+        return
     name = "damaged" + suffix
     with open(name, "wb") as file:
         file.write(data)
@@ -167,6 +170,8 @@ def counts(suffix, data):
 
 def refuse(suffix, data, what, placed=True):
     """Expects one line that names the file and, for a single error, its position."""
+    if not COMBINATIONS.next():
+        return
     name = "damaged" + suffix
     with open(name, "wb") as file:
         file.write(data)
@@ -296,6 +301,8 @@ def test_cuts():
         lines = [at + 1 for at in range(len(data)) if data[at:at + 1] == b"\n"]
         for cut in sorted({0, 1, *lines[:12], *lines[12::len(lines) // 12 or 1], *lines[-4:-1],
                            *range(0, len(data), len(data) // 12), len(data) - 2}):
+            if not COMBINATIONS.next():
+                continue
             name = "damaged" + suffix
             with open(name, "wb") as file:
                 file.write(data[:cut])

@@ -11,6 +11,7 @@
 #include "IO/Raw/RawMeshBuilder.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/IO/VtkXmlWriter.h"
+#include "Testing/Support/Combinations.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -339,6 +340,7 @@ TEST_F(ImportVtkXml, WhatIsWrongIsSaidWithItsPlace)
 
 TEST_F(ImportVtkXml, TruncatedFilesAreErrors)
 {
+  Combinations combinations;
   for (const Way way : { Way::Ascii, Way::Inline, Way::AppendedBase64, Way::AppendedRaw })
   {
     for (const char* compressor : { "", "vtkZLibDataCompressor" })
@@ -351,6 +353,10 @@ TEST_F(ImportVtkXml, TruncatedFilesAreErrors)
         whole.rfind(way < Way::AppendedBase64 ? "\n</DataArray>" : "\n</AppendedData>");
       for (std::size_t size = 1; size + 4 < whole.size(); size += 5)
       {
+        if (!combinations.next())
+        {
+          continue;
+        }
         EXPECT_TRUE(this->isRefused(whole.substr(0, size))) << size;
         // Bytes are missing before the end tag, more than the tag could replace.
         const std::string cut = whole.substr(0, size) + "</VTKFile>\n";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Cycle/CoreCycle.h"
 #include "Testing/Solver/CycleTesting.h"
+#include "Testing/Support/Combinations.h"
 
 #include <gtest/gtest.h>
 
@@ -46,6 +47,7 @@ Eigen::MatrixXd denseCycle(const DenseHierarchy<>& h, int levels, int l, const E
 
 TEST(CoreCycle, IsTheVCycle)
 {
+  Combinations combinations;
   const TestLevel surface =
     finestLevel(toStream(shuffled(torus(50, 24, 0.4))), Weights::Clamped, 100);
   const TestLevel solid = finestLevel(toStream(shuffled(tetBox(9, 9, 9))), Weights::Uniform, 100);
@@ -55,6 +57,10 @@ TEST(CoreCycle, IsTheVCycle)
     {
       for (const int columns : { 1, 3 })
       {
+        if (!combinations.next())
+        {
+          continue;
+        }
         DenseHierarchy<> h(level, levels, columns, 2);
         const Eigen::MatrixXd b = randomMatrix(level.nodes(), columns, 8);
         setState(h.finest().window().b(), b);
