@@ -115,6 +115,7 @@ void readMesh(
     const auto all = static_cast<double>(std::max<std::int64_t>(mesh.info().vertices, 1));
     run.progress.update(FirstReading * static_cast<double>(check.vertices()) / all);
   }
+  check.finish(mesh.info());
   writer.finish();
   sources.finish();
   run.report.vertices = chunks.vertices;

@@ -90,6 +90,7 @@ std::int64_t readWall(const StoredMesh& mesh, const DistanceDescription& descrip
     run.report.cells += static_cast<std::int64_t>(block.corners.size() / 4);
     run.progress.update(0.0);
   }
+  check.finish(mesh.info());
   wall.finish();
   sources.finish();
   run.report.vertices = check.vertices();

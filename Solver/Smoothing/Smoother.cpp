@@ -130,6 +130,7 @@ void Smoother::survey(Part part)
         facets->add(block, addEdge);
       }
     });
+  check.finish(this->Mesh.info());
   this->Held.endPreparing(boundaryOf(this->Options) == SmoothedBoundary::Fixed);
   if (facets)
   {
