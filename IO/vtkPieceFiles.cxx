@@ -4,7 +4,9 @@
 #include "IO/Formats/Vtk/VtkXml.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceStream.h"
+#include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Storage/WholeFile.h"
 #include "smg/Error.h"
 
 #include "vtkCellData.h"
@@ -18,10 +20,11 @@
 
 #include <bit>
 #include <cctype>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace smg
 {
@@ -116,33 +119,62 @@ void writePiece(vtkXMLWriter& writer, vtkPointSet& piece, const std::filesystem:
   }
 }
 
-void writeText(const std::filesystem::path& path, const std::string& text)
+/** Moves of files that are all undone if one of them fails. */
+class Moves
 {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file)
+public:
+  Moves() = default;
+  ~Moves()
   {
-    throw Error(path.string() + " cannot be written: free disk space.");
+    for (auto move = this->Done.rbegin(); move != this->Done.rend(); ++move)
+    {
+      std::error_code ignored;
+      std::filesystem::rename(move->second, move->first, ignored);
+    }
   }
-}
+  Moves(const Moves&) = delete;
+  Moves& operator=(const Moves&) = delete;
 
-/** Moves the complete files from the scratch folder to their destination, the index last. */
+  void add(const std::filesystem::path& from, const std::filesystem::path& to)
+  {
+    this->Done.reserve(this->Done.size() + 1);
+    moveFile(from, to);
+    this->Done.emplace_back(from, to);
+  }
+  void keep() { this->Done.clear(); }
+
+private:
+  std::vector<std::pair<std::filesystem::path, std::filesystem::path>> Done;
+};
+
+/** Moves the complete files from the scratch folder to their destination, the index last, and those
+ * that they replace into the scratch folder. */
 void install(const ScratchFolder& scratch, const std::filesystem::path& index, int pieces)
 {
   const std::filesystem::path folder = index.parent_path() / index.stem();
-  std::filesystem::remove(index);
+  const std::filesystem::path replaced = scratch.path() / "replaced";
+  std::filesystem::create_directory(replaced);
   std::filesystem::create_directories(folder);
-  // Remaining piece files of a replaced index with more pieces.
-  for (int piece = pieces; std::filesystem::remove(folder / pieceName(index, piece)); ++piece)
+  Moves moves;
+  if (std::filesystem::exists(index))
   {
+    moves.add(index, replaced / index.filename());
+  }
+  for (int piece = 0; std::filesystem::exists(folder / pieceName(index, piece)); ++piece)
+  {
+    moves.add(folder / pieceName(index, piece), replaced / pieceName(index, piece));
   }
   for (int piece = 0; piece < pieces; ++piece)
   {
     const std::string name = pieceName(index, piece);
-    std::filesystem::rename(scratch.path() / name, folder / name);
+    FileDescriptor::syncPath(scratch.path() / name);
+    moves.add(scratch.path() / name, folder / name);
   }
-  std::filesystem::rename(scratch.path() / index.filename(), index);
+  FileDescriptor::syncPath(folder);
+  FileDescriptor::syncPath(scratch.path() / index.filename());
+  moves.add(scratch.path() / index.filename(), index);
+  moves.keep();
+  FileDescriptor::syncPath(index.parent_path());
 }
 
 } // namespace
@@ -180,7 +212,7 @@ void writePieceFiles(
     }
     progress.update(stream.fraction());
   }
-  writeText(scratch.path() / index.filename(), indexText(index, files, description));
+  writeFile(scratch.path() / index.filename(), indexText(index, files, description));
   install(scratch, index, files);
 }
 

@@ -2,12 +2,12 @@
 #include "CommonOptions.h"
 
 #include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Storage/WholeFile.h"
 #include "smg/Error.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <utility>
@@ -25,6 +25,9 @@ void CommonOptions::addTo(CLI::App& command, const std::string& memoryDefault)
     ->check(CLI::ExistingDirectory)
     ->default_str("$TMPDIR or /tmp")
     ->type_name("DIR");
+  command.add_flag_callback(
+    "--no-sync", [] { smg::FileDescriptor::setDurable(false); },
+    "Do not wait until the results are on the disk, where a power cut cannot destroy them");
   command.add_flag("--quiet", this->quiet, "No progress bar and no summary");
 }
 
@@ -39,17 +42,11 @@ void CommonOptions::addThreadsTo(CLI::App& command)
 namespace
 {
 
-/** Whether the report is written in place: to a pipe, to a device or through a link. */
+/** Whether the report is written in place: to a pipe or to a device. */
 bool isInPlace(const std::filesystem::path& report)
 {
-  const std::filesystem::file_status status = std::filesystem::symlink_status(report);
+  const std::filesystem::file_status status = std::filesystem::status(report);
   return std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
-}
-
-/** The file to write; it is renamed when complete, so that no reader sees a partial report. */
-std::filesystem::path temporaryOf(const std::filesystem::path& report)
-{
-  return isInPlace(report) ? report : std::filesystem::path(report.string() + ".part");
 }
 
 [[noreturn]] void failReport(const std::filesystem::path& report, const std::string& reason)
@@ -91,12 +88,7 @@ void CommonOptions::checkReport(std::initializer_list<std::filesystem::path> oth
   {
     return;
   }
-  const std::filesystem::path part = temporaryOf(this->report);
-  if (!std::ofstream(part))
-  {
-    failReport(this->report, std::strerror(errno));
-  }
-  std::remove(part.c_str());
+  smg::FileDescriptor::createBeside(this->report); // removed at once
 }
 
 void CommonOptions::writeReport(const std::string& json) const
@@ -105,19 +97,18 @@ void CommonOptions::writeReport(const std::string& json) const
   {
     return;
   }
-  const std::filesystem::path part = temporaryOf(this->report);
-  std::ofstream stream(part);
-  stream << json << '\n';
-  stream.close();
-  const bool inPlace = part == this->report;
-  if (!stream || (!inPlace && std::rename(part.c_str(), this->report.c_str()) != 0))
+  const std::string text = json + '\n';
+  if (!isInPlace(this->report))
   {
-    const std::string reason = std::strerror(errno);
-    if (!inPlace)
-    {
-      std::remove(part.c_str());
-    }
-    failReport(this->report, reason);
+    smg::writeFile(this->report, text);
+    return;
+  }
+  std::ofstream stream(this->report);
+  stream << text;
+  stream.close();
+  if (!stream)
+  {
+    failReport(this->report, std::strerror(errno));
   }
 }
 

@@ -48,9 +48,8 @@ int succeed()
               : fail("standard output cannot be written: make room there, or send it elsewhere");
 }
 
-} // namespace
-
-int main(int argc, char** argv)
+/** Parses the arguments and executes the command. */
+int run(int argc, char** argv)
 {
   CLI::App program(
     "Streaming multigrid for Poisson problems, deformations, smoothing and distances on meshes of "
@@ -89,14 +88,24 @@ int main(int argc, char** argv)
   }
 
   catchInterrupts();
+  action();
+  return succeed();
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
   try
   {
-    action();
-    return succeed();
+    return run(argc, argv);
   }
   catch (const std::bad_alloc&)
   {
-    return fail("the system is out of memory: lower --memory or close other programs");
+    // Without a string, for which there may be no memory either.
+    std::fputs(
+      "smg: the system is out of memory: lower --memory or close other programs\n", stderr);
+    return 1;
   }
   catch (const std::exception& error)
   {

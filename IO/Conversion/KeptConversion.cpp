@@ -4,6 +4,7 @@
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/Files/Suffix.h"
 #include "Solver/Core/Progress.h"
+#include "Solver/Storage/SystemCalls.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 
@@ -29,14 +30,14 @@ class InputLock
 {
 public:
   explicit InputLock(const std::filesystem::path& path)
-    : File(::open(path.c_str(), O_RDONLY | O_CLOEXEC))
+    : File(systemCalls().open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC, 0))
   {
   }
   ~InputLock()
   {
     if (this->File >= 0)
     {
-      ::close(this->File);
+      systemCalls().close(this->File);
     }
   }
   InputLock(const InputLock&) = delete;

@@ -89,14 +89,6 @@ public:
     , Out(FileDescriptor::createBeside(to))
   {
   }
-  /** Removes the file unless renameTo() was called. */
-  ~FileInflater()
-  {
-    if (this->Out.isOpen())
-    {
-      this->Out.remove();
-    }
-  }
   FileInflater(const FileInflater&) = delete;
   FileInflater& operator=(const FileInflater&) = delete;
 

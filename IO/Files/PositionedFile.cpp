@@ -12,14 +12,6 @@ PositionedFile::PositionedFile(std::filesystem::path path)
 {
 }
 
-PositionedFile::~PositionedFile()
-{
-  if (this->File.isOpen())
-  {
-    this->File.remove();
-  }
-}
-
 void PositionedFile::write(std::int64_t offset, std::span<const std::byte> bytes)
 {
   if (const int error = this->File.tryWrite(offset, bytes); error != 0)

@@ -11,17 +11,12 @@
 namespace smg
 {
 
-/** A file that is written at arbitrary offsets and renamed when it is complete. */
+/** A file that is written at arbitrary offsets and renamed when it is complete, or else removed. */
 class PositionedFile
 {
 public:
   /** Creates the file under a temporary name beside `path`. Throws Error. */
   explicit PositionedFile(std::filesystem::path path);
-  /** Removes the file unless finish() was called. */
-  ~PositionedFile();
-  PositionedFile(const PositionedFile&) = delete;
-  PositionedFile& operator=(const PositionedFile&) = delete;
-
   /** Writes the bytes at this offset. Throws Error. */
   void write(std::int64_t offset, std::span<const std::byte> bytes);
 

@@ -20,14 +20,7 @@ SequentialOutput::SequentialOutput(std::filesystem::path path)
 {
 }
 
-SequentialOutput::~SequentialOutput()
-{
-  this->Behind.reset();
-  if (this->File.isOpen())
-  {
-    this->File.remove();
-  }
-}
+SequentialOutput::~SequentialOutput() = default;
 
 void SequentialOutput::check()
 {

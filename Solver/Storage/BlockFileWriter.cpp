@@ -30,15 +30,6 @@ struct BlockFileWriter::Implementation
     this->Index.tables = std::move(tables);
   }
 
-  ~Implementation()
-  {
-    this->Behind.reset();
-    if (this->File.isOpen())
-    {
-      this->File.remove();
-    }
-  }
-
   void put(std::span<const std::byte> bytes)
   {
     const std::int64_t waited = this->Behind->waitNanoseconds();
@@ -171,15 +162,7 @@ void BlockFileWriter::finish(const std::string& header)
   self.checkWritten();
   self.writeFront(header, tail, tailOffset);
   self.Behind.reset();
-  try
-  {
-    self.File.renameTo(self.Path);
-  }
-  catch (const Error&)
-  {
-    self.File.remove();
-    throw;
-  }
+  self.File.renameTo(self.Path);
 }
 
 } // namespace smg

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Storage/Pool.h"
+#include "Solver/Storage/SystemCalls.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -114,8 +115,8 @@ private:
     {
       return std::aligned_alloc(64, bytes);
     }
-    void* memory =
-      ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    void* memory = systemCalls().mmap(
+      nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     return memory == MAP_FAILED ? nullptr : memory;
   }
 

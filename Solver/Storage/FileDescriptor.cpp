@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/FileDescriptor.h"
 
+#include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Storage/SystemCalls.h"
 #include "Solver/Storage/WaitClock.h"
 #include "smg/Error.h"
 
@@ -20,9 +22,30 @@ namespace smg
 namespace
 {
 
+/** What a user can do about a failure; empty: nothing that the system's own words do not say. */
+const char* adviceOn(int errorNumber)
+{
+  switch (errorNumber)
+  {
+    case ENOSPC:
+    case EDQUOT:
+      return "; free space, or choose another folder";
+    case EMFILE:
+      return "; raise the limit of the process (ulimit -n)";
+    case ENFILE:
+      return "; close other programs";
+    case EFBIG:
+      return "; raise the limit of the process (ulimit -f), or choose another file system";
+    case EIO:
+      return "; check the disk and its connection";
+    default:
+      return "";
+  }
+}
+
 std::string reason(int errorNumber)
 {
-  return std::generic_category().message(errorNumber);
+  return std::generic_category().message(errorNumber) + adviceOn(errorNumber);
 }
 
 /** A unique name, unless a terminated process left a file with it. */
@@ -32,24 +55,25 @@ std::filesystem::path temporaryName(const std::filesystem::path& path)
   return path.string() + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
 }
 
+std::atomic<bool> durable{ true };
+
 int openNew(const std::filesystem::path& path)
 {
-  return ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  return systemCalls().open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
 }
 
 } // namespace
 
 FileDescriptor::~FileDescriptor()
 {
-  if (this->isOpen())
-  {
-    ::close(this->Number);
-  }
+  this->remove();
 }
 
 FileDescriptor::FileDescriptor(FileDescriptor&& other) noexcept
   : Number(std::exchange(other.Number, -1))
   , Path(std::move(other.Path))
+  , Shown(std::move(other.Shown))
+  , IsTemporary(std::exchange(other.IsTemporary, false))
 {
 }
 
@@ -57,20 +81,23 @@ FileDescriptor& FileDescriptor::operator=(FileDescriptor&& other) noexcept
 {
   std::swap(this->Number, other.Number);
   std::swap(this->Path, other.Path);
+  std::swap(this->Shown, other.Shown);
+  std::swap(this->IsTemporary, other.IsTemporary);
   return *this;
 }
 
 FileDescriptor FileDescriptor::openForReading(const std::filesystem::path& path)
 {
   FileDescriptor file;
-  file.Path = path;
-  file.Number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  file.Path = file.Shown = path;
+  // A named pipe without a writer would wait for one.
+  file.Number = systemCalls().open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC, 0);
   if (!file.isOpen())
   {
     throw Error(path.string() + ": cannot be opened: " + reason(errno) + ".");
   }
   struct stat status = {};
-  if (::fstat(file.Number, &status) != 0 || !S_ISREG(status.st_mode))
+  if (systemCalls().fstat(file.Number, &status) != 0 || !S_ISREG(status.st_mode))
   {
     throw Error(path.string() + ": is not a regular file.");
   }
@@ -98,6 +125,7 @@ FileDescriptor FileDescriptor::createBeside(const std::filesystem::path& path)
 {
   const std::filesystem::path target = targetOf(path);
   FileDescriptor file;
+  file.Shown = path;
   do
   {
     file.Path = temporaryName(target);
@@ -107,6 +135,7 @@ FileDescriptor FileDescriptor::createBeside(const std::filesystem::path& path)
   {
     throw Error(path.string() + ": cannot be created: " + reason(errno) + ".");
   }
+  file.IsTemporary = true;
   return file;
 }
 
@@ -114,13 +143,14 @@ FileDescriptor FileDescriptor::createNameless(const std::filesystem::path& folde
 {
   const std::filesystem::path place = folder.empty() ? std::filesystem::path(".") : folder;
   FileDescriptor file;
-  file.Path = place / "scratch file";
-  file.Number = ::open(place.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  file.Path = file.Shown = place / "scratch file";
+  file.Number = systemCalls().open(place.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   if (!file.isOpen())
   {
     // Not every file system supports unnamed files.
-    file = createBeside(place / "smg-scratch");
-    ::unlink(file.Path.c_str());
+    file = createBeside(place / "scratch file");
+    systemCalls().unlink(file.Path.c_str());
+    file.IsTemporary = false;
   }
   return file;
 }
@@ -128,9 +158,9 @@ FileDescriptor FileDescriptor::createNameless(const std::filesystem::path& folde
 std::int64_t FileDescriptor::size() const
 {
   struct stat status = {};
-  if (::fstat(this->Number, &status) != 0)
+  if (systemCalls().fstat(this->Number, &status) != 0)
   {
-    throwReadError(this->Path, errno);
+    throwReadError(this->Shown, errno);
   }
   return status.st_size;
 }
@@ -140,8 +170,8 @@ std::size_t FileDescriptor::readSome(std::int64_t offset, std::span<std::byte> b
   std::size_t done = 0;
   while (done < bytes.size())
   {
-    const ssize_t n =
-      ::pread(this->Number, bytes.data() + done, bytes.size() - done, offset + std::int64_t(done));
+    const ssize_t n = systemCalls().pread(
+      this->Number, bytes.data() + done, bytes.size() - done, offset + std::int64_t(done));
     if (n == 0)
     {
       break;
@@ -152,7 +182,7 @@ std::size_t FileDescriptor::readSome(std::int64_t offset, std::span<std::byte> b
     }
     else if (errno != EINTR)
     {
-      throwReadError(this->Path, errno);
+      throwReadError(this->Shown, errno);
     }
   }
   return done;
@@ -162,7 +192,7 @@ int FileDescriptor::tryRead(std::int64_t offset, std::span<std::byte> bytes) con
 {
   while (!bytes.empty())
   {
-    const ssize_t n = ::pread(this->Number, bytes.data(), bytes.size(), offset);
+    const ssize_t n = systemCalls().pread(this->Number, bytes.data(), bytes.size(), offset);
     if (n == 0)
     {
       return -1;
@@ -184,7 +214,7 @@ std::size_t FileDescriptor::readCached(
   std::int64_t offset, std::span<std::byte> bytes) const noexcept
 {
   iovec part{ bytes.data(), bytes.size() };
-  const ssize_t n = ::preadv2(this->Number, &part, 1, offset, RWF_NOWAIT);
+  const ssize_t n = systemCalls().preadv2(this->Number, &part, 1, offset, RWF_NOWAIT);
   // Not every file system supports this: then nothing counts as cached.
   return n > 0 ? static_cast<std::size_t>(n) : 0;
 }
@@ -208,8 +238,13 @@ int FileDescriptor::tryWrite(std::int64_t offset, std::span<const std::byte> byt
 {
   while (!bytes.empty())
   {
-    const ssize_t n = ::pwrite(this->Number, bytes.data(), bytes.size(), offset);
-    if (n >= 0)
+    const ssize_t n = systemCalls().pwrite(this->Number, bytes.data(), bytes.size(), offset);
+    if (n == 0)
+    {
+      // The system takes no byte and names no reason: trying again might never end.
+      return EIO;
+    }
+    if (n > 0)
     {
       bytes = bytes.subspan(n);
       offset += n;
@@ -226,7 +261,7 @@ void FileDescriptor::read(std::int64_t offset, std::span<std::byte> bytes) const
 {
   if (const int error = this->tryRead(offset, bytes); error != 0)
   {
-    throwReadError(this->Path, error);
+    throwReadError(this->Shown, error);
   }
 }
 
@@ -234,7 +269,7 @@ void FileDescriptor::write(std::int64_t offset, std::span<const std::byte> bytes
 {
   if (const int error = this->tryWrite(offset, bytes); error != 0)
   {
-    throwWriteError(this->Path, error);
+    throwWriteError(this->Shown, error);
   }
 }
 
@@ -245,40 +280,71 @@ void FileDescriptor::willRead(std::int64_t offset, std::size_t bytes) const noex
 
 void FileDescriptor::close()
 {
-  if (this->isOpen() && ::close(std::exchange(this->Number, -1)) != 0 && errno != EINTR)
+  if (this->isOpen() && systemCalls().close(std::exchange(this->Number, -1)) != 0 && errno != EINTR)
   {
-    throwWriteError(this->Path, errno);
+    throwWriteError(this->Shown, errno);
   }
 }
 
 void FileDescriptor::renameTo(const std::filesystem::path& path)
 {
-  try
-  {
-    this->close();
-  }
-  catch (...)
-  {
-    this->remove();
-    throw;
-  }
   const std::filesystem::path target = targetOf(path);
-  if (::rename(this->Path.c_str(), target.c_str()) != 0)
+  const bool isKept = !ScratchFolder::isOne(target.parent_path());
+  if (isKept)
   {
-    const int error = errno;
-    this->remove();
-    throwWriteError(path, error);
+    this->sync();
   }
-  this->Path = target;
+  this->close();
+  if (systemCalls().rename(this->Path.c_str(), target.c_str()) != 0)
+  {
+    throwWriteError(path, errno);
+  }
+  this->IsTemporary = false;
+  if (isKept)
+  {
+    syncPath(target.parent_path());
+  }
+}
+
+void FileDescriptor::setDurable(bool isDurable) noexcept
+{
+  durable = isDurable;
+}
+
+void FileDescriptor::sync() const
+{
+  // Some file systems have no such call.
+  if (durable && systemCalls().fsync(this->Number) != 0 && errno != EINVAL && errno != ENOTSUP)
+  {
+    throwWriteError(this->Shown, errno);
+  }
+}
+
+void FileDescriptor::syncPath(const std::filesystem::path& path)
+{
+  FileDescriptor file;
+  file.Shown = path.empty() ? std::filesystem::path(".") : path;
+  file.Number = systemCalls().open(file.Shown.c_str(), O_RDONLY | O_CLOEXEC, 0);
+  if (file.isOpen())
+  {
+    file.sync();
+  }
+  else if (errno != EACCES) // a folder in which one may write, but not read
+  {
+    throwWriteError(file.Shown, errno);
+  }
 }
 
 void FileDescriptor::remove() noexcept
 {
   if (this->isOpen())
   {
-    ::close(std::exchange(this->Number, -1));
+    systemCalls().close(std::exchange(this->Number, -1));
   }
-  ::unlink(this->Path.c_str());
+  if (std::exchange(this->IsTemporary, false))
+  {
+    systemCalls().unlink(this->Path.c_str());
+  }
 }
 
 void FileDescriptor::throwWriteError(const std::filesystem::path& path, int errorNumber)

@@ -28,8 +28,8 @@ public:
   /** The file that a path refers to, with symbolic links resolved, also if it does not exist.
    * Throws Error for cyclic links. */
   static std::filesystem::path targetOf(const std::filesystem::path& path);
-  /** Creates a file with a temporary name, path(), beside the target of `path`. The caller renames
-   * or removes it. */
+  /** Creates a file with a temporary name, path(), beside the target of `path`. It is removed
+   * unless it is renamed. */
   static FileDescriptor createBeside(const std::filesystem::path& path);
   /**
    * Creates an unnamed file in `folder`, which is removed when it is closed or the program ends.
@@ -57,14 +57,22 @@ public:
 
   /** Closes the file; some systems report a failed write only here. */
   void close();
+  /** Waits until the content is on the disk, unless setDurable(false). Throws Error. */
+  void sync() const;
+  /** The same of a closed file, or of the names in a folder. */
+  static void syncPath(const std::filesystem::path& path);
   /**
    * Closes the file and atomically renames it to `path`, replacing an existing file; the target of
-   * a symbolic link is replaced and the link is kept. On failure the file is removed and Error is
-   * thrown.
+   * a symbolic link is replaced and the link is kept. Content and name are durable then, except in
+   * a ScratchFolder: after a power cut `path` is the old file or the whole new one. On failure Error
+   * is thrown, and the file keeps its temporary name, unless only the new one is not durable.
    */
   void renameTo(const std::filesystem::path& path);
-  /** Closes and removes the file. */
+  /** Closes the file, and removes it if its name is temporary. */
   void remove() noexcept;
+
+  /** Whether this process waits for the disk at sync() and renameTo(); initially it does. */
+  static void setDurable(bool isDurable) noexcept;
 
   /** Throws the Error of a failed write, for callers of tryWrite. */
   [[noreturn]] static void throwWriteError(const std::filesystem::path& path, int errorNumber);
@@ -76,6 +84,8 @@ private:
 
   int Number = -1;
   std::filesystem::path Path;
+  std::filesystem::path Shown; // the name in errors: that of the result, not of its temporary file
+  bool IsTemporary = false;
 };
 
 } // namespace smg

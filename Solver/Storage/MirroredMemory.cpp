@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/MirroredMemory.h"
 
+#include "Solver/Storage/SystemCalls.h"
 #include "smg/Error.h"
 
 #include <cerrno>
@@ -53,9 +54,10 @@ void MirroredMemory::grow(std::size_t bytes)
   {
     if (this->Descriptor < 0)
     {
-      this->Descriptor = ::memfd_create("smg-window", MFD_CLOEXEC);
+      this->Descriptor = systemCalls().memfd_create("smg-window", MFD_CLOEXEC);
     }
-    if (this->Descriptor < 0 || ::ftruncate(this->Descriptor, static_cast<off_t>(bytes)) != 0)
+    if (this->Descriptor < 0 ||
+        systemCalls().ftruncate(this->Descriptor, static_cast<off_t>(bytes)) != 0)
     {
       fail("memfd");
     }
@@ -71,8 +73,8 @@ void MirroredMemory::grow(std::size_t bytes)
 
 void MirroredMemory::map(std::size_t bytes)
 {
-  void* all =
-    ::mmap(nullptr, 3 * bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  void* all = systemCalls().mmap(
+    nullptr, 3 * bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (all == MAP_FAILED)
   {
     fail("reserving address space");
@@ -80,8 +82,8 @@ void MirroredMemory::map(std::size_t bytes)
   auto* first = static_cast<std::byte*>(all);
   for (std::byte* image : { first, first + bytes, first + 2 * bytes })
   {
-    if (::mmap(image, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED, this->Descriptor, 0) ==
-        MAP_FAILED)
+    if (systemCalls().mmap(image, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_FIXED,
+          this->Descriptor, 0) == MAP_FAILED)
     {
       ::munmap(all, 3 * bytes);
       fail("mapping");
@@ -105,7 +107,7 @@ void MirroredMemory::clear()
   this->unmap();
   if (this->Descriptor >= 0)
   {
-    ::close(this->Descriptor);
+    systemCalls().close(this->Descriptor);
     this->Descriptor = -1;
   }
   this->Owner->release(static_cast<std::int64_t>(this->Size));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/ScratchFolder.h"
 
+#include "Solver/Storage/Folder.h"
+#include "Solver/Storage/SystemCalls.h"
 #include "smg/Error.h"
 
 #include <fcntl.h>
@@ -10,8 +12,8 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <string>
+#include <string_view>
 
 namespace smg
 {
@@ -25,32 +27,43 @@ constexpr const char* Marker = ".smg-scratch";
 /** A descriptor of the folder that holds its lock; -1 if it is locked or does not support locks. */
 int lockFolder(const std::filesystem::path& folder)
 {
-  const int lock = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  const int lock =
+    systemCalls().open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC, 0);
   if (lock >= 0 && ::flock(lock, LOCK_EX | LOCK_NB) != 0)
   {
-    ::close(lock);
+    systemCalls().close(lock);
     return -1;
   }
   return lock;
 }
 
+void mark(const std::filesystem::path& folder)
+{
+  const int file =
+    systemCalls().open((folder / Marker).c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+  if (file >= 0)
+  {
+    systemCalls().close(file);
+  }
+}
+
 /** Removes the scratch folders of terminated programs in `base`. */
 void removeAbandoned(const std::filesystem::path& base)
 {
-  std::error_code ignored;
-  for (std::filesystem::directory_iterator entry(base, ignored), end; entry != end;
-       entry.increment(ignored))
+  FolderEntries entries(base);
+  while (const char* name = entries.next())
   {
-    const std::filesystem::path& folder = entry->path();
-    if (!folder.filename().string().starts_with(Prefix) ||
-        !std::filesystem::exists(folder / Marker, ignored))
+    const std::filesystem::path folder = base / name;
+    // A program killed before the renaming below has left a name that begins with a dot.
+    const std::string_view plain = std::string_view(name).substr(*name == '.' ? 1 : 0);
+    if (!plain.starts_with(Prefix) || !ScratchFolder::isOne(folder))
     {
       continue;
     }
     if (const int lock = lockFolder(folder); lock >= 0)
     {
-      std::filesystem::remove_all(folder, ignored);
-      ::close(lock);
+      removeFolder(folder.c_str());
+      systemCalls().close(lock);
     }
   }
 }
@@ -70,28 +83,42 @@ ScratchFolder::ScratchFolder(const std::filesystem::path& parent)
   removeAbandoned(base);
   // Once locked, it is renamed to the pattern by which others search for abandoned folders.
   std::string made = (base / (std::string(".") + Prefix + "XXXXXX")).string();
-  if (!::mkdtemp(made.data()))
+  if (!systemCalls().mkdtemp(made.data()))
   {
     throw Error("cannot make a scratch folder in " + base.string() + ": " + std::strerror(errno) +
                 "; name another one");
   }
-  this->Path = made;
-  this->Lock = lockFolder(this->Path);
-  std::ofstream(this->Path / Marker).flush();
-  const std::filesystem::path name = base / this->Path.filename().string().substr(1);
-  if (this->Lock >= 0 && ::rename(this->Path.c_str(), name.c_str()) == 0)
+  try
   {
-    this->Path = name;
+    this->Path = made;
+    this->Lock = lockFolder(this->Path);
+    mark(this->Path);
+    std::filesystem::path name = base / this->Path.filename().string().substr(1);
+    if (this->Lock >= 0 && systemCalls().rename(made.c_str(), name.c_str()) == 0)
+    {
+      this->Path.swap(name);
+    }
   }
+  catch (...) // no memory
+  {
+    systemCalls().close(this->Lock);
+    removeFolder(made.c_str());
+    throw;
+  }
+}
+
+bool ScratchFolder::isOne(const std::filesystem::path& folder)
+{
+  std::error_code ignored;
+  return std::filesystem::exists(folder / Marker, ignored);
 }
 
 ScratchFolder::~ScratchFolder()
 {
-  std::error_code ignored;
-  std::filesystem::remove_all(this->Path, ignored);
+  removeFolder(this->Path.c_str());
   if (this->Lock >= 0)
   {
-    ::close(this->Lock);
+    systemCalls().close(this->Lock);
   }
 }
 

@@ -23,6 +23,9 @@ public:
 
   const std::filesystem::path& path() const { return this->Path; }
 
+  /** Whether a folder is a scratch folder, of this program or another one. */
+  static bool isOne(const std::filesystem::path& folder);
+
 private:
   std::filesystem::path Path;
   int Lock = -1; // of the folder itself

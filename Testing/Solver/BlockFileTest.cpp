@@ -332,7 +332,10 @@ TEST(BlockFile, TellsOfWritesThatFail)
     { writeBlocks(folder / "file", Codec::None, std::vector(20, TestBlock(20000, false, 1))); });
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
-  EXPECT_EQ(message, (folder / "file").string() + ": cannot be written: File too large.");
+  EXPECT_EQ(message,
+    (folder / "file").string() +
+      ": cannot be written: File too large; raise the limit of the process (ulimit -f), or choose "
+      "another file system.");
   EXPECT_EQ(folder.entries(), 0);
 }
 

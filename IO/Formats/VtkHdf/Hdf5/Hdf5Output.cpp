@@ -18,7 +18,6 @@ Hdf5Output::Hdf5Output(const std::filesystem::path& path)
   this->File = H5Fcreate(this->Part.path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   if (this->File < 0)
   {
-    this->Part.remove();
     this->fail();
   }
 }
@@ -26,10 +25,6 @@ Hdf5Output::Hdf5Output(const std::filesystem::path& path)
 Hdf5Output::~Hdf5Output()
 {
   this->close();
-  if (this->Part.isOpen())
-  {
-    this->Part.remove();
-  }
 }
 
 void Hdf5Output::fail() const
@@ -110,6 +105,7 @@ void Hdf5Output::addDataset(
     width };
   const Hdf5Handle<H5Sclose> space(H5Screate_simple(rank, none.data(), most.data()));
   const Hdf5Handle<H5Pclose> properties(H5Pcreate(H5P_DATASET_CREATE));
+  H5Pset_obj_track_times(properties.id(), false); // the same mesh gives the same bytes
   H5Pset_chunk(properties.id(), rank, chunk.data());
   const hid_t handle = H5Dcreate2(this->File, name.c_str(), nativeType(type), space.id(),
     H5P_DEFAULT, properties.id(), H5P_DEFAULT);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "smg/Export.h"
+#include <cstddef>
+#include <dirent.h>
+#include <sys/stat.h>
+#include <sys/types.h>
+#include <sys/uio.h>
+
+namespace smg
+{
+
+/**
+ * The calls to the system that concern files and the mapping of memory: everything that Solver and
+ * IO do with files goes through this table, as in the Unix layer of SQLite. Each entry behaves as
+ * the call of its name; a test replaces entries to make the n-th call fail.
+ */
+struct SystemCalls
+{
+  int (*open)(const char* path, int flags, mode_t mode);
+  int (*close)(int file);
+  ssize_t (*pread)(int file, void* bytes, std::size_t size, off_t offset);
+  ssize_t (*preadv2)(int file, const iovec* parts, int count, off_t offset, int flags);
+  ssize_t (*pwrite)(int file, const void* bytes, std::size_t size, off_t offset);
+  int (*fstat)(int file, struct stat* status);
+  int (*fsync)(int file);
+  int (*ftruncate)(int file, off_t size);
+  int (*rename)(const char* from, const char* to);
+  int (*unlink)(const char* path);
+  int (*unlinkat)(int folder, const char* name, int flags);
+  DIR* (*opendir)(const char* path);
+  char* (*mkdtemp)(char* pattern);
+  int (*memfd_create)(const char* name, unsigned flags);
+  void* (*mmap)(void* address, std::size_t size, int protection, int flags, int file, off_t offset);
+};
+
+/** The table of this process. It may change only while no file is used. */
+SMG_EXPORT SystemCalls& systemCalls() noexcept;
+
+} // namespace smg
