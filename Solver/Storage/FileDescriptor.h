@@ -64,8 +64,8 @@ public:
   /**
    * Closes the file and atomically renames it to `path`, replacing an existing file; the target of
    * a symbolic link is replaced and the link is kept. Content and name are durable then, except in
-   * a ScratchFolder: after a power cut `path` is the old file or the whole new one. On failure Error
-   * is thrown, and the file keeps its temporary name, unless only the new one is not durable.
+   * a ScratchFolder: after a power cut `path` is the old file or the whole new one. On failure
+   * Error is thrown, and the file keeps its temporary name, unless only the new one is not durable.
    */
   void renameTo(const std::filesystem::path& path);
   /** Closes the file, and removes it if its name is temporary. */

@@ -23,8 +23,8 @@ struct Fault
   /** Name of an entry of SystemCalls; `memory`: those that map memory; `files`: all others except
    * those that remove files. */
   std::string call = "files";
-  std::int64_t nth = 0;     ///< from 1; 0: none
-  bool forever = false;     ///< this call and all later ones of the kind
+  std::int64_t nth = 0; ///< from 1; 0: none
+  bool forever = false; ///< this call and all later ones of the kind
   Kind kind = Kind::Error;
   int error = 0; ///< of Kind::Error: the value of errno
 
