@@ -27,9 +27,13 @@ struct vtkStreamingBlend::Internals
   {
     auto task = std::make_unique<smg::BlendTask>();
     this->Self.FillOptions(task->options);
-    task->description.patch = this->Self.Patch ? this->Self.Patch : "";
+    // "None" is what ParaView offers for no array.
+    const std::string patch = this->Self.Patch ? this->Self.Patch : "";
+    task->description.patch = patch == "None" ? "" : patch;
     task->description.columns = this->Columns;
     task->description.anchor = this->Self.Anchor;
+    task->description.seam =
+      this->Self.SeamGradient == AVERAGE ? smg::SeamGradient::Average : smg::SeamGradient::Zero;
     if (this->Self.Hold && *this->Self.Hold)
     {
       task->description.hold = smg::readPlacesText(this->Self.Hold, "Hold");
@@ -129,5 +133,6 @@ void vtkStreamingBlend::PrintSelf(ostream& os, vtkIndent indent)
   }
   os << "\n" << indent << "Hold: " << (this->Hold ? this->Hold : "(none)") << "\n";
   os << indent << "Anchor: " << this->Anchor << "\n";
+  os << indent << "SeamGradient: " << (this->SeamGradient == AVERAGE ? "average" : "zero") << "\n";
   os << indent << "InteractivePoints: " << this->InteractivePoints << "\n";
 }

@@ -60,6 +60,18 @@ public:
   vtkGetMacro(Anchor, double);
   ///@}
 
+  /** The gradients between patches. */
+  enum SeamGradientType
+  {
+    ZERO,   ///< 0: the steps vanish as far as possible
+    AVERAGE ///< the mean of the gradients on both sides
+  };
+  ///@{
+  /** The gradients between patches. Default: ZERO. */
+  vtkSetClampMacro(SeamGradient, int, ZERO, AVERAGE);
+  vtkGetMacro(SeamGradient, int);
+  ///@}
+
   ///@{
   /** Meshes of at most this many points are blended in memory. Default: 200,000. 0: only previews.
    */
@@ -86,6 +98,7 @@ private:
   char* Patch = nullptr;
   char* Hold = nullptr;
   double Anchor = 0.01;
+  int SeamGradient = ZERO;
   vtkIdType InteractivePoints = 200000;
 
   std::unique_ptr<Internals> Internal;

@@ -5,11 +5,12 @@
 #include "Solver/Blending/BlendedValues.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Engine/CheckOptions.h"
-#include "Solver/Storage/Pool.h"
+#include "Solver/Storage/MemoryLimitError.h"
 #include "smg/Error.h"
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 namespace smg
 {
@@ -18,17 +19,20 @@ namespace
 {
 
 /** Bytes of what a blend holds beside the solver. */
-std::int64_t ownBytes(const StreamInfo& mesh, std::int64_t columns, bool inCore)
+std::int64_t ownBytes(const StreamInfo& mesh, std::int64_t columns, SeamGradient seam, bool inCore)
 {
   constexpr std::int64_t Number = sizeof(double);
+  const std::int64_t gradients = seam == SeamGradient::Average ? 1 + 3 * columns : 0;
   // Released values are removed when they are half of a vector, whose capacity may be twice its
   // size.
-  const std::int64_t open = mesh.width > 0 ? 4 * mesh.width * (columns + 1) * Number : 0;
-  return open + (inCore && mesh.vertices > 0 ? mesh.vertices * columns * Number : 0);
+  const std::int64_t open =
+    mesh.width > 0 ? 4 * mesh.width * (1 + columns + gradients) * Number : 0;
+  return open + (inCore && mesh.vertices > 0 ? mesh.vertices * (columns + gradients) * Number : 0);
 }
 
-/** The progress when the mesh has been read once, and when the problem is solved. */
-constexpr double Prepared = 0.1, Solved = 0.9;
+/** The progress when the mesh has been read once, when the gradients are known, and when the
+ * problem is solved. */
+constexpr double Prepared = 0.08, Known = 0.12, Solved = 0.9;
 
 /** Calls visit(block) for each block of a mesh; the progress is from `begin` to `end`. */
 void visitBlocks(MeshSource& mesh, const ProgressFunction& progress, double begin, double end,
@@ -47,23 +51,30 @@ void visitBlocks(MeshSource& mesh, const ProgressFunction& progress, double begi
 }
 
 /** Solves for the correction. */
-void solveFor(
-  BlendProblem& problem, MeshSource& mesh, const SolveOptions& options, BlendedValues& blended)
+void solveFor(BlendProblem& problem, SeamGradient seam, MeshSource& mesh,
+  const SolveOptions& options, BlendedValues& blended)
 {
   problem.keepIn(blended.originals);
-  const std::int64_t own = ownBytes(mesh.info(), problem.columns(), options.inCore);
+  const std::int64_t own = ownBytes(mesh.info(), problem.columns(), seam, options.inCore);
   if (own >= options.memoryLimit)
   {
-    throw Error(memoryLimitSentence(own, options.memoryLimit));
+    throw MemoryLimitError(own + 1, options.memoryLimit);
   }
   SolveOptions solving = options;
   solving.memoryLimit -= own;
   if (options.progress)
   {
     solving.progress = [&options](double done)
-    { return options.progress(Prepared + done * (Solved - Prepared)); };
+    { return options.progress(Known + done * (Solved - Known)); };
   }
-  blended.correction = solve(mesh, problem, solving);
+  try
+  {
+    blended.correction = solve(mesh, problem, solving);
+  }
+  catch (const MemoryLimitError& error)
+  {
+    throw error.inside(own, options.memoryLimit);
+  }
   blended.total = blended.correction->report();
   blended.total.pool_bytes_peak += own;
 }
@@ -124,12 +135,21 @@ std::unique_ptr<Solution> blend(
   problem.endPreparing();
 
   auto blended = std::make_unique<BlendedValues>(options, problem.columns());
-  solveFor(problem, *source(), options, *blended);
+  std::optional<PatchGradients> gradients;
+  if (description.seam == SeamGradient::Average)
+  {
+    gradients.emplace(blended->storage(), mesh.info().cellType, problem.columns());
+    visitBlocks(*source(), options.progress, Prepared, Known,
+      [&](const MeshBlock& block) { problem.addTo(*gradients, block); });
+    gradients->finish();
+    problem.average(*gradients);
+  }
+  solveFor(problem, description.seam, *source(), options, *blended);
   const SeamSteps after =
     stepsIn(*blended, problem.specs(), mesh, problem.patches(), options.progress);
 
   Report& report = blended->total;
-  report.passes += 2;
+  report.passes += description.seam == SeamGradient::Average ? 3 : 2;
   addSeams(problem, after, report);
   addOriginalTraffic(blended->traffic, report);
   report.seconds.total = wall.seconds();

@@ -24,7 +24,8 @@ public:
       "The mesh with the blended columns: " + smg::suffixList(smg::FormatUse::WriteColumns, "or") +
         " in stream order; of a mesh file IN, " +
         smg::suffixList(smg::FormatUse::RestoreColumns, "and") +
-        " in the order of IN, unless that has a column OriginalId or points are welded",
+        " in the order of IN, unless that has a column OriginalId or points are welded; "
+        "and .obj and .off, for Colors alone",
       this->Solve);
     addTolerance(command, this->Solve.tolerance)->capture_default_str();
     command
@@ -33,10 +34,10 @@ public:
       ->required()
       ->type_name("COLUMN");
     command
-      .add_option("--columns", this->Description.columns,
+      .add_option_function<std::vector<std::string>>(
+        "--columns", [this](const std::vector<std::string>& lists) { this->readColumns(lists); },
         "Columns of the vertices to blend, separated by commas")
       ->required()
-      ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("COLUMN,...");
     this->Hold.addTo(command, "A part of the mesh that keeps its values");
@@ -44,14 +45,27 @@ public:
       .add_option("--anchor", this->Description.anchor,
         "How strongly all values are pulled towards the original ones: corrections over less than "
         "1 / sqrt(anchor) diagonals of the bounding box are hardly pulled; 0: not at all")
-      ->check(CLI::NonNegativeNumber)
+      ->check(numberFromZero)
       ->capture_default_str();
+    command
+      .add_option_function<std::string>(
+        "--seam",
+        [this](const std::string& name)
+        {
+          this->Description.seam =
+            name == "average" ? smg::SeamGradient::Average : smg::SeamGradient::Zero;
+        },
+        "Gradients between patches: zero, or the average of those on both sides")
+      ->check(oneOf({ "zero", "average" }))
+      ->default_str("zero");
     command.footer("Steps of the columns between patches are removed; inside the patches their "
                    "gradients are kept. docs/blend.md explains it");
   }
 
 protected:
-  std::string resultColumns() const override { return "columns of vertices"; }
+  std::string resultColumns() const override { return "these columns of vertices"; }
+
+  std::vector<std::string> changedColumns() const override { return this->Description.columns; }
 
   void readTask() override
   {
@@ -90,6 +104,22 @@ protected:
   const smg::SolveOptions& solveOptions() const override { return this->Solve; }
 
 private:
+  void readColumns(const std::vector<std::string>& lists)
+  {
+    for (const std::string& list : lists)
+    {
+      for (const std::string& name : splitAtCommas(list))
+      {
+        if (name.empty())
+        {
+          throw CLI::ValidationError(
+            "--columns", '\'' + list + "' has an empty name: give names with a comma between them");
+        }
+        this->Description.columns.push_back(name);
+      }
+    }
+  }
+
   smg::BlendDescription Description;
   PlacesOption Hold{ "--hold" };
   smg::SolveOptions Solve;

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <utility>
@@ -136,4 +138,25 @@ std::string wholeNumber(const std::string& value)
   const auto [rest, error] = std::from_chars(value.data(), end, number);
   const bool isValid = error == std::errc() && rest == end && number >= 0;
   return isValid ? std::string() : '\'' + value + "' is not a whole number from 0 on";
+}
+
+std::string numberFromZero(const std::string& value)
+{
+  char* end = nullptr;
+  const double number = std::strtod(value.c_str(), &end);
+  const bool isValid =
+    end != value.c_str() && *end == '\0' && std::isfinite(number) && number >= 0.0;
+  return isValid ? std::string() : '\'' + value + "' is no finite number of at least 0";
+}
+
+std::vector<std::string> splitAtCommas(const std::string& list)
+{
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= list.size();)
+  {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    parts.push_back(list.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
 }

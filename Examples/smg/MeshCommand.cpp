@@ -51,8 +51,8 @@ void MeshCommand::run()
   const auto start = std::chrono::steady_clock::now();
   const auto secondsSince = [](std::chrono::steady_clock::time_point then)
   { return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count(); };
-  ResultFile out(
-    { this->In, this->Out, this->scratch, this->Input.welds(), this->resultColumns() });
+  ResultFile out({ this->In, this->Out, this->scratch, this->Input.welds(), this->resultColumns(),
+    this->changedColumns() });
   smg::checkIsNotInput(this->In, this->Out);
   smg::checkIsNotInput(this->File, this->Out, "the file that says what to do");
   this->checkReport({ this->In, this->Out, this->File });

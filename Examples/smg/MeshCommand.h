@@ -39,6 +39,8 @@ protected:
 
   /** The columns of the result, as ResultFile::Options::columns. */
   virtual std::string resultColumns() const = 0;
+  /** The names of these columns if IN has them, as ResultFile::Options::changed. */
+  virtual std::vector<std::string> changedColumns() const { return {}; }
   /** Reads the task file, before the mesh is read. */
   virtual void readTask() = 0;
   /** Computes the result; foreseeable failures are reported first. */

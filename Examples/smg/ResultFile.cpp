@@ -22,8 +22,7 @@ ResultFile::ResultFile(Options options)
   const bool isFormat = smg::suffixFor(smg::FormatUse::Write, this->Files.out) ||
                         smg::suffixFor(smg::FormatUse::Restore, this->Files.out);
   if (!this->Files.columns.empty() && isFormat &&
-      !smg::suffixFor(smg::FormatUse::WriteColumns, this->Files.out) &&
-      !smg::suffixFor(smg::FormatUse::RestoreColumns, this->Files.out))
+      !smg::suffixFor(smg::FormatUse::WriteColumns, this->Files.out) && !this->restoresColumns())
   {
     throw smg::Error(this->Files.out.string() + ": this format cannot hold " + this->Files.columns +
                      ": write it as " + smg::suffixList(smg::FormatUse::WriteColumns, "or") + '.');
@@ -31,11 +30,19 @@ ResultFile::ResultFile(Options options)
   smg::checkOutput(this->Files.out);
 }
 
+bool ResultFile::restoresColumns() const
+{
+  const bool named = !this->Files.changed.empty();
+  return named ? smg::restoresColumns(this->Files.out, this->Files.changed)
+               : smg::suffixFor(smg::FormatUse::RestoreColumns, this->Files.out) != nullptr;
+}
+
 bool ResultFile::mayRestore() const
 {
-  const smg::FormatUse use =
-    this->Files.columns.empty() ? smg::FormatUse::Restore : smg::FormatUse::RestoreColumns;
-  return !this->Files.welds && smg::suffixFor(use, this->Files.out) &&
+  const bool canRestore = this->Files.columns.empty()
+                            ? smg::suffixFor(smg::FormatUse::Restore, this->Files.out) != nullptr
+                            : this->restoresColumns();
+  return !this->Files.welds && canRestore &&
          smg::kindOfInput(this->Files.in) == smg::MeshFileKind::Indexed;
 }
 

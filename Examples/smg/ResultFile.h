@@ -25,6 +25,8 @@ public:
     /** The columns of the result, for an error, for example "a solution"; empty if the result is IN
      * with other positions. */
     std::string columns;
+    /** The names of these columns, of the vertices, if IN has them. */
+    std::vector<std::string> changed = {};
   };
 
   /** Throws smg::Error if the name of OUT is invalid. */
@@ -56,6 +58,8 @@ private:
     Rewritten
   };
 
+  /** Whether the format of OUT has places for the columns in the order of its original file. */
+  bool restoresColumns() const;
   /** Whether the format of OUT and the kind of IN allow to restore the order. */
   bool mayRestore() const;
   std::vector<std::string> writeRestored(const smg::VsmReader& mesh, smg::MeshSource& result,

@@ -66,6 +66,12 @@ protected:
     return this->Smooth.column.empty() ? std::string() : "the column " + this->Smooth.column;
   }
 
+  std::vector<std::string> changedColumns() const override
+  {
+    return this->Smooth.column.empty() ? std::vector<std::string>{}
+                                       : std::vector{ this->Smooth.column };
+  }
+
   void readTask() override
   {
     smg::checkOptions(this->Smooth);

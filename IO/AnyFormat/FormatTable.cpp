@@ -186,6 +186,15 @@ const FileSuffix* suffixFor(FormatUse use, const std::filesystem::path& path)
            : nullptr;
 }
 
+bool restoresColumns(const std::filesystem::path& path, std::span<const std::string> columns)
+{
+  const Format* const format = formatOfSuffix(lowerSuffix(path));
+  const auto hasPlace = [format](const std::string& column)
+  { return std::ranges::find(format->vertexColumns, column) != format->vertexColumns.end(); };
+  return format && format->restore &&
+         (format->holdsColumns() || std::ranges::all_of(columns, hasPlace));
+}
+
 std::string suffixList(const Format& format, std::string_view conjunction)
 {
   std::vector<std::string_view> suffixes;

@@ -34,8 +34,9 @@ Conversion::Conversion(const std::filesystem::path& in, const std::filesystem::p
 {
   if (this->Memory < Workspace::LeastMemory)
   {
-    throw Error("A conversion needs a memory limit of at least " +
-                std::to_string(Workspace::LeastMemory >> 20) + " MiB.");
+    throw Error(in.string() + ": a conversion needs a memory limit of at least " +
+                std::to_string(Workspace::LeastMemory >> 20) + " MiB, but it is " +
+                std::to_string(this->Memory >> 20) + " MiB: raise it (option --memory).");
   }
   if (options.weld)
   {

@@ -81,6 +81,9 @@ struct Format
   std::string_view attributes;
   MeshFileKind kind = MeshFileKind::Indexed;
 
+  /** Columns of vertices that `restore` has places for, of a format without all columns. */
+  std::span<const std::string_view> vertexColumns = {};
+
   bool holdsColumns() const { return this->attributes == AllColumns; }
 
   /** Whether the first bytes of a file have the signature of this format. */

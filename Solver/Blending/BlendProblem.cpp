@@ -50,6 +50,12 @@ void BlendProblem::endPreparing()
   this->Screening = squared > 0.0 ? this->Anchor / squared : 0.0;
 }
 
+void BlendProblem::addTo(PatchGradients& gradients, const MeshBlock& block)
+{
+  this->Blended.read(block, this->Open.startBlock(block));
+  gradients.add(block, this->Open);
+}
+
 void BlendProblem::conditions(const MeshBlock& block, VertexConditions& conditions)
 {
   const std::span<double> values = this->Open.startBlock(block);
@@ -57,6 +63,10 @@ void BlendProblem::conditions(const MeshBlock& block, VertexConditions& conditio
   if (this->Originals)
   {
     this->Originals->append(values);
+  }
+  if (this->Gradients)
+  {
+    this->Gradients->startBlock(block);
   }
   std::ranges::fill(conditions.screening, this->Screening);
   const std::span<const std::uint8_t> held = this->Held.at(block);
@@ -89,13 +99,18 @@ void BlendProblem::cells(CellBatch& batch)
       point[k] = batch.point(c, static_cast<int>(k));
       value[k] = this->Open.at(corner[k]);
     }
+    this->Mean.assign(3 * columns, 0.0);
+    if (this->Gradients)
+    {
+      this->Gradients->average(corner, this->Mean);
+    }
     const CellGradients gradients(batch.type, point);
     for (std::size_t k = 0; k < columns; ++k)
     {
       const Vector gradient = gradients.of(batch.type, value, static_cast<int>(k));
       for (std::size_t d = 0; d < 3; ++d)
       {
-        batch.field[3 * (c * columns + k) + d] = -gradient[d];
+        batch.field[3 * (c * columns + k) + d] = this->Mean[3 * k + d] - gradient[d];
       }
     }
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Blending/BlendedColumns.h"
+#include "Solver/Blending/PatchGradients.h"
 #include "Solver/Blending/PatchedValues.h"
 #include "Solver/Blending/SeamSteps.h"
 #include "Solver/Description/HeldVertices.h"
@@ -20,7 +21,7 @@ namespace smg
 
 /**
  * The problem of blend() for the correction v = u - c: -div(grad v - r) + s v = 0, where r is
- * q - grad c: -grad c in cells between patches and 0 in all others. Thus rounding affects the
+ * q - grad c: not 0 in cells between patches, and 0 in all others. Thus rounding affects the
  * correction only, and the values do not change where there is none.
  */
 class BlendProblem : public Problem
@@ -44,6 +45,11 @@ public:
   /** Throws Error if a held part is empty. */
   void endPreparing();
 
+  /** Adds a block to the gradients inside the patches. */
+  void addTo(PatchGradients& gradients, const MeshBlock& block);
+  /** Between patches, aims at these gradients from then on, instead of 0. */
+  void average(PatchGradients& gradients) { this->Gradients = &gradients; }
+
   /** Passes the values of each block to `originals` from then on. */
   void keepIn(VertexFile& originals) { this->Originals = &originals; }
   /** The steps between patches in the original values, once all cells have been asked for. */
@@ -60,12 +66,14 @@ private:
   PatchLabels Patches;
   PatchedValues Open;
   SeamSteps Steps;
+  std::vector<double> Mean; ///< gradients of a cell between patches
   HeldVertices Held;
   StreamCheck Check;
   Vector Low, High; ///< the corners of the bounding box
   double Anchor;
   double Screening = 0.0;
   VertexFile* Originals = nullptr;
+  PatchGradients* Gradients = nullptr;
 };
 
 } // namespace smg

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Blending/BlendedColumns.h"
 
+#include "Solver/Description/ColumnNumbers.h"
+
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 namespace smg
@@ -75,9 +76,9 @@ void BlendedColumns::read(const MeshBlock& block, std::span<double> values) cons
         for (std::size_t k = 0; k < numbers.size(); ++k)
         {
           const auto number = static_cast<double>(numbers[k]);
-          if (!std::isfinite(number))
+          if (const char* flaw = flawOf(column.spec.type, number))
           {
-            this->Columns.fail(Key, "'" + named.name + "' is not a finite number at " +
+            this->Columns.fail(Key, "'" + named.name + "' " + flaw + " at " +
                                       this->Columns.vertexName(block, k / components));
           }
           values[k / components * stride + first + k % components] = number;

@@ -23,7 +23,7 @@ public:
     : memory(options.memoryLimit)
     , scratch(options.inCore ? std::nullopt
                              : std::optional<ScratchFolder>(std::in_place, options.scratch))
-    , originals({ this->memory, this->scratch ? &*this->scratch : nullptr, this->traffic }, columns)
+    , originals(this->storage(), columns)
   {
   }
 
@@ -40,6 +40,11 @@ public:
     }
   }
   const Report& report() const override { return this->total; }
+
+  VertexStorage storage()
+  {
+    return { this->memory, this->scratch ? &*this->scratch : nullptr, this->traffic };
+  }
 
   Pool memory;
   std::optional<ScratchFolder> scratch;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Blending/PatchLabels.h"
 
+#include "Solver/Description/ColumnNumbers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,13 +14,6 @@ namespace
 {
 
 constexpr double NoPatch = std::numeric_limits<double>::quiet_NaN();
-/** From this one on, not every integer is a double. */
-constexpr double LargestInteger = 9007199254740992.0;
-
-bool isInteger(ScalarType type)
-{
-  return type != ScalarType::Float32 && type != ScalarType::Float64;
-}
 
 } // namespace
 
@@ -37,7 +32,7 @@ PatchLabels::PatchLabels(const std::string& column, MeshColumns& columns)
 double PatchLabels::at(const Column& column, std::size_t row, const MeshBlock& block) const
 {
   const double label = column.value(row);
-  const bool isTooLarge = isInteger(column.spec.type) && std::fabs(label) >= LargestInteger;
+  const bool isTooLarge = isInexact(column.spec.type, label);
   if (std::isnan(label) || isTooLarge)
   {
     const bool ofCells = this->Patch.owner == ColumnOwner::Cells;

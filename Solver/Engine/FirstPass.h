@@ -10,6 +10,7 @@
 #include "Solver/Engine/MemoryEstimate.h"
 #include "Solver/Engine/SolveRun.h"
 #include "Solver/Problem/Assembly.h"
+#include "Solver/Storage/MemoryLimitError.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -60,7 +61,7 @@ FirstResidual FirstPass<Operators>::operator()(
   const std::int64_t need = estimateMemory(mesh.info(), problem, options, furtherCoreBytes);
   if (need > options.memoryLimit)
   {
-    throw Error(memoryLimitSentence(need, options.memoryLimit));
+    throw MemoryLimitError(need, options.memoryLimit);
   }
   if (this->Run.scratch)
   {

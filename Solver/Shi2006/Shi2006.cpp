@@ -8,6 +8,7 @@
 #include "Solver/Shi2006/Relaxation.h"
 #include "Solver/Shi2006/RightSideTransfer.h"
 #include "Solver/Shi2006/VCycle.h"
+#include "Solver/Storage/MemoryLimitError.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -104,7 +105,7 @@ void Shi2006::assemble(MeshSource& mesh, Problem& problem, shi2006::Level& fines
   const StreamInfo& info = mesh.info();
   if (const std::int64_t need = estimateMemory(info, this->Columns); need > this->Memory.limit())
   {
-    throw Error(memoryLimitSentence(need, this->Memory.limit(), InCoreMemory));
+    throw MemoryLimitError(need, this->Memory.limit(), InCoreMemory);
   }
   shi2006::FinestRows rows(this->Memory, info, problem, this->Parts, this->Labels, finest);
   MeshBlock block;

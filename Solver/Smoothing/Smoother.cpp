@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Smoothing/Smoother.h"
 
+#include "Solver/Description/ColumnNumbers.h"
 #include "Solver/Engine/Convergence.h"
 #include "Solver/Problem/BoundaryFacets.h"
 #include "Solver/Stream/StreamCheck.h"
@@ -160,9 +161,9 @@ void Smoother::keepValues(const MeshBlock& block)
   for (std::size_t k = 0; k < this->Values.size(); ++k)
   {
     this->Values[k] = column.value(k / components, static_cast<int>(k % components));
-    if (!std::isfinite(this->Values[k]))
+    if (const char* flaw = flawOf(column.spec.type, this->Values[k]))
     {
-      this->Columns.fail("column", '\'' + this->Column->name + "' is not a finite number at " +
+      this->Columns.fail("column", '\'' + this->Column->name + "' " + flaw + " at " +
                                      this->Columns.vertexName(block, k / components));
     }
   }

@@ -6,6 +6,7 @@
 #include "Solver/Smoothing/ForCells.h"
 #include "Solver/Smoothing/PointNormals.h"
 #include "Solver/Smoothing/SweptVolume.h"
+#include "Solver/Storage/MemoryLimitError.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,7 +94,15 @@ void Smoother::solveStep(
     options.progress = [this, part](double done) { return this->Options.progress(part.at(done)); };
   }
   const auto source = this->Mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns());
-  const std::unique_ptr<Solution> solution = solve(*source, problem, options);
+  std::unique_ptr<Solution> solution;
+  try
+  {
+    solution = solve(*source, problem, options);
+  }
+  catch (const MemoryLimitError& error)
+  {
+    throw error.inside(own, this->Options.memoryLimit);
+  }
   to.restart();
   for (std::int64_t first = 0; first < solution->vertices(); first += ChunkVertices)
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/Pool.h"
 
-#include "smg/Error.h"
+#include "Solver/Storage/MemoryLimitError.h"
 
 #include <algorithm>
 #include <limits>
@@ -29,7 +29,7 @@ void Pool::acquire(std::int64_t bytes)
   {
     constexpr std::int64_t Most = std::numeric_limits<std::int64_t>::max();
     const bool fits = bytes >= 0 && bytes <= Most - this->Used;
-    throw Error(memoryLimitSentence(fits ? this->Used + bytes : Most, this->Limit, this->Use));
+    throw MemoryLimitError(fits ? this->Used + bytes : Most, this->Limit, this->Use);
   }
   this->Used += bytes;
   this->Peak = std::max(this->Peak, this->Used);

@@ -84,6 +84,18 @@ def test_every_format_of_columns():
         run("convert", "blended.vsm", "restored" + suffix, "--restore-order", "--quiet")
         with open("direct" + suffix, "rb") as one, open("restored" + suffix, "rb") as two:
             assert one.read() == two.read(), suffix
+    # OBJ and OFF have places for colours alone.
+    for suffix in (".obj", ".off"):
+        done = blend("scan.ply", "direct" + suffix)
+        assert "are left out, since %s files have no place" % suffix in done.stdout, done.stdout
+        unit = 255 if suffix == ".obj" else 1
+        assert all(abs(unit * a - b) < 1e-3
+                   for found, wanted in zip(colours("direct" + suffix), colours("direct.ply"))
+                   for a, b in zip(found, wanted)), suffix
+    mesh, result = read_mesh("scan.ply"), read_mesh("direct.obj")
+    assert mesh.points == result.points and mesh.cells == result.cells
+    done = blend("scan.vsm", "direct.obj", code=1)
+    assert "direct.obj" in done.stderr, done.stderr
     blend("scan.vsm", "again.vsm", "--in-core", "--threads", 1, "--quiet")
     with open("blended.vsm", "rb") as one, open("again.vsm", "rb") as two:
         assert one.read() == two.read(), "streaming and in-core results differ"
@@ -101,6 +113,15 @@ def test_options():
     assert all(before[i] == after[i] for i in held) and before != after
     blend("scan.ply", "pulled.ply", "--anchor", 1e7, "--quiet")
     assert colours("pulled.ply")[2:] == before
+    # With averaged gradients, colours rise across seams as beside them: closer to those before the
+    # scanners, up to a constant.
+    errors = {}
+    for seam in ("zero", "average"):
+        blend("scan.ply", seam + ".ply", "--seam", seam, "--quiet")
+        red = [light[0] - 8 * math.sin(p[0]) for light, p in zip(colours(seam + ".ply")[2:], POINTS)]
+        mean = sum(red) / len(red)
+        errors[seam] = math.sqrt(sum((x - mean) ** 2 for x in red) / len(red))
+    assert errors["average"] < errors["zero"], errors
 
 
 def test_clipping():
@@ -124,10 +145,19 @@ def test_errors():
                               '{"sphere": [99, 0, 0, 1]}'), "hold[0]: no vertex")):
         done = run("blend", "scan.ply", "bad.ply", *arguments, code=1)
         assert part in done.stderr, done.stderr
-    for name in ("bad.obj", "bad.smb"):
-        assert "cannot hold columns of vertices" in blend("scan.ply", name, code=1).stderr
+    for name, columns in (("bad.smb", "Colors"), ("bad.obj", "height"), ("bad.off", "Colors,height")):
+        done = run("blend", "scan.ply", name, "--patch", "scan", "--columns", columns, code=1)
+        assert "cannot hold these columns of vertices" in done.stderr, done.stderr
     run("blend", "scan.ply", "bad.ply", "--columns", "Colors", code=2)
-    blend("scan.ply", "bad.ply", "--anchor", -1, code=2)
+    for columns in ("", ",", "Colors,,height", "Colors,"):
+        done = run("blend", "scan.ply", "bad.ply", "--patch", "scan", "--columns", columns, code=2)
+        assert "has an empty name" in done.stderr or not columns, done.stderr
+    for anchor in ("-1", "inf", "nan", "1x", ""):
+        done = blend("scan.ply", "bad.ply", "--anchor", anchor, code=2)
+        assert "'%s' is no finite number of at least 0" % anchor in done.stderr, done.stderr
+    assert "none of zero, average" in blend("scan.ply", "bad.ply", "--seam", "0", code=2).stderr
+    done = blend("scan.ply", "bad.ply", "--memory", 8, code=1)
+    assert "scan.ply: a conversion needs a memory limit of at least 16 MiB, but it is 8" in done.stderr
     assert "1 MiB" in blend("scan.vsm", "bad.ply", "--memory", 1, code=1).stderr
     assert not any(name.startswith("bad") for name in os.listdir("."))
 

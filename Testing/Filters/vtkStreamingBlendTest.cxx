@@ -66,7 +66,13 @@ protected:
 
   vtkPointSet* output() { return vtkPointSet::SafeDownCast(this->Blend->GetOutputDataObject(0)); }
 
-  BlendDescription description() const { return { "patch", { "light", "heat" }, {}, 0.01 }; }
+  BlendDescription description() const
+  {
+    BlendDescription description;
+    description.patch = "patch";
+    description.columns = { "light", "heat" };
+    return description;
+  }
 
   /** Expects the values that blend() computes, in the types of the arrays, in so many pieces. */
   void expectBlended(const BlendDescription& description, int pieces)
@@ -120,7 +126,9 @@ TEST_F(VtkStreamingBlend, EveryPropertyIsAPartOfTheDescription)
   description.anchor = 3.0;
   description.hold = { Region::Vertices{ { 7 } } };
   this->Blend->SetPatch("cellPatch");
+  description.seam = SeamGradient::Average;
   this->Blend->SetAnchor(3.0);
+  this->Blend->SetSeamGradient(vtkStreamingBlend::AVERAGE);
   this->Blend->SetHold(R"({"vertices": [7]})");
   for (const vtkIdType interactive : { 200000, 0 })
   {
@@ -165,6 +173,27 @@ TEST_F(VtkStreamingBlend, WhatIsWrittenIsTheWholeMeshAndAPreviewIsBlendedByItsel
   }
 }
 
+TEST_F(VtkStreamingBlend, CanBeAborted)
+{
+  vtkNew<vtkCallbackCommand> abort;
+  abort->SetCallback([](vtkObject* filter, unsigned long, void*, void*)
+    { static_cast<vtkAlgorithm*>(filter)->SetAbortExecute(1); });
+  this->Blend->SetSeamGradient(vtkStreamingBlend::AVERAGE);
+  for (const vtkIdType interactive : { 200000, 0 })
+  {
+    this->Blend->SetInteractivePoints(interactive);
+    const unsigned long observer = this->Blend->AddObserver(vtkCommand::ProgressEvent, abort);
+    Errors errors(this->Blend);
+    EXPECT_FALSE(updatePiece(this->Blend, 0, 1));
+    // Nothing but the mesh is left in the folder.
+    EXPECT_EQ(this->Folder.entries(), 1);
+    this->Blend->RemoveObserver(observer);
+    this->Blend->SetAbortExecute(0);
+    EXPECT_TRUE(updatePiece(this->Blend, 0, 1));
+    EXPECT_EQ(this->output()->GetNumberOfPoints(), this->Mesh.vertices());
+  }
+}
+
 TEST_F(VtkStreamingBlend, MistakesAreOneErrorEach)
 {
   Errors errors(this->Blend);
@@ -188,6 +217,7 @@ TEST_F(VtkStreamingBlend, MistakesAreOneErrorEach)
   expect("hold[0]: no vertex", [&] { this->Blend->SetHold(R"({"sphere": [9, 9, 9, 1]})"); });
   expect("Missing", [&] { this->Blend->SetPatch("Missing"); });
   expect("Patch must name", [&] { this->Blend->SetPatch(nullptr); });
+  expect("Patch must name", [&] { this->Blend->SetPatch("None"); });
   expect("Columns must name", [&] { this->Blend->RemoveAllColumns(); });
   expect("column of the cells", [&] { this->Blend->AddColumn("cellPatch"); });
   expect("at least 0", [&] { this->Blend->SetAnchor(-1.0); });

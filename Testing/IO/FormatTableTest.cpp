@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace smg::testing
 {
@@ -86,6 +87,14 @@ TEST(FormatTable, ListsFollowFromIt)
   EXPECT_EQ(suffixFor(FormatUse::Restore, "A.OBJ")->text, ".obj");
   EXPECT_EQ(suffixFor(FormatUse::WriteColumns, "a.sma"), nullptr);
   EXPECT_EQ(suffixList(FormatUse::RestoreColumns, "or"), ".ply, .vtk, .vtp or .vtu");
+  using Names = std::vector<std::string>;
+  EXPECT_TRUE(restoresColumns("a.vtu", Names{ "any" }));
+  EXPECT_TRUE(restoresColumns("a.OBJ", Names{ "Colors" }));
+  EXPECT_FALSE(restoresColumns("a.obj", Names{ "Colors", "Normals" }));
+  EXPECT_TRUE(restoresColumns("a.off", Names{ "Colors", "Normals", "TextureCoordinates" }));
+  EXPECT_FALSE(restoresColumns("a.vsm", Names{ "Colors" }));
+  EXPECT_FALSE(restoresColumns("a.stl", Names{ "Colors" }));
+  EXPECT_FALSE(restoresColumns("a", Names{ "Colors" }));
 }
 
 TEST(FormatTable, ParaViewOffersItsFormats)

@@ -77,20 +77,32 @@ TEST(BlendErrors, OfPatchesAndValues)
   EXPECT_TRUE(contains(patchError("large"), "has an integer of 2^53 or more at vertex 5"));
   EXPECT_TRUE(
     contains(blendErrorOf(blendOf({ "c", "nan" })), "'nan' is not a finite number at vertex 5"));
+  EXPECT_TRUE(
+    contains(blendErrorOf(blendOf({ "large" })), "'large' has an integer of 2^53 or more"))
+    << blendErrorOf(blendOf({ "large" }));
 }
 
 TEST(BlendErrors, ProgressRisesAndCancels)
 {
   const MemoryMesh mesh(meshOfErrors(), 2);
-  ProgressRecord record;
+  BlendDescription description = blendOf({ "c" });
   SolveOptions options;
-  options.progress = record.function();
-  blend(mesh, blendOf({ "c" }), options);
-  record.expectRise(0.4);
-  for (const double end : { 0.0, 0.05, 0.5, 0.95, 1.0 })
+  for (const SeamGradient seam : { SeamGradient::Zero, SeamGradient::Average })
   {
-    options.progress = [end](double done) { return done < end; };
-    EXPECT_THROW(blend(mesh, blendOf({ "c" }), options), Cancelled) << end;
+    description.seam = seam;
+    for (const bool inCore : { false, true })
+    {
+      options.inCore = inCore;
+      ProgressRecord record;
+      options.progress = record.function();
+      blend(mesh, description, options);
+      record.expectRise(0.4);
+      for (const double end : { 0.0, 0.05, 0.1, 0.5, 0.95, 1.0 })
+      {
+        options.progress = [end](double done) { return done < end; };
+        EXPECT_THROW(blend(mesh, description, options), Cancelled) << end;
+      }
+    }
   }
 }
 
@@ -110,7 +122,24 @@ TEST(BlendErrors, AMeshWithoutExtentStays)
 
 TEST(BlendErrors, OfTheMemoryLimit)
 {
+  // What the errors name includes what the blend itself holds.
+  StreamMesh mesh = toStream(torus(200, 60));
+  addColumn<std::int32_t>(mesh, "patch", { quarter });
+  addColumn(mesh, "wide", std::vector<VertexFunction>(40, smoothSignal));
   SolveOptions options;
+  options.coreNodes = 0;
+  const auto message = [&]
+  { return messageOf([&] { blend(MemoryMesh(mesh), blendOf({ "wide" }), options); }); };
+  int errors = 0;
+  for (options.memoryLimit = 1 << 14; !message().empty(); options.memoryLimit *= 2, ++errors)
+  {
+    const std::string text = message();
+    EXPECT_TRUE(contains(text, " MiB (" + std::to_string(options.memoryLimit) + " bytes): raise"))
+      << text;
+    EXPECT_GT(std::stoll(text.substr(text.find('(') + 1)), options.memoryLimit) << text;
+    ASSERT_LT(errors, 30);
+  }
+  EXPECT_GT(errors, 5);
   options.memoryLimit = 1000;
   EXPECT_TRUE(contains(blendErrorOf(blendOf({ "c" }), options), "limit"));
   options.memoryLimit = 0;

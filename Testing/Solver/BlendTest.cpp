@@ -2,7 +2,7 @@
 #include "smg/Blend.h"
 
 #include "Testing/Solver/BlendTesting.h"
-#include "Testing/Support/DirectElements.h"
+#include "Testing/Solver/DirectBlend.h"
 #include "Testing/Support/DirectSolve.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/SolveMesh.h"
@@ -51,83 +51,6 @@ SolveOptions tight()
   return options;
 }
 
-/** The minimum itself, with the blended values as the unknowns, by finite elements in memory. */
-class DirectBlend
-{
-public:
-  explicit DirectBlend(const StreamMesh& mesh)
-    : Mesh(mesh)
-    , System(mesh)
-  {
-    for (std::int64_t v = 0; v < mesh.vertices(); ++v)
-    {
-      this->VertexAt[key(this->System.vertex(v))] = v;
-    }
-    for (std::int64_t c = 0; c < mesh.cells(); ++c)
-    {
-      this->CellAt[key(this->System.centroid(c))] = c;
-    }
-  }
-
-  Eigen::MatrixXd solve(double anchor, const ElementProblem::Where& held = {})
-  {
-    const auto points =
-      Eigen::Map<const Eigen::Matrix3Xd>(this->Mesh.positions.data(), 3, this->Mesh.vertices());
-    const double screening =
-      anchor / (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).squaredNorm();
-    const auto value = [this](const Point& p) { return this->values(this->VertexAt.at(key(p))); };
-    this->System.Columns = this->Mesh.vertexColumns[1].spec.components;
-    this->System.VertexScreening = [=](const Point&) { return screening; };
-    this->System.VertexSource = [=](const Point& p) -> Eigen::VectorXd
-    { return screening * value(p); };
-    this->System.Initial = value;
-    this->System.CellField = [this](const Point& p)
-    { return this->field(this->CellAt.at(key(p))); };
-    if (held)
-    {
-      this->System.DirichletConditions = { { held, value } };
-    }
-    return DirectElements(this->System).solve();
-  }
-
-private:
-  using Point = ElementProblem::Point;
-  using Key = std::array<double, 3>;
-  static Key key(const Point& p) { return { p[0], p[1], p[2] }; }
-
-  Eigen::VectorXd values(std::int64_t v) const
-  {
-    Eigen::VectorXd values(this->System.Columns);
-    for (int k = 0; k < this->System.Columns; ++k)
-    {
-      values[k] = this->Mesh.vertexColumns[1].value(v, k);
-    }
-    return values;
-  }
-
-  /** The gradient of each column, by least squares, or 0. */
-  Eigen::MatrixXd field(std::int64_t cell) const
-  {
-    const int size = cornersOf(this->Mesh.cellType);
-    const std::int64_t* corner = &this->Mesh.corners[size * cell];
-    Eigen::MatrixXd edges(size - 1, 3), steps(size - 1, this->System.Columns);
-    bool inside = true;
-    for (int j = 1; j < size; ++j)
-    {
-      edges.row(j - 1) = this->System.vertex(corner[j]) - this->System.vertex(corner[0]);
-      steps.row(j - 1) = this->values(corner[j]) - this->values(corner[0]);
-      inside = inside && this->Mesh.vertexColumns[0].value(corner[j]) ==
-                           this->Mesh.vertexColumns[0].value(corner[0]);
-    }
-    // The smallest solution is that in the plane of a triangle.
-    return edges.completeOrthogonalDecomposition().solve((inside ? 1.0 : 0.0) * steps);
-  }
-
-  const StreamMesh& Mesh;
-  ElementProblem System;
-  std::map<Key, std::int64_t> VertexAt, CellAt;
-};
-
 /** The largest difference over edges between vertices of different patches. */
 double largestStep(const StreamMesh& mesh, const std::function<double(std::int64_t)>& value)
 {
@@ -160,6 +83,53 @@ TEST(Blend, EqualsADirectSolve)
       EXPECT_LT(relativeError(valuesOf(*blended), DirectBlend(mesh).solve(anchor)), 1e-7) << anchor;
     }
   }
+}
+
+TEST(Blend, AveragedGradientsRestoreALinearFunction)
+{
+  // Each patch has an offset of its own.
+  const VertexFunction linear = [](const double* p)
+  { return 2.0 * p[0] - 0.7 * p[1] + 0.3 * p[2]; };
+  const VertexFunction recorded = [&](const double* p) { return linear(p) + 5.0 * quarter(p); };
+  IndexedTestMesh plane = grid(30, 25);
+  for (double& x : plane.positions)
+  {
+    x = 0.2 * (x - 12.0);
+  }
+  for (StreamMesh mesh : { toStream(shuffled(plane)), solid() })
+  {
+    addColumn<std::int32_t>(mesh, "patch", { quarter });
+    addColumn(mesh, "c", { recorded, [&](const double* p) { return -3.0 * recorded(p); } });
+    BlendDescription description = blendOf({ "c" });
+    description.anchor = 0.0;
+    for (const SeamGradient seam : { SeamGradient::Average, SeamGradient::Zero })
+    {
+      description.seam = seam;
+      const Eigen::MatrixXd values = valuesOf(*blend(MemoryMesh(mesh, 70), description, tight()));
+      Eigen::MatrixXd error(values.rows(), 2);
+      for (Eigen::Index v = 0; v < values.rows(); ++v)
+      {
+        const double wanted = linear(&mesh.positions[3 * v]);
+        error.row(v) << values(v, 0) - wanted, values(v, 1) + 3.0 * wanted;
+      }
+      const double spread =
+        (error.colwise().maxCoeff() - error.colwise().minCoeff()).cwiseAbs().maxCoeff();
+      EXPECT_TRUE(seam == SeamGradient::Average ? spread < 1e-5 : spread > 0.1) << spread;
+    }
+  }
+}
+
+TEST(Blend, AveragedGradientsAreThoseOfTheCellsAround)
+{
+  const StreamMesh mesh = patched(solid());
+  BlendDescription description = blendOf({ "c" });
+  description.seam = SeamGradient::Average;
+  const auto blended = blend(MemoryMesh(mesh, 50), description, tight());
+  EXPECT_LT(relativeError(valuesOf(*blended), DirectBlend(mesh).averaged().solve(0.01)), 1e-7);
+  SolveOptions inCore = tight();
+  inCore.inCore = true;
+  EXPECT_TRUE(
+    sameBits(valuesOf(*blend(MemoryMesh(mesh), description, inCore)), valuesOf(*blended)));
 }
 
 TEST(Blend, HeldPartsKeepTheirValues)

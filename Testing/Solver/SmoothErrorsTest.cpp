@@ -38,22 +38,29 @@ TEST(SmoothErrors, OptionsOutOfRange)
   EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.keepEdges = 0.0; }), "between 0 and 180 degrees");
   EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.tolerance = 2.0; }), "tolerance");
   EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.operators = "shi2006"; }), "use extended");
-  EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.memoryLimit = 100000; }), "raise the memory limit");
+  EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.memoryLimit = 100000; }),
+    "1 MiB (100000 bytes): raise the memory limit");
 }
 
 TEST(SmoothErrors, ColumnsAndPartsThatTheMeshDoesNotHave)
 {
   StreamMesh mesh = toStream(torus(9, 6));
   std::vector<double> values(static_cast<std::size_t>(mesh.vertices()), 1.0);
+  std::vector<std::int64_t> large(values.size(), 1);
+  large[3] = -(std::int64_t(1) << 53) - 1;
   values[4] = NAN;
-  mesh.vertexColumns = { makeColumn<double>("v", values) };
+  mesh.vertexColumns = { makeColumn<double>("v", values),
+    makeColumn<std::int64_t>("large", large) };
   mesh.cellColumns = { makeColumn<double>(
     "c", std::vector<double>(static_cast<std::size_t>(mesh.cells()))) };
   EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.column = "w"; }),
-    "smooth: column: the mesh has no column 'w'; its vertices have 'v', its cells 'c'");
+    "smooth: column: the mesh has no column 'w'; its vertices have 'v', 'large', its cells 'c'");
   EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.column = "c"; }), "is a column of the cells");
   EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.column = "v"; }),
     "'v' is not a finite number at vertex 4 of the stream");
+  EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.column = "large"; }),
+    "'large' has an integer of 2^53 or more, which double precision cannot hold exactly, at vertex "
+    "3 of the stream");
   EXPECT_SAYS(errorOf(mesh,
                 [](auto& o)
                 {

@@ -5,6 +5,7 @@
 #include "IO/Files/TextStart.h"
 #include "IO/Formats/Shared/TextColors.h"
 #include "IO/Formats/Shared/TriangleRuns.h"
+#include "IO/Formats/Vsm/AttributeNames.h"
 #include "IO/Raw/RawMeshBuilder.h"
 
 #include <array>
@@ -211,6 +212,7 @@ bool looksLikeObj(std::string_view start, std::optional<std::uint64_t> size)
 }
 
 constexpr FileSuffix ObjSuffixes[] = { { ".obj", true, false } };
+constexpr std::string_view ObjColumns[] = { ColorsName };
 
 } // namespace
 
@@ -218,6 +220,7 @@ const Format ObjFormat{
   .name = "OBJ",
   .suffixes = ObjSuffixes,
   .attributes = "colours of vertices",
+  .vertexColumns = ObjColumns,
   .looksRight = looksLikeObj,
   .parse = parseWith<importObj>,
   .restore = writeRestoredObj,

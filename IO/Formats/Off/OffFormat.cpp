@@ -8,6 +8,7 @@
 #include "IO/Formats/Off/OffHeader.h"
 #include "IO/Formats/Shared/TextColors.h"
 #include "IO/Formats/Shared/TriangleRuns.h"
+#include "IO/Formats/Vsm/AttributeNames.h"
 #include "IO/Raw/RawMeshBuilder.h"
 
 #include <string>
@@ -151,6 +152,7 @@ std::optional<FileCounts> countsOfOff(InputFile& file, const MeshPart&)
 }
 
 constexpr FileSuffix OffSuffixes[] = { { ".off", true, false } };
+constexpr std::string_view OffColumns[] = { NormalsName, ColorsName, TextureCoordinatesName };
 
 } // namespace
 
@@ -158,6 +160,7 @@ const Format OffFormat{
   .name = "OFF",
   .suffixes = OffSuffixes,
   .attributes = "normals, colours and texture coordinates of vertices, colours of faces",
+  .vertexColumns = OffColumns,
   .hasSign = isOff,
   .parse = parseWith<importOff>,
   .counts = countsOfOff,

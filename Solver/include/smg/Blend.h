@@ -13,6 +13,18 @@
 namespace smg
 {
 
+/** The gradients that blend() aims at in cells between patches. */
+enum class SeamGradient
+{
+  Zero, ///< 0: the steps vanish as far as possible
+  /**
+   * The mean of the gradients on both sides: over the cells around the corners that lie in one
+   * patch, weighted by area or volume, one that has several of the corners as often; 0 if there is
+   * none. A linear function that each patch records with an offset is restored up to a constant.
+   */
+  Average
+};
+
 /**
  * What blend() does: it removes the steps of columns between patches and keeps their gradients
  * inside the patches.
@@ -43,6 +55,7 @@ struct BlendDescription
    * the mean. 0: only the mean of each component without held vertices is that of the original.
    */
   double anchor = 0.01;
+  SeamGradient seam = SeamGradient::Zero; ///< the gradients between patches
 };
 
 /**
@@ -55,9 +68,10 @@ SMG_EXPORT std::vector<ColumnSpec> blendedColumns(
 /**
  * Blends columns in the gradient domain, out of core: the new values u minimise, over the piecewise
  * linear functions, the integral of |grad u - q|^2 + s |u - c|^2, where c are the original values,
- * s is `anchor` / diagonal^2, and q is grad c in cells whose corners are all in one patch, 0 in all
- * others (Perez, Gangnet and Blake 2003; on meshes Chuang et al. 2009).
- * @param mesh the mesh, read three times
+ * s is `anchor` / diagonal^2, and q is grad c in cells whose corners are all in one patch, 0 or the
+ * mean of the gradients around in all others (Perez, Gangnet and Blake 2003; on meshes Chuang et
+ * al. 2009).
+ * @param mesh the mesh, read three times, and once more for SeamGradient::Average
  * @param description what is blended
  * @param options how to solve; the tolerance refers to the correction u - c, and the memory limit
  * includes what the blending holds at the vertices that later cells may use
