@@ -92,6 +92,12 @@ smg::SolveSummary vtkStreamingMeshDeformation::SolveInMemory(
     report.notes.push_back("this is the deformed preview, a mesh of " +
                            std::to_string(report.vertices) +
                            " vertices: the full mesh is deformed when it is saved");
+    if (smg::isSurfaceOfSolid(input))
+    {
+      report.notes.push_back(
+        "the preview is the surface of the solid, on which handles inside have no effect: "
+        "PreviewCells of the reader offers tetrahedra");
+    }
   }
   return smg::SolveSummary::of(report, interactive.columns());
 }

@@ -3,7 +3,7 @@
 
 #include "Filters/Streaming/vtkInputStamp.h"
 #include "Filters/Streaming/vtkPieceRequest.h"
-#include "IO/Preview/PreviewPiece.h"
+#include "IO/Preview/StreamPreview.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceColumns.h"

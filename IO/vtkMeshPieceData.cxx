@@ -7,6 +7,7 @@
 #include "IO/vtkPieceNames.h"
 
 #include "vtkCellData.h"
+#include "vtkCellType.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -133,6 +134,12 @@ bool isPreview(vtkPointSet& mesh)
 {
   vtkDataArray* mark = mesh.GetFieldData()->GetArray(PreviewName);
   return mark && mark->GetNumberOfTuples() > 0 && mark->GetComponent(0, 0) != 0.0;
+}
+
+bool isSurfaceOfSolid(vtkPointSet& mesh)
+{
+  return isPreview(mesh) && mesh.IsA("vtkUnstructuredGrid") && mesh.GetNumberOfCells() > 0 &&
+         mesh.GetCellType(0) == VTK_TRIANGLE;
 }
 
 } // namespace smg

@@ -23,5 +23,7 @@ void markAsReaders(vtkPointSet& preview);
 
 /** Whether the mesh is marked as a preview. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT bool isPreview(vtkPointSet& mesh);
+/** Whether the mesh is a preview of tetrahedra that consists of triangles of their surface. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT bool isSurfaceOfSolid(vtkPointSet& mesh);
 
 } // namespace smg

@@ -58,6 +58,7 @@ struct vtkStreamingMeshReader::Internals
   std::optional<std::pair<std::vector<std::string>, std::vector<std::string>>> Columns;
   std::optional<smg::MeshPiece> Preview;
   int PreviewPoints = 0;
+  smg::SolidPreviewCells PreviewCells = smg::SolidPreviewCells::Triangles;
 
   static std::filesystem::file_time_type timeOf(const std::string& name)
   {
@@ -115,12 +116,15 @@ struct vtkStreamingMeshReader::Internals
     this->Preview.reset();
   }
 
-  const smg::MeshPiece& preview(int points, const smg::ProgressFunction& progress)
+  const smg::MeshPiece& preview(
+    int points, smg::SolidPreviewCells cells, const smg::ProgressFunction& progress)
   {
-    if (!this->Preview || this->PreviewPoints != points)
+    if (!this->Preview || this->PreviewPoints != points || this->PreviewCells != cells)
     {
-      this->Preview = smg::makePreviewPiece(this->Mesh->reader(), points, progress);
+      this->Preview.reset();
+      this->Preview = smg::makePreviewPiece(this->Mesh->reader(), points, progress, cells);
       this->PreviewPoints = points;
+      this->PreviewCells = cells;
     }
     return *this->Preview;
   }
@@ -171,13 +175,16 @@ struct vtkStreamingMeshReader::Internals
   }
 
   /** Reads the preview, all of it in the first piece. */
-  void readPreview(vtkPointSet& output, int part, int points, const smg::ProgressFunction& progress)
+  void readPreview(vtkPointSet& output, int part, const vtkStreamingMeshReader& self,
+    const smg::ProgressFunction& progress)
   {
+    const auto cells = self.PreviewCells == TETRAHEDRA ? smg::SolidPreviewCells::Tetrahedra
+                                                       : smg::SolidPreviewCells::Triangles;
     const smg::StreamInfo& full = this->Mesh->reader().info();
     smg::MeshPiece piece;
     if (part == 0)
     {
-      piece = this->preview(points, progress);
+      piece = this->preview(self.PreviewPoints, cells, progress);
     }
     else
     {
@@ -191,7 +198,10 @@ struct vtkStreamingMeshReader::Internals
     std::erase_if(piece.vertexColumns, [&names](const smg::Column& column)
       { return std::find(names.begin(), names.end(), column.spec.name) == names.end(); });
     smg::StreamInfo info = full;
-    info.cellType = smg::CellType::Triangle;
+    if (cells == smg::SolidPreviewCells::Triangles)
+    {
+      info.cellType = smg::CellType::Triangle;
+    }
     smg::setPiece(output, piece, info);
     smg::markAsPreview(output, full);
     smg::markAsReaders(output);
@@ -367,7 +377,7 @@ int vtkStreamingMeshReader::RequestData(
       if (!vtkStreamingMeshKeys::IsStreamed(request) &&
           info.vertices / parts > this->MaximumPointsInMemory)
       {
-        this->Internal->readPreview(*output, part, this->PreviewPoints, smg::progressOf(*this));
+        this->Internal->readPreview(*output, part, *this, smg::progressOf(*this));
       }
       else
       {
@@ -385,6 +395,8 @@ void vtkStreamingMeshReader::PrintSelf(ostream& os, vtkIndent indent)
      << "\n";
   os << indent << "MaximumPointsInMemory: " << this->MaximumPointsInMemory << "\n";
   os << indent << "PreviewPoints: " << this->PreviewPoints << "\n";
+  os << indent << "PreviewCells: " << (this->PreviewCells == SURFACE ? "surface" : "tetrahedra")
+     << "\n";
   os << indent << "FullNumberOfPoints: " << this->GetFullNumberOfPoints() << "\n";
   os << indent << "FullNumberOfCells: " << this->GetFullNumberOfCells() << "\n";
   os << indent << "Width: " << this->GetWidth() << "\n";

@@ -78,6 +78,18 @@ public:
   vtkGetMacro(PreviewPoints, int);
   ///@}
 
+  /** What the preview of a tetrahedral mesh consists of. */
+  enum PreviewCellsType
+  {
+    SURFACE,   ///< triangles of its outer surface: the shape in most detail
+    TETRAHEDRA ///< fewer and larger tetrahedra, on which a deformation acts inside, too
+  };
+  ///@{
+  /** What the preview of a tetrahedral mesh consists of. Default: SURFACE. */
+  vtkSetClampMacro(PreviewCells, int, SURFACE, TETRAHEDRA);
+  vtkGetMacro(PreviewCells, int);
+  ///@}
+
   ///@{
   /** The point and cell columns to read as arrays. Default: all. */
   vtkDataArraySelection* GetPointDataArraySelection();
@@ -126,6 +138,7 @@ private:
   char* ScratchDirectory = nullptr;
   vtkIdType MaximumPointsInMemory = 2000000;
   int PreviewPoints = 10000;
+  int PreviewCells = SURFACE;
 
   struct Internals;
   std::unique_ptr<Internals> Internal;

@@ -7,7 +7,6 @@
 #include "smg/Error.h"
 
 #include "vtkPointSet.h"
-#include "vtkPolyData.h"
 
 #include <set>
 #include <string>
@@ -29,14 +28,15 @@ std::set<std::string> namesInSources(const DistanceDescription& description)
 }
 
 /** A remark on the distances of a preview. */
-std::string noteOnPreview(const Report& report, bool isSolid)
+std::string noteOnPreview(const Report& report, bool isSurface)
 {
   const std::string which = "these are distances on the preview, a mesh of " +
                             std::to_string(report.vertices) + " vertices";
   return which +
-         (isSolid ? ", along the surface of the solid; those of the full mesh are computed when it "
-                    "is saved"
-                  : "; those of the full mesh are computed when it is saved");
+         (isSurface
+             ? ", along the surface of the solid; those of the full mesh are computed when it "
+               "is saved"
+             : "; those of the full mesh are computed when it is saved");
 }
 
 /** What to do about sources that a preview does not have. */
@@ -81,11 +81,10 @@ SolveSummary DistanceTask::solveInMemory(
   vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) const
 {
   this->check();
-  const bool isSolid = !vtkPolyData::SafeDownCast(&mesh);
-  if (isPreview(mesh) && isSolid && this->description.wall)
+  if (isSurfaceOfSolid(mesh) && this->description.wall)
   {
-    throw Error("The preview of a solid is its surface, which has no distance to its walls: save "
-                "the mesh, or raise MaximumPointsInMemory of the reader.");
+    throw Error("The preview is the surface of the solid, which has no distance to its walls: save "
+                "the mesh, or choose tetrahedra as PreviewCells of the reader.");
   }
   DistanceOptions given = this->options;
   given.progress = progress;
@@ -112,7 +111,7 @@ SolveSummary DistanceTask::solveInMemory(
   Report report = solution->report();
   if (isPreview(mesh))
   {
-    report.notes.push_back(noteOnPreview(report, isSolid));
+    report.notes.push_back(noteOnPreview(report, isSurfaceOfSolid(mesh)));
   }
   return SolveSummary::of(report, solution->columns());
 }

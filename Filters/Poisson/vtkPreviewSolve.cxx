@@ -20,7 +20,7 @@ std::string whyNotOn(vtkPointSet& preview, const PoissonTask& task)
 {
   if (!vtkPolyData::SafeDownCast(&preview))
   {
-    return "the preview of a solid is its surface";
+    return "the boundary of a solid's preview is not that of the mesh";
   }
   if (!task.problem.flux.empty() || !task.problem.robin.empty())
   {

@@ -6,6 +6,7 @@
 #include "IO/Order/LayOut.h"
 #include "IO/Order/LayoutSource.h"
 #include "IO/Preview/PreviewPiece.h"
+#include "IO/Preview/StreamPreview.h"
 #include "IO/Raw/RawMeshBuilder.h"
 #include "smg/Error.h"
 

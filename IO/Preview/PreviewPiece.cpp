@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Preview/PreviewPiece.h"
 
+#include "IO/Preview/SolidPreview.h"
+#include "IO/Preview/StreamPreview.h"
+
 #include <cstring>
 
 namespace smg
@@ -36,12 +39,14 @@ Column gather(VsmReader& mesh, const ColumnSpec& spec, const std::vector<std::in
 
 } // namespace
 
-MeshPiece makePreviewPiece(
-  VsmReader& mesh, std::int64_t maximumPoints, const ProgressFunction& progress)
+MeshPiece makePreviewPiece(VsmReader& mesh, std::int64_t maximumPoints,
+  const ProgressFunction& progress, SolidPreviewCells cells)
 {
   // Most rows are not needed, so the columns are read afterwards.
-  const auto source = mesh.source({}, {});
-  MeshPiece piece = makePreview(*source, maximumPoints, progress);
+  const bool isSolid =
+    cells == SolidPreviewCells::Tetrahedra && mesh.info().cellType == CellType::Tetrahedron;
+  MeshPiece piece = isSolid ? makeSolidPreview(mesh, maximumPoints, progress)
+                            : makePreview(*mesh.source({}, {}), maximumPoints, progress);
   for (const ColumnSpec& spec : mesh.info().vertexColumns)
   {
     piece.vertexColumns.push_back(gather(mesh, spec, piece.ids));
