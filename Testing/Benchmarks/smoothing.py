@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""smoothing.py SMG MESH... : smoothing beside vtkWindowedSincPolyDataFilter.
+"""smoothing.py SMG MESH... : smoothing beside vtkWindowedSincPolyDataFilter and an implicit step in core.
 
 Adds noise of 0.2 mean edges to the points of a cube and of each mesh (.ply or .obj of triangles), smooths it with
-`SMG smooth` and with VTK, and prints a table: the processor time of the smoothing, from a .vsm file to a .vsm
+`SMG smooth`, with VTK and, as the PMP library does, by one implicit step with a sparse factorization in core
+(SciPy's SuperLU), scaled to the volume before; and prints a table: the processor time of the smoothing, from a .vsm file to a .vsm
 file and from memory to memory; the peak memory of the processes; and how far the surface is from the mesh
 without noise: the root mean square of the distances of the points along its normals, in mean edges, and the
-mean angle between the normals of the triangles. Needs VTK and NumPy. Files go to the current folder.
+mean angle between the normals of the triangles. Needs VTK, NumPy and SciPy. Files go to the current folder.
 """
 
 import json
@@ -23,6 +24,7 @@ CUBE_OPTIONS = (["--steps", "5", "--size", "8edges"],
                 ["--steps", "5", "--size", "8edges", "--keep-edges", "30"])
 CUBE_EDGES = 24  # along a side
 VTK_OPTIONS = ((20, 0.1), (20, 0.05))
+IMPLICIT_EDGES = 4.0  # the default of smg
 
 
 def read(path):
@@ -137,6 +139,40 @@ def smooth_with_vtk(source, result, iterations, band):
     print(json.dumps({"seconds": seconds, "bytes": peak_bytes()}))
 
 
+def smooth_implicitly(source, result, count, edges):
+    """One step that halves waves of this many mean edges, in a process of its own."""
+    from scipy import sparse
+    from scipy.sparse.linalg import splu
+
+    points, triangles = read(pathlib.Path(source))
+    assert len(points) == count
+    begin = time.process_time()
+    original = Original(points, triangles)
+    twice = 2 * np.linalg.norm(original.areas, axis=1)
+    mass = sum(np.bincount(triangles[:, k], twice / 6, count) for k in range(3))
+    rows, columns, values = [], [], []
+    for k in range(3):
+        at, a, b = triangles[:, k], triangles[:, (k + 1) % 3], triangles[:, (k + 2) % 3]
+        cosine = np.einsum("ij,ij->i", points[a] - points[at], points[b] - points[at])
+        weight = cosine / np.maximum(twice, 1e-300) / 2
+        rows += [a, b, a, b]
+        columns += [b, a, a, b]
+        values += [-weight, -weight, weight, weight]
+    stiffness = sparse.csc_matrix((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))),
+                                  (count, count))
+    mass[mass == 0] = 1  # vertices of no triangle
+    step = (edges * original.edge / (2 * np.pi)) ** 2
+    factor = splu(sparse.diags(mass, format="csc") + step * stiffness, permc_spec="MMD_AT_PLUS_A",
+                  diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    smooth = factor.solve(mass[:, None] * points)
+    center = mass @ smooth / mass.sum()
+    scale = (original.volume(points) / original.volume(smooth)) ** (1 / 3)
+    smooth = center + scale * (smooth - center)
+    seconds = time.process_time() - begin
+    np.save(result, smooth)
+    print(json.dumps({"seconds": seconds, "bytes": peak_bytes()}))
+
+
 def measure(smg, name, points, triangles, smg_options):
     original = Original(points, triangles)
     noise = np.random.default_rng(1).normal(size=points.shape) * NOISE * original.edge
@@ -160,17 +196,22 @@ def measure(smg, name, points, triangles, smg_options):
         report = json.loads(pathlib.Path("report.json").read_text(encoding="utf-8"))
         row(" ".join(["smg smooth", *options]), report["cpu_seconds"], report["rss_bytes_peak"],
             original.errors(read_points("smooth.ply", len(points))))
-    for iterations, band in VTK_OPTIONS:
-        done = subprocess.run([sys.executable, __file__, "--vtk", "noisy.ply", "smooth.npy",
-                               str(iterations), str(band)], check=True, capture_output=True, text=True)
+    others = [(f"windowed sinc, {iterations} iterations, pass band {band}", "--vtk", iterations, band)
+              for iterations, band in VTK_OPTIONS]
+    others.append(("an implicit step in core", "--implicit", len(points), IMPLICIT_EDGES))
+    for name, *arguments in others:
+        done = subprocess.run([sys.executable, __file__, arguments[0], "noisy.ply", "smooth.npy",
+                               *map(str, arguments[1:])], check=True, capture_output=True, text=True)
         numbers = json.loads(done.stdout)
-        row(f"windowed sinc, {iterations} iterations, pass band {band}", numbers["seconds"],
-            numbers["bytes"], original.errors(np.load("smooth.npy").astype(float)))
+        row(name, numbers["seconds"], numbers["bytes"],
+            original.errors(np.load("smooth.npy").astype(float)))
 
 
 if __name__ == "__main__":
     if sys.argv[1] == "--vtk":
         smooth_with_vtk(sys.argv[2], sys.argv[3], int(sys.argv[4]), float(sys.argv[5]))
+    elif sys.argv[1] == "--implicit":
+        smooth_implicitly(sys.argv[2], sys.argv[3], int(sys.argv[4]), float(sys.argv[5]))
     else:
         measure(sys.argv[1], "cube", *cube(CUBE_EDGES), CUBE_OPTIONS)
         for mesh in map(pathlib.Path, sys.argv[2:]):
