@@ -86,14 +86,7 @@ protected:
     smg::ReplacedColumns source(
       mesh, solution, smg::blendedColumns(mesh.info(), this->Description));
     write(source, progress);
-    report.clipped = source.clipped();
-    if (report.clipped > 0)
-    {
-      report.notes.push_back(std::to_string(report.clipped) +
-                             (report.clipped == 1 ? " value was" : " values were") +
-                             " outside the range of the type of a column, and became the smallest "
-                             "or largest number of it.");
-    }
+    noteClipped(source, report);
   }
 
   std::string fateOfIsolated(std::int64_t vertices, bool /*ordered*/) const override

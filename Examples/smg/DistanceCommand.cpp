@@ -93,6 +93,17 @@ protected:
 
   std::int64_t memoryLimit() const override { return this->Options.memoryLimit; }
 
+  void warn(const smg::Report& report) const override
+  {
+    if (!report.converged)
+    {
+      std::fprintf(stderr,
+        "smg: warning: not settled: after %d passes some distances are too large; raise "
+        "--max-passes\n",
+        report.passes);
+    }
+  }
+
   void print(const smg::Report& report) const override
   {
     const smg::Report::Distance& found = *report.distance;

@@ -94,12 +94,7 @@ protected:
       const auto column = std::ranges::find(specs, this->Smooth.column, &smg::ColumnSpec::name);
       smg::ReplacedColumns smoothed(mesh, solution, { *column });
       write(smoothed, progress);
-      if (smoothed.clipped() > 0)
-      {
-        report.notes.push_back(std::to_string(smoothed.clipped()) +
-                               " values were outside the range of the column's type and were set "
-                               "to its smallest or largest number.");
-      }
+      noteClipped(smoothed, report);
       return;
     }
     smg::NormalsOptions normals;

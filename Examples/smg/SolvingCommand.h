@@ -3,6 +3,8 @@
 
 #include "MeshCommand.h"
 
+#include "smg/SolvedMesh.h"
+
 #include <string>
 #include <vector>
 
@@ -25,6 +27,9 @@ protected:
       .add_option("--tolerance", tolerance, "Relative residual to stop at, between 0 and 1")
       ->check(checkTolerance);
   }
+
+  /** Adds the number of values that did not fit into the types of columns to the report. */
+  static void noteClipped(const smg::ReplacedColumns& written, smg::Report& report);
 
   /** Applies the common options. */
   void applyTo(smg::SolveOptions& options, smg::ProgressFunction progress) const;

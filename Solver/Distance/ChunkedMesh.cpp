@@ -16,6 +16,10 @@ ChunkPlan ChunkPlan::of(const StreamInfo& mesh, std::int64_t span, bool sources)
   plan.cellType = mesh.cellType;
   plan.span = std::max<std::int64_t>(span, 1);
   plan.length = std::max(LeastLength, spans * plan.span);
+  if (mesh.vertices > 0)
+  {
+    plan.length = std::max(std::min(plan.length, mesh.vertices), plan.span);
+  }
   plan.singlePositions = !mesh.doublePositions;
   plan.sources = sources;
   if (plan.window() > INT32_MAX)

@@ -186,7 +186,8 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   {
     plan.length = std::max(std::min(plan.length, info.vertices), plan.span);
     // With the mean number of cells of a chunk; the exact need is known after the first reading.
-    const std::int64_t cells = info.cells / info.vertices * std::min(plan.length, info.vertices);
+    const double share = std::min(1.0, double(plan.length) / double(info.vertices));
+    const auto cells = static_cast<std::int64_t>(std::ceil(share * double(info.cells)));
     checkMemory(neededBytes(plan, info.vertices, description.direction, cells, 0), run->pool);
   }
   run->report.distance.emplace();

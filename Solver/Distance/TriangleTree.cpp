@@ -166,15 +166,20 @@ double TriangleTree::squareTo(const Node& node, const double* point)
 
 auto TriangleTree::nearest(const double* point, double bound, std::int64_t guess) const -> Nearest
 {
-  Nearest best{ -1, bound * bound };
+  // Compared are distances, not their squares, so that a bound from another tree is compared like a
+  // distance of this one: the result does not depend on how triangles are divided among trees.
+  Nearest best{ -1, bound };
+  constexpr double Rounding = 1.0 + 1e-14;
+  double most = Rounding * bound * bound; // squares beyond it are farther for certain
   const auto offer = [&](std::int64_t triangle)
   {
     const Vector way = difference(
       nearestPoint(this->Triangles[static_cast<std::size_t>(triangle)], point).data(), point);
-    const double square = dot(way, way);
-    if (square < best.square || (square == best.square && best.triangle > triangle))
+    const double distance = std::sqrt(dot(way, way));
+    if (distance < best.distance || (distance == best.distance && best.triangle > triangle))
     {
-      best = { triangle, square };
+      best = { triangle, distance };
+      most = Rounding * distance * distance;
     }
   };
   if (guess >= 0)
@@ -192,7 +197,7 @@ auto TriangleTree::nearest(const double* point, double bound, std::int64_t guess
   {
     const std::uint32_t n = open[--count];
     const Node& node = this->Nodes[n];
-    if (squareTo(node, point) > best.square)
+    if (squareTo(node, point) > most)
     {
       continue;
     }

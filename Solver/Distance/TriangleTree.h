@@ -33,7 +33,7 @@ public:
   struct Nearest
   {
     std::int64_t triangle = -1; ///< its number; -1: none is nearer than the bound
-    double square = 0;          ///< of the distance
+    double distance = 0;        ///< to it, or the bound
   };
   /** The triangle nearest to a point, of equally near ones the first, if it is nearer than `bound`.
    * `guess` is a triangle that is probably near, or -1. */

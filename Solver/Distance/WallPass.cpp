@@ -87,7 +87,7 @@ void WallPass::lower(std::int64_t begin, std::int64_t end)
     const auto triangle = static_cast<std::size_t>(nearest.triangle);
     const TrianglePoints& corners = this->Points[triangle];
     const Vector away = difference(point, nearestPoint(corners, point).data());
-    const double distance = std::sqrt(nearest.square);
+    const double distance = nearest.distance;
     this->Distance[v] = distance;
     for (int k = 0; k < 3; ++k)
     {

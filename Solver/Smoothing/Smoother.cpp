@@ -198,6 +198,13 @@ void Smoother::setSize(const MeshMeasures& measures)
                   : "no cell of the mesh has an area or volume that a size could refer to: "
                     "give the size of the details to smooth in the unit of the mesh");
   }
+  if (this->Size > measures.diagonal())
+  {
+    this->Result->total.notes.push_back("The size of the details, " + scientific(this->Size) +
+                                        ", is larger than the mesh, whose diagonal is " +
+                                        scientific(measures.diagonal()) +
+                                        ": little of its shape is left. Is it in the mesh's unit?");
+  }
 }
 
 } // namespace smg

@@ -203,12 +203,12 @@ TEST(TriangleTree, FindsTheFirstOfTheNearest)
     const double least = leastOf(triangles, point);
     const TriangleTree::Nearest nearest =
       tree.nearest(point, HUGE_VAL, trial % 2 ? random.below(500) : -1);
-    EXPECT_DOUBLE_EQ(std::sqrt(nearest.square), least);
+    EXPECT_DOUBLE_EQ(nearest.distance, least);
     const auto first = std::ranges::find_if(triangles,
       [&](const TrianglePoints& t)
       {
         const Vector way = difference(nearestPoint(t, point).data(), point);
-        return dot(way, way) == nearest.square;
+        return std::sqrt(dot(way, way)) == nearest.distance;
       });
     EXPECT_EQ(nearest.triangle, first - triangles.begin());
     EXPECT_EQ(tree.nearest(point, 0.999 * least, -1).triangle, -1);
