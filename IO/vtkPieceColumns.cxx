@@ -2,13 +2,17 @@
 #include "IO/vtkPieceColumns.h"
 
 #include "IO/vtkPieceNames.h"
+#include "IO/vtkStreamingMeshKeys.h"
 #include "smg/Error.h"
 
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
+#include "vtkInformation.h"
+#include "vtkInformationVariantKey.h"
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
+#include "vtkVariant.h"
 
 #include <algorithm>
 #include <cstring>
@@ -46,6 +50,17 @@ void copyRows(vtkDataArray& array, std::span<const std::int64_t> rows, Column& c
   }
 }
 
+/** The value of ColumnSpec::isolated. */
+std::optional<double> isolatedValue(vtkDataArray& array)
+{
+  vtkInformationVariantKey* key = vtkStreamingMeshKeys::ISOLATED_VALUE();
+  if (array.HasInformation() && array.GetInformation()->Has(key))
+  {
+    return array.GetInformation()->Get(key).ToDouble();
+  }
+  return std::nullopt;
+}
+
 } // namespace
 
 std::optional<ScalarType> scalarTypeOf(vtkDataArray& array)
@@ -69,6 +84,10 @@ vtkSmartPointer<vtkDataArray> makeArray(const Column& column)
   {
     std::memcpy(array->GetVoidPointer(0), column.bytes.data(), column.bytes.size());
   }
+  if (column.spec.isolated)
+  {
+    array->GetInformation()->Set(vtkStreamingMeshKeys::ISOLATED_VALUE(), *column.spec.isolated);
+  }
   return array;
 }
 
@@ -85,7 +104,7 @@ std::vector<ColumnSpec> columnSpecs(vtkDataSetAttributes& arrays)
     }
     if (const auto type = scalarTypeOf(*array))
     {
-      specs.push_back({ name, *type, array->GetNumberOfComponents() });
+      specs.push_back({ name, *type, array->GetNumberOfComponents(), isolatedValue(*array) });
     }
   }
   return specs;

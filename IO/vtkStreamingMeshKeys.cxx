@@ -6,6 +6,7 @@
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationIntegerRequestKey.h"
 #include "vtkInformationStringKey.h"
+#include "vtkInformationVariantKey.h"
 #include "vtkObjectFactory.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
@@ -44,6 +45,7 @@ public:
 
 vtkStandardNewMacro(vtkStreamingMeshKeys);
 vtkInformationKeyMacro(vtkStreamingMeshKeys, STREAMED_DATA, Integer);
+vtkInformationKeyMacro(vtkStreamingMeshKeys, ISOLATED_VALUE, Variant);
 
 static vtkInformationIntegerRequestKey* vtkStreamingMeshKeys_STREAMED =
   new StreamedKey("STREAMED", "vtkStreamingMeshKeys");

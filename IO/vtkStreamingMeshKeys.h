@@ -26,6 +26,7 @@ class vtkInformation;
 class vtkInformationIntegerKey;
 class vtkInformationIntegerRequestKey;
 class vtkInformationStringKey;
+class vtkInformationVariantKey;
 
 class VTKSTREAMINGMULTIGRIDIO_EXPORT vtkStreamingMeshKeys : public vtkObject
 {
@@ -48,6 +49,10 @@ public:
   /** Pipeline information: 1 if a request for the whole that is not streamed returns a preview,
    * else 0. */
   static vtkInformationIntegerKey* PREVIEWED();
+
+  /** Information of a point array: the value of each component at points that no cell uses. Writers
+   * of VTK's XML files leave out keys of variants. */
+  static vtkInformationVariantKey* ISOLATED_VALUE();
 
   /** Whether the request in the pipeline information `info` comes from a streaming consumer. */
   static bool IsStreamed(vtkInformation* info);

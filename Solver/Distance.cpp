@@ -6,6 +6,7 @@
 #include "Solver/Distance/WallDistance.h"
 #include "smg/Error.h"
 
+#include <cmath>
 #include <utility>
 
 namespace smg
@@ -26,14 +27,14 @@ void require(bool holds, const char* sentence)
 
 std::vector<ColumnSpec> distanceColumns(const DistanceDescription& description)
 {
-  std::vector<ColumnSpec> columns{ { DistanceName, ScalarType::Float64, 1 } };
+  std::vector<ColumnSpec> columns{ { DistanceName, ScalarType::Float64, 1, HUGE_VAL } };
   if (description.source)
   {
-    columns.push_back({ DistanceSourceName, ScalarType::Int64, 1 });
+    columns.push_back({ DistanceSourceName, ScalarType::Int64, 1, -1 });
   }
   if (description.direction)
   {
-    columns.push_back({ DistanceDirectionName, ScalarType::Float64, 3 });
+    columns.push_back({ DistanceDirectionName, ScalarType::Float64, 3, 0 });
   }
   return columns;
 }

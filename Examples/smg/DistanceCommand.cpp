@@ -78,10 +78,9 @@ protected:
     return smg::distance(mesh, this->Description, this->Options, "--from");
   }
 
-  std::string fateOfIsolated(std::int64_t vertices, bool ordered) const override
+  std::string fateOfIsolated(std::int64_t vertices, bool /*ordered*/) const override
   {
-    return ordered ? vertices == 1 ? "has the Distance 0." : "have the Distance 0."
-                   : this->MeshCommand::fateOfIsolated(vertices, ordered);
+    return vertices == 1 ? "is not reached." : "are not reached.";
   }
 
   void writeResult(const smg::VsmReader& mesh, smg::Solution& solution, const Writer& write,

@@ -55,7 +55,7 @@ struct SolvedMesh::Implementation
     {
       std::erase_if(*specs, [](const ColumnSpec& spec) { return isOfSolve(spec.name); });
     }
-    this->info.vertexColumns.push_back({ SolutionName, ScalarType::Float64, columns });
+    this->info.vertexColumns.push_back({ SolutionName, ScalarType::Float64, columns, 0 });
     if (options.gradient)
     {
       this->info.cellColumns.push_back({ GradientName, ScalarType::Float64, 3 * columns });

@@ -72,6 +72,28 @@ def test_walls_of_a_box():
     assert all(abs(value - point[2]) < 1e-6 for point, value in zip(points, floor))
 
 
+def test_vertices_of_no_cell_are_not_reached():
+    write_torus("loose.obj", 60, 30)
+    with open("loose.obj", encoding="utf-8") as file:
+        lines = file.read()
+    with open("loose.obj", "w", encoding="utf-8") as file:
+        file.write(lines + "v 0 0 7\nv 0 0 8\n")
+    # Into the file, into a .vsm, and again over the distances of an earlier run.
+    arguments = ("--from", '{"vertices": [7]}', "--source", "--direction", "--quiet")
+    done = run("distance", "loose.obj", "loose.vtp", *arguments[:-1])
+    assert "2 vertices belong to no cell: they are not reached." in done.stdout, done.stdout
+    run("distance", "loose.obj", "loose.vsm", *arguments)
+    run("distance", "loose.vsm", "again.vsm", *arguments)
+    run("convert", "loose.vsm", "vsm.vtp", "--restore-order", "--quiet")
+    run("convert", "again.vsm", "again.vtp", "--restore-order", "--quiet")
+    for name in ("loose.vtp", "vsm.vtp", "again.vtp"):
+        arrays = read_vtk_xml(name)
+        assert flat(arrays["Distance"])[-2:] == [math.inf] * 2, name
+        assert math.isfinite(flat(arrays["Distance"])[-3]), name
+        assert flat(arrays["DistanceSource"])[-3:] == [7, -1, -1], name
+        assert arrays["DistanceDirection"][-2:] == [(0, 0, 0)] * 2, name
+
+
 def test_errors():
     write_torus("torus.obj", 60, 30)
     usage = run("distance", "torus.obj", "out.vtp", code=2).stderr
@@ -89,6 +111,7 @@ def test_errors():
 
 
 for each in (test_columns_in_the_order_of_the_file, test_sources_add_up,
-             test_the_same_for_any_memory, test_walls_of_a_box, test_errors):
+             test_the_same_for_any_memory, test_walls_of_a_box,
+             test_vertices_of_no_cell_are_not_reached, test_errors):
     each()
     print("passed", each.__name__)

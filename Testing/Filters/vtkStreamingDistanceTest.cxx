@@ -3,10 +3,12 @@
 #include "Filters/vtkMeshHandle.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
+#include "Testing/IO/MeshText.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/MemoryMesh.h"
 #include "Testing/Support/SolveMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/Convert.h"
 #include "smg/Distance.h"
 #include "smg/VsmReader.h"
 
@@ -14,6 +16,7 @@
 #include "vtkCommand.h"
 #include "vtkFieldData.h"
 
+#include <cmath>
 #include <functional>
 
 namespace smg::testing
@@ -186,6 +189,34 @@ TEST_F(VtkStreamingDistance, CanBeAborted)
     this->Distance->SetAbortExecute(0);
     EXPECT_TRUE(updatePiece(this->Distance, 0, 1));
     EXPECT_TRUE(this->output()->GetPointData()->HasArray(DistanceName));
+  }
+}
+
+TEST_F(VtkStreamingDistance, PointsOfNoCellAreNotReached)
+{
+  IndexedTestMesh mesh = grid(6, 6);
+  mesh.positions.insert(mesh.positions.end(), { 1, 2, 3, 4, 5, 6 });
+  writeBytes(this->Folder / "loose.off", meshText(mesh));
+  convert(this->Folder / "loose.off", this->Folder / "loose.vsm");
+  this->Reader->SetFileName((this->Folder / "loose.vsm").c_str());
+  this->Distance->SourceOn();
+  const vtkNew<vtkStreamingMeshWriter> writer;
+  writer->SetInputConnection(this->Distance->GetOutputPort());
+  writer->SetFileName((this->Folder / "out.vsm").c_str());
+  ASSERT_TRUE(writer->Write());
+  VsmReader written(this->Folder / "out.vsm");
+  IsolatedVertices loose;
+  written.readIsolated(0, written.isolatedVertices(), loose);
+  ASSERT_EQ(loose.ids.size(), 2U);
+  for (const ColumnSpec& spec : distanceColumns({ .from = {}, .source = true }))
+  {
+    const std::ptrdiff_t column = findColumn(loose.columns, spec);
+    ASSERT_GE(column, 0) << spec.name;
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      EXPECT_EQ(loose.columns[static_cast<std::size_t>(column)].value(i),
+        spec.name == DistanceName ? HUGE_VAL : -1);
+    }
   }
 }
 

@@ -213,6 +213,42 @@ TEST_F(IsolatedVerticesTest, StayWithAMeshThatIsWrittenAgain)
   EXPECT_EQ(after.columns[0].bytes, before.columns[3].bytes);
 }
 
+TEST_F(IsolatedVerticesTest, HaveTheValueOfAColumnThatSaysIt)
+{
+  this->writeWith("mesh.vsm",
+    [this](VsmWriter& writer)
+    {
+      const IsolatedVertices chunk = this->some(1, 3);
+      writer.isolated(chunk.ids, chunk.positions, chunk.columns);
+    });
+  const VsmReader first(this->Folder / "mesh.vsm");
+  MemorySource source(this->Mesh, 500);
+  StreamInfo info = source.info();
+  for (ColumnSpec& spec : info.vertexColumns)
+  {
+    spec.isolated = 5;
+  }
+  EXPECT_EQ(info.vertexColumns, source.info().vertexColumns);
+  VsmWriter writer(this->Folder / "again.vsm", info);
+  for (MeshBlock block; source.next(block);)
+  {
+    writer.append(block);
+  }
+  copyIsolated(this->Folder / "mesh.vsm", info, writer);
+  writer.finish();
+  VsmReader again(this->Folder / "again.vsm");
+  IsolatedVertices all;
+  again.readIsolated(0, first.isolatedVertices(), all);
+  ASSERT_FALSE(all.columns.empty());
+  for (const Column& column : all.columns)
+  {
+    for (std::size_t i = 0; i < column.tuples(); ++i)
+    {
+      EXPECT_EQ(column.value(i), 5.0) << column.spec.name;
+    }
+  }
+}
+
 TEST_F(IsolatedVerticesTest, RefusesWhatCannotBeStored)
 {
   const auto give = [this](std::int64_t id, double x, std::size_t coordinates, bool columns)

@@ -26,6 +26,13 @@ void roundToSingle(std::vector<double>& positions)
   }
 }
 
+/** Sets all components to a number. */
+void fill(Column& column, double value)
+{
+  dispatch(column.spec.type,
+    [&]<class T>(T) { std::ranges::fill(column.as<T>(), static_cast<T>(value)); });
+}
+
 } // namespace
 
 void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer)
@@ -45,7 +52,11 @@ void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, Vsm
     {
       const std::ptrdiff_t same = findColumn(chunk.columns, column.spec);
       column.resize(chunk.ids.size());
-      if (same >= 0)
+      if (column.spec.isolated)
+      {
+        fill(column, *column.spec.isolated);
+      }
+      else if (same >= 0)
       {
         column.bytes = chunk.columns[static_cast<std::size_t>(same)].bytes;
       }

@@ -33,7 +33,8 @@ WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path,
 
 /**
  * Copies the isolated vertices of a .vsm file, with the columns that both have, to the writer of a
- * stream like `info`, since a stream made from a .vsm file does not contain them.
+ * stream like `info`, since a stream made from a .vsm file does not contain them. Columns with a
+ * value ColumnSpec::isolated get that.
  */
 SMG_EXPORT void copyIsolated(
   const std::filesystem::path& from, const StreamInfo& info, VsmWriter& writer);

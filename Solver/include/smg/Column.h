@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -103,11 +104,18 @@ struct ColumnSpec
   std::string name;                      ///< name of the column
   ScalarType type = ScalarType::Float64; ///< of each component
   int components = 1;                    ///< scalars in a tuple, at least 1
+  /** Each component at the vertices of no cell, which no stream contains; none: what the mesh has
+   * there, else 0. */
+  std::optional<double> isolated = {};
 
   /** Bytes of a tuple. */
   std::size_t tupleBytes() const { return sizeOf(this->type) * this->components; }
   /** Whether name, type and number of components are equal. */
-  bool operator==(const ColumnSpec&) const = default;
+  bool operator==(const ColumnSpec& other) const
+  {
+    return this->name == other.name && this->type == other.type &&
+           this->components == other.components;
+  }
 };
 
 /** An attribute of vertices or cells: a tuple for each of them. */
