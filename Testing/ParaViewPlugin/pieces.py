@@ -81,6 +81,27 @@ for pieces in (1, 7, 64):
     for p in parts:
         assert (p[3] == measured[3][p[0]]).all(), pieces
 
+# Likewise the blended mesh.
+scans, blended = (os.path.join(folder, name) for name in ("scans.vsm", "blended.vsm"))
+SaveData(scans, t.make_scans(reader))
+t.run_smg("blend", scans, blended, "--patch", "Scan", "--columns", "Light")
+expected = OpenDataFile(blended)
+expected.UpdatePipeline()
+light = t.pull(t.client_object(expected), 1, "Light")[0][3]
+recorded = OpenDataFile(scans)
+recorded.UpdatePipeline()
+assert (light != t.pull(t.client_object(recorded), 1, "Light")[0][3]).any()
+blend = StreamingBlend(Input=recorded, Patch="Scan", Columns=["Light"])
+for interactive in (200000, 0):
+    blend.InteractivePoints = interactive
+    blend.UpdatePipeline()
+    for pieces in (1, 7, 64):
+        parts = t.pull(t.client_object(blend), pieces, "Light")
+        ids = numpy.concatenate([p[0] for p in parts])
+        assert (numpy.concatenate([p[3] for p in parts]) == light[ids]).all(), pieces
+        own = numpy.concatenate([p[0][p[1]] for p in parts])
+        assert (numpy.sort(own) == numpy.arange(t.BUNNY_POINTS)).all(), pieces
+
 # With the guard, the whole mesh is a preview, with the true solution if requested.
 reader.MaximumPointsInMemory = 1000
 poisson.SolveFullMesh = 1

@@ -54,6 +54,35 @@ def make_problem(reader, axis="Y", low=FEET, high=EARS):
     return values
 
 
+# Four scans of different brightness: functions of the position x, y, z and of the scan.
+SCAN, LIGHT = "(x > -0.02) + 2 * (y > 0.1)", "128 + 512 * z + 32 * Scan"
+
+
+def make_scans(reader):
+    """Calculators that make the arrays Scan, of four patches, and Light, with steps between them."""
+    function = SCAN.replace("x", "coordsX").replace("y", "coordsY")
+    scan = Calculator(Input=reader, ResultArrayName="Scan", Function=function)
+    return Calculator(Input=scan, ResultArrayName="Light", Function=LIGHT.replace("z", "coordsZ"))
+
+
+def make_vtk_scans(reader):
+    """The same by classes of VTK."""
+    from paraview.vtk.vtkFiltersCore import vtkArrayCalculator
+
+    for name, function in (("Scan", SCAN), ("Light", LIGHT)):
+        array = vtkArrayCalculator()
+        array.SetInputConnection(reader.GetOutputPort())
+        array.SetAttributeTypeToPointData()
+        for axis, coordinate in enumerate("xyz"):
+            array.AddCoordinateScalarVariable(coordinate, axis)
+        if name == "Light":
+            array.AddScalarVariable("Scan", "Scan", 0)
+        array.SetFunction(function)
+        array.SetResultArrayName(name)
+        reader = array
+    return reader
+
+
 def make_poisson(source):
     poisson = StreamingPoisson(Input=source)
     poisson.DirichletMask = ["POINTS", "Mask"]

@@ -52,6 +52,11 @@ class Session:
         self.events.append(f"  <pqevent object={quoteattr(widget)} command={quoteattr(command)}"
                            f" arguments={quoteattr(str(arguments))}/>")
 
+    def check(self, widget, name, value):
+        """That a property of a widget of the panel has this value; otherwise ParaView fails."""
+        self.events.append(f"  <pqcheck object={quoteattr(f'{PROPERTIES}/{widget}')} property={quoteattr(name)}"
+                           f" arguments={quoteattr(str(value))}/>")
+
     def menu(self, path, action):
         names = {"File": "menu_File", "View": "menu_View", "Macros": "menu_Macros"}
         menus = [names.get(name, "menu" + name if i == 0 else name)
