@@ -4,7 +4,7 @@
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/Formats/Streams/StreamFile.h"
-#include "IO/Preview/PreviewPiece.h"
+#include "IO/Preview/KeptPreview.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkSelectedColumns.h"
@@ -56,9 +56,7 @@ struct vtkStreamingMeshReader::Internals
   Stamp Failed;
   /** The columns read with the pieces of the file; none before the first piece. */
   std::optional<std::pair<std::vector<std::string>, std::vector<std::string>>> Columns;
-  std::optional<smg::MeshPiece> Preview;
-  int PreviewPoints = 0;
-  smg::SolidPreviewCells PreviewCells = smg::SolidPreviewCells::Triangles;
+  smg::KeptPreview Preview;
 
   static std::filesystem::file_time_type timeOf(const std::string& name)
   {
@@ -113,20 +111,7 @@ struct vtkStreamingMeshReader::Internals
   {
     this->Mesh.reset();
     this->Columns.reset();
-    this->Preview.reset();
-  }
-
-  const smg::MeshPiece& preview(
-    int points, smg::SolidPreviewCells cells, const smg::ProgressFunction& progress)
-  {
-    if (!this->Preview || this->PreviewPoints != points || this->PreviewCells != cells)
-    {
-      this->Preview.reset();
-      this->Preview = smg::makePreviewPiece(this->Mesh->reader(), points, progress, cells);
-      this->PreviewPoints = points;
-      this->PreviewCells = cells;
-    }
-    return *this->Preview;
+    this->Preview.clear();
   }
 
   /** Sets the type of the output according to the cells. */
@@ -184,7 +169,7 @@ struct vtkStreamingMeshReader::Internals
     smg::MeshPiece piece;
     if (part == 0)
     {
-      piece = this->preview(self.PreviewPoints, cells, progress);
+      piece = this->Preview.of(this->Mesh->reader(), self.PreviewPoints, cells, progress);
     }
     else
     {
