@@ -79,6 +79,9 @@ void vtkStreamingDistance::Deliver(
   vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output)
 {
   output.ShallowCopy(&piece);
+  // Sources and directions of other distances would be taken for those of these.
+  output.GetPointData()->RemoveArray(smg::DistanceSourceName);
+  output.GetPointData()->RemoveArray(smg::DistanceDirectionName);
   const auto stride = static_cast<std::size_t>(this->GetSummary().columns);
   std::size_t first = 0;
   const auto points = stride == 0 ? 0 : static_cast<std::size_t>(piece.GetNumberOfPoints());

@@ -4,6 +4,7 @@
 #include "Solver/Blending/BlendProblem.h"
 #include "Solver/Blending/BlendedValues.h"
 #include "Solver/Core/Timer.h"
+#include "Solver/Description/ClippedValues.h"
 #include "Solver/Engine/CheckOptions.h"
 #include "Solver/Storage/MemoryLimitError.h"
 #include "smg/Error.h"
@@ -25,8 +26,8 @@ std::int64_t ownBytes(const StreamInfo& mesh, std::int64_t columns, SeamGradient
   const std::int64_t gradients = seam == SeamGradient::Average ? 1 + 3 * columns : 0;
   // Released values are removed when they are half of a vector, whose capacity may be twice its
   // size.
-  const std::int64_t open =
-    mesh.width > 0 ? 4 * mesh.width * (1 + columns + gradients) * Number : 0;
+  const std::int64_t vertices = std::max<std::int64_t>({ mesh.width, mesh.span, 0 });
+  const std::int64_t open = 4 * vertices * (1 + columns + gradients) * Number;
   return open + (inCore && mesh.vertices > 0 ? mesh.vertices * (columns + gradients) * Number : 0);
 }
 
@@ -108,6 +109,22 @@ void addSeams(const BlendProblem& problem, const SeamSteps& after, Report& repor
   }
 }
 
+void addNotes(const std::string& patch, const SeamSteps& steps, std::int64_t cells, Report& report)
+{
+  if (steps.edges() == 0)
+  {
+    report.notes.push_back(
+      "No edge connects two patches of the column '" + patch + "': the columns stay as they are.");
+  }
+  if (steps.cells() > cells / 2)
+  {
+    report.notes.push_back(std::to_string(steps.cells()) + " of " + std::to_string(cells) +
+                           " cells lie between patches of the column '" + patch +
+                           "', where the detail of the columns is lost: is this the column with "
+                           "the number of the scan or region of each vertex or cell?");
+  }
+}
+
 void addOriginalTraffic(const IoStatistics& traffic, Report& report)
 {
   report.bytes_read += traffic.bytesRead;
@@ -151,14 +168,11 @@ std::unique_ptr<Solution> blend(
   Report& report = blended->total;
   report.passes += description.seam == SeamGradient::Average ? 3 : 2;
   addSeams(problem, after, report);
+  countClipped(*blended, problem.specs(), report);
   addOriginalTraffic(blended->traffic, report);
   report.seconds.total = wall.seconds();
   report.cpu_seconds = processSeconds() - cpuAtStart;
-  if (after.edges() == 0)
-  {
-    report.notes.push_back("No edge connects two patches of the column '" + description.patch +
-                           "': the columns stay as they are.");
-  }
+  addNotes(description.patch, after, mesh.info().cells, report);
   if (options.progress && !options.progress(1.0))
   {
     throw Cancelled();

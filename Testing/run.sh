@@ -37,7 +37,8 @@ configure_build() {
 configure_build_test() {
   configure_build "$1"
   echo "== $1: test ($(date +%T))"
-  ctest --preset "$1" --parallel "$jobs"
+  # One more than cores, since the tests of windows and of processes wait more than they compute.
+  ctest --preset "$1" --parallel "$((jobs + 1))"
 }
 
 smg_install "${smg_build_packages[@]}" "${smg_paraview_packages[@]}" "${smg_test_packages[@]}"

@@ -81,12 +81,11 @@ protected:
   }
 
   void writeResult(const smg::VsmReader& mesh, smg::Solution& solution, const Writer& write,
-    smg::Report& report, const smg::ProgressFunction& progress) const override
+    smg::Report& /*report*/, const smg::ProgressFunction& progress) const override
   {
     smg::ReplacedColumns source(
       mesh, solution, smg::blendedColumns(mesh.info(), this->Description));
     write(source, progress);
-    noteClipped(source, report);
   }
 
   std::string fateOfIsolated(std::int64_t vertices, bool /*ordered*/) const override

@@ -86,7 +86,9 @@ protected:
   void writeResult(const smg::VsmReader& mesh, smg::Solution& solution, const Writer& write,
     smg::Report& /*report*/, const smg::ProgressFunction& progress) const override
   {
-    smg::ReplacedColumns result(mesh, solution, smg::distanceColumns(this->Description));
+    // Sources and directions of other distances would be taken for those of these.
+    smg::ReplacedColumns result(mesh, solution, smg::distanceColumns(this->Description),
+      { smg::DistanceSourceName, smg::DistanceDirectionName });
     write(result, progress);
   }
 

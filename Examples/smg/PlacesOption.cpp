@@ -10,6 +10,8 @@ void PlacesOption::addTo(CLI::App& command, const std::string& what)
       what +
         ", as WHERE of a problem file: JSON, as '{\"sphere\": [0, 0, 0, 1]}', a list of these, or "
         "a file; may be given several times")
+    ->check(
+      [](const std::string& given) { return given.empty() ? "names no part of the mesh" : ""; })
     ->allow_extra_args(false)
     ->type_name("WHERE");
 }

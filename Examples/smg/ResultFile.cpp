@@ -8,6 +8,7 @@
 #include "IO/Files/PartialProgress.h"
 #include "smg/WriteMesh.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -42,8 +43,11 @@ bool ResultFile::mayRestore() const
   const bool canRestore = this->Files.columns.empty()
                             ? smg::suffixFor(smg::FormatUse::Restore, this->Files.out) != nullptr
                             : this->restoresColumns();
-  return !this->Files.welds && canRestore &&
-         smg::kindOfInput(this->Files.in) == smg::MeshFileKind::Indexed;
+  const smg::MeshFileKind kind = smg::kindOfInput(this->Files.in);
+  // A .vsm file is in stream order, and so is the result where the format can have that.
+  const bool isContainer =
+    kind == smg::MeshFileKind::Vsm && !smg::suffixFor(smg::FormatUse::Write, this->Files.out);
+  return !this->Files.welds && canRestore && (kind == smg::MeshFileKind::Indexed || isContainer);
 }
 
 void ResultFile::chooseOrder(const smg::VsmReader& mesh, const smg::ConversionReport* conversion)
@@ -57,7 +61,11 @@ void ResultFile::chooseOrder(const smg::VsmReader& mesh, const smg::ConversionRe
     smg::checkOutput(this->Files.out, cells);
     return;
   }
-  if (this->mayRestore() && conversion && !conversion->keeps_numbers)
+  const std::vector<smg::ColumnSpec>& columns = mesh.info().vertexColumns;
+  const bool isNumbered = conversion
+                            ? !conversion->keeps_numbers
+                            : std::ranges::find(columns, smg::OriginalIdSpec) != columns.end();
+  if (this->mayRestore() && isNumbered)
   {
     this->Order = Orders::Restored;
     smg::checkRestoredPath(this->Files.out, cells);
@@ -65,9 +73,9 @@ void ResultFile::chooseOrder(const smg::VsmReader& mesh, const smg::ConversionRe
   }
   if (!smg::suffixFor(smg::FormatUse::Write, this->Files.out))
   {
-    throw smg::Error(this->Files.out.string() + ": " + this->Files.in.string() +
-                     " has a column OriginalId of its own, with which the result can be written in "
-                     "stream order only: choose " +
+    throw smg::Error(this->Files.out.string() + ": " + this->Files.in.string() + " has " +
+                     (conversion ? "a column OriginalId of its own" : "no column OriginalId") +
+                     ", so that the result can be written in stream order only: choose " +
                      smg::suffixList(smg::FormatUse::Write, cells, "or") + '.');
   }
   smg::checkOutput(this->Files.out, cells);

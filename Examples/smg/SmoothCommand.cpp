@@ -86,7 +86,7 @@ protected:
   }
 
   void writeResult(const smg::VsmReader& mesh, smg::Solution& solution, const Writer& write,
-    smg::Report& report, const smg::ProgressFunction& progress) const override
+    smg::Report& /*report*/, const smg::ProgressFunction& progress) const override
   {
     if (!this->Smooth.column.empty())
     {
@@ -94,7 +94,6 @@ protected:
       const auto column = std::ranges::find(specs, this->Smooth.column, &smg::ColumnSpec::name);
       smg::ReplacedColumns smoothed(mesh, solution, { *column });
       write(smoothed, progress);
-      noteClipped(smoothed, report);
       return;
     }
     smg::NormalsOptions normals;

@@ -46,18 +46,6 @@ void SolvingCommand::applyTo(smg::SolveOptions& options, smg::ProgressFunction p
   options.progress = std::move(progress);
 }
 
-void SolvingCommand::noteClipped(const smg::ReplacedColumns& written, smg::Report& report)
-{
-  report.clipped = written.clipped();
-  if (report.clipped > 0)
-  {
-    report.notes.push_back(std::to_string(report.clipped) +
-                           (report.clipped == 1 ? " value was" : " values were") +
-                           " outside the range of the type of a column, and became the smallest "
-                           "or largest number of it.");
-  }
-}
-
 void SolvingCommand::warn(const smg::Report& report) const
 {
   const auto warning = [this](const std::string& what, double residual, int cycles)

@@ -28,9 +28,6 @@ protected:
       ->check(checkTolerance);
   }
 
-  /** Adds the number of values that did not fit into the types of columns to the report. */
-  static void noteClipped(const smg::ReplacedColumns& written, smg::Report& report);
-
   /** Applies the common options. */
   void applyTo(smg::SolveOptions& options, smg::ProgressFunction progress) const;
 

@@ -16,14 +16,15 @@ namespace smg
 namespace
 {
 
-/** The names of the columns of a mesh that are not replaced. */
-std::vector<std::string> otherNames(
-  const std::vector<ColumnSpec>& specs, const std::vector<ColumnSpec>& replaced)
+/** The names of the columns of a mesh that are neither replaced nor dropped. */
+std::vector<std::string> otherNames(const std::vector<ColumnSpec>& specs,
+  const std::vector<ColumnSpec>& replaced, const std::vector<std::string>& dropped)
 {
   std::vector<std::string> names;
   for (const ColumnSpec& spec : specs)
   {
-    if (std::ranges::find(replaced, spec.name, &ColumnSpec::name) == replaced.end())
+    if (std::ranges::find(replaced, spec.name, &ColumnSpec::name) == replaced.end() &&
+        std::ranges::find(dropped, spec.name) == dropped.end())
     {
       names.push_back(spec.name);
     }
@@ -31,9 +32,9 @@ std::vector<std::string> otherNames(
   return names;
 }
 
-/** Converts a value to the type of a column; counts it if it is far outside the range. */
+/** Converts a value to the type of a column. */
 template <class T>
-T toType(double value, std::int64_t& clipped)
+T toType(double value)
 {
   if constexpr (std::is_floating_point_v<T>)
   {
@@ -49,7 +50,6 @@ T toType(double value, std::int64_t& clipped)
     {
       return static_cast<T>(rounded);
     }
-    ++clipped;
     return rounded < low ? std::numeric_limits<T>::min() : std::numeric_limits<T>::max();
   }
 }
@@ -63,7 +63,6 @@ struct ReplacedColumns::Implementation
   std::vector<ColumnSpec> columns;
   StreamInfo info;
   std::vector<double> values;
-  std::int64_t clipped = 0;
 
   /** Copies components `first` and following of each vertex. */
   void fill(Column& column, std::size_t vertices, std::size_t first)
@@ -79,16 +78,15 @@ struct ReplacedColumns::Implementation
         {
           for (std::size_t c = 0; c < components; ++c)
           {
-            out[i * components + c] =
-              toType<T>(this->values[i * stride + first + c], this->clipped);
+            out[i * components + c] = toType<T>(this->values[i * stride + first + c]);
           }
         }
       });
   }
 };
 
-ReplacedColumns::ReplacedColumns(
-  const StoredMesh& mesh, Solution& solution, std::vector<ColumnSpec> columns)
+ReplacedColumns::ReplacedColumns(const StoredMesh& mesh, Solution& solution,
+  std::vector<ColumnSpec> columns, const std::vector<std::string>& dropped)
 {
   const StreamInfo& info = mesh.info();
   int components = 0;
@@ -108,11 +106,11 @@ ReplacedColumns::ReplacedColumns(
   {
     cellNames.push_back(spec.name);
   }
-  auto source = mesh.source(otherNames(info.vertexColumns, columns), std::move(cellNames));
+  auto source = mesh.source(otherNames(info.vertexColumns, columns, dropped), std::move(cellNames));
   StreamInfo result = source->info();
   result.vertexColumns.insert(result.vertexColumns.end(), columns.begin(), columns.end());
-  this->Self.reset(new Implementation{
-    std::move(source), solution, std::move(columns), std::move(result), {}, 0 });
+  this->Self.reset(
+    new Implementation{ std::move(source), solution, std::move(columns), std::move(result), {} });
 }
 
 ReplacedColumns::~ReplacedColumns() = default;
@@ -140,11 +138,6 @@ bool ReplacedColumns::next(MeshBlock& block)
     first += static_cast<std::size_t>(spec.components);
   }
   return true;
-}
-
-std::int64_t ReplacedColumns::clipped() const
-{
-  return this->Self->clipped;
 }
 
 } // namespace smg

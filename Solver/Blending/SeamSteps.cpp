@@ -24,6 +24,7 @@ void SeamSteps::add(std::span<const std::int64_t> corners, const PatchedValues& 
   {
     return;
   }
+  ++this->Cells;
   for (std::size_t j = 1; j < corners.size(); ++j)
   {
     for (std::size_t i = 0; i < j; ++i)

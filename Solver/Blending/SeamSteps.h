@@ -23,13 +23,15 @@ public:
 
   /** The number of edges between patches; an edge counts once for each of its cells. */
   std::int64_t edges() const { return this->Edges; }
+  /** The number of cells that are not in one patch. */
+  std::int64_t cells() const { return this->Cells; }
   /** One for each column; 0 without such edges. */
   std::vector<double> largest() const;
 
 private:
   std::vector<int> Components; ///< of each column
   std::vector<double> Steps;   ///< of each component
-  std::int64_t Edges = 0;
+  std::int64_t Edges = 0, Cells = 0;
 };
 
 } // namespace smg

@@ -153,8 +153,7 @@ std::unique_ptr<Solution> wallDistance(const StoredMesh& mesh,
 {
   if (mesh.info().cellType != CellType::Tetrahedron)
   {
-    throw Error(
-      name + ": a wall distance is that of a tetrahedral mesh, but this one has triangles.");
+    throw Error("The distance to walls is that of a tetrahedral mesh, but this one has triangles.");
   }
   DistanceSources sources(description.from, DataPlace::Facets, mesh.info(), name);
   auto files = std::make_shared<WallFiles>(*run);

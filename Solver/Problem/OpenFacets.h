@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Storage/Buffer.h"
 #include "Solver/Storage/Ring.h"
 #include "Solver/Storage/Slots.h"
 
 #include <cstdint>
+#include <unordered_map>
+#include <utility>
 
 namespace smg
 {
@@ -15,7 +18,8 @@ class OpenFacets
 {
 public:
   explicit OpenFacets(Pool& pool)
-    : Heads(pool)
+    : Memory(&pool)
+    , Heads(pool)
     , Facets(pool)
   {
   }
@@ -51,6 +55,10 @@ public:
       }
     }
     this->Heads[low] = 0;
+    if (!this->Hubs.empty())
+    {
+      this->Hubs.erase(low);
+    }
   }
 
 private:
@@ -61,10 +69,35 @@ private:
     std::uint32_t middle, high; ///< by their low 32 bits
     std::int32_t next;          ///< with the same lowest corner
     std::int32_t data;          ///< Shared: of several cells
+
+    bool isSame(const Facet& other) const
+    {
+      return this->middle == other.middle && this->high == other.high;
+    }
+    /** The result of add() for a facet that is known. */
+    std::int32_t share()
+    {
+      const std::int32_t before = std::exchange(this->data, Shared);
+      return before == Shared ? 0 : before;
+    }
   };
 
+  /** An index of the list of a vertex that is too long to be walked for each cell. */
+  struct Hub
+  {
+    Buffer table; ///< slots of facets by hash; 0: none; at least half of it is empty
+    std::int32_t last = 0, facets = 0;
+  };
+
+  std::int32_t addToHub(std::int64_t low, const Facet& facet);
+  Hub& hubOf(std::int64_t low);
+  std::int32_t* place(const Hub& hub, const Facet& facet) const;
+  void append(Hub& hub, std::int32_t slot);
+
+  Pool* Memory;
   Ring<std::int32_t> Heads; ///< the first facet of a vertex; 0: none
   Slots<Facet> Facets;
+  std::unordered_map<std::int64_t, Hub> Hubs; ///< by vertex
 };
 
 } // namespace smg

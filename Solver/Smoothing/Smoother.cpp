@@ -6,6 +6,7 @@
 #include "Solver/Problem/BoundaryFacets.h"
 #include "Solver/Stream/StreamCheck.h"
 #include "smg/Error.h"
+#include "smg/MeshSource.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +36,10 @@ std::optional<NamedColumn> columnOf(
                   "column of the vertices to smooth instead");
     }
     return std::nullopt;
+  }
+  if (name == OriginalIdName)
+  {
+    columns.fail("column", '\'' + name + "' numbers the vertices and cannot be smoothed");
   }
   const NamedColumn column = columns.require(name, ColumnOwner::Vertices, "column");
   if (column.owner == ColumnOwner::Cells)

@@ -2,6 +2,7 @@
 // The steps of Smoother.
 #include "Solver/Smoothing/Smoother.h"
 
+#include "Solver/Description/ClippedValues.h"
 #include "Solver/Smoothing/AddStep.h"
 #include "Solver/Smoothing/ForCells.h"
 #include "Solver/Smoothing/PointNormals.h"
@@ -85,9 +86,10 @@ void Smoother::solveStep(
 {
   SolveOptions options = this->Options;
   // Besides the solve, this has the values of open vertices: of values, surface and normals.
-  const std::int64_t width = std::max<std::int64_t>(this->Mesh.info().width, 0);
+  const StreamInfo& mesh = this->Mesh.info();
+  const std::int64_t open = std::max<std::int64_t>({ mesh.width, mesh.span, 0 });
   const std::int64_t own =
-    this->Result->memory.used() + width * static_cast<std::int64_t>(9 * sizeof(double));
+    this->Result->memory.used() + open * static_cast<std::int64_t>(9 * sizeof(double));
   options.memoryLimit = std::max<std::int64_t>(this->Options.memoryLimit - own, 1);
   if (this->Options.progress)
   {
@@ -235,6 +237,12 @@ std::unique_ptr<Solution> Smoother::finish()
   if (this->Result->vertices() == 0)
   {
     report.converged = true;
+  }
+  if (!this->movesPoints())
+  {
+    const std::vector<ColumnSpec>& specs = this->Mesh.info().vertexColumns;
+    countClipped(*this->Result,
+      { *std::ranges::find(specs, this->Options.column, &ColumnSpec::name) }, report);
   }
   const IoStatistics& traffic = this->Result->traffic;
   report.bytes_by_kind.push_back({ "smoothed", -1, traffic.bytesRead, traffic.bytesWritten });

@@ -86,6 +86,9 @@ def test_vertices_of_no_cell_are_not_reached():
     run("distance", "loose.vsm", "again.vsm", *arguments)
     run("convert", "loose.vsm", "vsm.vtp", "--restore-order", "--quiet")
     run("convert", "again.vsm", "again.vtp", "--restore-order", "--quiet")
+    # Other distances have neither these sources nor these directions.
+    run("distance", "loose.vtp", "other.vtp", *arguments[:2], "--quiet")
+    assert not {"DistanceSource", "DistanceDirection"} & set(read_vtk_xml("other.vtp"))
     for name in ("loose.vtp", "vsm.vtp", "again.vtp"):
         arrays = read_vtk_xml(name)
         assert flat(arrays["Distance"])[-2:] == [math.inf] * 2, name
@@ -103,7 +106,7 @@ def test_errors():
             (("--from", "absent.json"), "absent.json: cannot be opened"),
             (("--from", '{"vertices": [1800]}'), "--from: from[0].vertices: the mesh has no vertex"),
             (("--from", '{"boundary": true}'), "--from: from[0]: no vertex of the mesh is on a boundary"),
-            (("--wall",), "a wall distance is that of a tetrahedral mesh")):
+            (("--wall",), "distance to walls is that of a tetrahedral mesh")):
         error = run("distance", "torus.obj", "out.vtp", *arguments, code=1).stderr
         assert sentence in error, error
     error = run("distance", "torus.obj", "out.obj", "--from", '{"vertices": [1]}', code=1).stderr

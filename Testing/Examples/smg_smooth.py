@@ -69,7 +69,9 @@ def test_every_way_gives_the_same_points():
     run("convert", "noisy.obj", "noisy.vsm", "--quiet")
     smooth("noisy.vsm", "again.vsm")
     run("convert", "again.vsm", "again.obj", "--restore-order", "--quiet")
+    smooth("noisy.vsm", "direct.obj")
     other = points_of("again.obj")
+    assert points_of("direct.obj") == other and read_mesh("direct.obj")[1] == read_mesh("again.obj")[1]
     assert max(math.dist(a, b) for a, b in zip(other, expected)) < 1e-6
 
 
@@ -124,12 +126,25 @@ def test_a_column_keeps_its_type():
               for name, all in arrays.items()}
     assert spread["even"] < 0.8 * spread["heat"], spread
     assert arrays["heat"]["Points"] == arrays["even"]["Points"]
-    # Whole numbers are rounded.
-    report = smooth("heat.vsm", "ids.vsm", "--column", "OriginalId", "--size", "20%")
-    run("convert", "ids.vsm", "ids.vtu", "--order", "keep", "--quiet")
-    ids = read_vtk_xml("ids.vtu")["OriginalId"]
-    assert all(isinstance(number, int) for number, in ids)
-    assert ids != arrays["heat"]["OriginalId"]
+
+
+def test_whole_numbers_are_rounded():
+    side = 12
+    with open("levels.ply", "w", encoding="utf-8") as file:
+        file.write(f"ply\nformat ascii 1.0\nelement vertex {side * side}\n"
+                   "property float x\nproperty float y\nproperty float z\nproperty int level\n"
+                   f"element face {(side - 1)**2}\nproperty list uchar int vertex_indices\n"
+                   "end_header\n")
+        for k in range(side * side):
+            file.write(f"{k % side} {k // side} 0 {100 * (k % side > 5)}\n")
+        for k in range((side - 1)**2):
+            a = k // (side - 1) * side + k % (side - 1)
+            file.write(f"4 {a} {a + 1} {a + side + 1} {a + side}\n")
+    report = smooth("levels.ply", "rounded.vtp", "--column", "level", "--size", "4")
+    assert report["clipped"] == 0
+    levels = [level for level, in read_vtk_xml("rounded.vtp")["level"]]
+    assert all(isinstance(level, int) for level in levels)
+    assert 0 <= min(levels) and max(levels) <= 100 and len(set(levels)) > 4, levels
 
 
 def test_errors():
@@ -138,6 +153,7 @@ def test_errors():
         assert text in error, error
 
     says("has no column 'x'", "torus.obj", "c.vsm", "--column", "x")
+    says("'OriginalId' numbers the vertices", "torus.obj", "c.vsm", "--column", "OriginalId")
     says("name a column of the vertices", "solid.vsm", "c.vsm")
     says("between 0 and 180", "torus.obj", "c.vsm", "--keep-edges", "180")
     says("steps", "torus.obj", "c.vsm", "--steps", "0", code=2)

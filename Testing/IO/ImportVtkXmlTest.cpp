@@ -351,7 +351,7 @@ TEST_F(ImportVtkXml, TruncatedFilesAreErrors)
       const std::string whole = tetrahedra(writer);
       const std::size_t dataEnd =
         whole.rfind(way < Way::AppendedBase64 ? "\n</DataArray>" : "\n</AppendedData>");
-      for (std::size_t size = 1; size + 4 < whole.size(); size += 5)
+      for (std::size_t size = 1; size + 4 < whole.size(); size += 19)
       {
         if (!combinations.next())
         {

@@ -15,6 +15,8 @@ namespace smg::testing
 /** Writes the bytes as a file. */
 inline void writeBytes(const std::filesystem::path& path, std::string_view bytes)
 {
+  // Writing over a file would wait for the disk on some file systems.
+  std::filesystem::remove(path);
   std::ofstream stream(path, std::ios::binary);
   stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }

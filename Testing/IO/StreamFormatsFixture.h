@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Formats/Streams/StreamConversion.h"
+#include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -29,7 +30,7 @@ class StreamFormats : public ::testing::Test
 protected:
   std::filesystem::path write(const std::string& name, const std::string& content)
   {
-    std::ofstream(this->Folder / name, std::ios::binary) << content;
+    writeBytes(this->Folder / name, content);
     return this->Folder / name;
   }
 

@@ -220,6 +220,18 @@ TEST(Blend, WithoutSeamsNothingChanges)
   EXPECT_EQ(blended->report().seams.at(0).after, 0.0);
 }
 
+TEST(Blend, SaysThatAColumnIsNoPatch)
+{
+  StreamMesh mesh = bumpySurface();
+  addColumn(mesh, "height", { [](const double* p) { return p[2]; } });
+  addColumn(mesh, "c", { smoothSignal });
+  BlendDescription description = blendOf({ "c" });
+  description.patch = "height";
+  const auto blended = blend(MemoryMesh(mesh), description);
+  ASSERT_FALSE(blended->report().notes.empty());
+  EXPECT_TRUE(contains(blended->report().notes.back(), "cells lie between patches"));
+}
+
 TEST(Blend, LabelsOfCellsLeaveTheVerticesBetweenThemWithoutPatch)
 {
   StreamMesh mesh = solid();

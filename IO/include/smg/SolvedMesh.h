@@ -63,7 +63,8 @@ private:
 
 /**
  * The stream of a mesh with a solution as vertex columns, which replace those of the same names.
- * Values of integer columns are rounded to the nearest integer that the type holds.
+ * Values of integer columns are rounded to the nearest integer that the type holds (see
+ * Report::clipped).
  */
 class SMG_EXPORT ReplacedColumns : public MeshSource
 {
@@ -73,18 +74,16 @@ public:
    * @param mesh the mesh of the solution
    * @param solution the solution
    * @param columns the columns; their components are those of the solution, in order
+   * @param dropped names of other vertex columns that the stream shall not have
    * @throws Error if the solution has another number of vertices than the mesh, or of columns than
    * the components of `columns`
    */
-  ReplacedColumns(const StoredMesh& mesh, Solution& solution, std::vector<ColumnSpec> columns);
+  ReplacedColumns(const StoredMesh& mesh, Solution& solution, std::vector<ColumnSpec> columns,
+    const std::vector<std::string>& dropped = {});
   ~ReplacedColumns() override;
 
   const StreamInfo& info() const override;
   bool next(MeshBlock& block) override;
-
-  /** The values so far that were outside the range of an integer column by more than rounding, and
-   * were set to its smallest or largest number. */
-  std::int64_t clipped() const;
 
 private:
   struct Implementation;

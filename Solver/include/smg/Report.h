@@ -150,8 +150,8 @@ struct SMG_EXPORT Report
    * is 0; empty if nothing was. */
   std::vector<double> removed_source;
   std::vector<Seam> seams; ///< of a blend: one for each column; else empty
-  /** Of a blend: values outside the range of an integer column, set by who rounds them (see
-   * ReplacedColumns::clipped()). */
+  /** Of a blend or a smoothed column: values that become the smallest or largest number of the
+   * integer type of their column, since they are beyond it. */
   std::int64_t clipped = 0;
   std::vector<Condition> conditions; ///< of the problem: Dirichlet, flux, then Robin
   /** Per column: 1/2 the integral of grad u . K grad u + s u^2 over the piecewise linear u, s u^2
