@@ -145,6 +145,10 @@ std::unique_ptr<Solution> blend(
   const Timer wall;
   const double cpuAtStart = processSeconds();
   checkOptions(options);
+  if (!options.checkpoint.folder.empty())
+  {
+    throw Error("a blend has no checkpoints: leave the folder out");
+  }
   BlendProblem problem(description, mesh.info());
   const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
   visitBlocks(*source(), options.progress, 0.0, Prepared,

@@ -60,8 +60,8 @@ namespace
 
 DeformOptions inCore(DeformOptions options)
 {
-  checkOptions(options);
   options.inCore = true;
+  checkOptions(options);
   return options;
 }
 

@@ -34,6 +34,11 @@ void checkOptions(const SolveOptions& options)
   require(options.memoryLimit > 0, "the memory limit must be positive");
   require(options.threads >= 0, "the number of threads must not be negative");
   require(options.blockNodes >= 1, "a stage must advance by at least one node");
+  const CheckpointOptions& checkpoint = options.checkpoint;
+  require(checkpoint.folder.empty() || !options.inCore,
+    "a solve in core has no checkpoint: solve out of core (without --in-core)");
+  require(checkpoint.folder.empty() || (!checkpoint.mesh.empty() && !checkpoint.problem.empty()),
+    "a checkpoint needs texts that identify the mesh and the problem");
   require(options.coreNodes >= 0, "the number of nodes of a core level must not be negative");
 }
 

@@ -41,6 +41,7 @@ public:
         "or uniform")
       ->check(oneOf({ "clamped", "cotangent", "uniform" }));
     CLI::Option* tolerance = addTolerance(command, this->Tolerance);
+    this->addCheckpoint(command);
     command
       .add_option(
         "--cycles", this->Cycles, "V-cycles of each of the two steps, instead of a tolerance")
@@ -60,7 +61,11 @@ public:
 protected:
   std::string resultColumns() const override { return {}; }
 
-  void readTask() override { this->Description = smg::readHandleFile(this->File); }
+  void readTask() override
+  {
+    this->Description = smg::readHandleFile(this->File);
+    this->announceCheckpoint();
+  }
 
   std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) override
@@ -71,6 +76,7 @@ protected:
     this->applyTo(this->Deform, std::move(progress));
     this->Description.applyTo(this->Deform);
     this->applyCommandLine();
+    this->applyCheckpoint(this->Deform, mesh);
     auto positions = smg::deform(*source(), handles, this->Deform);
     this->Notes = handles.notes();
     return positions;

@@ -60,8 +60,9 @@ void MeshCommand::run()
   smg::Report report;
   {
     ProgressBar bar(this->Title, this->quiet);
-    const std::unique_ptr<smg::OpenedMesh> mesh = openInput(this->In, *this,
-      smg::partOf(bar.function(), 0.0, 0.2), smg::StreamOrder::BreadthFirst, this->Input);
+    const std::unique_ptr<smg::OpenedMesh> mesh =
+      openInput(this->In, *this, smg::partOf(bar.function(), 0.0, 0.2),
+        smg::StreamOrder::BreadthFirst, this->Input, this->Checkpoint);
     if (mesh->conversion())
     {
       this->Conversion = *mesh->conversion();
@@ -79,6 +80,8 @@ void MeshCommand::run()
     report.seconds.total = secondsSince(start);
   }
   this->writeReport(report.json());
+  this->Solution->removeCheckpoint();
+  this->Solution.reset();
   this->warn(report);
   if (!this->quiet)
   {
@@ -90,12 +93,11 @@ void MeshCommand::run()
 smg::Report MeshCommand::solveAndWrite(
   const smg::VsmReader& mesh, const ResultFile& out, const smg::ProgressFunction& progress)
 {
-  const std::unique_ptr<smg::Solution> solution =
-    this->solveOn(mesh, smg::partOf(progress, 0.0, 0.9));
-  smg::Report report = solution->report();
+  this->Solution = this->solveOn(mesh, smg::partOf(progress, 0.0, 0.9));
+  smg::Report report = this->Solution->report();
   std::vector<std::string> notes;
   this->writeResult(
-    mesh, *solution,
+    mesh, *this->Solution,
     [&](smg::MeshSource& result, const smg::ProgressFunction& writing)
     { notes = out.write(mesh, result, this->writerMemory(), writing); },
     report, smg::partOf(progress, 0.9, 1.0));

@@ -67,8 +67,9 @@ protected:
   std::int64_t writerMemory() const;
 
   std::filesystem::path In, Out;
-  InputOptions Input;         ///< of a file that is not a .vsm
-  std::filesystem::path File; ///< the task: problem or handles
+  InputOptions Input;               ///< of a file that is not a .vsm
+  std::filesystem::path File;       ///< the task: problem or handles
+  std::filesystem::path Checkpoint; ///< the folder; empty: none
   /** The report on the conversion of IN; none if IN is a .vsm file. */
   std::optional<smg::ConversionReport> Conversion;
 
@@ -81,4 +82,5 @@ private:
     const smg::ConversionReport& conversion, const ResultFile& out) const;
 
   std::string Title;
+  std::unique_ptr<smg::Solution> Solution;
 };

@@ -5,7 +5,7 @@
 
 std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
   const CommonOptions& common, smg::ProgressFunction progress, smg::StreamOrder order,
-  const InputOptions& input)
+  const InputOptions& input, const std::filesystem::path& checkpoint)
 {
   smg::ConversionOptions options;
   options.order = order;
@@ -13,6 +13,7 @@ std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
   options.memoryLimit = common.memoryBytes(0);
   options.codec = smg::Codec::Lz4;
   options.scratch = common.scratch;
+  options.checkpoint = checkpoint;
   options.progress = std::move(progress);
   return smg::openMesh(path, options);
 }

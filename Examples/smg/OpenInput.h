@@ -7,7 +7,9 @@
 #include "smg/Convert.h"
 
 /** Opens a mesh file of any format. A file that is not a stream is converted to `order`, within the
- * memory limit of the options and according to `input`. Throws smg::Error. */
+ * memory limit of the options and according to `input`, and kept in the folder `checkpoint`, if
+ * there is one. Throws smg::Error. */
 std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
   const CommonOptions& common, smg::ProgressFunction progress,
-  smg::StreamOrder order = smg::StreamOrder::BreadthFirst, const InputOptions& input = {});
+  smg::StreamOrder order = smg::StreamOrder::BreadthFirst, const InputOptions& input = {},
+  const std::filesystem::path& checkpoint = {});

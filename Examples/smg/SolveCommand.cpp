@@ -50,6 +50,7 @@ public:
     command.get_option("--operators")
       ->description("Operator set; shi2006: the paper's printed equations, biased, --in-core only");
     addTolerance(command, this->Solve.tolerance)->capture_default_str();
+    this->addCheckpoint(command);
     command
       .add_option_function<std::string>(
         "--acceleration",
@@ -82,6 +83,7 @@ protected:
                        ": says nothing to solve for: give it dirichlet, source, flux, robin, soft, "
                        "field or initial.");
     }
+    this->announceCheckpoint();
   }
 
   std::unique_ptr<smg::Solution> solveOn(
@@ -91,6 +93,7 @@ protected:
       std::make_unique<smg::DescribedProblem>(this->Description, mesh.info(), this->File.string());
     this->Problem->prepare(*this->sourceOf(mesh), this->scratch);
     this->applyTo(this->Solve, std::move(progress));
+    this->applyCheckpoint(this->Solve, mesh);
     return smg::solve(*this->sourceOf(mesh), *this->Problem, this->Solve);
   }
 

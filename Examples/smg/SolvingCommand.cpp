@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SolvingCommand.h"
 
+#include "Solver/Storage/Checkpoint.h"
+
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 std::string SolvingCommand::checkTolerance(const std::string& text)
@@ -36,6 +40,45 @@ void SolvingCommand::addSolverOptions(CLI::App& command, const std::string& resu
   command.add_option("--block-nodes", options.blockNodes)->group("");
   command.add_option("--core-nodes", options.coreNodes)->group("");
   this->addInputAndCommon(command, options.memoryLimit);
+}
+
+void SolvingCommand::addCheckpoint(CLI::App& command)
+{
+  command
+    .add_option("--checkpoint", this->Checkpoint,
+      "Folder from which the same command, run again, continues if it was killed; it is made, and "
+      "removed when OUT is complete")
+    ->type_name("DIR");
+}
+
+void SolvingCommand::announceCheckpoint() const
+{
+  const std::int64_t passes =
+    this->Checkpoint.empty() ? 0 : smg::Checkpoint::steps(this->Checkpoint);
+  if (passes > 0 && !this->quiet)
+  {
+    std::fprintf(stderr, "smg: continues after pass %lld, from the checkpoint in %s\n",
+      static_cast<long long>(passes), this->Checkpoint.c_str());
+  }
+}
+
+namespace
+{
+
+std::string contentOf(const std::filesystem::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  return { std::istreambuf_iterator<char>(file), {} };
+}
+
+} // namespace
+
+void SolvingCommand::applyCheckpoint(smg::SolveOptions& options, const smg::VsmReader& mesh) const
+{
+  if (!this->Checkpoint.empty())
+  {
+    options.checkpoint = { this->Checkpoint, mesh.fingerprint(), contentOf(this->File) };
+  }
 }
 
 void SolvingCommand::applyTo(smg::SolveOptions& options, smg::ProgressFunction progress) const

@@ -78,20 +78,6 @@ std::string plainPath(const std::filesystem::path& path)
   return name;
 }
 
-/** The origin of a conversion of the current file. */
-std::string originOf(const std::filesystem::path& in, const ConversionOptions& options)
-{
-  return plainPath(in) + ' ' + std::to_string(std::filesystem::file_size(in)) + " bytes of " +
-         std::to_string(std::filesystem::last_write_time(in).time_since_epoch().count()) +
-         " in order " + std::string(nameOf(options.order)) +
-         (options.cells == CellChoice::Only         ? ""
-           : options.cells == CellChoice::Triangles ? ", triangles"
-                                                    : ", tetrahedra") +
-         (options.weld ? ", welded " + nlohmann::json(*options.weld).dump() : "") +
-         (options.timeStep != 0 ? ", time step " + std::to_string(options.timeStep) : "") +
-         (options.partition ? ", partition " + std::to_string(*options.partition) : "");
-}
-
 /** The origin stored in a file; empty if it has none or is not a complete .vsm file. */
 std::string toldOrigin(const std::filesystem::path& path)
 {
@@ -106,6 +92,19 @@ std::string toldOrigin(const std::filesystem::path& path)
 }
 
 } // namespace
+
+std::string originOf(const std::filesystem::path& in, const ConversionOptions& options)
+{
+  return plainPath(in) + ' ' + std::to_string(std::filesystem::file_size(in)) + " bytes of " +
+         std::to_string(std::filesystem::last_write_time(in).time_since_epoch().count()) +
+         " in order " + std::string(nameOf(options.order)) +
+         (options.cells == CellChoice::Only         ? ""
+           : options.cells == CellChoice::Triangles ? ", triangles"
+                                                    : ", tetrahedra") +
+         (options.weld ? ", welded " + nlohmann::json(*options.weld).dump() : "") +
+         (options.timeStep != 0 ? ", time step " + std::to_string(options.timeStep) : "") +
+         (options.partition ? ", partition " + std::to_string(*options.partition) : "");
+}
 
 std::optional<ConversionReport> convertToKeep(const std::filesystem::path& in,
   const std::filesystem::path& out, const ConversionOptions& options, bool overwrite)

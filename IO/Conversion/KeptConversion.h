@@ -6,9 +6,13 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace smg
 {
+
+/** Identifies a conversion of the current file: its name, size and time, and the options. */
+std::string originOf(const std::filesystem::path& in, const ConversionOptions& options);
 
 /**
  * Converts a mesh file to a .vsm file that is kept and reused. The file is created if it does not

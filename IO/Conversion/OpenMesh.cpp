@@ -2,10 +2,12 @@
 #include "smg/Convert.h"
 
 #include "IO/AnyFormat/MeshFile.h"
+#include "IO/Conversion/CheckpointedConversion.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "smg/Error.h"
 
 #include <optional>
+#include <utility>
 
 namespace smg
 {
@@ -57,6 +59,13 @@ std::unique_ptr<OpenedMesh> openMesh(
   if (kind == MeshFileKind::Stream)
   {
     conversion.order = StreamOrder::Keep;
+  }
+  if (!options.checkpoint.empty())
+  {
+    CheckpointedConversion kept = convertInCheckpoint(path, conversion);
+    mesh.conversion = std::move(kept.report);
+    mesh.reader.emplace(kept.mesh);
+    return opened;
   }
   mesh.scratch.emplace(options.scratch);
   const std::filesystem::path converted = mesh.scratch->path() / "mesh.vsm";

@@ -75,6 +75,7 @@ std::string Report::json(int indent) const
     out["levels"].push_back({ { "nodes", level.nodes }, { "nonzeros", level.nonzeros } });
   }
   out["passes"] = this->passes;
+  out["resumed_passes"] = this->resumed_passes;
   out["cycles"] = this->cycles;
   out["residuals"] = this->residuals;
   out["acceleration"] = this->acceleration;

@@ -10,9 +10,9 @@
 namespace smg
 {
 
-void IterateHistory::useScratch(const std::filesystem::path& folder, IoStatistics& statistics)
+void IterateHistory::useScratch(const ScratchFolder& folder, IoStatistics& statistics)
 {
-  this->Stream.emplace(folder / "level0.history", statistics);
+  this->Stream.emplace(folder, "level0.history", statistics);
 }
 
 void IterateHistory::startPass(const StepWeights& weights)
@@ -169,6 +169,23 @@ void IterateHistory::endPass()
   {
     this->Stream->endPass();
   }
+}
+
+void IterateHistory::save(StateWriter& state)
+{
+  state.part("history");
+  state(this->Sums);
+  this->Stream->save(state);
+}
+
+void IterateHistory::load(StateReader& state)
+{
+  const std::size_t sums = this->Sums.size();
+  state.part("history");
+  state(this->Sums);
+  state.require(this->Sums.size() == sums);
+  this->Stream->load(state, (this->Nodes - 1) / RowBlock::Nodes + 1);
+  this->First = false;
 }
 
 ResidualProducts IterateHistory::products() const

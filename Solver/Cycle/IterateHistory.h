@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -89,7 +88,7 @@ public:
   }
 
   /** Keeps the history in a scratch file in `folder`. */
-  void useScratch(const std::filesystem::path& folder, IoStatistics& statistics);
+  void useScratch(const ScratchFolder& folder, IoStatistics& statistics);
   bool keepsResiduals() const { return this->Every > 0; }
 
   void startPass(const StepWeights& weights);
@@ -110,6 +109,10 @@ public:
   /** Releases written blocks. */
   void release();
   void endPass();
+
+  /** Between passes, with a scratch file: saves all that later passes need. */
+  void save(StateWriter& state);
+  void load(StateReader& state);
 
   /** The inner products of the last pass. */
   ResidualProducts products() const;

@@ -55,6 +55,18 @@ public:
     }
   }
 
+  /** Between passes: saves all that later passes need. */
+  void save(StateWriter& state)
+  {
+    state.part("level");
+    state(this->Scale, this->Patched, this->Window);
+  }
+  void load(StateReader& state)
+  {
+    state.part("level");
+    state(this->Scale, this->Patched, this->Window);
+  }
+
   void endPass()
   {
     this->Window.endPass();

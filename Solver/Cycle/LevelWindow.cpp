@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Solver/Cycle/LevelWindow.h"
+#include "Solver/Cycle/LevelWindowState.txx"
 
 #include "Solver/Cycle/Padding.h"
 
@@ -11,14 +11,14 @@ namespace smg
 {
 
 template <class Real>
-void LevelWindow<Real>::useScratch(const std::filesystem::path& folder, ScratchTraffic& traffic)
+void LevelWindow<Real>::useScratch(const ScratchFolder& folder, ScratchTraffic& traffic)
 {
   const std::string level = "level" + std::to_string(this->Index);
-  this->Rows.emplace(folder / (level + ".rows"), traffic.add("rows", this->Index));
-  this->Values.emplace(folder / (level + ".state"), traffic.add("state", this->Index));
+  this->Rows.emplace(folder, level + ".rows", traffic.add("rows", this->Index));
+  this->Values.emplace(folder, level + ".state", traffic.add("state", this->Index));
   if (this->finest())
   {
-    this->RightSide.emplace(folder / (level + ".b"), traffic.add("right_side", this->Index));
+    this->RightSide.emplace(folder, level + ".b", traffic.add("right_side", this->Index));
   }
 }
 
@@ -113,12 +113,7 @@ template <class Real>
 auto LevelWindow<Real>::readBlock() -> Incoming
 {
   const std::int64_t nodes = std::min(RowBlock::Nodes, this->Nodes - this->Read);
-  const std::size_t stored = this->Rows->nextBytes();
-  Buffer rows = this->SpareRows.take(stored + RowBlock::diagonalBytes(nodes));
-  this->Rows->read(rows.bytes().first(stored));
-  RowBlock block(std::move(rows));
-  block.sumDiagonals();
-
+  RowBlock block = this->readRows(*this->Rows, nodes);
   const auto values = static_cast<std::size_t>(nodes * this->Columns);
   Buffer state = this->SpareState.take(2 * values * sizeof(Real));
   if (this->RightSide)
@@ -132,6 +127,18 @@ auto LevelWindow<Real>::readBlock() -> Incoming
   }
   this->Read += nodes;
   return { std::move(block), std::move(state) };
+}
+
+/** Reads the next block, of `nodes` nodes. */
+template <class Real>
+RowBlock LevelWindow<Real>::readRows(ScratchStream& from, std::int64_t nodes)
+{
+  const std::size_t stored = from.nextBytes();
+  Buffer rows = this->SpareRows.take(stored + RowBlock::diagonalBytes(nodes));
+  from.read(rows.bytes().first(stored));
+  RowBlock block(std::move(rows));
+  block.sumDiagonals();
+  return block;
 }
 
 template <class Real>

@@ -56,7 +56,9 @@ public:
   }
 
   /** Keeps the level in scratch files in `folder`. */
-  void useScratch(const std::filesystem::path& folder, ScratchTraffic& traffic);
+  void useScratch(const ScratchFolder& folder, ScratchTraffic& traffic);
+  /** Of a level in memory: save() keeps its rows in a scratch file in `folder`. */
+  void keepRows(const ScratchFolder& folder, ScratchTraffic& traffic);
 
   int columns() const { return this->Columns; }
   int stride() const { return this->Stride; }
@@ -180,6 +182,11 @@ public:
   /** Moves the buffers of released blocks to `others` for reuse in the first pass. */
   void giveSpareRows(SpareBuffers& others) { this->SpareRows.giveTo(others, MostSpareRows); }
 
+  /** Between passes: saves all that later passes need. Of a level in memory this is its b, from
+   * which the core cycle computes x. */
+  void save(StateWriter& state);
+  void load(StateReader& state);
+
   /** Between passes: loads the whole level, which then stays in memory. */
   void moveToMemory();
 
@@ -214,6 +221,10 @@ private:
   void pack(
     const Ring<Real>& state, int columns, std::int64_t begin, std::int64_t end, Real* packed) const;
   void unpack(Ring<Real>& state, std::int64_t begin, std::int64_t end, const Real* packed);
+  template <class F>
+  void forBlocks(F&& f);
+  RowBlock readRows(ScratchStream& from, std::int64_t nodes);
+  void loadInMemory(StateReader& state, std::int64_t nodes);
 
   Pool* Owner;
   ResidentNodes* Resident;
@@ -238,6 +249,8 @@ private:
 
   // Scratch files: rows are written once, x in every pass; b in the first pass (finest) or with x.
   std::optional<ScratchStream> Rows, RightSide, Values;
+  std::optional<ScratchStream> KeptRows; // of a level in memory, written by the first save()
+  bool RowsAreKept = false;
   std::vector<Real> Packed;
   std::int64_t Read = 0; // nodes of the blocks read, and blocks to be taken
   BlocksAhead<Incoming> Ahead;

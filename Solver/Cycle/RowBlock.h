@@ -11,6 +11,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <type_traits>
 
@@ -191,6 +192,23 @@ public:
            aligned(entries * index) + aligned(parents * index) + 2 * aligned(nodes * count) +
            aligned(parents) + static_cast<std::size_t>(h.specials) * sizeof(Special) +
            static_cast<std::size_t>(alphas(h) + h.values + h.precise) * sizeof(double);
+  }
+
+  /** Whether these bytes may be a block of the nodes [first, first + nodes): so many as its counts
+   * say. */
+  static bool fits(std::span<const std::byte> stored, std::int64_t first, std::int64_t nodes)
+  {
+    Header h;
+    if (stored.size() < sizeof(h))
+    {
+      return false;
+    }
+    std::memcpy(&h, stored.data(), sizeof(h));
+    const std::array counts{ h.entries, h.parents, h.specials, h.values, h.precise };
+    return h.first == first && h.nodes == nodes && std::ranges::min(counts) >= 0 &&
+           (h.wide == 0 || h.wide == 1) &&
+           (h.weightBytes == sizeof(float) || h.weightBytes == sizeof(BFloat16)) &&
+           h.alphaGroups >> ((nodes - 1) / Group + 1) == 0 && storedBytes(h) == stored.size();
   }
 
   /** The part of the block stored on disk. */

@@ -37,7 +37,7 @@ public:
   {
     if (this->Run->scratch)
     {
-      this->Rest.useScratch(this->Run->scratch->path(), this->Run->traffic.add("rest"));
+      this->Rest.useScratch(*this->Run->scratch, this->Run->traffic.add("rest"));
     }
   }
 
@@ -57,6 +57,8 @@ public:
   DeformationSteps<Relaxation>& steps() { return this->Steps; }
 
 private:
+  static void ask(MeshSource& mesh, Handles& handles);
+
   Operators Set;
   Weights EdgeWeights;
   std::unique_ptr<SolveRun> Run;
@@ -71,16 +73,37 @@ void DeformationEngine<Operators>::deform(MeshSource& mesh, Handles& handles)
   SolveRun& run = *this->Run;
   run.beginReport();
   this->Steps.begin(true);
-  RotationProblem problem(handles, this->EdgeWeights, this->Rest);
-  FirstPass build(run, this->Levels, this->Set);
-  const FirstResidual first = build(mesh, problem, &this->Rest, PositionStep::CoreBytes);
-  this->Rest.finish();
-  if (run.report.prescribed == 0)
+  this->Steps.solve(
+    [&]
+    {
+      RotationProblem problem(handles, this->EdgeWeights, this->Rest);
+      FirstPass build(run, this->Levels, this->Set);
+      const FirstResidual first = build(mesh, problem, &this->Rest, PositionStep::CoreBytes);
+      this->Rest.finish();
+      if (run.report.prescribed == 0)
+      {
+        throw Error("no vertex of the mesh is held by a handle: there is nothing to deform it by");
+      }
+      run.report.shared = problem.shared();
+      return first;
+    });
+  if (run.report.resumed_passes > 0)
   {
-    throw Error("no vertex of the mesh is held by a handle: there is nothing to deform it by");
+    ask(mesh, handles);
   }
-  run.report.shared = problem.shared();
-  this->Steps.solve(first);
+}
+
+/** Asks the handles for each block, as the first pass does. */
+template <OperatorSet Operators>
+void DeformationEngine<Operators>::ask(MeshSource& mesh, Handles& handles)
+{
+  MeshBlock block;
+  VertexHandles given;
+  while (mesh.next(block))
+  {
+    given.clear(static_cast<std::size_t>(block.vertices()));
+    handles.at(block, given);
+  }
 }
 
 template <OperatorSet Operators>

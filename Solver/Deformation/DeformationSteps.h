@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Timer.h"
 #include "Solver/Deformation/PositionStep.h"
 #include "Solver/Deformation/RestShape.h"
 #include "Solver/Engine/Convergence.h"
@@ -13,6 +12,7 @@
 #include "smg/Error.h"
 
 #include <cmath>
+#include <functional>
 #include <string>
 
 namespace smg
@@ -37,9 +37,9 @@ public:
 
   /** Begins the progress; `builds`: with the first pass. */
   void begin(bool builds) { this->Run.progress.begin(this->stopping(), 0.0, Share, builds); }
-  /** Performs both steps, after the pass that has begun the first V-cycle of the rotations, whose
-   * residual was `first`. */
-  void solve(const FirstResidual& first);
+  /** Performs both steps; `build` begins the first V-cycle of the rotations and returns their first
+   * residual. With a checkpoint, it continues from that instead, if it can. */
+  void solve(const std::function<FirstResidual()>& build);
 
 private:
   /** The share of the rotations in the progress. */
@@ -49,6 +49,27 @@ private:
   {
     return { this->Run.options.tolerance, this->Run.options.maxCycles, this->Cycles };
   }
+  /** The part of a step that its passes share. */
+  struct Step
+  {
+    Step(DeformationSteps& steps, const std::string& what)
+      : convergence(steps.stopping(), {})
+      , iteration(steps.Run, steps.Levels, convergence, what)
+    {
+    }
+
+    template <class State>
+    void exchange(State& state)
+    {
+      state(this->convergence, this->iteration);
+    }
+
+    Convergence convergence;
+    Iteration<Relaxation> iteration;
+  };
+
+  bool resume(Step& rotations, Step& positions, bool& rotated);
+  void beginPositions(Step& rotations, Step& positions);
   double sharedPass(PositionStep& step);
   void addStep(const char* name, const Convergence& convergence);
   void addNotes();
@@ -63,14 +84,61 @@ private:
 };
 
 template <class Relaxation>
-void DeformationSteps<Relaxation>::solve(const FirstResidual& first)
+void DeformationSteps<Relaxation>::solve(const std::function<FirstResidual()>& build)
 {
-  const Timer solving;
-  const Stopping stopping = this->stopping();
-  Convergence rotations(stopping, first);
-  rotations.begin(this->Levels.residualNorm());
-  Iteration(this->Run, this->Levels, rotations, "rotation step: ")(true);
+  Step rotations(*this, "rotation step: "), positions(*this, "position step: ");
+  bool rotated = false;
+  if (!this->resume(rotations, positions, rotated))
+  {
+    rotations.convergence = Convergence(this->stopping(), build());
+    rotations.convergence.begin(this->Levels.residualNorm());
+    this->Run.saveState();
+  }
+  if (!rotated)
+  {
+    rotations.iteration(true);
+    this->beginPositions(rotations, positions);
+    rotated = true;
+    this->Run.saveState();
+  }
+  positions.iteration(false);
+  this->addStep("position", positions.convergence);
+  Report& r = this->Run.report;
+  r.converged = rotations.convergence.converged() && positions.convergence.converged();
+  r.seconds.solve = this->Run.seconds() - r.seconds.build;
+  this->addNotes();
+  this->Run.finishReport();
+}
 
+/** Between passes, `rotated` tells whether the last one was the shared pass or after it. */
+template <class Relaxation>
+bool DeformationSteps<Relaxation>::resume(Step& rotations, Step& positions, bool& rotated)
+{
+  const auto save = [&](StateWriter& state)
+  {
+    state(this->Levels, this->Rest, rotated, rotations.convergence);
+    rotated ? state(positions) : state(rotations.iteration);
+  };
+  const auto load = [&](StateReader& state)
+  {
+    state(this->Levels, this->Rest, rotated, rotations.convergence);
+    if (rotated)
+    {
+      this->Run.progress.begin(this->stopping(), Share, 1.0, false);
+    }
+    rotated ? state(positions) : state(rotations.iteration);
+  };
+  const auto weights = std::to_string(static_cast<int>(this->EdgeWeights));
+  return this->Run.resume({ { "kind of task", "deformation" }, { "kind of weights", weights },
+                            { "number of V-cycles", std::to_string(this->Cycles) } },
+    { save, load });
+}
+
+/** The pass that finishes the last V-cycle of the rotations and begins the first one of the
+ * positions. */
+template <class Relaxation>
+void DeformationSteps<Relaxation>::beginPositions(Step& rotations, Step& positions)
+{
   PositionStep step(this->Run.pool, this->Rest, this->Levels.window());
   const double norm = this->sharedPass(step);
   if (!std::isfinite(step.termSquares()))
@@ -78,19 +146,12 @@ void DeformationSteps<Relaxation>::solve(const FirstResidual& first)
     throw Error(
       "the handles move the mesh beyond the range of numbers: use targets that are nearer");
   }
-  rotations.add(std::sqrt(step.rotationSquares()));
-  this->addStep("rotation", rotations);
-
-  this->Run.progress.begin(stopping, Share, 1.0, false);
-  Convergence positions(
-    stopping, { std::sqrt(step.initialSquares()), roundingOf(step.termSquares()) });
-  positions.begin(norm);
-  Iteration(this->Run, this->Levels, positions, "position step: ")(false);
-  this->addStep("position", positions);
-  this->Run.report.converged = rotations.converged() && positions.converged();
-  this->Run.report.seconds.solve = solving.seconds();
-  this->addNotes();
-  this->Run.finishReport();
+  rotations.convergence.add(std::sqrt(step.rotationSquares()));
+  this->addStep("rotation", rotations.convergence);
+  this->Run.progress.begin(this->stopping(), Share, 1.0, false);
+  positions.convergence = Convergence(
+    this->stopping(), { std::sqrt(step.initialSquares()), roundingOf(step.termSquares()) });
+  positions.convergence.begin(norm);
 }
 
 /** Returns the norm of the residual of the positions after their first sweeps. */

@@ -30,6 +30,7 @@ public:
     this->Displacements->read(first, count, values);
     this->Rest.addStart(first, count, values.data());
   }
+  void removeCheckpoint() override { this->Displacements->removeCheckpoint(); }
   const Report& report() const override { return this->Displacements->report(); }
 
 private:

@@ -69,9 +69,13 @@ bool InteractiveEngine<Operators>::deformAgain(const VertexHandles& handles)
   r.steps.clear();
   r.notes.clear();
   this->First.steps().begin(false);
-  const FirstResidual first = this->findRightSide();
-  Pass(run, this->First.levels()).begin();
-  this->First.steps().solve(first);
+  this->First.steps().solve(
+    [&]
+    {
+      const FirstResidual first = this->findRightSide();
+      Pass(run, this->First.levels()).begin();
+      return first;
+    });
   this->Broken = false;
   return true;
 }

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace smg
 {
 
-void RestShape::useScratch(const std::filesystem::path& folder, IoStatistics& statistics)
+void RestShape::useScratch(const ScratchFolder& folder, IoStatistics& statistics)
 {
-  this->Scratch.emplace(folder / "rest", statistics);
+  this->Scratch.emplace(folder, "rest", statistics);
   this->Scratch->startPass(true);
 }
 
@@ -88,6 +89,31 @@ void RestShape::pack()
   this->Points.clear();
   this->Held.clear();
   this->Links.clear();
+}
+
+void RestShape::save(StateWriter& state)
+{
+  state.part("rest");
+  state(this->Vertices, this->Low, this->High);
+  this->Scratch->save(state);
+}
+
+void RestShape::load(StateReader& state)
+{
+  state.part("rest");
+  state(this->Vertices, this->Low, this->High);
+  state.require(this->Vertices > 0);
+  this->Scratch->load(state, (this->Vertices - 1) / RowBlock::Nodes + 1,
+    [&](std::int64_t index, std::span<const std::byte> bytes)
+    {
+      RestBlock::Header h;
+      state.require(bytes.size() >= sizeof(h));
+      std::memcpy(&h, bytes.data(), sizeof(h));
+      const std::int64_t first = index * RowBlock::Nodes;
+      const std::int64_t nodes = std::min(RowBlock::Nodes, this->Vertices - first);
+      state.require(h.first == first && h.nodes == nodes && h.held >= 0 && h.links >= 0 &&
+                    RestBlock::bytes(h) == bytes.size());
+    });
 }
 
 double RestShape::extent() const

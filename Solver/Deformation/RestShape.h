@@ -106,7 +106,7 @@ public:
   }
 
   /** Keeps the blocks in a scratch file in `folder`; otherwise they stay in memory. */
-  void useScratch(const std::filesystem::path& folder, IoStatistics& statistics);
+  void useScratch(const ScratchFolder& folder, IoStatistics& statistics);
 
   // During the first pass:
 
@@ -130,6 +130,9 @@ public:
    * positions at rest, or the targets of held vertices.
    */
   void addStart(std::int64_t first, std::int64_t count, double* values);
+  /** Saves the blocks, which are in a scratch file. */
+  void save(StateWriter& state);
+  void load(StateReader& state);
   /** The blocks, without scratch files. */
   std::deque<RestBlock>& blocks() { return this->Blocks; }
 

@@ -23,19 +23,19 @@ constexpr int Settling = 2;
  * for longer until they have found the slowest errors of slivers. */
 constexpr int Trial = 5;
 
-const char* nameOf(AccelerationKind kind)
-{
-  return kind == AccelerationKind::Chebyshev            ? "chebyshev"
-         : kind == AccelerationKind::ConjugateGradients ? "cg"
-                                                        : "none";
-}
-
 double boundFrom(double factor)
 {
   return std::clamp(Margin * factor, LeastBound, LargestBound);
 }
 
 } // namespace
+
+const char* Acceleration::nameOf(AccelerationKind kind)
+{
+  return kind == AccelerationKind::Chebyshev            ? "chebyshev"
+         : kind == AccelerationKind::ConjugateGradients ? "cg"
+                                                        : "none";
+}
 
 Acceleration::Acceleration(AccelerationKind wanted, const Convergence& convergence)
   : Watched(convergence)
@@ -124,7 +124,7 @@ void Acceleration::watchPolynomial()
 
 StepWeights Acceleration::next(const ResidualProducts& products)
 {
-  this->Used = nameOf(this->Kind);
+  this->Used = this->Kind;
   return this->Polynomial ? this->Polynomial->next() : this->Directions.next(products);
 }
 

@@ -34,10 +34,19 @@ public:
   void giveUp(const std::string& reason);
 
   /** "none", or the method that was last used: "chebyshev" or "cg". */
-  const char* used() const { return this->Used; }
+  const char* used() const { return nameOf(this->Used); }
   void addNotes(std::vector<std::string>& notes, const std::string& what) const;
 
+  template <class State>
+  void exchange(State& state)
+  {
+    state.part("acceleration");
+    state(this->Wanted, this->Kind, this->Polynomial, this->Directions, this->Bound, this->Begun,
+      this->Used, this->Note);
+  }
+
 private:
+  static const char* nameOf(AccelerationKind kind);
   bool pays() const;
   void begin();
   void watchPolynomial();
@@ -49,7 +58,7 @@ private:
   ConjugateResiduals Directions;
   double Bound = 0.0;
   int Begun = 0; // V-cycles before the polynomial began
-  const char* Used = "none";
+  AccelerationKind Used = AccelerationKind::None;
   std::string Note;
 };
 

@@ -56,6 +56,14 @@ public:
   double factor() const { return this->Norm / this->NormBefore; }
   /** V-cycles to the tolerance if each multiplies the residual by `factor`, in (0, 1). */
   double cyclesLeft(double factor) const;
+  /** All but the stopping criterion, which is that of the constructor. */
+  template <class State>
+  void exchange(State& state)
+  {
+    state.part("convergence");
+    state(this->Rounding, this->Reference, this->Goal, this->FirstNorm, this->NormBefore,
+      this->Norm, this->Residuals, this->Note, this->Done, this->Converged);
+  }
   /** Adds notes for the user that begin with `what`. */
   void addNotes(std::vector<std::string>& notes, const std::string& what) const;
 

@@ -65,7 +65,7 @@ FirstResidual FirstPass<Operators>::operator()(
   }
   if (this->Run.scratch)
   {
-    this->Run.labels.useScratch(this->Run.scratch->path(), this->Run.traffic.add("labels"));
+    this->Run.labels.useScratch(*this->Run.scratch, this->Run.traffic.add("labels"));
   }
   this->Built.open(mesh.info().vertices);
   const FirstResidual residual = this->build(mesh, problem, listener);

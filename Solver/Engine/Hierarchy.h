@@ -59,6 +59,11 @@ public:
    * LevelWindow::renew(). */
   void renew(int columns);
 
+  /** Between passes: saves the levels. */
+  void save(StateWriter& state);
+  /** Instead of the first pass: restores the levels, and factorises the coarsest one. */
+  void load(StateReader& state);
+
   /** ||b - A x||, as computed by the restriction of the last pass. */
   double residualNorm() const;
   /** The part of it due to the rounding of its terms. */
@@ -69,6 +74,8 @@ public:
 
 private:
   int firstCoreLevel(std::int64_t vertices) const;
+  void addFinestLevel();
+  void setCore(CoarseLevel& level);
   void addCoarseLevel(int l, bool core);
   void factorize();
 

@@ -20,12 +20,7 @@ template <class Relaxation>
 void Hierarchy<Relaxation>::open(std::int64_t vertices)
 {
   this->FirstCore = this->firstCoreLevel(vertices);
-  this->Built.finest = std::make_unique<FineLevel>(
-    this->Run.pool, this->Run.resident, 0, this->Columns, this->Run.options.sweeps);
-  if (this->Run.scratch)
-  {
-    this->window().useScratch(this->Run.scratch->path(), this->Run.traffic);
-  }
+  this->addFinestLevel();
   for (int l = 1; l <= this->FirstCore; ++l)
   {
     this->addCoarseLevel(l, l == this->FirstCore);
@@ -58,17 +53,28 @@ int Hierarchy<Relaxation>::firstCoreLevel(std::int64_t vertices) const
 }
 
 template <class Relaxation>
+void Hierarchy<Relaxation>::addFinestLevel()
+{
+  this->Built.finest = std::make_unique<FineLevel>(
+    this->Run.pool, this->Run.resident, 0, this->Columns, this->Run.options.sweeps);
+  if (this->Run.scratch)
+  {
+    this->window().useScratch(*this->Run.scratch, this->Run.traffic);
+  }
+}
+
+template <class Relaxation>
 void Hierarchy<Relaxation>::addCoarseLevel(int l, bool core)
 {
   auto level = std::make_unique<CoarseLevel>(
     this->Run.pool, this->Run.resident, l, this->Columns, this->Run.options.sweeps);
   if (core)
   {
-    level->setCore();
+    this->setCore(*level);
   }
   else if (this->Run.scratch)
   {
-    level->window().useScratch(this->Run.scratch->path(), this->Run.traffic);
+    level->window().useScratch(*this->Run.scratch, this->Run.traffic);
   }
   if (l == 1)
   {
@@ -85,14 +91,24 @@ void Hierarchy<Relaxation>::addCoarseLevel(int l, bool core)
 }
 
 template <class Relaxation>
+void Hierarchy<Relaxation>::setCore(CoarseLevel& level)
+{
+  level.setCore();
+  if (this->Run.checkpoint)
+  {
+    level.window().keepRows(*this->Run.scratch, this->Run.traffic);
+  }
+}
+
+template <class Relaxation>
 void Hierarchy<Relaxation>::close(int coarsest)
 {
   if (coarsest < this->FirstCore)
   {
     this->FirstCore = coarsest;
     this->Built.coarse.resize(static_cast<std::size_t>(coarsest));
-    this->Built.coarse.back()->setCore();
     this->Built.coarse.back()->window().moveToMemory();
+    this->setCore(*this->Built.coarse.back());
   }
   this->factorize();
 }
@@ -161,6 +177,36 @@ void Hierarchy<Relaxation>::renew(int columns)
   {
     level->window().renew(columns, false);
   }
+}
+
+template <class Relaxation>
+void Hierarchy<Relaxation>::save(StateWriter& state)
+{
+  state.part("hierarchy");
+  const auto levels = static_cast<std::int32_t>(this->Built.coarse.size());
+  state(levels, this->FirstCore, this->SlowestAtSlivers, *this->Built.finest);
+  for (auto& level : this->Built.coarse)
+  {
+    state(*level);
+  }
+}
+
+template <class Relaxation>
+void Hierarchy<Relaxation>::load(StateReader& state)
+{
+  constexpr std::int32_t MostLevels = 64;
+  state.part("hierarchy");
+  std::int32_t levels = 0;
+  state(levels, this->FirstCore, this->SlowestAtSlivers);
+  state.require(this->FirstCore >= 1 && this->FirstCore <= levels && levels <= MostLevels);
+  this->addFinestLevel();
+  state(this->finest());
+  for (int l = 1; l <= levels; ++l)
+  {
+    this->addCoarseLevel(l, l >= this->FirstCore);
+    state(*this->Built.coarse.back());
+  }
+  this->factorize();
 }
 
 template <class Relaxation>

@@ -37,14 +37,20 @@ public:
    * left. */
   void operator()(bool spareLast);
 
+  /** Between passes: saves all that later passes need, except the hierarchy and the convergence. */
+  void save(StateWriter& state);
+  void load(StateReader& state);
+
 private:
   void addHistory();
+  void emplaceHistory(KeptResiduals residuals);
 
   SolveRun& Run;
   Hierarchy<Relaxation>& Levels;
   Convergence& Watched;
   std::string What;
   Acceleration Faster;
+  KeptResiduals Kept = KeptResiduals::None; // by the history
   std::optional<IterateHistory> History;
 };
 
@@ -63,12 +69,14 @@ void Iteration<Relaxation>::operator()(bool spareLast)
     pass(this->Watched.norm(), { {}, {}, this->History ? &*this->History : nullptr });
     this->Watched.add(this->Levels.residualNorm(), this->Levels.roundingNorm());
     this->Run.progress.endCycle(this->Watched.cycles(), this->Watched.residuals().back());
+    this->Run.saveState();
   }
   if (this->Faster.used() != std::string("none"))
   {
     this->Run.report.acceleration = this->Faster.used();
   }
   this->Faster.addNotes(this->Run.report.notes, this->What);
+  this->History.reset();
 }
 
 /** Creates the history that the next V-cycle needs, or releases one that it does not need. */
@@ -90,13 +98,10 @@ void Iteration<Relaxation>::addHistory()
     const std::int64_t need = nodes * IterateHistory::nodeBytes(window.stride(), residuals);
     constexpr std::int64_t Pages = std::int64_t(1) << 16; // memory grows by pages, and ahead
     Pool& pool = this->Run.pool;
-    if (pool.used() + need + need / 4 + Pages <= pool.limit())
+    const std::int64_t used = std::max(pool.used(), this->Run.usedBefore());
+    if (used + need + need / 4 + Pages <= pool.limit())
     {
-      this->History.emplace(pool, window.nodes(), window.columns(), residuals);
-      if (this->Run.scratch)
-      {
-        this->History->useScratch(this->Run.scratch->path(), this->Run.traffic.add("history", 0));
-      }
+      this->emplaceHistory(residuals);
       return;
     }
     this->Faster.giveUp("it would need more than the memory limit");
@@ -105,6 +110,44 @@ void Iteration<Relaxation>::addHistory()
   {
     this->History.reset();
   }
+}
+
+template <class Relaxation>
+void Iteration<Relaxation>::emplaceHistory(KeptResiduals residuals)
+{
+  LevelWindow<double>& window = this->Levels.window();
+  this->Kept = residuals;
+  this->History.emplace(this->Run.pool, window.nodes(), window.columns(), residuals);
+  if (this->Run.scratch)
+  {
+    this->History->useScratch(*this->Run.scratch, this->Run.traffic.add("history", 0));
+  }
+}
+
+template <class Relaxation>
+void Iteration<Relaxation>::save(StateWriter& state)
+{
+  state.part("iteration");
+  const bool accelerated = this->History.has_value();
+  state(this->Faster, this->Kept, accelerated);
+  if (accelerated)
+  {
+    state(*this->History);
+  }
+}
+
+template <class Relaxation>
+void Iteration<Relaxation>::load(StateReader& state)
+{
+  state.part("iteration");
+  bool accelerated = false;
+  state(this->Faster, this->Kept, accelerated);
+  if (accelerated)
+  {
+    this->emplaceHistory(this->Kept);
+    state(*this->History);
+  }
+  this->Run.progress.repeat(this->Watched.residuals());
 }
 
 } // namespace smg

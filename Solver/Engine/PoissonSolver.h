@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/Timer.h"
 #include "Solver/Engine/Convergence.h"
 #include "Solver/Engine/FirstPass.h"
 #include "Solver/Engine/Hierarchy.h"
@@ -47,18 +46,24 @@ std::unique_ptr<Solution> PoissonSolver<Operators>::solve(MeshSource& mesh, Prob
   run.beginReport();
   const Stopping stopping{ run.options.tolerance, run.options.maxCycles };
   run.progress.begin(stopping, 0.0, 1.0, true);
-  const FirstResidual first = FirstPass(run, this->Levels, this->Set)(mesh, problem);
-  const Timer solving;
-  Convergence convergence(stopping, first);
-  convergence.begin(this->Levels.residualNorm(), run.components.incompatibility() == 0.0);
-  Iteration(run, this->Levels, convergence)(false);
+  Convergence convergence(stopping, {});
+  Iteration iteration(run, this->Levels, convergence);
+  const auto exchange = [&](auto& state) { state(this->Levels, convergence, iteration); };
+  if (!run.resume({ { "kind of task", "solve" } }, { exchange, exchange }))
+  {
+    const FirstResidual first = FirstPass(run, this->Levels, this->Set)(mesh, problem);
+    convergence = Convergence(stopping, first);
+    convergence.begin(this->Levels.residualNorm(), run.components.incompatibility() == 0.0);
+    run.saveState();
+  }
+  iteration(false);
   Report& r = run.report;
   r.cycles = convergence.cycles();
   r.residuals = convergence.residuals();
   r.converged = convergence.converged();
   convergence.addNotes(r.notes, "");
   run.free.fixMeans(this->Levels.window(), r.notes);
-  r.seconds.solve = solving.seconds();
+  r.seconds.solve = run.seconds() - r.seconds.build;
   run.finishReport();
   auto solution =
     std::make_unique<StreamedSolution>(std::move(this->Run), this->Levels.takeWindow());

@@ -5,6 +5,8 @@
 #include "Solver/Engine/Convergence.h"
 
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace smg
 {
@@ -63,6 +65,15 @@ public:
     this->Reached = std::clamp(std::max(byResidual, byCycles), before, 1.0);
     const double gain = std::max(this->Reached / (cycle + 1), 1.0 / this->MaxCycles);
     this->Expected = std::min(1.0, this->Reached + gain);
+  }
+
+  /** V-cycles with these relative residuals have ended. */
+  void repeat(const std::vector<double>& residuals)
+  {
+    for (std::size_t k = 0; k < residuals.size(); ++k)
+    {
+      this->endCycle(static_cast<int>(k) + 1, residuals[k]);
+    }
   }
 
   void finish() { this->Overall.update(1.0); }

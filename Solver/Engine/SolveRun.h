@@ -7,6 +7,7 @@
 #include "Solver/Engine/SolveProgress.h"
 #include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Problem/Components.h"
+#include "Solver/Storage/Checkpoint.h"
 #include "Solver/Storage/Pool.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "Solver/Storage/ScratchTraffic.h"
@@ -16,7 +17,10 @@
 
 #include <tbb/task_arena.h>
 
+#include <cstdint>
+#include <functional>
 #include <optional>
+#include <vector>
 
 namespace smg
 {
@@ -30,14 +34,35 @@ struct SMG_EXPORT SolveRun
 
   /** Starts the times of the report. */
   void beginReport();
+  /** Since the start, with the programs from whose checkpoint this one continues. */
+  double seconds() const { return this->SecondsBefore + this->Wall.seconds(); }
   /** Adds memory, scratch files and times to the report; `Report::levels` must be complete. */
   void finishReport();
+
+  /** How the parts of a solve save and restore what later passes need. */
+  struct Parts
+  {
+    std::function<void(StateWriter&)> save;
+    std::function<void(StateReader&)> load;
+  };
+  /**
+   * To be called before the first pass: with a checkpoint, saveState() saves these parts, and a
+   * solve of the same options and `subject` continues from its last state. Returns whether this
+   * one does; then the first pass has been.
+   */
+  bool resume(std::vector<Checkpoint::Item> subject, Parts kept);
+  /** After a pass: saves the state, with a checkpoint. */
+  void saveState();
+  /** The bytes of the pool that were in use at the state from which the solve continues; 0: none.
+   */
+  std::int64_t usedBefore() const { return this->UsedBefore; }
 
   SolveOptions options;
   SolveProgress progress;
   Pool pool;
   ResidentNodes resident;
   std::optional<ScratchFolder> scratch; ///< none in core
+  std::optional<Checkpoint> checkpoint; ///< in the scratch folder
   ScratchTraffic traffic;
   Components components;
   ComponentLabels labels;
@@ -46,8 +71,14 @@ struct SMG_EXPORT SolveRun
   Report report;
 
 private:
+  void save(StateWriter& state);
+  void load(StateReader& state);
+
   Timer Wall;
   double CpuAtStart = 0.0;
+  double SecondsBefore = 0.0;
+  std::int64_t UsedBefore = 0;
+  Parts Kept;
 };
 
 } // namespace smg

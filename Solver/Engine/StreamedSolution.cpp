@@ -22,4 +22,12 @@ void StreamedSolution::read(std::int64_t first, std::int64_t count, std::span<do
   this->Run->free.shift(first, count, values);
 }
 
+void StreamedSolution::removeCheckpoint()
+{
+  if (this->Run->checkpoint)
+  {
+    this->Run->checkpoint->discard();
+  }
+}
+
 } // namespace smg

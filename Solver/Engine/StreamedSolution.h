@@ -23,6 +23,7 @@ public:
   std::int64_t vertices() const override { return this->Run->report.vertices; }
   int columns() const override { return this->Window.columns(); }
   void read(std::int64_t first, std::int64_t count, std::span<double> values) override;
+  void removeCheckpoint() override;
   const Report& report() const override { return this->Run->report; }
 
 private:

@@ -19,9 +19,9 @@ void append(std::vector<std::byte>& record, std::span<const T> values)
 
 } // namespace
 
-void ComponentLabels::useScratch(const std::filesystem::path& folder, IoStatistics& statistics)
+void ComponentLabels::useScratch(const ScratchFolder& folder, IoStatistics& statistics)
 {
-  this->Scratch.emplace(folder / "labels", statistics);
+  this->Scratch.emplace(folder, "labels", statistics);
   this->Scratch->startPass(true);
 }
 
@@ -76,8 +76,6 @@ void ComponentLabels::store(std::size_t first, std::size_t count)
 
 ComponentLabels::Entries ComponentLabels::block(std::int64_t index)
 {
-  const auto first = static_cast<std::size_t>(index) * Block;
-  const std::size_t count = std::min(Block, static_cast<std::size_t>(this->Count) - first);
   if (this->Cached != index)
   {
     if (this->Scratch)
@@ -87,17 +85,54 @@ ComponentLabels::Entries ComponentLabels::block(std::int64_t index)
     }
     const std::vector<std::byte>& record =
       this->Scratch ? this->Record : this->Stored[static_cast<std::size_t>(index)];
-    // One or all labels, followed by no or all masses.
-    const bool masses = record.size() >= count * sizeof(double);
-    const std::size_t bytes = record.size() - (masses ? count * sizeof(double) : 0);
-    this->Labels.resize(bytes / sizeof(std::int32_t));
-    std::memcpy(this->Labels.data(), record.data(), bytes);
-    this->Labels.resize(count, this->Labels.front());
-    this->Masses.resize(masses ? count : 0);
-    std::memcpy(this->Masses.data(), record.data() + bytes, this->Masses.size() * sizeof(double));
+    this->decode(record, this->blockCount(index));
     this->Cached = index;
   }
   return { this->Labels, this->Masses };
+}
+
+std::size_t ComponentLabels::blockCount(std::int64_t index) const
+{
+  const auto first = static_cast<std::size_t>(index) * Block;
+  return std::min(Block, static_cast<std::size_t>(this->Count) - first);
+}
+
+/** A record has one or all labels, followed by no or all masses. */
+void ComponentLabels::decode(std::span<const std::byte> record, std::size_t count)
+{
+  const bool masses = record.size() >= count * sizeof(double);
+  const std::size_t bytes = record.size() - (masses ? count * sizeof(double) : 0);
+  this->Labels.resize(bytes / sizeof(std::int32_t));
+  std::memcpy(this->Labels.data(), record.data(), bytes);
+  this->Labels.resize(count, this->Labels.front());
+  this->Masses.resize(masses ? count : 0);
+  std::memcpy(this->Masses.data(), record.data() + bytes, this->Masses.size() * sizeof(double));
+}
+
+void ComponentLabels::save(StateWriter& state)
+{
+  state.part("labels");
+  state(this->Count);
+  this->Scratch->save(state);
+}
+
+void ComponentLabels::load(StateReader& state)
+{
+  state.part("labels");
+  state(this->Count);
+  state.require(this->Count > 0);
+  const auto check = [&](std::int64_t index, std::span<const std::byte> record)
+  {
+    const std::size_t count = this->blockCount(index);
+    const std::size_t one = sizeof(std::int32_t), masses = count * sizeof(double);
+    state.require(record.size() == one || record.size() == count * one ||
+                  record.size() == one + masses || record.size() == count * one + masses);
+    this->decode(record, count);
+    state.require(std::ranges::all_of(this->Labels,
+      [this](std::int32_t label) { return label >= -1 && label < this->Parts.labels(); }));
+  };
+  constexpr auto Vertices = static_cast<std::int64_t>(Block);
+  this->Scratch->load(state, (this->Count - 1) / Vertices + 1, check);
 }
 
 } // namespace smg

@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <vector>
@@ -37,7 +36,7 @@ public:
   }
 
   /** Keeps the labels in a scratch file; otherwise they stay in memory. */
-  void useScratch(const std::filesystem::path& folder, IoStatistics& statistics);
+  void useScratch(const ScratchFolder& folder, IoStatistics& statistics);
 
   /** Appends the next vertices: their labels (-1: no component) and lumped masses. */
   void append(std::span<const std::int32_t> labels, std::span<const double> masses);
@@ -45,10 +44,17 @@ public:
 
   /** Block `index`, valid until the next call. */
   Entries block(std::int64_t index);
+  /** Saves the labels, which are in a scratch file and finished. */
+  void save(StateWriter& state);
+  /** Restores them; the components must be complete. */
+  void load(StateReader& state);
+
   std::int64_t vertices() const { return this->Count; }
 
 private:
   void store(std::size_t first, std::size_t count);
+  std::size_t blockCount(std::int64_t index) const;
+  void decode(std::span<const std::byte> record, std::size_t count);
 
   const Components& Parts;
   std::optional<ScratchStream> Scratch;

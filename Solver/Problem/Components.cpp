@@ -17,15 +17,36 @@ std::int32_t Components::add()
   {
     throw Error("the mesh falls into too many parts: convert it with the order bfs");
   }
-  if (this->Account)
-  {
-    this->Account->acquire(static_cast<std::int64_t>(sizeof(Component)) +
-                           this->Columns * static_cast<std::int64_t>(sizeof(Sums)));
-  }
+  this->account(1);
   const auto label = static_cast<std::int32_t>(this->Of.size());
   this->Of.push_back({ label, false, 1, 0, 0.0, 0.0 });
   this->Summed.resize(this->Summed.size() + static_cast<std::size_t>(this->Columns));
   return label;
+}
+
+/** Accounts for the memory of so many more labels. */
+void Components::account(std::int64_t labels)
+{
+  if (this->Account)
+  {
+    this->Account->acquire(labels * (static_cast<std::int64_t>(sizeof(Component)) +
+                                      this->Columns * static_cast<std::int64_t>(sizeof(Sums))));
+  }
+}
+
+void Components::load(StateReader& state)
+{
+  state(this->Of, this->Summed);
+  state.require(this->Of.size() < static_cast<std::size_t>(INT32_MAX) &&
+                this->Summed.size() == this->Of.size() * static_cast<std::size_t>(this->Columns));
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
+  {
+    // Labels are joined to those of larger components, hence without circles.
+    const auto parent = static_cast<std::size_t>(this->Of[label].parent);
+    state.require(parent < this->Of.size() &&
+                  (parent == label || this->Of[parent].labels > this->Of[label].labels));
+  }
+  this->account(this->labels());
 }
 
 std::int32_t Components::root(std::int32_t label) const

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "Solver/Storage/Pool.h"
+#include "Solver/Storage/StateReader.h"
+#include "Solver/Storage/StateWriter.h"
 #include "smg/Export.h"
 
 #include <cstdint>
@@ -67,6 +69,9 @@ public:
     return !this->Of[static_cast<std::size_t>(root)].anchored;
   }
 
+  void save(StateWriter& state) { state(this->Of, this->Summed); }
+  void load(StateReader& state);
+
 private:
   struct Component
   {
@@ -75,6 +80,13 @@ private:
     std::int64_t labels; ///< number of joined labels
     std::int64_t unknowns;
     double mass, massSquares;
+
+    template <class State>
+    void exchange(State& state)
+    {
+      state(
+        this->parent, this->anchored, this->labels, this->unknowns, this->mass, this->massSquares);
+    }
   };
   /** The sums of a column. */
   struct Sums
@@ -84,6 +96,7 @@ private:
     double residual, residuals; ///< of r0, mass r0
   };
 
+  void account(std::int64_t labels);
   Sums& sums(std::size_t label, int column)
   {
     return this

@@ -75,6 +75,8 @@ public:
 
   /** The text of a JSON value. */
   const std::string& header() const;
+  /** A checksum of the header and the index, and by the checksums in these of the whole file. */
+  std::uint64_t contentChecksum() const;
   const std::vector<TableSpec>& tables() const;
   Codec codec() const;
 

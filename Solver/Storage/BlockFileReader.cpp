@@ -107,6 +107,7 @@ struct BlockFileReader::Implementation
     }
     this->Index = BlockFileIndex::parse(tail, front.tailOffset, this->Name);
     this->Coder = std::make_unique<ColumnCodec>(this->Index.codec);
+    this->ContentChecksum = front.frontChecksum;
     this->count(BlockFileHeaderBytes + front.tailBytes, 0);
   }
 
@@ -174,6 +175,7 @@ struct BlockFileReader::Implementation
   FileDescriptor File;
   std::string Header;
   BlockFileIndex Index;
+  std::uint64_t ContentChecksum = 0;
   std::unique_ptr<ColumnCodec> Coder;
   std::vector<std::byte> Stored;
   ReadAhead Ahead;
@@ -190,6 +192,11 @@ BlockFileReader::~BlockFileReader() = default;
 const std::string& BlockFileReader::header() const
 {
   return this->Self->Header;
+}
+
+std::uint64_t BlockFileReader::contentChecksum() const
+{
+  return this->Self->ContentChecksum;
 }
 
 const std::vector<TableSpec>& BlockFileReader::tables() const

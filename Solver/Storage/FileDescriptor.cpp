@@ -57,6 +57,15 @@ std::filesystem::path temporaryName(const std::filesystem::path& path)
 
 std::atomic<bool> durable{ true };
 
+void requireRegular(int file, const std::filesystem::path& path)
+{
+  struct stat status = {};
+  if (systemCalls().fstat(file, &status) != 0 || !S_ISREG(status.st_mode))
+  {
+    throw Error(path.string() + ": is not a regular file.");
+  }
+}
+
 int openNew(const std::filesystem::path& path)
 {
   return systemCalls().open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -96,11 +105,7 @@ FileDescriptor FileDescriptor::openForReading(const std::filesystem::path& path)
   {
     throw Error(path.string() + ": cannot be opened: " + reason(errno) + ".");
   }
-  struct stat status = {};
-  if (systemCalls().fstat(file.Number, &status) != 0 || !S_ISREG(status.st_mode))
-  {
-    throw Error(path.string() + ": is not a regular file.");
-  }
+  requireRegular(file.Number, path);
   return file;
 }
 
@@ -152,6 +157,20 @@ FileDescriptor FileDescriptor::createNameless(const std::filesystem::path& folde
     systemCalls().unlink(file.Path.c_str());
     file.IsTemporary = false;
   }
+  return file;
+}
+
+FileDescriptor FileDescriptor::openOrCreate(const std::filesystem::path& path)
+{
+  FileDescriptor file;
+  file.Path = file.Shown = path;
+  file.Number =
+    systemCalls().open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
+  if (!file.isOpen())
+  {
+    throw Error(path.string() + ": cannot be opened: " + reason(errno) + ".");
+  }
+  requireRegular(file.Number, path);
   return file;
 }
 

@@ -35,6 +35,9 @@ public:
    * Creates an unnamed file in `folder`, which is removed when it is closed or the program ends.
    */
   static FileDescriptor createNameless(const std::filesystem::path& folder);
+  /** Opens a file for reading and writing, and creates it if it does not exist. A symbolic link is
+   * an error. */
+  static FileDescriptor openOrCreate(const std::filesystem::path& path);
 
   bool isOpen() const { return this->Number >= 0; }
   const std::filesystem::path& path() const { return this->Path; }

@@ -53,4 +53,10 @@ std::int64_t Pool::peak() const
   return this->Peak;
 }
 
+void Pool::raisePeak(std::int64_t bytes)
+{
+  const std::lock_guard lock(this->Mutex);
+  this->Peak = std::max(this->Peak, bytes);
+}
+
 } // namespace smg

@@ -42,6 +42,8 @@ public:
 
   std::int64_t used() const;
   std::int64_t peak() const;
+  /** Counts an earlier use of so many bytes. */
+  void raisePeak(std::int64_t bytes);
   std::int64_t limit() const { return this->Limit; }
 
 private:

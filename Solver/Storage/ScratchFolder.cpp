@@ -23,6 +23,8 @@ namespace
 constexpr const char* Prefix = "smg-scratch-";
 /** A file that only scratch folders have: no other folder is ever removed. */
 constexpr const char* Marker = ".smg-scratch";
+/** A file that only kept folders have. */
+constexpr const char* KeptMarker = "smg-checkpoint";
 
 /** A descriptor of the folder that holds its lock; -1 if it is locked or does not support locks. */
 int lockFolder(const std::filesystem::path& folder)
@@ -113,13 +115,93 @@ bool ScratchFolder::isOne(const std::filesystem::path& folder)
   return std::filesystem::exists(folder / Marker, ignored);
 }
 
+ScratchFolder::ScratchFolder(const KeptFolder& kept)
+  : Path(std::filesystem::absolute(FileDescriptor::targetOf(kept.path)))
+  , Named(true)
+{
+  if (systemCalls().mkdir(this->Path.c_str(), 0777) == 0)
+  {
+    FileDescriptor::syncPath(this->Path.parent_path());
+  }
+  else if (errno != EEXIST)
+  {
+    throw Error(this->Path.string() + ": the folder cannot be made: " + std::strerror(errno) + '.');
+  }
+  this->Lock = systemCalls().open(this->Path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC, 0);
+  if (this->Lock < 0)
+  {
+    throw Error(
+      this->Path.string() + ": the folder cannot be opened: " + std::strerror(errno) + '.');
+  }
+  try
+  {
+    this->lockKept();
+  }
+  catch (...)
+  {
+    systemCalls().close(this->Lock);
+    throw;
+  }
+}
+
+/** Locks a kept folder, and marks it if it is empty. */
+void ScratchFolder::lockKept()
+{
+  const std::string name = this->Path.string();
+  if (::flock(this->Lock, LOCK_EX | LOCK_NB) != 0)
+  {
+    throw Error(
+      name + (errno == EWOULDBLOCK
+                 ? ": another program is using this checkpoint: wait for its end, or name another "
+                   "folder."
+                 : std::string(": the folder cannot be locked: ") + std::strerror(errno) + '.'));
+  }
+  const std::filesystem::path marker = this->Path / KeptMarker;
+  this->Kept = std::filesystem::is_regular_file(std::filesystem::symlink_status(marker));
+  if (!this->Kept && FolderEntries(this->Path).next())
+  {
+    throw Error(name + ": is neither empty nor a checkpoint: name another folder.");
+  }
+  FileDescriptor::openOrCreate(marker).close();
+}
+
 ScratchFolder::~ScratchFolder()
 {
-  removeFolder(this->Path.c_str());
+  if (!this->Named)
+  {
+    removeFolder(this->Path.c_str());
+  }
+  else if (!this->Kept)
+  {
+    this->removeKept();
+  }
   if (this->Lock >= 0)
   {
     systemCalls().close(this->Lock);
   }
+}
+
+/** Removes a kept folder: its files, but no folder in it. */
+void ScratchFolder::removeKept() const noexcept
+{
+  {
+    FolderEntries entries(this->Path);
+    while (const char* name = entries.next())
+    {
+      if (std::string_view(name) != KeptMarker)
+      {
+        systemCalls().unlinkat(this->Lock, name, 0);
+      }
+    }
+  }
+  systemCalls().unlinkat(this->Lock, KeptMarker, 0); // last: without it the rest would be refused
+  systemCalls().unlinkat(AT_FDCWD, this->Path.c_str(), AT_REMOVEDIR);
+}
+
+FileDescriptor ScratchFolder::file(const std::string& name) const
+{
+  return this->Named ? FileDescriptor::openOrCreate(this->Path / name)
+                     : FileDescriptor::createNameless(this->Path);
 }
 
 } // namespace smg

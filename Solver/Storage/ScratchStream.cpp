@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/ScratchStream.h"
 
+#include "Solver/Storage/Buffer.h"
 #include "Solver/Storage/Checksum.h"
 #include "Solver/Storage/WaitClock.h"
 #include "smg/Error.h"
 
 #include <string>
+#include <utility>
 
 namespace smg
 {
@@ -74,6 +76,7 @@ void ScratchStream::append(std::span<const std::byte> bytes)
   block.bytes = bytes.size();
   block.checksum = checksum(bytes);
   ++this->Coming.count;
+  this->Unsynced = true;
   this->Statistics->bytesWritten += static_cast<std::int64_t>(bytes.size());
   this->Statistics->waitNanoseconds += clock.nanoseconds();
 }
@@ -118,6 +121,59 @@ void ScratchStream::endPass()
   {
     this->Rewriting = false;
     std::swap(this->Last, this->Coming);
+  }
+}
+
+void ScratchStream::save(StateWriter& state)
+{
+  if (std::exchange(this->Unsynced, false))
+  {
+    const WaitClock clock;
+    this->File.sync();
+    this->Statistics->waitNanoseconds += clock.nanoseconds();
+  }
+  state.part(this->Path.filename().string());
+  state(this->End, this->Last, this->Coming);
+}
+
+void ScratchStream::load(StateReader& state, std::int64_t blocks, const BlockCheck& check)
+{
+  state.part(this->Path.filename().string());
+  state(this->End, this->Last, this->Coming);
+  state.require(this->End >= 0 && this->Last.count == blocks);
+  this->checkPlaces(this->Last, state);
+  this->checkPlaces(this->Coming, state);
+  Buffer bytes;
+  for (std::int64_t i = 0; i < this->Last.count; ++i)
+  {
+    const Block& block = this->block(i);
+    if (bytes.capacity() < block.bytes)
+    {
+      bytes = Buffer(state.pool(), block.bytes);
+    }
+    bytes.resize(block.bytes);
+    if (this->File.tryRead(block.offset, bytes.bytes()) != 0 ||
+        checksum(bytes.bytes()) != block.checksum)
+    {
+      state.fail("since block " + std::to_string(i) + " of " + this->Path.string() + " is");
+    }
+    if (check)
+    {
+      check(i, bytes.bytes());
+    }
+  }
+}
+
+/** Requires that the places are in the file. */
+void ScratchStream::checkPlaces(const Generation& generation, const StateReader& state) const
+{
+  const auto end = static_cast<std::uint64_t>(this->End);
+  state.require(generation.count >= 0 &&
+                static_cast<std::size_t>(generation.count) <= generation.blocks.size());
+  for (const Block& block : generation.blocks)
+  {
+    state.require(block.offset >= 0 && block.bytes <= block.room && block.room <= end &&
+                  static_cast<std::uint64_t>(block.offset) <= end - block.room);
   }
 }
 

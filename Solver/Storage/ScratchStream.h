@@ -3,12 +3,17 @@
 
 #include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/IoStatistics.h"
+#include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Storage/StateReader.h"
+#include "Solver/Storage/StateWriter.h"
 #include "smg/Export.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,8 +27,10 @@ namespace smg
  * of the generation before, if it fits. Pages in the cache of the system are thus overwritten
  * instead of released and allocated again.
  *
- * The file is unnamed: it is removed with the stream or the program. Checksums (XXH3) verify that
- * the bytes read are those written.
+ * The file is unnamed: it is removed with the stream or the program. In a kept folder it has a
+ * name, and save() lets another program read the generation of the last rewriting pass as long as
+ * no second rewriting pass has begun. Checksums (XXH3) verify that the bytes read are those
+ * written.
  */
 class SMG_EXPORT ScratchStream
 {
@@ -33,6 +40,13 @@ public:
     : Path(std::move(path))
     , Statistics(&statistics)
     , File(FileDescriptor::createNameless(this->Path.parent_path()))
+  {
+  }
+  /** A file of `folder`. */
+  ScratchStream(const ScratchFolder& folder, const std::string& name, IoStatistics& statistics)
+    : Path(folder.path() / name)
+    , Statistics(&statistics)
+    , File(folder.file(name))
   {
   }
 
@@ -47,6 +61,14 @@ public:
   void read(std::int64_t index, std::span<std::byte> block);
   void endPass();
 
+  /** Between passes: waits until the disk has the blocks, and saves their places. */
+  void save(StateWriter& state);
+  /** Calls with the number of a block and its bytes. */
+  using BlockCheck = std::function<void(std::int64_t, std::span<const std::byte>)>;
+  /** Restores the places; compares all blocks of the last rewriting pass, which must be so many,
+   * with their checksums, and calls `check` for each. */
+  void load(StateReader& state, std::int64_t blocks, const BlockCheck& check = {});
+
 private:
   struct Block
   {
@@ -59,6 +81,12 @@ private:
   {
     std::vector<Block> blocks;
     std::int64_t count = 0; ///< blocks in use; the others are reserved for later ones
+
+    template <class State>
+    void exchange(State& state)
+    {
+      state(this->blocks, this->count);
+    }
   };
 
   /** Bytes requested from the system at once. */
@@ -71,6 +99,7 @@ private:
   /** The next block to write, with room for `bytes` bytes. */
   Block& place(std::size_t bytes);
   void readAhead();
+  void checkPlaces(const Generation& generation, const StateReader& state) const;
 
   std::filesystem::path Path;
   IoStatistics* Statistics;
@@ -78,6 +107,7 @@ private:
   Generation Last, Coming; // written by the last rewriting pass, and by this one
   std::int64_t End = 0;    // of the file
   bool Rewriting = false;
+  bool Unsynced = false; // something was written since save()
   std::int64_t Next = 0;
   std::int64_t Ahead = 0, Requested = 0; // first block of the last request, and its end
 };

@@ -3,6 +3,7 @@
 
 #include "Solver/Storage/IoStatistics.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <string>
@@ -31,6 +32,14 @@ public:
     kind.name = std::move(name);
     kind.level = level;
     return kind.statistics;
+  }
+
+  /** The account of this kind, added if necessary. */
+  IoStatistics& of(const std::string& name, int level)
+  {
+    const auto found = std::ranges::find_if(
+      this->Kinds, [&](const Kind& kind) { return kind.name == name && kind.level == level; });
+    return found != this->Kinds.end() ? found->statistics : this->add(name, level);
   }
 
   const std::deque<Kind>& kinds() const { return this->Kinds; }

@@ -26,6 +26,7 @@ SystemCalls& systemCalls() noexcept
     ::unlinkat,
     ::opendir,
     ::mkdtemp,
+    ::mkdir,
     ::memfd_create,
     ::mmap,
   };

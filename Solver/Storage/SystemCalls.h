@@ -31,6 +31,7 @@ struct SystemCalls
   int (*unlinkat)(int folder, const char* name, int flags);
   DIR* (*opendir)(const char* path);
   char* (*mkdtemp)(char* pattern);
+  int (*mkdir)(const char* path, mode_t mode);
   int (*memfd_create)(const char* name, unsigned flags);
   void* (*mmap)(void* address, std::size_t size, int protection, int flags, int file, off_t offset);
 };

@@ -123,6 +123,8 @@ SystemCalls faulty()
   { return fails("unlinkat") ? -1 : real.unlinkat(folder, name, flags); };
   calls.opendir = [](const char* path) { return fails("opendir") ? nullptr : real.opendir(path); };
   calls.mkdtemp = [](char* pattern) { return fails("mkdtemp") ? nullptr : real.mkdtemp(pattern); };
+  calls.mkdir = [](const char* path, mode_t mode)
+  { return fails("mkdir") ? -1 : real.mkdir(path, mode); };
   calls.memfd_create = [](const char* name, unsigned flags)
   { return fails("memfd_create") ? -1 : real.memfd_create(name, flags); };
   calls.mmap = [](void* address, std::size_t size, int protection, int flags, int file,

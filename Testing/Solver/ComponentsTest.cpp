@@ -165,7 +165,7 @@ TEST(ComponentLabels, AreTheSameInMemoryAndInScratch)
     ComponentLabels memory(parts);
     ComponentLabels scratch(parts);
     const ScratchFolder place(folder.path());
-    scratch.useScratch(place.path(), statistics);
+    scratch.useScratch(place, statistics);
     for (std::int64_t first = 0; first < vertices; first += 300)
     {
       const auto count = std::min<std::int64_t>(300, vertices - first);
@@ -206,7 +206,7 @@ TEST(ComponentLabels, BlocksOfOneLabelKeepOneAndMassesOnlyOfFreeOnes)
   const std::int32_t free = parts.add();
   parts.anchor(held);
   ComponentLabels labels(parts);
-  labels.useScratch(place.path(), statistics);
+  labels.useScratch(place, statistics);
   std::vector<std::int32_t> given(3 * 1024 + 5, held);
   given[1024] = -1;
   std::ranges::fill(std::span(given).last(5), free);

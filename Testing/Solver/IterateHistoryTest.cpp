@@ -30,10 +30,7 @@ public:
   }
 
   /** Keeps the history on disk. */
-  void useScratch(const std::filesystem::path& folder)
-  {
-    this->History.useScratch(folder, this->Traffic);
-  }
+  void useScratch(const ScratchFolder& folder) { this->History.useScratch(folder, this->Traffic); }
 
   /** y_k - x; its residual is its negative. */
   Eigen::Map<Eigen::VectorXd> error() { return { this->Errors.at(0), this->Factors.size() }; }
@@ -154,7 +151,7 @@ TEST(IterateHistory, OnDiskIsTheSameAsInMemory)
   const Eigen::VectorXd factors = Eigen::VectorXd::LinSpaced((1 << 19) + 700, -0.4, 0.9);
   DiagonalModel inMemory(factors, KeptResiduals::Sampled);
   DiagonalModel onDisk(factors, KeptResiduals::Sampled);
-  onDisk.useScratch(folder.path());
+  onDisk.useScratch(ScratchFolder(folder.path()));
   ConjugateResiduals directions[2];
   for (int k = 0; k < 6; ++k)
   {

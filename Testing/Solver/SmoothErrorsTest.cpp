@@ -40,6 +40,11 @@ TEST(SmoothErrors, OptionsOutOfRange)
   EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.operators = "shi2006"; }), "use extended");
   EXPECT_SAYS(errorOf(mesh, [](auto& o) { o.memoryLimit = 100000; }),
     "1 MiB (100000 bytes): raise the memory limit");
+  EXPECT_SAYS(errorOf(mesh,
+                [](auto& o) {
+                  o.checkpoint = { "folder", "mesh", "problem" };
+                }),
+    "smoothing has no checkpoints");
 }
 
 TEST(SmoothErrors, ColumnsAndPartsThatTheMeshDoesNotHave)

@@ -103,6 +103,11 @@ Codec VsmReader::codec() const
   return this->Self->File.Blocks.codec();
 }
 
+std::string VsmReader::fingerprint() const
+{
+  return std::to_string(this->Self->File.Blocks.contentChecksum());
+}
+
 std::int64_t VsmReader::vertexBlocks() const
 {
   return this->Self->File.Blocks.blocks(VsmFormat::Vertices);

@@ -69,6 +69,12 @@ struct ConversionOptions
   std::string origin;
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
+  /**
+   * For openMesh() alone: the folder of a checkpoint (see CheckpointOptions::folder), which keeps
+   * the converted file until it is removed, so that a killed program does not convert again. Empty:
+   * none.
+   */
+  std::filesystem::path checkpoint;
   /** Progress callback; empty: none. */
   ProgressFunction progress;
 };

@@ -118,7 +118,9 @@ struct SMG_EXPORT Report
   std::int64_t cells = 0;    ///< of the mesh
   std::vector<Level> levels; ///< from the finest to the coarsest
   int passes = 0;            ///< passes over the mesh
-  int cycles = 0;            ///< V-cycles, of all steps
+  /** Of these, the passes of earlier programs whose checkpoint this one continued; 0: none. */
+  int resumed_passes = 0;
+  int cycles = 0; ///< V-cycles, of all steps
   /** ||b - A x_k|| / ||b - A x_0|| after V-cycle k = 1, 2, ..., x_0 being the initial values; of
    * several steps one after the other. */
   std::vector<double> residuals;

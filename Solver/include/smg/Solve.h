@@ -32,6 +32,28 @@ enum class AccelerationKind
   ConjugateGradients
 };
 
+/**
+ * How a solve can continue where it was killed. It keeps its scratch files in a folder, and after
+ * each pass its state, when the disk has both. The same solve, called again, continues after the
+ * last complete pass and has the same result, bit for bit. Only scratch, threads, blockNodes and
+ * progress may differ then.
+ */
+struct CheckpointOptions
+{
+  /**
+   * The folder, for this checkpoint alone: it is made if it does not exist; else it must be empty
+   * or have the checkpoint. It stays until Solution::removeCheckpoint(). Empty: no checkpoint. It
+   * takes the place of SolveOptions::scratch, and has about the same size.
+   */
+  std::filesystem::path folder;
+  /** A text that is another one if the mesh is, for example VsmReader::fingerprint(). Not empty
+   * with a folder. */
+  std::string mesh;
+  /** A text that is another one if the problem is, for example the problem file. Not empty with a
+   * folder. */
+  std::string problem;
+};
+
 /** How to solve. The defaults suit a mesh of any size. */
 struct SolveOptions
 {
@@ -56,6 +78,8 @@ struct SolveOptions
   int threads = 0;
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
+  /** Whether and where to keep what a killed solve needs to continue; not with `inCore`. */
+  CheckpointOptions checkpoint;
   /** Keep all levels in memory and write no file. The result is the same, bit for bit. */
   bool inCore = false;
   /** Nodes by which a stage advances at a time, at least 1. The result does not depend on it. */
@@ -94,6 +118,9 @@ public:
    * @throws Error if the range or the room is not valid, or a scratch file cannot be read
    */
   virtual void read(std::int64_t first, std::int64_t count, std::span<double> values) = 0;
+  /** Removes the checkpoint, if there is one, when the solution is destroyed: to be called when the
+   * result is complete on disk. */
+  virtual void removeCheckpoint() {}
   /** What the solve did; SolvedMesh::finish() completes a copy of it. */
   virtual const Report& report() const = 0;
 };
@@ -108,8 +135,9 @@ public:
  * files until it is destroyed.
  * @throws Error if an option is out of range, the stream or the problem is not valid, the memory
  * limit is below the need (with both figures, and before the mesh is read if its span is known),
- * numbers overflow, the residual grows beyond recovery, or a scratch file cannot be written or
- * read; no scratch file remains. It is no error if the tolerance is not reached: see
+ * numbers overflow, the residual grows beyond recovery, a scratch file cannot be written or read,
+ * or a checkpoint is damaged, in use, or of another mesh, problem or option; no scratch file
+ * remains except those of a checkpoint. It is no error if the tolerance is not reached: see
  * Report::converged.
  * @throws Cancelled if the progress callback returns false
  */

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Storage/Checkpoint.h"
+
+#include "Solver/Storage/Checksum.h"
+#include "Solver/Storage/Folder.h"
+#include "Solver/Storage/SystemCalls.h"
+#include "smg/Error.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <string_view>
+
+namespace smg
+{
+namespace
+{
+
+/** The first bytes of a state. */
+struct StateFront
+{
+  static constexpr std::string_view Magic = "SMGSTATE";
+  static constexpr std::uint32_t OrderMark = 0x01020304;
+  static constexpr std::uint32_t Version = 1;
+
+  char magic[8];
+  std::uint32_t version;
+  std::uint32_t order;
+  std::int64_t steps;
+  std::int64_t bytes;
+  std::uint64_t checksum;      ///< of the bytes
+  std::uint64_t frontChecksum; ///< of all bytes before this one
+
+  std::uint64_t expectedChecksum() const
+  {
+    return smg::checksum(
+      std::as_bytes(std::span(this, 1)).first(offsetof(StateFront, frontChecksum)));
+  }
+};
+static_assert(sizeof(StateFront) == 48);
+
+std::filesystem::path stateIn(
+  const std::filesystem::path& folder, const std::string& name, int slot)
+{
+  return folder / (name + '.' + std::to_string(slot));
+}
+
+/** The front of a file, if it is one. */
+std::optional<StateFront> frontOf(const FileDescriptor& file)
+{
+  StateFront front{};
+  if (file.readSome(0, std::as_writable_bytes(std::span(&front, 1))) != sizeof(front) ||
+      std::string_view(front.magic, sizeof(front.magic)) != StateFront::Magic ||
+      front.frontChecksum != front.expectedChecksum())
+  {
+    return std::nullopt;
+  }
+  return front;
+}
+
+bool isThere(const std::filesystem::path& path)
+{
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(std::filesystem::symlink_status(path, ignored));
+}
+
+} // namespace
+
+Checkpoint::Checkpoint(ScratchFolder& folder, std::vector<Item> subject, std::string name)
+  : Folder(folder)
+  , Subject(std::move(subject))
+  , Name(std::move(name))
+{
+  this->Subject.insert(this->Subject.begin(), Item{ "version of the program", SMG_VERSION });
+}
+
+std::filesystem::path Checkpoint::path(int slot) const
+{
+  return stateIn(this->Folder.path(), this->Name, slot);
+}
+
+std::int64_t Checkpoint::steps(const std::filesystem::path& folder)
+{
+  std::int64_t most = 0;
+  for (int slot = 0; slot < 2; ++slot)
+  {
+    if (const std::filesystem::path path = stateIn(folder, StateName, slot); isThere(path))
+    {
+      const std::optional<StateFront> front = frontOf(FileDescriptor::openForReading(path));
+      most = front ? std::max(most, front->steps) : most;
+    }
+  }
+  return most;
+}
+
+std::optional<StateReader> Checkpoint::open(Pool& pool)
+{
+  this->removeIncomplete();
+  std::optional<StateReader> last;
+  std::int64_t most = -1;
+  std::optional<Error> damage;
+  for (int slot = 0; slot < 2; ++slot)
+  {
+    if (!isThere(this->path(slot)))
+    {
+      continue;
+    }
+    FileDescriptor file = FileDescriptor::openForReading(this->path(slot));
+    const std::optional<StateFront> front = frontOf(file);
+    if (front && (front->version != StateFront::Version || front->order != StateFront::OrderMark))
+    {
+      throw Error(this->path(slot).string() +
+                  ": is of another version of this program: continue with that one, or remove the "
+                  "folder to begin anew.");
+    }
+    try
+    {
+      StateReader state(std::move(file), sizeof(StateFront), front ? front->bytes : -1, pool);
+      if (state.checksum() != front->checksum)
+      {
+        state.fail("its checksum is wrong");
+      }
+      if (front->steps > most)
+      {
+        most = front->steps;
+        last = std::move(state);
+        this->Last = slot;
+      }
+    }
+    catch (const Error& error)
+    {
+      damage = error;
+    }
+  }
+  if (!last && damage)
+  {
+    throw *damage;
+  }
+  if (last)
+  {
+    this->compareSubject(*last);
+  }
+  return last;
+}
+
+void Checkpoint::compareSubject(StateReader& state) const
+{
+  std::vector<Item> items;
+  state(items);
+  for (std::size_t i = 0; i < items.size(); ++i)
+  {
+    state.require(i < this->Subject.size() && items[i].what == this->Subject[i].what);
+    if (items[i].value != this->Subject[i].value)
+    {
+      throw Error(this->Folder.path().string() +
+                  ": is the checkpoint of a computation with another " + items[i].what +
+                  ": repeat its command to continue it, or remove the folder to begin anew.");
+    }
+  }
+  state.require(items.size() == this->Subject.size());
+}
+
+/** Removes states that were not complete when their program was killed. */
+void Checkpoint::removeIncomplete() const
+{
+  FolderEntries entries(this->Folder.path());
+  while (const char* name = entries.next())
+  {
+    if (std::string_view(name).starts_with(this->Name + '.') && this->path(0).filename() != name &&
+        this->path(1).filename() != name)
+    {
+      systemCalls().unlink((this->Folder / name).c_str());
+    }
+  }
+}
+
+void Checkpoint::save(std::int64_t steps, const std::function<void(StateWriter&)>& write)
+{
+  const int slot = 1 - this->Last;
+  FileDescriptor file = FileDescriptor::createBeside(this->path(slot));
+  StateWriter state(file, sizeof(StateFront));
+  state(this->Subject);
+  write(state);
+  state.finish();
+  StateFront front{};
+  std::memcpy(front.magic, StateFront::Magic.data(), sizeof(front.magic));
+  front.version = StateFront::Version;
+  front.order = StateFront::OrderMark;
+  front.steps = steps;
+  front.bytes = state.bytes();
+  front.checksum = state.checksum();
+  front.frontChecksum = front.expectedChecksum();
+  file.write(0, std::as_bytes(std::span(&front, 1)));
+  file.renameTo(this->path(slot));
+  this->Last = slot;
+  this->Folder.keep(true);
+}
+
+void Checkpoint::discard()
+{
+  // The last state refers to files that are complete: it goes last.
+  systemCalls().unlink(this->path(1 - this->Last).c_str());
+  systemCalls().unlink(this->path(this->Last).c_str());
+  this->Folder.keep(false);
+}
+
+} // namespace smg

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Solver/SolveTesting.h"
+#include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/TemporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+// A solve that ends in the middle of a pass continues with the same bits. Testing/Examples/
+// smg_checkpoint.py kills the program at any moment.
+
+namespace smg::testing
+{
+namespace
+{
+
+/** Small levels on disk. */
+SolveOptions streamed(const std::filesystem::path& folder)
+{
+  SolveOptions options;
+  options.tolerance = 1e-11;
+  options.coreNodes = 100;
+  options.blockNodes = 300;
+  options.checkpoint = { folder, "mesh", "problem" };
+  return options;
+}
+
+Solved withoutCheckpoint(const StreamMesh& mesh, ArrayProblem problem, SolveOptions options)
+{
+  options.checkpoint = {};
+  return solveMesh(mesh, problem, options);
+}
+
+/** Solves, and cancels each of the calls after this many reports of progress, until one ends.
+ * Returns the number of calls. */
+int solveInParts(const StreamMesh& mesh, ArrayProblem problem, SolveOptions options, int reports,
+  const Solved& expected)
+{
+  for (int calls = 1;; ++calls)
+  {
+    int left = reports;
+    options.progress = [&](double) { return --left > 0; };
+    try
+    {
+      MemorySource source(mesh);
+      const std::unique_ptr<Solution> solution = solve(source, problem, options);
+      EXPECT_TRUE(sameBits(valuesOf(*solution), expected.values));
+      const Report& report = solution->report();
+      EXPECT_EQ(report.residuals, expected.report.residuals);
+      EXPECT_EQ(report.passes, expected.report.passes);
+      EXPECT_EQ(report.levels.size(), expected.report.levels.size());
+      EXPECT_EQ(report.acceleration, expected.report.acceleration);
+      EXPECT_EQ(report.resumed_passes > 0, calls > 1 && hasNote(report, "continued after pass"));
+      solution->removeCheckpoint();
+      EXPECT_TRUE(std::filesystem::exists(options.checkpoint.folder));
+      return calls;
+    }
+    catch (const Cancelled&)
+    {
+    }
+  }
+}
+
+void expectSameInParts(const StreamMesh& mesh, const ArrayProblem& problem, SolveOptions options)
+{
+  const Solved expected = withoutCheckpoint(mesh, problem, options);
+  ASSERT_GE(expected.report.levels.size(), 3U);
+  ASSERT_GE(expected.report.passes, 6);
+  EXPECT_GE(solveInParts(mesh, problem, options, 50, expected), 4);
+  EXPECT_FALSE(std::filesystem::exists(options.checkpoint.folder));
+}
+
+} // namespace
+
+TEST(SolveCheckpoint, SurfaceInPartsHasTheSameBits)
+{
+  const TemporaryFolder folder;
+  const StreamMesh mesh = toStream(shuffled(torus(110, 60, 0.4)), TestOrder::BreadthFirst);
+  SolveOptions options = streamed(folder / "ck");
+  options.acceleration = AccelerationKind::ConjugateGradients;
+  expectSameInParts(mesh, heldEnds(mesh, 3, Weights::Cotangent), options);
+}
+
+TEST(SolveCheckpoint, FreeComponentsInPartsHaveTheSameBits)
+{
+  const TemporaryFolder folder;
+  const StreamMesh mesh =
+    toStream(shuffled(disjointUnion(torus(60, 40, 0.4), torus(50, 40, 0.3), { 9, 0, 0 })),
+      TestOrder::BreadthFirst);
+  ArrayProblem problem;
+  problem.Columns = 2;
+  Random random(3);
+  for (std::int64_t i = 0; i < 2 * mesh.vertices(); ++i)
+  {
+    problem.Source.push_back(random.uniform(-1.0, 1.0));
+    problem.Value.push_back(random.uniform(-1.0, 1.0));
+  }
+  SolveOptions options = streamed(folder / "ck");
+  options.acceleration = AccelerationKind::Chebyshev;
+  expectSameInParts(mesh, problem, options);
+}
+
+TEST(SolveCheckpoint, FlatTetrahedraInPartsHaveTheSameBits)
+{
+  const TemporaryFolder folder;
+  const StreamMesh mesh = toStream(shuffled(tetBox(18, 18, 17, 0.33)), TestOrder::BreadthFirst);
+  expectSameInParts(mesh, heldEnds(mesh, 1, Weights::Cotangent), streamed(folder / "ck"));
+}
+
+TEST(SolveCheckpoint, NeedsWhatItIsOf)
+{
+  const TemporaryFolder folder;
+  const StreamMesh mesh = toStream(torus(20, 10), TestOrder::BreadthFirst);
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Uniform);
+  SolveOptions options;
+  options.checkpoint.folder = folder / "ck";
+  expectError([&] { solveMesh(mesh, problem, options); }, "identify the mesh and the problem");
+  options = streamed(folder / "ck");
+  options.inCore = true;
+  expectError([&] { solveMesh(mesh, problem, options); }, "in core");
+  EXPECT_EQ(folder.entries(), 0);
+}
+
+} // namespace smg::testing
