@@ -33,10 +33,27 @@ function (smg_add_gtest name)
     SMG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   # Tests are compiled more often than they run; the libraries are optimized as they are used.
   target_compile_options(${name} PRIVATE ${smg_test_optimization} ${smg_test_options})
-  smg_discover(${name} "-*Data.*:*Law.*:*Long.*" 120 "${arg_LABELS}")
+  if (SMG_SANITIZE)
+    smg_add_shards(${name} "${arg_LABELS}")
+  else ()
+    smg_discover(${name} "-*Data.*:*Law.*:*Long.*" 120 "${arg_LABELS}")
+  endif ()
   smg_discover(${name} "*Law.*" 120 "${arg_LABELS};law")
   smg_discover(${name} "*Data.*" 300 "${arg_LABELS};data")
   smg_discover(${name} "*Long.*" 3600 "${arg_LABELS};data;long")
+endfunction ()
+
+# The quick tests of a program in eight runs: with sanitizers, the start of a program takes as long
+# as many a test.
+function (smg_add_shards name labels)
+  foreach (shard RANGE 7)
+    add_test(NAME ${name}.shard${shard}
+      COMMAND ${name} "--gtest_filter=-*Data.*:*Law.*:*Long.*" --gtest_brief=1)
+    set_tests_properties(${name}.shard${shard} PROPERTIES
+      ENVIRONMENT "GTEST_TOTAL_SHARDS=8;GTEST_SHARD_INDEX=${shard}"
+      LABELS "${labels}"
+      TIMEOUT 900)
+  endforeach ()
 endfunction ()
 
 function (smg_discover name filter timeout labels)

@@ -106,7 +106,8 @@ void ComponentLabels::decode(std::span<const std::byte> record, std::size_t coun
   std::memcpy(this->Labels.data(), record.data(), bytes);
   this->Labels.resize(count, this->Labels.front());
   this->Masses.resize(masses ? count : 0);
-  std::memcpy(this->Masses.data(), record.data() + bytes, this->Masses.size() * sizeof(double));
+  std::ranges::copy(
+    record.subspan(bytes), std::as_writable_bytes(std::span(this->Masses)).begin());
 }
 
 void ComponentLabels::save(StateWriter& state)
