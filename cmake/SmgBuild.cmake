@@ -33,8 +33,10 @@ if (SMG_SANITIZE)
   add_link_options(-fsanitize=${SMG_SANITIZE})
   if (SMG_SANITIZE MATCHES undefined)
     # Without what AddressSanitizer finds as well: access through null pointers and beyond objects, use
-    # of objects that are gone, pointers far outside. The tree casts no base class to a derived one, which is the rest of vptr.
-    add_compile_options(-fno-sanitize-recover=undefined -fno-sanitize=null,object-size,pointer-overflow,vptr)
+    # of objects that are gone, pointers far outside. The tree casts no base class to a derived one,
+    # which is the rest of vptr.
+    add_compile_options(
+      -fno-sanitize-recover=undefined -fno-sanitize=null,object-size,pointer-overflow,vptr)
   endif ()
 endif ()
 

@@ -106,8 +106,7 @@ void ComponentLabels::decode(std::span<const std::byte> record, std::size_t coun
   std::memcpy(this->Labels.data(), record.data(), bytes);
   this->Labels.resize(count, this->Labels.front());
   this->Masses.resize(masses ? count : 0);
-  std::ranges::copy(
-    record.subspan(bytes), std::as_writable_bytes(std::span(this->Masses)).begin());
+  std::ranges::copy(record.subspan(bytes), std::as_writable_bytes(std::span(this->Masses)).begin());
 }
 
 void ComponentLabels::save(StateWriter& state)
