@@ -31,6 +31,8 @@ function (smg_add_gtest name)
   target_compile_definitions(${name} PRIVATE
     SMG_TEST_DATA_DIR="${smg_test_data}"
     SMG_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  # Names in more sources than these need not differ.
+  set_target_properties(${name} PROPERTIES UNITY_BUILD_BATCH_SIZE 12)
   # Tests are compiled more often than they run; the libraries are optimized as they are used.
   target_compile_options(${name} PRIVATE ${smg_test_optimization} ${smg_test_options})
   if (SMG_SANITIZE)
