@@ -4,7 +4,7 @@
 #   main        build/             ParaView's VTK, plugin, Python; all tests except the long ones; unity
 #                                  build: names in unnamed namespaces must differ
 #   vtk         build-vtk/         Debian's standalone VTK, on the libraries Solver and IOCore of build/; the
-#                                  tests that use VTK; no unity build; with assertions
+#                                  tests that use VTK; unity build; with assertions
 #   asan-ubsan  build-asan-ubsan/  Solver, IO and smg without VTK, under two sanitizers; unity build; with
 #                                  assertions
 #   debug       build-debug/       main without a unity build, where each source must include what it uses;

@@ -15,7 +15,7 @@ namespace
 {
 
 /** The share of the solve in the progress; normals take the rest. */
-constexpr double SolveShare = 0.9;
+constexpr double DeformShare = 0.9;
 
 } // namespace
 
@@ -38,14 +38,14 @@ std::unique_ptr<Solution> DeformationTask::solve(
   const bool hasNormals = this->needsNormals && mesh.info().cellType == CellType::Triangle;
   DescribedHandles handles(DeformationDescription::byColumns(), mesh.info());
   DeformOptions options = this->options;
-  options.progress = partOf(progress, 0.0, hasNormals ? SolveShare : 1.0);
+  options.progress = partOf(progress, 0.0, hasNormals ? DeformShare : 1.0);
   auto moved = std::make_unique<DeformedVertices>(deform(*mesh.source(), handles, options));
   if (hasNormals)
   {
     NormalsOptions normals;
     normals.scratch = options.scratch;
     normals.memory = std::min(normals.memory, options.memoryLimit / 4);
-    normals.progress = partOf(progress, SolveShare, 1.0);
+    normals.progress = partOf(progress, DeformShare, 1.0);
     moved->addNormals(mesh.source({}, {}), normals);
   }
   report = moved->report();
