@@ -2,6 +2,7 @@
 #include "Filters/vtkStreamingBlend.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
+#include "Testing/Filters/vtkAbortTesting.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/MemoryMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -175,23 +176,8 @@ TEST_F(VtkStreamingBlend, WhatIsWrittenIsTheWholeMeshAndAPreviewIsBlendedByItsel
 
 TEST_F(VtkStreamingBlend, CanBeAborted)
 {
-  vtkNew<vtkCallbackCommand> abort;
-  abort->SetCallback([](vtkObject* filter, unsigned long, void*, void*)
-    { static_cast<vtkAlgorithm*>(filter)->SetAbortExecute(1); });
   this->Blend->SetSeamGradient(vtkStreamingBlend::AVERAGE);
-  for (const vtkIdType interactive : { 200000, 0 })
-  {
-    this->Blend->SetInteractivePoints(interactive);
-    const unsigned long observer = this->Blend->AddObserver(vtkCommand::ProgressEvent, abort);
-    Errors errors(this->Blend);
-    EXPECT_FALSE(updatePiece(this->Blend, 0, 1));
-    // Nothing but the mesh is left in the folder.
-    EXPECT_EQ(this->Folder.entries(), 1);
-    this->Blend->RemoveObserver(observer);
-    this->Blend->SetAbortExecute(0);
-    EXPECT_TRUE(updatePiece(this->Blend, 0, 1));
-    EXPECT_EQ(this->output()->GetNumberOfPoints(), this->Mesh.vertices());
-  }
+  expectCanBeAborted(this->Blend.Get(), this->Folder);
 }
 
 TEST_F(VtkStreamingBlend, MistakesAreOneErrorEach)

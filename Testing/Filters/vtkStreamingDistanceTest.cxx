@@ -3,6 +3,7 @@
 #include "Filters/vtkMeshHandle.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
+#include "Testing/Filters/vtkAbortTesting.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/MemoryMesh.h"
@@ -12,7 +13,6 @@
 #include "smg/Distance.h"
 #include "smg/VsmReader.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
 #include "vtkFieldData.h"
 
@@ -175,21 +175,7 @@ TEST_F(VtkStreamingDistance, WithoutFromTheSourcesAreTheHandles)
 
 TEST_F(VtkStreamingDistance, CanBeAborted)
 {
-  const vtkNew<vtkCallbackCommand> abort;
-  abort->SetCallback([](vtkObject* filter, unsigned long, void*, void*)
-    { static_cast<vtkAlgorithm*>(filter)->SetAbortExecute(1); });
-  for (const vtkIdType interactive : { 200000, 0 })
-  {
-    this->Distance->SetInteractivePoints(interactive);
-    const unsigned long observer = this->Distance->AddObserver(vtkCommand::ProgressEvent, abort);
-    const Errors errors(this->Distance);
-    EXPECT_FALSE(updatePiece(this->Distance, 0, 1));
-    EXPECT_EQ(this->Folder.entries(), 1);
-    this->Distance->RemoveObserver(observer);
-    this->Distance->SetAbortExecute(0);
-    EXPECT_TRUE(updatePiece(this->Distance, 0, 1));
-    EXPECT_TRUE(this->output()->GetPointData()->HasArray(DistanceName));
-  }
+  expectCanBeAborted(this->Distance.Get(), this->Folder);
 }
 
 TEST_F(VtkStreamingDistance, PointsOfNoCellAreNotReached)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkStreamingMeshWriter.h"
+#include "Testing/Filters/vtkAbortTesting.h"
 #include "Testing/Filters/vtkDeformationFixture.h"
 #include "smg/VsmReader.h"
 
@@ -308,21 +309,7 @@ TEST_F(VtkStreamingMeshDeformation, FailureOfAPieceIsAnError)
 
 TEST_F(VtkStreamingMeshDeformation, CanBeAborted)
 {
-  vtkNew<vtkCallbackCommand> abort;
-  abort->SetCallback([](vtkObject* filter, unsigned long, void*, void*)
-    { static_cast<vtkAlgorithm*>(filter)->SetAbortExecute(1); });
-  for (const vtkIdType interactive : { 200000, 0 })
-  {
-    this->Deformation->SetInteractivePoints(interactive);
-    const unsigned long observer = this->Deformation->AddObserver(vtkCommand::ProgressEvent, abort);
-    Errors errors(this->Deformation);
-    EXPECT_FALSE(updatePiece(this->Deformation, 0, 1));
-    EXPECT_EQ(this->Folder.entries(), 1);
-    this->Deformation->RemoveObserver(observer);
-    this->Deformation->SetAbortExecute(0);
-    EXPECT_TRUE(updatePiece(this->Deformation, 0, 1));
-    EXPECT_EQ(this->output()->GetNumberOfPoints(), this->Mesh.vertices());
-  }
+  expectCanBeAborted(this->Deformation.Get(), this->Folder);
 }
 
 TEST_F(VtkStreamingMeshDeformation, PrintsItsProperties)

@@ -2,6 +2,7 @@
 #include "Filters/vtkStreamingMeshSmoothing.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
+#include "Testing/Filters/vtkAbortTesting.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/MemoryMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -204,6 +205,11 @@ TEST_F(VtkStreamingMeshSmoothing, NormalsAreThoseOfTheSmoothedSurface)
   this->Smoothing->SetNormals(vtkStreamingMeshSmoothing::DROP);
   ASSERT_TRUE(updatePiece(this->Smoothing, 0, 1));
   EXPECT_FALSE(this->output()->GetPointData()->GetArray("Normals"));
+}
+
+TEST_F(VtkStreamingMeshSmoothing, CanBeAborted)
+{
+  expectCanBeAborted(this->Smoothing.Get(), this->Folder);
 }
 
 TEST_F(VtkStreamingMeshSmoothing, MistakesAreOneErrorEach)
