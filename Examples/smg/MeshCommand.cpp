@@ -7,6 +7,7 @@
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/External/Workspace.h"
 #include "IO/Files/PartialProgress.h"
+#include "Solver/Storage/ScratchAccount.h"
 #include "Solver/Stream/OriginalNumbers.h"
 
 #include <algorithm>
@@ -19,10 +20,12 @@ namespace
 /** Prints time and memory, and the notes. */
 void printCosts(const smg::Report& report)
 {
-  std::printf("%.2f s (%.2f s of CPU), %.1f MiB of accounted memory, %.1f MiB resident\n",
-    report.seconds.total, report.cpu_seconds,
-    static_cast<double>(report.pool_bytes_peak) / (1 << 20),
-    static_cast<double>(report.rss_bytes_peak) / (1 << 20));
+  const auto mebibytes = [](std::int64_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
+  std::printf(
+    "%.2f s (%.2f s of CPU), %.1f MiB of accounted memory, %.1f MiB resident, %.1f MiB of "
+    "scratch files\n",
+    report.seconds.total, report.cpu_seconds, mebibytes(report.pool_bytes_peak),
+    mebibytes(report.rss_bytes_peak), mebibytes(report.scratch_bytes_peak));
   for (const std::string& note : report.notes)
   {
     std::printf("%s\n", note.c_str());
@@ -78,6 +81,7 @@ void MeshCommand::run()
     }
     report.seconds.convert = convertSeconds;
     report.seconds.total = secondsSince(start);
+    report.scratch_bytes_peak = smg::ScratchAccount::process().peak();
   }
   this->writeReport(report.json());
   this->Solution->removeCheckpoint();

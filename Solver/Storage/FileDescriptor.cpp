@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/FileDescriptor.h"
 
+#include "Solver/Storage/ScratchAccount.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "Solver/Storage/SystemCalls.h"
+#include "Solver/Storage/SystemError.h"
 #include "Solver/Storage/WaitClock.h"
 #include "smg/Error.h"
 
@@ -21,32 +23,6 @@ namespace smg
 
 namespace
 {
-
-/** What a user can do about a failure; empty: nothing that the system's own words do not say. */
-const char* adviceOn(int errorNumber)
-{
-  switch (errorNumber)
-  {
-    case ENOSPC:
-    case EDQUOT:
-      return "; free space, or choose another folder";
-    case EMFILE:
-      return "; raise the limit of the process (ulimit -n)";
-    case ENFILE:
-      return "; close other programs";
-    case EFBIG:
-      return "; raise the limit of the process (ulimit -f), or choose another file system";
-    case EIO:
-      return "; check the disk and its connection";
-    default:
-      return "";
-  }
-}
-
-std::string reason(int errorNumber)
-{
-  return std::generic_category().message(errorNumber) + adviceOn(errorNumber);
-}
 
 /** A unique name, unless a terminated process left a file with it. */
 std::filesystem::path temporaryName(const std::filesystem::path& path)
@@ -71,6 +47,13 @@ int openNew(const std::filesystem::path& path)
   return systemCalls().open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
 }
 
+/** The share of a file in the account of `folder`; null if this is not a scratch folder. */
+std::shared_ptr<ScratchShare> shareIn(const std::filesystem::path& folder)
+{
+  std::shared_ptr<ScratchAccount> account = ScratchAccount::of(folder);
+  return account ? std::make_shared<ScratchShare>(std::move(account)) : nullptr;
+}
+
 } // namespace
 
 FileDescriptor::~FileDescriptor()
@@ -83,6 +66,7 @@ FileDescriptor::FileDescriptor(FileDescriptor&& other) noexcept
   , Path(std::move(other.Path))
   , Shown(std::move(other.Shown))
   , IsTemporary(std::exchange(other.IsTemporary, false))
+  , Share(std::move(other.Share))
 {
 }
 
@@ -92,6 +76,7 @@ FileDescriptor& FileDescriptor::operator=(FileDescriptor&& other) noexcept
   std::swap(this->Path, other.Path);
   std::swap(this->Shown, other.Shown);
   std::swap(this->IsTemporary, other.IsTemporary);
+  std::swap(this->Share, other.Share);
   return *this;
 }
 
@@ -103,7 +88,7 @@ FileDescriptor FileDescriptor::openForReading(const std::filesystem::path& path)
   file.Number = systemCalls().open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC, 0);
   if (!file.isOpen())
   {
-    throw Error(path.string() + ": cannot be opened: " + reason(errno) + ".");
+    throw Error(path.string() + ": cannot be opened: " + systemError(errno) + ".");
   }
   requireRegular(file.Number, path);
   return file;
@@ -131,6 +116,7 @@ FileDescriptor FileDescriptor::createBeside(const std::filesystem::path& path)
   const std::filesystem::path target = targetOf(path);
   FileDescriptor file;
   file.Shown = path;
+  file.Share = shareIn(target.parent_path());
   do
   {
     file.Path = temporaryName(target);
@@ -138,7 +124,7 @@ FileDescriptor FileDescriptor::createBeside(const std::filesystem::path& path)
   } while (!file.isOpen() && errno == EEXIST);
   if (!file.isOpen())
   {
-    throw Error(path.string() + ": cannot be created: " + reason(errno) + ".");
+    throw Error(path.string() + ": cannot be created: " + systemError(errno) + ".");
   }
   file.IsTemporary = true;
   return file;
@@ -149,6 +135,7 @@ FileDescriptor FileDescriptor::createNameless(const std::filesystem::path& folde
   const std::filesystem::path place = folder.empty() ? std::filesystem::path(".") : folder;
   FileDescriptor file;
   file.Path = file.Shown = place / "scratch file";
+  file.Share = shareIn(place);
   file.Number = systemCalls().open(place.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   if (!file.isOpen())
   {
@@ -168,9 +155,19 @@ FileDescriptor FileDescriptor::openOrCreate(const std::filesystem::path& path)
     systemCalls().open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
   if (!file.isOpen())
   {
-    throw Error(path.string() + ": cannot be opened: " + reason(errno) + ".");
+    throw Error(path.string() + ": cannot be opened: " + systemError(errno) + ".");
   }
   requireRegular(file.Number, path);
+  file.Share = shareIn(path.parent_path());
+  if (file.Share)
+  {
+    // From now on the share has the bytes that an earlier program left.
+    ScratchAccount::of(path.parent_path())->remove(path);
+    if (!file.Share->extend(file.size()))
+    {
+      throwWriteError(path, ScratchLimit);
+    }
+  }
   return file;
 }
 
@@ -214,7 +211,7 @@ int FileDescriptor::tryRead(std::int64_t offset, std::span<std::byte> bytes) con
     const ssize_t n = systemCalls().pread(this->Number, bytes.data(), bytes.size(), offset);
     if (n == 0)
     {
-      return -1;
+      return EndOfFile;
     }
     if (n > 0)
     {
@@ -255,6 +252,10 @@ int FileDescriptor::tryRead(
 
 int FileDescriptor::tryWrite(std::int64_t offset, std::span<const std::byte> bytes) const noexcept
 {
+  if (this->Share && !this->Share->extend(offset + static_cast<std::int64_t>(bytes.size())))
+  {
+    return ScratchLimit;
+  }
   while (!bytes.empty())
   {
     const ssize_t n = systemCalls().pwrite(this->Number, bytes.data(), bytes.size(), offset);
@@ -303,6 +304,10 @@ void FileDescriptor::close()
   {
     throwWriteError(this->Shown, errno);
   }
+  if (!this->IsTemporary)
+  {
+    this->Share.reset();
+  }
 }
 
 void FileDescriptor::renameTo(const std::filesystem::path& path)
@@ -319,6 +324,10 @@ void FileDescriptor::renameTo(const std::filesystem::path& path)
     throwWriteError(path, errno);
   }
   this->IsTemporary = false;
+  if (this->Share)
+  {
+    this->Share->keep(target);
+  }
   if (isKept)
   {
     syncPath(target.parent_path());
@@ -364,17 +373,34 @@ void FileDescriptor::remove() noexcept
   {
     systemCalls().unlink(this->Path.c_str());
   }
+  this->Share.reset();
+}
+
+void FileDescriptor::removeClosed(const std::filesystem::path& path) noexcept
+{
+  systemCalls().unlink(path.c_str());
+  if (const std::shared_ptr<ScratchAccount> account = ScratchAccount::of(path.parent_path()))
+  {
+    account->remove(path);
+  }
 }
 
 void FileDescriptor::throwWriteError(const std::filesystem::path& path, int errorNumber)
 {
-  throw Error(path.string() + ": cannot be written: " + reason(errorNumber) + ".");
+  if (errorNumber == ScratchLimit)
+  {
+    const std::shared_ptr<ScratchAccount> account = ScratchAccount::of(path.parent_path());
+    throw Error(ScratchFolder::placeOf(path.parent_path()).string() + ": " +
+                (account ? *account : ScratchAccount::process()).refusal() + '.');
+  }
+  throw Error(path.string() + ": cannot be written: " + systemError(errorNumber) + ".");
 }
 
 void FileDescriptor::throwReadError(const std::filesystem::path& path, int errorNumber)
 {
-  throw Error(path.string() + ": cannot be read: " +
-              (errorNumber < 0 ? "it is shorter than expected" : reason(errorNumber)) + ".");
+  throw Error(
+    path.string() + ": cannot be read: " +
+    (errorNumber == EndOfFile ? "it is shorter than expected" : systemError(errorNumber)) + ".");
 }
 
 } // namespace smg
