@@ -31,8 +31,6 @@ std::filesystem::path temporaryName(const std::filesystem::path& path)
   return path.string() + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
 }
 
-std::atomic<bool> durable{ true };
-
 void requireRegular(int file, const std::filesystem::path& path)
 {
   struct stat status = {};
@@ -293,6 +291,21 @@ void FileDescriptor::write(std::int64_t offset, std::span<const std::byte> bytes
   }
 }
 
+void FileDescriptor::reserve(std::int64_t size) const
+{
+  while (size > 0 && systemCalls().fallocate(this->Number, FALLOC_FL_KEEP_SIZE, 0, size) != 0)
+  {
+    if (errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL)
+    {
+      return;
+    }
+    if (errno != EINTR)
+    {
+      throwWriteError(this->Shown, errno);
+    }
+  }
+}
+
 void FileDescriptor::willRead(std::int64_t offset, std::size_t bytes) const noexcept
 {
   ::posix_fadvise(this->Number, offset, static_cast<off_t>(bytes), POSIX_FADV_WILLNEED);
@@ -307,59 +320,6 @@ void FileDescriptor::close()
   if (!this->IsTemporary)
   {
     this->Share.reset();
-  }
-}
-
-void FileDescriptor::renameTo(const std::filesystem::path& path)
-{
-  const std::filesystem::path target = targetOf(path);
-  const bool isKept = !ScratchFolder::isOne(target.parent_path());
-  if (isKept)
-  {
-    this->sync();
-  }
-  this->close();
-  if (systemCalls().rename(this->Path.c_str(), target.c_str()) != 0)
-  {
-    throwWriteError(path, errno);
-  }
-  this->IsTemporary = false;
-  if (this->Share)
-  {
-    this->Share->keep(target);
-  }
-  if (isKept)
-  {
-    syncPath(target.parent_path());
-  }
-}
-
-void FileDescriptor::setDurable(bool isDurable) noexcept
-{
-  durable = isDurable;
-}
-
-void FileDescriptor::sync() const
-{
-  // Some file systems have no such call.
-  if (durable && systemCalls().fsync(this->Number) != 0 && errno != EINVAL && errno != ENOTSUP)
-  {
-    throwWriteError(this->Shown, errno);
-  }
-}
-
-void FileDescriptor::syncPath(const std::filesystem::path& path)
-{
-  FileDescriptor file;
-  file.Shown = path.empty() ? std::filesystem::path(".") : path;
-  file.Number = systemCalls().open(file.Shown.c_str(), O_RDONLY | O_CLOEXEC, 0);
-  if (file.isOpen())
-  {
-    file.sync();
-  }
-  else if (errno != EACCES) // a folder in which one may write, but not read
-  {
-    throwWriteError(file.Shown, errno);
   }
 }
 

@@ -60,6 +60,10 @@ public:
   int tryRead(std::int64_t offset, std::span<std::byte> bytes, std::int64_t& waited) const noexcept;
   int tryWrite(std::int64_t offset, std::span<const std::byte> bytes) const noexcept;
 
+  /** Reserves room on the disk for this size of the file, so that a full disk shows before hours of
+   * work. The size does not change. File systems that cannot reserve do nothing. Throws Error. */
+  void reserve(std::int64_t size) const;
+
   /** Announces a read of these bytes, so that the system starts to load them from disk. */
   void willRead(std::int64_t offset, std::size_t bytes) const noexcept;
 

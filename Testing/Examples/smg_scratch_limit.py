@@ -29,7 +29,7 @@ def write(name, text):
 
 def write_inputs():
     """A torus with a column and patches."""
-    points, quadrangles = torus(240, 160)
+    points, quadrangles = torus(200, 120)
     with open("torus.ply", "w", encoding="utf-8") as file:
         file.write("ply\nformat ascii 1.0\nelement vertex %d\n" % len(points))
         file.writelines("property double %s\n" % name for name in ("x", "y", "z", "shade"))
