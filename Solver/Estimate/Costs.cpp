@@ -131,6 +131,8 @@ Costs deformCosts(const StreamInfo& info, const DeformOptions& options)
   costs.seconds += static_cast<double>(info.vertices) *
                    (rates.readSeconds + cycles * passSeconds(rates, RotationColumns));
   constexpr double RestBytes = 30;
+  constexpr std::int64_t OpenRestBytes = 64, WindowSpans = 30;
+  costs.memory += OpenRestBytes * std::min(info.vertices, WindowSpans * info.span);
   costs.scratch += options.inCore ? 0 : bytesOf(info, RestBytes);
   return costs;
 }

@@ -144,6 +144,10 @@ ScratchFolder::ScratchFolder(const KeptFolder& kept, std::int64_t limit)
   }
   catch (...)
   {
+    if (this->Account)
+    {
+      this->Account->close(this->Path);
+    }
     systemCalls().close(this->Lock);
     throw;
   }
@@ -156,8 +160,14 @@ void ScratchFolder::countKept()
   while (const char* name = entries.next())
   {
     std::error_code unknown;
-    const std::uintmax_t bytes = std::filesystem::file_size(this->Path / name, unknown);
-    this->Account->keep(this->Path / name, unknown ? 0 : static_cast<std::int64_t>(bytes));
+    const std::filesystem::path path = this->Path / name;
+    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+    ScratchShare share(this->Account);
+    if (!share.extend(unknown ? 0 : static_cast<std::int64_t>(size)))
+    {
+      FileDescriptor::throwWriteError(path, FileDescriptor::ScratchLimit);
+    }
+    share.keep(path);
   }
 }
 

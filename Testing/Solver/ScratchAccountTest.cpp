@@ -100,6 +100,30 @@ TEST(ScratchAccount, AFolderInAnotherOneSharesItsLimit)
   EXPECT_EQ(outer.account().used(), 2000);
 }
 
+TEST(ScratchAccount, CountsWhatAnEarlierProgramKept)
+{
+  const TemporaryFolder place;
+  const std::int64_t before = ScratchAccount::process().used();
+  {
+    ScratchFolder folder(KeptFolder(place / "kept"));
+    folder.file("rows").write(0, Kilobyte);
+    folder.keep(true);
+  }
+  EXPECT_EQ(ScratchAccount::process().used(), before);
+  EXPECT_NE(messageOf([&] { const ScratchFolder folder(KeptFolder(place / "kept"), 999); })
+              .find("(1000 bytes) but their limit"),
+    std::string::npos);
+  EXPECT_EQ(ScratchAccount::process().used(), before);
+  const ScratchFolder folder(KeptFolder(place / "kept"), 1500);
+  const std::int64_t kept = folder.account().used();
+  EXPECT_EQ(kept, 1000);
+  const FileDescriptor rows = folder.file("rows");
+  EXPECT_EQ(folder.account().used(), kept);
+  rows.write(500, Kilobyte);
+  EXPECT_EQ(folder.account().used(), kept + 500);
+  EXPECT_EQ(rows.tryWrite(1000, Kilobyte), FileDescriptor::ScratchLimit);
+}
+
 TEST(ScratchAccount, OtherFilesDoNotCount)
 {
   const TemporaryFolder place;
