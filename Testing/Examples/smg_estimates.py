@@ -61,7 +61,7 @@ def check(mesh, command, arguments):
 
 def test_room():
     """Disks that are too small are refused before anything is done, with both figures."""
-    with SmallDisk("small", 2 * MIB) as disk:
+    with SmallDisk("small", MIB) as disk:
         for arguments in (["solve", "torus.vsm", "o.vsm", "--problem", "torus-one.json", "--scratch", disk],
                           ["solve", "torus.vsm", disk + "/o.ply", "--problem", "torus-three.json"]):
             said = run(*arguments, code=1).stderr
