@@ -7,6 +7,7 @@
 #include "Solver/Description/ClippedValues.h"
 #include "Solver/Engine/CheckOptions.h"
 #include "Solver/Storage/MemoryLimitError.h"
+#include "Solver/Storage/ScratchAccount.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -140,22 +141,28 @@ std::vector<ColumnSpec> blendedColumns(const StreamInfo& mesh, const BlendDescri
 }
 
 std::unique_ptr<Solution> blend(
-  const StoredMesh& mesh, const BlendDescription& description, const SolveOptions& options)
+  const StoredMesh& mesh, const BlendDescription& description, const SolveOptions& given)
 {
   const Timer wall;
   const double cpuAtStart = processSeconds();
-  checkOptions(options);
-  if (!options.checkpoint.folder.empty())
+  checkOptions(given);
+  if (!given.checkpoint.folder.empty())
   {
     throw Error("a blend has no checkpoints: leave the folder out");
   }
   BlendProblem problem(description, mesh.info());
+  auto blended = std::make_unique<BlendedValues>(given, problem.columns());
+  SolveOptions options = given;
+  if (blended->scratch)
+  {
+    // Its limit is that of all scratch files.
+    options.scratch = blended->scratch->path();
+  }
   const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
   visitBlocks(*source(), options.progress, 0.0, Prepared,
     [&](const MeshBlock& block) { problem.prepare(block, options.scratch); });
   problem.endPreparing();
 
-  auto blended = std::make_unique<BlendedValues>(options, problem.columns());
   std::optional<PatchGradients> gradients;
   if (description.seam == SeamGradient::Average)
   {
@@ -174,6 +181,7 @@ std::unique_ptr<Solution> blend(
   addSeams(problem, after, report);
   countClipped(*blended, problem.specs(), report);
   addOriginalTraffic(blended->traffic, report);
+  report.scratch_bytes_peak = blended->scratch ? blended->scratch->account().peak() : 0;
   report.seconds.total = wall.seconds();
   report.cpu_seconds = processSeconds() - cpuAtStart;
   addNotes(description.patch, after, mesh.info().cells, report);

@@ -43,6 +43,7 @@ std::unique_ptr<Solution> distance(const StoredMesh& mesh, const DistanceDescrip
   const DistanceOptions& options, const std::string& name)
 {
   require(options.memoryLimit > 0, "the memory limit must be positive");
+  require(options.scratchLimit >= 0, "the limit of scratch files must not be negative");
   require(options.threads >= 0, "the number of threads must not be negative");
   require(options.maxPasses >= 1, "at least one pass must be allowed");
   auto run = std::make_unique<DistanceRun>(options);

@@ -32,6 +32,7 @@ void checkOptions(const SolveOptions& options)
     "the tolerance must lie between 0 and 1, both excluded");
   require(options.maxCycles >= 1, "at least one V-cycle must be allowed");
   require(options.memoryLimit > 0, "the memory limit must be positive");
+  require(options.scratchLimit >= 0, "the limit of scratch files must not be negative");
   require(options.threads >= 0, "the number of threads must not be negative");
   require(options.blockNodes >= 1, "a stage must advance by at least one node");
   const CheckpointOptions& checkpoint = options.checkpoint;

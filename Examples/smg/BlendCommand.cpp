@@ -7,6 +7,8 @@
 #include "smg/Blend.h"
 #include "smg/SolvedMesh.h"
 
+#include <algorithm>
+
 namespace
 {
 
@@ -71,6 +73,19 @@ protected:
   {
     smg::checkOptions(this->Solve);
     this->Description.hold = this->Hold.places();
+  }
+
+  smg::Costs costsOn(const smg::StreamInfo& info) const override
+  {
+    // The columns of a mesh file that is not a .vsm are not known before it is read.
+    constexpr int Usual = 3;
+    int components = 0;
+    for (const std::string& name : this->Description.columns)
+    {
+      const auto column = std::ranges::find(info.vertexColumns, name, &smg::ColumnSpec::name);
+      components += column == info.vertexColumns.end() ? Usual : column->components;
+    }
+    return smg::blendCosts(info, components, this->Description.seam, this->Solve);
   }
 
   std::unique_ptr<smg::Solution> solveOn(

@@ -2,6 +2,7 @@
 #include "CommonOptions.h"
 
 #include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Storage/ScratchAccount.h"
 #include "Solver/Storage/WholeFile.h"
 #include "smg/Error.h"
 
@@ -27,6 +28,13 @@ void CommonOptions::addTo(CLI::App& command, const std::string& memoryDefault)
     ->check(CLI::ExistingDirectory)
     ->default_str("$TMPDIR or /tmp")
     ->type_name("DIR");
+  command
+    .add_option_function<std::int64_t>(
+      "--scratch-limit",
+      [](std::int64_t limit) { smg::ScratchAccount::process().setLimit(limit << 20); },
+      "Limit of the bytes of scratch files that exist at once, in MiB; without it there is none")
+    ->check(CLI::Range(std::int64_t(1), MostMemory))
+    ->type_name("MiB");
   command.add_flag_callback(
     "--no-sync", [] { smg::FileDescriptor::setDurable(false); },
     "Do not wait until the results are on the disk, where a power cut cannot destroy them");

@@ -64,7 +64,14 @@ protected:
   void readTask() override
   {
     this->Description = smg::readHandleFile(this->File);
+    this->Description.applyTo(this->Deform);
+    this->applyCommandLine();
     this->announceCheckpoint();
+  }
+
+  smg::Costs costsOn(const smg::StreamInfo& info) const override
+  {
+    return smg::deformCosts(info, this->Deform);
   }
 
   std::unique_ptr<smg::Solution> solveOn(
@@ -74,8 +81,6 @@ protected:
     const auto source = [&] { return mesh.source(handles.vertexColumns(), handles.cellColumns()); };
     handles.prepare(*source(), this->scratch);
     this->applyTo(this->Deform, std::move(progress));
-    this->Description.applyTo(this->Deform);
-    this->applyCommandLine();
     this->applyCheckpoint(this->Deform, mesh);
     auto positions = smg::deform(*source(), handles, this->Deform);
     this->Notes = handles.notes();

@@ -68,6 +68,21 @@ protected:
     this->Description.from = this->From.places();
   }
 
+  smg::Costs costsOn(const smg::StreamInfo& info) const override
+  {
+    return smg::distanceCosts(info, this->Description);
+  }
+
+  smg::AddedValues addedTo(const smg::StreamInfo& /*info*/) const override
+  {
+    int numbers = 0;
+    for (const smg::ColumnSpec& column : smg::distanceColumns(this->Description))
+    {
+      numbers += column.components;
+    }
+    return { numbers, 0 };
+  }
+
   std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) override
   {

@@ -7,6 +7,7 @@
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/External/Workspace.h"
 #include "IO/Files/PartialProgress.h"
+#include "Solver/Storage/ScratchAccount.h"
 #include "Solver/Stream/OriginalNumbers.h"
 
 #include <algorithm>
@@ -19,14 +20,31 @@ namespace
 /** Prints time and memory, and the notes. */
 void printCosts(const smg::Report& report)
 {
-  std::printf("%.2f s (%.2f s of CPU), %.1f MiB of accounted memory, %.1f MiB resident\n",
-    report.seconds.total, report.cpu_seconds,
-    static_cast<double>(report.pool_bytes_peak) / (1 << 20),
-    static_cast<double>(report.rss_bytes_peak) / (1 << 20));
+  const auto mebibytes = [](std::int64_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
+  std::printf(
+    "%.2f s (%.2f s of CPU), %.1f MiB of accounted memory, %.1f MiB resident, %.1f MiB of "
+    "scratch files\n",
+    report.seconds.total, report.cpu_seconds, mebibytes(report.pool_bytes_peak),
+    mebibytes(report.rss_bytes_peak), mebibytes(report.scratch_bytes_peak));
   for (const std::string& note : report.notes)
   {
     std::printf("%s\n", note.c_str());
   }
+}
+
+void printEstimate(const smg::JobEstimate& estimate)
+{
+  const auto mebibytes = [](std::int64_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
+  std::printf("%s%lld vertices, %lld cells\n", estimate.counted ? "" : "about ",
+    static_cast<long long>(estimate.vertices), static_cast<long long>(estimate.cells));
+  std::printf("  memory   about %.0f MiB, the limit is %.0f MiB\n",
+    mebibytes(estimate.memory_bytes), mebibytes(estimate.memory_limit));
+  std::printf("  scratch  about %.0f MiB, %.0f MiB are free\n", mebibytes(estimate.scratch_bytes),
+    mebibytes(estimate.scratch_free));
+  std::printf("  output   about %.0f MiB, %.0f MiB are free\n", mebibytes(estimate.output_bytes),
+    mebibytes(estimate.output_free));
+  std::printf("  passes   about %d\n", estimate.passes);
+  std::printf("  time     about %.0f s of CPU\n", estimate.cpu_seconds);
 }
 
 } // namespace
@@ -44,6 +62,31 @@ void MeshCommand::addInputAndCommon(CLI::App& command, std::int64_t memoryLimit)
   command.get_option("--memory")
     ->description("Memory limit in MiB; without it, 256 MiB to convert IN");
   this->addThreadsTo(command);
+  command.add_flag("--dry-run", this->DryRun, "Only estimate the cost; IN is not read");
+}
+
+smg::JobEstimate MeshCommand::estimate() const
+{
+  const smg::ConversionOptions conversion = inputOptions(*this, this->Input);
+  const smg::EstimatedInput in(this->In, conversion);
+  smg::JobEstimate estimate(
+    in, this->Out, this->costsOn(in.info), this->addedTo(in.info), conversion);
+  estimate.memory_limit = this->memoryBytes(this->memoryLimit());
+  return estimate;
+}
+
+/** Rejects what certainly does not fit on the disks, if IN says its counts. A checkpoint may be
+ * there already. */
+void MeshCommand::checkRoom() const
+{
+  if (!this->Checkpoint.empty() || smg::kindOfInput(this->In) == smg::MeshFileKind::Unknown)
+  {
+    return;
+  }
+  if (const smg::JobEstimate estimate = this->estimate(); estimate.counted)
+  {
+    estimate.checkRoom(this->Out, this->scratch);
+  }
 }
 
 void MeshCommand::run()
@@ -57,6 +100,14 @@ void MeshCommand::run()
   smg::checkIsNotInput(this->File, this->Out, "the file that says what to do");
   this->checkReport({ this->In, this->Out, this->File });
   this->readTask();
+  if (this->DryRun)
+  {
+    const smg::JobEstimate estimate = this->estimate();
+    this->writeReport(estimate.json());
+    printEstimate(estimate);
+    return;
+  }
+  this->checkRoom();
   smg::Report report;
   {
     ProgressBar bar(this->Title, this->quiet);
@@ -78,6 +129,7 @@ void MeshCommand::run()
     }
     report.seconds.convert = convertSeconds;
     report.seconds.total = secondsSince(start);
+    report.scratch_bytes_peak = smg::ScratchAccount::process().peak();
   }
   this->writeReport(report.json());
   this->Solution->removeCheckpoint();

@@ -5,6 +5,7 @@
 #include "InputOptions.h"
 #include "ResultFile.h"
 
+#include "IO/Estimate/JobEstimate.h"
 #include "smg/Convert.h"
 #include "smg/Solve.h"
 #include "smg/VsmReader.h"
@@ -43,6 +44,10 @@ protected:
   virtual std::vector<std::string> changedColumns() const { return {}; }
   /** Reads the task file, before the mesh is read. */
   virtual void readTask() = 0;
+  /** What the computation is expected to cost on such a mesh. */
+  virtual smg::Costs costsOn(const smg::StreamInfo& info) const = 0;
+  /** The values that the result has besides the mesh. */
+  virtual smg::AddedValues addedTo(const smg::StreamInfo& /*info*/) const { return {}; }
   /** Computes the result; foreseeable failures are reported first. */
   virtual std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) = 0;
@@ -74,6 +79,9 @@ protected:
   std::optional<smg::ConversionReport> Conversion;
 
 private:
+  /** The costs of the command, before it starts. */
+  smg::JobEstimate estimate() const;
+  void checkRoom() const;
   /** Computes, writes OUT and returns the report. */
   smg::Report solveAndWrite(
     const smg::VsmReader& mesh, const ResultFile& out, const smg::ProgressFunction& progress);
@@ -83,4 +91,5 @@ private:
 
   std::string Title;
   std::unique_ptr<smg::Solution> Solution;
+  bool DryRun = false;
 };

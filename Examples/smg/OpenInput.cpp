@@ -3,16 +3,22 @@
 
 #include <utility>
 
-std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
-  const CommonOptions& common, smg::ProgressFunction progress, smg::StreamOrder order,
-  const InputOptions& input, const std::filesystem::path& checkpoint)
+smg::ConversionOptions inputOptions(const CommonOptions& common, const InputOptions& input)
 {
   smg::ConversionOptions options;
-  options.order = order;
   input.applyTo(options);
   options.memoryLimit = common.memoryBytes(0);
   options.codec = smg::Codec::Lz4;
   options.scratch = common.scratch;
+  return options;
+}
+
+std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
+  const CommonOptions& common, smg::ProgressFunction progress, smg::StreamOrder order,
+  const InputOptions& input, const std::filesystem::path& checkpoint)
+{
+  smg::ConversionOptions options = inputOptions(common, input);
+  options.order = order;
   options.checkpoint = checkpoint;
   options.progress = std::move(progress);
   return smg::openMesh(path, options);

@@ -6,6 +6,9 @@
 
 #include "smg/Convert.h"
 
+/** How a mesh file is converted within the memory limit of the options and according to `input`. */
+smg::ConversionOptions inputOptions(const CommonOptions& common, const InputOptions& input);
+
 /** Opens a mesh file of any format. A file that is not a stream is converted to `order`, within the
  * memory limit of the options and according to `input`, and kept in the folder `checkpoint`, if
  * there is one. Throws smg::Error. */

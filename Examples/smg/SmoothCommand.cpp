@@ -78,6 +78,15 @@ protected:
     this->Smooth.hold = this->Hold.places();
   }
 
+  smg::Costs costsOn(const smg::StreamInfo& info) const override
+  {
+    const auto column =
+      std::ranges::find(info.vertexColumns, this->Smooth.column, &smg::ColumnSpec::name);
+    constexpr int OfPoints = 3;
+    return smg::smoothCosts(
+      info, column == info.vertexColumns.end() ? OfPoints : column->components, this->Smooth);
+  }
+
   std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) override
   {

@@ -86,6 +86,17 @@ protected:
     this->announceCheckpoint();
   }
 
+  smg::Costs costsOn(const smg::StreamInfo& info) const override
+  {
+    return smg::solveCosts(info, this->Description.columns, this->Description.weights, this->Solve);
+  }
+
+  smg::AddedValues addedTo(const smg::StreamInfo& /*info*/) const override
+  {
+    const int cellValues = this->Description.gradientOutput + this->Description.fluxOutput;
+    return { this->Description.columns, 3 * this->Description.columns * cellValues };
+  }
+
   std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) override
   {

@@ -25,13 +25,17 @@ bool isCompressedStream(const std::filesystem::path& path)
 ConversionReport convertCompressedStream(const std::filesystem::path& in,
   const std::filesystem::path& out, const ConversionOptions& options)
 {
-  Workspace space(options.scratch, Workspace::LeastMemory);
+  Workspace space(options.scratch, Workspace::LeastMemory, {}, options.scratchLimit);
+  ConversionOptions inner = options;
+  inner.scratch = space.folder();
   InputFile file(in);
   const std::string name = in.stem().string() + ".stream";
   const InflatedFile inflated(file, space, name.c_str());
   try
   {
-    return convert(inflated.path(), out, options);
+    ConversionReport report = convert(inflated.path(), out, inner);
+    report.scratch_bytes_peak = space.peakScratch();
+    return report;
   }
   catch (const Cancelled&)
   {

@@ -38,6 +38,10 @@ Conversion::Conversion(const std::filesystem::path& in, const std::filesystem::p
                 std::to_string(Workspace::LeastMemory >> 20) + " MiB, but it is " +
                 std::to_string(this->Memory >> 20) + " MiB: raise it (option --memory).");
   }
+  if (options.scratchLimit < 0)
+  {
+    throw Error(in.string() + ": the limit of scratch files must not be negative.");
+  }
   if (options.weld)
   {
     checkWeldDistance(*options.weld);
@@ -48,7 +52,8 @@ Workspace& Conversion::workspace()
 {
   if (!this->Space)
   {
-    this->Space.emplace(this->Options.scratch, this->Memory, this->Options.progress);
+    this->Space.emplace(
+      this->Options.scratch, this->Memory, this->Options.progress, this->Options.scratchLimit);
   }
   return *this->Space;
 }

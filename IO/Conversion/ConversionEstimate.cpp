@@ -99,12 +99,25 @@ Counts countsOf(const std::filesystem::path& path, const MeshPart& part)
   return guess(file, compressed, format ? format->share : VertexShare{});
 }
 
-std::filesystem::path scratchFolder(const std::filesystem::path& folder)
+} // namespace
+
+std::filesystem::path scratchPlace(const std::filesystem::path& folder)
 {
   return folder.empty() ? std::filesystem::temp_directory_path() : folder;
 }
 
-} // namespace
+std::int64_t plainStreamBytes(std::int64_t vertices, std::int64_t corners)
+{
+  constexpr std::int64_t VertexBytes = 11, CornerBytes = 2;
+  return vertices * VertexBytes + corners * CornerBytes;
+}
+
+std::int64_t freeBytes(const std::filesystem::path& folder)
+{
+  std::error_code unknown;
+  const std::filesystem::space_info room = std::filesystem::space(scratchPlace(folder), unknown);
+  return unknown ? -1 : static_cast<std::int64_t>(room.available);
+}
 
 std::int64_t scratchBytes(
   std::int64_t vertices, std::int64_t cells, int corners, std::int64_t columnBytes)
@@ -132,7 +145,7 @@ std::int64_t scratchBytes(const RawMesh& mesh)
 
 void checkScratchRoom(const std::filesystem::path& folder, std::int64_t bytes, std::int64_t written)
 {
-  const std::filesystem::path place = scratchFolder(folder);
+  const std::filesystem::path place = scratchPlace(folder);
   std::error_code unknown;
   const std::filesystem::space_info room = std::filesystem::space(place, unknown);
   // A mesh that fits into the memory needs half as much as one that does not.
@@ -159,16 +172,14 @@ ConversionEstimate estimateConversion(
   estimate.scratch_bytes =
     scratchBytes(counts.vertices, counts.cells, counts.corners, counts.columnBytes) +
     counts.inflatedBytes;
-  std::error_code unknown;
-  estimate.scratch_free = static_cast<std::int64_t>(
-    std::filesystem::space(scratchFolder(options.scratch), unknown).available);
-  constexpr double OutputBytes = 11.0;
+  estimate.cellType = counts.corners == 4 ? CellType::Tetrahedron : CellType::Triangle;
+  estimate.scratch_free = freeBytes(options.scratch);
   constexpr double SecondsOfVertex = 1.0e-6;
   constexpr double SecondsOfCorner = 0.3e-6;
   const auto corners = static_cast<double>(counts.cells * counts.corners);
   const auto vertices = static_cast<double>(counts.vertices);
-  estimate.output_bytes = static_cast<std::int64_t>(
-    vertices * OutputBytes + corners * 2.0 + static_cast<double>(counts.columnBytes));
+  estimate.output_bytes =
+    plainStreamBytes(counts.vertices, counts.cells * counts.corners) + counts.columnBytes;
   estimate.cpu_seconds = vertices * SecondsOfVertex + corners * SecondsOfCorner;
   return estimate;
 }

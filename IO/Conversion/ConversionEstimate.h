@@ -16,6 +16,7 @@ namespace smg
 struct SMG_EXPORT ConversionEstimate
 {
   std::int64_t vertices = 0, cells = 0;
+  CellType cellType = CellType::Triangle; ///< without a header: as of the suffix
   /** Whether the counts are from the header of the file; otherwise they are estimated from its
    * size. */
   bool counted = false;
@@ -33,6 +34,15 @@ struct SMG_EXPORT ConversionEstimate
  * cannot be opened or its format is unknown. */
 SMG_EXPORT ConversionEstimate estimateConversion(
   const std::filesystem::path& in, const ConversionOptions& options = {});
+
+/** The folder for scratch files that an option names; empty: the temporary folder. */
+std::filesystem::path scratchPlace(const std::filesystem::path& folder);
+
+/** The bytes of a compressed .vsm file without columns. */
+std::int64_t plainStreamBytes(std::int64_t vertices, std::int64_t corners);
+
+/** The free bytes of the file system of `folder`; empty: the temporary folder. -1: not known. */
+std::int64_t freeBytes(const std::filesystem::path& folder);
 
 /** The maximum bytes that the scratch files of a mesh take at once. */
 std::int64_t scratchBytes(

@@ -33,6 +33,7 @@ std::string ConversionReport::json(int indent) const
   json["mean_width"] = this->mean_width;
   json["pool_bytes_peak"] = this->pool_bytes_peak;
   json["rss_bytes_peak"] = this->rss_bytes_peak;
+  json["scratch_bytes_peak"] = this->scratch_bytes_peak;
   json["scratch_bytes_read"] = this->scratch_bytes_read;
   json["scratch_bytes_written"] = this->scratch_bytes_written;
   json["pages"] = this->pages;

@@ -70,6 +70,7 @@ ConversionReport convert(const std::filesystem::path& in, const std::filesystem:
   Workspace& space = conversion.workspace();
   ConversionReport report = conversion.report();
   report.pool_bytes_peak = space.pool().peak();
+  report.scratch_bytes_peak = space.peakScratch();
   report.scratch_bytes_read = space.traffic().bytesRead;
   report.scratch_bytes_written = space.traffic().bytesWritten;
   report.seconds.total = timer.seconds();

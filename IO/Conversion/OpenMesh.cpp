@@ -3,6 +3,7 @@
 
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/Conversion/CheckpointedConversion.h"
+#include "Solver/Storage/ScratchAccount.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "smg/Error.h"
 
@@ -67,9 +68,11 @@ std::unique_ptr<OpenedMesh> openMesh(
     mesh.reader.emplace(kept.mesh);
     return opened;
   }
-  mesh.scratch.emplace(options.scratch);
+  mesh.scratch.emplace(options.scratch, options.scratchLimit);
+  conversion.scratch = mesh.scratch->path();
   const std::filesystem::path converted = mesh.scratch->path() / "mesh.vsm";
   mesh.conversion = convert(path, converted, conversion);
+  mesh.conversion->scratch_bytes_peak = mesh.scratch->account().peak();
   mesh.reader.emplace(converted);
   return opened;
 }

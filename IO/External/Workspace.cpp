@@ -13,9 +13,9 @@ constexpr PoolUse ConversionMemory{ "the conversion", "raise the memory limit (o
 
 } // namespace
 
-Workspace::Workspace(
-  const std::filesystem::path& scratch, std::int64_t memory, const ProgressFunction& progress)
-  : Folder(scratch)
+Workspace::Workspace(const std::filesystem::path& scratch, std::int64_t memory,
+  const ProgressFunction& progress, std::int64_t scratchLimit)
+  : Folder(scratch, scratchLimit)
   , Memory(std::max(memory, LeastMemory), ConversionMemory)
   , Reported(progress)
 {

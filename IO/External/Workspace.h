@@ -4,6 +4,7 @@
 #include "Solver/Core/Progress.h"
 #include "Solver/Storage/BlockFile.h"
 #include "Solver/Storage/Pool.h"
+#include "Solver/Storage/ScratchAccount.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "smg/Export.h"
 
@@ -23,14 +24,17 @@ public:
   static constexpr std::int64_t LeastMemory = std::int64_t(16) << 20;
 
   /** At most `memory` bytes are used, at least LeastMemory. Files are created in a new folder in
-   * `scratch`; empty: the system's temporary folder. */
+   * `scratch`; empty: the system's temporary folder. They have at most `scratchLimit` bytes at
+   * once; 0: any number. */
   Workspace(const std::filesystem::path& scratch, std::int64_t memory,
-    const ProgressFunction& progress = {});
+    const ProgressFunction& progress = {}, std::int64_t scratchLimit = 0);
 
   Pool& pool() { return this->Memory; }
   /** The unused memory in bytes. */
   std::int64_t available() const { return this->Memory.limit() - this->Memory.used(); }
   const std::filesystem::path& folder() const { return this->Folder.path(); }
+  /** The most bytes of scratch files at once. */
+  std::int64_t peakScratch() const { return this->Folder.account().peak(); }
   IoStatistics& traffic() { return this->Traffic; }
 
   /** Begins the part of the operation that ends when the fraction `end` of the whole is done; its

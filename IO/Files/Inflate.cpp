@@ -179,8 +179,7 @@ InflatedFile::InflatedFile(InputFile& file, Workspace& workspace, const char* na
 
 InflatedFile::~InflatedFile()
 {
-  std::error_code ignored;
-  std::filesystem::remove(this->Path, ignored);
+  FileDescriptor::removeClosed(this->Path);
 }
 
 std::string inflateStart(std::string_view bytes, std::size_t most)

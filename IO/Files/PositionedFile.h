@@ -17,6 +17,8 @@ class PositionedFile
 public:
   /** Creates the file under a temporary name beside `path`. Throws Error. */
   explicit PositionedFile(std::filesystem::path path);
+  /** Reserves room for a file of this size, as FileDescriptor::reserve(). */
+  void reserve(std::int64_t size) { this->File.reserve(size); }
   /** Writes the bytes at this offset. Throws Error. */
   void write(std::int64_t offset, std::span<const std::byte> bytes);
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "IO/External/Relabelling.h"
-#include "IO/External/Reservation.h"
 #include "IO/Formats/Vsm/PagedArray.h"
 #include "IO/Order/OrderedVertices.h"
 #include "IO/Order/StreamAssembly.h"
+#include "Solver/Storage/Reservation.h"
 
 #include <algorithm>
 #include <array>

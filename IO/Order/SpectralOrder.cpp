@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/SpectralOrder.h"
 
-#include "IO/External/Reservation.h"
 #include "IO/Order/AxisOrder.h"
 #include "IO/Order/FiedlerVector.h"
 #include "IO/Order/PatchGraph.h"
 #include "IO/Order/ScalarOrder.h"
 #include "IO/Order/VertexAveraging.h"
+#include "Solver/Storage/Reservation.h"
 
 #include <algorithm>
 #include <numeric>

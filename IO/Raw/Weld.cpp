@@ -3,7 +3,7 @@
 
 #include "IO/External/ExternalSort.h"
 #include "IO/External/Relabelling.h"
-#include "IO/External/Reservation.h"
+#include "Solver/Storage/Reservation.h"
 #include "smg/Error.h"
 
 #include <array>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Restore/ElementRestorer.h"
 
-#include "IO/External/Reservation.h"
 #include "IO/Formats/Vsm/Columns.h"
+#include "Solver/Storage/Reservation.h"
 
 #include <algorithm>
 #include <cstring>

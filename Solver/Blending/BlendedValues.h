@@ -22,7 +22,8 @@ public:
   BlendedValues(const SolveOptions& options, int columns)
     : memory(options.memoryLimit)
     , scratch(options.inCore ? std::nullopt
-                             : std::optional<ScratchFolder>(std::in_place, options.scratch))
+                             : std::optional<ScratchFolder>(
+                                 std::in_place, options.scratch, options.scratchLimit))
     , originals(this->storage(), columns)
   {
   }

@@ -88,6 +88,7 @@ std::string Report::json(int indent) const
   out["peak_nodes"] = this->peak_nodes;
   out["pool_bytes_peak"] = this->pool_bytes_peak;
   out["rss_bytes_peak"] = this->rss_bytes_peak;
+  out["scratch_bytes_peak"] = this->scratch_bytes_peak;
   out["bytes_read"] = this->bytes_read;
   out["bytes_written"] = this->bytes_written;
   out["bytes_by_kind"] = nlohmann::ordered_json::array();

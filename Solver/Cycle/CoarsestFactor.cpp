@@ -46,7 +46,22 @@ void CoarsestFactor::findFloating(const CoarsestMatrix& matrix)
   }
 }
 
-void CoarsestFactor::factorize(const CoarsestMatrix& matrix)
+namespace
+{
+
+/** Bytes of a factor with so many entries, and of the matrix that it is made of. */
+std::int64_t factorBytes(double entries, const CoarsestMatrix& matrix)
+{
+  constexpr double EntryBytes = sizeof(double) + sizeof(int);
+  constexpr double MatrixBytes = 2 * sizeof(Eigen::Triplet<double>) + EntryBytes, NodeBytes = 64;
+  const auto nodes = static_cast<double>(matrix.diagonal.size());
+  return static_cast<std::int64_t>(EntryBytes * entries + NodeBytes * nodes +
+                                   MatrixBytes * static_cast<double>(matrix.lower.size()));
+}
+
+} // namespace
+
+void CoarsestFactor::factorize(const CoarsestMatrix& matrix, Pool& pool)
 {
   this->findFloating(matrix);
   if (matrix.diagonal.empty())
@@ -57,7 +72,11 @@ void CoarsestFactor::factorize(const CoarsestMatrix& matrix)
   this->Factor.setMode(matrix.rounding > 0.0 ? Eigen::CholmodSimplicialLLt : Eigen::CholmodLDLt);
   constexpr double MostShare = 0x1p-4, Growth = 8.0;
   double share = matrix.rounding;
-  this->Factor.compute(this->stiffened(matrix, share));
+  const Eigen::SparseMatrix<double> first = this->stiffened(matrix, share);
+  this->Factor.analyzePattern(first);
+  this->Memory.reset();
+  this->Memory.emplace(pool, factorBytes(this->Factor.cholmod().lnz, matrix));
+  this->Factor.factorize(first);
   while (this->Factor.info() != Eigen::Success)
   {
     share *= Growth;
@@ -67,7 +86,7 @@ void CoarsestFactor::factorize(const CoarsestMatrix& matrix)
         "the coarsest level's matrix could not be factorised: the weights of the mesh span too "
         "many orders of magnitude; use uniform weights");
     }
-    this->Factor.compute(this->stiffened(matrix, share));
+    this->Factor.factorize(this->stiffened(matrix, share));
   }
 }
 

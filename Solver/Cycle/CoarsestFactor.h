@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Storage/Reservation.h"
+
 #include <Eigen/CholmodSupport>
 #include <Eigen/SparseCore>
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace smg
@@ -32,9 +35,9 @@ struct CoarsestMatrix
 class CoarsestFactor
 {
 public:
-  /** Throws Error if a pivot of an exact matrix is zero, or if a rounded matrix is far from
-   * definite. */
-  void factorize(const CoarsestMatrix& matrix);
+  /** The factor is accounted for in `pool`, from its analysis on. Throws Error above the limit, if
+   * a pivot of an exact matrix is zero, or if a rounded matrix is far from definite. */
+  void factorize(const CoarsestMatrix& matrix, Pool& pool);
   /** Solves for one right-hand side per column. */
   Eigen::MatrixXd solve(Eigen::MatrixXd b) const;
   /** The number of components without an anchored node. */
@@ -46,6 +49,7 @@ private:
   bool pinned(Eigen::Index i) const { return this->Floating[static_cast<std::size_t>(i)] == i; }
   void project(Eigen::MatrixXd& b) const;
 
+  std::optional<Reservation> Memory;
   Eigen::CholmodDecomposition<Eigen::SparseMatrix<double>, Eigen::Lower> Factor;
   std::vector<Eigen::Index> Floating; // per node: the first node of its component, -1 if anchored
 };

@@ -60,7 +60,7 @@ CoarsestSolver& CoarsestSolver::operator=(CoarsestSolver&& other) noexcept = def
 
 void CoarsestSolver::factorize(LevelWindow<float>& level)
 {
-  this->Self->factor.factorize(matrixOf(level));
+  this->Self->factor.factorize(matrixOf(level), level.pool());
 }
 
 void CoarsestSolver::solve(LevelWindow<float>& level) const

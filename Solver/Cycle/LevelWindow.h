@@ -60,6 +60,7 @@ public:
   /** Of a level in memory: save() keeps its rows in a scratch file in `folder`. */
   void keepRows(const ScratchFolder& folder, ScratchTraffic& traffic);
 
+  Pool& pool() const { return *this->Owner; }
   int columns() const { return this->Columns; }
   int stride() const { return this->Stride; }
   Ring<Real>& x() { return this->Now.x; }

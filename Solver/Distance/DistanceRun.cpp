@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Distance/DistanceRun.h"
 
+#include "Solver/Storage/ScratchAccount.h"
+
 namespace smg
 {
 
@@ -9,6 +11,7 @@ void DistanceRun::finishReport()
   Report& r = this->report;
   r.pool_bytes_peak = this->pool.peak();
   r.rss_bytes_peak = peakResidentBytes();
+  r.scratch_bytes_peak = this->scratch.account().peak();
   for (const auto& [name, level, statistics] : this->traffic.kinds())
   {
     r.bytes_by_kind.push_back({ name, level, statistics.bytesRead, statistics.bytesWritten });

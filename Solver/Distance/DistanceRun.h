@@ -23,7 +23,7 @@ struct DistanceRun
     : options(distanceOptions)
     , progress(distanceOptions.progress)
     , pool(distanceOptions.memoryLimit, DistanceMemory)
-    , scratch(distanceOptions.scratch)
+    , scratch(distanceOptions.scratch, distanceOptions.scratchLimit)
   {
   }
 

@@ -28,13 +28,11 @@ constexpr std::int64_t WindowSpans = 30;
 /** Bytes per vertex in core. */
 constexpr std::int64_t TriangleCoreBytes = 120, TetrahedronCoreBytes = 280, ValueCoreBytes = 20;
 
-} // namespace
-
-std::int64_t estimateMemory(const StreamInfo& info, const Problem& problem,
+std::int64_t leastMemory(const StreamInfo& info, int columns, Weights weights,
   const SolveOptions& options, std::int64_t furtherCoreBytes)
 {
   const bool surface = info.cellType == CellType::Triangle;
-  const std::int64_t stride = strideOf(problem.columns());
+  const std::int64_t stride = strideOf(columns);
   if (options.inCore)
   {
     return info.vertices * ((surface ? TriangleCoreBytes : TetrahedronCoreBytes) +
@@ -48,8 +46,26 @@ std::int64_t estimateMemory(const StreamInfo& info, const Problem& problem,
   const std::int64_t first = (surface ? TriangleBytes : TetrahedronBytes) + ValueBytes * stride +
                              FurtherSweepBytes * std::max(0, options.sweeps - 2);
   const std::int64_t later = options.sweeps * (LaterSweepBytes + LaterSweepValueBytes * stride);
-  const std::int64_t percent = problem.weights() == Weights::Uniform ? 100 : CotangentPercent;
+  const std::int64_t percent = weights == Weights::Uniform ? 100 : CotangentPercent;
   return nodes * std::max(first, later) * percent / 100;
+}
+
+} // namespace
+
+std::int64_t estimateMemory(const StreamInfo& info, const Problem& problem,
+  const SolveOptions& options, std::int64_t furtherCoreBytes)
+{
+  return leastMemory(info, problem.columns(), problem.weights(), options, furtherCoreBytes);
+}
+
+std::int64_t expectedMemory(
+  const StreamInfo& info, int columns, Weights weights, const SolveOptions& options)
+{
+  // Besides the windows there are the levels in core, and buffers.
+  constexpr std::int64_t AboveMinimum = 115, CoreBytes = 70;
+  const std::int64_t core =
+    options.inCore ? 0 : std::min(info.vertices, options.coreNodes) * CoreBytes;
+  return leastMemory(info, columns, weights, options, 0) * AboveMinimum / 100 + core;
 }
 
 } // namespace smg

@@ -18,4 +18,9 @@ namespace smg
 SMG_EXPORT std::int64_t estimateMemory(const StreamInfo& info, const Problem& problem,
   const SolveOptions& options, std::int64_t furtherCoreBytes = 0);
 
+/** The bytes that such a solve is expected to need: more than the minimum, which never refuses a
+ * solve that fits. */
+std::int64_t expectedMemory(
+  const StreamInfo& info, int columns, Weights weights, const SolveOptions& options);
+
 } // namespace smg

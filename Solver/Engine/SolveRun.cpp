@@ -5,6 +5,7 @@
 #include "Solver/Engine/ReportState.h"
 
 #include "Solver/Storage/Checksum.h"
+#include "Solver/Storage/ScratchAccount.h"
 
 #include <tbb/info.h>
 
@@ -43,11 +44,11 @@ SolveRun::SolveRun(int columns, const SolveOptions& solveOptions)
 {
   if (!solveOptions.checkpoint.folder.empty())
   {
-    this->scratch.emplace(KeptFolder{ solveOptions.checkpoint.folder });
+    this->scratch.emplace(KeptFolder{ solveOptions.checkpoint.folder }, solveOptions.scratchLimit);
   }
   else if (!solveOptions.inCore)
   {
-    this->scratch.emplace(solveOptions.scratch);
+    this->scratch.emplace(solveOptions.scratch, solveOptions.scratchLimit);
   }
 }
 
@@ -64,6 +65,7 @@ void SolveRun::finishReport()
   r.peak_nodes = this->resident.peak;
   r.pool_bytes_peak = this->pool.peak();
   r.rss_bytes_peak = std::max(r.rss_bytes_peak, peakResidentBytes());
+  r.scratch_bytes_peak = this->scratch ? this->scratch->account().peak() : 0;
   r.bytes_read = r.bytes_written = 0;
   r.bytes_by_kind.clear();
   for (const auto& [name, level, statistics] : this->traffic.kinds())

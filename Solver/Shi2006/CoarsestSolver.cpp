@@ -38,9 +38,9 @@ CoarsestSolver::CoarsestSolver()
 
 CoarsestSolver::~CoarsestSolver() = default;
 
-void CoarsestSolver::factorize(const Level& level)
+void CoarsestSolver::factorize(const Level& level, Pool& pool)
 {
-  this->Self->factor.factorize(matrixOf(level));
+  this->Self->factor.factorize(matrixOf(level), pool);
 }
 
 std::int64_t CoarsestSolver::floatingParts() const

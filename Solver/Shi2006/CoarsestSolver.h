@@ -21,8 +21,9 @@ public:
   CoarsestSolver();
   ~CoarsestSolver();
 
-  /** Throws Error if the factorisation encounters a zero pivot. */
-  void factorize(const Level& level);
+  /** The factor is accounted for in `pool`. Throws Error above its limit, or if the factorisation
+   * encounters a zero pivot. */
+  void factorize(const Level& level, Pool& pool);
   /** The number of connected parts without alpha. */
   std::int64_t floatingParts() const;
   /** v = A^-1 b on the factorised level. */

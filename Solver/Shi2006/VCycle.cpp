@@ -24,7 +24,7 @@ VCycle::VCycle(Pool& pool, Level& finest, int sweeps, std::int64_t coarsestNodes
     buildCoarseOperator(fine, *this->Coarse.back(), pool);
     share = static_cast<double>(this->Coarse.back()->nodes()) / static_cast<double>(fine.nodes());
   } while (this->Coarse.back()->nodes() > coarsestNodes && share <= StalledShare);
-  this->Coarsest.factorize(*this->Coarse.back());
+  this->Coarsest.factorize(*this->Coarse.back(), pool);
 }
 
 std::int64_t VCycle::detachedParts() const

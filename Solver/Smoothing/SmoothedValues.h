@@ -19,7 +19,8 @@ public:
   SmoothedValues(const SolveOptions& options, int columns)
     : memory(options.memoryLimit)
     , scratch(options.inCore ? std::nullopt
-                             : std::optional<ScratchFolder>(std::in_place, options.scratch))
+                             : std::optional<ScratchFolder>(
+                                 std::in_place, options.scratch, options.scratchLimit))
     , storage{ this->memory, this->scratch ? &*this->scratch : nullptr, this->traffic }
     , values(this->storage, columns)
   {

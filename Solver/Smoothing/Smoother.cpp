@@ -67,6 +67,11 @@ Smoother::Smoother(const StoredMesh& mesh, const SmoothingOptions& options)
   , Result(std::make_unique<SmoothedValues>(options, this->Column ? this->Column->components : 3))
   , Next(this->Result->storage, this->Result->columns())
 {
+  if (this->Result->scratch)
+  {
+    // Its limit is that of all scratch files.
+    this->Options.scratch = this->Result->scratch->path();
+  }
   if (boundaryOf(options) == SmoothedBoundary::Smooth)
   {
     this->Curves.emplace(this->Result->memory);

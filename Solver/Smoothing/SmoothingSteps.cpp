@@ -8,6 +8,7 @@
 #include "Solver/Smoothing/PointNormals.h"
 #include "Solver/Smoothing/SweptVolume.h"
 #include "Solver/Storage/MemoryLimitError.h"
+#include "Solver/Storage/ScratchAccount.h"
 
 #include <algorithm>
 #include <cmath>
@@ -250,6 +251,7 @@ std::unique_ptr<Solution> Smoother::finish()
   report.bytes_written += traffic.bytesWritten;
   report.pool_bytes_peak = std::max(report.pool_bytes_peak, this->Result->memory.peak());
   report.rss_bytes_peak = peakResidentBytes();
+  report.scratch_bytes_peak = this->Result->scratch ? this->Result->scratch->account().peak() : 0;
   report.seconds.total = this->Wall.seconds();
   report.cpu_seconds = processSeconds() - this->CpuAtStart;
   return std::move(this->Result);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/FileDescriptor.h"
 
+#include "Solver/Storage/ScratchAccount.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "Solver/Storage/SystemCalls.h"
+#include "Solver/Storage/SystemError.h"
 #include "Solver/Storage/WaitClock.h"
 #include "smg/Error.h"
 
@@ -22,40 +24,12 @@ namespace smg
 namespace
 {
 
-/** What a user can do about a failure; empty: nothing that the system's own words do not say. */
-const char* adviceOn(int errorNumber)
-{
-  switch (errorNumber)
-  {
-    case ENOSPC:
-    case EDQUOT:
-      return "; free space, or choose another folder";
-    case EMFILE:
-      return "; raise the limit of the process (ulimit -n)";
-    case ENFILE:
-      return "; close other programs";
-    case EFBIG:
-      return "; raise the limit of the process (ulimit -f), or choose another file system";
-    case EIO:
-      return "; check the disk and its connection";
-    default:
-      return "";
-  }
-}
-
-std::string reason(int errorNumber)
-{
-  return std::generic_category().message(errorNumber) + adviceOn(errorNumber);
-}
-
 /** A unique name, unless a terminated process left a file with it. */
 std::filesystem::path temporaryName(const std::filesystem::path& path)
 {
   static std::atomic<unsigned> count{ 0 };
   return path.string() + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
 }
-
-std::atomic<bool> durable{ true };
 
 void requireRegular(int file, const std::filesystem::path& path)
 {
@@ -71,6 +45,13 @@ int openNew(const std::filesystem::path& path)
   return systemCalls().open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
 }
 
+/** The share of a file in the account of `folder`; null if this is not a scratch folder. */
+std::shared_ptr<ScratchShare> shareIn(const std::filesystem::path& folder)
+{
+  std::shared_ptr<ScratchAccount> account = ScratchAccount::of(folder);
+  return account ? std::make_shared<ScratchShare>(std::move(account)) : nullptr;
+}
+
 } // namespace
 
 FileDescriptor::~FileDescriptor()
@@ -83,6 +64,7 @@ FileDescriptor::FileDescriptor(FileDescriptor&& other) noexcept
   , Path(std::move(other.Path))
   , Shown(std::move(other.Shown))
   , IsTemporary(std::exchange(other.IsTemporary, false))
+  , Share(std::move(other.Share))
 {
 }
 
@@ -92,6 +74,7 @@ FileDescriptor& FileDescriptor::operator=(FileDescriptor&& other) noexcept
   std::swap(this->Path, other.Path);
   std::swap(this->Shown, other.Shown);
   std::swap(this->IsTemporary, other.IsTemporary);
+  std::swap(this->Share, other.Share);
   return *this;
 }
 
@@ -103,7 +86,7 @@ FileDescriptor FileDescriptor::openForReading(const std::filesystem::path& path)
   file.Number = systemCalls().open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC, 0);
   if (!file.isOpen())
   {
-    throw Error(path.string() + ": cannot be opened: " + reason(errno) + ".");
+    throw Error(path.string() + ": cannot be opened: " + systemError(errno) + ".");
   }
   requireRegular(file.Number, path);
   return file;
@@ -131,6 +114,7 @@ FileDescriptor FileDescriptor::createBeside(const std::filesystem::path& path)
   const std::filesystem::path target = targetOf(path);
   FileDescriptor file;
   file.Shown = path;
+  file.Share = shareIn(target.parent_path());
   do
   {
     file.Path = temporaryName(target);
@@ -138,7 +122,7 @@ FileDescriptor FileDescriptor::createBeside(const std::filesystem::path& path)
   } while (!file.isOpen() && errno == EEXIST);
   if (!file.isOpen())
   {
-    throw Error(path.string() + ": cannot be created: " + reason(errno) + ".");
+    throw Error(path.string() + ": cannot be created: " + systemError(errno) + ".");
   }
   file.IsTemporary = true;
   return file;
@@ -149,6 +133,7 @@ FileDescriptor FileDescriptor::createNameless(const std::filesystem::path& folde
   const std::filesystem::path place = folder.empty() ? std::filesystem::path(".") : folder;
   FileDescriptor file;
   file.Path = file.Shown = place / "scratch file";
+  file.Share = shareIn(place);
   file.Number = systemCalls().open(place.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
   if (!file.isOpen())
   {
@@ -168,9 +153,19 @@ FileDescriptor FileDescriptor::openOrCreate(const std::filesystem::path& path)
     systemCalls().open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
   if (!file.isOpen())
   {
-    throw Error(path.string() + ": cannot be opened: " + reason(errno) + ".");
+    throw Error(path.string() + ": cannot be opened: " + systemError(errno) + ".");
   }
   requireRegular(file.Number, path);
+  file.Share = shareIn(path.parent_path());
+  if (file.Share)
+  {
+    // From now on the share has the bytes that an earlier program left.
+    ScratchAccount::of(path.parent_path())->remove(path);
+    if (!file.Share->extend(file.size()))
+    {
+      throwWriteError(path, ScratchLimit);
+    }
+  }
   return file;
 }
 
@@ -214,7 +209,7 @@ int FileDescriptor::tryRead(std::int64_t offset, std::span<std::byte> bytes) con
     const ssize_t n = systemCalls().pread(this->Number, bytes.data(), bytes.size(), offset);
     if (n == 0)
     {
-      return -1;
+      return EndOfFile;
     }
     if (n > 0)
     {
@@ -255,6 +250,10 @@ int FileDescriptor::tryRead(
 
 int FileDescriptor::tryWrite(std::int64_t offset, std::span<const std::byte> bytes) const noexcept
 {
+  if (this->Share && !this->Share->extend(offset + static_cast<std::int64_t>(bytes.size())))
+  {
+    return ScratchLimit;
+  }
   while (!bytes.empty())
   {
     const ssize_t n = systemCalls().pwrite(this->Number, bytes.data(), bytes.size(), offset);
@@ -292,6 +291,21 @@ void FileDescriptor::write(std::int64_t offset, std::span<const std::byte> bytes
   }
 }
 
+void FileDescriptor::reserve(std::int64_t size) const
+{
+  while (size > 0 && systemCalls().fallocate(this->Number, FALLOC_FL_KEEP_SIZE, 0, size) != 0)
+  {
+    if (errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL)
+    {
+      return;
+    }
+    if (errno != EINTR)
+    {
+      throwWriteError(this->Shown, errno);
+    }
+  }
+}
+
 void FileDescriptor::willRead(std::int64_t offset, std::size_t bytes) const noexcept
 {
   ::posix_fadvise(this->Number, offset, static_cast<off_t>(bytes), POSIX_FADV_WILLNEED);
@@ -303,54 +317,9 @@ void FileDescriptor::close()
   {
     throwWriteError(this->Shown, errno);
   }
-}
-
-void FileDescriptor::renameTo(const std::filesystem::path& path)
-{
-  const std::filesystem::path target = targetOf(path);
-  const bool isKept = !ScratchFolder::isOne(target.parent_path());
-  if (isKept)
+  if (!this->IsTemporary)
   {
-    this->sync();
-  }
-  this->close();
-  if (systemCalls().rename(this->Path.c_str(), target.c_str()) != 0)
-  {
-    throwWriteError(path, errno);
-  }
-  this->IsTemporary = false;
-  if (isKept)
-  {
-    syncPath(target.parent_path());
-  }
-}
-
-void FileDescriptor::setDurable(bool isDurable) noexcept
-{
-  durable = isDurable;
-}
-
-void FileDescriptor::sync() const
-{
-  // Some file systems have no such call.
-  if (durable && systemCalls().fsync(this->Number) != 0 && errno != EINVAL && errno != ENOTSUP)
-  {
-    throwWriteError(this->Shown, errno);
-  }
-}
-
-void FileDescriptor::syncPath(const std::filesystem::path& path)
-{
-  FileDescriptor file;
-  file.Shown = path.empty() ? std::filesystem::path(".") : path;
-  file.Number = systemCalls().open(file.Shown.c_str(), O_RDONLY | O_CLOEXEC, 0);
-  if (file.isOpen())
-  {
-    file.sync();
-  }
-  else if (errno != EACCES) // a folder in which one may write, but not read
-  {
-    throwWriteError(file.Shown, errno);
+    this->Share.reset();
   }
 }
 
@@ -364,17 +333,34 @@ void FileDescriptor::remove() noexcept
   {
     systemCalls().unlink(this->Path.c_str());
   }
+  this->Share.reset();
+}
+
+void FileDescriptor::removeClosed(const std::filesystem::path& path) noexcept
+{
+  systemCalls().unlink(path.c_str());
+  if (const std::shared_ptr<ScratchAccount> account = ScratchAccount::of(path.parent_path()))
+  {
+    account->remove(path);
+  }
 }
 
 void FileDescriptor::throwWriteError(const std::filesystem::path& path, int errorNumber)
 {
-  throw Error(path.string() + ": cannot be written: " + reason(errorNumber) + ".");
+  if (errorNumber == ScratchLimit)
+  {
+    const std::shared_ptr<ScratchAccount> account = ScratchAccount::of(path.parent_path());
+    throw Error(ScratchFolder::placeOf(path.parent_path()).string() + ": " +
+                (account ? *account : ScratchAccount::process()).refusal() + '.');
+  }
+  throw Error(path.string() + ": cannot be written: " + systemError(errorNumber) + ".");
 }
 
 void FileDescriptor::throwReadError(const std::filesystem::path& path, int errorNumber)
 {
-  throw Error(path.string() + ": cannot be read: " +
-              (errorNumber < 0 ? "it is shorter than expected" : reason(errorNumber)) + ".");
+  throw Error(
+    path.string() + ": cannot be read: " +
+    (errorNumber == EndOfFile ? "it is shorter than expected" : systemError(errorNumber)) + ".");
 }
 
 } // namespace smg

@@ -5,19 +5,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 
 namespace smg
 {
 
+class ScratchShare;
+
 /**
  * An open file that is read and written at given offsets. Reads and writes continue after
  * interruptions and partial transfers; every failure is an Error that names the file and the reason
- * of the system.
+ * of the system. A file that is created in a ScratchFolder counts in its account.
  */
 class SMG_EXPORT FileDescriptor
 {
 public:
+  static constexpr int EndOfFile = -1, ScratchLimit = -2;
+
   FileDescriptor() = default;
   ~FileDescriptor();
   FileDescriptor(FileDescriptor&& other) noexcept;
@@ -48,12 +53,16 @@ public:
   /** Reads exactly `bytes`; throws Error if the file ends before. */
   void read(std::int64_t offset, std::span<std::byte> bytes) const;
   void write(std::int64_t offset, std::span<const std::byte> bytes) const;
-  /** The same without exceptions and without memory allocation: returns 0, the error number, or -1
-   * if the file ends before. */
+  /** The same without exceptions and without memory allocation: returns 0, the error number,
+   * EndOfFile if the file ends before, or ScratchLimit if the file may not grow. */
   int tryRead(std::int64_t offset, std::span<std::byte> bytes) const noexcept;
   /** The same; adds the nanoseconds of waiting for the disk to `waited`. */
   int tryRead(std::int64_t offset, std::span<std::byte> bytes, std::int64_t& waited) const noexcept;
   int tryWrite(std::int64_t offset, std::span<const std::byte> bytes) const noexcept;
+
+  /** Reserves room on the disk for this size of the file, so that a full disk shows before hours of
+   * work. The size does not change. File systems that cannot reserve do nothing. Throws Error. */
+  void reserve(std::int64_t size) const;
 
   /** Announces a read of these bytes, so that the system starts to load them from disk. */
   void willRead(std::int64_t offset, std::size_t bytes) const noexcept;
@@ -73,6 +82,8 @@ public:
   void renameTo(const std::filesystem::path& path);
   /** Closes the file, and removes it if its name is temporary. */
   void remove() noexcept;
+  /** Removes a closed file; it need not exist. */
+  static void removeClosed(const std::filesystem::path& path) noexcept;
 
   /** Whether this process waits for the disk at sync() and renameTo(); initially it does. */
   static void setDurable(bool isDurable) noexcept;
@@ -89,6 +100,7 @@ private:
   std::filesystem::path Path;
   std::filesystem::path Shown; // the name in errors: that of the result, not of its temporary file
   bool IsTemporary = false;
+  std::shared_ptr<ScratchShare> Share; // of a scratch file; else null
 };
 
 } // namespace smg

@@ -2,6 +2,7 @@
 #include "Solver/Storage/ScratchFolder.h"
 
 #include "Solver/Storage/Folder.h"
+#include "Solver/Storage/ScratchAccount.h"
 #include "Solver/Storage/SystemCalls.h"
 #include "smg/Error.h"
 
@@ -72,7 +73,7 @@ void removeAbandoned(const std::filesystem::path& base)
 
 } // namespace
 
-ScratchFolder::ScratchFolder(const std::filesystem::path& parent)
+ScratchFolder::ScratchFolder(const std::filesystem::path& parent, std::int64_t limit)
 {
   std::error_code failed;
   const std::filesystem::path place =
@@ -100,11 +101,13 @@ ScratchFolder::ScratchFolder(const std::filesystem::path& parent)
     {
       this->Path.swap(name);
     }
+    this->Account = ScratchAccount::open(this->Path, limit);
   }
   catch (...) // no memory
   {
     systemCalls().close(this->Lock);
     removeFolder(made.c_str());
+    removeFolder(this->Path.c_str());
     throw;
   }
 }
@@ -115,7 +118,7 @@ bool ScratchFolder::isOne(const std::filesystem::path& folder)
   return std::filesystem::exists(folder / Marker, ignored);
 }
 
-ScratchFolder::ScratchFolder(const KeptFolder& kept)
+ScratchFolder::ScratchFolder(const KeptFolder& kept, std::int64_t limit)
   : Path(std::filesystem::absolute(FileDescriptor::targetOf(kept.path)))
   , Named(true)
 {
@@ -136,11 +139,35 @@ ScratchFolder::ScratchFolder(const KeptFolder& kept)
   try
   {
     this->lockKept();
+    this->Account = ScratchAccount::open(this->Path, limit);
+    this->countKept();
   }
   catch (...)
   {
+    if (this->Account)
+    {
+      this->Account->close(this->Path);
+    }
     systemCalls().close(this->Lock);
     throw;
+  }
+}
+
+/** Counts the files of an earlier program. */
+void ScratchFolder::countKept()
+{
+  FolderEntries entries(this->Path);
+  while (const char* name = entries.next())
+  {
+    std::error_code unknown;
+    const std::filesystem::path path = this->Path / name;
+    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+    ScratchShare share(this->Account);
+    if (!share.extend(unknown ? 0 : static_cast<std::int64_t>(size)))
+    {
+      FileDescriptor::throwWriteError(path, FileDescriptor::ScratchLimit);
+    }
+    share.keep(path);
   }
 }
 
@@ -165,8 +192,18 @@ void ScratchFolder::lockKept()
   FileDescriptor::openOrCreate(marker).close();
 }
 
+std::filesystem::path ScratchFolder::placeOf(std::filesystem::path folder)
+{
+  while (folder.filename().native().starts_with(Prefix))
+  {
+    folder = folder.parent_path();
+  }
+  return folder;
+}
+
 ScratchFolder::~ScratchFolder()
 {
+  this->Account->close(this->Path);
   if (!this->Named)
   {
     removeFolder(this->Path.c_str());

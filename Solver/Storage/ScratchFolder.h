@@ -4,12 +4,16 @@
 #include "Solver/Storage/FileDescriptor.h"
 #include "smg/Export.h"
 
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 
 namespace smg
 {
+
+class ScratchAccount;
 
 /** The path of a folder whose scratch files are to outlive the program. */
 struct KeptFolder
@@ -32,17 +36,20 @@ struct KeptFolder
 class SMG_EXPORT ScratchFolder
 {
 public:
-  /** Creates it in `parent`; empty: in the system's temporary folder. Throws Error. */
-  explicit ScratchFolder(const std::filesystem::path& parent);
+  /** Creates it in `parent`; empty: in the system's temporary folder. Its files have at most
+   * `limit` bytes at once; 0: any number. Throws Error. */
+  explicit ScratchFolder(const std::filesystem::path& parent, std::int64_t limit = 0);
   /** Opens a kept folder, or makes one of a path that does not exist or an empty folder, which
    * remains only after keep(true). Throws Error if the folder has other files or another program
    * has opened it. */
-  explicit ScratchFolder(const KeptFolder& kept);
+  explicit ScratchFolder(const KeptFolder& kept, std::int64_t limit = 0);
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
 
   const std::filesystem::path& path() const { return this->Path; }
+  /** Counts the bytes of its files. */
+  const ScratchAccount& account() const { return *this->Account; }
 
   /** A scratch file: nameless, or that of this name in a kept folder, created if necessary. */
   FileDescriptor file(const std::string& name) const;
@@ -51,15 +58,19 @@ public:
 
   /** Whether a folder is a scratch folder, of this program or another one. */
   static bool isOne(const std::filesystem::path& folder);
+  /** The folder that a user chose for a scratch folder, which may lie in other ones. */
+  static std::filesystem::path placeOf(std::filesystem::path folder);
 
 private:
   void lockKept();
+  void countKept();
   void removeKept() const noexcept;
 
   std::filesystem::path Path;
   int Lock = -1;      // of the folder itself
   bool Named = false; // the files have names
   bool Kept = false;  // the folder remains
+  std::shared_ptr<ScratchAccount> Account;
 };
 
 /** The path of a file in a scratch folder. */

@@ -20,6 +20,7 @@ SystemCalls& systemCalls() noexcept
     ::pwrite,
     [](int file, struct stat* status) { return ::fstat(file, status); },
     ::fsync,
+    ::fallocate,
     ::ftruncate,
     [](const char* from, const char* to) { return ::rename(from, to); },
     ::unlink,

@@ -25,6 +25,7 @@ struct SystemCalls
   ssize_t (*pwrite)(int file, const void* bytes, std::size_t size, off_t offset);
   int (*fstat)(int file, struct stat* status);
   int (*fsync)(int file);
+  int (*fallocate)(int file, int mode, off_t offset, off_t size);
   int (*ftruncate)(int file, off_t size);
   int (*rename)(const char* from, const char* to);
   int (*unlink)(const char* path);

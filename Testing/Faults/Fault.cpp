@@ -114,6 +114,8 @@ SystemCalls faulty()
   calls.fstat = [](int file, struct stat* status)
   { return fails("fstat") ? -1 : real.fstat(file, status); };
   calls.fsync = [](int file) { return fails("fsync") ? -1 : real.fsync(file); };
+  calls.fallocate = [](int file, int mode, off_t offset, off_t size)
+  { return fails("fallocate") ? -1 : real.fallocate(file, mode, offset, size); };
   calls.ftruncate = [](int file, off_t size)
   { return fails("ftruncate") ? -1 : real.ftruncate(file, size); };
   calls.rename = [](const char* from, const char* to)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Convert.h"
 
-#include "IO/External/Reservation.h"
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Order/FirstUseOrder.h"
 #include "IO/Order/TakeIsolated.h"
 #include "IO/Raw/RawMeshBuilder.h"
+#include "Solver/Storage/Reservation.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/VsmReader.h"

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/FileDescriptor.h"
+
+#include "Solver/Storage/SystemCalls.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <cstdint>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <span>
 #include <string>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <vector>
 
@@ -82,6 +86,40 @@ TEST(FileDescriptor, WritesThroughLinks)
 
   std::filesystem::create_symlink("circle", folder / "circle");
   EXPECT_NE(messageOf([&] { FileDescriptor::createBeside(folder / "circle"); }), "");
+}
+
+TEST(FileDescriptor, ReservesRoomWithoutChangingTheFile)
+{
+  const TemporaryFolder folder;
+  const FileDescriptor file = FileDescriptor::createBeside(folder / "file");
+  file.write(0, std::vector<std::byte>(100));
+  file.reserve(1 << 20);
+  EXPECT_EQ(file.size(), 100);
+  struct stat status = {};
+  ASSERT_EQ(::stat(file.path().c_str(), &status), 0);
+  EXPECT_GE(512 * status.st_blocks, 1 << 20);
+}
+
+TEST(FileDescriptor, WithoutRoomFailsBeforeAnythingIsWritten)
+{
+  const TemporaryFolder folder;
+  const FileDescriptor file = FileDescriptor::createBeside(folder / "result");
+  const SystemCalls before = systemCalls();
+  systemCalls().fallocate = [](int, int, off_t, off_t)
+  {
+    errno = ENOSPC;
+    return -1;
+  };
+  const std::string sentence = messageOf([&] { file.reserve(1000); });
+  systemCalls().fallocate = [](int, int, off_t, off_t)
+  {
+    errno = EOPNOTSUPP;
+    return -1;
+  };
+  EXPECT_NO_THROW(file.reserve(1000)) << "not every file system can reserve";
+  systemCalls() = before;
+  EXPECT_TRUE(sentence.starts_with((folder / "result").string())) << sentence;
+  EXPECT_NE(sentence.find("free space"), std::string::npos) << sentence;
 }
 
 } // namespace smg::testing

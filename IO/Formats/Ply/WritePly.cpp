@@ -40,6 +40,8 @@ public:
     this->VertexEnd = static_cast<std::int64_t>(header.size());
     this->FirstFace = this->FaceEnd =
       this->VertexEnd + info.vertices * static_cast<std::int64_t>(this->Vertices.recordBytes());
+    this->File.reserve(
+      this->FirstFace + info.cells * static_cast<std::int64_t>(this->Faces.recordBytes()));
   }
 
   void append(const MeshBlock& block)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vtk/VtkMeshReader.h"
 
-#include "IO/External/Reservation.h"
 #include "IO/Files/InQuotes.h"
 #include "IO/Formats/Vsm/AttributeNames.h"
 #include "IO/Formats/Vsm/ReservedNames.h"
@@ -11,6 +10,7 @@
 #include "IO/Formats/Vtk/VtkFiles.h"
 #include "IO/Formats/Vtk/VtkPointMerger.h"
 #include "IO/Formats/Vtk/VtkTuples.h"
+#include "Solver/Storage/Reservation.h"
 
 #include <algorithm>
 #include <memory>

@@ -44,6 +44,7 @@ VtkXmlFile::VtkXmlFile(const std::filesystem::path& path, const VtkXmlContent& c
     this->CellData.emplace_back(spec, content.cells);
   }
   this->writeFrame(content);
+  this->File.reserve(this->End);
 }
 
 /** Writes all but the tuples, for which it leaves space. */

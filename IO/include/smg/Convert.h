@@ -69,6 +69,8 @@ struct ConversionOptions
   std::string origin;
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
+  /** Limit of the bytes of scratch files that exist at once; 0: none. */
+  std::int64_t scratchLimit = 0;
   /**
    * For openMesh() alone: the folder of a checkpoint (see CheckpointOptions::folder), which keeps
    * the converted file until it is removed, so that a killed program does not convert again. Empty:
@@ -116,6 +118,7 @@ struct SMG_EXPORT ConversionReport
   double mean_width = 0;                  ///< mean over the cells of the number of vertices alive
   std::int64_t pool_bytes_peak = 0;       ///< most accounted memory at once, bytes
   std::int64_t rss_bytes_peak = 0;        ///< largest resident memory of the process, bytes
+  std::int64_t scratch_bytes_peak = 0;    ///< most bytes of scratch files at once
   std::int64_t scratch_bytes_read = 0;    ///< read from scratch files
   std::int64_t scratch_bytes_written = 0; ///< written to scratch files
   std::int64_t pages = 0;                 ///< pages of vertices for the breadth-first order
@@ -148,8 +151,8 @@ struct SMG_EXPORT ConversionReport
  * .obj, .off, .stl, .mesh, .msh, or .node with .ele.
  * @param options how to convert
  * @throws Error if the input is not valid, the output cannot be written or its format does not hold
- * such cells, the memory limit is below 16 MiB, or the disk has too little room for the scratch
- * files (as far as known, before they are written)
+ * such cells, the memory limit is below 16 MiB, the disk has too little room for the scratch files
+ * (as far as known, before they are written), or these would exceed their limit
  * @throws Cancelled if the progress callback returns false. Neither output nor scratch files remain
  * after an exception.
  */

@@ -58,6 +58,8 @@ struct DistanceOptions
   int maxPasses = 200;
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
+  /** Limit of the bytes of scratch files that exist at once; 0: none. */
+  std::int64_t scratchLimit = 0;
   /** Progress callback; empty: none. */
   ProgressFunction progress;
 };
@@ -83,8 +85,8 @@ SMG_EXPORT std::vector<ColumnSpec> distanceColumns(const DistanceDescription& de
  * files until it is destroyed.
  * @throws Error if there is no source or a selection is empty or not valid, an option is out of
  * range, the mesh is not valid, the memory limit is below the need (with both figures, and before
- * the mesh is read if its span is known), or a scratch file cannot be written or read. Vertices
- * that no source reaches are no error: see Report::Distance::unreached.
+ * the mesh is read if its span is known), scratch files would exceed their limit, or one cannot be
+ * written or read. Vertices that no source reaches are no error: see Report::Distance::unreached.
  * @throws Cancelled if the progress callback returns false
  */
 SMG_EXPORT std::unique_ptr<Solution> distance(const StoredMesh& mesh,

@@ -134,18 +134,19 @@ struct SMG_EXPORT Report
   std::int64_t peak_nodes = 0;      ///< most nodes of all levels in memory at once
   std::int64_t pool_bytes_peak = 0; ///< most accounted memory at once, bytes
   std::int64_t rss_bytes_peak = 0;  ///< largest resident memory of the process, bytes; 0: not known
-  std::int64_t bytes_read = 0;      ///< read from scratch files
-  std::int64_t bytes_written = 0;   ///< written to scratch files
-  std::vector<Traffic> bytes_by_kind; ///< the terms that bytes_read and bytes_written sum up
-  Seconds seconds;                    ///< wall-clock times
-  double cpu_seconds = 0;             ///< processor time of all threads of the process
-  int threads = 1;                    ///< compute threads
-  std::int64_t prescribed = 0;        ///< vertices with a Dirichlet value, or held by a handle
-  std::int64_t shared = 0;            ///< of a deformation: vertices that several handles hold
-  std::int64_t held = 0;              ///< vertices without a weighted cell: they keep their value
-  std::int64_t degenerate_cells = 0;  ///< cells without weight
-  std::int64_t clamped_weights = 0;   ///< edges whose weight was raised to the floor
-  std::int64_t components = 0;        ///< connected components of the mesh
+  std::int64_t scratch_bytes_peak = 0; ///< most bytes of scratch files at once
+  std::int64_t bytes_read = 0;         ///< read from scratch files
+  std::int64_t bytes_written = 0;      ///< written to scratch files
+  std::vector<Traffic> bytes_by_kind;  ///< the terms that bytes_read and bytes_written sum up
+  Seconds seconds;                     ///< wall-clock times
+  double cpu_seconds = 0;              ///< processor time of all threads of the process
+  int threads = 1;                     ///< compute threads
+  std::int64_t prescribed = 0;         ///< vertices with a Dirichlet value, or held by a handle
+  std::int64_t shared = 0;             ///< of a deformation: vertices that several handles hold
+  std::int64_t held = 0;               ///< vertices without a weighted cell: they keep their value
+  std::int64_t degenerate_cells = 0;   ///< cells without weight
+  std::int64_t clamped_weights = 0;    ///< edges whose weight was raised to the floor
+  std::int64_t components = 0;         ///< connected components of the mesh
   /** Components without any prescribed vertex, screening, soft constraint or Robin condition. */
   std::int64_t free_components = 0;
   /** Per column: the total that was taken from the sources of free components, so that their mean

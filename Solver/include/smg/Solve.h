@@ -80,6 +80,8 @@ struct SolveOptions
   std::filesystem::path scratch;
   /** Whether and where to keep what a killed solve needs to continue; not with `inCore`. */
   CheckpointOptions checkpoint;
+  /** Limit of the bytes of scratch files that exist at once; 0: none. */
+  std::int64_t scratchLimit = 0;
   /** Keep all levels in memory and write no file. The result is the same, bit for bit. */
   bool inCore = false;
   /** Nodes by which a stage advances at a time, at least 1. The result does not depend on it. */
@@ -135,10 +137,10 @@ public:
  * files until it is destroyed.
  * @throws Error if an option is out of range, the stream or the problem is not valid, the memory
  * limit is below the need (with both figures, and before the mesh is read if its span is known),
- * numbers overflow, the residual grows beyond recovery, a scratch file cannot be written or read,
- * or a checkpoint is damaged, in use, or of another mesh, problem or option; no scratch file
- * remains except those of a checkpoint. It is no error if the tolerance is not reached: see
- * Report::converged.
+ * numbers overflow, the residual grows beyond recovery, scratch files would exceed their limit or
+ * cannot be written or read, or a checkpoint is damaged, in use, or of another mesh, problem or
+ * option; no scratch file remains except those of a checkpoint. It is no error if the tolerance is
+ * not reached: see Report::converged.
  * @throws Cancelled if the progress callback returns false
  */
 SMG_EXPORT std::unique_ptr<Solution> solve(

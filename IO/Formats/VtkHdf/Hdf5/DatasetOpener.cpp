@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/VtkHdf/Hdf5/DatasetOpener.h"
 
-#include "IO/External/Reservation.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/Vtk/ByteSource.h"
 #include "IO/Formats/VtkHdf/Hdf5/Hdf5File.h"
+#include "Solver/Storage/Reservation.h"
 
 #include <algorithm>
 #include <utility>

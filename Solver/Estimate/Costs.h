@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "smg/Blend.h"
+#include "smg/Deform.h"
+#include "smg/Distance.h"
+#include "smg/Export.h"
+#include "smg/Smooth.h"
+#include "smg/Solve.h"
+
+#include <cstdint>
+
+namespace smg
+{
+
+/** What a computation is expected to cost. */
+struct Costs
+{
+  std::int64_t memory = 0;  ///< most accounted memory at once, bytes
+  std::int64_t scratch = 0; ///< most bytes of scratch files at once
+  int passes = 0;           ///< passes over the mesh
+  double seconds = 0;       ///< processor time
+};
+
+/**
+ * The costs of a computation on a stream, from its counts and its span, both of which must be
+ * known. The constants are measured: see docs/performance.md#estimates. Meshes with many slivers
+ * take more V-cycles.
+ */
+SMG_EXPORT Costs solveCosts(
+  const StreamInfo& info, int columns, Weights weights, const SolveOptions& options);
+SMG_EXPORT Costs deformCosts(const StreamInfo& info, const DeformOptions& options);
+/** `components`: of the smoothed column; 3 of positions. */
+SMG_EXPORT Costs smoothCosts(
+  const StreamInfo& info, int components, const SmoothingOptions& options);
+/** `components`: of all blended columns. */
+SMG_EXPORT Costs blendCosts(
+  const StreamInfo& info, int components, SeamGradient seam, const SolveOptions& options);
+
+SMG_EXPORT Costs distanceCosts(const StreamInfo& info, const DistanceDescription& description);
+
+/** The span that the breadth-first order of a mesh with so many vertices usually has. */
+SMG_EXPORT std::int64_t usualSpan(CellType cells, std::int64_t vertices);
+
+} // namespace smg

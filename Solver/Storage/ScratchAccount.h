@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "smg/Export.h"
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+namespace smg
+{
+
+/**
+ * Counts the bytes of existing scratch files, and enforces a limit. Each ScratchFolder has an
+ * account; its bytes also count in the account of a folder around it, and in that of the process.
+ *
+ * The account only counts: FileDescriptor asks it before a file in a scratch folder grows. Any
+ * thread may do so.
+ */
+class SMG_EXPORT ScratchAccount
+{
+public:
+  /** The account of all scratch folders of this process. */
+  static ScratchAccount& process();
+  /** Opens the account of a folder. `limit` in bytes; 0: none. */
+  static std::shared_ptr<ScratchAccount> open(
+    const std::filesystem::path& folder, std::int64_t limit);
+  /** The account of a folder, while it is open; else null. */
+  static std::shared_ptr<ScratchAccount> of(const std::filesystem::path& folder);
+
+  /** Closes the account of a folder that is removed with its files. Nameless files that are open
+   * count until they are closed. */
+  void close(const std::filesystem::path& folder) noexcept;
+  /** Counts the bytes of a closed file until remove(), replacing those of an older file `path`. */
+  void keep(const std::filesystem::path& path, std::int64_t bytes);
+  void remove(const std::filesystem::path& path) noexcept;
+
+  /** Adds `bytes`; returns false, and adds nothing, if a limit would be exceeded. */
+  bool acquire(std::int64_t bytes) noexcept;
+  void release(std::int64_t bytes) noexcept;
+
+  /** `limit` in bytes; 0: none. */
+  void setLimit(std::int64_t limit);
+  std::int64_t used() const;
+  /** The most bytes that existed at once. */
+  std::int64_t peak() const;
+  /** What is wrong after acquire() failed: both figures, and what to do. */
+  std::string refusal() const;
+
+private:
+  static constexpr std::int64_t Unlimited = std::numeric_limits<std::int64_t>::max();
+
+  const ScratchAccount* outer() const;
+  ScratchAccount* outer();
+  void add(std::int64_t bytes) noexcept;
+
+  std::shared_ptr<ScratchAccount> Around; ///< of the folder around; null: none
+  std::int64_t Limit = Unlimited;
+  std::int64_t Used = 0, Peak = 0;
+  std::int64_t Refused = 0;                             ///< what would have been in use
+  std::unordered_map<std::string, std::int64_t> Closed; ///< bytes of closed files by their paths
+};
+
+/** The bytes of an open file in an account. Any thread may extend it. */
+class ScratchShare
+{
+public:
+  explicit ScratchShare(std::shared_ptr<ScratchAccount> account)
+    : Account(std::move(account))
+  {
+  }
+  ~ScratchShare() { this->Account->release(this->Bytes); }
+  ScratchShare(const ScratchShare&) = delete;
+  ScratchShare& operator=(const ScratchShare&) = delete;
+
+  /** The file will have at least `end` bytes. Returns false if a limit would be exceeded. */
+  bool extend(std::int64_t end) noexcept
+  {
+    std::int64_t before = this->Bytes;
+    while (before < end && !this->Bytes.compare_exchange_weak(before, end))
+    {
+    }
+    if (before >= end || this->Account->acquire(end - before))
+    {
+      return true;
+    }
+    this->Bytes -= end - before;
+    return false;
+  }
+  /** The file is closed and has the name `path`. */
+  void keep(const std::filesystem::path& path)
+  {
+    this->Account->keep(path, this->Bytes.exchange(0));
+  }
+  std::string refusal() const { return this->Account->refusal(); }
+
+private:
+  std::shared_ptr<ScratchAccount> Account;
+  std::atomic<std::int64_t> Bytes{ 0 };
+};
+
+} // namespace smg
