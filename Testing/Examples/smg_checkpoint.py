@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""smg solve, smg deform and smg convert with --checkpoint: killed at any moment and run again, they have the bits of
-a run that was never killed; a checkpoint that does not fit is refused.
+"""smg solve, smg deform and smg convert with --checkpoint: killed at any moment and run again, they have
+the bits of a run that was never killed; a checkpoint that does not fit is refused.
 
 smg_checkpoint.py [all]: 20 kills at random times and 20 at calls of the system, or 200 and each."""
 
@@ -206,6 +206,32 @@ def test_damage():
     assert refused >= 30, refused
 
 
+def test_conversion():
+    """A conversion to another order, or with a damaged file, is refused."""
+    case = CASES[-1]
+    bits, report = never_killed(case)
+    kill_at(case, calls_of(case) * 19 // 20)
+    code, error = again((*case, "--order", "axis", "--quiet"))
+    assert code == 1 and "another mesh file or option" in error, error
+    shutil.rmtree("kept", ignore_errors=True)
+    shutil.copytree(FOLDER, "kept")
+    stages = [name for name in os.listdir("kept")
+              if name.startswith("stage.") and os.path.getsize("kept/" + name) > 0]
+    assert len(stages) >= 2, stages
+    for name in stages:
+        for place, change in ((0.3, "flip"), (0.5, "cut")):
+            shutil.rmtree(FOLDER)
+            shutil.copytree("kept", FOLDER)
+            damaged(name, place, change)
+            code, error = again((*case, "--quiet"))
+            assert code == 1 and "damaged" in error and error.count("\n") == 1, (name, error)
+    shutil.rmtree(FOLDER)
+    shutil.copytree("kept", FOLDER)
+    code, error = again(case)
+    assert code == 0 and "continues after stage" in error, error
+    check_equal(case, bits, report)
+
+
 def test_in_use():
     """A second program with the same checkpoint is refused."""
     case = HELD
@@ -278,7 +304,8 @@ prepare()
 ALL = sys.argv[1:] == ["all"]
 test_kills(200 if ALL else 6 if SANITIZED else 20)
 test_kills_at_calls(1 << 30 if ALL else 20)
-for each in (test_each_pass, test_others_are_refused, test_damage, test_in_use, test_folders):
+for each in (test_each_pass, test_others_are_refused, test_damage, test_conversion, test_in_use,
+             test_folders):
     each()
     print("passed", each.__name__, flush=True)
 if can_mount():
