@@ -79,7 +79,7 @@ smg::JobEstimate MeshCommand::estimate() const
  * there already. */
 void MeshCommand::checkRoom() const
 {
-  if (!this->Checkpoint.empty() || smg::kindOfInput(this->In) == smg::MeshFileKind::Unknown)
+  if (!this->checkpoint.empty() || smg::kindOfInput(this->In) == smg::MeshFileKind::Unknown)
   {
     return;
   }

@@ -3,6 +3,7 @@
 
 #include "IO/Conversion/ConversionReportState.h"
 #include "IO/Conversion/KeptConversion.h"
+#include "IO/External/Relabelling.h"
 
 #include <cstddef>
 #include <cstdint>

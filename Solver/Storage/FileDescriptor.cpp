@@ -175,7 +175,7 @@ void FileDescriptor::giveName(const std::filesystem::path& path)
   systemCalls().unlink(path.c_str());
   if (systemCalls().linkat(AT_FDCWD, self.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) != 0)
   {
-    throw Error(path.string() + ": an unnamed file cannot get this name: " + reason(errno) +
+    throw Error(path.string() + ": an unnamed file cannot get this name: " + systemError(errno) +
                 ": name a folder in another file system.");
   }
   this->Path = this->Shown = path;
