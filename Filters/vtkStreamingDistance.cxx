@@ -33,6 +33,10 @@ std::unique_ptr<smg::DistanceTask> vtkStreamingDistance::DescribedTask(vtkPointS
   auto task = std::make_unique<smg::DistanceTask>();
   smg::SolveOptions common;
   this->FillOptions(common);
+  if (!common.checkpoint.folder.empty())
+  {
+    throw smg::Error("distances have no checkpoints: leave CheckpointDirectory empty");
+  }
   task->options.memoryLimit = common.memoryLimit;
   task->options.threads = common.threads;
   task->options.scratch = common.scratch;

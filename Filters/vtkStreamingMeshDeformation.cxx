@@ -84,6 +84,7 @@ smg::SolveSummary vtkStreamingMeshDeformation::SolveInMemory(
   }
   smg::DeformOptions options = this->Internal->options();
   options.progress = progress;
+  options.checkpoint = {};
   smg::InteractiveMesh& interactive = this->Internal->Interactive;
   values = interactive.deform(input, options, this->Internal->needsNormals(input));
   smg::Report report = interactive.report();

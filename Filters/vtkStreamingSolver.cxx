@@ -233,6 +233,7 @@ vtkStreamingSolver::~vtkStreamingSolver()
 {
   this->SetOperators(nullptr);
   this->SetScratchDirectory(nullptr);
+  this->SetCheckpointDirectory(nullptr);
   this->SetController(nullptr);
 }
 
@@ -290,6 +291,11 @@ void vtkStreamingSolver::FillOptions(smg::SolveOptions& options) const
   options.memoryLimit = std::int64_t(this->MemoryLimit) << 20;
   options.threads = this->NumberOfThreads;
   options.scratch = this->ScratchDirectory ? this->ScratchDirectory : "";
+  if (this->CheckpointDirectory && *this->CheckpointDirectory)
+  {
+    // The task replaces both texts, when it knows the mesh.
+    options.checkpoint = { this->CheckpointDirectory, "input", "properties" };
+  }
 }
 
 smg::Weights vtkStreamingSolver::ChosenWeights() const
@@ -377,6 +383,8 @@ void vtkStreamingSolver::PrintSelf(ostream& os, vtkIndent indent)
   os << indent
      << "ScratchDirectory: " << (this->ScratchDirectory ? this->ScratchDirectory : "(none)")
      << "\n";
+  os << indent << "CheckpointDirectory: "
+     << (this->CheckpointDirectory ? this->CheckpointDirectory : "(none)") << "\n";
   os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "Controller: " << this->Controller << "\n";

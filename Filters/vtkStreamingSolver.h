@@ -104,6 +104,18 @@ public:
   ///@}
 
   ///@{
+  /**
+   * A folder from which the same filter on the same input, in another program, continues the solve
+   * if this program is killed or the solve is aborted. The folder is for this filter alone: it is
+   * made, and removed when the filter releases the solution or is deleted. vtkStreamingPoisson and
+   * vtkStreamingMeshDeformation have checkpoints, when they do not solve in memory; the other
+   * subclasses fail with one. Default: none.
+   */
+  vtkSetFilePathMacro(CheckpointDirectory);
+  vtkGetFilePathMacro(CheckpointDirectory);
+  ///@}
+
+  ///@{
   /** The number of pieces in which the input is requested, 1 to 1,000,000. Default: 64. More pieces
    * need less memory. The solution does not depend on it. */
   vtkSetClampMacro(NumberOfPieces, int, 1, 1000000);
@@ -197,6 +209,7 @@ private:
   int MaximumCycles = 50;
   int MemoryLimit = 1024;
   char* ScratchDirectory = nullptr;
+  char* CheckpointDirectory = nullptr;
   int NumberOfPieces = 64;
   int NumberOfThreads = 0;
   vtkMultiProcessController* Controller = nullptr;

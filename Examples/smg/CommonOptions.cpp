@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommonOptions.h"
 
+#include "Solver/Storage/Checkpoint.h"
 #include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/ScratchAccount.h"
 #include "Solver/Storage/WholeFile.h"
@@ -10,6 +11,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -47,6 +49,26 @@ void CommonOptions::addThreadsTo(CLI::App& command)
     ->check(CLI::Range(0, 1024))
     ->capture_default_str()
     ->type_name("N");
+}
+
+void CommonOptions::addCheckpointTo(CLI::App& command)
+{
+  command
+    .add_option("--checkpoint", this->checkpoint,
+      "Folder from which the same command, run again, continues if it was killed; it is made, and "
+      "removed when OUT is complete")
+    ->type_name("DIR");
+}
+
+void CommonOptions::announceCheckpoint(const char* step) const
+{
+  const std::int64_t steps =
+    this->checkpoint.empty() ? 0 : smg::Checkpoint::steps(this->checkpoint);
+  if (steps > 0 && !this->quiet)
+  {
+    std::fprintf(stderr, "smg: continues after %s %lld, from the checkpoint in %s\n", step,
+      static_cast<long long>(steps), this->checkpoint.c_str());
+  }
 }
 
 namespace

@@ -13,10 +13,11 @@
 /** The options that every command has. */
 struct CommonOptions
 {
-  std::filesystem::path report;  ///< JSON file for the report; empty: none
-  std::int64_t memory = 0;       ///< MiB; 0: the default of the operation
-  int threads = 0;               ///< 0: one per core
-  std::filesystem::path scratch; ///< empty: the system's temporary folder
+  std::filesystem::path report;     ///< JSON file for the report; empty: none
+  std::int64_t memory = 0;          ///< MiB; 0: the default of the operation
+  int threads = 0;                  ///< 0: one per core
+  std::filesystem::path scratch;    ///< empty: the system's temporary folder
+  std::filesystem::path checkpoint; ///< folder, of commands that have one; empty: none
   bool quiet = false;
 
   /**
@@ -25,6 +26,12 @@ struct CommonOptions
   void addTo(CLI::App& command, const std::string& memoryDefault = "256");
   /** Adds --threads. */
   void addThreadsTo(CLI::App& command);
+
+  /** Adds --checkpoint. */
+  void addCheckpointTo(CLI::App& command);
+  /** Tells of a checkpoint from which the command continues after some "pass" or other `step`. To
+   * be called before the work. */
+  void announceCheckpoint(const char* step) const;
 
   /** The memory limit in bytes, or `fallback` if none was given. */
   std::int64_t memoryBytes(std::int64_t fallback) const

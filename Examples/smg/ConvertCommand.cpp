@@ -83,6 +83,7 @@ struct ConvertOptions : CommonOptions
     this->input.applyTo(options);
     options.restoreOrder = this->restoreOrder;
     options.scratch = this->scratch;
+    options.checkpoint = this->checkpoint;
     return options;
   }
 
@@ -97,6 +98,7 @@ struct ConvertOptions : CommonOptions
       print(estimate);
       return;
     }
+    this->announceCheckpoint("stage");
     smg::ConversionReport report;
     {
       ProgressBar bar("converting", this->quiet, this->in);
@@ -139,6 +141,7 @@ void addConvertCommand(CLI::App& program, Action& action)
     ->excludes("--order", "--weld", "--cells", "--codec", "--time-step", "--partition");
   command->add_flag("--dry-run", options->dryRun,
     "Only estimate the size of the mesh and the cost of the conversion");
+  options->addCheckpointTo(*command);
   options->addTo(*command);
   options->addThreadsTo(*command);
   command->callback([options, &action] { action = [options] { options->run(); }; });

@@ -41,7 +41,7 @@ public:
         "or uniform")
       ->check(oneOf({ "clamped", "cotangent", "uniform" }));
     CLI::Option* tolerance = addTolerance(command, this->Tolerance);
-    this->addCheckpoint(command);
+    this->addCheckpointTo(command);
     command
       .add_option(
         "--cycles", this->Cycles, "V-cycles of each of the two steps, instead of a tolerance")
@@ -66,7 +66,7 @@ protected:
     this->Description = smg::readHandleFile(this->File);
     this->Description.applyTo(this->Deform);
     this->applyCommandLine();
-    this->announceCheckpoint();
+    this->announceCheckpoint("pass");
   }
 
   smg::Costs costsOn(const smg::StreamInfo& info) const override

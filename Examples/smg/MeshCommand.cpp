@@ -79,7 +79,7 @@ smg::JobEstimate MeshCommand::estimate() const
  * there already. */
 void MeshCommand::checkRoom() const
 {
-  if (!this->Checkpoint.empty() || smg::kindOfInput(this->In) == smg::MeshFileKind::Unknown)
+  if (!this->checkpoint.empty() || smg::kindOfInput(this->In) == smg::MeshFileKind::Unknown)
   {
     return;
   }
@@ -111,9 +111,8 @@ void MeshCommand::run()
   smg::Report report;
   {
     ProgressBar bar(this->Title, this->quiet);
-    const std::unique_ptr<smg::OpenedMesh> mesh =
-      openInput(this->In, *this, smg::partOf(bar.function(), 0.0, 0.2),
-        smg::StreamOrder::BreadthFirst, this->Input, this->Checkpoint);
+    const std::unique_ptr<smg::OpenedMesh> mesh = openInput(this->In, *this,
+      smg::partOf(bar.function(), 0.0, 0.2), smg::StreamOrder::BreadthFirst, this->Input);
     if (mesh->conversion())
     {
       this->Conversion = *mesh->conversion();

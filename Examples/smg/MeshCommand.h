@@ -72,9 +72,8 @@ protected:
   std::int64_t writerMemory() const;
 
   std::filesystem::path In, Out;
-  InputOptions Input;               ///< of a file that is not a .vsm
-  std::filesystem::path File;       ///< the task: problem or handles
-  std::filesystem::path Checkpoint; ///< the folder; empty: none
+  InputOptions Input;         ///< of a file that is not a .vsm
+  std::filesystem::path File; ///< the task: problem or handles
   /** The report on the conversion of IN; none if IN is a .vsm file. */
   std::optional<smg::ConversionReport> Conversion;
 

@@ -15,11 +15,11 @@ smg::ConversionOptions inputOptions(const CommonOptions& common, const InputOpti
 
 std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
   const CommonOptions& common, smg::ProgressFunction progress, smg::StreamOrder order,
-  const InputOptions& input, const std::filesystem::path& checkpoint)
+  const InputOptions& input)
 {
   smg::ConversionOptions options = inputOptions(common, input);
   options.order = order;
-  options.checkpoint = checkpoint;
+  options.checkpoint = common.checkpoint;
   options.progress = std::move(progress);
   return smg::openMesh(path, options);
 }

@@ -10,9 +10,8 @@
 smg::ConversionOptions inputOptions(const CommonOptions& common, const InputOptions& input);
 
 /** Opens a mesh file of any format. A file that is not a stream is converted to `order`, within the
- * memory limit of the options and according to `input`, and kept in the folder `checkpoint`, if
- * there is one. Throws smg::Error. */
+ * memory limit of the options and according to `input`; with a checkpoint, it is kept there. Throws
+ * smg::Error. */
 std::unique_ptr<smg::OpenedMesh> openInput(const std::filesystem::path& path,
   const CommonOptions& common, smg::ProgressFunction progress,
-  smg::StreamOrder order = smg::StreamOrder::BreadthFirst, const InputOptions& input = {},
-  const std::filesystem::path& checkpoint = {});
+  smg::StreamOrder order = smg::StreamOrder::BreadthFirst, const InputOptions& input = {});

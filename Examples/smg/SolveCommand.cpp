@@ -50,7 +50,7 @@ public:
     command.get_option("--operators")
       ->description("Operator set; shi2006: the paper's printed equations, biased, --in-core only");
     addTolerance(command, this->Solve.tolerance)->capture_default_str();
-    this->addCheckpoint(command);
+    this->addCheckpointTo(command);
     command
       .add_option_function<std::string>(
         "--acceleration",
@@ -83,7 +83,7 @@ protected:
                        ": says nothing to solve for: give it dirichlet, source, flux, robin, soft, "
                        "field or initial.");
     }
-    this->announceCheckpoint();
+    this->announceCheckpoint("pass");
   }
 
   smg::Costs costsOn(const smg::StreamInfo& info) const override

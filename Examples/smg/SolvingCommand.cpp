@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SolvingCommand.h"
 
-#include "Solver/Storage/Checkpoint.h"
-
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -42,26 +40,6 @@ void SolvingCommand::addSolverOptions(CLI::App& command, const std::string& resu
   this->addInputAndCommon(command, options.memoryLimit);
 }
 
-void SolvingCommand::addCheckpoint(CLI::App& command)
-{
-  command
-    .add_option("--checkpoint", this->Checkpoint,
-      "Folder from which the same command, run again, continues if it was killed; it is made, and "
-      "removed when OUT is complete")
-    ->type_name("DIR");
-}
-
-void SolvingCommand::announceCheckpoint() const
-{
-  const std::int64_t passes =
-    this->Checkpoint.empty() ? 0 : smg::Checkpoint::steps(this->Checkpoint);
-  if (passes > 0 && !this->quiet)
-  {
-    std::fprintf(stderr, "smg: continues after pass %lld, from the checkpoint in %s\n",
-      static_cast<long long>(passes), this->Checkpoint.c_str());
-  }
-}
-
 namespace
 {
 
@@ -75,9 +53,9 @@ std::string contentOf(const std::filesystem::path& path)
 
 void SolvingCommand::applyCheckpoint(smg::SolveOptions& options, const smg::VsmReader& mesh) const
 {
-  if (!this->Checkpoint.empty())
+  if (!this->checkpoint.empty())
   {
-    options.checkpoint = { this->Checkpoint, mesh.fingerprint(), contentOf(this->File) };
+    options.checkpoint = { this->checkpoint, mesh.fingerprint(), contentOf(this->File) };
   }
 }
 

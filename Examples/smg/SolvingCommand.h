@@ -19,8 +19,6 @@ protected:
    * `operators` are the available operator sets. */
   void addSolverOptions(CLI::App& command, const std::string& result, smg::SolveOptions& options,
     std::vector<std::string> operators = { "extended" });
-  /** Adds the option --checkpoint. */
-  void addCheckpoint(CLI::App& command);
   /** Adds the option --tolerance. */
   template <class Number>
   static CLI::Option* addTolerance(CLI::App& command, Number& tolerance)
@@ -30,8 +28,6 @@ protected:
       ->check(checkTolerance);
   }
 
-  /** Tells of a checkpoint from which the command continues. To be called before the work. */
-  void announceCheckpoint() const;
   /** Applies --checkpoint, for a solve on this mesh. */
   void applyCheckpoint(smg::SolveOptions& options, const smg::VsmReader& mesh) const;
 

@@ -27,6 +27,7 @@ public:
   std::int64_t vertices() const override { return this->Positions->vertices(); }
   int columns() const override { return this->Normals ? WithNormals : 3; }
   void read(std::int64_t first, std::int64_t count, std::span<double> values) override;
+  void removeCheckpoint() override { this->Positions->removeCheckpoint(); }
   const Report& report() const override { return this->Positions->report(); }
 
 private:

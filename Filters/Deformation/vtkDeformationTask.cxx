@@ -39,6 +39,8 @@ std::unique_ptr<Solution> DeformationTask::solve(
   DescribedHandles handles(DeformationDescription::byColumns(), mesh.info());
   DeformOptions options = this->options;
   options.progress = partOf(progress, 0.0, hasNormals ? DeformShare : 1.0);
+  options.checkpoint.mesh = mesh.fingerprint();
+  options.checkpoint.problem = "handles in the arrays of the mesh";
   auto moved = std::make_unique<DeformedVertices>(deform(*mesh.source(), handles, options));
   if (hasNormals)
   {

@@ -4,6 +4,7 @@
 #include "Filters/Poisson/vtkPieceResults.h"
 #include "IO/Files/PartialProgress.h"
 #include "Solver/Description/ComposeDescriptions.h"
+#include "Solver/Description/DescriptionText.h"
 #include "Solver/Engine/CheckOptions.h"
 #include "Solver/Stream/OriginalNumbers.h"
 #include "smg/DescribedProblem.h"
@@ -63,6 +64,8 @@ std::unique_ptr<Solution> PoissonTask::solve(
   problem.prepare(*source(), this->options.scratch);
   SolveOptions options = this->options;
   options.progress = partOf(progress, 0.0, SolveShare);
+  options.checkpoint.mesh = mesh.fingerprint();
+  options.checkpoint.problem = textOf(description);
   std::unique_ptr<Solution> solution = smg::solve(*source(), problem, options);
 
   report = solution->report();

@@ -51,6 +51,7 @@ SolveSummary solveOnPreview(
   problem.prepare(*mesh.source(), task.options.scratch);
   SolveOptions options = task.options;
   options.inCore = true;
+  options.checkpoint = {};
   const std::unique_ptr<Solution> solution = solve(*mesh.source(), problem, options);
   values.resize(static_cast<std::size_t>(mesh.info().vertices * problem.columns()));
   solution->read(0, mesh.info().vertices, values);

@@ -22,7 +22,7 @@ void StreamedSolve::solve(
 {
   try
   {
-    this->Result.reset();
+    this->release();
     this->pullAndSolve(input, task, pulling, progress);
   }
   catch (const std::exception& error)
@@ -31,9 +31,19 @@ void StreamedSolve::solve(
   }
 }
 
+/** Removes the solution with its checkpoint: it has been used as long as it was wanted. */
+void StreamedSolve::release()
+{
+  if (this->Result)
+  {
+    this->Result->removeCheckpoint();
+    this->Result.reset();
+  }
+}
+
 void StreamedSolve::fail(const std::string& sentence)
 {
-  this->Result.reset();
+  this->release();
   this->Summary = SolveSummary::failed(sentence);
 }
 

@@ -17,6 +17,11 @@ namespace smg
 class StreamedSolve
 {
 public:
+  StreamedSolve() = default;
+  ~StreamedSolve() { this->release(); }
+  StreamedSolve(const StreamedSolve&) = delete;
+  StreamedSolve& operator=(const StreamedSolve&) = delete;
+
   /** How the pieces of the input are requested. */
   struct Pulling
   {
@@ -32,7 +37,7 @@ public:
   {
     if (!this->isFor(stamp))
     {
-      this->Result.reset();
+      this->release();
     }
   }
 
@@ -56,6 +61,7 @@ public:
   const SolveSummary& summary() const { return this->Summary; }
 
 private:
+  void release();
   void pullAndSolve(
     PieceInput& input, const StreamedTask& task, const Pulling& pulling, Progress& progress);
 

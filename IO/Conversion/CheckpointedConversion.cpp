@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/CheckpointedConversion.h"
 
+#include "IO/Conversion/ConversionReportState.h"
 #include "IO/Conversion/KeptConversion.h"
 #include "Solver/Storage/Checkpoint.h"
 #include "smg/Error.h"
@@ -16,20 +17,8 @@ namespace
 {
 
 constexpr const char* MeshName = "mesh.vsm";
+constexpr const char* StagesName = "stages";
 constexpr std::int64_t StateMemory = std::int64_t(1) << 24;
-
-/** What a complete conversion leaves beside the mesh. */
-template <class State>
-void exchange(State& state, ConversionReport& r, std::string& fingerprint)
-{
-  state.part("conversion");
-  state(fingerprint, r.order, r.time_steps, r.partitions, r.vertices, r.cells, r.isolated_vertices,
-    r.merged_points, r.degenerate_cells, r.duplicate_cells, r.dropped_cells,
-    r.triangulated_polygons, r.split_cells, r.higher_order_cells, r.inverted_cells, r.components,
-    r.boundary_edges, r.nonmanifold_edges, r.nonmanifold_vertices, r.keeps_numbers, r.width, r.span,
-    r.mean_width, r.pool_bytes_peak, r.rss_bytes_peak, r.scratch_bytes_read,
-    r.scratch_bytes_written, r.pages, r.page_loads, r.cpu_seconds, r.seconds, r.notes);
-}
 
 /** Removes meshes that were not complete when their program was killed. */
 void removeIncomplete(const ScratchFolder& folder)
@@ -42,6 +31,22 @@ void removeIncomplete(const ScratchFolder& folder)
     {
       std::filesystem::remove(entry->path(), ignored);
     }
+  }
+}
+
+/** Converts with a checkpoint of its own in the folder, which remains with that. */
+ConversionReport convertInStages(const std::filesystem::path& in, const std::filesystem::path& out,
+  ConversionOptions options, ScratchFolder& folder)
+{
+  options.checkpoint = folder / StagesName;
+  try
+  {
+    return convert(in, out, options);
+  }
+  catch (...)
+  {
+    folder.keep(std::filesystem::exists(options.checkpoint));
+    throw;
   }
 }
 
@@ -58,10 +63,11 @@ CheckpointedConversion convertInCheckpoint(
   Checkpoint states(folder, { { "mesh file", originOf(in, options) } }, "conversion");
   Pool memory(StateMemory);
   CheckpointedConversion converted{ folder / MeshName, {} };
+  ConversionReportState reported{ converted.report };
   std::string fingerprint;
   if (std::optional<StateReader> state = states.open(memory))
   {
-    exchange(*state, converted.report, fingerprint);
+    (*state)(fingerprint, reported);
     state->finish();
     if (VsmReader(converted.mesh).fingerprint() != fingerprint)
     {
@@ -70,9 +76,9 @@ CheckpointedConversion convertInCheckpoint(
     return converted;
   }
   removeIncomplete(folder);
-  converted.report = convert(in, converted.mesh, options);
+  converted.report = convertInStages(in, converted.mesh, options, folder);
   fingerprint = VsmReader(converted.mesh).fingerprint();
-  states.save(1, [&](StateWriter& state) { exchange(state, converted.report, fingerprint); });
+  states.save(1, [&](StateWriter& state) { state(fingerprint, reported); });
   return converted;
 }
 

@@ -28,6 +28,7 @@ ConversionReport convertCompressedStream(const std::filesystem::path& in,
   Workspace space(options.scratch, Workspace::LeastMemory, {}, options.scratchLimit);
   ConversionOptions inner = options;
   inner.scratch = space.folder();
+  inner.checkpoint.clear(); // the inflated file has another name in each program
   InputFile file(in);
   const std::string name = in.stem().string() + ".stream";
   const InflatedFile inflated(file, space, name.c_str());

@@ -52,10 +52,25 @@ Workspace& Conversion::workspace()
 {
   if (!this->Space)
   {
+    this->kept();
     this->Space.emplace(
-      this->Options.scratch, this->Memory, this->Options.progress, this->Options.scratchLimit);
+      this->scratch(), this->Memory, this->Options.progress, this->Options.scratchLimit);
   }
   return *this->Space;
+}
+
+const std::filesystem::path& Conversion::scratch() const
+{
+  return this->Options.checkpoint.empty() ? this->Options.scratch : this->Options.checkpoint;
+}
+
+ScratchFolder* Conversion::kept()
+{
+  if (!this->Kept && !this->Options.checkpoint.empty())
+  {
+    this->Kept.emplace(KeptFolder(this->Options.checkpoint));
+  }
+  return this->Kept ? &*this->Kept : nullptr;
 }
 
 ProgressFunction Conversion::progress()

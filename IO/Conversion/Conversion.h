@@ -5,6 +5,7 @@
 #include "IO/External/Workspace.h"
 #include "IO/Formats/MeshPart.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
+#include "Solver/Storage/ScratchFolder.h"
 #include "smg/Convert.h"
 #include "smg/VsmReader.h"
 
@@ -35,6 +36,10 @@ public:
 
   /** Scratch files and memory, created on first use. */
   Workspace& workspace();
+  /** The parent of the folder for scratch files. */
+  const std::filesystem::path& scratch() const;
+  /** The folder ConversionOptions::checkpoint; nullptr: none. */
+  ScratchFolder* kept();
   /** The progress of the current part of the workspace, for operations that report fractions. */
   ProgressFunction progress();
 
@@ -63,7 +68,8 @@ private:
   const ConversionOptions& Options;
   const std::int64_t Memory;
   const MeshFileKind From, To;
-  std::optional<Workspace> Space;
+  std::optional<ScratchFolder> Kept;
+  std::optional<Workspace> Space; // in the kept folder, if there is one
   std::optional<VsmReader> Stream;
   std::chrono::steady_clock::time_point Last = std::chrono::steady_clock::now();
   ConversionReport Report;

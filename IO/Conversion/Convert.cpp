@@ -67,6 +67,10 @@ ConversionReport convert(const std::filesystem::path& in, const std::filesystem:
   const double cpu = processSeconds();
   Conversion conversion(in, out, options);
   run(conversion);
+  if (ScratchFolder* kept = conversion.kept())
+  {
+    kept->keep(false);
+  }
   Workspace& space = conversion.workspace();
   ConversionReport report = conversion.report();
   report.pool_bytes_peak = space.pool().peak();

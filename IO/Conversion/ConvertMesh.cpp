@@ -3,6 +3,7 @@
 
 #include "IO/AnyFormat/Importer.h"
 #include "IO/Conversion/ConversionEstimate.h"
+#include "IO/Conversion/ConversionStages.h"
 #include "IO/Conversion/NumberNames.h"
 #include "IO/Files/InQuotes.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
@@ -37,11 +38,11 @@ void checkSaidRoom(const Conversion& conversion)
   const ConversionEstimate estimate = estimateConversion(conversion.in(), conversion.options());
   if (estimate.counted)
   {
-    checkScratchRoom(conversion.options().scratch, estimate.scratch_bytes);
+    checkScratchRoom(conversion.scratch(), estimate.scratch_bytes);
   }
 }
 
-RawMesh importInput(Conversion& conversion)
+RawMesh readInput(Conversion& conversion)
 {
   Workspace& space = conversion.workspace();
   space.beginPart(0.15, Unknown);
@@ -83,31 +84,69 @@ void noteLayout(const LayOutCounts& counts, const StreamLayout& layout, Conversi
   report.notes.insert(report.notes.end(), counts.notes.begin(), counts.notes.end());
 }
 
-} // namespace
-
-void convertMesh(Conversion& conversion)
+void importInput(Conversion& conversion, RawMesh& mesh)
 {
-  checkSaidRoom(conversion);
   Workspace& space = conversion.workspace();
   ConversionReport& report = conversion.report();
-  RawMesh mesh = importInput(conversion);
+  mesh = readInput(conversion);
   checkOutput(conversion.out(), mesh.cellType);
-  checkScratchRoom(conversion.options().scratch, scratchBytes(mesh), space.traffic().bytesWritten);
+  checkScratchRoom(conversion.scratch(), scratchBytes(mesh), space.traffic().bytesWritten);
   const std::optional<double>& weld = conversion.options().weld;
-  const std::int64_t welded = weld ? weldPoints(mesh, *weld, space) : 0;
+  // Merged points no longer belong to a cell.
+  report.isolated_vertices -= weld ? weldPoints(mesh, *weld, space) : 0;
   freeNumberNames(mesh, report.notes);
   report.keeps_numbers = isNumbered(mesh);
   report.seconds.import = conversion.lap();
+}
 
+void layOutInput(Conversion& conversion, const RawMesh& mesh, StreamLayout& layout)
+{
+  ConversionReport& report = conversion.report();
   LayOutCounts counts;
-  const StreamLayout layout = layOut(mesh, conversion.options().order, space, counts, 0.75);
-  // Merged points no longer belong to a cell.
-  report.isolated_vertices += counts.mesh.isolatedVertices - welded;
+  layout = layOut(mesh, conversion.options().order, conversion.workspace(), counts, 0.75);
+  report.isolated_vertices += counts.mesh.isolatedVertices;
   noteImport(mesh.counts, report);
   noteLayout(counts, layout, report);
   report.inverted_cells = mesh.cellType == CellType::Tetrahedron ? layout.invertedCells : -1;
   report.seconds.order = conversion.lap();
+}
 
+/** Opens the input again where it has been imported by an earlier program. */
+void openAgain(Conversion& conversion)
+{
+  if (conversion.isStream())
+  {
+    const std::int64_t isolated = conversion.report().isolated_vertices;
+    conversion.openStream();
+    conversion.report().isolated_vertices = isolated;
+  }
+}
+
+} // namespace
+
+void convertMesh(Conversion& conversion)
+{
+  Workspace& space = conversion.workspace();
+  RawMesh mesh(space);
+  StreamLayout layout(space);
+  ConversionStages stages(conversion);
+  const ConversionStages::Stage done = stages.load(mesh, layout);
+  if (done < ConversionStages::Imported)
+  {
+    checkSaidRoom(conversion);
+    importInput(conversion, mesh);
+    stages.save(ConversionStages::Imported, mesh, layout);
+  }
+  else
+  {
+    openAgain(conversion);
+    checkOutput(conversion.out(), mesh.cellType);
+  }
+  if (done < ConversionStages::LaidOut)
+  {
+    layOutInput(conversion, mesh, layout);
+    stages.save(ConversionStages::LaidOut, mesh, layout);
+  }
   space.beginPart(1.0, Unknown);
   LayoutSource source(mesh, layout, space);
   conversion.write(source,
@@ -122,6 +161,7 @@ void convertMesh(Conversion& conversion)
         copyIsolated(stream->path(), source.info(), writer);
       }
     });
+  stages.discard();
 }
 
 } // namespace smg

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/External/BucketFile.h"
 
+#include "Solver/Storage/StateWriter.h"
+
 #include <algorithm>
 #include <cassert>
+#include <string>
 
 namespace smg
 {
@@ -82,6 +85,66 @@ void BucketFile::close()
     this->flush(row);
     row.chunk = Buffer();
   }
+}
+
+void BucketFile::save(StateWriter& state, const std::filesystem::path& path)
+{
+  this->close();
+  if (!this->IsNamed && this->File.isOpen())
+  {
+    this->File.giveName(path);
+    this->File.sync();
+    this->Checksum = this->contentChecksum();
+  }
+  this->IsNamed = true;
+  state.part(path.filename().string());
+  state(this->FileEnd, this->Checksum);
+  for (Row& row : this->Rows)
+  {
+    state(row.bytes, row.runs);
+  }
+}
+
+void BucketFile::load(StateReader& state, const std::filesystem::path& path)
+{
+  state.part(path.filename().string());
+  state(this->FileEnd, this->Checksum);
+  state.require(this->FileEnd >= 0);
+  for (Row& row : this->Rows)
+  {
+    state(row.bytes, row.runs);
+    std::int64_t left = row.bytes;
+    for (const Run& run : row.runs)
+    {
+      state.require(run.offset >= 0 && run.offset <= this->FileEnd && run.bytes > 0 &&
+                    run.bytes <= this->FileEnd - run.offset && run.bytes <= left);
+      left -= run.bytes;
+    }
+    state.require(left == 0);
+  }
+  this->IsNamed = true;
+  if (this->FileEnd > 0)
+  {
+    this->File = FileDescriptor::openForReading(path);
+    if (this->File.size() < this->FileEnd || this->contentChecksum() != this->Checksum)
+    {
+      state.fail("since " + path.string() + " is");
+    }
+  }
+}
+
+std::uint64_t BucketFile::contentChecksum() const
+{
+  Buffer part(this->Space->pool(), LeastChunkBytes);
+  std::uint64_t sum = 0;
+  for (std::int64_t at = 0; at < this->FileEnd; at += static_cast<std::int64_t>(part.size()))
+  {
+    part.resize(
+      static_cast<std::size_t>(std::min<std::int64_t>(this->FileEnd - at, LeastChunkBytes)));
+    this->File.read(at, part.bytes());
+    sum = StatePages::add(sum, part.bytes());
+  }
+  return sum;
 }
 
 BucketFile::Reader::Reader(const BucketFile& file, int bucket, std::size_t bufferBytes)

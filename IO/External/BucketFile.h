@@ -4,12 +4,15 @@
 #include "IO/External/Workspace.h"
 #include "Solver/Storage/Buffer.h"
 #include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Storage/StateReader.h"
+#include "Solver/Storage/StateWriter.h"
 #include "smg/Export.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <span>
 #include <vector>
 
@@ -61,6 +64,13 @@ public:
   /** Writes the last chunks to the file and releases their memory; nothing may be appended
    * afterwards. */
   void close();
+
+  /** Closes the file, gives it a name in the same file system, waits until the disk has it, and
+   * saves what load() needs. Later calls only save that. */
+  void save(StateWriter& state, const std::filesystem::path& path);
+  /** Restores a file of as many buckets, which is empty so far; compares its content with its
+   * checksum. */
+  void load(StateReader& state, const std::filesystem::path& path);
 
   /** Reads a bucket sequentially. The file must outlive the reader and not be appended to. */
   class Reader
@@ -114,12 +124,15 @@ private:
 
   void appendSlowly(Row& row, std::span<const std::byte> bytes);
   void flush(Row& row);
+  std::uint64_t contentChecksum() const;
 
   Workspace* Space;
   std::size_t Chunk;
   std::vector<Row> Rows;
   FileDescriptor File;
   std::int64_t FileEnd = 0;
+  bool IsNamed = false;
+  std::uint64_t Checksum = 0; // of a named file
 };
 
 /** A file of one sequence of records. */
@@ -138,6 +151,7 @@ public:
   void put(const Record& record) { this->File.put(0, record); }
   void put(std::span<const Record> records) { this->File.append(0, std::as_bytes(records)); }
   void close() { this->File.close(); }
+  BucketFile& bytes() { return this->File; }
 
   /** Reads the records from first to last. */
   class Reader

@@ -169,6 +169,18 @@ FileDescriptor FileDescriptor::openOrCreate(const std::filesystem::path& path)
   return file;
 }
 
+void FileDescriptor::giveName(const std::filesystem::path& path)
+{
+  const std::string self = "/proc/self/fd/" + std::to_string(this->Number);
+  systemCalls().unlink(path.c_str());
+  if (systemCalls().linkat(AT_FDCWD, self.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) != 0)
+  {
+    throw Error(path.string() + ": an unnamed file cannot get this name: " + systemError(errno) +
+                ": name a folder in another file system.");
+  }
+  this->Path = this->Shown = path;
+}
+
 std::int64_t FileDescriptor::size() const
 {
   struct stat status = {};

@@ -43,6 +43,9 @@ public:
   /** Opens a file for reading and writing, and creates it if it does not exist. A symbolic link is
    * an error. */
   static FileDescriptor openOrCreate(const std::filesystem::path& path);
+  /** Gives a nameless file a name in the same file system, and that to messages; a file of this
+   * name is replaced. */
+  void giveName(const std::filesystem::path& path);
 
   bool isOpen() const { return this->Number >= 0; }
   const std::filesystem::path& path() const { return this->Path; }

@@ -121,7 +121,7 @@ private:
 
 /** The bytes of a state are checked page by page: the checksum after a page is that of the page and
  * of the checksum before. */
-struct StatePages
+struct SMG_EXPORT StatePages
 {
   static constexpr std::size_t Bytes = std::size_t(64) << 10;
   static std::uint64_t add(std::uint64_t checksum, std::span<const std::byte> page);

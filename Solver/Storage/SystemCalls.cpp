@@ -23,6 +23,7 @@ SystemCalls& systemCalls() noexcept
     ::fallocate,
     ::ftruncate,
     [](const char* from, const char* to) { return ::rename(from, to); },
+    ::linkat,
     ::unlink,
     ::unlinkat,
     ::opendir,

@@ -28,6 +28,7 @@ struct SystemCalls
   int (*fallocate)(int file, int mode, off_t offset, off_t size);
   int (*ftruncate)(int file, off_t size);
   int (*rename)(const char* from, const char* to);
+  int (*linkat)(int fromFolder, const char* from, int toFolder, const char* to, int flags);
   int (*unlink)(const char* path);
   int (*unlinkat)(int folder, const char* name, int flags);
   DIR* (*opendir)(const char* path);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""smg solve and smg deform with --checkpoint: killed at any moment and run again, they have the bits of
-a run that was never killed; a checkpoint that does not fit is refused.
+"""smg solve, smg deform and smg convert with --checkpoint: killed at any moment and run again, they have
+the bits of a run that was never killed; a checkpoint that does not fit is refused.
 
 smg_checkpoint.py [all]: 20 kills at random times and 20 at calls of the system, or 200 and each."""
 
@@ -60,13 +60,19 @@ def deform(mesh, *options):
             *STREAMED, *options)
 
 
+def convert(mesh, *options):
+    return ("convert", mesh, "out.vsm", "--report", "report.json", *options)
+
+
 CASES = (solve("torus.vsm", "torus_held.json"),
          solve("torus.vsm", "torus_free.json", "--acceleration", "cg"),
          solve("torus.obj", "torus_held.json", "--acceleration", "none", "--threads", 2),
          solve("solid.vsm", "solid_held.json", "--acceleration", "cg"),
          solve("solid.vsm", "solid_free.json", "--acceleration", "chebyshev", "--sweeps", 1),
          deform("torus.vsm", "--tolerance", 1e-9),
-         deform("torus.obj", "--cycles", 4))
+         deform("torus.obj", "--cycles", 4),
+         convert("torus.obj", "--order", "spectral"),
+         convert("solid.mesh", "--weld", 0))
 HELD, FREE = CASES[:2]
 
 
@@ -80,9 +86,10 @@ def check_equal(arguments, bits, report):
     assert read("out.vsm") == bits, arguments
     told = load("report.json")
     for key in ("passes", "cycles", "steps", "residuals", "levels", "acceleration", "converged",
-                "components", "free_components", "removed_source", "balance", "energy"):
+                "components", "free_components", "removed_source", "balance", "energy", "vertices",
+                "cells", "width", "isolated_vertices", "merged_points"):
         assert told.get(key) == report.get(key), (arguments, key, told.get(key), report.get(key))
-    if told["resumed_passes"] > 0:
+    if told.get("resumed_passes", 0) > 0:
         assert any(note.startswith("continued after pass") for note in told["notes"])
 
 
@@ -93,7 +100,8 @@ def test_kills(least):
     while kills < least:
         for case in CASES:
             bits, report = expected[case]
-            assert report["passes"] >= 7 and len(report["levels"]) >= 3, report
+            assert case[0] == "convert" or (
+                report["passes"] >= 7 and len(report["levels"]) >= 3), report
             longest = 1.2 * report["seconds"]["total"]
             delays = iter(lambda: RANDOM.uniform(0.0, longest), None)
             more = run_with_kills(case, delays)
@@ -106,10 +114,10 @@ def test_kills(least):
 
 def test_kills_at_calls(least):
     """At calls of the system from the first to the last, so many or all."""
-    for case in (FREE, deform("torus.vsm", "--cycles", 2)):
+    for case in (FREE, deform("torus.vsm", "--cycles", 2), CASES[-1]):
         bits, report = never_killed(case)
         calls = calls_of(case)
-        step = max(1, 2 * calls // least)
+        step = max(1, 3 * calls // least)
         for number in range(1 + RANDOM.randrange(step), calls + 1, step):
             kill_at(case, number)
             code, error = again(case)
@@ -198,6 +206,32 @@ def test_damage():
     assert refused >= 30, refused
 
 
+def test_conversion():
+    """A conversion to another order, or with a damaged file, is refused."""
+    case = CASES[-1]
+    bits, report = never_killed(case)
+    kill_at(case, calls_of(case) * 19 // 20)
+    code, error = again((*case, "--order", "axis", "--quiet"))
+    assert code == 1 and "another mesh file or option" in error, error
+    shutil.rmtree("kept", ignore_errors=True)
+    shutil.copytree(FOLDER, "kept")
+    stages = [name for name in os.listdir("kept")
+              if name.startswith("stage.") and os.path.getsize("kept/" + name) > 0]
+    assert len(stages) >= 2, stages
+    for name in stages:
+        for place, change in ((0.3, "flip"), (0.5, "cut")):
+            shutil.rmtree(FOLDER)
+            shutil.copytree("kept", FOLDER)
+            damaged(name, place, change)
+            code, error = again((*case, "--quiet"))
+            assert code == 1 and "damaged" in error and error.count("\n") == 1, (name, error)
+    shutil.rmtree(FOLDER)
+    shutil.copytree("kept", FOLDER)
+    code, error = again(case)
+    assert code == 0 and "continues after stage" in error, error
+    check_equal(case, bits, report)
+
+
 def test_in_use():
     """A second program with the same checkpoint is refused."""
     case = HELD
@@ -270,7 +304,8 @@ prepare()
 ALL = sys.argv[1:] == ["all"]
 test_kills(200 if ALL else 6 if SANITIZED else 20)
 test_kills_at_calls(1 << 30 if ALL else 20)
-for each in (test_each_pass, test_others_are_refused, test_damage, test_in_use, test_folders):
+for each in (test_each_pass, test_others_are_refused, test_damage, test_conversion, test_in_use,
+             test_folders):
     each()
     print("passed", each.__name__, flush=True)
 if can_mount():

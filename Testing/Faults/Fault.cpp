@@ -120,6 +120,8 @@ SystemCalls faulty()
   { return fails("ftruncate") ? -1 : real.ftruncate(file, size); };
   calls.rename = [](const char* from, const char* to)
   { return fails("rename") ? -1 : real.rename(from, to); };
+  calls.linkat = [](int fromFolder, const char* from, int toFolder, const char* to, int flags)
+  { return fails("linkat") ? -1 : real.linkat(fromFolder, from, toFolder, to, flags); };
   calls.unlink = [](const char* path) { return fails("unlink") ? -1 : real.unlink(path); };
   calls.unlinkat = [](int folder, const char* name, int flags)
   { return fails("unlinkat") ? -1 : real.unlinkat(folder, name, flags); };

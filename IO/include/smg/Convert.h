@@ -72,9 +72,11 @@ struct ConversionOptions
   /** Limit of the bytes of scratch files that exist at once; 0: none. */
   std::int64_t scratchLimit = 0;
   /**
-   * For openMesh() alone: the folder of a checkpoint (see CheckpointOptions::folder), which keeps
-   * the converted file until it is removed, so that a killed program does not convert again. Empty:
-   * none.
+   * The folder of a checkpoint (see CheckpointOptions::folder), which has the scratch files: if the
+   * program is killed, the same conversion continues after the last complete stage, and removes the
+   * checkpoint when the result is complete. Stages are the import, with merging points, and the
+   * order; copies in the order of a stream and restoring an order have none. With openMesh(), the
+   * checkpoint keeps the converted file until Solution::removeCheckpoint(). Empty: none.
    */
   std::filesystem::path checkpoint;
   /** Progress callback; empty: none. */

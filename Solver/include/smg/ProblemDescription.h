@@ -64,8 +64,12 @@ public:
   /** Whether this is the position. */
   bool isPosition() const { return std::holds_alternative<Position>(this->What); }
 
+  using Content = std::variant<std::vector<double>, std::string, Position>;
+  /** The numbers, the name of the column, or the position. */
+  const Content& content() const { return this->What; }
+
 private:
-  std::variant<std::vector<double>, std::string, Position> What;
+  Content What;
 };
 
 /** A value in a part of the mesh. */

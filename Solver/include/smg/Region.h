@@ -73,8 +73,12 @@ public:
   /** The vertices, ascending and without repetitions; null if the region is another shape. */
   const Vertices* vertices() const { return std::get_if<Vertices>(&this->What); }
 
+  using Shape = std::variant<HalfSpace, Box, Sphere, Vertices>;
+  /** The shape. */
+  const Shape& shape() const { return this->What; }
+
 private:
-  std::variant<HalfSpace, Box, Sphere, Vertices> What;
+  Shape What;
 };
 
 /** The whole mesh. */

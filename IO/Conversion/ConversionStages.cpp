@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Conversion/ConversionStages.h"
+
+#include "IO/Conversion/ConversionReportState.h"
+#include "IO/Conversion/KeptConversion.h"
+#include "IO/External/Relabelling.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace smg
+{
+namespace
+{
+
+/** Saves or restores the scratch files of a mesh and a layout, one after the other, with numbers as
+ * names. */
+template <class State>
+class StageFiles
+{
+public:
+  StageFiles(State& state, Workspace& workspace, const std::filesystem::path& folder)
+    : Of(state)
+    , Space(workspace)
+    , Folder(folder)
+  {
+  }
+
+  void exchange(RawMesh& mesh)
+  {
+    ImportCounts& c = mesh.counts;
+    this->Of.part("mesh");
+    this->Of(mesh.cellType, mesh.doublePositions, mesh.vertices, mesh.cells, mesh.elementCount,
+      c.triangulatedPolygons, c.splitCells, c.higherOrderCells, c.droppedCells, c.mergedPoints,
+      c.timeSteps, c.partitions, c.droppedColumns, c.notes);
+    this->require(mesh.cellType == CellType::Triangle || mesh.cellType == CellType::Tetrahedron);
+    this->require(mesh.vertices >= 0 && mesh.vertices < NoIndex && mesh.cells >= 0 &&
+                  mesh.cells < NoIndex && mesh.elementCount >= 0 && mesh.elementCount < NoIndex);
+    this->exchange(mesh.positions);
+    this->exchange(mesh.corners.bytes());
+    this->exchange(mesh.elements.bytes());
+    this->exchange(mesh.vertexColumns);
+    this->exchange(mesh.elementColumns);
+  }
+
+  void exchange(StreamLayout& layout)
+  {
+    this->Of.part("layout");
+    this->Of(layout.vertexCount, layout.cellCount, layout.degenerateCells, layout.duplicateCells,
+      layout.invertedCells);
+    this->exchange(layout.vertices);
+    for (BucketFile* file : { &layout.corners.bytes(), &layout.elements.bytes(),
+           &layout.flags.bytes(), &layout.blockVertices.bytes(), &layout.blockFinalized.bytes() })
+    {
+      this->exchange(*file);
+    }
+  }
+
+private:
+  static constexpr bool Saves = std::is_same_v<State, StateWriter>;
+
+  void require(bool valid) const
+  {
+    if constexpr (!Saves)
+    {
+      this->Of.require(valid);
+    }
+  }
+
+  void exchange(BucketFile& file)
+  {
+    const std::filesystem::path path = this->Folder / ("stage." + std::to_string(this->Files++));
+    if constexpr (Saves)
+    {
+      file.save(this->Of, path);
+    }
+    else
+    {
+      file.load(this->Of, path);
+    }
+  }
+
+  void exchange(std::vector<RawColumn>& columns)
+  {
+    std::uint64_t count = columns.size();
+    this->Of(count);
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      if constexpr (!Saves)
+      {
+        columns.push_back({ {}, BucketFile(this->Space) });
+      }
+      ColumnSpec& spec = columns[i].spec;
+      this->Of(spec.name, spec.type, spec.components, spec.isolated);
+      this->exchange(columns[i].tuples);
+    }
+  }
+
+  State& Of;
+  Workspace& Space;
+  const std::filesystem::path& Folder;
+  int Files = 0;
+};
+
+} // namespace
+
+ConversionStages::ConversionStages(Conversion& conversion)
+  : Of(conversion)
+{
+  if (ScratchFolder* folder = conversion.kept())
+  {
+    this->States.emplace(
+      *folder, std::vector<Checkpoint::Item>{ { "kind of task", "conversion" },
+                 { "mesh file or option", originOf(conversion.in(), conversion.options()) } });
+  }
+}
+
+template <class State>
+void ConversionStages::exchange(State& state, Stage& stage, RawMesh& mesh, StreamLayout& layout)
+{
+  ConversionReportState reported{ this->Of.report() };
+  StageFiles<State> files(state, this->Of.workspace(), this->Of.kept()->path());
+  state(stage, reported);
+  files.exchange(mesh);
+  if (stage == LaidOut)
+  {
+    files.exchange(layout);
+  }
+}
+
+auto ConversionStages::load(RawMesh& mesh, StreamLayout& layout) -> Stage
+{
+  std::optional<StateReader> state =
+    this->States ? this->States->open(this->Of.workspace().pool()) : std::nullopt;
+  if (!state)
+  {
+    return None;
+  }
+  Stage stage = None;
+  this->exchange(*state, stage, mesh, layout);
+  state->require(stage == Imported || stage == LaidOut);
+  state->finish();
+  ConversionReport& report = this->Of.report();
+  report.seconds = {}; // those of this program
+  report.notes.push_back(stage == Imported ? "continued with the mesh that the checkpoint has"
+                                           : "continued with the order that the checkpoint has");
+  return stage;
+}
+
+void ConversionStages::save(Stage stage, RawMesh& mesh, StreamLayout& layout)
+{
+  if (this->States)
+  {
+    this->States->save(
+      stage, [&](StateWriter& state) { this->exchange(state, stage, mesh, layout); });
+  }
+}
+
+void ConversionStages::discard()
+{
+  if (this->States)
+  {
+    this->States->discard();
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Conversion/Conversion.h"
+#include "IO/Order/StreamAssembly.h"
+#include "IO/Raw/RawMesh.h"
+#include "Solver/Storage/Checkpoint.h"
+
+#include <optional>
+
+namespace smg
+{
+
+/**
+ * The stages of convertMesh() in the folder ConversionOptions::checkpoint. After a stage the
+ * scratch files that the later ones read get names and are waited for; then the state is saved,
+ * from which the same conversion continues. Without a checkpoint no stage is kept.
+ */
+class ConversionStages
+{
+public:
+  enum Stage
+  {
+    None,
+    Imported, ///< the mesh is complete, and merged points are merged
+    LaidOut   ///< the layout is complete
+  };
+
+  explicit ConversionStages(Conversion& conversion);
+
+  /** Restores the mesh and, if it is complete, the layout; both are empty. Returns the last stage
+   * that is complete. Throws Error if the checkpoint is damaged or of another conversion. */
+  Stage load(RawMesh& mesh, StreamLayout& layout);
+  /** After a stage. */
+  void save(Stage stage, RawMesh& mesh, StreamLayout& layout);
+  /** When the result is complete: removes the checkpoint when the conversion ends. */
+  void discard();
+
+private:
+  template <class State>
+  void exchange(State& state, Stage& stage, RawMesh& mesh, StreamLayout& layout);
+
+  Conversion& Of;
+  std::optional<Checkpoint> States;
+};
+
+} // namespace smg
