@@ -64,7 +64,7 @@ public:
   /** Whether this is the position. */
   bool isPosition() const { return std::holds_alternative<Position>(this->What); }
 
-  using Content = std::variant<std::vector<double>, std::string, Position>;
+  using Content = std::variant<std::vector<double>, std::string, Position>; ///< all kinds
   /** The numbers, the name of the column, or the position. */
   const Content& content() const { return this->What; }
 

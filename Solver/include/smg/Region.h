@@ -73,7 +73,7 @@ public:
   /** The vertices, ascending and without repetitions; null if the region is another shape. */
   const Vertices* vertices() const { return std::get_if<Vertices>(&this->What); }
 
-  using Shape = std::variant<HalfSpace, Box, Sphere, Vertices>;
+  using Shape = std::variant<HalfSpace, Box, Sphere, Vertices>; ///< all shapes
   /** The shape. */
   const Shape& shape() const { return this->What; }
 

@@ -16,8 +16,6 @@ import sys
 from paraview_gui import AUTO_APPLY, PROPERTIES, Session, read_arguments
 
 HOLD = '{"sphere": [-0.07, 0.14, 0.02, 0.03]}'
-# The milliseconds that a preview of 10,000 points takes to follow a property, on any machine.
-MOST_MILLISECONDS = 500
 
 
 def light_of(simple, path):
@@ -71,8 +69,7 @@ def play(arguments):
     session.write("Anchor/DoubleRangeWidget/DoubleLineEdit", 0.01)
     session.apply()
     session.save_data(result)
-    said = session.run(arguments.timeout)
-    print(*(line for line in said.splitlines() if line.startswith("milliseconds")))
+    session.run(arguments.timeout)
 
     subprocess.run([os.environ["SMG_PROGRAM"], "blend", recorded, expected, "--quiet",
                     "--patch", "Scan", "--columns", "Light", "--hold", HOLD], check=True)
@@ -88,7 +85,6 @@ if __name__ == "__main__":
     sys.exit()
 
 import json
-import time
 
 from paraview.simple import *
 
@@ -158,12 +154,10 @@ def light_range():
 def slid():
     assert notes.blend.Anchor > 50, notes.blend.Anchor
     assert light_range() != notes.range
-    # How long an update takes.
-    taken = []
+    # Each value of the slider gives another preview.
+    ranges = set()
     for anchor in (1, 30, 10, 80):
         notes.blend.Anchor = anchor
-        begin = time.perf_counter()
         notes.blend.UpdatePipeline()
-        taken.append(1000 * (time.perf_counter() - begin))
-    print("milliseconds:", *(round(t) for t in taken))
-    assert min(taken) < MOST_MILLISECONDS, taken
+        ranges.add(tuple(light_range()))
+    assert len(ranges) == 4, ranges

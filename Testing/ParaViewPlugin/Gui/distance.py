@@ -18,8 +18,6 @@ from paraview_gui import PROPERTIES, Session, read_arguments
 EAR, RADIUS = (-0.0175, 0.187, -0.02), 0.004
 FROM = '{"nearest": [[-0.0175, 0.187, -0.02]]}'
 WIDGET = "RegionFunction/ProxySelectionWidget/frame/ChosenProxyWidget/InteractiveSphere/"
-# An update of 10,000 points, so that the preview follows; on a machine that others share.
-FOLLOWS_SECONDS = 0.05
 
 
 def values(simple, path):
@@ -75,7 +73,6 @@ if __name__ == "__main__":
     sys.exit()
 
 import json
-import time
 
 from paraview.simple import *
 
@@ -133,13 +130,12 @@ def select_distance():
 
 def follow():
     """The distances of the preview follow their source."""
-    times = []
+    largest_of = set()
     for step in range(10):
         notes.distance.From = '{"nearest": [[-0.0175, %g, -0.02]]}' % (0.187 - 0.01 * step)
-        begin = time.monotonic()
         notes.distance.UpdatePipeline()
-        times.append(time.monotonic() - begin)
         assert report()["distance"]["sources"] == 1
-    assert sorted(times)[len(times) // 2] < FOLLOWS_SECONDS, times
+        largest_of.add(report()["distance"]["maximum"])
+    assert len(largest_of) > 5, largest_of
     notes.distance.From = FROM
     notes.distance.UpdatePipeline()
