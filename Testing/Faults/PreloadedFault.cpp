@@ -90,6 +90,10 @@ void* operator new(std::size_t bytes, std::align_val_t alignment)
 {
   return allocate(bytes, static_cast<std::size_t>(alignment));
 }
+void* operator new(std::size_t bytes, const std::nothrow_t& /*nothrow*/) noexcept
+{
+  return std::malloc(bytes > 0 ? bytes : 1);
+}
 void operator delete(void* memory) noexcept
 {
   std::free(memory);
