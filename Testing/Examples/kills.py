@@ -82,8 +82,9 @@ def run_with_kills(arguments, delays):
     kills = resumed = 0
     while True:
         before = steps()
-        if os.path.exists("report.json"):
-            os.remove("report.json")
+        for name in ("report.json", arguments[2]):
+            if os.path.exists(name):
+                os.remove(name)
         process = begin(arguments)
         try:
             _, error = process.communicate(timeout=next(delays))
@@ -97,6 +98,8 @@ def run_with_kills(arguments, delays):
             assert not os.path.exists(FOLDER), os.listdir(FOLDER)
             return kills, resumed
         assert process.returncode == -signal.SIGKILL, (process.returncode, error)
-        # The checkpoint goes when the result and its report are complete.
-        assert steps() >= before or os.path.exists("report.json"), "a pass was lost"
+        # The checkpoint goes when the result and its report are complete, that of a conversion with
+        # the result.
+        complete = arguments[2] if arguments[0] == "convert" else "report.json"
+        assert steps() >= before or os.path.exists(complete), "a pass was lost"
         kills += 1
