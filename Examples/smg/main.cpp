@@ -16,6 +16,7 @@
 #include "CommonOptions.h"
 #include "Interrupt.h"
 
+#include "Solver/Core/OneLine.h"
 #include "smg/Error.h"
 
 #include <cstdio>
@@ -29,14 +30,9 @@ namespace
 {
 
 /** Prints an error in one line, without control characters. */
-int fail(std::string sentence)
+int fail(const std::string& sentence)
 {
-  for (char& c : sentence)
-  {
-    const auto code = static_cast<unsigned char>(c);
-    c = c == '\n' || c == '\r' ? ' ' : code < 32 || code == 127 ? '?' : c;
-  }
-  std::fprintf(stderr, "smg: %s\n", sentence.c_str());
+  std::fprintf(stderr, "smg: %s\n", smg::oneLine(sentence).c_str());
   return 1;
 }
 

@@ -138,7 +138,15 @@ std::optional<ConversionReport> convertToKeep(const std::filesystem::path& in,
                   " by this converter: choose another name, or set Overwrite.");
     }
   }
-  return convert(in, out, conversion);
+  const ConversionReport report = convert(in, out, conversion);
+  // Only programs that convert the same file wait for each other.
+  if (toldOrigin(out) != conversion.origin)
+  {
+    throw Error(out.string() +
+                ": another program has written a file of this name meanwhile: choose "
+                "another name, or run this again.");
+  }
+  return report;
 }
 
 } // namespace smg

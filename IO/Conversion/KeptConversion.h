@@ -25,7 +25,8 @@ std::string originOf(const std::filesystem::path& in, const ConversionOptions& o
  *
  * @return the report of the conversion; none if `out` was up to date
  * @throws Error like convert(), and if `out` does not end in .vsm, is the input, or would be
- * overwritten without permission; Cancelled. An existing file is kept then.
+ * overwritten without permission, or if another process has replaced it meanwhile; Cancelled. An
+ * existing file is kept then.
  */
 SMG_EXPORT std::optional<ConversionReport> convertToKeep(const std::filesystem::path& in,
   const std::filesystem::path& out, const ConversionOptions& options, bool overwrite = false);

@@ -3,6 +3,7 @@
 
 #include "IO/Files/InQuotes.h"
 #include "IO/Problem/JsonComplaint.h"
+#include "Solver/Core/OneLine.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -143,7 +144,8 @@ std::vector<double> JsonNode::numbers(std::size_t count) const
 
 void JsonNode::fail(const std::string& sentence) const
 {
-  throw Error(this->File + ": " + (this->Place.empty() ? "" : this->Place + ": ") + sentence + '.');
+  throw Error(
+    oneLine(this->File + ": " + (this->Place.empty() ? "" : this->Place + ": ") + sentence + '.'));
 }
 
 void JsonNode::requireArray() const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Description/MeshColumns.h"
 
+#include "Solver/Core/OneLine.h"
 #include "Solver/Stream/OriginalNumbers.h"
 #include "smg/Error.h"
 
@@ -124,7 +125,7 @@ std::string MeshColumns::cellName(const MeshBlock& block, std::size_t c) const
 
 void MeshColumns::fail(const std::string& key, const std::string& sentence) const
 {
-  throw Error(this->Description + ": " + key + ": " + sentence + '.');
+  throw Error(oneLine(this->Description + ": " + key + ": " + sentence + '.'));
 }
 
 } // namespace smg

@@ -201,6 +201,8 @@ void Hierarchy<Relaxation>::load(StateReader& state)
   state.require(this->FirstCore >= 1 && this->FirstCore <= levels && levels <= MostLevels);
   this->addFinestLevel();
   state(this->finest());
+  const std::int64_t vertices = this->Run.report.vertices;
+  state.require(this->window().nodes() == vertices && this->Run.labels.vertices() == vertices);
   for (int l = 1; l <= levels; ++l)
   {
     this->addCoarseLevel(l, l >= this->FirstCore);

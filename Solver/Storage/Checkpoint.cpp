@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/Checkpoint.h"
 
-#include "Solver/Storage/Checksum.h"
 #include "Solver/Storage/Folder.h"
+#include "Solver/Storage/StateFront.h"
 #include "Solver/Storage/SystemCalls.h"
 #include "smg/Error.h"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstring>
 #include <span>
 #include <string_view>
@@ -16,29 +15,6 @@ namespace smg
 {
 namespace
 {
-
-/** The first bytes of a state. */
-struct StateFront
-{
-  static constexpr std::string_view Magic = "SMGSTATE";
-  static constexpr std::uint32_t OrderMark = 0x01020304;
-  static constexpr std::uint32_t Version = 1;
-
-  char magic[8];
-  std::uint32_t version;
-  std::uint32_t order;
-  std::int64_t steps;
-  std::int64_t bytes;
-  std::uint64_t checksum;      ///< of the bytes
-  std::uint64_t frontChecksum; ///< of all bytes before this one
-
-  std::uint64_t expectedChecksum() const
-  {
-    return smg::checksum(
-      std::as_bytes(std::span(this, 1)).first(offsetof(StateFront, frontChecksum)));
-  }
-};
-static_assert(sizeof(StateFront) == 48);
 
 std::filesystem::path stateIn(
   const std::filesystem::path& folder, const std::string& name, int slot)

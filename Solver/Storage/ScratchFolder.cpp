@@ -8,6 +8,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -67,6 +68,24 @@ void removeAbandoned(const std::filesystem::path& base)
     {
       removeFolder(folder.c_str());
       systemCalls().close(lock);
+    }
+  }
+}
+
+/** A file of a checkpoint is written under its name. Where somebody else has made the folder, a
+ * link in it, symbolic or not, might lead to any file of the user. */
+void requireOwnFiles(const std::filesystem::path& folder, int opened)
+{
+  FolderEntries entries(folder);
+  while (const char* name = entries.next())
+  {
+    struct stat status = {};
+    if (::fstatat(opened, name, &status, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(status.st_mode) ||
+        status.st_nlink != 1)
+    {
+      throw Error((folder / name).string() +
+                  ": is no file of a checkpoint, but a link or a folder: remove it, or name "
+                  "another folder.");
     }
   }
 }
@@ -189,6 +208,7 @@ void ScratchFolder::lockKept()
   {
     throw Error(name + ": is neither empty nor a checkpoint: name another folder.");
   }
+  requireOwnFiles(this->Path, this->Lock);
   FileDescriptor::openOrCreate(marker).close();
 }
 

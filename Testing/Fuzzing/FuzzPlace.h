@@ -27,10 +27,13 @@ public:
 
   Workspace& workspace() { return this->Space; }
 
+  /** The path of a file. */
+  std::filesystem::path path(const std::string& name) const { return this->Folder / name; }
+
   /** Writes a file, replacing that of an earlier run; its name may begin with a folder. */
   std::filesystem::path write(const std::string& name, std::string_view bytes)
   {
-    const std::filesystem::path path = this->Folder / name;
+    const std::filesystem::path path = this->path(name);
     std::filesystem::create_directory(path.parent_path());
     // Some file systems wait for the disk when a file is truncated and written again.
     std::filesystem::remove(path);

@@ -16,6 +16,7 @@
 #include "Testing/Fuzzing/FuzzPlace.h"
 #include "Testing/Fuzzing/MeshChecks.h"
 #include "Testing/Fuzzing/SealedVsm.h"
+#include "Testing/Fuzzing/SolverTargets.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -149,8 +150,10 @@ constexpr std::array Targets{ FuzzTarget{ "ply", runParser<importPly> },
   FuzzTarget{ "gmsh", runParser<importGmsh> }, FuzzTarget{ "tetgen", runTetGen },
   FuzzTarget{ "vtk", runParser<importLegacyVtk> }, FuzzTarget{ "vtu", runVtkXml },
   FuzzTarget{ "pvtu", runParallelVtkXml }, FuzzTarget{ "gzip", runGzip },
-  FuzzTarget{ "import", runImport }, FuzzTarget{ "stream", runStream },
-  FuzzTarget{ "vsm", runVsm } };
+  FuzzTarget{ "import", runImport }, FuzzTarget{ "stream", runStream }, FuzzTarget{ "vsm", runVsm },
+  FuzzTarget{ "problem", runProblem, true }, FuzzTarget{ "handles", runHandles, true },
+  FuzzTarget{ "places", runPlaces, true }, FuzzTarget{ "solve", runSolve, true },
+  FuzzTarget{ "checkpoint", runCheckpoint, true } };
 
 } // namespace
 

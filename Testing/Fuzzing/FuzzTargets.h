@@ -9,13 +9,14 @@
 namespace smg::testing
 {
 
-/** A reader of files that receives arbitrary bytes. */
+/** A reader of files, and what uses it, that receives arbitrary bytes. */
 struct FuzzTarget
 {
   std::string_view name; ///< also that of the folder of its corpus
   /** Returns whether the bytes were accepted; otherwise they were refused with an Error that names
    * the file. Throws Finding, or anything but Error, if the reader has a defect. */
   bool (*run)(std::string_view bytes, CellChoice cells);
+  bool solves = false; ///< a run takes some milliseconds: tests have fewer of them
 };
 
 /** All of them. */

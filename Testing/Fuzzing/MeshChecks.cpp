@@ -2,6 +2,7 @@
 #include "Testing/Fuzzing/MeshChecks.h"
 
 #include "IO/Formats/Streams/StreamFile.h"
+#include "IO/Formats/Vsm/CheckVsm.h"
 #include "Testing/Fuzzing/Finding.h"
 #include "Testing/Support/RawMeshReading.h"
 #include "smg/VsmReader.h"
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace smg::testing
@@ -96,6 +98,35 @@ void checkPieces(VsmReader& reader, std::span<const std::int64_t> corners)
   mustHold(corners.empty(), "the pieces have not all cells");
 }
 
+/** Reads pieces from the last to the first, each without what is remembered of the one before. */
+void checkPiecesBackwards(VsmReader& reader)
+{
+  const std::vector<ColumnSpec>& columns = reader.info().vertexColumns;
+  std::vector<std::string> some;
+  for (std::size_t c = columns.size(); c > 1; --c)
+  {
+    some.push_back(columns[c - 1].name);
+  }
+  reader.selectColumns(some, {});
+  MeshPiece piece;
+  for (std::int64_t end = reader.info().cells; end > 0; end -= end / 2 + 1)
+  {
+    reader.readPiece(end / 2, end, piece);
+    mustHold(piece.vertexColumns.size() == some.size(), "a column is missing");
+  }
+}
+
+void checkVertexColumns(VsmReader& reader)
+{
+  const std::int64_t vertices = reader.info().vertices;
+  for (const ColumnSpec& spec : reader.info().vertexColumns)
+  {
+    Column column;
+    reader.readVertexColumn(spec.name, vertices / 2, vertices - vertices / 2, column);
+    checkColumns({ column }, { spec }, static_cast<std::size_t>(vertices - vertices / 2));
+  }
+}
+
 } // namespace
 
 void checkMesh(const RawMesh& mesh)
@@ -156,11 +187,15 @@ void checkVsm(const std::filesystem::path& path)
   VsmReader reader(path);
   const std::vector<std::int64_t> corners = checkSource(*reader.source());
   checkPieces(reader, corners);
+  checkPiecesBackwards(reader);
+  checkVertexColumns(reader);
   std::vector<std::int64_t> lastCells(static_cast<std::size_t>(reader.info().vertices));
   reader.readLastCells(0, lastCells);
   IsolatedVertices isolated;
   reader.readIsolated(0, reader.isolatedVertices(), isolated);
   mustHold(std::int64_t(isolated.ids.size()) == reader.isolatedVertices(), "one is missing");
+  const bool isWhole = !reader.fingerprint().empty() && smg::checkVsm(path) > 0;
+  mustHold(isWhole, "the file has no blocks");
 }
 
 } // namespace smg::testing

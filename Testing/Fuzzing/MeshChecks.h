@@ -18,7 +18,8 @@ void checkMesh(const RawMesh& mesh);
 void checkStreamFile(const std::filesystem::path& path);
 
 /** Reads a .vsm file as a stream, which must be compact and have the counts of its header, and in
- * pieces, which must be the same; then last cells and isolated vertices. Throws Error. */
+ * pieces, forwards and backwards, which must be the same; then single columns, last cells, isolated
+ * vertices and all checksums. Throws Error. */
 void checkVsm(const std::filesystem::path& path);
 
 } // namespace smg::testing

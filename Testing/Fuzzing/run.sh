@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Testing/Fuzzing/run.sh [SECONDS [TARGET...]] : builds the fuzzers of the readers of mesh files and
+# Testing/Fuzzing/run.sh [SECONDS [TARGET...]] : builds the fuzzers of the readers of files and
 # runs all of them, or the named ones, SECONDS long each (600 unless given), two at a time, from the
 # corpus in the tree and the inputs that earlier runs have found. Fails on a finding: a crash, a
 # report of a sanitizer, an exception other than Error, an invalid mesh that was accepted, a run of

@@ -160,6 +160,33 @@ TEST(Checkpoint, InAFolderWithOtherFilesIsRefusedAndTouchesNone)
   expectError([&] { Steps steps(folder / "no" / "where"); }, "cannot be made");
 }
 
+TEST(Checkpoint, WithALinkIsRefusedAndDoesNotFollowIt)
+{
+  const TemporaryFolder folder;
+  std::ofstream(folder / "mine") << "text";
+  const std::filesystem::path kept = folder / "ck";
+  {
+    Steps steps(kept);
+    steps.open();
+    steps.step();
+  }
+  for (const char* name : { "state.1", "numbers", "mesh.vsm" })
+  {
+    const std::filesystem::path link = kept / name;
+    std::filesystem::remove(link);
+    std::filesystem::create_symlink(folder / "mine", link);
+    expectError([&] { Steps steps(kept); }, "is no file of a checkpoint");
+    std::filesystem::remove(link);
+    std::filesystem::create_hard_link(folder / "mine", link);
+    expectError([&] { Steps steps(kept); }, "is no file of a checkpoint");
+    std::filesystem::remove(link);
+    std::filesystem::create_directory(link);
+    expectError([&] { Steps steps(kept); }, "is no file of a checkpoint");
+    std::filesystem::remove(link);
+  }
+  EXPECT_EQ(std::filesystem::file_size(folder / "mine"), 4U);
+}
+
 TEST(Checkpoint, UsesTheStateBeforeIfTheLastOneIsDamagedAndItsFilesAreWhole)
 {
   const TemporaryFolder folder;

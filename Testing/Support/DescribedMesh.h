@@ -14,14 +14,15 @@ namespace smg::testing
 {
 
 /**
- * A box of tetrahedra with columns for problem descriptions: of the vertices "one" (one number),
- * "three" (three), "mask" (1 where y is at most 1) and "nan" (no number); of the cells "k",
- * "diagonal", "K", "q" (conductivities and a vector), "tag" (3 where all corners have x of at most
- * 1, else 1) and "cellMask" (1 where "tag" is 3).
+ * A mesh, by default a box of tetrahedra, with columns for problem descriptions: of the vertices
+ * "one" (one number), "three" (three), "mask" (1 where y is at most 1) and "nan" (no number); of
+ * the cells "k", "diagonal", "K", "q" (conductivities and a vector), "tag" (3 where all corners
+ * have x of at most 1, else 1) and "cellMask" (1 where "tag" is 3).
  */
-inline StreamMesh describedMesh()
+inline StreamMesh describedMesh(const IndexedTestMesh& shape = tetBox(4, 3, 3, 0.1))
 {
-  StreamMesh mesh = toStream(tetBox(4, 3, 3, 0.1));
+  StreamMesh mesh = toStream(shape);
+  const int corners = cornersOf(mesh.cellType);
   Random random(5);
   const auto numbers = [&random](std::int64_t count, double low, double high)
   {
@@ -39,9 +40,9 @@ inline StreamMesh describedMesh()
   for (std::int64_t c = 0; c < mesh.cells(); ++c)
   {
     bool isLeft = true;
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < corners; ++k)
     {
-      isLeft = isLeft && mesh.positions[3 * mesh.corners[4 * c + k]] < 1.5;
+      isLeft = isLeft && mesh.positions[3 * mesh.corners[corners * c + k]] < 1.5;
       tensor[6 * c + k % 3] += 1.0;
     }
     tag.push_back(isLeft ? 3 : 1);

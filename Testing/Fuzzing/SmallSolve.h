@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Testing/Fuzzing/Finding.h"
+#include "Testing/Fuzzing/FuzzPlace.h"
+#include "smg/Solve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace smg::testing
+{
+
+/** Two V-cycles, with small levels on disk, in the least memory. Options is SolveOptions or
+ * DeformOptions. */
+template <class Options = SolveOptions>
+Options smallSolve()
+{
+  Options options;
+  options.maxCycles = 2;
+  options.coreNodes = 20;
+  options.blockNodes = 50;
+  options.threads = 1;
+  options.memoryLimit = Workspace::LeastMemory;
+  options.scratch = FuzzPlace::instance().workspace().folder();
+  return options;
+}
+
+/** All values of a solution. */
+inline std::vector<double> valuesOf(Solution& solution)
+{
+  std::vector<double> values(static_cast<std::size_t>(solution.vertices() * solution.columns()));
+  solution.read(0, solution.vertices(), values);
+  return values;
+}
+
+/** Throws Finding unless the memory was within the limit and no number is NaN; `mayBeInfinite`:
+ * some may be infinite. */
+inline void checkSolution(Solution& solution, bool mayBeInfinite = false)
+{
+  mustHold(solution.report().pool_bytes_peak <= Workspace::LeastMemory,
+    "more memory was used than the limit");
+  mustHold(std::ranges::all_of(valuesOf(solution), [&](double value)
+             { return mayBeInfinite ? !std::isnan(value) : std::isfinite(value); }),
+    "a value of the solution is no number");
+}
+
+/** Calls compute(), whose errors do not know the file: its caller names it. */
+inline void ofFile(const std::filesystem::path& path, auto compute)
+{
+  try
+  {
+    compute();
+  }
+  catch (const Error& error)
+  {
+    throw Error(path.string() + ": " + error.what() + '.');
+  }
+}
+
+} // namespace smg::testing
