@@ -73,19 +73,20 @@ void removeAbandoned(const std::filesystem::path& base)
 }
 
 /** A file of a checkpoint is written under its name. Where somebody else has made the folder, a
- * link in it, symbolic or not, might lead to any file of the user. */
+ * link in it, symbolic or not, might lead to any file of the user. A folder in it is the checkpoint
+ * of a stage, and checked when that is opened. */
 void requireOwnFiles(const std::filesystem::path& folder, int opened)
 {
   FolderEntries entries(folder);
   while (const char* name = entries.next())
   {
     struct stat status = {};
-    if (::fstatat(opened, name, &status, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(status.st_mode) ||
-        status.st_nlink != 1)
+    const bool known = ::fstatat(opened, name, &status, AT_SYMLINK_NOFOLLOW) == 0;
+    const bool ownFile = known && S_ISREG(status.st_mode) && status.st_nlink == 1;
+    if (!ownFile && !(known && S_ISDIR(status.st_mode)))
     {
       throw Error((folder / name).string() +
-                  ": is no file of a checkpoint, but a link or a folder: remove it, or name "
-                  "another folder.");
+                  ": is no file of a checkpoint, but a link: remove it, or name another folder.");
     }
   }
 }

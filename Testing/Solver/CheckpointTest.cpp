@@ -180,10 +180,10 @@ TEST(Checkpoint, WithALinkIsRefusedAndDoesNotFollowIt)
     std::filesystem::create_hard_link(folder / "mine", link);
     expectError([&] { Steps steps(kept); }, "is no file of a checkpoint");
     std::filesystem::remove(link);
-    std::filesystem::create_directory(link);
-    expectError([&] { Steps steps(kept); }, "is no file of a checkpoint");
-    std::filesystem::remove(link);
   }
+  std::filesystem::create_directory(folder / "elsewhere");
+  std::filesystem::create_directory_symlink(folder / "elsewhere", kept / "stages");
+  expectError([&] { Steps steps(kept); }, "is no file of a checkpoint");
   EXPECT_EQ(std::filesystem::file_size(folder / "mine"), 4U);
 }
 
