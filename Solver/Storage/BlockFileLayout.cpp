@@ -113,7 +113,7 @@ TableSpec parseTable(Unpacker& from)
 
 /** Reads the blocks of a table; returns their number of bytes in the file. */
 std::int64_t parseBlocks(
-  Unpacker& from, const TableSpec& table, std::int64_t tailOffset, TableIndex& index)
+  Unpacker& from, const TableSpec& table, Codec codec, std::int64_t tailOffset, TableIndex& index)
 {
   const std::size_t columns = table.columns.size();
   const std::size_t blocks = from.getCount(16 + columns * sizeof(ColumnEntry));
@@ -132,6 +132,7 @@ std::int64_t parseBlocks(
       const auto entry = from.get<ColumnEntry>();
       const auto tuple = static_cast<std::int64_t>(column.tupleBytes());
       good = good && entry.plainBytes <= MaxColumnBytes && entry.storedBytes <= entry.plainBytes &&
+             (codec != Codec::None || entry.storedBytes == entry.plainBytes) &&
              (tuple == 0 ||
                (rows <= MaxColumnBytes / tuple && std::int64_t(entry.plainBytes) == rows * tuple));
       bytes += entry.storedBytes;
@@ -198,7 +199,8 @@ BlockFileIndex BlockFileIndex::parse(
   for (std::size_t t = 0; t < tables; t++)
   {
     index.tables.push_back(parseTable(from));
-    total += parseBlocks(from, index.tables.back(), tailOffset, index.blocks.emplace_back());
+    total +=
+      parseBlocks(from, index.tables.back(), index.codec, tailOffset, index.blocks.emplace_back());
   }
   if (!from.atEnd() || total != tailOffset - BlockFileHeaderBytes)
   {

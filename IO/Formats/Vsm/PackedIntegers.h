@@ -16,6 +16,12 @@ void packIntegers(std::span<const std::uint64_t> values, std::vector<std::byte>&
 /** Reverses packIntegers; false if `packed` does not hold that many integers. */
 bool unpackIntegers(std::span<const std::byte> packed, std::span<std::uint64_t> values);
 
+/** The most bytes that so many integers are packed into. */
+constexpr std::size_t mostPackedBytes(std::size_t values)
+{
+  return 1 + sizeof(std::uint64_t) * values;
+}
+
 /** Maps signed to unsigned integers so that small ones of either sign become small ones. */
 constexpr std::uint64_t zigzag(std::int64_t value)
 {

@@ -94,6 +94,32 @@ void VsmFile::readTables()
     this->fail("has isolated vertices that are not like the others; make it anew.");
   }
   this->checkColumns();
+  this->checkBlocks();
+}
+
+/** Blocks are read as a whole: what takes no room in the file must not take all memory. */
+void VsmFile::checkBlocks() const
+{
+  const int tables = static_cast<int>(this->Blocks.tables().size());
+  for (int table = 0; table < tables; ++table)
+  {
+    const std::int64_t packed = table == VsmFormat::Last    ? 1
+                                : table == VsmFormat::Cells ? cornersOf(this->Info.cellType)
+                                                            : 0;
+    // The table of blocks has as many rows as the index of the cells has entries.
+    const std::int64_t blocks = table == VsmFormat::Blocks ? 0 : this->Blocks.blocks(table);
+    for (std::int64_t b = 0; b < blocks; ++b)
+    {
+      const std::int64_t rows = this->Blocks.blockRows(table, b);
+      if (rows > VsmFormat::BlockRows ||
+          (packed > 0 &&
+            this->Blocks.columnBytes(table, b, 0) > mostPackedBytes(std::size_t(rows * packed))))
+      {
+        this->fail("table '" + this->Blocks.tables()[table].name + "', block " + std::to_string(b) +
+                   " is too large; make the file anew.");
+      }
+    }
+  }
 }
 
 void VsmFile::checkColumns() const

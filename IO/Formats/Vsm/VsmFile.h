@@ -52,6 +52,7 @@ private:
   void readHeader();
   void readTables();
   void checkColumns() const;
+  void checkBlocks() const;
   void readBlockTable();
   int find(const std::vector<ColumnSpec>& columns, const std::string& name, const char* kind) const;
   void readPacked(int table, std::int64_t block, std::size_t count);
