@@ -56,6 +56,12 @@ std::string numberFromZero(const std::string& value);
 /** The parts of a list "a,b", which may be empty: as many as commas, and one. */
 std::vector<std::string> splitAtCommas(const std::string& list);
 
+/** Bytes as MiB. */
+inline double inMebibytes(std::int64_t bytes)
+{
+  return static_cast<double>(bytes) / (1 << 20);
+}
+
 /** Runs the selected command. */
 using Action = std::function<void()>;
 

@@ -53,13 +53,12 @@ void print(const smg::ConversionReport& report)
 
 void print(const smg::ConversionEstimate& estimate)
 {
-  const auto mebibytes = [](std::int64_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
   std::printf("%s%lld vertices, %lld cells\n", estimate.counted ? "" : "about ",
     static_cast<long long>(estimate.vertices), static_cast<long long>(estimate.cells));
-  std::printf("  memory   %.0f MiB\n", mebibytes(estimate.memory_bytes));
-  std::printf("  scratch  about %.0f MiB, %.0f MiB are free\n", mebibytes(estimate.scratch_bytes),
-    mebibytes(estimate.scratch_free));
-  std::printf("  output   about %.0f MiB as .vsm\n", mebibytes(estimate.output_bytes));
+  std::printf("  memory   %.0f MiB\n", inMebibytes(estimate.memory_bytes));
+  std::printf("  scratch  about %.0f MiB, %.0f MiB are free\n", inMebibytes(estimate.scratch_bytes),
+    inMebibytes(estimate.scratch_free));
+  std::printf("  output   about %.0f MiB as .vsm\n", inMebibytes(estimate.output_bytes));
   std::printf("  time     about %.0f s\n", estimate.cpu_seconds);
 }
 

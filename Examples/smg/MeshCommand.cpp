@@ -20,12 +20,11 @@ namespace
 /** Prints time and memory, and the notes. */
 void printCosts(const smg::Report& report)
 {
-  const auto mebibytes = [](std::int64_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
   std::printf(
     "%.2f s (%.2f s of CPU), %.1f MiB of accounted memory, %.1f MiB resident, %.1f MiB of "
     "scratch files\n",
-    report.seconds.total, report.cpu_seconds, mebibytes(report.pool_bytes_peak),
-    mebibytes(report.rss_bytes_peak), mebibytes(report.scratch_bytes_peak));
+    report.seconds.total, report.cpu_seconds, inMebibytes(report.pool_bytes_peak),
+    inMebibytes(report.rss_bytes_peak), inMebibytes(report.scratch_bytes_peak));
   for (const std::string& note : report.notes)
   {
     std::printf("%s\n", note.c_str());
@@ -34,15 +33,14 @@ void printCosts(const smg::Report& report)
 
 void printEstimate(const smg::JobEstimate& estimate)
 {
-  const auto mebibytes = [](std::int64_t bytes) { return static_cast<double>(bytes) / (1 << 20); };
   std::printf("%s%lld vertices, %lld cells\n", estimate.counted ? "" : "about ",
     static_cast<long long>(estimate.vertices), static_cast<long long>(estimate.cells));
   std::printf("  memory   about %.0f MiB, the limit is %.0f MiB\n",
-    mebibytes(estimate.memory_bytes), mebibytes(estimate.memory_limit));
-  std::printf("  scratch  about %.0f MiB, %.0f MiB are free\n", mebibytes(estimate.scratch_bytes),
-    mebibytes(estimate.scratch_free));
-  std::printf("  output   about %.0f MiB, %.0f MiB are free\n", mebibytes(estimate.output_bytes),
-    mebibytes(estimate.output_free));
+    inMebibytes(estimate.memory_bytes), inMebibytes(estimate.memory_limit));
+  std::printf("  scratch  about %.0f MiB, %.0f MiB are free\n", inMebibytes(estimate.scratch_bytes),
+    inMebibytes(estimate.scratch_free));
+  std::printf("  output   about %.0f MiB, %.0f MiB are free\n", inMebibytes(estimate.output_bytes),
+    inMebibytes(estimate.output_free));
   std::printf("  passes   about %d\n", estimate.passes);
   std::printf("  time     about %.0f s of CPU\n", estimate.cpu_seconds);
 }

@@ -7,6 +7,7 @@
 #include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Formats/Streams/StreamsFormat.h"
+#include "Solver/Core/ByteText.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 
@@ -145,17 +146,13 @@ std::int64_t scratchBytes(const RawMesh& mesh)
 
 void checkScratchRoom(const std::filesystem::path& folder, std::int64_t bytes, std::int64_t written)
 {
-  const std::filesystem::path place = scratchPlace(folder);
-  std::error_code unknown;
-  const std::filesystem::space_info room = std::filesystem::space(place, unknown);
+  const std::int64_t room = freeBytes(folder);
   // A mesh that fits into the memory needs half as much as one that does not.
-  if (!unknown && static_cast<std::int64_t>(room.available) < bytes / 2 - written)
+  if (room >= 0 && room < bytes / 2 - written)
   {
-    const auto mebibytes = [](std::int64_t count) { return std::to_string((count >> 20) + 1); };
-    throw Error(place.string() + ": the scratch files take about " + mebibytes(bytes) +
-                " MiB, there is room for " +
-                mebibytes(static_cast<std::int64_t>(room.available) + written) +
-                " MiB: choose another folder for them (option --scratch).");
+    throw Error(scratchPlace(folder).string() + ": the scratch files take about " +
+                mebibytes(bytes) + ", there is room for " + mebibytes(room + written) +
+                ": choose another folder for them (option --scratch).");
   }
 }
 

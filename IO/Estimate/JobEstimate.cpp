@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Estimate/JobEstimate.h"
 
+#include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Files/Suffix.h"
+#include "Solver/Core/ByteText.h"
 #include "Solver/Storage/FileDescriptor.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
@@ -45,15 +47,16 @@ std::int64_t resultBytes(
   const EstimatedInput& in, const std::filesystem::path& out, std::int64_t numbers)
 {
   const std::int64_t corners = in.info.cells * cornersOf(in.info.cellType);
-  const std::string suffix = lowerSuffix(out);
   const std::int64_t values = 8 * numbers;
-  if (suffix == ".vsm")
+  const std::string suffix = lowerSuffix(out);
+  const Format* const format = formatOfSuffix(suffix);
+  if (format && format->kind == MeshFileKind::Vsm)
   {
     return in.streamBytes + values;
   }
-  const bool isBinary = suffix == ".ply" || suffix == ".vtp" || suffix == ".vtu" ||
-                        suffix == ".vtk" || suffix == ".vtkhdf" || suffix == ".smb" ||
-                        suffix == ".svb" || suffix == ".stl";
+  const bool isBinary =
+    format &&
+    !std::ranges::find(format->suffixes, std::string_view(suffix), &FileSuffix::text)->isText;
   constexpr std::int64_t PointBytes = 18, CornerBytes = 5, TextPointBytes = 34, TextCornerBytes = 7;
   return in.info.vertices * (isBinary ? PointBytes : TextPointBytes) +
          corners * (isBinary ? CornerBytes : TextCornerBytes) + columnBytes(in) + values;
@@ -111,11 +114,10 @@ void JobEstimate::checkRoom(
   const std::int64_t bytes = this->output_bytes + (isOneDisk ? this->scratch_bytes : 0);
   if (this->output_free >= 0 && this->output_free < bytes / 2)
   {
-    const auto mebibytes = [](std::int64_t count) { return std::to_string((count >> 20) + 1); };
     throw Error(out.string() + ": the result" +
                 (isOneDisk ? " and the scratch files take" : " takes") + " about " +
-                mebibytes(bytes) + " MiB, there is room for " + mebibytes(this->output_free) +
-                " MiB: free space, or choose another folder.");
+                mebibytes(bytes) + ", there is room for " + mebibytes(this->output_free) +
+                ": free space, or choose another folder.");
   }
 }
 

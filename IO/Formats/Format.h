@@ -36,6 +36,7 @@ struct FileSuffix
 {
   std::string_view text; ///< in lower case, with the dot
   bool triangles = true, tetrahedra = true;
+  bool isText = false; ///< whether meshes are written as text
 
   bool holds(CellType cells) const
   {

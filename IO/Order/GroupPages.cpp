@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/GroupPages.h"
 
+#include "Solver/Core/ByteText.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -105,12 +106,10 @@ void GroupPages<Real>::append(const CellGroups& groups, int group)
     }
     if (range.size() <= this->Result.pages.pageVertices())
     {
-      const auto mebibytes = [](std::int64_t bytes) { return std::to_string((bytes >> 20) + 1); };
       throw Error("The mesh needs " + mebibytes(this->Space.pool().limit() - allowed + needed) +
-                  " MiB of memory to be brought into order, since a vertex has " +
+                  " of memory to be brought into order, since a vertex has " +
                   std::to_string(links.largest() / (this->Corners - 1)) + " cells, but only " +
-                  mebibytes(this->Space.pool().limit() - 1) +
-                  " MiB are allowed: raise the memory limit.");
+                  mebibytes(this->Space.pool().limit()) + " are allowed: raise the memory limit.");
     }
     parts = 2 + needed / std::max<std::int64_t>(allowed, 1);
   }

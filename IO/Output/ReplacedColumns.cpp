@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Core/Rounded.h"
 #include "smg/Error.h"
 #include "smg/SolvedMesh.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -30,28 +28,6 @@ std::vector<std::string> otherNames(const std::vector<ColumnSpec>& specs,
     }
   }
   return names;
-}
-
-/** Converts a value to the type of a column. */
-template <class T>
-T toType(double value)
-{
-  if constexpr (std::is_floating_point_v<T>)
-  {
-    return static_cast<T>(value);
-  }
-  else
-  {
-    // The largest number of a 64-bit type is not a double; the next one above it is.
-    constexpr auto low = static_cast<double>(std::numeric_limits<T>::min());
-    const double end = std::ldexp(1.0, std::numeric_limits<T>::digits);
-    const double rounded = std::nearbyint(value);
-    if (rounded >= low && rounded < end)
-    {
-      return static_cast<T>(rounded);
-    }
-    return rounded < low ? std::numeric_limits<T>::min() : std::numeric_limits<T>::max();
-  }
 }
 
 } // namespace
@@ -78,7 +54,7 @@ struct ReplacedColumns::Implementation
         {
           for (std::size_t c = 0; c < components; ++c)
           {
-            out[i * components + c] = toType<T>(this->values[i * stride + first + c]);
+            out[i * components + c] = rounded<T>(this->values[i * stride + first + c]);
           }
         }
       });

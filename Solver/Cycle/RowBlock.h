@@ -194,8 +194,8 @@ public:
            static_cast<std::size_t>(alphas(h) + h.values + h.precise) * sizeof(double);
   }
 
-  /** Whether these bytes may be a block of the nodes [first, first + nodes): so many as its counts
-   * say. */
+  /** Whether these bytes may be a block of the nodes [first, first + nodes), and are as many as its
+   * counts require. */
   static bool fits(std::span<const std::byte> stored, std::int64_t first, std::int64_t nodes)
   {
     Header h;

@@ -1,56 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Description/ClippedValues.h"
 
+#include "Solver/Core/Rounded.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
-#include <type_traits>
 
 namespace smg
 {
 
-namespace
-{
-
-/** The range of what is rounded to numbers of a type: from `low` to before `end`. */
-struct Range
-{
-  double low = -HUGE_VAL, end = HUGE_VAL;
-
-  bool contains(double value) const { return value >= this->low && value < this->end; }
-};
-
-Range rangeOf(ScalarType type)
-{
-  return dispatch(type,
-    []<class T>(T) -> Range
-    {
-      if constexpr (std::is_floating_point_v<T>)
-      {
-        return {};
-      }
-      else
-      {
-        // The largest number of a 64-bit type is not a double; the next one above it is.
-        return { static_cast<double>(std::numeric_limits<T>::min()),
-          std::ldexp(1.0, std::numeric_limits<T>::digits) };
-      }
-    });
-}
-
-} // namespace
-
 void countClipped(Solution& solution, const std::vector<ColumnSpec>& columns, Report& report)
 {
-  std::vector<Range> ranges;
+  std::vector<RoundedRange> ranges;
   for (const ColumnSpec& column : columns)
   {
-    ranges.resize(
-      ranges.size() + static_cast<std::size_t>(column.components), rangeOf(column.type));
+    ranges.resize(ranges.size() + static_cast<std::size_t>(column.components),
+      dispatch(column.type, []<class T>(T) { return RoundedRange::of<T>(); }));
   }
   report.clipped = 0;
-  if (std::ranges::all_of(ranges, [](const Range& range) { return std::isinf(range.end); }))
+  if (std::ranges::all_of(ranges, [](const RoundedRange& range) { return std::isinf(range.end); }))
   {
     return;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/Pool.h"
 
+#include "Solver/Core/ByteText.h"
 #include "Solver/Storage/MemoryLimitError.h"
 
 #include <algorithm>
@@ -12,13 +13,8 @@ namespace smg
 
 std::string memoryLimitSentence(std::int64_t needed, std::int64_t allowed, const PoolUse& use)
 {
-  const auto mebibytes = [](std::int64_t bytes)
-  {
-    return std::to_string((bytes >> 20) + (bytes % (1 << 20) > 0 ? 1 : 0)) + " MiB (" +
-           std::to_string(bytes) + " bytes)";
-  };
-  return std::string(use.operation) + " needs at least " + mebibytes(needed) +
-         " of memory but the limit is " + mebibytes(allowed) + ": " + use.advice;
+  return std::string(use.operation) + " needs at least " + exactMebibytes(needed) +
+         " of memory but the limit is " + exactMebibytes(allowed) + ": " + use.advice;
 }
 
 void Pool::acquire(std::int64_t bytes)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/ScratchAccount.h"
 
+#include "Solver/Core/ByteText.h"
+
 #include <algorithm>
 #include <mutex>
 
@@ -29,12 +31,6 @@ std::shared_ptr<ScratchAccount> accountOf(const std::filesystem::path& folder)
 {
   const auto place = openAccounts().find(folder.native());
   return place == openAccounts().end() ? nullptr : place->second.lock();
-}
-
-std::string mebibytes(std::int64_t bytes)
-{
-  return std::to_string((bytes >> 20) + (bytes % (1 << 20) > 0 ? 1 : 0)) + " MiB (" +
-         std::to_string(bytes) + " bytes)";
 }
 
 } // namespace
@@ -156,8 +152,8 @@ std::string ScratchAccount::refusal() const
   {
     account = account->outer();
   }
-  return "the scratch files would take at least " + mebibytes(account->Refused) +
-         " but their limit is " + mebibytes(account->Limit) +
+  return "the scratch files would take at least " + exactMebibytes(account->Refused) +
+         " but their limit is " + exactMebibytes(account->Limit) +
          ": raise the limit of scratch files (option --scratch-limit)";
 }
 

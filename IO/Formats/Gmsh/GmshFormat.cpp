@@ -14,7 +14,7 @@ bool isGmsh(std::string_view start)
   return textStart(start).starts_with("$MeshFormat");
 }
 
-constexpr FileSuffix GmshSuffixes[] = { { ".msh" } };
+constexpr FileSuffix GmshSuffixes[] = { { ".msh", true, true, true } };
 
 } // namespace
 

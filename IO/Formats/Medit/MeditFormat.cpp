@@ -249,7 +249,7 @@ bool isMedit(std::string_view start)
   return textAfterComments(start).starts_with("MeshVersionFormatted");
 }
 
-constexpr FileSuffix MeditSuffixes[] = { { ".mesh" } };
+constexpr FileSuffix MeditSuffixes[] = { { ".mesh", true, true, true } };
 
 } // namespace
 

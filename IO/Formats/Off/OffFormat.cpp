@@ -151,7 +151,7 @@ std::optional<FileCounts> countsOfOff(InputFile& file, const MeshPart&)
   return FileCounts{ header.vertices, header.faces, 3, 0, true };
 }
 
-constexpr FileSuffix OffSuffixes[] = { { ".off", true, false } };
+constexpr FileSuffix OffSuffixes[] = { { ".off", true, false, true } };
 constexpr std::string_view OffColumns[] = { NormalsName, ColorsName, TextureCoordinatesName };
 
 } // namespace

@@ -31,8 +31,8 @@ std::optional<FileCounts> countsOfStream(InputFile& file, const MeshPart&)
     columnBytes, true };
 }
 
-constexpr FileSuffix StreamSuffixes[] = { { ".sma", true, false }, { ".smb", true, false },
-  { ".sva", false, true }, { ".svb", false, true } };
+constexpr FileSuffix StreamSuffixes[] = { { ".sma", true, false, true }, { ".smb", true, false },
+  { ".sva", false, true, true }, { ".svb", false, true } };
 
 } // namespace
 

@@ -249,7 +249,8 @@ void importTetGen(InputFile& file, RawMeshBuilder& builder)
 namespace
 {
 
-constexpr FileSuffix TetGenSuffixes[] = { { ".node" }, { ".ele" } };
+constexpr FileSuffix TetGenSuffixes[] = { { ".node", true, true, true },
+  { ".ele", true, true, true } };
 
 } // namespace
 
