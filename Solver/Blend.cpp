@@ -8,10 +8,10 @@
 #include "Solver/Engine/CheckOptions.h"
 #include "Solver/Storage/MemoryLimitError.h"
 #include "Solver/Storage/ScratchAccount.h"
+#include "Solver/Stream/VisitBlocks.h"
 #include "smg/Error.h"
 
 #include <algorithm>
-#include <functional>
 #include <optional>
 
 namespace smg
@@ -35,22 +35,6 @@ std::int64_t ownBytes(const StreamInfo& mesh, std::int64_t columns, SeamGradient
 /** The progress when the mesh has been read once, when the gradients are known, and when the
  * problem is solved. */
 constexpr double Prepared = 0.08, Known = 0.12, Solved = 0.9;
-
-/** Calls visit(block) for each block of a mesh; the progress is from `begin` to `end`. */
-void visitBlocks(MeshSource& mesh, const ProgressFunction& progress, double begin, double end,
-  const std::function<void(const MeshBlock&)>& visit)
-{
-  const auto cells = static_cast<double>(std::max<std::int64_t>(mesh.info().cells, 1));
-  for (MeshBlock block; mesh.next(block);)
-  {
-    visit(block);
-    const double done = std::min(1.0, static_cast<double>(block.firstCell) / cells);
-    if (progress && !progress(begin + done * (end - begin)))
-    {
-      throw Cancelled();
-    }
-  }
-}
 
 /** Solves for the correction. */
 void solveFor(BlendProblem& problem, SeamGradient seam, MeshSource& mesh,

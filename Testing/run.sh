@@ -9,6 +9,8 @@
 #                                  assertions
 #   debug       build-debug/       main without a unity build, where each source must include what it uses;
 #                                  with assertions; not by default, since it takes as long as all others
+#   tsan        build-tsan/        Solver, IO and smg without VTK, under ThreadSanitizer; unity build; not by
+#                                  default: for a run every night
 # The tests themselves are built for few seconds of compilation: without full optimization.
 # Stops at the first failing configuration, with the summary of ctest as its last lines.
 #
@@ -50,7 +52,7 @@ for configuration in ${SMG_CONFIGURATIONS:-main vtk asan-ubsan}; do
       bash cmake/vtk-prefix.sh build-vtk/vtk
       configure_build_test vtk
       ;;
-    asan-ubsan | debug) configure_build_test "$configuration" ;;
+    asan-ubsan | debug | tsan) configure_build_test "$configuration" ;;
     *)
       echo "SMG_CONFIGURATIONS: there is no configuration $configuration" >&2
       exit 2

@@ -66,7 +66,7 @@ void CommonOptions::announceCheckpoint(const char* step) const
     this->checkpoint.empty() ? 0 : smg::Checkpoint::steps(this->checkpoint);
   if (steps > 0 && !this->quiet)
   {
-    std::fprintf(stderr, "smg: continues after %s %lld, from the checkpoint in %s\n", step,
+    std::fprintf(stderr, "smg: found a checkpoint after %s %lld in %s\n", step,
       static_cast<long long>(steps), this->checkpoint.c_str());
   }
 }

@@ -29,7 +29,8 @@ struct CommonOptions
 
   /** Adds --checkpoint. */
   void addCheckpointTo(CLI::App& command);
-  /** Tells of a checkpoint from which the command continues after some "pass" or other `step`. To
+  /** Tells of a checkpoint after some "pass" or other `step`; where the command really continues,
+   * when the files agree with their checksums, is a note of its report. To
    * be called before the work. */
   void announceCheckpoint(const char* step) const;
 

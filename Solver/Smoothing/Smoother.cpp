@@ -5,6 +5,7 @@
 #include "Solver/Engine/Convergence.h"
 #include "Solver/Problem/BoundaryFacets.h"
 #include "Solver/Stream/StreamCheck.h"
+#include "Solver/Stream/VisitBlocks.h"
 #include "smg/Error.h"
 #include "smg/MeshSource.h"
 
@@ -102,17 +103,7 @@ std::unique_ptr<Solution> Smoother::run()
 void Smoother::read(Part part, const Visit& visit)
 {
   const auto source = this->Mesh.source(this->Columns.vertexColumns(), this->Columns.cellColumns());
-  const std::int64_t cells = std::max<std::int64_t>(source->info().cells, 1);
-  for (MeshBlock block; source->next(block);)
-  {
-    visit(block);
-    const double done =
-      std::min(1.0, static_cast<double>(block.firstCell) / static_cast<double>(cells));
-    if (this->Options.progress && !this->Options.progress(part.at(done)))
-    {
-      throw Cancelled();
-    }
-  }
+  visitBlocks(*source, this->Options.progress, part.begin, part.end, visit);
   ++this->Result->total.passes;
 }
 

@@ -91,7 +91,7 @@ def run_with_kills(arguments, delays):
         except subprocess.TimeoutExpired:
             process.kill()
             _, error = process.communicate(timeout=120)
-        said = any("continues after %s %d," % (step, before) in error for step in ("pass", "stage"))
+        said = any("found a checkpoint after %s %d in" % (step, before) in error for step in ("pass", "stage"))
         assert said == (before > 0 and error != ""), (before, error)
         resumed += said
         if process.returncode == 0:

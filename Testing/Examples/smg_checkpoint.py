@@ -133,7 +133,7 @@ def test_each_pass():
     for k in range(1, report["passes"] + 1):
         kill_after(case, k)
         code, error = again(case)
-        assert code == 0 and "continues after pass" in error, error
+        assert code == 0 and "found a checkpoint after pass" in error, error
         check_equal(case, bits, report)
         assert load("report.json")["resumed_passes"] >= k
 
@@ -228,7 +228,7 @@ def test_conversion():
     shutil.rmtree(FOLDER)
     shutil.copytree("kept", FOLDER)
     code, error = again(case)
-    assert code == 0 and "continues after stage" in error, error
+    assert code == 0 and "found a checkpoint after stage" in error, error
     check_equal(case, bits, report)
 
 
@@ -290,7 +290,7 @@ def test_full_disk():
             os.remove(os.path.join(disk, "filler"))
             if code == 1:
                 code, error = again(case)
-                assert code == 0 and "continues after" in error, error
+                assert code == 0 and "found a checkpoint after" in error, error
             check_equal(case, bits, report)
             os.remove(FOLDER)
     assert passed > 0
