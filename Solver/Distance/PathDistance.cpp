@@ -190,7 +190,7 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
     const auto cells = static_cast<std::int64_t>(std::ceil(share * double(info.cells)));
     checkMemory(neededBytes(plan, info.vertices, description.direction, cells, 0), run->pool);
   }
-  run->report.distance.emplace();
+  run->report.distance = Report::Distance{};
   auto files = std::make_shared<DistanceFiles>(plan, *run);
   ChunkedMesh& chunks = files->chunks;
   const Timer building;

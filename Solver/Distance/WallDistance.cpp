@@ -158,7 +158,7 @@ std::unique_ptr<Solution> wallDistance(const StoredMesh& mesh,
   DistanceSources sources(description.from, DataPlace::Facets, mesh.info(), name);
   auto files = std::make_shared<WallFiles>(*run);
   Report& report = run->report;
-  report.distance.emplace();
+  report.distance = Report::Distance{};
   const Timer building;
   sources.prepare(mesh, run->scratch.path());
   const std::int64_t triangles = readWall(mesh, description, sources, files->triangles, *run, name);

@@ -144,7 +144,7 @@ void Smoother::survey(Part part)
   if (this->movesPoints())
   {
     const bool isClosed = !this->Held.hasBoundary() && !this->hasCurves();
-    this->Result->total.volume.emplace();
+    this->Result->total.volume = Report::Volume{};
     this->Result->total.volume->before = isClosed ? measures.volume() : std::nan("");
   }
 }
