@@ -167,14 +167,14 @@ void install(const ScratchFolder& scratch, const std::filesystem::path& index, i
   for (int piece = 0; piece < pieces; ++piece)
   {
     const std::string name = pieceName(index, piece);
-    FileDescriptor::syncPath(scratch.path() / name);
+    FileDescriptor::syncPath(scratch.path() / name, folder / name);
     moves.add(scratch.path() / name, folder / name);
   }
-  FileDescriptor::syncPath(folder);
-  FileDescriptor::syncPath(scratch.path() / index.filename());
+  FileDescriptor::syncPath(folder, index);
+  FileDescriptor::syncPath(scratch.path() / index.filename(), index);
   moves.add(scratch.path() / index.filename(), index);
   moves.keep();
-  FileDescriptor::syncPath(index.parent_path());
+  FileDescriptor::syncPath(index.parent_path(), index);
 }
 
 } // namespace

@@ -43,6 +43,23 @@ void CommonOptions::addTo(CLI::App& command, const std::string& memoryDefault)
   command.add_flag("--quiet", this->quiet, "No progress bar and no summary");
 }
 
+namespace
+{
+
+/** Whether a file is in a folder or below it; neither need exist. */
+bool isIn(const std::filesystem::path& file, const std::filesystem::path& folder)
+{
+  const auto named = [](const std::filesystem::path& path)
+  {
+    const auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+    return whole.has_filename() ? whole : whole.parent_path();
+  };
+  const std::filesystem::path inner = named(file), outer = named(folder);
+  return std::ranges::mismatch(outer, inner).in1 == outer.end();
+}
+
+} // namespace
+
 void CommonOptions::addThreadsTo(CLI::App& command)
 {
   command.add_option("--threads", this->threads, "Compute threads; 0: one per core")
@@ -57,7 +74,61 @@ void CommonOptions::addCheckpointTo(CLI::App& command)
     .add_option("--checkpoint", this->checkpoint,
       "Folder from which the same command, run again, continues if it was killed; it is made, and "
       "removed when OUT is complete")
+    ->check([](const std::string& folder)
+      { return folder.empty() ? std::string("an empty text is no folder") : std::string(); })
     ->type_name("DIR");
+}
+
+std::filesystem::path CommonOptions::scratchPlace() const
+{
+  if (this->checkpoint.empty())
+  {
+    return this->scratch;
+  }
+  std::filesystem::path place = std::filesystem::absolute(this->checkpoint);
+  while (!std::filesystem::exists(place) && place.has_relative_path())
+  {
+    place = place.parent_path();
+  }
+  return place;
+}
+
+std::int64_t CommonOptions::checkpointBytes() const
+{
+  std::int64_t bytes = 0;
+  std::error_code unknown;
+  for (std::filesystem::directory_iterator entry(this->checkpoint, unknown), end; entry != end;
+       entry.increment(unknown))
+  {
+    const std::uintmax_t size = entry->file_size(unknown);
+    bytes += unknown ? 0 : static_cast<std::int64_t>(size);
+  }
+  return bytes;
+}
+
+void CommonOptions::endCancelled() const
+{
+  if (!this->checkpoint.empty() && std::filesystem::exists(this->checkpoint))
+  {
+    throw smg::Error(
+      "cancelled: the same command continues from the checkpoint in " + this->checkpoint.string());
+  }
+  throw smg::Cancelled();
+}
+
+void CommonOptions::checkCheckpoint(std::initializer_list<std::filesystem::path> results) const
+{
+  for (const std::filesystem::path& result : results)
+  {
+    if (!this->checkpoint.empty() && !result.empty() &&
+        isIn(smg::FileDescriptor::targetOf(result), this->checkpoint))
+    {
+      throw smg::Error(
+        result.string() +
+        ": lies in the folder of the checkpoint, which is removed at the end: choose "
+        "another place for one of them.");
+    }
+  }
 }
 
 void CommonOptions::announceCheckpoint(const char* step) const

@@ -29,10 +29,20 @@ struct CommonOptions
 
   /** Adds --checkpoint. */
   void addCheckpointTo(CLI::App& command);
+  /** The folder of the scratch files, or of what exists of it; empty: the temporary one. */
+  std::filesystem::path scratchPlace() const;
+  /** The bytes that a checkpoint has. */
+  std::int64_t checkpointBytes() const;
+  /** Throws smg::Error if one of these files would be in the folder of the checkpoint. */
+  void checkCheckpoint(std::initializer_list<std::filesystem::path> results) const;
   /** Tells of a checkpoint after some "pass" or other `step`; where the command really continues,
-   * when the files agree with their checksums, is a note of its report. To
-   * be called before the work. */
+   * when the files agree with their checksums, is a note of its report. To be called before the
+   * work. */
   void announceCheckpoint(const char* step) const;
+
+  /** Ends a cancelled command: throws smg::Error that says how to continue it, or smg::Cancelled if
+   * there is no checkpoint. */
+  [[noreturn]] void endCancelled() const;
 
   /** The memory limit in bytes, or `fallback` if none was given. */
   std::int64_t memoryBytes(std::int64_t fallback) const

@@ -4,8 +4,11 @@
 #include "ProgressBar.h"
 
 #include "IO/AnyFormat/FormatTable.h"
+#include "IO/AnyFormat/MeshFile.h"
 #include "IO/Conversion/ConversionEstimate.h"
+#include "IO/Estimate/JobEstimate.h"
 #include "smg/Convert.h"
+#include "smg/Error.h"
 
 #include <cstdio>
 
@@ -86,9 +89,26 @@ struct ConvertOptions : CommonOptions
     return options;
   }
 
+  /** Rejects what certainly does not fit on the disks, if IN says its counts. */
+  void checkRoom(smg::ConversionOptions options) const
+  {
+    if (smg::kindOfInput(this->in) != smg::MeshFileKind::Unknown)
+    {
+      options.scratch = this->scratchPlace();
+      const smg::JobEstimate estimate(
+        smg::EstimatedInput(this->in, options), this->out, {}, {}, options);
+      if (estimate.counted)
+      {
+        estimate.checkRoom(this->out, options.scratch, this->checkpointBytes());
+      }
+    }
+  }
+
   void run() const
   {
+    smg::checkOutputPlace(this->out);
     this->checkReport({ this->in, this->out });
+    this->checkCheckpoint({ this->out, this->report });
     smg::ConversionOptions options = this->conversion();
     if (this->dryRun)
     {
@@ -97,12 +117,18 @@ struct ConvertOptions : CommonOptions
       print(estimate);
       return;
     }
+    this->checkRoom(options);
     this->announceCheckpoint("stage");
     smg::ConversionReport report;
+    try
     {
       ProgressBar bar("converting", this->quiet, this->in);
       options.progress = bar.function();
       report = smg::convert(this->in, this->out, options);
+    }
+    catch (const smg::Cancelled&)
+    {
+      this->endCancelled();
     }
     this->writeReport(report.json());
     if (!this->quiet)

@@ -63,7 +63,7 @@ protected:
 
   void readTask() override
   {
-    this->Description = smg::readHandleFile(this->File);
+    this->Description = smg::readHandleText(this->readText(), this->File.string());
     this->Description.applyTo(this->Deform);
     this->applyCommandLine();
     this->announceCheckpoint("pass");

@@ -65,7 +65,8 @@ void MeshCommand::addInputAndCommon(CLI::App& command, std::int64_t memoryLimit)
 
 smg::JobEstimate MeshCommand::estimate() const
 {
-  const smg::ConversionOptions conversion = inputOptions(*this, this->Input);
+  smg::ConversionOptions conversion = inputOptions(*this, this->Input);
+  conversion.scratch = this->scratchPlace();
   const smg::EstimatedInput in(this->In, conversion);
   smg::JobEstimate estimate(
     in, this->Out, this->costsOn(in.info), this->addedTo(in.info), conversion);
@@ -73,21 +74,32 @@ smg::JobEstimate MeshCommand::estimate() const
   return estimate;
 }
 
-/** Rejects what certainly does not fit on the disks, if IN says its counts. A checkpoint may be
- * there already. */
+/** Rejects what certainly does not fit on the disks, if IN says its counts. */
 void MeshCommand::checkRoom() const
 {
-  if (!this->checkpoint.empty() || smg::kindOfInput(this->In) == smg::MeshFileKind::Unknown)
+  if (smg::kindOfInput(this->In) == smg::MeshFileKind::Unknown)
   {
     return;
   }
   if (const smg::JobEstimate estimate = this->estimate(); estimate.counted)
   {
-    estimate.checkRoom(this->Out, this->scratch);
+    estimate.checkRoom(this->Out, this->scratchPlace(), this->checkpointBytes());
   }
 }
 
 void MeshCommand::run()
+{
+  try
+  {
+    this->compute();
+  }
+  catch (const smg::Cancelled&)
+  {
+    this->endCancelled();
+  }
+}
+
+void MeshCommand::compute()
 {
   const auto start = std::chrono::steady_clock::now();
   const auto secondsSince = [](std::chrono::steady_clock::time_point then)
@@ -97,6 +109,7 @@ void MeshCommand::run()
   smg::checkIsNotInput(this->In, this->Out);
   smg::checkIsNotInput(this->File, this->Out, "the file that says what to do");
   this->checkReport({ this->In, this->Out, this->File });
+  this->checkCheckpoint({ this->Out, this->report });
   this->readTask();
   if (this->DryRun)
   {

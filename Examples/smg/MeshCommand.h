@@ -78,6 +78,7 @@ protected:
   std::optional<smg::ConversionReport> Conversion;
 
 private:
+  void compute();
   /** The costs of the command, before it starts. */
   smg::JobEstimate estimate() const;
   void checkRoom() const;

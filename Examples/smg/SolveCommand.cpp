@@ -76,7 +76,7 @@ protected:
   {
     smg::checkOptions(this->Solve);
     smg::checkOperators(this->Solve);
-    this->Description = smg::readProblemFile(this->File);
+    this->Description = smg::readProblemText(this->readText(), this->File.string());
     if (!smg::isPosed(this->Description))
     {
       throw smg::Error(this->File.string() +

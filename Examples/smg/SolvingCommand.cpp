@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "SolvingCommand.h"
 
+#include "IO/Problem/JsonNode.h"
+
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 std::string SolvingCommand::checkTolerance(const std::string& text)
@@ -40,22 +40,16 @@ void SolvingCommand::addSolverOptions(CLI::App& command, const std::string& resu
   this->addInputAndCommon(command, options.memoryLimit);
 }
 
-namespace
+const std::string& SolvingCommand::readText()
 {
-
-std::string contentOf(const std::filesystem::path& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return { std::istreambuf_iterator<char>(file), {} };
+  return this->Text = smg::jsonFileText(this->File.string());
 }
-
-} // namespace
 
 void SolvingCommand::applyCheckpoint(smg::SolveOptions& options, const smg::VsmReader& mesh) const
 {
   if (!this->checkpoint.empty())
   {
-    options.checkpoint = { this->checkpoint, mesh.fingerprint(), contentOf(this->File) };
+    options.checkpoint = { this->checkpoint, mesh.fingerprint(), this->Text };
   }
 }
 

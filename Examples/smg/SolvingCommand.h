@@ -28,6 +28,8 @@ protected:
       ->check(checkTolerance);
   }
 
+  /** Reads the file that says what to do, once: it may be a pipe. Throws smg::Error. */
+  const std::string& readText();
   /** Applies --checkpoint, for a solve on this mesh. */
   void applyCheckpoint(smg::SolveOptions& options, const smg::VsmReader& mesh) const;
 
@@ -41,6 +43,8 @@ protected:
   void print(const smg::Report& report) const override;
 
 private:
+  std::string Text; ///< of the file that says what to do
+
   /** CLI::Range includes its ends and accepts nan. */
   static std::string checkTolerance(const std::string& text);
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/CheckpointedConversion.h"
 
+#include "IO/Conversion/Conversion.h"
 #include "IO/Conversion/ConversionReportState.h"
 #include "IO/Conversion/KeptConversion.h"
 #include "Solver/Storage/Checkpoint.h"
@@ -8,8 +9,6 @@
 #include "smg/VsmReader.h"
 
 #include <string>
-#include <system_error>
-#include <utility>
 
 namespace smg
 {
@@ -18,39 +17,48 @@ namespace
 
 constexpr const char* MeshName = "mesh.vsm";
 constexpr const char* StagesName = "stages";
+constexpr const char* StateName = "state-conversion";
 constexpr std::int64_t StateMemory = std::int64_t(1) << 24;
-
-/** Removes meshes that were not complete when their program was killed. */
-void removeIncomplete(const ScratchFolder& folder)
-{
-  std::error_code ignored;
-  for (std::filesystem::directory_iterator entry(folder.path(), ignored), end; entry != end;
-       entry.increment(ignored))
-  {
-    if (entry->path().filename().string().starts_with(std::string(MeshName) + '.'))
-    {
-      std::filesystem::remove(entry->path(), ignored);
-    }
-  }
-}
 
 /** Converts with a checkpoint of its own in the folder, which remains with that. */
 ConversionReport convertInStages(const std::filesystem::path& in, const std::filesystem::path& out,
   ConversionOptions options, ScratchFolder& folder)
 {
-  options.checkpoint = folder / StagesName;
+  options.checkpoint.clear();
+  if (Conversion::hasStages(in, options))
+  {
+    options.checkpoint = folder / StagesName;
+  }
   try
   {
     return convert(in, out, options);
   }
   catch (...)
   {
-    folder.keep(std::filesystem::exists(options.checkpoint));
+    if (std::filesystem::exists(folder / StagesName))
+    {
+      folder.retain();
+    }
     throw;
   }
 }
 
+[[noreturn]] void failOther(const std::filesystem::path& folder)
+{
+  throw Error(folder.string() +
+              ": is the checkpoint of a computation on another mesh file: repeat its command to "
+              "continue it, or remove the folder to begin anew.");
+}
+
 } // namespace
+
+void requireNoConversionIn(const std::filesystem::path& folder)
+{
+  if (Checkpoint::steps(folder, StateName) > 0 || std::filesystem::exists(folder / StagesName))
+  {
+    failOther(folder);
+  }
+}
 
 CheckpointedConversion convertInCheckpoint(
   const std::filesystem::path& in, const ConversionOptions& options)
@@ -60,9 +68,9 @@ CheckpointedConversion convertInCheckpoint(
     throw Error(in.string() + ": there is no such file to convert.");
   }
   ScratchFolder folder{ KeptFolder(options.checkpoint) };
-  Checkpoint states(folder, { { "mesh file", originOf(in, options) } }, "conversion");
+  Checkpoint states(folder, { { "mesh file", originOf(in, options) } }, StateName);
   Pool memory(StateMemory);
-  CheckpointedConversion converted{ folder / MeshName, {} };
+  CheckpointedConversion converted{ folder.pathOf(MeshName), folder.lock(), {} };
   ConversionReportState reported{ converted.report };
   std::string fingerprint;
   if (std::optional<StateReader> state = states.open(memory))
@@ -75,7 +83,10 @@ CheckpointedConversion convertInCheckpoint(
     }
     return converted;
   }
-  removeIncomplete(folder);
+  if (Checkpoint::steps(folder.path()) > 0)
+  {
+    failOther(folder.path());
+  }
   converted.report = convertInStages(in, converted.mesh, options, folder);
   fingerprint = VsmReader(converted.mesh).fingerprint();
   states.save(1, [&](StateWriter& state) { state(fingerprint, reported); });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Conversion/Conversion.h"
 
+#include "IO/Conversion/CheckpointedConversion.h"
+#include "IO/Conversion/CompressedStream.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
@@ -48,6 +50,18 @@ Conversion::Conversion(const std::filesystem::path& in, const std::filesystem::p
   }
 }
 
+bool Conversion::hasStages(const std::filesystem::path& in, const ConversionOptions& options)
+{
+  const std::filesystem::path none;
+  return !options.restoreOrder && !isCompressedStream(in) &&
+         !Conversion(in, none, options).copies();
+}
+
+bool Conversion::copies() const
+{
+  return this->isStream() && this->Options.order == StreamOrder::Keep && !this->Options.weld;
+}
+
 Workspace& Conversion::workspace()
 {
   if (!this->Space)
@@ -68,6 +82,7 @@ ScratchFolder* Conversion::kept()
 {
   if (!this->Kept && !this->Options.checkpoint.empty())
   {
+    requireNoConversionIn(this->Options.checkpoint);
     this->Kept.emplace(KeptFolder(this->Options.checkpoint));
   }
   return this->Kept ? &*this->Kept : nullptr;

@@ -26,6 +26,9 @@ public:
   Conversion(const std::filesystem::path& in, const std::filesystem::path& out,
     const ConversionOptions& options);
 
+  /** Whether such a conversion has stages, from which it can continue with a checkpoint. */
+  static bool hasStages(const std::filesystem::path& in, const ConversionOptions& options);
+
   const std::filesystem::path& in() const { return this->In; }
   const std::filesystem::path& out() const { return this->Out; }
   const ConversionOptions& options() const { return this->Options; }
@@ -46,6 +49,8 @@ public:
   MeshFileKind inputKind() const { return this->From; }
   /** Whether the input already has a stream order. */
   bool isStream() const;
+  /** Whether the cells are only copied. */
+  bool copies() const;
   /** Opens such an input as a .vsm file. Throws Error if it does not have the requested cells. */
   const VsmReader& openStream();
   /** The opened stream, if any. */

@@ -104,7 +104,8 @@ Counts countsOf(const std::filesystem::path& path, const MeshPart& part)
 
 std::filesystem::path scratchPlace(const std::filesystem::path& folder)
 {
-  return folder.empty() ? std::filesystem::temp_directory_path() : folder;
+  std::error_code absent;
+  return folder.empty() ? std::filesystem::temp_directory_path(absent) : folder;
 }
 
 std::int64_t plainStreamBytes(std::int64_t vertices, std::int64_t corners)

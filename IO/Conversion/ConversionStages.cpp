@@ -22,8 +22,8 @@ template <class State>
 class StageFiles
 {
 public:
-  StageFiles(State& state, Workspace& workspace, const std::filesystem::path& folder)
-    : Of(state)
+  StageFiles(State& state, Workspace& workspace, const ScratchFolder& folder)
+    : Exchanged(state)
     , Space(workspace)
     , Folder(folder)
   {
@@ -32,10 +32,10 @@ public:
   void exchange(RawMesh& mesh)
   {
     ImportCounts& c = mesh.counts;
-    this->Of.part("mesh");
-    this->Of(mesh.cellType, mesh.doublePositions, mesh.vertices, mesh.cells, mesh.elementCount,
-      c.triangulatedPolygons, c.splitCells, c.higherOrderCells, c.droppedCells, c.mergedPoints,
-      c.timeSteps, c.partitions, c.droppedColumns, c.notes);
+    this->Exchanged.part("mesh");
+    this->Exchanged(mesh.cellType, mesh.doublePositions, mesh.vertices, mesh.cells,
+      mesh.elementCount, c.triangulatedPolygons, c.splitCells, c.higherOrderCells, c.droppedCells,
+      c.mergedPoints, c.timeSteps, c.partitions, c.droppedColumns, c.notes);
     this->require(mesh.cellType == CellType::Triangle || mesh.cellType == CellType::Tetrahedron);
     this->require(mesh.vertices >= 0 && mesh.vertices < NoIndex && mesh.cells >= 0 &&
                   mesh.cells < NoIndex && mesh.elementCount >= 0 && mesh.elementCount < NoIndex);
@@ -48,9 +48,9 @@ public:
 
   void exchange(StreamLayout& layout)
   {
-    this->Of.part("layout");
-    this->Of(layout.vertexCount, layout.cellCount, layout.degenerateCells, layout.duplicateCells,
-      layout.invertedCells);
+    this->Exchanged.part("layout");
+    this->Exchanged(layout.vertexCount, layout.cellCount, layout.degenerateCells,
+      layout.duplicateCells, layout.invertedCells);
     this->exchange(layout.vertices);
     for (BucketFile* file : { &layout.corners.bytes(), &layout.elements.bytes(),
            &layout.flags.bytes(), &layout.blockVertices.bytes(), &layout.blockFinalized.bytes() })
@@ -66,27 +66,28 @@ private:
   {
     if constexpr (!Saves)
     {
-      this->Of.require(valid);
+      this->Exchanged.require(valid);
     }
   }
 
   void exchange(BucketFile& file)
   {
-    const std::filesystem::path path = this->Folder / ("stage." + std::to_string(this->Files++));
+    const std::filesystem::path path =
+      this->Folder.pathOf("stage." + std::to_string(this->Files++));
     if constexpr (Saves)
     {
-      file.save(this->Of, path);
+      file.save(this->Exchanged, path);
     }
     else
     {
-      file.load(this->Of, path);
+      file.load(this->Exchanged, path);
     }
   }
 
   void exchange(std::vector<RawColumn>& columns)
   {
     std::uint64_t count = columns.size();
-    this->Of(count);
+    this->Exchanged(count);
     for (std::size_t i = 0; i < count; ++i)
     {
       if constexpr (!Saves)
@@ -94,21 +95,21 @@ private:
         columns.push_back({ {}, BucketFile(this->Space) });
       }
       ColumnSpec& spec = columns[i].spec;
-      this->Of(spec.name, spec.type, spec.components, spec.isolated);
+      this->Exchanged(spec.name, spec.type, spec.components, spec.isolated);
       this->exchange(columns[i].tuples);
     }
   }
 
-  State& Of;
+  State& Exchanged;
   Workspace& Space;
-  const std::filesystem::path& Folder;
+  const ScratchFolder& Folder;
   int Files = 0;
 };
 
 } // namespace
 
 ConversionStages::ConversionStages(Conversion& conversion)
-  : Of(conversion)
+  : Owner(conversion)
 {
   if (ScratchFolder* folder = conversion.kept())
   {
@@ -121,8 +122,8 @@ ConversionStages::ConversionStages(Conversion& conversion)
 template <class State>
 void ConversionStages::exchange(State& state, Stage& stage, RawMesh& mesh, StreamLayout& layout)
 {
-  ConversionReportState reported{ this->Of.report() };
-  StageFiles<State> files(state, this->Of.workspace(), this->Of.kept()->path());
+  ConversionReportState reported{ this->Owner.report() };
+  StageFiles<State> files(state, this->Owner.workspace(), *this->Owner.kept());
   state(stage, reported);
   files.exchange(mesh);
   if (stage == LaidOut)
@@ -134,7 +135,7 @@ void ConversionStages::exchange(State& state, Stage& stage, RawMesh& mesh, Strea
 auto ConversionStages::load(RawMesh& mesh, StreamLayout& layout) -> Stage
 {
   std::optional<StateReader> state =
-    this->States ? this->States->open(this->Of.workspace().pool()) : std::nullopt;
+    this->States ? this->States->open(this->Owner.workspace().pool()) : std::nullopt;
   if (!state)
   {
     return None;
@@ -143,7 +144,7 @@ auto ConversionStages::load(RawMesh& mesh, StreamLayout& layout) -> Stage
   this->exchange(*state, stage, mesh, layout);
   state->require(stage == Imported || stage == LaidOut);
   state->finish();
-  ConversionReport& report = this->Of.report();
+  ConversionReport& report = this->Owner.report();
   report.seconds = {}; // those of this program
   report.notes.push_back(stage == Imported ? "continued with the mesh that the checkpoint has"
                                            : "continued with the order that the checkpoint has");

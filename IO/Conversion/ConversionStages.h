@@ -40,7 +40,7 @@ private:
   template <class State>
   void exchange(State& state, Stage& stage, RawMesh& mesh, StreamLayout& layout);
 
-  Conversion& Of;
+  Conversion& Owner;
   std::optional<Checkpoint> States;
 };
 

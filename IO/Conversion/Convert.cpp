@@ -48,8 +48,7 @@ void run(Conversion& conversion)
   }
   checkOutput(conversion.out());
   conversion.report().order = nameOf(options.order);
-  const bool keeps = options.order == StreamOrder::Keep && !options.weld;
-  conversion.isStream() && keeps ? copyStream(conversion) : convertMesh(conversion);
+  conversion.copies() ? copyStream(conversion) : convertMesh(conversion);
 }
 
 } // namespace
@@ -59,6 +58,12 @@ ConversionReport convert(const std::filesystem::path& in, const std::filesystem:
 {
   checkIsNotInput(in, out);
   checkOutputPlace(out);
+  if (!options.checkpoint.empty() && !Conversion::hasStages(in, options))
+  {
+    throw Error(in.string() +
+                ": this conversion has no stages from which it could continue: leave the "
+                "checkpoint out (option --checkpoint).");
+  }
   if (isCompressedStream(in))
   {
     return convertCompressedStream(in, out, options);
@@ -67,10 +72,6 @@ ConversionReport convert(const std::filesystem::path& in, const std::filesystem:
   const double cpu = processSeconds();
   Conversion conversion(in, out, options);
   run(conversion);
-  if (ScratchFolder* kept = conversion.kept())
-  {
-    kept->keep(false);
-  }
   Workspace& space = conversion.workspace();
   ConversionReport report = conversion.report();
   report.pool_bytes_peak = space.pool().peak();

@@ -16,6 +16,7 @@ namespace smg
 struct OpenedMesh::Implementation
 {
   std::optional<ScratchFolder> scratch;
+  std::shared_ptr<FolderLock> lock; // of the folder of a checkpoint
   std::optional<ConversionReport> conversion;
   std::optional<VsmReader> reader;
 };
@@ -53,6 +54,10 @@ std::unique_ptr<OpenedMesh> openMesh(
         ": a .vsm file is read as it is: leave the choice of cells, of a time step and of "
         "a partition, and the merging of points, to its conversion (smg convert).");
     }
+    if (!options.checkpoint.empty())
+    {
+      requireNoConversionIn(options.checkpoint);
+    }
     mesh.reader.emplace(path);
     return opened;
   }
@@ -64,6 +69,7 @@ std::unique_ptr<OpenedMesh> openMesh(
   if (!options.checkpoint.empty())
   {
     CheckpointedConversion kept = convertInCheckpoint(path, conversion);
+    mesh.lock = std::move(kept.lock);
     mesh.conversion = std::move(kept.report);
     mesh.reader.emplace(kept.mesh);
     return opened;

@@ -106,13 +106,13 @@ JobEstimate::JobEstimate(const EstimatedInput& in, const std::filesystem::path& 
     in.conversionSeconds + costs.seconds + SecondsOfByte * static_cast<double>(this->output_bytes);
 }
 
-void JobEstimate::checkRoom(
-  const std::filesystem::path& out, const std::filesystem::path& scratchFolder) const
+void JobEstimate::checkRoom(const std::filesystem::path& out,
+  const std::filesystem::path& scratchFolder, std::int64_t written) const
 {
-  checkScratchRoom(scratchFolder, this->scratch_bytes);
+  checkScratchRoom(scratchFolder, this->scratch_bytes, written);
   const bool isOneDisk = onOneDisk(folderOf(out), scratchFolder);
   const std::int64_t bytes = this->output_bytes + (isOneDisk ? this->scratch_bytes : 0);
-  if (this->output_free >= 0 && this->output_free < bytes / 2)
+  if (this->output_free >= 0 && this->output_free < bytes / 2 - (isOneDisk ? written : 0))
   {
     throw Error(out.string() + ": the result" +
                 (isOneDisk ? " and the scratch files take" : " takes") + " about " +

@@ -51,9 +51,10 @@ struct SMG_EXPORT JobEstimate
   double cpu_seconds = 0;         ///< on a machine of 2023, with the conversion
 
   /** Rejects what certainly does not fit on the disks: throws Error, with both figures, unless
-   * there is room for half of the scratch files and of the result `out`, on one disk for both. */
-  void checkRoom(
-    const std::filesystem::path& out, const std::filesystem::path& scratchFolder) const;
+   * there is room for half of the scratch files, of which `written` bytes are there, and of the
+   * result `out`, on one disk for both. */
+  void checkRoom(const std::filesystem::path& out, const std::filesystem::path& scratchFolder,
+    std::int64_t written = 0) const;
 
   /** As a JSON object with the names above. */
   std::string json(int indent = 2) const;

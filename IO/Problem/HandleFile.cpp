@@ -228,8 +228,13 @@ DeformationDescription parseDeformation(const JsonNode& node)
 
 DeformationDescription readHandleFile(const std::filesystem::path& path)
 {
-  const nlohmann::json json = readJsonFile(path.string());
-  return parseDeformation(JsonNode(json, path.string()));
+  return readHandleText(jsonFileText(path.string()), path.string());
+}
+
+DeformationDescription readHandleText(const std::string& text, const std::string& name)
+{
+  const nlohmann::json json = readJsonText(text, name);
+  return parseDeformation(JsonNode(json, name));
 }
 
 } // namespace smg

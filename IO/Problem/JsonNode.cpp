@@ -209,7 +209,7 @@ private:
 
 } // namespace
 
-nlohmann::json readJsonFile(const std::string& path)
+std::string jsonFileText(const std::string& path)
 {
   std::error_code absent;
   if (std::filesystem::is_directory(path, absent))
@@ -221,13 +221,18 @@ nlohmann::json readJsonFile(const std::string& path)
   {
     throw Error(path + ": cannot be opened: " + std::strerror(errno) + '.');
   }
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  std::string text(std::istreambuf_iterator<char>(stream), {});
   if (stream.bad() || text.empty())
   {
     throw Error(path + (text.empty() ? ": the file is empty or cannot be read."
                                      : ": the file cannot be read."));
   }
-  return readJsonText(text, path);
+  return text;
+}
+
+nlohmann::json readJsonFile(const std::string& path)
+{
+  return readJsonText(jsonFileText(path), path);
 }
 
 nlohmann::json readJsonText(const std::string& text, const std::string& name)

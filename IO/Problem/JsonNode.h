@@ -68,6 +68,8 @@ private:
   std::string Place;
 };
 
+/** The text of a JSON file; throws Error if it cannot be read or is empty. */
+SMG_EXPORT std::string jsonFileText(const std::string& path);
 /** Reads a JSON file; throws Error with file, line and column if it is invalid. */
 nlohmann::json readJsonFile(const std::string& path);
 /** The same for a string, named `name` in error messages. */

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/Checkpoint.h"
 
-#include "Solver/Storage/Folder.h"
 #include "Solver/Storage/StateFront.h"
 #include "Solver/Storage/SystemCalls.h"
 #include "smg/Error.h"
@@ -35,6 +34,16 @@ std::optional<StateFront> frontOf(const FileDescriptor& file)
   return front;
 }
 
+/** What the first items with different values are of; "": all values agree. */
+std::string otherItem(
+  const std::vector<Checkpoint::Item>& items, const std::vector<Checkpoint::Item>& others)
+{
+  const auto isSame = [](const Checkpoint::Item& a, const Checkpoint::Item& b)
+  { return a.value == b.value; };
+  const auto place = std::ranges::mismatch(items, others, isSame).in1;
+  return place == items.end() ? std::string() : place->what;
+}
+
 bool isThere(const std::filesystem::path& path)
 {
   std::error_code ignored;
@@ -56,15 +65,22 @@ std::filesystem::path Checkpoint::path(int slot) const
   return stateIn(this->Folder.path(), this->Name, slot);
 }
 
-std::int64_t Checkpoint::steps(const std::filesystem::path& folder)
+std::int64_t Checkpoint::steps(const std::filesystem::path& folder, const std::string& name)
 {
   std::int64_t most = 0;
   for (int slot = 0; slot < 2; ++slot)
   {
-    if (const std::filesystem::path path = stateIn(folder, StateName, slot); isThere(path))
+    try
     {
-      const std::optional<StateFront> front = frontOf(FileDescriptor::openForReading(path));
-      most = front ? std::max(most, front->steps) : most;
+      if (const std::filesystem::path path = stateIn(folder, name, slot); isThere(path))
+      {
+        const std::optional<StateFront> front = frontOf(FileDescriptor::openForReading(path));
+        most = front ? std::max(most, front->steps) : most;
+      }
+    }
+    catch (const Error&)
+    {
+      // Another program has removed it meanwhile.
     }
   }
   return most;
@@ -72,7 +88,6 @@ std::int64_t Checkpoint::steps(const std::filesystem::path& folder)
 
 std::optional<StateReader> Checkpoint::open(Pool& pool)
 {
-  this->removeIncomplete();
   std::optional<StateReader> last;
   std::int64_t most = -1;
   std::optional<Error> damage;
@@ -124,30 +139,15 @@ void Checkpoint::compareSubject(StateReader& state) const
 {
   std::vector<Item> items;
   state(items);
-  for (std::size_t i = 0; i < items.size(); ++i)
+  const auto isSame = [](const Item& a, const Item& b) { return a.what == b.what; };
+  const std::string other = !std::ranges::equal(items, this->Subject, isSame)
+                              ? "kind of computation"
+                              : otherItem(items, this->Subject);
+  if (!other.empty())
   {
-    state.require(i < this->Subject.size() && items[i].what == this->Subject[i].what);
-    if (items[i].value != this->Subject[i].value)
-    {
-      throw Error(this->Folder.path().string() +
-                  ": is the checkpoint of a computation with another " + items[i].what +
-                  ": repeat its command to continue it, or remove the folder to begin anew.");
-    }
-  }
-  state.require(items.size() == this->Subject.size());
-}
-
-/** Removes states that were not complete when their program was killed. */
-void Checkpoint::removeIncomplete() const
-{
-  FolderEntries entries(this->Folder.path());
-  while (const char* name = entries.next())
-  {
-    if (std::string_view(name).starts_with(this->Name + '.') && this->path(0).filename() != name &&
-        this->path(1).filename() != name)
-    {
-      systemCalls().unlink((this->Folder / name).c_str());
-    }
+    throw Error(this->Folder.path().string() +
+                ": is the checkpoint of a computation with another " + other +
+                ": repeat its command to continue it, or remove the folder to begin anew.");
   }
 }
 
@@ -170,7 +170,7 @@ void Checkpoint::save(std::int64_t steps, const std::function<void(StateWriter&)
   file.write(0, std::as_bytes(std::span(&front, 1)));
   file.renameTo(this->path(slot));
   this->Last = slot;
-  this->Folder.keep(true);
+  this->Folder.retain();
 }
 
 void Checkpoint::discard()
@@ -178,7 +178,7 @@ void Checkpoint::discard()
   // The last state refers to files that are complete: it goes last.
   systemCalls().unlink(this->path(1 - this->Last).c_str());
   systemCalls().unlink(this->path(this->Last).c_str());
-  this->Folder.keep(false);
+  this->Folder.discard();
 }
 
 } // namespace smg

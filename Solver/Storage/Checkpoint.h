@@ -47,11 +47,12 @@ public:
   };
 
   /** The states `name`.0 and `name`.1 in `folder`, of a computation that agrees in `subject` and in
-   * the version of the program. */
+   * the version of the program. `name` begins with StateName. */
   Checkpoint(ScratchFolder& folder, std::vector<Item> subject, std::string name = StateName);
 
-  /** The number of steps of the last of the states StateName in a folder; 0 if there is none. */
-  static std::int64_t steps(const std::filesystem::path& folder);
+  /** The number of steps of the last of the states `name` in a folder; 0 if there is none. */
+  static std::int64_t steps(
+    const std::filesystem::path& folder, const std::string& name = StateName);
 
   /** The last state; none: the computation begins. Throws Error if it is damaged or of another
    * subject. */
@@ -63,7 +64,6 @@ public:
 
 private:
   void compareSubject(StateReader& state) const;
-  void removeIncomplete() const;
   std::filesystem::path path(int slot) const;
 
   ScratchFolder& Folder;

@@ -5,6 +5,8 @@
 #include "Solver/Storage/ScratchAccount.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "Solver/Storage/SystemCalls.h"
+#include "Solver/Storage/SystemError.h"
+#include "smg/Error.h"
 
 #include <atomic>
 #include <cerrno>
@@ -17,6 +19,40 @@ namespace
 
 std::atomic<bool> durable{ true };
 
+/** Fsync; some file systems have none. */
+bool sync(int file)
+{
+  int result = 0;
+  do
+  {
+    result = systemCalls().fsync(file);
+  } while (result != 0 && errno == EINTR);
+  return result == 0 || errno == EINVAL || errno == ENOTSUP;
+}
+
+/** Keeps the lock of a temporary file while it is closed, which may report an error, and renamed.
+ */
+class LockedUntilRenamed
+{
+public:
+  explicit LockedUntilRenamed(int file)
+    : Copy(::fcntl(file, F_DUPFD_CLOEXEC, 0))
+  {
+  }
+  ~LockedUntilRenamed()
+  {
+    if (this->Copy >= 0)
+    {
+      systemCalls().close(this->Copy);
+    }
+  }
+  LockedUntilRenamed(const LockedUntilRenamed&) = delete;
+  LockedUntilRenamed& operator=(const LockedUntilRenamed&) = delete;
+
+private:
+  int Copy;
+};
+
 } // namespace
 
 void FileDescriptor::renameTo(const std::filesystem::path& path)
@@ -27,6 +63,7 @@ void FileDescriptor::renameTo(const std::filesystem::path& path)
   {
     this->sync();
   }
+  const LockedUntilRenamed lock(this->Number);
   this->close();
   if (systemCalls().rename(this->Path.c_str(), target.c_str()) != 0)
   {
@@ -39,7 +76,7 @@ void FileDescriptor::renameTo(const std::filesystem::path& path)
   }
   if (isKept)
   {
-    syncPath(target.parent_path());
+    syncPath(target.parent_path(), path);
   }
 }
 
@@ -50,25 +87,28 @@ void FileDescriptor::setDurable(bool isDurable) noexcept
 
 void FileDescriptor::sync() const
 {
-  // Some file systems have no such call.
-  if (durable && systemCalls().fsync(this->Number) != 0 && errno != EINVAL && errno != ENOTSUP)
+  if (durable && !smg::sync(this->Number))
   {
     throwWriteError(this->Shown, errno);
   }
 }
 
-void FileDescriptor::syncPath(const std::filesystem::path& path)
+void FileDescriptor::syncPath(const std::filesystem::path& path, const std::filesystem::path& shown)
 {
-  FileDescriptor file;
-  file.Shown = path.empty() ? std::filesystem::path(".") : path;
-  file.Number = systemCalls().open(file.Shown.c_str(), O_RDONLY | O_CLOEXEC, 0);
-  if (file.isOpen())
+  const std::filesystem::path place = path.empty() ? std::filesystem::path(".") : path;
+  const int file = systemCalls().open(place.c_str(), O_RDONLY | O_CLOEXEC, 0);
+  // There are folders in which one may write, but not read.
+  const bool good = file >= 0 ? !durable || smg::sync(file) : errno == EACCES;
+  const int error = errno;
+  if (file >= 0)
   {
-    file.sync();
+    systemCalls().close(file);
   }
-  else if (errno != EACCES) // a folder in which one may write, but not read
+  if (!good)
   {
-    throwWriteError(file.Shown, errno);
+    throw Error(shown.string() +
+                ": is written, but may be lost in a power cut, since its folder cannot be: " +
+                systemError(error) + '.');
   }
 }
 

@@ -5,10 +5,10 @@
 #include "Solver/Storage/ScratchFolder.h"
 #include "Solver/Storage/SystemCalls.h"
 #include "Solver/Storage/SystemError.h"
+#include "Solver/Storage/TemporaryFiles.h"
 #include "Solver/Storage/WaitClock.h"
 #include "smg/Error.h"
 
-#include <atomic>
 #include <cerrno>
 #include <fcntl.h>
 #include <string>
@@ -23,13 +23,6 @@ namespace smg
 
 namespace
 {
-
-/** A unique name, unless a terminated process left a file with it. */
-std::filesystem::path temporaryName(const std::filesystem::path& path)
-{
-  static std::atomic<unsigned> count{ 0 };
-  return path.string() + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(count++);
-}
 
 void requireRegular(int file, const std::filesystem::path& path)
 {
@@ -64,6 +57,7 @@ FileDescriptor::FileDescriptor(FileDescriptor&& other) noexcept
   , Path(std::move(other.Path))
   , Shown(std::move(other.Shown))
   , IsTemporary(std::exchange(other.IsTemporary, false))
+  , IsNamed(std::exchange(other.IsNamed, false))
   , Share(std::move(other.Share))
 {
 }
@@ -74,6 +68,7 @@ FileDescriptor& FileDescriptor::operator=(FileDescriptor&& other) noexcept
   std::swap(this->Path, other.Path);
   std::swap(this->Shown, other.Shown);
   std::swap(this->IsTemporary, other.IsTemporary);
+  std::swap(this->IsNamed, other.IsNamed);
   std::swap(this->Share, other.Share);
   return *this;
 }
@@ -114,17 +109,19 @@ FileDescriptor FileDescriptor::createBeside(const std::filesystem::path& path)
   const std::filesystem::path target = targetOf(path);
   FileDescriptor file;
   file.Shown = path;
-  file.Share = shareIn(target.parent_path());
+  removeAbandonedTemporaries(target);
   do
   {
+    file.close();
     file.Path = temporaryName(target);
     file.Number = openNew(file.Path);
-  } while (!file.isOpen() && errno == EEXIST);
+  } while (file.isOpen() ? !lockTemporary(file.Number) : errno == EEXIST);
   if (!file.isOpen())
   {
     throw Error(path.string() + ": cannot be created: " + systemError(errno) + ".");
   }
   file.IsTemporary = true;
+  file.Share = shareIn(target.parent_path());
   return file;
 }
 
@@ -156,6 +153,7 @@ FileDescriptor FileDescriptor::openOrCreate(const std::filesystem::path& path)
     throw Error(path.string() + ": cannot be opened: " + systemError(errno) + ".");
   }
   requireRegular(file.Number, path);
+  file.IsNamed = true;
   file.Share = shareIn(path.parent_path());
   if (file.Share)
   {
@@ -172,13 +170,14 @@ FileDescriptor FileDescriptor::openOrCreate(const std::filesystem::path& path)
 void FileDescriptor::giveName(const std::filesystem::path& path)
 {
   const std::string self = "/proc/self/fd/" + std::to_string(this->Number);
-  systemCalls().unlink(path.c_str());
+  removeClosed(path);
   if (systemCalls().linkat(AT_FDCWD, self.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) != 0)
   {
     throw Error(path.string() + ": an unnamed file cannot get this name: " + systemError(errno) +
                 ": name a folder in another file system.");
   }
   this->Path = this->Shown = path;
+  this->IsNamed = true;
 }
 
 std::int64_t FileDescriptor::size() const
@@ -331,8 +330,18 @@ void FileDescriptor::close()
   }
   if (!this->IsTemporary)
   {
-    this->Share.reset();
+    this->releaseShare();
   }
+}
+
+/** The bytes of a file that stays under its name still count. */
+void FileDescriptor::releaseShare() noexcept
+{
+  if (this->Share && this->IsNamed)
+  {
+    this->Share->keep(this->Path);
+  }
+  this->Share.reset();
 }
 
 void FileDescriptor::remove() noexcept
@@ -345,7 +354,7 @@ void FileDescriptor::remove() noexcept
   {
     systemCalls().unlink(this->Path.c_str());
   }
-  this->Share.reset();
+  this->releaseShare();
 }
 
 void FileDescriptor::removeClosed(const std::filesystem::path& path) noexcept

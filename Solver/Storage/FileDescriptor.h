@@ -34,7 +34,8 @@ public:
    * Throws Error for cyclic links. */
   static std::filesystem::path targetOf(const std::filesystem::path& path);
   /** Creates a file with a temporary name, path(), beside the target of `path`. It is removed
-   * unless it is renamed. */
+   * unless it is renamed; where the program is killed, by the next one that creates a file beside
+   * the same target. */
   static FileDescriptor createBeside(const std::filesystem::path& path);
   /**
    * Creates an unnamed file in `folder`, which is removed when it is closed or the program ends.
@@ -74,8 +75,9 @@ public:
   void close();
   /** Waits until the content is on the disk, unless setDurable(false). Throws Error. */
   void sync() const;
-  /** The same of a closed file, or of the names in a folder. */
-  static void syncPath(const std::filesystem::path& path);
+  /** The same of a closed file, or of the names in a folder, for the file `shown`, which errors
+   * name. */
+  static void syncPath(const std::filesystem::path& path, const std::filesystem::path& shown);
   /**
    * Closes the file and atomically renames it to `path`, replacing an existing file; the target of
    * a symbolic link is replaced and the link is kept. Content and name are durable then, except in
@@ -96,6 +98,7 @@ public:
   [[noreturn]] static void throwReadError(const std::filesystem::path& path, int errorNumber);
 
 private:
+  void releaseShare() noexcept;
   /** Reads cached bytes from the front; returns their number. */
   std::size_t readCached(std::int64_t offset, std::span<std::byte> bytes) const noexcept;
 
@@ -103,6 +106,7 @@ private:
   std::filesystem::path Path;
   std::filesystem::path Shown; // the name in errors: that of the result, not of its temporary file
   bool IsTemporary = false;
+  bool IsNamed = false;                // and remains under its name
   std::shared_ptr<ScratchShare> Share; // of a scratch file; else null
 };
 

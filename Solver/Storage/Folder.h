@@ -22,6 +22,7 @@ public:
   FolderEntries(const FolderEntries&) = delete;
   FolderEntries& operator=(const FolderEntries&) = delete;
 
+  bool isOpen() const noexcept { return this->Opened; }
   /** The next name, valid until the next call; null at the end. */
   const char* next() noexcept;
 

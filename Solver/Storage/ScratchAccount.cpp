@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <new>
 
 namespace smg
 {
@@ -76,13 +77,23 @@ void ScratchAccount::close(const std::filesystem::path& folder) noexcept
     this->add(-bytes);
   }
   this->Closed.clear();
+  this->IsOpen = false;
   openAccounts().erase(folder.native());
 }
 
-void ScratchAccount::keep(const std::filesystem::path& path, std::int64_t bytes)
+void ScratchAccount::keep(const std::filesystem::path& path, std::int64_t bytes) noexcept
 {
   const std::lock_guard lock(guard());
-  this->add(-std::exchange(this->Closed[path.native()], bytes));
+  std::int64_t* counted = nullptr;
+  try
+  {
+    counted = this->IsOpen ? &this->Closed[path.native()] : nullptr;
+  }
+  catch (const std::bad_alloc&)
+  {
+    // As below.
+  }
+  this->add(-(counted ? std::exchange(*counted, bytes) : bytes));
 }
 
 void ScratchAccount::remove(const std::filesystem::path& path) noexcept

@@ -35,8 +35,9 @@ public:
   /** Closes the account of a folder that is removed with its files. Nameless files that are open
    * count until they are closed. */
   void close(const std::filesystem::path& folder) noexcept;
-  /** Counts the bytes of a closed file until remove(), replacing those of an older file `path`. */
-  void keep(const std::filesystem::path& path, std::int64_t bytes);
+  /** Counts the bytes of a closed file until remove(), replacing those of an older file `path`.
+   * Where memory is short, or the account is closed, they no longer count. */
+  void keep(const std::filesystem::path& path, std::int64_t bytes) noexcept;
   void remove(const std::filesystem::path& path) noexcept;
 
   /** Adds `bytes`; returns false, and adds nothing, if a limit would be exceeded. */
@@ -60,6 +61,7 @@ private:
 
   std::shared_ptr<ScratchAccount> Around; ///< of the folder around; null: none
   std::int64_t Limit = Unlimited;
+  bool IsOpen = true;
   std::int64_t Used = 0, Peak = 0;
   std::int64_t Refused = 0;                             ///< what would have been in use
   std::unordered_map<std::string, std::int64_t> Closed; ///< bytes of closed files by their paths
@@ -92,7 +94,7 @@ public:
     return false;
   }
   /** The file is closed and has the name `path`. */
-  void keep(const std::filesystem::path& path)
+  void keep(const std::filesystem::path& path) noexcept
   {
     this->Account->keep(path, this->Bytes.exchange(0));
   }

@@ -2,6 +2,7 @@
 #include "Solver/Storage/ScratchFolder.h"
 
 #include "Solver/Storage/Folder.h"
+#include "Solver/Storage/FolderLock.h"
 #include "Solver/Storage/ScratchAccount.h"
 #include "Solver/Storage/SystemCalls.h"
 #include "smg/Error.h"
@@ -27,6 +28,23 @@ constexpr const char* Prefix = "smg-scratch-";
 constexpr const char* Marker = ".smg-scratch";
 /** A file that only kept folders have. */
 constexpr const char* KeptMarker = "smg-checkpoint";
+/** With this begin the names of the scratch files of kept folders. */
+constexpr const char* KeptPrefix = "scratch.";
+
+/** Whether a file of a kept folder is one of its own: the others are the user's. */
+bool isOwn(std::string_view name)
+{
+  return name == KeptMarker || name.starts_with(KeptPrefix) || name.starts_with("state.") ||
+         name.starts_with("state-");
+}
+
+/** The absolute path of a folder, without a slash at its end. */
+std::filesystem::path folderPath(const std::filesystem::path& given)
+{
+  std::filesystem::path path = given.lexically_normal();
+  path = path.has_filename() ? path : path.parent_path();
+  return std::filesystem::absolute(FileDescriptor::targetOf(path)).lexically_normal();
+}
 
 /** A descriptor of the folder that holds its lock; -1 if it is locked or does not support locks. */
 int lockFolder(const std::filesystem::path& folder)
@@ -73,8 +91,7 @@ void removeAbandoned(const std::filesystem::path& base)
 }
 
 /** A file of a checkpoint is written under its name. Where somebody else has made the folder, a
- * link in it, symbolic or not, might lead to any file of the user. A folder in it is the checkpoint
- * of a stage, and checked when that is opened. */
+ * link in it, symbolic or not, might lead to any file of the user. */
 void requireOwnFiles(const std::filesystem::path& folder, int opened)
 {
   FolderEntries entries(folder);
@@ -82,11 +99,11 @@ void requireOwnFiles(const std::filesystem::path& folder, int opened)
   {
     struct stat status = {};
     const bool known = ::fstatat(opened, name, &status, AT_SYMLINK_NOFOLLOW) == 0;
-    const bool ownFile = known && S_ISREG(status.st_mode) && status.st_nlink == 1;
-    if (!ownFile && !(known && S_ISDIR(status.st_mode)))
+    if (isOwn(name) && !(known && S_ISREG(status.st_mode) && status.st_nlink == 1))
     {
       throw Error((folder / name).string() +
-                  ": is no file of a checkpoint, but a link: remove it, or name another folder.");
+                  ": is not a regular file with this name alone, as those of a checkpoint are: "
+                  "remove it, or name another folder.");
     }
   }
 }
@@ -139,26 +156,21 @@ bool ScratchFolder::isOne(const std::filesystem::path& folder)
 }
 
 ScratchFolder::ScratchFolder(const KeptFolder& kept, std::int64_t limit)
-  : Path(std::filesystem::absolute(FileDescriptor::targetOf(kept.path)))
-  , Named(true)
+  : Path(folderPath(kept.path))
 {
   if (systemCalls().mkdir(this->Path.c_str(), 0777) == 0)
   {
-    FileDescriptor::syncPath(this->Path.parent_path());
+    FileDescriptor::syncPath(this->Path.parent_path(), this->Path);
   }
   else if (errno != EEXIST)
   {
     throw Error(this->Path.string() + ": the folder cannot be made: " + std::strerror(errno) + '.');
   }
-  this->Lock = systemCalls().open(this->Path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC, 0);
-  if (this->Lock < 0)
-  {
-    throw Error(
-      this->Path.string() + ": the folder cannot be opened: " + std::strerror(errno) + '.');
-  }
+  this->KeptLock = FolderLock::acquire(this->Path);
+  this->KeptLock->use(this->Path);
   try
   {
-    this->lockKept();
+    this->openKept();
     this->Account = ScratchAccount::open(this->Path, limit);
     this->countKept();
   }
@@ -168,9 +180,22 @@ ScratchFolder::ScratchFolder(const KeptFolder& kept, std::int64_t limit)
     {
       this->Account->close(this->Path);
     }
-    systemCalls().close(this->Lock);
+    this->KeptLock->endUse();
     throw;
   }
+}
+
+/** Checks a kept folder, and marks it if it is empty. */
+void ScratchFolder::openKept()
+{
+  const std::filesystem::path marker = this->Path / KeptMarker;
+  this->Remains = std::filesystem::is_regular_file(std::filesystem::symlink_status(marker));
+  if (!this->Remains && FolderEntries(this->Path).next())
+  {
+    throw Error(this->Path.string() + ": is neither empty nor a checkpoint: name another folder.");
+  }
+  requireOwnFiles(this->Path, this->KeptLock->folder());
+  FileDescriptor::openOrCreate(marker).close();
 }
 
 /** Counts the files of an earlier program. */
@@ -179,6 +204,10 @@ void ScratchFolder::countKept()
   FolderEntries entries(this->Path);
   while (const char* name = entries.next())
   {
+    if (!isOwn(name))
+    {
+      continue;
+    }
     std::error_code unknown;
     const std::filesystem::path path = this->Path / name;
     const std::uintmax_t size = std::filesystem::file_size(path, unknown);
@@ -189,28 +218,6 @@ void ScratchFolder::countKept()
     }
     share.keep(path);
   }
-}
-
-/** Locks a kept folder, and marks it if it is empty. */
-void ScratchFolder::lockKept()
-{
-  const std::string name = this->Path.string();
-  if (::flock(this->Lock, LOCK_EX | LOCK_NB) != 0)
-  {
-    throw Error(
-      name + (errno == EWOULDBLOCK
-                 ? ": another program is using this checkpoint: wait for its end, or name another "
-                   "folder."
-                 : std::string(": the folder cannot be locked: ") + std::strerror(errno) + '.'));
-  }
-  const std::filesystem::path marker = this->Path / KeptMarker;
-  this->Kept = std::filesystem::is_regular_file(std::filesystem::symlink_status(marker));
-  if (!this->Kept && FolderEntries(this->Path).next())
-  {
-    throw Error(name + ": is neither empty nor a checkpoint: name another folder.");
-  }
-  requireOwnFiles(this->Path, this->Lock);
-  FileDescriptor::openOrCreate(marker).close();
 }
 
 std::filesystem::path ScratchFolder::placeOf(std::filesystem::path folder)
@@ -225,13 +232,17 @@ std::filesystem::path ScratchFolder::placeOf(std::filesystem::path folder)
 ScratchFolder::~ScratchFolder()
 {
   this->Account->close(this->Path);
-  if (!this->Named)
+  if (!this->KeptLock)
   {
     removeFolder(this->Path.c_str());
   }
-  else if (!this->Kept)
+  else
   {
-    this->removeKept();
+    if (!this->Remains)
+    {
+      this->removeKept();
+    }
+    this->KeptLock->endUse();
   }
   if (this->Lock >= 0)
   {
@@ -239,27 +250,38 @@ ScratchFolder::~ScratchFolder()
   }
 }
 
-/** Removes a kept folder: its files, but no folder in it. */
+/** Removes a kept folder: its own files, and, where no others are in it, the folder. */
 void ScratchFolder::removeKept() const noexcept
 {
+  const int folder = this->KeptLock->folder();
+  bool areGone = true;
   {
     FolderEntries entries(this->Path);
+    areGone = entries.isOpen();
     while (const char* name = entries.next())
     {
-      if (std::string_view(name) != KeptMarker)
+      if (isOwn(name) && std::string_view(name) != KeptMarker)
       {
-        systemCalls().unlinkat(this->Lock, name, 0);
+        areGone = systemCalls().unlinkat(folder, name, 0) == 0 && areGone;
       }
     }
   }
-  systemCalls().unlinkat(this->Lock, KeptMarker, 0); // last: without it the rest would be refused
-  systemCalls().unlinkat(AT_FDCWD, this->Path.c_str(), AT_REMOVEDIR);
+  if (areGone) // without the marker the rest would be refused
+  {
+    systemCalls().unlinkat(folder, KeptMarker, 0);
+    systemCalls().unlinkat(AT_FDCWD, this->Path.c_str(), AT_REMOVEDIR);
+  }
+}
+
+std::filesystem::path ScratchFolder::pathOf(const std::string& name) const
+{
+  return this->Path / (KeptPrefix + name);
 }
 
 FileDescriptor ScratchFolder::file(const std::string& name) const
 {
-  return this->Named ? FileDescriptor::openOrCreate(this->Path / name)
-                     : FileDescriptor::createNameless(this->Path);
+  return this->KeptLock ? FileDescriptor::openOrCreate(this->pathOf(name))
+                        : FileDescriptor::createNameless(this->Path);
 }
 
 } // namespace smg

@@ -13,6 +13,7 @@
 namespace smg
 {
 
+class FolderLock;
 class ScratchAccount;
 
 /** The path of a folder whose scratch files are to outlive the program. */
@@ -31,7 +32,7 @@ struct KeptFolder
  * long as its program runs.
  *
  * A kept folder remains with its files, which have names, for the next program that opens it, until
- * one discards it.
+ * one discards it. Other files in it, whose names do not begin as those of its own, are left alone.
  */
 class SMG_EXPORT ScratchFolder
 {
@@ -40,8 +41,7 @@ public:
    * `limit` bytes at once; 0: any number. Throws Error. */
   explicit ScratchFolder(const std::filesystem::path& parent, std::int64_t limit = 0);
   /** Opens a kept folder, or makes one of a path that does not exist or an empty folder, which
-   * remains only after keep(true). Throws Error if the folder has other files or another program
-   * has opened it. */
+   * remains only after retain(). Throws Error if the folder is neither, or is in use. */
   explicit ScratchFolder(const KeptFolder& kept, std::int64_t limit = 0);
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;
@@ -53,8 +53,14 @@ public:
 
   /** A scratch file: nameless, or that of this name in a kept folder, created if necessary. */
   FileDescriptor file(const std::string& name) const;
-  /** Of a kept folder: whether it remains. */
-  void keep(bool kept) { this->Kept = kept; }
+  /** The path of the file of this name in a kept folder. */
+  std::filesystem::path pathOf(const std::string& name) const;
+  /** Of a kept folder: it remains when it is closed. */
+  void retain() { this->Remains = true; }
+  /** Of a kept folder: it is removed when it is closed. */
+  void discard() { this->Remains = false; }
+  /** The lock of a kept folder, with which it can be handed on. */
+  const std::shared_ptr<FolderLock>& lock() const { return this->KeptLock; }
 
   /** Whether a folder is a scratch folder, of this program or another one. */
   static bool isOne(const std::filesystem::path& folder);
@@ -62,14 +68,14 @@ public:
   static std::filesystem::path placeOf(std::filesystem::path folder);
 
 private:
-  void lockKept();
+  void openKept();
   void countKept();
   void removeKept() const noexcept;
 
   std::filesystem::path Path;
-  int Lock = -1;      // of the folder itself
-  bool Named = false; // the files have names
-  bool Kept = false;  // the folder remains
+  int Lock = -1;                        // of a folder that is not kept
+  std::shared_ptr<FolderLock> KeptLock; // of a kept folder, whose files have names; else null
+  bool Remains = false;                 // when it is closed
   std::shared_ptr<ScratchAccount> Account;
 };
 

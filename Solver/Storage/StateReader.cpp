@@ -22,7 +22,9 @@ StateReader::StateReader(FileDescriptor file, std::int64_t offset, std::int64_t 
   }
   if (bytes > pool.limit())
   {
-    this->fail("it is larger than the memory limit");
+    throw Error(this->File.path().string() +
+                ": is the checkpoint of a computation with a larger memory limit: repeat its "
+                "command to continue it, or remove the folder to begin anew.");
   }
   this->End += bytes;
 }

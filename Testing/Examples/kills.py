@@ -26,17 +26,22 @@ def again(arguments):
     return process.returncode, error
 
 
-def steps():
-    """The steps of the last state of the checkpoint; 0 if there is none."""
-    most = 0
+def state_steps():
+    """The steps of each state of the checkpoint."""
+    found = []
     for name in ("state.0", "state.1"):
         try:
             with open(os.path.join(FOLDER, name), "rb") as file:
                 front = file.read(48)
-            most = max(most, struct.unpack_from("=q", front, 16)[0])
+            found.append(struct.unpack_from("=q", front, 16)[0])
         except OSError:
             pass
-    return most
+    return found
+
+
+def steps():
+    """The steps of the last state of the checkpoint; 0 if there is none."""
+    return max(state_steps(), default=0)
 
 
 def kill_after(arguments, least):
@@ -48,6 +53,8 @@ def kill_after(arguments, least):
     process.kill()
     process.communicate(timeout=120)
     assert process.returncode == -signal.SIGKILL, "it was faster than the kill"
+    states = state_steps()
+    assert len(states) == 1 or abs(states[0] - states[1]) == 1, "a pass was not saved"
     return steps()
 
 
@@ -96,6 +103,8 @@ def run_with_kills(arguments, delays):
         resumed += said
         if process.returncode == 0:
             assert not os.path.exists(FOLDER), os.listdir(FOLDER)
+            left = [name for name in os.listdir(".") if ".part-" in name]
+            assert not left, left
             return kills, resumed
         assert process.returncode == -signal.SIGKILL, (process.returncode, error)
         # The checkpoint goes when the result and its report are complete, that of a conversion with

@@ -10,11 +10,12 @@ import os
 import random
 import shutil
 import signal
+import subprocess
 import sys
 
 from kills import FOLDER, again, begin, calls_of, kill_after, kill_at, run_with_kills, steps
 from odd_mesh import odd_solid
-from program import SANITIZED, load, run, write_medit, write_torus
+from program import SANITIZED, SMG, load, run, write_medit, write_torus
 from small_disk import SmallDisk, can_mount
 
 RANDOM = random.Random(7)
@@ -216,7 +217,7 @@ def test_conversion():
     shutil.rmtree("kept", ignore_errors=True)
     shutil.copytree(FOLDER, "kept")
     stages = [name for name in os.listdir("kept")
-              if name.startswith("stage.") and os.path.getsize("kept/" + name) > 0]
+              if name.startswith("scratch.stage.") and os.path.getsize("kept/" + name) > 0]
     assert len(stages) >= 2, stages
     for name in stages:
         for place, change in ((0.3, "flip"), (0.5, "cut")):
@@ -230,6 +231,76 @@ def test_conversion():
     code, error = again(case)
     assert code == 0 and "found a checkpoint after stage" in error, error
     check_equal(case, bits, report)
+
+
+def test_only_its_own():
+    """What is not of the command stays: other files in the folder, the checkpoint of another command
+    that is refused or fails."""
+    os.makedirs(FOLDER)
+    for case in (HELD, convert("torus.obj")):
+        for other in (("out.vsm", FOLDER + "/out.vsm"), ("report.json", FOLDER + "/report.json")):
+            code, error = again(tuple(other[1] if a == other[0] else a for a in case))
+            assert code == 1 and "folder of the checkpoint" in error, error
+    bits, report = never_killed(HELD)
+    kill_after(HELD, 3)
+    before = sorted(os.listdir(FOLDER))
+    with open("broken.obj", "w", encoding="utf-8") as file:
+        file.write("v 0 0 0\nf 1 2 3\n")
+    for word, other in (("another mesh file", solve("broken.obj", "torus_held.json")),
+                        ("another mesh file", solve("torus.obj", "torus_held.json")),
+                        ("kind of computation", convert("torus.obj")),
+                        ("no stages", convert("torus.vsm", "--order", "keep")),
+                        ("no stages", ("convert", "torus.vsm", "out.obj", "--restore-order"))):
+        code, error = again((*other, "--quiet"))
+        assert code == 1 and word in error and error.count("\n") == 1, error
+        assert sorted(os.listdir(FOLDER)) == before, other
+    with open(FOLDER + "/notes.txt", "w", encoding="utf-8") as file:
+        file.write("keep me")
+    code, error = again((*HELD, "--quiet"))
+    assert code == 0 and os.listdir(FOLDER) == ["notes.txt"], error
+    check_equal(HELD, bits, report)
+    shutil.rmtree(FOLDER)
+    # And of a conversion in a solve.
+    case = solve("torus.obj", "torus_held.json")
+    bits, report = never_killed(case)
+    kill_after(case, 2)
+    before = sorted(os.listdir(FOLDER))
+    for other in (HELD, convert("torus.obj")):
+        code, error = again((*other, "--quiet"))
+        assert code == 1 and "another mesh file" in error, error
+        assert sorted(os.listdir(FOLDER)) == before, other
+    code, error = again((*case, "--quiet"))
+    assert code == 0 and not os.path.exists(FOLDER), error
+    check_equal(case, bits, report)
+
+
+def test_interrupted():
+    """After Ctrl-C it says how to continue; a problem may come from a pipe; the limit of scratch
+    files holds for a folder with a slash at its end."""
+    bits, report = never_killed(HELD)
+    shutil.rmtree(FOLDER, ignore_errors=True)
+    process = begin(HELD)
+    while steps() < 2 and process.poll() is None:
+        pass
+    process.send_signal(signal.SIGINT)
+    _, error = process.communicate(timeout=120)
+    assert process.returncode == 1 and "the same command continues" in error, error
+    os.mkfifo("pipe")
+    case = tuple("pipe" if a == "torus_held.json" else a for a in HELD)
+    process = begin(case)
+    with open("torus_held.json", "rb") as text, open("pipe", "wb") as pipe:
+        pipe.write(text.read())
+    _, error = process.communicate(timeout=120)
+    os.remove("pipe")
+    assert process.returncode == 0, error
+    check_equal(HELD, bits, report)
+    assert load("report.json")["resumed_passes"] >= 2
+    program = [SMG, *map(str, HELD), "--checkpoint"]
+    for folder, options, code, word in ((FOLDER + "/", ["--scratch-limit", "1"], 1, "their limit is"),
+                                        ("", [], 2, "no folder")):
+        done = subprocess.run([*program, folder, *options], capture_output=True, text=True, timeout=120)
+        assert done.returncode == code and word in done.stderr, done.stderr
+    shutil.rmtree(FOLDER, ignore_errors=True)
 
 
 def test_in_use():
@@ -305,8 +376,8 @@ ALL = sys.argv[1:] == ["all"]
 if not SANITIZED:  # programs that start slowly are killed hundreds of times
     test_kills(200 if ALL else 20)
 test_kills_at_calls(1 << 30 if ALL else 20)
-for each in (test_each_pass, test_others_are_refused, test_damage, test_conversion, test_in_use,
-             test_folders):
+for each in (test_each_pass, test_others_are_refused, test_damage, test_conversion, test_only_its_own,
+             test_interrupted, test_in_use, test_folders):
     each()
     print("passed", each.__name__, flush=True)
 if can_mount():

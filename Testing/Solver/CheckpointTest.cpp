@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/Checkpoint.h"
+#include "Solver/Storage/FolderLock.h"
 #include "Solver/Storage/IoStatistics.h"
 #include "Solver/Storage/ScratchStream.h"
 #include "Testing/Support/ErrorMessage.h"
@@ -7,8 +8,14 @@
 
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <cstdint>
 #include <fstream>
+#include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -170,21 +177,76 @@ TEST(Checkpoint, WithALinkIsRefusedAndDoesNotFollowIt)
     steps.open();
     steps.step();
   }
-  for (const char* name : { "state.1", "numbers", "mesh.vsm" })
+  for (const char* name : { "state.1", "scratch.numbers", "scratch.mesh.vsm" })
   {
     const std::filesystem::path link = kept / name;
     std::filesystem::remove(link);
     std::filesystem::create_symlink(folder / "mine", link);
-    expectError([&] { Steps steps(kept); }, "is no file of a checkpoint");
+    expectError([&] { Steps steps(kept); }, "is not a regular file");
     std::filesystem::remove(link);
     std::filesystem::create_hard_link(folder / "mine", link);
-    expectError([&] { Steps steps(kept); }, "is no file of a checkpoint");
+    expectError([&] { Steps steps(kept); }, "is not a regular file");
     std::filesystem::remove(link);
   }
-  std::filesystem::create_directory(folder / "elsewhere");
-  std::filesystem::create_directory_symlink(folder / "elsewhere", kept / "stages");
-  expectError([&] { Steps steps(kept); }, "is no file of a checkpoint");
   EXPECT_EQ(std::filesystem::file_size(folder / "mine"), 4U);
+}
+
+TEST(Checkpoint, LeavesFilesAloneThatAreNotItsOwn)
+{
+  const TemporaryFolder folder;
+  const std::filesystem::path kept = folder / "ck";
+  {
+    Steps steps(kept);
+    steps.open();
+    steps.step();
+  }
+  std::ofstream(kept / "notes") << "text";
+  std::filesystem::create_symlink(kept / "notes", kept / "link");
+  {
+    Steps steps(kept / ""); // a slash at its end
+    EXPECT_EQ(steps.open(), 1);
+    steps.discard();
+  }
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(kept))
+  {
+    names.insert(entry.path().filename().string());
+  }
+  EXPECT_EQ(names, (std::set<std::string>{ "notes", "link" }));
+}
+
+TEST(Checkpoint, IsHandedOnWithinTheProgramAndUsedByOnePartOfIt)
+{
+  const TemporaryFolder folder;
+  const std::filesystem::path kept = folder / "ck";
+  std::shared_ptr<FolderLock> lock;
+  {
+    ScratchFolder first{ KeptFolder(kept) };
+    first.retain();
+    expectError([&] { ScratchFolder{ KeptFolder(kept) }; }, "is using this checkpoint");
+    lock = first.lock();
+  }
+  const int other = ::open(kept.c_str(), O_RDONLY | O_DIRECTORY);
+  EXPECT_NE(::flock(other, LOCK_EX | LOCK_NB), 0) << "it is handed on";
+  ScratchFolder second{ KeptFolder(kept) };
+  lock.reset();
+  EXPECT_NE(::flock(other, LOCK_EX | LOCK_NB), 0) << "the second part has it";
+  second.discard();
+  ::close(other);
+}
+
+TEST(Checkpoint, OfAnotherKindIsRefusedAsThat)
+{
+  const TemporaryFolder folder;
+  {
+    Steps steps(folder / "ck");
+    steps.open();
+    steps.step();
+  }
+  ScratchFolder opened{ KeptFolder(folder / "ck") };
+  Checkpoint others(opened, { { "something else", "a" } });
+  Pool memory(1 << 20);
+  expectError([&] { others.open(memory); }, "another kind of computation");
 }
 
 TEST(Checkpoint, UsesTheStateBeforeIfTheLastOneIsDamagedAndItsFilesAreWhole)
@@ -243,7 +305,7 @@ TEST(Checkpoint, WithADamagedScratchFileIsRefused)
     steps.open();
     steps.step();
   }
-  const std::filesystem::path numbers = folder / "ck" / "numbers";
+  const std::filesystem::path numbers = folder / "ck" / "scratch.numbers";
   for (const std::int64_t offset : { 0, 399, 400, 1999 })
   {
     flip(numbers, offset);

@@ -107,7 +107,7 @@ TEST(ScratchAccount, CountsWhatAnEarlierProgramKept)
   {
     ScratchFolder folder(KeptFolder(place / "kept"));
     folder.file("rows").write(0, Kilobyte);
-    folder.keep(true);
+    folder.retain();
   }
   EXPECT_EQ(ScratchAccount::process().used(), before);
   EXPECT_NE(messageOf([&] { const ScratchFolder folder(KeptFolder(place / "kept"), 999); })

@@ -151,7 +151,7 @@ TEST(State, NoCountIsBelievedThatTheFileCannotHold)
     EXPECT_EQ(messageOf([&] { read(text); }).empty(), count == 5);
   }
   Pool small(10);
-  expectError([&] { readerOf(folder, small); }, "larger than the memory limit");
+  expectError([&] { readerOf(folder, small); }, "larger memory limit");
 }
 
 } // namespace smg::testing

@@ -103,4 +103,12 @@ SMG_EXPORT std::vector<Where> readPlacesText(const std::string& text, const std:
  */
 SMG_EXPORT DeformationDescription readHandleFile(const std::filesystem::path& path);
 
+/**
+ * As readHandleFile(), from a text.
+ * @param text the content of such a file
+ * @param name what error messages call the text
+ * @throws Error naming the text and the place in it
+ */
+SMG_EXPORT DeformationDescription readHandleText(const std::string& text, const std::string& name);
+
 } // namespace smg
