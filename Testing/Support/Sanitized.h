@@ -12,4 +12,11 @@ inline constexpr bool Sanitized = true;
 inline constexpr bool Sanitized = false;
 #endif
 
+/** Whether buffers grow in place, with mremap(), and not by a second copy: see Buffer.h. */
+#ifdef __SANITIZE_THREAD__
+inline constexpr bool GrowsInPlace = false;
+#else
+inline constexpr bool GrowsInPlace = true;
+#endif
+
 } // namespace smg::testing
