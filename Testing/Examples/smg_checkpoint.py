@@ -94,6 +94,14 @@ def check_equal(arguments, bits, report):
         assert any(note.startswith("continued after pass") for note in told["notes"])
 
 
+def delays(seconds):
+    """Random times in a run of so many seconds; they grow, since the machine may be slower now."""
+    longest = 1.2 * seconds
+    while True:
+        yield RANDOM.uniform(0.0, longest)
+        longest *= 1.1
+
+
 def test_kills(least):
     """At random times until so many kills are done: the same bits, and no pass is lost."""
     expected = {case: never_killed(case) for case in CASES}
@@ -103,9 +111,7 @@ def test_kills(least):
             bits, report = expected[case]
             assert case[0] == "convert" or (
                 report["passes"] >= 7 and len(report["levels"]) >= 3), report
-            longest = 1.2 * report["seconds"]["total"]
-            delays = iter(lambda: RANDOM.uniform(0.0, longest), None)
-            more = run_with_kills(case, delays)
+            more = run_with_kills(case, delays(report["seconds"]["total"]))
             kills += more[0]
             resumed += more[1]
             check_equal(case, bits, report)
