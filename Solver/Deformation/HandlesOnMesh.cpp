@@ -202,7 +202,7 @@ void HandlesOnMesh::prepare(MeshSource& mesh, const std::filesystem::path& scrat
   {
     if (handle.where)
     {
-      handle.where->endPreparing();
+      handle.where->endPreparing(nullptr);
     }
   }
 }

@@ -10,6 +10,10 @@ auto BoundarySelection::marker()
 {
   return [this](std::int64_t low, std::int64_t middle, std::int64_t high)
   {
+    if (this->Open->inner.contains({ low, middle, high }))
+    {
+      return;
+    }
     const bool isFace = this->Columns.cellType() == CellType::Tetrahedron;
     for (const std::int64_t v : { low, middle, isFace ? high : middle })
     {
@@ -46,11 +50,19 @@ void BoundarySelection::write(std::int64_t finalized)
   }
 }
 
-std::int64_t BoundarySelection::finish()
+std::int64_t BoundarySelection::finish(MeshParts* parts)
 {
   if (this->Open)
   {
+    if (parts)
+    {
+      this->Open->inner = parts->innerFacets(this->Open->facets.open());
+    }
     this->Open->facets.finish(this->marker());
+    if (parts)
+    {
+      parts->join({ this->Open->marks.at(0), static_cast<std::size_t>(this->Open->vertices) });
+    }
     this->write(this->Open->vertices);
     this->Vertices->finish();
     this->Open.reset();
@@ -58,10 +70,10 @@ std::int64_t BoundarySelection::finish()
   return this->Count;
 }
 
-void BoundarySelection::endPreparing()
+void BoundarySelection::endPreparing(MeshParts* parts)
 {
-  this->finish();
-  this->Selection::endPreparing();
+  this->finish(parts);
+  this->Selection::endPreparing(parts);
 }
 
 void BoundarySelection::select(const MeshBlock& block, std::span<std::uint8_t> selected)

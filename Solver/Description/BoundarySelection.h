@@ -23,10 +23,10 @@ public:
 
   bool needsPreparing() const override { return !this->Vertices; }
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
-  void endPreparing() override;
+  void endPreparing(MeshParts* parts) override;
   /** As endPreparing(), but a mesh without a boundary is no error. Returns the number of vertices.
    */
-  std::int64_t finish();
+  std::int64_t finish(MeshParts* parts = nullptr);
 
 protected:
   void select(const MeshBlock& block, std::span<std::uint8_t> selected) override;
@@ -43,6 +43,7 @@ private:
 
     Pool memory{ INT64_MAX };
     BoundaryFacets facets;
+    FacetSet inner;                 ///< interior facets with only one cell in the stream
     OpenValues<std::uint8_t> marks; ///< 1: on the boundary
     std::int64_t vertices = 0, written = 0;
   };

@@ -35,12 +35,18 @@ void CellSelection::prepare(const MeshBlock& block, const std::filesystem::path&
   this->Marks.release(this->Written);
 }
 
-void CellSelection::endPreparing()
+void CellSelection::endPreparing(MeshParts* parts)
 {
-  this->Selection::endPreparing();
+  this->Selection::endPreparing(parts);
   if (this->Vertices)
   {
-    this->Vertices->append({ this->Marks.at(this->Written), this->Marks.at(this->Marked) });
+    const std::span<std::uint8_t> marks{ this->Marks.at(this->Written),
+      this->Marks.at(this->Marked) };
+    if (parts)
+    {
+      parts->join(marks);
+    }
+    this->Vertices->append(marks);
     this->Vertices->finish();
     this->Marks.restart();
   }

@@ -27,7 +27,7 @@ public:
     return this->Place == DataPlace::Vertices && !this->Vertices;
   }
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
-  void endPreparing() override;
+  void endPreparing(MeshParts* parts) override;
 
   void atCells(const CellRange& cells, std::span<std::uint8_t> selected) const override;
   void atFacets(const CellRange& cells, std::span<std::uint8_t> selected) const override;

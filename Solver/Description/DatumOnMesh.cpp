@@ -52,13 +52,13 @@ void DatumOnMesh::prepare(const MeshBlock& block, const std::filesystem::path& s
   }
 }
 
-void DatumOnMesh::endPreparing()
+void DatumOnMesh::endPreparing(MeshParts* parts)
 {
   for (Entry& entry : this->Entries)
   {
     if (entry.where)
     {
-      entry.where->endPreparing();
+      entry.where->endPreparing(parts);
     }
   }
 }

@@ -46,7 +46,7 @@ public:
   bool needsPreparing() const;
   /** See Selection. */
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch);
-  void endPreparing();
+  void endPreparing(MeshParts* parts);
   void startBlock(const MeshBlock& block);
 
   /**

@@ -29,6 +29,16 @@ void DescribedProblem::prepare(MeshSource& mesh, const std::filesystem::path& sc
   this->OnMesh->prepare(mesh, scratch);
 }
 
+void DescribedProblem::preparePart(MeshSource& part, const std::filesystem::path& scratch)
+{
+  this->OnMesh->preparePart(part, scratch);
+}
+
+void DescribedProblem::endPreparing(MeshParts& parts)
+{
+  this->OnMesh->endPreparing(&parts);
+}
+
 int DescribedProblem::columns() const
 {
   return this->OnMesh->columns();

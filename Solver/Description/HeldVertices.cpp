@@ -49,7 +49,7 @@ void HeldVertices::endPreparing(bool fixesBoundary)
   }
   for (const auto& part : this->Parts)
   {
-    part->endPreparing();
+    part->endPreparing(nullptr);
   }
 }
 

@@ -43,12 +43,16 @@ void NearestSelection::prepare(const MeshBlock& block, const std::filesystem::pa
   }
 }
 
-void NearestSelection::endPreparing()
+void NearestSelection::endPreparing(MeshParts* parts)
 {
+  if (parts)
+  {
+    parts->nearest(this->Distances, this->Vertices);
+  }
   this->Distances.clear();
   std::erase(this->Vertices, -1);
   this->Count = static_cast<std::int64_t>(this->Vertices.size());
-  this->Selection::endPreparing();
+  this->Selection::endPreparing(parts);
   const std::vector<std::int64_t> nearest = this->Vertices;
   std::ranges::sort(this->Vertices);
   this->Vertices.erase(

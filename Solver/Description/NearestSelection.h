@@ -17,7 +17,7 @@ public:
 
   bool needsPreparing() const override { return !this->Distances.empty(); }
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
-  void endPreparing() override;
+  void endPreparing(MeshParts* parts) override;
 
   /** The number of the point to which a selected vertex is nearest, from 0; of several, the last
    * one. */

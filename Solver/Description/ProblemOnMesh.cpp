@@ -152,6 +152,12 @@ std::vector<DatumOnMesh*> ProblemOnMesh::data()
 
 void ProblemOnMesh::prepare(MeshSource& mesh, const std::filesystem::path& scratch)
 {
+  this->preparePart(mesh, scratch);
+  this->endPreparing(nullptr);
+}
+
+void ProblemOnMesh::preparePart(MeshSource& mesh, const std::filesystem::path& scratch)
+{
   const std::vector<DatumOnMesh*> data = this->data();
   const bool selects =
     std::ranges::any_of(data, [](const DatumOnMesh* datum) { return datum->selects(); });
@@ -162,9 +168,13 @@ void ProblemOnMesh::prepare(MeshSource& mesh, const std::filesystem::path& scrat
       datum->prepare(block, scratch);
     }
   }
-  for (DatumOnMesh* datum : data)
+}
+
+void ProblemOnMesh::endPreparing(MeshParts* parts)
+{
+  for (DatumOnMesh* datum : this->data())
   {
-    datum->endPreparing();
+    datum->endPreparing(parts);
   }
 }
 

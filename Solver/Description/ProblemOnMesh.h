@@ -29,6 +29,9 @@ public:
 
   /** Like DescribedProblem::prepare(). */
   void prepare(MeshSource& mesh, const std::filesystem::path& scratch);
+  /** Like DescribedProblem::preparePart() and endPreparing(). */
+  void preparePart(MeshSource& mesh, const std::filesystem::path& scratch);
+  void endPreparing(MeshParts* parts);
 
   int columns() const override { return static_cast<int>(this->Columns); }
   Weights weights() const override { return this->EdgeWeights; }

@@ -51,14 +51,18 @@ void RegionSelection::prepare(const MeshBlock& block, const std::filesystem::pat
       const std::int64_t id =
         ids ? ids->as<std::int64_t>()[i] : block.firstVertex + static_cast<std::int64_t>(i);
       const auto place = std::ranges::lower_bound(named->ids, id);
-      this->Found[static_cast<std::size_t>(place - named->ids.begin())] = true;
+      this->Found[static_cast<std::size_t>(place - named->ids.begin())] += 1;
     }
   }
 }
 
-void RegionSelection::endPreparing()
+void RegionSelection::endPreparing(MeshParts* parts)
 {
-  const auto missing = std::ranges::find(this->Found, false);
+  if (parts)
+  {
+    parts->sum(this->Found);
+  }
+  const auto missing = std::ranges::find(this->Found, 0);
   if (missing != this->Found.end())
   {
     const std::int64_t id =
@@ -67,7 +71,7 @@ void RegionSelection::endPreparing()
                                                   std::to_string(id) +
                                                   ", or it belongs to no cell");
   }
-  this->Selection::endPreparing();
+  this->Selection::endPreparing(parts);
 }
 
 } // namespace smg

@@ -16,7 +16,7 @@ public:
     const Region& region, DataPlace place, const std::string& key, MeshColumns& columns);
 
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
-  void endPreparing() override;
+  void endPreparing(MeshParts* parts) override;
 
 protected:
   void select(const MeshBlock& block, std::span<std::uint8_t> selected) override;
@@ -24,7 +24,7 @@ protected:
 
 private:
   Region Selected;
-  std::vector<bool> Found; ///< whether the mesh has each vertex of the region
+  std::vector<std::int64_t> Found; ///< how often the mesh has each vertex of the region
 };
 
 } // namespace smg

@@ -131,8 +131,12 @@ void Selection::prepare(const MeshBlock& block, const std::filesystem::path& /*s
   this->Count += std::ranges::count_if(selected, [](std::uint8_t bits) { return bits != 0; });
 }
 
-void Selection::endPreparing()
+void Selection::endPreparing(MeshParts* parts)
 {
+  if (parts)
+  {
+    parts->sum({ &this->Count, 1 });
+  }
   if (this->Count == 0)
   {
     const char* what = this->Place == DataPlace::Vertices               ? "vertex"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Description/MeshColumns.h"
+#include "Solver/Description/MeshParts.h"
 #include "Solver/Description/OpenValues.h"
 #include "smg/Region.h"
 
@@ -49,8 +50,9 @@ public:
    * `scratch`.
    */
   virtual void prepare(const MeshBlock& block, const std::filesystem::path& scratch);
-  /** Throws Error, which names the place in the description, if nothing is selected. */
-  virtual void endPreparing();
+  /** Throws Error, which names the place in the description, if nothing is selected. `parts`: those
+   * of the mesh, if the stream is only one of them; else null. */
+  virtual void endPreparing(MeshParts* parts);
 
   /** To be called with each block in order, before the methods below. */
   void startBlock(const MeshBlock& block);

@@ -101,7 +101,7 @@ void DistanceSources::finish()
   {
     if (selection && !this->Prepared)
     {
-      selection->endPreparing();
+      selection->endPreparing(nullptr);
     }
   }
 }

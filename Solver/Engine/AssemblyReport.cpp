@@ -10,36 +10,54 @@
 namespace smg
 {
 
-void reportAssembly(const Assembly& assembly, const Components& components, Report& report)
+void reportAssembly(const AssemblyCounts& counts, Report& report)
 {
-  report.vertices = assembly.vertices();
-  report.cells = assembly.cells();
-  report.prescribed = assembly.prescribed();
-  report.held = assembly.held();
-  report.degenerate_cells = assembly.weights().degenerateCells();
-  report.clamped_weights = assembly.clampedWeights();
-  if (assembly.weights().limitedCells() > 0)
+  report.vertices = counts.vertices;
+  report.cells = counts.cells;
+  report.prescribed = counts.prescribed;
+  report.held = counts.held;
+  report.degenerate_cells = counts.degenerateCells;
+  report.clamped_weights = counts.clampedWeights;
+  if (counts.limitedCells > 0)
   {
-    report.notes.push_back(std::to_string(assembly.weights().limitedCells()) +
+    report.notes.push_back(std::to_string(counts.limitedCells) +
                            " cells are so flat that rounding would drown the others: their "
                            "stiffness was scaled down, by a factor of " +
-                           scientific(assembly.weights().leastFlatness()) +
+                           scientific(counts.leastFlatness) +
                            " at the least; there the operator is not that of finite elements");
   }
-  if (assembly.raisedRows() > 0)
+  if (counts.raisedRows > 0)
   {
-    report.notes.push_back(std::to_string(assembly.raisedRows()) +
+    report.notes.push_back(std::to_string(counts.raisedRows) +
                            " vertices have weights whose sum is lost in rounding: 1e-8 of "
                            "their magnitudes holds them near their initial values; there the "
                            "operator is not that of finite elements");
   }
-  report.components = components.components();
-  report.free_components = components.freeComponents();
-  if (!std::isfinite(assembly.residual().termSquares()))
+  report.components = counts.components;
+  report.free_components = counts.freeComponents;
+  if (!std::isfinite(counts.termSquares))
   {
     throw Error("the squares of the values overflow: scale the mesh, the prescribed values, the "
                 "sources or the screening");
   }
+}
+
+void reportAssembly(const Assembly& assembly, const Components& components, Report& report)
+{
+  AssemblyCounts counts;
+  counts.vertices = assembly.vertices();
+  counts.cells = assembly.cells();
+  counts.prescribed = assembly.prescribed();
+  counts.held = assembly.held();
+  counts.degenerateCells = assembly.weights().degenerateCells();
+  counts.clampedWeights = assembly.clampedWeights();
+  counts.limitedCells = assembly.weights().limitedCells();
+  counts.leastFlatness = assembly.weights().leastFlatness();
+  counts.raisedRows = assembly.raisedRows();
+  counts.components = components.components();
+  counts.freeComponents = components.freeComponents();
+  counts.termSquares = assembly.residual().termSquares();
+  reportAssembly(counts, report);
 }
 
 void addAssemblyNotes(Report& report)

@@ -42,6 +42,8 @@ public:
    * more than initially. Throws Error if the residual diverges or overflows. */
   void add(double norm, double rounding = 0.0);
 
+  /** Whether a residual of this norm meets the tolerance. */
+  bool meets(double norm) const { return norm <= this->Goal; }
   bool done() const { return this->Done; }
   bool converged() const { return this->Converged; }
   int cycles() const { return static_cast<int>(this->Residuals.size()); }

@@ -1,8 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Engine/FreeComponents.h"
 
+#include <cstdio>
+
 namespace smg
 {
+
+std::string incompatibilityNote(double share)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", 100.0 * share);
+  return "the sources of a component without prescribed value do not sum to zero: their mean, " +
+         std::string(text) + " % of their size, was taken from them";
+}
+
+std::string freeComponentsNote(std::int64_t free, std::int64_t all)
+{
+  return std::to_string(free) + " of " + std::to_string(all) +
+         " components have no prescribed value: they keep the mean of their initial values";
+}
+
 void FreeComponents::shift(std::int64_t first, std::int64_t count, std::span<double> values)
 {
   const auto columns = static_cast<std::size_t>(this->Columns);

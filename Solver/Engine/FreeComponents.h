@@ -8,13 +8,18 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace smg
 {
+
+/** The note that the sources of free components do not sum to zero; `share`: see
+ * Components::incompatibility(). */
+SMG_EXPORT std::string incompatibilityNote(double share);
+/** The note that so many components of all are free. */
+SMG_EXPORT std::string freeComponentsNote(std::int64_t free, std::int64_t all);
 
 /**
  * Makes the solution of components without constraint unique: subtracts the mean of their sources,
@@ -94,11 +99,7 @@ void FreeComponents::projectRightSide(State& level, Report& report)
         });
     });
   report.removed_source = this->Parts.shiftedSums();
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", 100.0 * share);
-  report.notes.push_back(
-    "the sources of a component without prescribed value do not sum to zero: their mean, " +
-    std::string(text) + " % of their size, was taken from them");
+  report.notes.push_back(incompatibilityNote(share));
 }
 
 template <class State>
@@ -125,9 +126,7 @@ void FreeComponents::fixMeans(State& level, std::vector<std::string>& notes)
       });
   }
   this->MeanShifts = this->Parts.meanShifts(sums);
-  notes.push_back(std::to_string(components) + " of " + std::to_string(this->Parts.components()) +
-                  " components have no prescribed value: they keep the mean of their initial "
-                  "values");
+  notes.push_back(freeComponentsNote(components, this->Parts.components()));
 }
 
 } // namespace smg

@@ -3,21 +3,12 @@
 
 #include "Solver/Hierarchy/StiffRows.h"
 #include "Solver/Problem/AssembledRows.h"
-#include "Solver/Problem/ComponentLabels.h"
-#include "Solver/Problem/Components.h"
+#include "Solver/Problem/CellAssembly.h"
 #include "Solver/Problem/EdgeTargets.h"
 #include "Solver/Problem/NeighbourReach.h"
-#include "Solver/Problem/OpenComponents.h"
-#include "Solver/Problem/OpenVertices.h"
-#include "Solver/Problem/ProblemCells.h"
-#include "Solver/Problem/ProblemFacets.h"
 #include "Solver/Problem/RowAssembly.h"
 #include "Solver/Problem/RowListener.h"
-#include "Solver/Problem/RowLoads.h"
-#include "Solver/Problem/WeightPolicy.h"
-#include "Solver/Problem/WeightedEdges.h"
 #include "Solver/Stream/StreamCheck.h"
-#include "smg/CellWeights.h"
 #include "smg/Export.h"
 #include "smg/Problem.h"
 
@@ -55,14 +46,14 @@ public:
    */
   void finish();
 
-  std::int64_t vertices() const { return this->Vertices.end(); }
+  std::int64_t vertices() const { return this->Cells.vertices.end(); }
   std::int64_t openVertices() const { return this->vertices() - this->Final; }
-  std::int64_t cells() const { return this->Cells; }
+  std::int64_t cells() const { return this->Check.cells(); }
   std::int64_t prescribed() const { return this->Rows.prescribed(); }
   std::int64_t held() const { return this->Rows.held(); }
-  std::int64_t clampedWeights() const { return this->Edges.clamped(); }
+  std::int64_t clampedWeights() const { return this->Cells.edges.clamped(); }
   /** The data of the cells. */
-  const WeightPolicy& weights() const { return this->Policy; }
+  const WeightPolicy& weights() const { return this->Cells.policy; }
   /** With cotangent weights: rows that were raised. */
   std::int64_t raisedRows() const { return this->Rows.raised(); }
   /** See StiffRows. */
@@ -71,27 +62,18 @@ public:
   const InitialResidual& residual() const { return this->Rows.residual(); }
 
 private:
-  void addVertices(const MeshBlock& block);
-  void addCells(const MeshBlock& block);
-  void addCell(const std::int64_t* corners, unsigned flags);
-  void connect(const std::int64_t* corners, const double* const* points, const CellWeights& cell);
   void finalize(std::int64_t end);
   void closeBatch(std::int64_t end);
   void collectRow(std::int64_t i);
   void release();
 
-  CellType Type;
   StreamInfo Info;
   StreamCheck Check;
   RowListener* Listener;
-  WeightPolicy Policy;
 
   // By open vertex.
-  OpenVertices Vertices;
-  OpenComponents Parts;
+  CellAssembly Cells;
   NeighbourReach Reach;
-  WeightedEdges Edges;
-  RowLoads Loads;
 
   // The rows of the current batch.
   std::vector<RowNeighbour> Neighbours;
@@ -99,7 +81,7 @@ private:
   EdgeTargets Targets;
   RowAssembly Rows;
 
-  std::int64_t Cells = 0, Final = 0;
+  std::int64_t Final = 0;
 };
 
 } // namespace smg

@@ -38,6 +38,9 @@ public:
     this->take(this->Vertices, found);
   }
 
+  /** The facets of the cells so far, until their lowest vertex is final. */
+  const OpenFacets& open() const { return this->Open; }
+
 private:
   void addCells(const MeshBlock& block);
 

@@ -113,6 +113,39 @@ void Components::count(
   }
 }
 
+void Components::combine(const std::function<void(std::span<double>)>& add)
+{
+  std::vector<double> sums;
+  for (const Component& component : this->Of)
+  {
+    sums.insert(
+      sums.end(), { component.anchored ? 1.0 : 0.0, static_cast<double>(component.unknowns),
+                    component.mass, component.massSquares });
+  }
+  for (const Sums& sum : this->Summed)
+  {
+    sums.insert(
+      sums.end(), { sum.b, sum.absolute, sum.initial, sum.weighed, sum.residual, sum.residuals });
+  }
+  add(sums);
+  const double* next = sums.data();
+  for (Component& component : this->Of)
+  {
+    component.anchored = *next++ > 0.0;
+    component.unknowns = static_cast<std::int64_t>(*next++);
+    component.mass = *next++;
+    component.massSquares = *next++;
+  }
+  for (Sums& sum : this->Summed)
+  {
+    for (double* value :
+      { &sum.b, &sum.absolute, &sum.initial, &sum.weighed, &sum.residual, &sum.residuals })
+    {
+      *value = *next++;
+    }
+  }
+}
+
 std::int64_t Components::components() const
 {
   std::int64_t count = 0;

@@ -7,6 +7,7 @@
 #include "smg/Export.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -68,6 +69,10 @@ public:
   {
     return !this->Of[static_cast<std::size_t>(root)].anchored;
   }
+
+  /** Replaces the sums of all labels by those over several processes that have the same labels,
+   * which `add` computes in place. */
+  void combine(const std::function<void(std::span<double>)>& add);
 
   void save(StateWriter& state) { state(this->Of, this->Summed); }
   void load(StateReader& state);

@@ -4,6 +4,7 @@
 #include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Problem/Components.h"
 #include "Solver/Storage/Ring.h"
+#include "smg/Export.h"
 
 #include <cstdint>
 #include <vector>
@@ -12,7 +13,7 @@ namespace smg
 {
 
 /** The components of open vertices, according to the cells so far. */
-class OpenComponents
+class SMG_EXPORT OpenComponents
 {
 public:
   /** `labels` receives the component of each closed vertex. */

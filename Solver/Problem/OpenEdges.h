@@ -85,6 +85,28 @@ public:
     return this->More[from].try_emplace(to, 0.0).first->second;
   }
 
+  /** Calls visit(to, weight) for the edges of vertex `from` to higher vertices, in any order; the
+   * weight may be changed. */
+  template <class Visit>
+  void visit(std::int64_t from, Visit&& visit)
+  {
+    const std::uint32_t* list = this->To.at(from);
+    for (int e = 0; e < this->Counts[from].upper; ++e)
+    {
+      visit(from + (list[e] - static_cast<std::uint32_t>(from)), this->Weight.at(from)[e]);
+    }
+    if (const auto more = this->More.find(from); more != this->More.end())
+    {
+      for (auto& [to, weight] : more->second)
+      {
+        if (to > from)
+        {
+          visit(to, weight);
+        }
+      }
+    }
+  }
+
   /** Moves the edges of vertex `from`, the lowest open one, to `edges`, by ascending neighbour. */
   void take(std::int64_t from, std::vector<OpenEdge>& edges)
   {

@@ -38,6 +38,19 @@ public:
    */
   std::int32_t add(std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data);
 
+  /** Calls visit(middle, high, shared) for each facet with the lowest corner `low`; `shared`: it
+   * has several cells. `high` is not set for an edge. */
+  template <class Visit>
+  void visit(std::int64_t low, Visit&& visit) const
+  {
+    const auto from = static_cast<std::uint32_t>(low);
+    for (std::int32_t slot = this->Heads[low]; slot != 0; slot = this->Facets[slot].next)
+    {
+      const Facet& facet = this->Facets[slot];
+      visit(low + (facet.middle - from), low + (facet.high - from), facet.data == Shared);
+    }
+  }
+
   /** Calls found(middle, high, data) for each facet of exactly one cell with the lowest corner
    * `low`, in the order of their first call, and releases all facets with this corner. */
   template <class Found>

@@ -30,6 +30,9 @@ public:
    * flagged as duplicates. Throws Error if a value is invalid. */
   void add(const MeshBlock& block);
 
+  /** The facets so far. */
+  const OpenFacets& open() const { return this->Open; }
+
   /** Calls found(facet) for each boundary facet whose lowest corner is `vertex`, which is final;
    * the pointers of the facet are valid during the call. Throws Error if a value is invalid. */
   template <class Found>

@@ -92,6 +92,11 @@ void RowLoads::addBoundary(std::int64_t i)
   this->Facets->take(i,
     [this](const BoundaryFacet& facet)
     {
+      const std::int64_t third = this->Type == CellType::Triangle ? 0 : facet.corners[2];
+      if (this->Inner.contains({ facet.corners[0], facet.corners[1], third }))
+      {
+        return;
+      }
       const double* points[3] = {};
       for (int k = 0; k < BoundaryFacet::cornersOf(this->Type); ++k)
       {

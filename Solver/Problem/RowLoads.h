@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Problem/FacetSet.h"
 #include "Solver/Problem/OpenVertices.h"
 #include "Solver/Problem/ProblemCells.h"
 #include "Solver/Problem/ProblemFacets.h"
 #include "Solver/Problem/VertexLoads.h"
+#include "smg/Export.h"
 #include "smg/Problem.h"
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace smg
@@ -16,7 +19,7 @@ namespace smg
 
 /** The contributions of sources, screening and boundary conditions, at vertices, in cells or on
  * facets, to the diagonals and right-hand sides of the rows of open vertices. */
-class RowLoads
+class SMG_EXPORT RowLoads
 {
 public:
   RowLoads(Pool& pool, CellType type, Problem& problem, const OpenVertices& vertices);
@@ -32,6 +35,11 @@ public:
   }
   void release(std::int64_t first);
 
+  /** The facets so far; null if the problem has no data on facets. */
+  const OpenFacets* facets() const { return this->Facets ? &this->Facets->open() : nullptr; }
+  /** Excludes facets that have only one of their cells in the stream. */
+  void exclude(FacetSet facets) { this->Inner = std::move(facets); }
+
   /** Sums the contributions to vertex i, the lowest open one; returns that to the diagonal. */
   double close(std::int64_t i);
   /** The contribution to the right-hand side of the last closed vertex, `columns` numbers. */
@@ -43,6 +51,7 @@ private:
   CellType Type;
   const OpenVertices& Vertices;
   std::optional<ProblemFacets> Facets;
+  FacetSet Inner;
   // Separate, since facets are known when their vertices are final, which depends on the blocks.
   std::optional<VertexLoads> OfCells, OfFacets;
   std::vector<double> Load;

@@ -16,12 +16,20 @@ namespace smg
  * arithmetic the diagonal is positive, like that of every cell. If the sum is smaller than the
  * rounding of its terms, it carries no information on the problem, and a vertex with this amount
  * added to its diagonal stays near its initial value.
+ * `terms` is the sum of the magnitudes of what the diagonal sums up.
  */
-inline double rowShortfall(
-  std::span<const RowEntry> row, double alpha, std::span<const double> precise)
+inline double diagonalShortfall(double diagonal, double terms)
 {
   // Also for double precision: the data derived from the row have single precision.
   constexpr double Rounding = 1e-8;
+  const double least = std::max<double>(Rounding * terms, FLT_MIN);
+  return std::max(0.0, least - diagonal);
+}
+
+/** That of a row with these entries, and `alpha` added to its diagonal. */
+inline double rowShortfall(
+  std::span<const RowEntry> row, double alpha, std::span<const double> precise)
+{
   double terms = std::fabs(alpha);
   double diagonal = alpha;
   for (std::size_t e = 0; e < row.size(); ++e)
@@ -30,8 +38,7 @@ inline double rowShortfall(
     diagonal += weight;
     terms += std::fabs(weight);
   }
-  const double least = std::max<double>(Rounding * terms, FLT_MIN);
-  return std::max(0.0, least - diagonal);
+  return diagonalShortfall(diagonal, terms);
 }
 
 } // namespace smg

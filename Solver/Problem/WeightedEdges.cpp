@@ -50,6 +50,10 @@ void WeightedEdges::take(
   {
     const std::int64_t to = this->Row[e].to;
     double weight = this->Row[e].weight;
+    if (weight == Elsewhere)
+    {
+      continue;
+    }
     if (this->Kind == Weights::Clamped)
     {
       // 0: only flat cells have the edge.

@@ -4,10 +4,12 @@
 #include "Solver/Problem/FlatCells.h"
 #include "Solver/Problem/OpenEdges.h"
 #include "smg/CellWeights.h"
+#include "smg/Export.h"
 #include "smg/Problem.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -37,9 +39,19 @@ inline double knownWeight(Weights weights, const RowNeighbour& neighbour)
  * the conductivity its two sides may differ by orders of magnitude, and the floor of the strong
  * side would conduct through the weak one.
  */
-class WeightedEdges
+class SMG_EXPORT WeightedEdges
 {
 public:
+  /** The weight of an edge that take() leaves out: another process has it. */
+  static constexpr double Elsewhere = -std::numeric_limits<double>::infinity();
+
+  /** What the cells of an edge sum up to. */
+  struct Sum
+  {
+    double weight;
+    double scale; ///< the smallest one; 0: only of cells without measure, or not used
+  };
+
   WeightedEdges(Pool& pool, const Problem& problem, CellType type);
 
   void extend(std::int64_t vertices);
@@ -66,6 +78,30 @@ public:
     }
   }
 
+  /** Calls visit(to, sum) for the edges of vertex `from` to higher vertices, in any order; what it
+   * sets in the Sum takes the place of the sum over the cells. */
+  template <class Visit>
+  void visit(std::int64_t from, Visit&& visit)
+  {
+    this->Edges.visit(from,
+      [&](std::int64_t to, double& weight)
+      {
+        double none = 0.0;
+        double& scale = this->Scales ? this->Scales->weight(from, to) : none;
+        Sum sum{ weight, scale };
+        visit(to, sum);
+        weight = sum.weight;
+        scale = sum.scale;
+      });
+  }
+
+  /** Adds what other cells of the edge sum up to. */
+  void join(Sum& sum, const Sum& other) const
+  {
+    sum.weight = this->Kind == Weights::Uniform ? 1.0 : sum.weight + other.weight;
+    sum.scale = leastScale(sum.scale, other.scale);
+  }
+
   /** Appends the neighbours of vertex `from`, the lowest open one, in ascending order; `points` are
    * the positions of open vertices. Throws Error if a weight is too large for single precision. */
   void take(std::int64_t from, const Ring<double>& points, std::vector<RowNeighbour>& neighbours);
@@ -81,6 +117,11 @@ private:
            static_cast<float>(cotangentFloor(this->Type, a, b)) > 0.0F;
   }
 
+  static double leastScale(double a, double b)
+  {
+    return a > 0.0 && b > 0.0 ? std::min(a, b) : std::max(a, b);
+  }
+
   void add(std::int64_t a, std::int64_t b, double weight, double scale)
   {
     double& sum = this->Edges.weight(a, b);
@@ -88,7 +129,7 @@ private:
     if (this->Scales)
     {
       double& least = this->Scales->weight(a, b);
-      least = least > 0.0 && scale > 0.0 ? std::min(least, scale) : std::max(least, scale);
+      least = leastScale(least, scale);
     }
   }
 

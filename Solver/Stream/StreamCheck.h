@@ -30,6 +30,8 @@ public:
 
   /** The number of vertices so far. */
   std::int64_t vertices() const { return this->Vertices; }
+  /** The number of cells so far. */
+  std::int64_t cells() const { return this->Cells; }
 
 private:
   void addVertices(const MeshBlock& block);

@@ -14,6 +14,7 @@
 namespace smg
 {
 
+class MeshParts;
 class ProblemOnMesh;
 
 /**
@@ -58,6 +59,11 @@ public:
    * the mesh lacks
    */
   void prepare(MeshSource& mesh, const std::filesystem::path& scratch = {});
+  /** The first half of prepare(), for the part of the mesh that a process has: see
+   * DistributedSolver. */
+  void preparePart(MeshSource& part, const std::filesystem::path& scratch = {});
+  /** The second half of prepare(), in which the processes of all parts take part. */
+  void endPreparing(MeshParts& parts);
 
   int columns() const override;
   Weights weights() const override;
