@@ -56,11 +56,14 @@ function (smg_hide_symbols target)
 endfunction ()
 
 # smg_library(<target> <name> <public headers> OBJECTS <target> DEPENDENCIES <target>...
-#   [PUBLIC <target>...])
+#   [PUBLIC <target>...] [EXPORT <set>])
 # The shared library StreamingMultigrid::<name>, and <target>Static of the same objects for tests and
 # benchmarks, which use hidden symbols.
 function (smg_library target name headers)
-  cmake_parse_arguments(PARSE_ARGV 3 arg "" "OBJECTS" "DEPENDENCIES;PUBLIC")
+  cmake_parse_arguments(PARSE_ARGV 3 arg "" "OBJECTS;EXPORT" "DEPENDENCIES;PUBLIC")
+  if (NOT arg_EXPORT)
+    set(arg_EXPORT StreamingMultigrid)
+  endif ()
   add_library(${target} SHARED $<TARGET_OBJECTS:${arg_OBJECTS}>)
   add_library(StreamingMultigrid::${name} ALIAS ${target})
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -73,7 +76,7 @@ function (smg_library target name headers)
     LINKER_LANGUAGE CXX
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR})
-  install(TARGETS ${target} EXPORT StreamingMultigrid
+  install(TARGETS ${target} EXPORT ${arg_EXPORT}
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
       COMPONENT libraries NAMELINK_COMPONENT development
     RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT libraries)

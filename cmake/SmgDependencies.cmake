@@ -14,6 +14,20 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(SMG_COMPRESSION REQUIRED IMPORTED_TARGET libzstd liblz4 libxxhash)
 pkg_check_modules(SMG_HDF5 REQUIRED IMPORTED_TARGET hdf5-serial) # the version without MPI
 
+# The distributed engine, by default where its libraries are.
+if (NOT DEFINED SMG_USE_HYPRE OR SMG_USE_HYPRE)
+  find_package(MPI QUIET COMPONENTS C)
+  find_package(HYPRE QUIET)
+endif ()
+set(smg_has_hypre OFF)
+if (MPI_C_FOUND AND HYPRE_FOUND)
+  set(smg_has_hypre ON)
+endif ()
+option(SMG_USE_HYPRE "Build the distributed engine (requires MPI and hypre)" ${smg_has_hypre})
+if (SMG_USE_HYPRE AND NOT smg_has_hypre)
+  message(FATAL_ERROR "SMG_USE_HYPRE: MPI or hypre was not found; install them, or switch it off.")
+endif ()
+
 if (NOT SMG_BUILD_VTK)
   set(SMG_BUILD_PARAVIEW_PLUGIN OFF)
   set(SMG_BUILD_PYTHON OFF)

@@ -5,6 +5,10 @@ include(CMakePackageConfigHelpers)
 set(smg_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/StreamingMultigrid")
 install(DIRECTORY Solver/include/smg IO/include/smg
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid" COMPONENT development)
+if (TARGET smgDistributed)
+  install(DIRECTORY Solver/Distributed/include/smg
+    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid" COMPONENT development)
+endif ()
 # What smg/SolveWith.h compiles: on the path of StreamingMultigrid::Engine alone.
 foreach (folder Core Cycle Engine Hierarchy Operators Problem Storage Stream)
   install(DIRECTORY Solver/${folder}
@@ -37,3 +41,10 @@ export(EXPORT StreamingMultigrid NAMESPACE StreamingMultigrid::
   FILE "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridTargets.cmake")
 install(EXPORT StreamingMultigrid NAMESPACE StreamingMultigrid::
   DESTINATION "${smg_package_dir}" FILE StreamingMultigridTargets.cmake COMPONENT development)
+if (TARGET smgDistributed)
+  export(EXPORT StreamingMultigridDistributed NAMESPACE StreamingMultigrid::
+    FILE "${CMAKE_BINARY_DIR}/${smg_package_dir}/StreamingMultigridDistributedTargets.cmake")
+  install(EXPORT StreamingMultigridDistributed NAMESPACE StreamingMultigrid::
+    DESTINATION "${smg_package_dir}" FILE StreamingMultigridDistributedTargets.cmake
+    COMPONENT development)
+endif ()

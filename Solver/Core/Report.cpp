@@ -60,6 +60,13 @@ void addJob(const Report& report, nlohmann::ordered_json& out)
       { "mesh_readings", report.distance->mesh_readings }, { "maximum", report.distance->maximum },
       { "mean", report.distance->mean } };
   }
+  if (report.distributed)
+  {
+    out["distributed"] = { { "processes", report.distributed->processes },
+      { "iterations", report.distributed->iterations },
+      { "pool_bytes_peak", report.distributed->pool_bytes_peak },
+      { "rss_bytes_peak", report.distributed->rss_bytes_peak } };
+  }
 }
 
 } // namespace

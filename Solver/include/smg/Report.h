@@ -80,6 +80,15 @@ struct SMG_EXPORT Report
     double mean = 0;    ///< of the vertices whose distance is finite
   };
 
+  /** What a solve on several processes took. */
+  struct Distributed
+  {
+    int processes = 1;                         ///< number of these
+    std::vector<int> iterations;               ///< of each right-hand side
+    std::vector<std::int64_t> pool_bytes_peak; ///< of each process: see Report
+    std::vector<std::int64_t> rss_bytes_peak;  ///< of each process: see Report
+  };
+
   /** A Dirichlet, flux or Robin condition and what the solution makes of it. */
   struct Condition
   {
@@ -170,6 +179,9 @@ struct SMG_EXPORT Report
    * nothing flows. */
   std::vector<double> balance;
   std::optional<Distance> distance; ///< of a distance; else none
+  /** Of a solve on several processes; else none. Then the other figures are of all processes, the
+   * memory is that of the process that took most, and `cycles` counts iterations. */
+  std::optional<Distributed> distributed;
   /** Remarks for the user, a sentence each: how free components were treated, why the solve did not
    * converge ... */
   std::vector<std::string> notes;

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Distributed/ConjugateGradients.h"
+
+#include <HYPRE_parcsr_mv.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace smg
+{
+
+ConjugateGradients::ConjugateGradients(Team& team, const HypreRows& rows, const HypreMatrix& matrix)
+  : Processes(team)
+  , A(matrix)
+  , From(team, rows)
+  , To(team, rows)
+  , Amg(matrix, this->From, this->To)
+  , R(static_cast<std::size_t>(rows.count()))
+  , Z(this->R)
+  , P(this->R)
+  , Q(this->R)
+{
+}
+
+std::span<const double> ConjugateGradients::residual(
+  std::span<const double> b, std::span<const double> x)
+{
+  this->Processes.agree();
+  this->setResidual(b, x);
+  return this->R;
+}
+
+void ConjugateGradients::setResidual(std::span<const double> b, std::span<const double> x)
+{
+  this->multiply(x, this->R);
+  for (std::size_t k = 0; k < this->R.size(); ++k)
+  {
+    this->R[k] = b[k] - this->R[k];
+  }
+}
+
+void ConjugateGradients::multiply(std::span<const double> x, std::span<double> product)
+{
+  this->From.set(x);
+  HYPRE_ParCSRMatrixMatvec(
+    1.0, this->A.parallel(), this->From.parallel(), 0.0, this->To.parallel());
+  this->To.get(product);
+}
+
+void ConjugateGradients::precondition()
+{
+  this->From.set(this->R);
+  this->Amg.apply(this->From, this->To);
+  this->To.get(this->Z);
+}
+
+double ConjugateGradients::dot(const Numbers& a, const Numbers& b) const
+{
+  double product = std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+  MPI_Allreduce(MPI_IN_PLACE, &product, 1, MPI_DOUBLE, MPI_SUM, this->Processes.communicator());
+  return product;
+}
+
+void ConjugateGradients::solve(std::span<const double> b, std::span<double> x,
+  Convergence& convergence, const std::function<void()>& iterated)
+{
+  this->Processes.agree();
+  this->setResidual(b, x);
+  convergence.begin(std::sqrt(this->dot(this->R, this->R)));
+  double before = 0.0;
+  while (!convergence.done())
+  {
+    this->precondition();
+    const double product = this->dot(this->R, this->Z);
+    const double share = before > 0.0 ? product / before : 0.0;
+    for (std::size_t k = 0; k < this->P.size(); ++k)
+    {
+      this->P[k] = this->Z[k] + share * this->P[k];
+    }
+    this->multiply(this->P, this->Q);
+    const double step = product / this->dot(this->P, this->Q);
+    for (std::size_t k = 0; k < this->P.size(); ++k)
+    {
+      x[k] += step * this->P[k];
+      this->R[k] -= step * this->Q[k];
+    }
+    before = product;
+    double norm = std::sqrt(this->dot(this->R, this->R));
+    if (convergence.meets(norm))
+    {
+      // The recurrence of R loses what rounding takes from x.
+      this->setResidual(b, x);
+      norm = std::sqrt(this->dot(this->R, this->R));
+    }
+    convergence.add(norm);
+    iterated();
+    this->Processes.agree(); // nothing else may fail in an iteration on one process alone
+  }
+}
+
+} // namespace smg

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Distributed/HypreObjects.h"
+#include "Solver/Engine/Convergence.h"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/** Conjugate gradients preconditioned by a V-cycle of BoomerAMG. All functions are called on all
+ * processes. */
+class ConjugateGradients
+{
+public:
+  ConjugateGradients(Team& team, const HypreRows& rows, const HypreMatrix& matrix);
+
+  /** b - A x of the rows of this process, valid until the next call. */
+  std::span<const double> residual(std::span<const double> b, std::span<const double> x);
+
+  /**
+   * Continues from x until `convergence` says so; it gets the residual after each iteration. After
+   * each, `iterated` is called, which may throw.
+   */
+  void solve(std::span<const double> b, std::span<double> x, Convergence& convergence,
+    const std::function<void()>& iterated);
+
+private:
+  using Numbers = std::vector<double>;
+
+  void setResidual(std::span<const double> b, std::span<const double> x);
+  void multiply(std::span<const double> x, std::span<double> product); ///< A x
+  void precondition();                                                 ///< Z = M R
+  double dot(const Numbers& a, const Numbers& b) const;
+
+  Team& Processes;
+  const HypreMatrix& A;
+  HypreVector From, To;
+  BoomerAmg Amg;
+  Numbers R, Z, P, Q;
+};
+
+} // namespace smg

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Distributed/Team.h"
+
+#include <HYPRE.h>
+#include <HYPRE_IJ_mv.h>
+#include <HYPRE_parcsr_ls.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/** The rows of a matrix or vector of hypre that this process has. Every number of the mesh becomes
+ * a HYPRE_BigInt. */
+struct HypreRows
+{
+  /** Throws Error if hypre cannot count to `all`. */
+  HypreRows(std::int64_t begin, std::int64_t end, std::int64_t all);
+
+  HYPRE_BigInt begin, end;
+  HYPRE_Int count() const { return static_cast<HYPRE_Int>(this->end - this->begin); }
+};
+
+/** Throws Error if a function of hypre returned an error; `what` is what it was to do. */
+void checkHypre(HYPRE_Int error, const char* what);
+
+/** A square matrix of hypre. Constructor, assemble(), multiply() and destructor are called on all
+ * processes. */
+class HypreMatrix
+{
+public:
+  /** Reserves memory for `rowSize` entries of a row. */
+  HypreMatrix(Team& team, const HypreRows& rows, HYPRE_Int rowSize);
+  ~HypreMatrix();
+  HypreMatrix(const HypreMatrix&) = delete;
+  HypreMatrix& operator=(const HypreMatrix&) = delete;
+
+  /** Adds numbers to a row of any process. */
+  void add(HYPRE_BigInt row, std::span<const HYPRE_BigInt> columns, std::span<const double> values);
+  void assemble();
+
+  HYPRE_ParCSRMatrix parallel() const { return this->Parallel; }
+
+private:
+  Team& Processes;
+  HYPRE_IJMatrix Self = nullptr;
+  HYPRE_ParCSRMatrix Parallel = nullptr;
+};
+
+/** A vector of hypre. Constructor and destructor are called on all processes. */
+class HypreVector
+{
+public:
+  /** Zeroed. */
+  HypreVector(Team& team, const HypreRows& rows);
+  ~HypreVector();
+  HypreVector(const HypreVector&) = delete;
+  HypreVector& operator=(const HypreVector&) = delete;
+
+  /** Sets and returns the numbers of the rows of this process. */
+  void set(std::span<const double> values);
+  void get(std::span<double> values) const;
+
+  HYPRE_ParVector parallel() const { return this->Parallel; }
+
+private:
+  std::vector<HYPRE_BigInt> Numbers; ///< of the rows
+  HYPRE_IJVector Self = nullptr;
+  HYPRE_ParVector Parallel = nullptr;
+};
+
+/** A V-cycle of BoomerAMG for a matrix, symmetric as conjugate gradients require. Constructor,
+ * apply() and destructor are called on all processes. */
+class BoomerAmg
+{
+public:
+  /** Builds the hierarchy. `matrix` must outlive it; b and x are any vectors of its rows. */
+  BoomerAmg(const HypreMatrix& matrix, const HypreVector& b, const HypreVector& x);
+  ~BoomerAmg();
+  BoomerAmg(const BoomerAmg&) = delete;
+  BoomerAmg& operator=(const BoomerAmg&) = delete;
+
+  /** x = M b. */
+  void apply(const HypreVector& b, HypreVector& x) const;
+
+private:
+  const HypreMatrix& Matrix;
+  HYPRE_Solver Self = nullptr;
+};
+
+} // namespace smg

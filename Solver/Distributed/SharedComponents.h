@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Distributed/SharedVertices.h"
+#include "Solver/Problem/Components.h"
+#include "smg/Export.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * The connected components of a mesh in parts. Those whose vertices all belong to one process are
+ * its own; every process has all others, with the sums over all processes.
+ */
+class SharedComponents
+{
+public:
+  /** The component of an own vertex. */
+  struct Place
+  {
+    Components* components = nullptr; ///< null: none
+    std::int32_t label = -1;          ///< a root of these
+  };
+
+  /** `labels`: of the vertices of the part, from its cells alone: from 0, below `count`; -1: of no
+   * component. Called on all processes. */
+  SharedComponents(const SharedVertices& vertices, std::span<const std::int32_t> labels,
+    std::int32_t count, int columns);
+
+  /** The component of own vertex number k, from 0. */
+  Place of(std::int64_t k);
+
+  /** After the own vertices were counted: sums up over the processes. */
+  void combine();
+
+  // On all processes, after that:
+  std::int64_t components() const;
+  std::int64_t freeComponents() const;
+  /** See Components. */
+  double incompatibility() const;
+  std::vector<double> shiftedSums() const;
+  /**
+   * Chooses one own vertex of each free component, the first one with chosen(k), on one of its
+   * processes.
+   */
+  std::vector<std::int64_t> representatives(const std::function<bool(std::int64_t)>& chosen);
+
+  /** Components::rightSideShifts() of the own and of the shared components. */
+  struct Shifts
+  {
+    const Components* whole;
+    std::vector<double> ofWhole, ofSplit;
+
+    double operator()(const Place& place, int columns, int column) const
+    {
+      const std::vector<double>& shifts = place.components == this->whole ? ofWhole : ofSplit;
+      return shifts[static_cast<std::size_t>(place.label) * static_cast<std::size_t>(columns) +
+                    static_cast<std::size_t>(column)];
+    }
+  };
+  Shifts rightSideShifts() const;
+  /** Components::meanShifts(), given `columns` weighted values of own vertices: value(k, column),
+   * for those of free components. */
+  Shifts meanShifts(const std::function<double(std::int64_t, int)>& value);
+
+private:
+  std::vector<std::int64_t> namesOf(std::span<const std::int32_t> labels, std::int32_t count);
+  void findSplit(const std::vector<std::int64_t>& names);
+
+  const SharedVertices& Vertices;
+  int Columns;
+  Components Whole, Split;
+  std::int64_t FirstName = 0;            ///< of the labels of this process among those of all
+  std::vector<std::int64_t> SplitNames;  ///< ascending; of the labels of Split
+  std::vector<std::int64_t> Names;       ///< of own vertices: their labels among those of all
+  std::vector<std::int32_t> WholeLabels; ///< of the labels of the part; -1: none yet
+};
+
+} // namespace smg

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Distributed/Team.h"
+
+#include <algorithm>
+#include <climits>
+#include <cstdio>
+
+namespace smg
+{
+namespace
+{
+
+/** Items of so many bytes as a type of messages. */
+class ItemType
+{
+public:
+  explicit ItemType(std::size_t bytes)
+  {
+    MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &this->Type);
+    MPI_Type_commit(&this->Type);
+  }
+  ~ItemType() { MPI_Type_free(&this->Type); }
+  ItemType(const ItemType&) = delete;
+  ItemType& operator=(const ItemType&) = delete;
+  operator MPI_Datatype() const { return this->Type; }
+
+private:
+  MPI_Datatype Type = MPI_DATATYPE_NULL;
+};
+
+template <class T>
+void reduce(std::span<T> values, MPI_Datatype type, MPI_Op operation, MPI_Comm processes)
+{
+  constexpr std::size_t Most = std::size_t(1) << 28;
+  for (std::size_t first = 0; first < values.size(); first += Most)
+  {
+    const auto count = static_cast<int>(std::min(Most, values.size() - first));
+    MPI_Allreduce(MPI_IN_PLACE, values.data() + first, count, type, operation, processes);
+  }
+}
+
+} // namespace
+
+Team::Team(MPI_Comm communicator)
+{
+  MPI_Comm_dup(communicator, &this->Processes);
+  MPI_Comm_rank(this->Processes, &this->Rank);
+  MPI_Comm_size(this->Processes, &this->Size);
+}
+
+Team::~Team()
+{
+  int finalized = 0;
+  MPI_Finalized(&finalized);
+  if (!finalized)
+  {
+    MPI_Comm_free(&this->Processes);
+  }
+}
+
+/** `failure`: why this process fails; null: it does not, or fails if `cancelled`. The first process
+ * that has failed tells all why. */
+void Team::agree(const char* failure, bool cancelled)
+{
+  int first = failure ? this->Rank : this->Size;
+  MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, this->Processes);
+  if (first == this->Size)
+  {
+    return;
+  }
+  this->Over = true;
+  std::string text = first == this->Rank ? failure : "";
+  int about[2] = { static_cast<int>(text.size()), cancelled ? 1 : 0 };
+  MPI_Bcast(about, 2, MPI_INT, first, this->Processes);
+  text.resize(static_cast<std::size_t>(about[0]));
+  MPI_Bcast(text.data(), about[0], MPI_CHAR, first, this->Processes);
+  if (about[1] != 0)
+  {
+    throw Cancelled();
+  }
+  throw Error(text);
+}
+
+void Team::fail(const char* failure, bool cancelled)
+{
+  char text[80];
+  std::snprintf(text, sizeof(text), "process %d of %d is out of memory", this->Rank, this->Size);
+  this->agree(failure ? failure : text, cancelled);
+  std::terminate(); // agree() throws
+}
+
+void Team::sum(std::span<double> values)
+{
+  this->agree();
+  reduce(values, MPI_DOUBLE, MPI_SUM, this->Processes);
+}
+
+void Team::sum(std::span<std::int64_t> values)
+{
+  this->agree();
+  reduce(values, MPI_INT64_T, MPI_SUM, this->Processes);
+}
+
+void Team::least(std::span<double> values)
+{
+  this->agree();
+  reduce(values, MPI_DOUBLE, MPI_MIN, this->Processes);
+}
+
+void Team::least(std::span<std::int64_t> values)
+{
+  this->agree();
+  reduce(values, MPI_INT64_T, MPI_MIN, this->Processes);
+}
+
+void Team::largest(std::span<double> values)
+{
+  this->agree();
+  reduce(values, MPI_DOUBLE, MPI_MAX, this->Processes);
+}
+
+Team::Layout Team::layout(const std::vector<std::size_t>& counts) const
+{
+  Layout layout;
+  for (const std::size_t count : counts)
+  {
+    if (layout.total + count > INT_MAX)
+    {
+      throw Error("the parts of the mesh share too many vertices for one message: use more "
+                  "processes");
+    }
+    layout.begins.push_back(static_cast<int>(layout.total));
+    layout.counts.push_back(static_cast<int>(count));
+    layout.total += count;
+  }
+  return layout;
+}
+
+std::vector<std::size_t> Team::exchangeCounts(const std::vector<std::size_t>& counts) const
+{
+  const ItemType number(sizeof(std::size_t));
+  std::vector<std::size_t> received(counts.size());
+  MPI_Alltoall(counts.data(), 1, number, received.data(), 1, number, this->Processes);
+  return received;
+}
+
+void Team::exchangeBytes(const void* from, const Layout& sent, void* to, const Layout& received,
+  std::size_t itemBytes) const
+{
+  const ItemType item(itemBytes);
+  MPI_Alltoallv(from, sent.counts.data(), sent.begins.data(), item, to, received.counts.data(),
+    received.begins.data(), item, this->Processes);
+}
+
+std::vector<std::size_t> Team::gatherCounts(std::size_t count) const
+{
+  const ItemType number(sizeof(std::size_t));
+  std::vector<std::size_t> counts(static_cast<std::size_t>(this->Size));
+  MPI_Allgather(&count, 1, number, counts.data(), 1, number, this->Processes);
+  return counts;
+}
+
+void Team::gatherBytes(
+  const void* from, int count, void* to, const Layout& received, std::size_t itemBytes) const
+{
+  const ItemType item(itemBytes);
+  MPI_Allgatherv(
+    from, count, item, to, received.counts.data(), received.begins.data(), item, this->Processes);
+}
+
+} // namespace smg

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "smg/DescribedProblem.h"
+#include "smg/Error.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
+#include "smg/Problem.h"
+#include "smg/Report.h"
+#include "smg/Solve.h"
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * The part of a mesh that a process has: some of its cells, with all vertices that these use. Every
+ * cell is in exactly one part. Every vertex has one owner among the processes that have it, and
+ * those that a process owns are consecutive: process 0 owns the first vertices of the mesh, process
+ * 1 the next ones, and so on. A part may lack cells, vertices, or both.
+ */
+struct MeshPart
+{
+  /** The numbers of vertices and cells of the whole mesh, the kind of cells, and the columns that
+   * `block` has. */
+  StreamInfo info;
+  std::vector<std::int64_t> ids; ///< stream indices of the vertices of `block`, ascending
+  std::int64_t firstOwned = 0;   ///< the vertices from this stream index on ...
+  std::int64_t endOwned = 0;     ///< ... to this one, which is excluded, are the process's own
+  /** The cells with their vertices, which are numbered by their places in `ids`: firstVertex and
+   * finalized are 0, firstCell is the stream index of the first cell, for messages. */
+  MeshBlock block;
+};
+
+/** How to solve with several processes; the same on all of them. */
+struct DistributedOptions
+{
+  /** As SolveOptions::tolerance, for each right-hand side. */
+  double tolerance = 1e-6;
+  /** Largest number of iterations for each right-hand side, at least 1. */
+  int maxIterations = 200;
+  /** Limit of the accounted memory of each process, bytes: that of the assembly of its part. The
+   * matrix and its hierarchy, which belong to hypre, are not accounted. */
+  std::int64_t memoryLimit = INT64_MAX;
+  /** Progress callback, of process 0 alone; empty: none. */
+  ProgressFunction progress;
+};
+
+/** The solution at the vertices of a part. */
+struct DistributedSolution
+{
+  int columns = 1;            ///< those of the problem
+  std::vector<double> values; ///< `columns` a vertex of MeshPart::block
+  Report report;              ///< of all processes, the same on each
+};
+
+/**
+ * Solves problems on a mesh whose parts are on several processes, by conjugate gradients with a
+ * V-cycle of hypre's BoomerAMG as preconditioner: for a machine whose memory holds the matrix.
+ *
+ *     DistributedSolver solver(MPI_COMM_WORLD, part);
+ *     DescribedProblem problem(description, part.info);
+ *     solver.prepare(problem);
+ *     const DistributedSolution solution = solver.solve(problem, options);
+ *
+ * All processes call the constructor, each function, and the destructor, in the same order. Then
+ * the problem is the same as that of solve(), and so is its solution up to the tolerance. An
+ * Error of one process is thrown on all of them, with the same text.
+ *
+ * The mesh may have as many vertices as a HYPRE_BigInt can count: 2^31 - 1, or 2^63 - 1 if hypre
+ * was built with 64-bit integers, or with mixed ones.
+ */
+class SMG_EXPORT DistributedSolver
+{
+public:
+  /**
+   * Finds out which vertices the parts share.
+   * @param communicator the processes; it is duplicated
+   * @param part that of this process; it must outlive the solver
+   * @throws Error if the parts are not valid or do not fit together
+   */
+  DistributedSolver(MPI_Comm communicator, const MeshPart& part);
+  ~DistributedSolver();
+  DistributedSolver(const DistributedSolver&) = delete;
+  DistributedSolver& operator=(const DistributedSolver&) = delete;
+
+  /** As DescribedProblem::prepare(); required wherever that is. If the mesh has no column
+   * OriginalId and the description selects vertices by their numbers, the parts must have it, with
+   * stream indices. */
+  void prepare(DescribedProblem& problem, const std::filesystem::path& scratch = {});
+
+  /**
+   * Solves a problem.
+   * @param problem the problem, asked once, for the part as the only block of its mesh: vertices of
+   * several parts must get the same answer on each. Edge targets are not available.
+   * @param options how to solve
+   * @throws Error as solve(). It is no error if the tolerance is not reached: see
+   * Report::converged.
+   * @throws Cancelled if the progress callback returns false
+   */
+  DistributedSolution solve(Problem& problem, const DistributedOptions& options = {});
+
+  /**
+   * Passes the whole solution, as that of solve() on one process, to `use` on process 0, where it
+   * is read from the owners of the vertices; the other processes wait.
+   * @param solution that of the part
+   * @param use called on process 0 alone
+   * @throws Error what `use` throws, on all processes
+   */
+  void gather(const DistributedSolution& solution, const std::function<void(Solution&)>& use);
+
+  /** Runs `work` on this process, and throws Error on all of them if it throws on one. It must not
+   * call the functions of the solver. */
+  void together(const std::function<void()>& work);
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> Self;
+};
+
+} // namespace smg

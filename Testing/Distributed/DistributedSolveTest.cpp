@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Distributed/PartOfMesh.h"
+#include "Testing/Solver/EllipticTesting.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+// On any number of processes, a solution is that of the streaming engine and of a direct solve.
+
+namespace smg::testing
+{
+namespace
+{
+
+constexpr int Columns = 2;
+/** Of the range of the solution. */
+constexpr double Tolerance = 1e-6;
+
+double wave(const Point& p, int k)
+{
+  return std::sin(0.7 * p[0] + k) + 0.3 * std::cos(p[1] - 0.5 * p[2]);
+}
+
+std::vector<StreamMesh> meshes()
+{
+  return { patch(24, 21), toStream(shuffled(torus(30, 16, 0.2))), block(8, 7, 6),
+    toStream(shuffled(tetBox(12, 4, 5, 0.15))) };
+}
+
+using Setting = std::function<void(ElementProblem&)>;
+
+struct Solutions
+{
+  Eigen::MatrixXd distributed, streamed; ///< on process 0
+  Report report, ofStream;
+};
+
+/** Solves on the parts, and on process 0 with the streaming engine. */
+Solutions solveBoth(
+  const StreamMesh& mesh, const std::vector<std::int64_t>& cuts, const Setting& set)
+{
+  Solutions both;
+  const MeshPart part = partOf(mesh, cuts);
+  const StreamMesh own = meshOf(part);
+  ElementProblem problem(own);
+  problem.Columns = Columns;
+  set(problem);
+  DistributedSolver solver(MPI_COMM_WORLD, part);
+  DistributedOptions options;
+  options.tolerance = 1e-10;
+  const DistributedSolution solution = solver.solve(problem, options);
+  both.report = solution.report;
+  both.distributed = wholeSolution(solver, solution);
+  if (rankOfTest() == 0)
+  {
+    ElementProblem whole(mesh);
+    whole.Columns = Columns;
+    set(whole);
+    Solved streamed = solveMesh(mesh, whole, accurate(1e-10));
+    both.streamed = std::move(streamed.values);
+    both.ofStream = std::move(streamed.report);
+  }
+  return both;
+}
+
+double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
+{
+  return (a - b).cwiseAbs().maxCoeff() / (b.maxCoeff() - b.minCoeff());
+}
+
+/** Expects the solutions to agree, and the counts of the reports. */
+void expectEqual(const Solutions& both, const std::string& name)
+{
+  EXPECT_TRUE(both.report.converged) << name;
+  if (rankOfTest() != 0)
+  {
+    return;
+  }
+  EXPECT_LT(distance(both.distributed, both.streamed), Tolerance) << name;
+  const Report& a = both.report;
+  const Report& b = both.ofStream;
+  EXPECT_EQ(a.vertices, b.vertices) << name;
+  EXPECT_EQ(a.cells, b.cells) << name;
+  EXPECT_EQ(a.prescribed, b.prescribed) << name;
+  EXPECT_EQ(a.held, b.held) << name;
+  EXPECT_EQ(a.clamped_weights, b.clamped_weights) << name;
+  EXPECT_EQ(a.components, b.components) << name;
+  EXPECT_EQ(a.free_components, b.free_components) << name;
+  EXPECT_EQ(a.levels.front().nodes, b.levels.front().nodes) << name;
+  EXPECT_EQ(a.levels.front().nonzeros, b.levels.front().nonzeros) << name;
+  ASSERT_EQ(a.removed_source.size(), b.removed_source.size()) << name;
+  for (std::size_t k = 0; k < a.removed_source.size(); ++k)
+  {
+    EXPECT_NEAR(a.removed_source[k], b.removed_source[k], 1e-9) << name;
+  }
+}
+
+void everything(ElementProblem& p)
+{
+  p.Conductivity = someTensor;
+  p.CellScreening = [](const Point&) { return 0.02; };
+  p.VertexScreening = [](const Point&) { return 0.01; };
+  p.CellSource = p.VertexSource = columnsOf(Columns, wave);
+  p.CellField = [](const Point& x) -> Eigen::MatrixXd
+  { return Eigen::MatrixXd::Constant(3, Columns, 0.4 + 0.1 * x[1]); };
+  p.FluxConditions.push_back({ above(0, 4.0), columnsOf(Columns, wave) });
+  p.RobinConditions.push_back(
+    { above(1, 3.0), [](const Point&) { return 2.0; }, columnsOf(Columns, wave) });
+}
+
+/** Problems with some vertices prescribed, with every datum. */
+std::vector<std::pair<std::string, Setting>> finiteElements()
+{
+  const auto held = [](ElementProblem& p)
+  {
+    p.DirichletConditions.push_back({ below(0, 0.6), columnsOf(Columns, wave) });
+    everything(p);
+  };
+  return { { "Dirichlet, flux and Robin",
+             [held](ElementProblem& p)
+             {
+               held(p);
+               p.Conductivity = {};
+             } },
+    { "tensor", held } };
+}
+
+} // namespace
+
+TEST(DistributedSolve, AgreesWithTheStreamingEngine)
+{
+  for (const StreamMesh& mesh : meshes())
+  {
+    for (const auto& [name, set] : finiteElements())
+    {
+      expectEqual(solveBoth(mesh, evenCuts(mesh.cells(), sizeOfTest()), set), name);
+    }
+  }
+}
+
+TEST(DistributedSolve, AgreesWithOtherWeights)
+{
+  for (const StreamMesh& mesh : { patch(), block() })
+  {
+    for (const Weights weights : { Weights::Clamped, Weights::Uniform })
+    {
+      const auto set = [weights](ElementProblem& p)
+      {
+        finiteElements().front().second(p);
+        p.EdgeWeights = weights;
+      };
+      expectEqual(solveBoth(mesh, evenCuts(mesh.cells(), sizeOfTest()), set), "other weights");
+    }
+  }
+}
+
+TEST(DistributedSolve, AgreesWithADirectSolve)
+{
+  const Setting set = finiteElements().back().second;
+  for (const StreamMesh& mesh : { patch(), block() })
+  {
+    const Solutions both = solveBoth(mesh, evenCuts(mesh.cells(), sizeOfTest()), set);
+    if (rankOfTest() == 0)
+    {
+      ElementProblem whole(mesh);
+      whole.Columns = Columns;
+      set(whole);
+      EXPECT_LT(distance(both.distributed, DirectElements(whole).solve()), Tolerance);
+    }
+  }
+}
+
+TEST(DistributedSolve, ProcessesMayLackCells)
+{
+  const Setting set = finiteElements().front().second;
+  const StreamMesh surface = patch(), solid = block();
+  expectEqual(solveBoth(surface, cutsWithGaps(surface.cells(), sizeOfTest(), 0), set), "gaps");
+  expectEqual(solveBoth(solid, cutsWithGaps(solid.cells(), sizeOfTest(), 1), set), "gaps");
+  std::vector<std::int64_t> cuts(static_cast<std::size_t>(sizeOfTest()) + 1, solid.cells());
+  cuts.front() = 0;
+  expectEqual(solveBoth(solid, cuts, set), "all cells on process 0");
+}
+
+TEST(DistributedSolve, FreeComponentsKeepTheirMean)
+{
+  const Setting sources = [](ElementProblem& p)
+  {
+    p.VertexSource = columnsOf(Columns, wave);
+    p.Initial = columnsOf(Columns, [](const Point& x, int k) { return 2.0 + k + 0.1 * x[1]; });
+  };
+  const IndexedTestMesh small = grid(7, 5, 0.2), large = grid(14, 12, 0.2);
+  const StreamMesh one = toStream(shuffled(torus(24, 12, 0.2)));
+  const StreamMesh several = toStream(
+    shuffled(disjointUnion(disjointUnion(small, large, { 0, 0, 5 }), small, { 100, 0, 0 })));
+  const StreamMesh solid =
+    toStream(shuffled(disjointUnion(tetBox(5, 6, 4, 0.1), tetBox(3, 8, 4, 0.1), { 30, 0, 0 })));
+  for (const StreamMesh& mesh : { one, several, solid })
+  {
+    expectEqual(solveBoth(mesh, evenCuts(mesh.cells(), sizeOfTest()), sources), "free");
+  }
+  const Setting someHeld = [&](ElementProblem& p)
+  {
+    sources(p);
+    p.DirichletConditions.push_back({ above(0, 100.5), columnsOf(Columns, wave) });
+  };
+  expectEqual(solveBoth(several, evenCuts(several.cells(), sizeOfTest()), someHeld), "one held");
+}
+
+TEST(DistributedSolve, EdgesOfSeveralPartsMayHaveManyCells)
+{
+  // A fan of triangles around one edge, and a chain of bow ties: edges and vertices that are not
+  // manifold, each cell on another process.
+  IndexedTestMesh mesh;
+  mesh.positions = { 0, 0, 0, 0, 0, 1 };
+  for (int k = 0; k < 9; ++k)
+  {
+    mesh.positions.insert(mesh.positions.end(), { std::cos(0.7 * k), std::sin(0.7 * k), 0.4 });
+    mesh.corners.insert(mesh.corners.end(), { 0, 1, 2 + k });
+  }
+  const Setting set = [](ElementProblem& p)
+  {
+    p.DirichletConditions.push_back({ above(0, 0.9), columnsOf(Columns, wave) });
+    p.FluxConditions.push_back({ [](const Point&) { return true; }, columnsOf(Columns, wave) });
+  };
+  const StreamMesh stream = toStream(mesh);
+  expectEqual(solveBoth(stream, evenCuts(stream.cells(), sizeOfTest()), set), "fan");
+}
+
+} // namespace smg::testing
