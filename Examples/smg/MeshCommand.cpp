@@ -99,11 +99,8 @@ void MeshCommand::run()
   }
 }
 
-void MeshCommand::compute()
+ResultFile MeshCommand::checkFiles()
 {
-  const auto start = std::chrono::steady_clock::now();
-  const auto secondsSince = [](std::chrono::steady_clock::time_point then)
-  { return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count(); };
   ResultFile out({ this->In, this->Out, this->scratch, this->Input.welds(), this->resultColumns(),
     this->changedColumns() });
   smg::checkIsNotInput(this->In, this->Out);
@@ -111,6 +108,24 @@ void MeshCommand::compute()
   this->checkReport({ this->In, this->Out, this->File });
   this->checkCheckpoint({ this->Out, this->report });
   this->readTask();
+  return out;
+}
+
+void MeshCommand::tell(const smg::Report& report) const
+{
+  this->warn(report);
+  if (!this->quiet)
+  {
+    this->print(report);
+    printCosts(report);
+  }
+}
+
+void MeshCommand::compute()
+{
+  const auto secondsSince = [](std::chrono::steady_clock::time_point then)
+  { return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count(); };
+  ResultFile out = this->checkFiles();
   if (this->DryRun)
   {
     const smg::JobEstimate estimate = this->estimate();
@@ -128,7 +143,7 @@ void MeshCommand::compute()
     {
       this->Conversion = *mesh->conversion();
     }
-    const double convertSeconds = this->Conversion ? secondsSince(start) : 0.0;
+    const double convertSeconds = this->Conversion ? secondsSince(this->Start) : 0.0;
     const double begin = this->Conversion ? 0.2 : 0.0;
     out.chooseOrder(mesh->reader(), mesh->conversion());
     report = this->solveAndWrite(mesh->reader(), out, smg::partOf(bar.function(), begin, 1.0));
@@ -138,18 +153,13 @@ void MeshCommand::compute()
       report.notes.insert(report.notes.end(), more.begin(), more.end());
     }
     report.seconds.convert = convertSeconds;
-    report.seconds.total = secondsSince(start);
+    report.seconds.total = secondsSince(this->Start);
     report.scratch_bytes_peak = smg::ScratchAccount::process().peak();
   }
   this->writeReport(report.json());
   this->Solution->removeCheckpoint();
   this->Solution.reset();
-  this->warn(report);
-  if (!this->quiet)
-  {
-    this->print(report);
-    printCosts(report);
-  }
+  this->tell(report);
 }
 
 smg::Report MeshCommand::solveAndWrite(

@@ -10,6 +10,7 @@
 #include "smg/Solve.h"
 #include "smg/VsmReader.h"
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -42,6 +43,13 @@ protected:
   virtual std::string resultColumns() const = 0;
   /** The names of these columns if IN has them, as ResultFile::Options::changed. */
   virtual std::vector<std::string> changedColumns() const { return {}; }
+  /** Does what run() does, without the end of a cancelled command. */
+  virtual void compute();
+  /** Checks the files and reads the task. */
+  ResultFile checkFiles();
+  /** Prints what the user is to know at the end. */
+  void tell(const smg::Report& report) const;
+  bool isDryRun() const { return this->DryRun; }
   /** Reads the task file, before the mesh is read. */
   virtual void readTask() = 0;
   /** What the computation is expected to cost on such a mesh. */
@@ -78,7 +86,6 @@ protected:
   std::optional<smg::ConversionReport> Conversion;
 
 private:
-  void compute();
   /** The costs of the command, before it starts. */
   smg::JobEstimate estimate() const;
   void checkRoom() const;
@@ -89,6 +96,7 @@ private:
   std::vector<std::string> notesOn(
     const smg::ConversionReport& conversion, const ResultFile& out) const;
 
+  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
   std::string Title;
   std::unique_ptr<smg::Solution> Solution;
   bool DryRun = false;

@@ -63,12 +63,13 @@ void SolvingCommand::applyTo(smg::SolveOptions& options, smg::ProgressFunction p
 
 void SolvingCommand::warn(const smg::Report& report) const
 {
-  const auto warning = [this](const std::string& what, double residual, int cycles)
+  const auto warning = [&](const std::string& what, double residual, int cycles)
   {
     std::fprintf(stderr,
-      "smg: warning: %snot converged: the relative residual is %.3g after %d V-cycles, the "
-      "tolerance %.3g\n",
-      what.c_str(), residual, cycles, this->solveOptions().tolerance);
+      "smg: warning: %snot converged: the relative residual is %.3g after %d %s, the tolerance "
+      "%.3g\n",
+      what.c_str(), residual, cycles, report.distributed ? "iterations" : "V-cycles",
+      this->solveOptions().tolerance);
   };
   for (const smg::Report::Step& step : report.steps)
   {
@@ -118,10 +119,18 @@ std::string extentOf(const smg::Report::Condition& condition)
 
 void SolvingCommand::print(const smg::Report& report) const
 {
-  std::printf("%lld vertices, %lld cells, %zu levels, %d V-cycles in %d passes, relative residual "
-              "%.3g\n",
-    static_cast<long long>(report.vertices), static_cast<long long>(report.cells),
-    report.levels.size(), report.cycles, report.passes, report.residual());
+  std::printf("%lld vertices, %lld cells, ", static_cast<long long>(report.vertices),
+    static_cast<long long>(report.cells));
+  if (report.distributed)
+  {
+    std::printf("%d processes, %d iterations, relative residual %.3g\n",
+      report.distributed->processes, report.cycles, report.residual());
+  }
+  else
+  {
+    std::printf("%zu levels, %d V-cycles in %d passes, relative residual %.3g\n",
+      report.levels.size(), report.cycles, report.passes, report.residual());
+  }
   for (const smg::Report::Step& step : report.steps)
   {
     std::printf(

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Distributed/Team.h"
+#include "smg/DistributedSolver.h"
+#include "smg/VsmReader.h"
+
+#include <filesystem>
+
+/** Writes the mesh with its solution as a .pvtp or .pvtu file, each process the piece of its cells,
+ * in the folder of that name. Pieces have GlobalIds and vtkGhostType as those of VTK readers.
+ * Called on all processes; throws smg::Error. */
+void writePieceFiles(smg::Team& team, smg::VsmReader& mesh,
+  const smg::DistributedSolution& solution, const std::filesystem::path& out);

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Files/Suffix.h"
+#include "smg/Error.h"
+#include "smg/Export.h"
+#include "smg/ProblemDescription.h"
+#include "smg/Solve.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+/** A solve on the processes that mpiexec has started, the same on all of them. The functions are
+ * called on the first process alone, except for read(). */
+struct DistributedSolve
+{
+  std::filesystem::path in;  ///< a .vsm file that all processes can read
+  std::filesystem::path out; ///< .pvtu or .pvtp: every process writes its piece
+  std::filesystem::path scratch;
+  std::function<smg::ProblemDescription()> read; ///< the problem, on every process
+  std::string problem;                           ///< its name in errors
+  double tolerance = 0.0;
+  int maxIterations = 1;
+  std::int64_t memoryLimit = 0; ///< of a process, bytes
+  smg::ProgressFunction progress;
+  std::function<void()> check;              ///< reports foreseeable failures, before the work
+  std::function<void(smg::Solution&)> use;  ///< writes the result, unless it is in pieces
+  std::function<void(smg::Report&)> report; ///< of a result in pieces
+};
+
+/** The library with MPI and hypre, which is loaded when it is needed. */
+struct DistributedEngine
+{
+  /** Solves. Throws smg::Error on the first process; returns the exit status of any other one. */
+  int (*solve)(const DistributedSolve& solve);
+};
+
+/** Loads it. Throws smg::Error if this build or this system does not have it. */
+const DistributedEngine& distributedEngine();
+
+/** Whether the name of a result asks for a piece of each process. */
+inline bool isInPieces(const std::filesystem::path& out)
+{
+  const std::string suffix = smg::lowerSuffix(out);
+  return suffix == ".pvtu" || suffix == ".pvtp";
+}
+
+/** The only symbol of the library that is looked up. */
+extern "C" SMG_EXPORT const DistributedEngine* smgDistributedEngine();

@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""smg solve --engine hypre on several processes: results, pieces, reports and errors."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+from mesh_files import read_mesh
+from program import SANITIZED, SMG, load, read_vtk_xml, run, write_medit, write_torus
+from tetrahedra import tetrahedra
+
+MPIEXEC = shutil.which("mpiexec")
+# OpenMPI refuses root, and more processes than cores, unless it is told otherwise.
+os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                  OMPI_MCA_rmaps_base_oversubscribe="1")
+PROBLEM = {"source": [1], "dirichlet": [{"halfspace": [-1, 0, 0, 0], "value": [2]}],
+           "robin": [{"boundary": True, "coefficient": 0.5, "ambient": [1]}]}
+
+
+def run_on(processes, *arguments, code=0):
+    """Runs smg on several processes; an error must be one line of smg."""
+    done = subprocess.run([MPIEXEC, "-n", str(processes), SMG, *map(str, arguments), "--no-sync"],
+                          capture_output=True, text=True, timeout=250)
+    assert (done.returncode != 0) == (code != 0), (arguments, done.stdout, done.stderr)
+    lines = [line for line in done.stderr.splitlines() if line.startswith("smg: ")]
+    assert len(lines) == (1 if code else 0), done.stderr
+    return lines[0] if code else done
+
+
+def write_problem(name, problem):
+    with open(name, "w", encoding="utf-8") as file:
+        json.dump(problem, file)
+
+
+def solution_of(name):
+    """The solution by original number."""
+    arrays = read_vtk_xml(name)
+    return {number: value for (number,), value in zip(arrays["OriginalId"], arrays["Solution"])}
+
+
+def assert_equal(values, expected, name):
+    scale = max(v for row in expected.values() for v in row) - min(
+        v for row in expected.values() for v in row)
+    assert values.keys() == expected.keys(), name
+    error = max(abs(a - b) for k in values for a, b in zip(values[k], expected[k]))
+    assert error < 1e-6 * scale, (name, error)
+
+
+def meshes():
+    write_torus("torus.obj", 40, 20)
+    points, cells = tetrahedra(6)
+    write_medit("solid.mesh", points, cells)
+    run("convert", "torus.obj", "torus.vsm", "--quiet")
+    run("convert", "solid.mesh", "solid.vsm", "--quiet")
+    surface = {key: PROBLEM[key] for key in ("source", "dirichlet")}
+    write_problem("torus.json", surface)
+    write_problem("solid.json", PROBLEM)
+    return ("torus", ".vtp", ".pvtp"), ("solid", ".vtu", ".pvtu")
+
+
+def test_any_number_of_processes_gives_the_same():
+    for name, suffix, index in meshes():
+        options = ("--problem", name + ".json", "--tolerance", "1e-10", "--report", "report.json")
+        run("solve", name + ".vsm", "expected" + suffix, *options)
+        expected = solution_of("expected" + suffix)
+        figures = load("report.json")
+        for processes in (1, 2, 3):
+            run_on(processes, "solve", name + ".vsm", "out" + suffix, *options, "--engine", "hypre")
+            assert_equal(solution_of("out" + suffix), expected, (name, processes))
+            report = load("report.json")
+            assert report["converged"] and report["distributed"]["processes"] == processes
+            assert len(report["distributed"]["rss_bytes_peak"]) == processes
+            assert len(report["residuals"]) == report["cycles"]
+            for key in ("vertices", "cells", "prescribed", "components"):
+                assert report[key] == figures[key], key
+            for before, after in zip(figures["conditions"], report["conditions"]):
+                assert abs(before["flux"][0] - after["flux"][0]) < 1e-6 * abs(before["flux"][0])
+            run_on(processes, "solve", name + ".vsm", "pieces" + index, *options, "--engine", "hypre")
+            pieces = [read_vtk_xml(f"pieces/pieces_{p}{suffix}") for p in range(processes)]
+            values = {number: value for piece in pieces for (number,), (ghost,), value in zip(
+                piece["OriginalId"], piece["vtkGhostType"], piece["Solution"]) if ghost == 0}
+            assert_equal(values, expected, (name, processes))
+            run("convert", "pieces" + index, "again.vsm", "--quiet")
+            run("info", "again.vsm", "--report", "info.json")
+            assert load("info.json")["vertices"] == figures["vertices"]
+            assert load("info.json")["cells"] == figures["cells"]
+
+
+def test_failures_are_one_line():
+    arguments = ("--problem", "solid.json", "--engine", "hypre")
+    assert "none.vsm" in run_on(2, "solve", "none.vsm", "x.vtu", *arguments, code=1)
+    assert "convert the mesh first" in run_on(2, "solve", "solid.mesh", "x.vtu", *arguments, code=1)
+    write_problem("bad.json", {"dirichlet": [{"sphere": [90, 0, 0, 1], "value": [1]}]})
+    assert "no vertex" in run_on(
+        3, "solve", "solid.vsm", "x.vtu", "--problem", "bad.json", "--engine", "hypre", code=1)
+    for option in ("--in-core", "--dry-run"):
+        assert "leave them out" in run_on(2, "solve", "solid.vsm", "x.vtu", *arguments, option, code=1)
+    assert "folder" in run_on(2, "solve", "solid.vsm", "none/x.vtu", *arguments, code=1)
+    write_problem("outputs.json", dict(PROBLEM, outputs=["gradient"]))
+    assert "the solution alone" in run_on(
+        2, "solve", "solid.vsm", "x.pvtu", "--problem", "outputs.json", "--engine", "hypre", code=1)
+    with open("solid.vsm", "rb") as file:
+        content = bytearray(file.read())
+    for k in range(len(content) // 3, len(content) // 3 + 64):
+        content[k] ^= 0xFF
+    with open("damaged.vsm", "wb") as file:
+        file.write(content)
+    assert "damaged.vsm" in run_on(3, "solve", "damaged.vsm", "x.vtu", *arguments, code=1)
+    assert not os.path.exists("x.vtu") and not os.path.exists("x.pvtu")
+
+
+def test_only_this_engine_loads_mpi():
+    libraries = subprocess.run(["ldd", SMG], capture_output=True, text=True, check=True).stdout
+    assert "libmpi" not in libraries and "HYPRE" not in libraries
+
+
+if __name__ == "__main__":
+    test_only_this_engine_loads_mpi()
+    if os.environ.get("SMG_HAS_HYPRE") != "1":
+        meshes()
+        done = run("solve", "solid.vsm", "x.vtu", "--problem", "solid.json", "--engine", "hypre", code=1)
+        assert "was built without MPI and hypre" in done.stderr
+    elif not MPIEXEC:
+        print("SKIPPED: mpiexec is not installed")
+        sys.exit(77)
+    elif SANITIZED:
+        print("SKIPPED: MPI and hypre do not free everything")
+        sys.exit(77)
+    else:
+        test_any_number_of_processes_gives_the_same()
+        test_failures_are_one_line()
