@@ -2,6 +2,7 @@
 #include "IO/Order/SpectralOrder.h"
 #include "IO/Order/AxisOrder.h"
 #include "Testing/IO/MortonPages.h"
+#include "Testing/Support/Sanitized.h"
 
 #include <gtest/gtest.h>
 
@@ -219,7 +220,7 @@ TEST(SpectralOrder, NeedsLittleMemory)
 {
   // Arrays and graph are larger than their shares of the memory, so that runs consist of pages.
   const CoreMesh mesh = bumpyTorus(1600, 350);
-  const std::vector<std::uint32_t> order = spectral(mesh, 32, Workspace::LeastMemory);
+  const std::vector<std::uint32_t> order = spectral(mesh, 32, std::int64_t(LeastMebibytes) << 20);
   expectPermutation(mesh, order);
   EXPECT_LT(widthOf(mesh, order), 1000);
 }

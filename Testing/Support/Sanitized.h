@@ -19,4 +19,7 @@ inline constexpr bool GrowsInPlace = false;
 inline constexpr bool GrowsInPlace = true;
 #endif
 
+/** The least memory limit of a conversion, MiB, in which buffers that do not grow in place fit. */
+inline constexpr int LeastMebibytes = GrowsInPlace ? 16 : 32;
+
 } // namespace smg::testing
