@@ -15,7 +15,7 @@ smg_paraview_packages=(
   paraview paraview-dev python3-paraview libopenmpi-dev libpython3-dev xvfb xauth
   "qt6-svg-plugins|libqt5svg5")
 smg_test_packages=(
-  libgtest-dev clang-format doxygen openmpi-bin xz-utils
+  libgtest-dev clang-format doxygen openmpi-bin libopenmpi-dev libhypre-dev xz-utils
   python3 python3-jsonschema python3-numpy python3-scipy python3-getfem)
 smg_benchmark_packages=(
   libbenchmark-dev libhypre-dev libpetsc-real-dev libopenmpi-dev python3 python3-matplotlib)
