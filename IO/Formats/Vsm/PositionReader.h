@@ -4,6 +4,7 @@
 #include "IO/Formats/Vsm/VsmFile.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,13 +12,15 @@
 namespace smg
 {
 
-/** Reads positions of vertices of any precision as double precision numbers. */
+/** Reads positions of vertices of any precision as double precision numbers. Throws Error if one is
+ * not finite. */
 class PositionReader
 {
 public:
   /** The positions are `column` of `table`. */
   explicit PositionReader(VsmFile& file, int table = VsmFormat::Vertices, int column = 0)
-    : Rows(file.Blocks, table, column)
+    : File(file)
+    , Rows(file.Blocks, table, column)
   {
   }
 
@@ -41,13 +44,25 @@ private:
     if (this->Rows.tupleBytes() == 3 * sizeof(double))
     {
       read(reinterpret_cast<std::byte*>(positions));
-      return;
     }
-    this->Floats.resize(3 * count);
-    read(reinterpret_cast<std::byte*>(this->Floats.data()));
-    std::copy(this->Floats.begin(), this->Floats.end(), positions);
+    else
+    {
+      this->Floats.resize(3 * count);
+      read(reinterpret_cast<std::byte*>(this->Floats.data()));
+      std::copy(this->Floats.begin(), this->Floats.end(), positions);
+    }
+    std::int64_t wrong = 0; // without a branch a number
+    for (std::int64_t i = 0; i < 3 * count; ++i)
+    {
+      wrong |= static_cast<std::int64_t>(!std::isfinite(positions[i]));
+    }
+    if (wrong != 0)
+    {
+      this->File.fail("has a position that is not finite; make it anew.");
+    }
   }
 
+  const VsmFile& File;
   RowReader Rows;
   std::vector<float> Floats;
 };
