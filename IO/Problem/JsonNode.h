@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Export.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cstddef>
