@@ -131,9 +131,9 @@ public:
   ///@}
 
   ///@{
-  /** The number of pieces in which the input is requested to project points, 1 to 1,000,000.
-   * Default: 64. The held points do not depend on it. */
-  vtkSetClampMacro(NumberOfPieces, int, 1, 1000000);
+  /** The number of pieces in which the input is requested to project points, 0 to 1,000,000.
+   * Default: 0 (at least 64, and pieces of at most 64 MiB). The held points do not depend on it. */
+  vtkSetClampMacro(NumberOfPieces, int, 0, 1000000);
   vtkGetMacro(NumberOfPieces, int);
   ///@}
 
@@ -177,7 +177,7 @@ private:
   int IdType = GLOBAL_IDS;
   double Radius = -1.0;
   int Rings = 0;
-  int NumberOfPieces = 64;
+  int NumberOfPieces = 0;
   vtkIdType NumberOfHeldPoints = 0;
 
   struct Internals;

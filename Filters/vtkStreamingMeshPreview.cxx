@@ -33,7 +33,7 @@ class PulledMesh : public smg::MeshSource
 {
 public:
   PulledMesh(smg::PieceInput& input, int pieces, const smg::ProgressFunction& progress)
-    : Stream(input, pieces, { .all = true, .required = {}, .optional = {} })
+    : Stream(input, { .given = pieces }, { .all = true, .required = {}, .optional = {} })
     , Done(progress)
   {
   }
@@ -165,7 +165,9 @@ int vtkStreamingMeshPreview::FillInputPortInformation(int, vtkInformation* info)
 int vtkStreamingMeshPreview::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
 {
-  outputVector->GetInformationObject(0)->Set(vtkStreamingMeshKeys::PREVIEWED(), 1);
+  vtkInformation* output = outputVector->GetInformationObject(0);
+  output->Set(vtkStreamingMeshKeys::PREVIEWED(), 1);
+  output->Remove(vtkStreamingMeshKeys::STREAM_FILE()); // of which no piece follows
   return smg::offerPieces(*outputVector);
 }
 

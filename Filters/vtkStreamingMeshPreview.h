@@ -43,11 +43,11 @@ public:
 
   ///@{
   /**
-   * The number of pieces in which the input is requested, 1 to 1,000,000. Default: 64. More pieces
-   * need less memory. The preview depends on it, since the grid of the clusters is fitted to the
-   * first piece.
+   * The number of pieces in which the input is requested, 0 to 1,000,000. Default: 0 (at least 64,
+   * and pieces of at most 64 MiB). More pieces need less memory. The preview depends on it, since
+   * the grid of the clusters is fitted to the first piece.
    */
-  vtkSetClampMacro(NumberOfPieces, int, 1, 1000000);
+  vtkSetClampMacro(NumberOfPieces, int, 0, 1000000);
   vtkGetMacro(NumberOfPieces, int);
   ///@}
 
@@ -76,7 +76,7 @@ private:
   struct Internals;
 
   int PreviewPoints = 10000;
-  int NumberOfPieces = 64;
+  int NumberOfPieces = 0;
 
   std::unique_ptr<Internals> Internal;
 };

@@ -120,7 +120,8 @@ struct vtkStreamingSolver::Internals
     try
     {
       smg::StreamedSolve::Pulling pulling;
-      pulling.pieces = this->Self.NumberOfPieces;
+      pulling.pieces = smg::PieceCount::within(
+        this->Self.NumberOfPieces, std::int64_t(this->Self.MemoryLimit) << 20);
       pulling.scratch = this->Self.ScratchDirectory ? this->Self.ScratchDirectory : "";
       smg::Progress progress(smg::progressOf(this->Self));
       this->Streamed.solve(input, *this->Self.MakeTask(present), pulling, progress);

@@ -116,9 +116,10 @@ public:
   ///@}
 
   ///@{
-  /** The number of pieces in which the input is requested, 1 to 1,000,000. Default: 64. More pieces
-   * need less memory. The solution does not depend on it. */
-  vtkSetClampMacro(NumberOfPieces, int, 1, 1000000);
+  /** The number of pieces in which the input is requested, 0 to 1,000,000. Default: 0 (at least 64,
+   * and such that a piece takes at most a sixteenth of MemoryLimit). More pieces need less memory.
+   * The solution does not depend on it. */
+  vtkSetClampMacro(NumberOfPieces, int, 0, 1000000);
   vtkGetMacro(NumberOfPieces, int);
   ///@}
 
@@ -210,7 +211,7 @@ private:
   int MemoryLimit = 1024;
   char* ScratchDirectory = nullptr;
   char* CheckpointDirectory = nullptr;
-  int NumberOfPieces = 64;
+  int NumberOfPieces = 0;
   int NumberOfThreads = 0;
   vtkMultiProcessController* Controller = nullptr;
 

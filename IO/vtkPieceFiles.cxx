@@ -188,7 +188,7 @@ void writePieceFiles(
   std::string description;
   int files = 0;
   // The stream checks the pieces; its blocks are not needed here.
-  PieceStream stream(input, pieces, {});
+  PieceStream stream(input, { .given = pieces }, {});
   MeshBlock block;
   while (vtkPointSet* piece = stream.nextPiece(block))
   {

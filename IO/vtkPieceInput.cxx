@@ -4,6 +4,7 @@
 #include "IO/vtkFailures.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "smg/Error.h"
+#include "smg/VsmReader.h"
 
 #include "vtkAlgorithm.h"
 #include "vtkCompositeDataSet.h"
@@ -96,6 +97,18 @@ std::filesystem::path PieceInput::streamFile() const
   const char* name = this->Executive->GetOutputInformation(this->ProducerPort)
                        ->Get(vtkStreamingMeshKeys::STREAM_FILE());
   return name ? name : "";
+}
+
+std::optional<StreamInfo> PieceInput::meshInfo()
+{
+  this->Executive->UpdateInformation();
+  const std::filesystem::path file = this->streamFile();
+  std::error_code absent;
+  if (file.empty() || !std::filesystem::exists(file, absent))
+  {
+    return {};
+  }
+  return VsmReader(file).info();
 }
 
 bool PieceInput::isPreviewed() const

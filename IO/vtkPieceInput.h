@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/MeshSource.h"
+
 #include "vtkStreamingMultigridIOModule.h" // For export macro
 
 #include <filesystem>
+#include <optional>
 
 class vtkAlgorithm;
 class vtkDataObject;
@@ -39,6 +42,10 @@ public:
 
   /** The value of vtkStreamingMeshKeys::STREAM_FILE(), after a piece was requested; else empty. */
   std::filesystem::path streamFile() const;
+
+  /** The information on the whole mesh, before a piece is requested, if its pieces are those of a
+   * .vsm file; filters between may have changed them. Throws Error if that file is damaged. */
+  std::optional<StreamInfo> meshInfo();
 
   /** The value of vtkStreamingMeshKeys::PREVIEWED(), after a piece was requested. */
   bool isPreviewed() const;

@@ -53,12 +53,20 @@ std::string namesOf(const StreamInfo& info)
 
 } // namespace
 
-PieceStream::PieceStream(PieceInput& input, int pieces, PieceColumns columns)
+PieceStream::PieceStream(PieceInput& input, const PieceCount& pieces, PieceColumns columns)
   : Input(input)
-  , Pieces(pieces)
+  , Pieces(pieces.first(input))
   , Columns(std::move(columns))
 {
   this->First = this->pull();
+  if (const int enough = this->First ? pieces.enough(this->Pieces, *this->First) : 0;
+      enough > this->Pieces)
+  {
+    this->Input.release();
+    this->Pieces = enough;
+    this->NextPiece = 0;
+    this->First = this->pull();
+  }
   if (!this->First)
   {
     throw Error(std::string("The input has no cells: look at what ") +

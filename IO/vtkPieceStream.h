@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/vtkPieceCount.h"
 #include "IO/vtkPieceInput.h"
 #include "Solver/Core/Progress.h"
 #include "smg/MeshSource.h"
@@ -41,8 +42,9 @@ struct PieceColumns
 class VTKSTREAMINGMULTIGRIDIO_EXPORT PieceStream
 {
 public:
-  /** Reads up to the first non-empty piece. Throws Error. */
-  PieceStream(PieceInput& input, int pieces, PieceColumns columns);
+  /** Reads up to the first non-empty piece; begins again with more pieces if that is larger than
+   * `pieces` allows. Throws Error. */
+  PieceStream(PieceInput& input, const PieceCount& pieces, PieceColumns columns);
 
   const StreamInfo& info() const { return this->Info; }
 

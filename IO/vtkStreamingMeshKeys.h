@@ -7,8 +7,8 @@
  * view never loads such a mesh by accident. A filter that requests its input piece by piece sets
  * STREAMED() to the number of pieces to receive the real ones.
  *
- * Pieces have only points that cells use. STREAM_FILE() names the file with the other points, and
- * PREVIEWED() states that the whole mesh is shown as a preview, downstream of all filters after the
+ * STREAM_FILE() names the file of the pieces, which has the counts of the whole mesh, and the points
+ * that no cell uses and no piece contains. PREVIEWED() states that the whole mesh is shown as a preview, downstream of all filters after the
  * reader, including those that keep none of its arrays.
  *
  * The executive keeps request keys where they were last set. Therefore STREAMED() counts only if
@@ -42,8 +42,8 @@ public:
   /** The value of STREAMED() of the request for a data object, in its information. */
   static vtkInformationIntegerKey* STREAMED_DATA();
 
-  /** Pipeline information: the .vsm file of the pieces, if it has points that no cell uses, which
-   * no piece contains; otherwise empty. */
+  /** Pipeline information: the .vsm file of the pieces. Absent if they are not those of a
+   * vtkStreamingMeshReader. */
   static vtkInformationStringKey* STREAM_FILE();
 
   /** Pipeline information: 1 if a request for the whole that is not streamed returns a preview,

@@ -335,10 +335,8 @@ int vtkStreamingMeshReader::RequestInformation(
   }
   const smg::VsmReader& reader = this->Internal->Mesh->reader();
   const smg::StreamInfo& info = reader.info();
-  // Also if it is empty: otherwise filters would keep the value of a previous file.
   vtkInformation* output = outputVector->GetInformationObject(0);
-  output->Set(vtkStreamingMeshKeys::STREAM_FILE(),
-    reader.isolatedVertices() > 0 ? reader.path().c_str() : "");
+  output->Set(vtkStreamingMeshKeys::STREAM_FILE(), reader.path().c_str());
   output->Set(
     vtkStreamingMeshKeys::PREVIEWED(), info.vertices > this->MaximumPointsInMemory ? 1 : 0);
   smg::offerColumns(*this->Internal->PointArrays, info.vertexColumns);

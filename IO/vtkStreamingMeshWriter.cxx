@@ -11,6 +11,7 @@
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
+#include "IO/vtkPieceCount.h"
 #include "IO/vtkPieceFiles.h"
 #include "IO/vtkPieceStream.h"
 #include "Solver/Storage/ScratchFolder.h"
@@ -38,33 +39,30 @@ vtkStandardNewMacro(vtkStreamingMeshWriter);
 namespace
 {
 
-constexpr int CellsOfPiece = 65536;
-
-/** The properties of an input according to a first piece, which is one of `pieces` and can be
- * reused. */
+/** The properties of an input according to a first piece. */
 struct Trial
 {
   bool isOrdinary = false; ///< see smg::isOrdinaryMesh()
-  int pieces = 1;          ///< for about CellsOfPiece cells each
+  int pieces = 1;          ///< in which the input is to be requested
 };
 
 Trial tryPiece(smg::PieceInput& input, int given)
 {
-  constexpr int Usual = 64;
-  const int pieces = given ? given : Usual;
+  constexpr std::int64_t PieceBytes = std::int64_t(4) << 20;
+  const smg::PieceCount count{ .given = given, .pieceBytes = PieceBytes, .least = 1 };
   const auto cellsOf = [](vtkDataObject* data)
   {
     auto* mesh = vtkDataSet::SafeDownCast(data);
     return mesh ? mesh->GetNumberOfCells() : 0;
   };
   Trial trial;
+  trial.pieces = input.isData() ? std::max(1, given) : count.first(input);
   if (!input.isData())
   {
-    vtkDataObject* piece = input.update(0, pieces, true);
-    if (const vtkIdType cells = cellsOf(piece))
+    vtkDataObject* piece = input.update(0, trial.pieces, true);
+    if (cellsOf(piece) > 0)
     {
-      const vtkIdType wanted = (cells * pieces + CellsOfPiece - 1) / CellsOfPiece;
-      trial.pieces = static_cast<int>(std::clamp<vtkIdType>(wanted, 1, 1000000));
+      trial.pieces = count.enough(trial.pieces, *piece);
       trial.isOrdinary = smg::isOrdinaryMesh(*piece);
       return trial;
     }
@@ -88,7 +86,8 @@ struct Job
 
   smg::PieceStream stream() const
   {
-    return { this->input, this->pieces, { .all = true, .required = {}, .optional = {} } };
+    return { this->input, { .given = this->pieces },
+      { .all = true, .required = {}, .optional = {} } };
   }
 
   /** Valid after a piece was requested. */
@@ -238,9 +237,8 @@ bool vtkStreamingMeshWriter::WriteFile()
     smg::Progress progress(smg::progressOf(*this));
     smg::PieceInput input(*this, 0);
     const Trial trial = tryPiece(input, this->NumberOfStreamedPieces);
-    const int pieces = this->NumberOfStreamedPieces ? this->NumberOfStreamedPieces : trial.pieces;
     const std::filesystem::path streamFile = this->StreamFileName ? this->StreamFileName : "";
-    const Job job{ input, pieces, path, streamFile, progress };
+    const Job job{ input, trial.pieces, path, streamFile, progress };
     const Notes notes = trial.isOrdinary && write != writeIndexedPieces
                           ? writeOrdinary(job, this->RestoreOrder)
                           : write(job);

@@ -45,7 +45,7 @@ public:
 
   ///@{
   /** The number of pieces in which the input is requested, 0 to 1,000,000. Default: 0 (pieces of
-   * about 64,000 cells). (ParaView calls SetNumberOfPieces with the number of processes.) */
+   * about 4 MiB). (ParaView calls SetNumberOfPieces with the number of processes.) */
   vtkSetClampMacro(NumberOfStreamedPieces, int, 0, 1000000);
   vtkGetMacro(NumberOfStreamedPieces, int);
   ///@}

@@ -23,7 +23,7 @@ struct PointRegionSettings
   std::vector<double> points;  ///< x, y, z of each
   double radius = -1.0;        ///< negative: chosen to suit the points
   int rings = 0;
-  int pieces = 64; ///< number of pieces in which the input is requested
+  int pieces = 0; ///< in which the input is requested; 0: chosen
 
   bool operator==(const PointRegionSettings&) const = default;
 

@@ -31,7 +31,7 @@ const std::vector<double>& StreamedRegion::placesOfIds(const RegionContext& cont
     return this->Places->positions;
   }
   PlacesOfIds places(this->Asked.ids, this->Ids);
-  PieceStream stream(context.mesh, this->Asked.pieces, {});
+  PieceStream stream(context.mesh, { .given = this->Asked.pieces }, {});
   MeshBlock block;
   while (vtkPointSet* piece = stream.nextPiece(block))
   {
@@ -62,7 +62,7 @@ void StreamedRegion::find(const RegionContext& context)
   }
   if (!places.empty())
   {
-    PieceStream stream(context.mesh, this->Asked.pieces, {});
+    PieceStream stream(context.mesh, { .given = this->Asked.pieces }, {});
     found.projection.emplace(
       places, PointProjection::Influence{ radius, this->Asked.rings }, stream.info().cellType);
     MeshBlock block;

@@ -4,6 +4,7 @@
 #include "Filters/Streaming/SolveSummary.h"
 #include "Filters/Streaming/vtkInputStamp.h"
 #include "Filters/Streaming/vtkStreamedTask.h"
+#include "IO/vtkPieceCount.h"
 #include "IO/vtkPieceInput.h"
 #include "Solver/Core/Progress.h"
 
@@ -25,7 +26,7 @@ public:
   /** How the pieces of the input are requested. */
   struct Pulling
   {
-    int pieces = 64;
+    PieceCount pieces;
     std::filesystem::path scratch; ///< folder for the container; empty: the system's
   };
 

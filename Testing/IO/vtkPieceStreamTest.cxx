@@ -40,7 +40,8 @@ protected:
     try
     {
       PieceInput input(*this->Sink, 0);
-      PieceStream stream(input, pieces, { .all = true, .required = {}, .optional = {} });
+      PieceStream stream(
+        input, { .given = pieces }, { .all = true, .required = {}, .optional = {} });
       Progress progress;
       this->Info = writeContainer(stream, this->Folder / "out.vsm", true, progress);
       return {};

@@ -32,7 +32,7 @@ hints = deformation.SMProxy.GetHints().FindNestedElementByName("ShowInMenu")
 assert hints.GetAttribute("category") == "Streaming Multigrid"
 defaults = {"Weights": "Clamped", "Sweeps": 2, "Tolerance": 1e-6,
             "Cycles": 0, "MaximumCycles": 50, "MemoryLimit": 1024, "ScratchDirectory": "",
-            "NumberOfPieces": 64, "NumberOfThreads": 0, "Normals": "Recompute",
+            "NumberOfPieces": 0, "NumberOfThreads": 0, "Normals": "Recompute",
             "KeepHandleArrays": 0, "InteractivePoints": 200000}
 for name, value in defaults.items():
     assert deformation.GetPropertyValue(name) == value, name

@@ -76,7 +76,7 @@ for center in (handle.Center, handle.RegionFunction.Center):
 assert 0.0 < handle.RegionFunction.Radius < (high - low).max()
 defaults = {"InsideOut": 0, "IdType": "Global Ids", "Radius": -1.0, "Rings": 0, "Scale": 1.0,
             "RotationAngle": 0.0, "RotationAxis": [0.0, 0.0, 1.0], "Translation": [0.0, 0.0, 0.0],
-            "NumberOfPieces": 64}
+            "NumberOfPieces": 0}
 for name, value in defaults.items():
     found = handle.GetPropertyValue(name)
     assert (list(found) if isinstance(value, list) else found) == value, (name, found)

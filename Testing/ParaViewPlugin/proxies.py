@@ -18,7 +18,7 @@ assert reader.MaximumPointsInMemory == 2000000
 assert reader.PointArrayStatus == ["OriginalId"], reader.PointArrayStatus
 poisson = StreamingPoisson(Input=reader)
 defaults = {"Weights": "Cotangent", "Sweeps": 2, "Tolerance": 1e-6,
-            "MaximumCycles": 50, "MemoryLimit": 1024, "ScratchDirectory": "", "NumberOfPieces": 64,
+            "MaximumCycles": 50, "MemoryLimit": 1024, "ScratchDirectory": "", "NumberOfPieces": 0,
             "NumberOfThreads": 0, "Screening": 0.0, "InCore": 0, "ResultArrayName": "Solution",
             "DirichletMask": ["POINTS", "None"], "Source": ["POINTS", "None"]}
 for name, value in defaults.items():
