@@ -40,6 +40,7 @@ std::unique_ptr<smg::DistanceTask> vtkStreamingDistance::DescribedTask(vtkPointS
   task->options.memoryLimit = common.memoryLimit;
   task->options.threads = common.threads;
   task->options.scratch = common.scratch;
+  task->options.scratchLimit = common.scratchLimit;
   task->options.maxPasses = this->MaximumPasses;
   task->description.wall = this->Wall;
   task->description.source = this->Source;

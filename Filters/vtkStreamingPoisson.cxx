@@ -222,6 +222,11 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& in
   return task;
 }
 
+std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeEstimatedTask(vtkPointSet& input)
+{
+  return std::make_unique<smg::PoissonTask>(this->Internal->task(input));
+}
+
 bool vtkStreamingPoisson::IsForMemory(vtkPointSet& input, bool)
 {
   this->Internal->WhyNotOnPreview.clear();

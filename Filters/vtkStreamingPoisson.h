@@ -136,6 +136,7 @@ protected:
   ~vtkStreamingPoisson() override;
 
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
+  std::unique_ptr<smg::StreamedTask> MakeEstimatedTask(vtkPointSet& input) override;
   bool IsForMemory(vtkPointSet& input, bool isWhole) override;
   smg::SolveSummary SolveInMemory(vtkPointSet& input, const std::function<bool(double)>& progress,
     std::vector<double>& values) override;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingSolver.h"
 
+#include "Filters/Streaming/vtkBroughtPiece.h"
 #include "Filters/Streaming/vtkInputStamp.h"
 #include "Filters/Streaming/vtkPieceRequest.h"
 #include "Filters/Streaming/vtkSharedRequest.h"
 #include "Filters/Streaming/vtkSolutionExchange.h"
+#include "Filters/Streaming/vtkSolveEstimate.h"
 #include "Filters/Streaming/vtkStreamedSolve.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkPieceInput.h"
@@ -42,7 +44,7 @@ struct vtkStreamingSolver::Internals
     smg::PieceInput input(this->Self, 0);
     smg::SolutionExchange exchange(this->partners(request, input, inputInfo));
     vtkSmartPointer<vtkPointSet> present;
-    exchange.together([&] { present = bring(input, request, exchange); });
+    exchange.together([&] { present = smg::bring(input, request, exchange); });
     const bool isForMemory = exchange.decide(
       !request.IsStreamed && exchange.isServer() &&
       this->Self.IsForMemory(*present, request.Pieces == 1 && !exchange.isParallel()));
@@ -80,22 +82,6 @@ struct vtkStreamingSolver::Internals
     return this->Shared.isShared(request, stamp, isServer) ? this->Self.Controller : nullptr;
   }
 
-  static vtkSmartPointer<vtkPointSet> bring(
-    smg::PieceInput& input, const smg::PieceRequest& request, const smg::SolutionExchange& exchange)
-  {
-    vtkSmartPointer<vtkPointSet> piece =
-      vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, request.IsStreamed));
-    if (!exchange.isParallel())
-    {
-      return piece;
-    }
-    // Process 0 will request other pieces, and a repeated request for this one may need all
-    // processes.
-    const auto copy = vtkSmartPointer<vtkPointSet>::Take(piece->NewInstance());
-    copy->ShallowCopy(piece);
-    return copy;
-  }
-
   /** Solves in memory if there are values to fill, otherwise out of core. */
   void solve(smg::PieceInput& input, vtkInformation* inputInfo, vtkPointSet& present,
     std::vector<double>* values)
@@ -123,6 +109,7 @@ struct vtkStreamingSolver::Internals
       pulling.pieces = smg::PieceCount::within(
         this->Self.NumberOfPieces, std::int64_t(this->Self.MemoryLimit) << 20);
       pulling.scratch = this->Self.ScratchDirectory ? this->Self.ScratchDirectory : "";
+      pulling.scratchLimit = std::int64_t(this->Self.ScratchLimit) << 20;
       smg::Progress progress(smg::progressOf(this->Self));
       this->Streamed.solve(input, *this->Self.MakeTask(present), pulling, progress);
     }
@@ -186,7 +173,7 @@ struct vtkStreamingSolver::Internals
       {
         if (!exchange.isParallel())
         {
-          present = bring(input, request, exchange);
+          present = smg::bring(input, request, exchange);
         }
         if (present->GetNumberOfPoints() > 0)
         {
@@ -218,8 +205,8 @@ struct vtkStreamingSolver::Internals
   smg::Failures Failures;
   vtkTimeStamp AnsweredAt; ///< includes modifications caused by the request itself
   smg::StreamedSolve Streamed;
-  smg::SolveSummary Summary; ///< of the last output
-  std::string Outcome;       ///< storage of the string returned by GetOutcome()
+  smg::SolveSummary Summary;     ///< of the last output
+  std::string Outcome, Estimate; ///< storage of the strings returned by GetOutcome(), GetEstimate()
   smg::SharedRequest Shared;
 };
 
@@ -273,6 +260,20 @@ const char* vtkStreamingSolver::GetOutcome()
   return this->Internal->Outcome.c_str();
 }
 
+const char* vtkStreamingSolver::GetEstimate()
+{
+  smg::SolveOptions options;
+  this->FillOptions(options);
+  this->Internal->Estimate = smg::solveEstimate(
+    *this, [this](vtkPointSet& input) { return this->MakeEstimatedTask(input); }, options);
+  return this->Internal->Estimate.c_str();
+}
+
+std::unique_ptr<smg::StreamedTask> vtkStreamingSolver::MakeEstimatedTask(vtkPointSet& input)
+{
+  return this->MakeTask(input);
+}
+
 const char* vtkStreamingSolver::GetNotes()
 {
   return this->GetSummary().notes.c_str();
@@ -292,6 +293,7 @@ void vtkStreamingSolver::FillOptions(smg::SolveOptions& options) const
   options.memoryLimit = std::int64_t(this->MemoryLimit) << 20;
   options.threads = this->NumberOfThreads;
   options.scratch = this->ScratchDirectory ? this->ScratchDirectory : "";
+  options.scratchLimit = std::int64_t(this->ScratchLimit) << 20;
   if (this->CheckpointDirectory && *this->CheckpointDirectory)
   {
     // The task replaces both texts, when it knows the mesh.
@@ -384,6 +386,7 @@ void vtkStreamingSolver::PrintSelf(ostream& os, vtkIndent indent)
   os << indent
      << "ScratchDirectory: " << (this->ScratchDirectory ? this->ScratchDirectory : "(none)")
      << "\n";
+  os << indent << "ScratchLimit: " << this->ScratchLimit << "\n";
   os << indent << "CheckpointDirectory: "
      << (this->CheckpointDirectory ? this->CheckpointDirectory : "(none)") << "\n";
   os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";

@@ -104,6 +104,14 @@ public:
   ///@}
 
   ///@{
+  /** The limit of the scratch files that exist at once, in MiB; 0 (default): none. Before it is
+   * exceeded, the solve fails with an error that states both figures. The files of a checkpoint
+   * have this limit for themselves. */
+  vtkSetClampMacro(ScratchLimit, int, 0, VTK_INT_MAX);
+  vtkGetMacro(ScratchLimit, int);
+  ///@}
+
+  ///@{
   /**
    * A folder from which the same filter on the same input, in another program, continues the solve
    * if this program is killed or the solve is aborted. The folder is for this filter alone: it is
@@ -136,6 +144,14 @@ public:
   vtkMultiProcessController* GetController() { return this->Controller; }
   ///@}
 
+  /**
+   * What a solve on the whole mesh is expected to cost, in one line: accounted memory, scratch
+   * files, passes, processor time, and the size of the mesh with its result as .vsm. The input is
+   * not executed: after UpdateInformation(), the counts are those of the .vsm file of its reader.
+   * For other inputs a sentence says that nothing is known.
+   */
+  const char* GetEstimate();
+
   ///@{
   /**
    * The outcome of the last solve: relative residual, passes over the mesh, peak memory of the
@@ -167,6 +183,10 @@ protected:
   /** Creates the task to compute on the whole mesh, of which `input` is some piece. Throws
    * smg::Error if the properties or the arrays of the input do not allow it. */
   virtual std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) = 0;
+
+  /** Creates the task of GetEstimate() from what the input delivered last, which may have neither
+   * points nor arrays. Default: MakeTask(). */
+  virtual std::unique_ptr<smg::StreamedTask> MakeEstimatedTask(vtkPointSet& input);
 
   /** Fills the output from a piece and the values at its points. */
   virtual void Deliver(
@@ -210,6 +230,7 @@ private:
   int MaximumCycles = 50;
   int MemoryLimit = 1024;
   char* ScratchDirectory = nullptr;
+  int ScratchLimit = 0;
   char* CheckpointDirectory = nullptr;
   int NumberOfPieces = 0;
   int NumberOfThreads = 0;

@@ -82,8 +82,7 @@ protected:
     int components = 0;
     for (const std::string& name : this->Description.columns)
     {
-      const auto column = std::ranges::find(info.vertexColumns, name, &smg::ColumnSpec::name);
-      components += column == info.vertexColumns.end() ? Usual : column->components;
+      components += smg::expectedComponents(info, name, Usual);
     }
     return smg::blendCosts(info, components, this->Description.seam, this->Solve);
   }

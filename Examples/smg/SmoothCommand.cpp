@@ -80,11 +80,9 @@ protected:
 
   smg::Costs costsOn(const smg::StreamInfo& info) const override
   {
-    const auto column =
-      std::ranges::find(info.vertexColumns, this->Smooth.column, &smg::ColumnSpec::name);
     constexpr int OfPoints = 3;
     return smg::smoothCosts(
-      info, column == info.vertexColumns.end() ? OfPoints : column->components, this->Smooth);
+      info, smg::expectedComponents(info, this->Smooth.column, OfPoints), this->Smooth);
   }
 
   std::unique_ptr<smg::Solution> solveOn(

@@ -52,10 +52,22 @@ PieceColumns BlendTask::columns() const
     .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
 }
 
-std::unique_ptr<Solution> BlendTask::solve(
-  const VsmReader& mesh, const ProgressFunction& progress, Report& report) const
+Costs BlendTask::costs(const StreamInfo& info) const
+{
+  constexpr int Usual = 3;
+  int components = 0;
+  for (const std::string& name : this->description.columns)
+  {
+    components += expectedComponents(info, name, Usual);
+  }
+  return blendCosts(info, components, this->description.seam, this->options);
+}
+
+std::unique_ptr<Solution> BlendTask::solve(const VsmReader& mesh,
+  const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report) const
 {
   SolveOptions given = this->options;
+  given.scratch = scratch;
   given.progress = progress;
   std::unique_ptr<Solution> solution = blend(mesh, this->description, given);
   report = solution->report();

@@ -21,8 +21,9 @@ public:
 
   void check() const override;
   PieceColumns columns() const override;
-  std::unique_ptr<Solution> solve(
-    const VsmReader& mesh, const ProgressFunction& progress, Report& report) const override;
+  Costs costs(const StreamInfo& info) const override;
+  std::unique_ptr<Solution> solve(const VsmReader& mesh, const std::filesystem::path& scratch,
+    const ProgressFunction& progress, Report& report) const override;
 
   /** Blends on a mesh in memory, which has cells, and sets the values at its points. Throws Error
    * and Cancelled. */

@@ -32,12 +32,18 @@ PieceColumns DeformationTask::columns() const
   };
 }
 
-std::unique_ptr<Solution> DeformationTask::solve(
-  const VsmReader& mesh, const ProgressFunction& progress, Report& report) const
+Costs DeformationTask::costs(const StreamInfo& info) const
+{
+  return deformCosts(info, this->options);
+}
+
+std::unique_ptr<Solution> DeformationTask::solve(const VsmReader& mesh,
+  const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report) const
 {
   const bool hasNormals = this->needsNormals && mesh.info().cellType == CellType::Triangle;
   DescribedHandles handles(DeformationDescription::byColumns(), mesh.info());
   DeformOptions options = this->options;
+  options.scratch = scratch;
   options.progress = partOf(progress, 0.0, hasNormals ? DeformShare : 1.0);
   options.checkpoint.mesh = mesh.fingerprint();
   options.checkpoint.problem = "handles in the arrays of the mesh";

@@ -16,8 +16,9 @@ public:
 
   void check() const override;
   PieceColumns columns() const override;
-  std::unique_ptr<Solution> solve(
-    const VsmReader& mesh, const ProgressFunction& progress, Report& report) const override;
+  Costs costs(const StreamInfo& info) const override;
+  std::unique_ptr<Solution> solve(const VsmReader& mesh, const std::filesystem::path& scratch,
+    const ProgressFunction& progress, Report& report) const override;
 };
 
 } // namespace smg

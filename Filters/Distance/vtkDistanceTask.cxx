@@ -67,10 +67,26 @@ PieceColumns DistanceTask::columns() const
     .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
 }
 
-std::unique_ptr<Solution> DistanceTask::solve(
-  const VsmReader& mesh, const ProgressFunction& progress, Report& report) const
+Costs DistanceTask::costs(const StreamInfo& info) const
+{
+  return distanceCosts(info, this->description);
+}
+
+AddedValues DistanceTask::added(const StreamInfo& /*info*/) const
+{
+  int numbers = 0;
+  for (const ColumnSpec& column : distanceColumns(this->description))
+  {
+    numbers += column.components;
+  }
+  return { numbers, 0 };
+}
+
+std::unique_ptr<Solution> DistanceTask::solve(const VsmReader& mesh,
+  const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report) const
 {
   DistanceOptions given = this->options;
+  given.scratch = scratch;
   given.progress = progress;
   std::unique_ptr<Solution> solution = distance(mesh, this->description, given, "From");
   report = solution->report();

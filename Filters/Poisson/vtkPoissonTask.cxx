@@ -45,24 +45,42 @@ PieceColumns PoissonTask::columns() const
     .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
 }
 
-std::unique_ptr<Solution> PoissonTask::solve(
-  const VsmReader& mesh, const ProgressFunction& progress, Report& report) const
+int PoissonTask::columnsOn(const StreamInfo& info) const
 {
-  ProblemDescription description = this->problem;
+  int columns = this->problem.columns;
   for (const std::string& name : this->values)
   {
-    for (const auto* specs : { &mesh.info().vertexColumns, &mesh.info().cellColumns })
+    for (const auto* specs : { &info.vertexColumns, &info.cellColumns })
     {
       const auto found = std::ranges::find(*specs, name, &ColumnSpec::name);
-      description.columns = found == specs->end()
-                              ? description.columns
-                              : std::max(description.columns, found->components);
+      columns = found == specs->end() ? columns : std::max(columns, found->components);
     }
   }
+  return columns;
+}
+
+Costs PoissonTask::costs(const StreamInfo& info) const
+{
+  return solveCosts(info, this->columnsOn(info), this->problem.weights, this->options);
+}
+
+AddedValues PoissonTask::added(const StreamInfo& info) const
+{
+  const int columns = this->columnsOn(info);
+  const int ofCells = (this->problem.gradientOutput ? 1 : 0) + (this->problem.fluxOutput ? 1 : 0);
+  return { columns, 3 * columns * ofCells };
+}
+
+std::unique_ptr<Solution> PoissonTask::solve(const VsmReader& mesh,
+  const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report) const
+{
+  ProblemDescription description = this->problem;
+  description.columns = this->columnsOn(mesh.info());
   DescribedProblem problem(description, mesh.info());
   const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
-  problem.prepare(*source(), this->options.scratch);
+  problem.prepare(*source(), scratch);
   SolveOptions options = this->options;
+  options.scratch = scratch;
   options.progress = partOf(progress, 0.0, SolveShare);
   options.checkpoint.mesh = mesh.fingerprint();
   options.checkpoint.problem = textOf(description);

@@ -54,6 +54,12 @@ PieceColumns SmoothingTask::columns() const
     .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
 }
 
+Costs SmoothingTask::costs(const StreamInfo& info) const
+{
+  constexpr int OfPoints = 3;
+  return smoothCosts(info, expectedComponents(info, this->options.column, OfPoints), this->options);
+}
+
 std::unique_ptr<Solution> SmoothingTask::smoothed(
   const StoredMesh& mesh, bool inCore, const ProgressFunction& progress) const
 {
@@ -75,10 +81,12 @@ std::unique_ptr<Solution> SmoothingTask::smoothed(
   return moved;
 }
 
-std::unique_ptr<Solution> SmoothingTask::solve(
-  const VsmReader& mesh, const ProgressFunction& progress, Report& report) const
+std::unique_ptr<Solution> SmoothingTask::solve(const VsmReader& mesh,
+  const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report) const
 {
-  std::unique_ptr<Solution> solution = this->smoothed(mesh, false, progress);
+  SmoothingTask task = *this;
+  task.options.scratch = scratch;
+  std::unique_ptr<Solution> solution = task.smoothed(mesh, false, progress);
   report = solution->report();
   return solution;
 }

@@ -2,7 +2,7 @@
 #include "Filters/Streaming/vtkStreamedSolve.h"
 
 #include "IO/Files/PartialProgress.h"
-#include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Storage/FileDescriptor.h"
 #include "smg/Error.h"
 
 #include <chrono>
@@ -39,6 +39,7 @@ void StreamedSolve::release()
     this->Result->removeCheckpoint();
     this->Result.reset();
   }
+  this->Scratch.reset();
 }
 
 void StreamedSolve::fail(const std::string& sentence)
@@ -52,8 +53,8 @@ void StreamedSolve::pullAndSolve(
 {
   task.check();
   const auto start = std::chrono::steady_clock::now();
-  const ScratchFolder scratch(pulling.scratch);
-  const std::filesystem::path container = scratch / "mesh.vsm";
+  this->Scratch = std::make_unique<ScratchFolder>(pulling.scratch, pulling.scratchLimit);
+  const std::filesystem::path container = *this->Scratch / "mesh.vsm";
   const ProgressFunction whole = [&progress](double done)
   {
     progress.update(done);
@@ -67,7 +68,9 @@ void StreamedSolve::pullAndSolve(
   const std::chrono::duration<double> pulled = std::chrono::steady_clock::now() - start;
 
   Report report;
-  this->Result = task.solve(VsmReader(container), partOf(whole, PullShare, 1.0), report);
+  this->Result =
+    task.solve(VsmReader(container), this->Scratch->path(), partOf(whole, PullShare, 1.0), report);
+  FileDescriptor::removeClosed(container);
   report.seconds.convert = pulled.count();
   report.seconds.total += pulled.count();
   this->Summary = SolveSummary::of(report, this->Result->columns());

@@ -7,7 +7,9 @@
 #include "IO/vtkPieceCount.h"
 #include "IO/vtkPieceInput.h"
 #include "Solver/Core/Progress.h"
+#include "Solver/Storage/ScratchFolder.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 
@@ -27,7 +29,8 @@ public:
   struct Pulling
   {
     PieceCount pieces;
-    std::filesystem::path scratch; ///< folder for the container; empty: the system's
+    std::filesystem::path scratch; ///< folder for scratch files; empty: the system's
+    std::int64_t scratchLimit = 0; ///< of the bytes of all scratch files at once; 0: none
   };
 
   /** Whether there is a solution for this stamp. */
@@ -47,8 +50,8 @@ public:
 
   /**
    * Requests the pieces of the input once, in order, writes them to a container in the scratch
-   * folder and solves on it. Does not throw: the summary reports an error, and there is then no
-   * solution.
+   * folder and solves on it, with scratch files beside it. Does not throw: the summary reports an
+   * error, and there is then no solution.
    */
   void solve(
     PieceInput& input, const StreamedTask& task, const Pulling& pulling, Progress& progress);
@@ -66,6 +69,7 @@ private:
   void pullAndSolve(
     PieceInput& input, const StreamedTask& task, const Pulling& pulling, Progress& progress);
 
+  std::unique_ptr<ScratchFolder> Scratch; ///< of the solution
   std::unique_ptr<Solution> Result;
   InputStamp MadeFor;
   SolveSummary Summary;

@@ -200,6 +200,12 @@ Costs distanceCosts(const StreamInfo& info, const DistanceDescription& descripti
   return costs;
 }
 
+int expectedComponents(const StreamInfo& info, const std::string& column, int usual)
+{
+  const auto found = std::ranges::find(info.vertexColumns, column, &ColumnSpec::name);
+  return found == info.vertexColumns.end() ? usual : found->components;
+}
+
 std::int64_t usualSpan(CellType cells, std::int64_t vertices)
 {
   const Rates& rates = ratesOf(cells);

@@ -9,6 +9,7 @@
 #include "smg/Solve.h"
 
 #include <cstdint>
+#include <string>
 
 namespace smg
 {
@@ -38,6 +39,9 @@ SMG_EXPORT Costs blendCosts(
   const StreamInfo& info, int components, SeamGradient seam, const SolveOptions& options);
 
 SMG_EXPORT Costs distanceCosts(const StreamInfo& info, const DistanceDescription& description);
+
+/** The components of a column of the vertices; `usual` if the mesh is not known to have it. */
+SMG_EXPORT int expectedComponents(const StreamInfo& info, const std::string& column, int usual);
 
 /** The span that the breadth-first order of a mesh with so many vertices usually has. */
 SMG_EXPORT std::int64_t usualSpan(CellType cells, std::int64_t vertices);

@@ -165,7 +165,7 @@ std::string ScratchAccount::refusal() const
   }
   return "the scratch files would take at least " + exactMebibytes(account->Refused) +
          " but their limit is " + exactMebibytes(account->Limit) +
-         ": raise the limit of scratch files (option --scratch-limit)";
+         ": raise the limit of scratch files (option --scratch-limit, property ScratchLimit)";
 }
 
 } // namespace smg

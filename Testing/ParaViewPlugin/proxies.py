@@ -18,18 +18,20 @@ assert reader.MaximumPointsInMemory == 2000000
 assert reader.PointArrayStatus == ["OriginalId"], reader.PointArrayStatus
 poisson = StreamingPoisson(Input=reader)
 defaults = {"Weights": "Cotangent", "Sweeps": 2, "Tolerance": 1e-6,
-            "MaximumCycles": 50, "MemoryLimit": 1024, "ScratchDirectory": "", "NumberOfPieces": 0,
+            "MaximumCycles": 50, "MemoryLimit": 1024, "ScratchDirectory": "", "ScratchLimit": 0,
+            "NumberOfPieces": 0,
             "NumberOfThreads": 0, "Screening": 0.0, "InCore": 0, "ResultArrayName": "Solution",
             "DirichletMask": ["POINTS", "None"], "Source": ["POINTS", "None"]}
 for name, value in defaults.items():
     found = poisson.GetPropertyValue(name)
     found = list(found) if isinstance(value, list) else found
     assert found == value, (name, found)
-for name in ("Residual", "Cycles", "Passes", "PeakMemory", "Converged", "Outcome", "Notes", "Report"):
+for name in ("Residual", "Cycles", "Passes", "PeakMemory", "Converged", "Estimate", "Outcome", "Notes",
+             "Report"):
     assert poisson.SMProxy.GetProperty(name).GetInformationOnly(), name
     # The panel shows the summary line and the notes.
     is_shown = poisson.SMProxy.GetProperty(name).GetPanelVisibility() == "default"
-    assert is_shown == (name in ("Outcome", "Notes")), name
+    assert is_shown == (name in ("Estimate", "Outcome", "Notes")), name
 
 smoothing = StreamingMeshSmoothing(Input=reader)
 defaults = {"Size": 4.0, "SizeUnit": "Mean Edges", "Steps": 1, "KeepVolume": 1, "KeepEdges": 0,

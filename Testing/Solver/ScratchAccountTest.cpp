@@ -94,7 +94,7 @@ TEST(ScratchAccount, AFolderInAnotherOneSharesItsLimit)
   EXPECT_EQ(messageOf([&] { b.write(1000, Kilobyte); }),
     place.path().string() +
       ": the scratch files would take at least 1 MiB (3000 bytes) but their limit is 1 MiB (2500 "
-      "bytes): raise the limit of scratch files (option --scratch-limit).");
+      "bytes): raise the limit of scratch files (option --scratch-limit, property ScratchLimit).");
   EXPECT_EQ(b.size(), 1000);
   EXPECT_EQ(inner.account().used(), 1000);
   EXPECT_EQ(outer.account().used(), 2000);

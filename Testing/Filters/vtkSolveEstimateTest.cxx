@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkStreamingBlend.h"
+#include "Filters/vtkStreamingDistance.h"
+#include "Filters/vtkStreamingMeshDeformation.h"
+#include "Filters/vtkStreamingMeshSmoothing.h"
+#include "Solver/Core/ByteText.h"
+#include "Solver/Estimate/Costs.h"
+#include "Testing/Filters/vtkPoissonFixture.h"
+#include "smg/VsmReader.h"
+
+#include "vtkPolyData.h"
+
+#include <string>
+
+namespace smg::testing
+{
+namespace
+{
+
+class VtkSolveEstimate : public VtkStreamingPoisson
+{
+protected:
+  VtkSolveEstimate() { this->open(torus(400, 100, 0.2)); }
+
+  /** The estimate of the filter is that of a solve for so many right-hand sides. */
+  void expectEstimateOf(int columns)
+  {
+    const VsmReader mesh(this->Folder / "mesh.vsm");
+    SolveOptions options;
+    options.tolerance = this->Poisson->GetTolerance();
+    const Costs costs = solveCosts(mesh.info(), columns, Weights::Cotangent, options);
+    const std::string text = this->Poisson->GetEstimate();
+    const auto expectPart = [&text](const std::string& part)
+    { EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text; };
+    expectPart("About " + mebibytes(costs.memory) + " of memory (the limit is 1024 MiB), ");
+    expectPart(mebibytes(costs.scratch + mesh.storedBytes()) + " of scratch files");
+    expectPart(std::to_string(costs.passes) + " passes over 40000 points and 80000 cells");
+    expectPart("saved as .vsm " + mebibytes(mesh.storedBytes() + 40000 * 8 * columns));
+  }
+};
+
+TEST_F(VtkSolveEstimate, IsKnownBeforeAnythingIsRequested)
+{
+  EXPECT_TRUE(std::string(this->Poisson->GetEstimate()).starts_with("Known only for .vsm"));
+  this->Poisson->UpdateInformation();
+  // The number of components of the values is not known before the filter before has executed.
+  this->expectEstimateOf(1);
+  EXPECT_EQ(this->Ends->Executions, 0);
+  this->Poisson->SetProblem(R"({"columns": 4})");
+  this->expectEstimateOf(4);
+  EXPECT_EQ(this->Ends->Executions, 0);
+  this->Poisson->SetProblem(nullptr);
+  ASSERT_TRUE(updatePiece(this->Ends, 0, 100));
+  this->expectEstimateOf(3);
+}
+
+TEST_F(VtkSolveEstimate, DoesNotChangeAResult)
+{
+  this->Poisson->SetGradient(true);
+  ASSERT_TRUE(updatePiece(this->Poisson, 0, 9));
+  this->Ends->GetOutputDataObject(0)->ReleaseData();
+  this->Poisson->GetEstimate();
+  ASSERT_TRUE(updatePiece(this->Poisson, 1, 9));
+  vtkDataArray* gradient = this->output()->GetCellData()->GetArray("Gradient");
+  ASSERT_TRUE(gradient);
+  EXPECT_EQ(gradient->GetNumberOfComponents(), 9);
+}
+
+TEST_F(VtkSolveEstimate, OfEveryFilter)
+{
+  vtkNew<vtkStreamingMeshDeformation> deformation;
+  vtkNew<vtkStreamingMeshSmoothing> smoothing;
+  vtkNew<vtkStreamingBlend> blend;
+  vtkNew<vtkStreamingDistance> distance;
+  blend->AddColumn("Colours");
+  for (vtkStreamingSolver* filter :
+    std::initializer_list<vtkStreamingSolver*>{ deformation, smoothing, blend, distance })
+  {
+    filter->SetInputConnection(this->Ends->GetOutputPort());
+    filter->SetScratchLimit(77);
+    filter->UpdateInformation();
+    const std::string text = filter->GetEstimate();
+    EXPECT_TRUE(text.starts_with("About ")) << filter->GetClassName() << ": " << text;
+    EXPECT_NE(text.find("scratch files (the limit is 77 MiB, "), std::string::npos) << text;
+    EXPECT_NE(text.find("over 40000 points"), std::string::npos) << text;
+  }
+  EXPECT_EQ(this->Ends->Executions, 0);
+  distance->SetFrom("nowhere");
+  EXPECT_TRUE(std::string(distance->GetEstimate()).starts_with("Not known: "));
+}
+
+TEST_F(VtkSolveEstimate, OfOtherInputsIsNotKnown)
+{
+  vtkNew<vtkPolyData> mesh;
+  vtkNew<vtkStreamingMeshSmoothing> smoothing;
+  EXPECT_TRUE(std::string(smoothing->GetEstimate()).starts_with("Known only for .vsm"));
+  smoothing->SetInputDataObject(mesh);
+  smoothing->UpdateInformation();
+  EXPECT_TRUE(std::string(smoothing->GetEstimate()).starts_with("Known only for .vsm"));
+}
+
+} // namespace
+} // namespace smg::testing
