@@ -115,7 +115,9 @@ public:
   /**
    * A folder from which the same filter on the same input, in another program, continues the solve
    * if this program is killed or the solve is aborted. The folder is for this filter alone: it is
-   * made, and removed when the filter releases the solution or is deleted. vtkStreamingPoisson and
+   * made, and removed when the filter solves something else. When the filter is deleted, it
+   * remains, since the filter does not know whether its output has been written; with it the same
+   * filter has its solution at once. Remove it when the result is safe. vtkStreamingPoisson and
    * vtkStreamingMeshDeformation have checkpoints, when they do not solve in memory; the other
    * subclasses fail with one. Default: none.
    */

@@ -22,7 +22,7 @@ void StreamedSolve::solve(
 {
   try
   {
-    this->release();
+    this->discard();
     this->pullAndSolve(input, task, pulling, progress);
   }
   catch (const std::exception& error)
@@ -31,15 +31,22 @@ void StreamedSolve::solve(
   }
 }
 
-/** Removes the solution with its checkpoint: it has been used as long as it was wanted. */
+/** Removes the solution. Its checkpoint remains: nobody knows here whether the result has been
+ * written. */
 void StreamedSolve::release()
+{
+  this->Result.reset();
+  this->Scratch.reset();
+}
+
+/** Removes the solution with its checkpoint: something else is wanted. */
+void StreamedSolve::discard()
 {
   if (this->Result)
   {
     this->Result->removeCheckpoint();
-    this->Result.reset();
   }
-  this->Scratch.reset();
+  this->release();
 }
 
 void StreamedSolve::fail(const std::string& sentence)

@@ -21,7 +21,7 @@ class StreamedSolve
 {
 public:
   StreamedSolve() = default;
-  ~StreamedSolve() { this->release(); }
+  ~StreamedSolve() = default;
   StreamedSolve(const StreamedSolve&) = delete;
   StreamedSolve& operator=(const StreamedSolve&) = delete;
 
@@ -36,12 +36,12 @@ public:
   /** Whether there is a solution for this stamp. */
   bool isFor(const InputStamp& stamp) const { return this->Result && this->MadeFor == stamp; }
 
-  /** Releases a solution for another stamp, whose files may be large. */
+  /** Releases a solution for another stamp, whose files may be large, with its checkpoint. */
   void keepOnlyFor(const InputStamp& stamp)
   {
     if (!this->isFor(stamp))
     {
-      this->release();
+      this->discard();
     }
   }
 
@@ -66,6 +66,7 @@ public:
 
 private:
   void release();
+  void discard();
   void pullAndSolve(
     PieceInput& input, const StreamedTask& task, const Pulling& pulling, Progress& progress);
 

@@ -78,6 +78,21 @@ TEST_F(VtkCheckpoint, OfAnotherProblemOrInputIsRefused)
   EXPECT_TRUE(errors.contain("another mesh")) << errors.text();
 }
 
+TEST_F(VtkCheckpoint, RemainsWithoutTheFilterUntilTheResultIsSafe)
+{
+  for (int run = 0; run < 2; ++run)
+  {
+    vtkNew<vtkStreamingPoisson> poisson;
+    this->prepare(poisson);
+    poisson->SetCheckpointDirectory(this->Checkpoint.c_str());
+    ASSERT_TRUE(updatePiece(poisson, 0, 1));
+    EXPECT_EQ(std::string(poisson->GetReport()).find("continued after pass") != std::string::npos,
+      run == 1);
+    EXPECT_EQ(poisson->GetConverged(), 1);
+  }
+  EXPECT_TRUE(std::filesystem::exists(this->Checkpoint));
+}
+
 TEST_F(VtkCheckpoint, OfFiltersWithoutOneIsAnError)
 {
   vtkNew<vtkStreamingMeshSmoothing> smoothing;
