@@ -13,14 +13,14 @@ namespace smg
 namespace
 {
 
-constexpr std::size_t BufferAlignment = 64;
-
-/** The size of chunks such that those of all buckets stay below `memory`. */
+/** The size of chunks such that those of all buckets stay below `memory`: whole grains, if they are
+ * not smaller. */
 std::size_t chunkBytes(int buckets, std::int64_t memory)
 {
   const auto share = static_cast<std::size_t>(memory) / static_cast<std::size_t>(buckets);
-  return std::clamp(
-    share / BufferAlignment * BufferAlignment, BucketFile::LeastChunkBytes, BucketFile::ChunkBytes);
+  const std::size_t unit =
+    share < CheckedFile::GrainBytes ? BucketFile::LeastChunkBytes : CheckedFile::GrainBytes;
+  return std::clamp(share / unit * unit, BucketFile::LeastChunkBytes, BucketFile::ChunkBytes);
 }
 
 } // namespace
@@ -60,20 +60,20 @@ void BucketFile::flush(Row& row)
   }
   if (!this->File.isOpen())
   {
-    this->File = FileDescriptor::createNameless(this->Space->folder());
+    this->File.create(this->Space->folder());
   }
+  const std::int64_t begin = this->File.size();
   const auto bytes = static_cast<std::int64_t>(row.used);
-  this->File.write(this->FileEnd, row.chunk.bytes().first(row.used));
+  this->File.append(row.chunk.bytes().first(row.used));
   this->Space->traffic().bytesWritten += bytes;
-  if (!row.runs.empty() && row.runs.back().offset + row.runs.back().bytes == this->FileEnd)
+  if (!row.runs.empty() && row.runs.back().offset + row.runs.back().bytes == begin)
   {
     row.runs.back().bytes += bytes;
   }
   else
   {
-    row.runs.push_back({ this->FileEnd, bytes });
+    row.runs.push_back({ begin, bytes });
   }
-  this->FileEnd += bytes;
   row.used = 0;
   this->Space->poll();
 }
@@ -90,15 +90,7 @@ void BucketFile::close()
 void BucketFile::save(StateWriter& state, const std::filesystem::path& path)
 {
   this->close();
-  if (!this->IsNamed && this->File.isOpen())
-  {
-    this->File.giveName(path);
-    this->File.sync();
-    this->Checksum = this->contentChecksum();
-  }
-  this->IsNamed = true;
-  state.part(path.filename().string());
-  state(this->FileEnd, this->Checksum);
+  this->File.save(state, path);
   for (Row& row : this->Rows)
   {
     state(row.bytes, row.runs);
@@ -107,44 +99,19 @@ void BucketFile::save(StateWriter& state, const std::filesystem::path& path)
 
 void BucketFile::load(StateReader& state, const std::filesystem::path& path)
 {
-  state.part(path.filename().string());
-  state(this->FileEnd, this->Checksum);
-  state.require(this->FileEnd >= 0);
+  this->File.load(state, path);
   for (Row& row : this->Rows)
   {
     state(row.bytes, row.runs);
     std::int64_t left = row.bytes;
     for (const Run& run : row.runs)
     {
-      state.require(run.offset >= 0 && run.offset <= this->FileEnd && run.bytes > 0 &&
-                    run.bytes <= this->FileEnd - run.offset && run.bytes <= left);
+      state.require(run.offset >= 0 && run.offset <= this->File.size() && run.bytes > 0 &&
+                    run.bytes <= this->File.size() - run.offset && run.bytes <= left);
       left -= run.bytes;
     }
     state.require(left == 0);
   }
-  this->IsNamed = true;
-  if (this->FileEnd > 0)
-  {
-    this->File = FileDescriptor::openForReading(path);
-    if (this->File.size() < this->FileEnd || this->contentChecksum() != this->Checksum)
-    {
-      state.fail("since " + path.string() + " is");
-    }
-  }
-}
-
-std::uint64_t BucketFile::contentChecksum() const
-{
-  Buffer part(this->Space->pool(), LeastChunkBytes);
-  std::uint64_t sum = 0;
-  for (std::int64_t at = 0; at < this->FileEnd; at += static_cast<std::int64_t>(part.size()))
-  {
-    part.resize(
-      static_cast<std::size_t>(std::min<std::int64_t>(this->FileEnd - at, LeastChunkBytes)));
-    this->File.read(at, part.bytes());
-    sum = StatePages::add(sum, part.bytes());
-  }
-  return sum;
 }
 
 BucketFile::Reader::Reader(const BucketFile& file, int bucket, std::size_t bufferBytes)
@@ -162,16 +129,19 @@ bool BucketFile::Reader::refill()
   std::memmove(this->Bytes.data(), this->Bytes.data() + this->At, kept);
   this->At = 0;
   this->End = kept;
-  while (this->End < this->Bytes.size() && this->Offset < row.bytes)
+  bool isFull = false; // except for a part of a grain
+  while (!isFull && this->End < this->Bytes.size() && this->Offset < row.bytes)
   {
     const std::size_t room = this->Bytes.size() - this->End;
     std::size_t part = 0;
     if (this->NextRun < row.runs.size())
     {
       const Run& run = row.runs[this->NextRun];
+      const std::int64_t offset = run.offset + this->RunOffset;
       part = std::min(room, static_cast<std::size_t>(run.bytes - this->RunOffset));
-      this->File->File.read(
-        run.offset + this->RunOffset, this->Bytes.bytes().subspan(this->End, part));
+      isFull = part == room;
+      part = isFull ? CheckedFile::untilGrain(offset, room) : part;
+      this->File->File.read(offset, this->Bytes.bytes().subspan(this->End, part));
       this->File->Space->traffic().bytesRead += static_cast<std::int64_t>(part);
       this->RunOffset += static_cast<std::int64_t>(part);
       if (this->RunOffset == run.bytes)
@@ -196,9 +166,8 @@ bool BucketFile::Reader::refill()
 std::span<const std::byte> BucketFile::Reader::next(std::size_t unit, std::size_t most)
 {
   assert(unit <= this->Bytes.size());
-  if (this->End - this->At < unit)
+  while (this->End - this->At < unit && this->refill())
   {
-    this->refill();
   }
   const std::size_t bytes = std::min(this->End - this->At, most) / unit * unit;
   const std::size_t at = this->At;

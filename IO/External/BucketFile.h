@@ -3,7 +3,7 @@
 
 #include "IO/External/Workspace.h"
 #include "Solver/Storage/Buffer.h"
-#include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Storage/CheckedFile.h"
 #include "Solver/Storage/StateReader.h"
 #include "Solver/Storage/StateWriter.h"
 #include "smg/Export.h"
@@ -124,15 +124,11 @@ private:
 
   void appendSlowly(Row& row, std::span<const std::byte> bytes);
   void flush(Row& row);
-  std::uint64_t contentChecksum() const;
 
   Workspace* Space;
   std::size_t Chunk;
   std::vector<Row> Rows;
-  FileDescriptor File;
-  std::int64_t FileEnd = 0;
-  bool IsNamed = false;
-  std::uint64_t Checksum = 0; // of a named file
+  CheckedFile File;
 };
 
 /** A file of one sequence of records. */

@@ -39,7 +39,7 @@ void RowTable::load(int bucket)
     this->Rows = Buffer(this->Space.pool(), std::size_t(this->Range) * this->RowBytes);
   }
   std::ranges::fill(this->Rows.bytes(), std::byte(0xff));
-  this->Loaded = bucket;
+  this->Loaded = -1; // unless all of it can be read
   const std::size_t first = std::size_t(bucket) * this->Range;
   const std::size_t recordBytes = sizeof(std::uint32_t) + this->RowBytes;
   BucketFile::Reader records(
@@ -54,6 +54,7 @@ void RowTable::load(int bucket)
         &bytes[at + sizeof(number)], this->RowBytes);
     }
   }
+  this->Loaded = bucket;
 }
 
 std::span<const std::byte> RowTable::read(std::int64_t first, std::int64_t most)

@@ -94,14 +94,14 @@ VertexNormals::VertexNormals(MeshSource& mesh, const NormalsOptions& options)
     throw Error("Normals are those of triangles, but the mesh has tetrahedra: leave them out.");
   }
   const ScratchFolder scratch(options.scratch);
-  this->File = FileDescriptor::createNameless(scratch.path());
+  this->File.create(scratch.path());
   NormalSums sums(info, scratch.path(), options.memory);
   Progress reported(options.progress);
   std::vector<float> normals;
   const auto write = [&](std::int64_t end)
   {
     sums.give(this->Vertices, end, normals);
-    this->File.write(this->Vertices * BytesPerVertex, std::as_bytes(std::span(normals)));
+    this->File.append(std::as_bytes(std::span(normals)));
     this->Vertices = end;
   };
   for (MeshBlock block; mesh.next(block);)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "IO/Formats/Vsm/AttributeNames.h"
-#include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Storage/CheckedFile.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 #include "smg/MovedMesh.h"
@@ -39,7 +39,7 @@ public:
   void read(std::int64_t first, std::int64_t count, std::span<float> normals) const;
 
 private:
-  FileDescriptor File;
+  CheckedFile File;
   std::int64_t Vertices = 0;
 };
 

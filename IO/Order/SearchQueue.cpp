@@ -24,24 +24,23 @@ void SearchQueue::turn()
 
 void SearchQueue::spill()
 {
-  if (this->FrontBegin == this->FrontEnd && this->FileBegin == this->FileEnd)
+  if (this->FrontBegin == this->FrontEnd && this->FileBegin == this->File.size())
   {
     this->turn();
     return;
   }
   if (!this->File.isOpen())
   {
-    this->File = FileDescriptor::createNameless(this->Space.folder());
+    this->File.create(this->Space.folder());
   }
-  this->File.write(this->FileEnd, this->Back.bytes());
-  this->FileEnd += std::int64_t(this->Back.size());
+  this->File.append(this->Back.bytes());
   this->Space.traffic().bytesWritten += std::int64_t(this->Back.size());
   this->BackEnd = 0;
 }
 
 void SearchQueue::refill()
 {
-  if (this->FileBegin == this->FileEnd)
+  if (this->FileBegin == this->File.size())
   {
     this->turn();
     return;
@@ -51,9 +50,10 @@ void SearchQueue::refill()
   this->Space.traffic().bytesRead += std::int64_t(this->Front.size());
   this->FrontBegin = 0;
   this->FrontEnd = this->Half;
-  if (this->FileBegin == this->FileEnd)
+  if (this->FileBegin == this->File.size())
   {
-    this->FileBegin = this->FileEnd = 0;
+    this->FileBegin = 0;
+    this->File.restart();
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include "IO/External/Workspace.h"
 #include "Solver/Storage/Buffer.h"
-#include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Storage/CheckedFile.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -52,8 +52,8 @@ private:
   Buffer Front, Back;
   std::size_t FrontBegin = 0, FrontEnd = 0, BackEnd = 0;
   std::int64_t Size = 0;
-  FileDescriptor File;
-  std::int64_t FileBegin = 0, FileEnd = 0; ///< the part in the file
+  CheckedFile File;
+  std::int64_t FileBegin = 0; ///< of the values in the file that were not read
 };
 
 } // namespace smg

@@ -2,6 +2,7 @@
 #include "IO/Order/VertexPages.h"
 
 #include "IO/External/Relabelling.h"
+#include "Solver/Storage/Checksum.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -120,8 +121,11 @@ void VertexPages::append(std::span<const Vertex> vertices)
                               : putPositions<float>(end, vertices);
 
   const auto unplaced = std::ranges::count(vertices, NoIndex, &Vertex::place);
+  std::byte* const places = begin + adjacency;
+  std::byte* const rest = places + vertices.size() * sizeof(std::uint32_t);
   this->Directory.push({ this->FileEnd + std::int64_t(this->Collected), adjacency,
-    static_cast<std::uint32_t>(unplaced) });
+    static_cast<std::uint32_t>(unplaced),
+    { checksum({ begin, places }), checksum({ places, rest }), checksum({ rest, end }) } });
   const auto bytes = static_cast<std::size_t>(end - begin);
   this->Collected += bytes;
   this->LargestPage = std::max(this->LargestPage, bytes);
@@ -167,8 +171,17 @@ void VertexPages::close()
 
 void VertexPages::read(std::int64_t page, std::span<std::byte> bytes)
 {
-  assert(bytes.size() <= this->bytes(page) && this->Collected == 0);
-  this->File.read(this->Directory[std::size_t(page)].offset, bytes);
+  const Page& where = this->Directory[std::size_t(page)];
+  const bool isWhole = bytes.size() == this->bytes(page);
+  assert((isWhole || bytes.size() == where.adjacency) && this->Collected == 0);
+  this->File.read(where.offset, bytes);
+  const std::size_t rest = where.adjacency + this->placesBytes(page);
+  if (checksum(bytes.first(where.adjacency)) != where.sums[0] ||
+      (isWhole && (checksum(bytes.first(rest).subspan(where.adjacency)) != where.sums[1] ||
+                    checksum(bytes.subspan(rest)) != where.sums[2])))
+  {
+    throwDamagedBlock(this->File.path(), page);
+  }
   this->Space->traffic().bytesRead += std::int64_t(bytes.size());
   // Pages are small, so progress is not reported after each of them.
   this->Unpolled += bytes.size();
@@ -181,10 +194,11 @@ void VertexPages::read(std::int64_t page, std::span<std::byte> bytes)
 
 void VertexPages::writePlaces(std::int64_t page, std::span<const std::byte> bytes)
 {
-  const Page& where = this->Directory[std::size_t(page)];
-  const std::size_t places = this->verticesOf(page) * sizeof(std::uint32_t);
-  this->File.write(where.offset + where.adjacency, bytes.subspan(where.adjacency, places));
-  this->Space->traffic().bytesWritten += std::int64_t(places);
+  Page& where = this->Directory[std::size_t(page)];
+  const std::span<const std::byte> places = bytes.subspan(where.adjacency, this->placesBytes(page));
+  where.sums[1] = checksum(places);
+  this->File.write(where.offset + where.adjacency, places);
+  this->Space->traffic().bytesWritten += std::int64_t(places.size());
 }
 
 } // namespace smg

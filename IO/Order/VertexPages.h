@@ -81,7 +81,7 @@ public:
   std::int64_t allBytes() const { return this->FileEnd + std::int64_t(this->Collected); }
   std::int64_t allAdjacencyBytes() const { return this->AllAdjacencyBytes; }
 
-  /** Reads the beginning of a page into the span. Throws Error, Cancelled. */
+  /** Reads a page, or its adjacency part, into a span of its size. Throws Error, Cancelled. */
   void read(std::int64_t page, std::span<std::byte> bytes);
   /** Writes the positions of a page, given the bytes of the whole page. */
   void writePlaces(std::int64_t page, std::span<const std::byte> bytes);
@@ -102,8 +102,13 @@ private:
     std::int64_t offset;
     std::uint32_t adjacency; ///< bytes
     std::uint32_t unplaced;
+    std::uint64_t sums[3]; ///< checksums of the adjacency, the places, the rest
   };
 
+  std::size_t placesBytes(std::int64_t page) const
+  {
+    return this->verticesOf(page) * sizeof(std::uint32_t);
+  }
   void makeRoom(std::size_t bytes);
   void flush();
 

@@ -3,9 +3,6 @@
 
 #include "Solver/Storage/Checksum.h"
 #include "Solver/Storage/WaitClock.h"
-#include "smg/Error.h"
-
-#include <string>
 
 namespace smg
 {
@@ -52,8 +49,7 @@ void ScratchBlocks::read(std::int64_t index, std::span<std::byte> bytes)
   }
   if (bytes.size() != block.bytes || (!bytes.empty() && checksum(bytes) != block.checksum))
   {
-    throw Error(this->Path.string() + ": block " + std::to_string(index) +
-                " differs from what was written: check the disk for faults, or use another one.");
+    throwDamagedBlock(this->Path, index);
   }
   this->Statistics->bytesRead += static_cast<std::int64_t>(bytes.size());
   this->Statistics->waitNanoseconds += waited;

@@ -4,7 +4,6 @@
 #include "Solver/Storage/Buffer.h"
 #include "Solver/Storage/Checksum.h"
 #include "Solver/Storage/WaitClock.h"
-#include "smg/Error.h"
 
 #include <string>
 #include <utility>
@@ -101,8 +100,7 @@ void ScratchStream::read(std::int64_t index, std::span<std::byte> bytes)
   }
   if (bytes.size() != block.bytes || checksum(bytes) != block.checksum)
   {
-    throw Error(this->Path.string() + ": block " + std::to_string(index) +
-                " differs from what was written: check the disk for faults, or use another one.");
+    throwDamagedBlock(this->Path, index);
   }
   this->Statistics->bytesRead += static_cast<std::int64_t>(bytes.size());
   this->Statistics->waitNanoseconds += waited;

@@ -29,9 +29,10 @@ StateReader::StateReader(FileDescriptor file, std::int64_t offset, std::int64_t 
   this->End += bytes;
 }
 
-std::uint64_t StateReader::checksum() const
+std::uint64_t StateReader::checksum()
 {
   std::uint64_t sum = 0;
+  this->Sums.clear();
   std::vector<std::byte> page(StatePages::Bytes);
   for (std::int64_t at = this->Begin; at < this->End;)
   {
@@ -39,6 +40,7 @@ std::uint64_t StateReader::checksum() const
     page.resize(static_cast<std::size_t>(bytes));
     this->File.read(at, page);
     sum = StatePages::add(sum, page);
+    this->Sums.push_back(sum);
     at += bytes;
   }
   return sum;
@@ -65,6 +67,7 @@ void StateReader::read(std::span<std::byte> bytes)
         static_cast<std::size_t>(std::min<std::int64_t>(this->left(), StatePages::Bytes)));
       this->File.read(this->Next, this->Page);
       this->PageUsed = 0;
+      this->checkPage();
     }
     const std::size_t part = std::min(bytes.size(), this->Page.size() - this->PageUsed);
     std::copy_n(
@@ -72,6 +75,16 @@ void StateReader::read(std::span<std::byte> bytes)
     this->PageUsed += part;
     this->Next += static_cast<std::int64_t>(part);
     bytes = bytes.subspan(part);
+  }
+}
+
+void StateReader::checkPage() const
+{
+  const auto page = static_cast<std::size_t>(this->Next - this->Begin) / StatePages::Bytes;
+  if (page < this->Sums.size() &&
+      StatePages::add(page > 0 ? this->Sums[page - 1] : 0, this->Page) != this->Sums[page])
+  {
+    this->fail("it differs from read to read");
   }
 }
 

@@ -31,8 +31,9 @@ public:
    * checksum is the caller's to check, with checksum(). */
   StateReader(FileDescriptor file, std::int64_t offset, std::int64_t bytes, Pool& pool);
 
-  /** The checksum of all bytes, as of StateWriter. */
-  std::uint64_t checksum() const;
+  /** The checksum of all bytes, as of StateWriter. From then on, read() throws Error if it finds
+   * others. */
+  std::uint64_t checksum();
 
   template <class... Values>
   void operator()(Values&... values)
@@ -133,6 +134,7 @@ private:
       value = std::bit_cast<T>(bytes);
     }
   }
+  void checkPage() const;
   /** A number of items of at least so many bytes each. */
   std::size_t count(std::size_t itemBytes);
 
@@ -141,6 +143,7 @@ private:
   Pool* Memory;
   std::vector<std::byte> Page;
   std::size_t PageUsed = 0;
+  std::vector<std::uint64_t> Sums; // after each page
 };
 
 } // namespace smg

@@ -13,12 +13,18 @@ VertexFile::VertexFile(const VertexStorage& storage, int lanes)
 {
   if (storage.folder)
   {
-    this->File = FileDescriptor::createNameless(storage.folder->path());
+    this->File.create(storage.folder->path());
   }
   else
   {
     this->Values = Buffer(storage.pool, 0);
   }
+}
+
+void VertexFile::restart()
+{
+  this->Vertices = 0;
+  this->File.restart();
 }
 
 void VertexFile::append(std::span<const double> values)
@@ -28,7 +34,7 @@ void VertexFile::append(std::span<const double> values)
   this->Vertices += static_cast<std::int64_t>(values.size() / this->Lanes);
   if (this->File.isOpen())
   {
-    this->File.write(static_cast<std::int64_t>(begin), std::as_bytes(values));
+    this->File.append(std::as_bytes(values));
     this->Traffic->bytesWritten += static_cast<std::int64_t>(values.size_bytes());
     return;
   }

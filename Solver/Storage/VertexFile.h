@@ -2,7 +2,7 @@
 #pragma once
 
 #include "Solver/Storage/Buffer.h"
-#include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Storage/CheckedFile.h"
 #include "Solver/Storage/IoStatistics.h"
 #include "Solver/Storage/ScratchFolder.h"
 
@@ -33,7 +33,7 @@ public:
   /** Adds the tuples of the next vertices. */
   void append(std::span<const double> values);
   /** The next vertex to append is vertex 0; the space is reused. */
-  void restart() { this->Vertices = 0; }
+  void restart();
   /** Reads the tuples of the vertices [first, first + count), which must exist. */
   void read(std::int64_t first, std::int64_t count, double* values) const;
 
@@ -41,7 +41,7 @@ private:
   Pool* Memory;
   IoStatistics* Traffic;
   std::size_t Lanes;
-  FileDescriptor File; ///< closed: in memory
+  CheckedFile File; ///< closed: in memory
   Buffer Values;
   std::int64_t Vertices = 0;
 };

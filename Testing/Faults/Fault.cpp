@@ -10,6 +10,9 @@
 #include <sstream>
 #include <stdexcept>
 #include <sys/mman.h>
+#include <sys/stat.h>
+#include <utility>
+#include <vector>
 
 namespace smg::testing
 {
@@ -19,6 +22,7 @@ namespace
 const SystemCalls real = systemCalls();
 Fault plan;
 std::atomic<std::int64_t> counted{ 0 };
+std::vector<std::pair<dev_t, ino_t>> spared;
 
 /** Whether the fault is one of this call. */
 bool concerns(const std::string& call)
@@ -47,6 +51,14 @@ bool strikes(const char* call)
   return strikes;
 }
 
+/** Whether the bits of a file are never wrong. */
+bool isSpared(int file)
+{
+  struct stat status = {};
+  return !spared.empty() && real.fstat(file, &status) == 0 &&
+         std::ranges::count(spared, std::pair(status.st_dev, status.st_ino)) > 0;
+}
+
 /** The same for calls that only fail or not. */
 bool fails(const char* call)
 {
@@ -58,9 +70,11 @@ bool fails(const char* call)
 
 /** A transfer of bytes; `transfer` does that of the given number. */
 template <typename Transfer>
-ssize_t transferred(const char* call, std::size_t size, void* read, const Transfer& transfer)
+ssize_t transferred(
+  const char* call, int file, std::size_t size, void* read, const Transfer& transfer)
 {
-  if (size == 0 || (plan.kind == Fault::Kind::FlippedBit && !read) || !strikes(call))
+  const bool cannotFlip = plan.kind == Fault::Kind::FlippedBit && (!read || isSpared(file));
+  if (size == 0 || cannotFlip || !strikes(call))
   {
     return transfer(size);
   }
@@ -75,7 +89,9 @@ ssize_t transferred(const char* call, std::size_t size, void* read, const Transf
       const ssize_t done = transfer(size);
       if (done > 0)
       {
-        static_cast<unsigned char*>(read)[done / 2] ^= 4;
+        // Anywhere, but in each run at the same place.
+        const std::int64_t place = counted * 40503 % done;
+        static_cast<unsigned char*>(read)[place] ^= 1U << (place % 8);
       }
       return done;
     }
@@ -92,7 +108,7 @@ SystemCalls faulty()
   { return fails("open") ? -1 : real.open(path, flags, mode); };
   calls.pread = [](int file, void* bytes, std::size_t size, off_t offset)
   {
-    return transferred("pread", size, bytes,
+    return transferred("pread", file, size, bytes,
       [&](std::size_t part) { return real.pread(file, bytes, part, offset); });
   };
   // All reads are counted as pread, whether their bytes are cached or not.
@@ -103,7 +119,7 @@ SystemCalls faulty()
   };
   calls.pwrite = [](int file, const void* bytes, std::size_t size, off_t offset)
   {
-    return transferred("pwrite", size, nullptr,
+    return transferred("pwrite", file, size, nullptr,
       [&](std::size_t part) { return real.pwrite(file, bytes, part, offset); });
   };
   calls.close = [](int file)
@@ -157,6 +173,19 @@ Fault Fault::parse(const std::string& text)
                                 : Kind::Error;
   fault.error = fault.kind == Kind::Error ? std::stoi(what) : 0;
   return fault;
+}
+
+void spare(const std::string& paths)
+{
+  std::istringstream in(paths);
+  for (std::string path; std::getline(in, path, ':');)
+  {
+    struct stat status = {};
+    if (::stat(path.c_str(), &status) == 0)
+    {
+      spared.emplace_back(status.st_dev, status.st_ino);
+    }
+  }
 }
 
 void install(const Fault& fault)

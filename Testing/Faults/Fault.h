@@ -16,7 +16,7 @@ struct Fault
     Error,      ///< the call does nothing and returns an error
     Short,      ///< a read or write transfers half of the bytes
     Zero,       ///< a read or write transfers none, without an error
-    FlippedBit, ///< a read returns one wrong bit
+    FlippedBit, ///< a read returns one wrong bit; spare() excludes files
     Kill,       ///< the process is killed before the call
   };
 
@@ -32,6 +32,10 @@ struct Fault
    */
   static Fault parse(const std::string& text);
 };
+
+/** Reads of these existing files have no wrong bits: files without checksums, in which nobody could
+ * notice them. Paths are separated by colons. */
+void spare(const std::string& paths);
 
 /**
  * Puts the fault into the table of system calls; counting begins again. The calls that are counted

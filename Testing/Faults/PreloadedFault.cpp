@@ -4,13 +4,20 @@
 //   SMG_FAULT         "CALL NTH once|forever WHAT" (see Fault::parse()); the call `new` throws
 //                     std::bad_alloc, and is counted from the first call to the system on, when the
 //                     arguments are parsed
+//   SMG_FAULT_SPARED  paths of files whose bits are never wrong (see spare())
 //   SMG_FAULT_COUNT   a file that gets the number of counted calls when the program ends
+//   SMG_FAULT_SERVER  instead of SMG_FAULT: a file for the output of the program, which runs once
+//   for
+//                     each fault that is read from the standard input (see serve())
 #include "Testing/Faults/Fault.h"
 
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace
 {
@@ -24,13 +31,40 @@ std::int64_t failing = 0; // from 1; 0: none
 bool failsForever = false;
 bool countsNew = false;
 
+/**
+ * Returns a fault from the standard input in a new process for each, which continues as the program
+ * would; writes its exit status to the standard output, negative for a signal. Thus the libraries
+ * are loaded and initialized once, which takes longer than most runs.
+ */
+std::string serve(const char* output)
+{
+  for (char line[256]; std::fgets(line, sizeof line, stdin);)
+  {
+    const pid_t child = ::fork();
+    if (child == 0)
+    {
+      const bool isOpen = std::freopen("/dev/null", "r", stdin) &&
+                          std::freopen(output, "w", stdout) &&
+                          ::dup2(STDOUT_FILENO, STDERR_FILENO) >= 0;
+      return isOpen ? line : std::string();
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    std::printf("%d\n", WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status));
+    std::fflush(stdout);
+  }
+  ::_exit(0);
+}
+
 /** Installed after the libraries are initialized, and removed before their files are closed. */
 class Installed
 {
 public:
   Installed()
   {
-    if (const char* text = std::getenv("SMG_FAULT"))
+    const char* const server = std::getenv("SMG_FAULT_SERVER");
+    const char* const only = std::getenv("SMG_FAULT");
+    if (const std::string text = server ? serve(server) : only ? only : ""; !text.empty())
     {
       const auto fault = smg::testing::Fault::parse(text);
       countsNew = fault.call == "new";
@@ -41,6 +75,10 @@ public:
         failing = fault.nth;
         smg::testing::install({}); // counts
         return;
+      }
+      if (const char* paths = std::getenv("SMG_FAULT_SPARED"))
+      {
+        smg::testing::spare(paths);
       }
       smg::testing::install(fault);
     }

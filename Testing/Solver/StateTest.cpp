@@ -2,6 +2,7 @@
 #include "Solver/Storage/StateReader.h"
 #include "Solver/Storage/StateWriter.h"
 #include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/FlippedRead.h"
 #include "Testing/Support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -83,6 +84,18 @@ std::uint64_t writeSample(const TemporaryFolder& folder)
 }
 
 } // namespace
+
+TEST(State, IsReadAsItWasCompared)
+{
+  const TemporaryFolder folder;
+  writeSample(folder);
+  Pool pool(1 << 20);
+  StateReader state = readerOf(folder, pool);
+  state.checksum();
+  const FlippedRead flip(1);
+  Sample read;
+  expectError([&] { state(read); }, "it differs from read to read");
+}
 
 TEST(State, IsReadAsItWasWritten)
 {

@@ -28,7 +28,7 @@ std::byte* PageFile::page(std::int64_t page, bool change)
     Slot& slot = this->Slots[number];
     if (state == OnDisk)
     {
-      this->File.read(page * std::int64_t(PageBytes), std::span(slot.bytes.get(), PageBytes));
+      this->File->read(page, std::as_writable_bytes(std::span(slot.bytes.get(), PageBytes)));
     }
     else
     {
@@ -67,11 +67,11 @@ std::int32_t PageFile::makeRoom()
   Slot& slot = this->Slots[number];
   if (slot.changed)
   {
-    if (!this->File.isOpen())
+    if (!this->File)
     {
-      this->File = FileDescriptor::createNameless(this->Folder);
+      this->File.emplace(this->Folder / "scratch file", this->Traffic);
     }
-    this->File.write(slot.page * std::int64_t(PageBytes), std::span(slot.bytes.get(), PageBytes));
+    this->File->write(slot.page, std::span(slot.bytes.get(), PageBytes));
   }
   this->SlotOfPage[slot.page] = OnDisk;
   return number;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Storage/IoStatistics.h"
+#include "Solver/Storage/ScratchBlocks.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace smg
@@ -47,7 +49,8 @@ private:
   std::int32_t makeRoom();
 
   std::filesystem::path Folder;
-  FileDescriptor File;
+  IoStatistics Traffic;
+  std::optional<ScratchBlocks> File;
   std::size_t MaxSlots;
   std::vector<Slot> Slots;
   std::vector<std::int32_t> Vacant;
