@@ -12,6 +12,13 @@ if (smg_test_data AND EXISTS "${smg_test_data}/meshes")
   set(smg_test_data "${smg_test_data}/meshes")
 endif ()
 
+# Programs of several processes. OpenMPI refuses root, and more processes than cores, unless it is told
+# otherwise; processes that wait give way to others.
+find_program(SMG_MPIEXEC NAMES mpiexec mpirun)
+set(smg_mpi_environment
+  OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+  OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1)
+
 # Alignment is checked in the libraries: in tests it would take a fifth of the time of compilation,
 # and optimization half of it.
 set(smg_test_options)

@@ -13,9 +13,9 @@ from program import SANITIZED, SMG, load, read_vtk_xml, run, write_medit, write_
 from tetrahedra import tetrahedra
 
 MPIEXEC = shutil.which("mpiexec")
-# OpenMPI refuses root, and more processes than cores, unless it is told otherwise.
+# As in cmake/SmgTesting.cmake.
 os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                  OMPI_MCA_rmaps_base_oversubscribe="1")
+                  OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_MCA_mpi_yield_when_idle="1")
 PROBLEM = {"source": [1], "dirichlet": [{"halfspace": [-1, 0, 0, 0], "value": [2]}],
            "robin": [{"boundary": True, "coefficient": 0.5, "ambient": [1]}]}
 
