@@ -7,6 +7,7 @@
 #include "Filters/Poisson/vtkPieceResults.h"
 #include "Filters/Poisson/vtkPoissonTask.h"
 #include "Filters/Poisson/vtkPreviewSolve.h"
+#include "Filters/Processes/vtkDistributedPoisson.h"
 #include "Filters/Streaming/SolveSummary.h"
 #include "Filters/Streaming/vtkWarnOnce.h"
 #include "IO/Formats/Vsm/ReservedNames.h"
@@ -17,6 +18,7 @@
 #include "smg/Error.h"
 
 #include "vtkDoubleArray.h"
+#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -169,6 +171,7 @@ struct vtkStreamingPoisson::Internals
   /** The problem of the last solve, in the process that solves. */
   std::optional<smg::ProblemDescription> Solved;
   std::string WhyNotOnPreview; ///< if a preview is shown
+  std::string EngineNote;      ///< why the engine is not the one that was asked for
   std::filesystem::file_time_type FileTime;
 };
 
@@ -215,8 +218,12 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& in
   auto task = std::make_unique<smg::PoissonTask>(this->Internal->task(input));
   if (!this->Internal->WhyNotOnPreview.empty())
   {
-    task->note = "the full mesh was solved on, since the preview does not do: " +
-                 this->Internal->WhyNotOnPreview;
+    task->notes.push_back("the full mesh was solved on, since the preview does not do: " +
+                          this->Internal->WhyNotOnPreview);
+  }
+  if (!this->Internal->EngineNote.empty())
+  {
+    task->notes.push_back(this->Internal->EngineNote);
   }
   this->Internal->Solved = task->problem;
   return task;
@@ -258,6 +265,41 @@ smg::SolveSummary vtkStreamingPoisson::SolveInMemory(
   return smg::solveOnPreview(input, task, values);
 }
 
+bool vtkStreamingPoisson::IsForProcesses(vtkPointSet& piece, bool isAlone)
+{
+  std::string& note = this->Internal->EngineNote;
+  note.clear();
+  if (this->Engine == STREAMING)
+  {
+    return false;
+  }
+  if (isAlone)
+  {
+    note = "the streaming engine has solved, since process 0 alone answers streamed requests";
+    return false;
+  }
+  if (this->Engine == DISTRIBUTED)
+  {
+    return true;
+  }
+  vtkMultiProcessController* controller = this->GetController();
+  const smg::MemoryVerdict verdict = controller && controller->GetNumberOfProcesses() > 1
+                                       ? smg::judgeMemory(piece, controller)
+                                       : smg::MemoryVerdict{ false, "there is one process" };
+  note = (verdict.fits ? "the distributed engine was chosen, since "
+                       : "the streaming engine was chosen, since ") +
+         verdict.reason;
+  return verdict.fits;
+}
+
+smg::SolveSummary vtkStreamingPoisson::SolveInProcesses(
+  vtkPointSet& piece, const std::function<bool(double)>& progress, std::vector<double>& values)
+{
+  const auto taskOf = [this](vtkPointSet& sample)
+  { return static_cast<const smg::PoissonTask&>(*this->MakeTask(sample)); };
+  return smg::solveInProcesses(piece, this->GetController(), taskOf, progress, values);
+}
+
 void vtkStreamingPoisson::Deliver(
   vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output)
 {
@@ -280,6 +322,8 @@ void vtkStreamingPoisson::PrintSelf(ostream& os, vtkIndent indent)
 {
   const auto text = [](const char* string) { return string && *string ? string : "(none)"; };
   this->Superclass::PrintSelf(os, indent);
+  constexpr const char* engines[] = { "streaming", "distributed", "automatic" };
+  os << indent << "Engine: " << engines[this->Engine] << "\n";
   os << indent << "Conductivity: " << this->Conductivity << "\n";
   os << indent << "Screening: " << this->Screening << "\n";
   os << indent << "ProblemFileName: " << text(this->ProblemFileName) << "\n";

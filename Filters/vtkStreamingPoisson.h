@@ -24,6 +24,8 @@
  * if there are boundary conditions (a preview has open edges that the mesh does not have), and for
  * solids, whose preview is their surface and has neither Gradient nor Flux.
  *
+ * With several processes that have memory for the matrix, Engine solves on all of them together.
+ *
  * @sa vtkMeshCondition vtkStreamingSolver vtkStreamingMeshReader vtkStreamingMeshWriter
  */
 #ifndef vtkStreamingPoisson_h
@@ -59,6 +61,34 @@ public:
     CHEBYSHEV = 2,
     CONJUGATE_GRADIENTS = 3
   };
+
+  /** What solves: see SetEngine(). */
+  enum EngineTypes
+  {
+    STREAMING = 0,
+    DISTRIBUTED = 1,
+    AUTOMATIC_ENGINE = 2
+  };
+
+  ///@{
+  /**
+   * What solves. Default: STREAMING.
+   * - STREAMING: process 0, out of core, in little memory.
+   * - DISTRIBUTED: all processes of the controller together, in memory, by conjugate gradients with
+   *   hypre's BoomerAMG (see smg/DistributedSolver.h). Each solves for the points of the piece that
+   *   it has; no process needs the whole solution. Needs MPI, and a build with hypre. The input may
+   *   be any mesh in pieces whose points have GlobalIds, equal where points are the same vertex;
+   *   a cell that several processes have must be marked as a duplicate in vtkGhostType in all but
+   *   one, points of no cell and previews are refused. A cycle is an iteration, of which
+   *   MaximumCycles limits those for each right-hand side; Sweeps, Operators, Acceleration,
+   *   NumberOfPieces and NumberOfThreads have no effect; the report has no results of conditions.
+   *   Streamed requests, which process 0 answers alone, are solved for by STREAMING.
+   * - AUTOMATIC_ENGINE: DISTRIBUTED where there is more than one process and their memory holds an
+   *   estimate of what it needs, else STREAMING; a note says why.
+   */
+  vtkSetClampMacro(Engine, int, STREAMING, AUTOMATIC_ENGINE);
+  vtkGetMacro(Engine, int);
+  ///@}
 
   ///@{
   /** The conductivity K, greater than 0, where nothing else defines it. Default: 1. */
@@ -140,6 +170,9 @@ protected:
   bool IsForMemory(vtkPointSet& input, bool isWhole) override;
   smg::SolveSummary SolveInMemory(vtkPointSet& input, const std::function<bool(double)>& progress,
     std::vector<double>& values) override;
+  bool IsForProcesses(vtkPointSet& piece, bool isAlone) override;
+  smg::SolveSummary SolveInProcesses(vtkPointSet& piece,
+    const std::function<bool(double)>& progress, std::vector<double>& values) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
 
 private:
@@ -148,6 +181,7 @@ private:
 
   struct Internals;
 
+  int Engine = STREAMING;
   double Conductivity = 1.0;
   double Screening = 0.0;
   char* ProblemFileName = nullptr;

@@ -4,6 +4,7 @@
 #include "Filters/Streaming/vtkBroughtPiece.h"
 #include "Filters/Streaming/vtkInputStamp.h"
 #include "Filters/Streaming/vtkPieceRequest.h"
+#include "Filters/Streaming/vtkPieceSolve.h"
 #include "Filters/Streaming/vtkSharedRequest.h"
 #include "Filters/Streaming/vtkSolutionExchange.h"
 #include "Filters/Streaming/vtkSolveEstimate.h"
@@ -48,15 +49,23 @@ struct vtkStreamingSolver::Internals
     const bool isForMemory = exchange.decide(
       !request.IsStreamed && exchange.isServer() &&
       this->Self.IsForMemory(*present, request.Pieces == 1 && !exchange.isParallel()));
+    const bool isForProcesses =
+      !isForMemory && this->isForProcesses(request, input, inputInfo, *present, exchange);
     std::vector<double> values;
-    if (exchange.isServer())
+    if (isForProcesses)
+    {
+      this->solveInProcesses(*present);
+      this->Pieces.setStamp(request, smg::stampOf(this->Self, input, inputInfo));
+      values = this->Pieces.values();
+    }
+    else if (exchange.isServer())
     {
       this->solve(input, inputInfo, *present, isForMemory ? &values : nullptr);
-      this->Summary.isCancelled = !this->Summary.error.empty() && this->Self.GetAbortExecute();
     }
+    this->Summary.isCancelled = !this->Summary.error.empty() && this->Self.GetAbortExecute();
     exchange.share(this->Summary);
     this->check();
-    if (!isForMemory)
+    if (!isForMemory && !isForProcesses)
     {
       this->fetch(input, request, exchange, present, values);
     }
@@ -94,6 +103,48 @@ struct vtkStreamingSolver::Internals
     }
     this->solveOutOfCore(input, inputInfo, present);
     this->Summary = this->Streamed.summary();
+  }
+
+  /** Whether the processes solve together on their pieces, or have done so for this request. */
+  bool isForProcesses(const smg::PieceRequest& request, smg::PieceInput& input,
+    vtkInformation* inputInfo, vtkPointSet& present, smg::SolutionExchange& exchange)
+  {
+    if (!request.IsStreamed &&
+        exchange.areAll(this->Pieces.isFor(request, smg::stampOf(this->Self, input, inputInfo))))
+    {
+      return true;
+    }
+    if (!request.IsStreamed)
+    {
+      this->Pieces.release();
+    }
+    const bool isAlone =
+      request.IsStreamed ||
+      (!exchange.isParallel() && smg::SolutionExchange(this->Self.Controller).isParallel());
+    return this->Self.IsForProcesses(present, isAlone);
+  }
+
+  /** Solves on the pieces of all processes unless there is a solution for this one. */
+  void solveInProcesses(vtkPointSet& present)
+  {
+    if (!this->Pieces.isEmpty())
+    {
+      this->Summary = this->Pieces.summary();
+      return;
+    }
+    try
+    {
+      std::vector<double> values;
+      const smg::SolveSummary summary =
+        this->Self.SolveInProcesses(present, smg::progressOf(this->Self), values);
+      this->Pieces.hold(summary, std::move(values));
+      this->warn(summary);
+      this->Summary = summary;
+    }
+    catch (const std::exception& error)
+    {
+      this->Summary = smg::SolveSummary::failed(error.what());
+    }
   }
 
   /** Solves out of core unless there is a solution for this input. */
@@ -205,6 +256,7 @@ struct vtkStreamingSolver::Internals
   smg::Failures Failures;
   vtkTimeStamp AnsweredAt; ///< includes modifications caused by the request itself
   smg::StreamedSolve Streamed;
+  smg::PieceSolve Pieces;
   smg::SolveSummary Summary;     ///< of the last output
   std::string Outcome, Estimate; ///< storage of the strings returned by GetOutcome(), GetEstimate()
   smg::SharedRequest Shared;
@@ -306,6 +358,18 @@ smg::Weights vtkStreamingSolver::ChosenWeights() const
   return this->Weights == UNIFORM   ? smg::Weights::Uniform
          : this->Weights == CLAMPED ? smg::Weights::Clamped
                                     : smg::Weights::Cotangent;
+}
+
+bool vtkStreamingSolver::IsForProcesses(vtkPointSet&, bool)
+{
+  return false;
+}
+
+smg::SolveSummary vtkStreamingSolver::SolveInProcesses(
+  vtkPointSet&, const std::function<bool(double)>&, std::vector<double>&)
+{
+  throw smg::Error(
+    std::string(this->GetClassName()) + " does not solve on the pieces of several processes.");
 }
 
 smg::SolveSummary vtkStreamingSolver::SummaryOfNothing(int columns) const

@@ -205,6 +205,18 @@ protected:
   virtual smg::SolveSummary SolveInMemory(
     vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values);
 
+  /**
+   * Whether the processes solve together on the pieces that they have, instead of process 0 alone
+   * out of core. Called in all of them for one request, unless this process answers it alone
+   * (`isAlone`): then this is not to be. Default: false.
+   */
+  virtual bool IsForProcesses(vtkPointSet& piece, bool isAlone);
+
+  /** Solves so, and returns the values at all points of the piece of this process. Called in all
+   * processes. Throws smg::Error in all of them if one fails. */
+  virtual smg::SolveSummary SolveInProcesses(
+    vtkPointSet& piece, const std::function<bool(double)>& progress, std::vector<double>& values);
+
   /** The summary for a piece without points of a mesh solved in memory, with this many values per
    * point; the last summary is kept. */
   smg::SolveSummary SummaryOfNothing(int columns) const;

@@ -44,11 +44,16 @@ set(smg_vtk_components
 if (SMG_BUILD_PYTHON)
   list(APPEND smg_vtk_components Python WrappingPythonCore)
 endif ()
+set(smg_optional_vtk_components)
+if (SMG_USE_HYPRE)
+  list(APPEND smg_optional_vtk_components ParallelMPI)
+endif ()
 include(SmgParaViewPrefix)
 if (SMG_BUILD_PARAVIEW_PLUGIN)
   find_package(ParaView 5.11 REQUIRED COMPONENTS RemotingCore)
 endif ()
 file(GLOB smg_paraview_vtk "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/paraview-*/vtk")
 find_package(VTK 9.1 REQUIRED COMPONENTS ${smg_vtk_components}
+  OPTIONAL_COMPONENTS ${smg_optional_vtk_components}
   HINTS "${ParaView_DIR}/vtk" ${smg_paraview_vtk})
 message(STATUS "StreamingMultigrid: VTK ${VTK_VERSION} in ${VTK_DIR}")

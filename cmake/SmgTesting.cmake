@@ -109,7 +109,7 @@ function (smg_add_paraview_test name)
     LABELS "paraview;${arg_LABELS}"
     SKIP_REGULAR_EXPRESSION "SKIPPED:"
     FAIL_REGULAR_EXPRESSION "Traceback;ERR\\|;FATL\\|;Segmentation"
-    ENVIRONMENT "SMG_TEST_DATA_DIR=${smg_test_data};SMG_SOURCE_DIR=${PROJECT_SOURCE_DIR};SMG_PROGRAM=$<$<TARGET_EXISTS:smg>:$<TARGET_FILE:smg>>;PYTHONPATH=${CMAKE_BINARY_DIR}/${SMG_PYTHON_DIR};OMPI_MCA_rmaps_base_oversubscribe=1")
+    ENVIRONMENT "SMG_TEST_DATA_DIR=${smg_test_data};SMG_SOURCE_DIR=${PROJECT_SOURCE_DIR};SMG_PROGRAM=$<$<TARGET_EXISTS:smg>:$<TARGET_FILE:smg>>;PYTHONPATH=${CMAKE_BINARY_DIR}/${SMG_PYTHON_DIR};OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_mpi_yield_when_idle=1")
 endfunction ()
 
 # smg_add_pvpython_test(<name> <script> [ARGS <argument>...] [TIMEOUT <seconds>] [LABELS <label>...])

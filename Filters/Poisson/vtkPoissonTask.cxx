@@ -59,6 +59,13 @@ int PoissonTask::columnsOn(const StreamInfo& info) const
   return columns;
 }
 
+ProblemDescription PoissonTask::description(const StreamInfo& info) const
+{
+  ProblemDescription description = this->problem;
+  description.columns = this->columnsOn(info);
+  return description;
+}
+
 Costs PoissonTask::costs(const StreamInfo& info) const
 {
   return solveCosts(info, this->columnsOn(info), this->problem.weights, this->options);
@@ -74,8 +81,7 @@ AddedValues PoissonTask::added(const StreamInfo& info) const
 std::unique_ptr<Solution> PoissonTask::solve(const VsmReader& mesh,
   const std::filesystem::path& scratch, const ProgressFunction& progress, Report& report) const
 {
-  ProblemDescription description = this->problem;
-  description.columns = this->columnsOn(mesh.info());
+  const ProblemDescription description = this->description(mesh.info());
   DescribedProblem problem(description, mesh.info());
   const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
   problem.prepare(*source(), scratch);
@@ -98,10 +104,7 @@ std::unique_ptr<Solution> PoissonTask::solve(const VsmReader& mesh,
     }
   }
   solved.finish(report);
-  if (!this->note.empty())
-  {
-    report.notes.push_back(this->note);
-  }
+  report.notes.insert(report.notes.end(), this->notes.begin(), this->notes.end());
   return solution;
 }
 

@@ -19,8 +19,11 @@ public:
    * Arrays whose number of components is the number of right-hand sides if the problem has fewer.
    */
   std::vector<std::string> values;
-  SolveOptions options; ///< except for the progress function
-  std::string note;     ///< for the report, if any
+  SolveOptions options;           ///< except for the progress function
+  std::vector<std::string> notes; ///< for the report
+
+  /** The problem on a mesh with these columns. */
+  ProblemDescription description(const StreamInfo& info) const;
 
   void check() const override;
   PieceColumns columns() const override;

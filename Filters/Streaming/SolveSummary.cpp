@@ -19,6 +19,7 @@ SolveSummary SolveSummary::of(const Report& report, int columns)
   summary.residual = report.residual();
   summary.cycles = report.cycles;
   summary.passes = report.passes;
+  summary.processes = report.distributed ? report.distributed->processes : 0;
   summary.converged = report.converged;
   summary.peakMemory = report.pool_bytes_peak;
   return summary;
@@ -50,9 +51,16 @@ std::string SolveSummary::outcome() const
   text << (this->converged ? "Converged" : "Not converged");
   if (this->cycles > 0)
   {
-    text << " after " << this->cycles << " V-cycles";
+    text << " after " << this->cycles << (this->processes > 0 ? " iterations" : " V-cycles");
   }
-  text << " in " << this->passes << (this->passes == 1 ? " pass, " : " passes, ");
+  if (this->processes > 0)
+  {
+    text << " on " << this->processes << (this->processes == 1 ? " process, " : " processes, ");
+  }
+  else
+  {
+    text << " in " << this->passes << (this->passes == 1 ? " pass, " : " passes, ");
+  }
   if (this->cycles > 0)
   {
     text << "relative residual " << std::setprecision(3) << this->residual << ", ";

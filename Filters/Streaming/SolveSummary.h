@@ -19,6 +19,7 @@ struct SolveSummary
   int columns = 0;
   double residual = 0.0;
   int cycles = 0, passes = 0;
+  int processes = 0; ///< of the distributed engine, whose iterations `cycles` counts; 0: none
   bool converged = false;
   std::int64_t peakMemory = 0;
 

@@ -87,6 +87,17 @@ bool SolutionExchange::decide(bool answer)
   return word != 0;
 }
 
+bool SolutionExchange::areAll(bool answer)
+{
+  const int word = answer ? 1 : 0;
+  int least = word;
+  if (this->isParallel())
+  {
+    this->Controller->AllReduce(&word, &least, 1, vtkCommunicator::MIN_OP);
+  }
+  return least != 0;
+}
+
 void SolutionExchange::share(SolveSummary& summary)
 {
   if (!this->isParallel())
@@ -98,8 +109,8 @@ void SolutionExchange::share(SolveSummary& summary)
   this->shareText(summary.notes);
   double numbers[] = { double(summary.columns), summary.residual, double(summary.cycles),
     double(summary.passes), double(summary.converged), double(summary.peakMemory),
-    double(summary.isCancelled) };
-  this->Controller->Broadcast(numbers, 7, 0);
+    double(summary.isCancelled), double(summary.processes) };
+  this->Controller->Broadcast(numbers, 8, 0);
   summary.columns = static_cast<int>(numbers[0]);
   summary.residual = numbers[1];
   summary.cycles = static_cast<int>(numbers[2]);
@@ -107,6 +118,7 @@ void SolutionExchange::share(SolveSummary& summary)
   summary.converged = numbers[4] != 0.0;
   summary.peakMemory = static_cast<std::int64_t>(numbers[5]);
   summary.isCancelled = numbers[6] != 0.0;
+  summary.processes = static_cast<int>(numbers[7]);
 }
 
 std::vector<double> SolutionExchange::values(

@@ -31,6 +31,9 @@ public:
   /** Returns the argument of process 0 in all processes. */
   bool decide(bool answer);
 
+  /** Whether the argument is true in all processes. */
+  bool areAll(bool answer);
+
   /** Sends the summary of process 0 to all processes. */
   void share(SolveSummary& summary);
 

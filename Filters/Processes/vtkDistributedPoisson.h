@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Filters/Poisson/vtkPoissonTask.h"
+#include "Filters/Streaming/SolveSummary.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+class vtkMultiProcessController;
+class vtkPointSet;
+
+namespace smg
+{
+
+/** Makes the task from a mesh with the arrays of the input; called on every process. */
+using MakePoissonTask = std::function<PoissonTask(vtkPointSet&)>;
+
+/**
+ * Solves with the distributed engine on the pieces that the processes of `controller` have. Called
+ * on all of them.
+ * @param piece that of this process, perhaps without cells
+ * @param values set to the solution at all points of the piece, duplicate ones included
+ * @throws Error on all processes if one fails, or if the build has no distributed engine
+ * @throws Cancelled if the progress function of process 0 returns false
+ */
+SolveSummary solveInProcesses(vtkPointSet& piece, vtkMultiProcessController* controller,
+  const MakePoissonTask& taskOf, const ProgressFunction& progress, std::vector<double>& values);
+
+/** Whether the memory of the processes holds a problem. */
+struct MemoryVerdict
+{
+  bool fits = false;
+  std::string reason; ///< what is needed and what there is, for a note
+};
+
+/** Estimates the memory that the distributed engine needs for the pieces of all processes. Called
+ * on all of them; returns the same on each. */
+MemoryVerdict judgeMemory(vtkPointSet& piece, vtkMultiProcessController* controller);
+
+} // namespace smg
