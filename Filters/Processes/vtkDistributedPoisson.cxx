@@ -113,6 +113,7 @@ SolveSummary solveInProcesses(vtkPointSet& piece, vtkMultiProcessController* con
       problem.emplace(task.description(piecePart.part.info), piecePart.part.info);
     });
   DistributedSolver solver(team.communicator(), piecePart.part);
+  solver.checkCells();
   solver.prepare(*problem, task.options.scratch);
   DistributedOptions options;
   options.tolerance = task.options.tolerance;

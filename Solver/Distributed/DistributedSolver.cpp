@@ -9,6 +9,7 @@
 #include "Solver/Distributed/PartAssembly.h"
 #include "Solver/Distributed/PartSource.h"
 #include "Solver/Distributed/PartsOfMesh.h"
+#include "Solver/Distributed/SharedCells.h"
 #include "Solver/Engine/FreeComponents.h"
 
 #include <algorithm>
@@ -233,6 +234,21 @@ void DistributedSolver::gather(
   const DistributedSolution& solution, const std::function<void(Solution&)>& use)
 {
   this->Self->team.run([&] { gatherSolution(*this->Self->vertices, solution, use); });
+}
+
+void DistributedSolver::checkCells()
+{
+  this->Self->team.run(
+    [this]
+    {
+      const std::int64_t repeated = repeatedCells(*this->Self->vertices, this->Self->part);
+      if (repeated > 0)
+      {
+        throw Error(std::to_string(repeated) + (repeated == 1 ? " cell belongs" : " cells belong") +
+                    " to several processes without a mark as ghost cells, and would count several "
+                    "times: assign each cell to one process, or mark the others.");
+      }
+    });
 }
 
 void DistributedSolver::together(const std::function<void()>& work)

@@ -49,6 +49,8 @@ refuse(changed(reader, "points = output.VTKObject.GetPoints();"
        "not a finite number", Problem=posed)
 refuse(changed(reader, "output.VTKObject.GetPolys().Reset(); output.VTKObject.Modified()"),
        "belongs to no cell", Problem=posed)
+refuse(RedistributeDataSet(Input=reader, BoundaryMode="Assign to all regions"),
+       "belong to several processes", Problem=posed)
 refuse(reader, "Nothing says what to solve")
 refuse(reader, "no checkpoints", Problem=posed, CheckpointDirectory=t.make_shared_folder())
 

@@ -91,6 +91,10 @@ public:
   DistributedSolver(const DistributedSolver&) = delete;
   DistributedSolver& operator=(const DistributedSolver&) = delete;
 
+  /** Throws Error if a cell, by its vertices, is in several parts, where it would count several
+   * times. A mesh that has the same cell twice is refused, too, if these are in two parts. */
+  void checkCells();
+
   /** As DescribedProblem::prepare(); required wherever that is. If the mesh has no column
    * OriginalId and the description selects vertices by their numbers, the parts must have it, with
    * stream indices. */
