@@ -7,9 +7,10 @@
  * view never loads such a mesh by accident. A filter that requests its input piece by piece sets
  * STREAMED() to the number of pieces to receive the real ones.
  *
- * STREAM_FILE() names the file of the pieces, which has the counts of the whole mesh, and the points
- * that no cell uses and no piece contains. PREVIEWED() states that the whole mesh is shown as a preview, downstream of all filters after the
- * reader, including those that keep none of its arrays.
+ * STREAM_FILE() names the file of the pieces, which has the counts of the whole mesh, and the
+ * points that no cell uses and no piece contains. PREVIEWED() states that the whole mesh is shown
+ * as a preview, downstream of all filters after the reader, including those that keep none of its
+ * arrays.
  *
  * The executive keeps request keys where they were last set. Therefore STREAMED() counts only if
  * its value equals UPDATE_NUMBER_OF_PIECES() of the same request: see IsStreamed().

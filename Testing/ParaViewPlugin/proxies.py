@@ -39,6 +39,12 @@ defaults = {"Size": 4.0, "SizeUnit": "Mean Edges", "Steps": 1, "KeepVolume": 1, 
 for name, value in defaults.items():
     assert smoothing.GetPropertyValue(name) == value, (name, smoothing.GetPropertyValue(name))
 
+# What a solve costs is stated before it is applied.
+smoothing.UpdatePropertyInformation()
+estimate = smoothing.GetPropertyValue("Estimate")
+assert f"over {t.BUNNY_POINTS} points and {t.BUNNY_CELLS} cells" in estimate, estimate
+assert smoothing.GetPropertyValue("Passes") == 0
+
 blend = StreamingBlend(Input=reader, Patch="scan", Columns=["Colors", "Heat"])
 assert list(blend.Columns) == ["Colors", "Heat"] and blend.Anchor == 0.01 and blend.Hold == ""
 

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifndef vtkSolverRequests_h
+#define vtkSolverRequests_h
+
+#include "Filters/vtkStreamingSolver.h"
+
+#include "Filters/Streaming/vtkBroughtPiece.h"
+#include "Filters/Streaming/vtkInputStamp.h"
+#include "Filters/Streaming/vtkPieceRequest.h"
+#include "Filters/Streaming/vtkPieceSolve.h"
+#include "Filters/Streaming/vtkSharedRequest.h"
+#include "Filters/Streaming/vtkSolutionExchange.h"
+#include "Filters/Streaming/vtkSolveEstimate.h"
+#include "Filters/Streaming/vtkStreamedSolve.h"
+#include "IO/vtkAlgorithmGlue.h"
+#include "IO/vtkPieceInput.h"
+#include "IO/vtkPieceStream.h"
+#include "smg/Error.h"
+
+#include "vtkDemandDrivenPipeline.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMultiProcessController.h"
+#include "vtkNew.h"
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
+#include "vtkTimeStamp.h"
+
+#include <exception>
+#include <string>
+
+/** How the filter answers requests, and what it keeps between them. */
+struct vtkStreamingSolver::Internals
+{
+  explicit Internals(vtkStreamingSolver& self)
+    : Self(self)
+  {
+  }
+
+  /** Processes a request, with several processes collectively. Throws Error in all of them if one
+   * fails. */
+  void answer(
+    const smg::PieceRequest& request, vtkInformation* inputInfo, vtkInformation* outputInfo)
+  {
+    smg::PieceInput input(this->Self, 0);
+    smg::SolutionExchange exchange(this->partners(request, input, inputInfo));
+    vtkSmartPointer<vtkPointSet> present;
+    exchange.together([&] { present = smg::bring(input, request, exchange); });
+    const bool isForMemory = exchange.decide(
+      !request.IsStreamed && exchange.isServer() &&
+      this->Self.IsForMemory(*present, request.Pieces == 1 && !exchange.isParallel()));
+    const bool isForProcesses =
+      !isForMemory && this->isForProcesses(request, input, inputInfo, *present, exchange);
+    std::vector<double> values;
+    if (isForProcesses)
+    {
+      this->solveInProcesses(*present);
+      this->Pieces.setStamp(request, smg::stampOf(this->Self, input, inputInfo));
+      values = this->Pieces.values();
+    }
+    else if (exchange.isServer())
+    {
+      this->solve(input, inputInfo, *present, isForMemory ? &values : nullptr);
+    }
+    this->Summary.isCancelled = !this->Summary.error.empty() && this->Self.GetAbortExecute();
+    exchange.share(this->Summary);
+    this->check();
+    if (!isForMemory && !isForProcesses)
+    {
+      this->fetch(input, request, exchange, present, values);
+    }
+    exchange.together(
+      [&]
+      {
+        if (isForMemory && !exchange.isServer() && present->GetNumberOfPoints() > 0)
+        {
+          throw smg::Error("The input is a preview in process 0 and has points in another process, "
+                           "too: all of a preview must be in process 0.");
+        }
+        this->deliver(*present, values, *vtkPointSet::GetData(outputInfo));
+      });
+    this->Shared.noteAnswer(request, smg::stampOf(this->Self, input, inputInfo));
+  }
+
+  /** The processes that process the request collectively; nullptr: this process alone. */
+  vtkMultiProcessController* partners(
+    const smg::PieceRequest& request, smg::PieceInput& input, vtkInformation* inputInfo)
+  {
+    const bool isServer = smg::SolutionExchange(this->Self.Controller).isServer();
+    const smg::InputStamp stamp = smg::stampOf(this->Self, input, inputInfo);
+    return this->Shared.isShared(request, stamp, isServer) ? this->Self.Controller : nullptr;
+  }
+
+  /** Solves in memory if there are values to fill, otherwise out of core. */
+  void solve(smg::PieceInput& input, vtkInformation* inputInfo, vtkPointSet& present,
+    std::vector<double>* values)
+  {
+    if (values)
+    {
+      this->Streamed.keepOnlyFor(smg::stampOf(this->Self, input, inputInfo));
+      this->Summary = this->solveInMemory(present, *values);
+      return;
+    }
+    this->solveOutOfCore(input, inputInfo, present);
+    this->Summary = this->Streamed.summary();
+  }
+
+  /** Whether the processes solve together on their pieces, or have done so for this request. */
+  bool isForProcesses(const smg::PieceRequest& request, smg::PieceInput& input,
+    vtkInformation* inputInfo, vtkPointSet& present, smg::SolutionExchange& exchange)
+  {
+    if (!request.IsStreamed &&
+        exchange.areAll(this->Pieces.isFor(request, smg::stampOf(this->Self, input, inputInfo))))
+    {
+      return true;
+    }
+    if (!request.IsStreamed)
+    {
+      this->Pieces.release();
+    }
+    const bool isAlone =
+      request.IsStreamed ||
+      (!exchange.isParallel() && smg::SolutionExchange(this->Self.Controller).isParallel());
+    return this->Self.IsForProcesses(present, isAlone);
+  }
+
+  /** Solves on the pieces of all processes unless there is a solution for this one. */
+  void solveInProcesses(vtkPointSet& present)
+  {
+    if (!this->Pieces.isEmpty())
+    {
+      this->Summary = this->Pieces.summary();
+      return;
+    }
+    try
+    {
+      std::vector<double> values;
+      const smg::SolveSummary summary =
+        this->Self.SolveInProcesses(present, smg::progressOf(this->Self), values);
+      this->Pieces.hold(summary, std::move(values));
+      this->warn(summary);
+      this->Summary = summary;
+    }
+    catch (const std::exception& error)
+    {
+      this->Summary = smg::SolveSummary::failed(error.what());
+    }
+  }
+
+  /** Solves out of core unless there is a solution for this input. */
+  void solveOutOfCore(smg::PieceInput& input, vtkInformation* inputInfo, vtkPointSet& present)
+  {
+    if (this->Streamed.isFor(smg::stampOf(this->Self, input, inputInfo)))
+    {
+      return;
+    }
+    try
+    {
+      smg::StreamedSolve::Pulling pulling;
+      pulling.pieces = smg::PieceCount::within(
+        this->Self.NumberOfPieces, std::int64_t(this->Self.MemoryLimit) << 20);
+      pulling.scratch = this->Self.ScratchDirectory ? this->Self.ScratchDirectory : "";
+      pulling.scratchLimit = std::int64_t(this->Self.ScratchLimit) << 20;
+      smg::Progress progress(smg::progressOf(this->Self));
+      this->Streamed.solve(input, *this->Self.MakeTask(present), pulling, progress);
+    }
+    catch (const std::exception& error)
+    {
+      this->Streamed.fail(error.what());
+    }
+    // Requesting pieces may itself have updated modification times of the pipeline.
+    this->Streamed.setStamp(smg::stampOf(this->Self, input, inputInfo));
+    this->warn(this->Streamed.summary());
+  }
+
+  smg::SolveSummary solveInMemory(vtkPointSet& input, std::vector<double>& values) const
+  {
+    try
+    {
+      const smg::SolveSummary summary =
+        this->Self.SolveInMemory(input, smg::progressOf(this->Self), values);
+      this->warn(summary);
+      return summary;
+    }
+    catch (const std::exception& error)
+    {
+      return smg::SolveSummary::failed(error.what());
+    }
+  }
+
+  /** Throws Error if there is no solution. */
+  void check() const
+  {
+    if (this->Summary.error.empty())
+    {
+      return;
+    }
+    if (this->Summary.isCancelled)
+    {
+      throw smg::Cancelled();
+    }
+    throw smg::Error(this->Summary.error);
+  }
+
+  void warn(const smg::SolveSummary& summary) const
+  {
+    if (summary.error.empty() && !summary.converged && this->Self.IsToConverge())
+    {
+      vtkWarningWithObjectMacro(
+        &this->Self, << "The solve did not converge: after " << summary.cycles
+                     << " cycles the relative residual is " << summary.residual
+                     << "; raise MaximumCycles or Tolerance.");
+    }
+  }
+
+  /** Fetches the values at the points of the requested piece, which `present` then holds again. */
+  void fetch(smg::PieceInput& input, const smg::PieceRequest& request,
+    smg::SolutionExchange& exchange, vtkSmartPointer<vtkPointSet>& present,
+    std::vector<double>& values) const
+  {
+    std::vector<std::int64_t> ids;
+    exchange.together(
+      [&]
+      {
+        if (!exchange.isParallel())
+        {
+          present = smg::bring(input, request, exchange);
+        }
+        if (present->GetNumberOfPoints() > 0)
+        {
+          ids = smg::globalIdsOf(*present, "The input");
+        }
+      });
+    exchange.together(
+      [&] { values = exchange.values(ids, this->Summary.columns, this->Streamed.solution()); });
+  }
+
+  void deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) const
+  {
+    this->Self.Deliver(piece, values, output);
+    vtkNew<vtkStringArray> report;
+    report->SetName("Report");
+    report->InsertNextValue(this->Summary.report);
+    output.GetFieldData()->AddArray(report);
+  }
+
+  /** The last known modification time of the pipeline. */
+  vtkMTimeType pipelineTime() const
+  {
+    return vtkDemandDrivenPipeline::SafeDownCast(this->Self.GetExecutive())->GetPipelineMTime();
+  }
+  /** Whether the last output is up to date with the pipeline. */
+  bool isUpToDate() const { return this->pipelineTime() <= this->AnsweredAt.GetMTime(); }
+
+  vtkStreamingSolver& Self;
+  smg::Failures Failures;
+  vtkTimeStamp AnsweredAt; ///< includes modifications caused by the request itself
+  smg::StreamedSolve Streamed;
+  smg::PieceSolve Pieces;
+  smg::SolveSummary Summary;     ///< of the last output
+  std::string Outcome, Estimate; ///< storage of the strings returned by GetOutcome(), GetEstimate()
+  smg::SharedRequest Shared;
+};
+
+#endif
