@@ -21,7 +21,7 @@ path = os.path.join(t.make_shared_folder(), "damaged.vsm")
 SaveData(path, proxy=OpenDataFile(t.BUNNY))
 if rank == 0:
     with open(path, "r+b") as file:
-        file.seek(int(0.7 * os.path.getsize(path)))
+        file.seek(int(0.85 * os.path.getsize(path)))
         file.write(b"damage" * 20)
 controller.Barrier()
 
