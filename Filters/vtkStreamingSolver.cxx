@@ -2,7 +2,7 @@
 #include "Filters/vtkStreamingSolver.h"
 
 #include "Filters/Streaming/vtkSolveEstimate.h"
-#include "Filters/Streaming/vtkSolverRequests.h"
+#include "Filters/vtkSolverRequests.h"
 
 #include "vtkDemandDrivenPipeline.h"
 #include "vtkFieldData.h"
