@@ -19,6 +19,33 @@ set(smg_mpi_environment
   OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
   OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1)
 
+# smg_on_processes(<variable> <processes> <command>...)
+# The command on several processes; without mpiexec one that says that the test is skipped.
+function (smg_on_processes variable processes)
+  set(command ${CMAKE_COMMAND} -E echo "SKIPPED: mpiexec is not installed")
+  if (SMG_MPIEXEC)
+    set(command ${SMG_MPIEXEC} -n ${processes} ${ARGN})
+  endif ()
+  set(${variable} ${command} PARENT_SCOPE)
+endfunction ()
+
+# smg_add_processes_test(<program> LABELS <label>... PROCESSES <number>...)
+# Adds runs of a GoogleTest program on several processes, one for each number of them.
+function (smg_add_processes_test program)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LABELS;PROCESSES")
+  foreach (processes IN LISTS arg_PROCESSES)
+    set(name ${program}.on${processes})
+    smg_on_processes(command ${processes} $<TARGET_FILE:${program}>)
+    add_test(NAME ${name} COMMAND ${command})
+    set_tests_properties(${name} PROPERTIES
+      ENVIRONMENT "${smg_mpi_environment}"
+      PROCESSORS ${processes}
+      LABELS "${arg_LABELS}"
+      SKIP_REGULAR_EXPRESSION "SKIPPED:"
+      TIMEOUT 900)
+  endforeach ()
+endfunction ()
+
 # Alignment is checked in the libraries: in tests it would take a fifth of the time of compilation,
 # and optimization half of it.
 set(smg_test_options)
@@ -92,7 +119,6 @@ function (smg_find_paraview_programs)
   # Without -noreset the server resets when the first client disconnects, and may reject a second
   # one.
   set(smg_on_screen ${SMG_XVFB_RUN} -a -s "-screen 0 1280x1024x24 -noreset" PARENT_SCOPE)
-  find_program(SMG_MPIRUN NAMES mpirun mpiexec REQUIRED)
 endfunction ()
 
 # smg_add_paraview_test(<name> COMMAND <command>... [TIMEOUT <seconds>] [LABELS <label>...])
@@ -109,7 +135,7 @@ function (smg_add_paraview_test name)
     LABELS "paraview;${arg_LABELS}"
     SKIP_REGULAR_EXPRESSION "SKIPPED:"
     FAIL_REGULAR_EXPRESSION "Traceback;ERR\\|;FATL\\|;Segmentation"
-    ENVIRONMENT "SMG_TEST_DATA_DIR=${smg_test_data};SMG_SOURCE_DIR=${PROJECT_SOURCE_DIR};SMG_PROGRAM=$<$<TARGET_EXISTS:smg>:$<TARGET_FILE:smg>>;PYTHONPATH=${CMAKE_BINARY_DIR}/${SMG_PYTHON_DIR};OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_mpi_yield_when_idle=1")
+    ENVIRONMENT "SMG_TEST_DATA_DIR=${smg_test_data};SMG_SOURCE_DIR=${PROJECT_SOURCE_DIR};SMG_PROGRAM=$<$<TARGET_EXISTS:smg>:$<TARGET_FILE:smg>>;PYTHONPATH=${CMAKE_BINARY_DIR}/${SMG_PYTHON_DIR};${smg_mpi_environment}")
 endfunction ()
 
 # smg_add_pvpython_test(<name> <script> [ARGS <argument>...] [TIMEOUT <seconds>] [LABELS <label>...])
@@ -123,8 +149,8 @@ endfunction ()
 # The script runs on every rank (--sym).
 function (smg_add_pvbatch_test name script)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "TIMEOUT;RANKS" "ARGS;LABELS")
-  smg_add_paraview_test(${name} TIMEOUT "${arg_TIMEOUT}" LABELS ${arg_LABELS}
-    COMMAND ${SMG_MPIRUN} -np ${arg_RANKS} --allow-run-as-root --oversubscribe
-      ${SMG_PVBATCH} --sym "${CMAKE_CURRENT_SOURCE_DIR}/${script}" ${arg_ARGS})
+  smg_on_processes(command ${arg_RANKS}
+    ${SMG_PVBATCH} --sym "${CMAKE_CURRENT_SOURCE_DIR}/${script}" ${arg_ARGS})
+  smg_add_paraview_test(${name} TIMEOUT "${arg_TIMEOUT}" LABELS ${arg_LABELS} COMMAND ${command})
   set_tests_properties(${name} PROPERTIES PROCESSORS ${arg_RANKS})
 endfunction ()
