@@ -238,12 +238,6 @@ private:
     smg::checkOutputPlace(this->Out);
     this->checkReport({ this->In, this->Out, this->File });
     this->readTask();
-    if (this->Description.gradientOutput || this->Description.fluxOutput)
-    {
-      throw smg::Error(this->Out.string() +
-                       ": pieces have the solution alone: leave out the outputs of " +
-                       this->File.string() + ", or write one file.");
-    }
   }
 
   /** The mesh with the columns of the problem. */

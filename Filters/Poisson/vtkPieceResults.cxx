@@ -3,6 +3,7 @@
 
 #include "Filters/Mesh/vtkPieceBlock.h"
 #include "Solver/Description/ComposeDescriptions.h"
+#include "Solver/Results/HeldSolution.h"
 #include "Solver/Results/ProblemResults.h"
 #include "smg/DescribedProblem.h"
 #include "smg/Error.h"
@@ -19,35 +20,6 @@ namespace smg
 {
 namespace
 {
-
-/** The values at the points of a piece. */
-class PieceSolution : public Solution
-{
-public:
-  PieceSolution(std::span<const double> values, int columns)
-    : Values(values)
-    , Columns(columns)
-  {
-  }
-
-  std::int64_t vertices() const override
-  {
-    return static_cast<std::int64_t>(this->Values.size()) / this->Columns;
-  }
-  int columns() const override { return this->Columns; }
-  void read(std::int64_t first, std::int64_t count, std::span<double> values) override
-  {
-    std::ranges::copy(this->Values.subspan(static_cast<std::size_t>(first * this->Columns),
-                        static_cast<std::size_t>(count * this->Columns)),
-      values.begin());
-  }
-  const Report& report() const override { return this->Nothing; }
-
-private:
-  std::span<const double> Values;
-  int Columns;
-  Report Nothing;
-};
 
 /** The data of a problem that the results of the cells depend on. */
 ProblemDescription ofCells(const ProblemDescription& problem)
@@ -98,7 +70,7 @@ void addCellResults(vtkPointSet& piece, const ProblemDescription& problem,
   const ProblemDescription part = ofCells(problem);
   const PieceBlock mesh(piece, namedColumns(part));
   DescribedProblem described(part, mesh.info());
-  PieceSolution solution(values, problem.columns);
+  HeldSolution solution(values, problem.columns);
   ProblemResults results(mesh.info(), described, solution,
     { .gradient = problem.gradientOutput, .flux = problem.fluxOutput });
   results.add(mesh.block());

@@ -121,6 +121,7 @@ SolveSummary solveInProcesses(vtkPointSet& piece, vtkMultiProcessController* con
   options.memoryLimit = task.options.memoryLimit;
   options.progress = progress;
   DistributedSolution solution = solver.solve(*problem, options);
+  solver.evaluate(*problem, solution, { .memoryLimit = options.memoryLimit });
 
   const auto columns = static_cast<std::size_t>(solution.columns);
   values.clear();

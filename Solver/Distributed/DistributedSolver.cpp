@@ -7,6 +7,7 @@
 #include "Solver/Distributed/ConjugateGradients.h"
 #include "Solver/Distributed/GatheredSolution.h"
 #include "Solver/Distributed/PartAssembly.h"
+#include "Solver/Distributed/PartResults.h"
 #include "Solver/Distributed/PartSource.h"
 #include "Solver/Distributed/PartsOfMesh.h"
 #include "Solver/Distributed/SharedCells.h"
@@ -228,6 +229,13 @@ DistributedSolution DistributedSolver::solve(Problem& problem, const Distributed
   DistributedSolution solution;
   this->Self->team.run([&] { solution = this->Self->solve(problem, options); });
   return solution;
+}
+
+void DistributedSolver::evaluate(
+  Problem& problem, DistributedSolution& solution, const ResultOptions& options)
+{
+  Implementation& self = *this->Self;
+  self.team.run([&] { evaluatePart(*self.vertices, self.part, problem, options, solution); });
 }
 
 void DistributedSolver::gather(

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Results/ConditionSums.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 
@@ -16,7 +18,7 @@ ConditionSums::ConditionSums(CellType type, const ConditionCounts& counts, int c
   , RobinTerms(this->Columns)
 {
   const std::vector<double> zeros(this->Columns);
-  const Sums none{ 0.0, zeros, zeros, zeros, 0 };
+  const Sums none{ 0.0, zeros, zeros, zeros, 0.0 };
   this->Dirichlet.assign(static_cast<std::size_t>(counts.dirichlet), none);
   this->Flux.assign(static_cast<std::size_t>(counts.flux), none);
   this->Robin.assign(static_cast<std::size_t>(counts.robin), none);
@@ -66,7 +68,7 @@ void ConditionSums::add(const BoundaryFacet& facet, double area, const OpenVerti
 void ConditionSums::add(std::int32_t dirichlet, const double* value, const double* reaction)
 {
   Sums& sums = this->Dirichlet[static_cast<std::size_t>(dirichlet)];
-  ++sums.vertices;
+  sums.vertices += 1.0;
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     sums.vertexValue[k] += value[k];
@@ -95,6 +97,25 @@ void ConditionSums::addFlux(Sums& sums, std::size_t column, double flux)
   this->Magnitude[column] += std::fabs(flux);
 }
 
+void ConditionSums::appendNumbers(std::vector<double*>& numbers)
+{
+  const auto append = [&numbers](std::vector<double>& sums)
+  { std::ranges::transform(sums, std::back_inserter(numbers), [](double& sum) { return &sum; }); };
+  for (auto* all : { &this->Dirichlet, &this->Flux, &this->Robin })
+  {
+    for (Sums& sums : *all)
+    {
+      numbers.insert(numbers.end(), { &sums.area, &sums.vertices });
+      append(sums.value);
+      append(sums.flux);
+      append(sums.vertexValue);
+    }
+  }
+  append(this->Inflow);
+  append(this->Magnitude);
+  append(this->RobinTerms);
+}
+
 std::vector<Report::Condition> ConditionSums::conditions() const
 {
   std::vector<Report::Condition> conditions;
@@ -112,15 +133,14 @@ void ConditionSums::append(
     const Sums& sums = all[number];
     Report::Condition condition;
     condition.name = kind + ("[" + std::to_string(number) + "]");
-    condition.vertices = sums.vertices;
+    condition.vertices = static_cast<std::int64_t>(sums.vertices);
     condition.area = sums.area;
     condition.flux = sums.flux;
     for (std::size_t k = 0; k < this->Columns; ++k)
     {
-      condition.mean.push_back(sums.area > 0.0 ? sums.value[k] / sums.area
-                               : sums.vertices > 0
-                                 ? sums.vertexValue[k] / static_cast<double>(sums.vertices)
-                                 : std::numeric_limits<double>::quiet_NaN());
+      condition.mean.push_back(sums.area > 0.0       ? sums.value[k] / sums.area
+                               : sums.vertices > 0.0 ? sums.vertexValue[k] / sums.vertices
+                                                     : std::numeric_limits<double>::quiet_NaN());
     }
     conditions.push_back(std::move(condition));
   }

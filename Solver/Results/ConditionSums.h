@@ -25,6 +25,8 @@ public:
   void add(std::int32_t dirichlet, const double* value, const double* reaction);
 
   std::vector<Report::Condition> conditions() const;
+  /** Appends all sums: those of the parts of a mesh add up. */
+  void appendNumbers(std::vector<double*>& numbers);
   /** Per column: the total inflow through all conditions, and the sum of the magnitudes. */
   const std::vector<double>& inflow() const { return this->Inflow; }
   const std::vector<double>& magnitude() const { return this->Magnitude; }
@@ -36,7 +38,7 @@ private:
   {
     double area = 0.0;
     std::vector<double> value, flux, vertexValue; ///< value: times area
-    std::int64_t vertices = 0;
+    double vertices = 0.0;                        ///< their number
   };
 
   void addMean(Sums& sums, const BoundaryFacet& facet, double area, const OpenVertices& vertices);

@@ -1,27 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Results/ProblemResults.h"
 
-#include "Solver/Problem/CommonShare.h"
 #include "Solver/Problem/FlatCells.h"
 #include "smg/Error.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <limits>
-#include <string>
 
 namespace smg
 {
 namespace
 {
-
-std::string percent(double share)
-{
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.2g", 100.0 * share);
-  return text;
-}
 
 constexpr PoolUse ResultMemory{ "reading the results",
   "raise the memory limit, or convert the mesh with the order bfs" };
@@ -43,18 +32,8 @@ ProblemResults::ProblemResults(
   , Facets(this->Memory, problem, info.cellType, this->Vertices)
   , Edges(this->Memory, problem, info.cellType)
   , Cells(info.cellType, problem.columns(), options.gradient, options.flux)
-  , Conditions(info.cellType, problem.conditionCounts(), problem.columns())
-  , Load(this->Columns)
-  , Reaction(this->Columns)
-  , Mean(this->Columns)
-  , Source(this->Columns)
-  , Screening(this->Columns)
-  , ScreeningEnergy(this->Columns)
-  , Magnitude(this->Columns)
-  , ReactionTerms(this->Columns)
-  , RobinTerms(this->Columns)
-  , Minimum(this->Columns, { std::numeric_limits<double>::infinity(), -1 })
-  , Maximum(this->Columns, { -std::numeric_limits<double>::infinity(), -1 })
+  , Sums(info.cellType, problem)
+  , Terms(VertexTerms::size(this->Columns))
 {
   if (problem.columns() != solution.columns())
   {
@@ -79,10 +58,15 @@ ProblemResults::ProblemResults(
 void ProblemResults::add(const MeshBlock& block)
 {
   this->Check.add(block);
+  this->addPart(block);
+  this->finalize(block.finalized);
+}
+
+void ProblemResults::addPart(const MeshBlock& block)
+{
   this->addVertices(block);
   this->addCells(block);
   this->Facets.add(block);
-  this->finalize(block.finalized);
 }
 
 void ProblemResults::addVertices(const MeshBlock& block)
@@ -108,12 +92,8 @@ void ProblemResults::addVertices(const MeshBlock& block)
   std::ranges::copy(this->Values, this->Vertices.values.at(begin));
   for (std::size_t e = 0; e < this->Values.size(); ++e)
   {
-    const double value = this->Values[e];
-    const std::int64_t vertex = begin + static_cast<std::int64_t>(e / this->Columns);
-    Report::Extreme& least = this->Minimum[e % this->Columns];
-    Report::Extreme& most = this->Maximum[e % this->Columns];
-    least = value < least.value ? Report::Extreme{ value, vertex } : least;
-    most = value > most.value ? Report::Extreme{ value, vertex } : most;
+    this->Sums.compare(
+      e % this->Columns, this->Values[e], begin + static_cast<std::int64_t>(e / this->Columns));
   }
 }
 
@@ -218,8 +198,9 @@ void ProblemResults::finalize(std::int64_t end)
 {
   for (; this->Final < end; ++this->Final)
   {
-    this->addBoundary(this->Final);
-    this->closeVertex(this->Final);
+    this->close(this->Final, this->Terms.data());
+    this->Sums.add(VertexTerms(this->Terms.data()), this->Vertices.values.at(this->Final),
+      this->Vertices.dirichlet[this->Final]);
   }
   this->Vertices.release(this->Reach.advance(this->Final), this->Final);
   for (auto* loads : { &this->CellLoads, &this->FacetLoads })
@@ -239,6 +220,11 @@ void ProblemResults::addBoundary(std::int64_t i)
   this->Facets.take(i,
     [this](const BoundaryFacet& facet)
     {
+      const std::int64_t third = this->Type == CellType::Triangle ? 0 : facet.corners[2];
+      if (this->Inner.contains({ facet.corners[0], facet.corners[1], third }))
+      {
+        return;
+      }
       const double* points[3] = {};
       for (int k = 0; k < BoundaryFacet::cornersOf(this->Type); ++k)
       {
@@ -249,150 +235,68 @@ void ProblemResults::addBoundary(std::int64_t i)
       {
         this->FacetLoads->add(facet, area);
       }
-      this->Conditions.add(facet, area, this->Vertices);
+      this->Sums.conditions.add(facet, area, this->Vertices);
     });
 }
 
-/** Processes a vertex with all its data. */
-void ProblemResults::closeVertex(std::int64_t i)
+/** Sets the terms of the next vertex, which has all of its data. */
+void ProblemResults::close(std::int64_t i, double* numbers)
 {
+  this->addBoundary(i);
+  VertexTerms terms(numbers);
   const double mass = this->Vertices.mass[i];
-  const double screening =
+  terms.mass() = mass;
+  terms.screening() =
     this->Vertices.screening[i] * mass + (this->CellLoads ? this->CellLoads->alpha(i) : 0.0);
-  const double* u = this->Vertices.values.at(i);
-  this->Mass += mass;
+  terms.transfer() = this->FacetLoads ? this->FacetLoads->alpha(i) : 0.0;
+  terms.edges() = this->FacetLoads ? this->EdgeWeights[i] : 0.0;
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
-    const double source = mass * this->Vertices.sources.at(i)[k] +
-                          (this->CellLoads ? this->CellLoads->load(i)[k] : 0.0);
-    this->Load[k] = source + (this->FacetLoads ? this->FacetLoads->load(i)[k] : 0.0);
-    this->Mean[k] += mass * u[k];
-    this->Source[k] += source;
-    this->Screening[k] += screening * u[k];
-    this->ScreeningEnergy[k] += 0.5 * screening * u[k] * u[k];
-    this->Magnitude[k] += std::fabs(source) + std::fabs(screening * u[k]);
-  }
-  if (this->FacetLoads)
-  {
-    const double alpha = this->FacetLoads->alpha(i);
-    const double share = commonShare(alpha, this->EdgeWeights[i]);
-    for (std::size_t k = 0; k < this->Columns; ++k)
-    {
-      this->RobinTerms[k] +=
-        share * (std::fabs(this->FacetLoads->load(i)[k]) + alpha * std::fabs(u[k]));
-    }
+    terms.source(k) = mass * this->Vertices.sources.at(i)[k] +
+                      (this->CellLoads ? this->CellLoads->load(i)[k] : 0.0);
+    terms.inflow(k) = this->FacetLoads ? this->FacetLoads->load(i)[k] : 0.0;
+    terms.outflow(k) = terms.outflowTerms(k) = 0.0;
   }
   this->Neighbours.clear();
   this->Edges.take(i, this->Vertices.points, this->Neighbours);
   this->Reach.close(i, this->Neighbours.empty() ? i : std::max(i, this->Neighbours.back().to));
   if (this->Vertices.dirichlet[i] >= 0)
   {
-    this->closeDirichlet(i, screening + (this->FacetLoads ? this->FacetLoads->alpha(i) : 0.0));
+    this->addEdges(this->Vertices.values.at(i), terms);
   }
 }
 
-/** The reaction ((L + S) u - F)_i without the edges within the condition, which cancel. */
-void ProblemResults::closeDirichlet(std::int64_t i, double alpha)
+void ProblemResults::addEdges(const double* u, VertexTerms terms)
 {
-  const double* u = this->Vertices.values.at(i);
-  for (std::size_t k = 0; k < this->Columns; ++k)
+  for (const RowNeighbour& neighbour : this->Neighbours)
   {
-    this->Reaction[k] = alpha * u[k] - this->Load[k];
-    for (const RowNeighbour& neighbour : this->Neighbours)
+    const double weight = knownWeight(this->Kind, neighbour);
+    const double* other = this->Vertices.values.at(neighbour.to);
+    for (std::size_t k = 0; k < this->Columns; ++k)
     {
-      const double weight = knownWeight(this->Kind, neighbour);
-      const double other = this->Vertices.values.at(neighbour.to)[k];
-      this->Reaction[k] += weight * (u[k] - other);
-      this->ReactionTerms[k] += std::fabs(weight) * (std::fabs(u[k]) + std::fabs(other));
+      terms.outflow(k) += weight * (u[k] - other[k]);
+      terms.outflowTerms(k) += std::fabs(weight) * (std::fabs(u[k]) + std::fabs(other[k]));
     }
   }
-  this->Conditions.add(this->Vertices.dirichlet[i], u, this->Reaction.data());
+}
+
+std::vector<double> ProblemResults::takeTerms()
+{
+  const std::size_t each = this->Terms.size();
+  std::vector<double> all(static_cast<std::size_t>(this->Vertices.end()) * each);
+  for (; this->Final < this->Vertices.end(); ++this->Final)
+  {
+    this->close(this->Final, all.data() + static_cast<std::size_t>(this->Final) * each);
+  }
+  this->Sums.setCells(this->Cells);
+  return all;
 }
 
 void ProblemResults::finish(Report& report)
 {
   this->finalize(this->Vertices.end());
-  report.conditions = this->Conditions.conditions();
-  report.energy = this->Cells.energy();
-  report.mean = this->Mean;
-  for (std::size_t k = 0; k < this->Columns; ++k)
-  {
-    report.energy[k] += this->ScreeningEnergy[k];
-    report.mean[k] /= this->Mass;
-  }
-  report.minimum = this->Minimum;
-  report.maximum = this->Maximum;
-  this->reportBalance(report);
-  noteConditionsWithoutEffect(report);
-  this->noteFlatCells(report);
-}
-
-void ProblemResults::noteConditionsWithoutEffect(Report& report)
-{
-  for (const Report::Condition& condition : report.conditions)
-  {
-    const bool isDirichlet = condition.name.starts_with("dirichlet");
-    if (isDirichlet && std::isnan(condition.mean.front()))
-    {
-      report.notes.push_back(condition.name + " has no effect: others hold wherever it does");
-    }
-    if (condition.area == 0.0 && !isDirichlet)
-    {
-      report.notes.push_back(
-        condition.name + " has no effect: " +
-        "no facet of the boundary is where it holds, or later ones hold there");
-    }
-  }
-}
-
-void ProblemResults::reportBalance(Report& report) const
-{
-  // Fluxes below these shares of the terms that they are differences of are rounding or the
-  // remaining residual: they count as no flow.
-  constexpr double Rounding = 1e-12, Noted = 1e-3;
-  double largest = 0.0;
-  report.source = this->Source;
-  report.screening = this->Screening;
-  report.balance.assign(this->Columns, 0.0);
-  for (std::size_t k = 0; k < this->Columns; ++k)
-  {
-    if (!report.removed_source.empty())
-    {
-      report.source[k] -= report.removed_source[k];
-    }
-    const double rest = this->Conditions.inflow()[k] + report.source[k] - report.screening[k];
-    const double all = this->Conditions.magnitude()[k] + this->Magnitude[k];
-    const double noise =
-      std::max(Rounding * (this->ReactionTerms[k] + this->Conditions.robinTerms()[k]),
-        report.residual() * (this->ReactionTerms[k] + this->RobinTerms[k]));
-    report.balance[k] = all > noise ? rest / all : 0.0;
-    largest = std::max(largest, std::fabs(report.balance[k]));
-  }
-  if (largest > Noted && report.converged)
-  {
-    report.notes.push_back("the fluxes of the conditions miss their balance by " +
-                           percent(largest) +
-                           " % of all that flows: a smaller tolerance makes them "
-                           "better");
-  }
-}
-
-/** The energy d of a solution in the omitted part of the cells bounds the energy of its difference
- * from the exact one: for all v, a(u - u_h, v) = d(u_h, v) <= sqrt(d(u_h, u_h) a(v, v)). */
-void ProblemResults::noteFlatCells(Report& report) const
-{
-  double share = 0.0;
-  for (std::size_t k = 0; k < this->Columns; ++k)
-  {
-    const double left = this->Cells.leftOut()[k];
-    share = left > 0.0 ? std::max(share, std::sqrt(left / report.energy[k])) : share;
-  }
-  if (share > 0.0)
-  {
-    report.notes.push_back("for the cells that are too flat the solution differs from that of "
-                           "finite elements by at most " +
-                           percent(share) + " % in the energy norm");
-  }
+  this->Sums.setCells(this->Cells);
+  this->Sums.finish(report);
 }
 
 } // namespace smg

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Problem/FacetSet.h"
 #include "Solver/Problem/NeighbourReach.h"
 #include "Solver/Problem/OpenVertices.h"
 #include "Solver/Problem/ProblemCells.h"
@@ -8,7 +9,8 @@
 #include "Solver/Problem/VertexLoads.h"
 #include "Solver/Problem/WeightedEdges.h"
 #include "Solver/Results/CellResults.h"
-#include "Solver/Results/ConditionSums.h"
+#include "Solver/Results/ResultSums.h"
+#include "Solver/Results/VertexTerms.h"
 #include "Solver/Stream/StreamCheck.h"
 #include "smg/Export.h"
 #include "smg/Solve.h"
@@ -16,6 +18,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace smg
@@ -57,12 +60,24 @@ public:
   std::span<const double> gradient() const { return this->Cells.gradient(); }
   std::span<const double> flux() const { return this->Cells.flux(); }
 
-  /**
-   * After the last block: sets conditions, energy, mean, minimum, maximum, source, screening and
-   * balance of the report of the solution. Adds a note on the maximum difference from finite
-   * elements due to cells that are too flat.
-   */
+  /** After the last block: see ResultSums. */
   void finish(Report& report);
+
+  // Of the part of a mesh that a process has (see MeshPart), instead of add() and finish():
+
+  /** Adds the only block. */
+  void addPart(const MeshBlock& block);
+  /** The facets and edges of its cells. Those that other parts have as well are excluded, or joined
+   * with theirs, before the terms are taken. */
+  const OpenFacets& facets() const { return this->Facets.open(); }
+  void exclude(FacetSet facets) { this->Inner = std::move(facets); }
+  WeightedEdges& edges() { return this->Edges; }
+  /** What the part contributes to its vertices, VertexTerms::size() numbers each. */
+  std::vector<double> takeTerms();
+  /** The Dirichlet condition of a vertex of the part; -1: none. */
+  std::int32_t dirichlet(std::int64_t i) const { return this->Vertices.dirichlet[i]; }
+  /** The sums over its cells and facets, to which the vertices are added. */
+  ResultSums& sums() { return this->Sums; }
 
 private:
   void addVertices(const MeshBlock& block);
@@ -72,11 +87,8 @@ private:
   void weighEdges(const std::int64_t* corners, const CellWeights& cell);
   void finalize(std::int64_t end);
   void addBoundary(std::int64_t i);
-  void closeVertex(std::int64_t i);
-  void closeDirichlet(std::int64_t i, double alpha);
-  void reportBalance(Report& report) const;
-  static void noteConditionsWithoutEffect(Report& report);
-  void noteFlatCells(Report& report) const;
+  void close(std::int64_t i, double* numbers);
+  void addEdges(const double* u, VertexTerms terms);
 
   CellType Type;
   Problem& Given;
@@ -95,17 +107,13 @@ private:
   ProblemFacets Facets;
   WeightedEdges Edges; // from Dirichlet vertices to vertices outside the condition
 
+  FacetSet Inner; // facets that other parts have as well
+
   CellResults Cells;
-  ConditionSums Conditions;
-  std::vector<double> Values, Load, Reaction;
+  ResultSums Sums;
+  std::vector<double> Values, Terms; // of a block, of a vertex
   std::vector<RowNeighbour> Neighbours;
   std::int64_t Final = 0;
-  double Mass = 0.0;
-  std::vector<double> Mean, Source, Screening, ScreeningEnergy, Magnitude; // sums
-  std::vector<double> ReactionTerms; // magnitudes of the terms of the reactions
-  // Terms of Robin conditions that the residual of the solve may contain, see commonShare().
-  std::vector<double> RobinTerms;
-  std::vector<Report::Extreme> Minimum, Maximum;
 };
 
 } // namespace smg

@@ -46,12 +46,25 @@ def check_report(report, columns):
     assert sum(parts["iterations"]) == report["cycles"]
 
 
+def check_results(report, streamed):
+    """The results of both engines agree within 1e-6 of the largest of a kind, or of the energy."""
+    assert len(report["conditions"]) == len(streamed["conditions"]) > 0
+    both = tuple((
+        [condition["flux"] for condition in r["conditions"]], r["energy"], r["mean"], r["source"],
+        [[condition["area"], condition["vertices"]] for condition in r["conditions"]],
+        [extreme["value"] for extreme in r["minimum"] + r["maximum"]]) for r in (report, streamed))
+    for a, b in zip(*both):
+        scale = max(numpy.abs(b).max(), max(streamed["energy"]))
+        assert numpy.abs(numpy.subtract(a, b)).max() <= 1e-6 * scale, (a, b)
+
+
 def check_same(proxy, columns, cells=None):
     """Both engines have the same solution at the points of this process."""
     ids, values, array, report = solved(proxy, "Distributed", cells)
     check_report(report, columns)
     streamed_ids, streamed, streamed_array, streamed_report = solved(proxy, "Streaming", cells)
     assert "distributed" not in streamed_report
+    check_results(report, streamed_report)
     assert (ids == streamed_ids).all()
     if len(ids) > 0:
         assert abs(values - streamed).max() <= 1e-6 * numpy.ptp(streamed)

@@ -37,6 +37,7 @@ void solveOn(smg::Team& team, const DistributedSolve& task)
   const bool isFirst = team.rank() == 0;
   std::unique_ptr<smg::VsmReader> mesh;
   std::unique_ptr<smg::DescribedProblem> problem;
+  smg::ResultOptions results;
   smg::MeshPart part;
   team.run(
     [&]
@@ -48,7 +49,9 @@ void solveOn(smg::Team& team, const DistributedSolve& task)
       team.agree();
       mesh = std::make_unique<smg::VsmReader>(task.in);
       part.info = infoOfPart(mesh->info());
-      problem = std::make_unique<smg::DescribedProblem>(task.read(), part.info, task.problem);
+      const smg::ProblemDescription description = task.read();
+      results = { description.gradientOutput, description.fluxOutput, task.memoryLimit };
+      problem = std::make_unique<smg::DescribedProblem>(description, part.info, task.problem);
       readPart(*mesh, *problem, team.rank(), team.size(), part);
       // Vertices belong to the process whose cells come first, in their order.
       const std::vector<std::int64_t> owned =
@@ -70,7 +73,8 @@ void solveOn(smg::Team& team, const DistributedSolve& task)
     solver.gather(solution, task.use);
     return;
   }
-  writePieceFiles(team, *mesh, solution, task.out);
+  solver.evaluate(*problem, solution, results);
+  writePieceFiles(team, *mesh, solution, results, task.out);
   team.run(
     [&]
     {

@@ -34,8 +34,8 @@ void append(
 class SolvedPiece final : public smg::MeshSource
 {
 public:
-  SolvedPiece(
-    const smg::StreamInfo& mesh, smg::MeshPiece piece, const smg::DistributedSolution& solution)
+  SolvedPiece(const smg::StreamInfo& mesh, smg::MeshPiece piece,
+    const smg::DistributedSolution& solution, const smg::ResultOptions& results)
     : Info(mesh)
   {
     this->Info.vertices = piece.vertices();
@@ -57,6 +57,15 @@ public:
     append(smg::SolutionName, solution.columns, solution.values, this->Block.vertexColumns);
     append(smg::GlobalIdsName, 1, piece.ids, this->Block.vertexColumns);
     append(smg::GhostTypeName, 1, piece.ghost, this->Block.vertexColumns);
+    append(smg::StreamFinalizedName, 1, piece.finalized, this->Block.vertexColumns);
+    if (results.gradient)
+    {
+      append(smg::GradientName, 3 * solution.columns, solution.gradient, this->Block.cellColumns);
+    }
+    if (results.flux)
+    {
+      append(smg::FluxName, 3 * solution.columns, solution.flux, this->Block.cellColumns);
+    }
     this->Info.vertexColumns = specsOf(this->Block.vertexColumns);
     this->Info.cellColumns = specsOf(this->Block.cellColumns);
   }
@@ -130,7 +139,8 @@ std::string indexText(const std::filesystem::path& out, int pieces, const smg::S
 } // namespace
 
 void writePieceFiles(smg::Team& team, smg::VsmReader& mesh,
-  const smg::DistributedSolution& solution, const std::filesystem::path& out)
+  const smg::DistributedSolution& solution, const smg::ResultOptions& results,
+  const std::filesystem::path& out)
 {
   const std::filesystem::path folder = out.parent_path() / out.stem();
   smg::StreamInfo described;
@@ -146,7 +156,7 @@ void writePieceFiles(smg::Team& team, smg::VsmReader& mesh,
       smg::MeshPiece piece;
       pieces.readPiece(firstCellOf(mesh.info(), team.rank(), team.size()),
         firstCellOf(mesh.info(), team.rank() + 1, team.size()), piece);
-      SolvedPiece source(mesh.info(), std::move(piece), solution);
+      SolvedPiece source(mesh.info(), std::move(piece), solution, results);
       described = source.info();
       smg::writeVtkXml(source, folder / pieceName(out, team.rank()));
     });

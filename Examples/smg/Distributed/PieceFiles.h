@@ -7,8 +7,10 @@
 
 #include <filesystem>
 
-/** Writes the mesh with its solution as a .pvtp or .pvtu file, each process the piece of its cells,
- * in the folder of that name. Pieces have GlobalIds and vtkGhostType as those of VTK readers.
- * Called on all processes; throws smg::Error. */
+/** Writes the mesh with its solution and the requested cell results as a .pvtp or .pvtu file, each
+ * process the piece of its cells, in the folder of that name. Pieces have GlobalIds, vtkGhostType
+ * and StreamFinalized as those of vtkStreamingMeshReader. Called on all processes; throws
+ * smg::Error. */
 void writePieceFiles(smg::Team& team, smg::VsmReader& mesh,
-  const smg::DistributedSolution& solution, const std::filesystem::path& out);
+  const smg::DistributedSolution& solution, const smg::ResultOptions& results,
+  const std::filesystem::path& out);

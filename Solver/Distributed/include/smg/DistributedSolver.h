@@ -59,6 +59,9 @@ struct DistributedSolution
   int columns = 1;            ///< those of the problem
   std::vector<double> values; ///< `columns` a vertex of MeshPart::block
   Report report;              ///< of all processes, the same on each
+  /** See DistributedSolver::evaluate(): 3 numbers per column of each cell of MeshPart::block; 0 in
+   * cells without area or volume. */
+  std::vector<double> gradient, flux;
 };
 
 /**
@@ -110,6 +113,16 @@ public:
    * @throws Cancelled if the progress callback returns false
    */
   DistributedSolution solve(Problem& problem, const DistributedOptions& options = {});
+
+  /**
+   * Evaluates a solution on all parts: sets conditions, energy, mean, minimum, maximum, source,
+   * screening and balance of its report, as SolvedMesh::finish() on one process, and the requested
+   * gradients and fluxes of the cells of the part.
+   * @param problem that of the solution; it is asked once more
+   * @param solution what solve() returned
+   * @param options what is requested; the memory limit is that of each process
+   */
+  void evaluate(Problem& problem, DistributedSolution& solution, const ResultOptions& options = {});
 
   /**
    * Passes the whole solution, as that of solve() on one process, to `use` on process 0, where it

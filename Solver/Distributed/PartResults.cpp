@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Distributed/PartResults.h"
+
+#include "Solver/Distributed/SharedEdges.h"
+#include "Solver/Distributed/SharedFacets.h"
+#include "Solver/Results/HeldSolution.h"
+#include "Solver/Results/ProblemResults.h"
+#include "Solver/Stream/OriginalNumbers.h"
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+namespace smg
+{
+namespace
+{
+
+/** Adds the sums of all processes. */
+void sumUp(ResultSums& sums, Team& team)
+{
+  const std::vector<double*> places = sums.numbers();
+  std::vector<double> numbers;
+  std::ranges::transform(places, std::back_inserter(numbers), [](double* place) { return *place; });
+  team.sum(numbers);
+  for (std::size_t k = 0; k < places.size(); ++k)
+  {
+    *places[k] = numbers[k];
+  }
+}
+
+/** The least of the values of all processes, at the first vertex in stream order that has it, and
+ * named by its original number; `sign` -1: the largest. */
+void findExtremes(const SharedVertices& vertices, const MeshPart& part, double sign,
+  std::vector<Report::Extreme>& extremes)
+{
+  constexpr std::int64_t None = std::numeric_limits<std::int64_t>::max();
+  Team& team = vertices.team();
+  std::vector<double> values;
+  for (const Report::Extreme& extreme : extremes)
+  {
+    values.push_back(sign * extreme.value);
+  }
+  team.least(values);
+  std::vector<std::int64_t> ids(extremes.size(), None);
+  for (std::size_t k = 0; k < ids.size(); ++k)
+  {
+    if (extremes[k].vertex >= 0 && sign * extremes[k].value == values[k])
+    {
+      ids[k] = vertices.id(extremes[k].vertex);
+    }
+  }
+  team.least(ids);
+  std::vector<std::int64_t> names = ids;
+  const std::ptrdiff_t column = findColumn(part.block.vertexColumns, OriginalIdSpec);
+  for (std::size_t k = 0; k < ids.size(); ++k)
+  {
+    const std::int64_t vertex = ids[k] == None ? -1 : vertices.find(ids[k]);
+    if (findColumn(part.info.vertexColumns, OriginalIdSpec) >= 0)
+    {
+      names[k] = vertex < 0 ? None
+                            : part.block.vertexColumns[static_cast<std::size_t>(column)]
+                                .as<std::int64_t>()[static_cast<std::size_t>(vertex)];
+    }
+  }
+  team.least(names);
+  for (std::size_t k = 0; k < ids.size(); ++k)
+  {
+    extremes[k] = { sign * values[k], names[k] == None ? -1 : names[k] };
+  }
+}
+
+} // namespace
+
+void evaluatePart(const SharedVertices& vertices, const MeshPart& part, Problem& problem,
+  const ResultOptions& options, DistributedSolution& solution)
+{
+  const CellType type = part.info.cellType;
+  HeldSolution values(solution.values, solution.columns);
+  ProblemResults results(part.info, problem, values, options);
+  results.addPart(part.block);
+  solution.gradient.assign(results.gradient().begin(), results.gradient().end());
+  solution.flux.assign(results.flux().begin(), results.flux().end());
+  joinSharedEdges(vertices, results.edges());
+  results.exclude(innerFacets(vertices, type, results.facets()));
+  std::vector<double> terms = results.takeTerms();
+  const auto columns = static_cast<std::size_t>(solution.columns);
+  const std::size_t lanes = VertexTerms::size(columns);
+  vertices.addToOwners(terms, static_cast<int>(lanes));
+  ResultSums& sums = results.sums();
+  for (std::int64_t i = vertices.begin(); i < vertices.end(); ++i)
+  {
+    const auto vertex = static_cast<std::size_t>(i);
+    sums.add(VertexTerms(terms.data() + vertex * lanes), solution.values.data() + vertex * columns,
+      results.dirichlet(i));
+  }
+  sumUp(sums, vertices.team());
+  findExtremes(vertices, part, 1.0, sums.minimum);
+  findExtremes(vertices, part, -1.0, sums.maximum);
+  sums.finish(solution.report);
+}
+
+} // namespace smg
