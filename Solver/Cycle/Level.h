@@ -5,6 +5,7 @@
 #include "Solver/Cycle/LevelCursors.h"
 #include "Solver/Cycle/LevelWindow.h"
 #include "Solver/Cycle/PatchRelaxation.h"
+#include "Solver/Cycle/Pipeline.h"
 #include "Solver/Cycle/SpecialNodes.h"
 #include "Solver/Cycle/Transfer.h"
 
@@ -44,7 +45,6 @@ public:
   void startPass(bool first)
   {
     this->First = first;
-    this->Renewing = false;
     this->History = nullptr;
     this->At.rewind();
     std::fill(this->Squares.begin(), this->Squares.end(), Real{});
@@ -89,22 +89,17 @@ public:
 
   /** In a pass after LevelWindow::renew(), on the finest level: the state of the downward part is
    * complete for nodes below `end`. */
-  void setRenewed(std::int64_t end)
-  {
-    this->Renewing = true;
-    this->Renewed = end;
-  }
+  void setRenewed(std::int64_t end) { this->At.renewed = end; }
 
   /** On the finest level: accelerates the iterates in this pass, which has started. */
   void setHistory(IterateHistory* history) { this->History = history; }
 
-  /** The end of the nodes whose x is final in the upward part, as seen by the downward part. */
-  std::int64_t finishedUp()
+  /** The end of the nodes from `end` on whose x is final in the upward part, for a stage that
+   * `follows` it. */
+  std::int64_t finishedUp(std::int64_t end, bool follows) const
   {
-    std::int64_t& end = this->At.finishedUp;
-    end =
-      this->Patched ? this->Window.reachable(end, this->At.seenPostSwept) : this->At.seenPostSwept;
-    return end;
+    const std::int64_t swept = this->At.postSweep.back().seen(follows);
+    return this->Patched ? this->Window.reachable(end, swept) : swept;
   }
 
   /** Adds the next block of rows while the hierarchy is built. */
@@ -118,36 +113,34 @@ public:
   /** Loads, here and on the coarser levels, all data that the upward part to `node` needs. */
   void load(std::int64_t node);
 
-  /** Upward part: finishes the V-cycle on nodes 0 .. node, which is loaded. */
-  void pull(std::int64_t node)
-  {
-    this->pull(static_cast<int>(this->At.postSweep.size()), this->finalWith(node));
-  }
+  /** Adds the stages of the upward part, those of coarser levels first. They finish the V-cycle as
+   * far as load() has wanted it. */
+  void addUpward(Pipeline& pipeline);
+  /** Adds the stages of the downward part, those of coarser levels last. */
+  void addDownward(Pipeline& pipeline);
 
-  /** Publishes, here and on the coarser levels, the cursors of the upward part to the downward
-   * part, and those of the downward part to the writer. */
-  void showProgress()
-  {
-    this->At.seenProlonged = this->At.prolonged;
-    this->At.seenPostSwept = this->At.postSweep.back();
-    // An unfinished patch may change nodes before it.
-    this->At.seenFinal = this->Patched ? this->At.restricted : this->At.combined;
-    this->At.seenRestricted = this->At.restricted;
-    if (!this->Coarse->core())
-    {
-      this->Coarse->showProgress();
-    }
-  }
-
-  /** Downward part: advances every stage, here and on the coarser levels, as far as possible. */
+  /** Advances every stage of the downward part, here and on the coarser levels. */
   void advanceDown()
   {
-    this->preSweep();
-    this->combine();
-    this->restrictDown();
+    for (std::size_t s = 0; s < this->At.preSweep.size(); ++s)
+    {
+      this->preSweep(s, true);
+    }
+    this->combine(true);
+    this->restrictDown(true);
     if (!this->Coarse->core())
     {
       this->Coarse->advanceDown();
+    }
+  }
+
+  /** Shows the cursors, here and on the coarser levels, to the stages on other threads. */
+  void showProgress()
+  {
+    this->At.show();
+    if (!this->Coarse->core())
+    {
+      this->Coarse->showProgress();
     }
   }
 
@@ -166,14 +159,15 @@ public:
     }
   }
 
-  /** Writes, here and on the coarser levels, what the downward part is known to have finished.
-   * Other threads may perform the upward and the downward part, and read ahead. */
+  /** Writes, here and on the coarser levels, what the downward part has finished. Other threads may
+   * perform the upward and the downward part, and read ahead. */
   void write()
   {
-    this->Window.write(this->At.seenFinal);
+    // An unfinished patch may change nodes before it.
+    this->Window.write((this->Patched ? this->At.restricted : this->At.combined).shown());
     if (this->History)
     {
-      this->History->write(this->At.seenRestricted);
+      this->History->write(this->At.restricted.shown());
     }
     if (!this->Coarse->core())
     {
@@ -205,6 +199,13 @@ public:
 
   /** Whether all nodes have passed all stages of the pass. */
   bool finished() const { return this->At.restricted == this->Window.nodes(); }
+
+  /** Whether x of node `node`, which load() has wanted, is final in the upward part, for a stage
+   * that `follows` it. */
+  bool isFinal(std::int64_t node, bool follows) const
+  {
+    return this->Core || this->At.postSweep.back().seen(follows) > this->finalWith(node);
+  }
 
   /** Prepares b of nodes 0 .. node for restriction: sets it to zero, once the previous V-cycle
    * needs neither their b nor their x. Returns whether this was possible. */
@@ -240,6 +241,9 @@ public:
   void prolongAll() { this->prolongTo(0, this->Window.nodes()); }
 
 private:
+  /** About the time that stages take for a node, relative to a sweep. */
+  static constexpr double ProlongCost = 0.5, CombineCost = 0.5, RestrictCost = 1.4;
+
   std::size_t lanes() const { return this->Squares.size() / 2; }
 
   using One = Lanes<Real, 1>;
@@ -248,19 +252,16 @@ private:
   // The upward part (LevelUp.txx).
 
   std::int64_t finalWith(std::int64_t node) const;
-  static std::int64_t& upCursor(LevelCursors& cursors, int stage)
-  {
-    return stage == 0 ? cursors.prolonged : cursors.postSweep[static_cast<std::size_t>(stage - 1)];
-  }
   void load(int stage, std::int64_t node);
-  void pull(int stage, std::int64_t node);
+  void prolongUp(bool follows);
+  void postSweep(std::size_t s, bool follows);
 
   // The downward part (LevelDown.txx).
 
-  void preSweep();
-  std::int64_t firstPreSweepEnd();
-  void combine();
-  void restrictDown();
+  void preSweep(std::size_t s, bool follows);
+  std::int64_t firstPreSweepEnd(bool follows);
+  void combine(bool follows);
+  void restrictDown(bool follows);
 
   // The kernels (LevelSweeps.txx).
 
@@ -290,8 +291,6 @@ private:
   bool First = true;
   bool Core = false;
   bool Patched = false; // some nodes are relaxed together with later ones
-  bool Renewing = false;
-  std::int64_t Renewed = 0;
 };
 
 } // namespace smg

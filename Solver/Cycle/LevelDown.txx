@@ -9,43 +9,59 @@ namespace smg
 {
 
 template <class Real, class Relaxation>
-void Level<Real, Relaxation>::preSweep()
+void Level<Real, Relaxation>::addDownward(Pipeline& pipeline)
 {
-  std::vector<std::int64_t>& sweep = this->At.preSweep;
-  const std::int64_t first = this->firstPreSweepEnd();
-  if (this->Fine)
+  if (this->Core)
   {
-    this->sweep<true>(sweep[0], first, this->Window.down());
+    return;
+  }
+  const auto nodes = static_cast<double>(this->Window.nodes());
+  for (std::size_t s = 0; s < this->At.preSweep.size(); ++s)
+  {
+    pipeline.add(nodes, [this, s](bool follows) { this->preSweep(s, follows); });
+  }
+  pipeline.add(
+    this->History ? CombineCost * nodes : 0.0, [this](bool follows) { this->combine(follows); });
+  pipeline.add(RestrictCost * nodes, [this](bool follows) { this->restrictDown(follows); });
+  this->Coarse->addDownward(pipeline);
+}
+
+template <class Real, class Relaxation>
+void Level<Real, Relaxation>::preSweep(std::size_t s, bool follows)
+{
+  Cursor& cursor = this->At.preSweep[s];
+  const std::int64_t end =
+    s == 0 ? this->firstPreSweepEnd(follows)
+           : this->Window.reachable(cursor, this->At.preSweep[s - 1].seen(follows));
+  if (s == 0 && this->Fine)
+  {
+    this->sweep<true>(cursor, end, this->Window.down());
   }
   else
   {
-    this->sweep<false>(sweep[0], first, this->Window.down());
+    this->sweep<false>(cursor, end, this->Window.down());
   }
-  sweep[0] = first;
-  for (std::size_t s = 1; s < sweep.size(); ++s)
-  {
-    const std::int64_t end = this->Window.reachable(sweep[s], sweep[s - 1]);
-    this->sweep<false>(sweep[s], end, this->Window.down());
-    sweep[s] = end;
-  }
+  cursor = end;
 }
 
 /** The end of the nodes that the first sweep of the downward part may process. */
 template <class Real, class Relaxation>
-std::int64_t Level<Real, Relaxation>::firstPreSweepEnd()
+std::int64_t Level<Real, Relaxation>::firstPreSweepEnd(bool follows)
 {
-  std::int64_t end = this->At.preSweep[0];
+  std::int64_t end = this->At.preSweep.front();
   if (!this->Fine)
   {
-    return this->First      ? this->Window.loaded()
-           : this->Renewing ? this->Renewed
-                            : this->Window.reachable(end, this->At.seenPostSwept);
+    return this->First ? this->Window.loaded()
+           : this->Window.isApart()
+             ? this->At.renewed.seen(follows)
+             : this->Window.reachable(end, this->At.postSweep.back().seen(follows));
   }
   // b must be complete; the upper neighbours are zero, so they need not be loaded.
+  const std::int64_t restricted = this->Fine->restricted.seen(follows);
   while (end < this->Window.loaded())
   {
     const RowBlock::Header& h = this->Window.header(end);
-    if (this->Fine->restricted <= h.childReach[LevelWindow<Real>::groupIn(h, end)])
+    if (restricted <= h.childReach[LevelWindow<Real>::groupIn(h, end)])
     {
       break;
     }
@@ -56,9 +72,9 @@ std::int64_t Level<Real, Relaxation>::firstPreSweepEnd()
 
 /** Acceleration may modify a node when no sweep reads it any more. */
 template <class Real, class Relaxation>
-void Level<Real, Relaxation>::combine()
+void Level<Real, Relaxation>::combine(bool follows)
 {
-  std::int64_t end = this->At.preSweep.back();
+  std::int64_t end = this->At.preSweep.back().seen(follows);
   if (this->History)
   {
     end = this->Window.reachable(this->At.combined, end);
@@ -68,9 +84,10 @@ void Level<Real, Relaxation>::combine()
 }
 
 template <class Real, class Relaxation>
-void Level<Real, Relaxation>::restrictDown()
+void Level<Real, Relaxation>::restrictDown(bool follows)
 {
-  const std::int64_t limit = this->Window.reachable(this->At.restricted, this->At.combined);
+  const std::int64_t limit =
+    this->Window.reachable(this->At.restricted, this->At.combined.seen(follows));
   std::int64_t end = this->At.restricted;
   while (end < limit)
   {
@@ -100,8 +117,8 @@ bool Level<Real, Relaxation>::prepare(std::int64_t node)
   {
     const RowBlock::Header& h = this->Window.header(this->At.reset);
     const auto g = LevelWindow<Real>::groupIn(h, this->At.reset);
-    if (this->At.seenPostSwept <= h.neighbourReach[g] ||
-        this->Fine->seenProlonged <= h.childReach[g])
+    if (this->At.postSweep.back().shown() <= h.neighbourReach[g] ||
+        this->Fine->prolonged.shown() <= h.childReach[g])
     {
       return false;
     }

@@ -135,7 +135,8 @@ template <class Real, class Relaxation>
 void Level<Real, Relaxation>::restrictTo(std::int64_t end)
 {
   const int stride = this->Window.stride();
-  this->Window.forRange(this->Core ? 0 : this->At.restricted, end, this->Window.down(),
+  this->Window.forRange(this->Core ? 0 : std::int64_t(this->At.restricted), end,
+    this->Window.down(),
     [&](const auto& h, const auto& a, BlockRange range, Real* x, Real* b)
     {
       float* coarse = this->Coarse->window().b().at(h.parentBase);

@@ -9,6 +9,22 @@ namespace smg
 {
 
 template <class Real, class Relaxation>
+void Level<Real, Relaxation>::addUpward(Pipeline& pipeline)
+{
+  if (this->Core)
+  {
+    return;
+  }
+  this->Coarse->addUpward(pipeline);
+  const auto nodes = static_cast<double>(this->Window.nodes());
+  pipeline.add(ProlongCost * nodes, [this](bool follows) { this->prolongUp(follows); });
+  for (std::size_t s = 0; s < this->At.postSweep.size(); ++s)
+  {
+    pipeline.add(nodes, [this, s](bool follows) { this->postSweep(s, follows); });
+  }
+}
+
+template <class Real, class Relaxation>
 void Level<Real, Relaxation>::load(std::int64_t node)
 {
   const int last = static_cast<int>(this->At.postSweep.size());
@@ -36,17 +52,19 @@ std::int64_t Level<Real, Relaxation>::finalWith(std::int64_t node) const
   return h.neighbourReach[LevelWindow<Real>::groupIn(h, node)];
 }
 
-/** Follows the upward part to stage `stage` of node `node` like pull(), and loads. */
+/** Wants stage `stage` of the upward part to process node `node`, and loads all that it needs. */
 template <class Real, class Relaxation>
 void Level<Real, Relaxation>::load(int stage, std::int64_t node)
 {
-  if (this->Core || node < 0 || upCursor(this->At, stage) > node)
+  std::int64_t& wanted = this->At.wanted[static_cast<std::size_t>(stage)];
+  if (this->Core || wanted > node)
   {
     return;
   }
   this->Window.load(node);
   const RowBlock::Header& h = this->Window.header(node);
   const auto g = LevelWindow<Real>::groupIn(h, node);
+  wanted = LevelWindow<Real>::groupEnd(h, node);
   if (stage == 0)
   {
     this->Coarse->load(h.parentReach[g]);
@@ -58,26 +76,31 @@ void Level<Real, Relaxation>::load(int stage, std::int64_t node)
 }
 
 template <class Real, class Relaxation>
-void Level<Real, Relaxation>::pull(int stage, std::int64_t node)
+void Level<Real, Relaxation>::prolongUp(bool follows)
 {
-  std::int64_t& cursor = upCursor(this->At, stage);
-  if (this->Core || cursor > node)
+  const std::int64_t begin = this->At.prolonged;
+  std::int64_t end = begin;
+  while (end < this->At.wanted.front())
   {
-    return;
+    const RowBlock::Header& h = this->Window.header(end);
+    if (!this->Coarse->isFinal(h.parentReach[LevelWindow<Real>::groupIn(h, end)], follows))
+    {
+      break;
+    }
+    end = LevelWindow<Real>::groupEnd(h, end);
   }
-  const RowBlock::Header& h = this->Window.header(node);
-  const auto g = LevelWindow<Real>::groupIn(h, node);
-  const std::int64_t end = LevelWindow<Real>::groupEnd(h, node);
-  if (stage == 0)
-  {
-    this->Coarse->pull(h.parentReach[g]);
-    this->prolongTo(cursor, end);
-  }
-  else
-  {
-    this->pull(stage - 1, h.neighbourReach[g]);
-    this->sweep<false>(cursor, end, this->Window.up());
-  }
+  this->prolongTo(begin, end);
+  this->At.prolonged = end;
+}
+
+template <class Real, class Relaxation>
+void Level<Real, Relaxation>::postSweep(std::size_t s, bool follows)
+{
+  Cursor& cursor = this->At.postSweep[s];
+  const std::int64_t before =
+    (s == 0 ? this->At.prolonged : this->At.postSweep[s - 1]).seen(follows);
+  const std::int64_t end = std::min(this->Window.reachable(cursor, before), this->At.wanted[s + 1]);
+  this->sweep<false>(cursor, end, this->Window.up());
   cursor = end;
 }
 

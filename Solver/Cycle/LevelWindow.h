@@ -109,6 +109,8 @@ public:
    * separate state, which another stage has to fill.
    */
   void renew(int columns, bool apart);
+  /** Whether the downward part of this pass has a separate state. */
+  bool isApart() const { return this->Next.has_value(); }
   /** Without scratch files: discards an aborted pass. */
   void abandon() { this->Next.reset(); }
   /** Without scratch files, between passes: sets the number of columns of the state. */

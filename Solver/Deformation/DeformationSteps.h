@@ -161,12 +161,13 @@ double DeformationSteps<Relaxation>::sharedPass(PositionStep& step)
   auto& finest = this->Levels.finest();
   this->Levels.renew(PositionStep::Columns);
   step.startPass();
-  Pass(this->Run, this->Levels)(this->positionScale(), { [&step] { step.load(); },
-                                                         [&step, &finest]
-                                                         {
-                                                           step.advance(finest.finishedUp());
-                                                           finest.setRenewed(step.done());
-                                                         } });
+  Pass(this->Run, this->Levels)(
+    this->positionScale(), { [&step] { step.load(); },
+                             [&step, &finest](bool follows)
+                             {
+                               step.advance(finest.finishedUp(step.turned(), follows));
+                               finest.setRenewed(step.done());
+                             } });
   step.endPass();
   return this->Levels.residualNorm();
 }

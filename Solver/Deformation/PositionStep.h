@@ -46,6 +46,8 @@ public:
   void load();
   /** Computes right-hand sides, given that the upward part is finished below `final`. */
   void advance(std::int64_t final);
+  /** The number of vertices whose rotation and scale are known to be final. */
+  std::int64_t turned() const { return this->Turned; }
   /** The number of vertices with a right-hand side. */
   std::int64_t done() const { return this->Done; }
 

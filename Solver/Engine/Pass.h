@@ -3,6 +3,7 @@
 
 #include "Solver/Core/RunAll.h"
 #include "Solver/Cycle/IterateHistory.h"
+#include "Solver/Cycle/Pipeline.h"
 #include "Solver/Engine/Hierarchy.h"
 #include "Solver/Engine/SolveRun.h"
 
@@ -25,8 +26,8 @@ public:
   {
     /** Called after loading the finest level. */
     std::function<void()> loaded;
-    /** Called in each step before the downward part, on its thread. */
-    std::function<void()> beforeDown;
+    /** A stage between the upward and the downward part of the finest level. */
+    Pipeline::Advance beforeDown;
     /** Accelerates. */
     IterateHistory* history = nullptr;
   };
@@ -48,6 +49,8 @@ public:
 private:
   void setScale(double typical);
   void stream(const Further& further);
+  Pipeline stages(const Further& further);
+  std::int64_t stepNodes(int chains) const;
 
   SolveRun& Run;
   Hierarchy<Relaxation>& Levels;
@@ -76,16 +79,10 @@ template <class Relaxation>
 void Pass<Relaxation>::stream(const Further& further)
 {
   auto& finest = this->Levels.finest();
+  const Pipeline stages = this->stages(further);
   const std::int64_t nodes = finest.window().nodes();
-  const std::int64_t step = this->Run.options.blockNodes;
-  const auto down = [&]
-  {
-    if (further.beforeDown)
-    {
-      further.beforeDown();
-    }
-    finest.advanceDown();
-  };
+  const int chains = stages.chains();
+  const std::int64_t step = this->stepNodes(chains);
   for (std::int64_t begin = 0; begin < nodes; begin += step)
   {
     const std::int64_t last = std::min(nodes, begin + step) - 1;
@@ -94,23 +91,46 @@ void Pass<Relaxation>::stream(const Further& further)
     {
       further.loaded();
     }
-    // The downward part processes nodes that the upward part has finished a step ago, and nodes are
-    // written after the downward part: no node is accessed by two of them.
+    // Nodes are written when all stages have finished them a step ago.
     finest.showProgress();
-    runAll(this->Run.threads, 4,
-      [&](int task)
-      {
-        task == 0   ? finest.pull(last)
-        : task == 1 ? down()
-        : task == 2 ? finest.readAhead()
-                    : finest.write();
+    runAll(this->Run.threads, chains + 2,
+      [&](int task) {
+        task < chains ? stages.advance(task) : task == chains ? finest.readAhead() : finest.write();
       });
     finest.release();
     this->Run.progress.update(static_cast<double>(last) / static_cast<double>(nodes));
   }
+  // The upward part is finished before the downward part can be.
+  stages.advance();
   finest.showProgress();
-  down();
+  stages.advance();
   finest.settle();
+}
+
+/** The stages of the pass, in twice as many chains as there are threads: they are of unequal
+ * length. */
+template <class Relaxation>
+Pipeline Pass<Relaxation>::stages(const Further& further)
+{
+  Pipeline stages;
+  this->Levels.finest().addUpward(stages);
+  if (further.beforeDown)
+  {
+    stages.add(static_cast<double>(this->Levels.window().nodes()), further.beforeDown);
+  }
+  this->Levels.finest().addDownward(stages);
+  const int threads = this->Run.scheduled;
+  stages.cut(threads == 1 ? 1 : 2 * threads);
+  return stages;
+}
+
+/** The nodes by which a pass advances at once. A chain is as many nodes behind the one before it,
+ * so that more chains take shorter steps, down to one block of rows. */
+template <class Relaxation>
+std::int64_t Pass<Relaxation>::stepNodes(int chains) const
+{
+  const std::int64_t nodes = this->Run.options.blockNodes;
+  return std::min(nodes, std::max(RowBlock::Nodes, 2 * nodes / std::max(2, chains)));
 }
 
 template <class Relaxation>

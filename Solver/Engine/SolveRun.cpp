@@ -21,14 +21,12 @@ namespace smg
 namespace
 {
 
-/** The number of compute threads for the requested number; 0: one per core. */
-int computeThreads(int wanted)
+/** The number of threads that a pass is scheduled for, given the requested one; 0: one per core. */
+int scheduledThreads(int wanted)
 {
-  // In the first pass: the assembly, the coarsening of two levels (the others are small), the
-  // downward part. In later passes: the upward part, the downward part, reading and writing.
-  constexpr int ParallelStages = 4;
-  const int most = std::min(ParallelStages, tbb::info::default_concurrency());
-  return wanted > 0 ? std::min(wanted, most) : most;
+  // A pass has about that many stages of similar length.
+  constexpr int Most = 16;
+  return std::min(Most, wanted > 0 ? wanted : tbb::info::default_concurrency());
 }
 
 } // namespace
@@ -40,7 +38,8 @@ SolveRun::SolveRun(int columns, const SolveOptions& solveOptions)
   , components(columns, &this->pool)
   , labels(this->components)
   , free(this->components, this->labels, columns)
-  , threads(computeThreads(solveOptions.threads))
+  , scheduled(scheduledThreads(solveOptions.threads))
+  , threads(std::min(this->scheduled, tbb::info::default_concurrency()))
 {
   if (!solveOptions.checkpoint.folder.empty())
   {

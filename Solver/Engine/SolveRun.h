@@ -67,6 +67,8 @@ struct SMG_EXPORT SolveRun
   Components components;
   ComponentLabels labels;
   FreeComponents free;
+  /** The number of threads that a pass is scheduled for; there may be fewer. */
+  int scheduled;
   tbb::task_arena threads;
   Report report;
 

@@ -94,7 +94,7 @@ TEST(DeformationStreaming, DoesNotDependOnTheNumberOfThreads)
     [](DeformOptions options, const auto& check)
     {
       options.coreNodes = 500;
-      for (const int threads : { 1, 2, 3, 8 })
+      for (const int threads : { 1, 2, 3, 8, 16 })
       {
         for (const bool core : { false, true })
         {

@@ -114,7 +114,7 @@ TEST(Streaming, DoesNotDependOnTheNumberOfThreads)
   for (auto& [mesh, problem] : tasks())
   {
     const Solved expected = inCore(mesh, problem);
-    for (const int threads : { 1, 2, 3, 8 })
+    for (const int threads : { 1, 2, 3, 8, 16 })
     {
       for (const bool core : { false, true })
       {

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "smg/Export.h"
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * The stages that the nodes pass one after the other, cut into chains of consecutive stages that
+ * take about the same time. Chains may run on different threads, each on other nodes: the more
+ * chains, the more nodes lie between the first stage and the last one.
+ */
+class SMG_EXPORT Pipeline
+{
+public:
+  /** Advances a stage as far as possible; it `follows` the one before it on the same thread, or
+   * that may be advancing on another one. */
+  using Advance = std::function<void(bool follows)>;
+
+  /** Appends a stage, which takes about `cost`, in any unit. */
+  void add(double cost, Advance advance);
+  /** Cuts the stages into at most this many chains, at least 1. */
+  void cut(int chains);
+
+  int chains() const { return static_cast<int>(this->Ends.size()); }
+  /** Advances the stages of a chain, one after the other. */
+  void advance(int chain) const;
+  /** Advances all stages. */
+  void advance() const;
+
+private:
+  struct Stage
+  {
+    double cost;
+    Advance advance;
+  };
+
+  std::vector<Stage> Stages;
+  std::vector<std::size_t> Ends; // of the chains, in Stages
+};
+
+} // namespace smg
