@@ -3,11 +3,9 @@
 #include "Solver/Results/HeldSolution.h"
 #include "Solver/Results/ProblemResults.h"
 #include "Testing/Distributed/PartOfMesh.h"
-#include "Testing/Solver/EllipticTesting.h"
+#include "Testing/Distributed/WaveProblem.h"
 
 #include <gtest/gtest.h>
-
-#include <functional>
 
 // The results of a solution in parts are those of the same solution in one stream.
 
@@ -16,41 +14,32 @@ namespace smg::testing
 namespace
 {
 
-constexpr int Columns = 2;
-
-double wave(const Point& p, int k)
-{
-  return std::sin(0.7 * p[0] + k) + 0.3 * std::cos(p[1] - 0.5 * p[2]);
-}
-
 /** Every type of datum, and two adjacent Dirichlet conditions. */
 void setEverything(ElementProblem& problem)
 {
-  problem.Columns = Columns;
+  problem.Columns = WaveColumns;
   problem.Conductivity = someTensor;
   problem.VertexScreening = [](const Point& p) { return p[1] > 2 ? 0.3 : 0.0; };
   problem.CellScreening = [](const Point&) { return 0.1; };
-  problem.VertexSource = problem.CellSource = columnsOf(Columns, wave);
+  problem.VertexSource = problem.CellSource = columnsOf(WaveColumns, wave);
   problem.CellField = [](const Point& p) -> Eigen::MatrixXd
-  { return Eigen::MatrixXd::Constant(3, Columns, 0.4 * p[0]); };
+  { return Eigen::MatrixXd::Constant(3, WaveColumns, 0.4 * p[0]); };
   problem.DirichletConditions.push_back(
-    { [](const Point& p) { return p[0] < 0.9 && p[1] < 2; }, columnsOf(Columns, wave) });
-  problem.DirichletConditions.push_back({ below(0, 0.9), columnsOf(Columns, wave) });
-  problem.FluxConditions.push_back({ above(0, 4.0), columnsOf(Columns, wave) });
+    { [](const Point& p) { return p[0] < 0.9 && p[1] < 2; }, columnsOf(WaveColumns, wave) });
+  problem.DirichletConditions.push_back({ below(0, 0.9), columnsOf(WaveColumns, wave) });
+  problem.FluxConditions.push_back({ above(0, 4.0), columnsOf(WaveColumns, wave) });
   problem.RobinConditions.push_back(
-    { above(1, 3.0), [](const Point& p) { return 1.0 + p[0]; }, columnsOf(Columns, wave) });
+    { above(1, 3.0), [](const Point& p) { return 1.0 + p[0]; }, columnsOf(WaveColumns, wave) });
 }
 
 /** Dirichlet conditions alone, without data on facets or in cells. */
 void setEnds(ElementProblem& problem)
 {
-  problem.Columns = Columns;
-  problem.VertexSource = columnsOf(Columns, wave);
-  problem.DirichletConditions.push_back({ below(0, 0.9), columnsOf(Columns, wave) });
-  problem.DirichletConditions.push_back({ above(0, 4.0), columnsOf(Columns, wave) });
+  problem.Columns = WaveColumns;
+  problem.VertexSource = columnsOf(WaveColumns, wave);
+  problem.DirichletConditions.push_back({ below(0, 0.9), columnsOf(WaveColumns, wave) });
+  problem.DirichletConditions.push_back({ above(0, 4.0), columnsOf(WaveColumns, wave) });
 }
-
-using Setting = std::function<void(ElementProblem&)>;
 
 /** A report and the cell results of all processes, in stream order. */
 struct Results
@@ -92,7 +81,7 @@ Results evaluateStream(
   ElementProblem problem(mesh);
   set(problem);
   const Eigen::Matrix<double, -1, -1, Eigen::RowMajor> rows = values;
-  HeldSolution solution({ rows.data(), static_cast<std::size_t>(rows.size()) }, Columns);
+  HeldSolution solution({ rows.data(), static_cast<std::size_t>(rows.size()) }, WaveColumns);
   MemorySource source(mesh);
   ProblemResults results(source.info(), problem, solution, { true, true });
   Results told{ ofSolve, {}, {} };
@@ -203,9 +192,9 @@ TEST(DistributedResults, OfEqualExtremesTheFirstVertexIsNamed)
 {
   const auto flat = [](ElementProblem& problem)
   {
-    problem.Columns = Columns;
+    problem.Columns = WaveColumns;
     problem.DirichletConditions.push_back({ [](const Point&) { return true; },
-      columnsOf(Columns, [](const Point& p, int) { return p[0] < 6 ? 1.0 : 2.0; }) });
+      columnsOf(WaveColumns, [](const Point& p, int) { return p[0] < 6 ? 1.0 : 2.0; }) });
   };
   const StreamMesh mesh = patch(24, 21);
   check(mesh, evenCuts(mesh.cells(), sizeOfTest()), flat);
@@ -223,12 +212,12 @@ TEST(DistributedResults, AnEdgeOfManyCellsCountsOnce)
   }
   const auto set = [](ElementProblem& problem)
   {
-    problem.Columns = Columns;
-    problem.DirichletConditions.push_back({ above(0, 0.9), columnsOf(Columns, wave) });
+    problem.Columns = WaveColumns;
+    problem.DirichletConditions.push_back({ above(0, 0.9), columnsOf(WaveColumns, wave) });
     problem.DirichletConditions.push_back(
-      { [](const Point& p) { return p[0] == 0 && p[1] == 0; }, columnsOf(Columns, wave) });
+      { [](const Point& p) { return p[0] == 0 && p[1] == 0; }, columnsOf(WaveColumns, wave) });
     problem.FluxConditions.push_back(
-      { [](const Point&) { return true; }, columnsOf(Columns, wave) });
+      { [](const Point&) { return true; }, columnsOf(WaveColumns, wave) });
   };
   const StreamMesh stream = toStream(mesh);
   check(stream, evenCuts(stream.cells(), sizeOfTest()), set);

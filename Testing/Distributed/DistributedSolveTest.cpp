@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Distributed/PartOfMesh.h"
-#include "Testing/Solver/EllipticTesting.h"
+#include "Testing/Distributed/WaveProblem.h"
 
 #include <gtest/gtest.h>
-
-#include <functional>
 
 // On any number of processes, a solution is that of the streaming engine and of a direct solve.
 
@@ -13,22 +11,14 @@ namespace smg::testing
 namespace
 {
 
-constexpr int Columns = 2;
 /** Of the range of the solution. */
 constexpr double Tolerance = 1e-6;
-
-double wave(const Point& p, int k)
-{
-  return std::sin(0.7 * p[0] + k) + 0.3 * std::cos(p[1] - 0.5 * p[2]);
-}
 
 std::vector<StreamMesh> meshes()
 {
   return { patch(24, 21), toStream(shuffled(torus(30, 16, 0.2))), block(8, 7, 6),
     toStream(shuffled(tetBox(12, 4, 5, 0.15))) };
 }
-
-using Setting = std::function<void(ElementProblem&)>;
 
 struct Solutions
 {
@@ -44,7 +34,7 @@ Solutions solveBoth(
   const MeshPart part = partOf(mesh, cuts);
   const StreamMesh own = meshOf(part);
   ElementProblem problem(own);
-  problem.Columns = Columns;
+  problem.Columns = WaveColumns;
   set(problem);
   DistributedSolver solver(MPI_COMM_WORLD, part);
   DistributedOptions options;
@@ -55,7 +45,7 @@ Solutions solveBoth(
   if (rankOfTest() == 0)
   {
     ElementProblem whole(mesh);
-    whole.Columns = Columns;
+    whole.Columns = WaveColumns;
     set(whole);
     Solved streamed = solveMesh(mesh, whole, accurate(1e-10));
     both.streamed = std::move(streamed.values);
@@ -101,12 +91,12 @@ void everything(ElementProblem& p)
   p.Conductivity = someTensor;
   p.CellScreening = [](const Point&) { return 0.02; };
   p.VertexScreening = [](const Point&) { return 0.01; };
-  p.CellSource = p.VertexSource = columnsOf(Columns, wave);
+  p.CellSource = p.VertexSource = columnsOf(WaveColumns, wave);
   p.CellField = [](const Point& x) -> Eigen::MatrixXd
-  { return Eigen::MatrixXd::Constant(3, Columns, 0.4 + 0.1 * x[1]); };
-  p.FluxConditions.push_back({ above(0, 4.0), columnsOf(Columns, wave) });
+  { return Eigen::MatrixXd::Constant(3, WaveColumns, 0.4 + 0.1 * x[1]); };
+  p.FluxConditions.push_back({ above(0, 4.0), columnsOf(WaveColumns, wave) });
   p.RobinConditions.push_back(
-    { above(1, 3.0), [](const Point&) { return 2.0; }, columnsOf(Columns, wave) });
+    { above(1, 3.0), [](const Point&) { return 2.0; }, columnsOf(WaveColumns, wave) });
 }
 
 /** Problems with some vertices prescribed, with every datum. */
@@ -114,7 +104,7 @@ std::vector<std::pair<std::string, Setting>> finiteElements()
 {
   const auto held = [](ElementProblem& p)
   {
-    p.DirichletConditions.push_back({ below(0, 0.6), columnsOf(Columns, wave) });
+    p.DirichletConditions.push_back({ below(0, 0.6), columnsOf(WaveColumns, wave) });
     everything(p);
   };
   return { { "Dirichlet, flux and Robin",
@@ -164,7 +154,7 @@ TEST(DistributedSolve, AgreesWithADirectSolve)
     if (rankOfTest() == 0)
     {
       ElementProblem whole(mesh);
-      whole.Columns = Columns;
+      whole.Columns = WaveColumns;
       set(whole);
       EXPECT_LT(distance(both.distributed, DirectElements(whole).solve()), Tolerance);
     }
@@ -186,8 +176,8 @@ TEST(DistributedSolve, FreeComponentsKeepTheirMean)
 {
   const Setting sources = [](ElementProblem& p)
   {
-    p.VertexSource = columnsOf(Columns, wave);
-    p.Initial = columnsOf(Columns, [](const Point& x, int k) { return 2.0 + k + 0.1 * x[1]; });
+    p.VertexSource = columnsOf(WaveColumns, wave);
+    p.Initial = columnsOf(WaveColumns, [](const Point& x, int k) { return 2.0 + k + 0.1 * x[1]; });
   };
   const IndexedTestMesh small = grid(7, 5, 0.2), large = grid(14, 12, 0.2);
   const StreamMesh one = toStream(shuffled(torus(24, 12, 0.2)));
@@ -202,7 +192,7 @@ TEST(DistributedSolve, FreeComponentsKeepTheirMean)
   const Setting someHeld = [&](ElementProblem& p)
   {
     sources(p);
-    p.DirichletConditions.push_back({ above(0, 100.5), columnsOf(Columns, wave) });
+    p.DirichletConditions.push_back({ above(0, 100.5), columnsOf(WaveColumns, wave) });
   };
   expectEqual(solveBoth(several, evenCuts(several.cells(), sizeOfTest()), someHeld), "one held");
 }
@@ -220,8 +210,8 @@ TEST(DistributedSolve, EdgesOfSeveralPartsMayHaveManyCells)
   }
   const Setting set = [](ElementProblem& p)
   {
-    p.DirichletConditions.push_back({ above(0, 0.9), columnsOf(Columns, wave) });
-    p.FluxConditions.push_back({ [](const Point&) { return true; }, columnsOf(Columns, wave) });
+    p.DirichletConditions.push_back({ above(0, 0.9), columnsOf(WaveColumns, wave) });
+    p.FluxConditions.push_back({ [](const Point&) { return true; }, columnsOf(WaveColumns, wave) });
   };
   const StreamMesh stream = toStream(mesh);
   expectEqual(solveBoth(stream, evenCuts(stream.cells(), sizeOfTest()), set), "fan");
