@@ -81,8 +81,8 @@ public:
    *   a cell that several processes have must be marked as a duplicate in vtkGhostType in all but
    *   one, points of no cell and previews are refused. A cycle is an iteration, of which
    *   MaximumCycles limits those for each right-hand side; Sweeps, Operators, Acceleration,
-   *   NumberOfPieces and NumberOfThreads have no effect; the report has no results of conditions.
-   *   Streamed requests, which process 0 answers alone, are solved for by STREAMING.
+   *   NumberOfPieces, NumberOfThreads and MemoryLimit have no effect. Streamed requests, which
+   *   process 0 answers alone, are solved for by STREAMING.
    * - AUTOMATIC_ENGINE: DISTRIBUTED where there is more than one process and their memory holds an
    *   estimate of what it needs, else STREAMING; a note says why.
    */

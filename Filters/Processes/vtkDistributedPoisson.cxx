@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Processes/vtkDistributedPoisson.h"
 
-#include "Filters/Processes/FreeMemory.h"
 #include "Filters/Processes/vtkPiecePart.h"
 #include "IO/vtkMeshPieceData.h"
 #include "Solver/Description/ComposeDescriptions.h"
+#include "Solver/Distributed/FreeMemory.h"
+#include "Solver/Distributed/PartMemory.h"
 #include "Solver/Distributed/Team.h"
 #include "Solver/Stream/OriginalNumbers.h"
 #include "smg/DescribedProblem.h"
@@ -29,11 +30,8 @@ namespace smg
 namespace
 {
 
-/** Bytes of a vertex in the part, the matrix and its hierarchy: with those of cells, an upper
- * estimate, 1250 for a vertex of a surface, which took 750 (docs/cluster.md). */
-constexpr double BytesOfPoint = 250.0;
-/** Bytes of a cell there: its edges are entries of the matrix. */
-constexpr double BytesOfCell = 500.0;
+/** A position or displacement: the most right-hand sides that are usual. */
+constexpr int UsualColumns = 3;
 
 /** MPI_COMM_NULL: the processes do not communicate by MPI. */
 MPI_Comm communicatorOf(vtkMultiProcessController* controller)
@@ -59,20 +57,6 @@ std::set<std::string> columnsOf(const PoissonTask& task)
   std::set<std::string> names = namedColumns(task.problem);
   names.insert({ CellFlagsName, OriginalIdName, OriginalCellIdName });
   return names;
-}
-
-/** The smallest number of free bytes that a process of a machine can have, over all machines. */
-double smallestShare(Team& team)
-{
-  MPI_Comm machine = MPI_COMM_NULL;
-  MPI_Comm_split_type(
-    team.communicator(), MPI_COMM_TYPE_SHARED, team.rank(), MPI_INFO_NULL, &machine);
-  int processes = 1;
-  MPI_Comm_size(machine, &processes);
-  MPI_Comm_free(&machine);
-  double share = static_cast<double>(freeMemory()) / processes;
-  team.least({ &share, 1 });
-  return share;
 }
 
 std::string gibibytes(double bytes)
@@ -118,7 +102,6 @@ SolveSummary solveInProcesses(vtkPointSet& piece, vtkMultiProcessController* con
   DistributedOptions options;
   options.tolerance = task.options.tolerance;
   options.maxIterations = task.options.maxCycles;
-  options.memoryLimit = task.options.memoryLimit;
   options.progress = progress;
   DistributedSolution solution = solver.solve(*problem, options);
   solver.evaluate(*problem, solution, { .memoryLimit = options.memoryLimit });
@@ -147,10 +130,9 @@ MemoryVerdict judgeMemory(vtkPointSet& piece, vtkMultiProcessController* control
     [&]
     {
       std::array<double, 2> most{ isPreview(piece) ? 1.0 : 0.0,
-        BytesOfPoint * static_cast<double>(piece.GetNumberOfPoints()) +
-          BytesOfCell * static_cast<double>(piece.GetNumberOfCells()) };
+        partMemory(piece.GetNumberOfPoints(), piece.GetNumberOfCells(), UsualColumns) };
       team.largest(std::span<double>(most));
-      const double share = smallestShare(team);
+      const double share = freeMemoryOfProcess(team);
       if (most[0] > 0.0)
       {
         verdict = { false, "the input is a preview of the mesh" };

@@ -7,6 +7,7 @@
 #include "Solver/Distributed/ConjugateGradients.h"
 #include "Solver/Distributed/GatheredSolution.h"
 #include "Solver/Distributed/PartAssembly.h"
+#include "Solver/Distributed/PartMemory.h"
 #include "Solver/Distributed/PartResults.h"
 #include "Solver/Distributed/PartSource.h"
 #include "Solver/Distributed/PartsOfMesh.h"
@@ -79,6 +80,10 @@ DistributedSolution DistributedSolver::Implementation::solve(
   const Timer wall;
   const double cpuAtStart = processSeconds();
   checkOptions(options, problem);
+  checkPartMemory(this->vertices->vertices(),
+    static_cast<std::int64_t>(this->part.block.corners.size()) /
+      cornersOf(this->part.info.cellType),
+    problem.columns(), options.memoryLimit);
   DistributedSolution solution;
   solution.columns = problem.columns();
   Report& report = solution.report;

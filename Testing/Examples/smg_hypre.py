@@ -135,6 +135,10 @@ def test_failures_are_one_line():
         3, "solve", "solid.vsm", "x.vtu", "--problem", "bad.json", "--engine", "hypre", code=1)
     for option in ("--in-core", "--dry-run"):
         assert "leave them out" in run_on(2, "solve", "solid.vsm", "x.vtu", *arguments, option, code=1)
+    write_torus("wide.obj", 120, 60)
+    run("convert", "wide.obj", "wide.vsm", "--quiet")
+    assert "more than the memory limit" in run_on(3, "solve", "wide.vsm", "x.vtp", "--problem",
+                                                  "torus.json", "--engine", "hypre", "--memory", "1", code=1)
     assert "folder" in run_on(2, "solve", "solid.vsm", "none/x.vtu", *arguments, code=1)
     with open("solid.vsm", "rb") as file:
         content = bytearray(file.read())

@@ -46,8 +46,8 @@ struct DistributedOptions
   double tolerance = 1e-6;
   /** Largest number of iterations for each right-hand side, at least 1. */
   int maxIterations = 200;
-  /** Limit of the accounted memory of each process, bytes: that of the assembly of its part. The
-   * matrix and its hierarchy, which belong to hypre, are not accounted. */
+  /** Limit of the memory of each process, bytes. That of the assembly of its part is accounted; the
+   * matrix and its hierarchy, which belong to hypre, are estimated before they are built. */
   std::int64_t memoryLimit = INT64_MAX;
   /** Progress callback, of process 0 alone; empty: none. */
   ProgressFunction progress;
