@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Distributed/PartMemory.h"
 #include "Testing/Distributed/PartOfMesh.h"
 #include "Testing/Solver/EllipticTesting.h"
 
@@ -101,6 +102,25 @@ TEST(DistributedFailures, WithoutMemory)
   DistributedOptions options;
   options.memoryLimit = rankOfTest() == last ? 1000 : INT64_MAX;
   expectError([&] { solver.solve(problem, options); }, "raise the memory limit");
+}
+
+TEST(DistributedFailures, OfALimitBelowTheEstimateOfOneProcess)
+{
+  for (const StreamMesh& mesh : { patch(120, 110), block(28, 26, 24) })
+  {
+    const MeshPart part = partOf(mesh, evenCuts(mesh.cells(), sizeOfTest()));
+    const StreamMesh own = meshOf(part);
+    DistributedSolver solver(MPI_COMM_WORLD, part);
+    FailingProblem problem(own, -1, {});
+    const double estimate = partMemory(own.vertices(), own.cells(), 1);
+    DistributedOptions options;
+    options.memoryLimit = static_cast<std::int64_t>(estimate) + 1;
+    const Report report = solver.solve(problem, options).report;
+    EXPECT_TRUE(report.converged);
+    EXPECT_LT(report.pool_bytes_peak, options.memoryLimit);
+    options.memoryLimit -= rankOfTest() == sizeOfTest() - 1 ? 2 : 0;
+    expectError([&] { solver.solve(problem, options); }, "more than the memory limit");
+  }
 }
 
 TEST(DistributedFailures, OfDataThatAreNoNumbers)

@@ -81,8 +81,11 @@ int main(int argc, char** argv)
     Ends ends;
     smg::DistributedOptions options;
     options.tolerance = 1e-12;
-    const smg::DistributedSolution solution = solver.solve(ends, options);
-    right = solution.report.converged && isLinear(part, solution);
+    smg::DistributedSolution solution = solver.solve(ends, options);
+    solver.evaluate(ends, solution);
+    const double energy = 0.5 / (Columns - 1);
+    right = solution.report.converged && isLinear(part, solution) &&
+            std::abs(solution.report.energy.at(0) - energy) < 1e-9;
   }
   MPI_Finalize();
   std::cout << "process " << rank << " of " << processes << (right ? ": right\n" : ": wrong\n");
