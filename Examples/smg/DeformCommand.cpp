@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "SolvingCommand.h"
+#include "EngineCommand.h"
 
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/Files/PartialProgress.h"
@@ -7,6 +7,7 @@
 #include "smg/Deform.h"
 #include "smg/DescribedHandles.h"
 #include "smg/DescriptionFiles.h"
+#include "smg/Error.h"
 #include "smg/MovedMesh.h"
 
 #include <optional>
@@ -14,11 +15,11 @@
 namespace
 {
 
-class DeformCommand : public SolvingCommand
+class DeformCommand : public EngineCommand
 {
 public:
   DeformCommand()
-    : SolvingCommand("deforming")
+    : EngineCommand("deforming")
   {
   }
 
@@ -32,6 +33,7 @@ public:
       this->Deform);
     command.get_option("--max-cycles")
       ->description("Maximum number of V-cycles of each of the two steps");
+    this->addEngineTo(command);
     command.add_option("--handles", this->File, "The handles, a JSON file")
       ->required()
       ->type_name("FILE");
@@ -59,6 +61,29 @@ public:
   }
 
 protected:
+  int computeOn(const DistributedEngine& engine, const DistributedJob& job) override
+  {
+    DistributedDeformation deformation;
+    deformation.read = [this]
+    {
+      this->readTask();
+      this->Description.weights = this->Deform.weights;
+      this->Description.tolerance = this->Deform.tolerance;
+      return this->Description;
+    };
+    deformation.normals = this->movedNormals();
+    return engine.deform(job, deformation);
+  }
+
+  void checkForProcesses() const override
+  {
+    if (this->Deform.cycles > 0)
+    {
+      throw smg::Error("--engine hypre has no V-cycles to count: give a tolerance, in " +
+                       this->File.string() + " or by --tolerance, instead of cycles.");
+    }
+  }
+
   std::string resultColumns() const override { return {}; }
 
   void readTask() override
@@ -71,12 +96,17 @@ protected:
 
   smg::Costs costsOn(const smg::StreamInfo& info) const override
   {
-    return smg::deformCosts(info, this->Deform);
+    // Those of the other engine are past when this one's result is written.
+    return this->hasWholeSolution() ? smg::Costs{} : smg::deformCosts(info, this->Deform);
   }
 
   std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) override
   {
+    if (auto whole = this->wholeSolution())
+    {
+      return whole;
+    }
     smg::DescribedHandles handles(this->Description, mesh.info(), this->File.string());
     const auto source = [&] { return mesh.source(handles.vertexColumns(), handles.cellColumns()); };
     handles.prepare(*source(), this->scratch);
@@ -94,8 +124,7 @@ protected:
     normals.scratch = this->scratch;
     normals.memory = this->writerMemory();
     normals.progress = smg::partOf(progress, 0.0, 0.3);
-    const smg::MovedMesh moved(mesh, positions,
-      this->Normals == "drop" ? smg::MovedNormals::Drop : smg::MovedNormals::Recompute, normals);
+    const smg::MovedMesh moved(mesh, positions, this->movedNormals(), normals);
     write(*moved.source(), smg::partOf(progress, 0.3, 1.0));
     report.notes.insert(report.notes.end(), this->Notes.begin(), this->Notes.end());
   }
@@ -103,6 +132,11 @@ protected:
   const smg::SolveOptions& solveOptions() const override { return this->Deform; }
 
 private:
+  smg::MovedNormals movedNormals() const
+  {
+    return this->Normals == "drop" ? smg::MovedNormals::Drop : smg::MovedNormals::Recompute;
+  }
+
   /** The command line takes precedence over the file. */
   void applyCommandLine()
   {

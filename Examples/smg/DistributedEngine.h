@@ -2,8 +2,10 @@
 #pragma once
 
 #include "IO/Files/Suffix.h"
+#include "smg/DeformationDescription.h"
 #include "smg/Error.h"
 #include "smg/Export.h"
+#include "smg/MovedMesh.h"
 #include "smg/ProblemDescription.h"
 #include "smg/Solve.h"
 
@@ -12,16 +14,14 @@
 #include <functional>
 #include <string>
 
-/** A solve on the processes that mpiexec has started, the same on all of them. The functions are
- * called on the first process alone, except for read(). */
-struct DistributedSolve
+/** A computation on the processes that mpiexec has started, the same on all of them. The functions
+ * are called on the first process alone. */
+struct DistributedJob
 {
   std::filesystem::path in;  ///< a .vsm file that all processes can read
   std::filesystem::path out; ///< .pvtu or .pvtp: every process writes its piece
   std::filesystem::path scratch;
-  std::function<smg::ProblemDescription()> read; ///< the problem, on every process
-  std::string problem;                           ///< its name in errors
-  double tolerance = 0.0;
+  std::string task; ///< the name in errors of what is to be done
   int maxIterations = 1;
   std::int64_t memoryLimit = 0; ///< of a process, bytes
   smg::ProgressFunction progress;
@@ -30,11 +30,27 @@ struct DistributedSolve
   std::function<void(smg::Report&)> report; ///< of a result in pieces
 };
 
-/** The library with MPI and hypre, which is loaded when it is needed. */
+/** A problem to solve. */
+struct DistributedSolve
+{
+  std::function<smg::ProblemDescription()> read; ///< called on every process
+  double tolerance = 0.0;
+};
+
+/** Handles to deform by. */
+struct DistributedDeformation
+{
+  /** With weights and tolerance; called on every process. */
+  std::function<smg::DeformationDescription()> read;
+  smg::MovedNormals normals = smg::MovedNormals::Recompute; ///< of pieces
+};
+
+/** The library with MPI and hypre, which is loaded when it is needed. Its functions throw
+ * smg::Error on the first process, and return the exit status of any other one. */
 struct DistributedEngine
 {
-  /** Solves. Throws smg::Error on the first process; returns the exit status of any other one. */
-  int (*solve)(const DistributedSolve& solve);
+  int (*solve)(const DistributedJob& job, const DistributedSolve& solve);
+  int (*deform)(const DistributedJob& job, const DistributedDeformation& deformation);
 };
 
 /** Loads it. Throws smg::Error if this build or this system does not have it. */

@@ -50,6 +50,7 @@ protected:
   /** Prints what the user is to know at the end. */
   void tell(const smg::Report& report) const;
   bool isDryRun() const { return this->DryRun; }
+  const std::string& title() const { return this->Title; }
   /** Reads the task file, before the mesh is read. */
   virtual void readTask() = 0;
   /** What the computation is expected to cost on such a mesh. */

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "DistributedEngine.h"
-#include "ProgressBar.h"
-#include "SolvingCommand.h"
+#include "EngineCommand.h"
 
 #include "IO/AnyFormat/FormatTable.h"
-#include "IO/AnyFormat/MeshFile.h"
 #include "IO/Problem/ProblemKeys.h"
 #include "Solver/Description/ComposeDescriptions.h"
 #include "Solver/Engine/CheckOptions.h"
@@ -14,7 +11,6 @@
 #include "smg/SolvedMesh.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace
 {
@@ -35,31 +31,11 @@ std::string problemHelp()
          "docs/problem.schema.json of the sources; docs/problem.md explains it";
 }
 
-/** A solution that another object owns. */
-class BorrowedSolution final : public smg::Solution
-{
-public:
-  explicit BorrowedSolution(smg::Solution& solution)
-    : Lent(solution)
-  {
-  }
-  std::int64_t vertices() const override { return this->Lent.vertices(); }
-  int columns() const override { return this->Lent.columns(); }
-  void read(std::int64_t first, std::int64_t count, std::span<double> values) override
-  {
-    this->Lent.read(first, count, values);
-  }
-  const smg::Report& report() const override { return this->Lent.report(); }
-
-private:
-  smg::Solution& Lent;
-};
-
-class SolveCommand : public SolvingCommand
+class SolveCommand : public EngineCommand
 {
 public:
   SolveCommand()
-    : SolvingCommand("solving")
+    : EngineCommand("solving")
   {
   }
 
@@ -87,13 +63,7 @@ public:
         "Acceleration of the V-cycles: automatic, none, chebyshev or cg")
       ->check(oneOf(Accelerations))
       ->default_str(Accelerations.front());
-    command
-      .add_option("--engine", this->Engine,
-        "streaming, or hypre: BoomerAMG on the processes that mpiexec starts; IN is a .vsm file, "
-        "OUT may be .pvtu or .pvtp, with a piece of each process")
-      ->check(oneOf({ "streaming", "hypre" }))
-      ->capture_default_str();
-    this->MaxCycles = command.get_option("--max-cycles");
+    this->addEngineTo(command);
     command.add_option("--problem", this->File, "The problem, a JSON file")
       ->required()
       ->type_name("FILE");
@@ -101,14 +71,16 @@ public:
   }
 
 protected:
-  void compute() override
+  int computeOn(const DistributedEngine& engine, const DistributedJob& job) override
   {
-    if (this->Engine == "streaming")
+    DistributedSolve solve;
+    solve.read = [this]
     {
-      this->SolvingCommand::compute();
-      return;
-    }
-    this->computeDistributed();
+      this->readTask();
+      return this->Description;
+    };
+    solve.tolerance = this->Solve.tolerance;
+    return engine.solve(job, solve);
   }
 
   std::string resultColumns() const override { return "a solution"; }
@@ -130,9 +102,9 @@ protected:
   smg::Costs costsOn(const smg::StreamInfo& info) const override
   {
     // Those of the other engine are past when this one's result is written.
-    return this->Whole ? smg::Costs{}
-                       : smg::solveCosts(
-                           info, this->Description.columns, this->Description.weights, this->Solve);
+    return this->hasWholeSolution() ? smg::Costs{}
+                                    : smg::solveCosts(info, this->Description.columns,
+                                        this->Description.weights, this->Solve);
   }
 
   smg::AddedValues addedTo(const smg::StreamInfo& /*info*/) const override
@@ -147,9 +119,9 @@ protected:
     this->Problem =
       std::make_unique<smg::DescribedProblem>(this->Description, mesh.info(), this->File.string());
     this->Problem->prepare(*this->sourceOf(mesh), this->scratch);
-    if (this->Whole)
+    if (auto whole = this->wholeSolution())
     {
-      return std::make_unique<BorrowedSolution>(*this->Whole);
+      return whole;
     }
     this->applyTo(this->Solve, std::move(progress));
     this->applyCheckpoint(this->Solve, mesh);
@@ -177,69 +149,6 @@ protected:
   const smg::SolveOptions& solveOptions() const override { return this->Solve; }
 
 private:
-  /** Solves on the processes of mpiexec; on the first of them, writes and reports as ever. */
-  void computeDistributed()
-  {
-    constexpr int MostIterations = 200;
-    auto bar = std::make_unique<ProgressBar>("solving", this->quiet);
-    DistributedSolve task;
-    task.in = this->In;
-    task.out = this->Out;
-    task.scratch = this->scratch;
-    task.problem = this->File.string();
-    task.tolerance = this->Solve.tolerance;
-    task.maxIterations = this->MaxCycles->count() > 0 ? this->Solve.maxCycles : MostIterations;
-    task.memoryLimit = this->memoryBytes(INT64_MAX);
-    task.progress = bar->function();
-    task.check = [this] { this->checkDistributed(); };
-    task.read = [this]
-    {
-      this->readTask();
-      return this->Description;
-    };
-    task.use = [this, &bar](smg::Solution& solution)
-    {
-      bar.reset();
-      this->Whole = &solution;
-      this->SolvingCommand::compute();
-    };
-    task.report = [this, &bar](smg::Report& report)
-    {
-      bar.reset();
-      this->writeReport(report.json());
-      this->tell(report);
-    };
-    if (const int status = distributedEngine().solve(task); status != 0)
-    {
-      std::exit(status);
-    }
-  }
-
-  /** Reports foreseeable failures. */
-  void checkDistributed()
-  {
-    if (this->Solve.inCore || !this->checkpoint.empty() || this->isDryRun() ||
-        this->Solve.operators != "extended")
-    {
-      throw smg::Error("--engine hypre has no --in-core, --checkpoint, --dry-run or --operators: "
-                       "leave them out.");
-    }
-    if (smg::kindOfInput(this->In) != smg::MeshFileKind::Vsm)
-    {
-      throw smg::Error(this->In.string() +
-                       ": --engine hypre needs a .vsm file, of which each process reads a piece: "
-                       "convert the mesh first (smg convert).");
-    }
-    if (!isInPieces(this->Out))
-    {
-      this->checkFiles();
-      return;
-    }
-    smg::checkOutputPlace(this->Out);
-    this->checkReport({ this->In, this->Out, this->File });
-    this->readTask();
-  }
-
   /** The mesh with the columns of the problem. */
   std::unique_ptr<smg::MeshSource> sourceOf(const smg::VsmReader& mesh) const
   {
@@ -249,9 +158,6 @@ private:
   smg::ProblemDescription Description; ///< from the problem file
   std::unique_ptr<smg::DescribedProblem> Problem;
   smg::SolveOptions Solve;
-  std::string Engine = "streaming";
-  CLI::Option* MaxCycles = nullptr;
-  smg::Solution* Whole = nullptr; ///< of the other engine
 };
 
 } // namespace

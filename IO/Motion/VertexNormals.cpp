@@ -3,6 +3,7 @@
 
 #include "IO/Formats/Vsm/PagedArray.h"
 #include "IO/Motion/CellNormals.h"
+#include "IO/Motion/NormalSums.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "smg/Error.h"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cmath>
 #include <vector>
 
 namespace smg
@@ -20,10 +20,10 @@ namespace
 {
 
 /** Sums the normals at the vertices that are not final. */
-class NormalSums
+class OpenSums
 {
 public:
-  NormalSums(const StreamInfo& info, const std::filesystem::path& scratch, std::int64_t memory)
+  OpenSums(const StreamInfo& info, const std::filesystem::path& scratch, std::int64_t memory)
     : Flags(findColumn(info.cellColumns, { CellFlagsName, ScalarType::UInt8, 1 }))
     , Shapes(scratch, memory / 2)
     , Sums(scratch, memory / 2)
@@ -53,11 +53,8 @@ public:
     for (std::int64_t v = first; v < end; ++v)
     {
       const std::array<double, 4> sum = this->Sums.get(v);
-      const double size = std::hypot(sum[0], sum[1], sum[2]);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        normals.push_back(size > 0.0 ? static_cast<float>(sum[axis] / size) : 0.0F);
-      }
+      const std::array<float, 3> normal = unitNormal(std::span(sum).first<3>());
+      normals.insert(normals.end(), normal.begin(), normal.end());
     }
     this->Sums.discardBelow(end);
   }
@@ -68,11 +65,7 @@ private:
     const TriangleShape shape = this->Shapes.shape(block, cell);
     for (std::size_t k = 0; k < 3; ++k)
     {
-      std::array<double, 4>& sum = this->Sums.at(block.corners[3 * cell + k]);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        sum[axis] += shape.angles[k] * shape.normal[axis];
-      }
+      addNormal(shape, k, std::span(this->Sums.at(block.corners[3 * cell + k])).first<3>());
     }
   }
 
@@ -95,7 +88,7 @@ VertexNormals::VertexNormals(MeshSource& mesh, const NormalsOptions& options)
   }
   const ScratchFolder scratch(options.scratch);
   this->File.create(scratch.path());
-  NormalSums sums(info, scratch.path(), options.memory);
+  OpenSums sums(info, scratch.path(), options.memory);
   Progress reported(options.progress);
   std::vector<float> normals;
   const auto write = [&](std::int64_t end)

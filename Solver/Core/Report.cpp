@@ -63,7 +63,7 @@ void addJob(const Report& report, nlohmann::ordered_json& out)
   if (report.distributed)
   {
     out["distributed"] = { { "processes", report.distributed->processes },
-      { "iterations", report.distributed->iterations },
+      { "setups", report.distributed->setups }, { "iterations", report.distributed->iterations },
       { "pool_bytes_peak", report.distributed->pool_bytes_peak },
       { "rss_bytes_peak", report.distributed->rss_bytes_peak } };
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Deformation/DeformationReport.h"
 #include "Solver/Deformation/DeformationSteps.h"
 #include "Solver/Deformation/DeformedPositions.h"
 #include "Solver/Deformation/PositionStep.h"
@@ -10,9 +11,9 @@
 #include "Solver/Engine/Hierarchy.h"
 #include "Solver/Engine/SolveRun.h"
 #include "smg/Deform.h"
-#include "smg/Error.h"
 #include "smg/Solve.h"
 
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -76,14 +77,12 @@ void DeformationEngine<Operators>::deform(MeshSource& mesh, Handles& handles)
   this->Steps.solve(
     [&]
     {
-      RotationProblem problem(handles, this->EdgeWeights, this->Rest);
+      RotationProblem problem(handles, this->EdgeWeights,
+        [this](std::int64_t vertex, const double* target) { this->Rest.hold(vertex, target); });
       FirstPass build(run, this->Levels, this->Set);
       const FirstResidual first = build(mesh, problem, &this->Rest, PositionStep::CoreBytes);
       this->Rest.finish();
-      if (run.report.prescribed == 0)
-      {
-        throw Error("no vertex of the mesh is held by a handle: there is nothing to deform it by");
-      }
+      checkAnyHeld(run.report);
       run.report.shared = problem.shared();
       return first;
     });

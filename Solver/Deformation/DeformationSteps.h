@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Deformation/DeformationReport.h"
 #include "Solver/Deformation/PositionStep.h"
 #include "Solver/Deformation/RestShape.h"
 #include "Solver/Engine/Convergence.h"
@@ -9,7 +10,6 @@
 #include "Solver/Engine/Pass.h"
 #include "Solver/Engine/SolveRun.h"
 #include "smg/Deform.h"
-#include "smg/Error.h"
 
 #include <cmath>
 #include <functional>
@@ -72,7 +72,6 @@ private:
   void beginPositions(Step& rotations, Step& positions);
   double sharedPass(PositionStep& step);
   void addStep(const char* name, const Convergence& convergence);
-  void addNotes();
   double positionScale() const;
 
   SolveRun& Run;
@@ -106,7 +105,7 @@ void DeformationSteps<Relaxation>::solve(const std::function<FirstResidual()>& b
   Report& r = this->Run.report;
   r.converged = rotations.convergence.converged() && positions.convergence.converged();
   r.seconds.solve = this->Run.seconds() - r.seconds.build;
-  this->addNotes();
+  addDeformationNotes(r);
   this->Run.finishReport();
 }
 
@@ -141,11 +140,7 @@ void DeformationSteps<Relaxation>::beginPositions(Step& rotations, Step& positio
 {
   PositionStep step(this->Run.pool, this->Rest, this->Levels.window());
   const double norm = this->sharedPass(step);
-  if (!std::isfinite(step.termSquares()))
-  {
-    throw Error(
-      "the handles move the mesh beyond the range of numbers: use targets that are nearer");
-  }
+  checkMotions(step.termSquares());
   rotations.convergence.add(std::sqrt(step.rotationSquares()));
   this->addStep("rotation", rotations.convergence);
   this->Run.progress.begin(this->stopping(), Share, 1.0, false);
@@ -194,22 +189,6 @@ void DeformationSteps<Relaxation>::addStep(const char* name, const Convergence& 
     convergence.residuals().empty() ? 0.0 : convergence.residuals().back(),
     convergence.converged() });
   convergence.addNotes(r.notes, std::string(name) + " step: ");
-}
-
-template <class Relaxation>
-void DeformationSteps<Relaxation>::addNotes()
-{
-  Report& r = this->Run.report;
-  if (r.shared > 0)
-  {
-    r.notes.push_back(
-      std::to_string(r.shared) + " vertices are held by more than one handle: the last one counts");
-  }
-  if (r.free_components > 0)
-  {
-    r.notes.push_back(std::to_string(r.free_components) + " of " + std::to_string(r.components) +
-                      " components have no held vertex: they stay as they are");
-  }
 }
 
 } // namespace smg

@@ -29,6 +29,16 @@ void DescribedHandles::prepare(MeshSource& mesh, const std::filesystem::path& sc
   this->OnMesh->prepare(mesh, scratch);
 }
 
+void DescribedHandles::preparePart(MeshSource& part, const std::filesystem::path& scratch)
+{
+  this->OnMesh->preparePart(part, scratch);
+}
+
+void DescribedHandles::endPreparing(MeshParts& parts)
+{
+  this->OnMesh->endPreparing(&parts);
+}
+
 void DescribedHandles::at(const MeshBlock& block, VertexHandles& handles)
 {
   this->OnMesh->at(block, handles);
@@ -36,7 +46,12 @@ void DescribedHandles::at(const MeshBlock& block, VertexHandles& handles)
 
 std::vector<std::string> DescribedHandles::notes() const
 {
-  return this->OnMesh->notes();
+  return this->OnMesh->notes(nullptr);
+}
+
+std::vector<std::string> DescribedHandles::notes(MeshParts& parts) const
+{
+  return this->OnMesh->notes(&parts);
 }
 
 } // namespace smg

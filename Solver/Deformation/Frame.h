@@ -10,6 +10,13 @@ namespace smg
 struct Frame
 {
   double m[9];
+
+  /** Component `r` of (s R - I) d. */
+  double change(int r, const double* d) const
+  {
+    const double* row = this->m + 3 * r;
+    return row[0] * d[0] + row[1] * d[1] + row[2] * d[2];
+  }
 };
 
 /**

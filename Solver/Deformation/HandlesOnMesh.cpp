@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Deformation/HandlesOnMesh.h"
 
+#include "Solver/Description/MeshParts.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -188,7 +189,13 @@ void HandlesOnMesh::read(const ValueOnMesh& value, const Handle& handle, const M
 
 void HandlesOnMesh::prepare(MeshSource& mesh, const std::filesystem::path& scratch)
 {
-  for (MeshBlock block; mesh.next(block);)
+  this->preparePart(mesh, scratch);
+  this->endPreparing(nullptr);
+}
+
+void HandlesOnMesh::preparePart(MeshSource& part, const std::filesystem::path& scratch)
+{
+  for (MeshBlock block; part.next(block);)
   {
     for (Handle& handle : this->All)
     {
@@ -198,27 +205,41 @@ void HandlesOnMesh::prepare(MeshSource& mesh, const std::filesystem::path& scrat
       }
     }
   }
+}
+
+void HandlesOnMesh::endPreparing(MeshParts* parts)
+{
   for (Handle& handle : this->All)
   {
     if (handle.where)
     {
-      handle.where->endPreparing(nullptr);
+      handle.where->endPreparing(parts);
     }
   }
 }
 
-std::vector<std::string> HandlesOnMesh::notes() const
+std::vector<std::string> HandlesOnMesh::notes(MeshParts* parts) const
 {
-  std::vector<std::string> notes;
+  std::vector<std::int64_t> following, moving;
   for (const Handle& handle : this->All)
   {
-    if (handle.following == 0)
+    following.push_back(handle.following);
+    moving.push_back(handle.following > 0 && handle.moves ? 1 : 0);
+  }
+  if (parts)
+  {
+    parts->sum(following);
+    parts->sum(moving);
+  }
+  std::vector<std::string> notes;
+  for (std::size_t k = 0; k < following.size(); ++k)
+  {
+    if (following[k] == 0)
     {
-      notes.push_back(handle.key + " holds nothing that a later handle does not hold.");
+      notes.push_back(this->All[k].key + " holds nothing that a later handle does not hold.");
     }
   }
-  const auto isMoving = [](const Handle& handle) { return handle.following > 0 && handle.moves; };
-  if (std::ranges::none_of(this->All, isMoving))
+  if (std::ranges::count(moving, 0) == std::ssize(moving))
   {
     notes.emplace_back("No handle moves anything: OUT is IN.");
   }

@@ -33,13 +33,16 @@ public:
 
   /** Like DescribedHandles::prepare(). */
   void prepare(MeshSource& mesh, const std::filesystem::path& scratch);
+  void preparePart(MeshSource& part, const std::filesystem::path& scratch);
+  /** Null: the stream was the whole mesh. */
+  void endPreparing(MeshParts* parts);
 
   /** Throws Error, which names the column and the vertex, if a number is not finite. */
   void at(const MeshBlock& block, VertexHandles& handles) override;
 
   /** Notes for the user, after all blocks have been queried: handles whose vertices all follow
-   * later ones, and a deformation without motion. */
-  std::vector<std::string> notes() const;
+   * later ones, and a deformation without motion. Null: the blocks were the whole mesh. */
+  std::vector<std::string> notes(MeshParts* parts) const;
 
 private:
   /** The values of a handle at each vertex. */

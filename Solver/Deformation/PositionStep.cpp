@@ -26,10 +26,9 @@ struct EdgeSums
       weight * (from[2] - to[2]) };
     for (int r = 0; r < 3; ++r)
     {
-      const double* m = frame.m + 3 * r;
       this->edges[r] += d[r];
       this->sizes[r] += std::fabs(d[r]);
-      this->turned[r] += m[0] * d[0] + m[1] * d[1] + m[2] * d[2];
+      this->turned[r] += frame.change(r, d);
     }
   }
 };
@@ -164,13 +163,11 @@ void PositionStep::closeRow(
     }
   }
 
-  const double* m = this->Frames[i].m;
+  const Frame& frame = this->Frames[i];
   double* b = this->Window.down().b.at(i);
   for (int c = 0; c < Columns; ++c)
   {
-    const double turned =
-      m[3 * c] * sums.edges[0] + m[3 * c + 1] * sums.edges[1] + m[3 * c + 2] * sums.edges[2];
-    b[c] = 0.5 * (turned + sums.turned[c]) + held[c];
+    b[c] = 0.5 * (frame.change(c, sums.edges) + sums.turned[c]) + held[c];
     this->InitialSquares += b[c] * b[c];
     this->TermSquares += b[c] * b[c] + sums.sizes[c] * sums.sizes[c];
   }

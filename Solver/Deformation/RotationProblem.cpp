@@ -26,7 +26,10 @@ void RotationProblem::conditions(const MeshBlock& block, VertexConditions& condi
     double* value = conditions.value.data() + Columns * k;
     std::copy_n(this->At.rotation.data() + 3 * k, 3, value);
     value[3] = this->At.logScale[k];
-    this->Rest.hold(i, this->At.target.data() + 3 * k);
+    if (this->TakeTarget)
+    {
+      this->TakeTarget(i, this->At.target.data() + 3 * k);
+    }
     this->Shared += this->At.mask[k] > 1 ? 1 : 0;
   }
 }

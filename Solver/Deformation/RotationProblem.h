@@ -1,25 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Deformation/RestShape.h"
 #include "smg/Deform.h"
+#include "smg/Export.h"
 #include "smg/Problem.h"
+
+#include <cstdint>
+#include <functional>
+#include <utility>
 
 namespace smg
 {
 
 /** The first step of a deformation: the rotation vector (three columns) and the logarithm of the
  * scale (one column), prescribed at held vertices and harmonic elsewhere. */
-class RotationProblem : public Problem
+class SMG_EXPORT RotationProblem : public Problem
 {
 public:
   static constexpr int Columns = 4;
 
-  /** `rest` receives the targets. */
-  RotationProblem(Handles& handles, Weights weights, RestShape& rest)
+  /** Takes the target of a held vertex; called by ascending vertex. */
+  using Hold = std::function<void(std::int64_t vertex, const double* target)>;
+
+  RotationProblem(Handles& handles, Weights weights, Hold hold = {})
     : Given(handles)
     , WeightsOfEdges(weights)
-    , Rest(rest)
+    , TakeTarget(std::move(hold))
   {
   }
 
@@ -29,13 +35,15 @@ public:
   bool connectsFlatCells() const override { return true; }
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
 
+  /** The handles at the vertices of the last block. */
+  const VertexHandles& handles() const { return this->At; }
   /** The number of vertices held by several handles. */
   std::int64_t shared() const { return this->Shared; }
 
 private:
   Handles& Given;
   Weights WeightsOfEdges;
-  RestShape& Rest;
+  Hold TakeTarget;
   VertexHandles At;
   std::int64_t Shared = 0;
 };

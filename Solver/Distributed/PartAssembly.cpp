@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace smg
 {
@@ -22,10 +23,11 @@ PartAssembly::PartAssembly(
   , Labels(0)
   , Closed(this->Labels)
   , Cells(pool, part.info.cellType, problem, this->Scale, this->Labels, this->Closed)
+  , Targets(problem, this->Cells.vertices.points)
 {
 }
 
-PartSystem PartAssembly::assemble()
+PartSystem PartAssembly::assemble(std::unique_ptr<HypreMatrix> matrix)
 {
   const CellType type = this->Part.info.cellType;
   this->Cells.add(this->Part.block);
@@ -35,12 +37,17 @@ PartSystem PartAssembly::assemble()
     this->Cells.loads.exclude(innerFacets(this->Vertices, type, *facets));
   }
   PartSystem system;
-  const std::int64_t first = this->Part.firstOwned;
-  const HypreRows rows(first, this->Part.endOwned, this->Part.info.vertices);
-  const HYPRE_Int usual = type == CellType::Triangle ? 8 : 16;
-  system.matrix = std::make_unique<HypreMatrix>(this->Vertices.team(), rows, usual);
+  system.matrix = std::move(matrix);
+  if (!system.matrix)
+  {
+    const std::int64_t first = this->Part.firstOwned;
+    const HypreRows rows(first, this->Part.endOwned, this->Part.info.vertices);
+    const HYPRE_Int usual = type == CellType::Triangle ? 8 : 16;
+    system.matrix = std::make_unique<HypreMatrix>(this->Vertices.team(), rows, usual);
+    this->Incomplete = system.matrix.get();
+  }
   std::vector<double> sums(static_cast<std::size_t>(this->Vertices.vertices() * this->lanes()));
-  this->addEdges(*system.matrix, sums);
+  this->addEdges(sums);
   this->Vertices.addToOwners(sums, this->lanes());
   system.components = std::make_unique<SharedComponents>(
     this->Vertices, this->LabelOf, static_cast<std::int32_t>(this->Labels.labels()), this->Columns);
@@ -50,7 +57,7 @@ PartSystem PartAssembly::assemble()
 }
 
 /** Adds the edges to the matrix and what the part contributes to its vertices to `sums`. */
-void PartAssembly::addEdges(HypreMatrix& matrix, std::vector<double>& sums)
+void PartAssembly::addEdges(std::vector<double>& sums)
 {
   for (std::int64_t i = 0; i < this->Vertices.vertices(); ++i)
   {
@@ -59,13 +66,13 @@ void PartAssembly::addEdges(HypreMatrix& matrix, std::vector<double>& sums)
     of[Mass] = this->Cells.vertices.mass[i];
     std::copy_n(this->Cells.loads.load(), this->Columns, of + Load);
     this->LabelOf.push_back(this->Cells.parts.close(i, of[Mass]));
-    this->addRow(matrix, i, of);
+    this->addRow(i, of);
   }
 }
 
 /** Adds the edges of vertex i, except those that another process has. Edges to prescribed vertices
  * go to the diagonal and the right-hand side. */
-void PartAssembly::addRow(HypreMatrix& matrix, std::int64_t i, double* sums)
+void PartAssembly::addRow(std::int64_t i, double* sums)
 {
   this->Neighbours.clear();
   this->Cells.edges.take(i, this->Cells.vertices.points, this->Neighbours);
@@ -75,8 +82,16 @@ void PartAssembly::addRow(HypreMatrix& matrix, std::int64_t i, double* sums)
   }
   this->Places.clear();
   this->Values.clear();
-  for (const RowNeighbour& neighbour : this->Neighbours)
+  const std::size_t end = this->Neighbours.size();
+  this->Targets.ask(i, this->Neighbours, { &end, 1 });
+  for (std::size_t e = 0; e < end; ++e)
   {
+    const RowNeighbour& neighbour = this->Neighbours[e];
+    const double* target = this->Targets.at(e);
+    for (int k = 0; target && k < this->Columns; ++k)
+    {
+      sums[Load + k] += neighbour.weight * target[k];
+    }
     sums[Diagonal] += neighbour.weight;
     sums[Terms] += std::fabs(neighbour.weight);
     sums[Edges] += 1.0;
@@ -95,7 +110,7 @@ void PartAssembly::addRow(HypreMatrix& matrix, std::int64_t i, double* sums)
   if (!this->Places.empty())
   {
     this->Entries += static_cast<std::int64_t>(this->Places.size());
-    matrix.add(static_cast<HYPRE_BigInt>(this->Vertices.id(i)), this->Places, this->Values);
+    this->add(this->Vertices.id(i), this->Places, this->Values);
   }
 }
 
@@ -199,10 +214,23 @@ void PartAssembly::finish(PartSystem& system)
   for (std::int64_t k = 0; k < own; ++k)
   {
     const auto row = static_cast<HYPRE_BigInt>(this->Part.firstOwned + k);
-    system.matrix->add(row, { &row, 1 }, { &this->Diagonals[static_cast<std::size_t>(k)], 1 });
+    this->add(row, { &row, 1 }, { &this->Diagonals[static_cast<std::size_t>(k)], 1 });
   }
-  system.matrix->assemble();
+  if (this->Incomplete)
+  {
+    this->Incomplete->assemble();
+  }
   this->count(system);
+}
+
+/** Adds to a row of the matrix, unless that is taken as it is. */
+void PartAssembly::add(
+  std::int64_t row, std::span<const HYPRE_BigInt> columns, std::span<const double> values)
+{
+  if (this->Incomplete)
+  {
+    this->Incomplete->add(static_cast<HYPRE_BigInt>(row), columns, values);
+  }
 }
 
 /** Sums up what the processes have counted. */

@@ -6,10 +6,12 @@
 #include "Solver/Distributed/SharedVertices.h"
 #include "Solver/Engine/AssemblyReport.h"
 #include "Solver/Problem/CellAssembly.h"
+#include "Solver/Problem/EdgeTargets.h"
 
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace smg
@@ -41,7 +43,9 @@ public:
   /** `pool` accounts for the memory. */
   PartAssembly(Pool& pool, const SharedVertices& vertices, const MeshPart& part, Problem& problem);
 
-  PartSystem assemble();
+  /** `matrix`: null, or that of a problem with the same weights and prescribed vertices, which is
+   * taken as it is. */
+  PartSystem assemble(std::unique_ptr<HypreMatrix> matrix = nullptr);
 
 private:
   /** Numbers of a vertex that are summed over the parts; the right-hand side follows. */
@@ -55,11 +59,12 @@ private:
     Load
   };
 
-  void addEdges(HypreMatrix& matrix, std::vector<double>& sums);
-  void addRow(HypreMatrix& matrix, std::int64_t i, double* sums);
+  void addEdges(std::vector<double>& sums);
+  void addRow(std::int64_t i, double* sums);
   void close(const std::vector<double>& sums, PartSystem& system);
   void closeUnknown(std::int64_t k, const double* sums, PartSystem& system);
   void finish(PartSystem& system);
+  void add(std::int64_t row, std::span<const HYPRE_BigInt> columns, std::span<const double> values);
   void count(PartSystem& system) const;
   int lanes() const { return Load + this->Columns; }
   bool isKnown(std::int64_t i) const { return this->Cells.vertices.dirichlet[i] >= 0; }
@@ -72,6 +77,8 @@ private:
   Components Labels;
   ComponentLabels Closed;
   CellAssembly Cells;
+  EdgeTargets Targets;
+  HypreMatrix* Incomplete = nullptr; ///< null: the matrix is taken as it is
   std::vector<std::int32_t> LabelOf; ///< of the vertices of the part
   std::vector<double> Diagonals;     ///< of own vertices
   std::vector<char> IsUnknown;       ///< likewise

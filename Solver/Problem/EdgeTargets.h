@@ -3,6 +3,7 @@
 
 #include "Solver/Problem/WeightedEdges.h"
 #include "Solver/Storage/Ring.h"
+#include "smg/Export.h"
 #include "smg/Problem.h"
 
 #include <cstddef>
@@ -15,7 +16,7 @@ namespace smg
 
 /** The targets of the edges of a batch of rows, queried from a problem with edge targets in one
  * call. */
-class EdgeTargets
+class SMG_EXPORT EdgeTargets
 {
 public:
   /** `points`: the positions of all open vertices. */

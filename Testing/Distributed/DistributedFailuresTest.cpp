@@ -2,9 +2,11 @@
 #include "Solver/Distributed/PartMemory.h"
 #include "Testing/Distributed/PartOfMesh.h"
 #include "Testing/Solver/EllipticTesting.h"
+#include "Testing/Support/ArrayHandles.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <new>
@@ -129,6 +131,41 @@ TEST(DistributedFailures, OfDataThatAreNoNumbers)
   const std::string message = messageOfSolve(
     last, [](CellBatch& batch) { batch.source[0] = std::numeric_limits<double>::quiet_NaN(); });
   EXPECT_TRUE(contains(message, "the source or the field of cell")) << message;
+}
+
+TEST(DistributedFailures, OfHandles)
+{
+  const StreamMesh mesh = meshOfTest();
+  const MeshPart part = partOf(mesh, evenCuts(mesh.cells(), sizeOfTest()));
+  DistributedSolver solver(MPI_COMM_WORLD, part);
+  const auto messageWith = [&](const std::function<void(ArrayHandles&, std::size_t)>& set)
+  {
+    ArrayHandles handles(static_cast<std::int64_t>(part.ids.size()));
+    for (std::size_t k = 0; k < part.ids.size(); ++k)
+    {
+      if (part.ids[k] == mesh.vertices() - 1)
+      {
+        set(handles, k);
+      }
+    }
+    return messageOf([&] { solver.deform(handles); });
+  };
+  const std::string vertex = "vertex " + std::to_string(mesh.vertices() - 1);
+  EXPECT_TRUE(contains(messageWith([](ArrayHandles&, std::size_t) {}), "no vertex of the mesh"));
+  EXPECT_TRUE(contains(messageWith(
+                         [](ArrayHandles& handles, std::size_t k)
+                         {
+                           handles.Values.mask[k] = 1;
+                           handles.Values.target[3 * k] = NAN;
+                         }),
+    "target that a handle gives to " + vertex));
+  EXPECT_TRUE(contains(messageWith(
+                         [](ArrayHandles& handles, std::size_t k)
+                         {
+                           handles.Values.mask[k] = 1;
+                           handles.Values.target[3 * k] = 1e200;
+                         }),
+    "beyond the range of numbers"));
 }
 
 TEST(DistributedFailures, OfPartsThatAreNotValid)

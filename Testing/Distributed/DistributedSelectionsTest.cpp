@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Distributed/PartOfMesh.h"
 #include "Testing/Solver/SolveTesting.h"
+#include "Testing/Support/DeformMesh.h"
 #include "Testing/Support/DescribedMesh.h"
 
 #include <gtest/gtest.h>
@@ -64,6 +65,48 @@ TEST(DistributedSelections, AgreeWithTheStreamingEngine)
       whole.prepare(source);
       source.rewind(1000);
       const Solved streamed = solveMesh(source, whole, accurate(1e-10));
+      EXPECT_EQ(solution.report.prescribed, streamed.report.prescribed);
+      EXPECT_LT((values - streamed.values).cwiseAbs().maxCoeff(), 1e-6);
+    }
+  }
+}
+
+/** Handles that are selected in each way; the second one holds nothing that the last one leaves. */
+DeformationDescription everyHandle()
+{
+  DeformationDescription handles;
+  const HandleMotion turn({ .axis = { 1, 2, 3 }, .degrees = 20.0, .scale = 1.2 });
+  handles.handles = { { ColumnTag{ "tag", 3 }, turn },
+    { Region::Vertices{ { 3, 7, 11 } }, HandleMotion({ .translation = { 0, 0, 1 } }) },
+    { NearestVertices{ { { 1, 1, 1 }, { 1.5, 1.5, 1.5 } } },
+      HandleDescription::Values{ .targets = { { 1, 1, 1.5 }, { 2, 2, 2 } } } },
+    { OnBoundary{}, HandleMotion() }, { Region::Vertices{ { 3, 7, 11 } }, turn } };
+  return handles;
+}
+
+TEST(DistributedSelections, OfHandlesAgreeWithTheStreamingEngine)
+{
+  for (const IndexedTestMesh& shape : { tetBox(5, 4, 4, 0.1), grid(9, 8, 0.2), tetBox(5, 4, 4) })
+  {
+    const StreamMesh mesh = numberedMesh(shuffled(shape));
+    const MeshPart part = partOf(mesh, evenCuts(mesh.cells(), sizeOfTest()));
+    DescribedHandles handles(everyHandle(), part.info);
+    DistributedSolver solver(MPI_COMM_WORLD, part);
+    solver.prepare(handles);
+    DistributedOptions options;
+    options.tolerance = 1e-10;
+    const DistributedSolution solution = solver.deform(handles, Weights::Clamped, options);
+    const std::vector<std::string> notes = solver.notes(handles);
+    const Eigen::MatrixXd values = wholeSolution(solver, solution);
+    if (rankOfTest() == 0)
+    {
+      MemorySource source(mesh);
+      DescribedHandles whole(everyHandle(), source.info());
+      whole.prepare(source);
+      const Solved streamed = deformMesh(mesh, whole, byTolerance(1e-10));
+      EXPECT_EQ(notes, whole.notes());
+      EXPECT_EQ(notes.size(), 1U);
+      EXPECT_EQ(solution.report.notes, streamed.report.notes);
       EXPECT_EQ(solution.report.prescribed, streamed.report.prescribed);
       EXPECT_LT((values - streamed.values).cwiseAbs().maxCoeff(), 1e-6);
     }

@@ -8,11 +8,11 @@
 #include "IO/Formats/Vtk/VtkXml.h"
 #include "IO/Formats/Vtk/WriteVtkXml.h"
 #include "Solver/Storage/WholeFile.h"
-#include "smg/SolvedMesh.h"
+#include "smg/MeshSource.h"
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -20,52 +20,27 @@
 namespace
 {
 
-template <class T>
-void append(
-  const char* name, int components, const std::vector<T>& values, std::vector<smg::Column>& columns)
-{
-  smg::Column column{ { name, smg::scalarTypeOf<T>(), components }, {} };
-  column.bytes.resize(values.size() * sizeof(T));
-  std::memcpy(column.bytes.data(), values.data(), column.bytes.size());
-  columns.push_back(std::move(column));
-}
-
-/** The piece of a process with its solution, as a stream of one block. */
-class SolvedPiece final : public smg::MeshSource
+/** The piece of a process with its result, as a stream of one block. */
+class ResultPiece final : public smg::MeshSource
 {
 public:
-  SolvedPiece(const smg::StreamInfo& mesh, smg::MeshPiece piece,
-    const smg::DistributedSolution& solution, const smg::ResultOptions& results)
+  ResultPiece(const smg::StreamInfo& mesh, smg::MeshPiece piece, PieceResult result)
     : Info(mesh)
   {
     this->Info.vertices = piece.vertices();
-    this->Block.positions = std::move(piece.positions);
+    const bool isMoved = !result.positions.empty();
+    this->Info.bounds = isMoved ? decltype(mesh.bounds){} : mesh.bounds;
+    this->Block.positions = std::move(isMoved ? result.positions : piece.positions);
     this->Block.corners = std::move(piece.corners);
     this->Info.cells =
       static_cast<std::int64_t>(this->Block.corners.size()) / cornersOf(mesh.cellType);
-    this->Block.vertexColumns = std::move(piece.vertexColumns);
-    this->Block.cellColumns = std::move(piece.cellColumns);
-    for (auto* columns : { &this->Block.vertexColumns, &this->Block.cellColumns })
-    {
-      std::erase_if(*columns,
-        [](const smg::Column& column)
-        {
-          return column.spec.name == smg::SolutionName || column.spec.name == smg::GradientName ||
-                 column.spec.name == smg::FluxName;
-        });
-    }
-    append(smg::SolutionName, solution.columns, solution.values, this->Block.vertexColumns);
-    append(smg::GlobalIdsName, 1, piece.ids, this->Block.vertexColumns);
-    append(smg::GhostTypeName, 1, piece.ghost, this->Block.vertexColumns);
-    append(smg::StreamFinalizedName, 1, piece.finalized, this->Block.vertexColumns);
-    if (results.gradient)
-    {
-      append(smg::GradientName, 3 * solution.columns, solution.gradient, this->Block.cellColumns);
-    }
-    if (results.flux)
-    {
-      append(smg::FluxName, 3 * solution.columns, solution.flux, this->Block.cellColumns);
-    }
+    PieceResult::add(result.vertexColumns, smg::GlobalIdsName, 1, piece.ids);
+    PieceResult::add(result.vertexColumns, smg::GhostTypeName, 1, piece.ghost);
+    PieceResult::add(result.vertexColumns, smg::StreamFinalizedName, 1, piece.finalized);
+    this->Block.vertexColumns =
+      joined(std::move(piece.vertexColumns), result.replaces, std::move(result.vertexColumns));
+    this->Block.cellColumns =
+      joined(std::move(piece.cellColumns), result.replaces, std::move(result.cellColumns));
     this->Info.vertexColumns = specsOf(this->Block.vertexColumns);
     this->Info.cellColumns = specsOf(this->Block.cellColumns);
   }
@@ -82,6 +57,16 @@ public:
   }
 
 private:
+  /** Columns of the mesh, except those that are replaced, then others. */
+  static std::vector<smg::Column> joined(std::vector<smg::Column> columns,
+    const std::function<bool(const smg::ColumnSpec&)>& replaces, std::vector<smg::Column> others)
+  {
+    std::erase_if(
+      columns, [&replaces](const smg::Column& column) { return replaces(column.spec); });
+    std::ranges::move(others, std::back_inserter(columns));
+    return columns;
+  }
+
   static std::vector<smg::ColumnSpec> specsOf(const std::vector<smg::Column>& columns)
   {
     std::vector<smg::ColumnSpec> specs;
@@ -138,9 +123,8 @@ std::string indexText(const std::filesystem::path& out, int pieces, const smg::S
 
 } // namespace
 
-void writePieceFiles(smg::Team& team, smg::VsmReader& mesh,
-  const smg::DistributedSolution& solution, const smg::ResultOptions& results,
-  const std::filesystem::path& out)
+void writePieceFiles(
+  smg::Team& team, smg::VsmReader& mesh, PieceResult result, const std::filesystem::path& out)
 {
   const std::filesystem::path folder = out.parent_path() / out.stem();
   smg::StreamInfo described;
@@ -156,7 +140,7 @@ void writePieceFiles(smg::Team& team, smg::VsmReader& mesh,
       smg::MeshPiece piece;
       pieces.readPiece(firstCellOf(mesh.info(), team.rank(), team.size()),
         firstCellOf(mesh.info(), team.rank() + 1, team.size()), piece);
-      SolvedPiece source(mesh.info(), std::move(piece), solution, results);
+      ResultPiece source(mesh.info(), std::move(piece), std::move(result));
       described = source.info();
       smg::writeVtkXml(source, folder / pieceName(out, team.rank()));
     });

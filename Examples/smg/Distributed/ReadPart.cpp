@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 namespace
@@ -45,21 +46,20 @@ smg::StreamInfo infoOfPart(const smg::StreamInfo& mesh)
   return info;
 }
 
-void readPart(smg::VsmReader& mesh, const smg::DescribedProblem& problem, int rank, int processes,
-  smg::MeshPart& part)
+void readPart(smg::VsmReader& mesh, std::vector<std::string> vertexColumns,
+  const std::vector<std::string>& cellColumns, smg::Team& team, smg::MeshPart& part)
 {
   // Always with the numbers, which messages name.
-  std::vector<std::string> columns = problem.vertexColumns();
-  std::erase(columns, smg::OriginalIdName);
+  std::erase(vertexColumns, smg::OriginalIdName);
   const bool addsIds = !hasIds(mesh.info().vertexColumns);
   if (!addsIds)
   {
-    columns.emplace_back(smg::OriginalIdName);
+    vertexColumns.emplace_back(smg::OriginalIdName);
   }
-  mesh.selectColumns(columns, problem.cellColumns());
+  mesh.selectColumns(vertexColumns, cellColumns);
   smg::MeshPiece piece;
-  mesh.readPiece(firstCellOf(mesh.info(), rank, processes),
-    firstCellOf(mesh.info(), rank + 1, processes), piece);
+  mesh.readPiece(firstCellOf(mesh.info(), team.rank(), team.size()),
+    firstCellOf(mesh.info(), team.rank() + 1, team.size()), piece);
   const auto foreign = std::ranges::count(piece.ghost, 1);
   if (addsIds)
   {
@@ -72,6 +72,9 @@ void readPart(smg::VsmReader& mesh, const smg::DescribedProblem& problem, int ra
   block.vertexColumns = std::move(piece.vertexColumns);
   block.cellColumns = std::move(piece.cellColumns);
   part.ids = std::move(piece.ids);
-  part.firstOwned = 0;
-  part.endOwned = static_cast<std::int64_t>(part.ids.size()) - foreign;
+  // Vertices belong to the process whose cells come first, in their order.
+  const std::vector<std::int64_t> owned =
+    team.gather(std::vector<std::int64_t>{ static_cast<std::int64_t>(part.ids.size()) - foreign });
+  part.firstOwned = std::accumulate(owned.begin(), owned.begin() + team.rank(), std::int64_t(0));
+  part.endOwned = part.firstOwned + owned[static_cast<std::size_t>(team.rank())];
 }

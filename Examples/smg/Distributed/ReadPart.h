@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "smg/DescribedProblem.h"
+#include "Solver/Distributed/Team.h"
 #include "smg/DistributedSolver.h"
 #include "smg/VsmReader.h"
+
+#include <string>
+#include <vector>
 
 /** The mesh of a .vsm file as a part of it has it: with the column OriginalId, of stream indices if
  * the file has none. */
@@ -15,7 +18,7 @@ inline std::int64_t firstCellOf(const smg::StreamInfo& mesh, int rank, int piece
   return static_cast<std::int64_t>(static_cast<__int128>(mesh.cells) * rank / pieces);
 }
 
-/** Reads the cells of a process, with the columns that the problem needs; `part.info` is that of
- * infoOfPart(). The vertices that the process owns are counted from 0. Throws smg::Error. */
-void readPart(smg::VsmReader& mesh, const smg::DescribedProblem& problem, int rank, int processes,
-  smg::MeshPart& part);
+/** Reads the cells of this process, with the columns of these names; `part.info` is that of
+ * infoOfPart(). Called on all processes, within Team::run(). Throws smg::Error. */
+void readPart(smg::VsmReader& mesh, std::vector<std::string> vertexColumns,
+  const std::vector<std::string>& cellColumns, smg::Team& team, smg::MeshPart& part);

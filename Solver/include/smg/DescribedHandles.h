@@ -15,6 +15,7 @@ namespace smg
 {
 
 class HandlesOnMesh;
+class MeshParts;
 
 /**
  * The handles of a DeformationDescription on a mesh stream.
@@ -56,6 +57,11 @@ public:
    * @throws Error naming the handle if it holds no vertex, or names a vertex that the mesh lacks
    */
   void prepare(MeshSource& mesh, const std::filesystem::path& scratch = {});
+  /** The first half of prepare(), for the part of the mesh that a process has: see
+   * DistributedSolver. */
+  void preparePart(MeshSource& part, const std::filesystem::path& scratch = {});
+  /** The second half of prepare(), in which the processes of all parts take part. */
+  void endPreparing(MeshParts& parts);
 
   void at(const MeshBlock& block, VertexHandles& handles) override;
 
@@ -64,6 +70,8 @@ public:
    * vertices all follow later ones, and whether no handle moves anything.
    */
   std::vector<std::string> notes() const;
+  /** The same of the whole mesh, of which at() was called for the part of each process. */
+  std::vector<std::string> notes(MeshParts& parts) const;
 
 private:
   std::unique_ptr<HandlesOnMesh> OnMesh;

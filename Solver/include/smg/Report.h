@@ -52,7 +52,8 @@ struct SMG_EXPORT Report
   {
     std::string name; ///< "rotation" or "position"; of smoothing "step 1", "presmoothing 1" ...
     int cycles = 0;   ///< V-cycles
-    /** ||b - A x|| / ||b - A x_0|| of this step after its last V-cycle; 0 if it needed none. */
+    /** ||b - A x|| / ||b - A x_0|| of this step after its last V-cycle; 0 if it needed none. With
+     * several processes the largest one of the right-hand sides. */
     double residual = 0;
     bool converged = false; ///< as Report::converged
   };
@@ -84,6 +85,7 @@ struct SMG_EXPORT Report
   struct Distributed
   {
     int processes = 1;                         ///< number of these
+    int setups = 0;                            ///< hierarchies of preconditioners that were built
     std::vector<int> iterations;               ///< of each right-hand side
     std::vector<std::int64_t> pool_bytes_peak; ///< of each process: see Report
     std::vector<std::int64_t> rss_bytes_peak;  ///< of each process: see Report

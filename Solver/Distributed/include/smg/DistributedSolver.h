@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Deform.h"
+#include "smg/DescribedHandles.h"
 #include "smg/DescribedProblem.h"
 #include "smg/Error.h"
 #include "smg/Export.h"
@@ -15,6 +17,8 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace smg
@@ -98,15 +102,16 @@ public:
    * times. A mesh that has the same cell twice is refused, too, if these are in two parts. */
   void checkCells();
 
-  /** As DescribedProblem::prepare(); required wherever that is. If the mesh has no column
-   * OriginalId and the description selects vertices by their numbers, the parts must have it, with
-   * stream indices. */
+  /** As DescribedProblem::prepare() and DescribedHandles::prepare(); required wherever these are.
+   * If the mesh has no column OriginalId and the description selects vertices by their numbers, the
+   * parts must have it, with stream indices. */
   void prepare(DescribedProblem& problem, const std::filesystem::path& scratch = {});
+  void prepare(DescribedHandles& handles, const std::filesystem::path& scratch = {});
 
   /**
    * Solves a problem.
    * @param problem the problem, asked once, for the part as the only block of its mesh: vertices of
-   * several parts must get the same answer on each. Edge targets are not available.
+   * several parts must get the same answer on each.
    * @param options how to solve
    * @throws Error as solve(). It is no error if the tolerance is not reached: see
    * Report::converged.
@@ -125,6 +130,24 @@ public:
   void evaluate(Problem& problem, DistributedSolution& solution, const ResultOptions& options = {});
 
   /**
+   * Deforms the mesh by handles, as smg::deform() does: two problems with one matrix, for which the
+   * preconditioner is set up once. Each of the seven right-hand sides is solved to the tolerance.
+   * @param handles the handles, asked once, for the part as the only block of its mesh: vertices of
+   * several parts must get the same answer on each
+   * @param weights as DeformOptions::weights
+   * @param options how to solve
+   * @return the positions of the vertices of the part: three columns, x, y, z. Report::steps has
+   * both steps.
+   * @throws Error as smg::deform(). It is no error if the tolerance is not reached: see
+   * Report::converged.
+   * @throws Cancelled if the progress callback returns false
+   */
+  DistributedSolution deform(
+    Handles& handles, Weights weights = Weights::Clamped, const DistributedOptions& options = {});
+  /** After deform(): the remarks of DescribedHandles::notes() on the whole mesh. */
+  std::vector<std::string> notes(const DescribedHandles& handles);
+
+  /**
    * Passes the whole solution, as that of solve() on one process, to `use` on process 0, where it
    * is read from the owners of the vertices; the other processes wait.
    * @param solution that of the part
@@ -132,6 +155,10 @@ public:
    * @throws Error what `use` throws, on all processes
    */
   void gather(const DistributedSolution& solution, const std::function<void(Solution&)>& use);
+
+  /** Replaces the numbers of each vertex of the part, `columns` of them, by their sums over all
+   * parts that have the vertex. */
+  void sum(std::span<double> values, int columns);
 
   /** Runs `work` on this process, and throws Error on all of them if it throws on one. It must not
    * call the functions of the solver. */

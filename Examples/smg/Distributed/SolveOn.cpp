@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OnProcesses.h"
+#include "PieceFiles.h"
+
+#include "smg/DescribedProblem.h"
+#include "smg/SolvedMesh.h"
+
+void solveOn(smg::Team& team, const DistributedJob& job, const DistributedSolve& task)
+{
+  smg::ResultOptions results;
+  const auto on = readDescribed<smg::DescribedProblem>(team, job,
+    [&]
+    {
+      const smg::ProblemDescription description = task.read();
+      results = { description.gradientOutput, description.fluxOutput, job.memoryLimit };
+      return description;
+    });
+  smg::DistributedSolver solver(team.communicator(), on.part);
+  solver.prepare(*on.described, job.scratch);
+  smg::DistributedSolution solution = solver.solve(*on.described, optionsOf(job, task.tolerance));
+  if (!isInPieces(job.out))
+  {
+    solver.gather(solution, job.use);
+    return;
+  }
+  solver.evaluate(*on.described, solution, results);
+  PieceResult result;
+  result.replaces = [](const smg::ColumnSpec& column)
+  {
+    return column.name == smg::SolutionName || column.name == smg::GradientName ||
+           column.name == smg::FluxName;
+  };
+  PieceResult::add(result.vertexColumns, smg::SolutionName, solution.columns, solution.values);
+  if (results.gradient)
+  {
+    PieceResult::add(
+      result.cellColumns, smg::GradientName, 3 * solution.columns, solution.gradient);
+  }
+  if (results.flux)
+  {
+    PieceResult::add(result.cellColumns, smg::FluxName, 3 * solution.columns, solution.flux);
+  }
+  writePieceFiles(team, *on.mesh, std::move(result), job.out);
+  reportOn(team, job, solution.report);
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "EngineCommand.h"
+
+#include "ProgressBar.h"
+
+#include "IO/AnyFormat/MeshFile.h"
+#include "smg/Error.h"
+
+#include <cstdlib>
+
+namespace
+{
+
+/** A solution that another object owns. */
+class BorrowedSolution final : public smg::Solution
+{
+public:
+  explicit BorrowedSolution(smg::Solution& solution)
+    : Lent(solution)
+  {
+  }
+  std::int64_t vertices() const override { return this->Lent.vertices(); }
+  int columns() const override { return this->Lent.columns(); }
+  void read(std::int64_t first, std::int64_t count, std::span<double> values) override
+  {
+    this->Lent.read(first, count, values);
+  }
+  const smg::Report& report() const override { return this->Lent.report(); }
+
+private:
+  smg::Solution& Lent;
+};
+
+} // namespace
+
+void EngineCommand::addEngineTo(CLI::App& command)
+{
+  command
+    .add_option("--engine", this->Engine,
+      "streaming, or hypre: BoomerAMG on the processes that mpiexec starts; IN is a .vsm file, "
+      "OUT may be .pvtu or .pvtp, with a piece of each process")
+    ->check(oneOf({ "streaming", "hypre" }))
+    ->capture_default_str();
+  this->MaxCycles = command.get_option("--max-cycles");
+}
+
+std::unique_ptr<smg::Solution> EngineCommand::wholeSolution() const
+{
+  return this->Whole ? std::make_unique<BorrowedSolution>(*this->Whole) : nullptr;
+}
+
+/** With hypre, the first process writes and reports as ever, or reports on the pieces of all. */
+void EngineCommand::compute()
+{
+  if (this->Engine == "streaming")
+  {
+    this->SolvingCommand::compute();
+    return;
+  }
+  constexpr int MostIterations = 200;
+  auto bar = std::make_unique<ProgressBar>(this->title(), this->quiet);
+  DistributedJob job;
+  job.in = this->In;
+  job.out = this->Out;
+  job.task = this->File.string();
+  job.scratch = this->scratch;
+  job.maxIterations =
+    this->MaxCycles->count() > 0 ? this->solveOptions().maxCycles : MostIterations;
+  job.memoryLimit = this->memoryBytes(INT64_MAX);
+  job.progress = bar->function();
+  job.check = [this] { this->checkDistributed(); };
+  job.use = [this, &bar](smg::Solution& solution)
+  {
+    bar.reset();
+    this->Whole = &solution;
+    this->SolvingCommand::compute();
+  };
+  job.report = [this, &bar](smg::Report& report)
+  {
+    bar.reset();
+    this->writeReport(report.json());
+    this->tell(report);
+  };
+  if (const int status = this->computeOn(distributedEngine(), job); status != 0)
+  {
+    std::exit(status);
+  }
+}
+
+/** Reports foreseeable failures. */
+void EngineCommand::checkDistributed()
+{
+  const smg::SolveOptions& options = this->solveOptions();
+  if (options.inCore || !this->checkpoint.empty() || this->isDryRun() ||
+      options.operators != "extended")
+  {
+    throw smg::Error("--engine hypre has no --in-core, --checkpoint, --dry-run or --operators: "
+                     "leave them out.");
+  }
+  if (smg::kindOfInput(this->In) != smg::MeshFileKind::Vsm)
+  {
+    throw smg::Error(this->In.string() +
+                     ": --engine hypre needs a .vsm file, of which each process reads a piece: "
+                     "convert the mesh first (smg convert).");
+  }
+  if (isInPieces(this->Out))
+  {
+    smg::checkOutputPlace(this->Out);
+    this->checkReport({ this->In, this->Out, this->File });
+    this->readTask();
+  }
+  else
+  {
+    this->checkFiles();
+  }
+  this->checkForProcesses();
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "DistributedEngine.h"
+#include "SolvingCommand.h"
+
+#include <memory>
+#include <string>
+
+/** Base of the commands that two engines have: one process streams, or the processes of mpiexec
+ * solve together. */
+class EngineCommand : public SolvingCommand
+{
+protected:
+  using SolvingCommand::SolvingCommand;
+
+  /** Adds the option --engine; addSolverOptions() comes first. */
+  void addEngineTo(CLI::App& command);
+  void compute() override;
+
+  /** Does the job on all processes. */
+  virtual int computeOn(const DistributedEngine& engine, const DistributedJob& job) = 0;
+  /** After readTask(): throws smg::Error for what the processes of mpiexec do not do. */
+  virtual void checkForProcesses() const {}
+
+  /** Null, or the solution of the processes of mpiexec, which the first one writes. */
+  std::unique_ptr<smg::Solution> wholeSolution() const;
+  bool hasWholeSolution() const { return this->Whole != nullptr; }
+
+private:
+  void checkDistributed();
+
+  std::string Engine = "streaming";
+  CLI::Option* MaxCycles = nullptr;
+  smg::Solution* Whole = nullptr;
+};

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Distributed/DistributedDeformation.h"
+
+#include "Solver/Deformation/DeformationReport.h"
+#include "Solver/Deformation/HandleChecks.h"
+#include "Solver/Deformation/RotationProblem.h"
+#include "Solver/Distributed/DistributedRun.h"
+#include "Solver/Distributed/PositionProblem.h"
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace smg
+{
+namespace
+{
+
+/** The share of the rotations in the progress, which have four of the seven right-hand sides. */
+constexpr double Share = 4.0 / 7.0;
+
+/** The handles of a part, whose errors name vertices of the mesh. */
+class PartHandles final : public Handles
+{
+public:
+  PartHandles(Handles& handles, const MeshPart& part)
+    : Given(handles)
+    , Part(part)
+  {
+  }
+
+  void at(const MeshBlock& block, VertexHandles& handles) override
+  {
+    this->Given.at(block, handles);
+    checkSize(handles, block.vertices());
+    for (std::size_t k = 0; k < handles.mask.size(); ++k)
+    {
+      if (handles.mask[k] > 0)
+      {
+        checkHeld(handles, k, this->Part.ids[k]);
+      }
+    }
+  }
+
+private:
+  Handles& Given;
+  const MeshPart& Part;
+};
+
+/** The number of vertices that several handles hold, on all processes. */
+std::int64_t countShared(const SharedVertices& vertices, const VertexHandles& handles)
+{
+  const auto own = std::span(handles.mask)
+                     .subspan(static_cast<std::size_t>(vertices.begin()),
+                       static_cast<std::size_t>(vertices.end() - vertices.begin()));
+  std::int64_t shared = std::ranges::count_if(own, [](std::uint8_t count) { return count > 1; });
+  vertices.team().sum({ &shared, 1 });
+  return shared;
+}
+
+/** Solves a step of the deformation and adds it to the report. */
+void solveStep(DistributedRun& run, const char* name, double begin, double end)
+{
+  Report::Step step = run.iterate(std::string(name) + " step: ", begin, end);
+  step.name = name;
+  run.report.steps.push_back(std::move(step));
+}
+
+} // namespace
+
+DistributedSolution deformParts(const SharedVertices& vertices, const MeshPart& part,
+  Handles& handles, Weights weights, const DistributedOptions& options)
+{
+  DistributedRun run(vertices, part, options);
+  PartHandles given(handles, part);
+  RotationProblem rotations(given, weights);
+  run.assemble(rotations);
+  checkAnyHeld(run.report);
+  run.report.shared = countShared(vertices, rotations.handles());
+  solveStep(run, "rotation", 0.0, Share);
+  PositionProblem positions(rotations, run.values());
+  run.assemble(positions);
+  checkMotions(run.system().counts.termSquares);
+  solveStep(run, "position", Share, 1.0);
+  DistributedSolution solution;
+  solution.columns = PositionProblem::Columns;
+  solution.values = run.values();
+  positions.addStart(part.block, solution.values);
+  addDeformationNotes(run.report);
+  run.finish();
+  solution.report = run.report;
+  return solution;
+}
+
+} // namespace smg

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Solver/Distributed/DistributedRun.h"
+
+#include "Solver/Distributed/PartMemory.h"
+#include "Solver/Engine/FreeComponents.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace smg
+{
+namespace
+{
+
+void checkOptions(const DistributedOptions& options)
+{
+  if (!(options.tolerance > 0.0 && options.tolerance < 1.0))
+  {
+    throw Error("the tolerance must lie between 0 and 1, both excluded");
+  }
+  if (options.maxIterations < 1)
+  {
+    throw Error("at least one iteration must be allowed");
+  }
+  if (options.memoryLimit <= 0)
+  {
+    throw Error("the memory limit must be positive");
+  }
+}
+
+} // namespace
+
+DistributedRun::DistributedRun(
+  const SharedVertices& vertices, const MeshPart& part, const DistributedOptions& options)
+  : Vertices(vertices)
+  , Processes(vertices.team())
+  , Part(part)
+  , Options(options)
+  , CpuAtStart(processSeconds())
+  , Done(vertices.team().rank() == 0 ? options.progress : ProgressFunction())
+{
+  checkOptions(options);
+  this->Costs.processes = this->Processes.size();
+  this->report.acceleration = "cg";
+  this->report.converged = true;
+}
+
+void DistributedRun::assemble(Problem& problem)
+{
+  if (problem.columns() < 1)
+  {
+    throw Error("a problem needs at least one column");
+  }
+  const Timer wall;
+  Report& r = this->report;
+  const bool isFirst = !this->Method;
+  if (isFirst)
+  {
+    const auto corners = static_cast<std::int64_t>(this->Part.block.corners.size());
+    checkPartMemory(this->Vertices.vertices(), corners / cornersOf(this->Part.info.cellType),
+      problem.columns(), this->Options.memoryLimit);
+  }
+  Pool pool(this->Options.memoryLimit,
+    { "the assembly of a part of the mesh", "raise the memory limit, or use more processes" });
+  PartAssembly assembly(pool, this->Vertices, this->Part, problem);
+  this->System = assembly.assemble(std::move(this->System.matrix));
+  r.pool_bytes_peak = std::max(r.pool_bytes_peak, pool.peak());
+  if (isFirst)
+  {
+    reportAssembly(this->System.counts, r);
+    if (r.vertices == 0)
+    {
+      throw Error("the mesh has no vertices");
+    }
+    r.levels = { { this->System.unknowns, this->System.nonzeros } };
+    if (const double share = this->System.components->incompatibility(); share > 0.0)
+    {
+      r.removed_source = this->System.components->shiftedSums();
+      r.notes.push_back(incompatibilityNote(share));
+    }
+  }
+  r.seconds.build += wall.seconds();
+}
+
+Report::Step DistributedRun::iterate(const std::string& what, double begin, double end)
+{
+  if (!this->Method)
+  {
+    const HypreRows rows(this->Part.firstOwned, this->Part.endOwned, this->Part.info.vertices);
+    this->Method.emplace(this->Processes, rows, *this->System.matrix);
+    ++this->Costs.setups;
+  }
+  Report& r = this->report;
+  Report::Step step;
+  step.converged = true;
+  const std::size_t columns = this->System.x.size();
+  const double share = (end - begin) / static_cast<double>(columns);
+  for (std::size_t c = 0; c < columns; ++c)
+  {
+    const std::string column = columns == 1 ? "" : "right-hand side " + std::to_string(c) + ": ";
+    const double first = begin + static_cast<double>(c) * share;
+    const Convergence convergence = this->solveColumn(c, first, first + share);
+    const std::vector<double>& residuals = convergence.residuals();
+    r.residuals.insert(r.residuals.end(), residuals.begin(), residuals.end());
+    this->Costs.iterations.push_back(convergence.cycles());
+    convergence.addNotes(r.notes, what + column);
+    step.cycles += convergence.cycles();
+    step.residual = std::max(step.residual, residuals.empty() ? 0.0 : residuals.back());
+    step.converged = step.converged && convergence.converged();
+  }
+  r.cycles += step.cycles;
+  r.converged = r.converged && step.converged;
+  return step;
+}
+
+Convergence DistributedRun::solveColumn(std::size_t column, double begin, double end)
+{
+  ConjugateGradients& method = *this->Method;
+  PartSystem& system = this->System;
+  const std::span<const double> residual = method.residual(system.b[column], system.x[column]);
+  double squares = 0.0;
+  for (std::size_t k = 0; k < residual.size(); ++k)
+  {
+    squares += system.share[k] * system.share[k] * residual[k] * residual[k];
+  }
+  this->Processes.sum({ &squares, 1 });
+  const double tolerance = this->Options.tolerance;
+  Convergence convergence({ tolerance, this->Options.maxIterations },
+    { std::sqrt(squares), roundingOf(system.termSquares[column]) });
+  const auto iterated = [&]
+  {
+    const double done =
+      convergence.done() ? 1.0 : std::log(convergence.residuals().back()) / std::log(tolerance);
+    this->Done.update(begin + std::clamp(done, 0.0, 1.0) * (end - begin));
+  };
+  method.solve(system.b[column], system.x[column], convergence, iterated);
+  return convergence;
+}
+
+void DistributedRun::fixMeans()
+{
+  if (this->report.free_components == 0)
+  {
+    return;
+  }
+  PartSystem& system = this->System;
+  SharedComponents& components = *system.components;
+  const auto columns = static_cast<int>(system.x.size());
+  const auto weight = [&](std::int64_t k, const SharedComponents::Place& place)
+  { return place.components->weightOf(place.label, system.mass[static_cast<std::size_t>(k)]); };
+  const auto value = [&](std::int64_t k, int c) -> double&
+  { return system.x[static_cast<std::size_t>(c)][static_cast<std::size_t>(k)]; };
+  const SharedComponents::Shifts shifts = components.meanShifts(
+    [&](std::int64_t k, int c) { return weight(k, components.of(k)) * value(k, c); });
+  for (std::int64_t k = 0; k < static_cast<std::int64_t>(system.mass.size()); ++k)
+  {
+    const SharedComponents::Place place = components.of(k);
+    for (int c = 0; place.components && c < columns; ++c)
+    {
+      value(k, c) -= shifts(place, columns, c);
+    }
+  }
+  this->report.notes.push_back(
+    freeComponentsNote(this->report.free_components, this->report.components));
+}
+
+std::vector<double> DistributedRun::values() const
+{
+  const PartSystem& system = this->System;
+  const std::size_t columns = system.x.size();
+  std::vector<double> values(static_cast<std::size_t>(this->Vertices.vertices()) * columns);
+  double* own = values.data() + this->Vertices.begin() * static_cast<std::int64_t>(columns);
+  for (std::size_t k = 0; k < system.mass.size(); ++k)
+  {
+    for (std::size_t c = 0; c < columns; ++c)
+    {
+      *own++ = system.x[c][k];
+    }
+  }
+  this->Vertices.copyFromOwners(std::span(values), static_cast<int>(columns));
+  return values;
+}
+
+void DistributedRun::finish()
+{
+  Report& r = this->report;
+  addAssemblyNotes(r);
+  r.seconds.total = this->Wall.seconds();
+  r.seconds.solve = r.seconds.total - r.seconds.build;
+  r.cpu_seconds = processSeconds() - this->CpuAtStart;
+  Team& team = this->Processes;
+  team.sum({ &r.cpu_seconds, 1 });
+  this->Costs.rss_bytes_peak = team.gather(std::vector<std::int64_t>{ peakResidentBytes() });
+  this->Costs.pool_bytes_peak = team.gather(std::vector<std::int64_t>{ r.pool_bytes_peak });
+  r.rss_bytes_peak = *std::ranges::max_element(this->Costs.rss_bytes_peak);
+  r.pool_bytes_peak = *std::ranges::max_element(this->Costs.pool_bytes_peak);
+  r.distributed = this->Costs;
+}
+
+} // namespace smg

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Core/Progress.h"
+#include "Solver/Core/Timer.h"
+#include "Solver/Distributed/ConjugateGradients.h"
+#include "Solver/Distributed/PartAssembly.h"
+#include "smg/DistributedSolver.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * Solves problems with one matrix, one after the other: the processes have assembled it and set up
+ * its preconditioner for the first one, and the further ones add right-hand sides alone. All
+ * functions are called on all processes.
+ */
+class DistributedRun
+{
+public:
+  /** Throws Error if an option is out of range. */
+  DistributedRun(
+    const SharedVertices& vertices, const MeshPart& part, const DistributedOptions& options);
+
+  /** Makes the equations of a problem, which has the weights and the prescribed vertices of the
+   * first one. */
+  void assemble(Problem& problem);
+  /**
+   * Solves them for one column after the other.
+   * @param what begins the notes
+   * @param begin,end the shares of the progress before and after
+   * @return the iterations, the largest residual of the columns, and whether all converged
+   */
+  Report::Step iterate(const std::string& what = {}, double begin = 0.0, double end = 1.0);
+  /** Makes components without constraint keep the mean of their initial values. */
+  void fixMeans();
+  /** The solution at all vertices of the part, a number for each column. */
+  std::vector<double> values() const;
+  /** Adds the notes on the assembly and what the run cost. */
+  void finish();
+
+  const PartSystem& system() const { return this->System; }
+  Report report;
+
+private:
+  Convergence solveColumn(std::size_t column, double begin, double end);
+
+  const SharedVertices& Vertices;
+  Team& Processes;
+  const MeshPart& Part;
+  const DistributedOptions& Options;
+  Timer Wall;
+  double CpuAtStart;
+  Progress Done;
+  PartSystem System;
+  std::optional<ConjugateGradients> Method; ///< of the matrix
+  Report::Distributed Costs;
+};
+
+} // namespace smg
