@@ -50,16 +50,20 @@ void NearestSelection::endPreparing(MeshParts* parts)
     parts->nearest(this->Distances, this->Vertices);
   }
   this->Distances.clear();
+  const std::vector<std::int64_t> nearest = this->Vertices;
   std::erase(this->Vertices, -1);
   this->Count = static_cast<std::int64_t>(this->Vertices.size());
   this->Selection::endPreparing(parts);
-  const std::vector<std::int64_t> nearest = this->Vertices;
   std::ranges::sort(this->Vertices);
   this->Vertices.erase(
     std::unique(this->Vertices.begin(), this->Vertices.end()), this->Vertices.end());
   this->Numbers.resize(this->Vertices.size());
   for (std::size_t n = 0; n < nearest.size(); ++n)
   {
+    if (nearest[n] < 0)
+    {
+      continue; // a vertex that the part lacks
+    }
     const auto place = std::ranges::lower_bound(this->Vertices, nearest[n]);
     this->Numbers[static_cast<std::size_t>(place - this->Vertices.begin())] = n;
   }
