@@ -5,6 +5,7 @@
 #include "Filters/Deformation/vtkInteractiveMesh.h"
 #include "Filters/Deformation/vtkMovedPiece.h"
 #include "Filters/Handles/vtkHandleArrays.h"
+#include "Filters/Processes/vtkDistributedDeformation.h"
 #include "Filters/Streaming/SolveSummary.h"
 #include "IO/vtkMeshPieceData.h"
 
@@ -61,13 +62,17 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeTask(vtkPoin
   auto task = std::make_unique<smg::DeformationTask>();
   task->options = this->Internal->options();
   task->needsNormals = this->Internal->needsNormals(input);
+  if (!this->GetEngineNote().empty())
+  {
+    task->notes.push_back(this->GetEngineNote());
+  }
   return task;
 }
 
 bool vtkStreamingMeshDeformation::IsForMemory(vtkPointSet& input, bool isWhole)
 {
-  const bool isForMemory =
-    smg::isPreview(input) || (isWhole && input.GetNumberOfPoints() <= this->InteractivePoints);
+  const bool isSmall = isWhole && input.GetNumberOfPoints() <= this->InteractivePoints;
+  const bool isForMemory = smg::isPreview(input) || (isSmall && this->Engine != DISTRIBUTED);
   if (!isForMemory)
   {
     this->Internal->Interactive.forget();
@@ -101,6 +106,19 @@ smg::SolveSummary vtkStreamingMeshDeformation::SolveInMemory(
     }
   }
   return smg::SolveSummary::of(report, interactive.columns());
+}
+
+smg::SolveSummary vtkStreamingMeshDeformation::SolveInProcesses(
+  vtkPointSet& piece, const std::function<bool(double)>& progress, std::vector<double>& values)
+{
+  const auto taskOf = [this](vtkPointSet& sample)
+  { return static_cast<const smg::DeformationTask&>(*this->MakeTask(sample)); };
+  return smg::deformInProcesses(piece, this->GetController(), taskOf, progress, values);
+}
+
+std::string vtkStreamingMeshDeformation::WhyStreaming()
+{
+  return this->Cycles > 0 ? "it counts V-cycles (Cycles)" : "";
 }
 
 void vtkStreamingMeshDeformation::Deliver(

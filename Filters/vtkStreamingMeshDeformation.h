@@ -18,22 +18,25 @@
  * - Other requests for the whole of a mesh of at most InteractivePoints points are treated like
  *   previews; those for larger meshes, or with several processes, like streamed requests.
  *
- * In all cases a mesh gets the same points, bit for bit. Any mesh can be deformed in memory; a
- * streamed mesh has to fulfil the contract described at vtkStreamingSolver.
+ * In all cases a mesh gets the same points, bit for bit. With several processes that have memory
+ * for the matrix, Engine deforms on all of them together, previews excepted, and the points are the
+ * same up to Tolerance; Cycles must be 0, then. Any mesh can be deformed in memory; a streamed mesh
+ * has to fulfil the contract described at vtkStreamingSolver.
  *
- * @sa vtkMeshHandle vtkStreamingSolver vtkStreamingMeshPreview vtkStreamingMeshReader
+ * @sa vtkMeshHandle vtkMultiEngineSolver vtkStreamingSolver vtkStreamingMeshPreview
+ * vtkStreamingMeshReader
  */
 #ifndef vtkStreamingMeshDeformation_h
 #define vtkStreamingMeshDeformation_h
 
+#include "vtkMultiEngineSolver.h"
 #include "vtkStreamingMultigridFiltersModule.h" // For export macro
-#include "vtkStreamingSolver.h"
 
-class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkStreamingMeshDeformation : public vtkStreamingSolver
+class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkStreamingMeshDeformation : public vtkMultiEngineSolver
 {
 public:
   static vtkStreamingMeshDeformation* New();
-  vtkTypeMacro(vtkStreamingMeshDeformation, vtkStreamingSolver);
+  vtkTypeMacro(vtkStreamingMeshDeformation, vtkMultiEngineSolver);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** The treatment of normals. */
@@ -92,6 +95,9 @@ protected:
   bool IsForMemory(vtkPointSet& input, bool isWhole) override;
   smg::SolveSummary SolveInMemory(vtkPointSet& input, const std::function<bool(double)>& progress,
     std::vector<double>& values) override;
+  smg::SolveSummary SolveInProcesses(vtkPointSet& piece,
+    const std::function<bool(double)>& progress, std::vector<double>& values) override;
+  std::string WhyStreaming() override;
   bool IsToConverge() override { return this->Cycles == 0; }
 
 private:

@@ -18,7 +18,6 @@
 #include "smg/Error.h"
 
 #include "vtkDoubleArray.h"
-#include "vtkMultiProcessController.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -171,7 +170,6 @@ struct vtkStreamingPoisson::Internals
   /** The problem of the last solve, in the process that solves. */
   std::optional<smg::ProblemDescription> Solved;
   std::string WhyNotOnPreview; ///< if a preview is shown
-  std::string EngineNote;      ///< why the engine is not the one that was asked for
   std::filesystem::file_time_type FileTime;
 };
 
@@ -221,9 +219,9 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& in
     task->notes.push_back("the full mesh was solved on, since the preview does not do: " +
                           this->Internal->WhyNotOnPreview);
   }
-  if (!this->Internal->EngineNote.empty())
+  if (!this->GetEngineNote().empty())
   {
-    task->notes.push_back(this->Internal->EngineNote);
+    task->notes.push_back(this->GetEngineNote());
   }
   this->Internal->Solved = task->problem;
   return task;
@@ -265,33 +263,6 @@ smg::SolveSummary vtkStreamingPoisson::SolveInMemory(
   return smg::solveOnPreview(input, task, values);
 }
 
-bool vtkStreamingPoisson::IsForProcesses(vtkPointSet& piece, bool isAlone)
-{
-  std::string& note = this->Internal->EngineNote;
-  note.clear();
-  if (this->Engine == STREAMING)
-  {
-    return false;
-  }
-  if (isAlone)
-  {
-    note = "the streaming engine has solved, since process 0 alone answers streamed requests";
-    return false;
-  }
-  if (this->Engine == DISTRIBUTED)
-  {
-    return true;
-  }
-  vtkMultiProcessController* controller = this->GetController();
-  const smg::MemoryVerdict verdict = controller && controller->GetNumberOfProcesses() > 1
-                                       ? smg::judgeMemory(piece, controller)
-                                       : smg::MemoryVerdict{ false, "there is one process" };
-  note = (verdict.fits ? "the distributed engine was chosen, since "
-                       : "the streaming engine was chosen, since ") +
-         verdict.reason;
-  return verdict.fits;
-}
-
 smg::SolveSummary vtkStreamingPoisson::SolveInProcesses(
   vtkPointSet& piece, const std::function<bool(double)>& progress, std::vector<double>& values)
 {
@@ -322,8 +293,6 @@ void vtkStreamingPoisson::PrintSelf(ostream& os, vtkIndent indent)
 {
   const auto text = [](const char* string) { return string && *string ? string : "(none)"; };
   this->Superclass::PrintSelf(os, indent);
-  constexpr const char* engines[] = { "streaming", "distributed", "automatic" };
-  os << indent << "Engine: " << engines[this->Engine] << "\n";
   os << indent << "Conductivity: " << this->Conductivity << "\n";
   os << indent << "Screening: " << this->Screening << "\n";
   os << indent << "ProblemFileName: " << text(this->ProblemFileName) << "\n";

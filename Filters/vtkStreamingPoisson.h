@@ -26,19 +26,20 @@
  *
  * With several processes that have memory for the matrix, Engine solves on all of them together.
  *
- * @sa vtkMeshCondition vtkStreamingSolver vtkStreamingMeshReader vtkStreamingMeshWriter
+ * @sa vtkMeshCondition vtkMultiEngineSolver vtkStreamingSolver vtkStreamingMeshReader
+ * vtkStreamingMeshWriter
  */
 #ifndef vtkStreamingPoisson_h
 #define vtkStreamingPoisson_h
 
+#include "vtkMultiEngineSolver.h"
 #include "vtkStreamingMultigridFiltersModule.h" // For export macro
-#include "vtkStreamingSolver.h"
 
-class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkStreamingPoisson : public vtkStreamingSolver
+class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkStreamingPoisson : public vtkMultiEngineSolver
 {
 public:
   static vtkStreamingPoisson* New();
-  vtkTypeMacro(vtkStreamingPoisson, vtkStreamingSolver);
+  vtkTypeMacro(vtkStreamingPoisson, vtkMultiEngineSolver);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** The indices of the input arrays, all of which are optional. */
@@ -61,34 +62,6 @@ public:
     CHEBYSHEV = 2,
     CONJUGATE_GRADIENTS = 3
   };
-
-  /** What solves: see SetEngine(). */
-  enum EngineTypes
-  {
-    STREAMING = 0,
-    DISTRIBUTED = 1,
-    AUTOMATIC_ENGINE = 2
-  };
-
-  ///@{
-  /**
-   * What solves. Default: STREAMING.
-   * - STREAMING: process 0, out of core, in little memory.
-   * - DISTRIBUTED: all processes of the controller together, in memory, by conjugate gradients with
-   *   hypre's BoomerAMG (see smg/DistributedSolver.h). Each solves for the points of the piece that
-   *   it has; no process needs the whole solution. Needs MPI, and a build with hypre. The input may
-   *   be any mesh in pieces whose points have GlobalIds, equal where points are the same vertex;
-   *   a cell that several processes have must be marked as a duplicate in vtkGhostType in all but
-   *   one, points of no cell and previews are refused. A cycle is an iteration, of which
-   *   MaximumCycles limits those for each right-hand side; Sweeps, Operators, Acceleration,
-   *   NumberOfPieces, NumberOfThreads and MemoryLimit have no effect. Streamed requests, which
-   *   process 0 answers alone, are solved for by STREAMING.
-   * - AUTOMATIC_ENGINE: DISTRIBUTED where there is more than one process and their memory holds an
-   *   estimate of what it needs, else STREAMING; a note says why.
-   */
-  vtkSetClampMacro(Engine, int, STREAMING, AUTOMATIC_ENGINE);
-  vtkGetMacro(Engine, int);
-  ///@}
 
   ///@{
   /** The conductivity K, greater than 0, where nothing else defines it. Default: 1. */
@@ -170,7 +143,6 @@ protected:
   bool IsForMemory(vtkPointSet& input, bool isWhole) override;
   smg::SolveSummary SolveInMemory(vtkPointSet& input, const std::function<bool(double)>& progress,
     std::vector<double>& values) override;
-  bool IsForProcesses(vtkPointSet& piece, bool isAlone) override;
   smg::SolveSummary SolveInProcesses(vtkPointSet& piece,
     const std::function<bool(double)>& progress, std::vector<double>& values) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
@@ -181,7 +153,6 @@ private:
 
   struct Internals;
 
-  int Engine = STREAMING;
   double Conductivity = 1.0;
   double Screening = 0.0;
   char* ProblemFileName = nullptr;

@@ -133,8 +133,8 @@ void SolvingCommand::print(const smg::Report& report) const
   }
   for (const smg::Report::Step& step : report.steps)
   {
-    std::printf(
-      "  %s: %d V-cycles, relative residual %.3g\n", step.name.c_str(), step.cycles, step.residual);
+    std::printf("  %s: %d %s, relative residual %.3g\n", step.name.c_str(), step.cycles,
+      report.distributed ? "iterations" : "V-cycles", step.residual);
   }
   for (const smg::Report::Condition& condition : report.conditions)
   {

@@ -57,6 +57,7 @@ std::unique_ptr<Solution> DeformationTask::solve(const VsmReader& mesh,
     moved->addNormals(mesh.source({}, {}), normals);
   }
   report = moved->report();
+  report.notes.insert(report.notes.end(), this->notes.begin(), this->notes.end());
   return moved;
 }
 

@@ -4,6 +4,9 @@
 #include "Filters/Streaming/vtkStreamedTask.h"
 #include "smg/Deform.h"
 
+#include <string>
+#include <vector>
+
 namespace smg
 {
 
@@ -11,8 +14,9 @@ namespace smg
 class DeformationTask : public StreamedTask
 {
 public:
-  DeformOptions options;     ///< except for the progress function
-  bool needsNormals = false; ///< of the vertices; tetrahedra have none
+  DeformOptions options;          ///< except for the progress function
+  bool needsNormals = false;      ///< of the vertices; tetrahedra have none
+  std::vector<std::string> notes; ///< for the report
 
   void check() const override;
   PieceColumns columns() const override;

@@ -5,7 +5,6 @@
 #include "Filters/Streaming/SolveSummary.h"
 
 #include <functional>
-#include <string>
 #include <vector>
 
 class vtkMultiProcessController;
@@ -27,16 +26,5 @@ using MakePoissonTask = std::function<PoissonTask(vtkPointSet&)>;
  */
 SolveSummary solveInProcesses(vtkPointSet& piece, vtkMultiProcessController* controller,
   const MakePoissonTask& taskOf, const ProgressFunction& progress, std::vector<double>& values);
-
-/** Whether the memory of the processes holds a problem. */
-struct MemoryVerdict
-{
-  bool fits = false;
-  std::string reason; ///< what is needed and what there is, for a note
-};
-
-/** Estimates the memory that the distributed engine needs for the pieces of all processes. Called
- * on all of them; returns the same on each. */
-MemoryVerdict judgeMemory(vtkPointSet& piece, vtkMultiProcessController* controller);
 
 } // namespace smg

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Processes/vtkDistributedDeformation.h"
+
+#include "Filters/Deformation/DeformedVertices.h"
+#include "Filters/Handles/vtkHandleArrays.h"
+#include "Filters/Processes/vtkProcessParts.h"
+#include "IO/Files/SinglePrecision.h"
+#include "IO/Motion/NormalSums.h"
+#include "Solver/Stream/OriginalNumbers.h"
+#include "smg/DescribedHandles.h"
+#include "smg/Error.h"
+
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+
+namespace smg
+{
+namespace
+{
+
+void check(const DeformationTask& task)
+{
+  task.check();
+  checkForProcesses(task.options);
+  if (task.options.cycles > 0)
+  {
+    throw Error("The distributed engine has no V-cycles to count: set Cycles to 0, so that "
+                "Tolerance ends each step, or choose the Engine Streaming.");
+  }
+}
+
+/** The positions as the points of the piece hold them. */
+std::vector<double> roundedTo(
+  vtkPointSet& piece, const MeshPart& part, const std::vector<double>& positions)
+{
+  std::vector<double> rounded = positions;
+  const bool isSingle = piece.GetPoints() && piece.GetPoints()->GetDataType() == VTK_FLOAT;
+  for (std::size_t v = 0; isSingle && v < part.ids.size(); ++v)
+  {
+    const std::span<double, 3> position = std::span(rounded).subspan(3 * v).first<3>();
+    std::ranges::copy(singlePrecision(position, part.ids[v], "The moved mesh"), position.begin());
+  }
+  return rounded;
+}
+
+/** The positions of the vertices of the part, and the normals of the moved triangles of all parts
+ * there, as DeformedVertices has them. */
+std::vector<double> withNormals(
+  vtkPointSet& piece, ProcessParts& parts, const std::vector<double>& positions)
+{
+  const MeshPart& part = parts.part();
+  std::vector<double> sums;
+  parts.solver().together(
+    [&]
+    {
+      const std::vector<double> rounded = roundedTo(piece, part, positions);
+      TriangleView triangles{ rounded, part.block.corners, {} };
+      const std::ptrdiff_t flags =
+        findColumn(part.block.cellColumns, { CellFlagsName, ScalarType::UInt8, 1 });
+      if (flags >= 0)
+      {
+        triangles.flags =
+          part.block.cellColumns[static_cast<std::size_t>(flags)].as<std::uint8_t>();
+      }
+      sums = normalSums(triangles);
+    });
+  parts.solver().sum(sums, 3);
+  const std::vector<float> normals = unitNormals(sums);
+  std::vector<double> values;
+  values.reserve(2 * positions.size());
+  for (std::size_t k = 0; k < positions.size(); k += 3)
+  {
+    const auto first = static_cast<std::ptrdiff_t>(k);
+    values.insert(values.end(), positions.begin() + first, positions.begin() + first + 3);
+    values.insert(values.end(), normals.begin() + first, normals.begin() + first + 3);
+  }
+  return values;
+}
+
+} // namespace
+
+SolveSummary deformInProcesses(vtkPointSet& piece, vtkMultiProcessController* controller,
+  const MakeDeformationTask& taskOf, const ProgressFunction& progress, std::vector<double>& values)
+{
+  DeformationTask task;
+  ProcessParts parts(piece, controller,
+    [&](vtkPointSet& sample)
+    {
+      task = taskOf(sample);
+      check(task);
+      const auto& arrays = HandleArrays::names();
+      std::set<std::string> names(arrays.begin(), arrays.end());
+      names.insert({ CellFlagsName, OriginalIdName });
+      return names;
+    });
+  DistributedSolver& solver = parts.solver();
+  const StreamInfo& info = parts.part().info;
+  std::optional<DescribedHandles> handles;
+  solver.together([&] { handles.emplace(DeformationDescription::byColumns(), info); });
+  DistributedSolution solution =
+    solver.deform(*handles, task.options.weights, distributedOptions(task.options, progress));
+  int columns = solution.columns;
+  if (task.needsNormals && info.cellType == CellType::Triangle)
+  {
+    columns = DeformedVertices::WithNormals;
+    solution.values = withNormals(piece, parts, solution.values);
+  }
+  values = parts.atPoints(solution.values, columns);
+  solution.report.notes.insert(solution.report.notes.end(), task.notes.begin(), task.notes.end());
+  return SolveSummary::of(solution.report, columns);
+}
+
+} // namespace smg

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Processes/vtkMemoryVerdict.h"
+
+#include "Filters/Processes/vtkProcessParts.h"
+#include "IO/vtkMeshPieceData.h"
+#include "Solver/Distributed/FreeMemory.h"
+#include "Solver/Distributed/PartMemory.h"
+#include "Solver/Distributed/Team.h"
+
+#include "vtkMultiProcessController.h"
+#include "vtkPointSet.h"
+
+#include <array>
+#include <iomanip>
+#include <span>
+#include <sstream>
+
+namespace smg
+{
+namespace
+{
+
+/** Those of the rotations of a deformation: the most right-hand sides that are usual. */
+constexpr int UsualColumns = 4;
+
+std::string gibibytes(double bytes)
+{
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(2) << bytes / (1 << 30) << " GiB";
+  return text.str();
+}
+
+} // namespace
+
+MemoryVerdict judgeMemory(vtkPointSet& piece, vtkMultiProcessController* controller)
+{
+  const MPI_Comm communicator = communicatorOf(controller);
+  if (communicator == MPI_COMM_NULL)
+  {
+    return { false, "the processes do not communicate by MPI" };
+  }
+  Team team(communicator);
+  MemoryVerdict verdict;
+  team.run(
+    [&]
+    {
+      std::array<double, 2> most{ isPreview(piece) ? 1.0 : 0.0,
+        partMemory(piece.GetNumberOfPoints(), piece.GetNumberOfCells(), UsualColumns) };
+      team.largest(std::span<double>(most));
+      const double share = freeMemoryOfProcess(team);
+      if (most[0] > 0.0)
+      {
+        verdict = { false, "the input is a preview of the mesh" };
+        return;
+      }
+      verdict.fits = most[1] <= share;
+      verdict.reason = "the estimate of " + gibibytes(most[1]) + " for a process " +
+                       (verdict.fits ? "fits in" : "is more than") + " the " + gibibytes(share) +
+                       " that are free for it";
+    });
+  return verdict;
+}
+
+} // namespace smg

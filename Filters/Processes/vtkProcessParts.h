@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Filters/Processes/vtkPiecePart.h"
+#include "Solver/Distributed/Team.h"
+#include "smg/DistributedSolver.h"
+#include "smg/Solve.h"
+
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+class vtkMultiProcessController;
+class vtkPointSet;
+
+namespace smg
+{
+
+/** MPI_COMM_NULL: the processes do not communicate by MPI. */
+MPI_Comm communicatorOf(vtkMultiProcessController* controller);
+
+/** The pieces that the processes of a controller have, as the parts of a mesh that they solve on.
+ * The constructor is called on all processes. */
+class ProcessParts
+{
+public:
+  /** Prepares what is to be solved, given a mesh with the arrays of the input (see sampleOf()), and
+   * returns the names of those that become columns. */
+  using Begin = std::function<std::set<std::string>(vtkPointSet& sample)>;
+
+  /** Throws Error on all processes if one fails. */
+  ProcessParts(vtkPointSet& piece, vtkMultiProcessController* controller, const Begin& begin);
+
+  const MeshPart& part() const { return this->Piece.part; }
+  DistributedSolver& solver() { return *this->Solver; }
+
+  /** Of values at the vertices of the part, those at all points of the piece, duplicate ones
+   * included. */
+  std::vector<double> atPoints(const std::vector<double>& values, int columns) const;
+
+private:
+  Team Processes;
+  PiecePart Piece;
+  std::optional<DistributedSolver> Solver;
+};
+
+/** The options of the distributed engine that those of a solve name. */
+DistributedOptions distributedOptions(
+  const SolveOptions& options, const ProgressFunction& progress);
+
+/** Throws Error if the options ask for what the distributed engine does not have. */
+void checkForProcesses(const SolveOptions& options);
+
+} // namespace smg

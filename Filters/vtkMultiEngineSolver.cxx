@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkMultiEngineSolver.h"
+
+#include "Filters/Processes/vtkMemoryVerdict.h"
+
+#include "vtkMultiProcessController.h"
+
+bool vtkMultiEngineSolver::IsForProcesses(vtkPointSet& piece, bool isAlone)
+{
+  std::string& note = this->EngineNote;
+  note.clear();
+  if (this->Engine == STREAMING)
+  {
+    return false;
+  }
+  if (isAlone)
+  {
+    note = "the streaming engine has solved, since process 0 alone answers streamed requests";
+    return false;
+  }
+  if (this->Engine == DISTRIBUTED)
+  {
+    return true;
+  }
+  smg::MemoryVerdict verdict{ false, this->WhyStreaming() };
+  if (verdict.reason.empty())
+  {
+    vtkMultiProcessController* controller = this->GetController();
+    verdict = controller && controller->GetNumberOfProcesses() > 1
+                ? smg::judgeMemory(piece, controller)
+                : smg::MemoryVerdict{ false, "there is one process" };
+  }
+  note = (verdict.fits ? "the distributed engine was chosen, since "
+                       : "the streaming engine was chosen, since ") +
+         verdict.reason;
+  return verdict.fits;
+}
+
+std::string vtkMultiEngineSolver::WhyStreaming()
+{
+  return {};
+}
+
+void vtkMultiEngineSolver::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  constexpr const char* names[] = { "streaming", "distributed", "automatic" };
+  os << indent << "Engine: " << names[this->Engine] << "\n";
+}
