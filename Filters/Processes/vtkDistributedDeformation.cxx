@@ -22,7 +22,7 @@ namespace smg
 namespace
 {
 
-void check(const DeformationTask& task)
+void checkDeformation(const DeformationTask& task)
 {
   task.check();
   checkForProcesses(task.options);
@@ -91,7 +91,7 @@ SolveSummary deformInProcesses(vtkPointSet& piece, vtkMultiProcessController* co
     [&](vtkPointSet& sample)
     {
       task = taskOf(sample);
-      check(task);
+      checkDeformation(task);
       const auto& arrays = HandleArrays::names();
       std::set<std::string> names(arrays.begin(), arrays.end());
       names.insert({ CellFlagsName, OriginalIdName });

@@ -16,10 +16,10 @@ namespace
 {
 
 /** Of the range of the positions. */
-constexpr double Tolerance = 1e-6;
+constexpr double MostDifference = 1e-6;
 
 /** Two surfaces and two solids; beside each, at large x, a component without held vertices. */
-std::vector<StreamMesh> meshes()
+std::vector<StreamMesh> meshesToDeform()
 {
   const auto with = [](const IndexedTestMesh& mesh, const IndexedTestMesh& free) {
     return toStream(shuffled(disjointUnion(mesh, free, { 100.1, 0.2, 1.0 / 3.0 })));
@@ -105,13 +105,13 @@ Deformations deformBoth(
   return both;
 }
 
-double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
+double differenceOf(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b)
 {
   return (a - b).cwiseAbs().maxCoeff() / (b.maxCoeff() - b.minCoeff());
 }
 
 /** Expects the positions and the reports to agree. */
-void expectEqual(const Deformations& both)
+void expectEqualDeformations(const Deformations& both)
 {
   const Report& a = both.report;
   EXPECT_TRUE(a.converged);
@@ -125,7 +125,7 @@ void expectEqual(const Deformations& both)
   {
     return;
   }
-  EXPECT_LT(distance(both.distributed, both.streamed), Tolerance);
+  EXPECT_LT(differenceOf(both.distributed, both.streamed), MostDifference);
   const Report& b = both.ofStream;
   EXPECT_EQ(a.vertices, b.vertices);
   EXPECT_EQ(a.cells, b.cells);
@@ -138,7 +138,7 @@ void expectEqual(const Deformations& both)
   EXPECT_EQ(a.notes, b.notes);
 }
 
-/** The distance of each vertex from where it was, and from its target if it is held. */
+/** The differenceOf of each vertex from where it was, and from its target if it is held. */
 void expectExact(const StreamMesh& mesh, const Eigen::MatrixXd& positions)
 {
   const ArrayHandles handles = handlesOf(mesh);
@@ -161,22 +161,22 @@ void expectExact(const StreamMesh& mesh, const Eigen::MatrixXd& positions)
 
 TEST(DistributedDeform, AgreesWithTheStreamingEngine)
 {
-  for (const StreamMesh& mesh : meshes())
+  for (const StreamMesh& mesh : meshesToDeform())
   {
     for (const Weights weights : { Weights::Clamped, Weights::Cotangent, Weights::Uniform })
     {
-      expectEqual(deformBoth(mesh, evenCuts(mesh.cells(), sizeOfTest()), weights));
+      expectEqualDeformations(deformBoth(mesh, evenCuts(mesh.cells(), sizeOfTest()), weights));
     }
   }
 }
 
 TEST(DistributedDeform, ProcessesMayLackCells)
 {
-  for (const StreamMesh& mesh : { meshes().front(), meshes().back() })
+  for (const StreamMesh& mesh : { meshesToDeform().front(), meshesToDeform().back() })
   {
     for (const int first : { 0, 1 })
     {
-      expectEqual(
+      expectEqualDeformations(
         deformBoth(mesh, cutsWithGaps(mesh.cells(), sizeOfTest(), first), Weights::Clamped));
     }
   }
@@ -184,7 +184,7 @@ TEST(DistributedDeform, ProcessesMayLackCells)
 
 TEST(DistributedDeform, HeldAndFreeComponentsAreExact)
 {
-  for (const StreamMesh& mesh : meshes())
+  for (const StreamMesh& mesh : meshesToDeform())
   {
     const auto cuts = evenCuts(mesh.cells(), sizeOfTest());
     expectExact(mesh, deformBoth(mesh, cuts, Weights::Clamped).distributed);
@@ -193,7 +193,7 @@ TEST(DistributedDeform, HeldAndFreeComponentsAreExact)
 
 TEST(DistributedDeform, EdgeTargetsAreThoseOfTheStreamingEngine)
 {
-  for (const StreamMesh& mesh : { meshes().front(), meshes().back() })
+  for (const StreamMesh& mesh : { meshesToDeform().front(), meshesToDeform().back() })
   {
     const auto problemOf = [](const StreamMesh& on)
     {
@@ -222,7 +222,8 @@ TEST(DistributedDeform, EdgeTargetsAreThoseOfTheStreamingEngine)
     const Eigen::MatrixXd values = wholeSolution(solver, solver.solve(problem, options));
     if (rankOfTest() == 0)
     {
-      EXPECT_LT(distance(values, solveMesh(mesh, whole, accurate(1e-10)).values), Tolerance);
+      EXPECT_LT(
+        differenceOf(values, solveMesh(mesh, whole, accurate(1e-10)).values), MostDifference);
     }
   }
 }
