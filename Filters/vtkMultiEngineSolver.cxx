@@ -27,7 +27,7 @@ bool vtkMultiEngineSolver::IsForProcesses(vtkPointSet& piece, bool isAlone)
   {
     vtkMultiProcessController* controller = this->GetController();
     verdict = controller && controller->GetNumberOfProcesses() > 1
-                ? smg::judgeMemory(piece, controller)
+                ? smg::judgeMemory(piece, controller, this->GetUsualColumns())
                 : smg::MemoryVerdict{ false, "there is one process" };
   }
   note = (verdict.fits ? "the distributed engine was chosen, since "

@@ -58,6 +58,10 @@ protected:
   /** Why AUTOMATIC_ENGINE is STREAMING, whatever the memory; empty (default): nothing says so. */
   virtual std::string WhyStreaming();
 
+  /** Right-hand sides by which AUTOMATIC_ENGINE estimates the memory. Default: 3, as many as a
+   * position or a displacement has. */
+  virtual int GetUsualColumns() { return 3; }
+
   /** For the notes of the next solve: why the engine is not the one that was asked for, or which
    * one was chosen; empty: nothing to say. */
   const std::string& GetEngineNote() const { return this->EngineNote; }

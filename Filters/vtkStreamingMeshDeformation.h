@@ -98,6 +98,7 @@ protected:
   smg::SolveSummary SolveInProcesses(vtkPointSet& piece,
     const std::function<bool(double)>& progress, std::vector<double>& values) override;
   std::string WhyStreaming() override;
+  int GetUsualColumns() override { return 7; } // of both steps
   bool IsToConverge() override { return this->Cycles == 0; }
 
 private:

@@ -20,9 +20,6 @@ namespace smg
 namespace
 {
 
-/** Those of the rotations of a deformation: the most right-hand sides that are usual. */
-constexpr int UsualColumns = 4;
-
 std::string gibibytes(double bytes)
 {
   std::ostringstream text;
@@ -32,7 +29,7 @@ std::string gibibytes(double bytes)
 
 } // namespace
 
-MemoryVerdict judgeMemory(vtkPointSet& piece, vtkMultiProcessController* controller)
+MemoryVerdict judgeMemory(vtkPointSet& piece, vtkMultiProcessController* controller, int columns)
 {
   const MPI_Comm communicator = communicatorOf(controller);
   if (communicator == MPI_COMM_NULL)
@@ -45,7 +42,7 @@ MemoryVerdict judgeMemory(vtkPointSet& piece, vtkMultiProcessController* control
     [&]
     {
       std::array<double, 2> most{ isPreview(piece) ? 1.0 : 0.0,
-        partMemory(piece.GetNumberOfPoints(), piece.GetNumberOfCells(), UsualColumns) };
+        partMemory(piece.GetNumberOfPoints(), piece.GetNumberOfCells(), columns) };
       team.largest(std::span<double>(most));
       const double share = freeMemoryOfProcess(team);
       if (most[0] > 0.0)

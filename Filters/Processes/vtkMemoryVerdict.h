@@ -16,8 +16,8 @@ struct MemoryVerdict
   std::string reason; ///< what is needed and what there is, for a note
 };
 
-/** Estimates the memory that the distributed engine needs for the pieces of all processes. Called
- * on all of them; returns the same on each. */
-MemoryVerdict judgeMemory(vtkPointSet& piece, vtkMultiProcessController* controller);
+/** Estimates the memory that the distributed engine needs for the pieces of all processes, with so
+ * many right-hand sides. Called on all of them; returns the same on each. */
+MemoryVerdict judgeMemory(vtkPointSet& piece, vtkMultiProcessController* controller, int columns);
 
 } // namespace smg

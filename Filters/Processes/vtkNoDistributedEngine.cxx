@@ -31,7 +31,7 @@ SolveSummary deformInProcesses(vtkPointSet&, vtkMultiProcessController*, const M
   fail();
 }
 
-MemoryVerdict judgeMemory(vtkPointSet&, vtkMultiProcessController*)
+MemoryVerdict judgeMemory(vtkPointSet&, vtkMultiProcessController*, int)
 {
   return { false, "this build has no distributed engine" };
 }

@@ -72,7 +72,8 @@ void solveStep(DistributedRun& run, const char* name, double begin, double end)
 DistributedSolution deformParts(const SharedVertices& vertices, const MeshPart& part,
   Handles& handles, Weights weights, const DistributedOptions& options)
 {
-  DistributedRun run(vertices, part, options);
+  constexpr int Columns = RotationProblem::Columns + PositionProblem::Columns;
+  DistributedRun run(vertices, part, options, Columns);
   PartHandles given(handles, part);
   RotationProblem rotations(given, weights);
   run.assemble(rotations);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 namespace smg
@@ -31,8 +32,8 @@ void checkOptions(const DistributedOptions& options)
 
 } // namespace
 
-DistributedRun::DistributedRun(
-  const SharedVertices& vertices, const MeshPart& part, const DistributedOptions& options)
+DistributedRun::DistributedRun(const SharedVertices& vertices, const MeshPart& part,
+  const DistributedOptions& options, int columns)
   : Vertices(vertices)
   , Processes(vertices.team())
   , Part(part)
@@ -41,6 +42,9 @@ DistributedRun::DistributedRun(
   , Done(vertices.team().rank() == 0 ? options.progress : ProgressFunction())
 {
   checkOptions(options);
+  const auto corners = static_cast<std::int64_t>(part.block.corners.size());
+  checkPartMemory(
+    vertices.vertices(), corners / cornersOf(part.info.cellType), columns, options.memoryLimit);
   this->Costs.processes = this->Processes.size();
   this->report.acceleration = "cg";
   this->report.converged = true;
@@ -55,16 +59,12 @@ void DistributedRun::assemble(Problem& problem)
   const Timer wall;
   Report& r = this->report;
   const bool isFirst = !this->Method;
-  if (isFirst)
-  {
-    const auto corners = static_cast<std::int64_t>(this->Part.block.corners.size());
-    checkPartMemory(this->Vertices.vertices(), corners / cornersOf(this->Part.info.cellType),
-      problem.columns(), this->Options.memoryLimit);
-  }
   Pool pool(this->Options.memoryLimit,
     { "the assembly of a part of the mesh", "raise the memory limit, or use more processes" });
+  std::unique_ptr<HypreMatrix> matrix = std::move(this->System.matrix);
+  this->System = {}; // releases the memory of the problem before
   PartAssembly assembly(pool, this->Vertices, this->Part, problem);
-  this->System = assembly.assemble(std::move(this->System.matrix));
+  this->System = assembly.assemble(std::move(matrix));
   r.pool_bytes_peak = std::max(r.pool_bytes_peak, pool.peak());
   if (isFirst)
   {

@@ -23,9 +23,10 @@ namespace smg
 class DistributedRun
 {
 public:
-  /** Throws Error if an option is out of range. */
-  DistributedRun(
-    const SharedVertices& vertices, const MeshPart& part, const DistributedOptions& options);
+  /** Throws Error if an option is out of range, or if the estimated memory for so many columns of
+   * all problems together exceeds the limit. */
+  DistributedRun(const SharedVertices& vertices, const MeshPart& part,
+    const DistributedOptions& options, int columns);
 
   /** Makes the equations of a problem, which has the weights and the prescribed vertices of the
    * first one. */

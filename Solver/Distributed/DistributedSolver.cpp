@@ -57,7 +57,7 @@ void DistributedSolver::Implementation::prepare(
 DistributedSolution DistributedSolver::Implementation::solve(
   Problem& problem, const DistributedOptions& options)
 {
-  DistributedRun run(*this->vertices, this->part, options);
+  DistributedRun run(*this->vertices, this->part, options, problem.columns());
   run.assemble(problem);
   run.iterate();
   run.fixMeans();
