@@ -168,6 +168,20 @@ TEST(DistributedFailures, OfHandles)
     "beyond the range of numbers"));
 }
 
+TEST(DistributedFailures, OfTheMemoryOfADeformation)
+{
+  const StreamMesh mesh = meshOfTest();
+  const MeshPart part = partOf(mesh, evenCuts(mesh.cells(), sizeOfTest()));
+  ArrayHandles handles(static_cast<std::int64_t>(part.ids.size()));
+  DistributedSolver solver(MPI_COMM_WORLD, part);
+  DistributedOptions options;
+  // Both steps have seven right-hand sides.
+  const auto cells = static_cast<std::int64_t>(part.block.corners.size()) / 3;
+  options.memoryLimit =
+    static_cast<std::int64_t>(partMemory(static_cast<std::int64_t>(part.ids.size()), cells, 6));
+  expectError([&] { solver.deform(handles, Weights::Clamped, options); }, "memory limit");
+}
+
 TEST(DistributedFailures, OfPartsThatAreNotValid)
 {
   const StreamMesh mesh = meshOfTest();
