@@ -18,7 +18,7 @@ void IterateHistory::useScratch(const ScratchFolder& folder, IoStatistics& stati
 void IterateHistory::startPass(const StepWeights& weights)
 {
   this->Weights = weights;
-  this->Written = this->Read = 0;
+  this->Written = this->Read = this->Kept = this->Unpacked = 0;
   std::fill(this->Sums.begin(), this->Sums.end(), 0.0);
   this->Before.restart();
   if (this->Stream)
@@ -29,15 +29,31 @@ void IterateHistory::startPass(const StepWeights& weights)
   }
 }
 
-void IterateHistory::load(const Ring<double>& x, std::int64_t end)
+void IterateHistory::load(std::int64_t end)
 {
-  const std::int64_t begin = this->Before.end();
   this->Before.extendRaw(end);
-  std::ranges::copy(x.range(begin, end), this->Before.at(begin));
   while (this->Steps.end() < end)
   {
     this->loadBlock();
   }
+}
+
+void IterateHistory::keep(const Ring<double>& x)
+{
+  const std::int64_t end = this->Before.end();
+  std::ranges::copy(x.range(this->Kept, end), this->Before.at(this->Kept));
+  this->Kept = end;
+  for (Buffer& block : this->Packages)
+  {
+    const std::int64_t begin = this->Unpacked;
+    this->Unpacked = this->blockEnd(begin);
+    const auto* packed = reinterpret_cast<const float*>(block.data());
+    packed = this->unpack(this->Steps, begin, this->Unpacked, packed);
+    this->unpack(
+      this->Residuals, this->sampledBelow(begin), this->sampledBelow(this->Unpacked), packed);
+    this->Empty.give(std::move(block));
+  }
+  this->Packages.clear();
 }
 
 void IterateHistory::readAhead()
@@ -68,11 +84,9 @@ void IterateHistory::loadBlock()
     this->Residuals.extend(this->sampledBelow(end));
     return;
   }
-  Buffer block = this->Ahead.take([this] { return this->readBlock(); });
-  const auto* packed = reinterpret_cast<const float*>(block.data());
-  packed = this->unpack(this->Steps, end, packed);
-  this->unpack(this->Residuals, this->sampledBelow(end), packed);
-  this->Spare.give(std::move(block));
+  this->Steps.extendRaw(end);
+  this->Residuals.extendRaw(this->sampledBelow(end));
+  this->Packages.push_back(this->Ahead.take([this] { return this->readBlock(); }));
 }
 
 void IterateHistory::combine(const Ring<double>& x, std::int64_t begin, std::int64_t end)
@@ -135,6 +149,7 @@ void IterateHistory::write(std::int64_t done)
 
 void IterateHistory::release()
 {
+  this->Empty.giveTo(this->Spare);
   this->Before.release(this->Written);
   if (this->Stream)
   {
@@ -143,12 +158,11 @@ void IterateHistory::release()
   }
 }
 
-/** Fills a ring up to `end`; returns the remaining part of `packed`. */
-const float* IterateHistory::unpack(Ring<float>& ring, std::int64_t end, const float* packed) const
+/** Fills items [begin, end) of a ring; returns the remaining part of `packed`. */
+const float* IterateHistory::unpack(
+  Ring<float>& ring, std::int64_t begin, std::int64_t end, const float* packed) const
 {
-  const std::int64_t begin = ring.end();
   const std::int64_t vectors = (end - begin) * (ring.lanes() / this->Stride);
-  ring.extendRaw(end);
   pad(packed, this->Columns, vectors, ring.at(begin));
   return packed + vectors * this->Columns;
 }

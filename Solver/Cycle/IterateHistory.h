@@ -76,6 +76,7 @@ public:
     , Residuals(pool, this->Stride * Vectors)
     , Sums(static_cast<std::size_t>(Products * this->Stride))
     , Spare(pool)
+    , Empty(pool)
   {
   }
 
@@ -92,12 +93,15 @@ public:
   bool keepsResiduals() const { return this->Every > 0; }
 
   void startPass(const StepWeights& weights);
-  /** Stores the iterate x of nodes below `end`, which are loaded and not modified yet. */
-  void load(const Ring<double>& x, std::int64_t end);
+  /** Loads the blocks up to node `end`; keep() completes them. */
+  void load(std::int64_t end);
+  /** Stores the iterate x of the nodes that load() has loaded, which are not modified yet. Other
+   * threads may access nodes below these. */
+  void keep(const Ring<double>& x);
   /** x of nodes [begin, end), which is T(y_k), becomes y_{k+1}. */
   void combine(const Ring<double>& x, std::int64_t begin, std::int64_t end);
   // Levels of single precision, the coarse ones, are not accelerated.
-  void load(const Ring<float>&, std::int64_t) {}
+  void keep(const Ring<float>&) {}
   void combine(const Ring<float>&, std::int64_t, std::int64_t) {}
 
   /** Reads ahead as many blocks as load() has taken since the last call. Other threads may access
@@ -166,7 +170,8 @@ private:
   Buffer readBlock();
   void loadBlock();
   // On disk nodes have no padding.
-  const float* unpack(Ring<float>& ring, std::int64_t end, const float* packed) const;
+  const float* unpack(
+    Ring<float>& ring, std::int64_t begin, std::int64_t end, const float* packed) const;
   void pack(const Ring<float>& ring, std::int64_t begin, std::int64_t end);
 
   std::int64_t Nodes;
@@ -183,7 +188,9 @@ private:
   std::optional<ScratchStream> Stream;
   std::int64_t Read = 0; // nodes of the blocks read, and blocks to be taken
   BlocksAhead<Buffer> Ahead;
-  SpareBuffers Spare;
+  std::vector<Buffer> Packages;        // blocks that keep() is to unpack
+  std::int64_t Kept = 0, Unpacked = 0; // ends of the nodes in Before and in Steps
+  SpareBuffers Spare, Empty;
   std::vector<float> Packed;
 
   template <class Vectors>

@@ -10,6 +10,7 @@
 #include "Solver/Cycle/Transfer.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 namespace smg
@@ -26,6 +27,7 @@ class Level
 {
 public:
   using CoarseLevel = Level<float, Relaxation>;
+  friend class Level<double, Relaxation>;
 
   Level(Pool& pool, ResidentNodes& resident, int index, int columns, int sweeps)
     : Window(pool, resident, index, columns)
@@ -144,34 +146,20 @@ public:
     }
   }
 
-  /** Reads ahead, here and on the coarser levels, what load() will take next. Other threads may
-   * perform the upward and the downward part, and write. */
-  void readAhead()
+  /** Adds what reads ahead what load() will take next, and what writes what the downward part has
+   * finished, here and on the coarser levels. They may run beside each other and all stages. */
+  void addFiles(std::vector<std::function<void()>>& tasks)
   {
-    this->Window.readAhead();
+    tasks.emplace_back([this] { this->Window.readAhead(); });
+    tasks.emplace_back([this] { this->writeWindow(); });
     if (this->History)
     {
-      this->History->readAhead();
+      tasks.emplace_back([this] { this->History->readAhead(); });
+      tasks.emplace_back([this] { this->writeHistory(); });
     }
     if (!this->Coarse->core())
     {
-      this->Coarse->readAhead();
-    }
-  }
-
-  /** Writes, here and on the coarser levels, what the downward part has finished. Other threads may
-   * perform the upward and the downward part, and read ahead. */
-  void write()
-  {
-    // An unfinished patch may change nodes before it.
-    this->Window.write((this->Patched ? this->At.restricted : this->At.combined).shown());
-    if (this->History)
-    {
-      this->History->write(this->At.restricted.shown());
-    }
-    if (!this->Coarse->core())
-    {
-      this->Coarse->write();
+      this->Coarse->addFiles(tasks);
     }
   }
 
@@ -189,7 +177,8 @@ public:
     }
   }
 
-  /** Writes what the downward part has finished and releases data that are not needed any more. */
+  /** Shows the cursors, writes what the downward part has finished, and releases data that are not
+   * needed any more. */
   void settle()
   {
     this->showProgress();
@@ -241,8 +230,31 @@ public:
   void prolongAll() { this->prolongTo(0, this->Window.nodes()); }
 
 private:
+  void write()
+  {
+    this->writeWindow();
+    this->writeHistory();
+    if (!this->Coarse->core())
+    {
+      this->Coarse->write();
+    }
+  }
+  void writeWindow()
+  {
+    // An unfinished patch may change nodes before it.
+    this->Window.write((this->Patched ? this->At.restricted : this->At.combined).shown());
+  }
+  void writeHistory()
+  {
+    if (this->History)
+    {
+      this->History->write(this->At.restricted.shown());
+    }
+  }
+
   /** About the time that stages take for a node, relative to a sweep. */
-  static constexpr double ProlongCost = 0.5, CombineCost = 0.5, RestrictCost = 1.4;
+  static constexpr double ArriveCost = 0.3, ProlongCost = 0.5, CombineCost = 0.5,
+                          RestrictCost = 1.4;
 
   std::size_t lanes() const { return this->Squares.size() / 2; }
 
@@ -253,6 +265,7 @@ private:
 
   std::int64_t finalWith(std::int64_t node) const;
   void load(int stage, std::int64_t node);
+  void arrive();
   void prolongUp(bool follows);
   void postSweep(std::size_t s, bool follows);
 

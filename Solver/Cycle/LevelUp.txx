@@ -17,6 +17,7 @@ void Level<Real, Relaxation>::addUpward(Pipeline& pipeline)
   }
   this->Coarse->addUpward(pipeline);
   const auto nodes = static_cast<double>(this->Window.nodes());
+  pipeline.add(ArriveCost * nodes, [this](bool) { this->arrive(); });
   pipeline.add(ProlongCost * nodes, [this](bool follows) { this->prolongUp(follows); });
   for (std::size_t s = 0; s < this->At.postSweep.size(); ++s)
   {
@@ -32,7 +33,7 @@ void Level<Real, Relaxation>::load(std::int64_t node)
   this->load(last, this->finalWith(node));
   if (this->History)
   {
-    this->History->load(this->Window.x(), this->Window.loaded());
+    this->History->load(this->Window.loaded());
   }
 }
 
@@ -76,11 +77,23 @@ void Level<Real, Relaxation>::load(int stage, std::int64_t node)
 }
 
 template <class Real, class Relaxation>
+void Level<Real, Relaxation>::arrive()
+{
+  this->Window.unpack();
+  if (this->History)
+  {
+    this->History->keep(this->Window.x());
+  }
+  this->At.arrived = this->Window.loaded();
+}
+
+template <class Real, class Relaxation>
 void Level<Real, Relaxation>::prolongUp(bool follows)
 {
   const std::int64_t begin = this->At.prolonged;
+  const std::int64_t most = std::min(this->At.wanted.front(), this->At.arrived.seen(follows));
   std::int64_t end = begin;
-  while (end < this->At.wanted.front())
+  while (end < most)
   {
     const RowBlock::Header& h = this->Window.header(end);
     if (!this->Coarse->isFinal(h.parentReach[LevelWindow<Real>::groupIn(h, end)], follows))

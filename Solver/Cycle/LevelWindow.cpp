@@ -153,12 +153,23 @@ void LevelWindow<Real>::loadBlock()
     state->b.extendRaw(end);
   }
   this->Resident->add(end - begin);
-  const auto* x = reinterpret_cast<const Real*>(next.state.data());
-  this->unpack(this->Now.x, begin, end, x);
-  this->unpack(this->Now.b, begin, end, x + (end - begin) * this->Columns);
-  this->SpareState.give(std::move(next.state));
+  this->Packages.push_back({ begin, end, std::move(next.state) });
   this->Blocks.push_back(std::move(next.rows));
   this->Loaded = end;
+}
+
+template <class Real>
+void LevelWindow<Real>::unpack()
+{
+  for (Arrived& arrived : this->Packages)
+  {
+    const auto* x = reinterpret_cast<const Real*>(arrived.state.data());
+    this->unpack(this->Now.x, arrived.begin, arrived.end, x);
+    this->unpack(
+      this->Now.b, arrived.begin, arrived.end, x + (arrived.end - arrived.begin) * this->Columns);
+    this->EmptyState.give(std::move(arrived.state));
+  }
+  this->Packages.clear();
 }
 
 template <class Real>
@@ -216,6 +227,7 @@ void LevelWindow<Real>::release(std::int64_t done)
   {
     return;
   }
+  this->EmptyState.giveTo(this->SpareState);
   while (!this->Blocks.empty() && this->Blocks.front().end() <= std::min(done, this->Written))
   {
     const RowBlock& front = this->Blocks.front();
@@ -264,8 +276,11 @@ void LevelWindow<Real>::moveToMemory()
   this->Rows->startPass(false);
   this->Values->startPass(false);
   this->load(this->Nodes - 1);
-  this->SpareRows.clear();
-  this->SpareState.clear();
+  this->unpack();
+  for (SpareBuffers* spare : { &this->SpareRows, &this->SpareState, &this->EmptyState })
+  {
+    spare->clear();
+  }
   this->Rows.reset();
   this->Values.reset();
   this->RightSide.reset();
@@ -274,8 +289,10 @@ void LevelWindow<Real>::moveToMemory()
 template <class Real>
 void LevelWindow<Real>::keepSolution()
 {
-  this->SpareRows.clear();
-  this->SpareState.clear();
+  for (SpareBuffers* spare : { &this->SpareRows, &this->SpareState, &this->EmptyState })
+  {
+    spare->clear();
+  }
   this->Blocks.clear();
   this->Now.b.clear();
   if (this->Rows)

@@ -52,6 +52,7 @@ public:
     , Now(pool, this->Stride)
     , SpareRows(pool)
     , SpareState(pool)
+    , EmptyState(pool)
   {
   }
 
@@ -135,8 +136,11 @@ public:
   /** First pass: appends the next block of rows. */
   void append(RowBlock block);
 
-  /** Loads blocks up to node `node`. */
+  /** Loads blocks up to node `node`; unpack() completes their state. */
   void load(std::int64_t node);
+  /** Unpacks the state of the blocks that load() has loaded. Other threads may access blocks below
+   * these. */
+  void unpack();
   /** Reads ahead as many blocks as load() has taken since the last call. Other threads may access
    * loaded blocks. */
   void readAhead();
@@ -257,7 +261,14 @@ private:
   std::vector<Real> Packed;
   std::int64_t Read = 0; // nodes of the blocks read, and blocks to be taken
   BlocksAhead<Incoming> Ahead;
-  SpareBuffers SpareRows, SpareState;
+  /** The state of loaded blocks, from `begin` to `end`, packed. */
+  struct Arrived
+  {
+    std::int64_t begin, end;
+    Buffer state;
+  };
+  std::vector<Arrived> Packages;
+  SpareBuffers SpareRows, SpareState, EmptyState;
   std::int64_t CachedBlock = -1; // of readX
 };
 

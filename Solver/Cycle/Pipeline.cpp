@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Cycle/Pipeline.h"
 
+#include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace smg
@@ -10,6 +12,16 @@ void Pipeline::add(double cost, Advance advance)
 {
   this->Stages.push_back({ cost, std::move(advance) });
   this->Ends.assign(1, this->Stages.size());
+}
+
+std::vector<double> Pipeline::costs() const
+{
+  std::vector<double> costs;
+  for (const Stage& stage : this->Stages)
+  {
+    costs.push_back(stage.cost);
+  }
+  return costs;
 }
 
 void Pipeline::cut(int chains)
@@ -37,11 +49,16 @@ void Pipeline::cut(int chains)
   this->Ends.push_back(this->Stages.size());
 }
 
+void Pipeline::cutAll()
+{
+  this->Ends.resize(this->Stages.size());
+  std::iota(this->Ends.begin(), this->Ends.end(), std::size_t(1));
+}
+
 void Pipeline::advance(int chain) const
 {
-  const auto c = static_cast<std::size_t>(chain);
-  const std::size_t first = c == 0 ? 0 : this->Ends[c - 1];
-  for (std::size_t s = first; s < this->Ends[c]; ++s)
+  const std::size_t first = this->begin(chain);
+  for (std::size_t s = first; s < this->begin(chain + 1); ++s)
   {
     this->Stages[s].advance(s > first);
   }

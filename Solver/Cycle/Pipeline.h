@@ -26,12 +26,23 @@ public:
   void add(double cost, Advance advance);
   /** Cuts the stages into at most this many chains, at least 1. */
   void cut(int chains);
+  /** Makes a chain of each stage. */
+  void cutAll();
 
+  /** The number of chains for this many threads: twice as many, since chains are of unequal length.
+   */
+  static int chainsFor(int threads) { return threads == 1 ? 1 : 2 * threads; }
+  std::vector<double> costs() const;
   int chains() const { return static_cast<int>(this->Ends.size()); }
   /** Advances the stages of a chain, one after the other. */
   void advance(int chain) const;
   /** Advances all stages. */
   void advance() const;
+  /** The number of stages in the chains before this one. */
+  std::size_t begin(int chain) const
+  {
+    return chain == 0 ? 0 : this->Ends[static_cast<std::size_t>(chain) - 1];
+  }
 
 private:
   struct Stage

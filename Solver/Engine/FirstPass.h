@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/RunAll.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Engine/AssemblyReport.h"
 #include "Solver/Engine/Convergence.h"
@@ -113,9 +112,13 @@ void FirstPass<Operators>::readStream(
       more ? assembly.add(block) : assembly.finish();
     }
   };
+  if (this->Run.recorder)
+  {
+    this->Run.recorder->startPass({});
+  }
   while (!builder.complete())
   {
-    runAll(this->Run.threads, 2 + this->Built.firstCore(),
+    this->Run.together(2 + this->Built.firstCore(),
       [&](int task)
       {
         // The mesh and the problem are queried on the caller's thread; the longest of the other

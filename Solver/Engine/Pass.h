@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Core/RunAll.h"
 #include "Solver/Cycle/IterateHistory.h"
 #include "Solver/Cycle/Pipeline.h"
 #include "Solver/Engine/Hierarchy.h"
@@ -12,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace smg
 {
@@ -50,7 +50,7 @@ private:
   void setScale(double typical);
   void stream(const Further& further);
   Pipeline stages(const Further& further);
-  std::int64_t stepNodes(int chains) const;
+  int mostChains() const;
 
   SolveRun& Run;
   Hierarchy<Relaxation>& Levels;
@@ -80,9 +80,12 @@ void Pass<Relaxation>::stream(const Further& further)
 {
   auto& finest = this->Levels.finest();
   const Pipeline stages = this->stages(further);
+  std::vector<std::function<void()>> files;
+  finest.addFiles(files);
   const std::int64_t nodes = finest.window().nodes();
   const int chains = stages.chains();
-  const std::int64_t step = this->stepNodes(chains);
+  const int tasks = chains + static_cast<int>(files.size());
+  const std::int64_t step = this->Run.options.blockNodes;
   for (std::int64_t begin = 0; begin < nodes; begin += step)
   {
     const std::int64_t last = std::min(nodes, begin + step) - 1;
@@ -93,9 +96,17 @@ void Pass<Relaxation>::stream(const Further& further)
     }
     // Nodes are written when all stages have finished them a step ago.
     finest.showProgress();
-    runAll(this->Run.threads, chains + 2,
-      [&](int task) {
-        task < chains ? stages.advance(task) : task == chains ? finest.readAhead() : finest.write();
+    this->Run.together(tasks,
+      [&](int task)
+      {
+        if (task < chains)
+        {
+          stages.advance(task);
+        }
+        else
+        {
+          files[static_cast<std::size_t>(task - chains)]();
+        }
       });
     finest.release();
     this->Run.progress.update(static_cast<double>(last) / static_cast<double>(nodes));
@@ -107,8 +118,7 @@ void Pass<Relaxation>::stream(const Further& further)
   finest.settle();
 }
 
-/** The stages of the pass, in twice as many chains as there are threads: they are of unequal
- * length. */
+/** The stages of the pass, in chains. */
 template <class Relaxation>
 Pipeline Pass<Relaxation>::stages(const Further& further)
 {
@@ -119,18 +129,33 @@ Pipeline Pass<Relaxation>::stages(const Further& further)
     stages.add(static_cast<double>(this->Levels.window().nodes()), further.beforeDown);
   }
   this->Levels.finest().addDownward(stages);
-  const int threads = this->Run.scheduled;
-  stages.cut(threads == 1 ? 1 : 2 * threads);
+  if (StepRecorder* recorder = this->Run.recorder)
+  {
+    recorder->startPass(stages.costs());
+    stages.cutAll();
+    return stages;
+  }
+  stages.cut(std::min(Pipeline::chainsFor(this->Run.scheduled), this->mostChains()));
   return stages;
 }
 
-/** The nodes by which a pass advances at once. A chain is as many nodes behind the one before it,
- * so that more chains take shorter steps, down to one block of rows. */
+/** The number of chains for which the memory suffices: each takes a step's nodes. In core all nodes
+ * are in memory anyway. */
 template <class Relaxation>
-std::int64_t Pass<Relaxation>::stepNodes(int chains) const
+int Pass<Relaxation>::mostChains() const
 {
-  const std::int64_t nodes = this->Run.options.blockNodes;
-  return std::min(nodes, std::max(RowBlock::Nodes, 2 * nodes / std::max(2, chains)));
+  constexpr int Unlimited = 1 << 20;
+  constexpr std::int64_t NodeBytes = 400; // measured, with coarser levels: 220 of surfaces
+  if (!this->Run.scratch)
+  {
+    return Unlimited;
+  }
+  const Pool& pool = this->Run.pool;
+  const std::int64_t used = std::max(pool.peak(), this->Run.usedBefore());
+  const std::int64_t chains =
+    (pool.limit() - used) /
+    (NodeBytes * std::min(this->Run.options.blockNodes, this->Levels.window().nodes()));
+  return static_cast<int>(std::clamp<std::int64_t>(chains, 1, Unlimited));
 }
 
 template <class Relaxation>

@@ -33,6 +33,8 @@ public:
   /** To be called once. */
   std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem);
 
+  SolveRun& run() { return *this->Run; }
+
 private:
   Operators Set;
   std::unique_ptr<SolveRun> Run;

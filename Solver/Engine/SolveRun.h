@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/RunAll.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Cycle/LevelCursors.h"
 #include "Solver/Engine/FreeComponents.h"
 #include "Solver/Engine/SolveProgress.h"
+#include "Solver/Engine/StepRecorder.h"
 #include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Problem/Components.h"
 #include "Solver/Storage/Checkpoint.h"
@@ -39,6 +41,20 @@ struct SMG_EXPORT SolveRun
   /** Adds memory, scratch files and times to the report; `Report::levels` must be complete. */
   void finishReport();
 
+  /** Performs task(0) .. task(count - 1), concurrently: task(0) on the calling thread. */
+  template <class Task>
+  void together(int count, Task&& task)
+  {
+    if (this->recorder)
+    {
+      this->recorder->run(count, task);
+    }
+    else
+    {
+      runAll(this->threads, count, task);
+    }
+  }
+
   /** How the parts of a solve save and restore what later passes need. */
   struct Parts
   {
@@ -70,6 +86,7 @@ struct SMG_EXPORT SolveRun
   /** The number of threads that a pass is scheduled for; there may be fewer. */
   int scheduled;
   tbb::task_arena threads;
+  StepRecorder* recorder = nullptr; ///< instead of the threads, if there is one
   Report report;
 
 private:

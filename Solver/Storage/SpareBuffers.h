@@ -50,6 +50,14 @@ public:
     }
     this->Spare.clear();
   }
+  /** Moves its buffers to `others`. */
+  void giveTo(SpareBuffers& others)
+  {
+    for (; !this->Spare.empty(); this->Spare.pop_back())
+    {
+      others.give(std::move(this->Spare.back()));
+    }
+  }
   void clear() { this->Spare.clear(); }
 
 private:

@@ -28,6 +28,9 @@
 #             and memory, out of core and in core; table3.md and .json. Meshes as for solve.
 #               --threads N          of each solve (1)
 #   kernels   nanoseconds per node of each kernel. Its own mesh: a torus of 0.25 million vertices.
+#   schedule  how much faster a solve becomes with more threads: a model from the times of its stages
+#             on one thread, for 1 to 64 threads. Its own meshes: a torus of 1 million vertices, and a
+#             box of tetrahedra of 0.25 million. Beside it, wall times with the cores of this machine.
 #   roofline  the bytes that a pass moves, compared with the bandwidths of memory, page
 #             cache and disk. Its own mesh: a torus of 1 million vertices.
 #               --scratch DIR        on the disk to measure (TMPDIR)
@@ -47,7 +50,7 @@
 set -euo pipefail
 part=solve
 case "${1:-}" in
-  solve | convert | scaling | table3 | kernels | roofline | story)
+  solve | convert | scaling | table3 | kernels | schedule | roofline | story)
     part=$1
     shift
     ;;
@@ -183,6 +186,16 @@ kernels_part() {
   [ ${#meshes[@]} -gt 0 ] || measure_kernels torus
   for mesh in "${meshes[@]}"; do
     measure_kernels "$(basename "$mesh" .vsm)" "$mesh"
+  done
+}
+
+schedule_part() {
+  local out
+  convert_meshes
+  [ ${#meshes[@]} -gt 0 ] || meshes=("$(made torus 1000000)" "$(made box 250000)")
+  for mesh in "${meshes[@]}"; do
+    out=$results/$(basename "$mesh" .vsm)-schedule
+    "$bin/benchmark_schedule" "$mesh" --measure --json "$out.json" | tee "$out.md"
   done
 }
 

@@ -40,7 +40,8 @@ public:
   {
     const std::int64_t end = this->Factors.size();
     this->History.startPass(weights);
-    this->History.load(this->Errors, end);
+    this->History.load(end);
+    this->History.keep(this->Errors);
     this->error().array() *= this->Factors.array();
     this->History.combine(this->Errors, 0, end);
     using One = Lanes<double, 1>;
