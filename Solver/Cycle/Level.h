@@ -108,7 +108,13 @@ public:
   void append(RowBlock block)
   {
     // Nodes of a patch may be in blocks before that of its last one.
-    this->Patched = this->Patched || block.header().specials > 0;
+    const RowBlock::Header& h = block.header();
+    this->Patched = this->Patched || h.specials > 0;
+    if (this->Coarse)
+    {
+      this->Coarse->window().extendB(
+        h.parentReach[LevelWindow<Real>::groupIn(h, h.first + h.nodes - 1)] + 1);
+    }
     this->Window.append(std::move(block));
   }
 
@@ -146,20 +152,33 @@ public:
     }
   }
 
-  /** Adds what reads ahead what load() will take next, and what writes what the downward part has
-   * finished, here and on the coarser levels. They may run beside each other and all stages. */
-  void addFiles(std::vector<std::function<void()>>& tasks)
+  /** Adds what reads ahead what load() will take next, here and on the coarser levels. It may run
+   * beside all else. */
+  void addReaders(std::vector<std::function<void()>>& tasks)
   {
     tasks.emplace_back([this] { this->Window.readAhead(); });
-    tasks.emplace_back([this] { this->writeWindow(); });
     if (this->History)
     {
       tasks.emplace_back([this] { this->History->readAhead(); });
+    }
+    if (!this->Coarse->core())
+    {
+      this->Coarse->addReaders(tasks);
+    }
+  }
+
+  /** Adds what writes what the downward part has finished, here and on the coarser levels. It may
+   * run beside all else. */
+  void addWriters(std::vector<std::function<void()>>& tasks)
+  {
+    tasks.emplace_back([this] { this->writeWindow(); });
+    if (this->History)
+    {
       tasks.emplace_back([this] { this->writeHistory(); });
     }
     if (!this->Coarse->core())
     {
-      this->Coarse->addFiles(tasks);
+      this->Coarse->addWriters(tasks);
     }
   }
 

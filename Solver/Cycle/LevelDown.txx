@@ -105,10 +105,6 @@ void Level<Real, Relaxation>::restrictDown(bool follows)
 template <class Real, class Relaxation>
 bool Level<Real, Relaxation>::prepare(std::int64_t node)
 {
-  if (this->First)
-  {
-    this->Window.extendB(node + 1);
-  }
   if (this->First || this->Core)
   {
     return true;

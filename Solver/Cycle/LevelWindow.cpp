@@ -84,10 +84,6 @@ void LevelWindow<Real>::endPass()
 template <class Real>
 void LevelWindow<Real>::append(RowBlock block)
 {
-  if (this->Rows)
-  {
-    this->Rows->append(block.stored());
-  }
   this->extendState(block.end());
   this->Nodes = this->Loaded = block.end();
   this->Blocks.push_back(std::move(block));
@@ -204,6 +200,10 @@ void LevelWindow<Real>::write(std::int64_t done)
     if (end > done)
     {
       break;
+    }
+    if (this->First)
+    {
+      this->Rows->append(this->block(begin).stored());
     }
     const auto values = static_cast<std::size_t>((end - begin) * this->WrittenColumns);
     this->Packed.resize(2 * values);

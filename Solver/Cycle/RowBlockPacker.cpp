@@ -119,7 +119,7 @@ Header measure(
       const std::int64_t count = coarsening->interpolation.size(i);
       if (count > 0 && !based)
       {
-        h.parentBase = coarsening->coarseNodes + p->offset(coarsening->coarseNodes);
+        h.parentBase = coarsening->knownCoarse + p->offset(coarsening->knownCoarse);
         based = true;
       }
       for (std::int64_t e = 0; e < count; ++e)

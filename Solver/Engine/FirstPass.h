@@ -14,8 +14,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <utility>
+#include <vector>
 
 namespace smg
 {
@@ -80,7 +83,8 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
   const CellType type = mesh.info().cellType;
   AssembledRows rows;
   HierarchyBuilder<Operators> builder(this->Run.pool, this->Set, this->Built.levels(),
-    this->Built.firstCore(), Assembly::stiffRows(type, problem.weights(), rows));
+    this->Built.firstCore(), Assembly::stiffRows(type, problem.weights(), rows),
+    this->Run.recorder ? StepRecorder::Threads : this->Run.scheduled);
   Assembly assembly(
     this->Run.pool, mesh.info(), problem, rows, this->Run.components, this->Run.labels, listener);
   this->Built.startPass(true);
@@ -116,19 +120,32 @@ void FirstPass<Operators>::readStream(
   {
     this->Run.recorder->startPass({});
   }
+  std::vector<std::function<void()>> tasks;
+  for (int task = 0; task < builder.tasks(); ++task)
+  {
+    tasks.emplace_back([&builder, task] { builder.advance(task); });
+  }
+  tasks.emplace_back([&finest] { finest.advanceDown(); });
+  finest.addWriters(tasks);
   while (!builder.complete())
   {
-    this->Run.together(2 + this->Built.firstCore(),
+    builder.begin();
+    const bool waits = builder.isBusy();
+    finest.showProgress();
+    this->Run.together(1 + static_cast<int>(tasks.size()),
       [&](int task)
       {
-        // The mesh and the problem are queried on the caller's thread; the longest of the other
-        // tasks come first.
-        task == 0   ? assemble()
-        : task == 1 ? builder.advance(0)
-        : task == 2 ? finest.advanceDown()
-                    : builder.advance(task - 2);
+        // The mesh and the problem are queried on the caller's thread.
+        if (task == 0 && !waits)
+        {
+          assemble();
+        }
+        else if (task > 0)
+        {
+          tasks[static_cast<std::size_t>(task - 1)]();
+        }
       });
-    finest.settle();
+    finest.release();
     rows.moveTo(builder.finestRows(), finest.window(), finest.window().columns());
     builder.finestRows().Ended = !more;
     builder.handOver();

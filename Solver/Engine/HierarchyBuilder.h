@@ -7,6 +7,7 @@
 #include "Solver/Operators/Coarsening.h"
 #include "smg/Report.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -28,13 +29,15 @@ public:
    * nodes of the next finer level, which has few strong edges or many stiff rows. */
   static constexpr double StalledShare = 0.8;
 
-  /** `stiff` finds the stiff rows of each coarse level. */
-  HierarchyBuilder(
-    Pool& pool, Operators operators, Levels<Relaxation>& levels, int firstCore, StiffRows stiff)
+  /** `stiff` finds the stiff rows of each coarse level. On more than two threads, two of them
+   * advance each of the finest levels, where most of the work is. */
+  HierarchyBuilder(Pool& pool, Operators operators, Levels<Relaxation>& levels, int firstCore,
+    StiffRows stiff, int threads)
     : Owner(pool)
     , Set(std::move(operators))
     , Built(levels)
     , FirstCore(firstCore)
+    , ApartLevels(canRunApart<Operators> && threads > 2 ? std::min(2, firstCore) : 0)
     , Stiff(stiff)
   {
     this->addRows();
@@ -47,20 +50,45 @@ public:
   /** The rows of the finest level, to be appended to between two steps. */
   LevelRows& finestRows() { return *this->Rows.front(); }
 
-  /** Advances all stages of streamed level l as far as possible. The levels may do so on different
-   * threads: data for other levels are handed over afterwards. */
-  void advance(int l)
+  /** Whether the finest level has rows enough for a step: more would take memory. */
+  bool isBusy() const
   {
-    const auto k = static_cast<std::size_t>(l);
-    const std::int64_t end = this->Rows[k]->end();
-    std::int64_t& rows = this->Advanced[k];
-    // A few rows at a time: their intermediate data are released before the next ones.
-    do
+    using Step = Coarsening<Operators>;
+    return this->ApartLevels > 0 && this->Steps.front()->waiting() > Step::StepNodes;
+  }
+
+  /** Begins a step of all streamed levels. */
+  void begin()
+  {
+    for (int l = 0; l < this->ApartLevels; ++l)
     {
-      rows = std::min(end, rows + RowBlock::Nodes);
-      this->Steps[k]->advance(rows);
-      this->pack(l);
-    } while (rows < end);
+      this->Steps[static_cast<std::size_t>(l)]->beginApart();
+    }
+  }
+
+  /** Number of tasks of a step, which may run on different threads: data for other levels are
+   * handed over afterwards. */
+  int tasks() const { return this->FirstCore + this->ApartLevels; }
+
+  /** Performs a task of a step: advances all stages of a streamed level as far as possible, or
+   * those from products on, or those before these. */
+  void advance(int task)
+  {
+    if (task >= 2 * this->ApartLevels)
+    {
+      this->advanceLevel(task - this->ApartLevels);
+      return;
+    }
+    Coarsening<Operators>& step = *this->Steps[static_cast<std::size_t>(task / 2)];
+    if (task % 2 == 0)
+    {
+      step.advanceProducts();
+      this->pack(task / 2);
+    }
+    else
+    {
+      step.advanceInterpolation();
+    }
   }
 
   /** Ends a step of all streamed levels: hands over rows to the next level and blocks to the
@@ -69,7 +97,12 @@ public:
   {
     for (int l = 0; l < this->FirstCore; ++l)
     {
-      this->Steps[static_cast<std::size_t>(l)]->handOver();
+      Coarsening<Operators>& step = *this->Steps[static_cast<std::size_t>(l)];
+      if (l < this->ApartLevels)
+      {
+        step.release();
+      }
+      step.handOver();
       this->append(l);
     }
   }
@@ -121,6 +154,20 @@ public:
   }
 
 private:
+  void advanceLevel(int l)
+  {
+    const auto k = static_cast<std::size_t>(l);
+    const std::int64_t end = this->Rows[k]->end();
+    std::int64_t& rows = this->Advanced[k];
+    // A few rows at a time: their intermediate data are released before the next ones.
+    do
+    {
+      rows = std::min(end, rows + RowBlock::Nodes);
+      this->Steps[k]->advance(rows);
+      this->pack(l);
+    } while (rows < end);
+  }
+
   /** Builds core level l, whose rows are complete, and the rows of the next one, even if that is
    * not used, so that the coarsest level does not depend on whether it is streamed. */
   void build(int l)
@@ -219,7 +266,10 @@ private:
         packRows(this->Buffers[k], rows, &step.data(), begin, nodes, l > 0 && !this->Stiff.any()));
       begin += nodes;
       step.packed(begin);
-      step.release();
+      if (l >= this->ApartLevels)
+      {
+        step.release();
+      }
     }
   }
 
@@ -227,6 +277,7 @@ private:
   Operators Set;
   Levels<Relaxation>& Built;
   int FirstCore;
+  int ApartLevels; // those that two threads advance
   StiffRows Stiff;
   std::vector<std::unique_ptr<LevelRows>> Rows;
   std::vector<std::unique_ptr<Coarsening<Operators>>> Steps;

@@ -81,7 +81,8 @@ void Pass<Relaxation>::stream(const Further& further)
   auto& finest = this->Levels.finest();
   const Pipeline stages = this->stages(further);
   std::vector<std::function<void()>> files;
-  finest.addFiles(files);
+  finest.addReaders(files);
+  finest.addWriters(files);
   const std::int64_t nodes = finest.window().nodes();
   const int chains = stages.chains();
   const int tasks = chains + static_cast<int>(files.size());

@@ -84,6 +84,48 @@ private:
 };
 static_assert(sizeof(InterpolationEntry) == 8 && Quanta <= 127);
 
+/** A mark and a value for each coarse node. */
+struct Slot
+{
+  std::uint32_t mark;
+  float value;
+
+  // Both without branches, which would be unpredictable.
+
+  /** The value, or 0 if the slot does not have the mark. */
+  float get(std::uint32_t fresh) const
+  {
+    const auto known = static_cast<std::uint32_t>(this->mark == fresh);
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(this->value) & (0U - known));
+  }
+  /** Adds to the value, which starts at 0 if the slot does not have the mark yet; returns whether
+   * it had. */
+  bool add(std::uint32_t fresh, float more)
+  {
+    const bool known = this->mark == fresh;
+    this->value = this->get(fresh) + more;
+    this->mark = fresh;
+    return !known;
+  }
+};
+
+/** Slots of the coarse nodes that are alive. */
+class SlotRing : public Ring<Slot>
+{
+public:
+  using Ring<Slot>::Ring;
+
+  /** A mark that no slot has. */
+  std::uint32_t freshMark()
+  {
+    this->Mark += this->Mark == UINT32_MAX ? 2 : 1;
+    return this->Mark;
+  }
+
+private:
+  std::uint32_t Mark = 0;
+};
+
 /** The data of the step from a level (fine) to the next one (coarse) in memory, as windows. They
  * are filled by the stages of the operator set, which Coarsening calls. */
 struct CoarseningData
@@ -116,6 +158,7 @@ struct CoarseningData
     , rawSettled(pool)
     , rawLarge(pool)
     , slots(pool)
+    , productSlots(pool)
   {
   }
 
@@ -158,37 +201,11 @@ struct CoarseningData
   /** Scratch of sparsification: which of the first 64 entries were large when the row came. */
   Ring<std::uint64_t> rawLarge;
 
-  /** Scratch of the stages: a mark and a value for each coarse node. */
-  struct Slot
-  {
-    std::uint32_t mark;
-    float value;
-
-    // Both without branches, which would be unpredictable.
-
-    /** The value, or 0 if the slot does not have the mark. */
-    float get(std::uint32_t fresh) const
-    {
-      const auto known = static_cast<std::uint32_t>(this->mark == fresh);
-      return std::bit_cast<float>(std::bit_cast<std::uint32_t>(this->value) & (0U - known));
-    }
-    /** Adds to the value, which starts at 0 if the slot does not have the mark yet; returns whether
-     * it had. */
-    bool add(std::uint32_t fresh, float more)
-    {
-      const bool known = this->mark == fresh;
-      this->value = this->get(fresh) + more;
-      this->mark = fresh;
-      return !known;
-    }
-  };
-  Ring<Slot> slots;
-  /** A mark that no slot has. */
-  std::uint32_t freshMark()
-  {
-    this->Mark += this->Mark == UINT32_MAX ? 2 : 1;
-    return this->Mark;
-  }
+  /** Scratch of the stages for coarse nodes: those up to interpolate() have their own, so that the
+   * others may run on another thread. */
+  SlotRing slots, productSlots;
+  /** The number of coarse nodes that the stages from multiply() on know. */
+  std::int64_t knownCoarse = 0;
 
   /** Room in addition to the rows of `raw` below `end`. */
   void openRaw(std::int64_t end)
@@ -225,9 +242,6 @@ struct CoarseningData
   }
 
   std::int64_t coarseNodes = 0;
-
-private:
-  std::uint32_t Mark = 0;
 };
 
 } // namespace smg

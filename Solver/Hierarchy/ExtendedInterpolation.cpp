@@ -106,7 +106,7 @@ void ExtendedInterpolation::openPattern(
   const CoarseningData& data, std::int64_t i, std::uint32_t mark)
 {
   const std::int64_t near = data.coarseNodes;
-  CoarseningData::Slot* slots = data.slots.at(near);
+  Slot* slots = data.slots.at(near);
   std::size_t size = 0;
   for (const RowEntry& entry : data.fine.row(i))
   {
@@ -129,7 +129,7 @@ void ExtendedInterpolation::openPattern(
 /** The weights of the columns. */
 void ExtendedInterpolation::closePattern(const CoarseningData& data)
 {
-  const CoarseningData::Slot* slots = data.slots.at(data.coarseNodes);
+  const Slot* slots = data.slots.at(data.coarseNodes);
   for (Candidate& candidate : this->Row)
   {
     candidate.weight = slots[candidate.distance].value;
@@ -139,8 +139,8 @@ void ExtendedInterpolation::closePattern(const CoarseningData& data)
 void ExtendedInterpolation::relaxNode(CoarseningData& data, std::int64_t i)
 {
   const std::int64_t near = data.coarseNodes;
-  CoarseningData::Slot* slots = data.slots.at(near);
-  const std::uint32_t mark = data.freshMark();
+  Slot* slots = data.slots.at(near);
+  const std::uint32_t mark = data.slots.freshMark();
   this->openPattern(data, i, mark);
   const float inverse = 1.0F / data.patches.diagonal(i);
   double lacking = data.fine.alpha(i);
@@ -151,7 +151,7 @@ void ExtendedInterpolation::relaxNode(CoarseningData& data, std::int64_t i)
     lacking += static_cast<double>(entry.weight()) * (1.0F - row.sum);
     for (const CoarseEntry& p : row.entries)
     {
-      CoarseningData::Slot& slot = slots[p.offset(near)];
+      Slot& slot = slots[p.offset(near)];
       if (slot.mark == mark)
       {
         slot.value += weight * p.value();
@@ -166,8 +166,8 @@ void ExtendedInterpolation::gatherOutside(
   CoarseningData& data, std::int64_t i, const Patch& patch, std::uint8_t inside, Outside& sum)
 {
   const std::int64_t near = data.coarseNodes;
-  CoarseningData::Slot* slots = data.slots.at(near);
-  const std::uint32_t mark = data.freshMark();
+  Slot* slots = data.slots.at(near);
+  const std::uint32_t mark = data.slots.freshMark();
   sum.weights.clear();
   sum.lacking = data.fine.alpha(i);
   for (const RowEntry& entry : data.fine.row(i))
@@ -222,11 +222,11 @@ void ExtendedInterpolation::relaxPatch(
     gatherOutside(
       data, patch.member(members[a]), patch, inside, this->Of[static_cast<std::size_t>(a)]);
   }
-  CoarseningData::Slot* slots = data.slots.at(data.coarseNodes);
+  Slot* slots = data.slots.at(data.coarseNodes);
   for (int a = 0; a < count; ++a)
   {
     const std::int64_t i = patch.member(members[a]);
-    const std::uint32_t mark = data.freshMark();
+    const std::uint32_t mark = data.slots.freshMark();
     this->openPattern(data, i, mark);
     double lacking = 0.0;
     for (int b = 0; b < count; ++b)
@@ -236,7 +236,7 @@ void ExtendedInterpolation::relaxPatch(
       const auto factor = static_cast<float>(inverse.at(a, b));
       for (const Candidate& candidate : sum.weights)
       {
-        CoarseningData::Slot& slot = slots[candidate.distance];
+        Slot& slot = slots[candidate.distance];
         if (slot.mark == mark)
         {
           slot.value += factor * candidate.weight;

@@ -15,8 +15,8 @@ std::int32_t* GalerkinProduct::roomFor(std::int64_t columns)
 
 void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
 {
-  const std::int64_t near = data.coarseNodes;
-  CoarseningData::Slot* slots = data.slots.at(near);
+  const std::int64_t near = data.knownCoarse;
+  Slot* slots = data.productSlots.at(near);
   const std::int64_t own = data.interpolation.size(i);
   if (own == 0)
   {
@@ -26,7 +26,7 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
     return;
   }
   const auto row = data.fine.row(i);
-  const std::uint32_t mark = data.freshMark();
+  const std::uint32_t mark = data.productSlots.freshMark();
   std::int64_t size = 0;
   std::int32_t* columns = this->roomFor(own);
 
@@ -112,8 +112,8 @@ double GalerkinProduct::findChildren(const CoarseningData& data, std::int64_t c)
 void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
 {
   const double alpha = this->findChildren(data, c);
-  CoarseningData::Slot* slots = data.slots.at(c);
-  const std::uint32_t mark = data.freshMark();
+  Slot* slots = data.productSlots.at(c);
+  const std::uint32_t mark = data.productSlots.freshMark();
   std::int64_t columns = 0;
   for (const Child& child : this->Children)
   {
@@ -133,7 +133,7 @@ void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
 
 void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
 {
-  const CoarseningData::Slot* slots = data.slots.at(c);
+  const Slot* slots = data.productSlots.at(c);
   CoarseEntry* out = data.raw.open(static_cast<std::int64_t>(this->Sorted.size()));
   std::int32_t lower = 0;
   std::int64_t size = 0;

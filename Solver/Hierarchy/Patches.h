@@ -49,6 +49,17 @@ public:
   /** Adds the next node, whose row and those before it exist. */
   void add(const LevelRows& rows);
 
+  /** Provides room for so many more nodes, and for some patches: other threads may read earlier
+   * ones while nodes are added, until isFull(). */
+  void reserve(std::int64_t nodes)
+  {
+    this->Number.reserve(this->Number.end() - this->Number.first() + nodes);
+    this->Diagonals.reserve(this->Diagonals.end() - this->Diagonals.first() + nodes);
+    this->Room = this->Of.end() + MorePatches;
+    this->Of.reserve(this->Room - this->Of.first());
+  }
+  bool isFull() const { return this->Of.end() == this->Room; }
+
   /** The patch of node i, or null; complete after all nodes that its first row reaches. */
   const Patch* of(std::int64_t i) const
   {
@@ -69,13 +80,15 @@ public:
 
 private:
   static constexpr std::uint32_t Alone = 0;
+  static constexpr std::int64_t MorePatches = 256;
 
   void join(const LevelRows& rows, std::int64_t j, std::int64_t i);
   static void append(const LevelRows& rows, Patch& patch, std::int64_t j, double diagonal);
 
   Ring<std::uint32_t> Number; // by node: of its patch, from 1, or Alone
   Ring<Patch> Of;
-  Ring<float> Diagonals; // by node
+  Ring<float> Diagonals;  // by node
+  std::int64_t Room = -1; // end of the patches for which there is room; -1: not known
 };
 
 } // namespace smg

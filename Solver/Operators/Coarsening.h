@@ -33,8 +33,8 @@ public:
   }
 
   const CoarseningData& data() const { return this->Data; }
-  /** Rows of P that are final. */
-  std::int64_t interpolated() const { return this->Interpolated; }
+  /** Rows of P that are final, as the stages from multiply() on see it. */
+  std::int64_t interpolated() const { return this->Seen; }
   /** Declares that the rows and the interpolation of nodes below `end` have been copied. */
   void packed(std::int64_t end) { this->Packed = end; }
 
@@ -45,13 +45,43 @@ public:
    */
   void advance(std::int64_t rows = std::numeric_limits<std::int64_t>::max())
   {
-    this->Rows = std::min(rows, this->Data.fine.end());
+    this->begin(rows);
+    this->advanceInterpolation();
+    this->see();
+    this->advanceProducts();
+    this->release();
+  }
+
+  // The same on two threads: between begin() and release(), advanceInterpolation() and
+  // advanceProducts() may run at the same time, the latter on the interpolation of earlier steps.
+
+  /** The nodes by which the stages advance at once. */
+  static constexpr std::int64_t StepNodes = 4 * RowBlock::Nodes;
+
+  void beginApart()
+  {
+    this->begin(this->Lifted + StepNodes);
+    this->see();
+    this->reserve();
+    this->Apart = true;
+  }
+  /** The rows that no stage has processed. */
+  std::int64_t waiting() const { return this->Data.fine.end() - this->Lifted; }
+
+  /** The stages that determine P. */
+  void advanceInterpolation()
+  {
     this->lift();
     this->interpolate();
+  }
+
+  /** The stages from P to the coarse rows. */
+  void advanceProducts()
+  {
+    this->Data.productSlots.extend(this->Data.knownCoarse);
     this->multiply();
     this->gather();
     this->finish();
-    this->release();
   }
 
   /** Appends the new final coarse rows to the coarse level. */
@@ -97,14 +127,51 @@ public:
     d.lastChild.release(this->Finished);
     d.releaseRaw(this->Finished);
     d.slots.release(this->Finished);
+    d.productSlots.release(this->Finished);
   }
 
 private:
+  /** Lets the stages read the existing rows below `rows`. */
+  void begin(std::int64_t rows)
+  {
+    this->Rows = std::min(rows, this->Data.fine.end());
+    if (this->Data.coarseNodes - this->Finished >= CoarseWindow)
+    {
+      throw Error(
+        "neighbours lie too far apart in the stream: convert the mesh with the order bfs");
+    }
+  }
+
+  /** Shows the interpolation so far to the stages from multiply() on. */
+  void see()
+  {
+    this->Seen = this->Interpolated;
+    this->Data.knownCoarse = this->Data.coarseNodes;
+  }
+
+  /** Makes room for what this step adds to the data that both threads use. */
+  void reserve()
+  {
+    CoarseningData& d = this->Data;
+    const std::int64_t rows = this->Rows - this->Interpolated, lifts = this->Rows - this->Lifted;
+    d.patches.reserve(lifts);
+    d.interpolation.reserve(rows, RelaxedRow::Most * rows);
+    d.rowQuanta.reserve(this->Rows - d.rowQuanta.first());
+    d.parentReach.reserve(rows);
+    d.settledReach.reserve(rows);
+    d.liftedFrom.reserve(lifts);
+    for (auto* ring : { &d.firstChild, &d.lastChild })
+    {
+      ring->reserve(d.coarseNodes + lifts - ring->first());
+    }
+  }
+
   void lift()
   {
     CoarseningData& d = this->Data;
     d.lifted.extend(this->Rows);
-    for (std::int64_t& i = this->Lifted; i < this->Rows; ++i)
+    for (std::int64_t& i = this->Lifted; i < this->Rows && !(this->Apart && d.patches.isFull());
+         ++i)
     {
       d.patches.add(d.fine);
       const bool lifted = this->Set.lift(d, i);
@@ -115,11 +182,6 @@ private:
         ++d.coarseNodes;
       }
     }
-    if (d.coarseNodes - this->Finished >= CoarseWindow)
-    {
-      throw Error(
-        "neighbours lie too far apart in the stream: convert the mesh with the order bfs");
-    }
     d.firstChild.extend(d.coarseNodes);
     d.lastChild.extend(d.coarseNodes);
     d.slots.extend(d.coarseNodes);
@@ -128,7 +190,7 @@ private:
   void interpolate()
   {
     CoarseningData& d = this->Data;
-    const std::int64_t rows = this->Rows;
+    const std::int64_t rows = this->Lifted;
     for (std::int64_t& i = this->Initial; i < rows && d.fine.reach(i) < this->Lifted; ++i)
     {
       this->Set.interpolateInitial(d, i);
@@ -159,7 +221,7 @@ private:
     std::int64_t before = this->Initial;
     for (Sweep& sweep : this->Relaxed)
     {
-      while (sweep.next < this->Rows && d.fine.reach(sweep.next) < before)
+      while (sweep.next < this->Lifted && d.fine.reach(sweep.next) < before)
       {
         if (sweep.next == d.relaxed.end())
         {
@@ -182,7 +244,7 @@ private:
     CoarseningData& d = this->Data;
     const std::int64_t rows = this->Rows;
     d.productSum.extendRaw(rows);
-    for (std::int64_t& i = this->Multiplied; i < rows && d.fine.reach(i) < this->Interpolated; ++i)
+    for (std::int64_t& i = this->Multiplied; i < rows && d.fine.reach(i) < this->Seen; ++i)
     {
       this->Set.multiply(d, i);
     }
@@ -193,7 +255,7 @@ private:
   {
     const CoarseningData& d = this->Data;
     const std::int64_t ring = d.fine.reach(d.liftedFrom[c]);
-    if (ring >= this->Rows || d.fine.reach(ring) >= this->Interpolated)
+    if (ring >= this->Rows || d.fine.reach(ring) >= this->Seen)
     {
       return false;
     }
@@ -203,7 +265,7 @@ private:
   void gather()
   {
     CoarseningData& d = this->Data;
-    for (std::int64_t& c = this->Gathered; c < d.coarseNodes && this->canGather(c); ++c)
+    for (std::int64_t& c = this->Gathered; c < d.knownCoarse && this->canGather(c); ++c)
     {
       d.openRaw(c + 1);
       this->Set.gather(d, c);
@@ -255,10 +317,11 @@ private:
     std::int64_t next = 0, settled = 0;
   };
 
+  bool Apart = false;                   // whether two threads advance the stages
   std::int64_t Rows = 0;                // of the fine level, that stages may read
   std::int64_t Lifted = 0, Initial = 0; // by fine node
   std::vector<Sweep> Relaxed;
-  std::int64_t Interpolated = 0, Multiplied = 0;
+  std::int64_t Interpolated = 0, Seen = 0, Multiplied = 0;
   std::int64_t Gathered = 0, Finished = 0; // by coarse node
   std::int64_t Packed = 0;
   std::int64_t RelaxedDone = 0, ReachDone = 0, PatchesDone = 0, ProductDone = 0;

@@ -23,6 +23,7 @@ class Extended
 public:
   static constexpr const char* name = "extended";
   using Relaxation = GaussSeidel;
+  using Apart = Extended;
 
   Extended() = default;
   explicit Extended(const ExtendedParameters& parameters)
@@ -68,6 +69,6 @@ private:
   Sparsification Sparsify;
 };
 
-static_assert(OperatorSet<Extended>);
+static_assert(OperatorSet<Extended> && canRunApart<Extended>);
 
 } // namespace smg

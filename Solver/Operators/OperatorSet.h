@@ -26,6 +26,7 @@ namespace smg
  *   o.gather(data, c)               row c of P^T A P,
  *   o.sparsify(data, c)             and its sparsification
  *   O::Relaxation                   see Solver/Cycle/Relaxation.h
+ *   O::Apart                        optional, the type O itself: see canRunApart
  *
  * Restriction is the transpose of interpolation. Coarsening calls each step once for each fine node
  * i or coarse node c, in ascending order, on windows that hold only the following data; a step that
@@ -81,6 +82,15 @@ concept OperatorSet = std::default_initializable<O> && std::copyable<O> &&
   o.sparsify(data, i);
   typename O::Relaxation;
   requires Relaxation<typename O::Relaxation>;
+};
+
+/** Whether multiply(), gather() and sparsify() may run on another thread than the steps before
+ * them: they share no data but those of CoarseningData. A set derived from such a one must say so
+ * again, since it may replace any step. */
+template <class O>
+inline constexpr bool canRunApart = requires
+{
+  requires std::same_as<typename O::Apart, O>;
 };
 
 } // namespace smg

@@ -8,14 +8,18 @@
 namespace smg
 {
 
-/** A window of a non-decreasing sequence of 64-bit indices, stored by their low 32 bits: all values
- * in memory are within 2^32 of the last one, which determines the high bits. */
+/**
+ * A window of a non-decreasing sequence of 64-bit indices, stored by their low 32 bits: all values
+ * in memory are within 2^31 of the last one at the last call of release(), which determines the
+ * high bits. So a thread may append while others read earlier values, if there is room.
+ */
 class MonotoneRing
 {
 public:
   explicit MonotoneRing(Pool& pool, std::int64_t before)
     : Low(pool)
     , Last(before)
+    , Near(before)
   {
   }
 
@@ -25,7 +29,8 @@ public:
 
   std::int64_t operator[](std::int64_t i) const
   {
-    return this->Last - (static_cast<std::uint32_t>(this->Last) - this->Low[i]);
+    return this->Near +
+           static_cast<std::int32_t>(this->Low[i] - static_cast<std::uint32_t>(this->Near));
   }
 
   /** Appends `value`, or the last one if that is larger. */
@@ -37,11 +42,18 @@ public:
     this->Low[i] = static_cast<std::uint32_t>(this->Last);
   }
 
-  void release(std::int64_t first) { this->Low.release(first); }
+  /** Provides room for so many more values. */
+  void reserve(std::int64_t more) { this->Low.reserve(this->end() - this->Low.first() + more); }
+
+  void release(std::int64_t first)
+  {
+    this->Low.release(first);
+    this->Near = this->Last;
+  }
 
 private:
   Ring<std::uint32_t> Low;
-  std::int64_t Last;
+  std::int64_t Last, Near;
 };
 
 } // namespace smg

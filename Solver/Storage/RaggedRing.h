@@ -55,6 +55,17 @@ public:
       size > 0 ? static_cast<std::uint32_t>(this->Open + size) : this->Ends[row - 1];
   }
 
+  /** Provides room for so many more rows with so many entries in all: until they are appended, rows
+   * do not move, so that other threads may read earlier ones. */
+  void reserve(std::int64_t rows, std::int64_t entries)
+  {
+    this->Ends.reserve(this->Ends.end() - this->Ends.first() + rows);
+    if (!this->fits(entries))
+    {
+      this->grow(entries);
+    }
+  }
+
   /** Releases the rows below `row`. */
   void release(std::int64_t row) { this->Ends.release(row); }
 

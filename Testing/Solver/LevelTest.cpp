@@ -225,7 +225,7 @@ TEST(RowBlockPacker, WideBlocksKeepTheLargestDistancesOfParents)
   SpareBuffers buffers(pool);
   LevelRows rows(pool), coarse(pool);
   CoarseningData coarsening(pool, rows, coarse);
-  coarsening.coarseNodes = Base + 100;
+  coarsening.coarseNodes = coarsening.knownCoarse = Base + 100;
   for (int i = 0; i < 3; ++i)
   {
     rows.open(0);
@@ -237,6 +237,7 @@ TEST(RowBlockPacker, WideBlocksKeepTheLargestDistancesOfParents)
     coarsening.parentReach.append(Base);
     coarsening.settledReach.append(i);
   }
+  coarsening.parentReach.release(0); // the high bits of its values are those of the last one here
   const RowBlock block = packRows(buffers, rows, &coarsening, 0, 3, true);
   const RowBlock::Header& h = block.header();
   ASSERT_EQ(h.wide, 1);

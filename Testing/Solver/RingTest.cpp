@@ -191,6 +191,38 @@ TEST(RaggedRing, RowsKeepTheirEntries)
   }
 }
 
+TEST(RaggedRing, RowsStayWhereTheyAreWhileThereIsRoom)
+{
+  Pool pool(1 << 30);
+  RaggedRing<std::int32_t> rows(pool);
+  Random random(6);
+  for (int step = 0; step < 3000; ++step)
+  {
+    const std::int64_t more = random.below(40), entries = random.below(300);
+    rows.reserve(more, entries);
+    const std::int64_t used = pool.used(), before = rows.end();
+    const std::int32_t* first = before > rows.first() ? rows.row(rows.first()) : nullptr;
+    std::int64_t left = entries;
+    for (std::int64_t k = 0; k < more; ++k)
+    {
+      const std::int64_t size = random.below(std::min<std::int64_t>(left, 20) + 1);
+      std::fill_n(rows.open(size), size, static_cast<std::int32_t>(rows.end()));
+      rows.close(size);
+      left -= size;
+    }
+    ASSERT_EQ(pool.used(), used);
+    ASSERT_TRUE(!first || rows.row(rows.first()) == first);
+    for (std::int64_t row = before; row < rows.end(); ++row)
+    {
+      for (std::int64_t e = 0; e < rows.size(row); ++e)
+      {
+        ASSERT_EQ(rows.row(row)[e], row);
+      }
+    }
+    rows.release(rows.first() + random.below(rows.end() - rows.first() + 1));
+  }
+}
+
 TEST(RaggedRing, KeepsAWindowOnly)
 {
   Pool pool(1 << 20);

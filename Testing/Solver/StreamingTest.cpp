@@ -102,6 +102,7 @@ TEST(Streaming, DoesNotDependOnHowTheMeshComesInBlocks)
       }
       SolveOptions options = shortSolve();
       options.coreNodes = 500;
+      options.threads = 8;
       EXPECT_TRUE(sameBits(solveMesh(mesh, problem, options, blockCells).values, expected.values))
         << "blocks of " << blockCells << " cells";
     }
