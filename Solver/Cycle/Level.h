@@ -272,8 +272,7 @@ private:
   }
 
   /** About the time that stages take for a node, relative to a sweep. */
-  static constexpr double ArriveCost = 0.3, ProlongCost = 0.5, CombineCost = 0.5,
-                          RestrictCost = 1.4;
+  static constexpr double ProlongCost = 0.8, CombineCost = 0.5, RestrictCost = 1.4;
 
   std::size_t lanes() const { return this->Squares.size() / 2; }
 
@@ -284,7 +283,6 @@ private:
 
   std::int64_t finalWith(std::int64_t node) const;
   void load(int stage, std::int64_t node);
-  void arrive();
   void prolongUp(bool follows);
   void postSweep(std::size_t s, bool follows);
 

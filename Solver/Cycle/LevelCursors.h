@@ -55,7 +55,6 @@ private:
  */
 struct LevelCursors
 {
-  Cursor arrived;                ///< loaded and unpacked
   Cursor prolonged;              ///< x += P x_coarse
   std::vector<Cursor> postSweep; ///< sweeps after prolongation
   Cursor renewed;                ///< the downward part has its own state (finest level)
@@ -78,8 +77,7 @@ struct LevelCursors
   /** Shows all of them to the stages on other threads, in between. */
   void show()
   {
-    for (Cursor* cursor :
-      { &this->arrived, &this->prolonged, &this->renewed, &this->combined, &this->restricted })
+    for (Cursor* cursor : { &this->prolonged, &this->renewed, &this->combined, &this->restricted })
     {
       cursor->show();
     }

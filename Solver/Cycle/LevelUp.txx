@@ -17,7 +17,6 @@ void Level<Real, Relaxation>::addUpward(Pipeline& pipeline)
   }
   this->Coarse->addUpward(pipeline);
   const auto nodes = static_cast<double>(this->Window.nodes());
-  pipeline.add(ArriveCost * nodes, [this](bool) { this->arrive(); });
   pipeline.add(ProlongCost * nodes, [this](bool follows) { this->prolongUp(follows); });
   for (std::size_t s = 0; s < this->At.postSweep.size(); ++s)
   {
@@ -77,23 +76,16 @@ void Level<Real, Relaxation>::load(int stage, std::int64_t node)
 }
 
 template <class Real, class Relaxation>
-void Level<Real, Relaxation>::arrive()
+void Level<Real, Relaxation>::prolongUp(bool follows)
 {
   this->Window.unpack();
   if (this->History)
   {
     this->History->keep(this->Window.x());
   }
-  this->At.arrived = this->Window.loaded();
-}
-
-template <class Real, class Relaxation>
-void Level<Real, Relaxation>::prolongUp(bool follows)
-{
   const std::int64_t begin = this->At.prolonged;
-  const std::int64_t most = std::min(this->At.wanted.front(), this->At.arrived.seen(follows));
   std::int64_t end = begin;
-  while (end < most)
+  while (end < this->At.wanted.front())
   {
     const RowBlock::Header& h = this->Window.header(end);
     if (!this->Coarse->isFinal(h.parentReach[LevelWindow<Real>::groupIn(h, end)], follows))

@@ -74,7 +74,8 @@ struct SolveOptions
   AccelerationKind acceleration = AccelerationKind::Automatic;
   /** Limit of the accounted memory, bytes; more than 0. */
   std::int64_t memoryLimit = std::int64_t(1) << 30;
-  /** Compute threads, at least 1; 0: one a core. The result does not depend on it. */
+  /** Compute threads, at least 1, of which at most 16 are used; 0: one a core. The result does not
+   * depend on it; each takes some memory, as far as the limit allows. */
   int threads = 0;
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
