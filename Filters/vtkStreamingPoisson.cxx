@@ -235,7 +235,7 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeEstimatedTask(vtkPoi
 bool vtkStreamingPoisson::IsForMemory(vtkPointSet& input, bool)
 {
   this->Internal->WhyNotOnPreview.clear();
-  if (this->SolveFullMesh || !smg::isPreview(input))
+  if (this->SolveFullMesh || this->Engine == DISTRIBUTED || !smg::isPreview(input))
   {
     return false;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommonOptions.h"
 #include "InputOptions.h"
+#include "OneProcess.h"
 #include "ProgressBar.h"
 
 #include "IO/AnyFormat/FormatTable.h"
@@ -106,6 +107,7 @@ struct ConvertOptions : CommonOptions
 
   void run() const
   {
+    requireOneProcess();
     smg::checkOutputPlace(this->out);
     this->checkReport({ this->in, this->out });
     this->checkCheckpoint({ this->out, this->report });

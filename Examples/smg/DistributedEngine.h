@@ -21,7 +21,8 @@ struct DistributedJob
   std::filesystem::path in;  ///< a .vsm file that all processes can read
   std::filesystem::path out; ///< .pvtu or .pvtp: every process writes its piece
   std::filesystem::path scratch;
-  std::string task; ///< the name in errors of what is to be done
+  std::string task;                  ///< the name in errors of what is to be done
+  const std::string* text = nullptr; ///< that of `task`, when the description has been read
   int maxIterations = 1;
   std::int64_t memoryLimit = 0; ///< of a process, bytes
   smg::ProgressFunction progress;

@@ -52,7 +52,7 @@ std::unique_ptr<smg::Solution> EngineCommand::wholeSolution() const
 /** With hypre, the first process writes and reports as ever, or reports on the pieces of all. */
 void EngineCommand::compute()
 {
-  if (this->Engine == "streaming")
+  if (!this->isForProcesses())
   {
     this->SolvingCommand::compute();
     return;
@@ -63,6 +63,7 @@ void EngineCommand::compute()
   job.in = this->In;
   job.out = this->Out;
   job.task = this->File.string();
+  job.text = &this->text();
   job.scratch = this->scratch;
   job.maxIterations =
     this->MaxCycles->count() > 0 ? this->solveOptions().maxCycles : MostIterations;

@@ -16,6 +16,7 @@ protected:
 
   /** Adds the option --engine; addSolverOptions() comes first. */
   void addEngineTo(CLI::App& command);
+  bool isForProcesses() const override { return this->Engine == "hypre"; }
   void compute() override;
 
   /** Does the job on all processes. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshCommand.h"
 
+#include "OneProcess.h"
 #include "OpenInput.h"
 #include "ProgressBar.h"
 
@@ -89,6 +90,10 @@ void MeshCommand::checkRoom() const
 
 void MeshCommand::run()
 {
+  if (!this->isForProcesses())
+  {
+    requireOneProcess();
+  }
   try
   {
     this->compute();

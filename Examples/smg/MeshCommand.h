@@ -39,6 +39,8 @@ protected:
   /** Adds the options of the input and the common ones; `memoryLimit` is the default limit. */
   void addInputAndCommon(CLI::App& command, std::int64_t memoryLimit);
 
+  /** Whether the processes of mpiexec work together, instead of each for itself. */
+  virtual bool isForProcesses() const { return false; }
   /** The columns of the result, as ResultFile::Options::columns. */
   virtual std::string resultColumns() const = 0;
   /** The names of these columns if IN has them, as ResultFile::Options::changed. */

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "OneProcess.h"
 #include "OpenInput.h"
 #include "ProgressBar.h"
 
@@ -43,6 +44,7 @@ void PreviewOptions::checkOutputName() const
 
 void PreviewOptions::run() const
 {
+  requireOneProcess();
   const auto start = std::chrono::steady_clock::now();
   this->checkOutputName();
   smg::checkIsNotInput(this->in, this->out);

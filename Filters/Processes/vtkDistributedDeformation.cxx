@@ -101,6 +101,7 @@ SolveSummary deformInProcesses(vtkPointSet& piece, vtkMultiProcessController* co
   const StreamInfo& info = parts.part().info;
   std::optional<DescribedHandles> handles;
   solver.together([&] { handles.emplace(DeformationDescription::byColumns(), info); });
+  parts.requireSame("treatment of normals", task.needsNormals ? "recompute" : "drop");
   DistributedSolution solution =
     solver.deform(*handles, task.options.weights, distributedOptions(task.options, progress));
   int columns = solution.columns;

@@ -3,6 +3,7 @@
 
 #include "Filters/Processes/vtkProcessParts.h"
 #include "Solver/Description/ComposeDescriptions.h"
+#include "Solver/Description/DescriptionText.h"
 #include "Solver/Stream/OriginalNumbers.h"
 #include "smg/DescribedProblem.h"
 
@@ -10,6 +11,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace smg
 {
@@ -31,7 +33,15 @@ SolveSummary solveInProcesses(vtkPointSet& piece, vtkMultiProcessController* con
   DistributedSolver& solver = parts.solver();
   const StreamInfo& info = parts.part().info;
   std::optional<DescribedProblem> problem;
-  solver.together([&] { problem.emplace(task.description(info), info); });
+  std::string text;
+  solver.together(
+    [&]
+    {
+      const ProblemDescription description = task.description(info);
+      text = textOf(description);
+      problem.emplace(description, info);
+    });
+  parts.requireSame("problem", text);
   solver.prepare(*problem, task.options.scratch);
   DistributedSolution solution = solver.solve(*problem, distributedOptions(task.options, progress));
   solver.evaluate(*problem, solution, { .memoryLimit = INT64_MAX });

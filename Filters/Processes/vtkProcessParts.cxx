@@ -58,6 +58,11 @@ ProcessParts::ProcessParts(
   this->Solver->checkCells();
 }
 
+void ProcessParts::requireSame(const std::string& what, const std::string& value)
+{
+  this->Processes.run([&] { this->Processes.requireSame(what, value); });
+}
+
 std::vector<double> ProcessParts::atPoints(const std::vector<double>& values, int columns) const
 {
   std::vector<double> atPoints;

@@ -36,6 +36,9 @@ public:
   const MeshPart& part() const { return this->Piece.part; }
   DistributedSolver& solver() { return *this->Solver; }
 
+  /** Throws Error on all processes unless each has the same `value`; `what` names it. */
+  void requireSame(const std::string& what, const std::string& value);
+
   /** Of values at the vertices of the part, those at all points of the piece, duplicate ones
    * included. */
   std::vector<double> atPoints(const std::vector<double>& values, int columns) const;

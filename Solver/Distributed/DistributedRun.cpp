@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <sstream>
 #include <utility>
 
 namespace smg
@@ -57,6 +58,7 @@ void DistributedRun::assemble(Problem& problem)
     throw Error("a problem needs at least one column");
   }
   const Timer wall;
+  this->requireSameOptions(problem);
   Report& r = this->report;
   const bool isFirst = !this->Method;
   Pool pool(this->Options.memoryLimit,
@@ -81,6 +83,15 @@ void DistributedRun::assemble(Problem& problem)
     }
   }
   r.seconds.build += wall.seconds();
+}
+
+/** Otherwise some processes would stop before others. */
+void DistributedRun::requireSameOptions(const Problem& problem)
+{
+  std::ostringstream text;
+  text << std::hexfloat << this->Options.tolerance << ' ' << this->Options.maxIterations << ' '
+       << problem.columns() << ' ' << static_cast<int>(problem.weights());
+  this->Processes.requireSame("tolerance, number of iterations, columns and weights", text.str());
 }
 
 Report::Step DistributedRun::iterate(const std::string& what, double begin, double end)

@@ -49,6 +49,7 @@ public:
   Report report;
 
 private:
+  void requireSameOptions(const Problem& problem);
   Convergence solveColumn(std::size_t column, double begin, double end);
 
   const SharedVertices& Vertices;

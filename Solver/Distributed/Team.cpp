@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Distributed/Team.h"
 
+#include "Solver/Storage/Checksum.h"
+
 #include <algorithm>
 #include <climits>
 #include <cstdio>
@@ -117,6 +119,18 @@ void Team::largest(std::span<double> values)
 {
   this->agree();
   reduce(values, MPI_DOUBLE, MPI_MAX, this->Processes);
+}
+
+void Team::requireSame(const std::string& what, std::string_view value)
+{
+  const auto sum = static_cast<std::int64_t>(checksum(std::as_bytes(std::span(value))) >> 1);
+  std::int64_t ends[2] = { sum, -sum };
+  this->least(ends);
+  if (ends[0] != -ends[1])
+  {
+    throw Error("the processes do not have the same " + what +
+                ": give all of them the same files and options");
+  }
 }
 
 Team::Layout Team::layout(const std::vector<std::size_t>& counts) const

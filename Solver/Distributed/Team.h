@@ -12,6 +12,7 @@
 #include <new>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -49,6 +50,9 @@ public:
   void least(std::span<double> values);
   void least(std::span<std::int64_t> values);
   void largest(std::span<double> values);
+
+  /** Throws Error on all processes unless each has the same `value`; `what` names it. */
+  void requireSame(const std::string& what, std::string_view value);
 
   /** Sends to[p] to each process p; returns what each process sent. */
   template <class T>

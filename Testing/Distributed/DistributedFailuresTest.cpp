@@ -125,6 +125,29 @@ TEST(DistributedFailures, OfALimitBelowTheEstimateOfOneProcess)
   }
 }
 
+TEST(DistributedFailures, OfProcessesThatAreAskedDifferently)
+{
+  if (sizeOfTest() == 1)
+  {
+    GTEST_SKIP() << "there is one process";
+  }
+  const StreamMesh mesh = meshOfTest();
+  const MeshPart part = partOf(mesh, evenCuts(mesh.cells(), sizeOfTest()));
+  const StreamMesh own = meshOf(part);
+  DistributedSolver solver(MPI_COMM_WORLD, part);
+  const bool isOther = rankOfTest() == sizeOfTest() - 1;
+  FailingProblem problem(own, -1, {});
+  DistributedOptions options;
+  options.tolerance = isOther ? 1e-2 : 1e-8;
+  expectError([&] { solver.solve(problem, options); }, "do not have the same tolerance");
+  options = {};
+  options.maxIterations = isOther ? 3 : 4;
+  expectError([&] { solver.solve(problem, options); }, "do not have the same");
+  ElementProblem columns(own);
+  columns.Columns = isOther ? 1 : 2;
+  expectError([&] { solver.solve(columns); }, "do not have the same");
+}
+
 TEST(DistributedFailures, OfDataThatAreNoNumbers)
 {
   const int last = sizeOfTest() - 1;

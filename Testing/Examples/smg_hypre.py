@@ -150,6 +150,40 @@ def test_failures_are_one_line():
     assert not os.path.exists("x.vtu") and not os.path.exists("x.pvtu")
 
 
+def run_pair(first, second):
+    """Runs smg with other arguments in each of two processes, which fail; returns the line."""
+    with_options = [[SMG, *map(str, arguments), "--no-sync"] for arguments in (first, second)]
+    done = subprocess.run([MPIEXEC, "-n", "1", *with_options[0], ":", "-n", "1", *with_options[1]],
+                          capture_output=True, text=True, timeout=250)
+    lines = [line for line in done.stderr.splitlines() if line.startswith("smg: ")]
+    assert done.returncode != 0 and len(lines) == 1, done
+    return lines[0]
+
+
+def test_processes_that_are_asked_differently_are_refused():
+    write_problem("other.json", {"dirichlet": [{"halfspace": [1, 0, 0, 0], "value": [2]}]})
+    write_problem("one.json", {"dirichlet": [{"halfspace": [1, 0, 0, 0], "value": [1]}]})
+
+    def arguments(*options, mesh="solid.vsm", problem="one.json"):
+        return ("solve", mesh, "differs.pvtu", "--problem", problem, "--engine", "hypre", *options)
+
+    assert "same text" in run_pair(arguments(), arguments(problem="other.json"))
+    assert "same tolerance" in run_pair(arguments(), arguments("--tolerance", "1e-2"))
+    write_torus("ring.obj", 30, 15)
+    run("convert", "ring.obj", "ring.vsm", "--quiet")
+    write_torus("ring.obj", 30, 16)
+    run("convert", "ring.obj", "ring2.vsm", "--quiet")
+    assert "same mesh" in run_pair(arguments(mesh="ring.vsm"), arguments(mesh="ring2.vsm"))
+    assert not os.path.exists("differs.pvtu") and not os.path.exists("differs")
+
+
+def test_processes_do_not_do_the_same():
+    done = subprocess.run([MPIEXEC, "-n", "2", SMG, "solve", "solid.vsm", "same.vtu", "--problem", "solid.json"],
+                          capture_output=True, text=True, timeout=250)
+    assert done.returncode != 0 and "start smg once" in done.stderr, done
+    assert not os.path.exists("same.vtu")
+
+
 def test_only_this_engine_loads_mpi():
     libraries = subprocess.run(["ldd", SMG], capture_output=True, text=True, check=True).stdout
     assert "libmpi" not in libraries and "HYPRE" not in libraries

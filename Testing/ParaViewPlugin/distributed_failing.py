@@ -52,6 +52,11 @@ refuse(changed(reader, "output.VTKObject.GetPolys().Reset(); output.VTKObject.Mo
 refuse(RedistributeDataSet(Input=reader, BoundaryMode="Assign to all regions"),
        "belong to several processes", Problem=posed)
 refuse(reader, "Nothing says what to solve")
+refuse(reader, "do not have the same problem",
+       Problem=json.dumps({"screening": 1 if rank < ranks - 1 else 2, "source": 1}))
+preview = OpenDataFile(t.BUNNY)
+preview.MaximumPointsInMemory = 0
+refuse(preview, "is a preview of the mesh", Problem=posed)
 refuse(reader, "no checkpoints", Problem=posed, CheckpointDirectory=t.make_shared_folder())
 
 # No messages between the processes remain.

@@ -41,7 +41,10 @@ DescribedPart<Described> readDescribed(smg::Team& team, const DistributedJob& jo
       team.agree();
       result.mesh = std::make_unique<smg::VsmReader>(job.in);
       result.part.info = infoOfPart(result.mesh->info());
-      result.described = std::make_unique<Described>(read(), result.part.info, job.task);
+      const auto description = read();
+      team.requireSame("mesh " + job.in.string(), result.mesh->fingerprint());
+      team.requireSame("text in " + job.task, *job.text);
+      result.described = std::make_unique<Described>(description, result.part.info, job.task);
       readPart(*result.mesh, result.described->vertexColumns(), result.described->cellColumns(),
         team, result.part);
     });
