@@ -4,6 +4,7 @@
 #include "Solver/Deformation/DeformationReport.h"
 #include "Solver/Deformation/HandleChecks.h"
 #include "Solver/Deformation/RotationProblem.h"
+#include "Solver/Distributed/CheckShared.h"
 #include "Solver/Distributed/DistributedRun.h"
 #include "Solver/Distributed/PositionProblem.h"
 
@@ -78,6 +79,7 @@ DistributedSolution deformParts(const SharedVertices& vertices, const MeshPart& 
   RotationProblem rotations(given, weights);
   run.assemble(rotations);
   checkAnyHeld(run.report);
+  checkSharedTargets(vertices, part, rotations.handles());
   run.report.shared = countShared(vertices, rotations.handles());
   solveStep(run, "rotation", 0.0, Share);
   PositionProblem positions(rotations, run.values());

@@ -5,6 +5,7 @@
 #include "Solver/Engine/FreeComponents.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <sstream>
@@ -40,6 +41,7 @@ DistributedRun::DistributedRun(const SharedVertices& vertices, const MeshPart& p
   , Part(part)
   , Options(options)
   , CpuAtStart(processSeconds())
+  , Rows(part.firstOwned, part.endOwned, part.info.vertices)
   , Done(vertices.team().rank() == 0 ? options.progress : ProgressFunction())
 {
   checkOptions(options);
@@ -98,8 +100,7 @@ Report::Step DistributedRun::iterate(const std::string& what, double begin, doub
 {
   if (!this->Method)
   {
-    const HypreRows rows(this->Part.firstOwned, this->Part.endOwned, this->Part.info.vertices);
-    this->Method.emplace(this->Processes, rows, *this->System.matrix);
+    this->Method.emplace(this->Processes, this->Rows, *this->System.matrix);
     ++this->Costs.setups;
   }
   Report& r = this->report;
@@ -198,9 +199,13 @@ void DistributedRun::finish()
   Report& r = this->report;
   addAssemblyNotes(r);
   r.seconds.total = this->Wall.seconds();
+  Team& team = this->Processes;
+  std::array<double, 2> seconds{ r.seconds.build, r.seconds.total };
+  team.largest(std::span<double>(seconds));
+  r.seconds.build = seconds[0];
+  r.seconds.total = seconds[1];
   r.seconds.solve = r.seconds.total - r.seconds.build;
   r.cpu_seconds = processSeconds() - this->CpuAtStart;
-  Team& team = this->Processes;
   team.sum({ &r.cpu_seconds, 1 });
   this->Costs.rss_bytes_peak = team.gather(std::vector<std::int64_t>{ peakResidentBytes() });
   this->Costs.pool_bytes_peak = team.gather(std::vector<std::int64_t>{ r.pool_bytes_peak });

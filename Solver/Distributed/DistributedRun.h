@@ -58,6 +58,7 @@ private:
   const DistributedOptions& Options;
   Timer Wall;
   double CpuAtStart;
+  HypreRows Rows;
   Progress Done;
   PartSystem System;
   std::optional<ConjugateGradients> Method; ///< of the matrix

@@ -2,6 +2,7 @@
 #include "smg/DistributedSolver.h"
 
 #include "Solver/Distributed/CheckPart.h"
+#include "Solver/Distributed/CheckShared.h"
 #include "Solver/Distributed/DistributedDeformation.h"
 #include "Solver/Distributed/DistributedRun.h"
 #include "Solver/Distributed/GatheredSolution.h"
@@ -26,6 +27,7 @@ struct DistributedSolver::Implementation
       {
         checkPart(this->part);
         this->vertices.emplace(this->team, this->part);
+        checkSharedPositions(*this->vertices, this->part);
       });
   }
 
@@ -136,9 +138,11 @@ void DistributedSolver::checkCells()
       const std::int64_t repeated = repeatedCells(*this->Self->vertices, this->Self->part);
       if (repeated > 0)
       {
-        throw Error(std::to_string(repeated) + (repeated == 1 ? " cell belongs" : " cells belong") +
-                    " to several processes without a mark as ghost cells, and would count several "
-                    "times: assign each cell to one process, or mark the others.");
+        throw Error(
+          std::to_string(repeated) + (repeated == 1 ? " cell belongs" : " cells belong") +
+          " to several processes without a mark as ghost cells, and would count several "
+          "times: assign each cell to one process, or mark the others; a mesh that itself has "
+          "the same cell twice must be cleaned.");
       }
     });
 }

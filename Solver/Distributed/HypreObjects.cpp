@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Distributed/HypreObjects.h"
 
+#include "Solver/Distributed/PartMemory.h"
+
 #include <limits>
 #include <numeric>
 #include <string>
@@ -18,10 +20,11 @@ HypreRows::HypreRows(std::int64_t first, std::int64_t last, std::int64_t all)
                 " vertices, more than this build of hypre can count: build with a hypre that has "
                 "64-bit or mixed integers, or use the streaming engine");
   }
-  if (last - first > std::numeric_limits<HYPRE_Int>::max() / 64)
+  if (last - first > mostPartVertices())
   {
-    throw Error("a process has " + std::to_string(last - first) +
-                " vertices, too many for this build of hypre: use more processes");
+    throw Error("a process has " + std::to_string(last - first) + " vertices, more than the " +
+                std::to_string(mostPartVertices()) +
+                " that this build of hypre can have in a process: use more processes");
   }
 }
 
@@ -39,6 +42,8 @@ void checkHypre(HYPRE_Int error, const char* what)
 HypreMatrix::HypreMatrix(Team& team, const HypreRows& rows, HYPRE_Int rowSize)
   : Processes(team)
 {
+  // Errors that other users of hypre have left would be taken for those of the next calls.
+  HYPRE_ClearAllErrors();
   // Kept to the end of the program: hypre counts no users.
   static const HYPRE_Int started = HYPRE_Init();
   checkHypre(started, "start");

@@ -18,7 +18,7 @@ namespace smg
  * a HYPRE_BigInt. */
 struct HypreRows
 {
-  /** Throws Error if hypre cannot count to `all`. */
+  /** Throws Error if hypre cannot count to `all`, or not the entries of so many rows. */
   HypreRows(std::int64_t begin, std::int64_t end, std::int64_t all);
 
   HYPRE_BigInt begin, end;

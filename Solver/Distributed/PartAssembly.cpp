@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Distributed/PartAssembly.h"
 
+#include "Solver/Distributed/CheckShared.h"
+#include "Solver/Distributed/PartNames.h"
 #include "Solver/Distributed/SharedEdges.h"
 #include "Solver/Distributed/SharedFacets.h"
 #include "Solver/Problem/CommonShare.h"
+#include "Solver/Problem/EdgeWeightError.h"
 #include "Solver/Problem/OpenEdges.h"
 #include "Solver/Problem/RowShortfall.h"
 
@@ -31,6 +34,7 @@ PartSystem PartAssembly::assemble(std::unique_ptr<HypreMatrix> matrix)
 {
   const CellType type = this->Part.info.cellType;
   this->Cells.add(this->Part.block);
+  checkSharedConditions(this->Vertices, this->Part, this->Cells.vertices);
   joinSharedEdges(this->Vertices, this->Cells.edges);
   if (const OpenFacets* facets = this->Cells.loads.facets())
   {
@@ -75,7 +79,15 @@ void PartAssembly::addEdges(std::vector<double>& sums)
 void PartAssembly::addRow(std::int64_t i, double* sums)
 {
   this->Neighbours.clear();
-  this->Cells.edges.take(i, this->Cells.vertices.points, this->Neighbours);
+  try
+  {
+    this->Cells.edges.take(i, this->Cells.vertices.points, this->Neighbours);
+  }
+  catch (const EdgeWeightError& error)
+  {
+    throw EdgeWeightError(error.from, error.to, nameOfVertex(this->Part, error.from),
+      nameOfVertex(this->Part, error.to));
+  }
   if (this->isKnown(i))
   {
     return;

@@ -4,6 +4,9 @@
 #include "Solver/Core/ByteText.h"
 #include "smg/Error.h"
 
+#include <HYPRE_utilities.h>
+
+#include <limits>
 #include <string>
 
 namespace smg
@@ -16,6 +19,11 @@ double partMemory(std::int64_t vertices, std::int64_t cells, int columns)
   constexpr double OfVertex = 530.0, OfColumn = 70.0, OfCell = 150.0;
   return static_cast<double>(vertices) * (OfVertex + OfColumn * columns) +
          static_cast<double>(cells) * OfCell;
+}
+
+std::int64_t mostPartVertices()
+{
+  return std::numeric_limits<HYPRE_Int>::max() / 64;
 }
 
 void checkPartMemory(std::int64_t vertices, std::int64_t cells, int columns, std::int64_t limit)

@@ -14,7 +14,11 @@ namespace smg
  * docs/cluster.md. */
 SMG_EXPORT double partMemory(std::int64_t vertices, std::int64_t cells, int columns);
 
-/** Throws Error if that is more than the limit. */
+/** The most vertices that a process can own: hypre counts the entries of its rows, in all levels
+ * less than 64 times as many, by a HYPRE_Int. */
+SMG_EXPORT std::int64_t mostPartVertices();
+
+/** Throws Error if partMemory() is more than the limit. */
 void checkPartMemory(std::int64_t vertices, std::int64_t cells, int columns, std::int64_t limit);
 
 } // namespace smg

@@ -4,6 +4,8 @@
 #include "Solver/Distributed/Team.h"
 #include "smg/DistributedSolver.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -45,6 +47,11 @@ public:
   /** Sets the numbers of each vertex to those at its owner. */
   template <class T>
   void copyFromOwners(std::span<T> values, int lanes) const;
+  /** The first vertex of the part whose numbers are not those at its owner, within this share of
+   * the largest magnitude of those of common vertices; -1: none. `take`: take(vertex, numbers) sets
+   * the `lanes` numbers of a vertex. */
+  template <class Take>
+  std::int64_t findDifferent(int lanes, double tolerance, Take&& take) const;
   /** For each own vertex that others use: calls join(vertex, value) with the value at each of them,
    * one process after the other. */
   template <class T, class Join>
@@ -97,6 +104,48 @@ void SharedVertices::copyFromOwners(std::span<T> values, int lanes) const
         received[p][k];
     }
   }
+}
+
+template <class Take>
+std::int64_t SharedVertices::findDifferent(int lanes, double tolerance, Take&& take) const
+{
+  const auto each = static_cast<std::size_t>(lanes);
+  std::vector<std::vector<double>> owned(this->Used.size());
+  for (std::size_t p = 0; p < owned.size(); ++p)
+  {
+    owned[p].resize(this->Used[p].size() * each);
+    for (std::size_t k = 0; k < this->Used[p].size(); ++k)
+    {
+      take(this->Used[p][k], std::span(owned[p]).subspan(k * each, each));
+    }
+  }
+  const auto received = this->Processes.exchange(owned);
+  double largest = 0.0;
+  for (const std::vector<double>& numbers : received)
+  {
+    for (const double number : numbers)
+    {
+      largest = std::max(largest, std::fabs(number));
+    }
+  }
+  std::vector<double> own(each);
+  const auto isSame = [allowed = tolerance * largest](double a, double b)
+  { return std::fabs(a - b) <= allowed; };
+  std::int64_t first = -1;
+  for (std::size_t p = 0; p < received.size(); ++p)
+  {
+    for (std::size_t k = 0; k < this->Foreign[p].size(); ++k)
+    {
+      const std::int64_t v = this->Foreign[p][k];
+      take(v, std::span(own));
+      const auto owners = received[p].begin() + static_cast<std::ptrdiff_t>(k * each);
+      if (!std::equal(own.begin(), own.end(), owners, isSame))
+      {
+        first = first < 0 ? v : std::min(first, v);
+      }
+    }
+  }
+  return first;
 }
 
 template <class T, class Join>

@@ -80,7 +80,7 @@ void Team::agree(const char* failure, bool cancelled)
   {
     throw Cancelled();
   }
-  throw Error(text);
+  throw TeamError(text);
 }
 
 void Team::fail(const char* failure, bool cancelled)

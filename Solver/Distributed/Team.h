@@ -19,6 +19,13 @@
 namespace smg
 {
 
+/** An error that all processes have, with the same text. */
+class SMG_EXPORT TeamError : public Error
+{
+public:
+  using Error::Error;
+};
+
 /**
  * The processes that solve a problem together. A failure of one of them ends the work of all, with
  * the same error: every collective operation begins with agree(), in which a process that has
@@ -37,11 +44,12 @@ public:
   int rank() const { return this->Rank; }
   int size() const { return this->Size; }
 
-  /** Runs `work` on every process. Throws Error on all of them if it throws on one. */
+  /** Runs `work` on every process. Throws TeamError, or Cancelled, on all of them if it throws on
+   * one. */
   template <class Work>
   void run(Work&& work);
 
-  /** Throws Error, or Cancelled, on all processes if one has failed. */
+  /** Throws TeamError, or Cancelled, on all processes if one has failed. */
   void agree() { this->agree(nullptr, false); }
 
   /** Each number becomes the sum, or the smallest or largest one, over all processes. */

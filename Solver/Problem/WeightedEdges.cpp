@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/WeightedEdges.h"
 
-#include "smg/Error.h"
+#include "Solver/Problem/EdgeWeightError.h"
 
 #include <cmath>
 #include <string>
@@ -65,9 +65,7 @@ void WeightedEdges::take(
     }
     if (!std::isfinite(static_cast<float>(weight)))
     {
-      throw Error("the weight of the edge between vertices " + std::to_string(from) + " and " +
-                  std::to_string(to) +
-                  " is too large: the cells there are almost flat; use uniform weights");
+      throw EdgeWeightError(from, to, std::to_string(from), std::to_string(to));
     }
     neighbours.push_back({ to, weight });
   }

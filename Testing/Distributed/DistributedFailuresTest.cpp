@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Distributed/PartMemory.h"
+#include "Solver/Distributed/Team.h"
 #include "Testing/Distributed/PartOfMesh.h"
 #include "Testing/Solver/EllipticTesting.h"
 #include "Testing/Support/ArrayHandles.h"
 
+#include <HYPRE_IJ_mv.h>
+#include <HYPRE_utilities.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -77,6 +80,35 @@ TEST(DistributedFailures, OfAProcessIsThatOfAll)
     EXPECT_EQ(messageOfSolve(failing, [](CellBatch&) { throw Error("the disk is full"); }),
       "the disk is full");
   }
+}
+
+TEST(DistributedFailures, ThatAllKnowAreOfATypeOfTheirOwn)
+{
+  Team team(MPI_COMM_WORLD);
+  const auto failIn = [](int process, const auto& error)
+  {
+    if (rankOfTest() == process)
+    {
+      throw error;
+    }
+  };
+  const int last = sizeOfTest() - 1;
+  EXPECT_THROW(team.run([&] { failIn(last, Error("no room")); }), TeamError);
+  EXPECT_THROW(team.run([&] { failIn(last, std::bad_alloc()); }), TeamError);
+  EXPECT_THROW(team.run([&] { failIn(last, Cancelled()); }), Cancelled);
+  // Within another, as solvers are run by programs.
+  EXPECT_THROW(team.run([&] { team.run([&] { failIn(last, Error("no room")); }); }), TeamError);
+}
+
+TEST(DistributedFailures, OfOtherUsersOfHypreAreNotOurs)
+{
+  if (rankOfTest() == sizeOfTest() - 1)
+  {
+    HYPRE_IJMatrixAssemble(nullptr);
+    ASSERT_NE(HYPRE_GetError(), 0);
+  }
+  EXPECT_EQ(
+    messageOfSolve(0, [](CellBatch&) { throw Error("the disk is full"); }), "the disk is full");
 }
 
 TEST(DistributedFailures, OfSeveralProcessesIsTheFirstOne)

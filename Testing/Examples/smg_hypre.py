@@ -10,6 +10,7 @@ import sys
 
 from mesh_files import read_mesh
 from program import SANITIZED, SMG, load, read_vtk_xml, run, write_medit, write_torus
+from small_disk import SmallDisk, can_mount
 from tetrahedra import tetrahedra
 
 MPIEXEC = shutil.which("mpiexec")
@@ -184,6 +185,46 @@ def test_processes_do_not_do_the_same():
     assert not os.path.exists("same.vtu")
 
 
+def hypre(name, out):
+    return ("solve", name + ".vsm", out, "--problem", name + ".json", "--engine", "hypre")
+
+
+def test_pieces_hold_the_cells():
+    error = run_on(2, *hypre("solid", "x.pvtp"), code=1)
+    assert "x.pvtp: a .pvtp file holds no tetrahedra: choose .pvtu" in error, error
+    assert not os.path.exists("x.pvtp") and not os.path.exists("x")
+    run_on(2, *hypre("torus", "x.pvtu"))  # triangles of a grid
+    run("convert", "x.pvtu", "again.vsm", "--quiet")
+
+
+def test_a_result_is_the_pieces_of_one_run():
+    run_on(3, *hypre("torus", "again.pvtp"))
+    for name in "again/again_7.vtp", "again/again_note.vtp", "again/again_2.vtu":
+        with open(name, "w", encoding="utf-8"):
+            pass
+    run_on(2, *hypre("torus", "again.pvtp"))
+    # Other files remain.
+    assert sorted(os.listdir("again")) == ["again_0.vtp", "again_1.vtp", "again_2.vtu", "again_note.vtp"]
+    # A piece that cannot be written is the end of the earlier result.
+    os.remove("again/again_1.vtp")
+    os.mkdir("again/again_1.vtp")
+    assert "again_1.vtp" in run_on(2, *hypre("torus", "again.pvtp"), code=1)
+    assert not os.path.exists("again.pvtp") and not os.path.exists("again/again_0.vtp")
+
+
+def test_where_no_piece_can_be_is_said_before():
+    with open("taken", "w", encoding="utf-8"):
+        pass
+    error = run_on(2, *hypre("torus", "taken.pvtp"), code=1)
+    assert "taken.pvtp: its pieces go into the folder taken, but that is a file" in error, error
+    if not can_mount():
+        return
+    with SmallDisk("small", 64 << 10) as folder:
+        error = run_on(2, *hypre("torus", folder + "/full.pvtp"), code=1)
+        assert "full.pvtp" in error and "full/full_" not in error, error
+        assert os.listdir(folder) == []
+
+
 def test_only_this_engine_loads_mpi():
     libraries = subprocess.run(["ldd", SMG], capture_output=True, text=True, check=True).stdout
     assert "libmpi" not in libraries and "HYPRE" not in libraries
@@ -204,3 +245,6 @@ if __name__ == "__main__":
     else:
         test_any_number_of_processes_gives_the_same()
         test_failures_are_one_line()
+        test_pieces_hold_the_cells()
+        test_a_result_is_the_pieces_of_one_run()
+        test_where_no_piece_can_be_is_said_before()

@@ -28,7 +28,7 @@ void roundPositions(const smg::MeshPart& part, std::span<double> positions)
 }
 
 /** Adds the normals that the mesh has, of the moved triangles of all processes. */
-void addNormals(smg::DistributedSolver& solver, const smg::VsmReader& mesh,
+void addNormals(smg::Team& team, smg::DistributedSolver& solver, const smg::VsmReader& mesh,
   const smg::MeshPart& part, PieceResult& result)
 {
   const smg::MeshBlock& block = part.block;
@@ -41,13 +41,16 @@ void addNormals(smg::DistributedSolver& solver, const smg::VsmReader& mesh,
   }
   if (std::ranges::any_of(mesh.info().vertexColumns, smg::isNormals))
   {
-    std::vector<double> sums = smg::normalSums(triangles);
+    std::vector<double> sums;
+    team.run([&] { sums = smg::normalSums(triangles); });
     solver.sum(sums, 3);
-    PieceResult::add(result.vertexColumns, smg::NormalsName, 3, smg::unitNormals(sums));
+    team.run(
+      [&] { PieceResult::add(result.vertexColumns, smg::NormalsName, 3, smg::unitNormals(sums)); });
   }
   if (std::ranges::any_of(mesh.info().cellColumns, smg::isNormals))
   {
-    PieceResult::add(result.cellColumns, smg::NormalsName, 3, smg::normalsOf(triangles));
+    team.run([&]
+      { PieceResult::add(result.cellColumns, smg::NormalsName, 3, smg::normalsOf(triangles)); });
   }
 }
 
@@ -79,7 +82,7 @@ void deformOn(smg::Team& team, const DistributedJob& job, const DistributedDefor
   }
   if (task.normals == smg::MovedNormals::Recompute && info.cellType == smg::CellType::Triangle)
   {
-    addNormals(solver, *on.mesh, on.part, result);
+    addNormals(team, solver, *on.mesh, on.part, result);
   }
   writePieceFiles(team, *on.mesh, std::move(result), job.out);
   reportOn(team, job, solution.report);

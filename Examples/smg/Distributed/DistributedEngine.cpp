@@ -3,6 +3,9 @@
 
 #include <mpi.h>
 
+#include <cstdio>
+#include <exception>
+
 namespace
 {
 
@@ -20,6 +23,16 @@ public:
   Mpi& operator=(const Mpi&) = delete;
 };
 
+/** Ends what all processes have ended: the first one says why. */
+int end(const smg::Team& team)
+{
+  if (team.rank() == 0)
+  {
+    throw;
+  }
+  return 1;
+}
+
 /** Runs work(team) on the processes. */
 template <class Work>
 int run(Work&& work)
@@ -31,13 +44,23 @@ int run(Work&& work)
     work(team);
     return 0;
   }
-  catch (const smg::Error&)
+  catch (const smg::TeamError&)
   {
-    // The first process says it for all.
-    if (team.rank() == 0)
+    return end(team);
+  }
+  catch (const smg::Cancelled&)
+  {
+    return end(team);
+  }
+  catch (const std::exception& error)
+  {
+    if (team.size() == 1)
     {
       throw;
     }
+    // The other processes do not know, and may be waiting for this one.
+    std::fprintf(stderr, "smg: process %d of %d: %s\n", team.rank(), team.size(), error.what());
+    MPI_Abort(MPI_COMM_WORLD, 1);
     return 1;
   }
 }

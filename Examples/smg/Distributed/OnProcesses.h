@@ -2,6 +2,7 @@
 #pragma once
 
 #include "../DistributedEngine.h"
+#include "PieceFiles.h"
 #include "ReadPart.h"
 
 #include "Solver/Distributed/Team.h"
@@ -40,6 +41,11 @@ DescribedPart<Described> readDescribed(smg::Team& team, const DistributedJob& jo
       }
       team.agree();
       result.mesh = std::make_unique<smg::VsmReader>(job.in);
+      if (team.rank() == 0 && isInPieces(job.out))
+      {
+        checkPieceFiles(result.mesh->info(), job.out);
+      }
+      team.agree();
       result.part.info = infoOfPart(result.mesh->info());
       const auto description = read();
       team.requireSame("mesh " + job.in.string(), result.mesh->fingerprint());

@@ -7,14 +7,18 @@
 #include "IO/Formats/Vsm/ReservedNames.h"
 #include "IO/Formats/Vtk/VtkXml.h"
 #include "IO/Formats/Vtk/WriteVtkXml.h"
+#include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/WholeFile.h"
+#include "smg/Error.h"
 #include "smg/MeshSource.h"
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace
@@ -121,36 +125,137 @@ std::string indexText(const std::filesystem::path& out, int pieces, const smg::S
   return text.str();
 }
 
+std::filesystem::path folderOf(const std::filesystem::path& out)
+{
+  return out.parent_path() / out.stem();
+}
+
+/** At least so many bytes does the mesh take in pieces, whose arrays are in base64. */
+std::int64_t leastBytes(const smg::StreamInfo& mesh)
+{
+  const auto bytesOf = [](const std::vector<smg::ColumnSpec>& columns)
+  {
+    std::int64_t bytes = 0;
+    for (const smg::ColumnSpec& column : columns)
+    {
+      bytes += static_cast<std::int64_t>(smg::sizeOf(column.type)) * column.components;
+    }
+    return bytes;
+  };
+  constexpr std::int64_t OfStream = sizeof(std::int64_t) + 2; // GlobalIds and the marks
+  const std::int64_t ofVertex =
+    (mesh.doublePositions ? 24 : 12) + OfStream + bytesOf(mesh.vertexColumns);
+  const std::int64_t ofCell = 8 * (cornersOf(mesh.cellType) + 1) + bytesOf(mesh.cellColumns);
+  return (mesh.vertices * ofVertex + mesh.cells * ofCell) / 3 * 4;
+}
+
+/** Removes the index of an earlier result, so that what follows cannot be taken for that. */
+void removeIndex(const std::filesystem::path& out)
+{
+  const std::filesystem::path index = smg::FileDescriptor::targetOf(out);
+  std::error_code failure;
+  const bool wasThere = std::filesystem::remove(index, failure);
+  if (failure)
+  {
+    throw smg::Error(
+      out.string() + ": the earlier result cannot be removed: " + failure.message() + '.');
+  }
+  if (wasThere)
+  {
+    smg::FileDescriptor::syncPath(index.parent_path(), out);
+  }
+}
+
+/** Removes the pieces of an earlier result of more processes. */
+void removePiecesFrom(const std::filesystem::path& out, int first)
+{
+  const std::filesystem::path folder = folderOf(out);
+  std::vector<std::filesystem::path> others;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+  {
+    const std::string name = entry.path().filename().string();
+    const std::string begin = out.stem().string() + '_';
+    const char* digits = name.c_str() + begin.size();
+    int piece = -1;
+    const bool isNumbered =
+      name.starts_with(begin) &&
+      std::from_chars(digits, name.c_str() + name.size(), piece).ec == std::errc();
+    if (isNumbered && piece >= first && name == pieceName(out, piece))
+    {
+      others.push_back(entry.path());
+    }
+  }
+  for (const std::filesystem::path& other : others)
+  {
+    smg::FileDescriptor::removeClosed(other);
+  }
+}
+
+/** Writes the piece of this process; returns what it has. */
+smg::StreamInfo writePiece(const smg::Team& team, const smg::VsmReader& mesh, PieceResult result,
+  const std::filesystem::path& path)
+{
+  smg::VsmReader pieces(mesh.path());
+  smg::MeshPiece piece;
+  pieces.readPiece(firstCellOf(mesh.info(), team.rank(), team.size()),
+    firstCellOf(mesh.info(), team.rank() + 1, team.size()), piece);
+  ResultPiece source(mesh.info(), std::move(piece), std::move(result));
+  smg::StreamInfo info = source.info();
+  smg::writeVtkXml(source, path);
+  return info;
+}
+
 } // namespace
+
+void checkPieceFiles(const smg::StreamInfo& mesh, const std::filesystem::path& out)
+{
+  if (mesh.cellType == smg::CellType::Tetrahedron && smg::lowerSuffix(out) == ".pvtp")
+  {
+    throw smg::Error(out.string() + ": a .pvtp file holds no tetrahedra: choose .pvtu.");
+  }
+  const std::filesystem::path folder = folderOf(out);
+  const bool isThere = std::filesystem::exists(folder);
+  if (isThere && !std::filesystem::is_directory(folder))
+  {
+    throw smg::Error(out.string() + ": its pieces go into the folder " + folder.string() +
+                     ", but that is a file: choose another name for the result.");
+  }
+  smg::FileDescriptor::createBeside(isThere ? folder / pieceName(out, 0) : out)
+    .reserve(leastBytes(mesh));
+}
 
 void writePieceFiles(
   smg::Team& team, smg::VsmReader& mesh, PieceResult result, const std::filesystem::path& out)
 {
-  const std::filesystem::path folder = out.parent_path() / out.stem();
-  smg::StreamInfo described;
-  team.run(
-    [&]
-    {
-      if (team.rank() == 0)
+  const std::filesystem::path path = folderOf(out) / pieceName(out, team.rank());
+  bool hasBegun = false;
+  try
+  {
+    team.run(
+      [&]
       {
-        std::filesystem::create_directories(folder);
-      }
-      team.agree();
-      smg::VsmReader pieces(mesh.path());
-      smg::MeshPiece piece;
-      pieces.readPiece(firstCellOf(mesh.info(), team.rank(), team.size()),
-        firstCellOf(mesh.info(), team.rank() + 1, team.size()), piece);
-      ResultPiece source(mesh.info(), std::move(piece), std::move(result));
-      described = source.info();
-      smg::writeVtkXml(source, folder / pieceName(out, team.rank()));
-    });
-  // The index comes when all pieces are there.
-  team.run(
-    [&]
+        if (team.rank() == 0)
+        {
+          removeIndex(out);
+          std::filesystem::create_directory(folderOf(out));
+        }
+        team.agree();
+        hasBegun = true;
+        const smg::StreamInfo described = writePiece(team, mesh, std::move(result), path);
+        team.agree();
+        if (team.rank() == 0)
+        {
+          removePiecesFrom(out, team.size());
+          smg::writeFile(out, indexText(out, team.size(), described));
+        }
+      });
+  }
+  catch (const smg::Error&)
+  {
+    if (hasBegun)
     {
-      if (team.rank() == 0)
-      {
-        smg::writeFile(out, indexText(out, team.size(), described));
-      }
-    });
+      smg::FileDescriptor::removeClosed(path);
+    }
+    throw;
+  }
 }

@@ -25,9 +25,15 @@ struct PieceResult
     const std::vector<T>& values);
 };
 
+/** Called on one process, before the work: throws smg::Error if pieces of this mesh cannot be
+ * written, because of its cells, or because of the folder or its room. */
+void checkPieceFiles(const smg::StreamInfo& mesh, const std::filesystem::path& out);
+
 /** Writes the mesh with its result as a .pvtp or .pvtu file, each process the piece of its cells,
  * in the folder of that name. Pieces have GlobalIds, vtkGhostType and StreamFinalized as those of
- * vtkStreamingMeshReader. Called on all processes; throws smg::Error. */
+ * vtkStreamingMeshReader. Those of an earlier result of this name are replaced, or removed; the
+ * index, without which pieces are no result, is there only when all of them are. Called on all
+ * processes; throws smg::Error, and leaves nothing of the result then. */
 void writePieceFiles(
   smg::Team& team, smg::VsmReader& mesh, PieceResult result, const std::filesystem::path& out);
 

@@ -5,6 +5,26 @@
 #include "smg/DescribedProblem.h"
 #include "smg/SolvedMesh.h"
 
+namespace
+{
+
+void addColumns(
+  const smg::DistributedSolution& solution, const smg::ResultOptions& results, PieceResult& result)
+{
+  PieceResult::add(result.vertexColumns, smg::SolutionName, solution.columns, solution.values);
+  if (results.gradient)
+  {
+    PieceResult::add(
+      result.cellColumns, smg::GradientName, 3 * solution.columns, solution.gradient);
+  }
+  if (results.flux)
+  {
+    PieceResult::add(result.cellColumns, smg::FluxName, 3 * solution.columns, solution.flux);
+  }
+}
+
+} // namespace
+
 void solveOn(smg::Team& team, const DistributedJob& job, const DistributedSolve& task)
 {
   smg::ResultOptions results;
@@ -30,16 +50,7 @@ void solveOn(smg::Team& team, const DistributedJob& job, const DistributedSolve&
     return column.name == smg::SolutionName || column.name == smg::GradientName ||
            column.name == smg::FluxName;
   };
-  PieceResult::add(result.vertexColumns, smg::SolutionName, solution.columns, solution.values);
-  if (results.gradient)
-  {
-    PieceResult::add(
-      result.cellColumns, smg::GradientName, 3 * solution.columns, solution.gradient);
-  }
-  if (results.flux)
-  {
-    PieceResult::add(result.cellColumns, smg::FluxName, 3 * solution.columns, solution.flux);
-  }
+  team.run([&] { addColumns(solution, results, result); });
   writePieceFiles(team, *on.mesh, std::move(result), job.out);
   reportOn(team, job, solution.report);
 }

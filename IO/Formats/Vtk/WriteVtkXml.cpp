@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vtk/WriteVtkXml.h"
 
+#include "IO/Files/Suffix.h"
 #include "IO/Formats/Shared/OtherCounts.h"
 #include "IO/Formats/Vtk/VtkXmlFile.h"
 #include "Solver/Core/Progress.h"
@@ -16,6 +17,10 @@ void writeVtkXml(
   MeshSource& source, const std::filesystem::path& path, const ProgressFunction& progress)
 {
   const StreamInfo& info = source.info();
+  if (info.cellType == CellType::Tetrahedron && lowerSuffix(path) == ".vtp")
+  {
+    throw Error(path.string() + ": a .vtp file holds no tetrahedra: choose .vtu.");
+  }
   Progress reported(progress);
   const auto corners = static_cast<std::uint32_t>(cornersOf(info.cellType));
   VtkXmlFile file(path, { info.cellType, info.doublePositions, info.vertices, info.cells,

@@ -62,7 +62,7 @@ struct DistributedSolution
 {
   int columns = 1;            ///< those of the problem
   std::vector<double> values; ///< `columns` a vertex of MeshPart::block
-  Report report;              ///< of all processes, the same on each
+  Report report;              ///< of all processes, the same on each; seconds: of the slowest
   /** See DistributedSolver::evaluate(): 3 numbers per column of each cell of MeshPart::block; 0 in
    * cells without area or volume. */
   std::vector<double> gradient, flux;
@@ -82,7 +82,8 @@ struct DistributedSolution
  * Error of one process is thrown on all of them, with the same text.
  *
  * The mesh may have as many vertices as a HYPRE_BigInt can count: 2^31 - 1, or 2^63 - 1 if hypre
- * was built with 64-bit integers, or with mixed ones.
+ * was built with 64-bit integers, or with mixed ones. A process may own 33,554,431 of them (2^25 -
+ * 1), unless hypre was built with 64-bit integers.
  */
 class SMG_EXPORT DistributedSolver
 {
@@ -91,7 +92,8 @@ public:
    * Finds out which vertices the parts share.
    * @param communicator the processes; it is duplicated
    * @param part that of this process; it must outlive the solver
-   * @throws Error if the parts are not valid or do not fit together
+   * @throws Error if the parts are not valid or do not fit together, or a vertex of several parts
+   * has not the same position in each
    */
   DistributedSolver(MPI_Comm communicator, const MeshPart& part);
   ~DistributedSolver();
@@ -113,8 +115,8 @@ public:
    * @param problem the problem, asked once, for the part as the only block of its mesh: vertices of
    * several parts must get the same answer on each.
    * @param options how to solve
-   * @throws Error as solve(). It is no error if the tolerance is not reached: see
-   * Report::converged.
+   * @throws Error as solve(), and if a vertex of several parts gets different answers. It is no
+   * error if the tolerance is not reached: see Report::converged.
    * @throws Cancelled if the progress callback returns false
    */
   DistributedSolution solve(Problem& problem, const DistributedOptions& options = {});
