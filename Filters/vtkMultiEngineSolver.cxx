@@ -38,7 +38,8 @@ bool vtkMultiEngineSolver::IsForProcesses(vtkPointSet& piece, bool isAlone)
 
 std::string vtkMultiEngineSolver::WhyStreaming()
 {
-  return {};
+  const char* checkpoint = this->GetCheckpointDirectory();
+  return checkpoint && *checkpoint ? "it has checkpoints (CheckpointDirectory)" : "";
 }
 
 void vtkMultiEngineSolver::PrintSelf(ostream& os, vtkIndent indent)

@@ -55,7 +55,8 @@ protected:
 
   bool IsForProcesses(vtkPointSet& piece, bool isAlone) override;
 
-  /** Why AUTOMATIC_ENGINE is STREAMING, whatever the memory; empty (default): nothing says so. */
+  /** Why AUTOMATIC_ENGINE is STREAMING, whatever the memory: because of checkpoints. Empty: nothing
+   * says so. */
   virtual std::string WhyStreaming();
 
   /** Right-hand sides by which AUTOMATIC_ENGINE estimates the memory. Default: 3, as many as a

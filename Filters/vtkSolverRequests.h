@@ -56,16 +56,16 @@ struct vtkStreamingSolver::Internals
     std::vector<double> values;
     if (isForProcesses)
     {
-      this->solveInProcesses(*present);
+      this->solveInProcesses(*present, values);
       this->Pieces.setStamp(request, smg::stampOf(this->Self, input, inputInfo));
-      values = this->Pieces.values();
     }
     else if (exchange.isServer())
     {
       this->solve(input, inputInfo, *present, isForMemory ? &values : nullptr);
     }
     this->Summary.isCancelled = !this->Summary.error.empty() && this->Self.GetAbortExecute();
-    exchange.share(this->Summary);
+    // With the distributed engine every process has a summary, and if one has failed, all have.
+    exchange.share(this->Summary, exchange.firstOf(isForProcesses && !this->Summary.error.empty()));
     this->check();
     if (!isForMemory && !isForProcesses)
     {
@@ -126,22 +126,21 @@ struct vtkStreamingSolver::Internals
     return this->Self.IsForProcesses(present, isAlone);
   }
 
-  /** Solves on the pieces of all processes unless there is a solution for this one. */
-  void solveInProcesses(vtkPointSet& present)
+  /** Solves on the pieces of all processes unless there is a solution for this one; `values`: of
+   * its points. */
+  void solveInProcesses(vtkPointSet& present, std::vector<double>& values)
   {
-    if (!this->Pieces.isEmpty())
-    {
-      this->Summary = this->Pieces.summary();
-      return;
-    }
     try
     {
-      std::vector<double> values;
-      const smg::SolveSummary summary =
-        this->Self.SolveInProcesses(present, smg::progressOf(this->Self), values);
-      this->Pieces.hold(summary, std::move(values));
-      this->warn(summary);
-      this->Summary = summary;
+      if (this->Pieces.isEmpty())
+      {
+        const smg::SolveSummary summary =
+          this->Self.SolveInProcesses(present, smg::progressOf(this->Self), values);
+        this->Pieces.hold(summary, values);
+        this->warn(summary);
+      }
+      this->Summary = this->Pieces.summary();
+      values = this->Pieces.values();
     }
     catch (const std::exception& error)
     {

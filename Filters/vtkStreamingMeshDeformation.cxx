@@ -118,7 +118,7 @@ smg::SolveSummary vtkStreamingMeshDeformation::SolveInProcesses(
 
 std::string vtkStreamingMeshDeformation::WhyStreaming()
 {
-  return this->Cycles > 0 ? "it counts V-cycles (Cycles)" : "";
+  return this->Cycles > 0 ? "it counts V-cycles (Cycles)" : this->Superclass::WhyStreaming();
 }
 
 void vtkStreamingMeshDeformation::Deliver(

@@ -271,6 +271,12 @@ smg::SolveSummary vtkStreamingPoisson::SolveInProcesses(
   return smg::solveInProcesses(piece, this->GetController(), taskOf, progress, values);
 }
 
+std::string vtkStreamingPoisson::WhyStreaming()
+{
+  return this->InCore ? "it keeps everything in the memory of process 0 (InCore)"
+                      : this->Superclass::WhyStreaming();
+}
+
 void vtkStreamingPoisson::Deliver(
   vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output)
 {

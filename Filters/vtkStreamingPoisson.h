@@ -145,6 +145,7 @@ protected:
     std::vector<double>& values) override;
   smg::SolveSummary SolveInProcesses(vtkPointSet& piece,
     const std::function<bool(double)>& progress, std::vector<double>& values) override;
+  std::string WhyStreaming() override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
 
 private:

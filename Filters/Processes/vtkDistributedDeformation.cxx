@@ -69,15 +69,19 @@ std::vector<double> withNormals(
       sums = normalSums(triangles);
     });
   parts.solver().sum(sums, 3);
-  const std::vector<float> normals = unitNormals(sums);
   std::vector<double> values;
-  values.reserve(2 * positions.size());
-  for (std::size_t k = 0; k < positions.size(); k += 3)
-  {
-    const auto first = static_cast<std::ptrdiff_t>(k);
-    values.insert(values.end(), positions.begin() + first, positions.begin() + first + 3);
-    values.insert(values.end(), normals.begin() + first, normals.begin() + first + 3);
-  }
+  parts.solver().together(
+    [&]
+    {
+      const std::vector<float> normals = unitNormals(sums);
+      values.reserve(2 * positions.size());
+      for (std::size_t k = 0; k < positions.size(); k += 3)
+      {
+        const auto first = static_cast<std::ptrdiff_t>(k);
+        values.insert(values.end(), positions.begin() + first, positions.begin() + first + 3);
+        values.insert(values.end(), normals.begin() + first, normals.begin() + first + 3);
+      }
+    });
   return values;
 }
 
@@ -110,9 +114,7 @@ SolveSummary deformInProcesses(vtkPointSet& piece, vtkMultiProcessController* co
     columns = DeformedVertices::WithNormals;
     solution.values = withNormals(piece, parts, solution.values);
   }
-  values = parts.atPoints(solution.values, columns);
-  solution.report.notes.insert(solution.report.notes.end(), task.notes.begin(), task.notes.end());
-  return SolveSummary::of(solution.report, columns);
+  return parts.summarize(solution.report, task.notes, solution.values, columns, values);
 }
 
 } // namespace smg

@@ -45,9 +45,7 @@ SolveSummary solveInProcesses(vtkPointSet& piece, vtkMultiProcessController* con
   solver.prepare(*problem, task.options.scratch);
   DistributedSolution solution = solver.solve(*problem, distributedOptions(task.options, progress));
   solver.evaluate(*problem, solution, { .memoryLimit = INT64_MAX });
-  values = parts.atPoints(solution.values, solution.columns);
-  solution.report.notes.insert(solution.report.notes.end(), task.notes.begin(), task.notes.end());
-  return SolveSummary::of(solution.report, solution.columns);
+  return parts.summarize(solution.report, task.notes, solution.values, solution.columns, values);
 }
 
 } // namespace smg

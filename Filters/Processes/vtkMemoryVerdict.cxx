@@ -14,6 +14,7 @@
 #include <iomanip>
 #include <span>
 #include <sstream>
+#include <string>
 
 namespace smg
 {
@@ -41,13 +42,20 @@ MemoryVerdict judgeMemory(vtkPointSet& piece, vtkMultiProcessController* control
   team.run(
     [&]
     {
-      std::array<double, 2> most{ isPreview(piece) ? 1.0 : 0.0,
-        partMemory(piece.GetNumberOfPoints(), piece.GetNumberOfCells(), columns) };
+      std::array<double, 3> most{ isPreview(piece) ? 1.0 : 0.0,
+        partMemory(piece.GetNumberOfPoints(), piece.GetNumberOfCells(), columns),
+        static_cast<double>(piece.GetNumberOfPoints()) };
       team.largest(std::span<double>(most));
       const double share = freeMemoryOfProcess(team);
       if (most[0] > 0.0)
       {
         verdict = { false, "the input is a preview of the mesh" };
+        return;
+      }
+      if (most[2] > static_cast<double>(mostPartVertices()))
+      {
+        verdict = { false, "a process has more than the " + std::to_string(mostPartVertices()) +
+                             " points that hypre can have in one" };
         return;
       }
       verdict.fits = most[1] <= share;

@@ -3,6 +3,7 @@
 
 #include "Filters/Processes/StreamNumbers.h"
 #include "IO/Formats/Vsm/Columns.h"
+#include "IO/Formats/Vsm/ReservedNames.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceStream.h"
@@ -10,6 +11,7 @@
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
+#include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkFieldData.h"
 #include "vtkIdList.h"
@@ -89,6 +91,20 @@ std::vector<Column> columnsOf(vtkDataSetAttributes& arrays, const std::vector<Co
     }
   }
   return columns;
+}
+
+/** Throws Error if the points have no ids. */
+void checkHasGlobalIds(vtkPointSet& piece)
+{
+  vtkPointData& arrays = *piece.GetPointData();
+  vtkDataArray* ids = arrays.GetGlobalIds();
+  ids = ids ? ids : arrays.GetArray(GlobalIdsName);
+  if (!ids || ids->GetNumberOfComponents() != 1)
+  {
+    throw Error("The input has no point GlobalIds, by which the processes know their common "
+                "points: apply the filter Generate Global Ids to it, after Redistribute DataSet if "
+                "the mesh is in one process.");
+  }
 }
 
 /** The box around the points of all processes. */
@@ -183,6 +199,7 @@ PiecePart partOfPiece(
   std::vector<std::int64_t> ids;
   if (piece.GetNumberOfPoints() > 0)
   {
+    checkHasGlobalIds(piece);
     ids = globalIdsOf(piece, Piece);
   }
   std::vector<char> isUsed(ids.size());

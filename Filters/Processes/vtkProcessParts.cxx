@@ -63,16 +63,24 @@ void ProcessParts::requireSame(const std::string& what, const std::string& value
   this->Processes.run([&] { this->Processes.requireSame(what, value); });
 }
 
-std::vector<double> ProcessParts::atPoints(const std::vector<double>& values, int columns) const
+SolveSummary ProcessParts::summarize(Report& report, const std::vector<std::string>& notes,
+  const std::vector<double>& values, int columns, std::vector<double>& atPoints)
 {
-  std::vector<double> atPoints;
-  atPoints.reserve(this->Piece.places.size() * static_cast<std::size_t>(columns));
-  for (const std::int64_t vertex : this->Piece.places)
-  {
-    const auto first = values.begin() + vertex * columns;
-    atPoints.insert(atPoints.end(), first, first + columns);
-  }
-  return atPoints;
+  SolveSummary summary;
+  this->Processes.run(
+    [&]
+    {
+      atPoints.clear();
+      atPoints.reserve(this->Piece.places.size() * static_cast<std::size_t>(columns));
+      for (const std::int64_t vertex : this->Piece.places)
+      {
+        const auto first = values.begin() + vertex * columns;
+        atPoints.insert(atPoints.end(), first, first + columns);
+      }
+      report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+      summary = SolveSummary::of(report, columns);
+    });
+  return summary;
 }
 
 DistributedOptions distributedOptions(const SolveOptions& options, const ProgressFunction& progress)

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "Filters/Processes/vtkPiecePart.h"
+#include "Filters/Streaming/SolveSummary.h"
 #include "Solver/Distributed/Team.h"
 #include "smg/DistributedSolver.h"
+#include "smg/Report.h"
 #include "smg/Solve.h"
 
 #include <functional>
@@ -39,9 +41,15 @@ public:
   /** Throws Error on all processes unless each has the same `value`; `what` names it. */
   void requireSame(const std::string& what, const std::string& value);
 
-  /** Of values at the vertices of the part, those at all points of the piece, duplicate ones
-   * included. */
-  std::vector<double> atPoints(const std::vector<double>& values, int columns) const;
+  /**
+   * Ends a solve. Called on all processes; throws Error on all of them if one fails.
+   * @param report that of the solve, which gets the notes
+   * @param notes those of the task
+   * @param values the solution at the vertices of the part, `columns` numbers each
+   * @param atPoints set to those at all points of the piece, duplicate ones included
+   */
+  SolveSummary summarize(Report& report, const std::vector<std::string>& notes,
+    const std::vector<double>& values, int columns, std::vector<double>& atPoints);
 
 private:
   Team Processes;

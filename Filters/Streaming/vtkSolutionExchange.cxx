@@ -39,14 +39,14 @@ SolutionExchange::SolutionExchange(vtkMultiProcessController* controller)
   }
 }
 
-void SolutionExchange::shareText(std::string& text)
+void SolutionExchange::shareText(std::string& text, int from)
 {
   vtkIdType length = static_cast<vtkIdType>(text.size());
-  this->Controller->Broadcast(&length, 1, 0);
+  this->Controller->Broadcast(&length, 1, from);
   text.resize(length);
   if (length > 0)
   {
-    this->Controller->Broadcast(text.data(), length, 0);
+    this->Controller->Broadcast(text.data(), length, from);
   }
 }
 
@@ -98,19 +98,30 @@ bool SolutionExchange::areAll(bool answer)
   return least != 0;
 }
 
-void SolutionExchange::share(SolveSummary& summary)
+int SolutionExchange::firstOf(bool answer)
+{
+  const int process = answer ? this->Rank : this->Processes;
+  int first = process;
+  if (this->isParallel())
+  {
+    this->Controller->AllReduce(&process, &first, 1, vtkCommunicator::MIN_OP);
+  }
+  return first < this->Processes ? first : 0;
+}
+
+void SolutionExchange::share(SolveSummary& summary, int from)
 {
   if (!this->isParallel())
   {
     return;
   }
-  this->shareText(summary.error);
-  this->shareText(summary.report);
-  this->shareText(summary.notes);
+  this->shareText(summary.error, from);
+  this->shareText(summary.report, from);
+  this->shareText(summary.notes, from);
   double numbers[] = { double(summary.columns), summary.residual, double(summary.cycles),
     double(summary.passes), double(summary.converged), double(summary.peakMemory),
     double(summary.isCancelled), double(summary.processes) };
-  this->Controller->Broadcast(numbers, 8, 0);
+  this->Controller->Broadcast(numbers, 8, from);
   summary.columns = static_cast<int>(numbers[0]);
   summary.residual = numbers[1];
   summary.cycles = static_cast<int>(numbers[2]);

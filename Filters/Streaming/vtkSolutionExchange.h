@@ -34,8 +34,11 @@ public:
   /** Whether the argument is true in all processes. */
   bool areAll(bool answer);
 
-  /** Sends the summary of process 0 to all processes. */
-  void share(SolveSummary& summary);
+  /** The first process in which the argument is true; 0: in none. */
+  int firstOf(bool answer);
+
+  /** Sends the summary of a process to all processes. */
+  void share(SolveSummary& summary, int from = 0);
 
   /** The values of the vertices `ids` of this process, `columns` each. `solution` is used in
    * process 0 only. Throws Error in the process whose values could not be read. */
@@ -44,7 +47,7 @@ public:
 private:
   void serve(Solution& solution, int process);
   void ask(const std::vector<std::int64_t>& ids, int columns, std::vector<double>& values);
-  void shareText(std::string& text);
+  void shareText(std::string& text, int from);
 
   vtkMultiProcessController* Controller;
   int Processes = 1;

@@ -245,6 +245,8 @@ if __name__ == "__main__":
     else:
         test_any_number_of_processes_gives_the_same()
         test_failures_are_one_line()
+        test_processes_that_are_asked_differently_are_refused()
+        test_processes_do_not_do_the_same()
         test_pieces_hold_the_cells()
         test_a_result_is_the_pieces_of_one_run()
         test_where_no_piece_can_be_is_said_before()
