@@ -66,7 +66,7 @@ struct vtkStreamingSolver::Internals
     this->Summary.isCancelled = !this->Summary.error.empty() && this->Self.GetAbortExecute();
     // With the distributed engine every process has a summary, and if one has failed, all have.
     exchange.share(this->Summary, exchange.firstOf(isForProcesses && !this->Summary.error.empty()));
-    this->check();
+    this->check(exchange.isServer());
     if (!isForMemory && !isForProcesses)
     {
       this->fetch(input, request, exchange, present, values);
@@ -189,8 +189,15 @@ struct vtkStreamingSolver::Internals
     }
   }
 
+  /** The failure of a solve, which process 0 reports for all. */
+  class ReportedByServer : public smg::InputFailed
+  {
+  public:
+    using InputFailed::InputFailed;
+  };
+
   /** Throws Error if there is no solution. */
-  void check() const
+  void check(bool isServer) const
   {
     if (this->Summary.error.empty())
     {
@@ -200,12 +207,18 @@ struct vtkStreamingSolver::Internals
     {
       throw smg::Cancelled();
     }
+    if (!isServer)
+    {
+      throw ReportedByServer(this->Summary.error);
+    }
     throw smg::Error(this->Summary.error);
   }
 
+  /** Warns, in process 0, of a solve that did not converge. */
   void warn(const smg::SolveSummary& summary) const
   {
-    if (summary.error.empty() && !summary.converged && this->Self.IsToConverge())
+    if (smg::SolutionExchange(this->Self.Controller).isServer() && summary.error.empty() &&
+        !summary.converged && this->Self.IsToConverge())
     {
       vtkWarningWithObjectMacro(
         &this->Self, << "The solve did not converge: after " << summary.cycles

@@ -61,7 +61,7 @@ public:
   }
 
 protected:
-  int computeOn(const DistributedEngine& engine, const DistributedJob& job) override
+  void computeOn(const DistributedEngine& engine, const DistributedJob& job) override
   {
     DistributedDeformation deformation;
     deformation.read = [this]

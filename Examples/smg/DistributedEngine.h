@@ -47,11 +47,11 @@ struct DistributedDeformation
 };
 
 /** The library with MPI and hypre, which is loaded when it is needed. Its functions throw
- * smg::Error on the first process, and return the exit status of any other one. */
+ * smg::Error on the first process, and return on any other one. */
 struct DistributedEngine
 {
-  int (*solve)(const DistributedJob& job, const DistributedSolve& solve);
-  int (*deform)(const DistributedJob& job, const DistributedDeformation& deformation);
+  void (*solve)(const DistributedJob& job, const DistributedSolve& solve);
+  void (*deform)(const DistributedJob& job, const DistributedDeformation& deformation);
 };
 
 /** Loads it. Throws smg::Error if this build or this system does not have it. */

@@ -6,8 +6,6 @@
 #include "IO/AnyFormat/MeshFile.h"
 #include "smg/Error.h"
 
-#include <cstdlib>
-
 namespace
 {
 
@@ -82,10 +80,7 @@ void EngineCommand::compute()
     this->writeReport(report.json());
     this->tell(report);
   };
-  if (const int status = this->computeOn(distributedEngine(), job); status != 0)
-  {
-    std::exit(status);
-  }
+  this->computeOn(distributedEngine(), job);
 }
 
 /** Reports foreseeable failures. */

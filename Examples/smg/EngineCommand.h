@@ -20,7 +20,7 @@ protected:
   void compute() override;
 
   /** Does the job on all processes. */
-  virtual int computeOn(const DistributedEngine& engine, const DistributedJob& job) = 0;
+  virtual void computeOn(const DistributedEngine& engine, const DistributedJob& job) = 0;
   /** After readTask(): throws smg::Error for what the processes of mpiexec do not do. */
   virtual void checkForProcesses() const {}
 

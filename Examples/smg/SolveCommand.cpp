@@ -71,7 +71,7 @@ public:
   }
 
 protected:
-  int computeOn(const DistributedEngine& engine, const DistributedJob& job) override
+  void computeOn(const DistributedEngine& engine, const DistributedJob& job) override
   {
     DistributedSolve solve;
     solve.read = [this]

@@ -3,7 +3,7 @@
 #include "Solver/Results/HeldSolution.h"
 #include "Solver/Results/ProblemResults.h"
 #include "Testing/Distributed/PartOfMesh.h"
-#include "Testing/Distributed/WaveProblem.h"
+#include "Testing/Solver/WaveProblem.h"
 
 #include <gtest/gtest.h>
 
@@ -13,24 +13,6 @@ namespace smg::testing
 {
 namespace
 {
-
-/** Every type of datum, and two adjacent Dirichlet conditions. */
-void setEverything(ElementProblem& problem)
-{
-  problem.Columns = WaveColumns;
-  problem.Conductivity = someTensor;
-  problem.VertexScreening = [](const Point& p) { return p[1] > 2 ? 0.3 : 0.0; };
-  problem.CellScreening = [](const Point&) { return 0.1; };
-  problem.VertexSource = problem.CellSource = columnsOf(WaveColumns, wave);
-  problem.CellField = [](const Point& p) -> Eigen::MatrixXd
-  { return Eigen::MatrixXd::Constant(3, WaveColumns, 0.4 * p[0]); };
-  problem.DirichletConditions.push_back(
-    { [](const Point& p) { return p[0] < 0.9 && p[1] < 2; }, columnsOf(WaveColumns, wave) });
-  problem.DirichletConditions.push_back({ below(0, 0.9), columnsOf(WaveColumns, wave) });
-  problem.FluxConditions.push_back({ above(0, 4.0), columnsOf(WaveColumns, wave) });
-  problem.RobinConditions.push_back(
-    { above(1, 3.0), [](const Point& p) { return 1.0 + p[0]; }, columnsOf(WaveColumns, wave) });
-}
 
 /** Dirichlet conditions alone, without data on facets or in cells. */
 void setEnds(ElementProblem& problem)

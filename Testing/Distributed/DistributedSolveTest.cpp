@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Distributed/PartOfMesh.h"
-#include "Testing/Distributed/WaveProblem.h"
+#include "Testing/Solver/WaveProblem.h"
 
 #include <gtest/gtest.h>
 

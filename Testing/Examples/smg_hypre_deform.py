@@ -4,10 +4,9 @@
 
 import json
 import os
-import sys
 
-from program import SANITIZED, load, read_vtk_xml, run, write_medit
-from smg_hypre import MPIEXEC, run_on
+from program import load, read_vtk_xml, run, write_medit
+from smg_hypre import run_on, run_where_possible
 from tetrahedra import tetrahedra
 from torus import torus
 
@@ -114,18 +113,11 @@ def test_failures_are_one_line():
     assert not os.path.exists("x.vtu") and not os.path.exists("x.pvtu")
 
 
+def refused():
+    meshes()
+    return "deform", "solid.vsm", "x.vtu", "--handles", "handles.json"
+
+
 if __name__ == "__main__":
-    if os.environ.get("SMG_HAS_HYPRE") != "1":
-        meshes()
-        done = run("deform", "solid.vsm", "x.vtu", "--handles", "handles.json", "--engine", "hypre",
-                   code=1)
-        assert "was built without MPI and hypre" in done.stderr
-    elif not MPIEXEC:
-        print("SKIPPED: mpiexec is not installed")
-        sys.exit(77)
-    elif SANITIZED:
-        print("SKIPPED: MPI and hypre do not free everything")
-        sys.exit(77)
-    else:
-        test_any_number_of_processes_gives_the_same()
-        test_failures_are_one_line()
+    run_where_possible(
+        refused, [test_any_number_of_processes_gives_the_same, test_failures_are_one_line])

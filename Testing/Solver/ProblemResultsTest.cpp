@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Results/ProblemResults.h"
-#include "Testing/Solver/EllipticTesting.h"
+#include "Testing/Solver/WaveProblem.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -12,30 +12,13 @@ namespace smg::testing
 namespace
 {
 
-constexpr int Columns = 2;
-
-double wave(const Point& p, int k)
-{
-  return std::sin(0.7 * p[0] + k) + 0.3 * std::cos(p[1] - 0.5 * p[2]);
-}
+constexpr int Columns = WaveColumns;
 
 /** A problem with every type of datum, and two adjacent Dirichlet conditions. */
 ElementProblem wholeFamily(const StreamMesh& mesh)
 {
   ElementProblem problem(mesh);
-  problem.Columns = Columns;
-  problem.Conductivity = someTensor;
-  problem.VertexScreening = [](const Point& p) { return p[1] > 2 ? 0.3 : 0.0; };
-  problem.CellScreening = [](const Point&) { return 0.1; };
-  problem.VertexSource = problem.CellSource = columnsOf(Columns, wave);
-  problem.CellField = [](const Point& p) -> Eigen::MatrixXd
-  { return Eigen::MatrixXd::Constant(3, Columns, 0.4 * p[0]); };
-  problem.DirichletConditions.push_back(
-    { [](const Point& p) { return p[0] < 0.9 && p[1] < 2; }, columnsOf(Columns, wave) });
-  problem.DirichletConditions.push_back({ below(0, 0.9), columnsOf(Columns, wave) });
-  problem.FluxConditions.push_back({ above(0, 4.0), columnsOf(Columns, wave) });
-  problem.RobinConditions.push_back(
-    { above(1, 3.0), [](const Point& p) { return 1.0 + p[0]; }, columnsOf(Columns, wave) });
+  setEverything(problem);
   return problem;
 }
 

@@ -23,34 +23,33 @@ public:
   Mpi& operator=(const Mpi&) = delete;
 };
 
-/** Ends what all processes have ended: the first one says why. */
-int end(const smg::Team& team)
+/** Ends what all processes have ended: the first one says why. The others end without an error, for
+ * which mpiexec would end the first one, too, perhaps before it has said anything. */
+void end(const smg::Team& team)
 {
   if (team.rank() == 0)
   {
     throw;
   }
-  return 1;
 }
 
 /** Runs work(team) on the processes. */
 template <class Work>
-int run(Work&& work)
+void run(Work&& work)
 {
   const Mpi mpi;
   smg::Team team(MPI_COMM_WORLD);
   try
   {
     work(team);
-    return 0;
   }
   catch (const smg::TeamError&)
   {
-    return end(team);
+    end(team);
   }
   catch (const smg::Cancelled&)
   {
-    return end(team);
+    end(team);
   }
   catch (const std::exception& error)
   {
@@ -61,18 +60,17 @@ int run(Work&& work)
     // The other processes do not know, and may be waiting for this one.
     std::fprintf(stderr, "smg: process %d of %d: %s\n", team.rank(), team.size(), error.what());
     MPI_Abort(MPI_COMM_WORLD, 1);
-    return 1;
   }
 }
 
-int solve(const DistributedJob& job, const DistributedSolve& task)
+void solve(const DistributedJob& job, const DistributedSolve& task)
 {
-  return run([&](smg::Team& team) { solveOn(team, job, task); });
+  run([&](smg::Team& team) { solveOn(team, job, task); });
 }
 
-int deform(const DistributedJob& job, const DistributedDeformation& task)
+void deform(const DistributedJob& job, const DistributedDeformation& task)
 {
-  return run([&](smg::Team& team) { deformOn(team, job, task); });
+  run([&](smg::Team& team) { deformOn(team, job, task); });
 }
 
 } // namespace
