@@ -48,6 +48,9 @@ std::int64_t inflatedSize(InputFile& file)
   return said + (std::max<std::int64_t>(least - said, 0) + Modulus - 1) / Modulus * Modulus;
 }
 
+/** Numbers of vertices and cells have 32 bits during a conversion, see RawMesh. */
+constexpr std::int64_t MostNumbers = (std::int64_t(1) << 32) - 2;
+
 /** The counts of a file, from its header or estimated from its size. */
 struct Counts : FileCounts
 {
@@ -161,6 +164,12 @@ ConversionEstimate estimateConversion(
   const std::filesystem::path& in, const ConversionOptions& options)
 {
   const Counts counts = countsOf(in, { options.timeStep, options.partition });
+  if (counts.counted && std::max(counts.vertices, counts.cells) > MostNumbers)
+  {
+    throw Error(in.string() + ": the mesh has " + std::to_string(counts.vertices) +
+                " vertices and " + std::to_string(counts.cells) + " cells; at most " +
+                std::to_string(MostNumbers) + " of each can be converted: split it.");
+  }
   ConversionEstimate estimate;
   estimate.vertices = counts.vertices;
   estimate.cells = counts.cells;

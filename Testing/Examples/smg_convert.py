@@ -302,7 +302,21 @@ def test_same_mesh_for_any_memory():
         assert len(files) == 1, order
 
 
-for each in (test_restored_order, test_restored_solids, test_restored_is_the_same_file,
+def test_too_many_vertices_are_said_at_once():
+    header = (b"ply\nformat binary_little_endian 1.0\nelement vertex 5000000000\nproperty float x\n"
+              b"property float y\nproperty float z\nelement face 1\n"
+              b"property list uchar int vertex_indices\nend_header\n")
+    with open("huge.ply", "wb") as file:
+        file.write(header)
+        file.truncate(len(header) + 5000000000 * 12 + 13)  # takes no room
+    for option in ((), ("--dry-run",)):
+        done = run("convert", "huge.ply", "huge.vsm", *option, code=1)
+        assert "has 5000000000 vertices" in done.stderr and "at most 4294967294" in done.stderr, done.stderr
+    os.remove("huge.ply")
+    assert not os.path.exists("huge.vsm")
+
+
+for each in (test_too_many_vertices_are_said_at_once, test_restored_order, test_restored_solids, test_restored_is_the_same_file,
              test_moved_meshes_keep_their_order, test_gzip_and_wrong_suffixes,
              test_compressed_streams, test_own_name, test_weld,
              test_cells_of_both_kinds, test_parts, test_same_mesh_for_any_memory):
