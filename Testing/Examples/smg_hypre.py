@@ -129,26 +129,26 @@ def test_any_number_of_processes_gives_the_same():
 
 def test_failures_are_one_line():
     arguments = ("--problem", "solid.json", "--engine", "hypre")
-    assert "none.vsm" in run_on(2, "solve", "none.vsm", "x.vtu", *arguments, code=1)
-    assert "convert the mesh first" in run_on(2, "solve", "solid.mesh", "x.vtu", *arguments, code=1)
+    assert "none.vsm" in run_on(2, "solve", "none.vsm", "failed.vtu", *arguments, code=1)
+    assert "convert the mesh first" in run_on(2, "solve", "solid.mesh", "failed.vtu", *arguments, code=1)
     write_problem("bad.json", {"dirichlet": [{"sphere": [90, 0, 0, 1], "value": [1]}]})
     assert "no vertex" in run_on(
-        3, "solve", "solid.vsm", "x.vtu", "--problem", "bad.json", "--engine", "hypre", code=1)
+        3, "solve", "solid.vsm", "failed.vtu", "--problem", "bad.json", "--engine", "hypre", code=1)
     for option in ("--in-core", "--dry-run"):
-        assert "leave them out" in run_on(2, "solve", "solid.vsm", "x.vtu", *arguments, option, code=1)
+        assert "leave them out" in run_on(2, "solve", "solid.vsm", "failed.vtu", *arguments, option, code=1)
     write_torus("wide.obj", 120, 60)
     run("convert", "wide.obj", "wide.vsm", "--quiet")
-    assert "more than the memory limit" in run_on(3, "solve", "wide.vsm", "x.vtp", "--problem",
+    assert "more than the memory limit" in run_on(3, "solve", "wide.vsm", "failed.vtp", "--problem",
                                                   "torus.json", "--engine", "hypre", "--memory", "1", code=1)
-    assert "folder" in run_on(2, "solve", "solid.vsm", "none/x.vtu", *arguments, code=1)
+    assert "folder" in run_on(2, "solve", "solid.vsm", "none/failed.vtu", *arguments, code=1)
     with open("solid.vsm", "rb") as file:
         content = bytearray(file.read())
     for k in range(len(content) // 3, len(content) // 3 + 64):
         content[k] ^= 0xFF
     with open("damaged.vsm", "wb") as file:
         file.write(content)
-    assert "damaged.vsm" in run_on(3, "solve", "damaged.vsm", "x.vtu", *arguments, code=1)
-    assert not os.path.exists("x.vtu") and not os.path.exists("x.pvtu")
+    assert "damaged.vsm" in run_on(3, "solve", "damaged.vsm", "failed.vtu", *arguments, code=1)
+    assert not os.path.exists("failed.vtu") and not os.path.exists("failed.pvtu")
 
 
 def run_pair(first, second):
