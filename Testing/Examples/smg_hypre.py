@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 
 from mesh_files import read_mesh
 from program import SANITIZED, SMG, load, read_vtk_xml, run, write_medit, write_torus
@@ -193,8 +194,8 @@ def test_pieces_hold_the_cells():
     error = run_on(2, *hypre("solid", "x.pvtp"), code=1)
     assert "x.pvtp: a .pvtp file holds no tetrahedra: choose .pvtu" in error, error
     assert not os.path.exists("x.pvtp") and not os.path.exists("x")
-    run_on(2, *hypre("torus", "x.pvtu"))  # triangles of a grid
-    run("convert", "x.pvtu", "again.vsm", "--quiet")
+    run_on(2, *hypre("torus", "grid.pvtu"))  # triangles of a grid
+    run("convert", "grid.pvtu", "again.vsm", "--quiet")
 
 
 def test_a_result_is_the_pieces_of_one_run():
@@ -254,8 +255,11 @@ def refused():
 
 if __name__ == "__main__":
     test_only_this_engine_loads_mpi()
-    run_where_possible(refused, [
-        test_any_number_of_processes_gives_the_same, test_failures_are_one_line,
-        test_pieces_hold_the_cells, test_a_result_is_the_pieces_of_one_run,
-        test_where_no_piece_can_be_is_said_before,
-        test_processes_that_are_asked_differently_are_refused, test_processes_do_not_do_the_same])
+    with tempfile.TemporaryDirectory(dir=".") as empty:
+        os.chdir(empty)  # the tests look for files that are not to be there
+        run_where_possible(refused, [
+            test_any_number_of_processes_gives_the_same, test_failures_are_one_line,
+            test_pieces_hold_the_cells, test_a_result_is_the_pieces_of_one_run,
+            test_where_no_piece_can_be_is_said_before,
+            test_processes_that_are_asked_differently_are_refused, test_processes_do_not_do_the_same])
+        os.chdir("..")
