@@ -19,6 +19,8 @@
 #include "Solver/Core/OneLine.h"
 #include "smg/Error.h"
 
+#include <malloc.h>
+
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -92,6 +94,9 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+  // A region of the allocator for each thread reserves 64 MiB of address space, which a limit of
+  // the system (ulimit -v) counts. Threads hardly allocate while they work: one region does.
+  mallopt(M_ARENA_MAX, 1);
   try
   {
     return run(argc, argv);

@@ -28,16 +28,18 @@ public:
   /** Coarsening ends at a level of at most CoarsestNodes nodes, or of more than this share of the
    * nodes of the next finer level, which has few strong edges or many stiff rows. */
   static constexpr double StalledShare = 0.8;
+  /** On several threads, the rows of the finest level that a step processes. */
+  static constexpr std::int64_t StepNodes = 5 * RowBlock::Nodes;
 
-  /** `stiff` finds the stiff rows of each coarse level. On more than two threads, two of them
-   * advance each of the finest levels, where most of the work is. */
+  /** `stiff` finds the stiff rows of each coarse level. On several threads, the stages of each of
+   * the finest levels, where most of the work is, are tasks of their own. */
   HierarchyBuilder(Pool& pool, Operators operators, Levels<Relaxation>& levels, int firstCore,
     StiffRows stiff, int threads)
     : Owner(pool)
     , Set(std::move(operators))
     , Built(levels)
     , FirstCore(firstCore)
-    , ApartLevels(canRunApart<Operators> && threads > 2 ? std::min(2, firstCore) : 0)
+    , ApartLevels(canRunApart<Operators> && threads > 1 ? std::min(2, firstCore) : 0)
     , Stiff(stiff)
   {
     this->addRows();
@@ -53,41 +55,49 @@ public:
   /** Whether the finest level has rows enough for a step: more would take memory. */
   bool isBusy() const
   {
-    using Step = Coarsening<Operators>;
-    return this->ApartLevels > 0 && this->Steps.front()->waiting() > Step::StepNodes;
+    return this->ApartLevels > 0 && this->Steps.front()->waiting() > StepNodes;
   }
 
   /** Begins a step of all streamed levels. */
   void begin()
   {
+    std::int64_t nodes = StepNodes;
     for (int l = 0; l < this->ApartLevels; ++l)
     {
-      this->Steps[static_cast<std::size_t>(l)]->beginApart();
+      Coarsening<Operators>& step = *this->Steps[static_cast<std::size_t>(l)];
+      step.beginApart(nodes);
+      nodes = step.coarseShare(nodes);
     }
   }
 
   /** Number of tasks of a step, which may run on different threads: data for other levels are
    * handed over afterwards. */
-  int tasks() const { return this->FirstCore + this->ApartLevels; }
+  int tasks() const { return this->FirstCore + (ApartTasks - 1) * this->ApartLevels; }
 
-  /** Performs a task of a step: advances all stages of a streamed level as far as possible, or
-   * those from products on, or those before these. */
+  /** Performs a task of a step: advances all stages of a streamed level as far as possible, or some
+   * of them. */
   void advance(int task)
   {
-    if (task >= 2 * this->ApartLevels)
+    if (task >= ApartTasks * this->ApartLevels)
     {
-      this->advanceLevel(task - this->ApartLevels);
+      this->advanceLevel(task - (ApartTasks - 1) * this->ApartLevels);
       return;
     }
-    Coarsening<Operators>& step = *this->Steps[static_cast<std::size_t>(task / 2)];
-    if (task % 2 == 0)
+    const int l = task / ApartTasks;
+    Coarsening<Operators>& step = *this->Steps[static_cast<std::size_t>(l)];
+    switch (task % ApartTasks)
     {
-      step.advanceProducts();
-      this->pack(task / 2);
-    }
-    else
-    {
-      step.advanceInterpolation();
+      case 0:
+        step.advanceCoarseRows();
+        break;
+      case 1:
+        step.advanceInterpolation();
+        break;
+      case 2:
+        step.advanceProducts();
+        break;
+      default:
+        this->pack(l);
     }
   }
 
@@ -154,6 +164,8 @@ public:
   }
 
 private:
+  static constexpr int ApartTasks = 4; // of a level
+
   void advanceLevel(int l)
   {
     const auto k = static_cast<std::size_t>(l);
@@ -277,7 +289,7 @@ private:
   Operators Set;
   Levels<Relaxation>& Built;
   int FirstCore;
-  int ApartLevels; // those that two threads advance
+  int ApartLevels; // whose stages are tasks
   StiffRows Stiff;
   std::vector<std::unique_ptr<LevelRows>> Rows;
   std::vector<std::unique_ptr<Coarsening<Operators>>> Steps;

@@ -159,6 +159,7 @@ struct CoarseningData
     , rawLarge(pool)
     , slots(pool)
     , productSlots(pool)
+    , gatherSlots(pool)
   {
   }
 
@@ -201,9 +202,9 @@ struct CoarseningData
   /** Scratch of sparsification: which of the first 64 entries were large when the row came. */
   Ring<std::uint64_t> rawLarge;
 
-  /** Scratch of the stages for coarse nodes: those up to interpolate() have their own, so that the
-   * others may run on another thread. */
-  SlotRing slots, productSlots;
+  /** Scratch of the stages for coarse nodes, which may run on three threads: those up to
+   * interpolate(), multiply(), and those from gather() on. */
+  SlotRing slots, productSlots, gatherSlots;
   /** The number of coarse nodes that the stages from multiply() on know. */
   std::int64_t knownCoarse = 0;
 

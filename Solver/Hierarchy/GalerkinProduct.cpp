@@ -6,12 +6,18 @@
 
 namespace smg
 {
-std::int32_t* GalerkinProduct::roomFor(std::int64_t columns)
+namespace
 {
-  const auto size = static_cast<std::size_t>(columns);
-  this->Columns.resize(std::max(this->Columns.size(), size));
-  return this->Columns.data();
+
+/** Columns, with room for at least so many. */
+std::int32_t* roomFor(std::vector<std::int32_t>& columns, std::int64_t count)
+{
+  const auto size = static_cast<std::size_t>(count);
+  columns.resize(std::max(columns.size(), size));
+  return columns.data();
 }
+
+} // namespace
 
 void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
 {
@@ -28,7 +34,7 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
   const auto row = data.fine.row(i);
   const std::uint32_t mark = data.productSlots.freshMark();
   std::int64_t size = 0;
-  std::int32_t* columns = this->roomFor(own);
+  std::int32_t* columns = roomFor(this->RowColumns, own);
 
   const float diagonal = data.patches.diagonal(i);
   const InterpolationEntry* p = data.interpolation.row(i);
@@ -47,7 +53,7 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
     sum += static_cast<double>(entry.weight()) * (ownQuanta - quanta[entry.delta()]);
     p = data.interpolation.row(j);
     const std::int64_t more = data.interpolation.size(j);
-    columns = this->roomFor(size + more);
+    columns = roomFor(this->RowColumns, size + more);
     const InterpolationEntry* end = p + more;
     for (; p != end; ++p)
     {
@@ -112,12 +118,12 @@ double GalerkinProduct::findChildren(const CoarseningData& data, std::int64_t c)
 void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
 {
   const double alpha = this->findChildren(data, c);
-  Slot* slots = data.productSlots.at(c);
-  const std::uint32_t mark = data.productSlots.freshMark();
+  Slot* slots = data.gatherSlots.at(c);
+  const std::uint32_t mark = data.gatherSlots.freshMark();
   std::int64_t columns = 0;
   for (const Child& child : this->Children)
   {
-    std::int32_t* column = this->roomFor(columns + child.size);
+    std::int32_t* column = roomFor(this->Columns, columns + child.size);
     const CoarseEntry* end = child.product + child.size;
     for (const CoarseEntry* entry = child.product; entry != end; ++entry)
     {
@@ -133,7 +139,7 @@ void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
 
 void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
 {
-  const Slot* slots = data.productSlots.at(c);
+  const Slot* slots = data.gatherSlots.at(c);
   CoarseEntry* out = data.raw.open(static_cast<std::int64_t>(this->Sorted.size()));
   std::int32_t lower = 0;
   std::int64_t size = 0;

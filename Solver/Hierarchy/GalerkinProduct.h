@@ -40,8 +40,6 @@ private:
     float weight;
   };
 
-  /** Columns, with room for at least this many. */
-  std::int32_t* roomFor(std::int64_t columns);
   /** Finds the children of node c, prefetches their rows of A P, and returns the row sum of the
    * node. */
   double findChildren(const CoarseningData& data, std::int64_t c);
@@ -51,6 +49,10 @@ private:
   /** Appends the row of node c, with the columns of Sorted. */
   void append(CoarseningData& data, std::int64_t c);
 
+  // Of multiply(), which may run on another thread than gather().
+  std::vector<std::int32_t> RowColumns;
+
+  // Of gather().
   std::vector<Child> Children;
   std::vector<std::int32_t> Columns, Sorted;
 };

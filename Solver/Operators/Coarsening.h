@@ -47,23 +47,35 @@ public:
   {
     this->begin(rows);
     this->advanceInterpolation();
-    this->see();
+    this->seeInterpolation();
     this->advanceProducts();
+    this->seeProducts();
+    this->advanceCoarseRows();
     this->release();
   }
 
-  // The same on two threads: between begin() and release(), advanceInterpolation() and
-  // advanceProducts() may run at the same time, the latter on the interpolation of earlier steps.
+  // The same on three threads: between beginApart() and release(), advanceInterpolation(),
+  // advanceProducts() and advanceCoarseRows() may run at the same time, each on what the one before
+  // it has done in earlier steps.
 
-  /** The nodes by which the stages advance at once. */
-  static constexpr std::int64_t StepNodes = 4 * RowBlock::Nodes;
-
-  void beginApart()
+  /** Begins a step in which every stage processes about so many nodes at most: a stage that gets
+   * many nodes at once distributes them over steps, so that all stages are busy in all steps. */
+  void beginApart(std::int64_t nodes)
   {
-    this->begin(this->Lifted + StepNodes);
-    this->see();
+    this->begin(this->Lifted + nodes);
+    this->seeProducts();
+    this->seeInterpolation();
+    this->MostNodes = nodes + nodes / 16;
+    this->MostCoarse = this->coarseShare(this->MostNodes);
     this->reserve();
     this->Apart = true;
+  }
+  /** The coarse rows that so many rows become, or a few more. */
+  std::int64_t coarseShare(std::int64_t rows) const
+  {
+    const std::int64_t share =
+      this->Lifted > 0 ? rows * this->Data.coarseNodes / this->Lifted : rows;
+    return std::min(rows, share + share / 16 + 16);
   }
   /** The rows that no stage has processed. */
   std::int64_t waiting() const { return this->Data.fine.end() - this->Lifted; }
@@ -75,11 +87,17 @@ public:
     this->interpolate();
   }
 
-  /** The stages from P to the coarse rows. */
+  /** The stage from P to A P. */
   void advanceProducts()
   {
     this->Data.productSlots.extend(this->Data.knownCoarse);
     this->multiply();
+  }
+
+  /** The stages from A P to the coarse rows. */
+  void advanceCoarseRows()
+  {
+    this->Data.gatherSlots.extend(this->Data.knownCoarse);
     this->gather();
     this->finish();
   }
@@ -128,6 +146,7 @@ public:
     d.releaseRaw(this->Finished);
     d.slots.release(this->Finished);
     d.productSlots.release(this->Finished);
+    d.gatherSlots.release(this->Finished);
   }
 
 private:
@@ -143,17 +162,21 @@ private:
   }
 
   /** Shows the interpolation so far to the stages from multiply() on. */
-  void see()
+  void seeInterpolation()
   {
     this->Seen = this->Interpolated;
     this->Data.knownCoarse = this->Data.coarseNodes;
   }
 
-  /** Makes room for what this step adds to the data that both threads use. */
+  /** Shows the products so far to the stages from gather() on. */
+  void seeProducts() { this->SeenProducts = this->Multiplied; }
+
+  /** Makes room for what this step adds to the data that several threads use. */
   void reserve()
   {
     CoarseningData& d = this->Data;
-    const std::int64_t rows = this->Rows - this->Interpolated, lifts = this->Rows - this->Lifted;
+    const std::int64_t rows = std::min(this->Rows - this->Interpolated, this->MostNodes);
+    const std::int64_t lifts = this->Rows - this->Lifted;
     d.patches.reserve(lifts);
     d.interpolation.reserve(rows, RelaxedRow::Most * rows);
     d.rowQuanta.reserve(this->Rows - d.rowQuanta.first());
@@ -164,6 +187,28 @@ private:
     {
       ring->reserve(d.coarseNodes + lifts - ring->first());
     }
+    this->reserveProducts();
+  }
+
+  /** The rows of A P are of any length: there is room for rows of the usual one. */
+  void reserveProducts()
+  {
+    CoarseningData& d = this->Data;
+    const std::int64_t rows = std::min(this->Rows - this->Multiplied, this->MostNodes);
+    if (rows > 0)
+    {
+      const std::int64_t usual =
+        this->Multiplied > 0 ? rows * this->ProductEntries / this->Multiplied : 8 * rows;
+      d.product.reserve(rows, usual + usual / 8 + this->mostProducts(this->Multiplied));
+      d.productSum.reserve(this->Rows - d.productSum.first());
+    }
+  }
+
+  /** An upper bound of the entries of row i of A P. */
+  std::int64_t mostProducts(std::int64_t i) const
+  {
+    const auto neighbours = static_cast<std::int64_t>(this->Data.fine.row(i).size());
+    return RelaxedRow::Most * (neighbours + 1);
   }
 
   void lift()
@@ -191,13 +236,15 @@ private:
   {
     CoarseningData& d = this->Data;
     const std::int64_t rows = this->Lifted;
-    for (std::int64_t& i = this->Initial; i < rows && d.fine.reach(i) < this->Lifted; ++i)
+    const std::int64_t initialEnd = std::min(rows, this->most(this->Initial));
+    for (std::int64_t& i = this->Initial; i < initialEnd && d.fine.reach(i) < this->Lifted; ++i)
     {
       this->Set.interpolateInitial(d, i);
     }
     this->relax();
     d.rowQuanta.extendRaw(rows);
-    for (std::int64_t& i = this->Interpolated; i < this->Relaxed.back().settled; ++i)
+    const std::int64_t end = std::min(this->Relaxed.back().settled, this->most(this->Interpolated));
+    for (std::int64_t& i = this->Interpolated; i < end; ++i)
     {
       this->Set.interpolate(d, i);
       d.settledReach.append(settled(d, i));
@@ -221,7 +268,8 @@ private:
     std::int64_t before = this->Initial;
     for (Sweep& sweep : this->Relaxed)
     {
-      while (sweep.next < this->Lifted && d.fine.reach(sweep.next) < before)
+      const std::int64_t end = std::min(this->Lifted, this->most(sweep.next));
+      while (sweep.next < end && d.fine.reach(sweep.next) < before)
       {
         if (sweep.next == d.relaxed.end())
         {
@@ -242,13 +290,21 @@ private:
   void multiply()
   {
     CoarseningData& d = this->Data;
-    const std::int64_t rows = this->Rows;
-    d.productSum.extendRaw(rows);
-    for (std::int64_t& i = this->Multiplied; i < rows && d.fine.reach(i) < this->Seen; ++i)
+    d.productSum.extendRaw(this->Rows);
+    const std::int64_t end = std::min(this->Rows, this->most(this->Multiplied));
+    for (std::int64_t& i = this->Multiplied; i < end && d.fine.reach(i) < this->Seen; ++i)
     {
+      if (this->Apart && !d.product.hasRoom(this->mostProducts(i)))
+      {
+        break;
+      }
       this->Set.multiply(d, i);
+      this->ProductEntries += d.product.size(i);
     }
   }
+
+  /** The end of what a stage may process in this step from `begin` on. */
+  std::int64_t most(std::int64_t begin) const { return begin + this->MostNodes; }
 
   /** Whether all children of c, which lie within two rings of it, and their products exist. */
   bool canGather(std::int64_t c) const
@@ -259,13 +315,14 @@ private:
     {
       return false;
     }
-    return d.lastChild[c].row(d.liftedFrom[c]) < this->Multiplied;
+    return d.lastChild[c].row(d.liftedFrom[c]) < this->SeenProducts;
   }
 
   void gather()
   {
     CoarseningData& d = this->Data;
-    for (std::int64_t& c = this->Gathered; c < d.knownCoarse && this->canGather(c); ++c)
+    const std::int64_t end = std::min(d.knownCoarse, this->Gathered + this->MostCoarse);
+    for (std::int64_t& c = this->Gathered; c < end && this->canGather(c); ++c)
     {
       d.openRaw(c + 1);
       this->Set.gather(d, c);
@@ -317,11 +374,16 @@ private:
     std::int64_t next = 0, settled = 0;
   };
 
-  bool Apart = false;                   // whether two threads advance the stages
+  // Of a step.
+  static constexpr std::int64_t Unlimited = std::int64_t(1) << 62;
+  std::int64_t MostNodes = Unlimited, MostCoarse = Unlimited;
+  bool Apart = false; // whether several threads advance the stages
+
   std::int64_t Rows = 0;                // of the fine level, that stages may read
   std::int64_t Lifted = 0, Initial = 0; // by fine node
   std::vector<Sweep> Relaxed;
-  std::int64_t Interpolated = 0, Seen = 0, Multiplied = 0;
+  std::int64_t Interpolated = 0, Seen = 0, Multiplied = 0, SeenProducts = 0;
+  std::int64_t ProductEntries = 0;         // of the rows of A P so far
   std::int64_t Gathered = 0, Finished = 0; // by coarse node
   std::int64_t Packed = 0;
   std::int64_t RelaxedDone = 0, ReachDone = 0, PatchesDone = 0, ProductDone = 0;

@@ -66,6 +66,9 @@ public:
     }
   }
 
+  /** Whether a row of `size` entries fits without moving the others. */
+  bool hasRoom(std::int64_t size) { return this->fits(size); }
+
   /** Releases the rows below `row`. */
   void release(std::int64_t row) { this->Ends.release(row); }
 
