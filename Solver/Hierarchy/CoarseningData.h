@@ -51,13 +51,15 @@ public:
 
   bool none() const { return this->Bits == ~std::uint32_t(0); }
   int slot() const { return static_cast<int>(this->Bits & 7); }
-  /** The row, given any row that is alive. */
-  std::int64_t row(std::int64_t near) const
+  /** The distance of the row from any row that is alive. */
+  std::int32_t distance(std::int64_t near) const
   {
     const std::uint32_t distance =
       (this->Bits & ~std::uint32_t(7)) - (static_cast<std::uint32_t>(near) << 3);
-    return near + (static_cast<std::int32_t>(distance) >> 3);
+    return static_cast<std::int32_t>(distance) >> 3;
   }
+  /** The row, given any row that is alive. */
+  std::int64_t row(std::int64_t near) const { return near + this->distance(near); }
 
 private:
   std::uint32_t Bits = ~std::uint32_t(0);

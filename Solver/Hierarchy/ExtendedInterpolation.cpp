@@ -13,22 +13,45 @@ namespace
 /** A patch whose matrix is this close to singular is relaxed node by node. */
 constexpr double LeastPivot = 1e-6;
 
-/** The current row of P: relaxed, or the initial one. */
-struct NewestRow
+/** The current rows of P near row i, which has been extended for: relaxed, or the initial ones. */
+class NewestRows
 {
-  std::span<const CoarseEntry> entries;
-  float sum;
+public:
+  struct Row
+  {
+    std::span<const CoarseEntry> entries;
+    float sum;
+  };
+
+  NewestRows(const CoarseningData& data, std::int64_t i)
+    : Initial(data.initial.near(i))
+    , InitialSum(data.initialSum.at(i))
+    , Relaxed(data.relaxed.at(i))
+    , RelaxedEnd(data.relaxed.end() - i)
+  {
+  }
+
+  Row operator[](std::int32_t distance) const
+  {
+    if (distance < this->RelaxedEnd && this->Relaxed[distance].size != RelaxedRow::Pending)
+    {
+      const RelaxedRow& row = this->Relaxed[distance];
+      return { { row.entry, static_cast<std::size_t>(row.size) }, row.sum };
+    }
+    return { this->Initial[distance], this->InitialSum[distance] };
+  }
+
+private:
+  RaggedRing<CoarseEntry>::Near Initial;
+  const float* InitialSum;
+  const RelaxedRow* Relaxed;
+  std::int64_t RelaxedEnd; // distance
 };
 
-NewestRow newestRow(const CoarseningData& data, std::int64_t m)
+/** std::lround() of a number of a few digits, without a call: the sum is exact. */
+int nearest(float value)
 {
-  if (m < data.relaxed.end() && data.relaxed[m].size != RelaxedRow::Pending)
-  {
-    const RelaxedRow& row = data.relaxed[m];
-    return { { row.entry, static_cast<std::size_t>(row.size) }, row.sum };
-  }
-  return { { data.initial.row(m), static_cast<std::size_t>(data.initial.size(m)) },
-    data.initialSum[m] };
+  return static_cast<int>(static_cast<double>(value) + std::copysign(0.5, value));
 }
 
 } // namespace
@@ -107,17 +130,16 @@ void ExtendedInterpolation::openPattern(
 {
   const std::int64_t near = data.coarseNodes;
   Slot* slots = data.slots.at(near);
+  const auto initial = data.initial.near(i);
   std::size_t size = 0;
   for (const RowEntry& entry : data.fine.row(i))
   {
-    const std::int64_t m = i + entry.delta();
-    const CoarseEntry* initial = data.initial.row(m);
-    const std::int64_t count = data.initial.size(m);
-    this->Row.resize(std::max(this->Row.size(), size + static_cast<std::size_t>(count) + 1));
+    const auto row = initial[entry.delta()];
+    this->Row.resize(std::max(this->Row.size(), size + row.size() + 1));
     Candidate* candidate = this->Row.data();
-    for (const CoarseEntry* end = initial + count; initial != end; ++initial)
+    for (const CoarseEntry& p : row)
     {
-      const std::int32_t distance = initial->offset(near);
+      const std::int32_t distance = p.offset(near);
       candidate[size].distance = distance;
       size += slots[distance].mark == mark ? 0 : 1;
       slots[distance] = { mark, 0.0F };
@@ -144,9 +166,10 @@ void ExtendedInterpolation::relaxNode(CoarseningData& data, std::int64_t i)
   this->openPattern(data, i, mark);
   const float inverse = 1.0F / data.patches.diagonal(i);
   double lacking = data.fine.alpha(i);
+  const NewestRows newest(data, i);
   for (const RowEntry& entry : data.fine.row(i))
   {
-    const NewestRow row = newestRow(data, i + entry.delta());
+    const NewestRows::Row row = newest[entry.delta()];
     const float weight = entry.weight() * inverse;
     lacking += static_cast<double>(entry.weight()) * (1.0F - row.sum);
     for (const CoarseEntry& p : row.entries)
@@ -170,6 +193,7 @@ void ExtendedInterpolation::gatherOutside(
   const std::uint32_t mark = data.slots.freshMark();
   sum.weights.clear();
   sum.lacking = data.fine.alpha(i);
+  const NewestRows newest(data, i);
   for (const RowEntry& entry : data.fine.row(i))
   {
     const std::int64_t m = i + entry.delta();
@@ -182,7 +206,7 @@ void ExtendedInterpolation::gatherOutside(
     {
       continue;
     }
-    const NewestRow row = newestRow(data, m);
+    const NewestRows::Row row = newest[entry.delta()];
     sum.lacking += static_cast<double>(entry.weight()) * (1.0F - row.sum);
     for (const CoarseEntry& p : row.entries)
     {
@@ -308,12 +332,10 @@ void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i) const
   const std::int64_t near = data.coarseNodes;
   const RelaxedRow& row = data.relaxed[i];
   int rounded[RelaxedRow::Most];
-  const auto quantaOf = [](float weight)
-  { return static_cast<int>(std::lround(std::clamp(weight, -1.0F, 1.0F) * Quanta)); };
-  int rest = static_cast<int>(std::lround(row.sum * Quanta));
+  int rest = nearest(row.sum * Quanta);
   for (int k = 0; k < row.size; ++k)
   {
-    rounded[k] = quantaOf(row.entry[k].value());
+    rounded[k] = nearest(std::clamp(row.entry[k].value(), -1.0F, 1.0F) * Quanta);
     rest -= rounded[k];
   }
   // The first entry, the largest, receives the remainder as far as its range permits.
@@ -324,6 +346,9 @@ void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i) const
     rest -= taken;
   }
   InterpolationEntry* out = data.interpolation.open(row.size);
+  const auto rows = data.interpolation.near(i);
+  ChildLink* firstChild = data.firstChild.at(near);
+  ChildLink* lastChild = data.lastChild.at(near);
   int size = 0;
   std::int64_t reach = -1;
   int sum = 0;
@@ -333,11 +358,12 @@ void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i) const
     {
       continue;
     }
-    const std::int64_t coarse = near + row.entry[k].offset(near);
+    const std::int32_t offset = row.entry[k].offset(near);
     const ChildLink link(i, size);
-    ChildLink& last = data.lastChild[coarse];
-    (last.none() ? data.firstChild[coarse] : data.child(last, i).next) = link;
+    ChildLink& last = lastChild[offset];
+    (last.none() ? firstChild[offset] : rows[last.distance(i)][last.slot()].next) = link;
     last = link;
+    const std::int64_t coarse = near + offset;
     out[size++] = InterpolationEntry(static_cast<CoarseIndex>(coarse), rounded[k]);
     reach = std::max(reach, coarse);
     sum += rounded[k];

@@ -23,8 +23,8 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
 {
   const std::int64_t near = data.knownCoarse;
   Slot* slots = data.productSlots.at(near);
-  const std::int64_t own = data.interpolation.size(i);
-  if (own == 0)
+  const auto interpolation = data.interpolation.near(i);
+  if (interpolation[0].empty())
   {
     data.product.open(0);
     data.product.close(0);
@@ -34,14 +34,14 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
   const auto row = data.fine.row(i);
   const std::uint32_t mark = data.productSlots.freshMark();
   std::int64_t size = 0;
-  std::int32_t* columns = roomFor(this->RowColumns, own);
+  std::int32_t* columns =
+    roomFor(this->RowColumns, ChildLink::Slots * (static_cast<std::int64_t>(row.size()) + 1));
 
   const float diagonal = data.patches.diagonal(i);
-  const InterpolationEntry* p = data.interpolation.row(i);
-  for (std::int64_t e = 0; e < own; ++e)
+  for (const InterpolationEntry& p : interpolation[0])
   {
-    const std::int32_t distance = p[e].offset(near);
-    slots[distance].add(mark, diagonal * p[e].weight());
+    const std::int32_t distance = p.offset(near);
+    slots[distance].add(mark, diagonal * p.weight());
     columns[size++] = distance;
   }
   const std::int16_t* quanta = data.rowQuanta.at(i);
@@ -49,17 +49,14 @@ void GalerkinProduct::multiply(CoarseningData& data, std::int64_t i)
   double sum = data.fine.alpha(i) * ownQuanta;
   for (const RowEntry& entry : row)
   {
-    const std::int64_t j = i + entry.delta();
-    sum += static_cast<double>(entry.weight()) * (ownQuanta - quanta[entry.delta()]);
-    p = data.interpolation.row(j);
-    const std::int64_t more = data.interpolation.size(j);
-    columns = roomFor(this->RowColumns, size + more);
-    const InterpolationEntry* end = p + more;
-    for (; p != end; ++p)
+    const std::int32_t delta = entry.delta();
+    const float weight = entry.weight();
+    sum += static_cast<double>(weight) * (ownQuanta - quanta[delta]);
+    for (const InterpolationEntry& p : interpolation[delta])
     {
-      const std::int32_t distance = p->offset(near);
+      const std::int32_t distance = p.offset(near);
       columns[size] = distance;
-      size += slots[distance].add(mark, -entry.weight() * p->weight()) ? 1 : 0;
+      size += slots[distance].add(mark, -weight * p.weight()) ? 1 : 0;
     }
   }
   CoarseEntry* out = data.product.open(size);

@@ -47,7 +47,8 @@ void CellAssembly::addCells(const MeshBlock& block)
 void CellAssembly::addCell(const std::int64_t* corners, unsigned flags)
 {
   const double* points[4] = {};
-  for (int k = 0; k < cornersOf(this->Type); ++k)
+  const int count = cornersOf(this->Type);
+  for (int k = 0; k < count; ++k)
   {
     points[k] = this->vertices.points.at(corners[k]);
   }
@@ -67,9 +68,10 @@ void CellAssembly::addCell(const std::int64_t* corners, unsigned flags)
 void CellAssembly::connect(
   const std::int64_t* corners, const double* const* points, const CellWeights& cell)
 {
-  this->parts.join(corners, cornersOf(this->Type));
-  const double mass = cell.measure / cornersOf(this->Type);
-  for (int k = 0; k < cornersOf(this->Type); ++k)
+  const int count = cornersOf(this->Type);
+  this->parts.join(corners, count);
+  const double mass = cell.measure / count;
+  for (int k = 0; k < count; ++k)
   {
     this->vertices.mass[corners[k]] += mass;
   }

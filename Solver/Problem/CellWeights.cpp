@@ -34,12 +34,13 @@ CellWeights triangleWeights(const double* a, const double* b, const double* c)
   const double twiceArea = std::sqrt(dot(normal, normal));
   CellWeights cell;
   const double scale = std::max({ dot(ab, ab), dot(ac, ac), dot(bc, bc) });
-  if (!(twiceArea > Flat * scale) || !std::isfinite(1.0 / twiceArea))
+  const double inverse = 1.0 / twiceArea;
+  if (!(twiceArea > Flat * scale) || !std::isfinite(inverse))
   {
     return cell;
   }
   cell.measure = 0.5 * twiceArea;
-  const double half = 0.5 / twiceArea;
+  const double half = 0.5 * inverse;
   cell.weight[0] = half * dot(ac, bc);
   cell.weight[1] = -half * dot(ab, bc);
   cell.weight[2] = half * dot(ab, ac);

@@ -98,6 +98,10 @@ void Components::count(
 {
   const auto whole = static_cast<std::size_t>(this->root(label));
   Component& component = this->Of[whole];
+  if (component.anchored)
+  {
+    return; // nobody asks for the sums
+  }
   ++component.unknowns;
   component.mass += mass;
   component.massSquares += mass * mass;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/InitialResidual.h"
 
+#include "Solver/Cycle/Padding.h"
+
 namespace smg
 {
 
@@ -10,19 +12,29 @@ std::span<const double> InitialResidual::add(
   const std::int64_t i = row.vertex;
   const double* x = this->Values.at(i);
   double squares = 0.0, termSquares = 0.0;
-  for (std::size_t k = 0; k < b.size(); ++k)
-  {
-    double sum = b[k] - row.diagonal * x[k];
-    for (std::size_t e = 0; e < row.entries.size(); ++e)
+  withColumns(static_cast<int>(b.size()),
+    [&](auto columns)
     {
-      const double weight =
-        row.precise.empty() ? static_cast<double>(row.entries[e].weight()) : row.precise[e];
-      sum += weight * this->Values.at(i + row.entries[e].delta())[k];
-    }
-    this->OfRow[k] = sum;
-    squares += sum * sum;
-    termSquares += b[k] * b[k] + row.diagonal * row.diagonal * x[k] * x[k];
-  }
+      double* sum = this->OfRow.data();
+      for (int k = 0; k < columns; ++k)
+      {
+        sum[k] = b[static_cast<std::size_t>(k)] - row.diagonal * x[k];
+      }
+      for (std::size_t e = 0; e < row.weights.size(); ++e)
+      {
+        const double* other = x + std::ptrdiff_t(columns) * row.entries[e].delta();
+        for (int k = 0; k < columns; ++k)
+        {
+          sum[k] += row.weights[e] * other[k];
+        }
+      }
+      for (int k = 0; k < columns; ++k)
+      {
+        const double own = b[static_cast<std::size_t>(k)];
+        squares += sum[k] * sum[k];
+        termSquares += own * own + row.diagonal * row.diagonal * x[k] * x[k];
+      }
+    });
   this->Squares += share * share * squares;
   this->TermSquares += termSquares;
   return this->OfRow;

@@ -16,9 +16,8 @@ namespace smg
 struct AssembledRow
 {
   std::int64_t vertex;
-  std::span<const RowEntry> entries;
-  /** The weights of the entries in double precision; if empty, those of the entries are used. */
-  std::span<const double> precise;
+  const RowEntry* entries;
+  std::span<const double> weights; ///< of the entries
   double diagonal;
 };
 

@@ -13,7 +13,8 @@ void OpenComponents::extend(std::int64_t vertices)
   std::ranges::fill(this->Labels.range(begin, vertices), -1);
 }
 
-void OpenComponents::join(const std::int64_t* corners, int count)
+/** Joins corners that do not all have the same label. */
+void OpenComponents::joinOthers(const std::int64_t* corners, int count)
 {
   std::int32_t* of[4] = {};
   std::int32_t label = -1;

@@ -28,13 +28,27 @@ public:
   void extend(std::int64_t vertices);
   void release(std::int64_t first) { this->Labels.release(first); }
   /** Joins the corners of a cell. */
-  void join(const std::int64_t* corners, int count);
+  void join(const std::int64_t* corners, int count)
+  {
+    const std::int32_t label = this->Labels[corners[0]];
+    bool joined = label >= 0;
+    for (int k = 1; k < count; ++k)
+    {
+      joined = joined && this->Labels[corners[k]] == label;
+    }
+    if (!joined)
+    {
+      this->joinOthers(corners, count);
+    }
+  }
   /** Closes vertex i, the next one, with this mass; returns its component, or -1. */
   std::int32_t close(std::int64_t i, double mass);
   /** Passes on the closed vertices. */
   void flush();
 
 private:
+  void joinOthers(const std::int64_t* corners, int count);
+
   Components& Parts;
   ComponentLabels& Closed;
   Ring<std::int32_t> Labels; // of the first component of a vertex, or -1

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Cycle/Lanes.h"
 #include "Solver/Storage/Ring.h"
 #include "smg/Error.h"
 #include "smg/MeshSource.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <unordered_map>
@@ -110,33 +112,30 @@ public:
   /** Moves the edges of vertex `from`, the lowest open one, to `edges`, by ascending neighbour. */
   void take(std::int64_t from, std::vector<OpenEdge>& edges)
   {
-    const std::uint32_t* list = this->To.at(from);
-    const double* weight = this->Weight.at(from);
     const Count count = this->Counts[from];
-    const int lanes = this->To.lanes();
+    if (this->hasRoom(count))
+    {
+      this->takeListed(from, count, edges);
+      return;
+    }
     edges.clear();
-    for (int e = lanes - 1; e >= lanes - count.lower; --e)
+    const int lanes = this->To.lanes();
+    for (int e = 0; e < lanes; ++e)
     {
-      edges.push_back({ from - (static_cast<std::uint32_t>(from) - list[e]), weight[e] });
+      // The list has no gap. Distances may be negative.
+      const auto distance =
+        static_cast<std::int32_t>(this->To.at(from)[e] - static_cast<std::uint32_t>(from));
+      edges.push_back({ from + distance, this->Weight.at(from)[e] });
     }
-    for (int e = 0; e < count.upper; ++e)
+    if (const auto more = this->More.find(from); more != this->More.end())
     {
-      edges.push_back({ from + (list[e] - static_cast<std::uint32_t>(from)), weight[e] });
-    }
-    auto unsorted = edges.begin() + count.lower;
-    if (!this->hasRoom(count))
-    {
-      if (const auto more = this->More.find(from); more != this->More.end())
+      for (const auto& [to, aside] : more->second)
       {
-        for (const auto& [to, aside] : more->second)
-        {
-          edges.push_back({ to, aside });
-        }
-        this->More.erase(more);
-        unsorted = edges.begin();
+        edges.push_back({ to, aside });
       }
+      this->More.erase(more);
     }
-    sort(unsorted, edges.end());
+    std::ranges::sort(edges, {}, &OpenEdge::to);
     for (auto edge = edges.rbegin(); edge != edges.rend() && edge->to > from; ++edge)
     {
       this->handOn(from, *edge);
@@ -158,16 +157,43 @@ private:
    * of these are compared: the end of a search is unpredictable for branches. */
   static std::uint32_t matches(const std::uint32_t* list, std::uint32_t low, int count)
   {
-    constexpr std::uint32_t Bit[Group] = { 1, 2, 4, 8, 16, 32, 64, 128 };
-    std::uint32_t bits = 0;
-    for (int e = 0; e < Group; ++e)
-    {
-      bits |= list[e] == low ? Bit[e] : 0U;
-    }
+    using Lane = Lanes<std::uint32_t, Group>;
+    constexpr Lane::Vector Bit = { 1, 2, 4, 8, 16, 32, 64, 128 };
+    const auto equal = Lane::load(list) == low;
+    const auto halves = std::bit_cast<std::array<std::uint64_t, 4>>((Lane::Vector)equal & Bit);
+    const std::uint64_t pair = halves[0] | halves[1] | halves[2] | halves[3];
+    const auto bits = static_cast<std::uint32_t>(pair | pair >> 32);
     return count < Group ? bits & ((1U << count) - 1U) : bits;
   }
 
   bool hasRoom(Count count) const { return count.upper + count.lower < this->To.lanes(); }
+
+  /** take() for a vertex all of whose edges are in its list: the lower ones are sorted, and the
+   * place of an upper one is the number of smaller ones, which needs no unpredictable branches. */
+  void takeListed(std::int64_t from, Count count, std::vector<OpenEdge>& edges)
+  {
+    edges.resize(static_cast<std::size_t>(count.lower) + count.upper);
+    const std::uint32_t* list = this->To.at(from);
+    const double* weight = this->Weight.at(from);
+    const auto low = static_cast<std::uint32_t>(from);
+    OpenEdge* out = edges.data();
+    const int last = this->To.lanes() - 1;
+    for (int e = 0; e < count.lower; ++e)
+    {
+      *out++ = { from - (low - list[last - e]), weight[last - e] };
+    }
+    for (int e = 0; e < count.upper; ++e)
+    {
+      const std::uint32_t distance = list[e] - low;
+      int place = 0;
+      for (int other = 0; other < count.upper; ++other)
+      {
+        place += list[other] - low < distance ? 1 : 0;
+      }
+      out[place] = { from + distance, weight[e] };
+      this->handOn(from, { from + distance, weight[e] });
+    }
+  }
 
   /** Passes the edge to its upper vertex. */
   void handOn(std::int64_t from, const OpenEdge& edge)
@@ -181,25 +207,6 @@ private:
       return;
     }
     this->More[edge.to].try_emplace(from, edge.weight);
-  }
-
-  static void sort(std::vector<OpenEdge>::iterator first, std::vector<OpenEdge>::iterator last)
-  {
-    if (last - first > 32)
-    {
-      std::sort(first, last, [](const OpenEdge& a, const OpenEdge& b) { return a.to < b.to; });
-      return;
-    }
-    for (auto next = first; next != last; ++next)
-    {
-      const OpenEdge edge = *next;
-      auto place = next;
-      for (; place != first && place[-1].to > edge.to; --place)
-      {
-        *place = place[-1];
-      }
-      *place = edge;
-    }
   }
 
   Ring<std::uint32_t> To; ///< by their low 32 bits

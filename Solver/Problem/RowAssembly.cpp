@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 
 namespace smg
@@ -65,7 +66,7 @@ void RowAssembly::close(std::int64_t i, std::int32_t label,
 {
   const double* x = this->Vertices.values.at(i);
   this->Out.x.insert(this->Out.x.end(), x, x + this->Columns);
-  if (this->isKnown(i) || (neighbours.empty() && alpha == 0.0))
+  if (*this->Vertices.dirichlet.at(i) >= 0 || (neighbours.empty() && alpha == 0.0))
   {
     this->closeKnown(i, label);
     return;
@@ -75,27 +76,26 @@ void RowAssembly::close(std::int64_t i, std::int32_t label,
   {
     this->Parts.anchor(label);
   }
-  this->B.assign(load, load + this->Columns);
-  this->Constraint = this->B;
+  std::copy_n(load, this->Columns, this->B.data());
+  std::copy_n(load, this->Columns, this->Constraint.data());
   this->Alpha = alpha;
   this->addNeighbours(i, neighbours, target);
   this->raise(i);
-  const AssembledRow row{ i, this->entries(), this->Precise,
-    diagonalOf(this->entries(), this->Alpha, this->Precise) };
-  this->Out.rows.close(this->Size, this->Alpha, -1, this->isStiff(), this->Precise);
+  this->Out.rows.close(this->Size, this->Alpha, -1, this->Stiff(this->Least),
+    this->AnyPrecise ? this->weights() : std::span<const double>());
   this->Out.b.insert(this->Out.b.end(), this->B.begin(), this->B.end());
   if (this->Listener)
   {
     this->Listener->constraint(this->Constraint.data());
   }
-  this->count(row, label, commonShare(alpha, this->edgeWeights()));
+  this->count(i, label, alpha > 0.0 ? commonShare(alpha, this->edgeWeights()) : 1.0);
 }
 
 /** A vertex that is not an unknown: prescribed, or fixed at its initial value. */
 void RowAssembly::closeKnown(std::int64_t i, std::int32_t label)
 {
   const double* x = this->Vertices.values.at(i);
-  ++(this->isKnown(i) ? this->Prescribed : this->Held);
+  ++(this->Vertices.dirichlet[i] >= 0 ? this->Prescribed : this->Held);
   if (label >= 0)
   {
     this->Parts.anchor(label);
@@ -114,20 +114,38 @@ void RowAssembly::closeKnown(std::int64_t i, std::int32_t label)
  * weights of slivers is of the size of the weights of other cells. It depends only on the edge, so
  * that both of its rows agree and the matrix stays symmetric.
  */
-bool RowAssembly::needsPrecision(std::int64_t i, const RowNeighbour& neighbour) const
+inline bool RowAssembly::needsPrecision(std::int64_t i, const RowNeighbour& neighbour) const
 {
   if (this->Kind != Weights::Cotangent)
   {
     return false;
   }
-  const double size = neighbour.weight / this->Out.weightScale;
+  const double scale = this->Out.weightScale;
   if (this->Type == CellType::Triangle)
   {
-    return std::fabs(size) > LargeOfTriangles;
+    return std::fabs(neighbour.weight) > LargeOfTriangles * scale;
   }
+  const double large = LargeOfTetrahedra * scale;
   const double square =
     squaredDistance(this->Vertices.points.at(i), this->Vertices.points.at(neighbour.to));
-  return size * size > LargeOfTetrahedra * LargeOfTetrahedra * square;
+  return neighbour.weight * neighbour.weight > large * large * square;
+}
+
+/** Adds an entry for another neighbour. */
+inline void RowAssembly::addUnknown(
+  std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target)
+{
+  const bool precise = this->needsPrecision(i, neighbour);
+  const auto stored = static_cast<float>(neighbour.weight);
+  const double weight = precise ? neighbour.weight : static_cast<double>(stored);
+  this->Row[this->Size] = { delta, stored };
+  this->Weight[static_cast<std::size_t>(this->Size++)] = weight;
+  this->Least = std::min(this->Least, stored);
+  this->AnyPrecise = this->AnyPrecise || precise;
+  if (target)
+  {
+    this->addTarget(weight, target);
+  }
 }
 
 /** Makes the entries of the row and adds the contributions of the neighbours to b. */
@@ -135,14 +153,16 @@ void RowAssembly::addNeighbours(
   std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target)
 {
   this->Row = this->Out.rows.open(static_cast<std::int64_t>(neighbours.size()));
+  this->Weight.resize(std::max(this->Weight.size(), neighbours.size()));
   this->Size = 0;
   this->Known = 0.0;
-  this->Precise.clear();
+  this->Least = 0.0F;
   this->AnyPrecise = false;
+  const std::int32_t* dirichlet = this->Vertices.dirichlet.at(i);
   for (const RowNeighbour& neighbour : neighbours)
   {
     const std::int32_t delta = distance(i, neighbour.to);
-    if (this->isKnown(neighbour.to))
+    if (dirichlet[delta] >= 0)
     {
       this->addKnown(delta, neighbour, target);
     }
@@ -151,10 +171,6 @@ void RowAssembly::addNeighbours(
       this->addUnknown(i, delta, neighbour, target);
     }
     target = target ? target + this->Columns : nullptr;
-  }
-  if (!this->AnyPrecise)
-  {
-    this->Precise.clear();
   }
 }
 
@@ -177,21 +193,14 @@ void RowAssembly::addKnown(std::int32_t delta, const RowNeighbour& neighbour, co
   }
 }
 
-/** Adds an entry for another neighbour. */
-void RowAssembly::addUnknown(
-  std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target)
+/** Adds the edge target of an entry of this weight. */
+void RowAssembly::addTarget(double weight, const double* target)
 {
-  const bool precise = this->needsPrecision(i, neighbour);
-  const auto stored = static_cast<float>(neighbour.weight);
-  const double weight = precise ? neighbour.weight : static_cast<double>(stored);
-  this->Row[this->Size++] = { delta, stored };
-  this->Precise.push_back(weight);
-  this->AnyPrecise = this->AnyPrecise || precise;
-  for (std::size_t k = 0; target && k < this->Columns; ++k)
+  for (std::size_t k = 0; k < this->Columns; ++k)
   {
     this->B[k] += weight * target[k];
   }
-  if (this->Listener && target)
+  if (this->Listener)
   {
     this->Listener->target(target);
   }
@@ -200,9 +209,7 @@ void RowAssembly::addUnknown(
 /** Keeps the vertex near its initial value if its diagonal is lost in rounding. */
 void RowAssembly::raise(std::int64_t i)
 {
-  this->Raise = this->Kind == Weights::Cotangent
-                  ? rowShortfall(this->entries(), this->Alpha, this->Precise)
-                  : 0.0;
+  this->Raise = this->Kind == Weights::Cotangent ? rowShortfall(this->weights(), this->Alpha) : 0.0;
   if (this->Raise == 0.0)
   {
     return;
@@ -217,34 +224,26 @@ void RowAssembly::raise(std::int64_t i)
   }
 }
 
-/** Whether the row is stiff; to be called once. */
-bool RowAssembly::isStiff()
-{
-  float least = 0.0F;
-  for (std::int64_t e = 0; this->Stiff.any() && e < this->Size; ++e)
-  {
-    least = std::min(least, this->Row[e].weight());
-  }
-  return this->Stiff(least);
-}
-
 /** The sum of the magnitudes of the weights of the row's edges, including those to prescribed
  * vertices. */
 double RowAssembly::edgeWeights() const
 {
   double weights = this->Known;
-  for (const RowEntry& entry : this->entries())
+  for (std::int64_t e = 0; e < this->Size; ++e)
   {
-    weights += std::fabs(static_cast<double>(entry.weight()));
+    weights += std::fabs(static_cast<double>(this->Row[e].weight()));
   }
   return weights;
 }
 
 /** Adds the row to the sums over all rows and over its component. */
-void RowAssembly::count(const AssembledRow& row, std::int32_t label, double share)
+void RowAssembly::count(std::int64_t i, std::int32_t label, double share)
 {
+  const AssembledRow row{ i, this->Row, this->weights(),
+    usableDiagonal(
+      std::accumulate(this->Weight.begin(), this->Weight.begin() + this->Size, this->Alpha)) };
   const std::span<const double> residual = this->Residual.add(row, this->B, share);
-  const double* x = this->Vertices.values.at(row.vertex);
+  const double* x = this->Vertices.values.at(i);
   if (this->Raise > 0.0)
   {
     // The amount that keeps the vertex near its initial value is not part of the problem.
@@ -255,7 +254,7 @@ void RowAssembly::count(const AssembledRow& row, std::int32_t label, double shar
   }
   if (label >= 0)
   {
-    this->Parts.count(label, this->B.data(), x, residual.data(), this->Vertices.mass[row.vertex]);
+    this->Parts.count(label, this->B.data(), x, residual.data(), this->Vertices.mass[i]);
   }
 }
 

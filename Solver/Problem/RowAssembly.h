@@ -51,15 +51,14 @@ private:
   void addKnown(std::int32_t delta, const RowNeighbour& neighbour, const double* target);
   void addUnknown(
     std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target);
-  bool isKnown(std::int64_t i) const { return this->Vertices.dirichlet[i] >= 0; }
+  void addTarget(double weight, const double* target);
   bool needsPrecision(std::int64_t i, const RowNeighbour& neighbour) const;
   void raise(std::int64_t i);
-  bool isStiff();
   double edgeWeights() const;
-  void count(const AssembledRow& row, std::int32_t label, double share);
-  std::span<const RowEntry> entries() const
+  void count(std::int64_t i, std::int32_t label, double share);
+  std::span<const double> weights() const
   {
-    return { this->Row, static_cast<std::size_t>(this->Size) };
+    return { this->Weight.data(), static_cast<std::size_t>(this->Size) };
   }
 
   const OpenVertices& Vertices;
@@ -77,8 +76,9 @@ private:
   double Alpha = 0.0;
   double Known = 0.0; // magnitudes of the weights of edges to prescribed vertices
   double Raise = 0.0;
-  std::vector<double> Precise;    // weights in double precision ...
-  bool AnyPrecise = false;        // ... which the row needs
+  std::vector<double> Weight;     // of the first `Size` entries, rounded like these ...
+  bool AnyPrecise = false;        // ... except for some, which the row needs in double precision
+  float Least = 0.0F;             // weight of the entries, at most 0
   std::vector<double> B;          // `Columns` numbers
   std::vector<double> Constraint; // the part of b not from edges to unknowns
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Hierarchy/LevelRows.h"
-
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
@@ -26,15 +24,13 @@ inline double diagonalShortfall(double diagonal, double terms)
   return std::max(0.0, least - diagonal);
 }
 
-/** That of a row with these entries, and `alpha` added to its diagonal. */
-inline double rowShortfall(
-  std::span<const RowEntry> row, double alpha, std::span<const double> precise)
+/** That of a row with entries of these weights, and `alpha` added to its diagonal. */
+inline double rowShortfall(std::span<const double> weights, double alpha)
 {
   double terms = std::fabs(alpha);
   double diagonal = alpha;
-  for (std::size_t e = 0; e < row.size(); ++e)
+  for (const double weight : weights)
   {
-    const double weight = precise.empty() ? static_cast<double>(row[e].weight()) : precise[e];
     diagonal += weight;
     terms += std::fabs(weight);
   }

@@ -46,6 +46,9 @@ void WeightedEdges::take(
   {
     this->Scales->take(from, this->RowScales);
   }
+  const std::size_t before = neighbours.size();
+  neighbours.resize(before + this->Row.size());
+  RowNeighbour* out = neighbours.data() + before;
   for (std::size_t e = 0; e < this->Row.size(); ++e)
   {
     const std::int64_t to = this->Row[e].to;
@@ -67,8 +70,9 @@ void WeightedEdges::take(
     {
       throw EdgeWeightError(from, to, std::to_string(from), std::to_string(to));
     }
-    neighbours.push_back({ to, weight });
+    *out++ = { to, weight };
   }
+  neighbours.resize(static_cast<std::size_t>(out - neighbours.data()));
 }
 
 } // namespace smg

@@ -66,15 +66,13 @@ public:
   void add(const std::int64_t* corners, const double* const* points, const CellWeights& cell,
     double scale, Wanted&& wanted)
   {
-    for (int e = 0; e < edgesOf(this->Type); ++e)
+    if (this->Type == CellType::Triangle)
     {
-      const int* ends = edgeCorners(this->Type, e);
-      const std::int64_t a = corners[ends[0]];
-      const std::int64_t b = corners[ends[1]];
-      if (wanted(a, b) && (cell.measure > 0.0 || this->hasLength(points[ends[0]], points[ends[1]])))
-      {
-        this->add(a, b, cell.weight[e], cell.measure > 0.0 ? scale : 0.0);
-      }
+      this->addEdges<CellType::Triangle>(corners, points, cell, scale, wanted);
+    }
+    else
+    {
+      this->addEdges<CellType::Tetrahedron>(corners, points, cell, scale, wanted);
     }
   }
 
@@ -115,6 +113,23 @@ private:
   {
     return this->Kind == Weights::Uniform ||
            static_cast<float>(cotangentFloor(this->Type, a, b)) > 0.0F;
+  }
+
+  template <CellType Cells, class Wanted>
+  void addEdges(const std::int64_t* corners, const double* const* points, const CellWeights& cell,
+    double scale, const Wanted& wanted)
+  {
+    const bool flat = !(cell.measure > 0.0);
+    for (int e = 0; e < edgesOf(Cells); ++e)
+    {
+      const int* ends = edgeCorners(Cells, e);
+      const std::int64_t a = corners[ends[0]];
+      const std::int64_t b = corners[ends[1]];
+      if (wanted(a, b) && (!flat || this->hasLength(points[ends[0]], points[ends[1]])))
+      {
+        this->add(a, b, cell.weight[e], flat ? 0.0 : scale);
+      }
+    }
   }
 
   static double leastScale(double a, double b)

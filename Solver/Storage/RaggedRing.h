@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <span>
 
 namespace smg
 {
@@ -31,13 +32,35 @@ public:
   std::int64_t first() const { return this->Ends.first(); }
   /** The number of appended rows. */
   std::int64_t end() const { return this->Ends.end() - 1; }
-  std::int64_t size(std::int64_t row) const { return this->Ends[row + 1] - this->start(row); }
+  std::int64_t size(std::int64_t row) const { return this->Ends.at(row)[1] - this->start(row); }
   T* row(std::int64_t row) const { return this->data() + this->start(row); }
+
+  /** The rows near one of them, by their distance from it. */
+  class Near
+  {
+  public:
+    Near(const std::uint32_t* ends, T* data)
+      : Ends(ends)
+      , Data(data)
+    {
+    }
+    std::span<T> operator[](std::int32_t distance) const
+    {
+      const std::uint32_t* ends = this->Ends + distance;
+      const std::uint32_t start = ends[1] >= ends[0] ? ends[0] : 0;
+      return { this->Data + start, ends[1] - start };
+    }
+
+  private:
+    const std::uint32_t* Ends;
+    T* Data;
+  };
+  Near near(std::int64_t row) const { return { this->Ends.at(row), this->data() }; }
 
   /** Opens the next row with room for at most `size` entries. */
   T* open(std::int64_t size)
   {
-    if (!this->fits(size))
+    if (!this->hasRoom(size))
     {
       this->grow(size);
     }
@@ -51,8 +74,12 @@ public:
     const std::int64_t row = this->Ends.end();
     this->Ends.extendRaw(row + 1);
     // An empty row ends where the previous one ends, so that the ends do not decrease.
-    this->Ends[row] =
-      size > 0 ? static_cast<std::uint32_t>(this->Open + size) : this->Ends[row - 1];
+    if (size > 0)
+    {
+      this->Room -= this->Open + size - this->Tail;
+      this->Tail = this->Open + size;
+    }
+    this->Ends[row] = static_cast<std::uint32_t>(this->Tail);
   }
 
   /** Provides room for so many more rows with so many entries in all: until they are appended, rows
@@ -60,14 +87,18 @@ public:
   void reserve(std::int64_t rows, std::int64_t entries)
   {
     this->Ends.reserve(this->Ends.end() - this->Ends.first() + rows);
-    if (!this->fits(entries))
+    if (!this->hasRoom(entries))
     {
       this->grow(entries);
     }
   }
 
   /** Whether a row of `size` entries fits without moving the others. */
-  bool hasRoom(std::int64_t size) { return this->fits(size); }
+  bool hasRoom(std::int64_t size)
+  {
+    this->Open = this->Tail;
+    return size <= this->Room || this->fits(size);
+  }
 
   /** Releases the rows below `row`. */
   void release(std::int64_t row) { this->Ends.release(row); }
@@ -82,26 +113,28 @@ private:
   /** A row begins at the end of the previous one, or at 0 if its own end is below that. */
   std::int64_t start(std::int64_t row) const
   {
-    const std::uint32_t before = this->Ends[row];
-    return this->Ends[row + 1] >= before ? before : 0;
+    const std::uint32_t* ends = this->Ends.at(row);
+    return ends[1] >= ends[0] ? ends[0] : 0;
+  }
+
+  /** The begin of the first row in memory. */
+  std::int64_t head() const
+  {
+    const std::int64_t first = this->Ends.first();
+    return first < this->end() ? this->start(first) : this->Tail;
   }
 
   /** Chooses the position of a row of `size` entries; returns whether there is one. */
   bool fits(std::int64_t size)
   {
-    const std::int64_t last = this->end();
-    const std::int64_t tail = this->Ends[last];
-    const std::int64_t first = this->Ends.first();
-    const std::int64_t head = first < last ? this->start(first) : tail;
-    this->Open = tail;
-    if (tail < head)
+    const std::int64_t head = this->head();
+    this->Room = this->Tail < head ? head - 1 - this->Tail : this->capacity() - this->Tail;
+    if (size <= this->Room || this->Tail < head)
     {
-      return tail + size < head;
+      return size <= this->Room;
     }
-    if (tail + size <= this->capacity())
-    {
-      return true;
-    }
+    // Between the new end and the first row, once this row is closed.
+    this->Room = head - 1 - this->Tail;
     this->Open = 0;
     return size < head;
   }
@@ -109,13 +142,10 @@ private:
   /** Enlarges the memory so that a row of `size` entries fits. */
   void grow(std::int64_t size)
   {
-    const std::int64_t last = this->end();
-    const std::int64_t tail = this->Ends[last];
-    const std::int64_t first = this->Ends.first();
-    const std::int64_t head = first < last ? this->start(first) : tail;
-    const bool wrapped = tail < head;
+    const std::int64_t head = this->head();
+    const bool wrapped = this->Tail < head;
     const std::int64_t before = this->capacity();
-    const std::int64_t least = wrapped ? before + tail + size + 1 - head : tail + size;
+    const std::int64_t least = wrapped ? before + this->Tail + size + 1 - head : this->Tail + size;
     const std::int64_t entries = std::max(least, before + before / 32);
     if (entries > UINT32_MAX)
     {
@@ -125,9 +155,10 @@ private:
     this->Memory.grow(*this->Owner, static_cast<std::size_t>(entries) * sizeof(T));
     if (wrapped)
     {
-      this->moveToEnd(first, this->capacity() - before);
+      this->moveToEnd(this->Ends.first(), this->capacity() - before);
     }
-    this->Open = tail;
+    this->Open = this->Tail;
+    this->Room = 0;
   }
 
   /** Moves the rows from `first` up to the end of the memory by `distance` entries. */
@@ -148,6 +179,8 @@ private:
   Pool* Owner;
   Buffer Memory;
   Ring<std::uint32_t> Ends; ///< Ends[row + 1]: end of the row, in entries
+  std::int64_t Tail = 0;    ///< end of the last row
+  std::int64_t Room = 0;    ///< at least so many entries fit there
   std::int64_t Open = 0;    ///< begin of the open row
 };
 
