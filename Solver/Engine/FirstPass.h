@@ -10,6 +10,7 @@
 #include "Solver/Engine/SolveRun.h"
 #include "Solver/Problem/Assembly.h"
 #include "Solver/Storage/MemoryLimitError.h"
+#include "Solver/Stream/MeshAhead.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -104,7 +105,7 @@ void FirstPass<Operators>::readStream(
   MeshSource& mesh, Assembly& assembly, AssembledRows& rows, HierarchyBuilder<Operators>& builder)
 {
   auto& finest = this->Built.finest();
-  MeshBlock block;
+  MeshAhead blocks(mesh, this->Run.scheduled > 1 || this->Run.recorder);
   bool more = true;
   std::int64_t open = 0;
   const auto expected = static_cast<double>(std::max<std::int64_t>(1, mesh.info().vertices));
@@ -112,8 +113,9 @@ void FirstPass<Operators>::readStream(
   {
     if (more)
     {
-      more = mesh.next(block);
-      more ? assembly.add(block) : assembly.finish();
+      const MeshBlock* block = blocks.block();
+      more = block != nullptr;
+      more ? assembly.add(*block) : assembly.finish();
     }
   };
   if (this->Run.recorder)
@@ -126,16 +128,21 @@ void FirstPass<Operators>::readStream(
     tasks.emplace_back([&builder, task] { builder.advance(task); });
   }
   tasks.emplace_back([&finest] { finest.advanceDown(); });
+  tasks.emplace_back([&blocks] { blocks.read(); });
   finest.addWriters(tasks);
   while (!builder.complete())
   {
     builder.begin();
     const bool waits = builder.isBusy();
+    if (!waits)
+    {
+      blocks.advance();
+    }
     finest.showProgress();
     this->Run.together(1 + static_cast<int>(tasks.size()),
       [&](int task)
       {
-        // The mesh and the problem are queried on the caller's thread.
+        // The problem is queried on the caller's thread.
         if (task == 0 && !waits)
         {
           assemble();

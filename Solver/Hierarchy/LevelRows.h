@@ -42,6 +42,16 @@ inline double diagonalOf(
   return usableDiagonal(sum);
 }
 
+/** A row without its entries; see LevelRows::close(). */
+struct ClosedRow
+{
+  std::int64_t size;
+  double alpha;
+  std::int64_t childReach;
+  bool stiff;
+  std::size_t precise; ///< weights in double precision
+};
+
 /** The rows of a level's matrix while the level is built, in node order: entries by ascending
  * column, A_ii = diagonal = alpha + sum of the weights, so alpha is the row sum. */
 class LevelRows
@@ -99,23 +109,24 @@ public:
   void close(std::int64_t size, double alpha, std::int64_t childReach, bool stiff = false,
     std::span<const double> precise = {})
   {
-    const std::int64_t i = this->end();
-    const RowEntry* entry = this->Entries.opened();
-    float strongest = 0.0F;
-    for (std::int64_t e = 0; e < size; ++e)
+    const ClosedRow row{ size, alpha, childReach, stiff, precise.size() };
+    this->close({ &row, 1 }, this->Entries.opened(), precise.data());
+  }
+
+  /** Appends rows with these entries, and precise weights where they have any; returns the end of
+   * the entries. */
+  const RowEntry* append(
+    std::span<const ClosedRow> rows, const RowEntry* entries, const double* precise)
+  {
+    std::int64_t size = 0;
+    for (const ClosedRow& row : rows)
     {
-      strongest = std::max(strongest, entry[e].weight());
+      size += row.size;
     }
-    const std::int64_t last = size > 0 ? i + std::max(0, entry[size - 1].delta()) : i;
-    this->Entries.close(size);
-    this->Alpha.extendRaw(i + 1);
-    this->Strongest.extendRaw(i + 1);
-    this->Alpha[i] = alpha;
-    this->Strongest[i] = { strongest, stiff };
-    this->Reach.append(last);
-    this->ChildReach.append(childReach);
-    this->keep(precise);
-    this->Nonzeros += size + 1;
+    RowEntry* out = this->open(size);
+    std::copy_n(entries, size, out);
+    this->close(rows, out, precise);
+    return entries + size;
   }
 
   /** The largest i (at most end()) such that the nodes below i occur in rows below `done` only. */
@@ -142,6 +153,39 @@ public:
   }
 
 private:
+  /** Ends rows whose entries are in the open one. */
+  void close(std::span<const ClosedRow> rows, const RowEntry* entry, const double* precise)
+  {
+    const std::int64_t begin = this->end();
+    const std::int64_t end = begin + static_cast<std::int64_t>(rows.size());
+    this->Alpha.extendRaw(end);
+    this->Strongest.extendRaw(end);
+    this->Reach.reserve(end - begin);
+    this->ChildReach.reserve(end - begin);
+    double* alpha = this->Alpha.at(begin);
+    StrongestWeight* strongest = this->Strongest.at(begin);
+    std::int64_t i = begin;
+    for (const ClosedRow& row : rows)
+    {
+      float largest = 0.0F;
+      for (std::int64_t e = 0; e < row.size; ++e)
+      {
+        largest = std::max(largest, entry[e].weight());
+      }
+      const std::int64_t last = row.size > 0 ? i + std::max(0, entry[row.size - 1].delta()) : i;
+      this->Entries.close(row.size);
+      *alpha++ = row.alpha;
+      *strongest++ = { largest, row.stiff };
+      this->Reach.append(last);
+      this->ChildReach.append(row.childReach);
+      this->keep({ precise, row.precise });
+      this->Nonzeros += row.size + 1;
+      entry += row.size;
+      precise += row.precise;
+      ++i;
+    }
+  }
+
   /** Stores the precise weights of the last row; rows after the last one with any take no room. */
   void keep(std::span<const double> precise)
   {

@@ -40,12 +40,17 @@ public:
   {
     const RowEntry* entry = this->Entries.data();
     const double* precise = this->Precise.data();
-    for (const Row& row : this->Closed)
+    for (std::span<const ClosedRow> left = this->Closed; !left.empty();)
     {
-      std::copy_n(entry, row.size, rows.open(row.size));
-      rows.close(row.size, row.alpha, row.childReach, row.stiff, { precise, row.precise });
-      entry += row.size;
-      precise += row.precise;
+      // Rows of a group are contiguous, which may leave some room before the end of the memory.
+      constexpr std::size_t Group = 64;
+      const auto group = left.first(std::min(Group, left.size()));
+      left = left.subspan(group.size());
+      entry = rows.append(group, entry, precise);
+      for (const ClosedRow& row : group)
+      {
+        precise += row.precise;
+      }
     }
     this->Closed.clear();
     this->Precise.clear();
@@ -53,18 +58,9 @@ public:
   }
 
 private:
-  struct Row
-  {
-    std::int64_t size;
-    double alpha;
-    std::int64_t childReach;
-    bool stiff;
-    std::size_t precise; ///< weights in double precision
-  };
-
   std::vector<RowEntry> Entries;
   std::vector<double> Precise;
-  std::vector<Row> Closed;
+  std::vector<ClosedRow> Closed;
   std::size_t Used = 0;
 };
 

@@ -109,7 +109,8 @@ public:
     }
   }
 
-  /** Moves the edges of vertex `from`, the lowest open one, to `edges`, by ascending neighbour. */
+  /** Moves the edges of vertex `from`, the lowest open one, to the end of `edges`, by ascending
+   * neighbour. */
   void take(std::int64_t from, std::vector<OpenEdge>& edges)
   {
     const Count count = this->Counts[from];
@@ -118,7 +119,7 @@ public:
       this->takeListed(from, count, edges);
       return;
     }
-    edges.clear();
+    const auto before = static_cast<std::ptrdiff_t>(edges.size());
     const int lanes = this->To.lanes();
     for (int e = 0; e < lanes; ++e)
     {
@@ -135,10 +136,14 @@ public:
       }
       this->More.erase(more);
     }
-    std::ranges::sort(edges, {}, &OpenEdge::to);
-    for (auto edge = edges.rbegin(); edge != edges.rend() && edge->to > from; ++edge)
+    const auto taken = std::ranges::subrange(edges.begin() + before, edges.end());
+    std::ranges::sort(taken, {}, &OpenEdge::to);
+    for (const OpenEdge& edge : taken)
     {
-      this->handOn(from, *edge);
+      if (edge.to > from)
+      {
+        this->handOn(from, edge);
+      }
     }
   }
 
@@ -157,11 +162,12 @@ private:
    * of these are compared: the end of a search is unpredictable for branches. */
   static std::uint32_t matches(const std::uint32_t* list, std::uint32_t low, int count)
   {
-    using Lane = Lanes<std::uint32_t, Group>;
-    constexpr Lane::Vector Bit = { 1, 2, 4, 8, 16, 32, 64, 128 };
-    const auto equal = Lane::load(list) == low;
-    const auto halves = std::bit_cast<std::array<std::uint64_t, 4>>((Lane::Vector)equal & Bit);
-    const std::uint64_t pair = halves[0] | halves[1] | halves[2] | halves[3];
+    using Half = Lanes<std::uint32_t, Group / 2>;
+    constexpr Half::Vector Low = { 1, 2, 4, 8 }, High = { 16, 32, 64, 128 };
+    const auto lower = (Half::Vector)(Half::load(list) == low) & Low;
+    const auto upper = (Half::Vector)(Half::load(list + Group / 2) == low) & High;
+    const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(lower | upper);
+    const std::uint64_t pair = halves[0] | halves[1];
     const auto bits = static_cast<std::uint32_t>(pair | pair >> 32);
     return count < Group ? bits & ((1U << count) - 1U) : bits;
   }
@@ -172,11 +178,12 @@ private:
    * place of an upper one is the number of smaller ones, which needs no unpredictable branches. */
   void takeListed(std::int64_t from, Count count, std::vector<OpenEdge>& edges)
   {
-    edges.resize(static_cast<std::size_t>(count.lower) + count.upper);
+    const std::size_t before = edges.size();
+    edges.resize(before + count.lower + count.upper);
     const std::uint32_t* list = this->To.at(from);
     const double* weight = this->Weight.at(from);
     const auto low = static_cast<std::uint32_t>(from);
-    OpenEdge* out = edges.data();
+    OpenEdge* out = edges.data() + before;
     const int last = this->To.lanes() - 1;
     for (int e = 0; e < count.lower; ++e)
     {

@@ -41,18 +41,20 @@ void WeightedEdges::release(std::int64_t first)
 void WeightedEdges::take(
   std::int64_t from, const Ring<double>& points, std::vector<RowNeighbour>& neighbours)
 {
-  this->Edges.take(from, this->Row);
+  const std::size_t before = neighbours.size();
+  this->Edges.take(from, neighbours);
   if (this->Scales)
   {
+    this->RowScales.clear();
     this->Scales->take(from, this->RowScales);
   }
-  const std::size_t before = neighbours.size();
-  neighbours.resize(before + this->Row.size());
+  const RowNeighbour* first = neighbours.data() + before;
+  const RowNeighbour* last = neighbours.data() + neighbours.size();
   RowNeighbour* out = neighbours.data() + before;
-  for (std::size_t e = 0; e < this->Row.size(); ++e)
+  for (const RowNeighbour* edge = first; edge != last; ++edge)
   {
-    const std::int64_t to = this->Row[e].to;
-    double weight = this->Row[e].weight;
+    const std::int64_t to = edge->to;
+    double weight = edge->weight;
     if (weight == Elsewhere)
     {
       continue;
@@ -60,7 +62,8 @@ void WeightedEdges::take(
     if (this->Kind == Weights::Clamped)
     {
       // 0: only flat cells have the edge.
-      const double least = this->Scales ? this->RowScales[e].weight : 0.0;
+      const double least =
+        this->Scales ? this->RowScales[static_cast<std::size_t>(edge - first)].weight : 0.0;
       const double floor =
         (least > 0.0 ? least : 1.0) * cotangentFloor(this->Type, points.at(from), points.at(to));
       this->Clamped += weight < floor ? 1 : 0;

@@ -16,12 +16,9 @@
 namespace smg
 {
 
-/** A neighbour of a vertex, and the weight of their edge. */
-struct RowNeighbour
-{
-  std::int64_t to;
-  double weight; ///< also finite in single precision
-};
+/** A neighbour of a vertex, and the weight of their edge, which is also finite in single precision.
+ */
+using RowNeighbour = OpenEdge;
 
 /** The weight of an edge to a prescribed vertex in the system, where it contributes to alpha and b;
  * for finite elements it is not rounded. */
@@ -152,7 +149,7 @@ private:
   Weights Kind;
   OpenEdges Edges;
   std::optional<OpenEdges> Scales; // minimum over the cells of each edge
-  std::vector<OpenEdge> Row, RowScales;
+  std::vector<OpenEdge> RowScales;
   std::int64_t Clamped = 0; // each edge counts twice
 };
 

@@ -68,7 +68,8 @@ public:
   }
   /** The open row. */
   T* opened() const { return this->data() + this->Open; }
-  /** Closes the open row with `size` entries. */
+  /** Closes the open row with `size` entries; what it has left of its room is the next open row.
+   */
   void close(std::int64_t size)
   {
     const std::int64_t row = this->Ends.end();
@@ -77,7 +78,7 @@ public:
     if (size > 0)
     {
       this->Room -= this->Open + size - this->Tail;
-      this->Tail = this->Open + size;
+      this->Tail = this->Open += size;
     }
     this->Ends[row] = static_cast<std::uint32_t>(this->Tail);
   }

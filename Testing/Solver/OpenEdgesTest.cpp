@@ -34,6 +34,7 @@ TEST(OpenEdges, SumTheWeightOfEachEdgeWhateverTheirNumber)
   std::vector<OpenEdge> row;
   for (std::int64_t from = 0; from < Vertices; ++from)
   {
+    row.clear();
     edges.take(from, row);
     edges.release(from + 1);
     ASSERT_EQ(row.size(), expected[from].size());
@@ -52,6 +53,7 @@ TEST(OpenEdges, NewEdgesBeginWithNoWeight)
   OpenEdges edges(pool, 4);
   edges.extend(10);
   std::vector<OpenEdge> row;
+  row.clear();
   edges.take(0, row);
   EXPECT_TRUE(row.empty());
   for (const std::int64_t to : { 9, 3, 7, 8, 4, 6 })
@@ -70,10 +72,12 @@ TEST(OpenEdges, AVertexGetsTheEdgesThatLowerOnesHaveTaken)
   for (std::int64_t v = 0; v < 8; ++v)
   {
     edges.weight(8, v) = static_cast<double>(v);
+    row.clear();
     edges.take(v, row);
     ASSERT_EQ(row.size(), 1U);
     EXPECT_EQ(row[0].to, 8);
   }
+  row.clear();
   edges.take(8, row);
   ASSERT_EQ(row.size(), 8U);
   for (std::int64_t v = 0; v < 8; ++v)
@@ -97,6 +101,7 @@ TEST(OpenEdges, KeepMemoryForOpenVerticesOnly)
     }
     if (v >= 100)
     {
+      row.clear();
       edges.take(v - 100, row);
       ASSERT_EQ(row.size(), v > 100 ? 2U : 1U);
       ASSERT_EQ(row.back().weight, static_cast<double>(v - 99));
@@ -127,9 +132,11 @@ TEST(OpenEdges, AVertexMayHaveVeryManyNeighbours)
   {
     for (std::int64_t v = 1; from > 0 && v < Last; ++v)
     {
+      row.clear();
       edges.take(v, row);
       ASSERT_EQ(row.size(), 2U);
     }
+    row.clear();
     edges.take(from, row);
     ASSERT_EQ(row.size(), 99999U);
     for (std::int64_t v = 1; v < Last; ++v)

@@ -20,6 +20,7 @@ public:
 
   const StreamInfo& info() const override { return this->Info; }
   bool next(MeshBlock& block) override;
+  bool readsOnAnyThread() const override { return true; }
 
 private:
   void prefetch(std::int64_t block);

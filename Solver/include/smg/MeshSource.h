@@ -106,12 +106,17 @@ public:
   virtual const StreamInfo& info() const = 0;
 
   /**
-   * Delivers the next block. solve() and deform() call this on the caller's thread.
+   * Delivers the next block. solve() and deform() call this on the caller's thread, unless
+   * readsOnAnyThread().
    * @param block replaced by the block; the memory of its vectors is reused
    * @return false at the end of the stream, where `block` is not to be used
    * @throws Error if the mesh cannot be read or is not valid
    */
   virtual bool next(MeshBlock& block) = 0;
+
+  /** Whether next() may be called on any thread, on one at a time: then a solve reads a block ahead
+   * on another thread than the caller's. */
+  virtual bool readsOnAnyThread() const { return false; }
 };
 
 /** A mesh that can be read as a stream any number of times, on disk or in memory. */

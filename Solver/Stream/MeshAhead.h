@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "smg/MeshSource.h"
+
+#include <exception>
+#include <utility>
+
+namespace smg
+{
+
+/** Reads a mesh stream a block ahead of its use, which is on another thread meanwhile, if the mesh
+ * may be read on any. */
+class MeshAhead
+{
+public:
+  /** `wanted`: whether there is another thread to read on. */
+  MeshAhead(MeshSource& mesh, bool wanted)
+    : Mesh(mesh)
+    , Ahead(wanted && mesh.readsOnAnyThread())
+  {
+  }
+
+  /** Makes the block that follows the current one; not while read() or block() runs. */
+  void advance()
+  {
+    if (this->Ahead)
+    {
+      this->read();
+      std::swap(this->Current, this->Following);
+      this->Following.read = false;
+    }
+  }
+
+  /** Reads the block after the current one, if it has not been read: on any thread. */
+  void read()
+  {
+    if (!this->Ahead || this->Following.read || this->Ended)
+    {
+      return;
+    }
+    this->Following.read = true;
+    try
+    {
+      this->Following.ended = !this->Mesh.next(this->Following.block);
+    }
+    catch (...)
+    {
+      // Due when the blocks before it have been processed.
+      this->Following.failure = std::current_exception();
+    }
+    this->Ended = this->Following.ended || this->Following.failure;
+  }
+
+  /** The current block, or null at the end of the stream; to be called once after each advance(),
+   * on the caller's thread. Throws what reading it has thrown. */
+  const MeshBlock* block()
+  {
+    if (!this->Ahead)
+    {
+      return this->Mesh.next(this->Current.block) ? &this->Current.block : nullptr;
+    }
+    if (this->Current.failure)
+    {
+      std::rethrow_exception(this->Current.failure);
+    }
+    return this->Current.ended ? nullptr : &this->Current.block;
+  }
+
+private:
+  struct Read
+  {
+    MeshBlock block;
+    bool read = false;
+    bool ended = false; ///< the stream: the block is not to be used
+    std::exception_ptr failure;
+  };
+
+  MeshSource& Mesh;
+  bool Ahead;
+  bool Ended = false;
+  Read Current, Following;
+};
+
+} // namespace smg
