@@ -8,6 +8,7 @@
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceNames.h"
+#include "Solver/Storage/Workers.h"
 #include "smg/Error.h"
 
 #include "vtkAlgorithm.h"
@@ -353,7 +354,8 @@ std::vector<std::int64_t> globalIdsOf(vtkPointSet& piece, const std::string& whe
 StreamInfo writeContainer(PieceStream& stream, const std::filesystem::path& path, bool forScratch,
   Progress& progress, const std::filesystem::path& isolatedFrom)
 {
-  VsmWriter writer(path, stream.info(), forScratch ? Codec::Lz4 : Codec::Zstd);
+  Workers workers;
+  VsmWriter writer(path, stream.info(), forScratch ? Codec::Lz4 : Codec::Zstd, nullptr, &workers);
   MeshBlock block;
   while (stream.next(block))
   {

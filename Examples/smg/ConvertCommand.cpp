@@ -87,6 +87,7 @@ struct ConvertOptions : CommonOptions
     options.restoreOrder = this->restoreOrder;
     options.scratch = this->scratch;
     options.checkpoint = this->checkpoint;
+    options.threads = this->threads;
     return options;
   }
 

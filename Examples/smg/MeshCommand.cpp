@@ -107,7 +107,7 @@ void MeshCommand::run()
 ResultFile MeshCommand::checkFiles()
 {
   ResultFile out({ this->In, this->Out, this->scratch, this->Input.welds(), this->resultColumns(),
-    this->changedColumns() });
+    this->changedColumns(), this->threads });
   smg::checkIsNotInput(this->In, this->Out);
   smg::checkIsNotInput(this->File, this->Out, "the file that says what to do");
   this->checkReport({ this->In, this->Out, this->File });

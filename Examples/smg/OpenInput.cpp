@@ -10,6 +10,7 @@ smg::ConversionOptions inputOptions(const CommonOptions& common, const InputOpti
   options.memoryLimit = common.memoryBytes(0);
   options.codec = smg::Codec::Lz4;
   options.scratch = common.scratch;
+  options.threads = common.threads;
   return options;
 }
 

@@ -100,6 +100,7 @@ std::vector<std::string> ResultFile::write(const smg::VsmReader& mesh, smg::Mesh
   smg::WriteMeshOptions options;
   options.scratch = this->Files.scratch;
   options.isolatedFrom = mesh.path();
+  options.threads = this->Files.threads;
   options.progress = progress;
   return smg::writeMesh(result, this->Files.out, options);
 }
@@ -107,10 +108,12 @@ std::vector<std::string> ResultFile::write(const smg::VsmReader& mesh, smg::Mesh
 std::vector<std::string> ResultFile::writeRestored(const smg::VsmReader& mesh,
   smg::MeshSource& result, std::int64_t memory, const smg::ProgressFunction& progress) const
 {
-  smg::Workspace space(this->Files.scratch, memory, smg::partOf(progress, 0.4, 1.0));
+  smg::Workspace space(
+    this->Files.scratch, memory, smg::partOf(progress, 0.4, 1.0), 0, this->Files.threads);
   smg::WriteMeshOptions options;
   options.codec = smg::Codec::Lz4;
   options.isolatedFrom = mesh.path();
+  options.threads = this->Files.threads;
   options.progress = smg::partOf(progress, 0.0, 0.4);
   const std::filesystem::path stream = space.folder() / "result.vsm";
   smg::writeMesh(result, stream, options);

@@ -27,6 +27,7 @@ public:
     std::string columns;
     /** The names of these columns, of the vertices, if IN has them. */
     std::vector<std::string> changed = {};
+    int threads = 0; ///< that write; 0: one per core
   };
 
   /** Throws smg::Error if the name of OUT is invalid. */

@@ -7,6 +7,7 @@
 #include "IO/Files/Suffix.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Storage/Workers.h"
 #include "smg/VsmReader.h"
 
 namespace smg
@@ -23,7 +24,8 @@ std::vector<std::string> writeMesh(
   }
   const ScratchFolder scratch(options.scratch);
   const std::filesystem::path whole = scratch / "mesh.vsm";
-  writeVsm(source, whole, Codec::Lz4, partOf(options.progress, 0.0, 0.6));
+  Workers workers(options.threads);
+  writeVsm(source, whole, Codec::Lz4, partOf(options.progress, 0.0, 0.6), {}, {}, &workers);
   return format.writeVsm(whole, path, partOf(options.progress, 0.6, 1.0));
 }
 

@@ -7,6 +7,7 @@
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Raw/Weld.h"
+#include "Solver/Storage/Reservation.h"
 #include "smg/Error.h"
 #include "smg/WriteMesh.h"
 
@@ -67,8 +68,8 @@ Workspace& Conversion::workspace()
   if (!this->Space)
   {
     this->kept();
-    this->Space.emplace(
-      this->scratch(), this->Memory, this->Options.progress, this->Options.scratchLimit);
+    this->Space.emplace(this->scratch(), this->Memory, this->Options.progress,
+      this->Options.scratchLimit, this->Options.threads);
   }
   return *this->Space;
 }
@@ -146,8 +147,14 @@ void Conversion::write(MeshSource& source, const AddTables& add)
   const bool direct = this->To == MeshFileKind::Vsm;
   const ProgressFunction progress = this->progress();
   const std::filesystem::path path = direct ? this->Out : this->workspace().folder() / "mesh.vsm";
+  // With little memory blocks are compressed one after the other.
+  Workspace& space = this->workspace();
+  constexpr auto BlockMemory = 4 * std::int64_t(BlockFileWriter::MostPendingBytes);
+  const bool parallel = space.workers().threads() > 1 && space.available() > 4 * BlockMemory;
+  const Reservation blocks(space.pool(), parallel ? BlockMemory : 0);
   const WrittenVsm written = writeVsm(source, path, direct ? this->Options.codec : Codec::Lz4,
-    partOf(progress, 0.0, direct ? 1.0 : 0.6), direct ? this->Options.origin : std::string(), add);
+    partOf(progress, 0.0, direct ? 1.0 : 0.6), direct ? this->Options.origin : std::string(), add,
+    parallel ? &space.workers() : nullptr);
   this->Report.vertices = written.info.vertices;
   this->Report.cells = written.info.cells;
   this->Report.width = written.info.width;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "IO/External/MergeSort.h"
+#include "IO/External/ParallelSort.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <type_traits>
@@ -32,9 +32,9 @@ public:
   void release() { this->Records = Buffer(); }
   void put(std::size_t place, const Record& record) { this->records()[place] = record; }
   const Record& get(std::size_t place) const { return this->records()[place]; }
-  void sort(std::size_t count)
+  void sort(Workers& workers, std::size_t count)
   {
-    std::sort(this->records(), this->records() + count, this->IsLess);
+    parallelSort(workers, this->records(), this->records() + count, this->IsLess);
   }
 
   bool isLess(const Record& a, const Record& b) const { return this->IsLess(a, b); }

@@ -57,7 +57,7 @@ public:
   {
     if (this->Runs.empty())
     {
-      this->Collected.sort(this->Used);
+      this->Collected.sort(this->Space.workers(), this->Used);
       return;
     }
     this->writeRun();
@@ -134,7 +134,7 @@ private:
     {
       return;
     }
-    this->Collected.sort(this->Used);
+    this->Collected.sort(this->Space.workers(), this->Used);
     BucketFile& run = this->Runs.emplace_back(this->Space);
     for (std::size_t i = 0; i < this->Used; ++i)
     {

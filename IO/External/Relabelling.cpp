@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/External/Relabelling.h"
 
+#include "Solver/Storage/OrderedJobs.h"
+#include "Solver/Storage/Reservation.h"
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -13,6 +16,21 @@ namespace
 {
 
 constexpr std::size_t ChunkNumbers = std::size_t(16) << 10;
+
+/** Numbers, and what replaces them. */
+struct NumberChunk
+{
+  std::vector<std::uint32_t> numbers, replaced;
+};
+constexpr std::int64_t NumberChunkBytes = 2 * std::int64_t(ChunkNumbers * sizeof(std::uint32_t));
+
+/** The number of chunks in which numbers are replaced at once. */
+std::int64_t chunksAtOnce(Workspace& workspace)
+{
+  const int threads = workspace.workers().threads();
+  const std::int64_t fit = workspace.available() / 16 / NumberChunkBytes;
+  return threads == 1 ? 1 : std::clamp<std::int64_t>(fit, 1, std::min(threads + 1, 16));
+}
 
 } // namespace
 
@@ -37,7 +55,6 @@ void Relabelling::applyChunks(
   table.close();
   // The numbers replaced by the passes so far; NoIndex elsewhere.
   std::optional<RecordFile<std::uint32_t>> done;
-  std::vector<std::uint32_t> numbers, replaced;
   for (const int bucket : buckets)
   {
     const std::uint32_t first = static_cast<std::uint32_t>(bucket) * table.range();
@@ -52,30 +69,38 @@ void Relabelling::applyChunks(
       before.emplace(*done);
     }
     RecordFile<std::uint32_t> next(this->Space);
-    for (std::int64_t left = file.size(); left > 0;
-         left -= static_cast<std::int64_t>(numbers.size()))
+    const std::int64_t atOnce = chunksAtOnce(this->Space);
+    const Reservation reserved(this->Space.pool(), (atOnce - 1) * NumberChunkBytes);
+    OrderedJobs<NumberChunk> chunks(
+      this->Space.workers(), static_cast<std::size_t>(atOnce),
+      [first, labels](NumberChunk& chunk)
+      {
+        for (std::size_t i = 0; i < chunk.numbers.size(); ++i)
+        {
+          const std::uint32_t place = chunk.numbers[i] - first;
+          if (place < labels.size())
+          {
+            chunk.replaced[i] = labels[place];
+          }
+        }
+      },
+      [&](const NumberChunk& chunk)
+      { last ? take(chunk.replaced) : next.put(std::span<const std::uint32_t>(chunk.replaced)); });
+    for (std::int64_t left = file.size(); left > 0;)
     {
+      auto& [numbers, replaced] = chunks.next();
       numbers.resize(static_cast<std::size_t>(
         std::min<std::int64_t>(left, static_cast<std::int64_t>(ChunkNumbers / count * count))));
       in.next(numbers);
-      replaced.resize(numbers.size());
+      left -= std::ssize(numbers);
+      replaced.assign(numbers.size(), NoIndex);
       if (before)
       {
         before->next(replaced);
       }
-      else
-      {
-        std::fill(replaced.begin(), replaced.end(), NoIndex);
-      }
-      for (std::size_t i = 0; i < numbers.size(); ++i)
-      {
-        if (numbers[i] >= first && numbers[i] - first < labels.size())
-        {
-          replaced[i] = labels[numbers[i] - first];
-        }
-      }
-      last ? take(replaced) : next.put(std::span<const std::uint32_t>(replaced));
+      chunks.submit();
     }
+    chunks.takeAll();
     before.reset();
     done.emplace(std::move(next));
   }

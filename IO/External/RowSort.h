@@ -2,8 +2,8 @@
 #pragma once
 
 #include "IO/External/MergeSort.h"
+#include "IO/External/ParallelSort.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -51,9 +51,9 @@ public:
     const Place& sorted = this->places()[place];
     return { sorted.key, this->row(sorted.place) };
   }
-  void sort(std::size_t count)
+  void sort(Workers& workers, std::size_t count)
   {
-    std::sort(this->places(), this->places() + count,
+    parallelSort(workers, this->places(), this->places() + count,
       [](const Place& a, const Place& b)
       { return std::tie(a.key, a.place) < std::tie(b.key, b.place); });
   }

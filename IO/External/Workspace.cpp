@@ -14,9 +14,10 @@ constexpr PoolUse ConversionMemory{ "the conversion", "raise the memory limit (o
 } // namespace
 
 Workspace::Workspace(const std::filesystem::path& scratch, std::int64_t memory,
-  const ProgressFunction& progress, std::int64_t scratchLimit)
+  const ProgressFunction& progress, std::int64_t scratchLimit, int threads)
   : Folder(scratch, scratchLimit)
   , Memory(std::max(memory, LeastMemory), ConversionMemory)
+  , Threads(threads)
   , Reported(progress)
 {
 }
@@ -38,6 +39,10 @@ void Workspace::tell(double done)
 
 void Workspace::poll()
 {
+  if (Workers::isCaller())
+  {
+    return;
+  }
   this->tell(static_cast<double>(this->trafficBytes() - this->PartTraffic) /
              static_cast<double>(this->PartBytes));
 }

@@ -6,6 +6,7 @@
 #include "Solver/Storage/Pool.h"
 #include "Solver/Storage/ScratchAccount.h"
 #include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Storage/Workers.h"
 #include "smg/Export.h"
 
 #include <cstdint>
@@ -15,7 +16,8 @@ namespace smg
 {
 
 /**
- * The resources of an out-of-core operation: an accounted pool of memory and a folder for files.
+ * The resources of an out-of-core operation: an accounted pool of memory, a folder for files, and
+ * threads.
  */
 class SMG_EXPORT Workspace
 {
@@ -25,9 +27,9 @@ public:
 
   /** At most `memory` bytes are used, at least LeastMemory. Files are created in a new folder in
    * `scratch`; empty: the system's temporary folder. They have at most `scratchLimit` bytes at
-   * once; 0: any number. */
+   * once; 0: any number. `threads`: see Workers. */
   Workspace(const std::filesystem::path& scratch, std::int64_t memory,
-    const ProgressFunction& progress = {}, std::int64_t scratchLimit = 0);
+    const ProgressFunction& progress = {}, std::int64_t scratchLimit = 0, int threads = 0);
 
   Pool& pool() { return this->Memory; }
   /** The unused memory in bytes. */
@@ -36,6 +38,7 @@ public:
   /** The most bytes of scratch files at once. */
   std::int64_t peakScratch() const { return this->Folder.account().peak(); }
   IoStatistics& traffic() { return this->Traffic; }
+  Workers& workers() { return this->Threads; }
 
   /** Begins the part of the operation that ends when the fraction `end` of the whole is done; its
    * traffic is about `bytes`, from which poll() computes the progress. */
@@ -44,7 +47,8 @@ public:
   double partEnd() const { return this->PartEnd; }
   /** Reports that the fraction `done` of the part is done. Throws Cancelled. */
   void tell(double done);
-  /** Reports progress occasionally, by the traffic. Throws Cancelled. */
+  /** Reports progress occasionally, by the traffic. Throws Cancelled. In a job on another thread
+   * it does nothing: progress is reported by the thread of the owner. */
   void poll();
 
 private:
@@ -53,6 +57,7 @@ private:
   ScratchFolder Folder;
   Pool Memory;
   IoStatistics Traffic;
+  Workers Threads;
   Progress Reported;
   double PartBegin = 0, PartEnd = 0;
   std::int64_t PartTraffic = 0; ///< at the beginning of the part

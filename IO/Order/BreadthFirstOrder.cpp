@@ -26,17 +26,28 @@ int landmarksFor(std::int64_t vertices, const BreadthFirstOptions& options)
   return std::min(options.landmarks, std::max(LeastLandmarks, static_cast<int>(affordable)));
 }
 
+/** The threads of searches and plans: with little memory, which the cache needs, one. */
+int searchThreads(Workspace& workspace)
+{
+  constexpr std::int64_t LeastForThreads = std::int64_t(8) << 20;
+  return workspace.available() < LeastForThreads ? 1 : workspace.workers().threads();
+}
+
 /** A search and its cache, with the available memory. */
 class Searching
 {
 public:
   /** `kept`: bytes of memory for other purposes. */
   Searching(VertexPages& pages, Workspace& workspace, std::int64_t kept)
-    : Cache(pages, workspace, cacheBytes(pages, workspace, kept))
-    , Search(pages, this->Cache, workspace, queueBytes(workspace))
+    : Expands(searchThreads(workspace) > 1)
+    , Cache(pages, workspace, cacheBytes(pages, workspace, kept))
+    // Threads that wait for each other's pages gain nothing.
+    , Search(pages, this->Cache, workspace, queueBytes(workspace),
+        this->Expands && this->Cache.bytes() >= pages.allAdjacencyBytes())
   {
   }
 
+  const bool Expands;
   PageCache Cache;
   PagedSearch Search;
 
@@ -46,10 +57,11 @@ private:
     return std::clamp<std::size_t>(
       std::size_t(workspace.pool().limit()) / 32, std::size_t(64) << 10, std::size_t(4) << 20);
   }
-  static std::int64_t cacheBytes(const VertexPages& pages, Workspace& workspace, std::int64_t kept)
+  std::int64_t cacheBytes(const VertexPages& pages, Workspace& workspace, std::int64_t kept) const
   {
     const std::int64_t rest = workspace.available() - kept -
                               PagedSearch::memoryFor(pages, queueBytes(workspace)) -
+                              (this->Expands ? ExpandedQueue::bytes(workspace.workers()) : 0) -
                               pages.pages() * std::int64_t(sizeof(std::uint32_t)) - 4096;
     return std::min(rest, PageCache::mostBytes(pages));
   }
@@ -64,7 +76,8 @@ public:
     , Landmarks(landmarksFor(mesh.pages.vertices(), options))
     , Searches(mesh.pages, workspace,
         std::int64_t(BucketFile::ChunkBytes) +
-          (this->Landmarks > 0 ? searchPlanMemory(mesh, this->Landmarks) : 0))
+          (this->Landmarks > 0 ? searchPlanMemory(mesh, this->Landmarks, searchThreads(workspace))
+                               : 0))
     , LeastPlanned(std::max(options.leastPlanned, mesh.pages.vertices() / 200))
   {
   }

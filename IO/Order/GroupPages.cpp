@@ -2,10 +2,12 @@
 #include "IO/Order/GroupPages.h"
 
 #include "Solver/Core/ByteText.h"
+#include "Solver/Storage/OrderedJobs.h"
 #include "smg/Error.h"
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace smg
@@ -98,9 +100,20 @@ void GroupPages<Real>::append(const CellGroups& groups, int group)
       const int pageVertices = this->Result.pages.pageVertices();
       for (std::int64_t begin = range.begin; begin < range.end; begin += pageVertices)
       {
-        this->appendPage({ begin, std::min(begin + pageVertices, range.end) }, links, star,
-          { reinterpret_cast<std::uint32_t*>(neighbours.data()),
-            static_cast<std::size_t>(largest) });
+        std::span<std::uint32_t> rest(
+          reinterpret_cast<std::uint32_t*>(neighbours.data()), static_cast<std::size_t>(largest));
+        this->appendPage({ begin, std::min(begin + pageVertices, range.end) },
+          [&](std::uint32_t vertex) -> std::span<const std::uint32_t>
+          {
+            const std::span<std::uint32_t> around = rest;
+            const std::size_t degree = star.visit(vertex, links.of(vertex), this->Corners, around);
+            rest = rest.subspan(degree);
+            if (this->Corners == 3)
+            {
+              addCounts(star, this->Result.counts);
+            }
+            return around.first(degree);
+          });
       }
       return;
     }
@@ -133,34 +146,94 @@ void GroupPages<Real>::split(const CellGroups& groups, int group, std::int64_t p
   }
 }
 
+/** The number of groups that certainly fit into the memory at once, with the page of another one,
+ * as far as there are threads for them. */
 template <class Real>
-void GroupPages<Real>::appendPage(
-  RankRange page, const VertexLinks& links, VertexStar& star, std::span<std::uint32_t> neighbours)
+std::size_t GroupPages<Real>::groupsAtOnce(const CellGroups& groups) const
 {
-  MeshCounts& counts = this->Result.counts;
+  std::int64_t largest = 0, page = 0;
+  for (int group = 0; group < groups.groups(); ++group)
+  {
+    const std::int64_t cells = groups.cells(group);
+    largest =
+      std::max(largest, GroupStars::mostBytes(groups.range(group).size(), cells, this->Corners));
+    page = std::max(page, cells * std::int64_t(this->Corners * this->Corners) * EncodedBytes);
+  }
+  const int threads = this->Space.workers().threads();
+  const std::int64_t fit =
+    (this->Space.available() - Reserve - page) / std::max<std::int64_t>(1, largest);
+  return threads == 1 ? 1 : static_cast<std::size_t>(std::clamp<std::int64_t>(fit, 1, threads + 1));
+}
+
+template <class Real>
+void GroupPages<Real>::append(const CellGroups& groups)
+{
+  struct Item
+  {
+    int group = 0;
+    std::optional<GroupStars> stars;
+  };
+  const std::size_t atOnce = this->groupsAtOnce(groups);
+  OrderedJobs<Item> jobs(
+    this->Space.workers(), atOnce,
+    [&](Item& item) { item.stars.emplace(this->Space, groups, item.group, this->Corners); },
+    [&](Item& item)
+    {
+      this->append(*item.stars);
+      item.stars.reset();
+    });
+  for (int group = 0; group < groups.groups(); ++group)
+  {
+    if (atOnce == 1)
+    {
+      this->append(groups, group);
+      continue;
+    }
+    jobs.next().group = group;
+    jobs.submit();
+  }
+  jobs.takeAll();
+}
+
+template <class Real>
+void GroupPages<Real>::append(const GroupStars& stars)
+{
+  const RankRange range = stars.range();
+  const int pageVertices = this->Result.pages.pageVertices();
+  for (std::int64_t begin = range.begin; begin < range.end; begin += pageVertices)
+  {
+    this->appendPage({ begin, std::min(begin + pageVertices, range.end) },
+      [&stars](std::uint32_t vertex) { return stars.neighbours(vertex); });
+  }
+  if (this->Corners == 3)
+  {
+    MeshCounts& counts = this->Result.counts;
+    counts.boundaryEdges += stars.counts().boundaryEdges;
+    counts.nonManifoldEdges += stars.counts().nonManifoldEdges;
+    counts.nonManifoldVertices += stars.counts().nonManifoldVertices;
+  }
+}
+
+template <class Real>
+template <class Around>
+void GroupPages<Real>::appendPage(RankRange page, Around&& around)
+{
   this->Page.clear();
   for (std::int64_t rank = page.begin; rank < page.end; ++rank)
   {
     const auto vertex = static_cast<std::uint32_t>(rank);
-    const std::size_t degree = star.visit(vertex, links.of(vertex), this->Corners, neighbours);
-    const auto around = neighbours.first(degree);
-    neighbours = neighbours.subspan(degree);
-    if (this->Corners == 3)
-    {
-      counts.boundaryEdges += star.boundaryEdges();
-      counts.nonManifoldEdges += star.nonManifoldEdges();
-      counts.nonManifoldVertices += star.fans() > 1;
-    }
-    for (const std::uint32_t other : around)
+    const std::span<const std::uint32_t> neighbours = around(vertex);
+    for (const std::uint32_t other : neighbours)
     {
       this->Crossing += other - static_cast<std::uint32_t>(page.begin) >= page.size();
     }
-    this->Edges += static_cast<std::int64_t>(degree);
+    this->Edges += std::ssize(neighbours);
 
     RankedVertex<Real> ranked;
     this->Vertices.next(ranked);
     const Real* position = ranked.position;
-    this->Page.push_back({ { position[0], position[1], position[2] }, ranked.id, NoIndex, around });
+    this->Page.push_back(
+      { { position[0], position[1], position[2] }, ranked.id, NoIndex, neighbours });
     if (rank % this->Result.sampleStride == 0)
     {
       this->Result.samples.insert(this->Result.samples.end(),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Order/CellGroups.h"
+#include "IO/Order/GroupStars.h"
 #include "IO/Order/PageBuilder.h"
 #include "IO/Order/RankedVertices.h"
 #include "IO/Order/VertexLinks.h"
@@ -30,6 +31,9 @@ public:
   GroupPages(const RawMesh& mesh, Workspace& workspace,
     const RecordFile<RankedVertex<Real>>& vertices, int pageVertices);
 
+  /** Appends the pages of all groups: several at once if they certainly fit into the memory. */
+  void append(const CellGroups& groups);
+
   /** Appends the pages of the next group. A group that does not fit into the memory is split;
    * throws Error if a page does not. */
   void append(const CellGroups& groups, int group);
@@ -40,8 +44,11 @@ public:
 private:
   std::int64_t largestPage(const VertexLinks& links, RankRange range) const;
   void split(const CellGroups& groups, int group, std::int64_t parts);
-  void appendPage(RankRange page, const VertexLinks& links, VertexStar& star,
-    std::span<std::uint32_t> neighbours);
+  std::size_t groupsAtOnce(const CellGroups& groups) const;
+  void append(const GroupStars& stars);
+  /** around(vertex) returns the neighbours of a vertex. */
+  template <class Around>
+  void appendPage(RankRange page, Around&& around);
 
   Workspace& Space;
   std::size_t Corners;

@@ -155,10 +155,7 @@ PagedMesh build(const RawMesh& mesh, Workspace& workspace, const PageOptions& op
   const Arrangement<Real> arranged =
     arrange<Real>(mesh, workspace, pageVertices, options.topological);
   GroupPages<Real> pages(mesh, workspace, arranged.vertices, pageVertices);
-  for (int group = 0; group < arranged.groups.groups(); ++group)
-  {
-    pages.append(arranged.groups, group);
-  }
+  pages.append(arranged.groups);
   return pages.finish();
 }
 

@@ -4,8 +4,10 @@
 #include "IO/Order/VertexPages.h"
 #include "Solver/Storage/Buffer.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace smg
 {
@@ -36,6 +38,19 @@ public:
   {
     const std::uint32_t at = this->table()[page];
     return this->view(at != None ? this->frame(at) : this->load(page, false));
+  }
+  /** The same if the page is loaded: any number of threads may call it, while none uses other
+   * functions. */
+  std::optional<PageView> loaded(std::uint32_t page) const
+  {
+    const std::uint32_t at = this->table()[page];
+    if (at == None)
+    {
+      return std::nullopt;
+    }
+    Frame& frame = this->frame(at);
+    std::atomic_ref(frame.wanted).store(true, std::memory_order_relaxed);
+    return this->Pages.view(page, reinterpret_cast<std::byte*>(&frame) + Unit, frame.adjacency);
   }
   /** A page that can be read completely, and whose positions can be modified. */
   PageView whole(std::uint32_t page)

@@ -71,13 +71,17 @@ private:
 } // namespace
 
 PagedSearch::PagedSearch(
-  VertexPages& pages, PageCache& cache, Workspace& workspace, std::size_t queueBytes)
+  VertexPages& pages, PageCache& cache, Workspace& workspace, std::size_t queueBytes, bool expands)
   : Space(workspace)
   , Pages(pages)
   , Cache(cache)
   , Queue(workspace, queueBytes)
   , Visited(workspace, pages.vertices())
 {
+  if (expands && workspace.workers().threads() > 1)
+  {
+    this->Expanded.emplace(this->Queue, pages, cache, this->Visited, workspace);
+  }
 }
 
 std::int64_t PagedSearch::memoryFor(const VertexPages& pages, std::size_t queueBytes)
@@ -85,20 +89,21 @@ std::int64_t PagedSearch::memoryFor(const VertexPages& pages, std::size_t queueB
   return std::int64_t(VisitedBits::bytesFor(pages.vertices()) + queueBytes) + (128 << 10);
 }
 
-template <class Reach, class Take>
-SearchResult PagedSearch::run(std::span<const SearchSource> sources, Reach&& reach, Take&& take)
+template <class AnyQueue, class Reach, class Take>
+SearchResult PagedSearch::run(
+  AnyQueue& queue, std::span<const SearchSource> sources, Reach&& reach, Take&& take)
 {
-  assert(std::ranges::is_sorted(sources, {}, &SearchSource::level) && this->Queue.size() == 0);
+  assert(std::ranges::is_sorted(sources, {}, &SearchSource::level) && queue.size() == 0);
   SearchResult result;
   std::size_t nextSource = 0;
   std::uint32_t level = 0;
   std::int64_t leftOfLevel = 0;
   double sumOfQueues = 0;
-  while (nextSource < sources.size() || this->Queue.size() > 0)
+  while (nextSource < sources.size() || queue.size() > 0)
   {
     if (leftOfLevel == 0)
     {
-      if (this->Queue.size() == 0)
+      if (queue.size() == 0)
       {
         level = std::max(level, sources[nextSource].level);
       }
@@ -106,21 +111,21 @@ SearchResult PagedSearch::run(std::span<const SearchSource> sources, Reach&& rea
       {
         reach(sources[nextSource++].rank);
       }
-      leftOfLevel = this->Queue.size();
+      leftOfLevel = queue.size();
       if (leftOfLevel == 0)
       {
         continue;
       }
     }
-    result.last = this->Queue.pop();
+    result.last = queue.pop();
     take(result.last, level);
     ++result.vertices;
     if (++this->Visits % PolledVisits == 0)
     {
       this->Space.poll(); // pages in the cache are not read, which would poll
     }
-    sumOfQueues += static_cast<double>(this->Queue.size());
-    result.peakQueue = std::max(result.peakQueue, this->Queue.size());
+    sumOfQueues += static_cast<double>(queue.size());
+    result.peakQueue = std::max(result.peakQueue, queue.size());
     if (--leftOfLevel == 0)
     {
       result.levels = ++level;
@@ -131,8 +136,30 @@ SearchResult PagedSearch::run(std::span<const SearchSource> sources, Reach&& rea
 }
 
 template <class Seen>
+SearchResult PagedSearch::visitExpanded(std::span<const SearchSource> sources, Seen&& seen)
+{
+  const auto reach = [this](std::uint32_t rank)
+  {
+    if (this->Visited.set(rank))
+    {
+      this->Expanded->push(rank);
+    }
+  };
+  return this->run(*this->Expanded, sources, reach,
+    [&](std::uint32_t rank, std::uint32_t level)
+    {
+      std::ranges::for_each(this->Expanded->candidates(), reach);
+      seen(rank, level);
+    });
+}
+
+template <class Seen>
 SearchResult PagedSearch::visit(std::span<const SearchSource> sources, Seen&& seen)
 {
+  if (this->Expanded)
+  {
+    return this->visitExpanded(sources, seen);
+  }
   const auto reach = [this](std::uint32_t rank)
   {
     if (this->Visited.set(rank))
@@ -142,7 +169,7 @@ SearchResult PagedSearch::visit(std::span<const SearchSource> sources, Seen&& se
   };
   // Vertices of a page come in sequences. Nothing else requests pages, so the view stays valid.
   PageView view(nullptr, 0, 0, 0);
-  return this->run(sources, reach,
+  return this->run(this->Queue, sources, reach,
     [&](std::uint32_t rank, std::uint32_t level)
     {
       if (rank - view.firstRank() >= view.vertices())
@@ -200,7 +227,7 @@ SearchResult PagedSearch::placeAs(std::span<const SearchSource> sources, Ordered
 {
   Placing placing(this->Pages, this->Cache, this->Queue, order.count);
   const SearchResult result = this->run(
-    sources, [&](std::uint32_t rank) { placing.placeOf(rank); },
+    this->Queue, sources, [&](std::uint32_t rank) { placing.placeOf(rank); },
     [&](std::uint32_t rank, std::uint32_t)
     {
       const std::uint32_t page = this->Pages.pageOf(rank);

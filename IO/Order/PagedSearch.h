@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Order/ExpandedQueue.h"
 #include "IO/Order/OrderedVertices.h"
 #include "IO/Order/PageCache.h"
 #include "IO/Order/SearchQueue.h"
@@ -9,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace smg
@@ -35,8 +37,11 @@ struct SearchResult
 class PagedSearch
 {
 public:
-  /** The cache is for both kinds of search. All arguments must outlive the search. */
-  PagedSearch(VertexPages& pages, PageCache& cache, Workspace& workspace, std::size_t queueBytes);
+  /** The cache is for both kinds of search. All arguments must outlive the search.
+   * @param expands whether searches without a trace use several threads, if there are any; these
+   * take ExpandedQueue::bytes() */
+  PagedSearch(VertexPages& pages, PageCache& cache, Workspace& workspace, std::size_t queueBytes,
+    bool expands = true);
 
   /** Bytes of memory of a search in addition to the cache. */
   static std::int64_t memoryFor(const VertexPages& pages, std::size_t queueBytes);
@@ -61,19 +66,24 @@ public:
 
 private:
   /** reach(rank) appends a source to the queue, take(rank, level) the neighbours of a vertex. */
-  template <class Reach, class Take>
-  SearchResult run(std::span<const SearchSource> sources, Reach&& reach, Take&& take);
+  template <class AnyQueue, class Reach, class Take>
+  SearchResult run(
+    AnyQueue& queue, std::span<const SearchSource> sources, Reach&& reach, Take&& take);
   template <class Real>
   SearchResult placeAs(std::span<const SearchSource> sources, OrderedVertices& order);
   /** Searches the vertices whose bits are not set. */
   template <class Seen>
   SearchResult visit(std::span<const SearchSource> sources, Seen&& seen);
+  /** The same on several threads. */
+  template <class Seen>
+  SearchResult visitExpanded(std::span<const SearchSource> sources, Seen&& seen);
 
   Workspace& Space;
   VertexPages& Pages;
   PageCache& Cache;
   SearchQueue Queue;
   VisitedBits Visited;
+  std::optional<ExpandedQueue> Expanded; ///< none: one thread
   std::int64_t Probes = 0;
   std::uint32_t Visits = 0; ///< of vertices, by all searches
 };

@@ -192,11 +192,12 @@ private:
 
 } // namespace
 
-std::int64_t searchPlanMemory(const PagedMesh& mesh, int landmarks)
+std::int64_t searchPlanMemory(const PagedMesh& mesh, int landmarks, int threads)
 {
-  // Rows of numbers: levels, samples, nearest (which grow), distances, two for the planner.
-  const std::int64_t rows = 1 + 2 * 3 + std::max(landmarks, LeastLandmarks) + MostAxisEnds + 2;
-  return rows * std::int64_t(sampleCount(mesh) * sizeof(std::uint32_t)) + 4096;
+  // Rows of numbers: levels, samples, nearest (which grow), distances.
+  const std::int64_t rows = 1 + 2 * 3 + std::max(landmarks, LeastLandmarks) + MostAxisEnds;
+  return rows * std::int64_t(sampleCount(mesh) * sizeof(std::uint32_t)) +
+         sourcePlanMemory(sampleCount(mesh), threads) + 4096;
 }
 
 std::vector<SearchSource> planSearch(PagedSearch& search, const PagedMesh& mesh,

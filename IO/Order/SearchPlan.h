@@ -10,8 +10,8 @@
 namespace smg
 {
 
-/** The memory of a plan in bytes. */
-std::int64_t searchPlanMemory(const PagedMesh& mesh, int landmarks);
+/** The memory of a plan in bytes, if it is made by so many threads. */
+std::int64_t searchPlanMemory(const PagedMesh& mesh, int landmarks, int threads);
 
 /**
  * Plans the search of a large component. Distances are measured from a few landmarks, which are far

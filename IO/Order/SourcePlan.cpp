@@ -17,7 +17,7 @@ using Levels = std::span<std::int32_t>;
 
 constexpr std::int32_t MostBins = 150;
 /** The number of single candidates with which plans start. */
-constexpr std::size_t Beginnings = 4;
+constexpr int Beginnings = 4;
 constexpr std::size_t MostSources = 24;
 /** The shares of the levels by which a further source starts before the others reach it. Mostly
  * small: such a source straightens the arriving front, whereas an early one has its own front. */
@@ -227,21 +227,34 @@ private:
 
 } // namespace
 
+std::int64_t sourcePlanMemory(std::size_t samples, int threads)
+{
+  const std::int64_t planners = std::min(threads, Beginnings);
+  return planners * 2 * static_cast<std::int64_t>(samples * sizeof(std::int32_t));
+}
+
 std::vector<SourcePlan> planSources(
   const SourceDistances& distances, std::int64_t vertices, Workspace& workspace)
 {
-  Planner planner(distances, vertices, workspace);
   std::vector<SourcePlan> plans;
-  for (std::size_t candidate = 0; candidate < distances.candidates(); ++candidate)
   {
-    plans.push_back(planner.single(candidate));
+    Planner planner(distances, vertices, workspace);
+    for (std::size_t candidate = 0; candidate < distances.candidates(); ++candidate)
+    {
+      plans.push_back(planner.single(candidate));
+    }
   }
   std::ranges::stable_sort(plans, {}, &SourcePlan::cost);
-  plans.resize(std::min(plans.size(), Beginnings));
-  for (SourcePlan& plan : plans)
-  {
-    planner.extend(plan);
-  }
+  plans.resize(std::min(plans.size(), std::size_t(Beginnings)));
+  Workers& workers = workspace.workers();
+  const std::int64_t needed = sourcePlanMemory(distances.samples(), workers.threads());
+  Workers alone(1);
+  runAll(workspace.available() >= needed ? workers : alone, static_cast<int>(plans.size()),
+    [&](int i)
+    {
+      Planner planner(distances, vertices, workspace);
+      planner.extend(plans[static_cast<std::size_t>(i)]);
+    });
   std::ranges::stable_sort(plans, {}, &SourcePlan::cost);
   return plans;
 }

@@ -69,6 +69,10 @@ struct SourcePlan
   double cost = 0;
 };
 
+/** The memory in bytes with which planSources() makes as many plans at once as there are threads;
+ * a part of it is sufficient for one after the other. */
+std::int64_t sourcePlanMemory(std::size_t samples, int threads);
+
 /**
  * Chooses sources and the levels at which they begin, such that the levels of the search, which
  * are known at the samples, are small: each of the best single candidates is joined by others as

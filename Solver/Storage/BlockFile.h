@@ -16,6 +16,8 @@
 namespace smg
 {
 
+class Workers;
+
 /** A table of a block file: rows with the same columns. */
 struct TableSpec
 {
@@ -40,9 +42,15 @@ class SMG_EXPORT BlockFileWriter
 {
 public:
   static constexpr std::size_t WriteBehindBytes = std::size_t(192) << 10;
+  /** The blocks that are being compressed at once have at most so many bytes, if they are several:
+   * with compressors and results they take about four times as much. */
+  static constexpr std::size_t MostPendingBytes = std::size_t(2) << 20;
+  static constexpr int MostBlocks = 16;
 
+  /** Blocks are compressed on the threads of `workers`, which must outlive the writer; null: on
+   * that of the caller. The file does not depend on it. */
   BlockFileWriter(std::filesystem::path path, std::vector<TableSpec> tables, Codec codec,
-    IoStatistics* statistics = nullptr);
+    IoStatistics* statistics = nullptr, Workers* workers = nullptr);
   ~BlockFileWriter();
   BlockFileWriter(const BlockFileWriter&) = delete;
   BlockFileWriter& operator=(const BlockFileWriter&) = delete;

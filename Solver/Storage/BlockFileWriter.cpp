@@ -5,29 +5,111 @@
 #include "Solver/Storage/Checksum.h"
 #include "Solver/Storage/Codec.h"
 #include "Solver/Storage/FileDescriptor.h"
+#include "Solver/Storage/OrderedJobs.h"
 #include "Solver/Storage/WriteBehind.h"
 #include "smg/Error.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 namespace smg
 {
 
+namespace
+{
+
+/** A block that is being compressed. */
+struct PendingBlock
+{
+  int table = 0;
+  std::int64_t rows = 0;
+  std::vector<std::byte> plain, stored; ///< column after column
+  std::vector<ColumnEntry> entries;
+  std::unique_ptr<ColumnCodec> coder;
+};
+
+} // namespace
+
 struct BlockFileWriter::Implementation
 {
   Implementation(std::filesystem::path path, std::vector<TableSpec> tables, Codec codec,
-    IoStatistics* statistics)
+    IoStatistics* statistics, Workers* workers)
     : Path(std::move(path))
     , Statistics(statistics)
-    , Coder(codec)
     , File(FileDescriptor::createBeside(this->Path))
     , Behind(std::make_unique<WriteBehind>(this->File, BlockFileHeaderBytes, WriteBehindBytes))
+    , Appended(tables.size())
+    , Blocks(
+        workers ? *workers : this->Alone, workers ? std::min(workers->threads(), MostBlocks) : 1,
+        [this](PendingBlock& block) { this->compress(block); },
+        [this](PendingBlock& block) { this->write(block); })
   {
     this->Index.codec = codec;
     this->Index.blocks.resize(tables.size());
     this->Index.tables = std::move(tables);
+  }
+
+  /** Submits a block, of which so many bytes are to be copied. */
+  void submit(int table, std::int64_t rows, std::span<const std::span<const std::byte>> columns)
+  {
+    std::size_t bytes = 0;
+    for (const std::span<const std::byte> column : columns)
+    {
+      bytes += column.size();
+    }
+    while (this->Blocks.size() > 0 && this->PendingBytes + bytes > MostPendingBytes)
+    {
+      this->Blocks.takeOldest();
+    }
+    PendingBlock& block = this->Blocks.next();
+    block.table = table;
+    block.rows = rows;
+    block.plain.clear();
+    block.plain.reserve(bytes);
+    block.entries.clear();
+    for (const std::span<const std::byte> column : columns)
+    {
+      block.plain.insert(block.plain.end(), column.begin(), column.end());
+      block.entries.push_back({ 0, static_cast<std::uint32_t>(column.size()), 0 });
+    }
+    this->PendingBytes += bytes;
+    ++this->Appended[static_cast<std::size_t>(table)];
+    this->Blocks.submit();
+  }
+
+  /** On any thread. */
+  void compress(PendingBlock& block) const
+  {
+    if (!block.coder)
+    {
+      block.coder = std::make_unique<ColumnCodec>(this->Index.codec);
+    }
+    block.stored.clear();
+    std::span<const std::byte> rest = block.plain;
+    const TableSpec& spec = this->Index.tables[block.table];
+    for (std::size_t c = 0; c < block.entries.size(); c++)
+    {
+      ColumnEntry& entry = block.entries[c];
+      const std::span stored =
+        block.coder->compress(rest.first(entry.plainBytes), spec.columns[c].tupleBytes());
+      entry.storedBytes = static_cast<std::uint32_t>(stored.size());
+      entry.checksum = checksum(stored);
+      block.stored.insert(block.stored.end(), stored.begin(), stored.end());
+      rest = rest.subspan(entry.plainBytes);
+    }
+  }
+
+  void write(const PendingBlock& block)
+  {
+    this->PendingBytes -= block.plain.size();
+    TableIndex& index = this->Index.blocks[block.table];
+    index.offset.push_back(this->Behind->offset());
+    index.firstRow.push_back(index.firstRow.back() + block.rows);
+    index.entries.insert(index.entries.end(), block.entries.begin(), block.entries.end());
+    this->put(block.stored);
   }
 
   void put(std::span<const std::byte> bytes)
@@ -57,7 +139,7 @@ struct BlockFileWriter::Implementation
   std::string place(int table) const
   {
     return this->Path.string() + ": table '" + this->Index.tables[table].name + "', block " +
-           std::to_string(this->Index.blocks[table].blocks());
+           std::to_string(this->Appended[static_cast<std::size_t>(table)]);
   }
 
   void checkColumns(
@@ -111,15 +193,19 @@ struct BlockFileWriter::Implementation
 
   std::filesystem::path Path;
   IoStatistics* Statistics;
-  ColumnCodec Coder;
   BlockFileIndex Index;
   FileDescriptor File;
   std::unique_ptr<WriteBehind> Behind;
+  std::vector<std::int64_t> Appended; ///< blocks of each table
+  std::size_t PendingBytes = 0;       ///< of the blocks that are being compressed
+  Workers Alone{ 1 };
+  OrderedJobs<PendingBlock> Blocks;
 };
 
-BlockFileWriter::BlockFileWriter(
-  std::filesystem::path path, std::vector<TableSpec> tables, Codec codec, IoStatistics* statistics)
-  : Self(std::make_unique<Implementation>(std::move(path), std::move(tables), codec, statistics))
+BlockFileWriter::BlockFileWriter(std::filesystem::path path, std::vector<TableSpec> tables,
+  Codec codec, IoStatistics* statistics, Workers* workers)
+  : Self(std::make_unique<Implementation>(
+      std::move(path), std::move(tables), codec, statistics, workers))
 {
 }
 
@@ -131,17 +217,7 @@ void BlockFileWriter::append(
   Implementation& self = *this->Self;
   self.checkColumns(table, rows, columns);
   self.checkWritten();
-  TableIndex& index = self.Index.blocks[table];
-  index.offset.push_back(self.Behind->offset());
-  index.firstRow.push_back(index.firstRow.back() + rows);
-  for (std::size_t c = 0; c < columns.size(); c++)
-  {
-    const std::size_t tuple = self.Index.tables[table].columns[c].tupleBytes();
-    const std::span stored = self.Coder.compress(columns[c], tuple);
-    index.entries.push_back({ static_cast<std::uint32_t>(stored.size()),
-      static_cast<std::uint32_t>(columns[c].size()), checksum(stored) });
-    self.put(stored);
-  }
+  self.submit(table, rows, columns);
 }
 
 void BlockFileWriter::finish(const std::string& header)
@@ -153,6 +229,7 @@ void BlockFileWriter::finish(const std::string& header)
     throw Error(self.Path.string() + ": the header has " + std::to_string(header.size()) +
                 " bytes, but a block file has room for " + std::to_string(most) + ".");
   }
+  self.Blocks.takeAll();
   const std::int64_t tailOffset = self.Behind->offset();
   const std::vector<std::byte> tail = self.Index.serialize();
   self.put(tail);

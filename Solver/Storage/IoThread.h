@@ -7,8 +7,9 @@
 namespace smg
 {
 
-/** A thread for disk I/O. Its stack is small and its function should allocate no memory: there may
- * be tens of these threads, and each allocating thread costs an arena of address space. */
+/** A thread for disk I/O or for Workers. Its stack is small and its function should allocate no
+ * memory: there may be tens of these threads, and each allocating thread costs an arena of address
+ * space. */
 class IoThread
 {
 public:

@@ -98,6 +98,42 @@ TEST(PagedSearch, ASourceThatBeginsWhenAllElseIsOver)
   EXPECT_EQ(std::ranges::count(levels, NoIndex), 36);
 }
 
+/** What one thread finds, with any cache. */
+TEST(PagedSearch, ProbesDoNotDependOnThreads)
+{
+  const std::vector<SearchSource> sources = { { 0, 5 }, { 3, 9000 }, { 40, 11 }, { 9999, 12 } };
+  for (const IndexedTestMesh& mesh : { shuffled(torus(200, 150)), shuffled(tetBox(25, 24, 23)) })
+  {
+    std::vector<std::uint32_t> expected;
+    SearchResult first;
+    for (const int threads : { 1, 2, 3, 8, 16 })
+    {
+      Workspace workspace({}, 4 * Workspace::LeastMemory, {}, 0, threads);
+      PagedMesh paged = pagesOf(mesh, 32, workspace);
+      const std::int64_t least = PageCache::leastBytes(paged.pages);
+      for (const std::int64_t bytes : { 4 * least, PageCache::mostBytes(paged.pages) })
+      {
+        PageCache cache(paged.pages, workspace, bytes);
+        PagedSearch search(paged.pages, cache, workspace, 4096);
+        std::vector<std::uint32_t> levels(static_cast<std::size_t>(mesh.vertices()));
+        const SearchResult result = search.probe(sources, levels);
+        EXPECT_EQ(search.components(), 1);
+        if (threads == 1)
+        {
+          expected = levels;
+          first = result;
+        }
+        EXPECT_EQ(levels, expected);
+        EXPECT_EQ(result.vertices, mesh.vertices());
+        EXPECT_EQ(result.last, first.last);
+        EXPECT_EQ(result.levels, first.levels);
+        EXPECT_EQ(result.meanQueue, first.meanQueue);
+        EXPECT_EQ(result.peakQueue, first.peakQueue);
+      }
+    }
+  }
+}
+
 /** The same order with any cache and queue, and the size that a probe predicted. */
 TEST(PagedSearch, PlacesDoNotDependOnMemory)
 {

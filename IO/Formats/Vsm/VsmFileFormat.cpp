@@ -2,6 +2,7 @@
 #include "IO/Formats/Vsm/VsmFileFormat.h"
 
 #include "IO/Formats/Vsm/WriteVsm.h"
+#include "Solver/Storage/Workers.h"
 
 namespace smg
 {
@@ -12,14 +13,17 @@ namespace
 WriteNotes write(
   MeshSource& source, const std::filesystem::path& path, const WriteMeshOptions& options)
 {
-  writeVsm(source, path, options.codec, options.progress, {},
+  Workers workers(options.threads);
+  writeVsm(
+    source, path, options.codec, options.progress, {},
     [&](VsmWriter& writer)
     {
       if (!options.isolatedFrom.empty())
       {
         copyIsolated(options.isolatedFrom, source.info(), writer);
       }
-    });
+    },
+    &workers);
   return {};
 }
 

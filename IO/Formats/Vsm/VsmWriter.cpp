@@ -75,8 +75,8 @@ std::vector<TableSpec> tablesOf(const StreamInfo& info, const std::string& file)
 
 struct VsmWriter::Implementation
 {
-  Implementation(
-    std::filesystem::path path, const StreamInfo& info, Codec codec, IoStatistics* statistics)
+  Implementation(std::filesystem::path path, const StreamInfo& info, Codec codec,
+    IoStatistics* statistics, Workers* workers)
     : Name(path.string())
     , Info(info)
     , Corners(cornersOf(info.cellType))
@@ -86,7 +86,7 @@ struct VsmWriter::Implementation
     , LastCell(path.parent_path(), LastCellBytes)
     , Statistics(path.parent_path())
     , Isolated(this->Name, info)
-    , File(path, tablesOf(info, this->Name), codec, statistics)
+    , File(path, tablesOf(info, this->Name), codec, statistics, workers)
   {
     this->Info.vertices = this->Info.cells = this->Info.width = this->Info.span = 0;
     for (int axis = 0; axis < 3; axis++)
@@ -134,9 +134,9 @@ struct VsmWriter::Implementation
   BlockFileWriter File;
 };
 
-VsmWriter::VsmWriter(
-  std::filesystem::path path, const StreamInfo& info, Codec codec, IoStatistics* statistics)
-  : Self(std::make_unique<Implementation>(std::move(path), info, codec, statistics))
+VsmWriter::VsmWriter(std::filesystem::path path, const StreamInfo& info, Codec codec,
+  IoStatistics* statistics, Workers* workers)
+  : Self(std::make_unique<Implementation>(std::move(path), info, codec, statistics, workers))
 {
 }
 

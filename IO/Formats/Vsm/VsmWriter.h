@@ -27,9 +27,10 @@ class SMG_EXPORT VsmWriter
 {
 public:
   /** Uses cellType, doublePositions and the columns of `info`; the rest is computed. Throws Error
-   * if the file cannot be created or the name of a column is empty, reserved or used twice. */
+   * if the file cannot be created or the name of a column is empty, reserved or used twice.
+   * @param workers threads that compress blocks, see BlockFileWriter */
   VsmWriter(std::filesystem::path path, const StreamInfo& info, Codec codec = Codec::Zstd,
-    IoStatistics* statistics = nullptr);
+    IoStatistics* statistics = nullptr, Workers* workers = nullptr);
   /** Without finish(), no file is left. */
   ~VsmWriter();
   VsmWriter(const VsmWriter&) = delete;

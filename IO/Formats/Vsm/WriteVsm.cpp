@@ -67,10 +67,10 @@ void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, Vsm
 
 WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path, Codec codec,
   const ProgressFunction& progress, const std::string& origin,
-  const std::function<void(VsmWriter&)>& add)
+  const std::function<void(VsmWriter&)>& add, Workers* workers)
 {
   Progress reported(progress);
-  VsmWriter writer(path, source.info(), codec);
+  VsmWriter writer(path, source.info(), codec, nullptr, workers);
   const auto cells = static_cast<double>(source.info().cells);
   const auto corners = static_cast<std::size_t>(cornersOf(source.info().cellType));
   for (MeshBlock block; source.next(block);)

@@ -79,6 +79,8 @@ struct ConversionOptions
    * checkpoint keeps the converted file until Solution::removeCheckpoint(). Empty: none.
    */
   std::filesystem::path checkpoint;
+  /** Threads that compute; 0: one per core. The result does not depend on them. */
+  int threads = 0;
   /** Progress callback; empty: none. */
   ProgressFunction progress;
 };

@@ -24,6 +24,9 @@ struct WriteMeshOptions
   /** A .vsm file whose isolated vertices, with the columns that both have, are copied into a new
    * .vsm file; empty: none. */
   std::filesystem::path isolatedFrom;
+  /** Threads that compress the blocks of a .vsm file; 0: one per core. The file does not depend on
+   * them. */
+  int threads = 0;
   /** Progress callback; empty: none. */
   ProgressFunction progress;
 };
