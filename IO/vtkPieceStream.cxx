@@ -354,8 +354,9 @@ std::vector<std::int64_t> globalIdsOf(vtkPointSet& piece, const std::string& whe
 StreamInfo writeContainer(PieceStream& stream, const std::filesystem::path& path, bool forScratch,
   Progress& progress, const std::filesystem::path& isolatedFrom)
 {
-  Workers workers;
-  VsmWriter writer(path, stream.info(), forScratch ? Codec::Lz4 : Codec::Zstd, nullptr, &workers);
+  Workers workers; // not worth their memory for fast compression
+  VsmWriter writer(path, stream.info(), forScratch ? Codec::Lz4 : Codec::Zstd, nullptr,
+    forScratch ? nullptr : &workers);
   MeshBlock block;
   while (stream.next(block))
   {

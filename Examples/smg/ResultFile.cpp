@@ -81,6 +81,11 @@ void ResultFile::chooseOrder(const smg::VsmReader& mesh, const smg::ConversionRe
   smg::checkOutput(this->Files.out, cells);
 }
 
+int ResultFile::threads(std::int64_t memory) const
+{
+  return memory > smg::Workspace::LeastMemory ? this->Files.threads : 1;
+}
+
 std::vector<std::string> ResultFile::write(const smg::VsmReader& mesh, smg::MeshSource& result,
   std::int64_t memory, const smg::ProgressFunction& progress) const
 {
@@ -100,7 +105,7 @@ std::vector<std::string> ResultFile::write(const smg::VsmReader& mesh, smg::Mesh
   smg::WriteMeshOptions options;
   options.scratch = this->Files.scratch;
   options.isolatedFrom = mesh.path();
-  options.threads = this->Files.threads;
+  options.threads = this->threads(memory);
   options.progress = progress;
   return smg::writeMesh(result, this->Files.out, options);
 }
@@ -109,11 +114,11 @@ std::vector<std::string> ResultFile::writeRestored(const smg::VsmReader& mesh,
   smg::MeshSource& result, std::int64_t memory, const smg::ProgressFunction& progress) const
 {
   smg::Workspace space(
-    this->Files.scratch, memory, smg::partOf(progress, 0.4, 1.0), 0, this->Files.threads);
+    this->Files.scratch, memory, smg::partOf(progress, 0.4, 1.0), 0, this->threads(memory));
   smg::WriteMeshOptions options;
   options.codec = smg::Codec::Lz4;
   options.isolatedFrom = mesh.path();
-  options.threads = this->Files.threads;
+  options.threads = this->threads(memory);
   options.progress = smg::partOf(progress, 0.0, 0.4);
   const std::filesystem::path stream = space.folder() / "result.vsm";
   smg::writeMesh(result, stream, options);

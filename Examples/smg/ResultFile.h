@@ -65,6 +65,8 @@ private:
   bool mayRestore() const;
   std::vector<std::string> writeRestored(const smg::VsmReader& mesh, smg::MeshSource& result,
     std::int64_t memory, const smg::ProgressFunction& progress) const;
+  /** The threads that write in at most `memory` bytes: one if that is little. */
+  int threads(std::int64_t memory) const;
 
   Options Files;
   Orders Order = Orders::Stream;

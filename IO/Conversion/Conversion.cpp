@@ -149,9 +149,9 @@ void Conversion::write(MeshSource& source, const AddTables& add)
   const std::filesystem::path path = direct ? this->Out : this->workspace().folder() / "mesh.vsm";
   // With little memory blocks are compressed one after the other.
   Workspace& space = this->workspace();
-  constexpr auto BlockMemory = 4 * std::int64_t(BlockFileWriter::MostPendingBytes);
-  const bool parallel = space.workers().threads() > 1 && space.available() > 4 * BlockMemory;
-  const Reservation blocks(space.pool(), parallel ? BlockMemory : 0);
+  const std::int64_t blockMemory = BlockFileWriter::memoryFor(space.workers());
+  const bool parallel = space.available() > 4 * blockMemory;
+  const Reservation blocks(space.pool(), parallel ? blockMemory : 0);
   const WrittenVsm written = writeVsm(source, path, direct ? this->Options.codec : Codec::Lz4,
     partOf(progress, 0.0, direct ? 1.0 : 0.6), direct ? this->Options.origin : std::string(), add,
     parallel ? &space.workers() : nullptr);

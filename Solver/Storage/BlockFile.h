@@ -42,15 +42,17 @@ class SMG_EXPORT BlockFileWriter
 {
 public:
   static constexpr std::size_t WriteBehindBytes = std::size_t(192) << 10;
-  /** The blocks that are being compressed at once have at most so many bytes, if they are several:
-   * with compressors and results they take about four times as much. */
-  static constexpr std::size_t MostPendingBytes = std::size_t(2) << 20;
-  static constexpr int MostBlocks = 16;
+  /** The most blocks that are compressed at once, and the most bytes that each has in the mean if
+   * they are several. */
+  static constexpr int MostBlocks = 8;
+  static constexpr std::size_t BlockBytes = std::size_t(256) << 10;
 
   /** Blocks are compressed on the threads of `workers`, which must outlive the writer; null: on
    * that of the caller. The file does not depend on it. */
   BlockFileWriter(std::filesystem::path path, std::vector<TableSpec> tables, Codec codec,
     IoStatistics* statistics = nullptr, Workers* workers = nullptr);
+  /** The most bytes of blocks that several threads compress, with compressors and results. */
+  static std::int64_t memoryFor(const Workers& workers);
   ~BlockFileWriter();
   BlockFileWriter(const BlockFileWriter&) = delete;
   BlockFileWriter& operator=(const BlockFileWriter&) = delete;

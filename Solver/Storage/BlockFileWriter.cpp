@@ -31,6 +31,13 @@ struct PendingBlock
   std::unique_ptr<ColumnCodec> coder;
 };
 
+std::size_t blocksAtOnce(const Workers* workers)
+{
+  return workers
+           ? static_cast<std::size_t>(std::min(workers->threads(), BlockFileWriter::MostBlocks))
+           : 1;
+}
+
 } // namespace
 
 struct BlockFileWriter::Implementation
@@ -43,7 +50,7 @@ struct BlockFileWriter::Implementation
     , Behind(std::make_unique<WriteBehind>(this->File, BlockFileHeaderBytes, WriteBehindBytes))
     , Appended(tables.size())
     , Blocks(
-        workers ? *workers : this->Alone, workers ? std::min(workers->threads(), MostBlocks) : 1,
+        workers ? *workers : this->Alone, blocksAtOnce(workers),
         [this](PendingBlock& block) { this->compress(block); },
         [this](PendingBlock& block) { this->write(block); })
   {
@@ -60,7 +67,7 @@ struct BlockFileWriter::Implementation
     {
       bytes += column.size();
     }
-    while (this->Blocks.size() > 0 && this->PendingBytes + bytes > MostPendingBytes)
+    while (this->Blocks.size() > 0 && this->PendingBytes + bytes > this->Blocks.most() * BlockBytes)
     {
       this->Blocks.takeOldest();
     }
@@ -102,7 +109,7 @@ struct BlockFileWriter::Implementation
     }
   }
 
-  void write(const PendingBlock& block)
+  void write(PendingBlock& block)
   {
     this->PendingBytes -= block.plain.size();
     TableIndex& index = this->Index.blocks[block.table];
@@ -110,6 +117,10 @@ struct BlockFileWriter::Implementation
     index.firstRow.push_back(index.firstRow.back() + block.rows);
     index.entries.insert(index.entries.end(), block.entries.begin(), block.entries.end());
     this->put(block.stored);
+    if (block.plain.size() > BlockBytes && this->Blocks.most() > 1)
+    {
+      block = PendingBlock(); // else each of the blocks would keep that much memory
+    }
   }
 
   void put(std::span<const std::byte> bytes)
@@ -210,6 +221,15 @@ BlockFileWriter::BlockFileWriter(std::filesystem::path path, std::vector<TableSp
 }
 
 BlockFileWriter::~BlockFileWriter() = default;
+
+std::int64_t BlockFileWriter::memoryFor(const Workers& workers)
+{
+  // The context of zstd; a block, its largest column regrouped and compressed, and the result.
+  constexpr std::size_t context = std::size_t(640) << 10;
+  return workers.threads() > 1
+           ? static_cast<std::int64_t>(blocksAtOnce(&workers) * (context + 4 * BlockBytes))
+           : 0;
+}
 
 void BlockFileWriter::append(
   int table, std::int64_t rows, std::span<const std::span<const std::byte>> columns)

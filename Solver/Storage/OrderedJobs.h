@@ -48,6 +48,8 @@ public:
   OrderedJobs& operator=(const OrderedJobs&) = delete;
 
   Workers& workers() const { return this->Threads; }
+  /** The number of items that may be in use at once. */
+  std::size_t most() const { return this->Most; }
   /** The number of submitted items that were not taken. */
   std::size_t size() const { return this->Count; }
 

@@ -51,6 +51,7 @@ bool Workers::isCaller()
 
 void Workers::start()
 {
+  this->Team.reserve(static_cast<std::size_t>(this->Threads - 1)); // a started thread must be kept
   while (!this->IsComplete && std::ssize(this->Team) < this->Threads - 1)
   {
     auto thread = std::make_unique<IoThread>();

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <cstddef>
 #include <deque>
 #include <exception>
 #include <functional>
@@ -94,14 +95,25 @@ void runAll(Workers& workers, int count, Task&& task)
   for (int k = 0; k < count; ++k)
   {
     jobs.push_back(std::make_unique<Workers::Job>([&task, k] { task(k); }));
-    workers.submit(*jobs.back());
   }
   std::exception_ptr failure;
-  for (const std::unique_ptr<Workers::Job>& job : jobs)
+  std::size_t submitted = 0;
+  try
+  {
+    for (; submitted < jobs.size(); ++submitted)
+    {
+      workers.submit(*jobs[submitted]);
+    }
+  }
+  catch (...)
+  {
+    failure = std::current_exception();
+  }
+  for (std::size_t k = 0; k < submitted; ++k)
   {
     try
     {
-      workers.finish(*job);
+      workers.finish(*jobs[k]);
     }
     catch (...)
     {
