@@ -26,28 +26,21 @@ int landmarksFor(std::int64_t vertices, const BreadthFirstOptions& options)
   return std::min(options.landmarks, std::max(LeastLandmarks, static_cast<int>(affordable)));
 }
 
-/** The threads of searches and plans: with little memory, which the cache needs, one. */
-int searchThreads(Workspace& workspace)
-{
-  constexpr std::int64_t LeastForThreads = std::int64_t(8) << 20;
-  return workspace.available() < LeastForThreads ? 1 : workspace.workers().threads();
-}
-
 /** A search and its cache, with the available memory. */
 class Searching
 {
 public:
-  /** `kept`: bytes of memory for other purposes. */
-  Searching(VertexPages& pages, Workspace& workspace, std::int64_t kept)
-    : Expands(searchThreads(workspace) > 1)
-    , Cache(pages, workspace, cacheBytes(pages, workspace, kept))
-    // Threads that wait for each other's pages gain nothing.
-    , Search(pages, this->Cache, workspace, queueBytes(workspace),
-        this->Expands && this->Cache.bytes() >= pages.allAdjacencyBytes())
+  /** `kept`: bytes of memory for other purposes, those of a plan with so many helpers. */
+  template <class Kept>
+  Searching(VertexPages& pages, Workspace& workspace, Kept&& kept)
+    : Helpers(helpersFor(pages, workspace, kept))
+    , Cache(pages, workspace, cacheBytes(pages, workspace, kept(this->Helpers), this->Helpers))
+    , Search(pages, this->Cache, workspace, queueBytes(workspace))
   {
   }
 
-  const bool Expands;
+  /** Searches besides this one that are possible at the same time. */
+  const int Helpers;
   PageCache Cache;
   PagedSearch Search;
 
@@ -57,13 +50,25 @@ private:
     return std::clamp<std::size_t>(
       std::size_t(workspace.pool().limit()) / 32, std::size_t(64) << 10, std::size_t(4) << 20);
   }
-  std::int64_t cacheBytes(const VertexPages& pages, Workspace& workspace, std::int64_t kept) const
+  static std::int64_t cacheBytes(
+    const VertexPages& pages, Workspace& workspace, std::int64_t kept, int helpers)
   {
     const std::int64_t rest = workspace.available() - kept -
-                              PagedSearch::memoryFor(pages, queueBytes(workspace)) -
-                              (this->Expands ? ExpandedQueue::bytes(workspace.workers()) : 0) -
+                              (1 + helpers) * PagedSearch::memoryFor(pages, queueBytes(workspace)) -
                               pages.pages() * std::int64_t(sizeof(std::uint32_t)) - 4096;
     return std::min(rest, PageCache::mostBytes(pages));
+  }
+  /** As many as leave room for the adjacency of all pages. */
+  template <class Kept>
+  static int helpersFor(const VertexPages& pages, Workspace& workspace, Kept&& kept)
+  {
+    int helpers = std::min(workspace.workers().threads() - 1, MostSearchHelpers);
+    while (helpers > 0 &&
+           cacheBytes(pages, workspace, kept(helpers), helpers) < pages.allAdjacencyBytes())
+    {
+      --helpers;
+    }
+    return helpers;
   }
 };
 
@@ -75,9 +80,13 @@ public:
     , Space(workspace)
     , Landmarks(landmarksFor(mesh.pages.vertices(), options))
     , Searches(mesh.pages, workspace,
-        std::int64_t(BucketFile::ChunkBytes) +
-          (this->Landmarks > 0 ? searchPlanMemory(mesh, this->Landmarks, searchThreads(workspace))
-                               : 0))
+        [&](int helpers)
+        {
+          const int threads = helpers > 0 ? workspace.workers().threads() : 1;
+          return std::int64_t(BucketFile::ChunkBytes) +
+                 (this->Landmarks > 0 ? searchPlanMemory(mesh, this->Landmarks, threads, helpers)
+                                      : 0);
+        })
     , LeastPlanned(std::max(options.leastPlanned, mesh.pages.vertices() / 200))
   {
   }
@@ -116,7 +125,8 @@ private:
     SearchResult result = search.probe(first);
     if (this->Landmarks > 0 && result.vertices >= this->LeastPlanned)
     {
-      return planSearch(search, this->Mesh, this->Space, this->Landmarks, result.last);
+      return planSearch(
+        search, this->Mesh, this->Space, this->Landmarks, result.last, this->Searches.Helpers);
     }
     if (result.vertices > Tiny)
     {
@@ -165,7 +175,10 @@ OrderedVertices breadthFirstOrder(
 
 std::int64_t countComponents(PagedMesh& mesh, Workspace& workspace)
 {
-  return mesh.pages.vertices() > 0 ? Searching(mesh.pages, workspace, 0).Search.components() : 0;
+  return mesh.pages.vertices() > 0
+           ? Searching(mesh.pages, workspace, [](int) { return std::int64_t(0); })
+               .Search.components()
+           : 0;
 }
 
 } // namespace smg

@@ -39,8 +39,8 @@ public:
     const std::uint32_t at = this->table()[page];
     return this->view(at != None ? this->frame(at) : this->load(page, false));
   }
-  /** The same if the page is loaded: any number of threads may call it, while none uses other
-   * functions. */
+  /** The same if the page is loaded, valid as long as only this function is used: any number of
+   * threads may call it at once. */
   std::optional<PageView> loaded(std::uint32_t page) const
   {
     const std::uint32_t at = this->table()[page];
@@ -49,7 +49,10 @@ public:
       return std::nullopt;
     }
     Frame& frame = this->frame(at);
-    std::atomic_ref(frame.wanted).store(true, std::memory_order_relaxed);
+    if (const std::atomic_ref wanted(frame.wanted); !wanted.load(std::memory_order_relaxed))
+    {
+      wanted.store(true, std::memory_order_relaxed);
+    }
     return this->Pages.view(page, reinterpret_cast<std::byte*>(&frame) + Unit, frame.adjacency);
   }
   /** A page that can be read completely, and whose positions can be modified. */

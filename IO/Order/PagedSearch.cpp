@@ -71,17 +71,14 @@ private:
 } // namespace
 
 PagedSearch::PagedSearch(
-  VertexPages& pages, PageCache& cache, Workspace& workspace, std::size_t queueBytes, bool expands)
+  VertexPages& pages, PageCache& cache, Workspace& workspace, std::size_t queueBytes)
   : Space(workspace)
   , Pages(pages)
   , Cache(cache)
+  , QueueBytes(queueBytes)
   , Queue(workspace, queueBytes)
   , Visited(workspace, pages.vertices())
 {
-  if (expands && workspace.workers().threads() > 1)
-  {
-    this->Expanded.emplace(this->Queue, pages, cache, this->Visited, workspace);
-  }
 }
 
 std::int64_t PagedSearch::memoryFor(const VertexPages& pages, std::size_t queueBytes)
@@ -89,21 +86,20 @@ std::int64_t PagedSearch::memoryFor(const VertexPages& pages, std::size_t queueB
   return std::int64_t(VisitedBits::bytesFor(pages.vertices()) + queueBytes) + (128 << 10);
 }
 
-template <class AnyQueue, class Reach, class Take>
-SearchResult PagedSearch::run(
-  AnyQueue& queue, std::span<const SearchSource> sources, Reach&& reach, Take&& take)
+template <class Reach, class Take>
+SearchResult PagedSearch::run(std::span<const SearchSource> sources, Reach&& reach, Take&& take)
 {
-  assert(std::ranges::is_sorted(sources, {}, &SearchSource::level) && queue.size() == 0);
+  assert(std::ranges::is_sorted(sources, {}, &SearchSource::level) && this->Queue.size() == 0);
   SearchResult result;
   std::size_t nextSource = 0;
   std::uint32_t level = 0;
   std::int64_t leftOfLevel = 0;
   double sumOfQueues = 0;
-  while (nextSource < sources.size() || queue.size() > 0)
+  while (nextSource < sources.size() || this->Queue.size() > 0)
   {
     if (leftOfLevel == 0)
     {
-      if (queue.size() == 0)
+      if (this->Queue.size() == 0)
       {
         level = std::max(level, sources[nextSource].level);
       }
@@ -111,21 +107,21 @@ SearchResult PagedSearch::run(
       {
         reach(sources[nextSource++].rank);
       }
-      leftOfLevel = queue.size();
+      leftOfLevel = this->Queue.size();
       if (leftOfLevel == 0)
       {
         continue;
       }
     }
-    result.last = queue.pop();
+    result.last = this->Queue.pop();
     take(result.last, level);
     ++result.vertices;
     if (++this->Visits % PolledVisits == 0)
     {
       this->Space.poll(); // pages in the cache are not read, which would poll
     }
-    sumOfQueues += static_cast<double>(queue.size());
-    result.peakQueue = std::max(result.peakQueue, queue.size());
+    sumOfQueues += static_cast<double>(this->Queue.size());
+    result.peakQueue = std::max(result.peakQueue, this->Queue.size());
     if (--leftOfLevel == 0)
     {
       result.levels = ++level;
@@ -135,31 +131,9 @@ SearchResult PagedSearch::run(
   return result;
 }
 
-template <class Seen>
-SearchResult PagedSearch::visitExpanded(std::span<const SearchSource> sources, Seen&& seen)
+template <class Look, class Seen>
+SearchResult PagedSearch::visit(std::span<const SearchSource> sources, Look&& look, Seen&& seen)
 {
-  const auto reach = [this](std::uint32_t rank)
-  {
-    if (this->Visited.set(rank))
-    {
-      this->Expanded->push(rank);
-    }
-  };
-  return this->run(*this->Expanded, sources, reach,
-    [&](std::uint32_t rank, std::uint32_t level)
-    {
-      std::ranges::for_each(this->Expanded->candidates(), reach);
-      seen(rank, level);
-    });
-}
-
-template <class Seen>
-SearchResult PagedSearch::visit(std::span<const SearchSource> sources, Seen&& seen)
-{
-  if (this->Expanded)
-  {
-    return this->visitExpanded(sources, seen);
-  }
   const auto reach = [this](std::uint32_t rank)
   {
     if (this->Visited.set(rank))
@@ -169,30 +143,30 @@ SearchResult PagedSearch::visit(std::span<const SearchSource> sources, Seen&& se
   };
   // Vertices of a page come in sequences. Nothing else requests pages, so the view stays valid.
   PageView view(nullptr, 0, 0, 0);
-  return this->run(this->Queue, sources, reach,
+  return this->run(sources, reach,
     [&](std::uint32_t rank, std::uint32_t level)
     {
       if (rank - view.firstRank() >= view.vertices())
       {
-        view = this->Cache.adjacency(this->Pages.pageOf(rank));
+        view = look(this->Pages.pageOf(rank));
       }
       view.neighbours(rank - view.firstRank(), reach);
       seen(rank, level);
     });
 }
 
-SearchResult PagedSearch::probe(
-  std::span<const SearchSource> sources, std::span<std::uint32_t> levels, std::int64_t stride)
+template <class Look>
+SearchResult PagedSearch::probeBy(std::span<const SearchSource> sources,
+  std::span<std::uint32_t> levels, std::int64_t stride, Look&& look)
 {
-  ++this->Probes;
   this->Visited.clear();
   if (levels.empty())
   {
-    return this->visit(sources, [](std::uint32_t, std::uint32_t) {});
+    return this->visit(sources, look, [](std::uint32_t, std::uint32_t) {});
   }
   std::ranges::fill(levels, NoIndex);
   const MultipleOf isSample(stride);
-  return this->visit(sources,
+  return this->visit(sources, look,
     [&](std::uint32_t rank, std::uint32_t level)
     {
       if (isSample(rank))
@@ -202,6 +176,38 @@ SearchResult PagedSearch::probe(
     });
 }
 
+SearchResult PagedSearch::probe(
+  std::span<const SearchSource> sources, std::span<std::uint32_t> levels, std::int64_t stride)
+{
+  ++this->Probes;
+  return this->probeBy(
+    sources, levels, stride, [this](std::uint32_t page) { return this->Cache.adjacency(page); });
+}
+
+std::optional<SearchResult> PagedSearch::probeLoaded(
+  std::span<const SearchSource> sources, std::span<std::uint32_t> levels, std::int64_t stride)
+{
+  struct IsNotLoaded
+  {
+  };
+  try
+  {
+    const SearchResult result = this->probeBy(sources, levels, stride,
+      [this](std::uint32_t page)
+      {
+        const std::optional<PageView> view = this->Cache.loaded(page);
+        return view ? *view : throw IsNotLoaded();
+      });
+    ++this->Probes;
+    return result;
+  }
+  catch (const IsNotLoaded&)
+  {
+    this->Queue.clear();
+    return std::nullopt;
+  }
+}
+
 std::int64_t PagedSearch::components()
 {
   this->Visited.clear();
@@ -209,7 +215,9 @@ std::int64_t PagedSearch::components()
   for (std::int64_t rank = 0; rank < this->Pages.vertices(); ++count)
   {
     const SearchSource source = { 0, static_cast<std::uint32_t>(rank) };
-    this->visit({ &source, 1 }, [](std::uint32_t, std::uint32_t) {});
+    this->visit(
+      { &source, 1 }, [this](std::uint32_t page) { return this->Cache.adjacency(page); },
+      [](std::uint32_t, std::uint32_t) {});
     rank = this->Visited.firstUnset(rank);
   }
   return count;
@@ -227,7 +235,7 @@ SearchResult PagedSearch::placeAs(std::span<const SearchSource> sources, Ordered
 {
   Placing placing(this->Pages, this->Cache, this->Queue, order.count);
   const SearchResult result = this->run(
-    this->Queue, sources, [&](std::uint32_t rank) { placing.placeOf(rank); },
+    sources, [&](std::uint32_t rank) { placing.placeOf(rank); },
     [&](std::uint32_t rank, std::uint32_t)
     {
       const std::uint32_t page = this->Pages.pageOf(rank);

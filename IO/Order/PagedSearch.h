@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "IO/Order/ExpandedQueue.h"
 #include "IO/Order/OrderedVertices.h"
 #include "IO/Order/PageCache.h"
 #include "IO/Order/SearchQueue.h"
@@ -10,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -33,18 +33,20 @@ struct SearchResult
   std::int64_t peakQueue = 0; ///< the span of the resulting order
 };
 
-/** Breadth-first searches over paged vertices. They throw Error, and Cancelled. */
+/** Breadth-first searches over paged vertices, one at a time. They throw Error, and Cancelled. */
 class PagedSearch
 {
 public:
-  /** The cache is for both kinds of search. All arguments must outlive the search.
-   * @param expands whether searches without a trace use several threads, if there are any; these
-   * take ExpandedQueue::bytes() */
-  PagedSearch(VertexPages& pages, PageCache& cache, Workspace& workspace, std::size_t queueBytes,
-    bool expands = true);
+  /** The cache is for both kinds of search. All arguments must outlive the search. */
+  PagedSearch(VertexPages& pages, PageCache& cache, Workspace& workspace, std::size_t queueBytes);
 
   /** Bytes of memory of a search in addition to the cache. */
   static std::int64_t memoryFor(const VertexPages& pages, std::size_t queueBytes);
+  /** Another search in the same cache: see probeLoaded(). */
+  std::unique_ptr<PagedSearch> another() const
+  {
+    return std::make_unique<PagedSearch>(this->Pages, this->Cache, this->Space, this->QueueBytes);
+  }
 
   /**
    * Searches without leaving a trace, from sources in ascending order of levels.
@@ -53,6 +55,10 @@ public:
    */
   SearchResult probe(std::span<const SearchSource> sources, std::span<std::uint32_t> levels = {},
     std::int64_t stride = 1);
+  /** The same while other searches call it on other threads, but nothing else uses the cache; no
+   * result if that lacks a page. */
+  std::optional<SearchResult> probeLoaded(std::span<const SearchSource> sources,
+    std::span<std::uint32_t> levels = {}, std::int64_t stride = 1);
 
   /** Searches the vertices without a position, assigns the next positions and appends them to an
    * order with the precision of the pages. The sources must not have a position yet. */
@@ -66,24 +72,23 @@ public:
 
 private:
   /** reach(rank) appends a source to the queue, take(rank, level) the neighbours of a vertex. */
-  template <class AnyQueue, class Reach, class Take>
-  SearchResult run(
-    AnyQueue& queue, std::span<const SearchSource> sources, Reach&& reach, Take&& take);
+  template <class Reach, class Take>
+  SearchResult run(std::span<const SearchSource> sources, Reach&& reach, Take&& take);
   template <class Real>
   SearchResult placeAs(std::span<const SearchSource> sources, OrderedVertices& order);
-  /** Searches the vertices whose bits are not set. */
-  template <class Seen>
-  SearchResult visit(std::span<const SearchSource> sources, Seen&& seen);
-  /** The same on several threads. */
-  template <class Seen>
-  SearchResult visitExpanded(std::span<const SearchSource> sources, Seen&& seen);
+  /** Searches the vertices whose bits are not set. look(page) returns its view. */
+  template <class Look, class Seen>
+  SearchResult visit(std::span<const SearchSource> sources, Look&& look, Seen&& seen);
+  template <class Look>
+  SearchResult probeBy(std::span<const SearchSource> sources, std::span<std::uint32_t> levels,
+    std::int64_t stride, Look&& look);
 
   Workspace& Space;
   VertexPages& Pages;
   PageCache& Cache;
+  std::size_t QueueBytes;
   SearchQueue Queue;
   VisitedBits Visited;
-  std::optional<ExpandedQueue> Expanded; ///< none: one thread
   std::int64_t Probes = 0;
   std::uint32_t Visits = 0; ///< of vertices, by all searches
 };

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <optional>
 
 namespace smg
@@ -42,29 +43,52 @@ struct Candidate
   double cost() const { return searchCost(this->result.meanQueue, double(this->result.peakQueue)); }
 };
 
+/** A candidate that may be searched while others are, and the levels that it finds. */
+struct Trial
+{
+  std::vector<SearchSource> sources;
+  std::span<std::uint32_t> levels;
+  std::optional<SearchResult> result;
+};
+
 class Planning
 {
 public:
-  Planning(PagedSearch& search, const PagedMesh& mesh, Workspace& workspace, int landmarks)
+  Planning(
+    PagedSearch& search, const PagedMesh& mesh, Workspace& workspace, int landmarks, int helpers)
     : Search(search)
     , Mesh(mesh)
     , Space(workspace)
     , Landmarks(static_cast<std::size_t>(std::max(landmarks, LeastLandmarks)))
-    , LevelMemory(workspace.pool(), sampleCount(mesh) * sizeof(std::uint32_t))
-    , Levels(reinterpret_cast<std::uint32_t*>(this->LevelMemory.data()), sampleCount(mesh))
+    , LevelMemory(workspace.pool(), levelRows(helpers) * sampleCount(mesh) * sizeof(std::uint32_t))
+    , Levels(this->levelRow(0))
     , Samples(workspace)
     , Nearest(workspace)
   {
+    for (int i = 0; i < helpers; ++i)
+    {
+      this->Helpers.push_back(search.another());
+    }
   }
+
+  static std::size_t levelRows(int helpers) { return helpers > 0 ? 1 + MostAxisEnds : 1; }
 
   std::vector<SearchSource> plan(std::uint32_t end)
   {
     this->measure({ { 0, end } });
-    this->measure({ { 0, this->Candidates[0].result.last } });
+    std::vector<Trial> ends;
     if (this->Samples.size() >= LeastSamples)
     {
-      this->measureLandmarks();
-      this->measureAxisEnds();
+      ends = this->axisEndTrials();
+      this->searchTogether(ends);
+    }
+    while (this->measureNext([this](auto&... probed) { return this->Search.probe(probed...); }))
+    {
+    }
+    for (Trial& end : ends)
+    {
+      end.result ? this->add(std::move(end.sources), *end.result, end.levels)
+                 : this->measure(std::move(end.sources));
     }
     Candidate best = *std::ranges::min_element(this->Candidates, {}, &Candidate::cost);
     if (this->Samples.size() >= LeastSamples)
@@ -80,6 +104,12 @@ private:
     return { 0, this->Samples[i] * static_cast<std::uint32_t>(this->Mesh.sampleStride) };
   }
 
+  std::span<std::uint32_t> levelRow(std::size_t row) const
+  {
+    const std::size_t count = sampleCount(this->Mesh);
+    return { reinterpret_cast<std::uint32_t*>(this->LevelMemory.data()) + row * count, count };
+  }
+
   /** Makes a candidate of a set of vertices. */
   void measure(std::vector<SearchSource> sources)
   {
@@ -88,11 +118,17 @@ private:
     {
       this->beginSamples();
     }
+    this->add(std::move(sources), result, this->Levels);
+  }
+
+  void add(std::vector<SearchSource> sources, const SearchResult& result,
+    std::span<const std::uint32_t> levels)
+  {
     this->Candidates.push_back({ std::move(sources), result });
     std::int32_t* distances = this->Distances->add();
     for (std::size_t i = 0; i < this->Samples.size(); ++i)
     {
-      distances[i] = static_cast<std::int32_t>(this->Levels[this->Samples[i]]);
+      distances[i] = static_cast<std::int32_t>(levels[this->Samples[i]]);
       this->Nearest[i] = std::min(this->Nearest[i], distances[i]);
     }
   }
@@ -115,37 +151,92 @@ private:
     this->Distances.emplace(this->Space, this->Samples.size(), this->Landmarks + MostAxisEnds);
   }
 
-  /** Each landmark is the sample farthest from the previous ones. */
-  void measureLandmarks()
+  /** The other end of the first search; then landmarks, each the sample farthest from the previous
+   * ones. Empty: there are enough. */
+  std::vector<SearchSource> nextSources()
   {
-    while (this->Candidates.size() < this->Landmarks)
+    if (this->Candidates.size() == 1)
     {
-      const std::span<const std::int32_t> nearest = this->Nearest.all();
-      const auto farthest = std::ranges::max_element(nearest);
-      if (*farthest < LeastDistance)
-      {
-        return;
-      }
-      this->measure({ this->sample(std::size_t(farthest - nearest.begin())) });
+      return { { 0, this->Candidates[0].result.last } };
     }
+    if (this->Samples.size() < LeastSamples || this->Candidates.size() >= this->Landmarks)
+    {
+      return {};
+    }
+    const std::span<const std::int32_t> nearest = this->Nearest.all();
+    const auto farthest = std::ranges::max_element(nearest);
+    return *farthest < LeastDistance
+             ? std::vector<SearchSource>()
+             : std::vector{ this->sample(std::size_t(farthest - nearest.begin())) };
   }
 
-  void measureAxisEnds()
+  /** Measures from the next sources by `probe`; returns false if there are none, or no result. */
+  template <class Probe>
+  bool measureNext(Probe&& probe)
   {
+    std::vector<SearchSource> sources = this->nextSources();
+    if (sources.empty())
+    {
+      return false;
+    }
+    const std::optional<SearchResult> result =
+      probe(sources, this->Levels, this->Mesh.sampleStride);
+    if (result)
+    {
+      this->add(std::move(sources), *result, this->Levels);
+    }
+    return result.has_value();
+  }
+
+  std::vector<Trial> axisEndTrials() const
+  {
+    std::vector<Trial> trials;
     if (this->Samples.size() < LeastSamplesForAxes ||
         this->Mesh.samples.size() < 3 * this->Levels.size())
     {
-      return;
+      return trials;
     }
     for (const std::vector<std::uint32_t>& end : axisEnds(this->Mesh.samples, this->Samples.all()))
     {
-      std::vector<SearchSource> sources;
+      Trial& trial = trials.emplace_back();
       for (const std::uint32_t sample : end)
       {
-        sources.push_back({ 0, sample * static_cast<std::uint32_t>(this->Mesh.sampleStride) });
+        trial.sources.push_back(
+          { 0, sample * static_cast<std::uint32_t>(this->Mesh.sampleStride) });
       }
-      this->measure(std::move(sources));
+      trial.levels = this->Helpers.empty() ? this->Levels : this->levelRow(trials.size());
     }
+    return trials;
+  }
+
+  /** Helpers search from the axis ends while the landmarks, each of which depends on the previous
+   * ones, are searched. Without helpers, or if the cache lacks a page, something is left over. */
+  void searchTogether(std::vector<Trial>& ends)
+  {
+    const auto helpers = static_cast<int>(std::min(this->Helpers.size(), ends.size()));
+    if (helpers == 0)
+    {
+      return;
+    }
+    runAll(this->Space.workers(), 1 + helpers,
+      [&](int task)
+      {
+        if (task == 0)
+        {
+          while (this->measureNext(
+            [this](auto&... probed) { return this->Search.probeLoaded(probed...); }))
+          {
+          }
+          return;
+        }
+        PagedSearch& helper = *this->Helpers[static_cast<std::size_t>(task) - 1];
+        for (auto i = static_cast<std::size_t>(task) - 1; i < ends.size();
+             i += static_cast<std::size_t>(helpers))
+        {
+          ends[i].result =
+            helper.probeLoaded(ends[i].sources, ends[i].levels, this->Mesh.sampleStride);
+        }
+      });
   }
 
   /** Tests the predicted cost of a plan, since samples are incomplete. */
@@ -153,14 +244,49 @@ private:
   {
     const std::vector<SourcePlan> plans =
       planSources(*this->Distances, best.result.vertices, this->Space);
-    for (std::size_t i = 0; i < std::min(plans.size(), MostTrials); ++i)
+    const auto isPromising = [&best](const SourcePlan& plan)
+    { return plan.sources.size() > 1 && plan.cost < best.cost(); };
+    std::vector<Trial> trials(std::min(plans.size(), MostTrials));
+    for (std::size_t i = 0; i < trials.size(); ++i)
     {
-      if (plans[i].sources.size() > 1 && plans[i].cost < best.cost())
+      if (!isPromising(plans[i]))
       {
-        Candidate planned{ this->sourcesOf(plans[i]), {} };
-        planned.result = this->Search.probe(planned.sources);
-        best = planned.cost() < best.cost() ? planned : best;
+        continue;
       }
+      if (!trials[i].result)
+      {
+        std::vector<Trial*> next; // which are tested at the same time
+        for (std::size_t k = i; k < trials.size() && next.size() <= this->Helpers.size(); ++k)
+        {
+          if (isPromising(plans[k]))
+          {
+            trials[k].sources = this->sourcesOf(plans[k]);
+            next.push_back(&trials[k]);
+          }
+        }
+        this->probeTogether(next);
+      }
+      const Candidate planned{ trials[i].sources, *trials[i].result };
+      best = planned.cost() < best.cost() ? planned : best;
+    }
+  }
+
+  /** Probes from at most one set of sources for each search; the first one gets its result. */
+  void probeTogether(const std::vector<Trial*>& trials)
+  {
+    if (trials.size() > 1)
+    {
+      runAll(this->Space.workers(), static_cast<int>(trials.size()),
+        [&](int task)
+        {
+          const auto i = static_cast<std::size_t>(task);
+          PagedSearch& search = i == 0 ? this->Search : *this->Helpers[i - 1];
+          trials[i]->result = search.probeLoaded(trials[i]->sources);
+        });
+    }
+    if (!trials.front()->result)
+    {
+      trials.front()->result = this->Search.probe(trials.front()->sources);
     }
   }
 
@@ -188,22 +314,24 @@ private:
   GrowingArray<std::int32_t> Nearest;    ///< distance of each to the nearest candidate
   std::vector<Candidate> Candidates;
   std::optional<SourceDistances> Distances;
+  std::vector<std::unique_ptr<PagedSearch>> Helpers;
 };
 
 } // namespace
 
-std::int64_t searchPlanMemory(const PagedMesh& mesh, int landmarks, int threads)
+std::int64_t searchPlanMemory(const PagedMesh& mesh, int landmarks, int threads, int helpers)
 {
   // Rows of numbers: levels, samples, nearest (which grow), distances.
-  const std::int64_t rows = 1 + 2 * 3 + std::max(landmarks, LeastLandmarks) + MostAxisEnds;
+  const std::int64_t rows = std::int64_t(Planning::levelRows(helpers)) + 2 * 3 +
+                            std::max(landmarks, LeastLandmarks) + MostAxisEnds;
   return rows * std::int64_t(sampleCount(mesh) * sizeof(std::uint32_t)) +
          sourcePlanMemory(sampleCount(mesh), threads) + 4096;
 }
 
 std::vector<SearchSource> planSearch(PagedSearch& search, const PagedMesh& mesh,
-  Workspace& workspace, int landmarks, std::uint32_t end)
+  Workspace& workspace, int landmarks, std::uint32_t end, int helpers)
 {
-  return Planning(search, mesh, workspace, landmarks).plan(end);
+  return Planning(search, mesh, workspace, landmarks, helpers).plan(end);
 }
 
 } // namespace smg

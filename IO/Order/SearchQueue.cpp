@@ -57,4 +57,11 @@ void SearchQueue::refill()
   }
 }
 
+void SearchQueue::clear()
+{
+  this->FrontBegin = this->FrontEnd = this->BackEnd = 0;
+  this->Size = this->FileBegin = 0;
+  this->File.restart();
+}
+
 } // namespace smg

@@ -42,6 +42,8 @@ public:
     return reinterpret_cast<const std::uint32_t*>(this->Front.data())[this->FrontBegin++];
   }
 
+  void clear();
+
 private:
   void spill();
   void refill();

@@ -5,7 +5,6 @@
 #include "IO/Order/GrowingArray.h"
 #include "Solver/Storage/Buffer.h"
 
-#include <atomic>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -42,17 +41,8 @@ public:
     {
       this->remember(rank / 64);
     }
-    // Other threads may call has() at the same time.
-    std::atomic_ref(word).store(word | bit, std::memory_order_relaxed);
+    word |= bit;
     return true;
-  }
-
-  /** Whether a bit is set: on any thread, which may not yet see the last calls of set(). */
-  bool has(std::uint32_t rank) const
-  {
-    const std::uint64_t word =
-      std::atomic_ref(this->words()[rank / 64]).load(std::memory_order_relaxed);
-    return (word >> (rank % 64) & 1) != 0;
   }
 
   void clear()
