@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -23,6 +24,10 @@ namespace smg
  * Sequences of bytes in one unnamed scratch file: bytes are appended to any of a number of buckets,
  * and each bucket is read sequentially, any number of times. Only the last chunk of a bucket is in
  * memory; no file is created until a chunk is full.
+ *
+ * With several threads, the owner of the workspace's threads does not wait for the disk and for
+ * checksums: while it fills a chunk, the one before is written on another thread, and readers fetch
+ * what comes next. These have a part of the same memory for that.
  */
 class SMG_EXPORT BucketFile
 {
@@ -34,8 +39,9 @@ public:
   /** The workspace must outlive the file. The chunks use at most `memory` bytes. */
   explicit BucketFile(
     Workspace& workspace, int buckets = 1, std::int64_t memory = std::int64_t(ChunkBytes));
-  BucketFile(BucketFile&&) noexcept = default;
-  BucketFile& operator=(BucketFile&&) noexcept = default;
+  ~BucketFile();
+  BucketFile(BucketFile&&) noexcept;
+  BucketFile& operator=(BucketFile&&) noexcept;
 
   int buckets() const { return static_cast<int>(this->Rows.size()); }
   std::int64_t bytes(int bucket = 0) const { return this->Rows[std::size_t(bucket)].bytes; }
@@ -72,11 +78,25 @@ public:
    * checksum. */
   void load(StateReader& state, const std::filesystem::path& path);
 
+private:
+  /** Of the next byte to read. */
+  struct Position
+  {
+    int bucket;
+    std::int64_t offset = 0; ///< in the bucket
+    std::size_t run = 0;
+    std::int64_t runOffset = 0;
+  };
+
+public:
   /** Reads a bucket sequentially. The file must outlive the reader and not be appended to. */
   class Reader
   {
   public:
     explicit Reader(const BucketFile& file, int bucket = 0, std::size_t bufferBytes = ChunkBytes);
+    ~Reader();
+    Reader(Reader&&) noexcept;
+    Reader& operator=(Reader&&) noexcept;
 
     /** The next bytes, at most `most`, a multiple of `unit`, like the size of the bucket; empty at
      * the end. */
@@ -96,15 +116,17 @@ public:
     }
 
   private:
+    class Ahead;
+
     bool refill();
+    void stopAhead();
 
     const BucketFile* File;
-    int Bucket;
+    Position From;
     Buffer Bytes;
     std::size_t At = 0, End = 0;
-    std::int64_t Offset = 0; ///< in the bucket, of the data after the buffer
-    std::size_t NextRun = 0;
-    std::int64_t RunOffset = 0;
+    std::size_t AheadBytes = 0;     ///< that are fetched ahead from the first refill() on
+    std::unique_ptr<Ahead> Fetched; ///< none: nothing is fetched ahead
   };
 
 private:
@@ -122,13 +144,19 @@ private:
     std::vector<Run> runs;
   };
 
+  class Output;
+
   void appendSlowly(Row& row, std::span<const std::byte> bytes);
   void flush(Row& row);
+  /** Fills `bytes` from a position, except for a part of a grain, and moves that; returns the
+   * number of bytes, 0 at the end. On any thread. */
+  std::size_t fill(Position& from, std::span<std::byte> bytes) const;
 
   Workspace* Space;
   std::size_t Chunk;
   std::vector<Row> Rows;
-  CheckedFile File;
+  std::int64_t End = 0; ///< of the file, with the chunk that is being written
+  std::unique_ptr<Output> Out;
 };
 
 /** A file of one sequence of records. */

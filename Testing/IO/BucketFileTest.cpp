@@ -55,17 +55,58 @@ TEST(BucketFile, BucketsKeepTheirBytesInOrder)
 
 TEST(BucketFile, OnlyChunksAreInMemory)
 {
-  const TemporaryFolder folder;
-  Workspace workspace(folder.path(), Workspace::LeastMemory);
-  BucketFile file(workspace, 16, 1 << 18);
-  const std::vector<std::byte> bytes(100000);
-  for (int i = 0; i < 1000; ++i)
+  for (const int threads : { 1, 4 })
   {
-    file.append(i % 16, bytes);
+    const TemporaryFolder folder;
+    Workspace workspace(folder.path(), Workspace::LeastMemory, {}, 0, threads);
+    BucketFile file(workspace, 16, 1 << 18);
+    const std::vector<std::byte> bytes(100000);
+    for (int i = 0; i < 1000; ++i)
+    {
+      file.append(i % 16, bytes);
+    }
+    EXPECT_LE(workspace.pool().peak(), 1 << 18);
+    file.close();
+    EXPECT_EQ(workspace.pool().used(), 0);
   }
-  EXPECT_LE(workspace.pool().peak(), 1 << 18);
-  file.close();
-  EXPECT_EQ(workspace.pool().used(), 0);
+}
+
+/** Units of any length, also those that the buffer holds only if nothing is fetched ahead. */
+TEST(BucketFile, WhatIsFetchedAheadIsTheSame)
+{
+  for (const int threads : { 1, 2, 8 })
+  {
+    const TemporaryFolder folder;
+    Workspace workspace(folder.path(), Workspace::LeastMemory, {}, 0, threads);
+    BucketFile file(workspace, 2);
+    constexpr std::uint32_t Count = 1u << 20;
+    for (std::uint32_t i = 0; i < Count; ++i)
+    {
+      file.put(0, i);
+      file.put(1, ~i);
+    }
+    for (const std::size_t unit : { 4, 12, 100'000, 200'000 })
+    {
+      const std::int64_t before = workspace.pool().used();
+      BucketFile::Reader reader(file), other(file, 1);
+      EXPECT_LE(workspace.pool().used() - before, 2 * std::int64_t(BucketFile::ChunkBytes));
+      std::uint32_t next = 0, second = 0;
+      for (std::size_t bytes = unit; next < Count; bytes = bytes == unit ? 4 : unit)
+      {
+        const std::size_t size = std::min(bytes, std::size_t(Count - next) * 4);
+        for (auto part = reader.next(size, size); !part.empty(); part = part.subspan(4), ++next)
+        {
+          ASSERT_EQ(std::memcmp(part.data(), &next, 4), 0) << next << ", " << threads;
+          ASSERT_TRUE(other.get(second));
+          ASSERT_EQ(second, ~next);
+        }
+      }
+      EXPECT_TRUE(reader.next(4).empty());
+      EXPECT_FALSE(other.get(second));
+    }
+    BucketFile::Reader abandoned(file);
+    EXPECT_FALSE(abandoned.next(4).empty());
+  }
 }
 
 TEST(BucketFile, LittleDataNeedsNoFile)
