@@ -16,12 +16,6 @@ namespace smg
  * the rest follows from any of them. */
 using CoarseIndex = std::uint32_t;
 
-/** The distance of a coarse index from `near`, whose full index is known. */
-inline std::int32_t offset(CoarseIndex index, std::int64_t near)
-{
-  return static_cast<std::int32_t>(index - static_cast<CoarseIndex>(near));
-}
-
 /**
  * Fewer coarse nodes than this may be alive at once: most entries store 24 bits of their indices.
  */

@@ -128,8 +128,9 @@ private:
   std::uint32_t Mark = 0;
 };
 
-/** The data of the step from a level (fine) to the next one (coarse) in memory, as windows. They
- * are filled by the stages of the operator set, which Coarsening calls. */
+/** The data of the step from a level (fine) to the next one (coarse) in memory, as windows that
+ * begin with the first rows of these. They are filled by the stages of the operator set, which
+ * Coarsening calls. */
 struct CoarseningData
 {
   CoarseningData(Pool& pool, LevelRows& fineRows, LevelRows& coarseRows, StiffRows stiffRows = {})
@@ -143,11 +144,11 @@ struct CoarseningData
     , relaxed(pool)
     , interpolation(pool)
     , rowQuanta(pool)
-    , parentReach(pool, -1)
-    , settledReach(pool, -1)
+    , parentReach(pool, coarseRows.first() - 1)
+    , settledReach(pool, fineRows.first() - 1)
     , product(pool)
     , productSum(pool)
-    , liftedFrom(pool, -1)
+    , liftedFrom(pool, fineRows.first() - 1)
     , firstChild(pool)
     , lastChild(pool)
     , raw(pool)
@@ -162,7 +163,10 @@ struct CoarseningData
     , slots(pool)
     , productSlots(pool)
     , gatherSlots(pool)
+    , knownCoarse(coarseRows.first())
+    , coarseNodes(coarseRows.first())
   {
+    this->begin(fineRows.first(), coarseRows.first());
   }
 
   LevelRows& fine;
@@ -170,9 +174,14 @@ struct CoarseningData
   StiffRows stiff; ///< of the coarse level
 
   // By fine node.
-  /** Its coarse node by the low 32 bits, or Retained. */
+  /** Its coarse node as by liftedTo(), or Retained. */
   Ring<CoarseIndex> lifted;
   static constexpr CoarseIndex Retained = ~CoarseIndex(0);
+  /** The low 31 bits, which are never Retained: entries store fewer. */
+  static CoarseIndex liftedTo(std::int64_t coarse)
+  {
+    return static_cast<CoarseIndex>(coarse & INT32_MAX);
+  }
   Patches patches;
   RaggedRing<CoarseEntry> initial;
   Ring<float> initialSum; ///< of the row of `initial`
@@ -207,7 +216,7 @@ struct CoarseningData
   /** Scratch of the stages for coarse nodes, which may run on three threads: those up to
    * interpolate(), multiply(), and those from gather() on. */
   SlotRing slots, productSlots, gatherSlots;
-  /** The number of coarse nodes that the stages from multiply() on know. */
+  /** The end of the coarse nodes that the stages from multiply() on know. */
   std::int64_t knownCoarse = 0;
 
   /** Room in addition to the rows of `raw` below `end`. */
@@ -244,7 +253,30 @@ struct CoarseningData
     return this->interpolation.row(link.row(near))[link.slot()];
   }
 
-  std::int64_t coarseNodes = 0;
+  std::int64_t coarseNodes = 0; ///< the next coarse node
+
+private:
+  /** Sets the next fine and coarse nodes. */
+  void begin(std::int64_t i, std::int64_t c)
+  {
+    this->lifted.release(i);
+    this->patches.release(i);
+    this->initial.release(i);
+    this->initialSum.release(i);
+    this->relaxed.release(i);
+    this->interpolation.release(i);
+    this->rowQuanta.release(i);
+    this->parentReach.release(i);
+    this->settledReach.release(i);
+    this->product.release(i);
+    this->productSum.release(i);
+    this->liftedFrom.release(c);
+    this->firstChild.release(c);
+    this->lastChild.release(c);
+    this->releaseRaw(c);
+    this->slots.release(c);
+    this->productSlots.release(c);
+  }
 };
 
 } // namespace smg

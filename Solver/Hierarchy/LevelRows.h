@@ -67,7 +67,9 @@ public:
   {
   }
 
-  /** Rows appended so far; all of them are final. */
+  /** The first row in memory. */
+  std::int64_t first() const { return this->Entries.first(); }
+  /** The end of the rows appended so far; all of them are final. */
   std::int64_t end() const { return this->Entries.end(); }
   /** Whether no row follows. */
   bool Ended = false;
@@ -140,12 +142,12 @@ public:
     return i;
   }
 
-  /** Releases rows below `row`, and reach() below `reach`. */
+  /** Releases rows below `row`, and reach() below `reach`; if both are beyond the end, `row` is the
+   * next row. */
   void release(std::int64_t row, std::int64_t reach)
   {
     this->Entries.release(row);
-    this->Released = row;
-    this->Precise.release(std::min(row, this->Precise.end()));
+    this->Precise.release(row);
     this->Alpha.release(row);
     this->Strongest.release(row);
     this->ChildReach.release(row);
@@ -197,7 +199,6 @@ private:
     {
       this->Precise.open(0);
       this->Precise.close(0);
-      this->Precise.release(std::min(this->Released, this->Precise.end()));
     }
     std::ranges::copy(precise, this->Precise.open(static_cast<std::int64_t>(precise.size())));
     this->Precise.close(static_cast<std::int64_t>(precise.size()));
@@ -208,7 +209,7 @@ private:
   Ring<double> Alpha;
   Ring<StrongestWeight> Strongest;
   MonotoneRing Reach, ChildReach;
-  std::int64_t Nonzeros = 0, Released = 0;
+  std::int64_t Nonzeros = 0;
 };
 
 } // namespace smg

@@ -47,15 +47,16 @@ void Patches::join(const LevelRows& rows, std::int64_t j, std::int64_t i)
 {
   if (this->Number[i] == Alone)
   {
-    const std::int64_t place = this->Of.end();
-    this->Of.extend(place + 1);
-    Patch& patch = this->Of[place];
+    std::int64_t number = this->Of.end();
+    number += static_cast<std::uint32_t>(number) == Alone ? 1 : 0;
+    this->Of.extend(number + 1); // a patch that is left out has no members
+    Patch& patch = this->Of[number];
     patch.first = i;
     append(rows, patch, i, rows.diagonal(i));
-    this->Number[i] = static_cast<std::uint32_t>(place + 1);
+    this->Number[i] = static_cast<std::uint32_t>(number);
   }
   this->Number[j] = this->Number[i];
-  append(rows, this->Of[this->Number[i] - 1], j, rows.diagonal(j));
+  append(rows, this->patch(this->Number[i]), j, rows.diagonal(j));
 }
 
 void Patches::append(const LevelRows& rows, Patch& patch, std::int64_t j, double diagonal)
@@ -82,9 +83,14 @@ void Patches::append(const LevelRows& rows, Patch& patch, std::int64_t j, double
 
 void Patches::release(std::int64_t node)
 {
+  if (node > this->Number.end())
+  {
+    this->Of.release(node); // there are at least as many nodes as patches
+  }
   this->Number.release(node);
   this->Diagonals.release(node);
-  while (this->Of.first() < this->Of.end() && this->Of[this->Of.first()].last() < node)
+  const auto isDone = [node](const Patch& patch) { return patch.size == 0 || patch.last() < node; };
+  while (this->Of.first() < this->Of.end() && isDone(this->Of[this->Of.first()]))
   {
     this->Of.release(this->Of.first() + 1);
   }

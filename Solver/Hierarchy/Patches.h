@@ -56,15 +56,15 @@ public:
     this->Number.reserve(this->Number.end() - this->Number.first() + nodes);
     this->Diagonals.reserve(this->Diagonals.end() - this->Diagonals.first() + nodes);
     this->Room = this->Of.end() + MorePatches;
-    this->Of.reserve(this->Room - this->Of.first());
+    this->Of.reserve(this->Room + 1 - this->Of.first()); // a number may be left out
   }
-  bool isFull() const { return this->Of.end() == this->Room; }
+  bool isFull() const { return this->Room >= 0 && this->Of.end() >= this->Room; }
 
   /** The patch of node i, or null; complete after all nodes that its first row reaches. */
   const Patch* of(std::int64_t i) const
   {
     const std::uint32_t number = this->Number[i];
-    return number == Alone ? nullptr : this->Of.at(number - 1);
+    return number == Alone ? nullptr : &this->patch(number);
   }
   /** The last node of the patch of node i, or i. */
   std::int64_t last(std::int64_t i) const
@@ -75,20 +75,27 @@ public:
   /** The diagonal of row i. */
   float diagonal(std::int64_t i) const { return this->Diagonals[i]; }
 
-  /** Releases the nodes below `node` and the patches that end there. */
+  /** Releases the nodes below `node` and the patches that end there; if `node` is beyond the end,
+   * it is the next node. */
   void release(std::int64_t node);
 
 private:
   static constexpr std::uint32_t Alone = 0;
   static constexpr std::int64_t MorePatches = 256;
 
+  /** The patch of a number, given that less than 2^32 patches are in memory. */
+  Patch& patch(std::uint32_t number) const
+  {
+    const std::int64_t first = this->Of.first();
+    return this->Of[first + (number - static_cast<std::uint32_t>(first))];
+  }
   void join(const LevelRows& rows, std::int64_t j, std::int64_t i);
   static void append(const LevelRows& rows, Patch& patch, std::int64_t j, double diagonal);
 
-  Ring<std::uint32_t> Number; // by node: of its patch, from 1, or Alone
-  Ring<Patch> Of;
-  Ring<float> Diagonals;  // by node
-  std::int64_t Room = -1; // end of the patches for which there is room; -1: not known
+  Ring<std::uint32_t> Number; // by node: low 32 bits of the number of its patch, or Alone
+  Ring<Patch> Of;             // by number; none whose low 32 bits are Alone
+  Ring<float> Diagonals;      // by node
+  std::int64_t Room = -1;     // end of the patches for which there is room; -1: not known
 };
 
 } // namespace smg

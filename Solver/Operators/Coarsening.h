@@ -17,7 +17,8 @@ namespace smg
 /**
  * Builds a level from the next finer one, as far as the rows of that exist. Every stage has a
  * cursor, the next node to process; it may process a node when the stages it depends on have passed
- * the largest index that the node needs. Data that no stage needs any more are released.
+ * the largest index that the node needs. Data that no stage needs any more are released. Nodes are
+ * numbered from the first rows of the two levels on.
  */
 template <OperatorSet Operators>
 class Coarsening
@@ -30,6 +31,7 @@ public:
     , Data(pool, fine, coarse, stiff)
     , Relaxed(static_cast<std::size_t>(this->Set.interpolationSweeps()))
   {
+    this->start(fine.first(), coarse.first());
   }
 
   const CoarseningData& data() const { return this->Data; }
@@ -150,6 +152,17 @@ public:
   }
 
 private:
+  /** Sets the cursors to the first nodes of the two levels. */
+  void start(std::int64_t fine, std::int64_t coarse)
+  {
+    this->Rows = this->Lifted = this->Initial = fine;
+    std::ranges::fill(this->Relaxed, Sweep{ fine, fine });
+    this->Interpolated = this->Seen = this->Multiplied = fine;
+    this->Gathered = this->Finished = coarse;
+    this->Packed = fine;
+    this->RelaxedDone = this->ReachDone = this->PatchesDone = this->ProductDone = fine;
+  }
+
   /** Lets the stages read the existing rows below `rows`. */
   void begin(std::int64_t rows)
   {
@@ -220,7 +233,7 @@ private:
     {
       d.patches.add(d.fine);
       const bool lifted = this->Set.lift(d, i);
-      d.lifted[i] = lifted ? static_cast<CoarseIndex>(d.coarseNodes) : CoarseningData::Retained;
+      d.lifted[i] = lifted ? CoarseningData::liftedTo(d.coarseNodes) : CoarseningData::Retained;
       if (lifted)
       {
         d.liftedFrom.append(i);

@@ -10,8 +10,9 @@ namespace smg
 
 /**
  * A window of a non-decreasing sequence of 64-bit indices, stored by their low 32 bits: all values
- * in memory are within 2^31 of the last one at the last call of release(), which determines the
- * high bits. So a thread may append while others read earlier values, if there is room.
+ * in memory are within 2^31 of the last one at the last call of release(), or of the first one
+ * after it if none was left, which determines the high bits. So a thread may append while others
+ * read earlier values, if there is room.
  */
 class MonotoneRing
 {
@@ -37,14 +38,19 @@ public:
   void append(std::int64_t value)
   {
     const std::int64_t i = this->end();
-    this->Low.extendRaw(i + 1);
     this->Last = std::max(this->Last, value);
+    if (i == this->Low.first())
+    {
+      this->Near = this->Last;
+    }
+    this->Low.extendRaw(i + 1);
     this->Low[i] = static_cast<std::uint32_t>(this->Last);
   }
 
   /** Provides room for so many more values. */
   void reserve(std::int64_t more) { this->Low.reserve(this->end() - this->Low.first() + more); }
 
+  /** Releases the values below `first`; if that is beyond the end, it is the next one. */
   void release(std::int64_t first)
   {
     this->Low.release(first);

@@ -30,7 +30,7 @@ public:
 
   /** The first row in memory. */
   std::int64_t first() const { return this->Ends.first(); }
-  /** The number of appended rows. */
+  /** The row to be appended next. */
   std::int64_t end() const { return this->Ends.end() - 1; }
   std::int64_t size(std::int64_t row) const { return this->Ends.at(row)[1] - this->start(row); }
   T* row(std::int64_t row) const { return this->data() + this->start(row); }
@@ -101,8 +101,18 @@ public:
     return size <= this->Room || this->fits(size);
   }
 
-  /** Releases the rows below `row`. */
-  void release(std::int64_t row) { this->Ends.release(row); }
+  /** Releases the rows below `row`; if that is beyond the end, it is the next row. */
+  void release(std::int64_t row)
+  {
+    const bool isBeyond = row > this->end();
+    this->Ends.release(row);
+    if (isBeyond)
+    {
+      this->Ends.restart(row);
+      this->Ends.extend(row + 1);
+      this->Tail = this->Room = 0;
+    }
+  }
 
 private:
   T* data() const { return reinterpret_cast<T*>(this->Memory.data()); }

@@ -69,9 +69,14 @@ public:
     }
   }
 
-  /** Releases the items below `first`. */
+  /** Releases the items below `first`; if that is beyond the end, it is the next item. */
   void release(std::int64_t first)
   {
+    if (first > this->End)
+    {
+      this->restart(first);
+      return;
+    }
     this->First = std::max(this->First, first);
     while (this->First - this->Lap >= this->Capacity && this->Capacity > 0)
     {

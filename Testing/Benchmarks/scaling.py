@@ -5,7 +5,7 @@ Refines each mesh repeatedly (a triangle becomes four, a tetrahedron eight) up t
 vertices and cells in random order; converts it out of core, and solves it streaming with one thread
 and with two, and with the other solvers up to --peers-to vertices. BIN is the folder of the
 programs; the output is OUT/scaling.json, .md and .svg, and OUT keeps the streams. The refinement
-holds the finest mesh in memory, 60 bytes per triangle; the solver does not.
+holds the finest tetrahedra in memory; neither that of triangles nor the solver does so.
 """
 import argparse
 import json
