@@ -183,8 +183,7 @@ void RawMeshBuilder::endElement(std::int64_t cells)
     this->noteElements(cells);
   }
   ++this->Mesh.elementCount;
-  if (this->Mesh.cells >= std::int64_t(NoIndex) - 1 ||
-      this->Mesh.elementCount >= std::int64_t(NoIndex) - 1)
+  if (std::max(this->Mesh.cells, this->Mesh.elementCount) > std::int64_t(NoIndex) - 1)
   {
     throw MeshError("the mesh has more than 4294967294 cells, which are too many");
   }
