@@ -276,6 +276,7 @@ private:
     this->releaseRaw(c);
     this->slots.release(c);
     this->productSlots.release(c);
+    this->gatherSlots.release(c);
   }
 };
 

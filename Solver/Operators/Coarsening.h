@@ -75,8 +75,9 @@ public:
   /** The coarse rows that so many rows become, or a few more. */
   std::int64_t coarseShare(std::int64_t rows) const
   {
+    const std::int64_t lifted = this->Lifted - this->Begin;
     const std::int64_t share =
-      this->Lifted > 0 ? rows * this->Data.coarseNodes / this->Lifted : rows;
+      lifted > 0 ? rows * (this->Data.coarseNodes - this->CoarseBegin) / lifted : rows;
     return std::min(rows, share + share / 16 + 16);
   }
   /** The rows that no stage has processed. */
@@ -157,7 +158,9 @@ private:
   {
     this->Rows = this->Lifted = this->Initial = fine;
     std::ranges::fill(this->Relaxed, Sweep{ fine, fine });
-    this->Interpolated = this->Seen = this->Multiplied = fine;
+    this->Interpolated = this->Seen = this->Multiplied = this->SeenProducts = fine;
+    this->Begin = fine;
+    this->CoarseBegin = coarse;
     this->Gathered = this->Finished = coarse;
     this->Packed = fine;
     this->RelaxedDone = this->ReachDone = this->PatchesDone = this->ProductDone = fine;
@@ -210,8 +213,8 @@ private:
     const std::int64_t rows = std::min(this->Rows - this->Multiplied, this->MostNodes);
     if (rows > 0)
     {
-      const std::int64_t usual =
-        this->Multiplied > 0 ? rows * this->ProductEntries / this->Multiplied : 8 * rows;
+      const std::int64_t before = this->Multiplied - this->Begin;
+      const std::int64_t usual = before > 0 ? rows * this->ProductEntries / before : 8 * rows;
       d.product.reserve(rows, usual + usual / 8 + this->mostProducts(this->Multiplied));
       d.productSum.reserve(this->Rows - d.productSum.first());
     }
@@ -392,6 +395,7 @@ private:
   std::int64_t MostNodes = Unlimited, MostCoarse = Unlimited;
   bool Apart = false; // whether several threads advance the stages
 
+  std::int64_t Begin = 0, CoarseBegin = 0; // the first nodes
   std::int64_t Rows = 0;                // of the fine level, that stages may read
   std::int64_t Lifted = 0, Initial = 0; // by fine node
   std::vector<Sweep> Relaxed;
