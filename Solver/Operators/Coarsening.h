@@ -29,9 +29,11 @@ public:
     Pool& pool, Operators operators, LevelRows& fine, LevelRows& coarse, StiffRows stiff = {})
     : Set(std::move(operators))
     , Data(pool, fine, coarse, stiff)
-    , Relaxed(static_cast<std::size_t>(this->Set.interpolationSweeps()))
+    , Begin(fine.first())
+    , CoarseBegin(coarse.first())
+    , Relaxed(
+        static_cast<std::size_t>(this->Set.interpolationSweeps()), { this->Begin, this->Begin })
   {
-    this->start(fine.first(), coarse.first());
   }
 
   const CoarseningData& data() const { return this->Data; }
@@ -153,19 +155,6 @@ public:
   }
 
 private:
-  /** Sets the cursors to the first nodes of the two levels. */
-  void start(std::int64_t fine, std::int64_t coarse)
-  {
-    this->Rows = this->Lifted = this->Initial = fine;
-    std::ranges::fill(this->Relaxed, Sweep{ fine, fine });
-    this->Interpolated = this->Seen = this->Multiplied = this->SeenProducts = fine;
-    this->Begin = fine;
-    this->CoarseBegin = coarse;
-    this->Gathered = this->Finished = coarse;
-    this->Packed = fine;
-    this->RelaxedDone = this->ReachDone = this->PatchesDone = this->ProductDone = fine;
-  }
-
   /** Lets the stages read the existing rows below `rows`. */
   void begin(std::int64_t rows)
   {
@@ -387,7 +376,7 @@ private:
   /** A sweep over the rows of P: the next row, and up to where all have been relaxed. */
   struct Sweep
   {
-    std::int64_t next = 0, settled = 0;
+    std::int64_t next, settled;
   };
 
   // Of a step.
@@ -395,15 +384,15 @@ private:
   std::int64_t MostNodes = Unlimited, MostCoarse = Unlimited;
   bool Apart = false; // whether several threads advance the stages
 
-  std::int64_t Begin = 0, CoarseBegin = 0; // the first nodes
-  std::int64_t Rows = 0;                // of the fine level, that stages may read
-  std::int64_t Lifted = 0, Initial = 0; // by fine node
+  const std::int64_t Begin, CoarseBegin;        // the first nodes
+  std::int64_t Rows = Begin;                    // of the fine level, that stages may read
+  std::int64_t Lifted = Begin, Initial = Begin; // by fine node
   std::vector<Sweep> Relaxed;
-  std::int64_t Interpolated = 0, Seen = 0, Multiplied = 0, SeenProducts = 0;
-  std::int64_t ProductEntries = 0;         // of the rows of A P so far
-  std::int64_t Gathered = 0, Finished = 0; // by coarse node
-  std::int64_t Packed = 0;
-  std::int64_t RelaxedDone = 0, ReachDone = 0, PatchesDone = 0, ProductDone = 0;
+  std::int64_t Interpolated = Begin, Seen = Begin, Multiplied = Begin, SeenProducts = Begin;
+  std::int64_t ProductEntries = 0;                             // of the rows of A P so far
+  std::int64_t Gathered = CoarseBegin, Finished = CoarseBegin; // by coarse node
+  std::int64_t Packed = Begin;
+  std::int64_t RelaxedDone = Begin, ReachDone = Begin, PatchesDone = Begin, ProductDone = Begin;
 };
 
 } // namespace smg
