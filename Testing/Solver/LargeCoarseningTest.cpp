@@ -69,7 +69,7 @@ void keepRows(const LevelRows& coarse, const FirstNodes& first, Made& made)
   }
 }
 
-/** Coarsens a level whose rows come in batches; `apart`: as on two threads. */
+/** Coarsens a level whose rows come in batches; `apart`: as on several threads. */
 Made coarsenFrom(const FirstNodes& first, const TestLevel& level, const Extended& operators,
   std::int64_t batch, bool apart)
 {
@@ -90,7 +90,8 @@ Made coarsenFrom(const FirstNodes& first, const TestLevel& level, const Extended
     begin = end;
     if (apart)
     {
-      step.beginApart();
+      step.beginApart(batch);
+      step.advanceCoarseRows();
       step.advanceInterpolation();
       step.advanceProducts();
     }
