@@ -83,9 +83,10 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
 {
   const CellType type = mesh.info().cellType;
   AssembledRows rows;
+  const bool apart = (this->Run.recorder || this->Run.scheduled > 1) &&
+                     permitsTasks(mesh.info(), problem, this->Run.options);
   HierarchyBuilder<Operators> builder(this->Run.pool, this->Set, this->Built.levels(),
-    this->Built.firstCore(), Assembly::stiffRows(type, problem.weights(), rows),
-    this->Run.recorder ? StepRecorder::Threads : this->Run.scheduled);
+    this->Built.firstCore(), Assembly::stiffRows(type, problem.weights(), rows), apart);
   Assembly assembly(
     this->Run.pool, mesh.info(), problem, rows, this->Run.components, this->Run.labels, listener);
   this->Built.startPass(true);

@@ -28,18 +28,18 @@ public:
   /** Coarsening ends at a level of at most CoarsestNodes nodes, or of more than this share of the
    * nodes of the next finer level, which has few strong edges or many stiff rows. */
   static constexpr double StalledShare = 0.8;
-  /** On several threads, the rows of the finest level that a step processes. */
+  /** With such tasks, the rows of the finest level that a step processes. */
   static constexpr std::int64_t StepNodes = 5 * RowBlock::Nodes;
 
-  /** `stiff` finds the stiff rows of each coarse level. On several threads, the stages of each of
-   * the finest levels, where most of the work is, are tasks of their own. */
+  /** `stiff` finds the stiff rows of each coarse level; `apart`: for several threads, the stages of
+   * each of the finest levels, where most of the work is, are tasks of their own. */
   HierarchyBuilder(Pool& pool, Operators operators, Levels<Relaxation>& levels, int firstCore,
-    StiffRows stiff, int threads)
+    StiffRows stiff, bool apart)
     : Owner(pool)
     , Set(std::move(operators))
     , Built(levels)
     , FirstCore(firstCore)
-    , ApartLevels(canRunApart<Operators> && threads > 1 ? std::min(2, firstCore) : 0)
+    , ApartLevels(canRunApart<Operators> && apart ? std::min(2, firstCore) : 0)
     , Stiff(stiff)
   {
     this->addRows();
@@ -64,9 +64,7 @@ public:
     std::int64_t nodes = StepNodes;
     for (int l = 0; l < this->ApartLevels; ++l)
     {
-      Coarsening<Operators>& step = *this->Steps[static_cast<std::size_t>(l)];
-      step.beginApart(nodes);
-      nodes = step.coarseShare(nodes);
+      nodes = this->Steps[static_cast<std::size_t>(l)]->beginApart(nodes);
     }
   }
 

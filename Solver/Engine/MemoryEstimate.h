@@ -23,4 +23,9 @@ SMG_EXPORT std::int64_t estimateMemory(const StreamInfo& info, const Problem& pr
 std::int64_t expectedMemory(
   const StreamInfo& info, int columns, Weights weights, const SolveOptions& options);
 
+/** Whether the memory limit leaves room for several tasks per level in the first pass, each some
+ * nodes behind the one before it. */
+SMG_EXPORT bool permitsTasks(
+  const StreamInfo& info, const Problem& problem, const SolveOptions& options);
+
 } // namespace smg

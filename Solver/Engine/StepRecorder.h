@@ -17,9 +17,6 @@ namespace smg
 class StepRecorder
 {
 public:
-  /** The threads for which tasks are divided. */
-  static constexpr int Threads = 16;
-
   struct Step
   {
     double before = 0.0;       ///< seconds since the step before this one, or the start of the pass

@@ -6,6 +6,7 @@
 #include "Solver/Storage/Ring.h"
 #include "smg/Export.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace smg
@@ -55,7 +56,7 @@ public:
   {
     this->Number.reserve(this->Number.end() - this->Number.first() + nodes);
     this->Diagonals.reserve(this->Diagonals.end() - this->Diagonals.first() + nodes);
-    this->Room = this->Of.end() + MorePatches;
+    this->Room = this->Of.end() + std::max(LeastMorePatches, nodes / 4);
     this->Of.reserve(this->Room + 1 - this->Of.first()); // a number may be left out
   }
   bool isFull() const { return this->Room >= 0 && this->Of.end() >= this->Room; }
@@ -72,6 +73,16 @@ public:
     const Patch* patch = this->of(i);
     return patch ? patch->last() : i;
   }
+  /** The last node of the patches of node i and its neighbours. */
+  std::int64_t lastAround(const LevelRows& rows, std::int64_t i) const
+  {
+    std::int64_t last = this->last(i);
+    for (const RowEntry& entry : rows.row(i))
+    {
+      last = std::max(last, this->last(i + entry.delta()));
+    }
+    return last;
+  }
   /** The diagonal of row i. */
   float diagonal(std::int64_t i) const { return this->Diagonals[i]; }
 
@@ -81,7 +92,7 @@ public:
 
 private:
   static constexpr std::uint32_t Alone = 0;
-  static constexpr std::int64_t MorePatches = 256;
+  static constexpr std::int64_t LeastMorePatches = 256;
 
   /** The patch of a number, given that less than 2^32 patches are in memory. */
   Patch& patch(std::uint32_t number) const

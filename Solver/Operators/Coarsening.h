@@ -4,11 +4,13 @@
 #include "Solver/Hierarchy/CoarseningData.h"
 #include "Solver/Hierarchy/RowBatch.h"
 #include "Solver/Operators/OperatorSet.h"
+#include "Solver/Operators/StepLimit.h"
 #include "smg/Error.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace smg
@@ -31,8 +33,8 @@ public:
     , Data(pool, fine, coarse, stiff)
     , Begin(fine.first())
     , CoarseBegin(coarse.first())
-    , Relaxed(
-        static_cast<std::size_t>(this->Set.interpolationSweeps()), { this->Begin, this->Begin })
+    , Relaxed(static_cast<std::size_t>(this->Set.interpolationSweeps()),
+        Sweep{ this->Begin, this->Begin, {} })
   {
   }
 
@@ -62,25 +64,22 @@ public:
   // advanceProducts() and advanceCoarseRows() may run at the same time, each on what the one before
   // it has done in earlier steps.
 
-  /** Begins a step in which every stage processes about so many nodes at most: a stage that gets
-   * many nodes at once distributes them over steps, so that all stages are busy in all steps. */
-  void beginApart(std::int64_t nodes)
+  /** Begins a step in which stages usually process so many nodes at most, see StepLimit; returns
+   * about how many coarse rows these become. */
+  std::int64_t beginApart(std::int64_t nodes)
   {
-    this->begin(this->Lifted + nodes);
+    const std::int64_t coarse = this->usualCoarseRows(nodes);
+    this->Limits.begin(nodes, coarse);
+    for (Sweep& sweep : this->Relaxed)
+    {
+      sweep.limit.begin(StepLimits::more(nodes));
+    }
+    this->begin(this->Lifted + this->Limits.lift.nodes());
     this->seeProducts();
     this->seeInterpolation();
-    this->MostNodes = nodes + nodes / 16;
-    this->MostCoarse = this->coarseShare(this->MostNodes);
     this->reserve();
     this->Apart = true;
-  }
-  /** The coarse rows that so many rows become, or a few more. */
-  std::int64_t coarseShare(std::int64_t rows) const
-  {
-    const std::int64_t lifted = this->Lifted - this->Begin;
-    const std::int64_t share =
-      lifted > 0 ? rows * (this->Data.coarseNodes - this->CoarseBegin) / lifted : rows;
-    return std::min(rows, share + share / 16 + 16);
+    return coarse;
   }
   /** The rows that no stage has processed. */
   std::int64_t waiting() const { return this->Data.fine.end() - this->Lifted; }
@@ -176,11 +175,21 @@ private:
   /** Shows the products so far to the stages from gather() on. */
   void seeProducts() { this->SeenProducts = this->Multiplied; }
 
+  /** The coarse rows that so many rows become, on average so far or in the last step. */
+  std::int64_t usualCoarseRows(std::int64_t rows)
+  {
+    const std::int64_t lifted = this->Lifted - this->Begin;
+    const std::int64_t coarse = this->Data.coarseNodes - this->CoarseBegin;
+    const std::int64_t last = coarse - std::exchange(this->CoarseBefore, coarse);
+    return std::min(rows, std::max(last, lifted > 0 ? rows * coarse / lifted : rows));
+  }
+
   /** Makes room for what this step adds to the data that several threads use. */
   void reserve()
   {
     CoarseningData& d = this->Data;
-    const std::int64_t rows = std::min(this->Rows - this->Interpolated, this->MostNodes);
+    const std::int64_t rows =
+      std::min(this->Rows - this->Interpolated, this->Limits.interpolate.nodes());
     const std::int64_t lifts = this->Rows - this->Lifted;
     d.patches.reserve(lifts);
     d.interpolation.reserve(rows, RelaxedRow::Most * rows);
@@ -199,7 +208,8 @@ private:
   void reserveProducts()
   {
     CoarseningData& d = this->Data;
-    const std::int64_t rows = std::min(this->Rows - this->Multiplied, this->MostNodes);
+    const std::int64_t rows =
+      std::min(this->Rows - this->Multiplied, this->Limits.multiply.nodes());
     if (rows > 0)
     {
       const std::int64_t before = this->Multiplied - this->Begin;
@@ -241,29 +251,18 @@ private:
   {
     CoarseningData& d = this->Data;
     const std::int64_t rows = this->Lifted;
-    const std::int64_t initialEnd = std::min(rows, this->most(this->Initial));
-    for (std::int64_t& i = this->Initial; i < initialEnd && d.fine.reach(i) < this->Lifted; ++i)
-    {
-      this->Set.interpolateInitial(d, i);
-    }
+    this->Limits.initial.run(
+      this->Initial, rows, [&](std::int64_t i) { return d.fine.reach(i) < this->Lifted; },
+      [&](std::int64_t i) { this->Set.interpolateInitial(d, i); });
     this->relax();
     d.rowQuanta.extendRaw(rows);
-    const std::int64_t end = std::min(this->Relaxed.back().settled, this->most(this->Interpolated));
-    for (std::int64_t& i = this->Interpolated; i < end; ++i)
-    {
-      this->Set.interpolate(d, i);
-      d.settledReach.append(settled(d, i));
-    }
-  }
-
-  static std::int64_t settled(const CoarseningData& data, std::int64_t i)
-  {
-    std::int64_t last = data.patches.last(i);
-    for (const RowEntry& entry : data.fine.row(i))
-    {
-      last = std::max(last, data.patches.last(i + entry.delta()));
-    }
-    return last;
+    this->Limits.interpolate.run(
+      this->Interpolated, this->Relaxed.back().settled, [](std::int64_t) { return true; },
+      [&](std::int64_t i)
+      {
+        this->Set.interpolate(d, i);
+        d.settledReach.append(d.patches.lastAround(d.fine, i));
+      });
   }
 
   /** The sweeps over the rows of P, one after the other. */
@@ -273,16 +272,17 @@ private:
     std::int64_t before = this->Initial;
     for (Sweep& sweep : this->Relaxed)
     {
-      const std::int64_t end = std::min(this->Lifted, this->most(sweep.next));
-      while (sweep.next < end && d.fine.reach(sweep.next) < before)
-      {
-        if (sweep.next == d.relaxed.end())
+      sweep.limit.run(
+        sweep.next, this->Lifted, [&](std::int64_t i) { return d.fine.reach(i) < before; },
+        [&](std::int64_t i)
         {
-          d.relaxed.extendRaw(sweep.next + 1);
-          d.relaxed[sweep.next].size = RelaxedRow::Pending;
-        }
-        this->Set.relaxInterpolation(d, sweep.next++);
-      }
+          if (i == d.relaxed.end())
+          {
+            d.relaxed.extendRaw(i + 1);
+            d.relaxed[i].size = RelaxedRow::Pending;
+          }
+          this->Set.relaxInterpolation(d, i);
+        });
       // A patch is relaxed at its last node.
       while (sweep.settled < sweep.next && d.patches.last(sweep.settled) < sweep.next)
       {
@@ -296,20 +296,19 @@ private:
   {
     CoarseningData& d = this->Data;
     d.productSum.extendRaw(this->Rows);
-    const std::int64_t end = std::min(this->Rows, this->most(this->Multiplied));
-    for (std::int64_t& i = this->Multiplied; i < end && d.fine.reach(i) < this->Seen; ++i)
-    {
-      if (this->Apart && !d.product.hasRoom(this->mostProducts(i)))
+    this->Limits.multiply.run(
+      this->Multiplied, this->Rows,
+      [&](std::int64_t i)
       {
-        break;
-      }
-      this->Set.multiply(d, i);
-      this->ProductEntries += d.product.size(i);
-    }
+        return d.fine.reach(i) < this->Seen &&
+               (!this->Apart || d.product.hasRoom(this->mostProducts(i)));
+      },
+      [&](std::int64_t i)
+      {
+        this->Set.multiply(d, i);
+        this->ProductEntries += d.product.size(i);
+      });
   }
-
-  /** The end of what a stage may process in this step from `begin` on. */
-  std::int64_t most(std::int64_t begin) const { return begin + this->MostNodes; }
 
   /** Whether all children of c, which lie within two rings of it, and their products exist. */
   bool canGather(std::int64_t c) const
@@ -326,13 +325,14 @@ private:
   void gather()
   {
     CoarseningData& d = this->Data;
-    const std::int64_t end = std::min(d.knownCoarse, this->Gathered + this->MostCoarse);
-    for (std::int64_t& c = this->Gathered; c < end && this->canGather(c); ++c)
-    {
-      d.openRaw(c + 1);
-      this->Set.gather(d, c);
-      this->Set.sparsify(d, c);
-    }
+    this->Limits.gather.run(
+      this->Gathered, d.knownCoarse, [&](std::int64_t c) { return this->canGather(c); },
+      [&](std::int64_t c)
+      {
+        d.openRaw(c + 1);
+        this->Set.gather(d, c);
+        this->Set.sparsify(d, c);
+      });
   }
 
   /**
@@ -377,13 +377,13 @@ private:
   struct Sweep
   {
     std::int64_t next, settled;
+    StepLimit limit;
   };
 
-  // Of a step.
-  static constexpr std::int64_t Unlimited = std::int64_t(1) << 62;
-  std::int64_t MostNodes = Unlimited, MostCoarse = Unlimited;
+  StepLimits Limits;
   bool Apart = false; // whether several threads advance the stages
 
+  std::int64_t CoarseBefore = 0;                // coarse nodes a step ago
   const std::int64_t Begin, CoarseBegin;        // the first nodes
   std::int64_t Rows = Begin;                    // of the fine level, that stages may read
   std::int64_t Lifted = Begin, Initial = Begin; // by fine node

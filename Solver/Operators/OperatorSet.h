@@ -84,9 +84,10 @@ concept OperatorSet = std::default_initializable<O> && std::copyable<O> &&
   requires Relaxation<typename O::Relaxation>;
 };
 
-/** Whether multiply(), gather() and sparsify() may run on another thread than the steps before
- * them: they share no data but those of CoarseningData. A set derived from such a one must say so
- * again, since it may replace any step. */
+/** Whether three threads may run the steps up to interpolate(), multiply(), and gather() with
+ * sparsify(): these share no data but those of CoarseningData, and rows of P have at most
+ * RelaxedRow::Most entries. A set derived from such a one must say so again, since it may replace
+ * any step. */
 template <class O>
 inline constexpr bool canRunApart = requires
 {

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+
 // Memory grows with the width of the stream, not with the mesh: like the square root of the number
 // of vertices for surfaces, and like its 2/3 power for solids.
 
@@ -22,6 +25,39 @@ Report twoPasses(const StreamMesh& mesh)
 }
 
 } // namespace
+
+/** More threads take more memory only if there is any. */
+TEST(MemoryLaw, ALimitForOneThreadSufficesForMany)
+{
+  for (const StreamMesh& mesh : { toStream(torus(632, 316)), toStream(tetBox(40, 40, 40)) })
+  {
+    ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
+    SolveOptions options;
+    options.maxCycles = 2;
+    options.coreNodes = 1000;
+    options.threads = 1;
+    options.memoryLimit = solveMesh(mesh, problem, options).report.pool_bytes_peak * 103 / 100;
+    options.threads = 8;
+    EXPECT_LE(solveMesh(mesh, problem, options).report.pool_bytes_peak, options.memoryLimit);
+  }
+}
+
+/** Nothing accumulates where the mesh changes: prescribed vertices have no coarse nodes. */
+TEST(MemoryLaw, ManyThreadsFollowAChangeOfTheMesh)
+{
+  const StreamMesh mesh = toStream(torus(632, 316));
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
+  std::fill_n(problem.Prescribed.begin(), mesh.vertices() / 2, 1);
+  const auto peak = [&](int threads)
+  {
+    SolveOptions options;
+    options.maxCycles = 1;
+    options.coreNodes = 1000;
+    options.threads = threads;
+    return solveMesh(mesh, problem, options).report.pool_bytes_peak;
+  };
+  EXPECT_LE(peak(8), peak(1) + (std::int64_t(3) << 20));
+}
 
 TEST(MemoryLaw, OfASurfaceIsTheSquareRoot)
 {

@@ -19,7 +19,7 @@ Run it:
 
     vtk_heat_conduction ../../Data/heat_sink.vtk heat.vtu
 
-    Converged after 7 V-cycles in 8 passes, relative residual 8.84e-08, 2.4 MiB
+    Converged after 7 V-cycles in 8 passes, relative residual 8.84e-08, 2.7 MiB
     2116 vertices, 6822 cells
     peak: 67.8414 degrees at vertex 36 of the file
     flux[0]: 19.6 W into the body through 196 mm^2 of 67.2205 degrees
