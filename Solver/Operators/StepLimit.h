@@ -16,9 +16,11 @@ namespace smg
 class StepLimit
 {
 public:
-  /** Begins a step of usually at most so many nodes. */
+  /** Begins a step of usually at most so many nodes, but some in any case. */
   void begin(std::int64_t nodes)
   {
+    constexpr std::int64_t Least = 16;
+    nodes = std::max(nodes, Least);
     this->Most = this->Reached ? std::max(nodes, this->Most + this->Most / 4) : nodes;
     this->Reached = false;
   }
@@ -58,7 +60,7 @@ struct StepLimits
     {
       limit->begin(more(nodes));
     }
-    this->gather.begin(more(coarse) + 16);
+    this->gather.begin(more(coarse));
   }
 };
 

@@ -250,17 +250,20 @@ ScratchFolder::~ScratchFolder()
   }
 }
 
-/** Removes a kept folder: its own files, and, where no others are in it, the folder. */
+/** Removes a kept folder: its own files, and, where no others are in it, the folder. States go
+ * before the files that they refer to, since the program may be killed in between. */
 void ScratchFolder::removeKept() const noexcept
 {
   const int folder = this->KeptLock->folder();
   bool areGone = true;
+  for (const bool states : { true, false })
   {
     FolderEntries entries(this->Path);
-    areGone = entries.isOpen();
+    areGone = entries.isOpen() && areGone;
     while (const char* name = entries.next())
     {
-      if (isOwn(name) && std::string_view(name) != KeptMarker)
+      if (isOwn(name) && std::string_view(name) != KeptMarker &&
+          states != std::string_view(name).starts_with(KeptPrefix))
       {
         areGone = systemCalls().unlinkat(folder, name, 0) == 0 && areGone;
       }

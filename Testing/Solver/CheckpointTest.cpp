@@ -3,6 +3,7 @@
 #include "Solver/Storage/FolderLock.h"
 #include "Solver/Storage/IoStatistics.h"
 #include "Solver/Storage/ScratchStream.h"
+#include "Solver/Storage/SystemCalls.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 
@@ -213,6 +214,36 @@ TEST(Checkpoint, LeavesFilesAloneThatAreNotItsOwn)
     names.insert(entry.path().filename().string());
   }
   EXPECT_EQ(names, (std::set<std::string>{ "notes", "link" }));
+}
+
+/** A program that is killed meanwhile leaves no state of files that are gone. */
+TEST(Checkpoint, RemovesStatesBeforeTheirFiles)
+{
+  static std::vector<std::string> removed;
+  static const SystemCalls real = systemCalls();
+  removed.clear();
+  const TemporaryFolder folder;
+  {
+    ScratchFolder kept{ KeptFolder(folder / "ck") };
+    for (const char* name : { "a", "b", "c", "d" })
+    {
+      std::ofstream(kept.pathOf(name)) << "file";
+      std::ofstream(kept.path() / (std::string("state-") + name + ".0")) << "state";
+    }
+    systemCalls().unlinkat = [](int at, const char* name, int flags)
+    {
+      removed.emplace_back(name);
+      return real.unlinkat(at, name, flags);
+    };
+    kept.discard();
+  }
+  systemCalls() = real;
+  ASSERT_GE(removed.size(), 8U);
+  for (std::size_t k = 0; k < 8; ++k)
+  {
+    EXPECT_EQ(removed[k].starts_with("state-"), k < 4) << removed[k];
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "ck"));
 }
 
 TEST(Checkpoint, IsHandedOnWithinTheProgramAndUsedByOnePartOfIt)
