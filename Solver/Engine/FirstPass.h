@@ -83,8 +83,8 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
 {
   const CellType type = mesh.info().cellType;
   AssembledRows rows;
-  const bool apart = (this->Run.recorder || this->Run.scheduled > 1) &&
-                     permitsTasks(mesh.info(), problem, this->Run.options);
+  const bool apart =
+    this->Run.isConcurrent() && permitsTasks(mesh.info(), problem, this->Run.options);
   HierarchyBuilder<Operators> builder(this->Run.pool, this->Set, this->Built.levels(),
     this->Built.firstCore(), Assembly::stiffRows(type, problem.weights(), rows), apart);
   Assembly assembly(
@@ -106,7 +106,7 @@ void FirstPass<Operators>::readStream(
   MeshSource& mesh, Assembly& assembly, AssembledRows& rows, HierarchyBuilder<Operators>& builder)
 {
   auto& finest = this->Built.finest();
-  MeshAhead blocks(mesh, this->Run.scheduled > 1 || this->Run.recorder);
+  MeshAhead blocks(mesh, this->Run.isConcurrent());
   bool more = true;
   std::int64_t open = 0;
   const auto expected = static_cast<double>(std::max<std::int64_t>(1, mesh.info().vertices));

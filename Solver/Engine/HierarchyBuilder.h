@@ -28,7 +28,7 @@ public:
   /** Coarsening ends at a level of at most CoarsestNodes nodes, or of more than this share of the
    * nodes of the next finer level, which has few strong edges or many stiff rows. */
   static constexpr double StalledShare = 0.8;
-  /** With such tasks, the rows of the finest level that a step processes. */
+  /** The rows of the finest level that a step processes if its stages are tasks of their own. */
   static constexpr std::int64_t StepNodes = 5 * RowBlock::Nodes;
 
   /** `stiff` finds the stiff rows of each coarse level; `apart`: for several threads, the stages of

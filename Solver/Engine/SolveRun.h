@@ -55,6 +55,9 @@ struct SMG_EXPORT SolveRun
     }
   }
 
+  /** Whether the tasks of a step may run at once: then more of them are worth while. */
+  bool isConcurrent() const { return this->scheduled > 1 || this->recorder; }
+
   /** How the parts of a solve save and restore what later passes need. */
   struct Parts
   {

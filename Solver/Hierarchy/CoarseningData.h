@@ -247,12 +247,6 @@ struct CoarseningData
     this->rawLarge.release(first);
   }
 
-  /** The entry of P of a link, given any row that is alive. */
-  InterpolationEntry& child(ChildLink link, std::int64_t near) const
-  {
-    return this->interpolation.row(link.row(near))[link.slot()];
-  }
-
   std::int64_t coarseNodes = 0; ///< the next coarse node
 
 private:

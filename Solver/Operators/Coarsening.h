@@ -230,18 +230,19 @@ private:
   {
     CoarseningData& d = this->Data;
     d.lifted.extend(this->Rows);
-    for (std::int64_t& i = this->Lifted; i < this->Rows && !(this->Apart && d.patches.isFull());
-         ++i)
-    {
-      d.patches.add(d.fine);
-      const bool lifted = this->Set.lift(d, i);
-      d.lifted[i] = lifted ? CoarseningData::liftedTo(d.coarseNodes) : CoarseningData::Retained;
-      if (lifted)
+    this->Limits.lift.run(
+      this->Lifted, this->Rows, [&](std::int64_t) { return !(this->Apart && d.patches.isFull()); },
+      [&](std::int64_t i)
       {
-        d.liftedFrom.append(i);
-        ++d.coarseNodes;
-      }
-    }
+        d.patches.add(d.fine);
+        const bool lifted = this->Set.lift(d, i);
+        d.lifted[i] = lifted ? CoarseningData::liftedTo(d.coarseNodes) : CoarseningData::Retained;
+        if (lifted)
+        {
+          d.liftedFrom.append(i);
+          ++d.coarseNodes;
+        }
+      });
     d.firstChild.extend(d.coarseNodes);
     d.lastChild.extend(d.coarseNodes);
     d.slots.extend(d.coarseNodes);

@@ -100,7 +100,7 @@ void Components::count(
   Component& component = this->Of[whole];
   if (component.anchored)
   {
-    return; // nobody asks for the sums
+    return; // only free components have shifts
   }
   ++component.unknowns;
   component.mass += mass;

@@ -37,8 +37,8 @@ public:
   std::int32_t join(std::int32_t a, std::int32_t b);
   std::int32_t root(std::int32_t label) const;
 
-  /** Counts an unknown of the component: its right-hand side, initial value and residual b - A x0,
-   * `columns` numbers each, and its mass. */
+  /** Counts an unknown of the component, unless that is constrained: its right-hand side, initial
+   * value and residual b - A x0, `columns` numbers each, and its mass. */
   void count(
     std::int32_t label, const double* b, const double* x0, const double* residual, double mass);
   /** Marks the component as constrained. */
