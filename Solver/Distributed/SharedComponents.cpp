@@ -105,6 +105,7 @@ SharedComponents::Place SharedComponents::of(std::int64_t k)
 
 void SharedComponents::combine()
 {
+  this->Whole.settle();
   this->Split.combine([this](std::span<double> sums) { this->Vertices.team().sum(sums); });
 }
 

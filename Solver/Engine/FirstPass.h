@@ -46,7 +46,7 @@ public:
 
 private:
   FirstResidual build(MeshSource& mesh, Problem& problem, RowListener* listener);
-  void readStream(MeshSource& mesh, Assembly& assembly, AssembledRows& rows,
+  void readStream(MeshAhead& blocks, bool apart, Assembly& assembly, AssembledRows& rows,
     HierarchyBuilder<Operators>& builder);
   FirstResidual note(const Assembly& assembly);
 
@@ -90,7 +90,9 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
   Assembly assembly(
     this->Run.pool, mesh.info(), problem, rows, this->Run.components, this->Run.labels, listener);
   this->Built.startPass(true);
-  this->readStream(mesh, assembly, rows, builder);
+  MeshAhead blocks(mesh, this->Run.isConcurrent());
+  // On a thread of its own, the assembly of rows needs to know the next block.
+  this->readStream(blocks, apart && blocks.isAhead() && !listener, assembly, rows, builder);
   const int coarsest = builder.finish([this](int l) { this->Built.addCoreLevel(l); });
   this->Built.endPass();
   this->Built.close(coarsest);
@@ -99,23 +101,31 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
 
 /**
  * In each step the next block of the mesh is assembled, every streamed level is coarsened, and the
- * downward part of the V-cycle advances, all concurrently, each on the data of the previous steps.
+ * downward part of the V-cycle advances, all concurrently, each on the data of the previous steps;
+ * so are, with `apart`, the cells and the rows of the assembly.
  */
 template <OperatorSet Operators>
-void FirstPass<Operators>::readStream(
-  MeshSource& mesh, Assembly& assembly, AssembledRows& rows, HierarchyBuilder<Operators>& builder)
+void FirstPass<Operators>::readStream(MeshAhead& blocks, bool apart, Assembly& assembly,
+  AssembledRows& rows, HierarchyBuilder<Operators>& builder)
 {
   auto& finest = this->Built.finest();
-  MeshAhead blocks(mesh, this->Run.isConcurrent());
-  bool more = true;
+  bool more = true, waits = false;
   std::int64_t open = 0;
-  const auto expected = static_cast<double>(std::max<std::int64_t>(1, mesh.info().vertices));
+  const auto expected = static_cast<double>(std::max<std::int64_t>(1, blocks.info().vertices));
   const auto assemble = [&]
   {
-    if (more)
+    if (waits || !more)
     {
-      const MeshBlock* block = blocks.block();
-      more = block != nullptr;
+      return;
+    }
+    const MeshBlock* block = blocks.block();
+    more = block != nullptr;
+    if (apart)
+    {
+      more ? assembly.collect(*block) : assembly.collectRest();
+    }
+    else
+    {
       more ? assembly.add(*block) : assembly.finish();
     }
   };
@@ -123,7 +133,18 @@ void FirstPass<Operators>::readStream(
   {
     this->Run.recorder->startPass({});
   }
-  std::vector<std::function<void()>> tasks;
+  std::vector<std::function<void()>> tasks{ assemble };
+  if (apart)
+  {
+    tasks.emplace_back(
+      [&]
+      {
+        if (!waits)
+        {
+          assembly.closeRows();
+        }
+      });
+  }
   for (int task = 0; task < builder.tasks(); ++task)
   {
     tasks.emplace_back([&builder, task] { builder.advance(task); });
@@ -134,28 +155,26 @@ void FirstPass<Operators>::readStream(
   while (!builder.complete())
   {
     builder.begin();
-    const bool waits = builder.isBusy();
+    waits = builder.isBusy();
     if (!waits)
     {
       blocks.advance();
     }
+    if (apart && !waits)
+    {
+      assembly.beginApart(blocks.vertices());
+    }
     finest.showProgress();
-    this->Run.together(1 + static_cast<int>(tasks.size()),
-      [&](int task)
-      {
-        // The problem is queried on the caller's thread.
-        if (task == 0 && !waits)
-        {
-          assemble();
-        }
-        else if (task > 0)
-        {
-          tasks[static_cast<std::size_t>(task - 1)]();
-        }
-      });
+    // The problem is queried on the caller's thread.
+    this->Run.together(
+      static_cast<int>(tasks.size()), [&](int task) { tasks[static_cast<std::size_t>(task)](); });
     finest.release();
+    if (apart)
+    {
+      assembly.release();
+    }
     rows.moveTo(builder.finestRows(), finest.window(), finest.window().columns());
-    builder.finestRows().Ended = !more;
+    builder.finestRows().Ended = !more && assembly.isClosed();
     builder.handOver();
     this->Run.resident.add(assembly.openVertices() - open);
     open = assembly.openVertices();
@@ -178,6 +197,7 @@ FirstResidual FirstPass<Operators>::note(const Assembly& assembly)
   constexpr std::int64_t StiffShare = 512;
   this->Built.setSlowestAtSlivers(assembly.stiffRows() > assembly.vertices() / StiffShare);
   Report& r = this->Run.report;
+  this->Run.components.settle();
   reportAssembly(assembly, this->Run.components, r);
   r.levels = this->Built.levels().sizes;
   r.levels.front().nodes -= r.prescribed + r.held;

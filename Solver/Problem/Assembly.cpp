@@ -2,6 +2,7 @@
 #include "Solver/Problem/Assembly.h"
 
 #include <algorithm>
+#include <span>
 
 namespace smg
 {
@@ -17,8 +18,10 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, Assembl
   Components& components, ComponentLabels& labels, RowListener* listener)
   : Info(info)
   , Check(info.cellType)
+  , Parts(components)
   , Listener(listener)
-  , Cells(pool, info.cellType, problem, rows.weightScale, components, labels)
+  , Out(rows)
+  , Cells(pool, info.cellType, problem, this->WeightScale, components, labels)
   , Reach(pool)
   , Targets(problem, this->Cells.vertices.points)
   , Rows(info.cellType, this->Cells.vertices, problem, rows, components,
@@ -30,71 +33,133 @@ void Assembly::add(const MeshBlock& block)
 {
   this->Check.add(block);
   this->Cells.add(block);
-  this->finalize(block.finalized);
+  this->collect(block.finalized, false);
+  this->release();
 }
 
 void Assembly::finish()
 {
   this->Check.finish(this->Info);
-  this->finalize(this->vertices());
-}
-
-void Assembly::finalize(std::int64_t end)
-{
-  while (this->Final < end)
-  {
-    this->closeBatch(std::min(end, this->Final + BatchRows));
-  }
+  this->collect(this->vertices(), false);
   this->release();
 }
 
-/** Completes the rows below `end`. */
-void Assembly::closeBatch(std::int64_t end)
+void Assembly::beginApart(std::int64_t vertices)
 {
-  const std::int64_t begin = this->Final;
-  this->Neighbours.clear();
-  this->RowEnds.clear();
-  for (std::int64_t i = begin; i < end; ++i)
+  std::swap(this->Collected, this->Arrived);
+  this->Collected.clear(this->Arrived.end());
+  this->Out.weightScale = this->WeightScale;
+  this->Cells.vertices.reserve(vertices);
+}
+
+void Assembly::collect(const MeshBlock& block)
+{
+  this->Check.add(block);
+  this->Cells.add(block);
+  this->collect(block.finalized, true);
+}
+
+void Assembly::collectRest()
+{
+  this->Check.finish(this->Info);
+  this->collect(this->vertices(), true);
+}
+
+/** Collects the vertices below `end`, and completes their rows unless another thread does. */
+void Assembly::collect(std::int64_t end, bool apart)
+{
+  while (this->Collected.end() < end)
   {
-    this->collectRow(i);
-  }
-  this->Targets.ask(begin, this->Neighbours, this->RowEnds);
-  std::size_t first = 0;
-  for (std::int64_t i = begin; i < end; ++i)
-  {
-    const std::size_t last = this->RowEnds[static_cast<std::size_t>(i - begin)];
-    const double alpha = this->Cells.loads.close(i);
-    const std::int32_t label = this->Cells.parts.close(i, this->Cells.vertices.mass[i]);
-    this->Rows.close(i, label, std::span(this->Neighbours).subspan(first, last - first),
-      this->Targets.at(first), alpha, this->Cells.loads.load());
-    if (this->Listener)
+    this->collectBatch(std::min(end, this->Collected.end() + BatchRows));
+    if (!apart)
     {
-      this->Listener->close(this->Cells.vertices.points.at(i), this->Reach[i]);
+      this->Out.weightScale = this->WeightScale;
+      std::swap(this->Collected, this->Arrived);
+      this->Collected.clear(this->Arrived.end());
+      this->closeRows();
     }
-    first = last;
+  }
+}
+
+void Assembly::collectBatch(std::int64_t end)
+{
+  FinalVertices& made = this->Collected;
+  const std::int64_t begin = made.end();
+  const std::size_t before = made.neighbours.size();
+  for (std::int64_t i = begin; i < end; ++i)
+  {
+    this->collectVertex(i);
   }
   this->Cells.parts.flush();
-  this->Final = end;
+  if (this->Targets.any())
+  {
+    this->askTargets(begin, before);
+  }
 }
 
-/** Appends the neighbours of vertex i to the batch. */
-void Assembly::collectRow(std::int64_t i)
+/** Queries the targets of the collected vertices from `begin` on, whose edges begin at number
+ * `edge`. */
+void Assembly::askTargets(std::int64_t begin, std::size_t edge)
 {
-  const std::size_t before = this->Neighbours.size();
-  this->Cells.edges.take(i, this->Cells.vertices.points, this->Neighbours);
-  this->RowEnds.push_back(this->Neighbours.size());
-  const bool alone = this->Neighbours.size() == before;
-  const std::int64_t last = alone ? i : std::max(i, this->Neighbours.back().to);
-  this->Reach.close(i, last);
+  FinalVertices& made = this->Collected;
+  this->RowEnds.clear();
+  for (auto k = static_cast<std::size_t>(begin - made.first); k < made.vertices.size(); ++k)
+  {
+    this->RowEnds.push_back(made.vertices[k].end - edge);
+  }
+  const std::size_t edges = made.neighbours.size() - edge;
+  this->Targets.ask(begin, std::span(made.neighbours).subspan(edge), this->RowEnds);
+  const double* first = this->Targets.at(0);
+  made.targets.insert(made.targets.end(), first,
+    first + edges * static_cast<std::size_t>(this->Cells.vertices.values.lanes()));
 }
 
-/** Releases the data that no later row needs. */
+/** Collects the next vertex. */
+void Assembly::collectVertex(std::int64_t i)
+{
+  FinalVertices& made = this->Collected;
+  const OpenVertices& open = this->Cells.vertices;
+  const std::size_t before = made.neighbours.size();
+  this->Cells.edges.take(i, open.points, made.neighbours);
+  const std::size_t end = made.neighbours.size();
+  this->Reach.close(i, end == before ? i : std::max(i, made.neighbours.back().to));
+  const double alpha = this->Cells.loads.close(i);
+  const double* load = this->Cells.loads.load();
+  made.loads.insert(made.loads.end(), load, load + open.values.lanes());
+  const double mass = open.mass[i];
+  std::int32_t label = this->Cells.parts.close(i, mass);
+  // A vertex with only flat cells has no component, but may have a facet.
+  if (label >= 0 && (alpha > 0.0 || RowAssembly::isKnown(open.dirichlet[i], end - before, alpha)))
+  {
+    this->Parts.anchor(label);
+  }
+  label = label >= 0 && this->Parts.isFree(label) ? label : -1;
+  made.vertices.push_back({ end, alpha, mass, this->Reach[i], label });
+}
+
+void Assembly::closeRows()
+{
+  const FinalVertices& made = this->Arrived;
+  for (std::size_t k = 0; k < made.vertices.size(); ++k)
+  {
+    this->Rows.close(made, k);
+    if (this->Listener)
+    {
+      const std::int64_t i = made.first + static_cast<std::int64_t>(k);
+      this->Listener->close(this->Cells.vertices.points.at(i), made.vertices[k].reach);
+    }
+  }
+  this->Closed = made.end();
+  this->Arrived.clear(this->Closed);
+}
+
 void Assembly::release()
 {
-  this->Cells.vertices.release(this->Reach.advance(this->Final), this->Final);
-  this->Cells.parts.release(this->Final);
-  this->Cells.edges.release(this->Final);
-  this->Cells.loads.release(this->Final);
+  const std::int64_t collected = this->Collected.end();
+  this->Cells.vertices.release(this->Reach.advance(this->Closed), collected);
+  this->Cells.parts.release(collected);
+  this->Cells.edges.release(collected);
+  this->Cells.loads.release(collected);
 }
 
 } // namespace smg

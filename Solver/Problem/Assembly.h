@@ -5,6 +5,7 @@
 #include "Solver/Problem/AssembledRows.h"
 #include "Solver/Problem/CellAssembly.h"
 #include "Solver/Problem/EdgeTargets.h"
+#include "Solver/Problem/FinalVertices.h"
 #include "Solver/Problem/NeighbourReach.h"
 #include "Solver/Problem/RowAssembly.h"
 #include "Solver/Problem/RowListener.h"
@@ -12,7 +13,9 @@
 #include "smg/Export.h"
 #include "smg/Problem.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace smg
@@ -46,8 +49,22 @@ public:
    */
   void finish();
 
+  // The same in steps on two threads: between beginApart() and release(), closeRows() may run at
+  // the same time as collect() or collectRest(). It completes the rows that these have collected in
+  // the step before. Without a listener, since the problem may have to do with that.
+
+  /** Begins a step that may collect a block of so many vertices. */
+  void beginApart(std::int64_t vertices);
+  void collect(const MeshBlock& block);
+  void collectRest();
+  void closeRows();
+  /** Releases the data that no later row needs. */
+  void release();
+  /** Whether the rows of all vertices so far are completed. */
+  bool isClosed() const { return this->Closed == this->vertices(); }
+
   std::int64_t vertices() const { return this->Cells.vertices.end(); }
-  std::int64_t openVertices() const { return this->vertices() - this->Final; }
+  std::int64_t openVertices() const { return this->vertices() - this->Closed; }
   std::int64_t cells() const { return this->Check.cells(); }
   std::int64_t prescribed() const { return this->Rows.prescribed(); }
   std::int64_t held() const { return this->Rows.held(); }
@@ -62,26 +79,28 @@ public:
   const InitialResidual& residual() const { return this->Rows.residual(); }
 
 private:
-  void finalize(std::int64_t end);
-  void closeBatch(std::int64_t end);
-  void collectRow(std::int64_t i);
-  void release();
+  void collect(std::int64_t end, bool apart);
+  void collectBatch(std::int64_t end);
+  void collectVertex(std::int64_t i);
+  void askTargets(std::int64_t begin, std::size_t edge);
 
   StreamInfo Info;
   StreamCheck Check;
+  Components& Parts;
   RowListener* Listener;
+  AssembledRows& Out;
+  double WeightScale = 1.0; // see AssembledRows
 
   // By open vertex.
   CellAssembly Cells;
   NeighbourReach Reach;
 
-  // The rows of the current batch.
-  std::vector<RowNeighbour> Neighbours;
-  std::vector<std::size_t> RowEnds;
   EdgeTargets Targets;
+  std::vector<std::size_t> RowEnds; // of a query
+  FinalVertices Collected, Arrived; // the latter are those that closeRows() completes
   RowAssembly Rows;
 
-  std::int64_t Final = 0;
+  std::int64_t Closed = 0; // vertices with completed rows
 };
 
 } // namespace smg

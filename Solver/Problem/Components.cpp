@@ -19,8 +19,7 @@ std::int32_t Components::add()
   }
   this->account(1);
   const auto label = static_cast<std::int32_t>(this->Of.size());
-  this->Of.push_back({ label, false, 1, 0, 0.0, 0.0 });
-  this->Summed.resize(this->Summed.size() + static_cast<std::size_t>(this->Columns));
+  this->Of.push_back({ label, false, 1 });
   return label;
 }
 
@@ -29,15 +28,17 @@ void Components::account(std::int64_t labels)
 {
   if (this->Account)
   {
-    this->Account->acquire(labels * (static_cast<std::int64_t>(sizeof(Component)) +
-                                      this->Columns * static_cast<std::int64_t>(sizeof(Sums))));
+    this->Account->acquire(
+      labels * (static_cast<std::int64_t>(sizeof(Component) + sizeof(Unknowns)) +
+                 this->Columns * static_cast<std::int64_t>(sizeof(Sums))));
   }
 }
 
 void Components::load(StateReader& state)
 {
-  state(this->Of, this->Summed);
+  state(this->Of, this->Counted, this->Summed);
   state.require(this->Of.size() < static_cast<std::size_t>(INT32_MAX) &&
+                this->Counted.size() == this->Of.size() &&
                 this->Summed.size() == this->Of.size() * static_cast<std::size_t>(this->Columns));
   for (std::size_t label = 0; label < this->Of.size(); ++label)
   {
@@ -76,38 +77,30 @@ std::int32_t Components::join(std::int32_t a, std::int32_t b)
   part.parent = a;
   whole.anchored = whole.anchored || part.anchored;
   whole.labels += part.labels;
-  whole.unknowns += part.unknowns;
-  whole.mass += part.mass;
-  whole.massSquares += part.massSquares;
-  for (int k = 0; k < this->Columns; ++k)
-  {
-    Sums& to = this->sums(static_cast<std::size_t>(a), k);
-    const Sums& from = this->sums(static_cast<std::size_t>(b), k);
-    to.b += from.b;
-    to.absolute += from.absolute;
-    to.initial += from.initial;
-    to.weighed += from.weighed;
-    to.residual += from.residual;
-    to.residuals += from.residuals;
-  }
   return a;
+}
+
+void Components::extendCounts(std::size_t labels)
+{
+  if (labels > this->Counted.size())
+  {
+    this->Counted.resize(labels);
+    this->Summed.resize(labels * static_cast<std::size_t>(this->Columns));
+  }
 }
 
 void Components::count(
   std::int32_t label, const double* b, const double* x0, const double* residual, double mass)
 {
-  const auto whole = static_cast<std::size_t>(this->root(label));
-  Component& component = this->Of[whole];
-  if (component.anchored)
-  {
-    return; // only free components have shifts
-  }
-  ++component.unknowns;
-  component.mass += mass;
-  component.massSquares += mass * mass;
+  const auto of = static_cast<std::size_t>(label);
+  this->extendCounts(of + 1);
+  Unknowns& all = this->Counted[of];
+  ++all.number;
+  all.mass += mass;
+  all.massSquares += mass * mass;
   for (int k = 0; k < this->Columns; ++k)
   {
-    Sums& sum = this->sums(whole, k);
+    Sums& sum = this->sums(of, k);
     sum.b += b[k];
     sum.absolute += std::fabs(b[k]);
     sum.initial += x0[k];
@@ -117,14 +110,44 @@ void Components::count(
   }
 }
 
+void Components::settle()
+{
+  this->extendCounts(this->Of.size());
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
+  {
+    if (this->isRoot(label))
+    {
+      continue;
+    }
+    const auto root = static_cast<std::size_t>(this->root(static_cast<std::int32_t>(label)));
+    Unknowns& whole = this->Counted[root];
+    const Unknowns part = std::exchange(this->Counted[label], {});
+    whole.number += part.number;
+    whole.mass += part.mass;
+    whole.massSquares += part.massSquares;
+    for (int k = 0; k < this->Columns; ++k)
+    {
+      Sums& to = this->sums(root, k);
+      const Sums from = std::exchange(this->sums(label, k), {});
+      to.b += from.b;
+      to.absolute += from.absolute;
+      to.initial += from.initial;
+      to.weighed += from.weighed;
+      to.residual += from.residual;
+      to.residuals += from.residuals;
+    }
+  }
+}
+
 void Components::combine(const std::function<void(std::span<double>)>& add)
 {
+  this->settle();
   std::vector<double> sums;
-  for (const Component& component : this->Of)
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
   {
-    sums.insert(
-      sums.end(), { component.anchored ? 1.0 : 0.0, static_cast<double>(component.unknowns),
-                    component.mass, component.massSquares });
+    const Unknowns& all = this->Counted[label];
+    sums.insert(sums.end(), { this->Of[label].anchored ? 1.0 : 0.0, static_cast<double>(all.number),
+                              all.mass, all.massSquares });
   }
   for (const Sums& sum : this->Summed)
   {
@@ -133,12 +156,13 @@ void Components::combine(const std::function<void(std::span<double>)>& add)
   }
   add(sums);
   const double* next = sums.data();
-  for (Component& component : this->Of)
+  for (std::size_t label = 0; label < this->Of.size(); ++label)
   {
-    component.anchored = *next++ > 0.0;
-    component.unknowns = static_cast<std::int64_t>(*next++);
-    component.mass = *next++;
-    component.massSquares = *next++;
+    Unknowns& all = this->Counted[label];
+    this->Of[label].anchored = *next++ > 0.0;
+    all.number = static_cast<std::int64_t>(*next++);
+    all.mass = *next++;
+    all.massSquares = *next++;
   }
   for (Sums& sum : this->Summed)
   {
@@ -195,7 +219,7 @@ std::vector<double> Components::rightSideShifts() const
     [&](std::size_t label, int k)
     {
       shifts[label * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k)] =
-        this->sums(label, k).b / this->weightSum(this->Of[label]);
+        this->sums(label, k).b / this->weightSum(label);
     });
   return shifts;
 }
@@ -227,13 +251,12 @@ double Components::shiftedSquares() const
     [&](std::size_t label, int k)
     {
       // ||r - s w||^2 - ||r||^2 with the shift s and the weights w.
-      const Component& component = this->Of[label];
+      const Unknowns& all = this->Counted[label];
       const Sums& sum = this->sums(label, k);
-      const bool masses = component.mass > 0.0;
-      const double shift = sum.b / this->weightSum(component);
-      squares +=
-        shift * shift * (masses ? component.massSquares : static_cast<double>(component.unknowns)) -
-        2.0 * shift * (masses ? sum.residuals : sum.residual);
+      const bool masses = all.mass > 0.0;
+      const double shift = sum.b / this->weightSum(label);
+      squares += shift * shift * (masses ? all.massSquares : static_cast<double>(all.number)) -
+                 2.0 * shift * (masses ? sum.residuals : sum.residual);
     });
   return squares;
 }
@@ -243,14 +266,13 @@ std::vector<double> Components::meanShifts(std::span<const double> sums) const
   std::vector<double> shifts(sums.size());
   for (std::size_t label = 0; label < this->Of.size(); ++label)
   {
-    const Component& component = this->Of[label];
-    for (int k = 0; this->isRoot(label) && !component.anchored && k < this->Columns; ++k)
+    for (int k = 0; this->isRoot(label) && !this->Of[label].anchored && k < this->Columns; ++k)
     {
       const std::size_t place =
         label * static_cast<std::size_t>(this->Columns) + static_cast<std::size_t>(k);
       const Sums& sum = this->sums(label, k);
-      const double initial = component.mass > 0.0 ? sum.weighed : sum.initial;
-      shifts[place] = (sums[place] - initial) / this->weightSum(component);
+      const double initial = this->Counted[label].mass > 0.0 ? sum.weighed : sum.initial;
+      shifts[place] = (sums[place] - initial) / this->weightSum(label);
     }
   }
   return shifts;

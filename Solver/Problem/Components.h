@@ -20,6 +20,9 @@ namespace smg
  * determines its solution only up to a constant, and only if its right-hand side sums to zero; this
  * class accumulates the required sums. Means are weighted by the lumped masses of the vertices, so
  * that a constant source is subtracted from the right-hand side, or by 1 if there are none.
+ *
+ * One thread may count() while another one adds, joins and anchors labels; the sums of a label do
+ * not depend on when it is joined. settle() ends this.
  */
 class SMG_EXPORT Components
 {
@@ -37,8 +40,8 @@ public:
   std::int32_t join(std::int32_t a, std::int32_t b);
   std::int32_t root(std::int32_t label) const;
 
-  /** Counts an unknown of the component, unless that is constrained: its right-hand side, initial
-   * value and residual b - A x0, `columns` numbers each, and its mass. */
+  /** Counts an unknown of a component, which only free components need: its right-hand side,
+   * initial value and residual b - A x0, `columns` numbers each, and its mass. */
   void count(
     std::int32_t label, const double* b, const double* x0, const double* residual, double mass);
   /** Marks the component as constrained. */
@@ -46,6 +49,9 @@ public:
 
   std::int64_t components() const;
   std::int64_t freeComponents() const;
+
+  /** Adds what has been counted for joined labels to their roots, for all that follows. */
+  void settle();
 
   /** Per column and component (label-major): the mean source, sum of b / sum of masses; 0 for
    * components that are not free, or if b sums to zero up to rounding. */
@@ -62,7 +68,7 @@ public:
   /** The weight of a vertex of this mass in the means of the component. */
   double weightOf(std::int32_t root, double mass) const
   {
-    return this->Of[static_cast<std::size_t>(root)].mass > 0.0 ? mass : 1.0;
+    return this->Counted[static_cast<std::size_t>(root)].mass > 0.0 ? mass : 1.0;
   }
   std::int64_t labels() const { return static_cast<std::int64_t>(this->Of.size()); }
   bool isFree(std::int32_t root) const
@@ -74,7 +80,7 @@ public:
    * which `add` computes in place. */
   void combine(const std::function<void(std::span<double>)>& add);
 
-  void save(StateWriter& state) { state(this->Of, this->Summed); }
+  void save(StateWriter& state) { state(this->Of, this->Counted, this->Summed); }
   void load(StateReader& state);
 
 private:
@@ -83,15 +89,18 @@ private:
     std::int32_t parent;
     bool anchored;
     std::int64_t labels; ///< number of joined labels
-    std::int64_t unknowns;
-    double mass, massSquares;
 
     template <class State>
     void exchange(State& state)
     {
-      state(
-        this->parent, this->anchored, this->labels, this->unknowns, this->mass, this->massSquares);
+      state(this->parent, this->anchored, this->labels);
     }
+  };
+  /** The unknowns of a label and the sums of their masses. */
+  struct Unknowns
+  {
+    std::int64_t number;
+    double mass, massSquares;
   };
   /** The sums of a column. */
   struct Sums
@@ -111,10 +120,12 @@ private:
   {
     return const_cast<Components*>(this)->sums(label, column);
   }
-  double weightSum(const Component& component) const
+  double weightSum(std::size_t label) const
   {
-    return component.mass > 0.0 ? component.mass : static_cast<double>(component.unknowns);
+    const Unknowns& all = this->Counted[label];
+    return all.mass > 0.0 ? all.mass : static_cast<double>(all.number);
   }
+  void extendCounts(std::size_t labels);
   template <class F>
   void forShifts(F&& f) const;
   bool isRoot(std::size_t label) const
@@ -125,6 +136,8 @@ private:
   int Columns;
   Pool* Account;
   std::vector<Component> Of;
+  // Of the labels so far for which something has been counted.
+  std::vector<Unknowns> Counted;
   std::vector<Sums> Summed; // `Columns` per label
 };
 

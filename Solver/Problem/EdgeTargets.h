@@ -28,6 +28,9 @@ public:
   {
   }
 
+  /** Whether the problem has any. */
+  bool any() const { return this->Any; }
+
   /** Queries those of the rows from `first` on, if the problem has any: the neighbours of each row
    * end at the number in `ends`. Throws Error if one is not finite. */
   void ask(std::int64_t first, std::span<const RowNeighbour> neighbours,

@@ -47,6 +47,14 @@ void OpenVertices::add(const MeshBlock& block)
   std::copy(given.screening.begin(), given.screening.end(), this->screening.at(begin));
 }
 
+void OpenVertices::reserve(std::int64_t more)
+{
+  const std::int64_t vertices = this->end() - this->points.first() + more;
+  this->points.reserve(vertices);
+  this->values.reserve(vertices);
+  this->dirichlet.reserve(vertices);
+}
+
 void OpenVertices::ask(const MeshBlock& block)
 {
   VertexConditions& given = this->Conditions;

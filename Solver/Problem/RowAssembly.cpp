@@ -61,25 +61,24 @@ RowAssembly::RowAssembly(CellType type, const OpenVertices& vertices, Problem& p
 {
 }
 
-void RowAssembly::close(std::int64_t i, std::int32_t label,
-  std::span<const RowNeighbour> neighbours, const double* target, double alpha, const double* load)
+void RowAssembly::close(const FinalVertices& made, std::size_t k)
 {
+  const std::int64_t i = made.first + static_cast<std::int64_t>(k);
+  const FinalVertices::Vertex& vertex = made.vertices[k];
+  const std::size_t begin = made.begin(k);
   const double* x = this->Vertices.values.at(i);
   this->Out.x.insert(this->Out.x.end(), x, x + this->Columns);
-  if (*this->Vertices.dirichlet.at(i) >= 0 || (neighbours.empty() && alpha == 0.0))
+  if (isKnown(this->Vertices.dirichlet[i], vertex.end - begin, vertex.alpha))
   {
-    this->closeKnown(i, label);
+    this->closeKnown(i);
     return;
   }
-  // A vertex with only flat cells has no component, but may have a facet.
-  if (alpha > 0.0 && label >= 0)
-  {
-    this->Parts.anchor(label);
-  }
+  const double* load = made.loads.data() + k * this->Columns;
   std::copy_n(load, this->Columns, this->B.data());
   std::copy_n(load, this->Columns, this->Constraint.data());
-  this->Alpha = alpha;
-  this->addNeighbours(i, neighbours, target);
+  this->Alpha = vertex.alpha;
+  this->addNeighbours(i, std::span(made.neighbours).subspan(begin, vertex.end - begin),
+    made.targets.empty() ? nullptr : made.targets.data() + begin * this->Columns);
   this->raise(i);
   this->Out.rows.close(this->Size, this->Alpha, -1, this->Stiff(this->Least),
     this->AnyPrecise ? this->weights() : std::span<const double>());
@@ -88,18 +87,14 @@ void RowAssembly::close(std::int64_t i, std::int32_t label,
   {
     this->Listener->constraint(this->Constraint.data());
   }
-  this->count(i, label, alpha > 0.0 ? commonShare(alpha, this->edgeWeights()) : 1.0);
+  this->count(i, vertex, vertex.alpha > 0.0 ? commonShare(vertex.alpha, this->edgeWeights()) : 1.0);
 }
 
 /** A vertex that is not an unknown: prescribed, or fixed at its initial value. */
-void RowAssembly::closeKnown(std::int64_t i, std::int32_t label)
+void RowAssembly::closeKnown(std::int64_t i)
 {
   const double* x = this->Vertices.values.at(i);
   ++(this->Vertices.dirichlet[i] >= 0 ? this->Prescribed : this->Held);
-  if (label >= 0)
-  {
-    this->Parts.anchor(label);
-  }
   this->Out.b.insert(this->Out.b.end(), x, x + this->Columns);
   if (this->Listener)
   {
@@ -237,7 +232,7 @@ double RowAssembly::edgeWeights() const
 }
 
 /** Adds the row to the sums over all rows and over its component. */
-void RowAssembly::count(std::int64_t i, std::int32_t label, double share)
+void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex, double share)
 {
   const AssembledRow row{ i, this->Row, this->weights(),
     usableDiagonal(
@@ -252,9 +247,9 @@ void RowAssembly::count(std::int64_t i, std::int32_t label, double share)
       this->B[k] -= this->Raise * x[k];
     }
   }
-  if (label >= 0)
+  if (vertex.label >= 0)
   {
-    this->Parts.count(label, this->B.data(), x, residual.data(), this->Vertices.mass[i]);
+    this->Parts.count(vertex.label, this->B.data(), x, residual.data(), vertex.mass);
   }
 }
 

@@ -4,10 +4,10 @@
 #include "Solver/Hierarchy/StiffRows.h"
 #include "Solver/Problem/AssembledRows.h"
 #include "Solver/Problem/Components.h"
+#include "Solver/Problem/FinalVertices.h"
 #include "Solver/Problem/InitialResidual.h"
 #include "Solver/Problem/OpenVertices.h"
 #include "Solver/Problem/RowListener.h"
-#include "Solver/Problem/WeightedEdges.h"
 #include "smg/Problem.h"
 
 #include <cstdint>
@@ -25,14 +25,14 @@ public:
   RowAssembly(CellType type, const OpenVertices& vertices, Problem& problem, AssembledRows& rows,
     Components& components, StiffRows stiff, RowListener* listener);
 
-  /**
-   * Adds the next row, of vertex i with the component `label` (-1: none). `target`: those of the
-   * edges to the neighbours, `columns` per neighbour; null without edge targets. `alpha` and `load`
-   * (`columns`) are the contributions of sources, screening and boundary to the diagonal and to the
-   * right-hand side.
-   */
-  void close(std::int64_t i, std::int32_t label, std::span<const RowNeighbour> neighbours,
-    const double* target, double alpha, const double* load);
+  /** Whether a vertex is not an unknown: prescribed, or without any data that determine it. */
+  static bool isKnown(std::int32_t dirichlet, std::size_t neighbours, double alpha)
+  {
+    return dirichlet >= 0 || (neighbours == 0 && alpha == 0.0);
+  }
+
+  /** Adds the next row, of vertex number k of `made`. */
+  void close(const FinalVertices& made, std::size_t k);
 
   std::int64_t prescribed() const { return this->Prescribed; }
   /** The number of vertices without any data that determine them. */
@@ -45,7 +45,7 @@ public:
   const InitialResidual& residual() const { return this->Residual; }
 
 private:
-  void closeKnown(std::int64_t i, std::int32_t label);
+  void closeKnown(std::int64_t i);
   void addNeighbours(
     std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target);
   void addKnown(std::int32_t delta, const RowNeighbour& neighbour, const double* target);
@@ -55,7 +55,7 @@ private:
   bool needsPrecision(std::int64_t i, const RowNeighbour& neighbour) const;
   void raise(std::int64_t i);
   double edgeWeights() const;
-  void count(std::int64_t i, std::int32_t label, double share);
+  void count(std::int64_t i, const FinalVertices::Vertex& vertex, double share);
   std::span<const double> weights() const
   {
     return { this->Weight.data(), static_cast<std::size_t>(this->Size) };

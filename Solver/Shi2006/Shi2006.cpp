@@ -121,6 +121,7 @@ void Shi2006::assemble(MeshSource& mesh, Problem& problem, shi2006::Level& fines
   }
   rows.finish();
   this->Labels.finish();
+  this->Parts.settle();
   reportAssembly(rows.assembly(), this->Parts, this->Result);
   this->RoundingNorm = roundingOf(rows.assembly().residual().termSquares());
   FinestState state{ finest };

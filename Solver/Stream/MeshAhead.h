@@ -3,6 +3,7 @@
 
 #include "smg/MeshSource.h"
 
+#include <cstdint>
 #include <exception>
 #include <utility>
 
@@ -50,6 +51,15 @@ public:
       this->Following.failure = std::current_exception();
     }
     this->Ended = this->Following.ended || this->Following.failure;
+  }
+
+  const StreamInfo& info() const { return this->Mesh.info(); }
+  bool isAhead() const { return this->Ahead; }
+  /** If it reads ahead, the vertices of the current block, 0 at the end of the stream. */
+  std::int64_t vertices() const
+  {
+    const bool is = this->Current.read && !this->Current.ended && !this->Current.failure;
+    return is ? this->Current.block.vertices() : 0;
   }
 
   /** The current block, or null at the end of the stream; to be called once after each advance(),

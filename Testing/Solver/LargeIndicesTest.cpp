@@ -205,15 +205,19 @@ public:
 private:
   void close(std::int64_t end)
   {
-    std::vector<RowNeighbour> neighbours;
+    FinalVertices made;
+    made.clear(this->Final);
     for (; this->Final < end; ++this->Final)
     {
       const std::int64_t i = this->Final;
-      neighbours.clear();
-      this->Cells.edges.take(i, this->Cells.vertices.points, neighbours);
+      this->Cells.edges.take(i, this->Cells.vertices.points, made.neighbours);
       const double alpha = this->Cells.loads.close(i);
-      const std::int32_t label = this->Cells.parts.close(i, this->Cells.vertices.mass[i]);
-      this->Assembled.close(i, label, neighbours, nullptr, alpha, this->Cells.loads.load());
+      const double mass = this->Cells.vertices.mass[i];
+      const double* load = this->Cells.loads.load();
+      made.loads.insert(made.loads.end(), load, load + this->Asked.columns());
+      made.vertices.push_back(
+        { made.neighbours.size(), alpha, mass, i, this->Cells.parts.close(i, mass) });
+      this->Assembled.close(made, made.vertices.size() - 1);
     }
     this->Cells.parts.flush();
     this->Cells.parts.release(end);
