@@ -39,7 +39,7 @@ public:
     , Set(std::move(operators))
     , Built(levels)
     , FirstCore(firstCore)
-    , ApartLevels(canRunApart<Operators> && apart ? std::min(2, firstCore) : 0)
+    , ApartLevels(canRunApart<Operators> && apart ? std::min(MostApart, firstCore) : 0)
     , Stiff(stiff)
   {
     this->addRows();
@@ -81,18 +81,25 @@ public:
       this->advanceLevel(task - (ApartTasks - 1) * this->ApartLevels);
       return;
     }
-    const int l = task / ApartTasks;
+    // The longest tasks first: no thread is to begin one when the others have finished.
+    const int l = task % this->ApartLevels;
     Coarsening<Operators>& step = *this->Steps[static_cast<std::size_t>(l)];
-    switch (task % ApartTasks)
+    switch (task / this->ApartLevels)
     {
       case 0:
-        step.advanceCoarseRows();
-        break;
-      case 1:
         step.advanceInterpolation();
         break;
+      case 1:
+        step.advanceCoarseRows();
+        break;
       case 2:
+        step.advanceGathering();
+        break;
+      case 3:
         step.advanceProducts();
+        break;
+      case 4:
+        step.advanceLifting();
         break;
       default:
         this->pack(l);
@@ -162,7 +169,8 @@ public:
   }
 
 private:
-  static constexpr int ApartTasks = 4; // of a level
+  static constexpr int ApartTasks = 6; // of a level
+  static constexpr int MostApart = 3;  // levels
 
   void advanceLevel(int l)
   {

@@ -2,13 +2,14 @@
 #pragma once
 
 #include "Solver/Hierarchy/CoarseEntry.h"
+#include "Solver/Hierarchy/GatheredRows.h"
 #include "Solver/Hierarchy/LevelRows.h"
 #include "Solver/Hierarchy/Patches.h"
 #include "Solver/Hierarchy/StiffRows.h"
-#include "Solver/Hierarchy/StrongestWeight.h"
 #include "Solver/Storage/MonotoneRing.h"
 #include "Solver/Storage/RaggedRing.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -163,6 +164,8 @@ struct CoarseningData
     , slots(pool)
     , productSlots(pool)
     , gatherSlots(pool)
+    , sparsifySlots(pool)
+    , seenCoarse(coarseRows.first())
     , knownCoarse(coarseRows.first())
     , coarseNodes(coarseRows.first())
   {
@@ -198,7 +201,9 @@ struct CoarseningData
   // By coarse node.
   MonotoneRing liftedFrom;               ///< its fine node
   Ring<ChildLink> firstChild, lastChild; ///< of its column of P
-  /** Off-diagonal rows of -P^T A P, before and during sparsification. */
+  /** Rows of -P^T A P that sparsify() has not got: those of this step, and of the step before. */
+  GatheredRows gathered, arrived;
+  /** Off-diagonal rows of -P^T A P during sparsification. */
   RaggedRing<CoarseEntry> raw;
   Ring<double> rawAlpha;
   Ring<StrongestWeight> rawStrongest;
@@ -213,24 +218,41 @@ struct CoarseningData
   /** Scratch of sparsification: which of the first 64 entries were large when the row came. */
   Ring<std::uint64_t> rawLarge;
 
-  /** Scratch of the stages for coarse nodes, which may run on three threads: those up to
-   * interpolate(), multiply(), and those from gather() on. */
-  SlotRing slots, productSlots, gatherSlots;
-  /** The end of the coarse nodes that the stages from multiply() on know. */
-  std::int64_t knownCoarse = 0;
+  /** Scratch of the stages for coarse nodes, which may run on four threads: relaxInterpolation()
+   * and interpolate(), multiply(), gather(), and sparsify(). */
+  SlotRing slots, productSlots, gatherSlots, sparsifySlots;
+  /** The ends of the coarse nodes that the stages from relaxInterpolation() on know, and those from
+   * multiply() on. */
+  std::int64_t seenCoarse = 0, knownCoarse = 0;
 
-  /** Room in addition to the rows of `raw` below `end`. */
-  void openRaw(std::int64_t end)
+  /** Upper bounds of the entries of row i of the initial P, and of A P. */
+  std::int64_t mostInitial(std::int64_t i) const
   {
-    this->rawAlpha.extendRaw(end);
-    this->rawStrongest.extendRaw(end);
-    this->rawDiagonal.extendRaw(end);
-    this->rawKept.extend(end);
-    for (auto* ring : { &this->rawLower, &this->rawMirrored, &this->rawSettled })
+    return static_cast<std::int64_t>(this->fine.row(i).size()) + 1;
+  }
+  std::int64_t mostProducts(std::int64_t i) const
+  {
+    return RelaxedRow::Most * (static_cast<std::int64_t>(this->fine.row(i).size()) + 1);
+  }
+
+  /** Appends row c to `raw`, the next one. */
+  void appendRaw(std::int64_t c, const GatheredRow& row, const CoarseEntry* entries)
+  {
+    std::copy_n(entries, row.size, this->raw.open(row.size));
+    this->raw.close(row.size);
+    append(this->rawAlpha, c, row.alpha);
+    append(this->rawStrongest, c, row.strongest);
+    append(this->rawDiagonal, c, row.diagonal);
+    append(this->rawKept, c, static_cast<std::uint8_t>(row.kept));
+    append(this->rawLower, c, row.lower);
+    append(this->rawMirrored, c, row.lower - 1);
+    append(this->rawSettled, c, 0);
+    this->rawLarge.extendRaw(c + 1);
+    std::int32_t* mirrored = this->rawMirrored.at(c);
+    for (std::int32_t e = 0; e < row.lower; ++e)
     {
-      ring->extend(end);
+      ++mirrored[entries[e].offset(c)];
     }
-    this->rawLarge.extendRaw(end);
   }
   /** Releases the rows of `raw` below `first`. */
   void releaseRaw(std::int64_t first)
@@ -247,9 +269,26 @@ struct CoarseningData
     this->rawLarge.release(first);
   }
 
+  /** Releases the scratch of coarse nodes below `first`. */
+  void releaseSlots(std::int64_t first)
+  {
+    for (SlotRing* ring :
+      { &this->slots, &this->productSlots, &this->gatherSlots, &this->sparsifySlots })
+    {
+      ring->release(first);
+    }
+  }
+
   std::int64_t coarseNodes = 0; ///< the next coarse node
 
 private:
+  template <class T>
+  static void append(Ring<T>& ring, std::int64_t c, T value)
+  {
+    ring.extendRaw(c + 1);
+    ring[c] = value;
+  }
+
   /** Sets the next fine and coarse nodes. */
   void begin(std::int64_t i, std::int64_t c)
   {
@@ -268,9 +307,7 @@ private:
     this->firstChild.release(c);
     this->lastChild.release(c);
     this->releaseRaw(c);
-    this->slots.release(c);
-    this->productSlots.release(c);
-    this->gatherSlots.release(c);
+    this->releaseSlots(c);
   }
 };
 

@@ -128,7 +128,7 @@ void ExtendedInterpolation::relax(CoarseningData& data, std::int64_t i)
 void ExtendedInterpolation::openPattern(
   const CoarseningData& data, std::int64_t i, std::uint32_t mark)
 {
-  const std::int64_t near = data.coarseNodes;
+  const std::int64_t near = data.seenCoarse;
   Slot* slots = data.slots.at(near);
   const auto initial = data.initial.near(i);
   std::size_t size = 0;
@@ -151,7 +151,7 @@ void ExtendedInterpolation::openPattern(
 /** The weights of the columns. */
 void ExtendedInterpolation::closePattern(const CoarseningData& data)
 {
-  const Slot* slots = data.slots.at(data.coarseNodes);
+  const Slot* slots = data.slots.at(data.seenCoarse);
   for (Candidate& candidate : this->Row)
   {
     candidate.weight = slots[candidate.distance].value;
@@ -160,7 +160,7 @@ void ExtendedInterpolation::closePattern(const CoarseningData& data)
 
 void ExtendedInterpolation::relaxNode(CoarseningData& data, std::int64_t i)
 {
-  const std::int64_t near = data.coarseNodes;
+  const std::int64_t near = data.seenCoarse;
   Slot* slots = data.slots.at(near);
   const std::uint32_t mark = data.slots.freshMark();
   this->openPattern(data, i, mark);
@@ -188,7 +188,7 @@ void ExtendedInterpolation::relaxNode(CoarseningData& data, std::int64_t i)
 void ExtendedInterpolation::gatherOutside(
   CoarseningData& data, std::int64_t i, const Patch& patch, std::uint8_t inside, Outside& sum)
 {
-  const std::int64_t near = data.coarseNodes;
+  const std::int64_t near = data.seenCoarse;
   Slot* slots = data.slots.at(near);
   const std::uint32_t mark = data.slots.freshMark();
   sum.weights.clear();
@@ -246,7 +246,7 @@ void ExtendedInterpolation::relaxPatch(
     gatherOutside(
       data, patch.member(members[a]), patch, inside, this->Of[static_cast<std::size_t>(a)]);
   }
-  Slot* slots = data.slots.at(data.coarseNodes);
+  Slot* slots = data.slots.at(data.seenCoarse);
   for (int a = 0; a < count; ++a)
   {
     const std::int64_t i = patch.member(members[a]);
@@ -322,14 +322,14 @@ void ExtendedInterpolation::store(CoarseningData& data, std::int64_t i, double s
   for (int k = 0; k < row.size; ++k)
   {
     const Candidate& from = largest[k];
-    row.entry[k] = { static_cast<CoarseIndex>(data.coarseNodes + from.distance),
+    row.entry[k] = { static_cast<CoarseIndex>(data.seenCoarse + from.distance),
       from.weight + share * std::fabs(from.weight) };
   }
 }
 
 void ExtendedInterpolation::append(CoarseningData& data, std::int64_t i) const
 {
-  const std::int64_t near = data.coarseNodes;
+  const std::int64_t near = data.seenCoarse;
   const RelaxedRow& row = data.relaxed[i];
   int rounded[RelaxedRow::Most];
   int rest = nearest(row.sum * Quanta);

@@ -130,18 +130,17 @@ void GalerkinProduct::gather(CoarseningData& data, std::int64_t c)
     }
   }
   this->sort(static_cast<std::size_t>(columns));
-  data.rawAlpha[c] = alpha;
-  this->append(data, c);
+  this->append(data, c, alpha);
 }
 
-void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
+void GalerkinProduct::append(CoarseningData& data, std::int64_t c, double alpha)
 {
   const Slot* slots = data.gatherSlots.at(c);
-  CoarseEntry* out = data.raw.open(static_cast<std::int64_t>(this->Sorted.size()));
+  CoarseEntry* out = data.gathered.open(static_cast<std::int64_t>(this->Sorted.size()));
   std::int32_t lower = 0;
   std::int64_t size = 0;
   float strongest = 0.0F, least = 0.0F;
-  double sum = data.rawAlpha[c], terms = 0.0;
+  double sum = alpha, terms = 0.0;
   for (const std::int32_t delta : this->Sorted)
   {
     if (delta != 0)
@@ -155,19 +154,9 @@ void GalerkinProduct::append(CoarseningData& data, std::int64_t c)
       terms += std::fabs(weight);
     }
   }
-  data.raw.close(size);
-  const double diagonal = usableDiagonal(sum);
   const bool stiff = data.stiff(least);
-  data.rawStrongest[c] = { strongest, stiff };
-  data.rawDiagonal[c] = static_cast<float>(diagonal);
-  data.rawKept[c] = stiff || terms > this->cancelling * sum ? 1 : 0;
-  data.rawLower[c] = lower;
-  std::int32_t* mirrored = data.rawMirrored.at(c);
-  *mirrored = lower - 1;
-  for (std::int32_t e = 0; e < lower; ++e)
-  {
-    ++mirrored[this->Sorted[static_cast<std::size_t>(e)]];
-  }
+  data.gathered.close({ size, alpha, static_cast<float>(usableDiagonal(sum)), { strongest, stiff },
+    lower, stiff || terms > this->cancelling * sum });
 }
 
 } // namespace smg

@@ -28,7 +28,7 @@ public:
   /** Appends row i of A P. The rows of P up to reach(i) must exist. */
   void multiply(CoarseningData& data, std::int64_t i);
 
-  /** Appends row c of P^T A P. All its children and their rows of A P must exist. */
+  /** Appends row c of P^T A P to `gathered`. All its children and their rows of A P must exist. */
   void gather(CoarseningData& data, std::int64_t c);
 
 private:
@@ -46,8 +46,8 @@ private:
   /** Sorts the first `size` of Columns. */
   void sort(std::size_t size);
 
-  /** Appends the row of node c, with the columns of Sorted. */
-  void append(CoarseningData& data, std::int64_t c);
+  /** Appends the row of node c, with the columns of Sorted and this row sum. */
+  void append(CoarseningData& data, std::int64_t c, double alpha);
 
   // Of multiply(), which may run on another thread than gather().
   std::vector<std::int32_t> RowColumns;

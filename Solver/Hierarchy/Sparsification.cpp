@@ -39,7 +39,7 @@ Sparsification::Candidate Sparsification::strongestCommon(
   const CoarseningData& data, std::int64_t c, std::uint32_t mark, float least) const
 {
   Candidate best{ -1, least };
-  const Slot* large = data.gatherSlots.at(c);
+  const Slot* large = data.sparsifySlots.at(c);
   const CoarseEntry* row = data.raw.row(c);
   // Released neighbours of c are not neighbours of k, since all their neighbours precede k.
   const std::int64_t there = data.raw.first() - c;
@@ -96,8 +96,8 @@ void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
   const CoarseEntry* row = data.raw.row(k);
   const std::int32_t lower = data.rawLower[k];
   const std::int64_t size = data.raw.size(k);
-  Slot* large = data.gatherSlots.at(k);
-  const std::uint32_t mark = data.gatherSlots.freshMark();
+  Slot* large = data.sparsifySlots.at(k);
+  const std::uint32_t mark = data.sparsifySlots.freshMark();
   const StrongestWeight* strongest = data.rawStrongest.at(k);
   const std::int32_t* mirrored = data.rawMirrored.at(k);
   std::uint64_t bits = 0;

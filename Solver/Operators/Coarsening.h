@@ -2,16 +2,18 @@
 #pragma once
 
 #include "Solver/Hierarchy/CoarseningData.h"
+#include "Solver/Hierarchy/FinishedRow.h"
 #include "Solver/Hierarchy/RowBatch.h"
+#include "Solver/Operators/InterpolationSweeps.h"
 #include "Solver/Operators/OperatorSet.h"
 #include "Solver/Operators/StepLimit.h"
+#include "Solver/Operators/UsualEntries.h"
 #include "smg/Error.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <utility>
-#include <vector>
 
 namespace smg
 {
@@ -33,8 +35,7 @@ public:
     , Data(pool, fine, coarse, stiff)
     , Begin(fine.first())
     , CoarseBegin(coarse.first())
-    , Relaxed(static_cast<std::size_t>(this->Set.interpolationSweeps()),
-        Sweep{ this->Begin, this->Begin, {} })
+    , Sweeps(this->Set.interpolationSweeps(), this->Begin)
   {
   }
 
@@ -52,17 +53,19 @@ public:
   void advance(std::int64_t rows = std::numeric_limits<std::int64_t>::max())
   {
     this->begin(rows);
+    this->advanceLifting();
+    this->seeLifting();
     this->advanceInterpolation();
     this->seeInterpolation();
     this->advanceProducts();
     this->seeProducts();
+    this->advanceGathering();
     this->advanceCoarseRows();
     this->release();
   }
 
-  // The same on three threads: between beginApart() and release(), advanceInterpolation(),
-  // advanceProducts() and advanceCoarseRows() may run at the same time, each on what the one before
-  // it has done in earlier steps.
+  // The same on five threads: between beginApart() and release(), the following may run at the same
+  // time, each on what the one before it has done in earlier steps.
 
   /** Begins a step in which stages usually process so many nodes at most, see StepLimit; returns
    * about how many coarse rows these become. */
@@ -70,13 +73,12 @@ public:
   {
     const std::int64_t coarse = this->usualCoarseRows(nodes);
     this->Limits.begin(nodes, coarse);
-    for (Sweep& sweep : this->Relaxed)
-    {
-      sweep.limit.begin(StepLimits::more(nodes));
-    }
+    this->Sweeps.begin(StepLimits::more(nodes));
     this->begin(this->Lifted + this->Limits.lift.nodes());
+    std::swap(this->Data.gathered, this->Data.arrived);
     this->seeProducts();
     this->seeInterpolation();
+    this->seeLifting();
     this->reserve();
     this->Apart = true;
     return coarse;
@@ -84,10 +86,17 @@ public:
   /** The rows that no stage has processed. */
   std::int64_t waiting() const { return this->Data.fine.end() - this->Lifted; }
 
-  /** The stages that determine P. */
-  void advanceInterpolation()
+  /** The stages up to the initial P. */
+  void advanceLifting()
   {
     this->lift();
+    this->interpolateInitial();
+  }
+
+  /** The stages from the initial P to P. */
+  void advanceInterpolation()
+  {
+    this->Data.slots.extend(this->Data.seenCoarse);
     this->interpolate();
   }
 
@@ -98,11 +107,17 @@ public:
     this->multiply();
   }
 
-  /** The stages from A P to the coarse rows. */
-  void advanceCoarseRows()
+  /** The stage from A P to P^T A P. */
+  void advanceGathering()
   {
     this->Data.gatherSlots.extend(this->Data.knownCoarse);
     this->gather();
+  }
+
+  /** The stages from P^T A P to the coarse rows. */
+  void advanceCoarseRows()
+  {
+    this->sparsify();
     this->finish();
   }
 
@@ -148,9 +163,7 @@ public:
     d.firstChild.release(this->Gathered);
     d.lastChild.release(this->Finished);
     d.releaseRaw(this->Finished);
-    d.slots.release(this->Finished);
-    d.productSlots.release(this->Finished);
-    d.gatherSlots.release(this->Finished);
+    d.releaseSlots(this->Finished);
   }
 
 private:
@@ -165,11 +178,18 @@ private:
     }
   }
 
+  /** Shows the coarse nodes and the initial P so far to the stages of advanceInterpolation(). */
+  void seeLifting()
+  {
+    this->SeenInitial = this->Initial;
+    this->Data.seenCoarse = this->Data.coarseNodes;
+  }
+
   /** Shows the interpolation so far to the stages from multiply() on. */
   void seeInterpolation()
   {
     this->Seen = this->Interpolated;
-    this->Data.knownCoarse = this->Data.coarseNodes;
+    this->Data.knownCoarse = this->Data.seenCoarse;
   }
 
   /** Shows the products so far to the stages from gather() on. */
@@ -191,6 +211,7 @@ private:
     const std::int64_t rows =
       std::min(this->Rows - this->Interpolated, this->Limits.interpolate.nodes());
     const std::int64_t lifts = this->Rows - this->Lifted;
+    d.lifted.reserve(this->Rows - d.lifted.first());
     d.patches.reserve(lifts);
     d.interpolation.reserve(rows, RelaxedRow::Most * rows);
     d.rowQuanta.reserve(this->Rows - d.rowQuanta.first());
@@ -201,7 +222,20 @@ private:
     {
       ring->reserve(d.coarseNodes + lifts - ring->first());
     }
+    this->reserveInitial();
     this->reserveProducts();
+  }
+
+  /** Of the initial rows, too, which are as long as those of the level at most. */
+  void reserveInitial()
+  {
+    CoarseningData& d = this->Data;
+    const std::int64_t rows = std::min(this->Rows - this->Initial, this->Limits.initial.nodes());
+    if (rows > 0)
+    {
+      d.initial.reserve(rows, this->InitialEntries.of(rows) + d.mostInitial(this->Initial));
+      d.initialSum.reserve(this->Rows - d.initialSum.first());
+    }
   }
 
   /** The rows of A P are of any length: there is room for rows of the usual one. */
@@ -212,18 +246,9 @@ private:
       std::min(this->Rows - this->Multiplied, this->Limits.multiply.nodes());
     if (rows > 0)
     {
-      const std::int64_t before = this->Multiplied - this->Begin;
-      const std::int64_t usual = before > 0 ? rows * this->ProductEntries / before : 8 * rows;
-      d.product.reserve(rows, usual + usual / 8 + this->mostProducts(this->Multiplied));
+      d.product.reserve(rows, this->ProductEntries.of(rows) + d.mostProducts(this->Multiplied));
       d.productSum.reserve(this->Rows - d.productSum.first());
     }
-  }
-
-  /** An upper bound of the entries of row i of A P. */
-  std::int64_t mostProducts(std::int64_t i) const
-  {
-    const auto neighbours = static_cast<std::int64_t>(this->Data.fine.row(i).size());
-    return RelaxedRow::Most * (neighbours + 1);
   }
 
   void lift()
@@ -245,52 +270,36 @@ private:
       });
     d.firstChild.extend(d.coarseNodes);
     d.lastChild.extend(d.coarseNodes);
-    d.slots.extend(d.coarseNodes);
+  }
+
+  void interpolateInitial()
+  {
+    CoarseningData& d = this->Data;
+    this->Limits.initial.run(
+      this->Initial, this->Lifted,
+      [&](std::int64_t i) {
+        return d.fine.reach(i) < this->Lifted &&
+               (!this->Apart || d.initial.hasRoom(d.mostInitial(i)));
+      },
+      [&](std::int64_t i)
+      {
+        this->Set.interpolateInitial(d, i);
+        this->InitialEntries.add(d.initial.size(i));
+      });
   }
 
   void interpolate()
   {
     CoarseningData& d = this->Data;
-    const std::int64_t rows = this->Lifted;
-    this->Limits.initial.run(
-      this->Initial, rows, [&](std::int64_t i) { return d.fine.reach(i) < this->Lifted; },
-      [&](std::int64_t i) { this->Set.interpolateInitial(d, i); });
-    this->relax();
-    d.rowQuanta.extendRaw(rows);
+    this->Sweeps.advance(this->Set, d, this->SeenInitial);
+    d.rowQuanta.extendRaw(this->SeenInitial);
     this->Limits.interpolate.run(
-      this->Interpolated, this->Relaxed.back().settled, [](std::int64_t) { return true; },
+      this->Interpolated, this->Sweeps.settled(), [](std::int64_t) { return true; },
       [&](std::int64_t i)
       {
         this->Set.interpolate(d, i);
         d.settledReach.append(d.patches.lastAround(d.fine, i));
       });
-  }
-
-  /** The sweeps over the rows of P, one after the other. */
-  void relax()
-  {
-    CoarseningData& d = this->Data;
-    std::int64_t before = this->Initial;
-    for (Sweep& sweep : this->Relaxed)
-    {
-      sweep.limit.run(
-        sweep.next, this->Lifted, [&](std::int64_t i) { return d.fine.reach(i) < before; },
-        [&](std::int64_t i)
-        {
-          if (i == d.relaxed.end())
-          {
-            d.relaxed.extendRaw(i + 1);
-            d.relaxed[i].size = RelaxedRow::Pending;
-          }
-          this->Set.relaxInterpolation(d, i);
-        });
-      // A patch is relaxed at its last node.
-      while (sweep.settled < sweep.next && d.patches.last(sweep.settled) < sweep.next)
-      {
-        ++sweep.settled;
-      }
-      before = sweep.settled;
-    }
   }
 
   void multiply()
@@ -299,15 +308,14 @@ private:
     d.productSum.extendRaw(this->Rows);
     this->Limits.multiply.run(
       this->Multiplied, this->Rows,
-      [&](std::int64_t i)
-      {
+      [&](std::int64_t i) {
         return d.fine.reach(i) < this->Seen &&
-               (!this->Apart || d.product.hasRoom(this->mostProducts(i)));
+               (!this->Apart || d.product.hasRoom(d.mostProducts(i)));
       },
       [&](std::int64_t i)
       {
         this->Set.multiply(d, i);
-        this->ProductEntries += d.product.size(i);
+        this->ProductEntries.add(d.product.size(i));
       });
   }
 
@@ -330,56 +338,46 @@ private:
       this->Gathered, d.knownCoarse, [&](std::int64_t c) { return this->canGather(c); },
       [&](std::int64_t c)
       {
-        d.openRaw(c + 1);
         this->Set.gather(d, c);
-        this->Set.sparsify(d, c);
+        if (!this->Apart)
+        {
+          std::swap(d.gathered, d.arrived);
+          this->sparsify();
+        }
       });
   }
 
-  /**
-   * A coarse row is final when its last neighbour has been processed. Its upper weights are then
-   * copied to the lower parts of the rows above it: to the next entry of each, since rows become
-   * final in order.
-   */
+  /** Processes the rows that have arrived. */
+  void sparsify()
+  {
+    CoarseningData& d = this->Data;
+    d.sparsifySlots.extend(d.knownCoarse);
+    d.arrived.take(
+      [&](const GatheredRow& row, const CoarseEntry* entries)
+      {
+        d.appendRaw(this->Sparsified, row, entries);
+        this->Set.sparsify(d, this->Sparsified++);
+      });
+  }
+
+  /** A coarse row is final when its last neighbour has been processed. */
   void finish()
   {
     CoarseningData& d = this->Data;
-    for (std::int64_t& c = this->Finished; c < this->Gathered; ++c)
+    for (std::int64_t& c = this->Finished; c < this->Sparsified; ++c)
     {
       const std::int64_t size = d.raw.size(c);
-      const CoarseEntry* raw = d.raw.row(c);
-      std::int32_t* settled = d.rawSettled.at(c);
-      if (size > 0 && c + raw[size - 1].offset(c) >= this->Gathered)
+      if (size > 0 && c + d.raw.row(c)[size - 1].offset(c) >= this->Sparsified)
       {
         break;
       }
-      for (std::int64_t e = d.rawLower[c]; e < size; ++e)
-      {
-        const std::int32_t delta = raw[e].offset(c);
-        d.raw.row(c + delta)[settled[delta]++].takeValue(raw[e]);
-      }
-      RowEntry* out = this->Final.open(size);
-      std::int64_t kept = 0;
-      for (std::int64_t e = 0; e < size; ++e)
-      {
-        out[kept] = { raw[e].offset(c), raw[e].value() };
-        kept += raw[e].removed() ? 0 : 1;
-      }
-      this->Final.close(
-        kept, d.rawAlpha[c], d.lastChild[c].row(this->Rows), d.rawStrongest[c].stiff());
+      finishRow(d, c, d.lastChild[c].row(this->Rows), this->Final);
     }
   }
 
   Operators Set;
   CoarseningData Data;
   RowBatch Final;
-
-  /** A sweep over the rows of P: the next row, and up to where all have been relaxed. */
-  struct Sweep
-  {
-    std::int64_t next, settled;
-    StepLimit limit;
-  };
 
   StepLimits Limits;
   bool Apart = false; // whether several threads advance the stages
@@ -388,10 +386,12 @@ private:
   const std::int64_t Begin, CoarseBegin;        // the first nodes
   std::int64_t Rows = Begin;                    // of the fine level, that stages may read
   std::int64_t Lifted = Begin, Initial = Begin; // by fine node
-  std::vector<Sweep> Relaxed;
+  InterpolationSweeps<Operators> Sweeps;
+  std::int64_t SeenInitial = Begin;
   std::int64_t Interpolated = Begin, Seen = Begin, Multiplied = Begin, SeenProducts = Begin;
-  std::int64_t ProductEntries = 0;                             // of the rows of A P so far
-  std::int64_t Gathered = CoarseBegin, Finished = CoarseBegin; // by coarse node
+  UsualEntries InitialEntries, ProductEntries;
+  // By coarse node.
+  std::int64_t Gathered = CoarseBegin, Sparsified = CoarseBegin, Finished = CoarseBegin;
   std::int64_t Packed = Begin;
   std::int64_t RelaxedDone = Begin, ReachDone = Begin, PatchesDone = Begin, ProductDone = Begin;
 };

@@ -43,13 +43,12 @@ namespace smg
  *   from `firstChild` to `lastChild`, and sets `rowQuanta` and `parentReach`.
  * - `multiply` may read row i and `interpolation` of i and its neighbours. It appends row i of
  *   `product` and sets `productSum`.
- * - `gather` may read the chain of column c and `product` of its rows. It appends row c of `raw`,
- *   by ascending column, sets rawAlpha, rawDiagonal, rawKept, rawStrongest (stiff if
- *   `data.stiff`, called once, returns true), rawLower and rawMirrored of c and increments
- *   rawMirrored of its neighbours above.
- * - `sparsify`, which follows it, may read the rows of `raw` up to c that have neighbours from c
- *   on, and modify their upper entries, those with delta > 0; their weights are finally copied to
- *   the lower ones. CoarseEntry::remove() marks an entry as removed.
+ * - `gather` may read the chain of column c and `product` of its rows. It appends row c to
+ *   `gathered`, by ascending column; the row is stiff if `data.stiff`, called once, returns true.
+ * - `sparsify`, which follows it, may read the rows of `raw` up to c, which are those of
+ * `gathered`, that have neighbours from c on, and modify their upper entries, those with delta > 0;
+ * their weights are finally copied to the lower ones. CoarseEntry::remove() marks an entry as
+ * removed.
  *
  * Requirements of the engine: a node without edges is not lifted; each lifted node has a child; P
  * has entries from -1 to 1 (multiples of 1/Quanta), from coarse nodes within two rings; the coarse
@@ -84,10 +83,10 @@ concept OperatorSet = std::default_initializable<O> && std::copyable<O> &&
   requires Relaxation<typename O::Relaxation>;
 };
 
-/** Whether three threads may run the steps up to interpolate(), multiply(), and gather() with
- * sparsify(): these share no data but those of CoarseningData, and rows of P have at most
- * RelaxedRow::Most entries. A set derived from such a one must say so again, since it may replace
- * any step. */
+/** Whether five threads may run the steps up to interpolateInitial(), those up to interpolate(),
+ * multiply(), gather() and sparsify(): these share no data but those of CoarseningData, and rows of
+ * P have at most RelaxedRow::Most entries. A set derived from such a one must say so again, since
+ * it may replace any step. */
 template <class O>
 inline constexpr bool canRunApart = requires
 {

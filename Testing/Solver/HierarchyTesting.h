@@ -258,9 +258,9 @@ public:
     }
   }
   void multiply(CoarseningData& data, std::int64_t i) { this->Product.multiply(data, i); }
-  void gather(CoarseningData& data, std::int64_t c)
+  void gather(CoarseningData& data, std::int64_t c) { this->Product.gather(data, c); }
+  void sparsify(CoarseningData& data, std::int64_t c) const
   {
-    this->Product.gather(data, c);
     auto& row = this->record->raw.rows.emplace_back();
     const CoarseEntry* entry = data.raw.row(c);
     for (const CoarseEntry* end = entry + data.raw.size(c); entry != end; ++entry)
@@ -269,9 +269,6 @@ public:
     }
     this->record->raw.alpha.push_back(data.rawAlpha[c]);
     this->record->rawStiff.push_back(data.rawStrongest[c].stiff());
-  }
-  void sparsify(CoarseningData& data, std::int64_t c) const
-  {
     Sparsification{ this->tolerance }(data, c);
   }
 

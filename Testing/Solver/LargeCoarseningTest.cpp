@@ -92,7 +92,9 @@ Made coarsenFrom(const FirstNodes& first, const TestLevel& level, const Extended
     {
       step.beginApart(batch);
       step.advanceCoarseRows();
+      step.advanceGathering();
       step.advanceInterpolation();
+      step.advanceLifting();
       step.advanceProducts();
     }
     else

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Hierarchy/CoarseEntry.h"
+#include "Solver/Hierarchy/StrongestWeight.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace smg
+{
+
+/** What is known of an off-diagonal row of -P^T A P when it has been gathered. */
+struct GatheredRow
+{
+  std::int64_t size;
+  double alpha; ///< the row sum of P^T A P
+  float diagonal;
+  StrongestWeight strongest;
+  std::int32_t lower; ///< entries below the row
+  bool kept;          ///< whether none of its entries may be removed
+};
+
+/** Coarse rows made by one thread, which sparsification, perhaps on another one, takes. */
+class GatheredRows
+{
+public:
+  /** Room for at most `size` entries of the next row. */
+  CoarseEntry* open(std::int64_t size)
+  {
+    // Grows only, since resize() clears what it adds.
+    const std::size_t end = this->Used + static_cast<std::size_t>(size);
+    this->Entries.resize(std::max(this->Entries.size(), end));
+    return this->Entries.data() + this->Used;
+  }
+  /** Ends the row begun by open(), whose entries have ascending columns. */
+  void close(const GatheredRow& row)
+  {
+    this->Used += static_cast<std::size_t>(row.size);
+    this->Rows.push_back(row);
+  }
+
+  /** Calls use(row, entries) for each row and forgets them. */
+  template <class Use>
+  void take(Use&& use)
+  {
+    const CoarseEntry* entries = this->Entries.data();
+    for (const GatheredRow& row : this->Rows)
+    {
+      use(row, entries);
+      entries += row.size;
+    }
+    this->Rows.clear();
+    this->Used = 0;
+  }
+
+private:
+  std::vector<CoarseEntry> Entries;
+  std::vector<GatheredRow> Rows;
+  std::size_t Used = 0;
+};
+
+} // namespace smg
