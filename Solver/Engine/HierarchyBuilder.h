@@ -81,7 +81,7 @@ public:
       this->advanceLevel(task - (ApartTasks - 1) * this->ApartLevels);
       return;
     }
-    // The longest tasks first: no thread is to begin one when the others have finished.
+    // The longest tasks of a level first: no thread is to begin one when the others have finished.
     const int l = task % this->ApartLevels;
     Coarsening<Operators>& step = *this->Steps[static_cast<std::size_t>(l)];
     switch (task / this->ApartLevels)

@@ -70,8 +70,8 @@ std::int64_t expectedMemory(
 
 bool permitsTasks(const StreamInfo& info, const Problem& problem, const SolveOptions& options)
 {
-  // What lies between the tasks of a level: measured 3.5 MiB for surfaces, whatever their size.
-  constexpr std::int64_t BetweenTasks = std::int64_t(4) << 20;
+  // What lies between the tasks: measured 6 MiB for surfaces, whatever their size.
+  constexpr std::int64_t BetweenTasks = std::int64_t(7) << 20;
   const std::int64_t expected = expectedMemory(info, problem.columns(), problem.weights(), options);
   return options.memoryLimit > expected / 4 * 5 + BetweenTasks;
 }

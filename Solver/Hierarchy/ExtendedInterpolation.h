@@ -53,7 +53,7 @@ public:
   void append(CoarseningData& data, std::int64_t i) const;
 
 private:
-  /** A weight for a coarse node, at a distance from coarseNodes. */
+  /** A weight for a coarse node, at a distance from seenCoarse. */
   struct Candidate
   {
     std::int32_t distance;

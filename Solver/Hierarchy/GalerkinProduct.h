@@ -52,8 +52,8 @@ private:
   // Of multiply(), which may run on another thread than gather().
   std::vector<std::int32_t> RowColumns;
 
-  // Of gather().
-  std::vector<Child> Children;
+  // Of gather(), on another cache line.
+  alignas(64) std::vector<Child> Children;
   std::vector<std::int32_t> Columns, Sorted;
 };
 

@@ -108,16 +108,12 @@ public:
   }
 
   /** The stage from A P to P^T A P. */
-  void advanceGathering()
-  {
-    this->Data.gatherSlots.extend(this->Data.knownCoarse);
-    this->gather();
-  }
+  void advanceGathering() { this->gather(); }
 
   /** The stages from P^T A P to the coarse rows. */
   void advanceCoarseRows()
   {
-    this->sparsify();
+    this->sparsify(this->Data.arrived);
     this->finish();
   }
 
@@ -190,6 +186,8 @@ private:
   {
     this->Seen = this->Interpolated;
     this->Data.knownCoarse = this->Data.seenCoarse;
+    this->Data.gatherSlots.extend(this->Data.knownCoarse);
+    this->Data.sparsifySlots.extend(this->Data.knownCoarse);
   }
 
   /** Shows the products so far to the stages from gather() on. */
@@ -341,18 +339,16 @@ private:
         this->Set.gather(d, c);
         if (!this->Apart)
         {
-          std::swap(d.gathered, d.arrived);
-          this->sparsify();
+          this->sparsify(d.gathered);
         }
       });
   }
 
-  /** Processes the rows that have arrived. */
-  void sparsify()
+  /** Processes rows that have been gathered. */
+  void sparsify(GatheredRows& rows)
   {
     CoarseningData& d = this->Data;
-    d.sparsifySlots.extend(d.knownCoarse);
-    d.arrived.take(
+    rows.take(
       [&](const GatheredRow& row, const CoarseEntry* entries)
       {
         d.appendRaw(this->Sparsified, row, entries);

@@ -45,10 +45,9 @@ namespace smg
  *   `product` and sets `productSum`.
  * - `gather` may read the chain of column c and `product` of its rows. It appends row c to
  *   `gathered`, by ascending column; the row is stiff if `data.stiff`, called once, returns true.
- * - `sparsify`, which follows it, may read the rows of `raw` up to c, which are those of
- * `gathered`, that have neighbours from c on, and modify their upper entries, those with delta > 0;
- * their weights are finally copied to the lower ones. CoarseEntry::remove() marks an entry as
- * removed.
+ * - `sparsify`, which follows it, finds the gathered rows in `raw`. It may read those up to c that
+ *   have neighbours from c on, and modify their upper entries, those with delta > 0; their weights
+ *   are finally copied to the lower ones. CoarseEntry::remove() marks an entry as removed.
  *
  * Requirements of the engine: a node without edges is not lifted; each lifted node has a child; P
  * has entries from -1 to 1 (multiples of 1/Quanta), from coarse nodes within two rings; the coarse

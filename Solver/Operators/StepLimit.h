@@ -26,16 +26,19 @@ public:
   }
   std::int64_t nodes() const { return this->Most; }
 
-  /** Calls work(next) and increments it, below `end` and as long as may(next): for as many nodes as
+  /** Calls work(i) for i from `next` on, below `end` and as long as may(i): for as many nodes as
    * the step may have. */
   template <class May, class Work>
   void run(std::int64_t& next, std::int64_t end, May&& may, Work&& work)
   {
     const std::int64_t limit = next + this->Most;
-    for (end = std::min(end, limit); next < end && may(next); ++next)
+    // Cursors of stages on other threads are in the same cache line: this one is stored once.
+    std::int64_t at = next;
+    for (end = std::min(end, limit); at < end && may(at); ++at)
     {
-      work(next);
+      work(at);
     }
+    next = at;
     this->Reached = next == limit;
   }
 

@@ -6,8 +6,9 @@
 namespace smg
 {
 
-/** The number of entries that rows of any length usually have. */
-class UsualEntries
+/** The number of entries that rows of any length usually have. On a cache line of its own, since
+ * stages on different threads note theirs at the same time. */
+class alignas(64) UsualEntries
 {
 public:
   /** Notes a row with so many entries. */

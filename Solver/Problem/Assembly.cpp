@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 namespace smg
 {
@@ -33,14 +34,14 @@ void Assembly::add(const MeshBlock& block)
 {
   this->Check.add(block);
   this->Cells.add(block);
-  this->collect(block.finalized, false);
+  this->collectBelow(block.finalized, false);
   this->release();
 }
 
 void Assembly::finish()
 {
   this->Check.finish(this->Info);
-  this->collect(this->vertices(), false);
+  this->collectBelow(this->vertices(), false);
   this->release();
 }
 
@@ -56,24 +57,28 @@ void Assembly::collect(const MeshBlock& block)
 {
   this->Check.add(block);
   this->Cells.add(block);
-  this->collect(block.finalized, true);
+  this->collectBelow(block.finalized, true);
 }
 
 void Assembly::collectRest()
 {
   this->Check.finish(this->Info);
-  this->collect(this->vertices(), true);
+  this->collectBelow(this->vertices(), true);
 }
 
 /** Collects the vertices below `end`, and completes their rows unless another thread does. */
-void Assembly::collect(std::int64_t end, bool apart)
+void Assembly::collectBelow(std::int64_t end, bool apart)
 {
   while (this->Collected.end() < end)
   {
     this->collectBatch(std::min(end, this->Collected.end() + BatchRows));
     if (!apart)
     {
-      this->Out.weightScale = this->WeightScale;
+      // Changes once, at the first weighted cell: the coarse levels, on other threads, read it.
+      if (this->Out.weightScale != this->WeightScale)
+      {
+        this->Out.weightScale = this->WeightScale;
+      }
       std::swap(this->Collected, this->Arrived);
       this->Collected.clear(this->Arrived.end());
       this->closeRows();
@@ -127,14 +132,16 @@ void Assembly::collectVertex(std::int64_t i)
   const double* load = this->Cells.loads.load();
   made.loads.insert(made.loads.end(), load, load + open.values.lanes());
   const double mass = open.mass[i];
-  std::int32_t label = this->Cells.parts.close(i, mass);
+  const std::int32_t root = this->Cells.parts.close(i, mass);
   // A vertex with only flat cells has no component, but may have a facet.
-  if (label >= 0 && (alpha > 0.0 || RowAssembly::isKnown(open.dirichlet[i], end - before, alpha)))
+  if (root >= 0 && (alpha > 0.0 || RowAssembly::isKnown(open.dirichlet[i], end - before, alpha)))
   {
-    this->Parts.anchor(label);
+    this->Parts.anchor(root);
   }
-  label = label >= 0 && this->Parts.isFree(label) ? label : -1;
-  made.vertices.push_back({ end, alpha, mass, this->Reach[i], label });
+  // The root depends on which later cells are in the block, the label does not.
+  const bool counts = root >= 0 && this->Parts.isFree(root);
+  made.vertices.push_back(
+    { end, alpha, mass, this->Reach[i], counts ? this->Cells.parts.label(i) : -1 });
 }
 
 void Assembly::closeRows()

@@ -15,7 +15,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace smg
@@ -51,7 +50,8 @@ public:
 
   // The same in steps on two threads: between beginApart() and release(), closeRows() may run at
   // the same time as collect() or collectRest(). It completes the rows that these have collected in
-  // the step before. Without a listener, since the problem may have to do with that.
+  // the step before. Without a listener: that of a deformation also gets data from its problem,
+  // which is asked when blocks are added.
 
   /** Begins a step that may collect a block of so many vertices. */
   void beginApart(std::int64_t vertices);
@@ -79,7 +79,7 @@ public:
   const InitialResidual& residual() const { return this->Rows.residual(); }
 
 private:
-  void collect(std::int64_t end, bool apart);
+  void collectBelow(std::int64_t end, bool apart);
   void collectBatch(std::int64_t end);
   void collectVertex(std::int64_t i);
   void askTargets(std::int64_t begin, std::size_t edge);

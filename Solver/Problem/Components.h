@@ -40,7 +40,7 @@ public:
   std::int32_t join(std::int32_t a, std::int32_t b);
   std::int32_t root(std::int32_t label) const;
 
-  /** Counts an unknown of a component, which only free components need: its right-hand side,
+  /** Counts an unknown with this label, which only free components need: its right-hand side,
    * initial value and residual b - A x0, `columns` numbers each, and its mass. */
   void count(
     std::int32_t label, const double* b, const double* x0, const double* residual, double mass);

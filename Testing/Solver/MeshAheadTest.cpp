@@ -7,8 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <numeric>
+#include <vector>
 
 namespace smg::testing
 {
@@ -30,6 +34,35 @@ struct AnyThreadSource : MemorySource
   }
   int Asked = 0, Failing = 0;
 };
+
+/** Two strips, a cell of each in turn, which the last cell joins: most vertices are final before.
+ */
+IndexedTestMesh joinedStrips(int length)
+{
+  const IndexedTestMesh strip = grid(length, 3);
+  const std::int64_t other = strip.vertices();
+  IndexedTestMesh mesh;
+  mesh.positions = strip.positions;
+  for (std::int64_t v = 0; v < other; ++v)
+  {
+    const double* p = strip.positions.data() + 3 * v;
+    mesh.positions.insert(mesh.positions.end(), { p[0], p[1] + 10.0, p[2] });
+  }
+  // Along the strips: by the first of the three vertices across.
+  std::vector<std::int64_t> cells(strip.cells());
+  std::iota(cells.begin(), cells.end(), 0);
+  std::ranges::stable_sort(
+    cells, {}, [&](std::int64_t c) { return strip.corners[3 * c] % length; });
+  for (const std::int64_t c : cells)
+  {
+    const std::int64_t* corner = strip.corners.data() + 3 * c;
+    mesh.corners.insert(mesh.corners.end(), corner, corner + 3);
+    mesh.corners.insert(
+      mesh.corners.end(), { corner[0] + other, corner[1] + other, corner[2] + other });
+  }
+  mesh.corners.insert(mesh.corners.end(), { other - 1, other - 1 - length, 2 * other - 1 });
+  return mesh;
+}
 
 } // namespace
 
@@ -79,18 +112,39 @@ TEST(MeshAhead, SaysAFailureWhenTheBlocksBeforeItHaveBeenUsed)
 
 TEST(MeshAhead, DoesNotChangeTheSolution)
 {
-  const StreamMesh mesh = toStream(torus(60, 40));
-  ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+  const StreamMesh mesh = toStream(joinedStrips(900), TestOrder::Keep);
+  ArrayProblem held = heldEnds(mesh, 1, Weights::Cotangent);
+  ArrayProblem targets = heldEnds(mesh, 3, Weights::Clamped);
+  targets.Target = [](const double* p, const double* q, double* d)
+  { std::transform(p, p + 3, q, d, std::minus<>()); };
+  ArrayProblem free;
+  free.Columns = 2;
+  Random random(5);
+  for (std::int64_t k = 0; k < 2 * mesh.vertices(); ++k)
+  {
+    free.Source.push_back(random.uniform(-1.0, 1.0));
+    free.Value.push_back(random.uniform(3.0, 5.0));
+  }
   SolveOptions options;
   options.maxCycles = 3;
-  options.threads = 1;
-  const Eigen::MatrixXd expected = solveMesh(mesh, problem, options).values;
-  for (const int threads : { 2, 4 })
+  options.coreNodes = 100;
+  for (ArrayProblem* problem : { &held, &targets, &free })
   {
-    AnyThreadSource source(mesh, 100);
-    options.threads = threads;
-    const auto solution = solve(source, problem, options);
-    EXPECT_TRUE(sameBits(valuesOf(*solution), expected));
+    options.threads = 1;
+    const Solved expected = solveMesh(mesh, *problem, options);
+    EXPECT_EQ(expected.report.free_components, problem == &free ? 1 : 0);
+    for (const std::int64_t blockCells : { 100, 2000 })
+    {
+      for (const int threads : { 2, 8 })
+      {
+        AnyThreadSource source(mesh, blockCells);
+        options.threads = threads;
+        const Solved solved = solveMesh(source, *problem, options);
+        EXPECT_TRUE(sameBits(solved.values, expected.values)) << threads << " threads";
+        EXPECT_EQ(solved.report.removed_source, expected.report.removed_source);
+        EXPECT_EQ(solved.report.residuals, expected.report.residuals);
+      }
+    }
   }
 }
 
