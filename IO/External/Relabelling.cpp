@@ -24,14 +24,6 @@ struct NumberChunk
 };
 constexpr std::int64_t NumberChunkBytes = 2 * std::int64_t(ChunkNumbers * sizeof(std::uint32_t));
 
-/** The number of chunks in which numbers are replaced at once. */
-std::int64_t chunksAtOnce(Workspace& workspace)
-{
-  const int threads = workspace.workers().threads();
-  const std::int64_t fit = workspace.available() / 16 / NumberChunkBytes;
-  return threads == 1 ? 1 : std::clamp<std::int64_t>(fit, 1, std::min(threads + 1, 16));
-}
-
 } // namespace
 
 std::vector<int> Relabelling::neededBuckets() const
@@ -69,7 +61,7 @@ void Relabelling::applyChunks(
       before.emplace(*done);
     }
     RecordFile<std::uint32_t> next(this->Space);
-    const std::int64_t atOnce = chunksAtOnce(this->Space);
+    const std::int64_t atOnce = this->Space.itemsAtOnce(NumberChunkBytes);
     const Reservation reserved(this->Space.pool(), (atOnce - 1) * NumberChunkBytes);
     OrderedJobs<NumberChunk> chunks(
       this->Space.workers(), static_cast<std::size_t>(atOnce),

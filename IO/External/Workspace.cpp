@@ -22,6 +22,16 @@ Workspace::Workspace(const std::filesystem::path& scratch, std::int64_t memory,
 {
 }
 
+std::int64_t Workspace::itemsAtOnce(std::int64_t bytes) const
+{
+  constexpr std::int64_t Most = 16;
+  const std::int64_t threads = this->Threads.threads();
+  return threads == 1 || Workers::isCaller()
+           ? 1
+           : std::clamp<std::int64_t>(
+               this->available() / 16 / bytes, 1, std::min(threads + 1, Most));
+}
+
 void Workspace::beginPart(double end, std::int64_t bytes)
 {
   this->PartBegin = this->PartEnd;

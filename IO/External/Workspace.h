@@ -39,6 +39,9 @@ public:
   std::int64_t peakScratch() const { return this->Folder.account().peak(); }
   IoStatistics& traffic() { return this->Traffic; }
   Workers& workers() { return this->Threads; }
+  /** The number of items of so many bytes, at least 1, that all threads work on at once in a
+   * sixteenth of the memory that is left: see OrderedJobs. 1 in a job on another thread. */
+  std::int64_t itemsAtOnce(std::int64_t bytes) const;
 
   /** Begins the part of the operation that ends when the fraction `end` of the whole is done; its
    * traffic is about `bytes`, from which poll() computes the progress. */

@@ -1,47 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/TextScanner.h"
 
+#include "IO/Files/ParseNumber.h"
 #include "smg/Error.h"
 
-#include <fast_float/fast_float.h>
-
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 
 namespace smg
 {
 
-namespace
-{
-
-/** from_chars does not accept a leading plus sign, which occurs in files. */
-const char* afterPlus(std::string_view token)
-{
-  return token.data() + (token.size() > 1 && token[0] == '+' && token[1] != '-' ? 1 : 0);
-}
-
-} // namespace
-
-TextScanner::TextScanner(InputFile& file, char comment, std::size_t begin, std::int64_t line)
+TextScanner::TextScanner(
+  InputFile& file, char comment, Workspace* helpers, std::size_t begin, std::int64_t line)
   : File(file)
   , Line(line)
+  , Kinds(comment)
+  , Helpers(helpers)
 {
-  for (const unsigned char c : { ' ', '\t', '\r', '\f', '\v' })
-  {
-    this->Kinds[c] = Kind::Blank;
-  }
-  this->Kinds['\n'] = Kind::LineEnd;
-  if (comment)
-  {
-    this->Kinds[static_cast<unsigned char>(comment)] = Kind::Comment;
-  }
   const bool isMarked = begin == 0 && file.at(0, ByteOrderMark.size()).starts_with(ByteOrderMark);
   this->moveTo(isMarked ? ByteOrderMark.size() : begin);
 }
 
 void TextScanner::moveTo(std::size_t offset)
+{
+  this->Ahead.reset();
+  this->Next = this->WordsEnd = nullptr;
+  this->readFrom(offset);
+}
+
+/** Continues in the window of the file. */
+void TextScanner::readFrom(std::size_t offset)
 {
   const std::string_view bytes =
     this->File.at(std::min(offset, this->File.size()), MostTokenBytes + 1);
@@ -52,12 +41,42 @@ void TextScanner::moveTo(std::size_t offset)
     this->EndOffset == this->File.size() ? this->End : this->End - (MostTokenBytes + 1);
 }
 
+/** Continues in the next block whose words are found ahead, in the window if there is none. */
+void TextScanner::readAhead()
+{
+  const std::size_t offset = this->offset();
+  this->Next = this->WordsEnd = nullptr;
+  const TextBlock* const block = this->Ahead->next();
+  if (!block)
+  {
+    this->Ahead.reset();
+    this->Helpers = nullptr; // lines are too long
+    this->readFrom(offset);
+    return;
+  }
+  this->Text = this->At = block->text.data();
+  this->End = this->At + block->text.size();
+  this->EndOffset = offset + block->text.size();
+  // Words do not continue in the next block.
+  this->FarEnough = this->EndOffset == this->File.size() ? this->End : this->End - 1;
+  this->TextLine = this->Line;
+  this->Next = block->words.data();
+  this->WordsEnd = this->Next + block->words.size();
+}
+
 /** Loads at least one complete token, if any; returns false at the end of the file. */
 bool TextScanner::refill()
 {
   if (this->At > this->FarEnough)
   {
-    this->moveTo(this->offset());
+    if (this->Ahead)
+    {
+      this->readAhead();
+    }
+    else
+    {
+      this->readFrom(this->offset());
+    }
   }
   return this->At < this->End;
 }
@@ -76,23 +95,38 @@ void TextScanner::skipBlanks()
 {
   do
   {
-    while (this->At < this->End && this->kindOf(*this->At) == Kind::Blank)
+    while (this->At < this->End && this->Kinds(*this->At) == CharacterKinds::Blank)
     {
       ++this->At;
     }
   } while (this->At == this->End && this->refill());
-  if (this->At < this->End && this->kindOf(*this->At) == Kind::Comment)
+  if (this->At < this->End && this->Kinds(*this->At) == CharacterKinds::Comment)
   {
     this->skipToLineEnd();
+  }
+}
+
+/** Finds words ahead of here, where no comment is, and a word or a line end begins. */
+void TextScanner::startAhead()
+{
+  const bool isLong = this->EndOffset < this->File.size();
+  if (isLong && this->Helpers && !this->Ahead && WordsAhead::isPossible(*this->Helpers))
+  {
+    this->Ahead =
+      std::make_unique<WordsAhead>(this->File, *this->Helpers, this->Kinds, this->offset());
   }
 }
 
 /** The token that begins here, without consuming it; empty if there is none. */
 std::string_view TextScanner::tokenHere()
 {
-  this->refill();
+  if (this->At > this->FarEnough)
+  {
+    this->startAhead();
+    this->refill();
+  }
   const char* end = this->At;
-  while (end < this->End && this->kindOf(*end) == Kind::Token)
+  while (end < this->End && this->Kinds(*end) == CharacterKinds::Letter)
   {
     ++end;
   }
@@ -107,13 +141,23 @@ std::string_view TextScanner::tokenHere()
 
 std::string_view TextScanner::tokenInLine()
 {
+  if (const TextWord* word = this->nextWord())
+  {
+    if (this->TextLine + word->line != this->Line)
+    {
+      this->skipBlanks();
+      return {};
+    }
+    this->At = this->Text + word->begin + word->length;
+    return { this->Text + word->begin, word->length };
+  }
   this->skipBlanks();
   const std::string_view token = this->tokenHere();
   this->At += token.size();
   return token;
 }
 
-std::string_view TextScanner::peek()
+std::string_view TextScanner::peekSlowly()
 {
   this->skipBlanks();
   while (this->At < this->End && *this->At == '\n')
@@ -137,6 +181,10 @@ void TextScanner::skipLine()
 
 double TextScanner::toNumber(std::string_view token, const char* what, bool finite) const
 {
+  if (const TextWord* word = this->wordOf(token); word && word->kind != TextWord::Other)
+  {
+    return word->kind == TextWord::Real ? word->real : static_cast<double>(word->integer);
+  }
   if (token.empty())
   {
     this->fail(std::string("the file or line ends where ") + what + " should be");
@@ -163,29 +211,22 @@ double TextScanner::toNumber(std::string_view token, const char* what, bool fini
   return value;
 }
 
-std::optional<double> TextScanner::finiteNumber(std::string_view token)
-{
-  const char* end = token.data() + token.size();
-  double value = 0.0;
-  const auto result = fast_float::from_chars(afterPlus(token), end, value);
-  const bool isNumber = !token.empty() && result.ec == std::errc() && result.ptr == end;
-  return isNumber && std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
-
 std::int64_t TextScanner::toInteger(std::string_view token, const char* what) const
 {
+  if (const TextWord* word = this->wordOf(token); word && word->kind == TextWord::Integer)
+  {
+    return word->integer;
+  }
   if (token.empty())
   {
     this->fail(std::string("the file or line ends where ") + what + " should be");
   }
-  const char* end = token.data() + token.size();
-  std::int64_t value = 0;
-  const auto result = std::from_chars(afterPlus(token), end, value);
-  if (result.ec != std::errc() || result.ptr != end)
+  const std::optional<std::int64_t> value = parseInteger(token);
+  if (!value)
   {
     this->fail(inQuotes(token) + " is no integer, where " + what + " should be");
   }
-  return value;
+  return *value;
 }
 
 std::int64_t TextScanner::count(const char* what, std::size_t leastBytes)

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Files/CharacterKinds.h"
 #include "IO/Files/InQuotes.h"
 #include "IO/Files/InputFile.h"
+#include "IO/Files/WordsAhead.h"
 
-#include <array>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -21,7 +22,8 @@ inline constexpr std::string_view ByteOrderMark = "\xEF\xBB\xBF";
  * for error messages. A carriage return counts as a blank; an initial byte order mark is skipped.
  *
  * It reads from the window of the file: after other requests to the file, moveTo() must be called.
- * A returned token is valid until the next reading call.
+ * A returned token is valid until the next reading call. With the threads of a workspace, tokens of
+ * a long text are found and converted ahead.
  */
 class TextScanner
 {
@@ -30,9 +32,10 @@ public:
   static constexpr std::size_t MostTokenBytes = std::size_t(64) << 10;
 
   /** Starts at byte `begin`, which is in line `line` (counted from 1). `comment` starts a comment
-   * up to the end of the line; 0: no comments. */
-  explicit TextScanner(
-    InputFile& file, char comment = '\0', std::size_t begin = 0, std::int64_t line = 1);
+   * up to the end of the line; 0: no comments. `helpers`: whose threads find tokens ahead; it must
+   * outlive the scanner; null: none. */
+  explicit TextScanner(InputFile& file, char comment = '\0', Workspace* helpers = nullptr,
+    std::size_t begin = 0, std::int64_t line = 1);
 
   /** Continues at byte `offset` of the file, with consecutive line numbers. */
   void moveTo(std::size_t offset);
@@ -47,7 +50,16 @@ public:
     return token;
   }
   /** The next token of this or a later line without consuming it; empty at the end of the file. */
-  std::string_view peek();
+  std::string_view peek()
+  {
+    if (const TextWord* word = this->nextWord())
+    {
+      this->At = this->Text + word->begin;
+      this->Line = this->TextLine + word->line;
+      return { this->At, word->length };
+    }
+    return this->peekSlowly();
+  }
   /** Skips the rest of the line and its end. */
   void skipLine();
   /** Whether only blanks, comments and line ends remain. */
@@ -59,8 +71,6 @@ public:
   /** The same for a token that has been read; an empty one is the end of the file or line. */
   double toNumber(std::string_view token, const char* what, bool finite = true) const;
   std::int64_t toInteger(std::string_view token, const char* what) const;
-  /** A token as a finite number, if it is one. */
-  static std::optional<double> finiteNumber(std::string_view token);
 
   /** A count of following items, each of at least `leastBytes` bytes: an error if it is negative or
    * more than the rest of the file can hold. */
@@ -80,19 +90,31 @@ public:
   [[noreturn]] void failAt(std::int64_t line, const std::string& sentence) const;
 
 private:
-  enum class Kind : std::uint8_t
-  {
-    Token,
-    Blank,
-    LineEnd,
-    Comment
-  };
-
-  Kind kindOf(char c) const { return this->Kinds[static_cast<unsigned char>(c)]; }
+  void readFrom(std::size_t offset);
+  void startAhead();
+  void readAhead();
   bool refill();
   void skipBlanks();
   void skipToLineEnd();
   std::string_view tokenHere();
+  std::string_view peekSlowly();
+  /** The next token, if it was found ahead, in this or a later line; null otherwise. */
+  const TextWord* nextWord()
+  {
+    while (this->Next < this->WordsEnd && this->Text + this->Next->begin < this->At)
+    {
+      ++this->Next;
+    }
+    return this->Next < this->WordsEnd ? this->Next : nullptr;
+  }
+  /** What was found ahead of a token that was read last, null if that is unknown. */
+  const TextWord* wordOf(std::string_view token) const
+  {
+    const bool isLast = this->Next < this->WordsEnd &&
+                        token.data() == this->Text + this->Next->begin &&
+                        token.size() == this->Next->length;
+    return isLast ? this->Next : nullptr;
+  }
 
   InputFile& File;
   // The bytes between At and End are in memory; below FarEnough, these contain a token of maximum
@@ -102,7 +124,14 @@ private:
   const char* FarEnough = nullptr;
   std::size_t EndOffset = 0;
   std::int64_t Line;
-  std::array<Kind, 256> Kinds{};
+  CharacterKinds Kinds;
+  Workspace* Helpers; ///< null: nothing is found ahead
+  std::unique_ptr<WordsAhead> Ahead;
+  // The block of `Ahead` with the bytes above, if there is one.
+  const char* Text = nullptr;
+  std::int64_t TextLine = 0; ///< the number of its first line
+  const TextWord* Next = nullptr;
+  const TextWord* WordsEnd = nullptr;
 };
 
 } // namespace smg

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Files/InputFile.h"
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
@@ -8,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -81,6 +83,57 @@ TEST_F(ConversionThreads, KeepTheLeastMemoryLimit)
     options.threads = threads;
     EXPECT_EQ(this->converted(in, options), expected) << threads << " threads";
     EXPECT_LE(this->Report.pool_bytes_peak, options.memoryLimit);
+  }
+}
+
+/** The mesh as the text of an OBJ file, with a comment and a name now and then. */
+std::string objText(const IndexedTestMesh& mesh)
+{
+  std::string text;
+  for (std::size_t i = 0; i < mesh.positions.size(); i += 3)
+  {
+    text += i % 1000 == 0 ? "# a comment of some length\r\n" : "";
+    text += "v " + exact(mesh.positions[i]) + ' ' + exact(mesh.positions[i + 1]) + '\t' +
+            exact(mesh.positions[i + 2]) + '\n';
+  }
+  for (std::size_t i = 0; i < mesh.corners.size(); i += 3)
+  {
+    text += i % 999 == 0 ? "usemtl 17\n" : "";
+    text += "f " + std::to_string(mesh.corners[i] + 1) + "/1 " +
+            std::to_string(mesh.corners[i + 1] + 1) + "/1 " +
+            std::to_string(mesh.corners[i + 2] + 1) + "/1\n";
+  }
+  return text;
+}
+
+TEST_F(ConversionThreads, FindTheSameNumbersInALongText)
+{
+  const IndexedTestMesh surface = shuffled(torus(260, 100, 0.1));
+  const std::filesystem::path obj = this->Folder / "mesh.obj";
+  std::string text = objText(surface);
+  writeBytes(obj, text);
+  for (const std::filesystem::path& in :
+    { obj, this->write(surface), this->write(shuffled(tetBox(25, 24, 24, 0.1))) })
+  {
+    ASSERT_GT(std::filesystem::file_size(in), 2 * InputFile::WindowBytes) << in;
+    ConversionOptions options;
+    options.threads = 1;
+    const std::string expected = this->converted(in, options);
+    for (const int threads : { 2, 3, 8 })
+    {
+      options.threads = threads;
+      EXPECT_EQ(this->converted(in, options), expected) << in << ", " << threads << " threads";
+    }
+  }
+  text.replace(text.rfind("f "), 3, "f x");
+  const auto line = 1 + std::count(text.begin(), text.end(), '\n') - 1;
+  writeBytes(obj, text);
+  for (const int threads : { 1, 4 })
+  {
+    ConversionOptions options;
+    options.threads = threads;
+    expectError(
+      [&] { this->converted(obj, options); }, "mesh.obj, line " + std::to_string(line) + ": 'x");
   }
 }
 

@@ -4,6 +4,8 @@
 #include "Testing/IO/MeshText.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "Testing/Support/TestMeshes.h"
+#include "smg/Error.h"
 
 #include <gtest/gtest.h>
 
@@ -104,6 +106,98 @@ TEST_F(Scanner, LinesOfALongTextAreThoseOfTheText)
   EXPECT_TRUE(scanner.tokenInLine().empty());
   EXPECT_EQ(scanner.line(), 300002);
   EXPECT_EQ(scanner.offset(), text.size());
+}
+
+/** Lines of words, of numbers that are integers, real, or out of range, and of comments. */
+std::string manyNumbers(std::size_t bytes)
+{
+  constexpr std::string_view Special[] = { "-0", "+7", "+-7", "1e400", "-1e400", "1e-400", "nan",
+    "9223372036854775807", "9223372036854775808", "-12/3", ".5", "-", "1.5e", "0x10", "007",
+    "17976931348623157e292", "v" };
+  Random random(11);
+  std::string text;
+  while (text.size() < bytes)
+  {
+    for (std::int64_t words = random.below(6); words > 0; --words)
+    {
+      const std::int64_t kind = random.below(20);
+      text += kind == 0 ? std::string(Special[std::size_t(random.below(std::ssize(Special)))])
+              : kind < 10
+                ? std::to_string(random.below(1000000) - 1000)
+                : std::to_string(static_cast<double>(random.below(1000000000)) / 1024.0 - 1e3);
+      text.append(std::size_t(random.below(3)) + 1, random.below(5) ? ' ' : '\t');
+    }
+    text += random.below(10) ? "" : "12#34 a comment # of two words";
+    text += random.below(5) ? "\n" : "\r\n";
+  }
+  return text;
+}
+
+enum Request : int
+{
+  Peek,
+  SkipLine,
+  TokenInLine,
+  Integer // others: a number
+};
+
+/** What a request to a scanner returns or throws, and where it is afterwards. */
+std::string answer(TextScanner& scanner, Request request)
+{
+  std::string said;
+  try
+  {
+    switch (request)
+    {
+      case Peek:
+        said = scanner.peek();
+        break;
+      case SkipLine:
+        scanner.skipLine();
+        break;
+      case TokenInLine:
+        said = scanner.tokenInLine();
+        break;
+      case Integer:
+        said = std::to_string(scanner.integer("an integer"));
+        break;
+      default:
+        const double number = scanner.number("a number");
+        said = std::to_string(std::signbit(number)) + std::to_string(number);
+    }
+  }
+  catch (const Error& error)
+  {
+    said = error.what();
+  }
+  return said + " at " + std::to_string(scanner.offset()) + " in line " +
+         std::to_string(scanner.line());
+}
+
+TEST_F(Scanner, OtherThreadsChangeNothing)
+{
+  const std::string numbers = manyNumbers(2 * InputFile::WindowBytes);
+  // A line longer than what is read ahead, and a long comment.
+  const std::string longLine(2 * WordsAhead::BlockBytes, ' ');
+  for (const std::string& text :
+    { numbers, numbers + longLine + numbers, numbers + "#" + longLine + "1 2\n" + numbers + "end" })
+  {
+    Workspace workspace(this->Folder.path(), std::int64_t(64) << 20, {}, 0, 3);
+    InputFile file = this->open(text), sameFile = this->open(text);
+    TextScanner alone(file, '#'), helped(sameFile, '#', &workspace);
+    Random random(4);
+    while (!alone.atEnd() && !helped.atEnd())
+    {
+      const auto request = static_cast<Request>(random.below(20));
+      ASSERT_EQ(answer(helped, request), answer(alone, request));
+      if (random.below(100000) == 0) // which ends what is found ahead
+      {
+        helped.moveTo(helped.offset());
+      }
+    }
+    EXPECT_TRUE(helped.atEnd() && alone.atEnd());
+    EXPECT_GT(workspace.pool().peak(), 0);
+  }
 }
 
 TEST_F(Scanner, ManyBlanksAreOneSeparator)

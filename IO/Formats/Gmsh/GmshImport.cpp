@@ -21,7 +21,7 @@ class GmshReader
 {
 public:
   GmshReader(InputFile& file, RawMeshBuilder& builder)
-    : Input(file)
+    : Input(file, &builder.workspace())
     , Builder(builder)
     , Nodes(builder.workspace())
     , Tags(builder)

@@ -18,9 +18,10 @@ namespace smg
 class GmshInput
 {
 public:
-  explicit GmshInput(InputFile& file)
+  /** `helpers`: see TextScanner. */
+  GmshInput(InputFile& file, Workspace* helpers)
     : File(file)
-    , Scanner(file)
+    , Scanner(file, '\0', helpers)
   {
   }
 

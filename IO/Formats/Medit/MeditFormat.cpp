@@ -47,7 +47,7 @@ class MeditReader
 {
 public:
   MeditReader(InputFile& file, RawMeshBuilder& builder)
-    : Scanner(file, '#')
+    : Scanner(file, '#', &builder.workspace())
     , Builder(builder)
     , VertexReferences(builder, ImportColumn::Of::Vertices, ReferenceName)
     , ElementReferences(builder, ImportColumn::Of::Elements, ReferenceName)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Obj/ObjFormat.h"
 #include "IO/Files/InputFile.h"
+#include "IO/Files/ParseNumber.h"
 #include "IO/Files/TextScanner.h"
 #include "IO/Files/TextStart.h"
 #include "IO/Formats/Shared/TextColors.h"
@@ -24,7 +25,7 @@ class ObjReader
 {
 public:
   ObjReader(InputFile& file, RawMeshBuilder& builder)
-    : Scanner(file, '#')
+    : Scanner(file, '#', &builder.workspace())
     , Builder(builder)
     , Fan(builder)
     , Colors(builder, ImportColumn::Of::Vertices)
@@ -110,7 +111,7 @@ private:
     std::size_t count = 0;
     for (std::string_view token = this->nextToken(); !token.empty(); token = this->nextToken())
     {
-      const std::optional<double> number = TextScanner::finiteNumber(token);
+      const std::optional<double> number = parseFinite(token);
       if (number && count < others.size())
       {
         others[count++] = *number;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Files/ParseNumber.h"
 #include "IO/Files/TextScanner.h"
 #include "IO/Formats/Off/OffHeader.h"
 #include "IO/Formats/Shared/ImportColumn.h"
@@ -28,7 +29,7 @@ public:
     for (std::string_view token = scanner.tokenInLine();
          !token.empty() && this->Count < MostNumbers; token = scanner.tokenInLine())
     {
-      const std::optional<double> number = TextScanner::finiteNumber(token);
+      const std::optional<double> number = parseFinite(token);
       if (!number)
       {
         return;

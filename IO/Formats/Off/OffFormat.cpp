@@ -110,7 +110,7 @@ OffHeader readOffHeader(InputFile& file, TextScanner& scanner)
 
 void importOff(InputFile& file, RawMeshBuilder& builder)
 {
-  TextScanner scanner(file, '#');
+  TextScanner scanner(file, '#', &builder.workspace());
   const OffHeader header = readOffHeader(file, scanner);
   if (header.binary)
   {

@@ -140,8 +140,9 @@ private:
 class PlyTextCursor
 {
 public:
-  PlyTextCursor(InputFile& file, std::size_t offset, std::int64_t line)
-    : Scanner(file, '\0', offset, line)
+  /** `helpers`: see TextScanner. */
+  PlyTextCursor(InputFile& file, Workspace* helpers, std::size_t offset, std::int64_t line)
+    : Scanner(file, '\0', helpers, offset, line)
   {
   }
 
@@ -203,13 +204,13 @@ private:
   PlyPlace Place;
 };
 
-/** Calls f with a cursor at the beginning of the body. */
+/** Calls f with a cursor at the beginning of the body. `helpers`: see TextScanner. */
 template <class F>
-decltype(auto) withPlyBody(InputFile& file, const PlyHeader& header, F&& f)
+decltype(auto) withPlyBody(InputFile& file, const PlyHeader& header, Workspace* helpers, F&& f)
 {
   if (header.encoding == PlyEncoding::Ascii)
   {
-    return f(PlyTextCursor(file, header.bodyOffset, header.bodyLine));
+    return f(PlyTextCursor(file, helpers, header.bodyOffset, header.bodyLine));
   }
   if (header.encoding == PlyEncoding::BigEndian)
   {

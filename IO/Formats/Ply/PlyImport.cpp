@@ -305,8 +305,8 @@ void importPly(InputFile& file, RawMeshBuilder& builder)
     builder.note("The line of the header that begins with " + inQuotes(keyword) +
                  " is none of PLY and is left out.");
   }
-  withPlyBody(
-    file, header, [&](auto cursor) { BodyReader(header, std::move(cursor), builder).read(); });
+  withPlyBody(file, header, &builder.workspace(),
+    [&](auto cursor) { BodyReader(header, std::move(cursor), builder).read(); });
 }
 
 } // namespace smg

@@ -231,7 +231,7 @@ void rewritePly(const std::filesystem::path& in, const std::filesystem::path& ou
   }
   SequentialOutput output(out);
   output.put(newHeader(file.at(0, header.bodyOffset).substr(0, header.bodyOffset), header, fates));
-  withPlyBody(file, header,
+  withPlyBody(file, header, nullptr,
     [&](auto cursor)
     {
       BodyCopier copier(std::move(cursor), moved, output);

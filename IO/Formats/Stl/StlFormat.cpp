@@ -114,8 +114,9 @@ void readBinary(InputFile& file, FacetCollector& facets)
 class StlTextReader
 {
 public:
-  StlTextReader(InputFile& file, FacetCollector& facets)
-    : Scanner(file)
+  /** `helpers`: see TextScanner. */
+  StlTextReader(InputFile& file, Workspace* helpers, FacetCollector& facets)
+    : Scanner(file, '\0', helpers)
     , Facets(facets)
   {
   }
@@ -197,7 +198,7 @@ void importStl(InputFile& file, RawMeshBuilder& builder)
     throw Error(file.name() + ": the file is too short for an STL file.");
   }
   FacetCollector facets(builder);
-  text ? StlTextReader(file, facets).read() : readBinary(file, facets);
+  text ? StlTextReader(file, &builder.workspace(), facets).read() : readBinary(file, facets);
   facets.finish();
   if (!text && file.size() > stlBytes(file.at(0, StlHeaderBytes)))
   {

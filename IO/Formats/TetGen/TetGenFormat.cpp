@@ -36,7 +36,7 @@ public:
 
   void readNodes(InputFile& file)
   {
-    TextScanner scanner(file, '#');
+    TextScanner scanner(file, '#', &this->Builder.workspace());
     this->guarded(scanner,
       [&]
       {
@@ -70,7 +70,7 @@ public:
 
   void readElements(InputFile& file)
   {
-    TextScanner scanner(file, '#');
+    TextScanner scanner(file, '#', &this->Builder.workspace());
     this->guarded(scanner,
       [&]
       {
