@@ -21,6 +21,7 @@ public:
   using Key = Record;
   using Row = Record;
   static constexpr bool HaveTies = false;
+  static constexpr bool AreWhole = true; ///< a Row has its bytes
 
   RecordRows(Less less = {})
     : IsLess(less)

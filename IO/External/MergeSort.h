@@ -2,10 +2,12 @@
 #pragma once
 
 #include "IO/External/BucketFile.h"
+#include "IO/External/RowsAhead.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -20,7 +22,7 @@ namespace smg
  * one of the next rank while rows arrive.
  *
  * `Rows` is the type of rows: RecordRows (ExternalSort), of a type, or KeyedRows (RowSort), of
- * bytes.
+ * bytes. Rows of a type that come from files are merged ahead on another thread.
  */
 template <class Rows>
 class MergeSort
@@ -67,11 +69,22 @@ public:
       this->mergeLast(std::min(this->mostRuns(), this->Runs.size() - this->mostRuns() + 1));
     }
     this->startMerge(this->Runs);
+    if constexpr (Rows::AreWhole)
+    {
+      this->mergeAhead();
+    }
   }
 
   /** The next row in order, valid until the next call; returns false at the end. */
   bool next(Row& row)
   {
+    if constexpr (Rows::AreWhole)
+    {
+      if (this->Merged)
+      {
+        return this->Merged->next(row);
+      }
+    }
     if (!this->Runs.empty())
     {
       return this->nextMerged(row);
@@ -90,13 +103,6 @@ private:
   static constexpr std::size_t LeastBufferBytes = std::size_t(64) << 10;
   /** The maximum number of runs of a rank that are merged at once while rows arrive. */
   static constexpr std::size_t RunsOfRank = 32;
-
-  /** A run in a merge, and its current row. */
-  struct Head
-  {
-    Row row;
-    std::uint32_t run;
-  };
 
   std::size_t bufferBytes() const { return std::max(LeastBufferBytes, this->Collected.bytes()); }
 
@@ -172,17 +178,38 @@ private:
   void startMerge(std::span<const BucketFile> runs)
   {
     this->Readers.reserve(runs.size());
+    this->Heads.resize(runs.size());
     for (const BucketFile& run : runs)
     {
-      Head head{ {}, static_cast<std::uint32_t>(this->Readers.size()) };
+      const std::size_t number = this->Readers.size();
       this->Readers.emplace_back(run, 0, this->bufferBytes());
-      this->Collected.read(this->Readers.back(), head.row);
-      this->Heap.push_back(head);
+      this->Collected.read(this->Readers.back(), this->Heads[number]);
+      this->Heap.push_back(static_cast<std::uint32_t>(number));
     }
     for (std::size_t i = this->Heap.size() / 2; i-- > 0;)
     {
       this->sink(i);
     }
+  }
+
+  void mergeAhead()
+  {
+    if (this->Space.workers().threads() == 1 || Workers::isCaller())
+    {
+      return;
+    }
+    // The memory of the chunk that mergeLast() needs.
+    static_assert(RowsAhead<Row>::MemoryBytes <= BucketFile::ChunkBytes);
+    this->Merged = std::make_unique<RowsAhead<Row>>(this->Space.workers(), this->Space.pool(),
+      [this](std::span<Row> rows)
+      {
+        std::size_t count = 0;
+        while (count < rows.size() && this->nextMerged(rows[count]))
+        {
+          ++count;
+        }
+        return count;
+      });
   }
 
   bool nextMerged(Row& row)
@@ -197,33 +224,35 @@ private:
       this->Readers.clear();
       return false;
     }
-    row = this->Heap.front().row;
+    row = this->Heads[this->Heap.front()];
     return true;
   }
 
   /** Advances the run at the top to its next row; the current row becomes invalid. */
   void replaceTop()
   {
-    Head& top = this->Heap.front();
-    if (!this->Collected.read(this->Readers[top.run], top.row))
+    const std::uint32_t top = this->Heap.front();
+    if (!this->Collected.read(this->Readers[top], this->Heads[top]))
     {
-      top = this->Heap.back();
+      this->Heap.front() = this->Heap.back();
       this->Heap.pop_back();
     }
     this->sink(0);
   }
 
   /** Rows with equal keys are in the order of their runs, which is that of put(). */
-  bool isBefore(const Head& a, const Head& b) const
+  bool isBefore(std::uint32_t a, std::uint32_t b) const
   {
-    if (Rows::HaveTies && !this->Collected.isLess(b.row, a.row))
+    const Row& rowA = this->Heads[a];
+    const Row& rowB = this->Heads[b];
+    if (Rows::HaveTies && !this->Collected.isLess(rowB, rowA))
     {
-      return this->Collected.isLess(a.row, b.row) || a.run < b.run;
+      return this->Collected.isLess(rowA, rowB) || a < b;
     }
-    return this->Collected.isLess(a.row, b.row);
+    return this->Collected.isLess(rowA, rowB);
   }
 
-  /** Sifts the head at position `i` down. */
+  /** Sifts the run at position `i` down. */
   void sink(std::size_t i)
   {
     const std::size_t count = this->Heap.size();
@@ -231,21 +260,21 @@ private:
     {
       return;
     }
-    const Head head = this->Heap[i];
+    const std::uint32_t run = this->Heap[i];
     for (std::size_t child = 2 * i + 1; child < count; child = 2 * i + 1)
     {
       if (child + 1 < count && this->isBefore(this->Heap[child + 1], this->Heap[child]))
       {
         ++child;
       }
-      if (!this->isBefore(this->Heap[child], head))
+      if (!this->isBefore(this->Heap[child], run))
       {
         break;
       }
       this->Heap[i] = this->Heap[child];
       i = child;
     }
-    this->Heap[i] = head;
+    this->Heap[i] = run;
   }
 
   Workspace& Space;
@@ -256,8 +285,10 @@ private:
   std::vector<BucketFile> Runs; ///< by descending rank, in the order of put()
   std::vector<int> Ranks;       ///< number of merges of the rows of a run
   std::vector<BucketFile::Reader> Readers;
-  std::vector<Head> Heap;
+  std::vector<Row> Heads;          ///< the next row of each run
+  std::vector<std::uint32_t> Heap; ///< runs
   bool TopIsDelivered = false;
+  std::unique_ptr<RowsAhead<Row>> Merged; ///< null: next() merges
 };
 
 } // namespace smg

@@ -23,6 +23,7 @@ public:
     const std::byte* bytes = nullptr;
   };
   static constexpr bool HaveTies = true;
+  static constexpr bool AreWhole = false;
 
   KeyedRows(std::size_t rowBytes)
     : RowBytes(rowBytes)

@@ -38,7 +38,7 @@ template <class Less>
 void expectSorted(std::int64_t count, std::int64_t memory, Less less)
 {
   const TemporaryFolder folder;
-  Workspace workspace(folder.path(), Workspace::LeastMemory);
+  Workspace workspace(folder.path(), Workspace::LeastMemory, {}, 0, 3);
   ExternalSort<std::uint64_t, Less> sort(workspace, memory, less);
   std::vector<std::uint64_t> expected(static_cast<std::size_t>(count));
   Random random(5);

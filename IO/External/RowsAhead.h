@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Storage/Buffer.h"
+#include "Solver/Storage/Workers.h"
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+namespace smg
+{
+
+/** Rows of a sequence, which another thread produces while the owner takes those before them. */
+template <class Row>
+class RowsAhead
+{
+  static_assert(std::is_trivially_copyable_v<Row>);
+
+public:
+  /** Fills the span with the next rows; returns their number, fewer only at the end. */
+  using Produce = std::function<std::size_t(std::span<Row>)>;
+
+  static constexpr std::size_t MemoryBytes = std::size_t(128) << 10;
+
+  /** The workers must outlive it. Needs MemoryBytes of the pool. */
+  RowsAhead(Workers& workers, Pool& pool, Produce produce)
+    : Threads(workers)
+    , Taken(pool, MemoryBytes / 2)
+    , Produced(pool, MemoryBytes / 2)
+    , Job([this, next = std::move(produce)] { this->ProducedRows = next(rows(this->Produced)); })
+  {
+    this->start();
+  }
+  ~RowsAhead()
+  {
+    if (this->IsProducing)
+    {
+      this->Threads.cancel(this->Job);
+    }
+  }
+  RowsAhead(const RowsAhead&) = delete;
+  RowsAhead& operator=(const RowsAhead&) = delete;
+
+  /** The next row; returns false at the end. Rethrows an exception of the production. */
+  bool next(Row& row)
+  {
+    if (this->At == this->Count && !this->turn())
+    {
+      return false;
+    }
+    row = rows(this->Taken)[this->At++];
+    return true;
+  }
+
+private:
+  static std::span<Row> rows(Buffer& buffer)
+  {
+    return { reinterpret_cast<Row*>(buffer.data()), buffer.size() / sizeof(Row) };
+  }
+
+  void start()
+  {
+    this->Threads.submit(this->Job);
+    this->IsProducing = true;
+  }
+
+  /** Takes what was produced; returns whether there is any. */
+  bool turn()
+  {
+    if (!this->IsProducing)
+    {
+      return false;
+    }
+    this->IsProducing = false;
+    this->Threads.finish(this->Job);
+    std::swap(this->Taken, this->Produced);
+    this->At = 0;
+    this->Count = this->ProducedRows;
+    if (this->Count == rows(this->Taken).size())
+    {
+      this->start();
+    }
+    return this->Count > 0;
+  }
+
+  Workers& Threads;
+  Buffer Taken, Produced;
+  std::size_t At = 0, Count = 0, ProducedRows = 0;
+  Workers::Job Job;
+  bool IsProducing = false;
+};
+
+} // namespace smg
