@@ -60,6 +60,9 @@ public:
   std::optional<SearchResult> probeLoaded(std::span<const SearchSource> sources,
     std::span<std::uint32_t> levels = {}, std::int64_t stride = 1);
 
+  /** Whether the last search without a trace reached a vertex. */
+  bool reached(std::uint32_t rank) const { return this->Visited.isSet(rank); }
+
   /** Searches the vertices without a position, assigns the next positions and appends them to an
    * order with the precision of the pages. The sources must not have a position yet. */
   SearchResult place(std::span<const SearchSource> sources, OrderedVertices& order);

@@ -18,7 +18,7 @@ namespace
 
 constexpr int MostAxisEnds = 4;
 /** The ends of a double sweep. */
-constexpr int LeastLandmarks = 2;
+constexpr int SweepEnds = 2;
 /** The minimum distance between landmarks. */
 constexpr std::int32_t LeastDistance = 8;
 /** The minimum samples of a component for a plan, and for its principal axes. */
@@ -59,7 +59,7 @@ public:
     : Search(search)
     , Mesh(mesh)
     , Space(workspace)
-    , Landmarks(static_cast<std::size_t>(std::max(landmarks, LeastLandmarks)))
+    , Landmarks(static_cast<std::size_t>(std::max(landmarks, SweepEnds)))
     , LevelMemory(workspace.pool(), levelRows(helpers) * sampleCount(mesh) * sizeof(std::uint32_t))
     , Levels(this->levelRow(0))
     , Samples(workspace)
@@ -75,7 +75,8 @@ public:
 
   std::vector<SearchSource> plan(std::uint32_t end)
   {
-    this->measure({ { 0, end } });
+    this->First = end;
+    this->beginSamples();
     std::vector<Trial> ends;
     if (this->Samples.size() >= LeastSamples)
     {
@@ -114,10 +115,6 @@ private:
   void measure(std::vector<SearchSource> sources)
   {
     const SearchResult result = this->Search.probe(sources, this->Levels, this->Mesh.sampleStride);
-    if (this->Candidates.empty())
-    {
-      this->beginSamples();
-    }
     this->add(std::move(sources), result, this->Levels);
   }
 
@@ -133,28 +130,37 @@ private:
     }
   }
 
-  /** The first search determines which samples are in the component. */
+  /** The last search determines which samples are in the component. */
   void beginSamples()
   {
-    const auto reached = static_cast<std::size_t>(
-      this->Levels.size() - std::size_t(std::ranges::count(this->Levels, NoIndex)));
+    const auto count = static_cast<std::uint32_t>(this->Levels.size());
+    const auto stride = static_cast<std::uint32_t>(this->Mesh.sampleStride);
+    std::size_t reached = 0;
+    for (std::uint32_t i = 0; i < count; ++i)
+    {
+      reached += this->Search.reached(i * stride) ? 1 : 0;
+    }
     const std::size_t step = std::max<std::size_t>(1, reached / MostSamples);
     std::size_t seen = 0;
-    for (std::size_t i = 0; i < this->Levels.size(); ++i)
+    for (std::uint32_t i = 0; i < count; ++i)
     {
-      if (this->Levels[i] != NoIndex && seen++ % step == 0)
+      if (this->Search.reached(i * stride) && seen++ % step == 0)
       {
-        this->Samples.push(static_cast<std::uint32_t>(i));
+        this->Samples.push(i);
         this->Nearest.push(std::numeric_limits<std::int32_t>::max());
       }
     }
     this->Distances.emplace(this->Space, this->Samples.size(), this->Landmarks + MostAxisEnds);
   }
 
-  /** The other end of the first search; then landmarks, each the sample farthest from the previous
-   * ones. Empty: there are enough. */
+  /** The first end; the other end of its search; then landmarks, each the sample farthest from the
+   * previous ones. Empty: there are enough. */
   std::vector<SearchSource> nextSources()
   {
+    if (this->Candidates.empty())
+    {
+      return { { 0, this->First } };
+    }
     if (this->Candidates.size() == 1)
     {
       return { { 0, this->Candidates[0].result.last } };
@@ -308,6 +314,7 @@ private:
   const PagedMesh& Mesh;
   Workspace& Space;
   const std::size_t Landmarks;
+  std::uint32_t First = 0; ///< rank
   Buffer LevelMemory;
   const std::span<std::uint32_t> Levels; ///< of all samples of the mesh in the last search
   GrowingArray<std::uint32_t> Samples;   ///< those of the component
@@ -323,7 +330,7 @@ std::int64_t searchPlanMemory(const PagedMesh& mesh, int landmarks, int threads,
 {
   // Rows of numbers: levels, samples, nearest (which grow), distances.
   const std::int64_t rows = std::int64_t(Planning::levelRows(helpers)) + 2 * 3 +
-                            std::max(landmarks, LeastLandmarks) + MostAxisEnds;
+                            std::max(landmarks, SweepEnds) + MostAxisEnds;
   return rows * std::int64_t(sampleCount(mesh) * sizeof(std::uint32_t)) +
          sourcePlanMemory(sampleCount(mesh), threads) + 4096;
 }

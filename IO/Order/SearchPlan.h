@@ -22,7 +22,7 @@ std::int64_t searchPlanMemory(const PagedMesh& mesh, int landmarks, int threads,
  * begin, are chosen among these such that the search has a small span and width. The plan is tried
  * out: no single source that distances were measured from has a search of less cost, see
  * searchCost. Deterministic.
- * @param search of the pages of the mesh
+ * @param search of the pages of the mesh; it has searched the component last
  * @param landmarks less than 2 are taken for 2
  * @param end a vertex of the component that is far out, such as the last one of a search
  * @param helpers the number of further searches at the same time, if the cache has all pages; the

@@ -45,6 +45,11 @@ public:
     return true;
   }
 
+  bool isSet(std::uint32_t rank) const
+  {
+    return (this->words()[rank / 64] >> (rank % 64) & 1) != 0;
+  }
+
   void clear()
   {
     if (this->Changed.size() == MostRemembered)
