@@ -17,4 +17,7 @@ namespace smg
 bool isDegenerate(
   std::span<const std::int64_t> corners, std::span<const std::array<double, 3>> points);
 
+/** Six times the volume of a tetrahedron; negative if its corners are in the other order. */
+double orientedVolume(const std::array<std::array<double, 3>, 4>& points);
+
 } // namespace smg

@@ -33,14 +33,9 @@ public:
   {
   }
 
-  struct Vertex
-  {
-    std::array<double, 3> point;
-    std::uint32_t index;
-  };
-
-  /** The vertex at a position, which gets the next stream index if it has none. */
-  Vertex use(std::uint32_t place)
+  /** Returns the stream index of the vertex at a position, the next one if it has none, and fills
+   * in its coordinates. */
+  std::uint32_t use(std::uint32_t place, std::array<double, 3>& point)
   {
     while (place >= this->Loaded)
     {
@@ -58,7 +53,8 @@ public:
       this->Layout.vertices.put(0, vertex);
       this->Reach.at(slot.index) = slot.reach;
     }
-    return { { slot.position[0], slot.position[1], slot.position[2] }, slot.index };
+    point = { slot.position[0], slot.position[1], slot.position[2] };
+    return slot.index;
   }
 
   /** Declares that no further cell has a largest position of `place` or less. */

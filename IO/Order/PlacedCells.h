@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <tuple>
 
 namespace smg
 {
@@ -23,17 +24,31 @@ struct PlacedCell
   std::uint32_t element; ///< of the file
   std::uint32_t turn;
 
-  auto operator<=>(const PlacedCell&) const = default;
-
-  /** The positions in the file's order of corners. */
-  std::array<std::uint32_t, Corners> inFile() const
+  bool operator==(const PlacedCell&) const = default;
+  auto operator<=>(const PlacedCell& other) const
   {
-    std::array<std::uint32_t, Corners> result;
+    // Two numbers at once: cells are sorted, and most differ there.
+    const std::uint64_t first = this->firstPlaces(), second = other.firstPlaces();
+    if (first != second)
+    {
+      return first <=> second;
+    }
+    return std::tie(this->places, this->element, this->turn) <=>
+           std::tie(other.places, other.element, other.turn);
+  }
+
+  std::uint64_t firstPlaces() const
+  {
+    return std::uint64_t(this->places[0]) << 32 | this->places[1];
+  }
+
+  /** Fills in the positions in the file's order of corners. */
+  void inFile(std::array<std::uint32_t, Corners>& result) const
+  {
     for (int k = 0; k < Corners; ++k)
     {
       result[this->turn >> 2 * k & 3] = this->places[k];
     }
-    return result;
   }
 };
 

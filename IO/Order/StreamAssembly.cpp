@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/StreamAssembly.h"
 
-#include "IO/Order/CellShape.h"
+#include "IO/Order/CellShapes.h"
 #include "IO/Order/CellWindow.h"
 #include "IO/Order/PlacedCells.h"
-#include "smg/MeshSource.h"
 
 #include <algorithm>
 #include <utility>
@@ -15,20 +14,6 @@ namespace smg
 namespace
 {
 
-/** Six times the volume of a tetrahedron. */
-double volume(std::span<const std::array<double, 3>> p)
-{
-  std::array<double, 3> a{}, b{}, c{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    a[axis] = p[1][axis] - p[0][axis];
-    b[axis] = p[2][axis] - p[0][axis];
-    c[axis] = p[3][axis] - p[0][axis];
-  }
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-         a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-
 /** Writes consecutive cells to the layout. */
 template <int Corners, class Real>
 class Assembler
@@ -37,6 +22,7 @@ public:
   Assembler(const OrderedVertices& order, StreamLayout& layout, Workspace& workspace)
     : Layout(layout)
     , Window(order, layout, workspace)
+    , Shapes(layout, workspace)
   {
   }
 
@@ -44,30 +30,17 @@ public:
   void take(const PlacedCell<Corners>& cell, bool duplicate)
   {
     std::array<std::uint32_t, Corners> corners;
-    std::array<std::int64_t, Corners> indices;
-    std::array<std::array<double, 3>, Corners> points;
-    const std::array<std::uint32_t, Corners> places = cell.inFile();
+    auto& shape = this->Shapes.add();
+    shape.isDuplicate = duplicate;
+    std::array<std::uint32_t, Corners> places;
+    cell.inFile(places);
     for (std::size_t k = 0; k < Corners; ++k)
     {
-      const auto vertex = this->Window.use(places[k]);
-      corners[k] = vertex.index;
-      indices[k] = vertex.index;
-      points[k] = vertex.point;
+      corners[k] = this->Window.use(places[k], shape.points[k]);
+      shape.corners[k] = corners[k];
     }
     this->Layout.corners.put(std::span<const std::uint32_t>(corners));
     this->Layout.elements.put(cell.element);
-    const bool degenerate = isDegenerate(indices, points);
-    if constexpr (Corners == 4)
-    {
-      this->Layout.invertedCells += !degenerate && volume(points) < 0 ? 1 : 0;
-    }
-    this->Layout.degenerateCells += degenerate ? 1 : 0;
-    this->Layout.duplicateCells += duplicate ? 1 : 0;
-    if (degenerate || duplicate)
-    {
-      this->Layout.flags.put({ static_cast<std::uint32_t>(this->Layout.cellCount),
-        std::uint32_t(degenerate) * DegenerateCell | std::uint32_t(duplicate) * DuplicateCell });
-    }
     if (++this->Layout.cellCount % StreamLayout::BlockCells == 0)
     {
       this->endBlock();
@@ -82,6 +55,7 @@ public:
     {
       this->endBlock();
     }
+    this->Shapes.finish();
     this->Layout.vertices.close();
     this->Layout.corners.close();
     this->Layout.elements.close();
@@ -99,6 +73,7 @@ private:
 
   StreamLayout& Layout;
   CellWindow<Real> Window;
+  CellShapes<Corners> Shapes;
 };
 
 /** The cells, by their indices in the file, with the corners of an earlier one. */

@@ -122,7 +122,9 @@ TEST_F(LargeNumbers, OfTheCornersOfCells)
     const std::array corners{ numbers[i + 1], numbers[i + 3], numbers[i], numbers[i + 2] };
     const auto cell = placedCell<4>(corners.data(), NoIndex - 2);
     EXPECT_TRUE(std::ranges::is_sorted(cell.places, std::greater()));
-    EXPECT_EQ(cell.inFile(), corners);
+    std::array<std::uint32_t, 4> inFile{};
+    cell.inFile(inFile);
+    EXPECT_EQ(inFile, corners);
     EXPECT_EQ(cell.element, NoIndex - 2);
   }
 }

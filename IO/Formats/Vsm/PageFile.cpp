@@ -15,34 +15,28 @@ PageFile::PageFile(std::filesystem::path folder, std::int64_t memory)
 {
 }
 
-std::byte* PageFile::page(std::int64_t page, bool change)
+std::int32_t PageFile::load(std::int64_t page)
 {
   if (page >= static_cast<std::int64_t>(this->SlotOfPage.size()))
   {
     this->SlotOfPage.resize(page + 1, Untouched);
   }
   const std::int32_t state = this->SlotOfPage[page];
-  if (state < 0)
+  const std::int32_t number = this->makeRoom();
+  Slot& slot = this->Slots[number];
+  if (state == OnDisk)
   {
-    const std::int32_t number = this->makeRoom();
-    Slot& slot = this->Slots[number];
-    if (state == OnDisk)
-    {
-      this->File->read(page, std::as_writable_bytes(std::span(slot.bytes.get(), PageBytes)));
-    }
-    else
-    {
-      std::memset(slot.bytes.get(), 0, PageBytes);
-    }
-    slot.page = page;
-    // A page that was never written must be written even if it is only read.
-    slot.changed = state != OnDisk;
-    this->SlotOfPage[page] = number;
+    this->File->read(page, std::as_writable_bytes(std::span(slot.bytes.get(), PageBytes)));
   }
-  Slot& slot = this->Slots[this->SlotOfPage[page]];
-  slot.used = true;
-  slot.changed = slot.changed || change;
-  return slot.bytes.get();
+  else
+  {
+    std::memset(slot.bytes.get(), 0, PageBytes);
+  }
+  slot.page = page;
+  // A page that was never written must be written even if it is only read.
+  slot.changed = state != OnDisk;
+  this->SlotOfPage[page] = number;
+  return number;
 }
 
 std::int32_t PageFile::makeRoom()

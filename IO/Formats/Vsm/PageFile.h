@@ -26,7 +26,15 @@ public:
 
   /** The bytes of page `page`, valid until the next call. `change`: whether they will be modified.
    * Throws Error if the scratch file fails. */
-  std::byte* page(std::int64_t page, bool change);
+  std::byte* page(std::int64_t page, bool change)
+  {
+    const bool isKnown = page < static_cast<std::int64_t>(this->SlotOfPage.size());
+    const std::int32_t number = isKnown ? this->SlotOfPage[page] : Untouched;
+    Slot& slot = this->Slots[number >= 0 ? number : this->load(page)];
+    slot.used = true;
+    slot.changed = slot.changed || change;
+    return slot.bytes.get();
+  }
 
   /** Releases the pages below `page`, which must not be accessed any more. */
   void discardBelow(std::int64_t page);
@@ -46,6 +54,8 @@ private:
     bool used = false; ///< since the last visit of the hand
   };
 
+  /** Brings a page into memory; returns its slot. */
+  std::int32_t load(std::int64_t page);
   std::int32_t makeRoom();
 
   std::filesystem::path Folder;
