@@ -118,7 +118,7 @@ TEST(OpenEdges, AVertexMayHaveVeryManyNeighbours)
   OpenEdges edges(pool, 12);
   constexpr std::int64_t Last = 100000;
   edges.extend(Last + 1);
-  const Timer timer;
+  const double begin = processSeconds();
   for (int round = 0; round < 2; ++round)
   {
     for (std::int64_t v = 1; v < Last; ++v)
@@ -145,7 +145,7 @@ TEST(OpenEdges, AVertexMayHaveVeryManyNeighbours)
       ASSERT_EQ(row[v - 1].weight, 2.0);
     }
   }
-  EXPECT_LT(timer.seconds(), 1.0);
+  EXPECT_LT(processSeconds() - begin, 5.0);
 }
 
 } // namespace smg::testing
