@@ -13,8 +13,6 @@ namespace smg
 namespace
 {
 
-/** A reader of fewer bytes fetches nothing ahead. */
-constexpr std::size_t LeastAheadBytes = std::size_t(128) << 10;
 constexpr std::int64_t LeastMemoryAhead = std::int64_t(4) << 20;
 
 /** Whether the caller can leave work to other threads. */

@@ -82,7 +82,12 @@ public:
     {
       if (this->Merged)
       {
-        return this->Merged->next(row);
+        const bool isRow = this->Merged->next(row);
+        if (!isRow)
+        {
+          this->Merged.reset();
+        }
+        return isRow;
       }
     }
     if (!this->Runs.empty())
@@ -200,7 +205,10 @@ private:
     }
     // The memory of the chunk that mergeLast() needs.
     static_assert(RowsAhead<Row>::MemoryBytes <= BucketFile::ChunkBytes);
-    this->Merged = std::make_unique<RowsAhead<Row>>(this->Space.workers(), this->Space.pool(),
+    // Readers that fetch ahead submit jobs.
+    static_assert(
+      LeastBufferBytes < BucketFile::LeastAheadBytes && sizeof(Row) < BucketFile::LeastAheadBytes);
+    this->Merged = std::make_unique<RowsAhead<Row>>(this->Space,
       [this](std::span<Row> rows)
       {
         std::size_t count = 0;

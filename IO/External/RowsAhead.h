@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/External/Workspace.h"
 #include "Solver/Storage/Buffer.h"
 #include "Solver/Storage/Workers.h"
 
@@ -20,16 +21,18 @@ class RowsAhead
   static_assert(std::is_trivially_copyable_v<Row>);
 
 public:
-  /** Fills the span with the next rows; returns their number, fewer only at the end. */
+  /** Fills the span with the next rows; returns their number, fewer only at the end. It must not
+   * submit jobs. */
   using Produce = std::function<std::size_t(std::span<Row>)>;
 
   static constexpr std::size_t MemoryBytes = std::size_t(128) << 10;
+  static_assert(sizeof(Row) <= MemoryBytes / 2);
 
-  /** The workers must outlive it. Needs MemoryBytes of the pool. */
-  RowsAhead(Workers& workers, Pool& pool, Produce produce)
-    : Threads(workers)
-    , Taken(pool, MemoryBytes / 2)
-    , Produced(pool, MemoryBytes / 2)
+  /** The workspace must outlive it, and has MemoryBytes. */
+  RowsAhead(Workspace& workspace, Produce produce)
+    : Space(workspace)
+    , Taken(workspace.pool(), MemoryBytes / 2)
+    , Produced(workspace.pool(), MemoryBytes / 2)
     , Job([this, next = std::move(produce)] { this->ProducedRows = next(rows(this->Produced)); })
   {
     this->start();
@@ -38,13 +41,14 @@ public:
   {
     if (this->IsProducing)
     {
-      this->Threads.cancel(this->Job);
+      this->Space.workers().cancel(this->Job);
     }
   }
   RowsAhead(const RowsAhead&) = delete;
   RowsAhead& operator=(const RowsAhead&) = delete;
 
-  /** The next row; returns false at the end. Rethrows an exception of the production. */
+  /** The next row; returns false at the end. Rethrows an exception of the production; throws
+   * Cancelled. */
   bool next(Row& row)
   {
     if (this->At == this->Count && !this->turn())
@@ -63,7 +67,7 @@ private:
 
   void start()
   {
-    this->Threads.submit(this->Job);
+    this->Space.workers().submit(this->Job);
     this->IsProducing = true;
   }
 
@@ -75,7 +79,8 @@ private:
       return false;
     }
     this->IsProducing = false;
-    this->Threads.finish(this->Job);
+    this->Space.workers().finish(this->Job);
+    this->Space.poll(); // which the production, on another thread, cannot
     std::swap(this->Taken, this->Produced);
     this->At = 0;
     this->Count = this->ProducedRows;
@@ -86,7 +91,7 @@ private:
     return this->Count > 0;
   }
 
-  Workers& Threads;
+  Workspace& Space;
   Buffer Taken, Produced;
   std::size_t At = 0, Count = 0, ProducedRows = 0;
   Workers::Job Job;

@@ -50,7 +50,7 @@ void TextScanner::readAhead()
   if (!block)
   {
     this->Ahead.reset();
-    this->Helpers = nullptr; // lines are too long
+    this->Helpers = nullptr; // a line is too long, and others may be
     this->readFrom(offset);
     return;
   }

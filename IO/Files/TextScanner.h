@@ -23,7 +23,7 @@ inline constexpr std::string_view ByteOrderMark = "\xEF\xBB\xBF";
  *
  * It reads from the window of the file: after other requests to the file, moveTo() must be called.
  * A returned token is valid until the next reading call. With the threads of a workspace, tokens of
- * a long text are found and converted ahead.
+ * a long text are found and converted ahead, unless a line is very long.
  */
 class TextScanner
 {
@@ -117,8 +117,8 @@ private:
   }
 
   InputFile& File;
-  // The bytes between At and End are in memory; below FarEnough, these contain a token of maximum
-  // length and one more byte.
+  // The bytes between At and End are in memory; up to FarEnough, a token that begins there is
+  // whole, and one more byte follows it.
   const char* At = nullptr;
   const char* End = nullptr;
   const char* FarEnough = nullptr;

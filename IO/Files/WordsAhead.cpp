@@ -79,7 +79,8 @@ bool WordsAhead::read()
     return false;
   }
   TextBlock& block = this->Blocks.next();
-  block.offset = this->Offset;
+  block.text.reserve(BlockBytes);
+  block.words.reserve(MostWords);
   block.text.assign(text.begin(), text.end());
   this->Offset += text.size();
   this->Blocks.submit();

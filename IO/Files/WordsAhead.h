@@ -9,7 +9,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -37,10 +36,9 @@ struct TextWord
   };
 };
 
-/** Whole lines of a text, and the words at its begin: all of them, unless they are very many. */
+/** Text up to a line's end, and the words at its begin: all of them, unless they are very many. */
 struct TextBlock
 {
-  std::size_t offset = 0; ///< in the file
   std::vector<char> text;
   std::vector<TextWord> words;
 };
@@ -60,11 +58,12 @@ public:
     return workspace.itemsAtOnce(MemoryBytes) > 1;
   }
 
-  /** From a line's begin at `offset` on. The file must outlive it; its window moves. */
+  /** From `offset` on, which is not inside of a word or a comment. The file must outlive it; its
+   * window moves. */
   WordsAhead(InputFile& file, Workspace& workspace, CharacterKinds kinds, std::size_t offset);
 
-  /** The next block, valid until the next call; null at the end of the file, or where a line is
-   * longer than a block. Throws Error, Cancelled. */
+  /** The next block, valid until the next call; null at the end of the file, or where the rest of
+   * a line is longer than a block. Throws Error, Cancelled. */
   const TextBlock* next();
 
 private:

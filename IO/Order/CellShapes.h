@@ -15,8 +15,8 @@
 namespace smg
 {
 
-/** Writes the flags of consecutive cells to a layout and counts them: on all threads, in the order
- * of the cells. */
+/** Writes the flags of consecutive cells to a layout, and counts these and inverted cells: on all
+ * threads, in the order of the cells. */
 template <int Corners>
 class CellShapes
 {
@@ -87,6 +87,8 @@ private:
   Chunk& next()
   {
     Chunk& chunk = this->Chunks.next();
+    chunk.cells.reserve(ChunkCells);
+    chunk.flags.reserve(ChunkCells);
     chunk.cells.clear();
     return chunk;
   }

@@ -7,6 +7,7 @@
 #include "IO/Raw/RawMesh.h"
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -6,6 +6,7 @@
 #include "IO/Order/SourcePlan.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -75,6 +76,7 @@ public:
 
   std::vector<SearchSource> plan(std::uint32_t end)
   {
+    assert(this->Search.reached(end));
     this->First = end;
     this->beginSamples();
     std::vector<Trial> ends;

@@ -5,8 +5,8 @@
 #include "IO/Order/CellWindow.h"
 #include "IO/Order/PlacedCells.h"
 
-#include <algorithm>
-#include <utility>
+#include <array>
+#include <span>
 
 namespace smg
 {

@@ -126,7 +126,7 @@ TEST_F(ConversionThreads, FindTheSameNumbersInALongText)
     }
   }
   text.replace(text.rfind("f "), 3, "f x");
-  const auto line = 1 + std::count(text.begin(), text.end(), '\n') - 1;
+  const auto line = std::count(text.begin(), text.end(), '\n');
   writeBytes(obj, text);
   for (const int threads : { 1, 4 })
   {

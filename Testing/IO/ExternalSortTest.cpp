@@ -2,6 +2,7 @@
 #include "IO/External/ExternalSort.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
+#include "smg/Error.h"
 
 #include <gtest/gtest.h>
 
@@ -74,6 +75,27 @@ TEST(ExternalSort, EqualsStdSortForAnyCount)
   }
   expectSorted(3 * Run, 1 << 20, std::greater<std::uint64_t>());
   expectSorted(3 * Run, 8 << 20, std::less<std::uint64_t>());
+}
+
+TEST(ExternalSort, CanBeCancelledWhileRunsAreMerged)
+{
+  for (const int threads : { 1, 3 })
+  {
+    const TemporaryFolder folder;
+    bool goesOn = true;
+    Workspace workspace(
+      folder.path(), Workspace::LeastMemory, [&goesOn](double) { return goesOn; }, 0, threads);
+    ExternalSort<std::uint64_t> sort(workspace, 1 << 20);
+    for (std::uint64_t i = 0; i < 1000000; ++i)
+    {
+      sort.put(i * 7919 % 1000003);
+    }
+    sort.sort();
+    std::uint64_t number = 0;
+    ASSERT_TRUE(sort.next(number));
+    goesOn = false;
+    EXPECT_THROW(while (sort.next(number)){}, Cancelled) << threads;
+  }
 }
 
 TEST(ExternalSort, ManyRunsNeedFewFilesAndLittleMemory)

@@ -9,6 +9,7 @@
 #include "IO/Formats/Vsm/AttributeNames.h"
 #include "IO/Raw/RawMeshBuilder.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
