@@ -4,6 +4,7 @@
 #include "smg/Export.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -32,6 +33,13 @@ public:
   /** The number of chains for this many threads: twice as many, since chains are of unequal length.
    */
   static int chainsFor(int threads) { return threads == 1 ? 1 : 2 * threads; }
+  /** The nodes of a step, given those for a few threads: many need longer ones, in which the time
+   * of each stage is closer to its mean. */
+  static std::int64_t stepFor(int threads, std::int64_t nodes)
+  {
+    constexpr int Many = 6;
+    return threads < Many ? nodes : 2 * nodes;
+  }
   std::vector<double> costs() const;
   int chains() const { return static_cast<int>(this->Ends.size()); }
   /** Advances the stages of a chain, one after the other. */

@@ -152,6 +152,7 @@ void FirstPass<Operators>::readStream(MeshAhead& blocks, bool apart, Assembly& a
   tasks.emplace_back([&finest] { finest.advanceDown(); });
   tasks.emplace_back([&blocks] { blocks.read(); });
   finest.addWriters(tasks);
+  LongestFirst order(static_cast<int>(tasks.size()));
   while (!builder.complete())
   {
     builder.begin();
@@ -166,8 +167,7 @@ void FirstPass<Operators>::readStream(MeshAhead& blocks, bool apart, Assembly& a
     }
     finest.showProgress();
     // The problem is queried on the caller's thread.
-    this->Run.together(
-      static_cast<int>(tasks.size()), [&](int task) { tasks[static_cast<std::size_t>(task)](); });
+    this->Run.together(order, [&](int task) { tasks[static_cast<std::size_t>(task)](); });
     finest.release();
     if (apart)
     {

@@ -85,8 +85,8 @@ void Pass<Relaxation>::stream(const Further& further)
   finest.addWriters(files);
   const std::int64_t nodes = finest.window().nodes();
   const int chains = stages.chains();
-  const int tasks = chains + static_cast<int>(files.size());
-  const std::int64_t step = this->Run.options.blockNodes;
+  LongestFirst order(chains + static_cast<int>(files.size()));
+  const std::int64_t step = Pipeline::stepFor(this->Run.scheduled, this->Run.options.blockNodes);
   for (std::int64_t begin = 0; begin < nodes; begin += step)
   {
     const std::int64_t last = std::min(nodes, begin + step) - 1;
@@ -97,7 +97,7 @@ void Pass<Relaxation>::stream(const Further& further)
     }
     // Nodes are written when all stages have finished them a step ago.
     finest.showProgress();
-    this->Run.together(tasks,
+    this->Run.together(order,
       [&](int task)
       {
         if (task < chains)
@@ -153,9 +153,9 @@ int Pass<Relaxation>::mostChains() const
   }
   const Pool& pool = this->Run.pool;
   const std::int64_t used = std::max(pool.peak(), this->Run.usedBefore());
+  const std::int64_t step = Pipeline::stepFor(this->Run.scheduled, this->Run.options.blockNodes);
   const std::int64_t chains =
-    (pool.limit() - used) /
-    (NodeBytes * std::min(this->Run.options.blockNodes, this->Levels.window().nodes()));
+    (pool.limit() - used) / (NodeBytes * std::min(step, this->Levels.window().nodes()));
   return static_cast<int>(std::clamp<std::int64_t>(chains, 1, Unlimited));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/LongestFirst.h"
 #include "Solver/Core/RunAll.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Cycle/LevelCursors.h"
@@ -41,18 +42,30 @@ struct SMG_EXPORT SolveRun
   /** Adds memory, scratch files and times to the report; `Report::levels` must be complete. */
   void finishReport();
 
-  /** Performs task(0) .. task(count - 1), concurrently: task(0) on the calling thread. */
+  /** Performs the tasks of a step, concurrently, in the order for it: task(0) on the calling
+   * thread. */
   template <class Task>
-  void together(int count, Task&& task)
+  void together(LongestFirst& order, Task&& task)
   {
     if (this->recorder)
     {
-      this->recorder->run(count, task);
+      this->recorder->run(order.tasks(), task);
+      return;
     }
-    else
+    if (this->scheduled == 1)
     {
-      runAll(this->threads, count, task);
+      runAll(this->threads, order.tasks(), task);
+      return;
     }
+    runAll(this->threads, order.tasks(),
+      [&](int place)
+      {
+        const int number = order[place];
+        const Timer timer;
+        task(number);
+        order.add(number, timer.seconds());
+      });
+    order.sort();
   }
 
   /** Whether the tasks of a step may run at once: then more of them are worth while. */

@@ -13,10 +13,17 @@ namespace smg::benchmark
 
 double ScheduleModel::seconds(std::size_t pass, int threads) const
 {
+  const std::vector<StepRecorder::Step> steps = this->scheduled(this->Passes[pass], threads);
+  LongestFirst order(steps.empty() ? 1 : static_cast<int>(steps.front().tasks.size()));
   double seconds = 0.0;
-  for (const StepRecorder::Step& step : this->scheduled(this->Passes[pass], threads))
+  for (const StepRecorder::Step& step : steps)
   {
-    seconds += step.before + concurrent(step.tasks, threads);
+    seconds += step.before + concurrent(step.tasks, order, threads);
+    for (int task = 0; task < order.tasks(); ++task)
+    {
+      order.add(task, step.tasks[static_cast<std::size_t>(task)]);
+    }
+    order.sort();
   }
   return seconds;
 }
@@ -46,12 +53,13 @@ double ScheduleModel::seconds(int threads) const
 
 /** The time of tasks of which every thread takes the next one; the first thread takes the first
  * one (see runAll()). */
-double ScheduleModel::concurrent(const std::vector<double>& tasks, int threads)
+double ScheduleModel::concurrent(
+  const std::vector<double>& tasks, const LongestFirst& order, int threads)
 {
   std::vector<double> busy(static_cast<std::size_t>(threads));
-  for (const double seconds : tasks)
+  for (int place = 0; place < order.tasks(); ++place)
   {
-    *std::ranges::min_element(busy) += seconds;
+    *std::ranges::min_element(busy) += tasks[static_cast<std::size_t>(order[place])];
   }
   return *std::ranges::max_element(busy);
 }
@@ -72,7 +80,8 @@ std::vector<StepRecorder::Step> ScheduleModel::scheduled(
   }
   stages.cut(Pipeline::chainsFor(threads));
   const int chains = stages.chains();
-  const auto together = static_cast<std::size_t>(this->BlockNodes / RowBlock::Nodes);
+  const auto together =
+    static_cast<std::size_t>(Pipeline::stepFor(threads, this->BlockNodes) / RowBlock::Nodes);
   std::vector<StepRecorder::Step> steps;
   for (std::size_t s = 0; s < pass.steps.size(); ++s)
   {

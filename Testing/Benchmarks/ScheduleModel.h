@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Core/LongestFirst.h"
 #include "Solver/Engine/StepRecorder.h"
 
 #include <vector>
@@ -29,7 +30,8 @@ public:
   double seconds(int threads) const;
 
 private:
-  static double concurrent(const std::vector<double>& tasks, int threads);
+  static double concurrent(
+    const std::vector<double>& tasks, const LongestFirst& order, int threads);
   std::vector<StepRecorder::Step> scheduled(const StepRecorder::Pass& pass, int threads) const;
 
   const std::vector<StepRecorder::Pass>& Passes;

@@ -56,7 +56,7 @@ TEST(MemoryLaw, ManyThreadsFollowAChangeOfTheMesh)
     options.threads = threads;
     return solveMesh(mesh, problem, options).report.pool_bytes_peak;
   };
-  EXPECT_LE(peak(8), peak(1) + (std::int64_t(3) << 20));
+  EXPECT_LE(peak(4), peak(1) + (std::int64_t(3) << 20));
 }
 
 TEST(MemoryLaw, OfASurfaceIsTheSquareRoot)
