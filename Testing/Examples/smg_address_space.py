@@ -22,7 +22,7 @@ if SANITIZED:
 NU, NV, MEMORY = (int(number) for number in sys.argv[1:]) if sys.argv[1:] else (1200, 600, 24)
 THREADS = 2
 # MiB of address space besides the memory limit.
-CONVERTING, SOLVING = 32, 72
+CONVERTING, SOLVING = 32, 80
 LEAST_MEMORY = 16
 SMALL = not sys.argv[1:]
 
