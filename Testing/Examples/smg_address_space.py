@@ -21,8 +21,8 @@ if SANITIZED:
 
 NU, NV, MEMORY = (int(number) for number in sys.argv[1:]) if sys.argv[1:] else (1200, 600, 24)
 THREADS = 2
-# MiB of address space besides the memory limit.
-CONVERTING, SOLVING = 32, 80
+# MiB of address space besides the memory limit; windows, which large meshes need, are mapped twice.
+CONVERTING, SOLVING = 32, 80 if MEMORY < 128 else 160
 LEAST_MEMORY = 16
 SMALL = not sys.argv[1:]
 
