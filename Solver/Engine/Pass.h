@@ -51,6 +51,10 @@ private:
   void stream(const Further& further);
   Pipeline stages(const Further& further);
   int mostChains() const;
+  std::int64_t stepNodes() const
+  {
+    return Pipeline::stepFor(this->Run.scheduled, this->Run.options.blockNodes);
+  }
 
   SolveRun& Run;
   Hierarchy<Relaxation>& Levels;
@@ -86,7 +90,7 @@ void Pass<Relaxation>::stream(const Further& further)
   const std::int64_t nodes = finest.window().nodes();
   const int chains = stages.chains();
   LongestFirst order(chains + static_cast<int>(files.size()));
-  const std::int64_t step = Pipeline::stepFor(this->Run.scheduled, this->Run.options.blockNodes);
+  const std::int64_t step = this->stepNodes();
   for (std::int64_t begin = 0; begin < nodes; begin += step)
   {
     const std::int64_t last = std::min(nodes, begin + step) - 1;
@@ -153,9 +157,9 @@ int Pass<Relaxation>::mostChains() const
   }
   const Pool& pool = this->Run.pool;
   const std::int64_t used = std::max(pool.peak(), this->Run.usedBefore());
-  const std::int64_t step = Pipeline::stepFor(this->Run.scheduled, this->Run.options.blockNodes);
   const std::int64_t chains =
-    (pool.limit() - used) / (NodeBytes * std::min(step, this->Levels.window().nodes()));
+    (pool.limit() - used) /
+    (NodeBytes * std::min(this->stepNodes(), this->Levels.window().nodes()));
   return static_cast<int>(std::clamp<std::int64_t>(chains, 1, Unlimited));
 }
 

@@ -52,11 +52,6 @@ struct SMG_EXPORT SolveRun
       this->recorder->run(order.tasks(), task);
       return;
     }
-    if (this->scheduled == 1)
-    {
-      runAll(this->threads, order.tasks(), task);
-      return;
-    }
     runAll(this->threads, order.tasks(),
       [&](int place)
       {
@@ -65,7 +60,10 @@ struct SMG_EXPORT SolveRun
         task(number);
         order.add(number, timer.seconds());
       });
-    order.sort();
+    if (this->scheduled > 1)
+    {
+      order.sort(); // no task of one thread waits for another
+    }
   }
 
   /** Whether the tasks of a step may run at once: then more of them are worth while. */

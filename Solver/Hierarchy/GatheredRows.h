@@ -2,10 +2,9 @@
 #pragma once
 
 #include "Solver/Hierarchy/CoarseEntry.h"
+#include "Solver/Hierarchy/RowEntries.h"
 #include "Solver/Hierarchy/StrongestWeight.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -28,17 +27,11 @@ class GatheredRows
 {
 public:
   /** Room for at most `size` entries of the next row. */
-  CoarseEntry* open(std::int64_t size)
-  {
-    // Grows only, since resize() clears what it adds.
-    const std::size_t end = this->Used + static_cast<std::size_t>(size);
-    this->Entries.resize(std::max(this->Entries.size(), end));
-    return this->Entries.data() + this->Used;
-  }
+  CoarseEntry* open(std::int64_t size) { return this->Entries.open(size); }
   /** Ends the row begun by open(), whose entries have ascending columns. */
   void close(const GatheredRow& row)
   {
-    this->Used += static_cast<std::size_t>(row.size);
+    this->Entries.close(row.size);
     this->Rows.push_back(row);
   }
 
@@ -53,13 +46,12 @@ public:
       entries += row.size;
     }
     this->Rows.clear();
-    this->Used = 0;
+    this->Entries.clear();
   }
 
 private:
-  std::vector<CoarseEntry> Entries;
+  RowEntries<CoarseEntry> Entries;
   std::vector<GatheredRow> Rows;
-  std::size_t Used = 0;
 };
 
 } // namespace smg

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Hierarchy/LevelRows.h"
+#include "Solver/Hierarchy/RowEntries.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -18,19 +19,13 @@ class RowBatch
 {
 public:
   /** Room for at most `size` entries of the next row. */
-  RowEntry* open(std::int64_t size)
-  {
-    // Grows only, since resize() clears what it adds: once for all batches.
-    const std::size_t end = this->Used + static_cast<std::size_t>(size);
-    this->Entries.resize(std::max(this->Entries.size(), end));
-    return this->Entries.data() + this->Used;
-  }
+  RowEntry* open(std::int64_t size) { return this->Entries.open(size); }
 
   /** Ends the row begun by open(); see LevelRows::close. */
   void close(std::int64_t size, double alpha, std::int64_t childReach, bool stiff = false,
     std::span<const double> precise = {})
   {
-    this->Used += static_cast<std::size_t>(size);
+    this->Entries.close(size);
     this->Closed.push_back({ size, alpha, childReach, stiff, precise.size() });
     this->Precise.insert(this->Precise.end(), precise.begin(), precise.end());
   }
@@ -54,14 +49,13 @@ public:
     }
     this->Closed.clear();
     this->Precise.clear();
-    this->Used = 0;
+    this->Entries.clear();
   }
 
 private:
-  std::vector<RowEntry> Entries;
+  RowEntries<RowEntry> Entries;
   std::vector<double> Precise;
   std::vector<ClosedRow> Closed;
-  std::size_t Used = 0;
 };
 
 } // namespace smg
