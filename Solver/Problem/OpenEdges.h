@@ -40,6 +40,7 @@ public:
     : To(pool, usual)
     , Weight(pool, usual)
     , Counts(pool)
+    , Searched(usual > 2 * Group ? 2 * Group : Group)
   {
   }
 
@@ -70,9 +71,9 @@ public:
     const auto low = static_cast<std::uint32_t>(to);
     std::uint32_t* list = this->To.at(from);
     Count& count = this->Counts[from];
-    for (int first = 0; first < count.upper; first += Group)
+    for (int first = 0; first < count.upper; first += this->Searched)
     {
-      const std::uint32_t found = matches(list + first, low, count.upper - first);
+      const std::uint32_t found = this->matches(list + first, low, count.upper - first);
       if (found != 0)
       {
         return this->Weight.at(from)[first + std::countr_zero(found)];
@@ -154,13 +155,20 @@ private:
     std::uint8_t lower; ///< to lower vertices, from the end of a list
   };
 
-  /** Neighbours are searched in groups of this size. A group may extend beyond the end of a list,
-   * into the next one of the ring. */
   static constexpr int Group = 8;
 
-  /** The positions of `low` among the first `count` values, as bits of the first Group of them. All
-   * of these are compared: the end of a search is unpredictable for branches. */
-  static std::uint32_t matches(const std::uint32_t* list, std::uint32_t low, int count)
+  /** The positions of `low` among the first `count` values, as bits of the first `Searched` of
+   * them. All of these are compared: the end of a search is unpredictable for branches. */
+  std::uint32_t matches(const std::uint32_t* list, std::uint32_t low, int count) const
+  {
+    std::uint32_t bits = matches(list, low);
+    if (this->Searched > Group)
+    {
+      bits |= matches(list + Group, low) << Group;
+    }
+    return count < this->Searched ? bits & ((1U << count) - 1U) : bits;
+  }
+  static std::uint32_t matches(const std::uint32_t* list, std::uint32_t low)
   {
     using Half = Lanes<std::uint32_t, Group / 2>;
     constexpr Half::Vector Low = { 1, 2, 4, 8 }, High = { 16, 32, 64, 128 };
@@ -168,8 +176,7 @@ private:
     const auto upper = (Half::Vector)(Half::load(list + Group / 2) == low) & High;
     const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(lower | upper);
     const std::uint64_t pair = halves[0] | halves[1];
-    const auto bits = static_cast<std::uint32_t>(pair | pair >> 32);
-    return count < Group ? bits & ((1U << count) - 1U) : bits;
+    return static_cast<std::uint32_t>(pair | pair >> 32);
   }
 
   bool hasRoom(Count count) const { return count.upper + count.lower < this->To.lanes(); }
@@ -219,6 +226,10 @@ private:
   Ring<std::uint32_t> To; ///< by their low 32 bits
   Ring<double> Weight;
   Ring<Count> Counts;
+  /** Neighbours are searched in groups of this size, which few vertices exceed: the number of
+   * groups is unpredictable, too. A group may extend beyond the end of a list, into the next one of
+   * the ring. */
+  int Searched;
   std::unordered_map<std::int64_t, std::unordered_map<std::int64_t, double>> More;
 };
 
