@@ -16,8 +16,13 @@ void RestShape::useScratch(const ScratchFolder& folder, IoStatistics& statistics
 
 void RestShape::hold(std::int64_t i, const double* target)
 {
-  this->enclose(target);
-  this->Waiting.push_back({ { target[0], target[1], target[2] }, i });
+  this->Coming.push_back({ { target[0], target[1], target[2] }, i });
+}
+
+void RestShape::begin()
+{
+  this->Waiting.insert(this->Waiting.end(), this->Coming.begin(), this->Coming.end());
+  this->Coming.clear();
 }
 
 void RestShape::link(std::int32_t delta, float weight)
@@ -31,6 +36,7 @@ void RestShape::close(const double* point, std::int64_t reach)
   if (!this->Waiting.empty() && this->Waiting.front().node == this->Vertices)
   {
     this->Held.push_back({ this->Waiting.front().target, this->Open.nodes });
+    this->enclose(this->Held.back().target.data());
     this->Waiting.pop_front();
   }
   this->Points.insert(this->Points.end(), point, point + 3);

@@ -110,8 +110,10 @@ public:
 
   // During the first pass:
 
-  /** Vertex `i` is held; called by ascending i, before close() of that vertex. */
+  /** Vertex `i` is held; called by ascending i, before the begin() before close() of that vertex.
+   */
   void hold(std::int64_t i, const double* target);
+  void begin() override;
   void link(std::int32_t delta, float weight) override;
   void close(const double* point, std::int64_t reach) override;
   void finish();
@@ -144,7 +146,8 @@ private:
   Pool& Owner;
   std::optional<ScratchStream> Scratch;
   std::deque<RestBlock> Blocks;
-  std::deque<RestBlock::Held> Waiting; // held vertices that are not closed; node is the index
+  // Held vertices that are not closed; node is the index. begin() makes Coming ones Waiting.
+  std::deque<RestBlock::Held> Coming, Waiting;
   RestBlock::Header Open;
   std::vector<double> Points;
   std::vector<RestBlock::Held> Held;

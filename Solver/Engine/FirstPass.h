@@ -92,7 +92,7 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
   this->Built.startPass(true);
   MeshAhead blocks(mesh, this->Run.isConcurrent());
   // On a thread of its own, the assembly of rows needs to know the next block.
-  this->readStream(blocks, apart && blocks.isAhead() && !listener, assembly, rows, builder);
+  this->readStream(blocks, apart && blocks.isAhead(), assembly, rows, builder);
   const int coarsest = builder.finish([this](int l) { this->Built.addCoreLevel(l); });
   this->Built.endPass();
   this->Built.close(coarsest);
@@ -102,7 +102,7 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
 /**
  * In each step the next block of the mesh is assembled, every streamed level is coarsened, and the
  * downward part of the V-cycle advances, all concurrently, each on the data of the previous steps;
- * so are, with `apart`, the cells and the rows of the assembly.
+ * so are, with `apart`, the stages of the assembly.
  */
 template <OperatorSet Operators>
 void FirstPass<Operators>::readStream(MeshAhead& blocks, bool apart, Assembly& assembly,
@@ -122,7 +122,7 @@ void FirstPass<Operators>::readStream(MeshAhead& blocks, bool apart, Assembly& a
     more = block != nullptr;
     if (apart)
     {
-      more ? assembly.collect(*block) : assembly.collectRest();
+      more ? assembly.weigh(*block) : assembly.weighRest();
     }
     else
     {
@@ -136,14 +136,10 @@ void FirstPass<Operators>::readStream(MeshAhead& blocks, bool apart, Assembly& a
   std::vector<std::function<void()>> tasks{ assemble };
   if (apart)
   {
-    tasks.emplace_back(
-      [&]
-      {
-        if (!waits)
-        {
-          assembly.closeRows();
-        }
-      });
+    for (const auto stage : { &Assembly::connect, &Assembly::closeRows })
+    {
+      tasks.emplace_back([&, stage] { waits ? void() : (assembly.*stage)(); });
+    }
   }
   for (int task = 0; task < builder.tasks(); ++task)
   {

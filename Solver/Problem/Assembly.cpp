@@ -25,6 +25,7 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, Assembl
   , Cells(pool, info.cellType, problem, this->WeightScale, components, labels)
   , Reach(pool)
   , Targets(problem, this->Cells.vertices.points)
+  , ConnectsApart(this->Cells.mayConnectApart() && !this->Targets.any())
   , Rows(info.cellType, this->Cells.vertices, problem, rows, components,
       stiffRows(info.cellType, problem.weights(), rows), listener)
 {
@@ -34,6 +35,7 @@ void Assembly::add(const MeshBlock& block)
 {
   this->Check.add(block);
   this->Cells.add(block);
+  this->beginRows();
   this->collectBelow(block.finalized, false);
   this->release();
 }
@@ -49,21 +51,54 @@ void Assembly::beginApart(std::int64_t vertices)
 {
   std::swap(this->Collected, this->Arrived);
   this->Collected.clear(this->Arrived.end());
+  std::swap(this->Weighed, this->Connected);
+  this->Weighed.clear();
   this->Out.weightScale = this->WeightScale;
-  this->Cells.vertices.reserve(vertices);
+  this->Cells.reserve(vertices);
+  this->beginRows();
 }
 
-void Assembly::collect(const MeshBlock& block)
+void Assembly::beginRows()
+{
+  if (this->Listener)
+  {
+    this->Listener->begin();
+  }
+}
+
+void Assembly::weigh(const MeshBlock& block)
 {
   this->Check.add(block);
-  this->Cells.add(block);
-  this->collectBelow(block.finalized, true);
+  this->Cells.weigh(block, this->Weighed);
+  if (!this->ConnectsApart)
+  {
+    this->connectAndCollect(this->Weighed);
+  }
 }
 
-void Assembly::collectRest()
+void Assembly::weighRest()
 {
   this->Check.finish(this->Info);
-  this->collectBelow(this->vertices(), true);
+  this->Weighed.vertices = this->Weighed.finalized = this->vertices();
+  if (!this->ConnectsApart)
+  {
+    this->connectAndCollect(this->Weighed);
+  }
+}
+
+void Assembly::connect()
+{
+  if (this->ConnectsApart)
+  {
+    this->connectAndCollect(this->Connected);
+  }
+}
+
+/** Connects the corners of the cells and collects the vertices that become final. */
+void Assembly::connectAndCollect(const WeighedCells& cells)
+{
+  this->Cells.connect(cells);
+  this->collectBelow(cells.finalized, true);
 }
 
 /** Collects the vertices below `end`, and completes their rows unless another thread does. */

@@ -9,6 +9,7 @@
 #include "Solver/Problem/NeighbourReach.h"
 #include "Solver/Problem/RowAssembly.h"
 #include "Solver/Problem/RowListener.h"
+#include "Solver/Problem/WeighedCells.h"
 #include "Solver/Stream/StreamCheck.h"
 #include "smg/Export.h"
 #include "smg/Problem.h"
@@ -48,15 +49,20 @@ public:
    */
   void finish();
 
-  // The same in steps on two threads: between beginApart() and release(), closeRows() may run at
-  // the same time as collect() or collectRest(). It completes the rows that these have collected in
-  // the step before. Without a listener: that of a deformation also gets data from its problem,
-  // which is asked when blocks are added.
+  // The same in steps on several threads: between beginApart() and release(), weigh() or
+  // weighRest(), connect() and closeRows() may run at the same time, each on what the one before it
+  // has made in the step before.
 
-  /** Begins a step that may collect a block of so many vertices. */
+  /** Begins a step that may weigh the cells of a block of so many vertices. */
   void beginApart(std::int64_t vertices);
-  void collect(const MeshBlock& block);
-  void collectRest();
+  /** Adds the vertices of a block and weighs its cells, for which the problem is asked. */
+  void weigh(const MeshBlock& block);
+  /** The same at the end of the stream. */
+  void weighRest();
+  /** Connects the corners of the weighed cells, and collects the vertices that become final; where
+   * this asks the problem or needs its facets, weigh() has done it. */
+  void connect();
+  /** Completes the rows of collected vertices. */
   void closeRows();
   /** Releases the data that no later row needs. */
   void release();
@@ -79,6 +85,8 @@ public:
   const InitialResidual& residual() const { return this->Rows.residual(); }
 
 private:
+  void beginRows();
+  void connectAndCollect(const WeighedCells& cells);
   void collectBelow(std::int64_t end, bool apart);
   void collectBatch(std::int64_t end);
   void collectVertex(std::int64_t i);
@@ -93,9 +101,11 @@ private:
 
   // By open vertex.
   CellAssembly Cells;
+  WeighedCells Weighed, Connected; // the latter are those that connect() takes
   NeighbourReach Reach;
 
   EdgeTargets Targets;
+  const bool ConnectsApart;
   std::vector<std::size_t> RowEnds; // of a query
   FinalVertices Collected, Arrived; // the latter are those that closeRows() completes
   RowAssembly Rows;

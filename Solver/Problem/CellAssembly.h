@@ -6,13 +6,17 @@
 #include "Solver/Problem/OpenComponents.h"
 #include "Solver/Problem/OpenVertices.h"
 #include "Solver/Problem/RowLoads.h"
+#include "Solver/Problem/WeighedCells.h"
 #include "Solver/Problem/WeightPolicy.h"
 #include "Solver/Problem/WeightedEdges.h"
 #include "smg/CellWeights.h"
 #include "smg/Export.h"
 #include "smg/Problem.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace smg
 {
@@ -29,6 +33,19 @@ struct SMG_EXPORT CellAssembly
    * data. */
   void add(const MeshBlock& block);
 
+  // The same in two steps, on two threads: connect() of some cells may run at the same time as
+  // weigh() of the block after them if there is room for this.
+
+  /** Whether the data on facets, which need all cells, do not prevent this. */
+  bool mayConnectApart() const { return !this->loads.facets(); }
+  /** Provides room for so many more vertices. */
+  void reserve(std::int64_t vertices);
+  /** Adds the vertices and facets of a block, and the loads in its cells; `to` receives those of
+   * its cells that connect their corners. Throws Error if the problem returns invalid data. */
+  void weigh(const MeshBlock& block, WeighedCells& to);
+  /** Connects the corners of the cells. */
+  void connect(const WeighedCells& cells);
+
   WeightPolicy policy;
   OpenVertices vertices;
   OpenComponents parts;
@@ -37,11 +54,15 @@ struct SMG_EXPORT CellAssembly
 
 private:
   void addVertices(const MeshBlock& block);
-  void addCells(const MeshBlock& block);
-  void addCell(const std::int64_t* corners, unsigned flags);
-  void connect(const std::int64_t* corners, const double* const* points, const CellWeights& cell);
+  void extend(std::int64_t vertices);
+  void weigh(
+    const MeshBlock& block, std::size_t begin, std::size_t end, std::vector<WeighedCell>& to);
+  void weigh(const std::int64_t* corners, unsigned flags, std::vector<WeighedCell>& to);
+  void connect(std::span<const WeighedCell> cells);
+  void connect(const WeighedCell& cell);
 
   CellType Type;
+  std::vector<WeighedCell> Weighed; // a batch of add()
 };
 
 } // namespace smg

@@ -9,8 +9,11 @@ namespace smg
 void OpenComponents::extend(std::int64_t vertices)
 {
   const std::int64_t begin = this->Labels.end();
-  this->Labels.extendRaw(vertices);
-  std::ranges::fill(this->Labels.range(begin, vertices), -1);
+  if (vertices > begin)
+  {
+    this->Labels.extendRaw(vertices);
+    std::ranges::fill(this->Labels.range(begin, vertices), -1);
+  }
 }
 
 /** Joins corners that do not all have the same label. */

@@ -49,10 +49,12 @@ void OpenVertices::add(const MeshBlock& block)
 
 void OpenVertices::reserve(std::int64_t more)
 {
-  const std::int64_t vertices = this->end() - this->points.first() + more;
-  this->points.reserve(vertices);
-  this->values.reserve(vertices);
-  this->dirichlet.reserve(vertices);
+  this->points.reserveMore(more);
+  this->values.reserveMore(more);
+  this->dirichlet.reserveMore(more);
+  this->sources.reserveMore(more);
+  this->screening.reserveMore(more);
+  this->mass.reserveMore(more);
 }
 
 void OpenVertices::ask(const MeshBlock& block)

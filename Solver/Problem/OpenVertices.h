@@ -18,8 +18,8 @@ struct OpenVertices
    * invalid. */
   void add(const MeshBlock& block);
   std::int64_t end() const { return this->points.end(); }
-  /** Provides room for so many more vertices: until these are added, another thread may read
-   * points, values and dirichlet of others. */
+  /** Provides room for so many more vertices: until these are added, other threads may use the
+   * data of others. */
   void reserve(std::int64_t more);
   /**
    * Releases vertices below `done`, and the data of those below `final` that no neighbour needs.

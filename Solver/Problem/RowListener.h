@@ -14,6 +14,9 @@ class RowListener
 public:
   virtual ~RowListener() = default;
 
+  /** Rows follow of vertices for which the problem has been asked before, perhaps while it is asked
+   * for others on another thread; that is not so during this call. */
+  virtual void begin() {}
   /** The next vertex, which is free, has an edge to the constrained vertex index + delta. */
   virtual void link(std::int32_t delta, float weight) = 0;
   /** The next edge of the row of the next vertex has this target d_ij, one value per column. Called

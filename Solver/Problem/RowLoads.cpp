@@ -37,6 +37,14 @@ void RowLoads::extend(std::int64_t vertices)
   }
 }
 
+void RowLoads::reserve(std::int64_t vertices)
+{
+  if (this->OfCells)
+  {
+    this->OfCells->reserve(vertices);
+  }
+}
+
 void RowLoads::addFacets(const MeshBlock& block)
 {
   if (this->Facets)

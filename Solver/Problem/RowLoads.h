@@ -26,6 +26,9 @@ public:
 
   /** Sets the number of vertices so far. */
   void extend(std::int64_t vertices);
+  /** Provides room for so many more vertices: until these are added, the loads in cells of others
+   * may be used by another thread. */
+  void reserve(std::int64_t vertices);
   /** Adds the facets of the cells of the block. */
   void addFacets(const MeshBlock& block);
   /** Adds the data of the prepared cell, which must have a measure. */

@@ -22,6 +22,12 @@ void VertexLoads::extend(std::int64_t vertices)
   this->Load.extend(vertices);
 }
 
+void VertexLoads::reserve(std::int64_t vertices)
+{
+  this->Alpha.reserveMore(vertices);
+  this->Load.reserveMore(vertices);
+}
+
 void VertexLoads::release(std::int64_t first)
 {
   this->Alpha.release(first);

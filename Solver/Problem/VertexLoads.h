@@ -18,6 +18,8 @@ public:
   VertexLoads(Pool& pool, CellType type, int columns);
 
   void extend(std::int64_t vertices);
+  /** Provides room for so many more vertices. */
+  void reserve(std::int64_t vertices);
   void release(std::int64_t first);
 
   /** Adds screening, source and field of the prepared cell, which must have a measure. */

@@ -109,6 +109,9 @@ public:
     }
   }
 
+  /** Provides capacity for so many further items. */
+  void reserveMore(std::int64_t items) { this->reserve(this->End - this->First + items); }
+
 private:
   void grow(std::int64_t items)
   {
