@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace smg::testing
@@ -19,11 +20,11 @@ namespace smg::testing
 namespace
 {
 
-/** A mesh that may be read on any thread, up to the block `Failing`. */
-struct AnyThreadSource : MemorySource
+/** A mesh that may be read on any thread, or on the caller's alone, up to the block `Failing`. */
+struct CountedSource : MemorySource
 {
   using MemorySource::MemorySource;
-  bool readsOnAnyThread() const override { return true; }
+  bool readsOnAnyThread() const override { return this->OnAnyThread; }
   bool next(MeshBlock& block) override
   {
     if (++this->Asked == this->Failing)
@@ -33,6 +34,7 @@ struct AnyThreadSource : MemorySource
     return MemorySource::next(block);
   }
   int Asked = 0, Failing = 0;
+  bool OnAnyThread = true;
 };
 
 /** Two strips, a cell of each in turn, which the last cell joins: most vertices are final before.
@@ -70,7 +72,7 @@ TEST(MeshAhead, DeliversTheBlocksOfTheStreamInOrder)
 {
   for (const bool ahead : { false, true })
   {
-    AnyThreadSource source(toStream(torus(30, 20)), 100);
+    CountedSource source(toStream(torus(30, 20)), 100);
     const std::int64_t blocks = (source.info().cells + 99) / 100;
     MeshAhead stream(source, ahead);
     std::int64_t vertices = 0, cells = 0;
@@ -97,7 +99,7 @@ TEST(MeshAhead, DeliversTheBlocksOfTheStreamInOrder)
 
 TEST(MeshAhead, SaysAFailureWhenTheBlocksBeforeItHaveBeenUsed)
 {
-  AnyThreadSource source(toStream(torus(30, 20)), 100);
+  CountedSource source(toStream(torus(30, 20)), 100);
   source.Failing = 3;
   MeshAhead stream(source, true);
   for (int n = 1; n < 3; ++n)
@@ -135,9 +137,11 @@ TEST(MeshAhead, DoesNotChangeTheSolution)
     EXPECT_EQ(expected.report.free_components, problem == &free ? 1 : 0);
     for (const std::int64_t blockCells : { 100, 2000 })
     {
-      for (const int threads : { 2, 8 })
+      for (const auto& [threads, onAnyThread] :
+        { std::pair(8, false), std::pair(2, true), std::pair(8, true) })
       {
-        AnyThreadSource source(mesh, blockCells);
+        CountedSource source(mesh, blockCells);
+        source.OnAnyThread = onAnyThread;
         options.threads = threads;
         const Solved solved = solveMesh(source, *problem, options);
         EXPECT_TRUE(sameBits(solved.values, expected.values)) << threads << " threads";
@@ -153,13 +157,13 @@ TEST(MeshAhead, ASolveSaysTheFirstFailureOfTheStream)
   const StreamMesh mesh = toStream(torus(60, 40));
   ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
   problem.Value[50] = NAN;
-  AnyThreadSource source(mesh, 100);
+  CountedSource source(mesh, 100);
   source.Failing = 3;
   SolveOptions options;
   options.threads = 4;
   expectError([&] { solve(source, problem, options); }, "is not a finite number");
   ArrayProblem right = heldEnds(mesh, 1, Weights::Cotangent);
-  AnyThreadSource again(mesh, 100);
+  CountedSource again(mesh, 100);
   again.Failing = 3;
   expectError([&] { solve(again, right, options); }, "the block cannot be read");
 }

@@ -202,6 +202,7 @@ TEST(Streaming, AsksTheMeshAndTheProblemOnTheThreadThatSolves)
   struct ThreadCheckingSource : MemorySource
   {
     using MemorySource::MemorySource;
+    bool readsOnAnyThread() const override { return false; }
     bool next(MeshBlock& block) override
     {
       EXPECT_EQ(std::this_thread::get_id(), this->Thread);

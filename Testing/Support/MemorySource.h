@@ -19,6 +19,7 @@ public:
 
   const StreamInfo& info() const override { return this->Info; }
   bool next(MeshBlock& block) override;
+  bool readsOnAnyThread() const override { return true; }
 
   /** Restarts, for the next solve, with blocks of `blockCells` cells. */
   void rewind(std::int64_t blockCells);
