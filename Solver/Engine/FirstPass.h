@@ -91,7 +91,7 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
     this->Run.pool, mesh.info(), problem, rows, this->Run.components, this->Run.labels, listener);
   this->Built.startPass(true);
   MeshAhead blocks(mesh, this->Run.isConcurrent());
-  // On a thread of its own, the assembly of rows needs to know the next block.
+  // On threads of their own, the stages of the assembly need room for the next block.
   this->readStream(blocks, apart && blocks.isAhead(), assembly, rows, builder);
   const int coarsest = builder.finish([this](int l) { this->Built.addCoreLevel(l); });
   this->Built.endPass();

@@ -69,36 +69,33 @@ void Assembly::beginRows()
 void Assembly::weigh(const MeshBlock& block)
 {
   this->Check.add(block);
-  this->Cells.weigh(block, this->Weighed);
-  if (!this->ConnectsApart)
+  if (this->ConnectsApart)
   {
-    this->connectAndCollect(this->Weighed);
+    this->Cells.weigh(block, this->Weighed);
+    return;
   }
+  this->Cells.add(block);
+  this->collectBelow(block.finalized, true);
 }
 
 void Assembly::weighRest()
 {
   this->Check.finish(this->Info);
-  this->Weighed.vertices = this->Weighed.finalized = this->vertices();
-  if (!this->ConnectsApart)
+  if (this->ConnectsApart)
   {
-    this->connectAndCollect(this->Weighed);
+    this->Weighed.vertices = this->Weighed.finalized = this->vertices();
+    return;
   }
+  this->collectBelow(this->vertices(), true);
 }
 
 void Assembly::connect()
 {
   if (this->ConnectsApart)
   {
-    this->connectAndCollect(this->Connected);
+    this->Cells.connect(this->Connected);
+    this->collectBelow(this->Connected.finalized, true);
   }
-}
-
-/** Connects the corners of the cells and collects the vertices that become final. */
-void Assembly::connectAndCollect(const WeighedCells& cells)
-{
-  this->Cells.connect(cells);
-  this->collectBelow(cells.finalized, true);
 }
 
 /** Collects the vertices below `end`, and completes their rows unless another thread does. */

@@ -86,7 +86,6 @@ public:
 
 private:
   void beginRows();
-  void connectAndCollect(const WeighedCells& cells);
   void collectBelow(std::int64_t end, bool apart);
   void collectBatch(std::int64_t end);
   void collectVertex(std::int64_t i);
