@@ -54,7 +54,6 @@ void CellAssembly::weigh(const MeshBlock& block, WeighedCells& to)
   const std::size_t cells = cellsOf(block, this->Type);
   to.cells.reserve(cells);
   this->weigh(block, 0, cells, to.cells);
-  this->loads.addFacets(block);
   to.vertices = this->vertices.end();
   to.finalized = block.finalized;
 }

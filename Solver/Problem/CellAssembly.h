@@ -34,14 +34,14 @@ struct SMG_EXPORT CellAssembly
   void add(const MeshBlock& block);
 
   // The same in two steps, on two threads: connect() of some cells may run at the same time as
-  // weigh() of the block after them if there is room for this.
+  // weigh() of the block after them if there is room for this. Not with data on facets: those
+  // of a block are added while others are taken.
 
-  /** Whether the data on facets, which need all cells, do not prevent this. */
   bool mayConnectApart() const { return !this->loads.facets(); }
   /** Provides room for so many more vertices. */
   void reserve(std::int64_t vertices);
-  /** Adds the vertices and facets of a block, and the loads in its cells; `to` receives those of
-   * its cells that connect their corners. Throws Error if the problem returns invalid data. */
+  /** Adds the vertices of a block and the loads in its cells; `to` receives those of its cells that
+   * connect their corners. Throws Error if the problem returns invalid data. */
   void weigh(const MeshBlock& block, WeighedCells& to);
   /** Connects the corners of the cells. */
   void connect(const WeighedCells& cells);
