@@ -15,7 +15,7 @@ import sys
 
 from kills import FOLDER, again, begin, calls_of, kill_after, kill_at, run_with_kills, steps
 from odd_mesh import odd_solid
-from program import SANITIZED, SMG, load, run, write_medit, write_torus
+from program import SMG, load, run, write_medit, write_torus
 from small_disk import SmallDisk, can_mount
 
 RANDOM = random.Random(7)
@@ -382,8 +382,7 @@ for folder in (FOLDER, "kept"):  # remains of an earlier failed run
     shutil.rmtree(folder, ignore_errors=True)
 prepare()
 ALL = sys.argv[1:] == ["all"]
-if not SANITIZED:  # programs that start slowly are killed hundreds of times
-    test_kills(200 if ALL else 20)
+test_kills(200 if ALL else 20)
 test_kills_at_calls(1 << 30 if ALL else 20)
 for each in (test_each_pass, test_others_are_refused, test_damage, test_conversion, test_only_its_own,
              test_interrupted, test_in_use, test_folders):
