@@ -240,8 +240,9 @@ private:
     this->addRows();
     this->Advanced.push_back(0);
     this->Packed.push_back(0);
-    this->Steps.push_back(std::make_unique<Coarsening<Operators>>(
-      this->Owner, this->Set, *this->Rows[this->Rows.size() - 2], *this->Rows.back(), this->Stiff));
+    const std::size_t l = this->Steps.size();
+    this->Steps.push_back(std::make_unique<Coarsening<Operators>>(this->Owner, this->Set,
+      *this->Rows[l], *this->Rows[l + 1], this->Stiff, static_cast<int>(l) < this->ApartLevels));
   }
 
   /** Passes the packed blocks of level l to its window, and reuses the buffers of old ones. */

@@ -66,7 +66,7 @@ std::int64_t expectedMemory(
   const StreamInfo& info, int columns, Weights weights, const SolveOptions& options)
 {
   // Besides the windows there are the levels in core, and buffers.
-  constexpr std::int64_t AboveMinimum = 115, CoreBytes = 70;
+  constexpr std::int64_t AboveMinimum = 130, CoreBytes = 70;
   const std::int64_t least = leastMemory(info, columns, weights, options, 0);
   const std::int64_t windows = least * AboveMinimum / 100;
   if (options.inCore)

@@ -10,6 +10,7 @@
 #include "Solver/Storage/RaggedRing.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdint>
 
@@ -134,7 +135,9 @@ private:
  * Coarsening calls. */
 struct CoarseningData
 {
-  CoarseningData(Pool& pool, LevelRows& fineRows, LevelRows& coarseRows, StiffRows stiffRows = {})
+  /** `apart`: whether the stages run on several threads. */
+  CoarseningData(Pool& pool, LevelRows& fineRows, LevelRows& coarseRows, StiffRows stiffRows = {},
+    bool apart = false)
     : fine(fineRows)
     , coarse(coarseRows)
     , stiff(stiffRows)
@@ -162,9 +165,10 @@ struct CoarseningData
     , rawSettled(pool)
     , rawLarge(pool)
     , slots(pool)
-    , productSlots(pool)
-    , gatherSlots(pool)
-    , sparsifySlots(pool)
+    , ownSlots{ SlotRing(pool), SlotRing(pool), SlotRing(pool) }
+    , productSlots(apart ? ownSlots[0] : slots)
+    , gatherSlots(apart ? ownSlots[1] : slots)
+    , sparsifySlots(apart ? ownSlots[2] : slots)
     , seenCoarse(coarseRows.first())
     , knownCoarse(coarseRows.first())
     , coarseNodes(coarseRows.first())
@@ -218,9 +222,11 @@ struct CoarseningData
   /** Scratch of sparsification: which of the first 64 entries were large when the row came. */
   Ring<std::uint64_t> rawLarge;
 
-  /** Scratch of the stages for coarse nodes, which may run on four threads: relaxInterpolation()
-   * and interpolate(), multiply(), gather(), and sparsify(). */
-  SlotRing slots, productSlots, gatherSlots, sparsifySlots;
+  /** Scratch of the stages for coarse nodes: relaxInterpolation() and interpolate(), multiply(),
+   * gather(), and sparsify(). One thread uses the same memory for all of them. */
+  SlotRing slots;
+  std::array<SlotRing, 3> ownSlots;
+  SlotRing &productSlots, &gatherSlots, &sparsifySlots;
   /** The ends of the coarse nodes that the stages from relaxInterpolation() on know, and those from
    * multiply() on. */
   std::int64_t seenCoarse = 0, knownCoarse = 0;

@@ -28,11 +28,11 @@ template <OperatorSet Operators>
 class Coarsening
 {
 public:
-  /** `stiff`: those of the coarse level. */
-  Coarsening(
-    Pool& pool, Operators operators, LevelRows& fine, LevelRows& coarse, StiffRows stiff = {})
+  /** `stiff`: those of the coarse level; `apart`: whether stages may run on several threads. */
+  Coarsening(Pool& pool, Operators operators, LevelRows& fine, LevelRows& coarse,
+    StiffRows stiff = {}, bool apart = false)
     : Set(std::move(operators))
-    , Data(pool, fine, coarse, stiff)
+    , Data(pool, fine, coarse, stiff, apart)
     , Begin(fine.first())
     , CoarseBegin(coarse.first())
     , Sweeps(this->Set.interpolationSweeps(), this->Begin)
@@ -212,7 +212,7 @@ private:
     d.lifted.reserve(this->Rows - d.lifted.first());
     d.patches.reserve(lifts);
     d.interpolation.reserve(rows, RelaxedRow::Most * rows);
-    d.rowQuanta.reserve(this->Rows - d.rowQuanta.first());
+    d.rowQuanta.reserve(this->Interpolated + rows - d.rowQuanta.first());
     d.parentReach.reserve(rows);
     d.settledReach.reserve(rows);
     d.liftedFrom.reserve(lifts);
@@ -232,7 +232,7 @@ private:
     if (rows > 0)
     {
       d.initial.reserve(rows, this->InitialEntries.of(rows) + d.mostInitial(this->Initial));
-      d.initialSum.reserve(this->Rows - d.initialSum.first());
+      d.initialSum.reserve(this->Initial + rows - d.initialSum.first());
     }
   }
 
@@ -245,7 +245,7 @@ private:
     if (rows > 0)
     {
       d.product.reserve(rows, this->ProductEntries.of(rows) + d.mostProducts(this->Multiplied));
-      d.productSum.reserve(this->Rows - d.productSum.first());
+      d.productSum.reserve(this->Multiplied + rows - d.productSum.first());
     }
   }
 
@@ -290,11 +290,11 @@ private:
   {
     CoarseningData& d = this->Data;
     this->Sweeps.advance(this->Set, d, this->SeenInitial);
-    d.rowQuanta.extendRaw(this->SeenInitial);
     this->Limits.interpolate.run(
       this->Interpolated, this->Sweeps.settled(), [](std::int64_t) { return true; },
       [&](std::int64_t i)
       {
+        d.rowQuanta.extendRaw(i + 1);
         this->Set.interpolate(d, i);
         d.settledReach.append(d.patches.lastAround(d.fine, i));
       });
@@ -303,7 +303,6 @@ private:
   void multiply()
   {
     CoarseningData& d = this->Data;
-    d.productSum.extendRaw(this->Rows);
     this->Limits.multiply.run(
       this->Multiplied, this->Rows,
       [&](std::int64_t i) {
@@ -312,6 +311,7 @@ private:
       },
       [&](std::int64_t i)
       {
+        d.productSum.extendRaw(i + 1);
         this->Set.multiply(d, i);
         this->ProductEntries.add(d.product.size(i));
       });

@@ -105,7 +105,7 @@ public:
   {
     if (items > this->Capacity)
     {
-      this->grow(std::max(items, this->Capacity + this->Capacity / 16));
+      this->grow(std::max(items, this->Capacity + this->Capacity / 32));
     }
   }
 
