@@ -17,7 +17,8 @@ struct PoolUse
 };
 
 inline constexpr PoolUse SolveMemory{ "the solve",
-  "raise the memory limit, convert the mesh with the order bfs, or use fewer sweeps" };
+  "raise the memory limit by a quarter or more, convert the mesh with the order bfs, or use fewer "
+  "sweeps" };
 
 /**
  * Accounts for all block memory of an operation and enforces its limit: a request above it throws

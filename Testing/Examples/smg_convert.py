@@ -54,6 +54,8 @@ def test_restored_order():
     """Each format preserves points and cells when written and read."""
     points, cells = odd_surface()
     write_ply("odd.ply", points, cells)
+    convert("odd.ply", "odd.vsm")
+    assert "vertex 'tag'" in convert("odd.vsm", "odd.sma")["notes"][0]
     few_points, few_cells = odd_surface(36, 18, largest=4)
     write_ply("few.ply", few_points, few_cells, "float")
     for order in ORDERS:

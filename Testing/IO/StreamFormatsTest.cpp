@@ -46,8 +46,10 @@ TEST_F(StreamFormats, ReadTheSamplesOfTheirDescription)
 TEST_F(StreamFormats, WriteTheSamplesOfTheirDescription)
 {
   this->convert(this->write("in.sma", TwoTriangles));
-  vsmToStream(this->Folder / "out.vsm", this->Folder / "out.sma");
-  vsmToStream(this->Folder / "out.vsm", this->Folder / "out.smb");
+  // Without a note: there are no columns but the original numbers.
+  const std::vector<std::string> none;
+  EXPECT_EQ(vsmToStream(this->Folder / "out.vsm", this->Folder / "out.sma"), none);
+  EXPECT_EQ(vsmToStream(this->Folder / "out.vsm", this->Folder / "out.smb"), none);
   EXPECT_EQ(readFile(this->Folder / "out.sma"), TwoTriangles);
   EXPECT_EQ(readFile(this->Folder / "out.smb"), twoTrianglesBinary());
   this->convert(this->write("in.svb", twoTetsBinary()));

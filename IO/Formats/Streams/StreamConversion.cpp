@@ -6,6 +6,7 @@
 #include "IO/Formats/Streams/StreamFile.h"
 #include "IO/Formats/Streams/StreamFileWriter.h"
 #include "IO/Formats/Vsm/PagedArray.h"
+#include "IO/Restore/PlacedColumns.h"
 #include "Solver/Core/Progress.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
@@ -14,6 +15,8 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace smg
 {
@@ -143,6 +146,25 @@ private:
   PagedArray<std::int64_t> LastCell;
 };
 
+/** On the columns of a mesh except for these, and for those of the original numbers. */
+std::vector<std::string> notesOnOmitted(
+  const StreamInfo& info, const std::vector<std::string>& kept, const std::string& suffix)
+{
+  const auto without = [](std::vector<ColumnSpec> columns, const std::string& name)
+  {
+    std::erase_if(columns, [&](const ColumnSpec& column) { return column.name == name; });
+    return columns;
+  };
+  RestoredInfo mesh;
+  mesh.vertexColumns = without(info.vertexColumns, OriginalIdName);
+  mesh.elementColumns = without(info.cellColumns, OriginalCellIdName);
+  for (const std::string& name : kept)
+  {
+    mesh.vertexColumns = without(std::move(mesh.vertexColumns), name);
+  }
+  return PlacedColumns(mesh).leftOut(suffix);
+}
+
 } // namespace
 
 StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesystem::path& out,
@@ -172,8 +194,8 @@ StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesy
   return result;
 }
 
-std::int64_t vsmToStream(const std::filesystem::path& in, const std::filesystem::path& out,
-  const ProgressFunction& progressFunction)
+std::vector<std::string> vsmToStream(const std::filesystem::path& in,
+  const std::filesystem::path& out, const ProgressFunction& progressFunction)
 {
   Progress progress(progressFunction);
   VsmReader reader(in);
@@ -203,17 +225,14 @@ std::int64_t vsmToStream(const std::filesystem::path& in, const std::filesystem:
   }
   writer->finish();
   progress.update(1.0);
-  return elements.roundedVertices();
-}
-
-std::vector<std::string> notesOnRounded(std::int64_t vertices)
-{
-  if (vertices == 0)
+  std::vector<std::string> notes = notesOnOmitted(info, columns, out.extension().string());
+  if (elements.roundedVertices() > 0)
   {
-    return {};
+    notes.push_back(
+      "The positions of " + std::to_string(elements.roundedVertices()) +
+      " vertices were rounded to single precision, which is all that the format has.");
   }
-  return { "The positions of " + std::to_string(vertices) +
-           " vertices were rounded to single precision, which is all that the format has." };
+  return notes;
 }
 
 } // namespace smg

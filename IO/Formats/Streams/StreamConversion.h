@@ -44,13 +44,11 @@ StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesy
  * Writes a .vsm file as SMA, SMB, SVA or SVB, by the suffix of `out`: pre-order, compact, vertices
  * final by their last cell, little-endian, counts and bounds in the header, no comments. Positions
  * become single precision; columns are omitted, except for the scalar of SVA and SVB (see
- * StreamFile.h). Returns the number of vertices whose position was rounded. Throws Error if there
- * are more than 2^31 - 1 vertices or cells, or if a coordinate is too large for single precision.
+ * StreamFile.h). Returns notes for the user on columns that were omitted and positions that were
+ * rounded. Throws Error if there are more than 2^31 - 1 vertices or cells, or if a coordinate is
+ * too large for single precision.
  */
-std::int64_t vsmToStream(const std::filesystem::path& in, const std::filesystem::path& out,
-  const ProgressFunction& progress = {});
-
-/** A note for the user if there were any. */
-std::vector<std::string> notesOnRounded(std::int64_t vertices);
+std::vector<std::string> vsmToStream(const std::filesystem::path& in,
+  const std::filesystem::path& out, const ProgressFunction& progress = {});
 
 } // namespace smg

@@ -15,7 +15,7 @@ namespace
 WriteNotes write(const std::filesystem::path& vsm, const std::filesystem::path& path,
   const ProgressFunction& progress)
 {
-  return notesOnRounded(vsmToStream(vsm, path, progress));
+  return vsmToStream(vsm, path, progress);
 }
 
 std::optional<FileCounts> countsOfStream(InputFile& file, const MeshPart&)
