@@ -5,12 +5,15 @@
 #include "IO/vtkStreamingMeshKeys.h"
 #include "smg/Error.h"
 
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
 #include "vtkIdList.h"
 #include "vtkInformation.h"
 #include "vtkInformationVariantKey.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
 #include "vtkVariant.h"
 
@@ -108,6 +111,30 @@ std::vector<ColumnSpec> columnSpecs(vtkDataSetAttributes& arrays)
     }
   }
   return specs;
+}
+
+void requireArrays(vtkPointSet& mesh, const std::set<std::string>& names)
+{
+  std::set<std::string> there;
+  std::string offered;
+  for (vtkDataSetAttributes* arrays : { static_cast<vtkDataSetAttributes*>(mesh.GetPointData()),
+         static_cast<vtkDataSetAttributes*>(mesh.GetCellData()) })
+  {
+    for (const ColumnSpec& spec : columnSpecs(*arrays))
+    {
+      there.insert(spec.name);
+      offered += (offered.empty() ? " (it has " : ", ") + spec.name;
+    }
+  }
+  for (const std::string& name : names)
+  {
+    if (!there.contains(name))
+    {
+      throw Error("The input has no numeric array " + name + " of its points or cells" +
+                  (offered.empty() ? " (it has none)" : offered + ")") +
+                  ": choose one that it has.");
+    }
+  }
 }
 
 void copyColumn(vtkDataSetAttributes& arrays, std::span<const std::int64_t> rows,

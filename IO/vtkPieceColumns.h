@@ -7,12 +7,14 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 class vtkDataArray;
 class vtkDataSetAttributes;
+class vtkPointSet;
 template <class T>
 class vtkSmartPointer;
 
@@ -27,6 +29,11 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT vtkSmartPointer<vtkDataArray> makeArray(const Col
 
 /** The columns of the named numeric arrays, without those of the piece contract. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<ColumnSpec> columnSpecs(vtkDataSetAttributes& arrays);
+
+/** Throws Error, naming the arrays that there are, if neither the points nor the cells have a
+ * numeric array of one of these names. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT void requireArrays(
+  vtkPointSet& mesh, const std::set<std::string>& names);
 
 /** The tuples `rows` of the array `column.spec.name`. Throws Error if it is absent or differs. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT void copyColumn(vtkDataSetAttributes& arrays,

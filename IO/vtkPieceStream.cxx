@@ -21,7 +21,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace smg
 {
@@ -31,25 +30,6 @@ namespace
 bool isDuplicate(vtkUnsignedCharArray* ghosts, vtkIdType i)
 {
   return ghosts && (ghosts->GetValue(i) & vtkDataSetAttributes::DUPLICATEPOINT);
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name)
-{
-  return std::ranges::find(names, name) != names.end();
-}
-
-/** The columns of points and cells as " (it has A, B)". */
-std::string namesOf(const StreamInfo& info)
-{
-  std::string names;
-  for (const auto* specs : { &info.vertexColumns, &info.cellColumns })
-  {
-    for (const ColumnSpec& spec : *specs)
-    {
-      names += (names.empty() ? " (it has " : ", ") + spec.name;
-    }
-  }
-  return names.empty() ? " (it has none)" : names + ")";
 }
 
 } // namespace
@@ -112,32 +92,20 @@ void PieceStream::learn(vtkPointSet& piece)
 {
   this->Info.cellType = cellTypeOf(piece, this->where());
   this->Info.doublePositions = piece.GetPoints() && piece.GetPoints()->GetDataType() != VTK_FLOAT;
-  if (this->Columns.all)
-  {
-    this->Info.vertexColumns = columnSpecs(*piece.GetPointData());
-    this->Info.cellColumns = columnSpecs(*piece.GetCellData());
-    return;
-  }
-  const auto isWanted = [this](const ColumnSpec& spec)
-  {
-    return contains(this->Columns.required, spec.name) ||
-           contains(this->Columns.optional, spec.name);
-  };
   this->Info.vertexColumns = columnSpecs(*piece.GetPointData());
   this->Info.cellColumns = columnSpecs(*piece.GetCellData());
-  const std::string offered = namesOf(this->Info);
-  std::erase_if(this->Info.vertexColumns, std::not_fn(isWanted));
-  std::erase_if(this->Info.cellColumns, std::not_fn(isWanted));
-  for (const std::string& name : this->Columns.required)
+  if (this->Columns.all)
   {
-    const auto isNamed = [&name](const ColumnSpec& spec) { return spec.name == name; };
-    if (std::ranges::none_of(this->Info.vertexColumns, isNamed) &&
-        std::ranges::none_of(this->Info.cellColumns, isNamed))
-    {
-      throw Error("The input has no numeric array " + name + " of its points or cells" + offered +
-                  ": choose one that it has.");
-    }
+    return;
   }
+  requireArrays(piece, this->Columns.required);
+  const auto isUnwanted = [this](const ColumnSpec& spec)
+  {
+    return !this->Columns.required.contains(spec.name) &&
+           !this->Columns.optional.contains(spec.name);
+  };
+  std::erase_if(this->Info.vertexColumns, isUnwanted);
+  std::erase_if(this->Info.cellColumns, isUnwanted);
 }
 
 bool PieceStream::next(MeshBlock& block)

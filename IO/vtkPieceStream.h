@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,8 @@ struct PieceColumns
 {
   bool all = false; ///< every named numeric array
   /** Otherwise the arrays of these names, each of which the points or the cells must have, */
-  std::vector<std::string> required;
-  std::vector<std::string> optional; ///< and the existing arrays of these names
+  std::set<std::string> required;
+  std::set<std::string> optional; ///< and the existing arrays of these names
 };
 
 /**

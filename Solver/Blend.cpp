@@ -42,12 +42,8 @@ void solveFor(BlendProblem& problem, SeamGradient seam, MeshSource& mesh,
 {
   problem.keepIn(blended.originals);
   const std::int64_t own = ownBytes(mesh.info(), problem.columns(), seam, options.inCore);
-  if (own >= options.memoryLimit)
-  {
-    throw MemoryLimitError(own + 1, options.memoryLimit);
-  }
   SolveOptions solving = options;
-  solving.memoryLimit -= own;
+  solving.memoryLimit = std::max<std::int64_t>(options.memoryLimit - own, 1);
   if (options.progress)
   {
     solving.progress = [&options](double done)

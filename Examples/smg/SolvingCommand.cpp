@@ -3,6 +3,7 @@
 
 #include "IO/Problem/JsonNode.h"
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <utility>
@@ -108,7 +109,7 @@ std::string extentOf(const smg::Report::Condition& condition)
   {
     extent = "vertices " + std::to_string(condition.vertices) + ", ";
   }
-  if (condition.area > 0.0 || extent.empty())
+  if (condition.area > 0.0)
   {
     extent += "area" + listOf({ condition.area }) + ", ";
   }
@@ -128,8 +129,8 @@ void SolvingCommand::print(const smg::Report& report) const
   }
   else
   {
-    std::printf("%zu levels, %d V-cycles in %d passes, relative residual %.3g\n",
-      report.levels.size(), report.cycles, report.passes, report.residual());
+    std::printf("%zu levels, %d V-cycles in %d %s, relative residual %.3g\n", report.levels.size(),
+      report.cycles, report.passes, report.passes == 1 ? "pass" : "passes", report.residual());
   }
   for (const smg::Report::Step& step : report.steps)
   {
@@ -138,6 +139,11 @@ void SolvingCommand::print(const smg::Report& report) const
   }
   for (const smg::Report::Condition& condition : report.conditions)
   {
+    if (std::isnan(condition.mean.front()))
+    {
+      std::printf("  %s: without effect\n", condition.name.c_str());
+      continue;
+    }
     std::printf("  %s: %smean%s, flux into the body%s\n", condition.name.c_str(),
       extentOf(condition).c_str(), listOf(condition.mean).c_str(), listOf(condition.flux).c_str());
   }

@@ -46,9 +46,8 @@ void BlendTask::check() const
 
 PieceColumns BlendTask::columns() const
 {
-  const std::set<std::string> names = namesInBlend(this->description);
   return { .all = false,
-    .required = { names.begin(), names.end() },
+    .required = namesInBlend(this->description),
     .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
 }
 

@@ -61,9 +61,8 @@ void DistanceTask::check() const
 
 PieceColumns DistanceTask::columns() const
 {
-  const std::set<std::string> names = namesInSources(this->description);
   return { .all = false,
-    .required = { names.begin(), names.end() },
+    .required = namesInSources(this->description),
     .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
 }
 

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "Filters/Mesh/vtkPieceBlock.h"
+#include "IO/vtkPieceColumns.h"
 
 #include <memory>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace smg
@@ -17,9 +17,9 @@ namespace smg
 class StoredBlock : public StoredMesh
 {
 public:
-  /** As PieceBlock. */
-  StoredBlock(vtkPointSet& mesh, std::set<std::string> names)
-    : Block(mesh, std::move(names))
+  /** Throws Error if the mesh lacks one of the arrays. */
+  StoredBlock(vtkPointSet& mesh, const std::set<std::string>& names)
+    : Block(checked(mesh, names), names)
   {
   }
 
@@ -31,6 +31,12 @@ public:
   }
 
 private:
+  static vtkPointSet& checked(vtkPointSet& mesh, const std::set<std::string>& names)
+  {
+    requireArrays(mesh, names);
+    return mesh;
+  }
+
   PieceBlock Block;
 };
 

@@ -38,10 +38,9 @@ void PoissonTask::check() const
 
 PieceColumns PoissonTask::columns() const
 {
-  const std::set<std::string> names = namedColumns(this->problem);
   // The original ids are for error messages and for vertices that the problem refers to.
   return { .all = false,
-    .required = { names.begin(), names.end() },
+    .required = namedColumns(this->problem),
     .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
 }
 

@@ -48,9 +48,8 @@ void SmoothingTask::check() const
 
 PieceColumns SmoothingTask::columns() const
 {
-  const std::set<std::string> names = namesIn(this->options);
   return { .all = false,
-    .required = { names.begin(), names.end() },
+    .required = namesIn(this->options),
     .optional = { CellFlagsName, OriginalIdName, OriginalCellIdName } };
 }
 

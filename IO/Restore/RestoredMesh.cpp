@@ -18,16 +18,6 @@ namespace
 
 const ColumnSpec VertexNumbers{ OriginalIdName, ScalarType::Int64, 1 };
 
-/** The columns that were not added by the conversion. */
-std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs)
-{
-  std::vector<ColumnSpec> own;
-  std::copy_if(specs.begin(), specs.end(), std::back_inserter(own),
-    [](const ColumnSpec& spec)
-    { return spec != VertexNumbers && spec != OriginalCellIdSpec && spec.name != CellFlagsName; });
-  return own;
-}
-
 /** The names of the columns, and then `last`. */
 std::vector<std::string> namesWith(const std::vector<ColumnSpec>& specs, const std::string& last)
 {
@@ -45,6 +35,15 @@ constexpr double VerticesShare = RestoredMesh::SortedShare * 0.4;
 constexpr double CellsShare = RestoredMesh::SortedShare * 0.8;
 
 } // namespace
+
+std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs)
+{
+  std::vector<ColumnSpec> own;
+  std::copy_if(specs.begin(), specs.end(), std::back_inserter(own),
+    [](const ColumnSpec& spec)
+    { return spec != VertexNumbers && spec != OriginalCellIdSpec && spec.name != CellFlagsName; });
+  return own;
+}
 
 RestoredMesh::RestoredMesh(const std::filesystem::path& vsm, Workspace& workspace)
   : Space(workspace)

@@ -17,6 +17,9 @@ namespace smg
 
 class VsmReader;
 
+/** The columns that were not added by a conversion. */
+std::vector<ColumnSpec> ownColumns(const std::vector<ColumnSpec>& specs);
+
 /**
  * A .vsm file in the order of its original file: its vertices by the vertex column `OriginalId`,
  * including isolated ones, and its cells by the cell column `OriginalCellId`, polygons as polygons.

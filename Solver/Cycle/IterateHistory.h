@@ -68,9 +68,7 @@ public:
     : Nodes(nodes)
     , Columns(columns)
     , Stride(strideOf(columns))
-    , Every(residuals == KeptResiduals::Sampled ? sparsenessFor(nodes)
-            : residuals == KeptResiduals::All   ? 1
-                                                : 0)
+    , Every(sparseness(nodes, residuals))
     , Before(pool, this->Stride)
     , Steps(pool, this->Stride)
     , Residuals(pool, this->Stride * Vectors)
@@ -79,6 +77,15 @@ public:
     , Empty(pool)
   {
   }
+
+  /** Of how many groups of nodes one keeps residuals; 0: none does. */
+  static std::int64_t sparseness(std::int64_t nodes, KeptResiduals residuals)
+  {
+    return residuals == KeptResiduals::Sampled ? sparsenessFor(nodes)
+           : residuals == KeptResiduals::All   ? 1
+                                               : 0;
+  }
+  std::int64_t sparseness() const { return this->Every; }
 
   /** The maximum bytes per node in memory. */
   static std::int64_t nodeBytes(int stride, KeptResiduals residuals)

@@ -45,6 +45,8 @@ public:
     std::int64_t furtherCoreBytes = 0);
 
 private:
+  FirstResidual run(
+    MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes);
   FirstResidual build(MeshSource& mesh, Problem& problem, RowListener* listener);
   void readStream(MeshAhead& blocks, bool apart, Assembly& assembly, AssembledRows& rows,
     HierarchyBuilder<Operators>& builder);
@@ -57,6 +59,29 @@ private:
 
 template <OperatorSet Operators>
 FirstResidual FirstPass<Operators>::operator()(
+  MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes)
+{
+  SolveOptions alone = this->Run.options;
+  alone.threads = 1;
+  this->Run.expectedBytes =
+    mesh.info().span < 0 && !alone.inCore
+      ? 0
+      : expectedMemory(mesh.info(), problem.columns(), problem.weights(), alone);
+  this->Run.isAmple = permitsTasks(mesh.info(), problem, this->Run.options);
+  try
+  {
+    const FirstResidual residual = this->run(mesh, problem, listener, furtherCoreBytes);
+    this->Run.firstPassPeak = this->Run.pool.peak();
+    return residual;
+  }
+  catch (const MemoryLimitError& error)
+  {
+    throw this->Run.explained(error);
+  }
+}
+
+template <OperatorSet Operators>
+FirstResidual FirstPass<Operators>::run(
   MeshSource& mesh, Problem& problem, RowListener* listener, std::int64_t furtherCoreBytes)
 {
   const Timer building;
@@ -83,8 +108,7 @@ FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, Ro
 {
   const CellType type = mesh.info().cellType;
   AssembledRows rows;
-  const bool apart =
-    this->Run.isConcurrent() && permitsTasks(mesh.info(), problem, this->Run.options);
+  const bool apart = this->Run.isConcurrent() && this->Run.isAmple;
   HierarchyBuilder<Operators> builder(this->Run.pool, this->Set, this->Built.levels(),
     this->Built.firstCore(), Assembly::stiffRows(type, problem.weights(), rows), apart);
   Assembly assembly(

@@ -34,7 +34,8 @@ int Hierarchy<Relaxation>::firstCoreLevel(std::int64_t vertices) const
   // Upper bounds of the share of lifted nodes: 0.24 to 0.43 on the finest level, 0.14 to 0.31 on
   // coarser ones.
   constexpr double FirstShare = 0.43, FurtherShare = 0.31;
-  constexpr std::int64_t BytesPerCoreNode = 400;
+  // Of a surface, with all coarser levels; those of solids have fewer nodes than these bounds.
+  constexpr std::int64_t BytesPerCoreNode = 200;
   constexpr int UnknownSize = 4;
   if (vertices <= 0)
   {
@@ -42,7 +43,7 @@ int Hierarchy<Relaxation>::firstCoreLevel(std::int64_t vertices) const
   }
   const SolveOptions& options = this->Run.options;
   const auto most =
-    static_cast<double>(std::min(options.coreNodes, options.memoryLimit / 4 / BytesPerCoreNode));
+    static_cast<double>(std::min(options.coreNodes, options.memoryLimit / 3 / BytesPerCoreNode));
   double nodes = FirstShare * static_cast<double>(vertices);
   int l = 1;
   for (; nodes > most && nodes > CoarsestNodes; ++l)

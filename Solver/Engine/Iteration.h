@@ -43,6 +43,7 @@ public:
 
 private:
   void addHistory();
+  bool hasRoom(KeptResiduals residuals) const;
   void emplaceHistory(KeptResiduals residuals);
 
   SolveRun& Run;
@@ -85,7 +86,6 @@ void Iteration<Relaxation>::addHistory()
 {
   if (this->Faster.kind() != AccelerationKind::None && !this->History)
   {
-    LevelWindow<double>& window = this->Levels.window();
     // The slowest errors may be local to some vertices of slivers, too few of which are in a
     // sample: so on dragon.ply, where 0.7 % of the rows are stiff; with a tenth of that a sample is
     // sufficient.
@@ -93,16 +93,7 @@ void Iteration<Relaxation>::addHistory()
                                       ? KeptResiduals::None
                                     : this->Levels.slowestAtSlivers() ? KeptResiduals::All
                                                                       : KeptResiduals::Sampled;
-    const std::int64_t nodes =
-      this->Run.scratch ? std::min(window.nodes(), this->Run.resident.peak) : window.nodes();
-    const std::int64_t need = nodes * IterateHistory::nodeBytes(window.stride(), residuals);
-    constexpr std::int64_t Pages = std::int64_t(1) << 16; // memory grows by pages, and ahead
-    Pool& pool = this->Run.pool;
-    const std::int64_t used = std::max(pool.used(), this->Run.usedBefore());
-    // With the history, a pass out of core takes 0.91 (surface of 0.7 million vertices) to 1.02
-    // (177 million) of the memory of the first one.
-    const std::int64_t windows = this->Run.scratch ? pool.peak() + pool.peak() / 16 : 0;
-    if (std::max(used + need + need / 4 + Pages, windows) <= pool.limit())
+    if (this->hasRoom(residuals))
     {
       this->emplaceHistory(residuals);
       return;
@@ -113,6 +104,27 @@ void Iteration<Relaxation>::addHistory()
   {
     this->History.reset();
   }
+}
+
+/** Whether the memory limit has room for a history with these residuals. The number of threads must
+ * not matter, since the solution depends on it. */
+template <class Relaxation>
+bool Iteration<Relaxation>::hasRoom(KeptResiduals residuals) const
+{
+  constexpr std::int64_t Pages = std::int64_t(1) << 16; // memory grows by pages, and ahead
+  const Pool& pool = this->Run.pool;
+  const LevelWindow<double>& window = this->Levels.window();
+  const std::int64_t nodes = window.nodes();
+  if (!this->Run.scratch)
+  {
+    const std::int64_t need = nodes * IterateHistory::nodeBytes(window.stride(), residuals);
+    return pool.used() + need + need / 4 + Pages <= pool.limit();
+  }
+  const std::int64_t expected = this->Run.expectedBytes, peak = this->Run.firstPassPeak;
+  const bool isOfOneThread = !this->Run.isAmple || expected == 0;
+  const std::int64_t first = isOfOneThread ? peak : std::min(peak, expected + expected / 8);
+  const std::int64_t sparseness = IterateHistory::sparseness(nodes, residuals);
+  return passBytes(first, sparseness) <= pool.limit();
 }
 
 template <class Relaxation>

@@ -79,7 +79,9 @@ std::int64_t expectedMemory(
 
 bool permitsTasks(const StreamInfo& info, const Problem& problem, const SolveOptions& options)
 {
-  const std::int64_t expected = expectedMemory(info, problem.columns(), problem.weights(), options);
+  SolveOptions several = options;
+  several.threads = 2;
+  const std::int64_t expected = expectedMemory(info, problem.columns(), problem.weights(), several);
   return options.memoryLimit > expected / 4 * 5;
 }
 

@@ -20,11 +20,11 @@ SMG_EXPORT std::int64_t estimateMemory(const StreamInfo& info, const Problem& pr
 
 /** The bytes that such a solve is expected to need: more than the minimum, which never refuses a
  * solve that fits. */
-std::int64_t expectedMemory(
+SMG_EXPORT std::int64_t expectedMemory(
   const StreamInfo& info, int columns, Weights weights, const SolveOptions& options);
 
 /** Whether the memory limit leaves room for several tasks per level in the first pass, each some
- * nodes behind the one before it. */
+ * nodes behind the one before it; whatever the number of threads is. */
 SMG_EXPORT bool permitsTasks(
   const StreamInfo& info, const Problem& problem, const SolveOptions& options);
 

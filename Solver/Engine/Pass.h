@@ -11,10 +11,20 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace smg
 {
+
+/** The bytes of the pool that a pass out of core needs on one thread, given those of the first pass
+ * and the sparseness of its history, 0 without one: measured up to 0.86 as many without, 1.02 with
+ * a sample of the residuals (surface of 177 million vertices), 1.22 with all of them (dragon). */
+inline std::int64_t passBytes(std::int64_t firstPassPeak, std::int64_t sparseness)
+{
+  const std::int64_t residuals = sparseness > 0 ? firstPassPeak / 4 / sparseness : 0;
+  return firstPassPeak + firstPassPeak / 16 + residuals;
+}
 
 /** A pass over the levels that finishes a V-cycle and begins the next one. */
 template <class Relaxation>
@@ -49,12 +59,14 @@ public:
 private:
   void setScale(double typical);
   void stream(const Further& further);
-  Pipeline stages(const Further& further);
-  int mostChains() const;
-  std::int64_t stepNodes() const
+  Pipeline stages(const Further& further, int chains);
+  struct Schedule
   {
-    return Pipeline::stepFor(this->Run.scheduled, this->Run.options.blockNodes);
-  }
+    std::int64_t step; ///< nodes of the finest level
+    int chains;
+  };
+  Schedule schedule(const IterateHistory* history) const;
+  std::int64_t chainsFor(std::int64_t step, std::int64_t sparseness) const;
 
   SolveRun& Run;
   Hierarchy<Relaxation>& Levels;
@@ -67,7 +79,14 @@ void Pass<Relaxation>::operator()(double scale, const Further& further)
   this->Levels.startPass(false);
   this->Levels.finest().setHistory(further.history);
   this->setScale(scale / std::sqrt(static_cast<double>(this->Levels.window().nodes())));
-  this->stream(further);
+  try
+  {
+    this->stream(further);
+  }
+  catch (const MemoryLimitError& error)
+  {
+    throw this->Run.explained(error);
+  }
   this->Levels.endPass();
 }
 
@@ -83,14 +102,15 @@ template <class Relaxation>
 void Pass<Relaxation>::stream(const Further& further)
 {
   auto& finest = this->Levels.finest();
-  const Pipeline stages = this->stages(further);
+  const Schedule schedule = this->schedule(further.history);
+  const std::int64_t step = schedule.step;
+  const Pipeline stages = this->stages(further, schedule.chains);
   std::vector<std::function<void()>> files;
   finest.addReaders(files);
   finest.addWriters(files);
   const std::int64_t nodes = finest.window().nodes();
   const int chains = stages.chains();
   LongestFirst order(chains + static_cast<int>(files.size()));
-  const std::int64_t step = this->stepNodes();
   for (std::int64_t begin = 0; begin < nodes; begin += step)
   {
     const std::int64_t last = std::min(nodes, begin + step) - 1;
@@ -125,7 +145,7 @@ void Pass<Relaxation>::stream(const Further& further)
 
 /** The stages of the pass, in chains. */
 template <class Relaxation>
-Pipeline Pass<Relaxation>::stages(const Further& further)
+Pipeline Pass<Relaxation>::stages(const Further& further, int chains)
 {
   Pipeline stages;
   this->Levels.finest().addUpward(stages);
@@ -140,29 +160,36 @@ Pipeline Pass<Relaxation>::stages(const Further& further)
     stages.cutAll();
     return stages;
   }
-  stages.cut(std::min(Pipeline::chainsFor(this->Run.scheduled), this->mostChains()));
+  stages.cut(chains);
   return stages;
+}
+
+/** The length of the steps and the number of chains that the threads need, as far as the memory
+ * suffices. */
+template <class Relaxation>
+auto Pass<Relaxation>::schedule(const IterateHistory* history) const -> Schedule
+{
+  const std::int64_t usual = this->Run.options.blockNodes;
+  const std::int64_t wanted = Pipeline::chainsFor(this->Run.scheduled);
+  const std::int64_t longer = Pipeline::stepFor(this->Run.scheduled, usual);
+  const std::int64_t sparseness = history ? history->sparseness() : 0;
+  const std::int64_t step = this->chainsFor(longer, sparseness) < wanted ? usual : longer;
+  const std::int64_t chains = this->chainsFor(step, sparseness);
+  return { step, static_cast<int>(std::clamp(chains, std::int64_t(1), wanted)) };
 }
 
 /** The number of chains for which the memory suffices: each takes a step's nodes. In core all nodes
  * are in memory anyway. */
 template <class Relaxation>
-int Pass<Relaxation>::mostChains() const
+std::int64_t Pass<Relaxation>::chainsFor(std::int64_t step, std::int64_t sparseness) const
 {
-  constexpr int Unlimited = 1 << 20;
   constexpr std::int64_t NodeBytes = 400; // measured, with coarser levels: 220 of surfaces
   if (!this->Run.scratch)
   {
-    return Unlimited;
+    return std::numeric_limits<std::int64_t>::max();
   }
-  const Pool& pool = this->Run.pool;
-  // With the history of an acceleration, a pass on one thread takes 0.91 (surface of 0.7 million
-  // vertices) to 1.0 (177 million) of the memory of the first one.
-  const std::int64_t used = std::max(pool.peak() + pool.peak() / 32, this->Run.usedBefore());
-  const std::int64_t chains =
-    (pool.limit() - used) /
-    (NodeBytes * std::min(this->stepNodes(), this->Levels.window().nodes()));
-  return static_cast<int>(std::clamp<std::int64_t>(chains, 1, Unlimited));
+  const std::int64_t room = this->Run.pool.limit() - passBytes(this->Run.firstPassPeak, sparseness);
+  return room / (NodeBytes * std::min(step, this->Levels.window().nodes()));
 }
 
 template <class Relaxation>

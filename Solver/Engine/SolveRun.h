@@ -11,6 +11,7 @@
 #include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Problem/Components.h"
 #include "Solver/Storage/Checkpoint.h"
+#include "Solver/Storage/MemoryLimitError.h"
 #include "Solver/Storage/Pool.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "Solver/Storage/ScratchTraffic.h"
@@ -83,13 +84,22 @@ struct SMG_EXPORT SolveRun
   bool resume(std::vector<Checkpoint::Item> subject, Parts kept);
   /** After a pass: saves the state, with a checkpoint. */
   void saveState();
-  /** The bytes of the pool that were in use at the state from which the solve continues; 0: none.
-   */
-  std::int64_t usedBefore() const { return this->UsedBefore; }
+
+  /** The error of a part that exceeded the limit, with the memory that suffices as a rule. */
+  MemoryLimitError explained(const MemoryLimitError& error) const
+  {
+    return error.expecting(this->expectedBytes);
+  }
 
   SolveOptions options;
   SolveProgress progress;
   Pool pool;
+  /** Of the pool, on one thread, as estimated before the first pass; 0: unknown. */
+  std::int64_t expectedBytes = 0;
+  /** Whether the memory limit leaves room for many tasks in the first pass; see permitsTasks(). */
+  bool isAmple = false;
+  /** The most bytes of the pool in the first pass. */
+  std::int64_t firstPassPeak = 0;
   ResidentNodes resident;
   std::optional<ScratchFolder> scratch; ///< none in core
   std::optional<Checkpoint> checkpoint; ///< in the scratch folder
@@ -110,7 +120,6 @@ private:
   Timer Wall;
   double CpuAtStart = 0.0;
   double SecondsBefore = 0.0;
-  std::int64_t UsedBefore = 0;
   Parts Kept;
 };
 

@@ -175,6 +175,8 @@ struct CoarseningData
   {
     this->begin(fineRows.first(), coarseRows.first());
   }
+  CoarseningData(const CoarseningData&) = delete;
+  CoarseningData& operator=(const CoarseningData&) = delete;
 
   LevelRows& fine;
   LevelRows& coarse;
@@ -222,10 +224,10 @@ struct CoarseningData
   /** Scratch of sparsification: which of the first 64 entries were large when the row came. */
   Ring<std::uint64_t> rawLarge;
 
-  /** Scratch of the stages for coarse nodes: relaxInterpolation() and interpolate(), multiply(),
-   * gather(), and sparsify(). One thread uses the same memory for all of them. */
+  /** Scratch of the stages for coarse nodes: `slots` of relaxInterpolation() and interpolate(),
+   * and, unless they run apart, of multiply(), gather() and sparsify(), too. */
   SlotRing slots;
-  std::array<SlotRing, 3> ownSlots;
+  std::array<SlotRing, 3> ownSlots; ///< empty unless the stages run apart
   SlotRing &productSlots, &gatherSlots, &sparsifySlots;
   /** The ends of the coarse nodes that the stages from relaxInterpolation() on know, and those from
    * multiply() on. */

@@ -11,6 +11,7 @@
 #include "smg/Error.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -71,6 +72,7 @@ public:
    * about how many coarse rows these become. */
   std::int64_t beginApart(std::int64_t nodes)
   {
+    assert(&this->Data.productSlots != &this->Data.slots); // made for it
     const std::int64_t coarse = this->usualCoarseRows(nodes);
     this->Limits.begin(nodes, coarse);
     this->Sweeps.begin(StepLimits::more(nodes));

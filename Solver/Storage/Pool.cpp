@@ -11,10 +11,13 @@
 namespace smg
 {
 
-std::string memoryLimitSentence(std::int64_t needed, std::int64_t allowed, const PoolUse& use)
+std::string memoryLimitSentence(
+  std::int64_t needed, std::int64_t allowed, const PoolUse& use, std::int64_t usual)
 {
-  return std::string(use.operation) + " needs at least " + exactMebibytes(needed) +
-         " of memory but the limit is " + exactMebibytes(allowed) + ": " + use.advice;
+  const std::string usually =
+    usual > 0 ? " (about " + mebibytes(usual) + " usually suffice)" : std::string();
+  return std::string(use.operation) + " needs at least " + exactMebibytes(needed) + " of memory" +
+         usually + " but the limit is " + exactMebibytes(allowed) + ": " + use.advice;
 }
 
 void Pool::acquire(std::int64_t bytes)

@@ -17,8 +17,7 @@ struct PoolUse
 };
 
 inline constexpr PoolUse SolveMemory{ "the solve",
-  "raise the memory limit by a quarter or more, convert the mesh with the order bfs, or use fewer "
-  "sweeps" };
+  "raise the memory limit, convert the mesh with the order bfs, or use fewer sweeps" };
 
 /**
  * Accounts for all block memory of an operation and enforces its limit: a request above it throws
@@ -55,8 +54,9 @@ private:
   std::int64_t Peak = 0;
 };
 
-/** "the solve needs at least ... MiB of memory but the limit is ... MiB: ..." */
-SMG_EXPORT std::string memoryLimitSentence(
-  std::int64_t needed, std::int64_t allowed, const PoolUse& use = SolveMemory);
+/** "the solve needs at least ... MiB of memory but the limit is ... MiB: ..."; with `usual` bytes,
+ * 0 if unknown, also "about ... MiB usually suffice". */
+SMG_EXPORT std::string memoryLimitSentence(std::int64_t needed, std::int64_t allowed,
+  const PoolUse& use = SolveMemory, std::int64_t usual = 0);
 
 } // namespace smg

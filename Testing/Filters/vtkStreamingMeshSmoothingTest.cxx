@@ -232,7 +232,8 @@ TEST_F(VtkStreamingMeshSmoothing, MistakesAreOneErrorEach)
   };
   expect("Hold: sphere: must be", [&] { this->Smoothing->SetHold(R"({"sphere": [1]})"); });
   expect("hold[0]: no vertex", [&] { this->Smoothing->SetHold(R"({"sphere": [9, 9, 9, 1]})"); });
-  expect("Missing", [&] { this->Smoothing->SetColumn("Missing"); });
+  expect("no numeric array Missing of its points or cells (it has ",
+    [&] { this->Smoothing->SetColumn("Missing"); });
   expect("must be a positive number", [&] { this->Smoothing->SetSize(-1.0); });
   expect("from 1 to 1000", [&] { this->Smoothing->SetSteps(0); });
   expect("from 1 to 1000", [&] { this->Smoothing->SetSteps(1001); });

@@ -182,7 +182,11 @@ TEST_F(StreamFormats, ScalarsBecomeColumns)
   EXPECT_EQ(mesh.cellColumns[1].value(0), 42);
 
   vsmToStream(this->Folder / "out.vsm", this->Folder / "b.svb");
-  vsmToStream(this->Folder / "out.vsm", this->Folder / "b.sva");
+  const auto notes = vsmToStream(this->Folder / "out.vsm", this->Folder / "b.sva");
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("vertex 'IntegerScalar'"), std::string::npos) << notes[0];
+  EXPECT_EQ(notes[0].find("'Scalar'"), std::string::npos) << notes[0];
+  EXPECT_EQ(notes[0].find("Original"), std::string::npos) << notes[0];
   EXPECT_NE(readFile(this->Folder / "b.sva").find("# v_pmin_f 0 0 0 0.5\n# v_pmax_f 1 1 1 3.5\n"),
     std::string::npos);
   for (const char* name : { "b.svb", "b.sva" })

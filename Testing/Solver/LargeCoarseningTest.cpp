@@ -79,7 +79,7 @@ Made coarsenFrom(const FirstNodes& first, const TestLevel& level, const Extended
   LevelRows fine(pool), coarse(pool);
   fine.release(first.fine, first.fine);
   coarse.release(first.coarse, first.coarse);
-  Coarsening<Extended> step(pool, operators, fine, coarse);
+  Coarsening<Extended> step(pool, operators, fine, coarse, {}, apart);
   Made made;
   std::int64_t packed = first.fine;
   for (std::int64_t begin = 0; !coarse.Ended;)

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 
 // Memory grows with the width of the stream, not with the mesh: like the square root of the number
 // of vertices for surfaces, and like its 2/3 power for solids.
@@ -39,6 +41,67 @@ TEST(MemoryLaw, ALimitForOneThreadSufficesForMany)
     options.memoryLimit = solveMesh(mesh, problem, options).report.pool_bytes_peak * 103 / 100;
     options.threads = 8;
     EXPECT_LE(solveMesh(mesh, problem, options).report.pool_bytes_peak, options.memoryLimit);
+  }
+}
+
+/** The solve fails with the first of many parts that has no room; what that one needed would not
+ * suffice. */
+TEST(MemoryLaw, TheErrorOfALowLimitNamesOneThatSuffices)
+{
+  for (const StreamMesh& mesh : { toStream(torus(632, 316)), toStream(tetBox(40, 40, 40)) })
+  {
+    ArrayProblem problem = heldEnds(mesh, 3, Weights::Cotangent);
+    SolveOptions options;
+    options.maxCycles = 2;
+    options.threads = 1;
+    const std::int64_t need = solveMesh(mesh, problem, options).report.pool_bytes_peak;
+    for (const int threads : { 1, 4 })
+    {
+      options.threads = threads;
+      for (const std::int64_t percent : { 1, 25, 50, 60, 70 })
+      {
+        options.memoryLimit = need * percent / 100;
+        const std::string sentence = messageOf([&] { solveMesh(mesh, problem, options); });
+        const std::string before = "(about ";
+        const std::size_t place = sentence.find(before);
+        ASSERT_NE(place, std::string::npos) << percent << " %: " << sentence;
+        options.memoryLimit = std::stoll(sentence.substr(place + before.size())) << 20;
+        EXPECT_EQ(messageOf([&] { solveMesh(mesh, problem, options); }), "") << sentence;
+        EXPECT_LE(options.memoryLimit, 2 * need) << "more than is useful";
+      }
+    }
+  }
+}
+
+/** Later passes leave out what is not necessary, several threads and the history of an
+ * acceleration, where a limit has room for the first pass and little else; whether there is a
+ * history, and so the solution, does not depend on the threads. */
+TEST(MemoryLaw, ALimitThatSufficesForTheFirstPassSufficesForAll)
+{
+  for (const StreamMesh& mesh : { toStream(torus(316, 158)), toStream(tetBox(40, 40, 40)) })
+  {
+    ArrayProblem problem = heldEnds(mesh, 3, Weights::Cotangent);
+    SolveOptions options;
+    options.coreNodes = 1000;
+    options.threads = 1;
+    options.maxCycles = 1;
+    options.acceleration = AccelerationKind::None;
+    const std::int64_t need = solveMesh(mesh, problem, options).report.pool_bytes_peak;
+    options.maxCycles = 4;
+    options.acceleration = AccelerationKind::ConjugateGradients;
+    Report last;
+    for (const int percent : { 103, 106, 109, 114, 120, 130, 150, 200 })
+    {
+      options.memoryLimit = need * percent / 100;
+      options.threads = 1;
+      last = solveMesh(mesh, problem, options).report;
+      options.threads = 8;
+      const Report ofMany = solveMesh(mesh, problem, options).report;
+      EXPECT_LE(ofMany.pool_bytes_peak, options.memoryLimit);
+      EXPECT_EQ(ofMany.acceleration, last.acceleration) << percent << " %";
+      EXPECT_EQ(ofMany.residuals, last.residuals) << percent << " %";
+    }
+    EXPECT_EQ(last.acceleration, "cg");
   }
 }
 

@@ -7,6 +7,7 @@
 #include "IO/Formats/Streams/StreamFileWriter.h"
 #include "IO/Formats/Vsm/PagedArray.h"
 #include "IO/Restore/PlacedColumns.h"
+#include "IO/Restore/RestoredMesh.h"
 #include "Solver/Core/Progress.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
@@ -146,23 +147,19 @@ private:
   PagedArray<std::int64_t> LastCell;
 };
 
-/** On the columns of a mesh except for these, and for those of the original numbers. */
+/** On the columns of a mesh that were not added by a conversion, except for these. */
 std::vector<std::string> notesOnOmitted(
   const StreamInfo& info, const std::vector<std::string>& kept, const std::string& suffix)
 {
-  const auto without = [](std::vector<ColumnSpec> columns, const std::string& name)
-  {
-    std::erase_if(columns, [&](const ColumnSpec& column) { return column.name == name; });
-    return columns;
-  };
   RestoredInfo mesh;
-  mesh.vertexColumns = without(info.vertexColumns, OriginalIdName);
-  mesh.elementColumns = without(info.cellColumns, OriginalCellIdName);
+  mesh.vertexColumns = ownColumns(info.vertexColumns);
+  mesh.elementColumns = ownColumns(info.cellColumns);
+  PlacedColumns columns(mesh);
   for (const std::string& name : kept)
   {
-    mesh.vertexColumns = without(std::move(mesh.vertexColumns), name);
+    columns.ofVertices(name, 1, 1);
   }
-  return PlacedColumns(mesh).leftOut(suffix);
+  return columns.leftOut(suffix);
 }
 
 } // namespace
