@@ -84,7 +84,7 @@ protected:
     {
       components += smg::expectedComponents(info, name, Usual);
     }
-    return smg::blendCosts(info, components, this->Description.seam, this->Solve);
+    return smg::blendCosts(info, components, this->Description.seam, this->withCommon(this->Solve));
   }
 
   std::unique_ptr<smg::Solution> solveOn(

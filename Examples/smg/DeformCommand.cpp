@@ -97,7 +97,8 @@ protected:
   smg::Costs costsOn(const smg::StreamInfo& info) const override
   {
     // Those of the other engine are past when this one's result is written.
-    return this->hasWholeSolution() ? smg::Costs{} : smg::deformCosts(info, this->Deform);
+    return this->hasWholeSolution() ? smg::Costs{}
+                                    : smg::deformCosts(info, this->withCommon(this->Deform));
   }
 
   std::unique_ptr<smg::Solution> solveOn(

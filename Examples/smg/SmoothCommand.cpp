@@ -81,8 +81,8 @@ protected:
   smg::Costs costsOn(const smg::StreamInfo& info) const override
   {
     constexpr int OfPoints = 3;
-    return smg::smoothCosts(
-      info, smg::expectedComponents(info, this->Smooth.column, OfPoints), this->Smooth);
+    return smg::smoothCosts(info, smg::expectedComponents(info, this->Smooth.column, OfPoints),
+      this->withCommon(this->Smooth));
   }
 
   std::unique_ptr<smg::Solution> solveOn(

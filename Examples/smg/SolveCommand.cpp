@@ -104,7 +104,7 @@ protected:
     // Those of the other engine are past when this one's result is written.
     return this->hasWholeSolution() ? smg::Costs{}
                                     : smg::solveCosts(info, this->Description.columns,
-                                        this->Description.weights, this->Solve);
+                                        this->Description.weights, this->withCommon(this->Solve));
   }
 
   smg::AddedValues addedTo(const smg::StreamInfo& /*info*/) const override

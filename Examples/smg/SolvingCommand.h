@@ -37,6 +37,13 @@ protected:
 
   /** Applies the common options. */
   void applyTo(smg::SolveOptions& options, smg::ProgressFunction progress) const;
+  /** The same on a copy, for an estimate. */
+  template <class Options>
+  Options withCommon(Options options) const
+  {
+    this->applyTo(options, {});
+    return options;
+  }
 
   /** The options last used by solveOn(). */
   virtual const smg::SolveOptions& solveOptions() const = 0;

@@ -2,6 +2,9 @@
 #include "Solver/Engine/MemoryEstimate.h"
 
 #include "Solver/Cycle/Lanes.h"
+#include "Solver/Cycle/Pipeline.h"
+
+#include <tbb/info.h>
 
 #include <algorithm>
 
@@ -26,8 +29,22 @@ constexpr std::int64_t CotangentPercent = 108;
 constexpr std::int64_t WindowSpans = 30;
 
 /** What lies between the tasks of the first pass: measured 3 MiB for surfaces of 40 thousand
- * vertices, 6 MiB for those of 3 and 11 million, and less for solids. */
+ * vertices, 6 MiB for those of 3 and 11 million, and less for solids. Longer steps for many threads
+ * take up to three times as much, again less for solids. */
 constexpr std::int64_t BetweenTasks = std::int64_t(6) << 20;
+
+/** The bytes between tasks for so many threads, 0: one per core; out of core. */
+std::int64_t betweenTasks(const StreamInfo& info, int threads, std::int64_t least)
+{
+  if (threads == 1)
+  {
+    return 0;
+  }
+  const std::int64_t few = std::min(least, BetweenTasks);
+  const int used = threads > 0 ? threads : tbb::info::default_concurrency();
+  const bool areLong = Pipeline::stepFor(used, 1) > 1;
+  return !areLong ? few : info.cellType == CellType::Triangle ? 3 * few : few + few / 4;
+}
 
 /** Bytes per vertex in core. */
 constexpr std::int64_t TriangleCoreBytes = 120, TetrahedronCoreBytes = 280, ValueCoreBytes = 20;
@@ -73,8 +90,8 @@ std::int64_t expectedMemory(
   {
     return windows;
   }
-  const std::int64_t tasks = options.threads == 1 ? 0 : std::min(least, BetweenTasks);
-  return windows + tasks + std::min(info.vertices, options.coreNodes) * CoreBytes;
+  return windows + betweenTasks(info, options.threads, least) +
+         std::min(info.vertices, options.coreNodes) * CoreBytes;
 }
 
 bool permitsTasks(const StreamInfo& info, const Problem& problem, const SolveOptions& options)

@@ -69,6 +69,16 @@ def test_room():
             assert os.listdir(disk) == [] and not os.path.exists("o.vsm")
 
 
+def test_threads():
+    """Tasks of several threads need memory between them, and longer steps for many more; --dry-run counts both."""
+    def memory(threads):
+        run("solve", "torus.vsm", "o.vsm", "--problem", "torus-three.json", "--dry-run", "--threads", threads, "--report",
+            "dry.json")
+        return load("dry.json")["memory_bytes"]
+
+    assert memory("1") < memory("2") == memory("4") < memory("8") == memory("16")
+
+
 def test_unconverted():
     """Of another file the conversion is counted, too, and the span is estimated."""
     run("solve", "torus.obj", "o.ply", "--problem", "torus-one.json", "--dry-run", "--report", "dry.json")
@@ -92,6 +102,7 @@ write_tasks()
 for each in ("torus", "cube"):
     for task in commands(each):
         check(each, *task)
+test_threads()
 test_unconverted()
 if can_mount():
     test_room()
