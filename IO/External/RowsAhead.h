@@ -5,6 +5,7 @@
 #include "Solver/Storage/Buffer.h"
 #include "Solver/Storage/Workers.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -28,11 +29,11 @@ public:
   static constexpr std::size_t MemoryBytes = std::size_t(128) << 10;
   static_assert(sizeof(Row) <= MemoryBytes / 2);
 
-  /** The workspace must outlive it, and has MemoryBytes. */
-  RowsAhead(Workspace& workspace, Produce produce)
+  /** The workspace must outlive it, and has `memory` bytes: for at least two rows. */
+  RowsAhead(Workspace& workspace, Produce produce, std::size_t memory = MemoryBytes)
     : Space(workspace)
-    , Taken(workspace.pool(), MemoryBytes / 2)
-    , Produced(workspace.pool(), MemoryBytes / 2)
+    , Taken(workspace.pool(), memory / 2)
+    , Produced(workspace.pool(), memory / 2)
     , Job([this, next = std::move(produce)] { this->ProducedRows = next(rows(this->Produced)); })
   {
     this->start();
@@ -57,6 +58,17 @@ public:
     }
     row = rows(this->Taken)[this->At++];
     return true;
+  }
+  /** The next rows, at most `most`, valid until the next call; none at the end. Throws the same. */
+  std::span<const Row> some(std::size_t most)
+  {
+    if (this->At == this->Count && !this->turn())
+    {
+      return {};
+    }
+    const std::size_t count = std::min(most, this->Count - this->At);
+    this->At += count;
+    return rows(this->Taken).subspan(this->At - count, count);
   }
 
 private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/InputFile.h"
 
+#include "Solver/Storage/Workers.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -38,8 +39,17 @@ std::string_view InputFile::move(std::size_t offset, std::size_t least)
     std::as_writable_bytes(std::span(this->Window).subspan(kept, wanted - kept)));
   this->Begin = begin;
   this->Used = wanted;
-  this->Reported.update(static_cast<double>(begin) / static_cast<double>(this->Size));
+  this->Reached = begin;
+  if (!Workers::isCaller())
+  {
+    this->poll();
+  }
   return { this->Window.data(), wanted };
+}
+
+void InputFile::poll()
+{
+  this->Reported.update(static_cast<double>(this->Reached) / static_cast<double>(this->Size));
 }
 
 void InputFile::passed(std::size_t bytes)

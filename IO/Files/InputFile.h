@@ -5,6 +5,7 @@
 #include "Solver/Storage/FileDescriptor.h"
 #include "smg/Export.h"
 
+#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -35,7 +36,8 @@ public:
   std::size_t size() const { return this->Size; }
 
   /** The bytes from `offset` on: at least `least`, or all up to the end of the file, and more if
-   * they are in memory. Valid until the next call. Reports progress. Throws Error and Cancelled. */
+   * they are in memory. Valid until the next call. Reports progress, except in a job on another
+   * thread. Throws Error and Cancelled. */
   std::string_view at(std::size_t offset, std::size_t least = 1)
   {
     if (offset >= this->Begin && offset + least <= this->Begin + this->Used)
@@ -47,6 +49,8 @@ public:
 
   /** Reports progress for bytes of the file that were read elsewhere. Throws Cancelled. */
   void passed(std::size_t bytes);
+  /** Reports progress for what a job on another thread reads, which cannot. Throws Cancelled. */
+  void poll();
 
   /** Throws Error: "NAME, byte OFFSET: SENTENCE" */
   [[noreturn]] void fail(std::size_t offset, const std::string& sentence) const;
@@ -62,6 +66,7 @@ private:
   std::vector<char> Window;
   std::size_t Begin = 0; ///< offset of the window in the file
   std::size_t Used = 0;  ///< bytes of the window
+  std::atomic<std::size_t> Reached = 0;
   std::size_t Passed = 0;
 };
 

@@ -26,23 +26,30 @@ bool isXmlBlank(char c)
   return c == ' ' || c == '\t' || c == '\r' || c == '\n';
 }
 
-/** The six bits of a character; -1 for others, -2 for padding. */
-int bitsOf(char c)
+/** The six bits of each character; -1 for others, -2 for padding. */
+constexpr std::array<std::int8_t, 256> SixBits = []
 {
   constexpr std::string_view alphabet =
     "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  static const std::array<signed char, 256> table = [alphabet]
+  std::array<std::int8_t, 256> bits{};
+  bits.fill(-1);
+  for (std::size_t i = 0; i < alphabet.size(); ++i)
   {
-    std::array<signed char, 256> bits{};
-    bits.fill(-1);
-    for (std::size_t i = 0; i < alphabet.size(); ++i)
-    {
-      bits[static_cast<unsigned char>(alphabet[i])] = static_cast<signed char>(i);
-    }
-    bits[static_cast<unsigned char>('=')] = -2;
-    return bits;
-  }();
-  return table[static_cast<unsigned char>(c)];
+    bits[static_cast<unsigned char>(alphabet[i])] = static_cast<std::int8_t>(i);
+  }
+  bits[static_cast<unsigned char>('=')] = -2;
+  return bits;
+}();
+
+int bitsOf(char c)
+{
+  return SixBits[static_cast<unsigned char>(c)];
+}
+
+std::array<std::byte, 3> bytesOf(int bits)
+{
+  return { static_cast<std::byte>(bits >> 16), static_cast<std::byte>(bits >> 8),
+    static_cast<std::byte>(bits) };
 }
 
 bool uncompress(
@@ -99,20 +106,45 @@ void RawBytes::read(std::span<std::byte> bytes)
 
 void Base64Bytes::read(std::span<std::byte> bytes)
 {
-  for (std::byte& byte : bytes)
+  while (!bytes.empty())
   {
     if (this->Used == this->Size)
     {
+      bytes = bytes.subspan(this->decodeRun(bytes));
+      if (bytes.empty())
+      {
+        return;
+      }
       this->decodeGroup();
     }
-    byte = this->Group[this->Used++];
+    bytes.front() = this->Group[this->Used++];
+    bytes = bytes.subspan(1);
   }
+}
+
+std::size_t Base64Bytes::decodeRun(std::span<std::byte> bytes)
+{
+  const std::string_view text = this->File.at(this->At);
+  const std::size_t groups = std::min(bytes.size() / 3, text.size() / 4);
+  std::size_t group = 0;
+  for (; group < groups; ++group)
+  {
+    const char* const c = text.data() + 4 * group;
+    const int sixes[] = { bitsOf(c[0]), bitsOf(c[1]), bitsOf(c[2]), bitsOf(c[3]) };
+    if ((sixes[0] | sixes[1] | sixes[2] | sixes[3]) < 0)
+    {
+      break;
+    }
+    const int bits = sixes[0] << 18 | sixes[1] << 12 | sixes[2] << 6 | sixes[3];
+    std::ranges::copy(bytesOf(bits), bytes.data() + 3 * group);
+  }
+  this->At += 4 * group;
+  return 3 * group;
 }
 
 void Base64Bytes::decodeGroup()
 {
-  std::uint32_t bits = 0;
-  int padding = 0;
+  int bits = 0, padding = 0;
   for (int i = 0; i < 4;)
   {
     const std::string_view text = this->File.at(this->At);
@@ -129,12 +161,11 @@ void Base64Bytes::decodeGroup()
       this->File.fail(this->At, "the data in base64 end before the array does, or are damaged");
     }
     padding += six == -2 ? 1 : 0;
-    bits = bits << 6 | (six == -2 ? 0u : static_cast<std::uint32_t>(six));
+    bits = bits << 6 | std::max(six, 0);
     ++this->At;
     ++i;
   }
-  this->Group = { static_cast<std::byte>(bits >> 16), static_cast<std::byte>(bits >> 8),
-    static_cast<std::byte>(bits) };
+  this->Group = bytesOf(bits);
   this->Size = static_cast<std::size_t>(3 - padding);
   this->Used = 0;
 }

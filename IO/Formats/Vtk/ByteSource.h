@@ -57,6 +57,8 @@ public:
   void read(std::span<std::byte> bytes) override;
 
 private:
+  /** Decodes groups without blanks and padding; returns the number of bytes. */
+  std::size_t decodeRun(std::span<std::byte> bytes);
   void decodeGroup();
 
   InputFile& File;

@@ -11,56 +11,65 @@
 namespace smg
 {
 
-VtkArrayReader::VtkArrayReader(InputFile& file, const VtkArray& array, Pool& pool)
+VtkArrayReader::VtkArrayReader(InputFile& file, const VtkArray& array, Workspace& workspace)
   : File(file)
   , Array(array)
   , Left(array.values)
 {
   if (array.opener)
   {
-    this->Bytes = array.opener->open(file, this->Array, pool);
+    // Its library may be used by one thread at a time.
+    constexpr std::size_t ChunkBytes = std::size_t(64) << 10;
+    this->Bytes = array.opener->open(file, this->Array, workspace.pool());
+    this->Decoded.resize(ChunkBytes);
     return;
   }
   if (array.encoding == VtkEncoding::Text)
   {
     this->Text.emplace(file, array.begin);
-    return;
   }
-  const auto size = static_cast<std::uint64_t>(sizeOf(array.type));
+  else
+  {
+    this->openBytes(workspace.pool());
+  }
+  constexpr std::size_t Memory = std::size_t(512) << 10;
+  this->Ahead = std::make_unique<RowsAhead<std::byte>>(
+    workspace, [this](std::span<std::byte> bytes) { return this->decode(bytes); }, Memory);
+}
+
+void VtkArrayReader::openBytes(Pool& pool)
+{
+  const auto size = static_cast<std::uint64_t>(sizeOf(this->Array.type));
+  const std::int64_t values = this->Array.values;
   std::uint64_t bytes = 0;
-  if (array.headerBytes == 0)
+  if (this->Array.headerBytes == 0)
   {
-    bytes = static_cast<std::uint64_t>(array.values) * size;
-    this->Bytes = bytesAt(file, array.encoding, array.begin);
+    bytes = static_cast<std::uint64_t>(values) * size;
+    this->Bytes = bytesAt(this->File, this->Array.encoding, this->Array.begin);
   }
-  else if (array.compression != VtkCompression::None)
+  else if (this->Array.compression != VtkCompression::None)
   {
-    auto compressed = std::make_unique<CompressedBytes>(file, this->Array, pool);
+    auto compressed = std::make_unique<CompressedBytes>(this->File, this->Array, pool);
     bytes = compressed->bytes();
     this->Bytes = std::move(compressed);
   }
   else
   {
-    this->Bytes = bytesAt(file, array.encoding, array.begin);
-    bytes = this->Bytes->integer(array.headerBytes, array.byteOrder);
+    this->Bytes = bytesAt(this->File, this->Array.encoding, this->Array.begin);
+    bytes = this->Bytes->integer(this->Array.headerBytes, this->Array.byteOrder);
   }
-  if (array.compression == VtkCompression::None && bytes > file.size())
+  if (this->Array.compression == VtkCompression::None && bytes > this->File.size())
   {
     this->fail("has " + std::to_string(bytes) +
                " bytes, more than the file: it is truncated or "
                "damaged");
   }
-  if (array.values >= 0 && bytes != static_cast<std::uint64_t>(array.values) * size)
+  if (values >= 0 && bytes != static_cast<std::uint64_t>(values) * size)
   {
     this->fail("has " + std::to_string(bytes) + " bytes, not " +
-               std::to_string(static_cast<std::uint64_t>(array.values) * size));
+               std::to_string(static_cast<std::uint64_t>(values) * size));
   }
   this->Left = static_cast<std::int64_t>(bytes / size);
-}
-
-std::int64_t VtkArrayReader::bytes() const
-{
-  return this->Left < 0 ? -1 : this->Left * static_cast<std::int64_t>(sizeOf(this->Array.type));
 }
 
 void VtkArrayReader::fail(const std::string& sentence) const
@@ -71,51 +80,78 @@ void VtkArrayReader::fail(const std::string& sentence) const
   {
     throw Error(this->File.name() + ": " + what + '.');
   }
-  this->File.fail(this->Text ? this->Text->offset() : this->Array.begin, what);
+  this->File.fail(this->Array.begin, what);
 }
 
-std::size_t VtkArrayReader::readSome(std::byte* values, std::size_t count)
+void VtkArrayReader::failShort() const
 {
+  this->fail("has fewer numbers than it should: the file is truncated or a count is wrong");
+}
+
+std::size_t VtkArrayReader::decode(std::span<std::byte> bytes)
+{
+  const std::size_t size = sizeOf(this->Array.type);
+  std::size_t count = bytes.size() / size;
   if (this->Left >= 0)
   {
-    count = static_cast<std::size_t>(
-      std::min<std::int64_t>(static_cast<std::int64_t>(count), this->Left));
+    count = std::min(count, static_cast<std::size_t>(this->Left));
   }
   if (this->Text)
   {
-    count = this->Text->read(this->Array.type, values, count);
+    count = this->Text->read(this->Array.type, bytes.data(), count);
   }
   else
   {
-    const std::size_t size = sizeOf(this->Array.type);
-    this->Bytes->read({ values, count * size });
-    toByteOrder(this->Array.byteOrder, { values, count * size }, size);
+    this->Bytes->read(bytes.first(count * size));
+    toByteOrder(this->Array.byteOrder, bytes.first(count * size), size);
   }
   this->Left -= this->Left >= 0 ? static_cast<std::int64_t>(count) : 0;
-  return count;
+  return count * size;
+}
+
+std::span<const std::byte> VtkArrayReader::some(std::size_t most)
+{
+  const std::size_t bytes = most * sizeOf(this->Array.type);
+  if (!this->Ahead)
+  {
+    const std::span<std::byte> decoded(this->Decoded.data(), std::min(bytes, this->Decoded.size()));
+    return decoded.first(this->decode(decoded));
+  }
+  this->File.poll();
+  return this->Ahead->some(bytes);
 }
 
 void VtkArrayReader::read(std::byte* values, std::size_t count)
 {
-  if (this->readSome(values, count) < count)
+  const std::size_t size = sizeOf(this->Array.type);
+  while (count > 0)
   {
-    this->fail("has fewer numbers than it should: the file is truncated or a count is wrong");
+    const std::span<const std::byte> some = this->some(count);
+    if (some.empty())
+    {
+      this->failShort();
+    }
+    values = std::ranges::copy(some, values).out;
+    count -= some.size() / size;
   }
 }
 
 void VtkArrayReader::skip(std::int64_t count)
 {
-  constexpr std::int64_t Chunk = 8192;
-  std::vector<std::byte> ignored(Chunk * sizeOf(this->Array.type));
-  for (std::int64_t left = count; left > 0; left -= std::min(left, Chunk))
+  const std::size_t size = sizeOf(this->Array.type);
+  while (count > 0)
   {
-    this->read(ignored.data(), static_cast<std::size_t>(std::min(left, Chunk)));
+    const std::span<const std::byte> some = this->some(static_cast<std::size_t>(count));
+    if (some.empty())
+    {
+      this->failShort();
+    }
+    count -= static_cast<std::int64_t>(some.size() / size);
   }
 }
 
-VtkIndexReader::VtkIndexReader(InputFile& file, const VtkArray& array, Pool& pool)
-  : Values(file, array, pool)
-  , Bytes(ChunkIntegers * sizeOf(array.type))
+VtkIndexReader::VtkIndexReader(InputFile& file, const VtkArray& array, Workspace& workspace)
+  : Values(file, array, workspace)
   , Integers(ChunkIntegers)
 {
   if (array.type == ScalarType::Float32 || array.type == ScalarType::Float64)
@@ -130,16 +166,16 @@ void VtkIndexReader::readChunk()
   {
     this->Integers.resize(this->End + ChunkIntegers);
   }
-  const std::size_t count = this->Values.readSome(this->Bytes.data(), ChunkIntegers);
+  const std::span<const std::byte> bytes = this->Values.some(ChunkIntegers);
   std::int64_t* const to = this->Integers.data() + this->End;
   dispatch(this->Values.array().type,
     [&]<class T>(T)
     {
-      const T* const from = reinterpret_cast<const T*>(this->Bytes.data());
-      std::transform(
-        from, from + count, to, [](T value) { return static_cast<std::int64_t>(value); });
+      const T* const from = reinterpret_cast<const T*>(bytes.data());
+      std::transform(from, from + bytes.size() / sizeof(T), to,
+        [](T value) { return static_cast<std::int64_t>(value); });
+      this->End += bytes.size() / sizeof(T);
     });
-  this->End += count;
 }
 
 void VtkIndexReader::refill(std::size_t count)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/External/RowsAhead.h"
+#include "IO/External/Workspace.h"
 #include "IO/Files/InputFile.h"
 #include "IO/Files/TextNumbers.h"
 #include "IO/Formats/Vtk/ByteSource.h"
@@ -16,37 +18,46 @@
 namespace smg
 {
 
-/** Reads the numbers of an array sequentially. The file must not be used otherwise meanwhile. */
+/** Reads the numbers of an array sequentially; another thread decodes the next ones ahead. The file
+ * must not be used otherwise meanwhile. */
 class VtkArrayReader
 {
 public:
   /** Throws Error if the length of the array, if known, is not `array.values`. */
-  VtkArrayReader(InputFile& file, const VtkArray& array, Pool& pool);
+  VtkArrayReader(InputFile& file, const VtkArray& array, Workspace& workspace);
+  VtkArrayReader(const VtkArrayReader&) = delete;
+  VtkArrayReader& operator=(const VtkArrayReader&) = delete;
 
-  /** Reads up to `count` numbers, in the machine's byte order; returns their number. */
-  std::size_t readSome(std::byte* values, std::size_t count);
+  /** The next numbers, at most `most`, in the machine's byte order, valid until the next call; none
+   * at the end. */
+  std::span<const std::byte> some(std::size_t most);
   /** Reads exactly `count` numbers. Throws Error if there are fewer. */
   void read(std::byte* values, std::size_t count);
   void skip(std::int64_t count);
 
   const VtkArray& array() const { return this->Array; }
-  /** The total bytes of the numbers; -1 if unknown. */
-  std::int64_t bytes() const;
   [[noreturn]] void fail(const std::string& sentence) const;
 
 private:
+  void openBytes(Pool& pool);
+  /** Fills the span with the next numbers; returns their bytes, fewer only at the end. */
+  std::size_t decode(std::span<std::byte> bytes);
+  [[noreturn]] void failShort() const;
+
   InputFile& File;
   const VtkArray Array;
-  std::int64_t Left = -1; ///< numbers; -1: unknown
+  std::int64_t Left = -1; ///< numbers to decode; -1: unknown
   std::optional<TextNumbers> Text;
   std::unique_ptr<ByteSource> Bytes;
+  std::vector<std::byte> Decoded;              ///< what an opener's source gives
+  std::unique_ptr<RowsAhead<std::byte>> Ahead; ///< of all other encodings
 };
 
 /** Reads an array of integers of any type in chunks, as rows of given lengths. */
 class VtkIndexReader
 {
 public:
-  VtkIndexReader(InputFile& file, const VtkArray& array, Pool& pool);
+  VtkIndexReader(InputFile& file, const VtkArray& array, Workspace& workspace);
 
   /** The next `count` integers, valid until the next call. Throws Error if there are fewer. */
   std::span<const std::int64_t> next(std::size_t count)
@@ -72,7 +83,6 @@ private:
   void readChunk();
 
   VtkArrayReader Values;
-  std::vector<std::byte> Bytes;
   std::vector<std::int64_t> Integers;
   std::size_t At = 0, End = 0;
 };

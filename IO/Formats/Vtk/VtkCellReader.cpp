@@ -8,7 +8,8 @@
 namespace smg
 {
 
-VtkCellReader::VtkCellReader(VtkFiles& files, std::size_t file, const VtkCellList& list, Pool& pool)
+VtkCellReader::VtkCellReader(
+  VtkFiles& files, std::size_t file, const VtkCellList& list, Workspace& workspace)
   : Cells(list.cells)
   , Type(list.type)
 {
@@ -16,10 +17,10 @@ VtkCellReader::VtkCellReader(VtkFiles& files, std::size_t file, const VtkCellLis
   {
     return;
   }
-  this->Points.emplace(files.open(file, VtkFiles::Main), *list.points, pool);
+  this->Points.emplace(files.open(file, VtkFiles::Main), *list.points, workspace);
   if (list.offsets)
   {
-    this->Offsets.emplace(files.open(file, VtkFiles::Offsets), *list.offsets, pool);
+    this->Offsets.emplace(files.open(file, VtkFiles::Offsets), *list.offsets, workspace);
     if (list.offsets->values == list.cells + 1 && this->Offsets->next() != 0)
     {
       this->Offsets->fail("should begin with 0");
@@ -27,7 +28,7 @@ VtkCellReader::VtkCellReader(VtkFiles& files, std::size_t file, const VtkCellLis
   }
   if (list.types)
   {
-    this->Types.emplace(files.open(file, VtkFiles::Types), *list.types, pool);
+    this->Types.emplace(files.open(file, VtkFiles::Types), *list.types, workspace);
   }
 }
 

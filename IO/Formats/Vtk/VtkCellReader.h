@@ -19,7 +19,7 @@ public:
   /** The maximum number of points of a cell other than points and lines. */
   static constexpr std::int64_t MostPoints = std::int64_t(1) << 20;
 
-  VtkCellReader(VtkFiles& files, std::size_t file, const VtkCellList& list, Pool& pool);
+  VtkCellReader(VtkFiles& files, std::size_t file, const VtkCellList& list, Workspace& workspace);
 
   /** The points of the next cell, valid until the next call; none for points and lines. Throws
    * Error if the list is invalid. */

@@ -36,6 +36,31 @@ bool isSame(const VtkArray& a, const VtkArray& b)
   return a.columnType == b.columnType && a.components == b.components;
 }
 
+/** Which cells of a piece belong to it alone, in their order. */
+class OwnCells
+{
+public:
+  /** All do. */
+  OwnCells() = default;
+  /** Those from cell `first` on, by their ghost types. */
+  OwnCells(InputFile& file, const VtkArray& ghostTypes, std::int64_t first, Workspace& workspace)
+    : GhostTypes(std::make_unique<VtkIndexReader>(file, ghostTypes, workspace))
+  {
+    this->GhostTypes->skip(first);
+  }
+
+  bool areAll() const { return !this->GhostTypes; }
+  /** Whether the next one does. */
+  bool next() const
+  {
+    constexpr std::int64_t Duplicate = 1; // a bit: the cell belongs to another piece, too
+    return this->areAll() || (this->GhostTypes->next() & Duplicate) == 0;
+  }
+
+private:
+  std::unique_ptr<VtkIndexReader> GhostTypes;
+};
+
 class MeshReader
 {
 public:
@@ -43,7 +68,7 @@ public:
     : Files(files)
     , Layout(layout)
     , Builder(builder)
-    , MemoryPool(builder.workspace().pool())
+    , Space(builder.workspace())
   {
   }
 
@@ -122,7 +147,7 @@ private:
   {
     VtkArray array = *piece.positions;
     array.columnType = ScalarType::Float64;
-    VtkArrayReader reader(this->open(piece), array, this->MemoryPool);
+    VtkArrayReader reader(this->open(piece), array, this->Space);
     std::int64_t point = 0;
     copyVtkTuples(
       reader, piece.points, [] { return true; }, true,
@@ -147,25 +172,13 @@ private:
       });
   }
 
-  /** The ghost types of the cells of a piece from cell `first` on, if relevant. */
-  std::optional<VtkIndexReader> ghosts(const VtkPiece& piece, std::int64_t first)
+  OwnCells ownCells(const VtkPiece& piece, std::int64_t first)
   {
-    std::optional<VtkIndexReader> reader;
     const VtkArray* array = find(piece.cellArrays, GhostTypeName);
-    if (array && array->components == 1 && (this->Layout.pieces.size() > 1 || this->Layout.isPart))
-    {
-      reader.emplace(this->Files.open(piece.file, VtkFiles::Ghosts), *array, this->MemoryPool);
-      reader->skip(first);
-    }
-    return reader;
-  }
-
-  /** Bit of a ghost type: the cell belongs to another piece, too. */
-  static constexpr std::int64_t DuplicateCell = 1;
-
-  static bool stays(std::optional<VtkIndexReader>& ghosts)
-  {
-    return !ghosts || (ghosts->next() & DuplicateCell) == 0;
+    const bool isShared = this->Layout.pieces.size() > 1 || this->Layout.isPart;
+    return array && array->components == 1 && isShared
+             ? OwnCells(this->Files.open(piece.file, VtkFiles::Ghosts), *array, first, this->Space)
+             : OwnCells();
   }
 
   /** Cells of a piece in the lists before `list`. */
@@ -187,8 +200,8 @@ private:
       return;
     }
     const std::int64_t first = cellsBefore(piece, list);
-    VtkCellReader reader(this->Files, piece.file, cells, this->MemoryPool);
-    std::optional<VtkIndexReader> ghosts = this->ghosts(piece, first);
+    VtkCellReader reader(this->Files, piece.file, cells, this->Space);
+    const OwnCells own = this->ownCells(piece, first);
     std::vector<std::int64_t> corners;
     std::int64_t cell = 0;
     try
@@ -207,7 +220,7 @@ private:
           }
           corners[k] = points[k] + base;
         }
-        if (!stays(ghosts))
+        if (!own.next())
         {
           continue;
         }
@@ -298,7 +311,7 @@ private:
       {
         continue;
       }
-      VtkArrayReader reader(this->open(piece), *find(piece.pointArrays, name), this->MemoryPool);
+      VtkArrayReader reader(this->open(piece), *find(piece.pointArrays, name), this->Space);
       copyVtkTuples(
         reader, piece.points, [&walk] { return walk->next(); }, !walk,
         [&](std::span<const std::byte> tuples) { this->Builder.vertexTuples(column, tuples); });
@@ -323,11 +336,11 @@ private:
         }
         const VtkArray& array = *find(piece.cellArrays, name);
         const std::int64_t first = cellsBefore(piece, list);
-        VtkArrayReader reader(this->open(piece), array, this->MemoryPool);
+        VtkArrayReader reader(this->open(piece), array, this->Space);
         reader.skip(first * array.components);
-        std::optional<VtkIndexReader> ghosts = this->ghosts(piece, first);
+        const OwnCells own = this->ownCells(piece, first);
         copyVtkTuples(
-          reader, piece.lists[list].cells, [&ghosts] { return stays(ghosts); }, !ghosts,
+          reader, piece.lists[list].cells, [&own] { return own.next(); }, own.areAll(),
           [&](std::span<const std::byte> tuples) { this->Builder.elementTuples(column, tuples); });
         this->advance();
       }
@@ -338,7 +351,7 @@ private:
   VtkFiles& Files;
   const VtkLayout& Layout;
   RawMeshBuilder& Builder;
-  Pool& MemoryPool;
+  Workspace& Space;
   std::unique_ptr<VtkPointMerger> Merger;
   std::int64_t Steps = 0;
 };

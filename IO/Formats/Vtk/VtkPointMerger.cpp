@@ -46,7 +46,7 @@ void sortNumbers(VtkFiles& files, const VtkLayout& layout, Workspace& workspace,
       continue;
     }
     InputFile& file = files.open(piece.file, VtkFiles::Main);
-    VtkIndexReader numbers(file, *globalIdsOf(piece), workspace.pool());
+    VtkIndexReader numbers(file, *globalIdsOf(piece), workspace);
     for (std::int64_t i = 0; i < piece.points; ++i, ++point)
     {
       if (point >= std::int64_t(NoIndex) - 1)
