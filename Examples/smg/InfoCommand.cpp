@@ -39,6 +39,7 @@ nlohmann::ordered_json describe(const std::filesystem::path& file, smg::OpenedMe
   json["cell_type"] = info.cellType == smg::CellType::Triangle ? "triangle" : "tetrahedron";
   json["vertices"] = info.vertices;
   json["cells"] = info.cells;
+  json["isolated_vertices"] = reader.isolatedVertices();
   json["bounds"] = info.bounds;
   json["positions"] = info.doublePositions ? "float64" : "float32";
   json["width"] = info.width;
@@ -82,6 +83,11 @@ void print(const std::filesystem::path& file, smg::OpenedMesh& mesh)
     info.doublePositions ? "float64" : "float32");
   std::printf("  cells       %lld %s\n", static_cast<long long>(info.cells),
     info.cellType == smg::CellType::Triangle ? "triangles" : "tetrahedra");
+  if (const std::int64_t isolated = reader.isolatedVertices(); isolated > 0)
+  {
+    std::printf("  isolated    %lld, vertices of no cell, beside the stream\n",
+      static_cast<long long>(isolated));
+  }
   std::printf("  bounds      [%g, %g] x [%g, %g] x [%g, %g]\n", info.bounds[0], info.bounds[1],
     info.bounds[2], info.bounds[3], info.bounds[4], info.bounds[5]);
   std::printf("  width       %lld (%.3f %%), mean %.1f\n", static_cast<long long>(info.width),

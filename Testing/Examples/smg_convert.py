@@ -56,6 +56,9 @@ def test_restored_order():
     write_ply("odd.ply", points, cells)
     convert("odd.ply", "odd.vsm")
     assert "vertex 'tag'" in convert("odd.vsm", "odd.sma")["notes"][0]
+    run("info", "odd.vsm", "--report", "info.json")
+    assert load("info.json")["isolated_vertices"] == 9
+    assert "isolated    9," in run("info", "odd.vsm").stdout
     few_points, few_cells = odd_surface(36, 18, largest=4)
     write_ply("few.ply", few_points, few_cells, "float")
     for order in ORDERS:
