@@ -29,7 +29,7 @@ public:
   static constexpr std::size_t MemoryBytes = std::size_t(128) << 10;
   static_assert(sizeof(Row) <= MemoryBytes / 2);
 
-  /** The workspace must outlive it, and has `memory` bytes: for at least two rows. */
+  /** Takes `memory` bytes, at least two rows, of the workspace, which must outlive it. */
   RowsAhead(Workspace& workspace, Produce produce, std::size_t memory = MemoryBytes)
     : Space(workspace)
     , Taken(workspace.pool(), memory / 2)

@@ -64,9 +64,9 @@ private:
   std::size_t Size = 0;
   Progress Reported;
   std::vector<char> Window;
-  std::size_t Begin = 0; ///< offset of the window in the file
-  std::size_t Used = 0;  ///< bytes of the window
-  std::atomic<std::size_t> Reached = 0;
+  std::size_t Begin = 0;                ///< offset of the window in the file
+  std::size_t Used = 0;                 ///< bytes of the window
+  std::atomic<std::size_t> Reached = 0; ///< the same as Begin, for poll()
   std::size_t Passed = 0;
 };
 

@@ -39,8 +39,8 @@ def commands(mesh):
         yield "smooth", []
 
 
-def check(mesh, command, arguments):
-    common = [command, mesh + ".vsm", "o.vsm", *arguments, "--report", "report.json"]
+def check(mesh, command, arguments, threads):
+    common = [command, mesh + ".vsm", "o.vsm", *arguments, "--report", "report.json", "--threads", threads]
     shown = run(*common, "--dry-run").stdout
     said = load("report.json")
     assert not os.path.exists("o.vsm") and said["counted"]
@@ -54,7 +54,7 @@ def check(mesh, command, arguments):
             ("passes", done["passes"], said["passes"], 1.5),
             # Coordinates of a regular grid are compressed well, deformed ones are not.
             ("output", os.path.getsize("o.vsm"), said["output_bytes"], 2.5)):
-        assert 1 / factor <= estimate / truth <= factor, (mesh, command, arguments, what, truth, estimate)
+        assert 1 / factor <= estimate / truth <= factor, (mesh, command, arguments, threads, what, truth, estimate)
     assert said["cpu_seconds"] > 0 and said["memory_limit"] == 1024 * MIB
     os.remove("o.vsm")
 
@@ -101,7 +101,8 @@ run("convert", "cube.mesh", "cube.vsm", "--quiet")
 write_tasks()
 for each in ("torus", "cube"):
     for task in commands(each):
-        check(each, *task)
+        for count in ("2", "8"):
+            check(each, *task, count)
 test_threads()
 test_unconverted()
 if can_mount():

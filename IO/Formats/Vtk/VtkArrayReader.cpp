@@ -32,9 +32,20 @@ VtkArrayReader::VtkArrayReader(InputFile& file, const VtkArray& array, Workspace
   {
     this->openBytes(workspace.pool());
   }
-  constexpr std::size_t Memory = std::size_t(512) << 10;
+  // Memory that another thread allocates would cost address space: see IoThread.
+  file.at(array.begin);
   this->Ahead = std::make_unique<RowsAhead<std::byte>>(
-    workspace, [this](std::span<std::byte> bytes) { return this->decode(bytes); }, Memory);
+    workspace, [this](std::span<std::byte> bytes) { return this->decode(bytes); },
+    this->aheadMemory());
+}
+
+std::size_t VtkArrayReader::aheadMemory() const
+{
+  constexpr std::size_t Most = std::size_t(512) << 10, Least = 128;
+  const auto size = static_cast<std::int64_t>(sizeOf(this->Array.type));
+  return this->Left >= 0 && this->Left < std::int64_t(Most) / (2 * size)
+           ? std::max(Least, static_cast<std::size_t>(2 * size * this->Left))
+           : Most;
 }
 
 void VtkArrayReader::openBytes(Pool& pool)
@@ -74,18 +85,24 @@ void VtkArrayReader::openBytes(Pool& pool)
 
 void VtkArrayReader::fail(const std::string& sentence) const
 {
+  this->failAt(this->Array.begin, sentence);
+}
+
+void VtkArrayReader::failAt(std::size_t offset, const std::string& sentence) const
+{
   const std::string what =
     "the array " + (this->Array.name.empty() ? "" : inQuotes(this->Array.name) + ' ') + sentence;
   if (this->Array.opener)
   {
     throw Error(this->File.name() + ": " + what + '.');
   }
-  this->File.fail(this->Array.begin, what);
+  this->File.fail(offset, what);
 }
 
 void VtkArrayReader::failShort() const
 {
-  this->fail("has fewer numbers than it should: the file is truncated or a count is wrong");
+  this->failAt(this->Text ? this->Text->offset() : this->Array.begin,
+    "has fewer numbers than it should: the file is truncated or a count is wrong");
 }
 
 std::size_t VtkArrayReader::decode(std::span<std::byte> bytes)
@@ -190,7 +207,7 @@ void VtkIndexReader::refill(std::size_t count)
     this->readChunk();
     if (this->End == before)
     {
-      this->fail("has fewer numbers than it should: the file is truncated or a count is wrong");
+      this->Values.failShort();
     }
   }
 }

@@ -18,8 +18,8 @@
 namespace smg
 {
 
-/** Reads the numbers of an array sequentially; another thread decodes the next ones ahead. The file
- * must not be used otherwise meanwhile. */
+/** Reads the numbers of an array sequentially; another thread decodes the next ones ahead, unless
+ * the array has an opener. The file must not be used otherwise meanwhile. */
 class VtkArrayReader
 {
 public:
@@ -37,12 +37,16 @@ public:
 
   const VtkArray& array() const { return this->Array; }
   [[noreturn]] void fail(const std::string& sentence) const;
+  /** Throws that there are fewer numbers; to be called only at the end. */
+  [[noreturn]] void failShort() const;
 
 private:
   void openBytes(Pool& pool);
+  /** The bytes of memory to decode ahead. */
+  std::size_t aheadMemory() const;
   /** Fills the span with the next numbers; returns their bytes, fewer only at the end. */
   std::size_t decode(std::span<std::byte> bytes);
-  [[noreturn]] void failShort() const;
+  [[noreturn]] void failAt(std::size_t offset, const std::string& sentence) const;
 
   InputFile& File;
   const VtkArray Array;

@@ -51,7 +51,7 @@ public:
 
   bool areAll() const { return !this->GhostTypes; }
   /** Whether the next one does. */
-  bool next() const
+  bool next()
   {
     constexpr std::int64_t Duplicate = 1; // a bit: the cell belongs to another piece, too
     return this->areAll() || (this->GhostTypes->next() & Duplicate) == 0;
@@ -201,7 +201,7 @@ private:
     }
     const std::int64_t first = cellsBefore(piece, list);
     VtkCellReader reader(this->Files, piece.file, cells, this->Space);
-    const OwnCells own = this->ownCells(piece, first);
+    OwnCells own = this->ownCells(piece, first);
     std::vector<std::int64_t> corners;
     std::int64_t cell = 0;
     try
@@ -338,7 +338,7 @@ private:
         const std::int64_t first = cellsBefore(piece, list);
         VtkArrayReader reader(this->open(piece), array, this->Space);
         reader.skip(first * array.components);
-        const OwnCells own = this->ownCells(piece, first);
+        OwnCells own = this->ownCells(piece, first);
         copyVtkTuples(
           reader, piece.lists[list].cells, [&own] { return own.next(); }, own.areAll(),
           [&](std::span<const std::byte> tuples) { this->Builder.elementTuples(column, tuples); });
