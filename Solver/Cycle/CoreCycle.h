@@ -2,32 +2,59 @@
 #pragma once
 
 #include "Solver/Cycle/CoarsestSolver.h"
+#include "Solver/Cycle/CoreIteration.h"
 #include "Solver/Cycle/Level.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace smg
 {
 
-/** The part of a V-cycle on the levels in memory (core levels), performed between two passes. */
+/**
+ * The part of a V-cycle on the levels in memory (core levels), performed between two passes. The
+ * first of them that is much smaller than the finest level is solved by a CoreIteration, unless it
+ * is the coarsest one.
+ */
 template <class Relaxation>
 class CoreCycle
 {
 public:
   using CoreLevel = Level<float, Relaxation>;
 
-  /** `levels` from the finest core level to the coarsest one. */
-  void setLevels(std::vector<CoreLevel*> levels)
+  /** `levels` from the finest core level to the coarsest one; `finest`: the number of nodes of the
+   * finest level. */
+  void setLevels(std::vector<CoreLevel*> levels, std::int64_t finest)
   {
     this->Levels = std::move(levels);
+    const auto isSmall = [finest](CoreLevel* level)
+    { return level->window().nodes() <= finest / SmallShare; };
+    this->Iterated = static_cast<std::size_t>(
+      std::find_if(this->Levels.begin(), this->Levels.end(), isSmall) - this->Levels.begin());
     this->Coarsest.factorize(this->Levels.back()->window());
   }
 
   /** Computes x of the finest core level from its b. */
-  void run() { this->cycle(0); }
+  void run() { this->solve(0); }
 
 private:
+  /** A level with this share of the finest level's nodes is much smaller. */
+  static constexpr std::int64_t SmallShare = 128;
+
+  void solve(std::size_t l)
+  {
+    if (l == this->Iterated && l + 1 < this->Levels.size())
+    {
+      CoreIteration<Relaxation> iteration(*this->Levels[l]);
+      iteration([this, l] { this->cycle(l); });
+      return;
+    }
+    this->cycle(l);
+  }
+
   void cycle(std::size_t l)
   {
     CoreLevel& level = *this->Levels[l];
@@ -40,12 +67,13 @@ private:
     level.relaxDown();
     coarse.window().zeroB(0, coarse.window().nodes());
     level.restrictAll();
-    this->cycle(l + 1);
+    this->solve(l + 1);
     level.prolongAll();
     level.relaxUp();
   }
 
   std::vector<CoreLevel*> Levels;
+  std::size_t Iterated = 0; // index of the level that is iterated
   CoarsestSolver Coarsest;
 };
 

@@ -245,6 +245,8 @@ public:
       this->sweep<false>(0, this->Window.nodes(), this->Window.up());
     }
   }
+  /** Stores b - A x, with the stride of the window. */
+  void residualAll(Real* residual);
   void restrictAll() { this->restrictTo(this->Window.nodes()); }
   void prolongAll() { this->prolongTo(0, this->Window.nodes()); }
 

@@ -132,6 +132,28 @@ void Level<Real, Relaxation>::prolongTo(std::int64_t begin, std::int64_t end)
 }
 
 template <class Real, class Relaxation>
+void Level<Real, Relaxation>::residualAll(Real* residual)
+{
+  const int stride = this->Window.stride();
+  this->Window.forRange(0, this->Window.nodes(), this->Window.down(),
+    [&](const auto& h, const auto& a, BlockRange nodes, const Real* x, const Real* b)
+    {
+      for (std::int64_t k = nodes.begin; k < nodes.end; ++k)
+      {
+        Real* values = residual + (h.first + k) * stride;
+        if (stride == 1)
+        {
+          One::store(values, PlainResidual::of<One>(h, a, k, 1, x, b));
+        }
+        for (int lane = 0; lane + 3 < stride; lane += 4)
+        {
+          Four::store(values + lane, PlainResidual::of<Four>(h, a, k, stride, x + lane, b + lane));
+        }
+      }
+    });
+}
+
+template <class Real, class Relaxation>
 void Level<Real, Relaxation>::restrictTo(std::int64_t end)
 {
   const int stride = this->Window.stride();

@@ -124,7 +124,7 @@ void Hierarchy<Relaxation>::factorize()
   {
     core.push_back(this->Built.coarse[l - 1].get());
   }
-  this->Core.setLevels(std::move(core));
+  this->Core.setLevels(std::move(core), this->window().nodes());
   this->Run.report.seconds.coarse += factorizing.seconds();
 }
 

@@ -75,12 +75,12 @@ private:
 template <class Relaxation>
 void Pass<Relaxation>::operator()(double scale, const Further& further)
 {
-  this->Levels.runCore();
-  this->Levels.startPass(false);
-  this->Levels.finest().setHistory(further.history);
-  this->setScale(scale / std::sqrt(static_cast<double>(this->Levels.window().nodes())));
   try
   {
+    this->Levels.runCore();
+    this->Levels.startPass(false);
+    this->Levels.finest().setHistory(further.history);
+    this->setScale(scale / std::sqrt(static_cast<double>(this->Levels.window().nodes())));
     this->stream(further);
   }
   catch (const MemoryLimitError& error)

@@ -65,7 +65,7 @@ TEST(CoreCycle, IsTheVCycle)
         const Eigen::MatrixXd b = randomMatrix(level.nodes(), columns, 8);
         setState(h.finest().window().b(), b);
         CoreCycle<GaussSeidel> cycle;
-        cycle.setLevels(levelsOf(h, levels));
+        cycle.setLevels(levelsOf(h, levels), level.nodes());
         const Eigen::MatrixXd expected = denseCycle(h, levels, 0, b);
         // Twice: a cycle leaves no state that affects the next one.
         for (int run = 0; run < 2; ++run)
@@ -84,7 +84,7 @@ TEST(CoreCycle, ContractsTheErrorOnManyLevels)
   const TestLevel level = finestLevel(toStream(shuffled(grid(40, 40, 0.2))), Weights::Clamped, 90);
   DenseHierarchy<> h(level, 5, 1, 2);
   CoreCycle<GaussSeidel> cycle;
-  cycle.setLevels(levelsOf(h, 5));
+  cycle.setLevels(levelsOf(h, 5), level.nodes());
   Eigen::MatrixXd b = randomMatrix(level.nodes(), 1, 9);
   const double before = b.norm();
   for (int k = 0; k < 5; ++k)
@@ -94,6 +94,41 @@ TEST(CoreCycle, ContractsTheErrorOnManyLevels)
     b -= h.matrix(0) * stateOf(h.finest().window().x(), 1);
   }
   EXPECT_LT(b.norm(), 1e-3 * before);
+}
+
+TEST(CoreCycle, SolvesALevelMuchSmallerThanTheFinest)
+{
+  constexpr int Levels = 6;
+  constexpr std::int64_t Much = 1000;
+  const TestLevel level = finestLevel(toStream(shuffled(grid(40, 40, 0.2))), Weights::Clamped, 400);
+  for (const int columns : { 1, 3 })
+  {
+    DenseHierarchy<> h(level, Levels, columns, 1);
+    const Eigen::MatrixXd a = h.matrix(0);
+    // Smooth solutions, and one that is zero.
+    Eigen::MatrixXd exact = a.ldlt().solve(Eigen::MatrixXd::Ones(level.nodes(), columns));
+    if (columns > 1)
+    {
+      exact.col(1).setZero();
+      exact.col(2) += 1e-3 * exact.col(0).norm() * randomMatrix(level.nodes(), 1, 5);
+    }
+    const auto error = [&](std::int64_t finest)
+    {
+      CoreCycle<GaussSeidel> cycle;
+      cycle.setLevels(levelsOf(h, Levels), finest);
+      setState(h.finest().window().b(), a * exact);
+      cycle.run();
+      return (stateOf(h.finest().window().x(), columns) - exact).eval();
+    };
+    const Eigen::MatrixXd once = error(level.nodes());
+    const Eigen::MatrixXd iterated = error(Much * level.nodes());
+    for (int k = 0; k < columns; ++k)
+    {
+      const auto energy = [&](const Eigen::VectorXd& v) { return v.dot(a * v); };
+      EXPECT_LE(energy(iterated.col(k)), 0.01 * energy(exact.col(k))) << columns << ", " << k;
+      EXPECT_LE(energy(iterated.col(k)), 0.1 * energy(once.col(k))) << columns << ", " << k;
+    }
+  }
 }
 
 TEST(CoarsestSolver, SolvesComponentsWithAndWithoutConstraint)
