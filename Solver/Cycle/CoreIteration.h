@@ -84,10 +84,10 @@ public:
 
 private:
   static constexpr std::size_t Vectors = 4;
-  static constexpr int MostCycles = 10;
+  static constexpr int MostCycles = 20;
   /** Ends with the V-cycle that adds at most this share to the squared energy norm of x, of every
    * column. */
-  static constexpr double Accuracy = 0.01;
+  static constexpr double Accuracy = 0.001;
 
   std::span<float> values()
   {
