@@ -37,32 +37,35 @@ public:
     this->Coarsest.factorize(this->Levels.back()->window());
   }
 
-  /** Computes x of the finest core level from its b. */
+  /** Computes x of the finest core level from its b, which may be lost. */
   void run() { this->solve(0); }
 
 private:
   /** A level with this share of the finest level's nodes is much smaller. */
   static constexpr std::int64_t SmallShare = 128;
 
+  /** Computes x of level l from its b. */
   void solve(std::size_t l)
   {
-    if (l == this->Iterated && l + 1 < this->Levels.size())
+    if (l + 1 == this->Levels.size())
+    {
+      this->Coarsest.solve(this->Levels[l]->window());
+    }
+    else if (l == this->Iterated)
     {
       CoreIteration<Relaxation> iteration(*this->Levels[l]);
       iteration([this, l] { this->cycle(l); });
-      return;
     }
-    this->cycle(l);
+    else
+    {
+      this->cycle(l);
+    }
   }
 
+  /** The same by a V-cycle, on a level that is not the coarsest one. */
   void cycle(std::size_t l)
   {
     CoreLevel& level = *this->Levels[l];
-    if (l + 1 == this->Levels.size())
-    {
-      this->Coarsest.solve(level.window());
-      return;
-    }
     CoreLevel& coarse = *this->Levels[l + 1];
     level.relaxDown();
     coarse.window().zeroB(0, coarse.window().nodes());
