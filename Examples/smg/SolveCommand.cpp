@@ -135,6 +135,7 @@ protected:
     results.gradient = this->Description.gradientOutput;
     results.flux = this->Description.fluxOutput;
     results.memoryLimit = this->Solve.memoryLimit;
+    results.threads = this->Solve.threads;
     smg::SolvedMesh source(mesh, *this->Problem, solution, results);
     write(source, progress);
     source.finish(report);

@@ -93,7 +93,8 @@ std::unique_ptr<Solution> PoissonTask::solve(const VsmReader& mesh,
 
   report = solution->report();
   const auto goOn = partOf(progress, SolveShare, 1.0);
-  SolvedMesh solved(mesh, problem, *solution, { .memoryLimit = options.memoryLimit });
+  SolvedMesh solved(
+    mesh, problem, *solution, { .memoryLimit = options.memoryLimit, .threads = options.threads });
   MeshBlock block;
   for (std::int64_t done = 0; solved.next(block); done += block.vertices())
   {

@@ -25,7 +25,7 @@ std::vector<std::string> writeMesh(
   const ScratchFolder scratch(options.scratch);
   const std::filesystem::path whole = scratch / "mesh.vsm";
   Workers workers(options.threads);
-  writeVsm(source, whole, Codec::Lz4, partOf(options.progress, 0.0, 0.6), {}, {}, &workers);
+  writeVsm(source, whole, Codec::Lz4, partOf(options.progress, 0.0, 0.6), {}, {}, &workers, true);
   return format.writeVsm(whole, path, partOf(options.progress, 0.6, 1.0));
 }
 

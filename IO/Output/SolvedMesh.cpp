@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/SolvedMesh.h"
 
+#include "IO/Output/SourceAhead.h"
 #include "Solver/Results/ProblemResults.h"
 #include "Solver/Results/RenumberExtremes.h"
 #include "Solver/Stream/OriginalNumbers.h"
@@ -38,7 +39,7 @@ struct SolvedMesh::Implementation
 {
   Implementation(
     const VsmReader& mesh, Problem& problem, Solution& solution, const ResultOptions& options)
-    : source(mesh.source())
+    : source(std::make_unique<SourceAhead>(mesh.source(), options.threads))
     , results(source->info(), problem, solution, options)
     , wanted(options)
     , info(source->info())

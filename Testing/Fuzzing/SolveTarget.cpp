@@ -36,7 +36,7 @@ void solveOn(const VsmReader& mesh, Weights weights)
   problem.prepare(*source(), FuzzPlace::instance().workspace().folder());
   const std::unique_ptr<Solution> solution = solve(*source(), problem, smallSolve());
   checkSolution(*solution);
-  SolvedMesh solved(mesh, problem, *solution, { true, true, Workspace::LeastMemory });
+  SolvedMesh solved(mesh, problem, *solution, { true, true, Workspace::LeastMemory, 1 });
   for (MeshBlock block; solved.next(block);)
   {
     // All results are computed.

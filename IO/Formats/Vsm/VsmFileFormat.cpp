@@ -23,7 +23,7 @@ WriteNotes write(
         copyIsolated(options.isolatedFrom, source.info(), writer);
       }
     },
-    &workers);
+    &workers, true);
   return {};
 }
 

@@ -5,6 +5,8 @@
 #include "IO/Formats/Vsm/VsmFormat.h"
 #include "IO/Formats/Vsm/VsmWriter.h"
 #include "Solver/Core/Progress.h"
+#include "Solver/Storage/OrderedJobs.h"
+#include "Solver/Storage/Workers.h"
 #include "smg/VsmReader.h"
 
 #include <algorithm>
@@ -67,19 +69,39 @@ void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, Vsm
 
 WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path, Codec codec,
   const ProgressFunction& progress, const std::string& origin,
-  const std::function<void(VsmWriter&)>& add, Workers* workers)
+  const std::function<void(VsmWriter&)>& add, Workers* workers, bool apart)
 {
   Progress reported(progress);
   VsmWriter writer(path, source.info(), codec, nullptr, workers);
   const auto cells = static_cast<double>(source.info().cells);
   const auto corners = static_cast<std::size_t>(cornersOf(source.info().cellType));
-  for (MeshBlock block; source.next(block);)
+  Workers appending(apart && workers ? std::min(2, workers->threads()) : 1);
+  OrderedJobs<MeshBlock> appends(
+    appending, static_cast<std::size_t>(appending.threads()),
+    [&writer](MeshBlock& block) { writer.append(block); },
+    [&](MeshBlock& block)
+    {
+      const auto end = block.firstCell + static_cast<std::int64_t>(block.corners.size() / corners);
+      reported.update(static_cast<double>(end) / cells);
+    });
+  const auto read = [&](MeshBlock& block)
   {
-    writer.append(block);
-    reported.update(
-      (static_cast<double>(block.firstCell) + static_cast<double>(block.corners.size() / corners)) /
-      cells);
+    try
+    {
+      return source.next(block);
+    }
+    catch (...)
+    {
+      appends.takeAll(); // an error of the block before comes first
+      throw;
+    }
+  };
+  while (read(appends.next()))
+  {
+    appends.takeAll();
+    appends.submit();
   }
+  appends.takeAll();
   if (add)
   {
     add(writer);

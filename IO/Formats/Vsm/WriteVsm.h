@@ -25,12 +25,14 @@ struct WrittenVsm
  * @param origin see VsmWriter::finish()
  * @param add adds data that the stream does not deliver, before the file is finished; may be empty
  * @param workers threads that compress blocks, see BlockFileWriter
+ * @param apart a further thread appends a block while the next one is read, if `workers` are
+ * several: only for a source that does not use them
  * @throws Error if the stream is not valid or the file cannot be written; Cancelled. Nothing is
  * left of the file then.
  */
 WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path,
   Codec codec = Codec::Zstd, const ProgressFunction& progress = {}, const std::string& origin = {},
-  const std::function<void(VsmWriter&)>& add = {}, Workers* workers = nullptr);
+  const std::function<void(VsmWriter&)>& add = {}, Workers* workers = nullptr, bool apart = false);
 
 /**
  * Copies the isolated vertices of a .vsm file, with the columns that both have, to the writer of a

@@ -101,6 +101,8 @@ struct ResultOptions
   bool flux = false;     ///< -K grad u of each cell
   /** Limit of the accounted memory, bytes; 1 GiB by default. */
   std::int64_t memoryLimit = std::int64_t(1) << 30;
+  /** With 1 thread the mesh is not read ahead; otherwise a further thread does so. 0 by default. */
+  int threads = 0;
 };
 
 /** The solution of a problem: columns() values a vertex, in stream order, on disk or in memory. */
