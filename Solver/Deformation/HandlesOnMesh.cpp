@@ -2,6 +2,7 @@
 #include "Solver/Deformation/HandlesOnMesh.h"
 
 #include "Solver/Description/MeshParts.h"
+#include "Solver/Stream/StreamCheck.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -107,7 +108,6 @@ std::span<const std::uint8_t> HandlesOnMesh::startBlock(Handle& handle, const Me
     handle.values->rotation.startBlock(block);
     handle.values->logScale.startBlock(block);
   }
-  handle.counts = handle.mask ? &handle.mask->in(block) : nullptr;
   if (!handle.where)
   {
     this->Everywhere.assign(static_cast<std::size_t>(block.vertices()), 1);
@@ -128,14 +128,11 @@ void HandlesOnMesh::at(const MeshBlock& block, VertexHandles& handles)
   this->Followed.assign(static_cast<std::size_t>(block.vertices()), nullptr);
   for (Handle& handle : this->All)
   {
-    const std::span<const std::uint8_t> selected = this->startBlock(handle, block);
-    for (std::size_t i = 0; i < selected.size(); ++i)
+    const std::span<const std::uint8_t> held = this->startBlock(handle, block);
+    this->hold(handle, block, held, handles);
+    for (std::size_t i = 0; i < held.size(); ++i)
     {
-      if (selected[i])
-      {
-        this->hold(handle, block, i, handles);
-        this->Followed[i] = &handle;
-      }
+      this->Followed[i] = held[i] ? &handle : this->Followed[i];
     }
   }
   for (std::size_t i = 0; i < this->Followed.size(); ++i)
@@ -148,43 +145,77 @@ void HandlesOnMesh::at(const MeshBlock& block, VertexHandles& handles)
   }
 }
 
-void HandlesOnMesh::hold(
-  const Handle& handle, const MeshBlock& block, std::size_t i, VertexHandles& to) const
+void HandlesOnMesh::hold(const Handle& handle, const MeshBlock& block,
+  std::span<const std::uint8_t> held, VertexHandles& to) const
 {
-  const double count = handle.counts ? std::max(1.0, std::ceil(handle.counts->value(i))) : 1.0;
-  to.mask[i] = static_cast<std::uint8_t>(std::min(to.mask[i] + count, MostHandles));
-  if (handle.values)
+  const Column* counts = handle.mask ? &handle.mask->in(block) : nullptr;
+  for (std::size_t i = 0; i < held.size(); ++i)
   {
-    if (handle.nearest)
+    if (held[i])
     {
-      const auto vertex = block.firstVertex + static_cast<std::int64_t>(i);
-      std::ranges::copy(
-        handle.values->targets[handle.nearest->pointOf(vertex)], to.target.data() + 3 * i);
+      const double count = counts ? std::max(1.0, std::ceil(counts->value(i))) : 1.0;
+      to.mask[i] = static_cast<std::uint8_t>(std::min(to.mask[i] + count, MostHandles));
     }
-    else
-    {
-      this->read(handle.values->target, handle, block, i, to.target.data() + 3 * i);
-    }
-    this->read(handle.values->rotation, handle, block, i, to.rotation.data() + 3 * i);
-    this->read(handle.values->logScale, handle, block, i, &to.logScale[i]);
-    return;
   }
-  const std::span<const double, 3> point(block.positions.data() + 3 * i, 3);
-  std::ranges::copy(handle.motion.apply(point), to.target.data() + 3 * i);
-  std::ranges::copy(handle.motion.rotation(), to.rotation.data() + 3 * i);
-  to.logScale[i] = handle.motion.logScale();
+  handle.values ? this->setValues(handle, block, held, to)
+                : this->setMotion(handle, block, held, to);
 }
 
-void HandlesOnMesh::read(const ValueOnMesh& value, const Handle& handle, const MeshBlock& block,
-  std::size_t i, double* numbers) const
+void HandlesOnMesh::setMotion(const Handle& handle, const MeshBlock& block,
+  std::span<const std::uint8_t> held, VertexHandles& to) const
 {
-  value.atVertex(block, i, numbers);
-  if (!std::all_of(
-        numbers, numbers + value.components(), [](double number) { return std::isfinite(number); }))
+  for (std::size_t i = 0; i < held.size(); ++i)
   {
-    this->OfMesh.fail(handle.key, value.name() + " is not a finite number at " +
-                                    this->OfMesh.vertexName(block, i) + ", which is held");
+    if (held[i])
+    {
+      const std::span<const double, 3> point(block.positions.data() + 3 * i, 3);
+      std::ranges::copy(handle.motion.apply(point), to.target.data() + 3 * i);
+      std::ranges::copy(handle.motion.rotation(), to.rotation.data() + 3 * i);
+      to.logScale[i] = handle.motion.logScale();
+    }
   }
+}
+
+void HandlesOnMesh::setValues(const Handle& handle, const MeshBlock& block,
+  std::span<const std::uint8_t> held, VertexHandles& to) const
+{
+  const Values& values = *handle.values;
+  const auto set = [&](const ValueOnMesh& value, std::vector<double>& numbers)
+  {
+    const ValueOnMesh::InBlock given = value.in(block);
+    const auto components = static_cast<std::size_t>(value.components());
+    for (std::size_t i = 0; i < held.size(); ++i)
+    {
+      double* of = numbers.data() + i * components;
+      if (held[i])
+      {
+        given.atVertex(i, of);
+        if (!std::all_of(of, of + components, [](double number) { return std::isfinite(number); }))
+        {
+          this->OfMesh.fail(handle.key, value.name() + " is not a finite number at " +
+                                          this->OfMesh.vertexName(block, i) + ", which is held");
+        }
+      }
+    }
+  };
+  if (handle.nearest)
+  {
+    for (std::size_t i = 0; i < held.size(); ++i)
+    {
+      if (held[i])
+      {
+        const std::size_t point =
+          handle.nearest->pointOf(block.firstVertex + static_cast<std::int64_t>(i));
+        std::ranges::copy(values.targets[point], to.target.data() + 3 * i);
+      }
+    }
+  }
+  else
+  {
+    set(values.target, to.target);
+  }
+  set(values.rotation, to.rotation);
+  set(values.logScale, to.logScale);
 }
 
 void HandlesOnMesh::prepare(MeshSource& mesh, const std::filesystem::path& scratch)
@@ -195,16 +226,17 @@ void HandlesOnMesh::prepare(MeshSource& mesh, const std::filesystem::path& scrat
 
 void HandlesOnMesh::preparePart(MeshSource& part, const std::filesystem::path& scratch)
 {
-  for (MeshBlock block; part.next(block);)
-  {
-    for (Handle& handle : this->All)
+  forCheckedBlocks(part,
+    [&](const MeshBlock& block)
     {
-      if (handle.where)
+      for (Handle& handle : this->All)
       {
-        handle.where->prepare(block, scratch);
+        if (handle.where)
+        {
+          handle.where->prepare(block, scratch);
+        }
       }
-    }
-  }
+    });
 }
 
 void HandlesOnMesh::endPreparing(MeshParts* parts)

@@ -56,7 +56,6 @@ private:
     std::unique_ptr<Selection> where;          ///< null: everywhere
     const NearestSelection* nearest = nullptr; ///< the same, of targets
     std::optional<NamedColumn> mask;           ///< which selects and counts
-    const Column* counts = nullptr;            ///< the mask in the current block; null: none
     HandleMotion motion;                       ///< if there are no values
     std::optional<Values> values;
     std::string key;
@@ -70,10 +69,13 @@ private:
     const std::vector<std::array<double, 3>>& targets, Handle& handle);
   /** Starts a block; returns whether the handle holds each of its vertices. */
   std::span<const std::uint8_t> startBlock(Handle& handle, const MeshBlock& block);
-  /** Sets the values of the handle at held vertex `i` of the block. */
-  void hold(const Handle& handle, const MeshBlock& block, std::size_t i, VertexHandles& to) const;
-  void read(const ValueOnMesh& value, const Handle& handle, const MeshBlock& block, std::size_t i,
-    double* numbers) const;
+  /** Sets the values of the handle at the `held` vertices of the block. */
+  void hold(const Handle& handle, const MeshBlock& block, std::span<const std::uint8_t> held,
+    VertexHandles& to) const;
+  void setMotion(const Handle& handle, const MeshBlock& block, std::span<const std::uint8_t> held,
+    VertexHandles& to) const;
+  void setValues(const Handle& handle, const MeshBlock& block, std::span<const std::uint8_t> held,
+    VertexHandles& to) const;
 
   MeshColumns OfMesh;
   std::vector<Handle> All;

@@ -147,56 +147,62 @@ void DatumOnMesh::require(const Entry& entry, const double* numbers, auto where)
   }
 }
 
+void DatumOnMesh::forEntries(
+  const MeshBlock& block, std::span<const std::int32_t> entry, auto visit) const
+{
+  for (std::int32_t e = 0; e < this->entries(); ++e)
+  {
+    const Entry& given = this->at(e);
+    const ValueOnMesh::InBlock value = given.value.in(block);
+    for (std::size_t k = 0; k < entry.size(); ++k)
+    {
+      if (entry[k] == e)
+      {
+        visit(given, value, k);
+      }
+    }
+  }
+}
+
 void DatumOnMesh::valuesAtVertices(const MeshBlock& block, std::span<const std::int32_t> entry,
   double* values, std::size_t stride) const
 {
-  for (std::size_t i = 0; i < entry.size(); ++i)
+  const auto at = [&](const Entry& given, const ValueOnMesh::InBlock& value, std::size_t i)
   {
-    if (entry[i] >= 0)
-    {
-      const Entry& given = this->at(entry[i]);
-      double* numbers = values + i * stride;
-      given.value.atVertex(block, i, numbers);
-      this->require(given, numbers, [&] { return " at " + this->Columns->vertexName(block, i); });
-    }
-  }
+    double* numbers = values + i * stride;
+    value.atVertex(i, numbers);
+    this->require(given, numbers, [&] { return " at " + this->Columns->vertexName(block, i); });
+  };
+  this->forEntries(block, entry, at);
 }
 
 void DatumOnMesh::valuesAtCells(const CellRange& cells, std::span<const std::int32_t> entry,
   double* values, std::size_t stride) const
 {
   const auto corners = static_cast<std::size_t>(cornersOf(this->Columns->cellType()));
-  for (std::size_t c = 0; c < entry.size(); ++c)
+  const auto in = [&](const Entry& given, const ValueOnMesh::InBlock& value, std::size_t c)
   {
-    if (entry[c] >= 0)
-    {
-      const Entry& given = this->at(entry[c]);
-      double* numbers = values + c * stride;
-      given.value.atCell(cells.first + c, cells.corners.data() + c * corners, numbers);
-      this->require(given, numbers,
-        [&] { return " in " + this->Columns->cellName(cells.block, cells.first + c); });
-    }
-  }
+    double* numbers = values + c * stride;
+    value.atCell(cells.first + c, cells.corners.data() + c * corners, numbers);
+    this->require(given, numbers,
+      [&] { return " in " + this->Columns->cellName(cells.block, cells.first + c); });
+  };
+  this->forEntries(cells.block, entry, in);
 }
 
 void DatumOnMesh::valuesAtFacets(const CellRange& cells, std::span<const std::int32_t> entry,
   double* values, std::size_t stride) const
 {
   const auto corners = static_cast<std::size_t>(cornersOf(this->Columns->cellType()));
-  for (std::size_t facet = 0; facet < entry.size(); ++facet)
+  const auto on = [&](const Entry& given, const ValueOnMesh::InBlock& value, std::size_t facet)
   {
-    if (entry[facet] < 0)
-    {
-      continue;
-    }
-    const Entry& given = this->at(entry[facet]);
     const std::size_t c = facet / corners;
     double* numbers = values + facet * (corners - 1) * stride;
     for (std::size_t k = 0; k < corners; ++k)
     {
       if (k != facet % corners)
       {
-        given.value.atCorner(cells.first + c, cells.corners[c * corners + k], numbers);
+        value.atCorner(cells.first + c, cells.corners[c * corners + k], numbers);
         if (this->Rules.complaint(numbers, given.value.components()))
         {
           std::fill_n(numbers, given.value.components(), std::numeric_limits<double>::quiet_NaN());
@@ -204,7 +210,8 @@ void DatumOnMesh::valuesAtFacets(const CellRange& cells, std::span<const std::in
         numbers += stride;
       }
     }
-  }
+  };
+  this->forEntries(cells.block, entry, on);
 }
 
 } // namespace smg

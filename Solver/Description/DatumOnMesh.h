@@ -15,8 +15,8 @@ namespace smg
 
 /**
  * A datum of a description on its mesh, block by block of the stream: the entry that applies at
- * each place, and its value. Blocks are passed in order and stay valid until the next one; the
- * first block restarts it.
+ * each place, and its value. Blocks are passed in order, also those without vertices; the first
+ * block restarts it.
  */
 class DatumOnMesh
 {
@@ -79,6 +79,8 @@ private:
 
   /** Throws Error if the numbers of an entry violate the rules; `where` returns the place. */
   void require(const Entry& entry, const double* numbers, auto where) const;
+  /** Calls `visit(entry, its values in the block, k)` for each k with an entry. */
+  void forEntries(const MeshBlock& block, std::span<const std::int32_t> entry, auto visit) const;
   const Entry& at(std::int32_t entry) const
   {
     return this->Entries[static_cast<std::size_t>(entry)];

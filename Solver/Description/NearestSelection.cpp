@@ -1,12 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Description/NearestSelection.h"
 
+#include "Solver/Projection/PointTree.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace smg
 {
+
+namespace
+{
+
+/** So many vertices are searched at once, however small the blocks are. */
+constexpr std::size_t BatchVertices = 8192;
+
+} // namespace
 
 NearestSelection::NearestSelection(const NearestVertices& nearest, DataPlace place,
   const std::string& key, const MeshColumns& columns)
@@ -25,26 +36,55 @@ NearestSelection::NearestSelection(const NearestVertices& nearest, DataPlace pla
 
 void NearestSelection::prepare(const MeshBlock& block, const std::filesystem::path& /*scratch*/)
 {
+  this->Batch.insert(this->Batch.end(), block.positions.begin(), block.positions.end());
+  if (this->Batch.size() >= 3 * BatchVertices)
+  {
+    this->searchBatch();
+  }
+}
+
+void NearestSelection::searchBatch()
+{
+  std::array<double, 3> low, high;
+  low.fill(std::numeric_limits<double>::infinity());
+  high.fill(-std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < this->Batch.size(); ++i)
+  {
+    low[i % 3] = std::min(low[i % 3], this->Batch[i]);
+    high[i % 3] = std::max(high[i % 3], this->Batch[i]);
+  }
+  std::optional<PointTree> tree;
   for (std::size_t n = 0; n < this->Points.size(); ++n)
   {
-    const auto [px, py, pz] = this->Points[n];
-    for (std::int64_t i = 0; i < block.vertices(); ++i)
+    const std::array<double, 3>& point = this->Points[n];
+    std::array<double, 3> inBox{};
+    for (std::size_t k = 0; k < 3; ++k)
     {
-      const double x = block.positions[3 * i] - px;
-      const double y = block.positions[3 * i + 1] - py;
-      const double z = block.positions[3 * i + 2] - pz;
-      const double distance = x * x + y * y + z * z;
-      if (distance < this->Distances[n])
+      inBox[k] = std::min(std::max(point[k], low[k]), high[k]);
+    }
+    // Most batches are farther from most points than vertices that are known already.
+    if (PointTree::squaredDistance(inBox, point) < this->Distances[n])
+    {
+      if (!tree)
       {
-        this->Distances[n] = distance;
-        this->Vertices[n] = block.firstVertex + i;
+        tree.emplace(this->Batch);
+      }
+      const PointTree::Nearest found = tree->nearest(point, this->Distances[n]);
+      if (found.squaredDistance < this->Distances[n])
+      {
+        this->Distances[n] = found.squaredDistance;
+        this->Vertices[n] = this->BatchBegin + found.point;
       }
     }
   }
+  this->BatchBegin += static_cast<std::int64_t>(this->Batch.size() / 3);
+  this->Batch.clear();
 }
 
 void NearestSelection::endPreparing(MeshParts* parts)
 {
+  this->searchBatch();
+  this->Batch = {};
   if (parts)
   {
     parts->nearest(this->Distances, this->Vertices);

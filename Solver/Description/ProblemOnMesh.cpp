@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Description/ProblemOnMesh.h"
 
+#include "Solver/Stream/StreamCheck.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -161,12 +162,16 @@ void ProblemOnMesh::preparePart(MeshSource& mesh, const std::filesystem::path& s
   const std::vector<DatumOnMesh*> data = this->data();
   const bool selects =
     std::ranges::any_of(data, [](const DatumOnMesh* datum) { return datum->selects(); });
-  for (MeshBlock block; selects && mesh.next(block);)
+  if (selects)
   {
-    for (DatumOnMesh* datum : data)
-    {
-      datum->prepare(block, scratch);
-    }
+    forCheckedBlocks(mesh,
+      [&](const MeshBlock& block)
+      {
+        for (DatumOnMesh* datum : data)
+        {
+          datum->prepare(block, scratch);
+        }
+      });
   }
 }
 

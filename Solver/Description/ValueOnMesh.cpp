@@ -78,8 +78,6 @@ void ValueOnMesh::requireRules(const DataValue& value, const ValueRules& rules,
 
 void ValueOnMesh::startBlock(const MeshBlock& block)
 {
-  this->Current =
-    this->What == OfVertices || this->What == OfCells ? &this->Values.in(block) : nullptr;
   if (this->Place == DataPlace::Vertices || this->What == Constant || this->What == OfCells)
   {
     return;
@@ -92,64 +90,76 @@ void ValueOnMesh::startBlock(const MeshBlock& block)
   this->Open.release(this->Finalized);
   this->Finalized = block.finalized;
   const std::span<double> values = this->Open.append(block.vertices());
+  const InBlock given = this->in(block);
   for (std::size_t i = 0; i < static_cast<std::size_t>(block.vertices()); ++i)
   {
-    this->atVertex(block, i, values.data() + i * static_cast<std::size_t>(this->Components));
+    given.atVertex(i, values.data() + i * static_cast<std::size_t>(this->Components));
   }
 }
 
-void ValueOnMesh::atVertex(const MeshBlock& block, std::size_t i, double* value) const
+ValueOnMesh::InBlock::InBlock(const ValueOnMesh& value, const MeshBlock& block)
+  : Value(value)
+  , Block(block)
+  , Rows(value.What == OfVertices || value.What == OfCells ? &value.Values.in(block) : nullptr)
 {
-  if (this->What == Constant)
+}
+
+void ValueOnMesh::InBlock::copyRow(std::size_t row, double* value) const
+{
+  for (int k = 0; k < this->Value.Components; ++k)
   {
-    std::ranges::copy(this->Numbers, value);
-    return;
-  }
-  if (this->What == Coordinates)
-  {
-    std::copy_n(block.positions.data() + 3 * i, 3, value);
-    return;
-  }
-  for (int k = 0; k < this->Components; ++k)
-  {
-    value[k] = this->Current->value(i, k);
+    value[k] = this->Rows->value(row, k);
   }
 }
 
-void ValueOnMesh::atCell(std::size_t cell, const std::int64_t* corners, double* value) const
+void ValueOnMesh::InBlock::atVertex(std::size_t i, double* value) const
 {
-  if (this->What == Constant || this->What == OfCells)
+  if (this->Value.What == Constant)
+  {
+    std::ranges::copy(this->Value.Numbers, value);
+  }
+  else if (this->Value.What == Coordinates)
+  {
+    std::copy_n(this->Block.positions.data() + 3 * i, 3, value);
+  }
+  else
+  {
+    this->copyRow(i, value);
+  }
+}
+
+void ValueOnMesh::InBlock::atCell(
+  std::size_t cell, const std::int64_t* corners, double* value) const
+{
+  if (this->Value.What == Constant || this->Value.What == OfCells)
   {
     this->atCorner(cell, 0, value);
     return;
   }
-  for (int k = 0; k < this->Components; ++k)
+  for (int k = 0; k < this->Value.Components; ++k)
   {
     double sum = 0.0;
-    for (int corner = 0; corner < this->Corners; ++corner)
+    for (int corner = 0; corner < this->Value.Corners; ++corner)
     {
-      sum += this->Open.at(corners[corner])[k];
+      sum += this->Value.Open.at(corners[corner])[k];
     }
-    value[k] = sum / this->Corners;
+    value[k] = sum / this->Value.Corners;
   }
 }
 
-void ValueOnMesh::atCorner(std::size_t cell, std::int64_t corner, double* value) const
+void ValueOnMesh::InBlock::atCorner(std::size_t cell, std::int64_t corner, double* value) const
 {
-  if (this->What == Constant)
+  if (this->Value.What == Constant)
   {
-    std::ranges::copy(this->Numbers, value);
+    std::ranges::copy(this->Value.Numbers, value);
   }
-  else if (this->What == OfCells)
+  else if (this->Value.What == OfCells)
   {
-    for (int k = 0; k < this->Components; ++k)
-    {
-      value[k] = this->Current->value(cell, k);
-    }
+    this->copyRow(cell, value);
   }
   else
   {
-    std::copy_n(this->Open.at(corner), this->Components, value);
+    std::copy_n(this->Value.Open.at(corner), this->Value.Components, value);
   }
 }
 

@@ -14,8 +14,8 @@
 namespace smg
 {
 
-/** A value of a description on its mesh, block by block of the stream. Blocks are passed in order;
- * the first block restarts it. */
+/** A value of a description on its mesh, block by block of the stream. Blocks are passed in order,
+ * also those without vertices; the first block restarts it. */
 class ValueOnMesh
 {
 public:
@@ -33,16 +33,34 @@ public:
     return this->What == Coordinates ? "the position" : "the column '" + this->Values.name + '\'';
   }
 
-  /** To be called with each block in order, before the methods below; it must stay valid until the
-   * next. */
+  /** To be called with each block in order, before in(). */
   void startBlock(const MeshBlock& block);
-  /** Copies the value at vertex `i` of the current block. */
-  void atVertex(const MeshBlock& block, std::size_t i, double* value) const;
-  /** Copies the value in a cell with these corners; for a column of the vertices, the mean. */
-  void atCell(std::size_t cell, const std::int64_t* corners, double* value) const;
-  /** Copies the value at a corner (a stream index) of a cell; for a column of the cells, that of
-   * the cell. */
-  void atCorner(std::size_t cell, std::int64_t corner, double* value) const;
+
+  /** The values in a block; valid as long as the block. */
+  class InBlock
+  {
+  public:
+    /** Copies the value at vertex `i` of the block. */
+    void atVertex(std::size_t i, double* value) const;
+    /** Copies the value in a cell with these corners; for a column of the vertices, the mean. */
+    void atCell(std::size_t cell, const std::int64_t* corners, double* value) const;
+    /** Copies the value at a corner (a stream index) of a cell; for a column of the cells, that of
+     * the cell. */
+    void atCorner(std::size_t cell, std::int64_t corner, double* value) const;
+
+  private:
+    friend class ValueOnMesh;
+    InBlock(const ValueOnMesh& value, const MeshBlock& block);
+    /** Copies a row of the column. */
+    void copyRow(std::size_t row, double* value) const;
+
+    const ValueOnMesh& Value;
+    const MeshBlock& Block;
+    const Column* Rows; ///< null: a constant or the position
+  };
+
+  /** The values in `block`, the current one. */
+  InBlock in(const MeshBlock& block) const { return { *this, block }; }
 
 private:
   enum Kind
@@ -61,8 +79,7 @@ private:
   int Corners;
   std::vector<double> Numbers;
   NamedColumn Values;
-  const Column* Current = nullptr; ///< the values in the current block
-  OpenValues<double> Open;         ///< of the vertices, for cells and facets
+  OpenValues<double> Open; ///< of the vertices, for cells and facets
   std::int64_t Finalized = 0;
 };
 

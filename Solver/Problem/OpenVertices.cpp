@@ -26,10 +26,7 @@ OpenVertices::OpenVertices(Pool& pool, Problem& problem)
 
 void OpenVertices::add(const MeshBlock& block)
 {
-  if (block.vertices() == 0)
-  {
-    return;
-  }
+  // Also of a block without vertices: the problem may keep data of the block for its cells.
   this->ask(block);
   const std::int64_t begin = this->end();
   const std::int64_t end = begin + block.vertices();

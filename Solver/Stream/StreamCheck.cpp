@@ -34,7 +34,13 @@ void StreamCheck::add(const MeshBlock& block)
                 std::to_string(block.finalized) + " vertices final but only " +
                 std::to_string(this->Vertices) + " have come");
   }
-  this->Final = std::max(this->Final, block.finalized);
+  if (block.finalized < this->Final)
+  {
+    throw Error("the mesh stream is not valid: a block declares " +
+                std::to_string(block.finalized) + " vertices final, an earlier one " +
+                std::to_string(this->Final) + " (`finalized` does not decrease)");
+  }
+  this->Final = block.finalized;
 }
 
 void StreamCheck::addVertices(const MeshBlock& block)

@@ -4,6 +4,7 @@
 #include "smg/MeshSource.h"
 
 #include <cstdint>
+#include <utility>
 
 namespace smg
 {
@@ -19,8 +20,8 @@ public:
 
   /**
    * To be called with each block in order. Throws Error if it does not continue the stream, if a
-   * position is not finite, or if a cell uses a vertex that has not been read yet or was declared
-   * final.
+   * position is not finite, if a cell uses a vertex that has not been read yet or was declared
+   * final, or if `finalized` decreases.
    */
   void add(const MeshBlock& block);
 
@@ -42,5 +43,16 @@ private:
   std::int64_t Cells = 0;
   std::int64_t Final = 0; ///< no cell may use a vertex below
 };
+
+/** Calls `visit` with each block of the stream, or of a part of a mesh, which is checked before. */
+void forCheckedBlocks(MeshSource& mesh, auto visit)
+{
+  StreamCheck check(mesh.info().cellType);
+  for (MeshBlock block; mesh.next(block);)
+  {
+    check.add(block);
+    visit(std::as_const(block));
+  }
+}
 
 } // namespace smg

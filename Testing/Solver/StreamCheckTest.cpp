@@ -47,6 +47,7 @@ TEST(StreamCheck, NamesWhatIsWrong)
     { [](MeshBlock& b) { b.corners[1] = 4; }, "cell 1 uses vertex 4, which is not defined yet" },
     { [](MeshBlock& b) { b.corners[2] = 0; }, "cell 1 uses vertex 0, which was declared final" },
     { [](MeshBlock& b) { b.finalized = 5; }, "declares 5 vertices final but only 4" },
+    { [](MeshBlock& b) { b.finalized = 0; }, "declares 0 vertices final, an earlier one 1" },
   };
   for (const auto& [damage, part] : faults)
   {

@@ -82,7 +82,9 @@ struct MeshBlock
   std::vector<std::int64_t> corners; ///< stream indices, cornersOf(cellType) a cell
   std::vector<Column> vertexColumns; ///< as StreamInfo::vertexColumns, a tuple a vertex
   std::vector<Column> cellColumns;   ///< as StreamInfo::cellColumns, a tuple a cell
-  std::int64_t finalized = 0;        ///< no later block's cell uses a vertex below this index
+  /** No later block's cell uses a vertex below this index. Does not decrease from block to block.
+   */
+  std::int64_t finalized = 0;
 
   /** Number of vertices of the block. */
   std::int64_t vertices() const { return static_cast<std::int64_t>(this->positions.size() / 3); }
