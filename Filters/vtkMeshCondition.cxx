@@ -19,6 +19,24 @@
 
 vtkStandardNewMacro(vtkMeshCondition);
 
+namespace
+{
+
+/** Whether a type of the class is the kind of the same name: one is cast to the other. */
+constexpr bool isKind(vtkMeshCondition::ConditionTypes type, smg::ConditionKind kind)
+{
+  return static_cast<int>(type) == static_cast<int>(kind);
+}
+static_assert(isKind(vtkMeshCondition::DIRICHLET, smg::ConditionKind::Dirichlet));
+static_assert(isKind(vtkMeshCondition::FLUX, smg::ConditionKind::Flux));
+static_assert(isKind(vtkMeshCondition::ROBIN, smg::ConditionKind::Robin));
+static_assert(isKind(vtkMeshCondition::SOURCE, smg::ConditionKind::Source));
+static_assert(isKind(vtkMeshCondition::CONDUCTIVITY, smg::ConditionKind::Conductivity));
+static_assert(isKind(vtkMeshCondition::SCREENING, smg::ConditionKind::Screening));
+static_assert(isKind(vtkMeshCondition::SOFT, smg::ConditionKind::Soft));
+
+} // namespace
+
 struct vtkMeshCondition::Internals
 {
   explicit Internals(vtkMeshCondition& self)

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace smg
@@ -38,7 +39,8 @@ public:
   static std::int64_t stepFor(int threads, std::int64_t nodes)
   {
     constexpr int Many = 6;
-    return threads < Many ? nodes : 2 * nodes;
+    const bool isAll = nodes > std::numeric_limits<std::int64_t>::max() / 2;
+    return threads < Many || isAll ? nodes : 2 * nodes;
   }
   std::vector<double> costs() const;
   int chains() const { return static_cast<int>(this->Ends.size()); }

@@ -50,15 +50,10 @@ HypreMatrix::HypreMatrix(Team& team, const HypreRows& rows, HYPRE_Int rowSize)
   const std::vector<HYPRE_Int> sizes(static_cast<std::size_t>(rows.count()), rowSize);
   team.agree();
   HYPRE_IJMatrixCreate(
-    team.communicator(), rows.begin, rows.end - 1, rows.begin, rows.end - 1, &this->Self);
+    team.communicator(), rows.begin, rows.end - 1, rows.begin, rows.end - 1, &this->Self.object);
   HYPRE_IJMatrixSetObjectType(this->Self, HYPRE_PARCSR);
   HYPRE_IJMatrixSetRowSizes(this->Self, sizes.data());
   checkHypre(HYPRE_IJMatrixInitialize(this->Self), "begin a matrix");
-}
-
-HypreMatrix::~HypreMatrix()
-{
-  HYPRE_IJMatrixDestroy(this->Self);
 }
 
 void HypreMatrix::add(
@@ -83,18 +78,13 @@ HypreVector::HypreVector(Team& team, const HypreRows& rows)
 {
   std::iota(this->Numbers.begin(), this->Numbers.end(), rows.begin);
   team.agree();
-  HYPRE_IJVectorCreate(team.communicator(), rows.begin, rows.end - 1, &this->Self);
+  HYPRE_IJVectorCreate(team.communicator(), rows.begin, rows.end - 1, &this->Self.object);
   HYPRE_IJVectorSetObjectType(this->Self, HYPRE_PARCSR);
   HYPRE_IJVectorInitialize(this->Self);
   checkHypre(HYPRE_IJVectorAssemble(this->Self), "make a vector");
   void* object = nullptr;
   checkHypre(HYPRE_IJVectorGetObject(this->Self, &object), "make a vector");
   this->Parallel = static_cast<HYPRE_ParVector>(object);
-}
-
-HypreVector::~HypreVector()
-{
-  HYPRE_IJVectorDestroy(this->Self);
 }
 
 void HypreVector::set(std::span<const double> values)
@@ -114,7 +104,7 @@ void HypreVector::get(std::span<double> values) const
 BoomerAmg::BoomerAmg(const HypreMatrix& matrix, const HypreVector& b, const HypreVector& x)
   : Matrix(matrix)
 {
-  HYPRE_BoomerAMGCreate(&this->Self);
+  HYPRE_BoomerAMGCreate(&this->Self.object);
   HYPRE_BoomerAMGSetTol(this->Self, 0.0);
   HYPRE_BoomerAMGSetMaxIter(this->Self, 1);
   HYPRE_BoomerAMGSetPrintLevel(this->Self, 0);
@@ -123,11 +113,6 @@ BoomerAmg::BoomerAmg(const HypreMatrix& matrix, const HypreVector& b, const Hypr
   HYPRE_BoomerAMGSetRelaxType(this->Self, 8);
   checkHypre(HYPRE_BoomerAMGSetup(this->Self, matrix.parallel(), b.parallel(), x.parallel()),
     "set up BoomerAMG");
-}
-
-BoomerAmg::~BoomerAmg()
-{
-  HYPRE_BoomerAMGDestroy(this->Self);
 }
 
 void BoomerAmg::apply(const HypreVector& b, HypreVector& x) const

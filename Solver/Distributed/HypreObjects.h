@@ -28,6 +28,25 @@ struct HypreRows
 /** Throws Error if a function of hypre returned an error; `what` is what it was to do. */
 void checkHypre(HYPRE_Int error, const char* what);
 
+/** Owns an object of hypre, also while a constructor that makes it throws. */
+template <class Object, auto Destroy>
+struct HypreOwner
+{
+  HypreOwner() = default;
+  ~HypreOwner()
+  {
+    if (this->object)
+    {
+      Destroy(this->object);
+    }
+  }
+  HypreOwner(const HypreOwner&) = delete;
+  HypreOwner& operator=(const HypreOwner&) = delete;
+  operator Object() const { return this->object; }
+
+  Object object = nullptr;
+};
+
 /** A square matrix of hypre. Constructor, assemble(), multiply() and destructor are called on all
  * processes. */
 class HypreMatrix
@@ -35,9 +54,6 @@ class HypreMatrix
 public:
   /** Reserves memory for `rowSize` entries of a row. */
   HypreMatrix(Team& team, const HypreRows& rows, HYPRE_Int rowSize);
-  ~HypreMatrix();
-  HypreMatrix(const HypreMatrix&) = delete;
-  HypreMatrix& operator=(const HypreMatrix&) = delete;
 
   /** Adds numbers to a row of any process. */
   void add(HYPRE_BigInt row, std::span<const HYPRE_BigInt> columns, std::span<const double> values);
@@ -47,7 +63,7 @@ public:
 
 private:
   Team& Processes;
-  HYPRE_IJMatrix Self = nullptr;
+  HypreOwner<HYPRE_IJMatrix, HYPRE_IJMatrixDestroy> Self;
   HYPRE_ParCSRMatrix Parallel = nullptr;
 };
 
@@ -57,9 +73,6 @@ class HypreVector
 public:
   /** Zeroed. */
   HypreVector(Team& team, const HypreRows& rows);
-  ~HypreVector();
-  HypreVector(const HypreVector&) = delete;
-  HypreVector& operator=(const HypreVector&) = delete;
 
   /** Sets and returns the numbers of the rows of this process. */
   void set(std::span<const double> values);
@@ -69,7 +82,7 @@ public:
 
 private:
   std::vector<HYPRE_BigInt> Numbers; ///< of the rows
-  HYPRE_IJVector Self = nullptr;
+  HypreOwner<HYPRE_IJVector, HYPRE_IJVectorDestroy> Self;
   HYPRE_ParVector Parallel = nullptr;
 };
 
@@ -80,16 +93,13 @@ class BoomerAmg
 public:
   /** Builds the hierarchy. `matrix` must outlive it; b and x are any vectors of its rows. */
   BoomerAmg(const HypreMatrix& matrix, const HypreVector& b, const HypreVector& x);
-  ~BoomerAmg();
-  BoomerAmg(const BoomerAmg&) = delete;
-  BoomerAmg& operator=(const BoomerAmg&) = delete;
 
   /** x = M b. */
   void apply(const HypreVector& b, HypreVector& x) const;
 
 private:
   const HypreMatrix& Matrix;
-  HYPRE_Solver Self = nullptr;
+  HypreOwner<HYPRE_Solver, HYPRE_BoomerAMGDestroy> Self;
 };
 
 } // namespace smg

@@ -71,16 +71,22 @@ void Team::agree(const char* failure, bool cancelled)
     return;
   }
   this->Over = true;
-  std::string text = first == this->Rank ? failure : "";
-  int about[2] = { static_cast<int>(text.size()), cancelled ? 1 : 0 };
-  MPI_Bcast(about, 2, MPI_INT, first, this->Processes);
-  text.resize(static_cast<std::size_t>(about[0]));
-  MPI_Bcast(text.data(), about[0], MPI_CHAR, first, this->Processes);
-  if (about[1] != 0)
+  // On the stack: a process without memory must take part, too, or the others wait for it.
+  struct
+  {
+    int isCancelled;
+    char text[4092];
+  } message = { cancelled ? 1 : 0, {} };
+  if (first == this->Rank)
+  {
+    std::snprintf(message.text, sizeof(message.text), "%s", failure);
+  }
+  MPI_Bcast(&message, sizeof(message), MPI_BYTE, first, this->Processes);
+  if (message.isCancelled != 0)
   {
     throw Cancelled();
   }
-  throw TeamError(text);
+  throw TeamError(message.text);
 }
 
 void Team::fail(const char* failure, bool cancelled)

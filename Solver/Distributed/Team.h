@@ -100,25 +100,17 @@ void Team::run(Work&& work)
     work();
     this->agree();
   }
-  catch (const Cancelled& cancelled)
-  {
-    if (this->Over)
-    {
-      throw;
-    }
-    this->fail(cancelled.what(), true);
-  }
-  catch (const std::bad_alloc&)
-  {
-    this->fail(nullptr, false);
-  }
   catch (const std::exception& error)
   {
+    // Once all know of the failure, another one, as of memory for its message, concerns no other
+    // process: these have ended their work and would not answer.
     if (this->Over)
     {
       throw;
     }
-    this->fail(error.what(), false);
+    const bool isMemory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+    const bool isCancelled = dynamic_cast<const Cancelled*>(&error) != nullptr;
+    this->fail(isMemory ? nullptr : error.what(), isCancelled);
   }
 }
 

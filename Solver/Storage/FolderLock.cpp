@@ -109,8 +109,10 @@ std::shared_ptr<FolderLock> FolderLock::acquire(const std::filesystem::path& fol
   {
     failUsed(folder);
   }
-  std::shared_ptr<FolderLock> lock(new FolderLock(opened.number));
+  // Owned from here on, also where there is no memory for the shared_ptr.
+  std::unique_ptr<FolderLock> owner(new FolderLock(opened.number));
   opened.number = -1;
+  const std::shared_ptr<FolderLock> lock = std::move(owner);
   heldLocks().push_back(lock);
   return lock;
 }

@@ -9,10 +9,13 @@
 #include <HYPRE_utilities.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <new>
+#include <span>
 
 // A failure of one process ends the work of all, with one message. A process that waited for ever
 // would be ended by the watchdog of the program, and the test with it.
@@ -98,6 +101,38 @@ TEST(DistributedFailures, ThatAllKnowAreOfATypeOfTheirOwn)
   EXPECT_THROW(team.run([&] { failIn(last, Cancelled()); }), Cancelled);
   // Within another, as solvers are run by programs.
   EXPECT_THROW(team.run([&] { team.run([&] { failIn(last, Error("no room")); }); }), TeamError);
+}
+
+TEST(DistributedFailures, AfterACommonOneConcernNoOtherProcess)
+{
+  Team team(MPI_COMM_WORLD);
+  const auto failTwice = [&]
+  {
+    try
+    {
+      team.run([] { throw Error("no room"); });
+    }
+    catch (const TeamError&)
+    {
+      if (rankOfTest() == 0)
+      {
+        throw std::bad_alloc(); // for the message, say
+      }
+      throw;
+    }
+  };
+  if (rankOfTest() == 0)
+  {
+    EXPECT_THROW(team.run(failTwice), std::bad_alloc);
+  }
+  else
+  {
+    EXPECT_THROW(team.run(failTwice), TeamError);
+  }
+  // All processes are at the same place again.
+  std::array<std::int64_t, 1> ones{ 1 };
+  team.run([&] { team.sum(std::span<std::int64_t>(ones)); });
+  EXPECT_EQ(ones[0], sizeOfTest());
 }
 
 TEST(DistributedFailures, OfOtherUsersOfHypreAreNotOurs)

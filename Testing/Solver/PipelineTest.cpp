@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -64,6 +66,16 @@ TEST(Pipeline, AdvancesAllStagesInOrder)
   pipeline.cut(3);
   pipeline.advance();
   EXPECT_EQ(log, "abc");
+}
+
+TEST(Pipeline, StepsOfAnyLengthDoNotOverflow)
+{
+  constexpr std::int64_t Most = std::numeric_limits<std::int64_t>::max();
+  for (const std::int64_t nodes : { std::int64_t(1), Most / 2, Most / 2 + 1, Most })
+  {
+    EXPECT_EQ(Pipeline::stepFor(1, nodes), nodes);
+    EXPECT_GE(Pipeline::stepFor(8, nodes), nodes);
+  }
 }
 
 } // namespace smg::testing
