@@ -1,0 +1,726 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Random/Oracle.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace smg::testing
+{
+namespace
+{
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using nlohmann::json;
+
+/** What places and values refer to. */
+enum class Of
+{
+  Vertices,
+  Cells,
+  Facets
+};
+
+/** A facet of a cell: opposite to its corner k. */
+struct Facet
+{
+  std::int64_t cell;
+  std::vector<std::int64_t> corners; ///< ascending
+};
+
+const CaseColumn* find(const std::vector<CaseColumn>& columns, const std::string& name)
+{
+  const auto found =
+    std::ranges::find_if(columns, [&](const CaseColumn& column) { return column.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+VectorXd rowOf(const CaseColumn& column, std::int64_t row)
+{
+  return VectorXd::Map(column.values.data() + row * column.components, column.components);
+}
+
+/** The entries of a datum: a list of objects, or one value that holds everywhere. */
+std::vector<json> entriesOf(const json& datum)
+{
+  if (datum.is_array() && !datum.empty() && datum[0].is_object())
+  {
+    return { datum.begin(), datum.end() };
+  }
+  return { json{ { "value", datum } } };
+}
+
+/** Evaluates places and values on a mesh. */
+class Evaluation
+{
+public:
+  explicit Evaluation(const Case& given)
+    : On(given)
+    , Flags(given.flags())
+  {
+    const int size = cornersOf(given.type);
+    std::map<std::vector<std::int64_t>, int> count;
+    for (std::int64_t c = 0; c < given.cells(); ++c)
+    {
+      std::set<std::int64_t> distinct(given.cell(c), given.cell(c) + size);
+      const bool counts = static_cast<int>(distinct.size()) == size &&
+                          !(this->Flags[static_cast<std::size_t>(c)] & DuplicateCell);
+      for (int k = 0; k < size; ++k)
+      {
+        std::vector<std::int64_t> corners(given.cell(c), given.cell(c) + size);
+        corners.erase(corners.begin() + k);
+        std::ranges::sort(corners);
+        this->All.push_back({ c, corners });
+        count[corners] += counts ? 1 : 0;
+        this->Counts.push_back(counts);
+      }
+    }
+    for (std::size_t f = 0; f < this->All.size(); ++f)
+    {
+      if (this->Counts[f] && count[this->All[f].corners] == 1)
+      {
+        this->Boundary.push_back(f);
+      }
+    }
+  }
+
+  const std::vector<std::uint8_t>& flags() const { return this->Flags; }
+  const std::vector<Facet>& facets() const { return this->All; }
+  const std::vector<std::size_t>& boundary() const { return this->Boundary; }
+  Vector3d point(std::int64_t v) const
+  {
+    return Vector3d::Map(&this->On.points[3 * static_cast<std::size_t>(v)]);
+  }
+
+  /** The vertices, cells or facets of a place; sets `isEmpty` if there are none. */
+  std::vector<bool> select(const json& place, Of of, bool& isEmpty) const;
+  /** For each vertex, cell or facet the last entry that holds there; -1: none. */
+  std::vector<int> last(const std::vector<json>& entries, Of of, bool& isEmpty) const;
+
+  VectorXd atVertex(const json& value, std::int64_t v) const;
+  VectorXd inCell(const json& value, std::int64_t c) const;
+  /** At the corner v of cell c. */
+  VectorXd atCorner(const json& value, std::int64_t c, std::int64_t v) const
+  {
+    const CaseColumn* ofCells = this->cellColumn(value);
+    return ofCells ? rowOf(*ofCells, c) : this->atVertex(value, v);
+  }
+  const CaseColumn* cellColumn(const json& value) const
+  {
+    return value.is_string() ? find(this->On.cellColumns, value) : nullptr;
+  }
+  /** Whether an entry names a column of the cells. */
+  bool namesCells(const json& entry) const
+  {
+    return this->cellColumn(entry.at("value")) ||
+           (entry.contains("mask") && this->cellColumn(entry.at("mask"))) ||
+           (entry.contains("tag") && this->cellColumn(entry.at("tag")[0]));
+  }
+
+private:
+  std::vector<bool> verticesOf(const json& place) const;
+  /** Whether a tag or mask holds in a row of its column. */
+  static bool holds(const json& place, const CaseColumn& column, std::int64_t row)
+  {
+    const double value = column.values[static_cast<std::size_t>(row)];
+    return place.contains("tag") ? value == place.at("tag")[1].get<double>() : value != 0.0;
+  }
+
+  const Case& On;
+  std::vector<std::uint8_t> Flags;
+  std::vector<Facet> All;
+  std::vector<bool> Counts;
+  std::vector<std::size_t> Boundary;
+};
+
+std::vector<bool> Evaluation::verticesOf(const json& place) const
+{
+  std::vector<bool> selected(static_cast<std::size_t>(this->On.vertices()), false);
+  const auto set = [&](const std::function<bool(const Vector3d&)>& contains)
+  {
+    for (std::size_t v = 0; v < selected.size(); ++v)
+    {
+      selected[v] = contains(this->point(static_cast<std::int64_t>(v)));
+    }
+  };
+  if (place.contains("halfspace"))
+  {
+    const std::vector<double> n = place.at("halfspace");
+    set([&](const Vector3d& p) { return n[0] * p[0] + n[1] * p[1] + n[2] * p[2] >= n[3]; });
+  }
+  else if (place.contains("box"))
+  {
+    const std::vector<double> b = place.at("box");
+    set(
+      [&](const Vector3d& p)
+      {
+        return p[0] >= b[0] && p[1] >= b[1] && p[2] >= b[2] && p[0] <= b[3] && p[1] <= b[4] &&
+               p[2] <= b[5];
+      });
+  }
+  else if (place.contains("sphere"))
+  {
+    const std::vector<double> s = place.at("sphere");
+    set([&](const Vector3d& p) { return (p - Vector3d(s[0], s[1], s[2])).norm() <= s[3]; });
+  }
+  else if (place.contains("vertices"))
+  {
+    for (const std::size_t v : place.at("vertices"))
+    {
+      if (v < selected.size())
+      {
+        selected[v] = true;
+      }
+    }
+  }
+  else if (place.contains("nearest"))
+  {
+    for (const std::vector<double> q : place.at("nearest"))
+    {
+      std::size_t best = 0;
+      const auto distance = [&](std::size_t v) {
+        return (this->point(static_cast<std::int64_t>(v)) - Vector3d(q[0], q[1], q[2]))
+          .squaredNorm();
+      };
+      for (std::size_t v = 1; v < selected.size(); ++v)
+      {
+        best = distance(v) < distance(best) ? v : best;
+      }
+      selected[best] = true;
+    }
+  }
+  else if (place.contains("boundary"))
+  {
+    for (const std::size_t f : this->Boundary)
+    {
+      for (const std::int64_t v : this->All[f].corners)
+      {
+        selected[static_cast<std::size_t>(v)] = true;
+      }
+    }
+  }
+  else
+  {
+    const CaseColumn& column =
+      *find(this->On.vertexColumns, place.contains("tag") ? place.at("tag")[0].get<std::string>()
+                                                          : place.at("mask").get<std::string>());
+    for (std::size_t v = 0; v < selected.size(); ++v)
+    {
+      selected[v] = holds(place, column, static_cast<std::int64_t>(v));
+    }
+  }
+  return selected;
+}
+
+std::vector<bool> Evaluation::select(const json& place, Of of, bool& isEmpty) const
+{
+  const int size = cornersOf(this->On.type);
+  const std::size_t count = of == Of::Vertices ? static_cast<std::size_t>(this->On.vertices())
+                            : of == Of::Cells  ? static_cast<std::size_t>(this->On.cells())
+                                               : this->All.size();
+  std::vector<bool> selected(count, false);
+  const char* const keys[] = { "halfspace", "box", "sphere", "vertices", "nearest", "boundary",
+    "tag", "mask" };
+  if (std::ranges::none_of(keys, [&](const char* key) { return place.contains(key); }))
+  {
+    selected.assign(count, true);
+    return selected;
+  }
+  const CaseColumn* cells = place.contains("mask")  ? this->cellColumn(place.at("mask"))
+                            : place.contains("tag") ? this->cellColumn(place.at("tag")[0])
+                                                    : nullptr;
+  if (cells)
+  {
+    bool any = false;
+    for (std::int64_t c = 0; c < this->On.cells(); ++c)
+    {
+      if (holds(place, *cells, c))
+      {
+        any = true;
+        for (int k = 0; k < size; ++k)
+        {
+          selected[static_cast<std::size_t>(of == Of::Vertices ? this->On.cell(c)[k]
+                                            : of == Of::Cells  ? c
+                                                               : c * size + k)] = true;
+        }
+      }
+    }
+    isEmpty = isEmpty || !any;
+    return selected;
+  }
+  const std::vector<bool> vertices = this->verticesOf(place);
+  const auto isIn = [&](std::int64_t v) { return vertices[static_cast<std::size_t>(v)]; };
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const auto number = static_cast<std::int64_t>(k);
+    selected[k] = of == Of::Vertices ? vertices[k]
+                  : of == Of::Cells
+                    ? std::all_of(this->On.cell(number), this->On.cell(number) + size, isIn)
+                    : std::ranges::all_of(this->All[k].corners, isIn);
+  }
+  // The boundary and nearest vertices count by themselves.
+  const bool byVertices = place.contains("boundary") || place.contains("nearest");
+  isEmpty = isEmpty || std::ranges::count(byVertices ? vertices : selected, true) == 0;
+  return selected;
+}
+
+std::vector<int> Evaluation::last(const std::vector<json>& entries, Of of, bool& isEmpty) const
+{
+  std::vector<int> result;
+  for (std::size_t e = 0; e < entries.size(); ++e)
+  {
+    const std::vector<bool> selected = this->select(entries[e], of, isEmpty);
+    result.resize(selected.size(), -1);
+    for (std::size_t k = 0; k < selected.size(); ++k)
+    {
+      result[k] = selected[k] ? static_cast<int>(e) : result[k];
+    }
+  }
+  return result;
+}
+
+VectorXd Evaluation::atVertex(const json& value, std::int64_t v) const
+{
+  if (value.is_string())
+  {
+    if (value == "position")
+    {
+      return this->point(v);
+    }
+    return rowOf(*find(this->On.vertexColumns, value), v);
+  }
+  const std::vector<double> numbers =
+    value.is_array() ? value.get<std::vector<double>>() : std::vector{ value.get<double>() };
+  return VectorXd::Map(numbers.data(), std::ssize(numbers));
+}
+
+VectorXd Evaluation::inCell(const json& value, std::int64_t c) const
+{
+  if (const CaseColumn* column = this->cellColumn(value))
+  {
+    return rowOf(*column, c);
+  }
+  const int size = cornersOf(this->On.type);
+  VectorXd sum = this->atVertex(value, this->On.cell(c)[0]);
+  for (int k = 1; k < size; ++k)
+  {
+    sum += this->atVertex(value, this->On.cell(c)[k]);
+  }
+  return sum / size;
+}
+
+Matrix3d tensorOf(const VectorXd& k)
+{
+  if (k.size() == 1)
+  {
+    return k[0] * Matrix3d::Identity();
+  }
+  Matrix3d tensor = k.head(3).asDiagonal();
+  if (k.size() == 6)
+  {
+    tensor(0, 1) = tensor(1, 0) = k[3];
+    tensor(1, 2) = tensor(2, 1) = k[4];
+    tensor(0, 2) = tensor(2, 0) = k[5];
+  }
+  return tensor;
+}
+
+/** The equations before Dirichlet values. */
+class Equations
+{
+public:
+  Equations(const Case& given, Oracle& to)
+    : On(given)
+    , To(to)
+    , At(given)
+    , Columns(given.problem.value("columns", 1))
+    , Mass(VectorXd::Zero(given.vertices()))
+    , Reaction(VectorXd::Zero(given.vertices()))
+    , Part(static_cast<std::size_t>(given.vertices()))
+  {
+    to.matrix = MatrixXd::Zero(given.vertices(), given.vertices());
+    to.rightSide = to.loads = MatrixXd::Zero(given.vertices(), this->Columns);
+    std::iota(this->Part.begin(), this->Part.end(), std::int64_t(0));
+    this->addCells();
+    this->addDensities();
+    this->addSoft();
+    this->addFacets();
+    this->To.matrix.diagonal() += this->Reaction;
+  }
+
+  void solve();
+  bool isEmpty() const { return this->Empty; }
+
+private:
+  void addCells();
+  void addUniformEdges();
+  void addDensities();
+  void addSoft();
+  void addFacets();
+  MatrixXd initial();
+  void addDirichlet(std::vector<int>& held);
+  std::int64_t partOf(std::int64_t v)
+  {
+    auto& part = this->Part[static_cast<std::size_t>(v)];
+    return part == v ? v : part = this->partOf(part);
+  }
+  void addLoad(std::int64_t v, const Eigen::RowVectorXd& load)
+  {
+    this->To.rightSide.row(v) += load;
+    this->To.loads.row(v) += load.cwiseAbs();
+  }
+  bool isGiven(const char* key) const { return this->On.problem.contains(key); }
+  std::vector<json> entries(const char* key) const { return entriesOf(this->On.problem.at(key)); }
+
+  const Case& On;
+  Oracle& To;
+  Evaluation At;
+  int Columns;
+  VectorXd Mass, Reaction, Measure;
+  std::vector<std::int64_t> Part; ///< connected by cells: the parents of a forest
+  bool Empty = false;
+};
+
+void Equations::addCells()
+{
+  const int size = cornersOf(this->On.type);
+  const bool isUniform = this->On.problem.value("weights", "cotangent") == "uniform";
+  const std::vector<json> conductivity =
+    this->isGiven("conductivity") ? this->entries("conductivity") : std::vector<json>{};
+  const std::vector<int> entry = this->At.last(conductivity, Of::Cells, this->Empty);
+  const CaseColumn* field =
+    this->isGiven("field") ? find(this->On.cellColumns, this->On.problem.at("field")) : nullptr;
+  this->Measure = VectorXd::Zero(this->On.cells());
+  this->To.gradients.resize(static_cast<std::size_t>(this->On.cells()));
+  this->To.conductivity.resize(static_cast<std::size_t>(this->On.cells()));
+  for (std::int64_t c = 0; c < this->On.cells(); ++c)
+  {
+    const auto index = static_cast<std::size_t>(c);
+    if (this->At.flags()[index] != 0)
+    {
+      continue;
+    }
+    const std::int64_t* corner = this->On.cell(c);
+    MatrixXd jacobian(3, size - 1);
+    for (int k = 1; k < size; ++k)
+    {
+      jacobian.col(k - 1) = this->At.point(corner[k]) - this->At.point(corner[0]);
+      this->Part[static_cast<std::size_t>(this->partOf(corner[k]))] = this->partOf(corner[0]);
+    }
+    const MatrixXd gradientsOfAll = jacobian.completeOrthogonalDecomposition().pseudoInverse();
+    MatrixXd gradients(size, 3);
+    gradients.bottomRows(size - 1) = gradientsOfAll;
+    gradients.row(0) = -gradientsOfAll.colwise().sum();
+    const double measure = size == 3
+                             ? jacobian.col(0).head<3>().cross(jacobian.col(1).head<3>()).norm() / 2
+                             : std::abs(jacobian.determinant()) / 6;
+    const Matrix3d k = !conductivity.empty() && entry[index] >= 0
+                         ? tensorOf(this->At.inCell(
+                             conductivity[static_cast<std::size_t>(entry[index])].at("value"), c))
+                         : Matrix3d::Identity();
+    this->Measure[c] = measure;
+    this->To.gradients[index] = gradients;
+    this->To.conductivity[index] = k;
+    const MatrixXd element = measure * gradients * k * gradients.transpose();
+    for (int i = 0; i < size; ++i)
+    {
+      this->Mass[corner[i]] += measure / size;
+      for (int j = 0; j < size && !isUniform; ++j)
+      {
+        this->To.matrix(corner[i], corner[j]) += element(i, j);
+      }
+      for (int column = 0; field && column < this->Columns; ++column)
+      {
+        const double* q = field->values.data() + c * field->components;
+        q += field->components == 3 ? 0 : 3 * column;
+        this->To.rightSide(corner[i], column) += measure * gradients.row(i).dot(Vector3d::Map(q));
+      }
+    }
+  }
+  if (isUniform)
+  {
+    this->addUniformEdges();
+  }
+}
+
+void Equations::addUniformEdges()
+{
+  std::set<std::pair<std::int64_t, std::int64_t>> edges;
+  const int size = cornersOf(this->On.type);
+  for (std::int64_t c = 0; c < this->On.cells(); ++c)
+  {
+    for (int i = 0; i < size && this->At.flags()[static_cast<std::size_t>(c)] == 0; ++i)
+    {
+      for (int j = 0; j < i; ++j)
+      {
+        edges.insert(std::minmax(this->On.cell(c)[i], this->On.cell(c)[j]));
+      }
+    }
+  }
+  for (const auto& [i, j] : edges)
+  {
+    this->To.matrix(i, j) -= 1.0;
+    this->To.matrix(j, i) -= 1.0;
+    this->To.matrix(i, i) += 1.0;
+    this->To.matrix(j, j) += 1.0;
+  }
+}
+
+/** Screening and source, at vertices or in cells, lumped. */
+void Equations::addDensities()
+{
+  const int size = cornersOf(this->On.type);
+  for (const char* key : { "screening", "source" })
+  {
+    if (!this->isGiven(key))
+    {
+      continue;
+    }
+    const bool isSource = key == std::string("source");
+    const std::vector<json> entries = this->entries(key);
+    const auto add = [&](std::int64_t v, double mass, const VectorXd& value)
+    {
+      if (isSource)
+      {
+        this->addLoad(v, mass * value.transpose());
+      }
+      else
+      {
+        this->Reaction[v] += mass * value[0];
+      }
+    };
+    const bool inCells =
+      std::ranges::any_of(entries, [&](const json& entry) { return this->At.namesCells(entry); });
+    const std::vector<int> last =
+      this->At.last(entries, inCells ? Of::Cells : Of::Vertices, this->Empty);
+    for (std::size_t k = 0; k < last.size(); ++k)
+    {
+      if (last[k] < 0)
+      {
+        continue;
+      }
+      const auto number = static_cast<std::int64_t>(k);
+      const json& value = entries[static_cast<std::size_t>(last[k])].at("value");
+      if (!inCells)
+      {
+        add(number, this->Mass[number], this->At.atVertex(value, number));
+        continue;
+      }
+      for (int i = 0; i < size; ++i)
+      {
+        add(this->On.cell(number)[i], this->Measure[number] / size, this->At.inCell(value, number));
+      }
+    }
+  }
+}
+
+void Equations::addSoft()
+{
+  if (!this->isGiven("soft"))
+  {
+    return;
+  }
+  for (const json& soft : this->On.problem.at("soft"))
+  {
+    const std::vector<bool> selected = this->At.select(soft, Of::Vertices, this->Empty);
+    const std::vector<json> weights = entriesOf(soft.at("weight"));
+    const std::vector<int> last = this->At.last(weights, Of::Vertices, this->Empty);
+    for (std::size_t v = 0; v < selected.size(); ++v)
+    {
+      if (selected[v] && last[v] >= 0)
+      {
+        const auto number = static_cast<std::int64_t>(v);
+        const double weight =
+          this->Mass[number] *
+          this->At.atVertex(weights[static_cast<std::size_t>(last[v])].at("value"), number)[0];
+        this->Reaction[number] += weight;
+        this->addLoad(number, weight * this->At.atVertex(soft.at("value"), number).transpose());
+      }
+    }
+  }
+}
+
+void Equations::addFacets()
+{
+  const std::vector<json> fluxes =
+    this->isGiven("flux") ? this->entries("flux") : std::vector<json>{};
+  const std::vector<json> robins =
+    this->isGiven("robin") ? this->entries("robin") : std::vector<json>{};
+  const std::vector<int> flux = this->At.last(fluxes, Of::Facets, this->Empty);
+  const std::vector<int> robin = this->At.last(robins, Of::Facets, this->Empty);
+  std::vector<std::vector<json>> coefficients;
+  std::vector<std::vector<int>> coefficient;
+  for (const json& entry : robins)
+  {
+    coefficients.push_back(entriesOf(entry.at("coefficient")));
+    coefficient.push_back(this->At.last(coefficients.back(), Of::Facets, this->Empty));
+  }
+  for (const std::size_t f : this->At.boundary())
+  {
+    const Facet& facet = this->At.facets()[f];
+    const Vector3d a = this->At.point(facet.corners[0]);
+    const Vector3d b = this->At.point(facet.corners[1]) - a;
+    const double area = facet.corners.size() == 2
+                          ? b.norm()
+                          : b.cross(this->At.point(facet.corners[2]) - a).norm() / 2;
+    const double share = area / static_cast<double>(facet.corners.size());
+    for (const std::int64_t v : facet.corners)
+    {
+      if (!fluxes.empty() && flux[f] >= 0)
+      {
+        const json& value = fluxes[static_cast<std::size_t>(flux[f])].at("value");
+        this->addLoad(v, share * this->At.atCorner(value, facet.cell, v).transpose());
+      }
+      if (robins.empty() || robin[f] < 0)
+      {
+        continue;
+      }
+      const auto r = static_cast<std::size_t>(robin[f]);
+      if (const int entry = coefficient[r][f]; entry >= 0)
+      {
+        const json& value = coefficients[r][static_cast<std::size_t>(entry)].at("value");
+        const double weight = share * this->At.atCorner(value, facet.cell, v)[0];
+        this->Reaction[v] += weight;
+        this->addLoad(
+          v, weight * this->At.atCorner(robins[r].at("ambient"), facet.cell, v).transpose());
+      }
+    }
+  }
+}
+
+MatrixXd Equations::initial()
+{
+  MatrixXd initial = MatrixXd::Zero(this->On.vertices(), this->Columns);
+  std::vector<json> entries;
+  if (this->isGiven("initial"))
+  {
+    entries = this->entries("initial");
+  }
+  else if (this->isGiven("dirichlet") &&
+           std::ranges::any_of(this->entries("dirichlet"),
+             [](const json& entry) { return entry.at("value") == "position"; }))
+  {
+    entries = { json{ { "value", "position" } } };
+  }
+  const std::vector<int> last = this->At.last(entries, Of::Vertices, this->Empty);
+  for (std::size_t v = 0; v < last.size(); ++v)
+  {
+    if (last[v] >= 0)
+    {
+      const auto number = static_cast<std::int64_t>(v);
+      initial.row(number) =
+        this->At.atVertex(entries[static_cast<std::size_t>(last[v])].at("value"), number)
+          .transpose();
+    }
+  }
+  return initial;
+}
+
+void Equations::solve()
+{
+  const std::int64_t vertices = this->On.vertices();
+  const MatrixXd start = this->initial();
+  const std::vector<json> dirichlet =
+    this->isGiven("dirichlet") ? this->entries("dirichlet") : std::vector<json>{};
+  std::vector<int> held = this->At.last(dirichlet, Of::Vertices, this->Empty);
+  held.resize(static_cast<std::size_t>(vertices), -1);
+  std::map<std::int64_t, std::vector<std::int64_t>> parts;
+  std::set<std::int64_t> fixed;
+  for (std::int64_t v = 0; v < vertices; ++v)
+  {
+    const std::int64_t part = this->partOf(v);
+    parts[part].push_back(v);
+    if (held[static_cast<std::size_t>(v)] >= 0 || this->Reaction[v] > 0.0)
+    {
+      fixed.insert(part);
+    }
+  }
+  this->To.determined.assign(static_cast<std::size_t>(vertices), true);
+  MatrixXd system = this->To.matrix;
+  // A body without any condition: compatible loads, and one equation for its mean.
+  for (const auto& [part, members] : parts)
+  {
+    double mass = 0.0;
+    VectorXd load = VectorXd::Zero(this->Columns);
+    for (const std::int64_t v : members)
+    {
+      mass += this->Mass[v];
+      load += this->To.rightSide.row(v).transpose();
+    }
+    if (fixed.contains(part))
+    {
+      continue;
+    }
+    if (mass == 0.0)
+    {
+      for (const std::int64_t v : members)
+      {
+        this->To.determined[static_cast<std::size_t>(v)] = false;
+        system.row(v).setZero();
+        system(v, v) = 1.0;
+        this->To.rightSide.row(v).setZero();
+      }
+      continue;
+    }
+    for (const std::int64_t v : members)
+    {
+      this->To.rightSide.row(v) -= this->Mass[v] / mass * load.transpose();
+    }
+  }
+  this->To.matrix = system;
+  for (std::int64_t v = 0; v < vertices; ++v)
+  {
+    if (const int entry = held[static_cast<std::size_t>(v)]; entry >= 0)
+    {
+      this->To.matrix.row(v).setZero();
+      this->To.matrix(v, v) = 1.0;
+      this->To.rightSide.row(v) =
+        this->At.atVertex(dirichlet[static_cast<std::size_t>(entry)].at("value"), v).transpose();
+    }
+  }
+  system = this->To.matrix;
+  MatrixXd rightSide = this->To.rightSide;
+  for (const auto& [part, members] : parts)
+  {
+    if (fixed.contains(part) || !this->To.determined[static_cast<std::size_t>(members[0])])
+    {
+      continue;
+    }
+    // Instead of the equation of one vertex: it follows from the others.
+    const double scale = system.diagonal().cwiseAbs().maxCoeff();
+    double mass = 0.0;
+    for (const std::int64_t v : members)
+    {
+      mass += this->Mass[v];
+    }
+    system.row(members[0]).setZero();
+    rightSide.row(members[0]).setZero();
+    for (const std::int64_t v : members)
+    {
+      system(members[0], v) = scale * this->Mass[v] / mass;
+      rightSide.row(members[0]) += scale * this->Mass[v] / mass * start.row(v);
+    }
+  }
+  const Eigen::PartialPivLU<MatrixXd> factor(system);
+  this->To.solution = factor.solve(rightSide);
+  this->To.solution += factor.solve(rightSide - system * this->To.solution);
+}
+
+} // namespace
+
+Oracle::Oracle(const Case& given)
+{
+  Equations equations(given, *this);
+  equations.solve();
+  this->refusal = equations.isEmpty() ? "an entry selects nothing" : "";
+}
+
+} // namespace smg::testing

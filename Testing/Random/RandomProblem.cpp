@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Random problems: each datum in each form, placed by each kind of place, with columns of the
+// vertices and of the cells, several right-hand sides, bodies without any condition; and random
+// runs.
+#include "Testing/Random/Case.h"
+#include "Testing/Random/Oracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+namespace smg::testing
+{
+namespace
+{
+
+using nlohmann::json;
+
+class ProblemMaker
+{
+public:
+  ProblemMaker(Case& to, Random& random)
+    : To(to)
+    , Numbers(random)
+    , Columns(1 + static_cast<int>(random.below(3)))
+    , Contrast(this->chance(0.3) ? 2.0 : 0.3)
+  {
+  }
+
+  void addColumns();
+  json problem();
+
+private:
+  double uniform(double low, double high) { return this->Numbers.uniform(low, high); }
+  bool chance(double probability) { return this->Numbers.uniform() < probability; }
+  double positive() { return std::pow(10, this->uniform(-this->Contrast, this->Contrast)); }
+  std::string oneOf(std::initializer_list<const char*> names)
+  {
+    return names.begin()[this->Numbers.below(static_cast<std::int64_t>(names.size()))];
+  }
+  const double* somePoint()
+  {
+    return &this->To.points[3 * static_cast<std::size_t>(this->Numbers.below(this->To.vertices()))];
+  }
+
+  void addColumn(bool ofCells, const char* name, int components, bool isInteger, auto make);
+  /** A place, as members of an object; empty: everywhere. */
+  json place(bool mayBeEverywhere);
+  json region();
+  json value(bool mayBeOfCells);
+  json coefficient(bool mayBeOfCells, bool mayBeZero);
+  /** A coefficient or a list of placed ones. */
+  json datum(auto makeValue);
+  json conductivity();
+  json placed(const char* key, const json& value);
+  void addRobin(json& problem);
+  void addSoft(json& problem);
+
+  Case& To;
+  Random& Numbers;
+  int Columns;
+  double Contrast;
+};
+
+void ProblemMaker::addColumn(
+  bool ofCells, const char* name, int components, bool isInteger, auto make)
+{
+  CaseColumn column{ name, components, {}, isInteger };
+  const std::int64_t rows = ofCells ? this->To.cells() : this->To.vertices();
+  for (std::int64_t k = 0; k < rows * components; ++k)
+  {
+    column.values.push_back(make(static_cast<int>(k % components)));
+  }
+  (ofCells ? this->To.cellColumns : this->To.vertexColumns).push_back(column);
+}
+
+/** Names begin with v for vertices and c for cells. */
+void ProblemMaker::addColumns()
+{
+  for (const bool ofCells : { false, true })
+  {
+    const std::string of = ofCells ? "c" : "v";
+    this->addColumn(ofCells, (of + "One").c_str(), 1, false, [&](int) { return this->positive(); });
+    this->addColumn(ofCells, (of + "All").c_str(), this->Columns, false,
+      [&](int) { return this->uniform(-1, 1); });
+    this->addColumn(
+      ofCells, (of + "Tag").c_str(), 1, true, [&](int) { return this->Numbers.below(3); });
+    this->addColumn(
+      ofCells, (of + "Mask").c_str(), 1, true, [&](int) { return this->chance(0.2) ? 1 : 0; });
+    this->addColumn(
+      ofCells, (of + "Diagonal").c_str(), 3, false, [&](int) { return this->positive(); });
+    // Diagonally dominant, so positive definite.
+    this->addColumn(ofCells, (of + "Tensor").c_str(), 6, false,
+      [&](int k) { return k < 3 ? this->uniform(1, 3) : this->uniform(-0.4, 0.4); });
+  }
+  this->addColumn(true, "field", this->chance(0.5) ? 3 : 3 * this->Columns, false,
+    [&](int) { return this->uniform(-1, 1); });
+}
+
+json ProblemMaker::region()
+{
+  const double* p = this->somePoint();
+  const double* q = this->somePoint();
+  const double size = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+  switch (this->Numbers.below(3))
+  {
+    case 0:
+    {
+      const double x = this->uniform(-1, 1), y = this->uniform(-1, 1), z = this->uniform(-1, 1);
+      // Not through a vertex, where rounding would decide.
+      const double at = x * p[0] + y * p[1] + z * p[2] + 1e-3 * size * this->uniform(0.1, 1);
+      return { { "halfspace", { x, y, z, at } } };
+    }
+    case 1:
+      return { { "box", { std::min(p[0], q[0]), std::min(p[1], q[1]), std::min(p[2], q[2]),
+                          std::max(p[0], q[0]), std::max(p[1], q[1]), std::max(p[2], q[2]) } } };
+    default:
+      return { { "sphere", { p[0], p[1], p[2], size * this->uniform(0.1, 0.9) } } };
+  }
+}
+
+json ProblemMaker::place(bool mayBeEverywhere)
+{
+  switch (this->Numbers.below(mayBeEverywhere ? 9 : 8))
+  {
+    case 0:
+    {
+      json ids = json::array();
+      for (int k = 0; k < 3; ++k)
+      {
+        ids.push_back(this->Numbers.below(this->To.vertices()));
+      }
+      return { { "vertices", ids } };
+    }
+    case 1:
+      return { { "tag", { this->oneOf({ "vTag", "cTag" }), this->Numbers.below(3) } } };
+    case 2:
+      return { { "mask", this->oneOf({ "vMask", "cMask" }) } };
+    case 3:
+    {
+      json points = json::array();
+      for (int k = 0; k < 2; ++k)
+      {
+        const double* p = this->somePoint();
+        // Near a vertex: not halfway between two.
+        points.push_back({ p[0] + 1e-7 * this->uniform(-1, 1), p[1], p[2] });
+      }
+      return { { "nearest", points } };
+    }
+    case 4:
+      return { { "boundary", true } };
+    case 8:
+      return json::object();
+    default:
+      return this->region();
+  }
+}
+
+json ProblemMaker::value(bool mayBeOfCells)
+{
+  const double form = this->uniform(0, 1);
+  if (form < 0.4)
+  {
+    json numbers = json::array();
+    for (int k = 0; k < this->Columns; ++k)
+    {
+      numbers.push_back(this->uniform(-1, 1));
+    }
+    return numbers;
+  }
+  if (form < 0.5 && this->Columns == 3)
+  {
+    return "position";
+  }
+  return mayBeOfCells ? this->oneOf({ "vAll", "cAll" }) : "vAll";
+}
+
+json ProblemMaker::coefficient(bool mayBeOfCells, bool mayBeZero)
+{
+  if (this->chance(0.4))
+  {
+    return mayBeZero && this->chance(0.2) ? 0.0 : this->positive();
+  }
+  return mayBeOfCells ? this->oneOf({ "vOne", "cOne" }) : "vOne";
+}
+
+json ProblemMaker::placed(const char* key, const json& value)
+{
+  json entry = this->place(false);
+  entry[key] = value;
+  return entry;
+}
+
+json ProblemMaker::datum(auto makeValue)
+{
+  if (this->chance(0.5))
+  {
+    return makeValue();
+  }
+  json entries = json::array();
+  for (std::int64_t k = this->Numbers.below(3); k >= 0; --k)
+  {
+    json entry = this->place(true);
+    entry["value"] = makeValue();
+    entries.push_back(entry);
+  }
+  return entries;
+}
+
+json ProblemMaker::conductivity()
+{
+  return this->datum(
+    [&]() -> json
+    {
+      const double form = this->uniform(0, 1);
+      if (form < 0.25)
+      {
+        return this->positive();
+      }
+      if (form < 0.4)
+      {
+        return { this->uniform(1, 3), this->uniform(1, 3), this->uniform(1, 3),
+          this->uniform(-0.4, 0.4), this->uniform(-0.4, 0.4), this->uniform(-0.4, 0.4) };
+      }
+      return this->oneOf(
+        { "vOne", "cOne", "cOne", "vDiagonal", "cDiagonal", "vTensor", "cTensor" });
+    });
+}
+
+void ProblemMaker::addRobin(json& problem)
+{
+  for (std::int64_t k = this->Numbers.below(2); k >= 0; --k)
+  {
+    json entry = this->placed("ambient", this->value(true));
+    entry["coefficient"] = this->datum([&] { return this->coefficient(true, true); });
+    problem["robin"].push_back(entry);
+  }
+}
+
+void ProblemMaker::addSoft(json& problem)
+{
+  for (std::int64_t k = this->Numbers.below(2); k >= 0; --k)
+  {
+    json entry = this->placed("value", this->value(false));
+    entry["weight"] = this->datum([&] { return this->coefficient(false, true); });
+    problem["soft"].push_back(entry);
+  }
+}
+
+json ProblemMaker::problem()
+{
+  json problem{ { "columns", this->Columns } };
+  const bool isUniform = this->chance(0.08);
+  if (isUniform)
+  {
+    problem["weights"] = "uniform";
+  }
+  else
+  {
+    problem["weights"] = this->chance(0.08) ? "clamped" : "cotangent";
+    if (this->chance(0.6))
+    {
+      problem["conductivity"] = this->conductivity();
+    }
+    if (this->chance(0.3))
+    {
+      problem["field"] = "field";
+    }
+  }
+  if (this->chance(0.3))
+  {
+    const bool inCells = this->chance(0.5);
+    problem["screening"] = this->datum([&] { return this->coefficient(inCells, true); });
+  }
+  if (this->chance(0.5))
+  {
+    const bool inCells = this->chance(0.5);
+    problem["source"] = this->datum([&] { return this->value(inCells); });
+  }
+  if (this->chance(0.2))
+  {
+    problem["initial"] = this->datum([&] { return this->value(false); });
+  }
+  for (int k = this->chance(0.8) ? 1 + static_cast<int>(this->Numbers.below(2)) : 0; k > 0; --k)
+  {
+    problem["dirichlet"].push_back(this->placed("value", this->value(false)));
+  }
+  for (int k = this->chance(0.3) ? 1 + static_cast<int>(this->Numbers.below(2)) : 0; k > 0; --k)
+  {
+    problem["flux"].push_back(this->placed("value", this->value(true)));
+  }
+  if (this->chance(0.3))
+  {
+    this->addRobin(problem);
+  }
+  if (this->chance(0.2))
+  {
+    this->addSoft(problem);
+  }
+  if (!problem.contains("dirichlet") && !problem.contains("source"))
+  {
+    problem["source"] = this->value(true);
+  }
+  problem["outputs"] = { "gradient", "flux" };
+  return problem;
+}
+
+CaseRun randomRun(Random& random)
+{
+  const auto oneOf = [&random](std::initializer_list<std::int64_t> numbers)
+  { return numbers.begin()[random.below(static_cast<std::int64_t>(numbers.size()))]; };
+  CaseRun run;
+  run.blockCells = oneOf({ 1, 1, 2, 3, 7, 40, 300, 1000000 });
+  run.threads = static_cast<int>(oneOf({ 1, 2, 3 }));
+  run.inCore = random.uniform() < 0.2;
+  run.coreNodes = oneOf({ 0, 5, 30, 50000 });
+  run.blockNodes = oneOf({ 1, 3, 16, 100, 4096 });
+  run.sweeps = static_cast<int>(oneOf({ 1, 2, 2, 3 }));
+  run.acceleration = static_cast<int>(random.below(4));
+  run.cancelAt =
+    !run.inCore && random.uniform() < 0.15 ? 1 + static_cast<int>(random.below(30)) : 0;
+  run.door = random.uniform() < 0.3 ? "file" : "c++";
+  const char* const orders[] = { "bfs", "keep", "axis" };
+  run.order = orders[random.below(3)];
+  return run;
+}
+
+} // namespace
+
+Case randomCase(std::uint64_t seed)
+{
+  Random random(seed * 2654435761U + 12345);
+  for (int k = 0; k < 3; ++k)
+  {
+    random.bits();
+  }
+  Case made;
+  made.seed = seed;
+  const IndexedTestMesh mesh = randomMesh(random);
+  // Numbered by first use, as in a stream; unused vertices are left out.
+  made.type = mesh.cellType;
+  made.points = mesh.positions;
+  made.corners = mesh.corners;
+  made = made.part(std::vector<std::uint8_t>(static_cast<std::size_t>(made.cells()), 1));
+  ProblemMaker maker(made, random);
+  maker.addColumns();
+  // Some problems select nothing: that is an error, which is tested enough by a few.
+  const double patience = random.uniform(0, 5);
+  int tries = 0;
+  do
+  {
+    made.problem = maker.problem();
+  } while (++tries < patience && !Oracle(made).refusal.empty());
+  made.run = randomRun(random);
+  return made;
+}
+
+} // namespace smg::testing
