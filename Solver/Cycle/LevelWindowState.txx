@@ -72,9 +72,10 @@ void LevelWindow<Real>::load(StateReader& state)
   state.part("window");
   std::int64_t nodes = 0;
   state(this->Columns, nodes);
-  state.require(nodes > 0 && this->Columns > 0 && strideOf(this->Columns) == this->Stride);
+  state.require(nodes >= 0 && this->Columns > 0 && strideOf(this->Columns) == this->Stride);
   this->WrittenColumns = this->Columns;
-  const std::int64_t blocks = (nodes - 1) / RowBlock::Nodes + 1;
+  // None if all vertices are constrained.
+  const std::int64_t blocks = nodes / RowBlock::Nodes + (nodes % RowBlock::Nodes != 0 ? 1 : 0);
   const auto checkRows = [&](std::int64_t index, std::span<const std::byte> rows)
   {
     const std::int64_t first = index * RowBlock::Nodes;
