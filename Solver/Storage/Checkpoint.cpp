@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/Checkpoint.h"
 
+#include "Solver/Storage/FolderLock.h"
 #include "Solver/Storage/StateFront.h"
 #include "Solver/Storage/SystemCalls.h"
 #include "smg/Error.h"
@@ -168,6 +169,10 @@ void Checkpoint::save(std::int64_t steps, const std::function<void(StateWriter&)
   front.checksum = state.checksum();
   front.frontChecksum = front.expectedChecksum();
   file.write(0, std::as_bytes(std::span(&front, 1)));
+  // A state gets its name when the names of the files that it refers to are durable. The file
+  // itself comes first: most file systems write its folder with it.
+  file.sync();
+  FileDescriptor::syncPath(this->Folder.path(), this->path(slot));
   file.renameTo(this->path(slot));
   this->Last = slot;
   this->Folder.retain();
@@ -178,6 +183,8 @@ void Checkpoint::discard()
   // The last state refers to files that are complete: it goes last.
   systemCalls().unlink(this->path(1 - this->Last).c_str());
   systemCalls().unlink(this->path(this->Last).c_str());
+  // Also after a power cut it refers to nothing that is removed next.
+  FileDescriptor::trySync(this->Folder.lock()->folder());
   this->Folder.discard();
 }
 

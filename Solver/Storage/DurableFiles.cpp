@@ -20,7 +20,7 @@ namespace
 std::atomic<bool> durable{ true };
 
 /** Fsync; some file systems have none. */
-bool sync(int file)
+bool sync(int file) noexcept
 {
   int result = 0;
   do
@@ -87,10 +87,15 @@ void FileDescriptor::setDurable(bool isDurable) noexcept
 
 void FileDescriptor::sync() const
 {
-  if (durable && !smg::sync(this->Number))
+  if (!trySync(this->Number))
   {
     throwWriteError(this->Shown, errno);
   }
+}
+
+bool FileDescriptor::trySync(int file) noexcept
+{
+  return !durable || smg::sync(file);
 }
 
 void FileDescriptor::syncPath(const std::filesystem::path& path, const std::filesystem::path& shown)
@@ -98,7 +103,7 @@ void FileDescriptor::syncPath(const std::filesystem::path& path, const std::file
   const std::filesystem::path place = path.empty() ? std::filesystem::path(".") : path;
   const int file = systemCalls().open(place.c_str(), O_RDONLY | O_CLOEXEC, 0);
   // There are folders in which one may write, but not read.
-  const bool good = file >= 0 ? !durable || smg::sync(file) : errno == EACCES;
+  const bool good = file >= 0 ? trySync(file) : errno == EACCES;
   const int error = errno;
   if (file >= 0)
   {

@@ -78,6 +78,8 @@ public:
   /** The same of a closed file, or of the names in a folder, for the file `shown`, which errors
    * name. */
   static void syncPath(const std::filesystem::path& path, const std::filesystem::path& shown);
+  /** The same of an opened file or folder; returns whether it is on the disk, if it has to be. */
+  static bool trySync(int file) noexcept;
   /**
    * Closes the file and atomically renames it to `path`, replacing an existing file; the target of
    * a symbolic link is replaced and the link is kept. Content and name are durable then, except in

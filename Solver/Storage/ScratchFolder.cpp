@@ -12,6 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -46,17 +48,48 @@ std::filesystem::path folderPath(const std::filesystem::path& given)
   return std::filesystem::absolute(FileDescriptor::targetOf(path)).lexically_normal();
 }
 
-/** A descriptor of the folder that holds its lock; -1 if it is locked or does not support locks. */
+/** A descriptor of the folder that holds its lock; -1 if it is locked or does not support locks,
+ * with errno. */
 int lockFolder(const std::filesystem::path& folder)
 {
   const int lock =
     systemCalls().open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC, 0);
   if (lock >= 0 && ::flock(lock, LOCK_EX | LOCK_NB) != 0)
   {
+    const int error = errno;
     systemCalls().close(lock);
+    errno = error;
     return -1;
   }
   return lock;
+}
+
+/** Makes a folder in `base` and locks it, if it supports locks: `lock` is -1 if not. */
+std::string makeLocked(const std::filesystem::path& base, int& lock)
+{
+  for (;;)
+  {
+    std::string made = (base / (std::string(".") + Prefix + "XXXXXX")).string();
+    if (!systemCalls().mkdtemp(made.data()))
+    {
+      throw Error("cannot make a scratch folder in " + base.string() + ": " + std::strerror(errno) +
+                  "; name another one");
+    }
+    lock = lockFolder(made);
+    struct stat status = {};
+    const bool isRemoved = lock >= 0
+                             ? systemCalls().fstat(lock, &status) == 0 && status.st_nlink == 0
+                             : errno == EWOULDBLOCK || errno == ENOENT;
+    if (!isRemoved)
+    {
+      return made;
+    }
+    // Before the lock, another program has taken it for an abandoned one.
+    if (lock >= 0)
+    {
+      systemCalls().close(lock);
+    }
+  }
 }
 
 void mark(const std::filesystem::path& folder)
@@ -69,6 +102,16 @@ void mark(const std::filesystem::path& folder)
   }
 }
 
+/** Whether a name without a dot is one that mkdtemp() makes. */
+bool isMade(std::string_view name)
+{
+  constexpr std::size_t Random = 6;
+  const std::string_view prefix = Prefix;
+  return name.starts_with(prefix) && name.size() == prefix.size() + Random &&
+         std::ranges::all_of(
+           name.substr(prefix.size()), [](unsigned char c) { return std::isalnum(c) != 0; });
+}
+
 /** Removes the scratch folders of terminated programs in `base`. */
 void removeAbandoned(const std::filesystem::path& base)
 {
@@ -78,13 +121,23 @@ void removeAbandoned(const std::filesystem::path& base)
     const std::filesystem::path folder = base / name;
     // A program killed before the renaming below has left a name that begins with a dot.
     const std::string_view plain = std::string_view(name).substr(*name == '.' ? 1 : 0);
-    if (!plain.starts_with(Prefix) || !ScratchFolder::isOne(folder))
+    const bool isMarked = plain.starts_with(Prefix) && ScratchFolder::isOne(folder);
+    if (!isMarked && !isMade(plain))
     {
       continue;
     }
     if (const int lock = lockFolder(folder); lock >= 0)
     {
-      removeFolder(folder.c_str());
+      if (isMarked)
+      {
+        removeFolder(folder.c_str());
+      }
+      else
+      {
+        // A power cut may take the marker, and the program may be killed before it. Only an empty
+        // folder is removed.
+        systemCalls().unlinkat(AT_FDCWD, folder.c_str(), AT_REMOVEDIR);
+      }
       systemCalls().close(lock);
     }
   }
@@ -122,16 +175,10 @@ ScratchFolder::ScratchFolder(const std::filesystem::path& parent, std::int64_t l
   const std::filesystem::path base = std::filesystem::absolute(place);
   removeAbandoned(base);
   // Once locked, it is renamed to the pattern by which others search for abandoned folders.
-  std::string made = (base / (std::string(".") + Prefix + "XXXXXX")).string();
-  if (!systemCalls().mkdtemp(made.data()))
-  {
-    throw Error("cannot make a scratch folder in " + base.string() + ": " + std::strerror(errno) +
-                "; name another one");
-  }
+  const std::string made = makeLocked(base, this->Lock);
   try
   {
     this->Path = made;
-    this->Lock = lockFolder(this->Path);
     mark(this->Path);
     std::filesystem::path name = base / this->Path.filename().string().substr(1);
     if (this->Lock >= 0 && systemCalls().rename(made.c_str(), name.c_str()) == 0)
@@ -196,6 +243,11 @@ void ScratchFolder::openKept()
   }
   requireOwnFiles(this->Path, this->KeptLock->folder());
   FileDescriptor::openOrCreate(marker).close();
+  if (!this->Remains)
+  {
+    // After a power cut, files without the marker would not be a checkpoint.
+    FileDescriptor::syncPath(this->Path, this->Path);
+  }
 }
 
 /** Counts the files of an earlier program. */
@@ -251,7 +303,8 @@ ScratchFolder::~ScratchFolder()
 }
 
 /** Removes a kept folder: its own files, and, where no others are in it, the folder. States go
- * before the files that they refer to, since the program may be killed in between. */
+ * before the files that they refer to, and these before the marker, also on the disk, since the
+ * program may be killed, and the power cut, in between. */
 void ScratchFolder::removeKept() const noexcept
 {
   const int folder = this->KeptLock->folder();
@@ -268,6 +321,7 @@ void ScratchFolder::removeKept() const noexcept
         areGone = systemCalls().unlinkat(folder, name, 0) == 0 && areGone;
       }
     }
+    FileDescriptor::trySync(folder);
   }
   if (areGone) // without the marker the rest would be refused
   {

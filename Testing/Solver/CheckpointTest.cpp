@@ -216,7 +216,8 @@ TEST(Checkpoint, LeavesFilesAloneThatAreNotItsOwn)
   EXPECT_EQ(names, (std::set<std::string>{ "notes", "link" }));
 }
 
-/** A program that is killed meanwhile leaves no state of files that are gone. */
+/** A program that is killed meanwhile, or a power cut, leaves no state of files that are gone, and
+ * no files without the marker. */
 TEST(Checkpoint, RemovesStatesBeforeTheirFiles)
 {
   static std::vector<std::string> removed;
@@ -235,14 +236,25 @@ TEST(Checkpoint, RemovesStatesBeforeTheirFiles)
       removed.emplace_back(name);
       return real.unlinkat(at, name, flags);
     };
+    systemCalls().fsync = [](int file)
+    {
+      removed.emplace_back("(sync)");
+      return real.fsync(file);
+    };
+    FileDescriptor::setDurable(true);
     kept.discard();
   }
   systemCalls() = real;
-  ASSERT_GE(removed.size(), 8U);
-  for (std::size_t k = 0; k < 8; ++k)
+  FileDescriptor::setDurable(false);
+  ASSERT_GE(removed.size(), 11U);
+  for (std::size_t k = 0; k < 4; ++k)
   {
-    EXPECT_EQ(removed[k].starts_with("state-"), k < 4) << removed[k];
+    EXPECT_TRUE(removed[k].starts_with("state-")) << removed[k];
+    EXPECT_TRUE(removed[k + 5].starts_with("scratch.")) << removed[k + 5];
   }
+  EXPECT_EQ(removed[4], "(sync)");
+  EXPECT_EQ(removed[9], "(sync)");
+  EXPECT_EQ(removed[10], "smg-checkpoint");
   EXPECT_FALSE(std::filesystem::exists(folder / "ck"));
 }
 

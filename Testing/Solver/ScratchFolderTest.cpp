@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Storage/ScratchFolder.h"
 
+#include "Solver/Storage/SystemCalls.h"
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "smg/Error.h"
 
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -87,6 +90,62 @@ TEST(ScratchFolder, WhatAKilledProgramLeftIsRemovedByTheNextAndNothingElse)
   {
     EXPECT_TRUE(std::filesystem::exists(folder / name / "data")) << name;
   }
+}
+
+/** A program may be killed before it marks its folder, and a power cut may take the marker. */
+TEST(ScratchFolder, WithoutItsMarkerIsRemovedIfItIsEmptyAndNotInUse)
+{
+  const TemporaryFolder folder;
+  for (const char* name : { "smg-scratch-Ab3dEf", ".smg-scratch-0bcdEf", "smg-scratch-used00" })
+  {
+    std::filesystem::create_directory(folder / name);
+  }
+  const int used = ::open((folder / "smg-scratch-used00").c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(::flock(used, LOCK_EX), 0);
+  // Names of others.
+  const auto others = { "smg-scratch-my-mesh", "smg-scratch-a.bcde", ".smg-scratch",
+    "smg-scratch-" };
+  for (const char* name : others)
+  {
+    std::filesystem::create_directory(folder / name);
+  }
+  {
+    const ScratchFolder next(folder.path());
+    EXPECT_FALSE(std::filesystem::exists(folder / "smg-scratch-Ab3dEf"));
+    EXPECT_FALSE(std::filesystem::exists(folder / ".smg-scratch-0bcdEf"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "smg-scratch-used00"));
+  }
+  ::close(used);
+  for (const char* name : others)
+  {
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  }
+}
+
+/** Two programs begin: one takes the folder of the other for an abandoned one before it is locked.
+ */
+TEST(ScratchFolder, ThatIsRemovedBeforeItIsLockedIsMadeAnew)
+{
+  static const SystemCalls real = systemCalls();
+  static int made;
+  made = 0;
+  const TemporaryFolder folder;
+  systemCalls().mkdtemp = [](char* pattern)
+  {
+    char* const path = real.mkdtemp(pattern);
+    if (++made == 1)
+    {
+      ::rmdir(path);
+    }
+    return path;
+  };
+  {
+    const ScratchFolder scratch(folder.path());
+    EXPECT_TRUE(ScratchFolder::isOne(scratch.path()));
+    EXPECT_EQ(made, 2);
+  }
+  systemCalls() = real;
+  EXPECT_EQ(folder.entries(), 0);
 }
 
 } // namespace smg::testing
