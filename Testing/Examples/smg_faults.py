@@ -85,11 +85,11 @@ def vtk_program(name):
 class Program:
     """smg, or another program, which is started once and runs once for each fault."""
 
-    def __init__(self, arguments):
+    def __init__(self, arguments, scratch="scratch", quiet=("--quiet",)):
         if not os.path.isabs(arguments[0]):
-            arguments = [SMG, *arguments, "--quiet", "--scratch", "scratch"]
+            arguments = [SMG, *arguments, *quiet, "--scratch", scratch]
         self.arguments = arguments
-        self.process = subprocess.Popen(arguments, env=environment(arguments), stdin=subprocess.PIPE,
+        self.process = subprocess.Popen(arguments, env=environment(arguments, scratch), stdin=subprocess.PIPE,
                                         stdout=subprocess.PIPE, start_new_session=True)
 
     def __enter__(self):
@@ -113,14 +113,14 @@ class Program:
         return code, said, int(read("count")) if os.path.exists("count") else 0
 
 
-def environment(arguments):
+def environment(arguments, scratch):
     # Nobody can notice flipped bits of inputs that have no checksums.
     spared = [name for name in arguments if os.path.isfile(name) and not name.endswith(".vsm")]
     # The library that fails is loaded before that of AddressSanitizer.
     return dict(os.environ, ASAN_OPTIONS="verify_asan_link_order=0",
                 LD_PRELOAD=os.environ["SMG_FAULT_LIBRARY"], SMG_FAULT_SERVER="said",
                 SMG_FAULT_COUNT="count", SMG_FAULT_SPARED=":".join(spared),
-                TMPDIR=os.path.abspath("scratch"))
+                TMPDIR=os.path.abspath(scratch))
 
 
 def read(name):
