@@ -151,7 +151,7 @@ class Case:
         found = smg_faults.read(OUT) if os.path.exists(OUT) else None
         is_done = place == len(self.calls)
         if found not in ((self.wanted,) if is_done else (None, OLD, self.wanted)):
-            self.fail(place, "torn result" if found else "no result")
+            self.fail(place, "the result is old or lost" if is_done else "the result is torn")
         self.check_report(place, is_done)
         self.counts["new" if found == self.wanted else "old"] += 1
         code, said, _ = program.run(NONE)
