@@ -84,6 +84,12 @@ const Format* formatOfSign(std::string_view start)
   return firstOf([&](const Format& format) { return format.hasSign && format.hasSign(start); });
 }
 
+const Format* formatLookingRight(std::string_view start, std::optional<std::uint64_t> size)
+{
+  return firstOf(
+    [&](const Format& format) { return format.looksRight && format.looksRight(start, size); });
+}
+
 bool canBeUsed(const Format& format, FormatUse use)
 {
   const bool writes = format.write || format.writeVsm;
@@ -158,6 +164,12 @@ const Format* formatOfContent(const std::filesystem::path& path)
   return formatOfSign(startOf(path).bytes);
 }
 
+const Format* formatOfForm(const std::filesystem::path& path)
+{
+  const FileStart start = startOf(path);
+  return formatLookingRight(start.bytes, start.size);
+}
+
 const Format* formatOfStart(
   std::string_view start, std::optional<std::uint64_t> size, const std::filesystem::path& path)
 {
@@ -165,8 +177,7 @@ const Format* formatOfStart(
   {
     return format;
   }
-  const Format* format = firstOf([&](const Format& candidate)
-    { return candidate.looksRight && candidate.looksRight(start, size); });
+  const Format* format = formatLookingRight(start, size);
   format = format ? format : formatOfName(path);
   return format && format->kind == MeshFileKind::Indexed ? format : nullptr;
 }

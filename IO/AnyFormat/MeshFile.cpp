@@ -20,43 +20,55 @@ namespace smg
 namespace
 {
 
-/** Whether the content of a file is that of a streaming format, independent of its name. */
-bool looksLikeStream(const std::filesystem::path& path)
+/** The kind of a file by its content; Unknown if that says nothing. */
+MeshFileKind kindOfContent(const std::filesystem::path& path)
 {
-  try
+  if (isBlockFile(path))
   {
-    detectStreamFormat(path);
-    return true;
+    return MeshFileKind::Vsm;
   }
-  catch (const Error&)
+  if (formatOfContent(path))
   {
-    return false;
+    return MeshFileKind::Indexed;
   }
+  const Resemblance stream = resemblanceToStream(path);
+  const Format* const indexed = formatOfForm(path);
+  if (stream == Resemblance::None || !indexed)
+  {
+    const bool isStream = stream != Resemblance::None;
+    return isStream ? MeshFileKind::Stream
+                    : (indexed ? MeshFileKind::Indexed : MeshFileKind::Unknown);
+  }
+  // Both forms: a STL file may begin with any bytes, and text may be OBJ or SMA. The name decides.
+  if (stream == Resemblance::Sure)
+  {
+    return formatOfName(path) == indexed ? MeshFileKind::Indexed : MeshFileKind::Stream;
+  }
+  return isStreamSuffix(lowerSuffix(path)) ? MeshFileKind::Stream : MeshFileKind::Indexed;
 }
 
 } // namespace
 
 MeshFileKind kindOfInput(const std::filesystem::path& path)
 {
-  const std::string suffix = lowerSuffix(path);
   std::error_code ignored;
-  const bool isFile = std::filesystem::is_regular_file(path, ignored);
-  if (suffix == ".vsm" || (isFile && isBlockFile(path)))
+  if (std::filesystem::is_regular_file(path, ignored))
   {
-    return MeshFileKind::Vsm;
+    const MeshFileKind kind = kindOfContent(path);
+    if (kind != MeshFileKind::Unknown)
+    {
+      return kind;
+    }
   }
-  if (isFile && formatOfContent(path))
-  {
-    return MeshFileKind::Indexed;
-  }
-  // A binary STL file may begin with any bytes, and an OBJ file may look like a streaming format.
-  const Format* const named = formatOfName(path);
-  const bool saysNothing = named && named->looksRight;
-  if (isStreamSuffix(suffix) || (isFile && !saysNothing && looksLikeStream(path)))
+  const std::string suffix = lowerSuffix(path);
+  if (isStreamSuffix(suffix))
   {
     return MeshFileKind::Stream;
   }
-  return formatOfFile(path) ? MeshFileKind::Indexed : MeshFileKind::Unknown;
+  const Format* const named = formatOfName(path);
+  return suffix == ".vsm" ? MeshFileKind::Vsm
+                          : (named && named->kind == MeshFileKind::Indexed ? MeshFileKind::Indexed
+                                                                           : MeshFileKind::Unknown);
 }
 
 MeshFileKind kindOfOutput(const std::filesystem::path& path)

@@ -65,7 +65,8 @@ TEST_F(StreamFormatsErrors, RefusesWrongLines)
   this->expectRefusal("a.sma", three + "f 1 2 99999999999999999999\n", "line 4: the indices");
   this->expectRefusal("a.sma", three + "f 1 2 3 1\n", "line 4: there is more");
   this->expectRefusal("a.sma", three + "g 1 2 3\n", "line 4: a line of a SMA file cannot begin");
-  this->expectRefusal("a.sma", three + "c 1 2 3 1\n", "line 4: a line of a SMA file cannot begin");
+  this->expectRefusal(
+    "a.sma", three + "f 1 2 3\nc 1 2 3 1\n", "line 5: a line of a SMA file cannot begin");
   this->expectRefusal("a.sma", three + "x 4\n", "line 4: index 4 is of a vertex");
   this->expectRefusal("a.sma", three + "f -3 2 3\nf 1 2 3\n", "line 5: the cell uses vertex 1");
   this->expectRefusal("a.sma", three + "x 1\nf 1 2 3\n", "line 5: the cell uses vertex 1");

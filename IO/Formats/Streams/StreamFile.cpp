@@ -20,26 +20,81 @@ namespace
 /** The maximum number of lines read to distinguish the text formats. */
 constexpr int LinesLookedAt = 10000;
 
+/** What a line says about the text format; a comment may hold data of the mesh, its other words are
+ * arbitrary. */
+std::optional<StreamFormat> formatOfLine(std::string_view line)
+{
+  Tokens tokens(line);
+  const std::string_view first = tokens.word();
+  const std::string_view key = first == "#" ? tokens.word() : std::string_view();
+  if (first == "f" || key == "nfaces")
+  {
+    return StreamFormat::Sma;
+  }
+  if (first == "c" || key == "ncells" || key == "svtype" || key == "v_pnum_f")
+  {
+    return StreamFormat::Sva;
+  }
+  return {};
+}
+
 /** The text format, by the first line that only one of them can have. */
 std::optional<StreamFormat> detectText(SequentialInput& input)
 {
   std::string_view line;
   for (int i = 0; i < LinesLookedAt && input.nextLine(line); i++)
   {
-    Tokens tokens(line);
-    const std::string_view first = tokens.word();
-    // A comment with data of the mesh; its other words are arbitrary.
-    const std::string_view key = first == "#" ? tokens.word() : std::string_view();
-    if (first == "f" || key == "nfaces")
+    if (const auto format = formatOfLine(line))
     {
-      return StreamFormat::Sma;
-    }
-    if (first == "c" || key == "ncells" || key == "svtype" || key == "v_pnum_f")
-    {
-      return StreamFormat::Sva;
+      return format;
     }
   }
   return {};
+}
+
+/** The number of words after the first one, if none of them has a slash; otherwise -1. */
+int plainWords(std::string_view line)
+{
+  Tokens tokens(line);
+  tokens.word();
+  int count = 0;
+  for (std::string_view word = tokens.word(); !word.empty(); word = tokens.word())
+  {
+    if (word.find('/') != std::string_view::npos)
+    {
+      return -1;
+    }
+    count++;
+  }
+  return count;
+}
+
+/** Vertices and triangles alone are OBJ as well; other lines are of one format only. */
+Resemblance textResemblance(SequentialInput& input)
+{
+  constexpr int mostValues = 4; // of a vertex; OBJ has six with a colour
+  Resemblance result = Resemblance::None;
+  std::string_view line;
+  for (int i = 0; i < LinesLookedAt && input.nextLine(line); i++)
+  {
+    const std::string_view first = Tokens(line).word();
+    const auto format = formatOfLine(line);
+    if (first == "x" || (format && first != "f"))
+    {
+      return Resemblance::Sure;
+    }
+    const int words = plainWords(line);
+    const bool isVertex = first == "v" && words <= mostValues;
+    if (isVertex || (first == "f" && words == 3))
+    {
+      result = Resemblance::Possible;
+    }
+    else if (!first.empty() && !first.starts_with('#'))
+    {
+      return Resemblance::None;
+    }
+  }
+  return result;
 }
 
 } // namespace
@@ -85,11 +140,15 @@ StreamFormat detectStreamFormat(const std::filesystem::path& path)
   {
     refuse("is compressed with gzip, which is not read: unpack it first.");
   }
-  if (isCompressed || suffix == ".smc" || suffix == ".smd" || suffix == ".svc")
+  const auto refuseCompressed = [&]
   {
     const std::string name = suffix == ".svc" ? "SVC" : first == 2 ? "SMD" : "SMC";
     refuse("is in the compressed format " + name +
            ", which is not read: convert it to SMB or SVB with the program that made it.");
+  };
+  if (isCompressed)
+  {
+    refuseCompressed();
   }
   if (first == SmbVersion || first == SvbVersion)
   {
@@ -97,11 +156,42 @@ StreamFormat detectStreamFormat(const std::filesystem::path& path)
   }
   const auto byName = streamFormatOfName(path);
   const auto byText = detectText(input);
+  if (!byText && (suffix == ".smc" || suffix == ".smd" || suffix == ".svc"))
+  {
+    refuseCompressed();
+  }
   if (!byText && !(byName && isText(*byName)))
   {
     refuse("is none of the formats SMA, SMB, SVA and SVB, or is damaged in its first bytes.");
   }
-  return byName && isText(*byName) ? *byName : *byText;
+  return byText ? *byText : *byName;
+}
+
+Resemblance resemblanceToStream(const std::filesystem::path& path)
+{
+  try
+  {
+    SequentialInput input(path);
+    const std::span<const std::byte> bytes = input.peek(1);
+    if (bytes.empty())
+    {
+      return Resemblance::None;
+    }
+    const auto first = std::to_integer<unsigned>(bytes[0]);
+    if (first != SmbVersion && first != SvbVersion)
+    {
+      return textResemblance(input);
+    }
+    // Many binary files begin with a zero: the rest of the header has to make sense, too.
+    const StreamFileHeader header = readBinaryStreamHeader(FileDescriptor::openForReading(path),
+      first == SmbVersion ? StreamFormat::Smb : StreamFormat::Svb)
+                                      .header;
+    return header.vertices != 0 && header.cells != 0 ? Resemblance::Sure : Resemblance::None;
+  }
+  catch (const Error&)
+  {
+    return Resemblance::None;
+  }
 }
 
 void StreamFileReader::next(StreamEvent& event)

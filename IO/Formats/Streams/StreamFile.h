@@ -53,6 +53,17 @@ bool isStreamSuffix(std::string_view suffix);
  * ambiguous. Throws Error if it is none of the four, by name for SMC, SMD, SVC and gzip. */
 SMG_EXPORT StreamFormat detectStreamFormat(const std::filesystem::path& path);
 
+/** How far the content of a file, whatever its name, resembles a streaming format. */
+enum class Resemblance
+{
+  None,
+  Possible, ///< it may be of another format as well: an OBJ file of vertices and triangles alone
+  Sure      ///< it has what only a streaming format has
+};
+
+/** The resemblance of a file to SMA, SMB, SVA and SVB; none if it cannot be read. */
+Resemblance resemblanceToStream(const std::filesystem::path& path);
+
 /** Vertex columns for the values of a SVA or SVB vertex beyond its three coordinates. */
 inline constexpr const char* StreamScalarName = "Scalar";         ///< float32
 inline constexpr const char* StreamIntegerName = "IntegerScalar"; ///< int32, also a cell column
