@@ -66,6 +66,7 @@ private:
     int type;          ///< 0: individual types
     std::vector<std::int64_t> cells, points;
     std::int64_t firstCell = 0, firstPoint = 0; ///< of the time step, then of a partition
+    std::int64_t firstEnd = 0; ///< partitions before these cells: each has an end more than cells
   };
   struct Attribute
   {
@@ -195,9 +196,32 @@ private:
       cells.points = this->counts(cells.group + "NumberOfConnectivityIds");
       cells.firstCell = this->Step.number("CellOffsets", 0, kind, kinds.size());
       cells.firstPoint = this->Step.number("ConnectivityIdOffsets", 0, kind, kinds.size());
+      cells.firstEnd = type == 0 ? this->FirstPart : this->partsBefore(cells);
       ++kind;
       this->Lists.push_back(std::move(cells));
     }
+  }
+
+  /** The partition whose cells of this kind begin where the time step says: its own first one, or
+   * where only the points move, that of an earlier time step with the same cells. */
+  std::int64_t partsBefore(const Cells& list)
+  {
+    const auto cells = this->File.integers(VtkHdfRoot + list.group + "NumberOfCells");
+    const auto points = this->File.integers(VtkHdfRoot + list.group + "NumberOfConnectivityIds");
+    const auto isAt = [](const std::vector<std::int64_t>& own, const auto& all, std::int64_t part)
+    { return std::equal(own.begin(), own.end(), all.begin() + part); };
+    std::int64_t found = -1, sum = 0;
+    for (std::int64_t part = 0; part <= this->FirstPart && sum <= list.firstCell; ++part)
+    {
+      const bool same = isAt(list.cells, cells, part) && isAt(list.points, points, part);
+      if (sum == list.firstCell && (part == this->FirstPart || (found < 0 && same)))
+      {
+        found = part;
+      }
+      const std::int64_t count = cells[static_cast<std::size_t>(part)];
+      sum += count >= 0 && count <= VtkHdfMostRows ? count : VtkHdfMostRows + 1;
+    }
+    return found < 0 ? this->FirstPart : found;
   }
 
   void readAttributes(const std::string& group, std::vector<Attribute>& attributes)
@@ -259,7 +283,7 @@ private:
     {
       // A partition stores a 0 before the ends of its cells.
       const std::int64_t firstOffset =
-        list.firstCell + this->FirstPart + static_cast<std::int64_t>(part);
+        list.firstCell + list.firstEnd + static_cast<std::int64_t>(part);
       cells.points =
         this->dataset(list.group + "Connectivity", 1, list.firstPoint, list.points[part]);
       cells.offsets = this->dataset(list.group + "Offsets", 1, firstOffset, cells.cells + 1);
