@@ -8,6 +8,7 @@
 #include "smg/Error.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -15,15 +16,53 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 #include <utility>
+
+namespace
+{
+
+/** Replaces a size with a unit, as 512M, 1.5GiB or 2GB, by whole MiB; a plain number is in MiB. K,
+ * M, G and T are powers of 1024, and so with iB; KB, MB, GB and TB powers of 1000. */
+std::string toMebibytes(std::string& text)
+{
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  std::string unit = end;
+  unit.erase(0, unit.find_first_not_of(' '));
+  if (end == text.c_str() || unit.empty())
+  {
+    return {};
+  }
+  std::ranges::transform(
+    unit, unit.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::string_view Prefixes = "kmgt";
+  const std::size_t power = Prefixes.find(unit.front());
+  const std::string rest = unit.substr(1);
+  if (power == std::string_view::npos || !(rest.empty() || rest == "ib" || rest == "b"))
+  {
+    return '\'' + text + "' has another unit than K, M, G, T, KiB to TiB and KB to TB";
+  }
+  const double bytes = number * std::pow(rest == "b" ? 1000.0 : 1024.0, power + 1.0);
+  constexpr double Mebibyte = 1 << 20, Most = 1LL << 52;
+  if (!(bytes >= Mebibyte && bytes <= Most * Mebibyte))
+  {
+    return '\'' + text + "' is no size of at least 1 MiB";
+  }
+  text = std::to_string(static_cast<std::int64_t>(bytes / Mebibyte));
+  return {};
+}
+
+} // namespace
 
 void CommonOptions::addTo(CLI::App& command, const std::string& memoryDefault)
 {
   constexpr std::int64_t MostMemory = std::int64_t(1) << 30;
   command.add_option("--report", this->report, "Write the report to this JSON file")
     ->type_name("FILE");
-  command.add_option("--memory", this->memory, "Memory limit in MiB")
+  command.add_option("--memory", this->memory, "Memory limit in MiB, or with a unit as 2GiB")
     ->check(CLI::Range(std::int64_t(1), MostMemory))
+    ->transform(CLI::Validator(toMebibytes, ""))
     ->default_str(memoryDefault)
     ->type_name("MiB");
   command.add_option("--scratch", this->scratch, "Folder for scratch files")
@@ -36,6 +75,7 @@ void CommonOptions::addTo(CLI::App& command, const std::string& memoryDefault)
       [](std::int64_t limit) { smg::ScratchAccount::process().setLimit(limit << 20); },
       "Limit of the bytes of scratch files that exist at once, in MiB; without it there is none")
     ->check(CLI::Range(std::int64_t(1), MostMemory))
+    ->transform(CLI::Validator(toMebibytes, ""))
     ->type_name("MiB");
   command.add_flag_callback(
     "--no-sync", [] { smg::FileDescriptor::setDurable(false); },

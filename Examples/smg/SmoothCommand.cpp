@@ -26,10 +26,11 @@ bool readSize(const std::string& text, smg::SmoothingSize& size)
 {
   char* end = nullptr;
   size.value = std::strtod(text.c_str(), &end);
-  const std::string unit = end;
-  size.unit = unit == "edges" ? smg::SmoothingSize::MeanEdges
-              : unit == "%"   ? smg::SmoothingSize::Diagonal
-                              : smg::SmoothingSize::Mesh;
+  std::string unit = end;
+  unit.erase(0, unit.find_first_not_of(' '));
+  size.unit = unit == "edges" || unit == "edge" ? smg::SmoothingSize::MeanEdges
+              : unit == "%"                     ? smg::SmoothingSize::Diagonal
+                                                : smg::SmoothingSize::Mesh;
   size.value /= unit == "%" ? 100.0 : 1.0;
   return end != text.c_str() && std::isfinite(size.value) && size.value > 0.0 &&
          (unit.empty() || size.unit != smg::SmoothingSize::Mesh);

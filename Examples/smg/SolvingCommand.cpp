@@ -69,7 +69,9 @@ void SolvingCommand::warn(const smg::Report& report) const
     std::fprintf(stderr,
       "smg: warning: %snot converged: the relative residual is %.3g after %d %s, the tolerance "
       "%.3g\n",
-      what.c_str(), residual, cycles, report.distributed ? "iterations" : "V-cycles",
+      what.c_str(), residual, cycles,
+      report.distributed ? (cycles == 1 ? "iteration" : "iterations")
+                         : (cycles == 1 ? "V-cycle" : "V-cycles"),
       this->solveOptions().tolerance);
   };
   for (const smg::Report::Step& step : report.steps)
@@ -129,13 +131,17 @@ void SolvingCommand::print(const smg::Report& report) const
   }
   else
   {
-    std::printf("%zu levels, %d V-cycles in %d %s, relative residual %.3g\n", report.levels.size(),
-      report.cycles, report.passes, report.passes == 1 ? "pass" : "passes", report.residual());
+    std::printf("%zu %s, %d %s in %d %s, relative residual %.3g\n", report.levels.size(),
+      report.levels.size() == 1 ? "level" : "levels", report.cycles,
+      report.cycles == 1 ? "V-cycle" : "V-cycles", report.passes,
+      report.passes == 1 ? "pass" : "passes", report.residual());
   }
   for (const smg::Report::Step& step : report.steps)
   {
     std::printf("  %s: %d %s, relative residual %.3g\n", step.name.c_str(), step.cycles,
-      report.distributed ? "iterations" : "V-cycles", step.residual);
+      report.distributed ? (step.cycles == 1 ? "iteration" : "iterations")
+                         : (step.cycles == 1 ? "V-cycle" : "V-cycles"),
+      step.residual);
   }
   for (const smg::Report::Condition& condition : report.conditions)
   {

@@ -21,11 +21,15 @@
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <numeric>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace
@@ -46,6 +50,54 @@ int succeed()
               : fail("standard output cannot be written: make room there, or send it elsewhere");
 }
 
+/** The smallest number of characters to insert, remove or replace that makes one word the other. */
+std::size_t editsBetween(std::string_view from, std::string_view to)
+{
+  std::vector<std::size_t> edits(to.size() + 1);
+  std::iota(edits.begin(), edits.end(), std::size_t(0));
+  for (std::size_t i = 0; i < from.size(); ++i)
+  {
+    std::size_t diagonal = std::exchange(edits[0], i + 1);
+    for (std::size_t k = 0; k < to.size(); ++k)
+    {
+      const std::size_t replaced = diagonal + (from[i] == to[k] ? 0 : 1);
+      diagonal = edits[k + 1];
+      edits[k + 1] = std::min({ replaced, diagonal + 1, edits[k] + 1 });
+    }
+  }
+  return edits.back();
+}
+
+/** A sentence on an option that the command does not have; empty if there is none. A missing
+ * option is often a misspelt one, which the parser would only call missing. */
+std::string unknownOption(const CLI::App& command)
+{
+  for (const std::string& word : command.remaining())
+  {
+    const std::string name = word.substr(0, word.find('='));
+    if (!name.starts_with("--") || name.size() < 3)
+    {
+      continue;
+    }
+    std::string nearest;
+    std::size_t least = 3;
+    for (const CLI::Option* option : command.get_options())
+    {
+      for (const std::string& known : option->get_lnames())
+      {
+        if (const std::size_t edits = editsBetween(name.substr(2), known); edits < least)
+        {
+          least = edits;
+          nearest = known;
+        }
+      }
+    }
+    return name + " is no option of smg " + command.get_name() +
+           (nearest.empty() ? "" : ": did you mean --" + nearest + '?');
+  }
+  return {};
+}
+
 /** Parses the arguments and executes the command. */
 int run(int argc, char** argv)
 {
@@ -64,6 +116,11 @@ int run(int argc, char** argv)
   addBlendCommand(program, action);
   addDistanceCommand(program, action);
   addPreviewCommand(program, action);
+  if (argc < 2 || std::string_view(argv[1]) == "help")
+  {
+    std::fputs(program.help().c_str(), argc < 2 ? stderr : stdout);
+    return argc < 2 ? 2 : succeed();
+  }
   try
   {
     program.parse(argc, argv);
@@ -80,8 +137,11 @@ int run(int argc, char** argv)
     const std::vector<CLI::App*> commands = program.get_subcommands();
     const bool unknown = commands.empty() && !rest.empty();
     const std::string called = commands.empty() ? "smg" : "smg " + commands.front()->get_name();
-    fail((unknown ? '\'' + rest.front() + "' is not a command of smg" : error.what()) + " (" +
-         called + " --help explains the usage)");
+    const std::string option = commands.empty() ? "" : unknownOption(*commands.front());
+    fail((unknown           ? '\'' + rest.front() + "' is not a command of smg"
+           : option.empty() ? error.what()
+                            : option) +
+         " (" + called + " --help explains the usage)");
     return 2;
   }
 

@@ -117,6 +117,15 @@ def test_solutions_have_the_order_of_their_mesh():
     assert "OriginalId names their places in torus.obj" in done.stdout, done.stdout
 
 
+def test_the_commands_are_listed():
+    for arguments, code in (((), 2), (("help",), 0), (("--help",), 0)):
+        done = subprocess.run([SMG, *arguments], capture_output=True, text=True, timeout=120)
+        said, other = (done.stderr, done.stdout) if code else (done.stdout, done.stderr)
+        assert done.returncode == code and other == "", arguments
+        for command in ("info", "convert", "solve", "deform", "smooth", "blend", "distance", "preview"):
+            assert f"\n  {command} " in said, (arguments, command)
+
+
 def test_errors():
     run(code=2)
     assert "foo" in run("foo", code=2).stderr
@@ -295,7 +304,7 @@ def test_interrupt_cleans_up():
         assert sorted(os.listdir(".")) == before and os.listdir("scratch") == []
 
 
-for each in (test_convert_and_info, test_vtk_xml, test_solve,
+for each in (test_convert_and_info, test_the_commands_are_listed, test_vtk_xml, test_solve,
              test_solutions_have_the_order_of_their_mesh, test_errors,
              test_files_of_the_command_are_not_overwritten, test_reports_go_where_they_are_wanted,
              test_outputs_go_where_links_lead, test_devices_and_pipes_are_no_outputs, test_check,

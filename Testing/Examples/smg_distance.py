@@ -4,6 +4,7 @@
 
 import json
 import math
+import os
 
 from program import load, read_vtk_xml, run, write_medit, write_torus
 from tetrahedra import tetrahedra
@@ -101,6 +102,17 @@ def test_errors():
     write_torus("torus.obj", 60, 30)
     usage = run("distance", "torus.obj", "out.vtp", code=2).stderr
     assert "--from or --wall is required" in usage
+    for wrong, sentence in (("--form", "--form is no option of smg distance: did you mean --from?"),
+                            ("--nothing-like-it", "--nothing-like-it is no option of smg distance (")):
+        assert sentence in run("distance", "torus.obj", "out.vtp", wrong, "x", code=2).stderr
+    places = ("--from", '{"vertices": [0]}', "--quiet")
+    for size in ("64", "64M", "64MiB", "0.1G", "0.1 GiB", "200MB", "1e5kb"):
+        run("distance", "torus.obj", "out.vtp", *places, "--memory", size, "--scratch-limit", size)
+    os.remove("out.vtp")
+    for size, sentence in (("2X", "'2X' has another unit"), ("1K", "'1K' is no size"), ("0", "range"),
+                           ("-3G", "'-3G' is no size"), ("nanG", "'nanG' is no size"), ("M", "M")):
+        assert sentence in run("distance", "torus.obj", "out.vtp", *places, "--memory", size,
+                               code=2).stderr
     for arguments, sentence in (
             (("--from", "{"), "--from"),
             (("--from", "absent.json"), "absent.json: cannot be opened"),

@@ -63,7 +63,8 @@ def test_the_order_and_the_polygons_of_the_input_stay():
 
 def test_every_way_gives_the_same_points():
     expected = points_of("smooth.obj")
-    for options in (("--in-core",), ("--threads", "1"), ("--memory", "64"), ("--size", "4edges")):
+    for options in (("--in-core",), ("--threads", "1"), ("--memory", "64"), ("--size", "4edges"),
+                    ("--size", "4edge"), ("--size", "4 edges")):
         smooth("noisy.obj", "again.obj", *options)
         assert points_of("again.obj") == expected, options
     run("convert", "noisy.obj", "noisy.vsm", "--quiet")
