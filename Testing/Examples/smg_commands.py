@@ -123,11 +123,10 @@ def test_the_commands_are_listed():
         said, other = (done.stderr, done.stdout) if code else (done.stdout, done.stderr)
         assert done.returncode == code and other == "", arguments
         for command in ("info", "convert", "solve", "deform", "smooth", "blend", "distance", "preview"):
-            assert f"\n  {command} " in said, (arguments, command)
+            assert f"\n  {command}  " in said, (arguments, command, said)
 
 
 def test_errors():
-    run(code=2)
     assert "foo" in run("foo", code=2).stderr
     run("solve", "torus.vsm", "o.vsm", code=2)
     for wrong in (("--operators", "foo"), ("--tolerance", 0), ("--tolerance", 1),
