@@ -1,22 +1,24 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Builds and tests everything on a Debian 12 or 13 machine (as root, or as a user with sudo):
+# Builds and tests on a Debian 12 or 13 machine (as root, or as a user with sudo). By default the first
+# of these configurations; continuous integration runs the first four:
 #   main        build/             ParaView's VTK, plugin, Python; all tests except the long ones; unity
 #                                  build: names in unnamed namespaces must differ
 #   vtk         build-vtk/         Debian's standalone VTK, on the libraries Solver and IOCore of build/; the
 #                                  tests that use VTK; unity build; with assertions
 #   asan-ubsan  build-asan-ubsan/  Solver, IO and smg without VTK, under two sanitizers; unity build; with
 #                                  assertions
+#   lint        build/             format, layers, sizes, licences and documentation of the source
 #   debug       build-debug/       main without a unity build, where each source must include what it uses;
-#                                  with assertions; not by default, since it takes as long as all others
-#   tsan        build-tsan/        Solver, IO and smg without VTK, under ThreadSanitizer; unity build; not by
-#                                  default: for a run every night
+#                                  with assertions; for daily work
+#   tsan        build-tsan/        Solver, IO and smg without VTK, under ThreadSanitizer; unity build; for a
+#                                  run every night
 # The tests themselves are built for few seconds of compilation: without full optimization.
 # Stops at the first failing configuration, with the summary of ctest as its last lines.
 #
 # Environment:
 #   SMG_TEST_DATA_DIR   the unpacked archive of test meshes; without it, tests that need it are skipped
-#   SMG_CONFIGURATIONS  the configurations to run; default: "main vtk asan-ubsan"
+#   SMG_CONFIGURATIONS  the configurations to run; default: "main"
 #   SMG_JOBS            parallel compilations and tests; default: one per core
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -44,13 +46,17 @@ configure_build_test() {
 }
 
 smg_install "${smg_build_packages[@]}" "${smg_paraview_packages[@]}" "${smg_test_packages[@]}"
-for configuration in ${SMG_CONFIGURATIONS:-main vtk asan-ubsan}; do
+for configuration in ${SMG_CONFIGURATIONS:-main}; do
   case $configuration in
     main) configure_build_test release ;;
     vtk)
       configure_build release
       bash cmake/vtk-prefix.sh build-vtk/vtk
       configure_build_test vtk
+      ;;
+    lint)
+      configure_build release
+      ctest --test-dir build --label-regex '^lint$' --output-on-failure --no-tests=error
       ;;
     asan-ubsan | debug | tsan) configure_build_test "$configuration" ;;
     *)

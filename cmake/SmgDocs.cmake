@@ -11,5 +11,5 @@ add_custom_target(docs
   COMMENT "docs/html/index.html" VERBATIM)
 if (SMG_BUILD_TESTING)
   add_test(NAME Tree.docs COMMAND Doxygen::doxygen "${smg_doxyfile}")
-  set_tests_properties(Tree.docs PROPERTIES LABELS tree TIMEOUT 120)
+  set_tests_properties(Tree.docs PROPERTIES LABELS lint TIMEOUT 1200)
 endif ()

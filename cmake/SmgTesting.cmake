@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Functions that add tests. Labels:
-#   unit, vtk, paraview, tree, install   what the test needs or checks
+# Functions that add tests. Limits of time are at least ten times the usual time: they end what hangs,
+# and no test fails because a machine is slow or busy. Labels:
+#   unit, vtk, paraview, install         what the test needs or checks
+#   lint                                 judges the source: for developers and continuous integration
 #   data                                 needs SMG_TEST_DATA_DIR; skipped if that is empty
 #   law                                  scaling of errors, rates or memory with the size of the mesh:
 #                                        larger meshes, without additional coverage for sanitizers
@@ -42,7 +44,7 @@ function (smg_add_processes_test program)
       PROCESSORS ${processes}
       LABELS "${arg_LABELS}"
       SKIP_REGULAR_EXPRESSION "SKIPPED:"
-      TIMEOUT 900)
+      TIMEOUT 9000)
   endforeach ()
 endfunction ()
 
@@ -72,10 +74,10 @@ function (smg_add_gtest name)
   if (SMG_SANITIZE)
     smg_add_shards(${name} "${arg_LABELS}")
   else ()
-    smg_discover(${name} "-*Data.*:*Law.*:*Long.*" 120 "${arg_LABELS}")
+    smg_discover(${name} "-*Data.*:*Law.*:*Long.*" 1200 "${arg_LABELS}")
   endif ()
-  smg_discover(${name} "*Law.*" 120 "${arg_LABELS};law")
-  smg_discover(${name} "*Data.*" 300 "${arg_LABELS};data")
+  smg_discover(${name} "*Law.*" 1200 "${arg_LABELS};law")
+  smg_discover(${name} "*Data.*" 3000 "${arg_LABELS};data")
   smg_discover(${name} "*Long.*" 3600 "${arg_LABELS};data;long")
 endfunction ()
 
@@ -88,7 +90,7 @@ function (smg_add_shards name labels)
     set_tests_properties(${name}.shard${shard} PROPERTIES
       ENVIRONMENT "GTEST_TOTAL_SHARDS=8;GTEST_SHARD_INDEX=${shard}"
       LABELS "${labels}"
-      TIMEOUT 900)
+      TIMEOUT 9000)
   endforeach ()
 endfunction ()
 
@@ -99,7 +101,7 @@ function (smg_discover name filter timeout labels)
     TEST_FILTER "${filter}"
     TEST_LIST ${list}
     DISCOVERY_MODE PRE_TEST
-    DISCOVERY_TIMEOUT 60
+    DISCOVERY_TIMEOUT 600
     PROPERTIES TIMEOUT ${timeout})
   # gtest_discover_tests splits a list of labels: they are set in a file that ctest includes.
   set(file "${CMAKE_CURRENT_BINARY_DIR}/${list}.cmake")
@@ -127,7 +129,7 @@ endfunction ()
 function (smg_add_paraview_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "COMMAND;LABELS")
   if (NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 240)
+    set(arg_TIMEOUT 2400)
   endif ()
   add_test(NAME ${name} COMMAND ${smg_on_screen} ${arg_COMMAND})
   set_tests_properties(${name} PROPERTIES

@@ -22,7 +22,7 @@ def begin(arguments):
 def again(arguments):
     """Runs smg with the checkpoint; returns its exit code and its errors."""
     process = begin(arguments)
-    _, error = process.communicate(timeout=120)
+    _, error = process.communicate(timeout=1200)
     return process.returncode, error
 
 
@@ -51,7 +51,7 @@ def kill_after(arguments, least):
     while steps() < least and process.poll() is None:
         time.sleep(0.0005)
     process.kill()
-    process.communicate(timeout=120)
+    process.communicate(timeout=1200)
     assert process.returncode == -signal.SIGKILL, "it was faster than the kill"
     states = state_steps()
     assert len(states) == 1 or abs(states[0] - states[1]) == 1, "a pass was not saved"
@@ -65,7 +65,7 @@ def with_fault(arguments, fault):
                        LD_PRELOAD=os.environ["SMG_FAULT_LIBRARY"], SMG_FAULT=fault,
                        SMG_FAULT_COUNT="count")
     return subprocess.run([SMG, *map(str, arguments), "--checkpoint", FOLDER], env=environment,
-                          capture_output=True, text=True, timeout=120)
+                          capture_output=True, text=True, timeout=1200)
 
 
 def calls_of(arguments):
@@ -97,7 +97,7 @@ def run_with_kills(arguments, delays):
             _, error = process.communicate(timeout=next(delays))
         except subprocess.TimeoutExpired:
             process.kill()
-            _, error = process.communicate(timeout=120)
+            _, error = process.communicate(timeout=1200)
         said = any("found a checkpoint after %s %d in" % (step, before) in error for step in ("pass", "stage"))
         assert said == (before > 0 and error != ""), (before, error)
         resumed += said

@@ -292,14 +292,14 @@ def test_interrupted():
     while steps() < 2 and process.poll() is None:
         pass
     process.send_signal(signal.SIGINT)
-    _, error = process.communicate(timeout=120)
+    _, error = process.communicate(timeout=1200)
     assert process.returncode == 1 and "the same command continues" in error, error
     os.mkfifo("pipe")
     case = tuple("pipe" if a == "torus_held.json" else a for a in HELD)
     process = begin(case)
     with open("torus_held.json", "rb") as text, open("pipe", "wb") as pipe:
         pipe.write(text.read())
-    _, error = process.communicate(timeout=120)
+    _, error = process.communicate(timeout=1200)
     os.remove("pipe")
     assert process.returncode == 0, error
     check_equal(HELD, bits, report)
@@ -307,7 +307,7 @@ def test_interrupted():
     program = [SMG, *map(str, HELD), "--checkpoint"]
     for folder, options, code, word in ((FOLDER + "/", ["--scratch-limit", "1"], 1, "their limit is"),
                                         ("", [], 2, "no folder")):
-        done = subprocess.run([*program, folder, *options], capture_output=True, text=True, timeout=120)
+        done = subprocess.run([*program, folder, *options], capture_output=True, text=True, timeout=1200)
         assert done.returncode == code and word in done.stderr, done.stderr
     shutil.rmtree(FOLDER, ignore_errors=True)
 
@@ -323,7 +323,7 @@ def test_in_use():
     code, error = again((*case, "--quiet"))
     assert code == 1 and "another program" in error and FOLDER in error, error
     first.send_signal(signal.SIGCONT)
-    first.communicate(timeout=120)
+    first.communicate(timeout=1200)
     assert first.returncode == 0
     check_equal(case, bits, report)
 

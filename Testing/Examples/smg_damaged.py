@@ -110,7 +110,7 @@ def gmsh(points, cells):
 
 def convert(name, out, *options):
     return subprocess.run([SMG, "convert", name, out, "--quiet", *options], capture_output=True,
-                          text=True, errors="replace", timeout=120)
+                          text=True, errors="replace", timeout=1200)
 
 
 def samples():

@@ -25,7 +25,7 @@ PROBLEM = {"source": [1], "dirichlet": [{"halfspace": [-1, 0, 0, 0], "value": [2
 def run_on(processes, *arguments, code=0):
     """Runs smg on several processes; an error must be one line of smg."""
     done = subprocess.run([MPIEXEC, "-n", str(processes), SMG, *map(str, arguments), "--no-sync"],
-                          capture_output=True, text=True, timeout=250)
+                          capture_output=True, text=True, timeout=2500)
     assert (done.returncode != 0) == (code != 0), (arguments, done.stdout, done.stderr)
     lines = [line for line in done.stderr.splitlines() if line.startswith("smg: ")]
     assert len(lines) == (1 if code else 0), done.stderr
@@ -156,7 +156,7 @@ def run_pair(first, second):
     """Runs smg with other arguments in each of two processes, which fail; returns the line."""
     with_options = [[SMG, *map(str, arguments), "--no-sync"] for arguments in (first, second)]
     done = subprocess.run([MPIEXEC, "-n", "1", *with_options[0], ":", "-n", "1", *with_options[1]],
-                          capture_output=True, text=True, timeout=250)
+                          capture_output=True, text=True, timeout=2500)
     lines = [line for line in done.stderr.splitlines() if line.startswith("smg: ")]
     assert done.returncode != 0 and len(lines) == 1, done
     return lines[0]
@@ -181,7 +181,7 @@ def test_processes_that_are_asked_differently_are_refused():
 
 def test_processes_do_not_do_the_same():
     done = subprocess.run([MPIEXEC, "-n", "2", SMG, "solve", "solid.vsm", "same.vtu", "--problem", "solid.json"],
-                          capture_output=True, text=True, timeout=250)
+                          capture_output=True, text=True, timeout=2500)
     assert done.returncode != 0 and "start smg once" in done.stderr, done
     assert not os.path.exists("same.vtu")
 

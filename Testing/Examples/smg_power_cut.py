@@ -68,7 +68,7 @@ class Case:
     def record(self, name):
         environment = dict(os.environ, LD_PRELOAD=os.environ["SMG_RECORDER_LIBRARY"], SMG_RECORD=name)
         done = subprocess.run([SMG, *self.arguments, "--scratch", SCRATCH], env=environment,
-                              capture_output=True, text=True, timeout=120)
+                              capture_output=True, text=True, timeout=1200)
         assert done.returncode == 0, (self.name, done.stderr)
 
     def begins_from(self, continues):

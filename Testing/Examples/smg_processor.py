@@ -23,7 +23,7 @@ HANDLES = {"handles": [
 def library(environment):
     """The file of the solver's library that the loader chooses."""
     done = subprocess.run([SMG, "--version"], env={**environment, "LD_DEBUG": "libs"},
-                          capture_output=True, text=True, check=True, timeout=120)
+                          capture_output=True, text=True, check=True, timeout=1200)
     return next(line.split()[-1] for line in done.stderr.splitlines()
                 if "calling init" in line and "libsmgSolver" in line)
 
@@ -39,7 +39,7 @@ def result(command, mesh, options, environment):
     """The bytes of the file that `smg command` makes of a mesh."""
     subprocess.run([SMG, "convert", mesh, "mesh.vsm", "--quiet"], env=environment, check=True)
     subprocess.run([SMG, command, "mesh.vsm", "out.vsm", "--quiet", *options], env=environment,
-                   check=True, timeout=120)
+                   check=True, timeout=1200)
     with open("out.vsm", "rb") as file:
         return file.read()
 

@@ -122,7 +122,7 @@ def stopped(kind, delay, *arguments):
         time.sleep(0.001)
     time.sleep(delay)
     process.send_signal(kind)
-    _, error = process.communicate(timeout=60)
+    _, error = process.communicate(timeout=600)
     return process.returncode, error
 
 

@@ -25,7 +25,7 @@ def together(*commands):
                                  stderr=subprocess.PIPE, text=True) for command in commands]
     ends = []
     for program in programs:
-        _, error = program.communicate(timeout=60)
+        _, error = program.communicate(timeout=600)
         assert program.returncode == 0 or program.returncode == 1 and error.count("\n") == 1, error
         ends.append((program.returncode, error))
     return ends

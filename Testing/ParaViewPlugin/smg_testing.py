@@ -116,7 +116,7 @@ def run_smg(*arguments):
     program = os.environ.get("SMG_PROGRAM")
     if not program:
         skip("the program smg is not built")
-    subprocess.run([program, *map(str, arguments)], check=True, timeout=500)
+    subprocess.run([program, *map(str, arguments)], check=True, timeout=5000)
 
 
 def points_of(proxy, array):

@@ -136,7 +136,7 @@ class Session:
                 f"import paraview_gui\nparaview_gui.take_picture({path!r})\n")
             self.menu("Macros", "picture_" + name)
 
-    def run(self, timeout=200):
+    def run(self, timeout=2000):
         """Plays the session; returns the messages of ParaView. Raises RuntimeError if they contain errors."""
         settings = os.path.join(self.folder, "settings")
         screen = os.path.join(self.folder, "screen")
