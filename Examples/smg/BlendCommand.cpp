@@ -139,5 +139,5 @@ void addBlendCommand(CLI::App& program, Action& action)
   CLI::App* command =
     program.add_subcommand("blend", "Remove the steps of columns between patches of a mesh");
   blend->addOptions(*command);
-  command->callback([blend, &action] { action = [blend] { blend->run(); }; });
+  command->callback([blend, &action] { action = [blend] { return blend->run(); }; });
 }

@@ -73,8 +73,8 @@ inline double inMebibytes(std::int64_t bytes)
   return static_cast<double>(bytes) / (1 << 20);
 }
 
-/** Runs the selected command. */
-using Action = std::function<void()>;
+/** Runs the selected command; returns its exit code. */
+using Action = std::function<int()>;
 
 /** Add the commands to the program; each sets `action` when it is selected. */
 void addInfoCommand(CLI::App& program, Action& action);

@@ -172,5 +172,5 @@ void addConvertCommand(CLI::App& program, Action& action)
   options->addCheckpointTo(*command);
   options->addTo(*command);
   options->addThreadsTo(*command);
-  command->callback([options, &action] { action = [options] { options->run(); }; });
+  command->callback([options, &action] { action = [options] { return options->run(), 0; }; });
 }

@@ -173,5 +173,5 @@ void addDeformCommand(CLI::App& program, Action& action)
   CLI::App* command =
     program.add_subcommand("deform", "Deform a mesh by handles, keeping its details");
   deform->addOptions(*command);
-  command->callback([deform, &action] { action = [deform] { deform->run(); }; });
+  command->callback([deform, &action] { action = [deform] { return deform->run(); }; });
 }

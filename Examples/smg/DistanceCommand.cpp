@@ -154,6 +154,6 @@ void addDistanceCommand(CLI::App& program, Action& action)
     [distance, &action]
     {
       distance->checkUsage();
-      action = [distance] { distance->run(); };
+      action = [distance] { return distance->run(); };
     });
 }

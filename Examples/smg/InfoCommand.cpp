@@ -164,5 +164,5 @@ void addInfoCommand(CLI::App& program, Action& action)
   options->input.addTo(*command);
   options->addTo(*command);
   options->addThreadsTo(*command);
-  command->callback([options, &action] { action = [options] { options->run(); }; });
+  command->callback([options, &action] { action = [options] { return options->run(), 0; }; });
 }

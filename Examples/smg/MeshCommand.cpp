@@ -88,7 +88,7 @@ void MeshCommand::checkRoom() const
   }
 }
 
-void MeshCommand::run()
+int MeshCommand::run()
 {
   if (!this->isForProcesses())
   {
@@ -102,6 +102,7 @@ void MeshCommand::run()
   {
     this->endCancelled();
   }
+  return this->Converged ? 0 : NotConverged;
 }
 
 ResultFile MeshCommand::checkFiles()
@@ -116,8 +117,9 @@ ResultFile MeshCommand::checkFiles()
   return out;
 }
 
-void MeshCommand::tell(const smg::Report& report) const
+void MeshCommand::tell(const smg::Report& report)
 {
+  this->Converged = report.converged;
   this->warn(report);
   if (!this->quiet)
   {

@@ -24,8 +24,12 @@ class MeshCommand : public CommonOptions
 public:
   virtual ~MeshCommand() = default;
 
-  /** Runs the command. Throws smg::Error. */
-  void run();
+  /** The exit code of a command whose result is written, but does not have the accuracy asked for.
+   */
+  static constexpr int NotConverged = 3;
+
+  /** Runs the command; returns its exit code. Throws smg::Error. */
+  int run();
 
 protected:
   /** `title` is the title of the progress bar. */
@@ -50,7 +54,7 @@ protected:
   /** Checks the files and reads the task. */
   ResultFile checkFiles();
   /** Prints what the user is to know at the end. */
-  void tell(const smg::Report& report) const;
+  void tell(const smg::Report& report);
   bool isDryRun() const { return this->DryRun; }
   const std::string& title() const { return this->Title; }
   /** Reads the task file, before the mesh is read. */
@@ -103,4 +107,5 @@ private:
   std::string Title;
   std::unique_ptr<smg::Solution> Solution;
   bool DryRun = false;
+  bool Converged = true;
 };

@@ -107,5 +107,5 @@ void addPreviewCommand(CLI::App& program, Action& action)
   options->addTo(*command);
   command->get_option("--memory")
     ->description("Memory limit in MiB for converting IN; a .vsm file is not converted");
-  command->callback([options, &action] { action = [options] { options->run(); }; });
+  command->callback([options, &action] { action = [options] { return options->run(), 0; }; });
 }

@@ -171,5 +171,5 @@ void addSmoothCommand(CLI::App& program, Action& action)
   CLI::App* command =
     program.add_subcommand("smooth", "Smooth a surface, or a column of the vertices of any mesh");
   smooth->addOptions(*command);
-  command->callback([smooth, &action] { action = [smooth] { smooth->run(); }; });
+  command->callback([smooth, &action] { action = [smooth] { return smooth->run(); }; });
 }

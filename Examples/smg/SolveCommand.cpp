@@ -168,5 +168,5 @@ void addSolveCommand(CLI::App& program, Action& action)
   auto solve = std::make_shared<SolveCommand>();
   CLI::App* command = program.add_subcommand("solve", "Solve a Poisson problem on a mesh");
   solve->addOptions(*command);
-  command->callback([solve, &action] { action = [solve] { solve->run(); }; });
+  command->callback([solve, &action] { action = [solve] { return solve->run(); }; });
 }

@@ -42,11 +42,11 @@ int fail(const std::string& sentence)
   return 1;
 }
 
-/** The exit code of a successful command, unless standard output cannot be written. */
-int succeed()
+/** The exit code of a command that has done its work, unless standard output cannot be written. */
+int succeed(int code = 0)
 {
   const bool said = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-  return said ? 0
+  return said ? code
               : fail("standard output cannot be written: make room there, or send it elsewhere");
 }
 
@@ -146,8 +146,7 @@ int run(int argc, char** argv)
   }
 
   catchInterrupts();
-  action();
-  return succeed();
+  return succeed(action());
 }
 
 } // namespace

@@ -127,6 +127,11 @@ void readMesh(
     throw Error("a distance needs at least one source, but the mesh has no vertex");
   }
   checkExtent(low, high);
+  if (const std::string note = unweldedNote(chunks.plan.cellType, check.vertices(), check.cells());
+      !note.empty())
+  {
+    run.report.notes.push_back(note);
+  }
 }
 
 void march(ChunkedMesh& chunks, DistanceRun& run)

@@ -94,6 +94,11 @@ std::int64_t readWall(const StoredMesh& mesh, const DistanceDescription& descrip
   wall.finish();
   sources.finish();
   run.report.vertices = check.vertices();
+  if (const std::string note = unweldedNote(CellType::Tetrahedron, check.vertices(), check.cells());
+      !note.empty())
+  {
+    run.report.notes.push_back(note);
+  }
   if (wall.count() == 0)
   {
     throw Error(name + ": no face of the boundary of the mesh is wall.");

@@ -261,6 +261,7 @@ void PartAssembly::count(PartSystem& system) const
   team.least({ &flatness, 1 });
   team.sum(system.termSquares);
   AssemblyCounts& all = system.counts;
+  all.type = this->Part.info.cellType;
   all.vertices = this->Part.info.vertices;
   all.cells = counts[0];
   all.prescribed = counts[1];

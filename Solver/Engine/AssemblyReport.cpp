@@ -2,6 +2,7 @@
 #include "Solver/Engine/AssemblyReport.h"
 
 #include "Solver/Engine/Convergence.h"
+#include "Solver/Stream/StreamCheck.h"
 #include "smg/Error.h"
 
 #include <cmath>
@@ -18,6 +19,11 @@ void reportAssembly(const AssemblyCounts& counts, Report& report)
   report.held = counts.held;
   report.degenerate_cells = counts.degenerateCells;
   report.clamped_weights = counts.clampedWeights;
+  if (const std::string note = unweldedNote(counts.type, counts.vertices, counts.cells);
+      !note.empty())
+  {
+    report.notes.push_back(note);
+  }
   if (counts.limitedCells > 0)
   {
     report.notes.push_back(std::to_string(counts.limitedCells) +
@@ -45,6 +51,7 @@ void reportAssembly(const AssemblyCounts& counts, Report& report)
 void reportAssembly(const Assembly& assembly, const Components& components, Report& report)
 {
   AssemblyCounts counts;
+  counts.type = assembly.cellType();
   counts.vertices = assembly.vertices();
   counts.cells = assembly.cells();
   counts.prescribed = assembly.prescribed();

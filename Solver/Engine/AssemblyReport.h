@@ -13,6 +13,7 @@ namespace smg
 /** What an assembly counted. */
 struct AssemblyCounts
 {
+  CellType type = CellType::Triangle;
   std::int64_t vertices = 0, cells = 0, prescribed = 0, held = 0;
   std::int64_t degenerateCells = 0, clampedWeights = 0;
   std::int64_t limitedCells = 0; ///< see WeightPolicy

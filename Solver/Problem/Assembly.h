@@ -72,6 +72,7 @@ public:
   std::int64_t vertices() const { return this->Cells.vertices.end(); }
   std::int64_t openVertices() const { return this->vertices() - this->Closed; }
   std::int64_t cells() const { return this->Check.cells(); }
+  CellType cellType() const { return this->Info.cellType; }
   std::int64_t prescribed() const { return this->Rows.prescribed(); }
   std::int64_t held() const { return this->Rows.held(); }
   std::int64_t clampedWeights() const { return this->Cells.edges.clamped(); }

@@ -133,6 +133,7 @@ void Smoother::survey(Part part)
       }
     });
   check.finish(this->Mesh.info());
+  this->requireWelded(check);
   this->Held.endPreparing(boundaryOf(this->Options) == SmoothedBoundary::Fixed);
   if (facets)
   {
@@ -181,6 +182,21 @@ void Smoother::holdCurves(Part part)
   }
 }
 
+/** Triangles that share no edges would be smoothed each for itself, to points. */
+void Smoother::requireWelded(const StreamCheck& check)
+{
+  const std::string note =
+    unweldedNote(this->Mesh.info().cellType, check.vertices(), check.cells());
+  if (!note.empty() && this->movesPoints())
+  {
+    throw Error(note + ": smoothed each for itself they would shrink.");
+  }
+  if (!note.empty())
+  {
+    this->Result->total.notes.push_back(note);
+  }
+}
+
 void Smoother::setSize(const MeshMeasures& measures)
 {
   const SmoothingSize size = this->Options.size;
@@ -201,6 +217,13 @@ void Smoother::setSize(const MeshMeasures& measures)
   }
   if (this->Size > measures.diagonal())
   {
+    if (this->movesPoints())
+    {
+      throw Error("the size of the details to smooth, " + scientific(this->Size) +
+                  ", is larger than the mesh, whose diagonal is " +
+                  scientific(measures.diagonal()) +
+                  ": nothing of its shape would be left. Is it in the mesh's unit?");
+    }
     this->Result->total.notes.push_back("The size of the details, " + scientific(this->Size) +
                                         ", is larger than the mesh, whose diagonal is " +
                                         scientific(measures.diagonal()) +

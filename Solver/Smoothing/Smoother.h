@@ -50,6 +50,7 @@ private:
   void read(Part part, const Visit& visit);
   void survey(Part part);
   void keepValues(const MeshBlock& block);
+  void requireWelded(const StreamCheck& check);
   void setSize(const MeshMeasures& measures);
   void holdCurves(Part part);
 

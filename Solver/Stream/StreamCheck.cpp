@@ -82,4 +82,21 @@ void StreamCheck::finish(const StreamInfo& info) const
   }
 }
 
+std::string unweldedNote(CellType type, std::int64_t vertices, std::int64_t cells)
+{
+  constexpr std::int64_t Few = 100;
+  const bool isSurface = type == CellType::Triangle;
+  // With b bodies: vertices <= cells + 2 b (tetrahedra: 3 b).
+  const std::int64_t bodies = (vertices - cells) / (isSurface ? 2 : 3);
+  if (cells < Few || bodies < cells / 2)
+  {
+    return {};
+  }
+  return std::string("Most ") + (isSurface ? "triangles" : "tetrahedra") +
+         " of the mesh share no " + (isSurface ? "edge" : "face") +
+         " with another: " + std::to_string(vertices) + " vertices of " + std::to_string(cells) +
+         " cells. If points of equal coordinates are one point, merge them first, with --weld 0 "
+         "(ConversionOptions::weld)";
+}
+
 } // namespace smg

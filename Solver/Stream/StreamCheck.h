@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Export.h"
 #include "smg/MeshSource.h"
 
 #include <cstdint>
+#include <string>
 #include <utility>
 
 namespace smg
@@ -43,6 +45,13 @@ private:
   std::int64_t Cells = 0;
   std::int64_t Final = 0; ///< no cell may use a vertex below
 };
+
+/**
+ * A note on a mesh of so many vertices and cells, at least half of which must be bodies of their
+ * own: a body of m triangles that share edges has at most m + 2 vertices, one of m tetrahedra that
+ * share faces at most m + 3. Empty: it is not such a mesh, or has few cells.
+ */
+SMG_EXPORT std::string unweldedNote(CellType type, std::int64_t vertices, std::int64_t cells);
 
 /** Calls `visit` with each block of the stream, or of a part of a mesh, which is checked before. */
 void forCheckedBlocks(MeshSource& mesh, auto visit)

@@ -36,9 +36,9 @@ def run(*arguments, code=0):
     """Runs smg and expects this exit code; an error must be exactly one line."""
     no_sync = ["--no-sync"] if arguments and arguments[0] in WRITING else []
     done = subprocess.run([SMG, *map(str, arguments), *no_sync], capture_output=True, text=True,
-                          timeout=120)
+                          timeout=1200)
     assert done.returncode == code, (arguments, done.returncode, done.stdout, done.stderr)
-    if code != 0:
+    if code not in (0, 3):  # 3: not converged; the result is written
         assert done.stdout == "", (arguments, done.stdout)
         assert done.stderr.count("\n") == 1 and done.stderr.startswith("smg: "), done.stderr
     return done

@@ -110,7 +110,7 @@ def test_report_and_options():
     report = load("report.json")
     assert report["converged"] and all(step["residual"] <= 1e-8 for step in report["steps"])
     done = deform("torus.vsm", "one.vsm", "--tolerance", 1e-8, "--max-cycles", 1, "--quiet",
-                  "--report", "report.json")
+                  "--report", "report.json", code=3)
     assert "not converged" in done.stderr and not load("report.json")["converged"]
     deform("torus.vsm", "cotangent.vsm", "--tolerance", 1e-8, "--weights", "cotangent", "--quiet")
     tight = arrays("tight.vsm")["Points"]

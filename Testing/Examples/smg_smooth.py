@@ -55,6 +55,20 @@ def test_noise_goes_and_volume_stays():
     assert len(report["steps"]) == 2
 
 
+def test_what_would_leave_nothing_of_the_shape_is_refused():
+    assert "larger than the mesh" in smooth("noisy.obj", "x.obj", "--size", "1000%", code=1).stderr
+    points, faces = read_mesh("noisy.obj")
+    with open("soup.obj", "w", encoding="utf-8") as file:
+        corners = [corner for face in faces for corner in face]
+        for corner in corners:
+            file.write("v %r %r %r\n" % tuple(points[corner]))
+        for face in range(0, len(corners), 4):
+            file.write("f %d %d %d %d\n" % tuple(range(face + 1, face + 5)))
+    assert "--weld 0" in smooth("soup.obj", "x.obj", code=1).stderr
+    pairs = smooth("soup.obj", "x.obj", "--weld", "0")
+    assert pairs["vertices"] == len(points), pairs["vertices"]
+
+
 def test_the_order_and_the_polygons_of_the_input_stay():
     before, after = read_mesh("noisy.obj"), read_mesh("smooth.obj")
     assert before[1] == after[1]
