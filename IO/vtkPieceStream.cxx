@@ -323,8 +323,10 @@ StreamInfo writeContainer(PieceStream& stream, const std::filesystem::path& path
   Progress& progress, const std::filesystem::path& isolatedFrom)
 {
   Workers workers; // not worth their memory for fast compression
-  VsmWriter writer(path, stream.info(), forScratch ? Codec::Lz4 : Codec::Zstd, nullptr,
-    forScratch ? nullptr : &workers);
+  VsmWriter writer(path, stream.info(),
+    { .codec = forScratch ? Codec::Lz4 : Codec::Zstd,
+      .scratch = std::filesystem::absolute(path).parent_path(),
+      .workers = forScratch ? nullptr : &workers });
   MeshBlock block;
   while (stream.next(block))
   {

@@ -138,7 +138,7 @@ Notes writeThroughContainer(const Job& job)
   smg::checkOutput(job.path, stream.info().cellType);
   smg::Progress half(job.part(0.0, 0.5));
   smg::writeContainer(stream, container, true, half);
-  Notes notes = smg::writeFromVsm(container, job.path, job.part(0.5, 1.0));
+  Notes notes = smg::writeFromVsm(container, job.path, job.part(0.5, 1.0), scratch.path());
   noteIsolated(job, notes);
   return notes;
 }

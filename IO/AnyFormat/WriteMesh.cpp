@@ -25,23 +25,33 @@ std::vector<std::string> writeMesh(
   const ScratchFolder scratch(options.scratch);
   const std::filesystem::path whole = scratch / "mesh.vsm";
   Workers workers(options.threads);
-  writeVsm(source, whole, Codec::Lz4, partOf(options.progress, 0.0, 0.6), {}, {}, &workers, true);
-  return format.writeVsm(whole, path, partOf(options.progress, 0.6, 1.0));
+  writeVsm(source, whole,
+    { .codec = Codec::Lz4,
+      .scratch = scratch.path(),
+      .workers = &workers,
+      .apart = true,
+      .progress = partOf(options.progress, 0.0, 0.6) });
+  WriteMeshOptions rest = options;
+  rest.scratch = scratch.path();
+  rest.progress = partOf(options.progress, 0.6, 1.0);
+  return format.writeVsm(whole, path, rest);
 }
 
 std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
-  const std::filesystem::path& path, const ProgressFunction& progress)
+  const std::filesystem::path& path, const ProgressFunction& progress,
+  const std::filesystem::path& scratch)
 {
   VsmReader reader(vsm);
   checkOutput(path, reader.info().cellType);
   const Format& format = *formatOfSuffix(lowerSuffix(path));
-  if (format.writeVsm)
-  {
-    return format.writeVsm(vsm, path, progress);
-  }
   WriteMeshOptions options;
+  options.scratch = scratch;
   options.isolatedFrom = vsm;
   options.progress = progress;
+  if (format.writeVsm)
+  {
+    return format.writeVsm(vsm, path, options);
+  }
   return writeMesh(*reader.source(), path, options);
 }
 

@@ -152,9 +152,13 @@ void Conversion::write(MeshSource& source, const AddTables& add)
   const std::int64_t blockMemory = BlockFileWriter::memoryFor(space.workers());
   const bool parallel = space.available() > 4 * blockMemory;
   const Reservation blocks(space.pool(), parallel ? blockMemory : 0);
-  const WrittenVsm written = writeVsm(source, path, direct ? this->Options.codec : Codec::Lz4,
-    partOf(progress, 0.0, direct ? 1.0 : 0.6), direct ? this->Options.origin : std::string(), add,
-    parallel ? &space.workers() : nullptr);
+  const WrittenVsm written = writeVsm(source, path,
+    { .codec = direct ? this->Options.codec : Codec::Lz4,
+      .scratch = space.folder(),
+      .origin = direct ? this->Options.origin : std::string(),
+      .add = add,
+      .workers = parallel ? &space.workers() : nullptr,
+      .progress = partOf(progress, 0.0, direct ? 1.0 : 0.6) });
   this->Report.vertices = written.info.vertices;
   this->Report.cells = written.info.cells;
   this->Report.width = written.info.width;
@@ -162,7 +166,8 @@ void Conversion::write(MeshSource& source, const AddTables& add)
   this->Report.mean_width = written.meanWidth;
   if (!direct)
   {
-    for (std::string& note : writeFromVsm(path, this->Out, partOf(progress, 0.6, 1.0)))
+    for (std::string& note :
+      writeFromVsm(path, this->Out, partOf(progress, 0.6, 1.0), space.folder()))
     {
       this->Report.notes.push_back(std::move(note));
     }

@@ -113,7 +113,7 @@ struct Format
     const WriteMeshOptions& options) = nullptr;
   /** Writes a .vsm file; instead of `write`, for a format that reads the mesh more than once. */
   WriteNotes (*writeVsm)(const std::filesystem::path& vsm, const std::filesystem::path& path,
-    const ProgressFunction& progress) = nullptr;
+    const WriteMeshOptions& options) = nullptr;
   /** Writes a mesh in the order of its original file; reads it once. The file is renamed when it is
    * complete. */
   WriteNotes (*restore)(RestoredMesh& mesh, const std::filesystem::path& path) = nullptr;

@@ -72,7 +72,7 @@ inline StreamInfo write(
   MemorySource source(mesh, options.blockCells);
   StreamInfo info = source.info();
   info.doublePositions = !options.single;
-  VsmWriter writer(path, info, options.codec);
+  VsmWriter writer(path, info, { .codec = options.codec });
   MeshBlock block;
   while (source.next(block))
   {

@@ -200,8 +200,9 @@ TEST_F(IsolatedVerticesTest, StayWithAMeshThatIsWrittenAgain)
   VsmReader first(this->Folder / "mesh.vsm");
   const std::string kept = this->Mesh.vertexColumns[3].spec.name;
   const std::unique_ptr<MeshSource> source = first.source({ kept }, {});
-  writeVsm(*source, this->Folder / "again.vsm", Codec::Zstd, {}, {},
-    [&](VsmWriter& writer) { copyIsolated(this->Folder / "mesh.vsm", source->info(), writer); });
+  const auto copy = [&](VsmWriter& writer)
+  { copyIsolated(this->Folder / "mesh.vsm", source->info(), writer); };
+  writeVsm(*source, this->Folder / "again.vsm", { .add = copy });
   VsmReader again(this->Folder / "again.vsm");
   ASSERT_EQ(again.isolatedVertices(), first.isolatedVertices());
   IsolatedVertices before, after;

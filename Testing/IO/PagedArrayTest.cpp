@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/PagedArray.h"
 #include "IO/Formats/Vsm/PackedIntegers.h"
+#include "Solver/Storage/ScratchAccount.h"
+#include "Solver/Storage/ScratchFolder.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
 
@@ -40,7 +42,8 @@ TEST(PackedIntegers, GiveBackAllNumbers)
 
 TEST(PagedArray, IsAnArrayInLittleMemory)
 {
-  const TemporaryFolder folder;
+  const TemporaryFolder parent;
+  const ScratchFolder folder(parent.path());
   constexpr std::int64_t size = 300000;
   PagedArray<std::int64_t> paged(folder.path(), 1);
   std::vector<std::int64_t> plain(size);
@@ -64,7 +67,27 @@ TEST(PagedArray, IsAnArrayInLittleMemory)
       paged.discardBelow(kept);
     }
   }
-  EXPECT_EQ(folder.entries(), 0) << "the scratch file has a name";
+  EXPECT_GT(folder.account().peak(), 0);
+  EXPECT_EQ(parent.entries(), 1) << "there is a folder for the scratch file already";
+}
+
+TEST(PagedArray, MakesAFolderForItsScratchFile)
+{
+  const TemporaryFolder folder;
+  const std::int64_t before = ScratchAccount::process().used();
+  {
+    PagedArray<std::int64_t> paged(folder.path(), 1);
+    paged.at(0) = 1;
+    EXPECT_EQ(folder.entries(), 0);
+    for (std::int64_t i = 0; i < 100000; i++)
+    {
+      paged.at(i) = i;
+    }
+    EXPECT_EQ(folder.entries(), 1);
+    EXPECT_GT(ScratchAccount::process().used(), before);
+  }
+  EXPECT_EQ(folder.entries(), 0);
+  EXPECT_EQ(ScratchAccount::process().used(), before);
 }
 
 } // namespace

@@ -219,7 +219,7 @@ TEST_F(StreamFormats, LeaveNothingWhenCancelled)
   };
   streamToVsm(this->Folder / "in.sma", this->Folder / "o.vsm", options);
   EXPECT_EQ(before, 1.0);
-  EXPECT_THROW(vsmToStream(this->Folder / "o.vsm", this->Folder / "o.sma",
+  EXPECT_THROW(vsmToStream(this->Folder / "o.vsm", this->Folder / "o.sma", {},
                  [](double fraction) { return fraction < 0.5; }),
     Cancelled);
   EXPECT_EQ(this->Folder.entries(), 2);

@@ -100,7 +100,11 @@ protected:
   {
     Workers workers(threads);
     const std::string message = messageOf(
-      [&] { writeVsm(source, this->Folder / "a.vsm", Codec::Lz4, {}, {}, {}, &workers, true); });
+      [&]
+      {
+        writeVsm(source, this->Folder / "a.vsm",
+          { .codec = Codec::Lz4, .workers = &workers, .apart = true });
+      });
     EXPECT_TRUE(std::filesystem::is_empty(this->Folder.path()));
     return message;
   }
@@ -111,7 +115,7 @@ protected:
 TEST_F(WriteVsm, GivesTheSameBytesForAnyNumberOfThreads)
 {
   FaultySource source;
-  writeVsm(source, this->Folder / "expected.vsm", Codec::Lz4);
+  writeVsm(source, this->Folder / "expected.vsm", { .codec = Codec::Lz4 });
   const std::string expected = contentOf(this->Folder / "expected.vsm");
   EXPECT_GT(expected.size(), 10000U);
   for (const int threads : { 1, 2, 3, 8 })
@@ -120,7 +124,8 @@ TEST_F(WriteVsm, GivesTheSameBytesForAnyNumberOfThreads)
     {
       Workers workers(threads);
       FaultySource again;
-      writeVsm(again, this->Folder / "a.vsm", Codec::Lz4, {}, {}, {}, &workers, apart);
+      writeVsm(again, this->Folder / "a.vsm",
+        { .codec = Codec::Lz4, .workers = &workers, .apart = apart });
       EXPECT_EQ(contentOf(this->Folder / "a.vsm"), expected);
     }
   }
@@ -145,8 +150,10 @@ TEST_F(WriteVsm, CanBeCancelled)
     FaultySource source;
     int calls = 0;
     const auto stop = [&](double) { return ++calls < 4; };
-    EXPECT_THROW(writeVsm(source, this->Folder / "a.vsm", Codec::Lz4, stop, {}, {}, &workers, true),
-      Cancelled);
+    const WriteVsmOptions options{
+      .codec = Codec::Lz4, .workers = &workers, .apart = true, .progress = stop
+    };
+    EXPECT_THROW(writeVsm(source, this->Folder / "a.vsm", options), Cancelled);
     EXPECT_EQ(calls, 4);
     EXPECT_TRUE(std::filesystem::is_empty(this->Folder.path()));
   }

@@ -72,13 +72,13 @@ class ElementWriter
 {
 public:
   ElementWriter(VsmReader& reader, const std::filesystem::path& out, StreamFileWriter& writer,
-    const StreamFileHeader& header)
+    const StreamFileHeader& header, const std::filesystem::path& scratch)
     : Reader(reader)
     , Out(out)
     , Writer(writer)
     , Header(header)
     , Corners(cornersOf(reader.info().cellType))
-    , LastCell(reader.path().parent_path(), LeastMemory)
+    , LastCell(scratch, LeastMemory)
   {
   }
 
@@ -169,10 +169,10 @@ StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesy
 {
   Progress progress(options.progress);
   const std::unique_ptr<StreamFileReader> reader = openStreamFile(in);
-  VsmWriter writer(out, StreamAssembler::infoOf(reader->header()), options.codec);
-  StreamAssembler assembler(*reader, writer,
-    options.scratch.empty() ? out.parent_path() : options.scratch,
-    std::max(options.memory, LeastMemory));
+  VsmWriter writer(out, StreamAssembler::infoOf(reader->header()),
+    { .codec = options.codec, .scratch = options.scratch });
+  StreamAssembler assembler(
+    *reader, writer, options.scratch, std::max(options.memory, LeastMemory));
   StreamEvent event;
   std::int64_t elements = 0;
   for (reader->next(event); event.kind != StreamEvent::End; reader->next(event))
@@ -192,7 +192,8 @@ StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesy
 }
 
 std::vector<std::string> vsmToStream(const std::filesystem::path& in,
-  const std::filesystem::path& out, const ProgressFunction& progressFunction)
+  const std::filesystem::path& out, const std::filesystem::path& scratch,
+  const ProgressFunction& progressFunction)
 {
   Progress progress(progressFunction);
   VsmReader reader(in);
@@ -213,7 +214,7 @@ std::vector<std::string> vsmToStream(const std::filesystem::path& in,
     columns.emplace_back(header.vertexFloats > 0 ? StreamScalarName : StreamIntegerName);
   }
   const std::unique_ptr<MeshSource> source = reader.source(columns, {});
-  ElementWriter elements(reader, out, *writer, header);
+  ElementWriter elements(reader, out, *writer, header, scratch);
   MeshBlock block;
   while (source->next(block))
   {

@@ -17,7 +17,7 @@ namespace smg
 struct StreamToVsmOptions
 {
   Codec codec = Codec::Zstd;
-  /** Folder for scratch files; empty: the folder of the output. */
+  /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
   /** Bytes of memory for waiting vertices and cells; at least 8 MiB are used. */
   std::int64_t memory = std::int64_t(64) << 20;
@@ -45,10 +45,12 @@ StreamToVsmResult streamToVsm(const std::filesystem::path& in, const std::filesy
  * final by their last cell, little-endian, counts and bounds in the header, no comments. Positions
  * become single precision; columns are omitted, except for the scalar of SVA and SVB (see
  * StreamFile.h). Returns notes for the user on columns that were omitted and positions that were
- * rounded. Throws Error if there are more than 2^31 - 1 vertices or cells, or if a coordinate is
- * too large for single precision.
+ * rounded. Last uses of vertices that have no room in memory are written to a scratch file in
+ * `scratch` (empty: the system's temporary folder). Throws Error if there are more than 2^31 - 1
+ * vertices or cells, or if a coordinate is too large for single precision.
  */
 std::vector<std::string> vsmToStream(const std::filesystem::path& in,
-  const std::filesystem::path& out, const ProgressFunction& progress = {});
+  const std::filesystem::path& out, const std::filesystem::path& scratch = {},
+  const ProgressFunction& progress = {});
 
 } // namespace smg

@@ -13,9 +13,9 @@ namespace
 
 /** These formats require the last cell of each vertex in advance. */
 WriteNotes write(const std::filesystem::path& vsm, const std::filesystem::path& path,
-  const ProgressFunction& progress)
+  const WriteMeshOptions& options)
 {
-  return vsmToStream(vsm, path, progress);
+  return vsmToStream(vsm, path, options.scratch, options.progress);
 }
 
 std::optional<FileCounts> countsOfStream(InputFile& file, const MeshPart&)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vsm/PageFile.h"
 
+#include "Solver/Storage/ScratchAccount.h"
+
 #include <algorithm>
 #include <cstring>
 #include <span>
@@ -63,12 +65,22 @@ std::int32_t PageFile::makeRoom()
   {
     if (!this->File)
     {
-      this->File.emplace(this->Folder / "scratch file", this->Traffic);
+      this->createFile();
     }
     this->File->write(slot.page, std::span(slot.bytes.get(), PageBytes));
   }
   this->SlotOfPage[slot.page] = OnDisk;
   return number;
+}
+
+void PageFile::createFile()
+{
+  if (!ScratchAccount::of(this->Folder))
+  {
+    this->Own = std::make_unique<ScratchFolder>(this->Folder);
+  }
+  const std::filesystem::path& folder = this->Own ? this->Own->path() : this->Folder;
+  this->File.emplace(folder / "scratch file", this->Traffic);
 }
 
 void PageFile::discardBelow(std::int64_t page)

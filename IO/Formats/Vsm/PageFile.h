@@ -3,6 +3,7 @@
 
 #include "Solver/Storage/IoStatistics.h"
 #include "Solver/Storage/ScratchBlocks.h"
+#include "Solver/Storage/ScratchFolder.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,13 +16,15 @@ namespace smg
 {
 
 /** An unbounded sequence of pages of bytes, initially zero; a few are in memory, the others in an
- * unnamed scratch file, which is created only when the memory is exhausted. */
+ * unnamed scratch file, which is created only when the memory is exhausted. It is in `folder`, or,
+ * if that is no open ScratchFolder, in one made there: the bytes of scratch files are counted. */
 class PageFile
 {
 public:
   static constexpr std::size_t PageBytes = std::size_t(16) << 10;
 
-  /** Keeps at most `memory` bytes of pages in memory, at least 4 pages. */
+  /** Keeps at most `memory` bytes of pages in memory, at least 4 pages. `folder` empty: the
+   * system's temporary folder. */
   PageFile(std::filesystem::path folder, std::int64_t memory);
 
   /** The bytes of page `page`, valid until the next call. `change`: whether they will be modified.
@@ -58,8 +61,11 @@ private:
   std::int32_t load(std::int64_t page);
   std::int32_t makeRoom();
 
+  void createFile();
+
   std::filesystem::path Folder;
   IoStatistics Traffic;
+  std::unique_ptr<ScratchFolder> Own; ///< if one had to be made
   std::optional<ScratchBlocks> File;
   std::size_t MaxSlots;
   std::vector<Slot> Slots;

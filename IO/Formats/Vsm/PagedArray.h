@@ -20,7 +20,8 @@ class PagedArray
   static_assert(std::is_trivially_copyable_v<T> && std::has_single_bit(sizeof(T)));
 
 public:
-  /** Scratch files go to `folder`; at most `memory` bytes of the values are in memory. */
+  /** Scratch files go to `folder` (see PageFile); at most `memory` bytes of the values are in
+   * memory. */
   PagedArray(std::filesystem::path folder, std::int64_t memory)
     : Pages(std::move(folder), memory)
   {

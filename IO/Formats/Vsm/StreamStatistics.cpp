@@ -11,21 +11,28 @@ StreamStatistics::StreamStatistics(const std::filesystem::path& scratch)
 {
 }
 
-StreamStatistics::Result StreamStatistics::count(std::int64_t cells)
+void StreamStatistics::count(std::int64_t cells, std::int64_t vertices)
 {
-  Result result;
-  std::int64_t alive = 0;
-  double sum = 0;
-  for (std::int64_t cell = 0; cell < cells; cell++)
+  for (; this->Cells < cells; this->Cells++)
   {
-    const std::uint8_t change = this->Changes.get(cell);
-    alive += change % FinalUnit;
-    result.width = std::max(result.width, alive);
-    sum += static_cast<double>(alive);
-    alive -= change / FinalUnit;
+    const std::uint8_t change = this->Changes.get(this->Cells);
+    // A vertex ends after it begins: only vertices up to this cell can end at it.
+    if (this->Vertices + change % FinalUnit > vertices)
+    {
+      break;
+    }
+    this->Vertices += change % FinalUnit;
+    this->Alive += change % FinalUnit;
+    this->Width = std::max(this->Width, this->Alive);
+    this->Sum += static_cast<double>(this->Alive);
+    this->Alive -= change / FinalUnit;
   }
-  result.mean = cells > 0 ? sum / static_cast<double>(cells) : 0;
-  return result;
+  this->Changes.discardBelow(this->Cells);
+}
+
+StreamStatistics::Result StreamStatistics::result() const
+{
+  return { this->Width, this->Cells > 0 ? this->Sum / static_cast<double>(this->Cells) : 0 };
 }
 
 } // namespace smg

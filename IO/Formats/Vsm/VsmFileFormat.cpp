@@ -14,16 +14,20 @@ WriteNotes write(
   MeshSource& source, const std::filesystem::path& path, const WriteMeshOptions& options)
 {
   Workers workers(options.threads);
-  writeVsm(
-    source, path, options.codec, options.progress, {},
-    [&](VsmWriter& writer)
+  const auto addIsolated = [&](VsmWriter& writer)
+  {
+    if (!options.isolatedFrom.empty())
     {
-      if (!options.isolatedFrom.empty())
-      {
-        copyIsolated(options.isolatedFrom, source.info(), writer);
-      }
-    },
-    &workers, true);
+      copyIsolated(options.isolatedFrom, source.info(), writer);
+    }
+  };
+  writeVsm(source, path,
+    { .codec = options.codec,
+      .scratch = options.scratch,
+      .add = addIsolated,
+      .workers = &workers,
+      .apart = true,
+      .progress = options.progress });
   return {};
 }
 

@@ -75,18 +75,18 @@ std::vector<TableSpec> tablesOf(const StreamInfo& info, const std::string& file)
 
 struct VsmWriter::Implementation
 {
-  Implementation(std::filesystem::path path, const StreamInfo& info, Codec codec,
-    IoStatistics* statistics, Workers* workers)
+  Implementation(
+    std::filesystem::path path, const StreamInfo& info, const VsmWriterOptions& options)
     : Name(path.string())
     , Info(info)
     , Corners(cornersOf(info.cellType))
     , Positions(info.doublePositions)
     , VertexRows(info.vertexColumns)
     , CellRows(info.cellColumns)
-    , LastCell(path.parent_path(), LastCellBytes)
-    , Statistics(path.parent_path())
+    , LastCell(options.scratch, LastCellBytes)
+    , Statistics(options.scratch)
     , Isolated(this->Name, info)
-    , File(path, tablesOf(info, this->Name), codec, statistics, workers)
+    , File(path, tablesOf(info, this->Name), options.codec, options.statistics, options.workers)
   {
     this->Info.vertices = this->Info.cells = this->Info.width = this->Info.span = 0;
     for (int axis = 0; axis < 3; axis++)
@@ -134,9 +134,9 @@ struct VsmWriter::Implementation
   BlockFileWriter File;
 };
 
-VsmWriter::VsmWriter(std::filesystem::path path, const StreamInfo& info, Codec codec,
-  IoStatistics* statistics, Workers* workers)
-  : Self(std::make_unique<Implementation>(std::move(path), info, codec, statistics, workers))
+VsmWriter::VsmWriter(
+  std::filesystem::path path, const StreamInfo& info, const VsmWriterOptions& options)
+  : Self(std::make_unique<Implementation>(std::move(path), info, options))
 {
 }
 
@@ -298,6 +298,7 @@ void VsmWriter::Implementation::settle(std::int64_t end)
     }
   }
   this->LastCell.discardBelow(this->Settled);
+  this->Statistics.count(this->Info.cells, this->Settled);
 }
 
 void VsmWriter::Implementation::flushVertices()
@@ -365,7 +366,7 @@ StreamInfo VsmWriter::finish(const std::string& origin)
   }
   self.writeBlockTable();
   self.Isolated.finish(self.File);
-  const StreamStatistics::Result alive = self.Statistics.count(info.cells);
+  const StreamStatistics::Result alive = self.Statistics.result();
   info.width = alive.width;
   self.MeanWidth = alive.mean;
   nlohmann::json header = { { "kind", VsmFormat::Kind },

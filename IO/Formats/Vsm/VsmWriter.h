@@ -15,22 +15,32 @@
 namespace smg
 {
 
+/** How to write a .vsm file. */
+struct VsmWriterOptions
+{
+  Codec codec = Codec::Zstd;
+  /** Folder for scratch files; empty: the system's temporary folder. */
+  std::filesystem::path scratch = {};
+  IoStatistics* statistics = nullptr;
+  /** Threads that compress blocks, see BlockFileWriter. */
+  Workers* workers = nullptr;
+};
+
 /**
  * Writes a .vsm file: a mesh stream with its statistics, in blocks that are readable by themselves
  * (see VsmFormat.h). The blocks of the stream are appended in stream order and may have any size.
  *
  * The memory does not depend on the mesh: data of a vertex that are known only after its last cell
- * are stored in pages, which are written to a scratch file next to `path` if there are too many. A
- * stream whose `MeshBlock::finalized` advances needs nearly no pages; 0 throughout is permitted.
+ * are stored in pages, which are written to a scratch file if there are too many. A stream whose
+ * `MeshBlock::finalized` advances needs nearly no pages and no file; 0 throughout is permitted.
  */
 class SMG_EXPORT VsmWriter
 {
 public:
   /** Uses cellType, doublePositions and the columns of `info`; the rest is computed. Throws Error
-   * if the file cannot be created or the name of a column is empty, reserved or used twice.
-   * @param workers threads that compress blocks, see BlockFileWriter */
-  VsmWriter(std::filesystem::path path, const StreamInfo& info, Codec codec = Codec::Zstd,
-    IoStatistics* statistics = nullptr, Workers* workers = nullptr);
+   * if the file cannot be created or the name of a column is empty, reserved or used twice. */
+  VsmWriter(
+    std::filesystem::path path, const StreamInfo& info, const VsmWriterOptions& options = {});
   /** Without finish(), no file is left. */
   ~VsmWriter();
   VsmWriter(const VsmWriter&) = delete;

@@ -67,15 +67,16 @@ void copyIsolated(const std::filesystem::path& from, const StreamInfo& info, Vsm
   }
 }
 
-WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path, Codec codec,
-  const ProgressFunction& progress, const std::string& origin,
-  const std::function<void(VsmWriter&)>& add, Workers* workers, bool apart)
+WrittenVsm writeVsm(
+  MeshSource& source, const std::filesystem::path& path, const WriteVsmOptions& options)
 {
-  Progress reported(progress);
-  VsmWriter writer(path, source.info(), codec, nullptr, workers);
+  Progress reported(options.progress);
+  Workers* const workers = options.workers;
+  VsmWriter writer(path, source.info(),
+    { .codec = options.codec, .scratch = options.scratch, .workers = workers });
   const auto cells = static_cast<double>(source.info().cells);
   const auto corners = static_cast<std::size_t>(cornersOf(source.info().cellType));
-  Workers appending(apart && workers ? std::min(2, workers->threads()) : 1);
+  Workers appending(options.apart && workers ? std::min(2, workers->threads()) : 1);
   OrderedJobs<MeshBlock> appends(
     appending, static_cast<std::size_t>(appending.threads()),
     [&writer](MeshBlock& block) { writer.append(block); },
@@ -102,11 +103,11 @@ WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path, Codec
     appends.submit();
   }
   appends.takeAll();
-  if (add)
+  if (options.add)
   {
-    add(writer);
+    options.add(writer);
   }
-  WrittenVsm written{ writer.finish(origin), 0.0 };
+  WrittenVsm written{ writer.finish(options.origin), 0.0 };
   written.meanWidth = writer.meanWidth();
   return written;
 }

@@ -20,19 +20,31 @@ struct WrittenVsm
   double meanWidth = 0; ///< mean over the cells of the number of vertices alive
 };
 
+/** How to write a mesh stream. */
+struct WriteVsmOptions
+{
+  Codec codec = Codec::Zstd;
+  /** Folder for scratch files; empty: the system's temporary folder. */
+  std::filesystem::path scratch = {};
+  /** See VsmWriter::finish(). */
+  std::string origin = {};
+  /** Adds data that the stream does not deliver, before the file is finished; may be empty. */
+  std::function<void(VsmWriter&)> add = {};
+  /** Threads that compress blocks, see BlockFileWriter. */
+  Workers* workers = nullptr;
+  /** A further thread appends a block while the next one is read, if `workers` are several: only
+   * for a source that does not use them. */
+  bool apart = false;
+  ProgressFunction progress = {};
+};
+
 /**
  * Writes a mesh stream with a known number of cells to a .vsm file.
- * @param origin see VsmWriter::finish()
- * @param add adds data that the stream does not deliver, before the file is finished; may be empty
- * @param workers threads that compress blocks, see BlockFileWriter
- * @param apart a further thread appends a block while the next one is read, if `workers` are
- * several: only for a source that does not use them
  * @throws Error if the stream is not valid or the file cannot be written; Cancelled. Nothing is
  * left of the file then.
  */
-WrittenVsm writeVsm(MeshSource& source, const std::filesystem::path& path,
-  Codec codec = Codec::Zstd, const ProgressFunction& progress = {}, const std::string& origin = {},
-  const std::function<void(VsmWriter&)>& add = {}, Workers* workers = nullptr, bool apart = false);
+WrittenVsm writeVsm(
+  MeshSource& source, const std::filesystem::path& path, const WriteVsmOptions& options = {});
 
 /**
  * Copies the isolated vertices of a .vsm file, with the columns that both have, to the writer of a

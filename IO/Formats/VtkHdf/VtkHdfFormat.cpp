@@ -58,9 +58,9 @@ std::optional<FileCounts> counts(InputFile& file, const MeshPart& part)
 }
 
 WriteNotes write(const std::filesystem::path& vsm, const std::filesystem::path& path,
-  const ProgressFunction& progress)
+  const WriteMeshOptions& options)
 {
-  return library().write(vsm, path, progress);
+  return library().write(vsm, path, options.progress);
 }
 
 constexpr FileSuffix VtkHdfSuffixes[] = { { ".vtkhdf" }, { ".hdf" } };

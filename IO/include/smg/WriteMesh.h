@@ -51,12 +51,14 @@ SMG_EXPORT std::vector<std::string> writeMesh(
  * @param vsm the .vsm file
  * @param path the file to write
  * @param progress progress callback; empty: none
+ * @param scratch folder for scratch files; empty: the system's temporary folder
  * @return as writeMesh()
  * @throws Error as writeMesh(), or if `vsm` cannot be read
  * @throws Cancelled as writeMesh()
  */
 SMG_EXPORT std::vector<std::string> writeFromVsm(const std::filesystem::path& vsm,
-  const std::filesystem::path& path, const ProgressFunction& progress = {});
+  const std::filesystem::path& path, const ProgressFunction& progress = {},
+  const std::filesystem::path& scratch = {});
 
 /** How to write a mesh file again with other positions. */
 struct RewriteOptions
