@@ -5,6 +5,7 @@
 #include "smg/MeshSource.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -15,8 +16,10 @@ namespace smg
 class StreamCheck
 {
 public:
-  explicit StreamCheck(CellType cellType)
+  /** `firstCell`: that of the first block, of a part of a mesh. */
+  explicit StreamCheck(CellType cellType, std::int64_t firstCell = 0)
     : Type(cellType)
+    , Cells(firstCell)
   {
   }
 
@@ -42,7 +45,7 @@ private:
 
   CellType Type;
   std::int64_t Vertices = 0;
-  std::int64_t Cells = 0;
+  std::int64_t Cells;
   std::int64_t Final = 0; ///< no cell may use a vertex below
 };
 
@@ -56,10 +59,14 @@ SMG_EXPORT std::string unweldedNote(CellType type, std::int64_t vertices, std::i
 /** Calls `visit` with each block of the stream, or of a part of a mesh, which is checked before. */
 void forCheckedBlocks(MeshSource& mesh, auto visit)
 {
-  StreamCheck check(mesh.info().cellType);
+  std::optional<StreamCheck> check;
   for (MeshBlock block; mesh.next(block);)
   {
-    check.add(block);
+    if (!check)
+    {
+      check.emplace(mesh.info().cellType, block.firstCell);
+    }
+    check->add(block);
     visit(std::as_const(block));
   }
 }
