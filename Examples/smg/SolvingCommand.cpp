@@ -62,6 +62,18 @@ void SolvingCommand::applyTo(smg::SolveOptions& options, smg::ProgressFunction p
   options.progress = std::move(progress);
 }
 
+namespace
+{
+
+/** What the engine of the report calls so many iterations. */
+const char* iterations(const smg::Report& report, int count)
+{
+  return report.distributed ? (count == 1 ? "iteration" : "iterations")
+                            : (count == 1 ? "V-cycle" : "V-cycles");
+}
+
+} // namespace
+
 void SolvingCommand::warn(const smg::Report& report) const
 {
   const auto warning = [&](const std::string& what, double residual, int cycles)
@@ -69,10 +81,7 @@ void SolvingCommand::warn(const smg::Report& report) const
     std::fprintf(stderr,
       "smg: warning: %snot converged: the relative residual is %.3g after %d %s, the tolerance "
       "%.3g\n",
-      what.c_str(), residual, cycles,
-      report.distributed ? (cycles == 1 ? "iteration" : "iterations")
-                         : (cycles == 1 ? "V-cycle" : "V-cycles"),
-      this->solveOptions().tolerance);
+      what.c_str(), residual, cycles, iterations(report, cycles), this->solveOptions().tolerance);
   };
   for (const smg::Report::Step& step : report.steps)
   {
@@ -133,15 +142,13 @@ void SolvingCommand::print(const smg::Report& report) const
   {
     std::printf("%zu %s, %d %s in %d %s, relative residual %.3g\n", report.levels.size(),
       report.levels.size() == 1 ? "level" : "levels", report.cycles,
-      report.cycles == 1 ? "V-cycle" : "V-cycles", report.passes,
-      report.passes == 1 ? "pass" : "passes", report.residual());
+      iterations(report, report.cycles), report.passes, report.passes == 1 ? "pass" : "passes",
+      report.residual());
   }
   for (const smg::Report::Step& step : report.steps)
   {
     std::printf("  %s: %d %s, relative residual %.3g\n", step.name.c_str(), step.cycles,
-      report.distributed ? (step.cycles == 1 ? "iteration" : "iterations")
-                         : (step.cycles == 1 ? "V-cycle" : "V-cycles"),
-      step.residual);
+      iterations(report, step.cycles), step.residual);
   }
   for (const smg::Report::Condition& condition : report.conditions)
   {
