@@ -124,24 +124,45 @@ FrontCorner March::corner(std::uint32_t vertex) const
     (this->Window.flags()[vertex] & Straight) != 0 };
 }
 
-void March::offer(std::uint32_t w, const Arrival& arrival, std::uint32_t from)
+bool March::isNews(std::uint32_t w, const Arrival& arrival) const
 {
+  const double distance = this->Window.distance()[w];
+  // Of two fronts that arrive at the same time, the straight one goes ahead.
+  const bool isStraighter = arrival.isStraight && (this->Window.flags()[w] & Straight) == 0 &&
+                            arrival.distance < distance * (1 + Tolerance);
+  return arrival.distance < distance * (1 - Tolerance) || isStraighter;
+}
+
+template <std::size_t N>
+bool March::offer(
+  std::uint32_t w, const Arrival& arrival, const std::array<std::uint32_t, N>& corners)
+{
+  if (!this->isNews(w, arrival))
+  {
+    return true;
+  }
+  for (const std::uint32_t corner : corners)
+  {
+    const auto& via = this->Window.via()[corner];
+    if (N > 1 && std::find(via.begin(), via.end(), w) != via.end())
+    {
+      return false;
+    }
+  }
   double& distance = this->Window.distance()[w];
   std::uint8_t& flags = this->Window.flags()[w];
-  // Of two fronts that arrive at the same time, the straight one goes ahead.
-  const bool isStraighter =
-    arrival.isStraight && (flags & Straight) == 0 && arrival.distance < distance * (1 + Tolerance);
-  if (arrival.distance < distance * (1 - Tolerance) || isStraighter)
+  distance = std::min(distance, arrival.distance);
+  flags = static_cast<std::uint8_t>(
+    (flags & ~Straight) | Dirty | Changed | (arrival.isStraight ? Straight : 0));
+  auto& via = this->Window.via()[w];
+  std::fill(
+    std::copy(corners.begin(), corners.end(), via.begin()), via.end(), MarchWindow::NoVertex);
+  if (std::int64_t* source = this->Window.source())
   {
-    distance = std::min(distance, arrival.distance);
-    flags = static_cast<std::uint8_t>(
-      (flags & ~Straight) | Dirty | Changed | (arrival.isStraight ? Straight : 0));
-    if (std::int64_t* source = this->Window.source())
-    {
-      source[w] = source[from];
-    }
-    this->Queue.put(w, distance);
+    source[w] = source[corners[static_cast<std::size_t>(arrival.nearestCorner())]];
   }
+  this->Queue.put(w, distance);
+  return true;
 }
 
 template <int Corners>
@@ -173,7 +194,7 @@ void March::offerEdge(std::uint32_t v, std::uint32_t w, double length)
   {
     arrival.isStraight = this->isBesideCurve<Corners>(v, w);
   }
-  this->offer(w, arrival, v);
+  this->offer(w, arrival, std::array{ v });
 }
 
 /** Offers paths from v, and across its edges, to the other two corners of a triangle. */
@@ -195,10 +216,9 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 3>& others)
     if (passed.distance < Infinite)
     {
       const Arrival across = acrossEdge({ square[1 - k], product, square[k] }, from, passed);
-      if (across.distance < Infinite)
+      // No longer than the paths along the edges.
+      if (across.distance < Infinite && this->offer(w, across, std::array{ v, b }))
       {
-        // No longer than the paths along the edges.
-        this->offer(w, across, across.nearestCorner() == 0 ? v : b);
         continue;
       }
     }
@@ -235,9 +255,9 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
       const Arrival across = acrossFace({ product[i][i], product[i][j], product[j][j],
                                           product[k][i], product[k][j], product[k][k] },
         from, b, c);
-      if (across.distance < Infinite)
+      if (across.distance < Infinite &&
+          this->offer(w, across, std::array{ v, others[i], others[j] }))
       {
-        this->offer(w, across, std::array{ v, others[i], others[j] }[across.nearestCorner()]);
         continue;
       }
     }
@@ -249,8 +269,9 @@ void March::passOn(std::uint32_t v, const std::array<std::uint32_t, 4>& others)
       {
         const Arrival across =
           acrossEdge({ product[n][n], product[k][n], product[k][k] }, from, passed);
-        crosses = crosses || across.distance < Infinite;
-        this->offer(w, across, across.nearestCorner() == 0 ? v : others[n]);
+        crosses =
+          (across.distance < Infinite && this->offer(w, across, std::array{ v, others[n] })) ||
+          crosses;
       }
     }
     if (!crosses)

@@ -76,8 +76,16 @@ private:
   /** Offers the path from vertex `v` along an edge to vertex `w`. */
   template <int Corners>
   void offerEdge(std::uint32_t v, std::uint32_t w, double length);
-  /** Offers a path to vertex `w` whose source is that of vertex `from`. */
-  void offer(std::uint32_t w, const Arrival& arrival, std::uint32_t from);
+  /** Whether an arrival is news at vertex `w`. */
+  bool isNews(std::uint32_t w, const Arrival& arrival) const;
+  /**
+   * Offers a path to vertex `w` through a facet with these corners, to the source of the one
+   * nearest to the path. False if it does not count: the front has come to one of them by way of w.
+   * In a strip of triangles that are nearly flat each corner lies between its neighbours, and would
+   * have about the mean of their distances, down to 0 between two sources.
+   */
+  template <std::size_t N>
+  bool offer(std::uint32_t w, const Arrival& arrival, const std::array<std::uint32_t, N>& corners);
 
   MarchWindow Window;
   MarchQueue Queue;

@@ -14,8 +14,8 @@ namespace
 /** Bytes of the state and position of a vertex. */
 std::int64_t vertexBytes(bool sources)
 {
-  return 4 * std::int64_t(sizeof(double)) + std::int64_t(sizeof(std::uint8_t)) +
-         (sources ? std::int64_t(sizeof(std::int64_t)) : 0);
+  return 4 * std::int64_t(sizeof(double)) + 3 * std::int64_t(sizeof(std::uint32_t)) +
+         std::int64_t(sizeof(std::uint8_t)) + (sources ? std::int64_t(sizeof(std::int64_t)) : 0);
 }
 
 /** The vertices of a window, which may be longer than the mesh. */
@@ -61,6 +61,7 @@ MarchWindow::MarchWindow(ChunkedMesh& mesh, Pool& pool)
   {
     part(this->Source, 1);
   }
+  part(this->Via, 1);
   part(this->Flag, 1);
 
   std::int64_t inner = 0, crossing = 0;
@@ -201,6 +202,7 @@ void MarchWindow::loadState(std::int64_t chunk)
     std::ranges::fill(of, fallback);
   };
   readOr(this->Distance, ChunkedMesh::Distances, std::numeric_limits<double>::infinity());
+  std::ranges::fill(this->of(this->Via, chunk), std::array{ NoVertex, NoVertex, NoVertex });
   if (this->Source)
   {
     readOr(this->Source, ChunkedMesh::Sources, std::int64_t(-1));

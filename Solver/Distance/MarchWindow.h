@@ -80,6 +80,10 @@ public:
   std::uint8_t* flags() const { return this->Flag; }
   /** Null if they are not wanted. */
   std::int64_t* source() const { return this->Source; }
+  /** The corners of the facet through which the front has come to a vertex, as far as known: not
+   * since a chunk was read. */
+  std::array<std::uint32_t, 3>* via() const { return this->Via; }
+  static constexpr std::uint32_t NoVertex = 0xffffffff;
 
 private:
   struct Slot
@@ -119,6 +123,7 @@ private:
   Buffer Memory; ///< of the vertices
   double *Point, *Distance;
   std::int64_t* Source = nullptr;
+  std::array<std::uint32_t, 3>* Via = nullptr;
   std::uint8_t* Flag;
   std::int64_t Read = 0;
   std::int64_t Shown = -1; ///< first chunk shown last

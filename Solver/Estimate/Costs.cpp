@@ -188,7 +188,7 @@ Costs distanceCosts(const StreamInfo& info, const DistanceDescription& descripti
     costs.seconds = vertices * WallSeconds;
     return costs;
   }
-  const std::int64_t bytesOfSpan = surface ? 6500 : 4700;
+  const std::int64_t bytesOfSpan = surface ? 7300 : 4900;
   const std::int64_t least = std::int64_t(surface ? 1 : 3) << 20;
   costs.memory = least + bytesOfSpan * info.span;
   costs.scratch = bytesOf(info, ratesOf(info.cellType).chunkBytes + 8.0 * numbers);

@@ -243,6 +243,34 @@ TEST(Distance, OfSeveralSourcesIsThatOfTheNearest)
   }
 }
 
+TEST(Distance, AlongAStripOfNearlyFlatTrianglesIsThatToItsNearerEnd)
+{
+  // Each vertex lies between its neighbours, both as far as it from the nearest source.
+  constexpr std::int64_t Last = 30;
+  IndexedTestMesh strip;
+  for (std::int64_t v = 0; v <= Last; ++v)
+  {
+    strip.positions.insert(
+      strip.positions.end(), { static_cast<double>(v), v % 2 == 0 ? 0.0 : 0.01, 0.0 });
+    if (v >= 2)
+    {
+      strip.corners.insert(strip.corners.end(), { v - 2, v - 1, v });
+    }
+  }
+  const MemoryMesh mesh(toStream(strip));
+  for (const bool edges : { false, true })
+  {
+    const std::int64_t end = edges ? 1 : 0; // sources are points or edges
+    const Solved solved = measure(mesh, fromVertices({ 0, end, Last - end, Last }));
+    for (std::int64_t v = 0; v <= Last; ++v)
+    {
+      const double expected =
+        static_cast<double>(std::max<std::int64_t>(0, std::min(v, Last - v) - end));
+      EXPECT_NEAR(solved.values(v, 0), expected, 1.1);
+    }
+  }
+}
+
 TEST(Distance, HasTheUnitGradient)
 {
   const std::array<MemoryMesh, 2> meshes{ MemoryMesh(toStream(unitSquare(40))),
