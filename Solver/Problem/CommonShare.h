@@ -5,10 +5,11 @@ namespace smg
 {
 
 /**
- * The factor of a row in the norm of the initial residual. If `own`, the contribution of screening,
- * Robin and soft conditions to the diagonal, exceeds the magnitudes of the weights of the `edges`,
- * the row determines its unknown alone and its initial residual is as large as `own`; it then
- * counts as if it had only the weight of its edges. In (0, 1]; 0 without edges.
+ * The factor of a row in the norm of the initial residual, by which all others are measured. Where
+ * `own`, the contribution of screening, Robin and soft conditions to the diagonal and what the
+ * weights of slivers exceed those of regular cells by, is larger than the magnitudes of the
+ * ordinary weights of the `edges`, the initial residual is as large as `own`, whatever that of all
+ * other rows is; the row then counts as if it had only ordinary edges. In (0, 1]; 0 without edges.
  */
 inline double commonShare(double own, double edges)
 {

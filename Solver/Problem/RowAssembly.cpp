@@ -87,7 +87,7 @@ void RowAssembly::close(const FinalVertices& made, std::size_t k)
   {
     this->Listener->constraint(this->Constraint.data());
   }
-  this->count(i, vertex, vertex.alpha > 0.0 ? commonShare(vertex.alpha, this->edgeWeights()) : 1.0);
+  this->count(i, vertex);
 }
 
 /** A vertex that is not an unknown: prescribed, or fixed at its initial value. */
@@ -105,38 +105,42 @@ void RowAssembly::closeKnown(std::int64_t i)
 }
 
 /**
- * Whether the rounding of a weight to single precision would affect the solution: that of the large
- * weights of slivers is of the size of the weights of other cells. It depends only on the edge, so
- * that both of its rows agree and the matrix stays symmetric.
+ * By how much a weight exceeds those of regular cells; 0: it does not. Then the rounding of a
+ * weight to single precision does not affect the solution: that of the large weights of slivers is
+ * of the size of the weights of other cells. It depends only on the edge, so that both of its rows
+ * agree and the matrix stays symmetric.
  */
-inline bool RowAssembly::needsPrecision(std::int64_t i, const RowNeighbour& neighbour) const
+inline double RowAssembly::excess(std::int64_t i, const RowNeighbour& neighbour) const
 {
   if (this->Kind != Weights::Cotangent)
   {
-    return false;
+    return 0.0;
   }
   const double scale = this->Out.weightScale;
+  const double weight = std::fabs(neighbour.weight);
   if (this->Type == CellType::Triangle)
   {
-    return std::fabs(neighbour.weight) > LargeOfTriangles * scale;
+    return std::max(weight - LargeOfTriangles * scale, 0.0);
   }
   const double large = LargeOfTetrahedra * scale;
   const double square =
     squaredDistance(this->Vertices.points.at(i), this->Vertices.points.at(neighbour.to));
-  return neighbour.weight * neighbour.weight > large * large * square;
+  return weight * weight > large * large * square ? weight - large * std::sqrt(square) : 0.0;
 }
 
 /** Adds an entry for another neighbour. */
 inline void RowAssembly::addUnknown(
   std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target)
 {
-  const bool precise = this->needsPrecision(i, neighbour);
+  const double excess = this->excess(i, neighbour);
+  const bool precise = excess > 0.0;
   const auto stored = static_cast<float>(neighbour.weight);
   const double weight = precise ? neighbour.weight : static_cast<double>(stored);
   this->Row[this->Size] = { delta, stored };
   this->Weight[static_cast<std::size_t>(this->Size++)] = weight;
   this->Least = std::min(this->Least, stored);
   this->AnyPrecise = this->AnyPrecise || precise;
+  this->Excess += excess;
   if (target)
   {
     this->addTarget(weight, target);
@@ -150,7 +154,7 @@ void RowAssembly::addNeighbours(
   this->Row = this->Out.rows.open(static_cast<std::int64_t>(neighbours.size()));
   this->Weight.resize(std::max(this->Weight.size(), neighbours.size()));
   this->Size = 0;
-  this->Known = 0.0;
+  this->Known = this->Excess = 0.0;
   this->Least = 0.0F;
   this->AnyPrecise = false;
   const std::int32_t* dirichlet = this->Vertices.dirichlet.at(i);
@@ -159,7 +163,7 @@ void RowAssembly::addNeighbours(
     const std::int32_t delta = distance(i, neighbour.to);
     if (dirichlet[delta] >= 0)
     {
-      this->addKnown(delta, neighbour, target);
+      this->addKnown(i, delta, neighbour, target);
     }
     else
     {
@@ -170,12 +174,14 @@ void RowAssembly::addNeighbours(
 }
 
 /** Adds the weight of a prescribed neighbour to alpha and b. */
-void RowAssembly::addKnown(std::int32_t delta, const RowNeighbour& neighbour, const double* target)
+void RowAssembly::addKnown(
+  std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target)
 {
   const double weight = knownWeight(this->Kind, neighbour);
   const double* value = this->Vertices.values.at(neighbour.to);
   this->Alpha += weight;
   this->Known += std::fabs(weight);
+  this->Excess += this->excess(i, neighbour);
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     const double term = weight * (value[k] + (target ? target[k] : 0.0));
@@ -232,8 +238,14 @@ double RowAssembly::edgeWeights() const
 }
 
 /** Adds the row to the sums over all rows and over its component. */
-void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex, double share)
+void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex)
 {
+  double share = 1.0;
+  if (vertex.alpha > 0.0 || this->Excess > 0.0)
+  {
+    const double edges = this->edgeWeights();
+    share = commonShare(vertex.alpha + this->Excess, edges - this->Excess);
+  }
   const AssembledRow row{ i, this->Row, this->weights(),
     usableDiagonal(
       std::accumulate(this->Weight.begin(), this->Weight.begin() + this->Size, this->Alpha)) };

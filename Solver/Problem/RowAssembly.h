@@ -40,22 +40,23 @@ public:
   /** See rowShortfall(). */
   std::int64_t raised() const { return this->Raised; }
   std::int64_t stiff() const { return this->Stiff.found(); }
-  /** The residual of the initial values; rows dominated by screening and the like count as by their
-   * edges. */
+  /** The residual of the initial values; rows dominated by slivers, screening and the like count as
+   * by ordinary edges. */
   const InitialResidual& residual() const { return this->Residual; }
 
 private:
   void closeKnown(std::int64_t i);
   void addNeighbours(
     std::int64_t i, std::span<const RowNeighbour> neighbours, const double* target);
-  void addKnown(std::int32_t delta, const RowNeighbour& neighbour, const double* target);
+  void addKnown(
+    std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target);
   void addUnknown(
     std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target);
   void addTarget(double weight, const double* target);
-  bool needsPrecision(std::int64_t i, const RowNeighbour& neighbour) const;
+  double excess(std::int64_t i, const RowNeighbour& neighbour) const;
   void raise(std::int64_t i);
   double edgeWeights() const;
-  void count(std::int64_t i, const FinalVertices::Vertex& vertex, double share);
+  void count(std::int64_t i, const FinalVertices::Vertex& vertex);
   std::span<const double> weights() const
   {
     return { this->Weight.data(), static_cast<std::size_t>(this->Size) };
@@ -74,7 +75,8 @@ private:
   RowEntry* Row = nullptr;
   std::int64_t Size = 0;
   double Alpha = 0.0;
-  double Known = 0.0; // magnitudes of the weights of edges to prescribed vertices
+  double Known = 0.0;  // magnitudes of the weights of edges to prescribed vertices
+  double Excess = 0.0; // of the magnitudes of all edges, beyond those of regular cells
   double Raise = 0.0;
   std::vector<double> Weight;     // of the first `Size` entries, rounded like these ...
   bool AnyPrecise = false;        // ... except for some, which the row needs in double precision

@@ -158,7 +158,7 @@ TEST(OwnWeights, OfFiniteElementsScaleAlikeHoweverFlatTheCellsAre)
     for (int d = 0; d < 3; ++d)
     {
       mesh.positions[3 * cell[0] + d] =
-        0.5 * mesh.positions[3 * cell[1] + d] + 0.5 * mesh.positions[3 * cell[2] + d] + 1e-8 * d;
+        0.5 * mesh.positions[3 * cell[1] + d] + 0.5 * mesh.positions[3 * cell[2] + d] + 1e-12 * d;
     }
     ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
     AssembledLevel expected(mesh, problem);
