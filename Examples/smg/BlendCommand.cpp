@@ -87,6 +87,11 @@ protected:
     return smg::blendCosts(info, components, this->Description.seam, this->withCommon(this->Solve));
   }
 
+  smg::AddedValues addedTo(const smg::StreamInfo& info) const override
+  {
+    return replacedIn(info, this->Description.columns);
+  }
+
   std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) override
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommonOptions.h"
 
+#include "IO/Estimate/JobEstimate.h"
 #include "Solver/Storage/Checkpoint.h"
 #include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/ScratchAccount.h"
@@ -300,4 +301,21 @@ std::vector<std::string> splitAtCommas(const std::string& list)
     begin = end + 1;
   }
   return parts;
+}
+
+void printEstimate(const smg::JobEstimate& estimate)
+{
+  std::printf("%s%lld vertices, %lld cells\n", estimate.counted ? "" : "about ",
+    static_cast<long long>(estimate.vertices), static_cast<long long>(estimate.cells));
+  std::printf("  memory   about %.0f MiB, the limit is %.0f MiB\n",
+    inMebibytes(estimate.memory_bytes), inMebibytes(estimate.memory_limit));
+  std::printf("  scratch  about %.0f MiB, %.0f MiB are free\n", inMebibytes(estimate.scratch_bytes),
+    inMebibytes(estimate.scratch_free));
+  std::printf("  output   about %.0f MiB, %.0f MiB are free\n", inMebibytes(estimate.output_bytes),
+    inMebibytes(estimate.output_free));
+  if (estimate.passes > 0)
+  {
+    std::printf("  passes   about %d\n", estimate.passes);
+  }
+  std::printf("  time     about %.0f s of CPU\n", estimate.cpu_seconds);
 }

@@ -10,6 +10,11 @@
 #include <string>
 #include <vector>
 
+namespace smg
+{
+struct JobEstimate;
+}
+
 /** The options that every command has. */
 struct CommonOptions
 {
@@ -72,6 +77,9 @@ inline double inMebibytes(std::int64_t bytes)
 {
   return static_cast<double>(bytes) / (1 << 20);
 }
+
+/** Prints what a command is expected to cost. */
+void printEstimate(const smg::JobEstimate& estimate);
 
 /** Runs the selected command; returns its exit code. */
 using Action = std::function<int()>;

@@ -6,7 +6,6 @@
 
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
-#include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Estimate/JobEstimate.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
@@ -55,17 +54,6 @@ void print(const smg::ConversionReport& report)
   }
 }
 
-void print(const smg::ConversionEstimate& estimate)
-{
-  std::printf("%s%lld vertices, %lld cells\n", estimate.counted ? "" : "about ",
-    static_cast<long long>(estimate.vertices), static_cast<long long>(estimate.cells));
-  std::printf("  memory   %.0f MiB\n", inMebibytes(estimate.memory_bytes));
-  std::printf("  scratch  about %.0f MiB, %.0f MiB are free\n", inMebibytes(estimate.scratch_bytes),
-    inMebibytes(estimate.scratch_free));
-  std::printf("  output   about %.0f MiB as .vsm\n", inMebibytes(estimate.output_bytes));
-  std::printf("  time     about %.0f s\n", estimate.cpu_seconds);
-}
-
 struct ConvertOptions : CommonOptions
 {
   std::filesystem::path in, out;
@@ -97,8 +85,7 @@ struct ConvertOptions : CommonOptions
     if (smg::kindOfInput(this->in) != smg::MeshFileKind::Unknown)
     {
       options.scratch = this->scratchPlace();
-      const smg::JobEstimate estimate(
-        smg::EstimatedInput(this->in, options), this->out, {}, {}, options);
+      const smg::JobEstimate estimate(this->in, this->out, options);
       if (estimate.counted)
       {
         estimate.checkRoom(this->out, options.scratch, this->checkpointBytes());
@@ -115,9 +102,10 @@ struct ConvertOptions : CommonOptions
     smg::ConversionOptions options = this->conversion();
     if (this->dryRun)
     {
-      const smg::ConversionEstimate estimate = smg::estimateConversion(this->in, options);
+      options.scratch = this->scratchPlace();
+      const smg::JobEstimate estimate(this->in, this->out, options);
       this->writeReport(estimate.json());
-      print(estimate);
+      printEstimate(estimate);
       return;
     }
     this->checkRoom(options);

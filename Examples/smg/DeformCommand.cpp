@@ -101,6 +101,11 @@ protected:
                                     : smg::deformCosts(info, this->withCommon(this->Deform));
   }
 
+  smg::AddedValues addedTo(const smg::StreamInfo& /*info*/) const override
+  {
+    return { {}, {}, true };
+  }
+
   std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) override
   {

@@ -75,12 +75,7 @@ protected:
 
   smg::AddedValues addedTo(const smg::StreamInfo& /*info*/) const override
   {
-    int numbers = 0;
-    for (const smg::ColumnSpec& column : smg::distanceColumns(this->Description))
-    {
-      numbers += column.components;
-    }
-    return { numbers, 0 };
+    return { smg::distanceColumns(this->Description), {} };
   }
 
   std::unique_ptr<smg::Solution> solveOn(

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <iterator>
 
 namespace
 {
@@ -30,20 +31,6 @@ void printCosts(const smg::Report& report)
   {
     std::printf("%s\n", note.c_str());
   }
-}
-
-void printEstimate(const smg::JobEstimate& estimate)
-{
-  std::printf("%s%lld vertices, %lld cells\n", estimate.counted ? "" : "about ",
-    static_cast<long long>(estimate.vertices), static_cast<long long>(estimate.cells));
-  std::printf("  memory   about %.0f MiB, the limit is %.0f MiB\n",
-    inMebibytes(estimate.memory_bytes), inMebibytes(estimate.memory_limit));
-  std::printf("  scratch  about %.0f MiB, %.0f MiB are free\n", inMebibytes(estimate.scratch_bytes),
-    inMebibytes(estimate.scratch_free));
-  std::printf("  output   about %.0f MiB, %.0f MiB are free\n", inMebibytes(estimate.output_bytes),
-    inMebibytes(estimate.output_free));
-  std::printf("  passes   about %d\n", estimate.passes);
-  std::printf("  time     about %.0f s of CPU\n", estimate.cpu_seconds);
 }
 
 } // namespace
@@ -64,25 +51,36 @@ void MeshCommand::addInputAndCommon(CLI::App& command, std::int64_t memoryLimit)
   command.add_flag("--dry-run", this->DryRun, "Only estimate the cost; IN is not read");
 }
 
-smg::JobEstimate MeshCommand::estimate() const
+smg::AddedValues MeshCommand::replacedIn(
+  const smg::StreamInfo& info, const std::vector<std::string>& columns)
+{
+  smg::AddedValues added;
+  std::ranges::copy_if(info.vertexColumns, std::back_inserter(added.ofVertices),
+    [&columns](const smg::ColumnSpec& column)
+    { return std::ranges::find(columns, column.name) != columns.end(); });
+  return added;
+}
+
+smg::JobEstimate MeshCommand::estimate(const ResultFile& out) const
 {
   smg::ConversionOptions conversion = inputOptions(*this, this->Input);
   conversion.scratch = this->scratchPlace();
   const smg::EstimatedInput in(this->In, conversion);
-  smg::JobEstimate estimate(
-    in, this->Out, this->costsOn(in.info), this->addedTo(in.info), conversion);
+  smg::JobEstimate estimate(in,
+    { this->Out, this->addedTo(in.info), out.expectedOrder(in.info), this->writerMemory() },
+    this->costsOn(in.info), conversion);
   estimate.memory_limit = this->memoryBytes(this->memoryLimit());
   return estimate;
 }
 
 /** Rejects what certainly does not fit on the disks, if IN says its counts. */
-void MeshCommand::checkRoom() const
+void MeshCommand::checkRoom(const ResultFile& out) const
 {
   if (smg::kindOfInput(this->In) == smg::MeshFileKind::Unknown)
   {
     return;
   }
-  if (const smg::JobEstimate estimate = this->estimate(); estimate.counted)
+  if (const smg::JobEstimate estimate = this->estimate(out); estimate.counted)
   {
     estimate.checkRoom(this->Out, this->scratchPlace(), this->checkpointBytes());
   }
@@ -135,12 +133,12 @@ void MeshCommand::compute()
   ResultFile out = this->checkFiles();
   if (this->DryRun)
   {
-    const smg::JobEstimate estimate = this->estimate();
+    const smg::JobEstimate estimate = this->estimate(out);
     this->writeReport(estimate.json());
     printEstimate(estimate);
     return;
   }
-  this->checkRoom();
+  this->checkRoom(out);
   smg::Report report;
   {
     ProgressBar bar(this->Title, this->quiet);

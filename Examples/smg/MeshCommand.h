@@ -61,8 +61,11 @@ protected:
   virtual void readTask() = 0;
   /** What the computation is expected to cost on such a mesh. */
   virtual smg::Costs costsOn(const smg::StreamInfo& info) const = 0;
-  /** The values that the result has besides the mesh. */
-  virtual smg::AddedValues addedTo(const smg::StreamInfo& /*info*/) const { return {}; }
+  /** The values that the result has besides the mesh, or in place of its own. */
+  virtual smg::AddedValues addedTo(const smg::StreamInfo& info) const = 0;
+  /** Those of a result that has these columns of the vertices with other values. */
+  static smg::AddedValues replacedIn(
+    const smg::StreamInfo& info, const std::vector<std::string>& columns);
   /** Computes the result; foreseeable failures are reported first. */
   virtual std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) = 0;
@@ -94,8 +97,8 @@ protected:
 
 private:
   /** The costs of the command, before it starts. */
-  smg::JobEstimate estimate() const;
-  void checkRoom() const;
+  smg::JobEstimate estimate(const ResultFile& out) const;
+  void checkRoom(const ResultFile& out) const;
   /** Computes, writes OUT and returns the report. */
   smg::Report solveAndWrite(
     const smg::VsmReader& mesh, const ResultFile& out, const smg::ProgressFunction& progress);

@@ -50,14 +50,27 @@ bool ResultFile::mayRestore() const
   return !this->Files.welds && canRestore && (kind == smg::MeshFileKind::Indexed || isContainer);
 }
 
+bool ResultFile::mayRewrite() const
+{
+  // Of merged points only one moves, so that IN cannot be rewritten.
+  return this->Files.columns.empty() && !this->Files.welds &&
+         smg::canRewrite(this->Files.in, this->Files.out);
+}
+
+smg::WrittenOrder ResultFile::expectedOrder(const smg::StreamInfo& mesh) const
+{
+  const bool isNumbered = smg::findColumn(mesh.vertexColumns, smg::OriginalIdSpec) >= 0;
+  return this->mayRewrite()                 ? smg::WrittenOrder::Rewritten
+         : this->mayRestore() && isNumbered ? smg::WrittenOrder::Restored
+                                            : smg::WrittenOrder::Stream;
+}
+
 void ResultFile::chooseOrder(const smg::VsmReader& mesh, const smg::ConversionReport* conversion)
 {
   const smg::CellType cells = mesh.info().cellType;
-  // Of merged points only one moves, so that IN cannot be rewritten.
-  if (this->Files.columns.empty() && !this->Files.welds &&
-      smg::canRewrite(this->Files.in, this->Files.out))
+  if (this->mayRewrite())
   {
-    this->Order = Orders::Rewritten;
+    this->Order = smg::WrittenOrder::Rewritten;
     smg::checkOutput(this->Files.out, cells);
     return;
   }
@@ -67,7 +80,7 @@ void ResultFile::chooseOrder(const smg::VsmReader& mesh, const smg::ConversionRe
                             : std::ranges::find(columns, smg::OriginalIdSpec) != columns.end();
   if (this->mayRestore() && isNumbered)
   {
-    this->Order = Orders::Restored;
+    this->Order = smg::WrittenOrder::Restored;
     smg::checkRestoredPath(this->Files.out, cells);
     return;
   }
@@ -89,7 +102,7 @@ int ResultFile::threads(std::int64_t memory) const
 std::vector<std::string> ResultFile::write(const smg::VsmReader& mesh, smg::MeshSource& result,
   std::int64_t memory, const smg::ProgressFunction& progress) const
 {
-  if (this->Order == Orders::Rewritten)
+  if (this->Order == smg::WrittenOrder::Rewritten)
   {
     smg::RewriteOptions options;
     options.scratch = this->Files.scratch;
@@ -98,7 +111,7 @@ std::vector<std::string> ResultFile::write(const smg::VsmReader& mesh, smg::Mesh
     smg::rewriteMesh(this->Files.in, this->Files.out, result, options);
     return {};
   }
-  if (this->Order == Orders::Restored)
+  if (this->Order == smg::WrittenOrder::Restored)
   {
     return this->writeRestored(mesh, result, memory, progress);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Estimate/JobEstimate.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
 #include "smg/MeshSource.h"
@@ -42,25 +43,23 @@ public:
   void chooseOrder(const smg::VsmReader& mesh, const smg::ConversionReport* conversion);
 
   /** Whether write() writes the file IN again, with other positions. */
-  bool rewritesInput() const { return this->Order == Orders::Rewritten; }
+  bool rewritesInput() const { return this->Order == smg::WrittenOrder::Rewritten; }
   /** Whether OUT has the vertices of the mesh file IN in their order. */
-  bool keepsOrder() const { return this->Order != Orders::Stream; }
+  bool keepsOrder() const { return this->Order != smg::WrittenOrder::Stream; }
 
   /** Writes the mesh with its result, a stream with all columns of `mesh`, in at most `memory`
    * bytes. Returns notes for the user. */
   std::vector<std::string> write(const smg::VsmReader& mesh, smg::MeshSource& result,
     std::int64_t memory, const smg::ProgressFunction& progress) const;
 
-private:
-  enum class Orders
-  {
-    Stream,
-    Restored, ///< by the original numbers in a temporary .vsm file
-    Rewritten
-  };
+  /** The order that chooseOrder() is expected to choose, for a mesh like `mesh`. */
+  smg::WrittenOrder expectedOrder(const smg::StreamInfo& mesh) const;
 
+private:
   /** Whether the format of OUT has places for the columns in the order of its original file. */
   bool restoresColumns() const;
+  /** Whether IN can be written again with other positions. */
+  bool mayRewrite() const;
   /** Whether the format of OUT and the kind of IN allow to restore the order. */
   bool mayRestore() const;
   std::vector<std::string> writeRestored(const smg::VsmReader& mesh, smg::MeshSource& result,
@@ -69,5 +68,5 @@ private:
   int threads(std::int64_t memory) const;
 
   Options Files;
-  Orders Order = Orders::Stream;
+  smg::WrittenOrder Order = smg::WrittenOrder::Stream;
 };

@@ -86,6 +86,13 @@ protected:
       this->withCommon(this->Smooth));
   }
 
+  smg::AddedValues addedTo(const smg::StreamInfo& info) const override
+  {
+    smg::AddedValues added = replacedIn(info, this->changedColumns());
+    added.movesVertices = this->Smooth.column.empty();
+    return added;
+  }
+
   std::unique_ptr<smg::Solution> solveOn(
     const smg::VsmReader& mesh, smg::ProgressFunction progress) override
   {

@@ -109,8 +109,8 @@ protected:
 
   smg::AddedValues addedTo(const smg::StreamInfo& /*info*/) const override
   {
-    const int cellValues = this->Description.gradientOutput + this->Description.fluxOutput;
-    return { this->Description.columns, 3 * this->Description.columns * cellValues };
+    return smg::solvedValues(
+      this->Description.columns, this->Description.gradientOutput, this->Description.fluxOutput);
   }
 
   std::unique_ptr<smg::Solution> solveOn(

@@ -42,6 +42,7 @@ protected:
   Options withCommon(Options options) const
   {
     this->applyTo(options, {});
+    options.checkpoint.folder = this->checkpoint;
     return options;
   }
 

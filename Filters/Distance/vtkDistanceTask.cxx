@@ -73,12 +73,7 @@ Costs DistanceTask::costs(const StreamInfo& info) const
 
 AddedValues DistanceTask::added(const StreamInfo& /*info*/) const
 {
-  int numbers = 0;
-  for (const ColumnSpec& column : distanceColumns(this->description))
-  {
-    numbers += column.components;
-  }
-  return { numbers, 0 };
+  return { distanceColumns(this->description), {} };
 }
 
 std::unique_ptr<Solution> DistanceTask::solve(const VsmReader& mesh,

@@ -72,9 +72,8 @@ Costs PoissonTask::costs(const StreamInfo& info) const
 
 AddedValues PoissonTask::added(const StreamInfo& info) const
 {
-  const int columns = this->columnsOn(info);
-  const int ofCells = (this->problem.gradientOutput ? 1 : 0) + (this->problem.fluxOutput ? 1 : 0);
-  return { columns, 3 * columns * ofCells };
+  return solvedValues(
+    this->columnsOn(info), this->problem.gradientOutput, this->problem.fluxOutput);
 }
 
 std::unique_ptr<Solution> PoissonTask::solve(const VsmReader& mesh,

@@ -36,7 +36,7 @@ JobEstimate estimateOf(
   places.scratch = options.scratch;
   const EstimatedInput in(file, places);
   const Costs costs = task.costs(in.info);
-  JobEstimate estimate(in, "result.vsm", costs, task.added(in.info), places);
+  JobEstimate estimate(in, { "result.vsm", task.added(in.info) }, costs, places);
   estimate.memory_limit = options.memoryLimit;
   // The pieces are on a scratch file, of 0.8 to 1.3 times the bytes of their .vsm file on these
   // meshes, while they are solved on. Saving is not part of the solve.

@@ -6,14 +6,19 @@
 #include "IO/Conversion/CompressedStream.h"
 #include "IO/Files/Inflate.h"
 #include "IO/Files/InputFile.h"
+#include "IO/Formats/RowBytes.h"
 #include "IO/Formats/Streams/StreamsFormat.h"
+#include "IO/Formats/Vsm/VsmBytes.h"
 #include "Solver/Core/ByteText.h"
+#include "Solver/Estimate/Costs.h"
+#include "Solver/Stream/OriginalNumbers.h"
 #include "smg/Error.h"
 #include "smg/VsmReader.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace smg
@@ -21,20 +26,6 @@ namespace smg
 
 namespace
 {
-
-std::int64_t columnBytes(const StreamInfo& info)
-{
-  std::int64_t bytes = 0;
-  for (const ColumnSpec& spec : info.vertexColumns)
-  {
-    bytes += info.vertices * static_cast<std::int64_t>(spec.tupleBytes());
-  }
-  for (const ColumnSpec& spec : info.cellColumns)
-  {
-    bytes += info.cells * static_cast<std::int64_t>(spec.tupleBytes());
-  }
-  return bytes;
-}
 
 /** The uncompressed size of a gzip file: its last four bytes store it modulo 2^32, if it has one
  * member. */
@@ -60,15 +51,16 @@ struct Counts : FileCounts
 Counts guess(InputFile& file, bool compressed, const VertexShare& share)
 {
   Counts counts;
+  StreamInfo& mesh = counts.mesh;
   if (compressed && file.size() >= 18)
   {
     counts.inflatedBytes = inflatedSize(file);
   }
   const auto bytes =
     counts.inflatedBytes > 0 ? counts.inflatedBytes : static_cast<std::int64_t>(file.size());
-  counts.corners = share.corners;
-  counts.vertices = bytes / share.bytes;
-  counts.cells = counts.vertices * (share.corners == 3 ? 2 : 6);
+  mesh.cellType = static_cast<CellType>(share.corners);
+  mesh.vertices = bytes / share.bytes;
+  mesh.cells = mesh.vertices * (share.corners == 3 ? 2 : 6);
   return counts;
 }
 
@@ -78,8 +70,7 @@ Counts countsOf(const std::filesystem::path& path, const MeshPart& part)
   if (kind == MeshFileKind::Vsm)
   {
     checkIsWhole(part, path.string());
-    const StreamInfo info = VsmReader(path).info();
-    return { { info.vertices, info.cells, cornersOf(info.cellType), columnBytes(info), true }, 0 };
+    return { { VsmReader(path).info(), true }, 0 };
   }
   const bool compressedStream = isCompressedStream(path);
   if (kind == MeshFileKind::Unknown && !compressedStream)
@@ -103,18 +94,35 @@ Counts countsOf(const std::filesystem::path& path, const MeshPart& part)
   return guess(file, compressed, format ? format->share : VertexShare{});
 }
 
+std::int64_t memoryOf(const ConversionOptions& options)
+{
+  return options.memoryLimit > 0 ? options.memoryLimit : ConversionOptions::DefaultMemory;
+}
+
+/** A mesh with the columns that a conversion adds; width and span are the usual ones. */
+StreamInfo converted(StreamInfo mesh)
+{
+  const auto add = [](std::vector<ColumnSpec>& columns, const ColumnSpec& numbers)
+  {
+    if (findColumn(columns, numbers) < 0)
+    {
+      columns.push_back(numbers);
+    }
+  };
+  add(mesh.vertexColumns, OriginalIdSpec);
+  add(mesh.cellColumns, OriginalCellIdSpec);
+  constexpr double WidthOfSpan = 0.85;
+  mesh.span = usualSpan(mesh.cellType, mesh.vertices);
+  mesh.width = std::llround(WidthOfSpan * static_cast<double>(mesh.span));
+  return mesh;
+}
+
 } // namespace
 
 std::filesystem::path scratchPlace(const std::filesystem::path& folder)
 {
   std::error_code absent;
   return folder.empty() ? std::filesystem::temp_directory_path(absent) : folder;
-}
-
-std::int64_t plainStreamBytes(std::int64_t vertices, std::int64_t corners)
-{
-  constexpr std::int64_t VertexBytes = 11, CornerBytes = 2;
-  return vertices * VertexBytes + corners * CornerBytes;
 }
 
 std::int64_t freeBytes(const std::filesystem::path& folder)
@@ -125,34 +133,32 @@ std::int64_t freeBytes(const std::filesystem::path& folder)
 }
 
 std::int64_t scratchBytes(
-  std::int64_t vertices, std::int64_t cells, int corners, std::int64_t columnBytes)
+  const StreamInfo& mesh, const ConversionOptions& options, std::int64_t written)
 {
-  // The parsed mesh, the pages and the cells by their places, the last two of which do not overlap
-  // with everything before them; columns twice while they are reordered.
-  constexpr std::int64_t VertexBytes = 95;
-  constexpr std::int64_t CornerBytes = 15;
-  return vertices * VertexBytes + cells * corners * CornerBytes + 2 * columnBytes;
-}
-
-std::int64_t scratchBytes(const RawMesh& mesh)
-{
-  std::int64_t columns = 0;
-  for (const RawColumn& column : mesh.vertexColumns)
-  {
-    columns += mesh.vertices * static_cast<std::int64_t>(column.spec.tupleBytes());
-  }
-  for (const RawColumn& column : mesh.elementColumns)
-  {
-    columns += mesh.elementCount * static_cast<std::int64_t>(column.spec.tupleBytes());
-  }
-  return scratchBytes(mesh.vertices, mesh.cells, cornersOf(mesh.cellType), columns);
+  constexpr std::int64_t Number = sizeof(std::uint32_t);
+  const std::int64_t corners = cornersOf(mesh.cellType);
+  // The parsed mesh, its vertices in the new order, and the stream.
+  const std::int64_t raw =
+    mesh.vertices * positionBytes(mesh) + mesh.cells * corners * Number + columnBytes(mesh);
+  const std::int64_t ordered = mesh.vertices * (positionBytes(mesh) + 2 * Number);
+  const std::int64_t layout = ordered + mesh.cells * (corners + 1) * Number;
+  const std::int64_t cellSort = mesh.cells * (corners + 2) * Number;
+  // See StreamAssembly.cpp: the cells are sorted in two fifths of the memory or on the disk; in the
+  // order of the file they are there with new corners.
+  const std::int64_t sorted = options.order == StreamOrder::Keep     ? mesh.cells * corners * Number
+                              : cellSort > memoryOf(options) * 2 / 5 ? cellSort
+                                                                     : 0;
+  // Afterwards columns are there twice, with a number of each row, and perhaps the result.
+  const std::int64_t rows =
+    (mesh.vertexColumns.empty() ? 0 : mesh.vertices) + (mesh.cellColumns.empty() ? 0 : mesh.cells);
+  const std::int64_t joined = columnBytes(mesh) + rows * Number;
+  return raw + layout + std::max(ordered + sorted, joined + written);
 }
 
 void checkScratchRoom(const std::filesystem::path& folder, std::int64_t bytes, std::int64_t written)
 {
   const std::int64_t room = freeBytes(folder);
-  // A mesh that fits into the memory needs half as much as one that does not.
-  if (room >= 0 && room < bytes / 2 - written)
+  if (room >= 0 && room < certainBytes(bytes) - written)
   {
     throw Error(scratchPlace(folder).string() + ": the scratch files take about " +
                 mebibytes(bytes) + ", there is room for " + mebibytes(room + written) +
@@ -161,33 +167,38 @@ void checkScratchRoom(const std::filesystem::path& folder, std::int64_t bytes, s
 }
 
 ConversionEstimate estimateConversion(
-  const std::filesystem::path& in, const ConversionOptions& options)
+  const std::filesystem::path& in, const ConversionOptions& options, bool throughVsm)
 {
   const Counts counts = countsOf(in, { options.timeStep, options.partition });
-  if (counts.counted && std::max(counts.vertices, counts.cells) > MostNumbers)
+  const StreamInfo& mesh = counts.mesh;
+  if (counts.counted && std::max(mesh.vertices, mesh.cells) > MostNumbers)
   {
-    throw Error(in.string() + ": the mesh has " + std::to_string(counts.vertices) +
-                " vertices and " + std::to_string(counts.cells) + " cells; at most " +
-                std::to_string(MostNumbers) + " of each can be converted: split it.");
+    throw Error(in.string() + ": the mesh has " + std::to_string(mesh.vertices) + " vertices and " +
+                std::to_string(mesh.cells) + " cells; at most " + std::to_string(MostNumbers) +
+                " of each can be converted: split it.");
   }
   ConversionEstimate estimate;
-  estimate.vertices = counts.vertices;
-  estimate.cells = counts.cells;
+  estimate.mesh = converted(mesh);
+  estimate.vertices = mesh.vertices;
+  estimate.cells = mesh.cells;
   estimate.counted = counts.counted;
-  estimate.memory_bytes =
-    options.memoryLimit > 0 ? options.memoryLimit : ConversionOptions::DefaultMemory;
-  estimate.scratch_bytes =
-    scratchBytes(counts.vertices, counts.cells, counts.corners, counts.columnBytes) +
-    counts.inflatedBytes;
-  estimate.cellType = counts.corners == 4 ? CellType::Tetrahedron : CellType::Triangle;
+  estimate.memory_bytes = memoryOf(options);
+  estimate.output_bytes = vsmBytes(estimate.mesh, options.codec);
+  // Streams are read through a .vsm file, and their order is kept by copying that.
+  const MeshFileKind kind = kindOfInput(in);
+  const std::int64_t stream = vsmBytes(estimate.mesh, Codec::Lz4);
+  const std::int64_t written = throughVsm ? stream : 0;
+  const bool copies = options.order == StreamOrder::Keep && !options.weld &&
+                      (kind == MeshFileKind::Stream || kind == MeshFileKind::Vsm);
+  const StreamInfo& parsed = kind == MeshFileKind::Stream ? estimate.mesh : mesh;
+  estimate.scratch_bytes = (copies ? written : scratchBytes(parsed, options, written)) +
+                           (kind == MeshFileKind::Stream ? stream : 0) + counts.inflatedBytes;
   estimate.scratch_free = freeBytes(options.scratch);
   constexpr double SecondsOfVertex = 1.0e-6;
   constexpr double SecondsOfCorner = 0.3e-6;
-  const auto corners = static_cast<double>(counts.cells * counts.corners);
-  const auto vertices = static_cast<double>(counts.vertices);
-  estimate.output_bytes =
-    plainStreamBytes(counts.vertices, counts.cells * counts.corners) + counts.columnBytes;
-  estimate.cpu_seconds = vertices * SecondsOfVertex + corners * SecondsOfCorner;
+  const auto corners = static_cast<double>(mesh.cells * cornersOf(mesh.cellType));
+  estimate.cpu_seconds =
+    static_cast<double>(mesh.vertices) * SecondsOfVertex + corners * SecondsOfCorner;
   return estimate;
 }
 

@@ -16,7 +16,9 @@ namespace smg
 struct SMG_EXPORT ConversionEstimate
 {
   std::int64_t vertices = 0, cells = 0;
-  CellType cellType = CellType::Triangle; ///< without a header: as of the suffix
+  /** The stream, whose width and span are estimated. Without a header its cells are as of the
+   * suffix. */
+  StreamInfo mesh;
   /** Whether the counts are from the header of the file; otherwise they are estimated from its
    * size. */
   bool counted = false;
@@ -30,31 +32,33 @@ struct SMG_EXPORT ConversionEstimate
   std::string json(int indent = 2) const;
 };
 
-/** Estimates the conversion of a mesh file from its header or its size. Throws Error if the file
- * cannot be opened or its format is unknown. */
+/** Estimates the conversion of a mesh file from its header or its size. `throughVsm`: the .vsm file
+ * is a scratch file, too. Throws Error if the file cannot be opened or its format is unknown. */
 SMG_EXPORT ConversionEstimate estimateConversion(
-  const std::filesystem::path& in, const ConversionOptions& options = {});
+  const std::filesystem::path& in, const ConversionOptions& options = {}, bool throughVsm = false);
 
 /** The folder for scratch files that an option names; empty: the temporary folder. */
 std::filesystem::path scratchPlace(const std::filesystem::path& folder);
 
-/** The bytes of a compressed .vsm file without columns. */
-std::int64_t plainStreamBytes(std::int64_t vertices, std::int64_t corners);
-
 /** The free bytes of the file system of `folder`; empty: the temporary folder. -1: not known. */
 std::int64_t freeBytes(const std::filesystem::path& folder);
 
-/** The maximum bytes that the scratch files of a mesh take at once. */
+/** The most bytes of scratch files at once while a parsed mesh is ordered and written, the latter
+ * to a scratch file of `written` bytes. */
 std::int64_t scratchBytes(
-  std::int64_t vertices, std::int64_t cells, int corners, std::int64_t columnBytes);
+  const StreamInfo& mesh, const ConversionOptions& options, std::int64_t written = 0);
 
-/** The same for a parsed mesh. */
-std::int64_t scratchBytes(const RawMesh& mesh);
+/** The bytes that certainly are needed where so many are estimated. The estimates of meshes that
+ * tell their counts are at most 1.5 times the truth. */
+constexpr std::int64_t certainBytes(std::int64_t estimated)
+{
+  return estimated / 3 * 2;
+}
 
 /**
  * Rejects scratch files that certainly do not fit: throws Error, with both figures, unless `folder`
- * (empty: the temporary folder) has space for half of `bytes`, as estimated by scratchBytes(),
- * minus those already `written`.
+ * (empty: the temporary folder) has space for the certain part of `bytes`, an estimate, minus those
+ * already `written`.
  */
 void checkScratchRoom(
   const std::filesystem::path& folder, std::int64_t bytes, std::int64_t written = 0);

@@ -2,6 +2,7 @@
 #include "IO/Conversion/ConvertMesh.h"
 
 #include "IO/AnyFormat/Importer.h"
+#include "IO/AnyFormat/MeshFile.h"
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Conversion/ConversionStages.h"
 #include "IO/Conversion/NumberNames.h"
@@ -35,11 +36,32 @@ void checkSaidRoom(const Conversion& conversion)
   {
     return;
   }
-  const ConversionEstimate estimate = estimateConversion(conversion.in(), conversion.options());
+  const bool throughVsm = kindOfOutput(conversion.out()) != MeshFileKind::Vsm;
+  const ConversionEstimate estimate =
+    estimateConversion(conversion.in(), conversion.options(), throughVsm);
   if (estimate.counted)
   {
     checkScratchRoom(conversion.scratch(), estimate.scratch_bytes);
   }
+}
+
+/** What is known of a parsed mesh: cells instead of elements. */
+StreamInfo infoOf(const RawMesh& mesh)
+{
+  StreamInfo info;
+  info.cellType = mesh.cellType;
+  info.vertices = mesh.vertices;
+  info.cells = mesh.cells;
+  info.doublePositions = mesh.doublePositions;
+  for (const RawColumn& column : mesh.vertexColumns)
+  {
+    info.vertexColumns.push_back(column.spec);
+  }
+  for (const RawColumn& column : mesh.elementColumns)
+  {
+    info.cellColumns.push_back(column.spec);
+  }
+  return info;
 }
 
 RawMesh readInput(Conversion& conversion)
@@ -90,7 +112,8 @@ void importInput(Conversion& conversion, RawMesh& mesh)
   ConversionReport& report = conversion.report();
   mesh = readInput(conversion);
   checkOutput(conversion.out(), mesh.cellType);
-  checkScratchRoom(conversion.scratch(), scratchBytes(mesh), space.traffic().bytesWritten);
+  checkScratchRoom(conversion.scratch(), scratchBytes(infoOf(mesh), conversion.options()),
+    space.traffic().bytesWritten);
   const std::optional<double>& weld = conversion.options().weld;
   // Merged points no longer belong to a cell.
   report.isolated_vertices -= weld ? weldPoints(mesh, *weld, space) : 0;

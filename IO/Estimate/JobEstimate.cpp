@@ -5,10 +5,14 @@
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Files/Suffix.h"
+#include "IO/Formats/Vsm/AttributeNames.h"
+#include "IO/Formats/Vsm/VsmFile.h"
+#include "IO/Restore/RestoreBytes.h"
+#include "IO/Restore/RestoredMesh.h"
 #include "Solver/Core/ByteText.h"
 #include "Solver/Storage/FileDescriptor.h"
 #include "smg/Error.h"
-#include "smg/VsmReader.h"
+#include "smg/SolvedMesh.h"
 
 #include <nlohmann/json.hpp>
 
@@ -20,13 +24,6 @@ namespace smg
 {
 namespace
 {
-
-/** Bytes of the columns of a .vsm file, from those of the file. */
-std::int64_t columnBytes(const EstimatedInput& in)
-{
-  return std::max<std::int64_t>(0, in.streamBytes - plainStreamBytes(in.info.vertices,
-                                                      in.info.cells * cornersOf(in.info.cellType)));
-}
 
 std::filesystem::path folderOf(const std::filesystem::path& file)
 {
@@ -42,68 +39,206 @@ bool onOneDisk(const std::filesystem::path& a, const std::filesystem::path& b)
          first.st_dev == second.st_dev;
 }
 
-/** Bytes of a file with the mesh and numbers of 8 bytes. */
-std::int64_t resultBytes(
-  const EstimatedInput& in, const std::filesystem::path& out, std::int64_t numbers)
+/** A format and the suffix of a file; without a format none. */
+struct NamedFormat
 {
-  const std::int64_t corners = in.info.cells * cornersOf(in.info.cellType);
-  const std::int64_t values = 8 * numbers;
-  const std::string suffix = lowerSuffix(out);
-  const Format* const format = formatOfSuffix(suffix);
-  if (format && format->kind == MeshFileKind::Vsm)
+  explicit NamedFormat(const std::filesystem::path& file)
+    : text(lowerSuffix(file))
+    , format(formatOfSuffix(this->text))
   {
-    return in.streamBytes + values;
+    if (this->format)
+    {
+      this->suffix =
+        *std::ranges::find(this->format->suffixes, std::string_view(this->text), &FileSuffix::text);
+    }
   }
-  const bool isBinary =
-    format &&
-    !std::ranges::find(format->suffixes, std::string_view(suffix), &FileSuffix::text)->isText;
-  constexpr std::int64_t PointBytes = 18, CornerBytes = 5, TextPointBytes = 34, TextCornerBytes = 7;
-  return in.info.vertices * (isBinary ? PointBytes : TextPointBytes) +
-         corners * (isBinary ? CornerBytes : TextCornerBytes) + columnBytes(in) + values;
+
+  /** Whether the bytes depend on the numbers in the file, and can be far fewer than estimated. */
+  bool dependsOnNumbers() const
+  {
+    return !this->format || this->format->kind == MeshFileKind::Vsm || this->suffix.isText;
+  }
+
+  std::string text;
+  const Format* format;
+  FileSuffix suffix{};
+};
+
+void replace(int table, const ColumnSpec& added, std::vector<ColumnSpec>& columns, VsmParts& parts)
+{
+  std::erase_if(columns, [&added](const ColumnSpec& column) { return column.name == added.name; });
+  columns.push_back(added);
+  parts.erase({ table, added.name });
+}
+
+/** A mesh with its result: what it has, and its size as a .vsm file. */
+struct ResultMesh
+{
+  ResultMesh(const EstimatedInput& in, const AddedValues& added)
+    : mesh(in.info)
+    , parts(in.parts)
+  {
+    for (const ColumnSpec& column : added.ofVertices)
+    {
+      replace(VsmFormat::Vertices, column, this->mesh.vertexColumns, this->parts);
+    }
+    for (const ColumnSpec& column : added.ofCells)
+    {
+      replace(VsmFormat::Cells, column, this->mesh.cellColumns, this->parts);
+    }
+    if (added.movesVertices)
+    {
+      this->parts.erase({ VsmFormat::Vertices, "Position" });
+    }
+  }
+
+  /** The mesh is to have another order, which numbers of vertices and cells depend on. */
+  void forgetNumbers()
+  {
+    this->parts.erase({ VsmFormat::Vertices, OriginalIdName });
+    this->parts.erase({ VsmFormat::Cells, OriginalCellIdName });
+    this->parts.erase({ VsmFormat::Last, "LastCell" });
+    this->parts.erase({ VsmFormat::Cells, "Corners" });
+  }
+
+  std::int64_t bytes(Codec codec) const { return vsmBytes(this->mesh, codec, this->parts); }
+
+  /** The mesh without the columns that a file in the order of its original does not have. */
+  StreamInfo restored() const
+  {
+    StreamInfo own = this->mesh;
+    own.vertexColumns = ownColumns(own.vertexColumns);
+    own.cellColumns = ownColumns(own.cellColumns);
+    return own;
+  }
+
+  StreamInfo mesh;
+  VsmParts parts;
+};
+
+/** Bytes of a file of the result; of a .vsm file where its format is not known. */
+std::int64_t fileBytes(const ResultMesh& result, const std::filesystem::path& out,
+  WrittenOrder order, Codec codec = Codec::Zstd)
+{
+  const NamedFormat named(out);
+  const std::int64_t vsm = result.bytes(codec);
+  const bool isRestored = order == WrittenOrder::Restored;
+  return named.format && named.format->bytes
+           ? named.format->bytes(
+               { isRestored ? result.restored() : result.mesh, vsm, named.suffix })
+           : vsm;
+}
+
+/** The most scratch files at once while the result is written. */
+std::int64_t writingBytes(const ResultMesh& result, const EstimatedResult& written)
+{
+  constexpr std::int64_t NormalBytes = 3 * sizeof(float);
+  const bool hasNormals = std::ranges::any_of(result.mesh.vertexColumns, isNormals);
+  const std::int64_t normals =
+    written.added.movesVertices && hasNormals ? result.mesh.vertices * NormalBytes : 0;
+  const std::string suffix = lowerSuffix(written.out);
+  switch (written.order)
+  {
+    case WrittenOrder::Restored:
+      return normals + result.bytes(Codec::Lz4) +
+             restoreBytes(result.restored(), written.memory, suffix);
+    case WrittenOrder::Rewritten:
+    {
+      // As MovedVertices: a number, the position and the normal of each, sorted by numbers.
+      constexpr std::int64_t RowBytes = 4 * sizeof(double);
+      const std::int64_t rows = result.mesh.vertices * (RowBytes + (hasNormals ? RowBytes - 8 : 0));
+      return normals + rows + (rows * 5 / 4 > written.memory * 3 / 4 ? rows : 0);
+    }
+    case WrittenOrder::Stream:
+      break;
+  }
+  const Format* const format = formatOfSuffix(suffix);
+  return normals + (format && format->writeVsm ? result.bytes(Codec::Lz4) : 0);
 }
 
 } // namespace
 
+AddedValues solvedValues(int columns, bool gradient, bool flux)
+{
+  AddedValues added{ { { SolutionName, ScalarType::Float64, columns } }, {} };
+  if (gradient)
+  {
+    added.ofCells.push_back({ GradientName, ScalarType::Float64, 3 * columns });
+  }
+  if (flux)
+  {
+    added.ofCells.push_back({ FluxName, ScalarType::Float64, 3 * columns });
+  }
+  return added;
+}
+
 EstimatedInput::EstimatedInput(const std::filesystem::path& in, const ConversionOptions& options)
 {
-  const ConversionEstimate estimate = estimateConversion(in, options);
-  this->counted = estimate.counted;
-  if (kindOfInput(in) == MeshFileKind::Vsm)
+  const MeshFileKind kind = kindOfInput(in);
+  if (kind == MeshFileKind::Vsm)
   {
-    const VsmReader reader(in);
-    this->info = reader.info();
-    this->streamBytes = reader.storedBytes();
+    const VsmFile file(in, nullptr);
+    this->counted = true;
+    this->info = file.Info;
+    this->parts = vsmParts(file);
+    this->streamBytes = static_cast<std::int64_t>(std::filesystem::file_size(in));
     return;
   }
-  this->info.vertices = estimate.vertices;
-  this->info.cells = estimate.cells;
-  this->info.cellType = estimate.cellType;
-  this->info.span = usualSpan(estimate.cellType, estimate.vertices);
+  ConversionOptions opening = options;
+  opening.order = kind == MeshFileKind::Stream ? StreamOrder::Keep : options.order;
+  opening.codec = Codec::Lz4;
+  const ConversionEstimate estimate = estimateConversion(in, opening, true);
+  this->info = estimate.mesh;
+  this->counted = estimate.counted;
   this->streamBytes = estimate.output_bytes;
+  this->converts = true;
   this->conversionScratch = estimate.scratch_bytes;
   this->conversionSeconds = estimate.cpu_seconds;
 }
 
-JobEstimate::JobEstimate(const EstimatedInput& in, const std::filesystem::path& out,
-  const Costs& costs, const AddedValues& added, const ConversionOptions& options)
+JobEstimate::JobEstimate(const EstimatedInput& in, const EstimatedResult& result,
+  const Costs& costs, const ConversionOptions& options)
   : vertices(in.info.vertices)
   , cells(in.info.cells)
   , counted(in.counted)
   , memory_bytes(costs.memory)
   , scratch_free(freeBytes(options.scratch))
-  , output_free(freeBytes(folderOf(out)))
+  , output_free(freeBytes(folderOf(result.out)))
   , passes(costs.passes)
 {
-  const std::int64_t numbers = in.info.vertices * added.ofVertices + in.info.cells * added.ofCells;
-  this->output_bytes = resultBytes(in, out, numbers);
-  const bool converts = in.conversionScratch > 0;
-  const std::int64_t converted = converts ? in.streamBytes : 0;
-  // A file in the order of IN is restored from another stream, while the solution is kept.
-  const std::int64_t restored = converts ? converted + in.streamBytes + 3 * 8 * numbers : 0;
-  this->scratch_bytes = std::max({ in.conversionScratch, converted + costs.scratch, restored });
+  const ResultMesh mesh(in, result.added);
+  this->output_bytes = fileBytes(mesh, result.out, result.order);
+  const std::int64_t stream = in.converts ? in.streamBytes : 0;
+  this->scratch_bytes = std::max(in.conversionScratch,
+    stream + std::max(costs.scratch, costs.kept + writingBytes(mesh, result)));
   constexpr double SecondsOfByte = 40e-9; // compressed
   this->cpu_seconds =
     in.conversionSeconds + costs.seconds + SecondsOfByte * static_cast<double>(this->output_bytes);
+}
+
+JobEstimate::JobEstimate(const std::filesystem::path& in, const std::filesystem::path& out,
+  const ConversionOptions& options)
+  : scratch_free(freeBytes(options.scratch))
+  , output_free(freeBytes(folderOf(out)))
+{
+  const WrittenOrder order = options.restoreOrder ? WrittenOrder::Restored : WrittenOrder::Stream;
+  const bool throughVsm = kindOfOutput(out) != MeshFileKind::Vsm && !options.restoreOrder;
+  const ConversionEstimate estimate = estimateConversion(in, options, throughVsm);
+  ResultMesh result(EstimatedInput(in, options), {});
+  // Most .vsm files are in breadth-first order already.
+  if (options.order == StreamOrder::Axis || options.order == StreamOrder::Spectral)
+  {
+    result.forgetNumbers();
+  }
+  this->vertices = estimate.vertices;
+  this->cells = estimate.cells;
+  this->counted = estimate.counted;
+  this->memory_bytes = this->memory_limit = estimate.memory_bytes;
+  this->output_bytes = fileBytes(result, out, order, options.codec);
+  this->scratch_bytes = options.restoreOrder
+                          ? restoreBytes(result.restored(), estimate.memory_bytes, lowerSuffix(out))
+                          : estimate.scratch_bytes;
+  this->cpu_seconds = estimate.cpu_seconds;
 }
 
 void JobEstimate::checkRoom(const std::filesystem::path& out,
@@ -111,8 +246,12 @@ void JobEstimate::checkRoom(const std::filesystem::path& out,
 {
   checkScratchRoom(scratchFolder, this->scratch_bytes, written);
   const bool isOneDisk = onOneDisk(folderOf(out), scratchFolder);
-  const std::int64_t bytes = this->output_bytes + (isOneDisk ? this->scratch_bytes : 0);
-  if (this->output_free >= 0 && this->output_free < bytes / 2 - (isOneDisk ? written : 0))
+  const std::int64_t scratch = isOneDisk ? this->scratch_bytes : 0;
+  const std::int64_t bytes = this->output_bytes + scratch;
+  const std::int64_t certain = certainBytes(scratch) + (NamedFormat(out).dependsOnNumbers()
+                                                           ? this->output_bytes / 2
+                                                           : certainBytes(this->output_bytes));
+  if (this->output_free >= 0 && this->output_free < certain - (isOneDisk ? written : 0))
   {
     throw Error(out.string() + ": the result" +
                 (isOneDisk ? " and the scratch files take" : " takes") + " about " +
@@ -133,7 +272,10 @@ std::string JobEstimate::json(int indent) const
   json["scratch_free"] = this->scratch_free;
   json["output_bytes"] = this->output_bytes;
   json["output_free"] = this->output_free;
-  json["passes"] = this->passes;
+  if (this->passes > 0)
+  {
+    json["passes"] = this->passes;
+  }
   json["cpu_seconds"] = this->cpu_seconds;
   return json.dump(indent);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Formats/Vsm/VsmBytes.h"
 #include "Solver/Estimate/Costs.h"
 #include "smg/Convert.h"
 #include "smg/Export.h"
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace smg
 {
@@ -18,26 +20,51 @@ struct SMG_EXPORT EstimatedInput
   /** Estimates a mesh file from its header or its size, as estimateConversion(). */
   EstimatedInput(const std::filesystem::path& in, const ConversionOptions& options);
 
-  StreamInfo info;                    ///< of the stream; its span may be estimated
+  StreamInfo info;                    ///< of the stream; its width and span may be estimated
   bool counted = false;               ///< the counts are from the header of the file
   std::int64_t streamBytes = 0;       ///< of the .vsm file
-  std::int64_t conversionScratch = 0; ///< most bytes at once to convert the file; 0: it is a .vsm
+  VsmParts parts;                     ///< of the .vsm file; none: it is to be made
+  bool converts = false;              ///< the file is no .vsm, which is a scratch file then
+  std::int64_t conversionScratch = 0; ///< most bytes at once to convert the file, with that file
   double conversionSeconds = 0;       ///< processor time
 };
 
-/** The values that a computation adds to a mesh. */
+/** The values that a computation adds to a mesh, or replaces. */
 struct AddedValues
 {
-  int ofVertices = 0; ///< numbers a vertex
-  int ofCells = 0;    ///< numbers a cell
+  std::vector<ColumnSpec> ofVertices, ofCells;
+  bool movesVertices = false;
+};
+
+/** Those of SolvedMesh. */
+SMG_EXPORT AddedValues solvedValues(int columns, bool gradient, bool flux);
+
+/** The order of a written mesh. */
+enum class WrittenOrder
+{
+  Stream,
+  Restored, ///< that of the original file, by the original numbers in a temporary .vsm file
+  Rewritten ///< the file IN again with other positions
+};
+
+/** The result of a computation, as a file. */
+struct EstimatedResult
+{
+  std::filesystem::path out;
+  AddedValues added;
+  WrittenOrder order = WrittenOrder::Stream;
+  std::int64_t memory = 0; ///< bytes for the sorts of the orders of a file
 };
 
 /** An estimate of the costs of a command that computes something on a mesh, before it starts. */
 struct SMG_EXPORT JobEstimate
 {
-  /** Of the computation `costs` on a mesh, written as `out`. `options` have the scratch folder. */
-  JobEstimate(const EstimatedInput& in, const std::filesystem::path& out, const Costs& costs,
-    const AddedValues& added, const ConversionOptions& options);
+  /** Of the computation `costs` on a mesh. `options` have the scratch folder. */
+  JobEstimate(const EstimatedInput& in, const EstimatedResult& result, const Costs& costs,
+    const ConversionOptions& options);
+  /** Of convert(). */
+  JobEstimate(const std::filesystem::path& in, const std::filesystem::path& out,
+    const ConversionOptions& options);
 
   std::int64_t vertices = 0, cells = 0;
   bool counted = false;           ///< the counts are from the header of the file
@@ -47,12 +74,12 @@ struct SMG_EXPORT JobEstimate
   std::int64_t scratch_free = 0;  ///< free space in the folder for scratch files
   std::int64_t output_bytes = 0;  ///< of the result
   std::int64_t output_free = 0;   ///< free space in its folder
-  int passes = 0;                 ///< over the mesh
+  int passes = 0;                 ///< over the mesh; 0: it is converted
   double cpu_seconds = 0;         ///< on a machine of 2023, with the conversion
 
   /** Rejects what certainly does not fit on the disks: throws Error, with both figures, unless
-   * there is room for half of the scratch files, of which `written` bytes are there, and of the
-   * result `out`, on one disk for both. */
+   * there is room for what certainly is needed of the scratch files, of which `written` bytes are
+   * there, and of the result `out`, on one disk for both. */
   void checkRoom(const std::filesystem::path& out, const std::filesystem::path& scratchFolder,
     std::int64_t written = 0) const;
 

@@ -47,10 +47,16 @@ struct FileSuffix
 /** The size of a mesh according to its file, or estimated from the size of the file. */
 struct FileCounts
 {
-  std::int64_t vertices = 0, cells = 0;
-  int corners = 3;              ///< of a cell
-  std::int64_t columnBytes = 0; ///< of all columns of the mesh
-  bool counted = false;         ///< whether the file states it
+  StreamInfo mesh;      ///< counts, precision and columns
+  bool counted = false; ///< whether the file states them
+};
+
+/** A mesh that is to be written, for an estimate of the bytes of its file. */
+struct MeshToWrite
+{
+  StreamInfo mesh;           ///< with the columns of the result
+  std::int64_t vsmBytes = 0; ///< as a .vsm file
+  FileSuffix suffix = {};    ///< of the file
 };
 
 /** Bytes of a vertex in a file, with its share of cells: two triangles, six tetrahedra. */
@@ -108,6 +114,8 @@ struct Format
   /** Otherwise, the estimate from the size of the file. */
   VertexShare share = {};
 
+  /** About the bytes of a file that is written or restored, or of both files of TetGen. */
+  std::int64_t (*bytes)(const MeshToWrite& written) = nullptr;
   /** Writes a mesh stream in its order, in one pass. The suffix is one for these cells. */
   WriteNotes (*write)(MeshSource& source, const std::filesystem::path& path,
     const WriteMeshOptions& options) = nullptr;

@@ -23,6 +23,12 @@ public:
     , OfElements(info.elementColumns)
   {
   }
+  /** Of a mesh that is to be restored. */
+  explicit PlacedColumns(const StreamInfo& mesh)
+    : OfVertices(mesh.vertexColumns)
+    , OfElements(mesh.cellColumns)
+  {
+  }
 
   // The index of the column with this name and number of components; -1 if there is none.
   std::ptrdiff_t ofVertices(std::string_view name, int least, int most)

@@ -19,6 +19,7 @@ namespace
 struct Rates
 {
   double rowBytes;      ///< of the rows of all levels on disk
+  double fewRowBytes;   ///< the same with the operators for few cycles
   double chunkBytes;    ///< of the mesh on disk for distances
   double buildSeconds;  ///< the first pass
   double passSeconds;   ///< a further pass
@@ -31,7 +32,8 @@ struct Rates
   double spanPower;
 };
 
-constexpr Rates OfTriangles{ .rowBytes = 78,
+constexpr Rates OfTriangles{ .rowBytes = 82,
+  .fewRowBytes = 82,
   .chunkBytes = 40,
   .buildSeconds = 1.3e-6,
   .passSeconds = 0.06e-6,
@@ -42,7 +44,8 @@ constexpr Rates OfTriangles{ .rowBytes = 78,
   .plainSlowdown = 1.25,
   .spanFactor = 2.3,
   .spanPower = 0.5 };
-constexpr Rates OfTetrahedra{ .rowBytes = 150,
+constexpr Rates OfTetrahedra{ .rowBytes = 160,
+  .fewRowBytes = 110,
   .chunkBytes = 105,
   .buildSeconds = 3.5e-6,
   .passSeconds = 0.14e-6,
@@ -73,15 +76,16 @@ int expectedCycles(const Rates& rates, const SolveOptions& options, double ease 
   return std::clamp(static_cast<int>(std::ceil(cycles)), 1, options.maxCycles);
 }
 
-/** The scratch files of one iterate: two generations, on all levels; with acceleration its history,
- * too. */
+/** The scratch files of one iterate: two generations, on all levels, and a third one of a
+ * checkpoint; with acceleration its history, too. */
 double iterateBytes(int columns, const SolveOptions& options, int cycles)
 {
   constexpr double AllLevels = 1.45;
   constexpr int LeastAccelerated = 4;
   const bool accelerates =
     options.acceleration != AccelerationKind::None && cycles >= LeastAccelerated;
-  return 2.0 * sizeof(double) * columns * (AllLevels + (accelerates ? 1.0 : 0.0));
+  const double generations = options.checkpoint.folder.empty() ? 2.0 : 3.0;
+  return sizeof(double) * columns * (generations * AllLevels + (accelerates ? 2.0 : 0.0));
 }
 
 double passSeconds(const Rates& rates, int columns)
@@ -102,6 +106,10 @@ Costs costsOfCycles(
   {
     costs.scratch =
       bytesOf(info, rates.rowBytes + LabelBytes + iterateBytes(columns, options, cycles));
+    // All files of a checkpoint stay until the result is written.
+    costs.kept = options.checkpoint.folder.empty()
+                   ? bytesOf(info, 2.0 * sizeof(double) * columns + LabelBytes)
+                   : costs.scratch;
   }
   costs.seconds = static_cast<double>(info.vertices) *
                   (rates.buildSeconds + rates.readSeconds + cycles * passSeconds(rates, columns));
@@ -133,7 +141,9 @@ Costs deformCosts(const StreamInfo& info, const DeformOptions& options)
   constexpr double RestBytes = 30;
   constexpr std::int64_t OpenRestBytes = 64, WindowSpans = 30;
   costs.memory += OpenRestBytes * std::min(info.vertices, WindowSpans * info.span);
-  costs.scratch += options.inCore ? 0 : bytesOf(info, RestBytes);
+  const std::int64_t rest = options.inCore ? 0 : bytesOf(info, RestBytes);
+  costs.scratch += options.inCore ? 0 : rest - bytesOf(info, rates.rowBytes - rates.fewRowBytes);
+  costs.kept += rest;
   return costs;
 }
 
@@ -155,6 +165,7 @@ Costs smoothCosts(const StreamInfo& info, int components, const SmoothingOptions
   const int files = 2 + (options.keepEdges ? 1 : 0) + (options.keepEdges || keepsVolume ? 1 : 0);
   const std::int64_t own = bytesOf(info, files * components * double(sizeof(double)));
   (options.inCore ? costs.memory : costs.scratch) += own;
+  costs.kept = options.inCore ? 0 : bytesOf(info, components * double(sizeof(double)));
   return costs;
 }
 
@@ -184,6 +195,7 @@ Costs distanceCosts(const StreamInfo& info, const DistanceDescription& descripti
     constexpr double WallBytes = 2400, WallSeconds = 11e-6;
     costs.memory = static_cast<std::int64_t>(WallBytes * std::pow(vertices, 2.0 / 3.0));
     costs.scratch = costs.memory + bytesOf(info, 8.0 * numbers);
+    costs.kept = bytesOf(info, 8.0 * numbers);
     costs.passes = 1;
     costs.seconds = vertices * WallSeconds;
     return costs;
@@ -191,7 +203,7 @@ Costs distanceCosts(const StreamInfo& info, const DistanceDescription& descripti
   const std::int64_t bytesOfSpan = surface ? 7300 : 4900;
   const std::int64_t least = std::int64_t(surface ? 1 : 3) << 20;
   costs.memory = least + bytesOfSpan * info.span;
-  costs.scratch = bytesOf(info, ratesOf(info.cellType).chunkBytes + 8.0 * numbers);
+  costs.scratch = costs.kept = bytesOf(info, ratesOf(info.cellType).chunkBytes + 8.0 * numbers);
   // Larger meshes have more paths that turn against the stream.
   constexpr double OnePass = 170000, Growth = 0.94; // passes for a mesh e times as large
   costs.passes =

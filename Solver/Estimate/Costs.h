@@ -19,6 +19,7 @@ struct Costs
 {
   std::int64_t memory = 0;  ///< most accounted memory at once, bytes
   std::int64_t scratch = 0; ///< most bytes of scratch files at once
+  std::int64_t kept = 0;    ///< bytes of them that hold the solution until it is written
   int passes = 0;           ///< passes over the mesh
   double seconds = 0;       ///< processor time
 };

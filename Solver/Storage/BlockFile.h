@@ -98,6 +98,8 @@ public:
   std::int64_t blockOf(int table, std::int64_t row) const;
   /** Bytes of a column of a block, uncompressed. */
   std::size_t columnBytes(int table, std::int64_t block, int column) const;
+  /** Bytes of a column in the file, of all its blocks. */
+  std::int64_t storedBytes(int table, int column) const;
 
   /** Reads a column of a block into `bytes`, which must have exactly columnBytes(...) bytes. */
   void read(int table, std::int64_t block, int column, std::span<std::byte> bytes);

@@ -246,6 +246,16 @@ std::size_t BlockFileReader::columnBytes(int table, std::int64_t block, int colu
   return this->Self->Index.entry(table, block, column).plainBytes;
 }
 
+std::int64_t BlockFileReader::storedBytes(int table, int column) const
+{
+  std::int64_t bytes = 0;
+  for (std::int64_t block = 0; block < this->blocks(table); block++)
+  {
+    bytes += this->Self->Index.entry(table, block, column).storedBytes;
+  }
+  return bytes;
+}
+
 void BlockFileReader::read(int table, std::int64_t block, int column, std::span<std::byte> bytes)
 {
   Implementation& self = *this->Self;

@@ -73,6 +73,8 @@ TEST(FormatTable, SuffixesAreOfOneFormatEach)
     }
     EXPECT_TRUE(format->parse || format->kind != MeshFileKind::Indexed) << format->name;
     EXPECT_FALSE(format->write && format->writeVsm) << format->name;
+    const bool isWritten = format->write || format->writeVsm || format->restore;
+    EXPECT_EQ(format->bytes != nullptr, isWritten) << format->name;
   }
   EXPECT_EQ(formatOfName("A.PLY.gz"), formatOfSuffix(".ply"));
   EXPECT_EQ(formatOfName("a.xyz"), nullptr);

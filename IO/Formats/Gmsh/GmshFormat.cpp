@@ -25,6 +25,7 @@ const Format GmshFormat{
   .hasSign = isGmsh,
   .parse = parseWith<importGmsh>,
   .share = { 250, 4 },
+  .bytes = bytesOfGmsh,
   .restore = writeRestoredGmsh,
 };
 

@@ -15,5 +15,6 @@ void importGmsh(InputFile& file, RawMeshBuilder& builder);
  * more corners become triangles.
  */
 WriteNotes writeRestoredGmsh(RestoredMesh& mesh, const std::filesystem::path& path);
+std::int64_t bytesOfGmsh(const MeshToWrite& written);
 
 } // namespace smg

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Files/TextBytes.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Formats/Gmsh/GmshFormat.h"
 #include "IO/Formats/Vsm/AttributeNames.h"
@@ -109,6 +110,16 @@ WriteNotes writeRestoredGmsh(RestoredMesh& mesh, const std::filesystem::path& pa
     notes.emplace_back("Polygons of more than four corners are written as triangles.");
   }
   return notes;
+}
+
+std::int64_t bytesOfGmsh(const MeshToWrite& written)
+{
+  constexpr double TypeAndTags = 8; // as "4 2 0 1 "
+  const StreamInfo& mesh = written.mesh;
+  return textBytes(mesh.vertices,
+           numberCharacters(mesh.vertices) + positionCharacters(mesh.doublePositions)) +
+         textBytes(mesh.cells, numberCharacters(mesh.cells) + TypeAndTags +
+                                 cornersOf(mesh.cellType) * numberCharacters(mesh.vertices));
 }
 
 } // namespace smg

@@ -260,6 +260,7 @@ const Format MeditFormat{
   .hasSign = isMedit,
   .parse = parseWith<importMedit>,
   .share = { 200, 4 },
+  .bytes = bytesOfMedit,
   .restore = writeRestoredMedit,
 };
 

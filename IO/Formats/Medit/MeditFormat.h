@@ -15,5 +15,6 @@ void importMedit(InputFile& file, RawMeshBuilder& builder);
  * triangles.
  */
 WriteNotes writeRestoredMedit(RestoredMesh& mesh, const std::filesystem::path& path);
+std::int64_t bytesOfMedit(const MeshToWrite& written);
 
 } // namespace smg

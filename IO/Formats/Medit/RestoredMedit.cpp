@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Files/TextBytes.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Formats/Medit/MeditFormat.h"
 #include "IO/Formats/Vsm/AttributeNames.h"
@@ -121,6 +122,19 @@ WriteNotes writeRestoredMedit(RestoredMesh& mesh, const std::filesystem::path& p
     notes.push_back("Polygons of more than four corners are written as triangles.");
   }
   return notes;
+}
+
+std::int64_t bytesOfMedit(const MeshToWrite& written)
+{
+  constexpr double NoReference = 2;
+  const StreamInfo& mesh = written.mesh;
+  PlacedColumns columns(mesh);
+  const std::ptrdiff_t ofVertices = columns.integerOfVertices({ ReferenceName, MarkerName });
+  const std::ptrdiff_t ofCells = columns.integerOfElements({ ReferenceName, PhysicalTagName });
+  return textBytes(mesh.vertices, positionCharacters(mesh.doublePositions) +
+                                    tupleCharacters(mesh.vertexColumns, ofVertices, NoReference)) +
+         textBytes(mesh.cells, cornersOf(mesh.cellType) * numberCharacters(mesh.vertices) +
+                                 tupleCharacters(mesh.cellColumns, ofCells, NoReference));
 }
 
 } // namespace smg

@@ -225,6 +225,7 @@ const Format ObjFormat{
   .vertexColumns = ObjColumns,
   .looksRight = looksLikeObj,
   .parse = parseWith<importObj>,
+  .bytes = bytesOfObj,
   .restore = writeRestoredObj,
 };
 

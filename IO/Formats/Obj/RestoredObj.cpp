@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Files/TextBytes.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Formats/Obj/ObjFormat.h"
 #include "IO/Formats/Vsm/AttributeNames.h"
@@ -58,6 +59,19 @@ WriteNotes writeRestoredObj(RestoredMesh& mesh, const std::filesystem::path& pat
   }
   out.finish();
   return columns.leftOut(".obj");
+}
+
+std::int64_t bytesOfObj(const MeshToWrite& written)
+{
+  constexpr double Keyword = 2;
+  const StreamInfo& mesh = written.mesh;
+  PlacedColumns columns(mesh);
+  const std::ptrdiff_t colors = columns.ofVertices(ColorsName, 3, 4);
+  const double colorCharacters =
+    colors < 0 ? 0 : realCharacters(false) * mesh.vertexColumns[std::size_t(colors)].components;
+  return textBytes(
+           mesh.vertices, Keyword + positionCharacters(mesh.doublePositions) + colorCharacters) +
+         textBytes(mesh.cells, Keyword + 3 * numberCharacters(mesh.vertices));
 }
 
 } // namespace smg

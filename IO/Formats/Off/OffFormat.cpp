@@ -148,7 +148,11 @@ std::optional<FileCounts> countsOfOff(InputFile& file, const MeshPart&)
 {
   TextScanner scanner(file, '#');
   const OffHeader header = readOffHeader(file, scanner);
-  return FileCounts{ header.vertices, header.faces, 3, 0, true };
+  FileCounts counts;
+  counts.mesh.vertices = header.vertices;
+  counts.mesh.cells = header.faces;
+  counts.counted = true;
+  return counts;
 }
 
 constexpr FileSuffix OffSuffixes[] = { { ".off", true, false, true } };
@@ -164,6 +168,7 @@ const Format OffFormat{
   .hasSign = isOff,
   .parse = parseWith<importOff>,
   .counts = countsOfOff,
+  .bytes = bytesOfOff,
   .restore = writeRestoredOff,
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Files/TextBytes.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Formats/Off/OffFormat.h"
 #include "IO/Formats/Vsm/AttributeNames.h"
@@ -71,6 +72,23 @@ WriteNotes writeRestoredOff(RestoredMesh& mesh, const std::filesystem::path& pat
   }
   out.finish();
   return columns.leftOut(".off");
+}
+
+std::int64_t bytesOfOff(const MeshToWrite& written)
+{
+  constexpr double CountOfCorners = 2;
+  const StreamInfo& mesh = written.mesh;
+  PlacedColumns columns(mesh);
+  double ofVertices = positionCharacters(mesh.doublePositions);
+  for (const std::ptrdiff_t column : { columns.ofVertices(NormalsName, 3, 3),
+         columns.ofVertices(ColorsName, 3, 4), columns.ofVertices(TextureCoordinatesName, 2, 2) })
+  {
+    ofVertices += tupleCharacters(mesh.vertexColumns, column);
+  }
+  const std::ptrdiff_t faceColors = columns.ofElements(ColorsName, 3, 4);
+  return textBytes(mesh.vertices, ofVertices) +
+         textBytes(mesh.cells, CountOfCorners + 3 * numberCharacters(mesh.vertices) +
+                                 tupleCharacters(mesh.cellColumns, faceColors));
 }
 
 } // namespace smg

@@ -2,10 +2,11 @@
 #include "IO/Formats/Ply/PlyFormat.h"
 
 #include "IO/Files/TextStart.h"
-#include "IO/Formats/Ply/PlyHeader.h"
+#include "IO/Formats/Ply/PlyPlan.h"
+#include "IO/Formats/Ply/PlyRecords.h"
 #include "IO/Formats/Ply/WritePly.h"
 
-#include <algorithm>
+#include <vector>
 
 namespace smg
 {
@@ -19,6 +20,32 @@ bool isPly(std::string_view start)
   return bytes.starts_with("ply\n") || bytes.starts_with("ply\r");
 }
 
+std::vector<ColumnSpec> plyColumns(const PlyElement& element, PlyRole role)
+{
+  std::vector<ColumnSpec> columns;
+  planOf(element, role,
+    [&columns](const ColumnSpec& column)
+    {
+      columns.push_back(column);
+      return static_cast<int>(columns.size()) - 1;
+    });
+  return columns;
+}
+
+/** Of triangles. */
+std::int64_t bytesOfPly(const MeshToWrite& written)
+{
+  const StreamInfo& mesh = written.mesh;
+  PlyRecords vertices("vertex", mesh.vertices), faces("face", mesh.cells);
+  WrittenPly ignored;
+  vertices.addPositions(mesh.doublePositions);
+  vertices.add(mesh.vertexColumns, ignored);
+  faces.add("list uchar int vertex_indices", 1 + 3 * sizeof(std::int32_t));
+  faces.add(mesh.cellColumns, ignored);
+  return mesh.vertices * static_cast<std::int64_t>(vertices.recordBytes()) +
+         mesh.cells * static_cast<std::int64_t>(faces.recordBytes());
+}
+
 std::optional<FileCounts> countsOfPly(InputFile& file, const MeshPart&)
 {
   FileCounts counts;
@@ -26,11 +53,6 @@ std::optional<FileCounts> countsOfPly(InputFile& file, const MeshPart&)
   double least = 0;
   for (const PlyElement& element : readPlyHeader(file).elements)
   {
-    std::int64_t bytes = 0;
-    for (const PlyProperty& property : element.properties)
-    {
-      bytes += property.list ? 0 : static_cast<std::int64_t>(sizeOf(property.type));
-    }
     // Every property takes at least a byte: the length of a list, or the space after a number.
     least += static_cast<double>(element.count) * static_cast<double>(element.properties.size());
     if (least > static_cast<double>(file.size()))
@@ -39,13 +61,15 @@ std::optional<FileCounts> countsOfPly(InputFile& file, const MeshPart&)
     }
     if (element.name == "vertex")
     {
-      counts.vertices = element.count;
-      counts.columnBytes += element.count * std::max<std::int64_t>(bytes - 12, 0);
+      const PlyProperty* const x = findNumber(element, "x");
+      counts.mesh.vertices = element.count;
+      counts.mesh.doublePositions = x && x->type == ScalarType::Float64;
+      counts.mesh.vertexColumns = plyColumns(element, PlyRole::Vertices);
     }
     else if (element.name == "face")
     {
-      counts.cells = element.count;
-      counts.columnBytes += element.count * bytes;
+      counts.mesh.cells = element.count;
+      counts.mesh.cellColumns = plyColumns(element, PlyRole::Cells);
     }
   }
   return counts;
@@ -68,6 +92,7 @@ const Format PlyFormat{
   .hasSign = isPly,
   .parse = parseWith<importPly>,
   .counts = countsOfPly,
+  .bytes = bytesOfPly,
   .write = write,
   .restore = writeRestoredPly,
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/External/RowSort.h"
 #include "IO/Files/ByteOrder.h"
+#include "IO/Files/TextBytes.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Formats/Stl/StlFormat.h"
 #include "IO/Restore/PlacedColumns.h"
@@ -168,6 +169,16 @@ WriteNotes writeRestoredStl(RestoredMesh& mesh, const std::filesystem::path& pat
     notes.push_back("Polygons are written as triangles.");
   }
   return notes;
+}
+
+std::int64_t bytesOfStl(const MeshToWrite& written)
+{
+  const StreamInfo& mesh = written.mesh;
+  constexpr std::int64_t BinaryBytes = 50;
+  constexpr double Words = 63; // of a facet as text
+  return mesh.doublePositions
+           ? textBytes(mesh.cells, Words + positionCharacters(false) + 3 * positionCharacters(true))
+           : mesh.cells * BinaryBytes;
 }
 
 } // namespace smg

@@ -236,6 +236,7 @@ const Format StlFormat{
   .looksRight = looksLikeStl,
   .parse = parseWith<importStl>,
   .share = { 100, 3 },
+  .bytes = bytesOfStl,
   .restore = writeRestoredStl,
 };
 

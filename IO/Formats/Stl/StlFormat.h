@@ -15,5 +15,6 @@ void importStl(InputFile& file, RawMeshBuilder& builder);
  * text, which holds them exactly. There is no place for isolated vertices.
  */
 WriteNotes writeRestoredStl(RestoredMesh& mesh, const std::filesystem::path& path);
+std::int64_t bytesOfStl(const MeshToWrite& written);
 
 } // namespace smg

@@ -2,6 +2,8 @@
 #include "IO/Formats/Streams/StreamsFormat.h"
 
 #include "IO/Files/InputFile.h"
+#include "IO/Files/TextBytes.h"
+#include "IO/Formats/Streams/StreamAssembler.h"
 #include "IO/Formats/Streams/StreamConversion.h"
 #include "IO/Formats/Streams/StreamFile.h"
 
@@ -25,10 +27,25 @@ std::optional<FileCounts> countsOfStream(InputFile& file, const MeshPart&)
   {
     return {};
   }
-  const std::int64_t columnBytes = header.vertices * 4 * (header.vertexFloats + header.vertexInts) +
-                                   header.cells * 4 * header.cellInts;
-  return FileCounts{ header.vertices, header.cells, cornersOf(cellTypeOf(header.format)),
-    columnBytes, true };
+  FileCounts counts{ StreamAssembler::infoOf(header), true };
+  counts.mesh.vertices = header.vertices;
+  counts.mesh.cells = header.cells;
+  return counts;
+}
+
+/** The elements of a binary file have as many words as a cell, and a bit. */
+std::int64_t bytesOfStream(const MeshToWrite& written)
+{
+  const StreamInfo& mesh = written.mesh;
+  const int corners = cornersOf(mesh.cellType);
+  if (written.suffix.isText)
+  {
+    constexpr double Keyword = 2.0;
+    return textBytes(mesh.vertices, Keyword + positionCharacters(false)) +
+           textBytes(mesh.cells, Keyword + corners * numberCharacters(mesh.vertices));
+  }
+  const std::int64_t elements = mesh.vertices + mesh.cells;
+  return elements * corners * 4 + elements / 8;
 }
 
 constexpr FileSuffix StreamSuffixes[] = { { ".sma", true, false, true }, { ".smb", true, false },
@@ -42,6 +59,7 @@ const Format StreamsFormat{
   .attributes = "a scalar of the vertices of tetrahedra",
   .kind = MeshFileKind::Stream,
   .counts = countsOfStream,
+  .bytes = bytesOfStream,
   .writeVsm = write,
 };
 

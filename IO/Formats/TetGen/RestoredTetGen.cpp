@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/Suffix.h"
+#include "IO/Files/TextBytes.h"
 #include "IO/Files/TextOutput.h"
 #include "IO/Formats/TetGen/TetGenFormat.h"
 #include "IO/Formats/Vsm/AttributeNames.h"
@@ -99,6 +100,22 @@ WriteNotes writeRestoredTetGen(RestoredMesh& mesh, const std::filesystem::path& 
     notes.emplace_back("Polygons are written as triangles.");
   }
   return notes;
+}
+
+std::int64_t bytesOfTetGen(const MeshToWrite& written)
+{
+  const StreamInfo& mesh = written.mesh;
+  PlacedColumns columns(mesh);
+  const double attributes =
+    tupleCharacters(mesh.vertexColumns, columns.ofVertices(AttributeName, 1, AnyNumber)) +
+    tupleCharacters(mesh.vertexColumns, columns.integerOfVertices({ MarkerName, ReferenceName }));
+  std::ptrdiff_t ofCells = columns.ofElements(AttributeName, 1, AnyNumber);
+  ofCells = ofCells < 0 ? columns.integerOfElements({ ReferenceName, PhysicalTagName }) : ofCells;
+  return textBytes(mesh.vertices, numberCharacters(mesh.vertices) +
+                                    positionCharacters(mesh.doublePositions) + attributes) +
+         textBytes(mesh.cells, numberCharacters(mesh.cells) +
+                                 cornersOf(mesh.cellType) * numberCharacters(mesh.vertices) +
+                                 tupleCharacters(mesh.cellColumns, ofCells));
 }
 
 } // namespace smg

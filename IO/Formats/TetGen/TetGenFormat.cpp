@@ -260,6 +260,7 @@ const Format TetGenFormat{
   .attributes = "attributes and markers of vertices, attributes of cells",
   .parse = parseWith<importTetGen>,
   .share = { 200, 4 },
+  .bytes = bytesOfTetGen,
   .restore = writeRestoredTetGen,
 };
 

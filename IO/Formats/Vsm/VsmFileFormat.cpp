@@ -40,6 +40,7 @@ const Format VsmFileFormat{
   .suffixes = VsmSuffixes,
   .attributes = AllColumns,
   .kind = MeshFileKind::Vsm,
+  .bytes = [](const MeshToWrite& written) { return written.vsmBytes; },
   .write = write,
 };
 

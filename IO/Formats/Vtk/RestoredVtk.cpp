@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Files/ByteOrder.h"
 #include "IO/Files/PositionedFile.h"
+#include "IO/Formats/RowBytes.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Restore/RestoredMesh.h"
 #include "smg/Error.h"
@@ -202,6 +203,15 @@ WriteNotes writeRestoredVtk(RestoredMesh& mesh, const std::filesystem::path& pat
   }
   file.finish();
   return {};
+}
+
+std::int64_t bytesOfVtk(const MeshToWrite& written)
+{
+  const StreamInfo& mesh = written.mesh;
+  const bool isSurface = mesh.cellType == CellType::Triangle;
+  const std::int64_t numbers = cornersOf(mesh.cellType) + (isSurface ? 1 : 2);
+  return mesh.vertices * rowBytes(mesh.vertexColumns, positionBytes(mesh)) +
+         mesh.cells * rowBytes(mesh.cellColumns, numbers * std::int64_t(sizeof(std::int32_t)));
 }
 
 } // namespace smg

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Formats/RowBytes.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Formats/Vtk/VtkXmlFile.h"
 #include "IO/Restore/RestoredMesh.h"
@@ -21,6 +22,18 @@ WriteNotes writeRestoredVtkXml(RestoredMesh& mesh, const std::filesystem::path& 
   }
   file.finish();
   return {};
+}
+
+std::int64_t bytesOfVtkXml(const MeshToWrite& written)
+{
+  const StreamInfo& mesh = written.mesh;
+  const std::int64_t typeBytes = written.suffix.text == ".vtp" ? 0 : 1;
+  const std::int64_t numbers = cornersOf(mesh.cellType) + 1;
+  const std::int64_t bytes =
+    mesh.vertices * rowBytes(mesh.vertexColumns, positionBytes(mesh)) +
+    mesh.cells *
+      rowBytes(mesh.cellColumns, numbers * std::int64_t(sizeof(std::int64_t)) + typeBytes);
+  return bytes / 3 * 4; // base64
 }
 
 } // namespace smg

@@ -87,6 +87,7 @@ const Format LegacyVtkFormat{
   .hasSign = isLegacyVtk,
   .parse = parseWith<importLegacyVtk>,
   .share = { 45, 3 },
+  .bytes = bytesOfVtk,
   .restore = writeRestoredVtk,
 };
 
@@ -96,6 +97,7 @@ const Format VtkXmlFormat{
   .attributes = AllColumns,
   .hasSign = isVtkXml,
   .parse = parseWith<importVtkXml>,
+  .bytes = bytesOfVtkXml,
   .write = writeXml,
   .restore = writeRestoredVtkXml,
 };

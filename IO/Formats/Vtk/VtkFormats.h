@@ -24,8 +24,10 @@ void importParallelVtkXml(
 /** Legacy VTK, binary, version 3.0, which is widely supported: polygonal data, or an unstructured
  * grid of tetrahedra, with all columns as field data. Corners are 32-bit numbers. */
 WriteNotes writeRestoredVtk(RestoredMesh& mesh, const std::filesystem::path& path);
+std::int64_t bytesOfVtk(const MeshToWrite& written);
 /** .vtp (polygons) or .vtu (triangles, quadrilaterals, polygons or tetrahedra), with all columns.
  */
 WriteNotes writeRestoredVtkXml(RestoredMesh& mesh, const std::filesystem::path& path);
+std::int64_t bytesOfVtkXml(const MeshToWrite& written);
 
 } // namespace smg

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/VtkHdf/VtkHdfFormat.h"
 
+#include "IO/Formats/RowBytes.h"
 #include "IO/Formats/VtkHdf/VtkHdfLibrary.h"
 #include "smg/Error.h"
 
 #include <dlfcn.h>
+
+#include <algorithm>
 
 namespace smg
 {
@@ -63,6 +66,19 @@ WriteNotes write(const std::filesystem::path& vsm, const std::filesystem::path& 
   return library().write(vsm, path, options.progress);
 }
 
+std::int64_t bytesOfVtkHdf(const MeshToWrite& written)
+{
+  const StreamInfo& mesh = written.mesh;
+  // Every partition begins with the points that are alive.
+  const std::int64_t ghosts =
+    mesh.cells / VtkHdfPartitionCells * std::max<std::int64_t>(mesh.width, 0);
+  constexpr std::int64_t IdBytes = 8, FlagBytes = 1;
+  return (mesh.vertices + ghosts) *
+           rowBytes(mesh.vertexColumns, positionBytes(mesh) + IdBytes + FlagBytes) +
+         mesh.cells *
+           rowBytes(mesh.cellColumns, (cornersOf(mesh.cellType) + 1) * IdBytes + FlagBytes);
+}
+
 constexpr FileSuffix VtkHdfSuffixes[] = { { ".vtkhdf" }, { ".hdf" } };
 
 } // namespace
@@ -75,6 +91,7 @@ const Format VtkHdfFormat{
   .parse = parse,
   .counts = counts,
   .hasParts = true,
+  .bytes = bytesOfVtkHdf,
   .writeVsm = write,
 };
 

@@ -4,8 +4,13 @@
 #include "IO/Formats/Format.h"
 #include "smg/Export.h"
 
+#include <cstdint>
+
 namespace smg
 {
+
+/** The default number of cells of a partition of a written file. */
+inline constexpr std::int64_t VtkHdfPartitionCells = std::int64_t(1) << 18;
 
 /** The code that needs the HDF5 library, which is slow to load, with thirty others: a separate
  * library (the folder Hdf5), which is loaded when a file of the format is read or written. */

@@ -9,6 +9,7 @@
 #include "smg/Error.h"
 
 #include <string>
+#include <vector>
 
 namespace smg
 {
@@ -46,6 +47,16 @@ void importVtkHdf(InputFile& file, RawMeshBuilder& builder, const MeshPart& part
 namespace
 {
 
+std::vector<ColumnSpec> hdfColumns(const std::vector<VtkArray>& arrays)
+{
+  std::vector<ColumnSpec> columns;
+  for (const VtkArray& array : arrays)
+  {
+    columns.push_back({ array.name, array.type, array.components });
+  }
+  return columns;
+}
+
 FileCounts readCounts(InputFile& file, const MeshPart& part)
 {
   const Hdf5File hdf(file.path(), file.name());
@@ -54,20 +65,22 @@ FileCounts readCounts(InputFile& file, const MeshPart& part)
   FileCounts counts;
   // Points shared by partitions are counted in each.
   counts.counted = layout.pieces.size() == 1;
+  StreamInfo& mesh = counts.mesh;
+  mesh.vertices = mesh.cells = 0;
   for (const VtkPiece& piece : layout.pieces)
   {
-    counts.vertices += piece.points;
-    counts.cells += piece.cells;
-    for (const auto* arrays : { &piece.pointArrays, &piece.cellArrays })
-    {
-      for (const VtkArray& array : *arrays)
-      {
-        counts.columnBytes += array.values * static_cast<std::int64_t>(sizeOf(array.type));
-      }
-    }
+    mesh.vertices += piece.points;
+    mesh.cells += piece.cells;
+  }
+  if (!layout.pieces.empty())
+  {
+    const VtkPiece& first = layout.pieces.front();
+    mesh.doublePositions = first.positions && first.positions->type == ScalarType::Float64;
+    mesh.vertexColumns = hdfColumns(first.pointArrays);
+    mesh.cellColumns = hdfColumns(first.cellArrays);
   }
   // A surface has about two triangles per vertex, a solid five to six tetrahedra.
-  counts.corners = counts.cells > 3 * counts.vertices ? 4 : 3;
+  mesh.cellType = mesh.cells > 3 * mesh.vertices ? CellType::Tetrahedron : CellType::Triangle;
   return counts;
 }
 

@@ -2,15 +2,13 @@
 #pragma once
 
 #include "IO/Formats/Format.h"
+#include "IO/Formats/VtkHdf/VtkHdfLibrary.h"
 
 #include <cstdint>
 #include <filesystem>
 
 namespace smg
 {
-
-/** The default number of cells of a partition. */
-inline constexpr std::int64_t VtkHdfPartitionCells = std::int64_t(1) << 18;
 
 /**
  * Writes a .vsm file as VTKHDF, an unstructured grid of version 1.0: a partition for each range
