@@ -20,28 +20,24 @@ namespace smg
 namespace
 {
 
-/** Bytes of what a blend holds beside the solver. */
+/** Bytes of what a blend holds beside the solver and the problem: in core, the original values and
+ * the gradients. */
 std::int64_t ownBytes(const StreamInfo& mesh, std::int64_t columns, SeamGradient seam, bool inCore)
 {
   constexpr std::int64_t Number = sizeof(double);
   const std::int64_t gradients = seam == SeamGradient::Average ? 1 + 3 * columns : 0;
-  // Released values are removed when they are half of a vector, whose capacity may be twice its
-  // size.
-  const std::int64_t vertices = std::max<std::int64_t>({ mesh.width, mesh.span, 0 });
-  const std::int64_t open = 4 * vertices * (1 + columns + gradients) * Number;
-  return open + (inCore && mesh.vertices > 0 ? mesh.vertices * (columns + gradients) * Number : 0);
+  return inCore && mesh.vertices > 0 ? mesh.vertices * (columns + gradients) * Number : 0;
 }
 
 /** The progress when the mesh has been read once, when the gradients are known, and when the
  * problem is solved. */
 constexpr double Prepared = 0.08, Known = 0.12, Solved = 0.9;
 
-/** Solves for the correction. */
-void solveFor(BlendProblem& problem, SeamGradient seam, MeshSource& mesh,
+/** Solves for the correction; `own` bytes are in use beside it. */
+void solveFor(BlendProblem& problem, MeshSource& mesh, std::int64_t own,
   const SolveOptions& options, BlendedValues& blended)
 {
   problem.keepIn(blended.originals);
-  const std::int64_t own = ownBytes(mesh.info(), problem.columns(), seam, options.inCore);
   SolveOptions solving = options;
   solving.memoryLimit = std::max<std::int64_t>(options.memoryLimit - own, 1);
   if (options.progress)
@@ -58,7 +54,8 @@ void solveFor(BlendProblem& problem, SeamGradient seam, MeshSource& mesh,
     throw error.inside(own, options.memoryLimit);
   }
   blended.total = blended.correction->report();
-  blended.total.pool_bytes_peak += own;
+  blended.total.pool_bytes_peak =
+    std::max(blended.total.pool_bytes_peak, problem.memory().peak()) + own;
 }
 
 /** The steps between patches in the blended values. */
@@ -138,6 +135,9 @@ std::unique_ptr<Solution> blend(
     // Its limit is that of all scratch files.
     options.scratch = blended->scratch->path();
   }
+  const std::int64_t own =
+    ownBytes(mesh.info(), problem.columns(), description.seam, options.inCore);
+  problem.memory().setLimit(std::max<std::int64_t>(options.memoryLimit - own, 1));
   const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
   visitBlocks(*source(), options.progress, 0.0, Prepared,
     [&](const MeshBlock& block) { problem.prepare(block, options.scratch); });
@@ -146,13 +146,14 @@ std::unique_ptr<Solution> blend(
   std::optional<PatchGradients> gradients;
   if (description.seam == SeamGradient::Average)
   {
-    gradients.emplace(blended->storage(), mesh.info().cellType, problem.columns());
+    gradients.emplace(
+      blended->storage(), problem.memory(), mesh.info().cellType, problem.columns());
     visitBlocks(*source(), options.progress, Prepared, Known,
       [&](const MeshBlock& block) { problem.addTo(*gradients, block); });
     gradients->finish();
     problem.average(*gradients);
   }
-  solveFor(problem, description.seam, *source(), options, *blended);
+  solveFor(problem, *source(), own, options, *blended);
   const SeamSteps after =
     stepsIn(*blended, problem.specs(), mesh, problem.patches(), options.progress);
 

@@ -115,7 +115,7 @@ protected:
     }
     smg::DescribedHandles handles(this->Description, mesh.info(), this->File.string());
     const auto source = [&] { return mesh.source(handles.vertexColumns(), handles.cellColumns()); };
-    handles.prepare(*source(), this->scratch);
+    handles.prepare(*source(), this->scratch, this->withCommon(this->Deform).memoryLimit);
     this->applyTo(this->Deform, std::move(progress));
     this->applyCheckpoint(this->Deform, mesh);
     auto positions = smg::deform(*source(), handles, this->Deform);

@@ -118,7 +118,8 @@ protected:
   {
     this->Problem =
       std::make_unique<smg::DescribedProblem>(this->Description, mesh.info(), this->File.string());
-    this->Problem->prepare(*this->sourceOf(mesh), this->scratch);
+    this->Problem->prepare(
+      *this->sourceOf(mesh), this->scratch, this->withCommon(this->Solve).memoryLimit);
     if (auto whole = this->wholeSolution())
     {
       return whole;

@@ -82,7 +82,7 @@ std::unique_ptr<Solution> PoissonTask::solve(const VsmReader& mesh,
   const ProblemDescription description = this->description(mesh.info());
   DescribedProblem problem(description, mesh.info());
   const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
-  problem.prepare(*source(), scratch);
+  problem.prepare(*source(), scratch, this->options.memoryLimit);
   SolveOptions options = this->options;
   options.scratch = scratch;
   options.progress = partOf(progress, 0.0, SolveShare);

@@ -31,7 +31,8 @@ std::string whyNotOn(vtkPointSet& preview, const PoissonTask& task)
     if (preview.GetNumberOfCells() > 0)
     {
       const PieceBlock mesh(preview, namedColumns(task.problem));
-      DescribedProblem(task.problem, mesh.info()).prepare(*mesh.source(), task.options.scratch);
+      DescribedProblem(task.problem, mesh.info())
+        .prepare(*mesh.source(), task.options.scratch, task.options.memoryLimit);
     }
     return {};
   }
@@ -48,7 +49,7 @@ SolveSummary solveOnPreview(
   values.clear();
   const PieceBlock mesh(preview, namedColumns(task.problem));
   DescribedProblem problem(task.problem, mesh.info());
-  problem.prepare(*mesh.source(), task.options.scratch);
+  problem.prepare(*mesh.source(), task.options.scratch, task.options.memoryLimit);
   SolveOptions options = task.options;
   options.inCore = true;
   options.checkpoint = {};

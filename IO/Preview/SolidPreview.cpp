@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <unordered_set>
@@ -107,7 +108,8 @@ std::optional<SolidClusters> cluster(const StoredMesh& mesh,
     int cluster;
   };
   SolidClusters clusters(grid);
-  OpenValues<Vertex> open;
+  Pool memory(std::numeric_limits<std::int64_t>::max()); // a preview has no limit
+  OpenValues<Vertex> open(memory);
   std::int64_t finalized = 0;
   const auto fits = [&]
   { return static_cast<std::int64_t>(clusters.clusters().size()) <= maximumPoints; };

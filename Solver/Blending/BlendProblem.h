@@ -38,6 +38,8 @@ public:
   /** The columns that are blended. */
   const std::vector<ColumnSpec>& specs() const { return this->Blended.specs(); }
   PatchLabels& patches() { return this->Patches; }
+  /** Accounts for what is kept of open vertices. */
+  Pool& memory() { return this->OfMesh.memory(); }
 
   /** To be called with all blocks of the stream, followed by endPreparing(): finds the patches, the
    * bounds and what is held. Scratch files are created in `scratch`. */
@@ -59,6 +61,7 @@ public:
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
   bool hasCells() const override { return true; }
   void cells(CellBatch& batch) override;
+  std::int64_t bytes() const override { return this->OfMesh.memory().used(); }
 
 private:
   MeshColumns OfMesh;

@@ -10,13 +10,13 @@
 namespace smg
 {
 
-PatchGradients::PatchGradients(const VertexStorage& storage, CellType type, int columns)
+PatchGradients::PatchGradients(const VertexStorage& storage, Pool& open, CellType type, int columns)
   : Type(type)
   , Columns(static_cast<std::size_t>(columns))
   , File(storage, 1 + 3 * columns)
-  , Points(3)
-  , Sums(1 + 3 * columns)
-  , Known(1 + 3 * columns)
+  , Points(open, 3)
+  , Sums(open, 1 + 3 * columns)
+  , Known(open, 1 + 3 * columns)
 {
 }
 

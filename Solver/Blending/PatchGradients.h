@@ -21,7 +21,8 @@ namespace smg
 class PatchGradients
 {
 public:
-  PatchGradients(const VertexStorage& storage, CellType type, int columns);
+  /** `open` accounts for open vertices. */
+  PatchGradients(const VertexStorage& storage, Pool& open, CellType type, int columns);
 
   /** Adds a block, whose vertices `values` has begun with. */
   void add(const MeshBlock& block, const PatchedValues& values);

@@ -20,6 +20,8 @@ constexpr double NoPatch = std::numeric_limits<double>::quiet_NaN();
 PatchLabels::PatchLabels(const std::string& column, MeshColumns& columns)
   : Columns(columns)
   , Patch(columns.require(column, ColumnOwner::Vertices, "patch"))
+  , Labels(columns.memory())
+  , OnSeam(columns.memory())
 {
   if (this->Patch.components != 1)
   {

@@ -36,6 +36,8 @@ public:
    * is no number. */
   void read(const MeshBlock& block, std::span<double> labels);
 
+  /** Accounts for what is kept of open vertices. */
+  Pool& memory() const { return this->Columns.memory(); }
   /** The columns that read() needs. */
   std::vector<std::string> vertexColumns() const;
 

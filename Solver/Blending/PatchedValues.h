@@ -16,7 +16,8 @@ public:
   /** For `columns` values a vertex. */
   PatchedValues(PatchLabels& labels, int columns)
     : Patches(labels)
-    , Values(columns)
+    , Labels(labels.memory())
+    , Values(labels.memory(), columns)
   {
   }
 

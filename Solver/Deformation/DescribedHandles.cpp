@@ -24,14 +24,21 @@ std::vector<std::string> DescribedHandles::cellColumns() const
   return this->OnMesh->cellColumns();
 }
 
-void DescribedHandles::prepare(MeshSource& mesh, const std::filesystem::path& scratch)
+void DescribedHandles::prepare(
+  MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
-  this->OnMesh->prepare(mesh, scratch);
+  this->OnMesh->prepare(mesh, scratch, memoryLimit);
 }
 
-void DescribedHandles::preparePart(MeshSource& part, const std::filesystem::path& scratch)
+void DescribedHandles::preparePart(
+  MeshSource& part, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
-  this->OnMesh->preparePart(part, scratch);
+  this->OnMesh->preparePart(part, scratch, memoryLimit);
+}
+
+std::int64_t DescribedHandles::bytes() const
+{
+  return this->OnMesh->bytes();
 }
 
 void DescribedHandles::endPreparing(MeshParts& parts)

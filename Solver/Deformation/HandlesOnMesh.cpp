@@ -218,14 +218,17 @@ void HandlesOnMesh::setValues(const Handle& handle, const MeshBlock& block,
   set(values.logScale, to.logScale);
 }
 
-void HandlesOnMesh::prepare(MeshSource& mesh, const std::filesystem::path& scratch)
+void HandlesOnMesh::prepare(
+  MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
-  this->preparePart(mesh, scratch);
+  this->preparePart(mesh, scratch, memoryLimit);
   this->endPreparing(nullptr);
 }
 
-void HandlesOnMesh::preparePart(MeshSource& part, const std::filesystem::path& scratch)
+void HandlesOnMesh::preparePart(
+  MeshSource& part, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
+  this->OfMesh.memory().setLimit(memoryLimit);
   forCheckedBlocks(part,
     [&](const MeshBlock& block)
     {

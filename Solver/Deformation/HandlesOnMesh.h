@@ -32,13 +32,15 @@ public:
   std::vector<std::string> cellColumns() const { return this->OfMesh.cellColumns(); }
 
   /** Like DescribedHandles::prepare(). */
-  void prepare(MeshSource& mesh, const std::filesystem::path& scratch);
-  void preparePart(MeshSource& part, const std::filesystem::path& scratch);
+  void prepare(MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit);
+  void preparePart(
+    MeshSource& part, const std::filesystem::path& scratch, std::int64_t memoryLimit);
   /** Null: the stream was the whole mesh. */
   void endPreparing(MeshParts* parts);
 
   /** Throws Error, which names the column and the vertex, if a number is not finite. */
   void at(const MeshBlock& block, VertexHandles& handles) override;
+  std::int64_t bytes() const override { return this->OfMesh.memory().used(); }
 
   /** Notes for the user, after all blocks have been queried: handles whose vertices all follow
    * later ones, and a deformation without motion. Null: the blocks were the whole mesh. */

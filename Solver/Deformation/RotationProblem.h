@@ -34,6 +34,7 @@ public:
   /** A vertex of flat cells only follows its neighbours instead of keeping its position. */
   bool connectsFlatCells() const override { return true; }
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
+  std::int64_t bytes() const override { return this->Given.bytes(); }
 
   /** The handles at the vertices of the last block. */
   const VertexHandles& handles() const { return this->At; }

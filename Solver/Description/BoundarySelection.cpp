@@ -27,7 +27,7 @@ void BoundarySelection::prepare(const MeshBlock& block, const std::filesystem::p
   if (!this->Vertices)
   {
     this->Vertices.emplace(scratch);
-    this->Open.emplace(this->Columns.cellType());
+    this->Open.emplace(this->Columns);
   }
   this->Open->vertices += block.vertices();
   this->Open->marks.append(block.vertices());

@@ -36,12 +36,12 @@ private:
   /** The open vertices during preparation. */
   struct Window
   {
-    explicit Window(CellType type)
-      : facets(this->memory, type)
+    explicit Window(const MeshColumns& columns)
+      : facets(columns.memory(), columns.cellType())
+      , marks(columns.memory())
     {
     }
 
-    Pool memory{ INT64_MAX };
     BoundaryFacets facets;
     FacetSet inner;                 ///< interior facets with only one cell in the stream
     OpenValues<std::uint8_t> marks; ///< 1: on the boundary

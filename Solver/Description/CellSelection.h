@@ -19,6 +19,7 @@ public:
     ColumnTest test, DataPlace place, const std::string& key, const MeshColumns& columns)
     : Selection(place, key, columns)
     , Test(std::move(test))
+    , Marks(columns.memory())
   {
   }
 

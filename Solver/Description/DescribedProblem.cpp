@@ -24,14 +24,21 @@ std::vector<std::string> DescribedProblem::cellColumns() const
   return this->OnMesh->cellColumns();
 }
 
-void DescribedProblem::prepare(MeshSource& mesh, const std::filesystem::path& scratch)
+void DescribedProblem::prepare(
+  MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
-  this->OnMesh->prepare(mesh, scratch);
+  this->OnMesh->prepare(mesh, scratch, memoryLimit);
 }
 
-void DescribedProblem::preparePart(MeshSource& part, const std::filesystem::path& scratch)
+void DescribedProblem::preparePart(
+  MeshSource& part, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
-  this->OnMesh->preparePart(part, scratch);
+  this->OnMesh->preparePart(part, scratch, memoryLimit);
+}
+
+std::int64_t DescribedProblem::bytes() const
+{
+  return this->OnMesh->bytes();
 }
 
 void DescribedProblem::endPreparing(MeshParts& parts)

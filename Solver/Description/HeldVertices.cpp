@@ -8,6 +8,7 @@ namespace smg
 
 HeldVertices::HeldVertices(
   const std::vector<Where>& parts, bool findsBoundary, MeshColumns& columns)
+  : Memory(columns.memory())
 {
   if (findsBoundary)
   {

@@ -25,6 +25,9 @@ public:
    * boundary is looked for. */
   HeldVertices(const std::vector<Where>& parts, bool findsBoundary, MeshColumns& columns);
 
+  /** The bytes that are kept of open vertices, accounted for in MeshColumns::memory(). */
+  std::int64_t bytes() const { return this->Memory.used(); }
+
   /** To be called with all blocks of the stream, followed by endPreparing(): see Selection. */
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch);
   /** Throws Error if a part has no vertex. `fixesBoundary`: whether the boundary is held, too. */
@@ -36,6 +39,7 @@ public:
   std::span<const std::uint8_t> at(const MeshBlock& block);
 
 private:
+  const Pool& Memory;
   bool HoldsAll = false;
   std::vector<std::unique_ptr<Selection>> Parts;
   std::unique_ptr<BoundarySelection> Boundary; ///< held after endPreparing(), if any

@@ -6,6 +6,7 @@
 #include "smg/Error.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace smg
@@ -13,6 +14,9 @@ namespace smg
 
 namespace
 {
+
+constexpr PoolUse SelectionMemory{ "finding the selected parts of the mesh",
+  "raise the memory limit, or convert the mesh with the order bfs" };
 
 const ColumnSpec* find(const std::vector<ColumnSpec>& specs, const std::string& name)
 {
@@ -59,9 +63,12 @@ const Column& NamedColumn::in(const MeshBlock& block) const
   return *found;
 }
 
-MeshColumns::MeshColumns(const StreamInfo& mesh, std::string description)
+MeshColumns::MeshColumns(const StreamInfo& mesh, std::string description, Pool* memory)
   : Info(mesh)
   , Description(std::move(description))
+  , Own(memory ? nullptr
+               : std::make_unique<Pool>(std::numeric_limits<std::int64_t>::max(), SelectionMemory))
+  , Memory(memory ? memory : this->Own.get())
 {
 }
 

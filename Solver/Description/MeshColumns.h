@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Storage/Pool.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,14 +33,19 @@ struct NamedColumn
 };
 
 /** The columns of a mesh that a problem description names: finds them, collects those that the mesh
- * source must deliver, and reports errors. */
+ * source must deliver, reports errors, and accounts for the memory of their values. */
 class SMG_EXPORT MeshColumns
 {
 public:
-  /** `description` is the name of the description in error messages: its file. */
-  MeshColumns(const StreamInfo& mesh, std::string description);
+  /** `description` is the name of the description in error messages: its file. `memory`: see
+   * memory(); null: a pool of its own, without a limit at first. */
+  MeshColumns(const StreamInfo& mesh, std::string description, Pool* memory = nullptr);
+  MeshColumns(const MeshColumns&) = delete;
+  MeshColumns& operator=(const MeshColumns&) = delete;
 
   CellType cellType() const { return this->Info.cellType; }
+  /** Accounts for what selections and values keep of open vertices. */
+  Pool& memory() const { return *this->Memory; }
 
   /** Whether `name` refers to a column of the cells, if columns of `preferred` take precedence. */
   bool isOfCells(const std::string& name, ColumnOwner preferred) const;
@@ -68,6 +75,8 @@ public:
 private:
   StreamInfo Info;
   std::string Description;
+  std::unique_ptr<Pool> Own;
+  Pool* Memory;
   std::vector<std::string> Vertices, Cells; ///< names of the required columns
   bool NeedsIds = false, NeedsCellIds = false;
 };

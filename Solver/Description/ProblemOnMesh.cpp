@@ -151,14 +151,17 @@ std::vector<DatumOnMesh*> ProblemOnMesh::data()
   return data;
 }
 
-void ProblemOnMesh::prepare(MeshSource& mesh, const std::filesystem::path& scratch)
+void ProblemOnMesh::prepare(
+  MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
-  this->preparePart(mesh, scratch);
+  this->preparePart(mesh, scratch, memoryLimit);
   this->endPreparing(nullptr);
 }
 
-void ProblemOnMesh::preparePart(MeshSource& mesh, const std::filesystem::path& scratch)
+void ProblemOnMesh::preparePart(
+  MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
+  this->OfMesh.memory().setLimit(memoryLimit);
   const std::vector<DatumOnMesh*> data = this->data();
   const bool selects =
     std::ranges::any_of(data, [](const DatumOnMesh* datum) { return datum->selects(); });

@@ -28,9 +28,10 @@ public:
   std::vector<std::string> cellColumns() const { return this->OfMesh.cellColumns(); }
 
   /** Like DescribedProblem::prepare(). */
-  void prepare(MeshSource& mesh, const std::filesystem::path& scratch);
+  void prepare(MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit);
   /** Like DescribedProblem::preparePart() and endPreparing(). */
-  void preparePart(MeshSource& mesh, const std::filesystem::path& scratch);
+  void preparePart(
+    MeshSource& mesh, const std::filesystem::path& scratch, std::int64_t memoryLimit);
   void endPreparing(MeshParts* parts);
 
   int columns() const override { return static_cast<int>(this->Columns); }
@@ -41,6 +42,7 @@ public:
   void cells(CellBatch& batch) override;
   bool hasFacets() const override { return this->Flux.isGiven() || this->Ambient.isGiven(); }
   void facets(FacetBatch& batch) override;
+  std::int64_t bytes() const override { return this->OfMesh.memory().used(); }
 
 private:
   struct Soft

@@ -68,6 +68,7 @@ protected:
     : Columns(columns)
     , Place(place)
     , Key(std::move(key))
+    , Open(columns.memory())
   {
   }
 

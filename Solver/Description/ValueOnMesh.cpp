@@ -27,6 +27,7 @@ ValueOnMesh::ValueOnMesh(const DataValue& value, DataPlace place, const ValueRul
   const std::string& key, MeshColumns& columns)
   : Place(place)
   , Corners(cornersOf(columns.cellType()))
+  , Open(columns.memory())
 {
   if (value.isPosition())
   {
@@ -45,7 +46,7 @@ ValueOnMesh::ValueOnMesh(const DataValue& value, DataPlace place, const ValueRul
     this->Components = static_cast<int>(this->Numbers.size());
   }
   this->requireRules(value, rules, key, columns);
-  this->Open = OpenValues<double>(this->Components);
+  this->Open = OpenValues<double>(columns.memory(), this->Components);
 }
 
 void ValueOnMesh::requireRules(const DataValue& value, const ValueRules& rules,

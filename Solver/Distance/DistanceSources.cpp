@@ -7,9 +7,9 @@
 namespace smg
 {
 
-DistanceSources::DistanceSources(
-  const std::vector<Where>& from, DataPlace place, const StreamInfo& mesh, const std::string& name)
-  : Columns(mesh, name)
+DistanceSources::DistanceSources(const std::vector<Where>& from, DataPlace place,
+  const StreamInfo& mesh, const std::string& name, Pool& memory)
+  : Columns(mesh, name, &memory)
 {
   this->Columns.requireIds();
   for (std::size_t k = 0; k < from.size(); ++k)

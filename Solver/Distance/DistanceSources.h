@@ -19,10 +19,10 @@ namespace smg
 class DistanceSources
 {
 public:
-  /** `place` is what is selected, `name` the name of the description in messages. Throws Error if a
-   * selection is invalid. */
+  /** `place` is what is selected, `name` the name of the description in messages; `memory` accounts
+   * for open vertices. Throws Error if a selection is invalid. */
   DistanceSources(const std::vector<Where>& from, DataPlace place, const StreamInfo& mesh,
-    const std::string& name);
+    const std::string& name, Pool& memory);
 
   /** The stream with the columns that the selections need. */
   std::unique_ptr<MeshSource> read(const StoredMesh& mesh) const;

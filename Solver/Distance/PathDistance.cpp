@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -180,7 +181,8 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   {
     throw Error(name + ": a distance needs at least one source.");
   }
-  DistanceSources sources(description.from, DataPlace::Vertices, info, name);
+  std::optional<DistanceSources> sources(
+    std::in_place, description.from, DataPlace::Vertices, info, name, run->pool);
   ChunkPlan plan =
     ChunkPlan::of(info, info.span >= 0 ? info.span : measuredSpan(mesh), description.source);
   if (chunkVertices > 0)
@@ -199,8 +201,9 @@ std::unique_ptr<Solution> pathDistance(const StoredMesh& mesh,
   auto files = std::make_shared<DistanceFiles>(plan, *run);
   ChunkedMesh& chunks = files->chunks;
   const Timer building;
-  sources.prepare(mesh, run->scratch.path());
-  readMesh(mesh, sources, chunks, *run);
+  sources->prepare(mesh, run->scratch.path());
+  readMesh(mesh, *sources, chunks, *run);
+  sources.reset(); // and its memory, before the march
   run->report.seconds.build = building.seconds();
   const ChunkedMesh::Chunk largest = largestOf(chunks);
   checkMemory(neededBytes(plan, chunks.vertices, description.direction, largest.innerCells,

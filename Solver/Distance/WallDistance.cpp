@@ -160,13 +160,16 @@ std::unique_ptr<Solution> wallDistance(const StoredMesh& mesh,
   {
     throw Error("The distance to walls is that of a tetrahedral mesh, but this one has triangles.");
   }
-  DistanceSources sources(description.from, DataPlace::Facets, mesh.info(), name);
+  std::optional<DistanceSources> sources(
+    std::in_place, description.from, DataPlace::Facets, mesh.info(), name, run->pool);
   auto files = std::make_shared<WallFiles>(*run);
   Report& report = run->report;
   report.distance = Report::Distance{};
   const Timer building;
-  sources.prepare(mesh, run->scratch.path());
-  const std::int64_t triangles = readWall(mesh, description, sources, files->triangles, *run, name);
+  sources->prepare(mesh, run->scratch.path());
+  const std::int64_t triangles =
+    readWall(mesh, description, *sources, files->triangles, *run, name);
+  sources.reset(); // and its memory
   report.distance->sources = triangles;
   report.seconds.build = building.seconds();
   tbb::task_arena threads(

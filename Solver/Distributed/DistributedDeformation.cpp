@@ -44,6 +44,8 @@ public:
     }
   }
 
+  std::int64_t bytes() const override { return this->Given.bytes(); }
+
 private:
   Handles& Given;
   const MeshPart& Part;

@@ -34,7 +34,8 @@ struct DistributedSolver::Implementation
   PartsOfMesh parts() const { return { *this->vertices, this->part.info.cellType }; }
   /** What is described may be a problem or handles. */
   template <class Described>
-  void prepare(Described& described, const std::filesystem::path& scratch);
+  void prepare(
+    Described& described, const std::filesystem::path& scratch, std::int64_t memoryLimit);
   DistributedSolution solve(Problem& problem, const DistributedOptions& options);
 
   Team team;
@@ -44,13 +45,13 @@ struct DistributedSolver::Implementation
 
 template <class Described>
 void DistributedSolver::Implementation::prepare(
-  Described& described, const std::filesystem::path& scratch)
+  Described& described, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
   this->team.run(
     [&]
     {
       PartSource source(this->part);
-      described.preparePart(source, scratch);
+      described.preparePart(source, scratch, memoryLimit);
       PartsOfMesh all = this->parts();
       described.endPreparing(all);
     });
@@ -78,14 +79,16 @@ DistributedSolver::DistributedSolver(MPI_Comm communicator, const MeshPart& part
 
 DistributedSolver::~DistributedSolver() = default;
 
-void DistributedSolver::prepare(DescribedProblem& problem, const std::filesystem::path& scratch)
+void DistributedSolver::prepare(
+  DescribedProblem& problem, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
-  this->Self->prepare(problem, scratch);
+  this->Self->prepare(problem, scratch, memoryLimit);
 }
 
-void DistributedSolver::prepare(DescribedHandles& handles, const std::filesystem::path& scratch)
+void DistributedSolver::prepare(
+  DescribedHandles& handles, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
-  this->Self->prepare(handles, scratch);
+  this->Self->prepare(handles, scratch, memoryLimit);
 }
 
 std::vector<std::string> DistributedSolver::notes(const DescribedHandles& handles)

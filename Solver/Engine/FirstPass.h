@@ -107,7 +107,7 @@ template <OperatorSet Operators>
 FirstResidual FirstPass<Operators>::build(MeshSource& mesh, Problem& problem, RowListener* listener)
 {
   const CellType type = mesh.info().cellType;
-  AssembledRows rows;
+  AssembledRows rows(this->Run.pool, problem.columns());
   const bool apart = this->Run.isConcurrent() && this->Run.isAmple;
   HierarchyBuilder<Operators> builder(this->Run.pool, this->Set, this->Built.levels(),
     this->Built.firstCore(), Assembly::stiffRows(type, problem.weights(), rows), apart);

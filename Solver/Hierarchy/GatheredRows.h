@@ -22,7 +22,8 @@ struct GatheredRow
   bool kept;          ///< whether none of its entries may be removed
 };
 
-/** Coarse rows made by one thread, which sparsification, perhaps on another one, takes. */
+/** Coarse rows made by one thread, which sparsification, perhaps on another one, takes. They are
+ * those of a step, see StepLimit, and not accounted for. */
 class GatheredRows
 {
 public:

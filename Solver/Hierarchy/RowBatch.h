@@ -3,6 +3,7 @@
 
 #include "Solver/Hierarchy/LevelRows.h"
 #include "Solver/Hierarchy/RowEntries.h"
+#include "Solver/Storage/Reservation.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -18,6 +19,13 @@ namespace smg
 class RowBatch
 {
 public:
+  /** `further`: bytes that the owner keeps with each row, accounted for here. */
+  explicit RowBatch(Pool& pool, std::int64_t further = 0)
+    : Further(further)
+    , Memory(pool)
+  {
+  }
+
   /** Room for at most `size` entries of the next row. */
   RowEntry* open(std::int64_t size) { return this->Entries.open(size); }
 
@@ -28,7 +36,13 @@ public:
     this->Entries.close(size);
     this->Closed.push_back({ size, alpha, childReach, stiff, precise.size() });
     this->Precise.insert(this->Precise.end(), precise.begin(), precise.end());
+    if (this->Closed.size() % Group == 0)
+    {
+      this->account();
+    }
   }
+  /** Whether it has more memory than is kept for the next rows. */
+  bool isLarge() const { return this->Memory.bytes() > 0; }
 
   /** Appends the rows to `rows` and forgets them. */
   void moveTo(LevelRows& rows)
@@ -38,7 +52,6 @@ public:
     for (std::span<const ClosedRow> left = this->Closed; !left.empty();)
     {
       // Rows of a group are contiguous, which may leave some room before the end of the memory.
-      constexpr std::size_t Group = 64;
       const auto group = left.first(std::min(Group, left.size()));
       left = left.subspan(group.size());
       entry = rows.append(group, entry, precise);
@@ -50,12 +63,33 @@ public:
     this->Closed.clear();
     this->Precise.clear();
     this->Entries.clear();
+    if (this->isLarge())
+    {
+      this->Entries = {};
+      this->Precise = {};
+      this->Closed = {};
+      this->Memory.resize(0);
+    }
   }
 
 private:
+  static constexpr std::size_t Group = 64;
+
+  void account()
+  {
+    const std::int64_t bytes =
+      this->Entries.bytes() +
+      static_cast<std::int64_t>(
+        this->Precise.capacity() * sizeof(double) + this->Closed.capacity() * sizeof(ClosedRow)) +
+      this->Further * static_cast<std::int64_t>(this->Closed.size());
+    this->Memory.resize(accountedBytes(bytes));
+  }
+
   RowEntries<RowEntry> Entries;
   std::vector<double> Precise;
   std::vector<ClosedRow> Closed;
+  std::int64_t Further;
+  Reservation Memory;
 };
 
 } // namespace smg

@@ -25,6 +25,10 @@ public:
   /** Ends the row begun by open(). */
   void close(std::int64_t size) { this->Used += static_cast<std::size_t>(size); }
 
+  std::int64_t bytes() const
+  {
+    return static_cast<std::int64_t>(this->Entries.capacity() * sizeof(Entry));
+  }
   const Entry* data() const { return this->Entries.data(); }
   void clear() { this->Used = 0; }
 

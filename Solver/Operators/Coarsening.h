@@ -34,6 +34,7 @@ public:
     StiffRows stiff = {}, bool apart = false)
     : Set(std::move(operators))
     , Data(pool, fine, coarse, stiff, apart)
+    , Final(pool)
     , Begin(fine.first())
     , CoarseBegin(coarse.first())
     , Sweeps(this->Set.interpolationSweeps(), this->Begin)

@@ -15,6 +15,11 @@ namespace smg
  * Assembly to the level between two steps. */
 struct AssembledRows
 {
+  AssembledRows(Pool& pool, int columns)
+    : rows(pool, 2 * columns * static_cast<std::int64_t>(sizeof(double)))
+  {
+  }
+
   RowBatch rows;
   std::vector<double> x, b; ///< `columns` per row
   /** The scale of the weights of the problem relative to finite elements with K = 1, at the first
@@ -24,6 +29,7 @@ struct AssembledRows
   void moveTo(LevelRows& level, LevelWindow<double>& window, int columns)
   {
     const std::int64_t begin = level.end();
+    const bool isLarge = this->rows.isLarge();
     this->rows.moveTo(level);
     const std::int64_t end = level.end();
     window.extendState(end);
@@ -31,6 +37,11 @@ struct AssembledRows
     pad(this->b.data(), columns, end - begin, window.b().at(begin));
     this->x.clear();
     this->b.clear();
+    if (isLarge)
+    {
+      this->x.shrink_to_fit();
+      this->b.shrink_to_fit();
+    }
   }
 };
 

@@ -26,6 +26,7 @@ Assembly::Assembly(Pool& pool, const StreamInfo& info, Problem& problem, Assembl
   , Reach(pool)
   , Targets(problem, this->Cells.vertices.points)
   , ConnectsApart(this->Cells.mayConnectApart() && !this->Targets.any())
+  , FinalMemory(pool)
   , Rows(info.cellType, this->Cells.vertices, problem, rows, components,
       stiffRows(info.cellType, problem.weights(), rows), listener)
 {
@@ -50,6 +51,10 @@ void Assembly::finish()
 void Assembly::beginApart(std::int64_t vertices)
 {
   std::swap(this->Collected, this->Arrived);
+  if (accountedBytes(this->Collected.bytes()) > 0)
+  {
+    this->Collected = {};
+  }
   this->Collected.clear(this->Arrived.end());
   std::swap(this->Weighed, this->Connected);
   this->Weighed.clear();
@@ -104,6 +109,8 @@ void Assembly::collectBelow(std::int64_t end, bool apart)
   while (this->Collected.end() < end)
   {
     this->collectBatch(std::min(end, this->Collected.end() + BatchRows));
+    this->FinalMemory.resize(
+      accountedBytes(this->Collected.bytes()) + accountedBytes(this->Arrived.bytes()));
     if (!apart)
     {
       // Changes once, at the first weighted cell: the coarse levels, on other threads, read it.

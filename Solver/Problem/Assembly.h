@@ -10,6 +10,7 @@
 #include "Solver/Problem/RowAssembly.h"
 #include "Solver/Problem/RowListener.h"
 #include "Solver/Problem/WeighedCells.h"
+#include "Solver/Storage/Reservation.h"
 #include "Solver/Stream/StreamCheck.h"
 #include "smg/Export.h"
 #include "smg/Problem.h"
@@ -101,6 +102,7 @@ private:
 
   // By open vertex.
   CellAssembly Cells;
+  // Of a block each, and not accounted for: a constant times the block of the mesh source.
   WeighedCells Weighed, Connected; // the latter are those that connect() takes
   NeighbourReach Reach;
 
@@ -108,6 +110,7 @@ private:
   const bool ConnectsApart;
   std::vector<std::size_t> RowEnds; // of a query
   FinalVertices Collected, Arrived; // the latter are those that closeRows() completes
+  Reservation FinalMemory;          // of both
   RowAssembly Rows;
 
   std::int64_t Closed = 0; // vertices with completed rows

@@ -37,6 +37,14 @@ public:
   }
   /** Where the edges of vertex number k begin. */
   std::size_t begin(std::size_t k) const { return k == 0 ? 0 : this->vertices[k - 1].end; }
+  /** The memory that it has. */
+  std::int64_t bytes() const
+  {
+    return static_cast<std::int64_t>(
+      this->vertices.capacity() * sizeof(Vertex) +
+      this->neighbours.capacity() * sizeof(RowNeighbour) +
+      (this->targets.capacity() + this->loads.capacity()) * sizeof(double));
+  }
   /** Forgets all; the next vertex is `next`. */
   void clear(std::int64_t next)
   {

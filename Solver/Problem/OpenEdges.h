@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Solver/Cycle/Lanes.h"
+#include "Solver/Storage/Reservation.h"
 #include "Solver/Storage/Ring.h"
 #include "smg/Error.h"
 #include "smg/MeshSource.h"
@@ -41,6 +42,7 @@ public:
     , Weight(pool, usual)
     , Counts(pool)
     , Searched(usual > 2 * Group ? 2 * Group : Group)
+    , MoreMemory(pool)
   {
   }
 
@@ -60,6 +62,7 @@ public:
     this->To.release(first);
     this->Weight.release(first);
     this->Counts.release(first);
+    this->MoreMemory.resize(this->moreBytes());
   }
 
   /** The weight of the edge between two open vertices, which is created with 0 if it does not
@@ -85,7 +88,7 @@ public:
       list[count.upper++] = low;
       return weight = 0.0;
     }
-    return this->More[from].try_emplace(to, 0.0).first->second;
+    return this->aside(from, to);
   }
 
   /** Calls visit(to, weight) for the edges of vertex `from` to higher vertices, in any order; the
@@ -135,6 +138,7 @@ public:
       {
         edges.push_back({ to, aside });
       }
+      this->MoreEdges -= static_cast<std::int64_t>(more->second.size());
       this->More.erase(more);
     }
     const auto taken = std::ranges::subrange(edges.begin() + before, edges.end());
@@ -220,7 +224,29 @@ private:
       this->Weight.at(edge.to)[place] = edge.weight;
       return;
     }
-    this->More[edge.to].try_emplace(from, edge.weight);
+    this->aside(edge.to, from) = edge.weight;
+  }
+
+  /** The weight of an edge in the separate table, which is created with 0 if it does not exist. */
+  double& aside(std::int64_t from, std::int64_t to)
+  {
+    const auto [edge, isNew] = this->More[from].try_emplace(to, 0.0);
+    this->MoreEdges += isNew ? 1 : 0;
+    if (isNew && this->moreBytes() > this->MoreMemory.bytes())
+    {
+      this->MoreMemory.resize(this->moreBytes());
+    }
+    return edge->second;
+  }
+
+  /** The bytes of the separate table, rounded up: a node and buckets for each edge, and a table for
+   * each vertex. */
+  std::int64_t moreBytes() const
+  {
+    constexpr std::int64_t Edge = 64, Vertex = 256, Step = std::int64_t(32) << 10;
+    const std::int64_t bytes =
+      Edge * this->MoreEdges + Vertex * static_cast<std::int64_t>(this->More.size());
+    return (bytes + Step - 1) / Step * Step;
   }
 
   Ring<std::uint32_t> To; ///< by their low 32 bits
@@ -231,6 +257,8 @@ private:
    * the ring. */
   int Searched;
   std::unordered_map<std::int64_t, std::unordered_map<std::int64_t, double>> More;
+  std::int64_t MoreEdges = 0; ///< in it
+  Reservation MoreMemory;
 };
 
 } // namespace smg

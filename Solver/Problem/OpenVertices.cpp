@@ -19,6 +19,7 @@ OpenVertices::OpenVertices(Pool& pool, Problem& problem)
   , screening(pool)
   , mass(pool)
   , Given(problem)
+  , Kept(pool)
   , Columns(problem.columns())
   , DirichletCount(problem.conditionCounts().dirichlet)
 {
@@ -64,6 +65,7 @@ void OpenVertices::ask(const MeshBlock& block)
   given.source.assign(values, 0.0);
   given.screening.assign(count, 0.0);
   this->Given.conditions(block, given);
+  this->Kept.resize(this->Given.bytes());
   if (given.dirichlet.size() != count || given.value.size() != values ||
       given.source.size() != values || given.screening.size() != count)
   {

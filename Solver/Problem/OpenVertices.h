@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Storage/Reservation.h"
 #include "Solver/Storage/Ring.h"
 #include "smg/Problem.h"
 
@@ -37,6 +38,7 @@ private:
   void ask(const MeshBlock& block);
 
   Problem& Given;
+  Reservation Kept; ///< by the problem
   int Columns;
   int DirichletCount;
   VertexConditions Conditions;

@@ -20,6 +20,7 @@ void append(Ring<double>& to, const double* values)
 FinestRows::FinestRows(Pool& pool, const StreamInfo& info, Problem& problem, Components& components,
   ComponentLabels& labels, Level& level)
   : Finest(level)
+  , Made(pool, problem.columns())
   , Rows(pool)
   , State(pool, this->Resident, 0, problem.columns())
   , Assembled(pool, info, problem, this->Made, components, labels, this)

@@ -4,6 +4,7 @@
 #include "Solver/Description/ColumnNumbers.h"
 #include "Solver/Engine/Convergence.h"
 #include "Solver/Problem/BoundaryFacets.h"
+#include "Solver/Storage/Reservation.h"
 #include "Solver/Stream/StreamCheck.h"
 #include "Solver/Stream/VisitBlocks.h"
 #include "smg/Error.h"
@@ -68,6 +69,7 @@ Smoother::Smoother(const StoredMesh& mesh, const SmoothingOptions& options)
   , Result(std::make_unique<SmoothedValues>(options, this->Column ? this->Column->components : 3))
   , Next(this->Result->storage, this->Result->columns())
 {
+  this->Columns.memory().setLimit(options.memoryLimit);
   if (this->Result->scratch)
   {
     // Its limit is that of all scratch files.
@@ -113,6 +115,7 @@ void Smoother::survey(Part part)
   const CellType type = this->Mesh.info().cellType;
   StreamCheck check(type);
   MeshMeasures measures(this->Result->memory, type);
+  Reservation held(this->Result->memory);
   std::optional<BoundaryFacets> facets;
   if (this->Curves)
   {
@@ -126,6 +129,7 @@ void Smoother::survey(Part part)
       check.add(block);
       measures.add(block);
       this->Held.prepare(block, this->Options.scratch);
+      held.resize(this->Held.bytes());
       this->keepValues(block);
       if (facets)
       {

@@ -12,6 +12,7 @@ namespace smg
 SmoothingProblem::SmoothingProblem(Pool& pool, double t, const VertexFile& values,
   HeldVertices& held, const BoundaryCurves* boundary)
   : Memory(pool)
+  , Before(pool.used())
   , Columns(values.lanes())
   , Time(t)
   , Held(held)

@@ -33,11 +33,16 @@ public:
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
   bool hasCells() const override { return this->Surface.has_value(); }
   void cells(CellBatch& batch) override;
+  std::int64_t bytes() const override
+  {
+    return this->Memory.used() - this->Before + this->Held.bytes();
+  }
 
 private:
   void setWeights(CellBatch& batch, std::size_t cell, const double* const* points) const;
 
   Pool& Memory;
+  std::int64_t Before; ///< bytes in use when this was made
   int Columns;
   double Time;
   HeldVertices& Held;

@@ -86,11 +86,7 @@ void Smoother::solveStep(
   SmoothingProblem& problem, const std::string& name, Part part, VertexFile& to)
 {
   SolveOptions options = this->Options;
-  // Besides the solve, this has the values of open vertices: of values, surface and normals.
-  const StreamInfo& mesh = this->Mesh.info();
-  const std::int64_t open = std::max<std::int64_t>({ mesh.width, mesh.span, 0 });
-  const std::int64_t own =
-    this->Result->memory.used() + open * static_cast<std::int64_t>(9 * sizeof(double));
+  const std::int64_t own = this->Result->memory.used(); // none of it by the problem, so far
   options.memoryLimit = std::max<std::int64_t>(this->Options.memoryLimit - own, 1);
   if (this->Options.progress)
   {
@@ -115,7 +111,7 @@ void Smoother::solveStep(
     to.append(this->Values);
   }
   Report report = solution->report();
-  report.pool_bytes_peak += this->Result->memory.used();
+  report.pool_bytes_peak += own;
   addStep(this->Result->total, report, name);
 }
 

@@ -45,6 +45,8 @@ public:
   /** Counts an earlier use of so many bytes. */
   void raisePeak(std::int64_t bytes);
   std::int64_t limit() const { return this->Limit; }
+  /** What is in use stays, even if it is more. Not while another thread acquires. */
+  void setLimit(std::int64_t limit) { this->Limit = limit; }
 
 private:
   PoolUse Use;

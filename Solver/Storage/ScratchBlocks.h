@@ -25,6 +25,9 @@ namespace smg
 class SMG_EXPORT ScratchBlocks
 {
 public:
+  /** Memory for each block, with room for more. */
+  static constexpr std::int64_t TableBytes = 64;
+
   /** `path` is the folder, and the name in messages. */
   ScratchBlocks(std::filesystem::path path, IoStatistics& statistics)
     : Path(std::move(path))
@@ -49,6 +52,8 @@ private:
     std::size_t bytes = 0;
     std::size_t room = 0; ///< capacity in bytes
   };
+
+  static_assert(2 * sizeof(Block) <= TableBytes);
 
   std::filesystem::path Path;
   IoStatistics* Statistics;

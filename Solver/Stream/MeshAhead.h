@@ -11,7 +11,8 @@ namespace smg
 {
 
 /** Reads a mesh stream a block ahead of its use, which is on another thread meanwhile, if the mesh
- * may be read on any. */
+ * may be read on any. The two blocks, whose size is a choice of the mesh source, are not accounted
+ * for. */
 class MeshAhead
 {
 public:

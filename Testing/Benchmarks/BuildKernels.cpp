@@ -53,7 +53,7 @@ void assemble(const testing::StreamMesh& mesh, LevelRows& rows, Pool& pool, Sett
   LevelWindow<double> window(pool, resident, 0, problem.columns());
   Components components(problem.columns(), &pool);
   ComponentLabels labels(components);
-  AssembledRows batch;
+  AssembledRows batch(pool, problem.columns());
   Assembly assembly(pool, source.info(), problem, batch, components, labels);
   const auto step = [&](auto&& make)
   {

@@ -179,6 +179,23 @@ TEST_F(ImportGmsh, EntitiesTellThePhysicalGroups)
   }
 }
 
+TEST_F(ImportGmsh, TheGroupsOfVeryManyEntitiesCountWithinTheMemory)
+{
+  const auto with = [](int points)
+  {
+    std::string bytes =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n" + std::to_string(points) + " 0 0 0\n";
+    for (int k = 1; k <= points; ++k)
+    {
+      bytes += std::to_string(k) + " 0 0 0 1 7\n";
+    }
+    return bytes + "$EndEntities\n$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n"
+                   "$EndNodes\n$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n";
+  };
+  EXPECT_EQ(this->gmsh(with(50000)).corners, (Numbers{ 0, 1, 2 }));
+  this->expectRefused(with(300000), "the conversion needs at least ");
+}
+
 TEST_F(ImportGmsh, KindsOfCellsAreChosen)
 {
   const std::string bytes =

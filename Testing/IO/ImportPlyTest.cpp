@@ -292,6 +292,21 @@ TEST_F(ImportPly, HeadersOfAnyLengthNeedNoMemory)
   this->expectError("a.ply", header, "line 4099: the header has more than 4096 elements");
 }
 
+TEST_F(ImportPly, HeadersOfManyCommentsAreRefused)
+{
+  const auto with = [](std::size_t comments)
+  {
+    std::string header = "ply\nformat ascii 1.0\n";
+    for (std::size_t k = 0; k < comments; ++k)
+    {
+      header += "comment " + std::string(991, 'x') + "\n";
+    }
+    return header + AsciiPly.substr(AsciiPly.find("element"));
+  };
+  EXPECT_EQ(this->read("a.ply", with(1000)).corners, this->read("b.ply", AsciiPly).corners);
+  this->expectError("a.ply", with(1100), "line 1052: the header has more than 1 MiB");
+}
+
 TEST_F(ImportPly, DamageIsFound)
 {
   this->expectDamageIsFound("a.ply", AsciiPly);

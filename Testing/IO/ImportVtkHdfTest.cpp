@@ -277,6 +277,23 @@ TEST_F(ImportVtkHdf, LinksAreRefused)
   }
 }
 
+TEST_F(ImportVtkHdf, MoreNamesThanAreKeptAreRefused)
+{
+  const auto refused = [this](int links, std::size_t length, const std::string& sentence)
+  {
+    const hid_t file = this->writeTwoSquares();
+    for (int k = 0; k < links; ++k)
+    {
+      const std::string name = "/VTKHDF/CellData/" + std::string(length, 'n') + std::to_string(k);
+      H5Lcreate_soft("/none", file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+    }
+    H5Fclose(file);
+    this->expectRefused({}, sentence);
+  };
+  refused(4096, 1, "the group '/VTKHDF/CellData' has 4097 members, but at most 4096 arrays are");
+  refused(1, 2000, "a name in the group '/VTKHDF/CellData' has 2001 bytes, but at most 1024 are");
+}
+
 // ParaView's parallel writer puts the numbers of each process into a file beside the one that is
 // named, and virtual datasets into that.
 TEST_F(ImportVtkHdf, VirtualDatasetsAreReadBesideTheFileOnly)

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <vector>
 
+#include <malloc.h>
+
 namespace smg::testing
 {
 namespace
@@ -88,6 +90,52 @@ TEST(PagedArray, MakesAFolderForItsScratchFile)
   }
   EXPECT_EQ(folder.entries(), 0);
   EXPECT_EQ(ScratchAccount::process().used(), before);
+}
+
+/** A window that moves along a long array takes no more of the file than at first. */
+TEST(PagedArray, ReusesTheFileOfDiscardedPages)
+{
+  const TemporaryFolder parent;
+  const ScratchFolder folder(parent.path());
+  PagedArray<std::int64_t> paged(folder.path(), 1);
+  constexpr std::int64_t Window = 40000;
+  for (std::int64_t i = 0; i < 20 * Window; i++)
+  {
+    paged.at(i) = i;
+    if (i >= Window)
+    {
+      ASSERT_EQ(paged.get(i - Window), i - Window);
+      paged.discardBelow(i - Window);
+    }
+  }
+  EXPECT_GT(folder.account().peak(), 0);
+  EXPECT_LE(folder.account().peak(), 2 * Window * std::int64_t(sizeof(std::int64_t)));
+}
+
+/** The tables of a page far away take more than the memory allows for all: the pages give way. */
+TEST(PagedArray, HasNoMorePagesThanItsTablesLeaveRoomFor)
+{
+  constexpr std::int64_t PerPage = PageFile::PageBytes / sizeof(std::int64_t);
+  constexpr std::int64_t Memory = std::int64_t(8) << 20;
+  const TemporaryFolder folder;
+  PagedArray<std::int64_t> paged(folder.path(), Memory);
+  constexpr std::int64_t FarPage = std::int64_t(1) << 22, TableBytes = 4 * FarPage;
+  const auto inUse = []
+  {
+    const struct mallinfo2 heap = ::mallinfo2();
+    return static_cast<std::int64_t>(heap.uordblks + heap.hblkhd);
+  };
+  const std::int64_t before = inUse();
+  for (std::int64_t page = 0; page < Memory / std::int64_t(PageFile::PageBytes); ++page)
+  {
+    paged.at(page * PerPage) = page;
+  }
+  ASSERT_EQ(paged.get(FarPage * PerPage), 0);
+  EXPECT_LT(inUse() - before, TableBytes + Memory / 8);
+  for (std::int64_t page = 0; page < Memory / std::int64_t(PageFile::PageBytes); ++page)
+  {
+    ASSERT_EQ(paged.get(page * PerPage), page);
+  }
 }
 
 } // namespace

@@ -48,6 +48,43 @@ TEST_F(StreamFormatsErrors, RefusesOtherFormatsByName)
     std::string::npos);
 }
 
+/** The comments of a header are kept: as many as a hostile file has are not. */
+TEST_F(StreamFormatsErrors, RefusesMoreCommentsThanItKeeps)
+{
+  const auto text = [](int lines, const std::string& comment)
+  {
+    std::string bytes;
+    for (int k = 0; k < lines; ++k)
+    {
+      bytes += "# " + comment + "\n";
+    }
+    return bytes + TwoTriangles;
+  };
+  const std::string sentence = "the comments before the first vertex or cell have more than 1 MiB";
+  this->expectRefusal("a.sma", text(1100, std::string(1000, 'x')), "line 1017: " + sentence);
+  this->expectRefusal("a.sma", text(40000, ""), sentence);
+  EXPECT_EQ(openStreamFile(this->write("a.sma", text(1000, std::string(1000, 'x'))))
+              ->header()
+              .comments.size(),
+    1000U);
+
+  const auto binary = [](std::uint32_t comments, std::uint32_t bytes)
+  {
+    std::string file = words({ 0, comments });
+    for (std::uint32_t k = 0; k < comments; ++k)
+    {
+      file += words({ bytes }) + std::string(bytes, 'x');
+    }
+    return file + twoTrianglesBinary().substr(8);
+  };
+  for (const std::string& bytes : { binary(1, 2 << 20), binary(1100, 1000), binary(40000, 0) })
+  {
+    this->expectRefusal("a.smb", bytes, "byte 4: the comments of the header have more than 1 MiB");
+  }
+  EXPECT_EQ(
+    openStreamFile(this->write("a.smb", binary(1000, 1000)))->header().comments.size(), 1000U);
+}
+
 TEST_F(StreamFormatsErrors, RefusesWrongLines)
 {
   const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";

@@ -238,7 +238,7 @@ private:
   std::int64_t First;
   Pool Memory{ std::int64_t(1) << 28 };
   AllKinds Asked;
-  AssembledRows Out;
+  AssembledRows Out{ this->Memory, this->Asked.columns() };
   Components Parts;
   ComponentLabels Labels;
   CellAssembly Cells;

@@ -111,6 +111,45 @@ TEST(OpenEdges, KeepMemoryForOpenVerticesOnly)
   EXPECT_LT(pool.peak(), 200000);
 }
 
+/** A star, whose hub has its edges in the separate table, whether it comes first or last. */
+TEST(OpenEdges, CountTheirMemoryOfVeryManyNeighbours)
+{
+  constexpr std::int64_t Neighbours = 20000, Each = 48; // a node with a bucket
+  for (const bool isLast : { false, true })
+  {
+    Pool pool(1 << 26);
+    OpenEdges edges(pool, 12);
+    edges.extend(Neighbours + 1);
+    const std::int64_t before = pool.used();
+    const std::int64_t hub = isLast ? Neighbours : 0;
+    for (std::int64_t k = 0; k < Neighbours; ++k)
+    {
+      edges.weight(hub, isLast ? k : k + 1) = 1.0;
+    }
+    std::vector<OpenEdge> taken;
+    for (std::int64_t i = 0; isLast && i < Neighbours; ++i)
+    {
+      edges.take(i, taken);
+    }
+    EXPECT_GE(pool.used() - before, (Neighbours - 12) * Each) << isLast;
+    edges.take(hub, taken);
+    edges.release(hub + 1);
+    EXPECT_EQ(pool.used(), before) << isLast;
+  }
+
+  Pool small(1 << 20);
+  OpenEdges edges(small, 4);
+  edges.extend(5000);
+  EXPECT_THROW(
+    {
+      for (std::int64_t to = 1; to < 5000 * 4; ++to)
+      {
+        edges.weight(0, to);
+      }
+    },
+    Error);
+}
+
 /** The time per vertex is linear in its number of neighbours, not quadratic. */
 TEST(OpenEdges, AVertexMayHaveVeryManyNeighbours)
 {

@@ -44,11 +44,11 @@ std::unique_ptr<smg::Solution> deform(const smg::VsmReader& mesh, const char* ha
   smg::DescribedHandles handles(description, mesh.info(), handleFile);
   // Only the columns of the mesh that the handles need are read.
   const auto source = [&] { return mesh.source(handles.vertexColumns(), handles.cellColumns()); };
-  // Fails early if a handle holds no vertex.
-  handles.prepare(*source());
-
   smg::DeformOptions options;
   options.memoryLimit = std::int64_t(128) << 20;
+  // Fails early if a handle holds no vertex.
+  handles.prepare(*source(), {}, options.memoryLimit);
+
   description.applyTo(options); // weights, cycles or tolerance of the file
   return smg::deform(*source(), handles, options);
 }

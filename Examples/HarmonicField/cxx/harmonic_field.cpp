@@ -139,9 +139,10 @@ int main(int argc, char** argv)
     }
 
     smg::DescribedProblem problem(feetAndEars(), mesh->reader().info());
-    problem.prepare(*mesh->reader().source({}, {})); // fails if a region is empty
     smg::SolveOptions options;
     options.memoryLimit = std::int64_t(64) << 20;
+    // Fails if a region is empty.
+    problem.prepare(*mesh->reader().source({}, {}), {}, options.memoryLimit);
     const auto solution = smg::solve(*mesh->reader().source({}, {}), problem, options);
     const smg::Report& report = solution->report();
     // If every vertex is prescribed, there is no cycle and no residual.

@@ -85,10 +85,9 @@ int main(int argc, char** argv)
     // Only the columns of the mesh that the problem names are read.
     const auto source = [&]
     { return mesh->reader().source(problem.vertexColumns(), problem.cellColumns()); };
-    problem.prepare(*source());
-
     smg::SolveOptions options;
     options.memoryLimit = std::int64_t(64) << 20;
+    problem.prepare(*source(), {}, options.memoryLimit);
     const auto solution = smg::solve(*source(), problem, options);
 
     smg::SolvedMesh solved(mesh->reader(), problem, *solution, { .gradient = true, .flux = true });

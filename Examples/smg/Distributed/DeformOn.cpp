@@ -62,7 +62,7 @@ void deformOn(smg::Team& team, const DistributedJob& job, const DistributedDefor
   const auto on = readDescribed<smg::DescribedHandles>(
     team, job, [&] { return description.emplace(task.read()); });
   smg::DistributedSolver solver(team.communicator(), on.part);
-  solver.prepare(*on.described, job.scratch);
+  solver.prepare(*on.described, job.scratch, job.memoryLimit);
   smg::DistributedSolution solution =
     solver.deform(*on.described, *description->weights, optionsOf(job, *description->tolerance));
   const std::vector<std::string> notes = solver.notes(*on.described);

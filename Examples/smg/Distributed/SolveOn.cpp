@@ -36,7 +36,7 @@ void solveOn(smg::Team& team, const DistributedJob& job, const DistributedSolve&
       return description;
     });
   smg::DistributedSolver solver(team.communicator(), on.part);
-  solver.prepare(*on.described, job.scratch);
+  solver.prepare(*on.described, job.scratch, job.memoryLimit);
   smg::DistributedSolution solution = solver.solve(*on.described, optionsOf(job, task.tolerance));
   if (!isInPieces(job.out))
   {

@@ -11,6 +11,7 @@ namespace smg
 GmshTags::GmshTags(RawMeshBuilder& builder)
   : Physical(builder, ImportColumn::Of::Elements, PhysicalTagName, NoGroup)
   , Geometrical(builder, ImportColumn::Of::Elements, GeometricalTagName, FirstEntity)
+  , GroupMemory(builder.workspace().pool())
 {
 }
 
@@ -35,7 +36,7 @@ void GmshTags::readEntities(GmshInput& input)
       for (std::int64_t k = 0; k < groups; ++k)
       {
         const std::int64_t group = input.integer("the tag of a physical group");
-        this->Groups[dimension].emplace(entity, group); // the first one stays
+        this->setGroup(dimension, entity, group);
       }
       const std::int64_t bounding =
         dimension == 0 ? 0 : input.count("the number of bounding entities", 2, 4);
@@ -44,6 +45,18 @@ void GmshTags::readEntities(GmshInput& input)
         input.integer("the tag of a bounding entity");
       }
     }
+  }
+}
+
+void GmshTags::setGroup(std::size_t dimension, std::int64_t entity, std::int64_t group)
+{
+  constexpr std::size_t Step = 1024;
+  constexpr std::int64_t NodeBytes = 64; // of a map
+  auto& groups = this->Groups[dimension];
+  const bool isNew = groups.emplace(entity, group).second; // the first one stays
+  if (isNew && groups.size() % Step == 1)
+  {
+    this->GroupMemory.resize(this->GroupMemory.bytes() + std::int64_t(Step) * NodeBytes);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "IO/Formats/Gmsh/GmshInput.h"
 #include "IO/Formats/Shared/LabelColumn.h"
+#include "Solver/Storage/Reservation.h"
 
 #include <array>
 #include <cstdint>
@@ -35,7 +36,10 @@ public:
   void finish();
 
 private:
+  void setGroup(std::size_t dimension, std::int64_t entity, std::int64_t group);
+
   LabelColumn Physical, Geometrical;
+  Reservation GroupMemory;
   std::array<std::map<std::int64_t, std::int64_t>, 4> Groups; ///< by dimension and entity
 };
 

@@ -140,8 +140,9 @@ PlyHeader readPlyHeader(InputFile& file)
 {
   TextScanner scanner(file);
   PlyHeader header;
-  // A header is held in memory.
+  // A header is held in memory, with its comments where the file is written anew.
   constexpr int MostLines = 4096;
+  constexpr std::size_t MostBytes = std::size_t(1) << 20;
   int lines = 0;
   if (scanner.tokenInLine() != "ply")
   {
@@ -155,6 +156,11 @@ PlyHeader readPlyHeader(InputFile& file)
   {
     scanner.skipLine();
     const std::string_view keyword = scanner.tokenInLine();
+    if (scanner.offset() > MostBytes)
+    {
+      scanner.fail(
+        "the header has more than 1 MiB, which is more than is read: remove its comments");
+    }
     if (keyword == "end_header")
     {
       break;

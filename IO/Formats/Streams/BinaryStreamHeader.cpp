@@ -18,6 +18,11 @@ class Nonsense
 {
 };
 
+/** The same, perhaps only since it has more comments than are read. */
+class TooLong : public Nonsense
+{
+};
+
 /** Reads numbers from a file in one byte order. */
 class Cursor
 {
@@ -54,6 +59,11 @@ public:
     {
       throw Nonsense();
     }
+    this->TextBytes += static_cast<std::int64_t>(sizeof(std::string)) + length;
+    if (this->TextBytes > StreamFileHeader::MostCommentBytes)
+    {
+      throw TooLong();
+    }
     std::string text(length, '\0');
     this->bytes(std::as_writable_bytes(std::span(text)));
     return text;
@@ -75,6 +85,7 @@ private:
   const FileDescriptor& File;
   std::int64_t Offset;
   std::endian Order;
+  std::int64_t TextBytes = 0;
 };
 
 void takeBounds(Cursor& cursor, StreamFileHeader& header)
@@ -198,15 +209,25 @@ BinaryStreamHeader readBinaryStreamHeader(const FileDescriptor& file, StreamForm
   }
   const bool saysBig = first[1] == std::byte{ 1 };
   std::vector<BinaryStreamHeader> candidates;
+  bool isTooLong = false;
   for (const bool isBig : { saysBig, !saysBig })
   {
     try
     {
       candidates.push_back(readAs(file, format, isBig ? std::endian::big : std::endian::little));
     }
+    catch (const TooLong&)
+    {
+      isTooLong = true;
+    }
     catch (const Nonsense&)
     {
     }
+  }
+  if (candidates.empty() && isTooLong)
+  {
+    throw Error(name + ": byte 4: the comments of the header have more than 1 MiB, which is more "
+                       "than is read: remove some of them, if the file is not damaged.");
   }
   if (candidates.empty())
   {

@@ -35,8 +35,8 @@ StreamAssembler::StreamAssembler(const StreamFileReader& reader, VsmWriter& writ
   , FileVertices(scratch, memory / 2)
   , Values(scratch, memory / 8)
   , Queue(scratch, memory / 4)
-  , CellValues(scratch, memory / 8)
-  , Until(scratch, memory / 8)
+  , CellValues(scratch, memory / 16)
+  , Until(scratch, memory / 16)
 {
   const StreamInfo info = infoOf(this->Header);
   this->Block.vertexColumns = emptyColumns(info.vertexColumns);

@@ -22,7 +22,8 @@ namespace smg
  * of no cell are stored in the table of the isolated ones.
  *
  * The data of waiting vertices and cells are stored in pages (PagedArray.h), which are released
- * when their vertices are final.
+ * when their vertices are final. All else is a block of cells with its vertices, and as many
+ * isolated vertices: memory that does not depend on the file.
  */
 class StreamAssembler
 {

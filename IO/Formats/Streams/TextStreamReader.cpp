@@ -118,6 +118,14 @@ void TextStreamReader::readComment(Tokens& tokens)
   {
     const std::size_t begin = std::min(whole.find_first_not_of(" \t"), whole.size());
     this->Header.comments.emplace_back(whole.substr(begin));
+    // An empty one takes memory, too.
+    this->CommentBytes +=
+      static_cast<std::int64_t>(sizeof(std::string) + this->Header.comments.back().size());
+    if (this->CommentBytes > StreamFileHeader::MostCommentBytes)
+    {
+      this->fail("the comments before the first vertex or cell have more than 1 MiB, which is more "
+                 "than is read: remove some of them.");
+    }
   }
 }
 

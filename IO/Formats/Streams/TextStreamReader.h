@@ -35,6 +35,7 @@ private:
   std::array<double, 6> Bounds{};
   bool HasLower = false, HasUpper = false;
   int CellFloats = 0;
+  std::int64_t CommentBytes = 0; ///< see StreamFileHeader
   char CellKey;
   bool Pending = false; ///< whether Line has not been parsed yet
   std::string_view Line;

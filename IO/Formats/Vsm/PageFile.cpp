@@ -13,43 +13,58 @@ namespace smg
 
 PageFile::PageFile(std::filesystem::path folder, std::int64_t memory)
   : Folder(std::move(folder))
-  , MaxSlots(std::max<std::int64_t>(4, memory / std::int64_t(PageBytes)))
+  , Memory(memory)
 {
+}
+
+std::int64_t PageFile::mostSlots() const
+{
+  constexpr std::int64_t Least = 4;
+  const auto tables = static_cast<std::int64_t>(this->States.capacity() * sizeof(std::int32_t)) +
+                      this->Blocks * ScratchBlocks::TableBytes;
+  return std::max(Least, (this->Memory - tables) / std::int64_t(PageBytes));
 }
 
 std::int32_t PageFile::load(std::int64_t page)
 {
-  if (page >= static_cast<std::int64_t>(this->SlotOfPage.size()))
+  if (page - this->FirstPage >= static_cast<std::int64_t>(this->States.size()))
   {
-    this->SlotOfPage.resize(page + 1, Untouched);
+    this->States.resize(page - this->FirstPage + 1, Untouched);
   }
-  const std::int32_t state = this->SlotOfPage[page];
   const std::int32_t number = this->makeRoom();
   Slot& slot = this->Slots[number];
-  if (state == OnDisk)
+  const std::int32_t state = std::exchange(this->stateOf(page), number);
+  if (state != Untouched)
   {
-    this->File->read(page, std::as_writable_bytes(std::span(slot.bytes.get(), PageBytes)));
+    slot.block = onDisk(state);
+    this->File->read(slot.block, std::as_writable_bytes(std::span(slot.bytes.get(), PageBytes)));
   }
   else
   {
     std::memset(slot.bytes.get(), 0, PageBytes);
   }
   slot.page = page;
-  // A page that was never written must be written even if it is only read.
-  slot.changed = state != OnDisk;
-  this->SlotOfPage[page] = number;
   return number;
 }
 
 std::int32_t PageFile::makeRoom()
 {
+  // The tables may have grown.
+  while (std::ssize(this->Slots) > this->mostSlots())
+  {
+    const auto last = static_cast<std::int32_t>(this->Slots.size()) - 1;
+    this->Slots.back().page >= 0 ? this->evict(this->Slots.back())
+                                 : void(std::erase(this->Vacant, last));
+    this->Slots.pop_back();
+    this->Hand %= this->Slots.size();
+  }
   if (!this->Vacant.empty())
   {
     const std::int32_t number = this->Vacant.back();
     this->Vacant.pop_back();
     return number;
   }
-  if (this->Slots.size() < this->MaxSlots)
+  if (std::ssize(this->Slots) < this->mostSlots())
   {
     this->Slots.emplace_back().bytes = std::make_unique<std::byte[]>(PageBytes);
     return static_cast<std::int32_t>(this->Slots.size()) - 1;
@@ -60,17 +75,31 @@ std::int32_t PageFile::makeRoom()
   }
   const auto number = static_cast<std::int32_t>(this->Hand);
   this->Hand = (this->Hand + 1) % this->Slots.size();
-  Slot& slot = this->Slots[number];
+  this->evict(this->Slots[number]);
+  return number;
+}
+
+void PageFile::evict(Slot& slot)
+{
   if (slot.changed)
   {
     if (!this->File)
     {
       this->createFile();
     }
-    this->File->write(slot.page, std::span(slot.bytes.get(), PageBytes));
+    if (slot.block < 0 && this->SpareBlocks.empty())
+    {
+      slot.block = this->Blocks++;
+    }
+    else if (slot.block < 0)
+    {
+      slot.block = this->SpareBlocks.back();
+      this->SpareBlocks.pop_back();
+    }
+    this->File->write(slot.block, std::span(slot.bytes.get(), PageBytes));
   }
-  this->SlotOfPage[slot.page] = OnDisk;
-  return number;
+  this->stateOf(slot.page) = slot.block < 0 ? Untouched : onDisk(slot.block);
+  slot = { std::move(slot.bytes) };
 }
 
 void PageFile::createFile()
@@ -85,16 +114,28 @@ void PageFile::createFile()
 
 void PageFile::discardBelow(std::int64_t page)
 {
-  const auto end = std::min(page, static_cast<std::int64_t>(this->SlotOfPage.size()));
+  const auto end = std::min(page, this->FirstPage + static_cast<std::int64_t>(this->States.size()));
   for (; this->FirstKept < end; this->FirstKept++)
   {
-    const std::int32_t state = std::exchange(this->SlotOfPage[this->FirstKept], Discarded);
+    const std::int32_t state = std::exchange(this->stateOf(this->FirstKept), Untouched);
+    std::int32_t block = state < Untouched ? onDisk(state) : -1;
     if (state >= 0)
     {
-      this->Slots[state].changed = false;
-      this->Slots[state].used = false;
+      block = this->Slots[state].block;
+      this->Slots[state] = { std::move(this->Slots[state].bytes) };
       this->Vacant.push_back(state);
     }
+    if (block >= 0)
+    {
+      this->SpareBlocks.push_back(block);
+    }
+  }
+  // States are moved only when half of them are of discarded pages: amortised once per page.
+  if (const std::int64_t dead = this->FirstKept - this->FirstPage;
+      dead > std::ssize(this->States) / 2)
+  {
+    this->States.erase(this->States.begin(), this->States.begin() + dead);
+    this->FirstPage = this->FirstKept;
   }
 }
 

@@ -55,6 +55,8 @@ public:
    * changes, a number at a held vertex is not finite, or a scale there is outside 1e-20 to 1e20.
    */
   virtual void at(const MeshBlock& block, VertexHandles& handles) = 0;
+  /** See Problem::bytes(). */
+  virtual std::int64_t bytes() const { return 0; }
 };
 
 /**

@@ -6,6 +6,7 @@
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -54,16 +55,21 @@ public:
    * each boundary.
    * @param mesh the stream, from its first block
    * @param scratch folder for scratch files; empty: the system's temporary folder
-   * @throws Error naming the handle if it holds no vertex, or names a vertex that the mesh lacks
+   * @param memoryLimit as in SolveOptions; 1 GiB by default
+   * @throws Error naming the handle if it holds no vertex, or names a vertex that the mesh lacks;
+   * naming the memory that is needed if the limit does not suffice
    */
-  void prepare(MeshSource& mesh, const std::filesystem::path& scratch = {});
+  void prepare(MeshSource& mesh, const std::filesystem::path& scratch = {},
+    std::int64_t memoryLimit = std::int64_t(1) << 30);
   /** The first half of prepare(), for the part of the mesh that a process has: see
    * DistributedSolver. */
-  void preparePart(MeshSource& part, const std::filesystem::path& scratch = {});
+  void preparePart(MeshSource& part, const std::filesystem::path& scratch = {},
+    std::int64_t memoryLimit = std::int64_t(1) << 30);
   /** The second half of prepare(), in which the processes of all parts take part. */
   void endPreparing(MeshParts& parts);
 
   void at(const MeshBlock& block, VertexHandles& handles) override;
+  std::int64_t bytes() const override;
 
   /**
    * Remarks for the user, a sentence each, once at() has been called for all blocks: handles whose

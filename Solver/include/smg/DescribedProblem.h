@@ -6,6 +6,7 @@
 #include "smg/Problem.h"
 #include "smg/ProblemDescription.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -55,13 +56,16 @@ public:
    * a vertex for each cell column that selects, and for each boundary.
    * @param mesh the stream, from its first block
    * @param scratch folder for scratch files; empty: the system's temporary folder
+   * @param memoryLimit as in SolveOptions; 1 GiB by default
    * @throws Error naming the place in the description if it selects nothing or names a vertex that
-   * the mesh lacks
+   * the mesh lacks; naming the memory that is needed if the limit does not suffice
    */
-  void prepare(MeshSource& mesh, const std::filesystem::path& scratch = {});
+  void prepare(MeshSource& mesh, const std::filesystem::path& scratch = {},
+    std::int64_t memoryLimit = std::int64_t(1) << 30);
   /** The first half of prepare(), for the part of the mesh that a process has: see
    * DistributedSolver. */
-  void preparePart(MeshSource& part, const std::filesystem::path& scratch = {});
+  void preparePart(MeshSource& part, const std::filesystem::path& scratch = {},
+    std::int64_t memoryLimit = std::int64_t(1) << 30);
   /** The second half of prepare(), in which the processes of all parts take part. */
   void endPreparing(MeshParts& parts);
 
@@ -73,6 +77,7 @@ public:
   void cells(CellBatch& batch) override;
   bool hasFacets() const override;
   void facets(FacetBatch& batch) override;
+  std::int64_t bytes() const override;
 
 private:
   std::unique_ptr<ProblemOnMesh> OnMesh;

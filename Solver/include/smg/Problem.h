@@ -191,6 +191,12 @@ public:
    */
   virtual void conditions(const MeshBlock& block, VertexConditions& conditions) = 0;
 
+  /**
+   * The bytes that the problem keeps of the stream's open vertices, those that later cells may use;
+   * 0 by default. Asked after each conditions(): they count within the memory limit of the solve.
+   */
+  virtual std::int64_t bytes() const { return 0; }
+
   /** Whether edgeTargets() is to be called; false by default. Results (SolvedMesh) are not
    * available then. */
   virtual bool hasEdgeTargets() const { return false; }

@@ -120,6 +120,12 @@ std::vector<std::string> Hdf5File::datasets(const std::string& group) const
   {
     return names;
   }
+  if (info.nlinks > MostDatasets)
+  {
+    this->fail("the group " + inQuotes(group) + " has " + std::to_string(info.nlinks) +
+               " members, but at most " + std::to_string(MostDatasets) +
+               " arrays are read: write fewer");
+  }
   for (hsize_t i = 0; i < info.nlinks; ++i)
   {
     const ssize_t length =
@@ -127,6 +133,11 @@ std::vector<std::string> Hdf5File::datasets(const std::string& group) const
     if (length <= 0)
     {
       continue;
+    }
+    if (static_cast<std::uint64_t>(length) > MostNameBytes)
+    {
+      this->fail("a name in the group " + inQuotes(group) + " has " + std::to_string(length) +
+                 " bytes, but at most " + std::to_string(MostNameBytes) + " are read: shorten it");
     }
     std::string name(static_cast<std::size_t>(length) + 1, '\0');
     H5Lget_name_by_idx(

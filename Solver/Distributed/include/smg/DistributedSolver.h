@@ -106,9 +106,11 @@ public:
 
   /** As DescribedProblem::prepare() and DescribedHandles::prepare(); required wherever these are.
    * If the mesh has no column OriginalId and the description selects vertices by their numbers, the
-   * parts must have it, with stream indices. */
-  void prepare(DescribedProblem& problem, const std::filesystem::path& scratch = {});
-  void prepare(DescribedHandles& handles, const std::filesystem::path& scratch = {});
+   * parts must have it, with stream indices. The memory limit is that of each process. */
+  void prepare(DescribedProblem& problem, const std::filesystem::path& scratch = {},
+    std::int64_t memoryLimit = INT64_MAX);
+  void prepare(DescribedHandles& handles, const std::filesystem::path& scratch = {},
+    std::int64_t memoryLimit = INT64_MAX);
 
   /**
    * Solves a problem.
