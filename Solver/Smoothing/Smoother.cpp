@@ -4,7 +4,6 @@
 #include "Solver/Description/ColumnNumbers.h"
 #include "Solver/Engine/Convergence.h"
 #include "Solver/Problem/BoundaryFacets.h"
-#include "Solver/Stream/StreamCheck.h"
 #include "Solver/Stream/VisitBlocks.h"
 #include "smg/Error.h"
 #include "smg/MeshSource.h"
