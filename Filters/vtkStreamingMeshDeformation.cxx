@@ -105,6 +105,10 @@ smg::SolveSummary vtkStreamingMeshDeformation::SolveInMemory(
         "PreviewCells of the reader offers tetrahedra");
     }
   }
+  else
+  {
+    interactive.judge(report);
+  }
   return smg::SolveSummary::of(report, interactive.columns());
 }
 

@@ -81,7 +81,8 @@ void CommonOptions::addTo(CLI::App& command, const std::string& memoryDefault)
   command.add_flag_callback(
     "--no-sync", [] { smg::FileDescriptor::setDurable(false); },
     "Do not wait until the results are on the disk, where a power cut cannot destroy them");
-  command.add_flag("--quiet", this->quiet, "No progress bar and no summary");
+  command.add_flag("--quiet", this->quiet,
+    "No progress (a bar on a terminal, else a line every ten seconds) and no summary");
 }
 
 namespace

@@ -35,8 +35,8 @@ void print(const smg::ConversionReport& report)
   line(report.isolated_vertices, "isolated vertex, which is not part of the stream",
     "isolated vertices, which are not part of the stream");
   line(report.dropped_cells, "cell of another type omitted", "cells of other types omitted");
-  line(
-    report.triangulated_polygons, "polygon split into triangles", "polygons split into triangles");
+  line(report.triangulated_polygons, "polygon or strip split into triangles",
+    "polygons and strips split into triangles");
   line(report.split_cells, "hexahedron, wedge or pyramid split into tetrahedra",
     "hexahedra, wedges and pyramids split into tetrahedra");
   line(report.higher_order_cells, "higher-order cell, of which only the corners are used",

@@ -10,6 +10,7 @@
 #include "smg/Error.h"
 #include "smg/MovedMesh.h"
 
+#include <cstdio>
 #include <optional>
 
 namespace
@@ -131,8 +132,21 @@ protected:
     normals.memory = this->writerMemory();
     normals.progress = smg::partOf(progress, 0.0, 0.3);
     const smg::MovedMesh moved(mesh, positions, this->movedNormals(), normals);
-    write(*moved.source(), smg::partOf(progress, 0.3, 1.0));
+    write(*moved.source(&report), smg::partOf(progress, 0.3, 1.0));
     report.notes.insert(report.notes.end(), this->Notes.begin(), this->Notes.end());
+  }
+
+  void warn(const smg::Report& report) const override
+  {
+    this->EngineCommand::warn(report);
+    if (report.inverted && report.inverted->cells > 0)
+    {
+      std::fprintf(stderr,
+        "smg: warning: %lld of %lld cells are inverted or collapsed, the worst is cell %lld: see "
+        "the notes of the report\n",
+        static_cast<long long>(report.inverted->cells), static_cast<long long>(report.cells),
+        static_cast<long long>(report.inverted->worst));
+    }
   }
 
   const smg::SolveOptions& solveOptions() const override { return this->Deform; }

@@ -10,7 +10,8 @@
 
 ProgressBar::ProgressBar(std::string title, bool quiet, const std::filesystem::path& input)
   : Title(std::move(title))
-  , Visible(!quiet && ::isatty(STDERR_FILENO))
+  , Visible(!quiet)
+  , IsTerminal(::isatty(STDERR_FILENO))
 {
   std::error_code unknown;
   const std::uintmax_t bytes = std::filesystem::file_size(input, unknown);
@@ -36,8 +37,29 @@ smg::ProgressFunction ProgressBar::function()
 
 void ProgressBar::show(double fraction)
 {
+  if (!this->Visible)
+  {
+    return;
+  }
+  if (this->IsTerminal)
+  {
+    this->draw(fraction);
+    return;
+  }
+  constexpr std::chrono::seconds BetweenLines(10);
+  const Time now = std::chrono::steady_clock::now();
+  if (now - this->LastLine >= BetweenLines)
+  {
+    this->LastLine = now;
+    std::fprintf(stderr, "smg: %s: %.1f %%%s\n", this->Title.c_str(), fraction * 100.0,
+      this->remaining(fraction, now).c_str());
+  }
+}
+
+void ProgressBar::draw(double fraction)
+{
   const int thousandth = static_cast<int>(fraction * 1000.0);
-  if (!this->Visible || thousandth == this->Shown)
+  if (thousandth == this->Shown)
   {
     return;
   }
@@ -45,11 +67,12 @@ void ProgressBar::show(double fraction)
   constexpr int Width = 40;
   const std::string done(static_cast<std::size_t>(thousandth * Width / 1000), '#');
   std::fprintf(stderr, "\r%s [%-*s] %5.1f %%%s\033[K", this->Title.c_str(), Width, done.c_str(),
-    static_cast<double>(thousandth) / 10.0, this->remaining(fraction).c_str());
+    static_cast<double>(thousandth) / 10.0,
+    this->remaining(fraction, std::chrono::steady_clock::now()).c_str());
   std::fflush(stderr);
 }
 
-std::string ProgressBar::remaining(double fraction) const
+std::string ProgressBar::remaining(double fraction, Time now) const
 {
   std::string text;
   char part[64];
@@ -60,8 +83,7 @@ std::string ProgressBar::remaining(double fraction) const
     text += part;
   }
   // An estimate in the first seconds is unreliable.
-  const double seconds =
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - this->Start).count();
+  const double seconds = std::chrono::duration<double>(now - this->Start).count();
   if (seconds > 2.0 && fraction > 0.02)
   {
     std::snprintf(part, sizeof(part), ", %.0f s left", seconds * (1.0 - fraction) / fraction);

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <string>
 
-/** A progress bar with the remaining time on standard error, if that is a terminal; cancels the
- * work on an interrupt. */
+/** The progress with the remaining time on standard error: a bar if that is a terminal, else a line
+ * at most every ten seconds; cancels the work on an interrupt. */
 class ProgressBar
 {
 public:
@@ -24,12 +24,17 @@ public:
   smg::ProgressFunction function();
 
 private:
+  using Time = std::chrono::steady_clock::time_point;
+
   void show(double fraction);
-  std::string remaining(double fraction) const;
+  void draw(double fraction);
+  std::string remaining(double fraction, Time now) const;
 
   std::string Title;
   double Mebibytes = 0; ///< of the input; 0: unknown
-  std::chrono::steady_clock::time_point Start = std::chrono::steady_clock::now();
+  const Time Start = std::chrono::steady_clock::now();
+  Time LastLine = this->Start; ///< written, or the start
   bool Visible;
+  bool IsTerminal;
   int Shown = -1; ///< the last thousandth drawn
 };

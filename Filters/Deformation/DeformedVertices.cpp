@@ -9,9 +9,10 @@
 namespace smg
 {
 
-void DeformedVertices::addNormals(std::unique_ptr<MeshSource> mesh, const NormalsOptions& options)
+void DeformedVertices::addNormals(
+  std::unique_ptr<MeshSource> mesh, const NormalsOptions& options, Report* report)
 {
-  MovedPoints moved(std::move(mesh), *this->Positions);
+  MovedPoints moved(std::move(mesh), *this->Positions, report, options);
   this->Normals.emplace(moved, options);
 }
 

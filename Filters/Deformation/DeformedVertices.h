@@ -21,8 +21,10 @@ public:
   {
   }
 
-  /** Computes the normals of `mesh` with its vertices moved. Throws Error and Cancelled. */
-  void addNormals(std::unique_ptr<MeshSource> mesh, const NormalsOptions& options);
+  /** Computes the normals of `mesh` with its vertices moved, and adds the cells that this inverts
+   * to the report, if there is one (see MovedMesh::source()). Throws Error and Cancelled. */
+  void addNormals(
+    std::unique_ptr<MeshSource> mesh, const NormalsOptions& options, Report* report = nullptr);
 
   std::int64_t vertices() const override { return this->Positions->vertices(); }
   int columns() const override { return this->Normals ? WithNormals : 3; }

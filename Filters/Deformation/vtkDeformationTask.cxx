@@ -4,17 +4,22 @@
 #include "Filters/Deformation/DeformedVertices.h"
 #include "Filters/Handles/vtkHandleArrays.h"
 #include "IO/Files/PartialProgress.h"
+#include "IO/Motion/MovedPoints.h"
 #include "Solver/Engine/CheckOptions.h"
+#include "Solver/Stream/VisitBlocks.h"
 #include "smg/DescribedHandles.h"
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace smg
 {
 namespace
 {
 
-/** The share of the solve in the progress; normals take the rest. */
+/** The share of the solve in the progress; a reading of the deformed mesh takes the rest. */
 constexpr double DeformShare = 0.9;
 
 } // namespace
@@ -27,9 +32,10 @@ void DeformationTask::check() const
 PieceColumns DeformationTask::columns() const
 {
   const auto& names = HandleArrays::names();
-  return {
-    .all = false, .required = { names.begin(), names.end() }, .optional = { CellFlagsName }
-  };
+  // The original ids are for the note on inverted cells.
+  return { .all = false,
+    .required = { names.begin(), names.end() },
+    .optional = { CellFlagsName, OriginalCellIdName } };
 }
 
 Costs DeformationTask::costs(const StreamInfo& info) const
@@ -44,19 +50,30 @@ std::unique_ptr<Solution> DeformationTask::solve(const VsmReader& mesh,
   DescribedHandles handles(DeformationDescription::byColumns(), mesh.info());
   DeformOptions options = this->options;
   options.scratch = scratch;
-  options.progress = partOf(progress, 0.0, hasNormals ? DeformShare : 1.0);
+  options.progress = partOf(progress, 0.0, DeformShare);
   options.checkpoint.mesh = mesh.fingerprint();
   options.checkpoint.problem = "handles in the arrays of the mesh";
   auto moved = std::make_unique<DeformedVertices>(deform(*mesh.source(), handles, options));
+  report = moved->report();
+  NormalsOptions reading;
+  reading.scratch = options.scratch;
+  reading.memory = std::min(reading.memory, options.memoryLimit / 4);
+  reading.progress = partOf(progress, DeformShare, 1.0);
+  std::vector<std::string> numbers;
+  if (findColumn(mesh.info().cellColumns, OriginalCellIdSpec) >= 0)
+  {
+    numbers.emplace_back(OriginalCellIdName);
+  }
+  auto rest = mesh.source({}, numbers);
   if (hasNormals)
   {
-    NormalsOptions normals;
-    normals.scratch = options.scratch;
-    normals.memory = std::min(normals.memory, options.memoryLimit / 4);
-    normals.progress = partOf(progress, DeformShare, 1.0);
-    moved->addNormals(mesh.source({}, {}), normals);
+    moved->addNormals(std::move(rest), reading, &report);
   }
-  report = moved->report();
+  else
+  {
+    MovedPoints stream(std::move(rest), *moved, &report, reading);
+    visitBlocks(stream, progress, DeformShare, 1.0, [](const MeshBlock&) {});
+  }
   report.notes.insert(report.notes.end(), this->notes.begin(), this->notes.end());
   return moved;
 }

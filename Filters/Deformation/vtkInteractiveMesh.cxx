@@ -123,6 +123,16 @@ void InteractiveMesh::moveLoose(vtkPointSet& mesh, std::vector<double>& values) 
   }
 }
 
+void InteractiveMesh::judge(Report& report) const
+{
+  NormalsOptions reading;
+  reading.scratch = this->Options.scratch;
+  MovedPoints moved(this->Mesh->source(), *this->Deformation, &report, reading);
+  for (MeshBlock block; moved.next(block);)
+  {
+  }
+}
+
 void InteractiveMesh::forget()
 {
   this->Deformation.reset();

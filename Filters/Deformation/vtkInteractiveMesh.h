@@ -26,6 +26,9 @@ public:
    */
   std::vector<double> deform(vtkPointSet& mesh, const DeformOptions& options, bool needsNormals);
 
+  /** Adds the cells that the last deformation inverts to a report. Throws Error. */
+  void judge(Report& report) const;
+
   /** Releases the memory of the mesh and the hierarchy. */
   void forget();
 

@@ -49,12 +49,12 @@ struct MovedMesh::Implementation
   std::optional<VertexNormals> ofVertices; ///< if the stream has these
   bool ofCells = false;                    ///< whether the stream has these
 
-  std::unique_ptr<MeshSource> withoutNormals() const
+  std::unique_ptr<MeshSource> withoutNormals(Report* report) const
   {
     const StreamInfo& info = this->mesh.info();
     return std::make_unique<MovedPoints>(this->mesh.source(namesWithoutNormals(info.vertexColumns),
                                            namesWithoutNormals(info.cellColumns)),
-      this->positions);
+      this->positions, report, this->options);
   }
 };
 
@@ -83,10 +83,10 @@ MovedMesh::MovedMesh(
 
 MovedMesh::~MovedMesh() = default;
 
-std::unique_ptr<MeshSource> MovedMesh::source() const
+std::unique_ptr<MeshSource> MovedMesh::source(Report* report) const
 {
   const Implementation* self = this->Self.get();
-  std::unique_ptr<MeshSource> source = self->withoutNormals();
+  std::unique_ptr<MeshSource> source = self->withoutNormals(report);
   if (self->ofVertices)
   {
     source = std::make_unique<AddedColumn>(std::move(source), AddedColumn::Vertices, NormalsSpec,
@@ -95,7 +95,8 @@ std::unique_ptr<MeshSource> MovedMesh::source() const
   }
   if (self->ofCells)
   {
-    const auto normals = std::make_shared<CellNormals>(self->options.scratch, self->options.memory);
+    const auto normals =
+      std::make_shared<CellNormals>(self->options.scratch, self->options.memory / 2);
     source = std::make_unique<AddedColumn>(std::move(source), AddedColumn::Cells, NormalsSpec,
       [normals](const MeshBlock& block, Column& column)
       {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/Motion/InvertedCells.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
+#include "smg/MovedMesh.h"
 #include "smg/Solve.h"
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 namespace smg
 {
@@ -15,8 +19,10 @@ namespace smg
 class SMG_EXPORT MovedPoints : public MeshSource
 {
 public:
-  /** The positions must outlive this object. */
-  MovedPoints(std::unique_ptr<MeshSource> source, Solution& positions);
+  /** The positions must outlive this object, and so must `report`, if it is given: at the end of
+   * the stream, it gets the cells that the motion inverts (see InvertedCells, with `options`). */
+  MovedPoints(std::unique_ptr<MeshSource> source, Solution& positions, Report* report = nullptr,
+    const NormalsOptions& options = {});
 
   const StreamInfo& info() const override { return this->Info; }
 
@@ -27,6 +33,9 @@ private:
   std::unique_ptr<MeshSource> Source;
   StreamInfo Info;
   Solution& Positions;
+  Report* Judged;
+  std::optional<InvertedCells> Inverted; ///< until the end of the stream, if there is a report
+  std::vector<double> Rest;              ///< positions of a block
 };
 
 } // namespace smg

@@ -72,44 +72,55 @@ void ElementRestorer::take(const RowSort::Row& row)
     this->endGroup();
     this->Element = row.key;
     this->TooLarge = false;
+    this->MayBeFan = this->CornersOfCell == 3;
+    std::memcpy(&this->Apex, row.bytes, sizeof(this->Apex));
   }
   if (this->Corners.size() == this->MostCells * this->CornersOfCell)
   {
     // The cells of such a large element are delivered one by one.
-    this->Large += this->TooLarge ? 0 : 1;
     this->TooLarge = true;
-    this->endGroup();
+    this->writeCells();
   }
   const std::size_t size = this->Corners.size();
   this->Corners.resize(size + this->CornersOfCell);
   const std::size_t cornerBytes = this->CornersOfCell * sizeof(std::uint32_t);
   std::memcpy(&this->Corners[size], row.bytes, cornerBytes);
+  this->MayBeFan = this->MayBeFan && this->Corners[size] == this->Apex;
   const std::byte* const tuples = row.bytes + cornerBytes;
   this->Tuples.insert(this->Tuples.end(), tuples, tuples + this->Columns.bytes());
 }
 
-/** Writes the collected cells of one element, as a polygon if they are its fan. */
+/** Writes the last collected cells of one element, as a polygon if they are its fan. */
 void ElementRestorer::endGroup()
 {
-  const std::size_t cells = this->Corners.size() / this->CornersOfCell;
-  const std::span<const std::byte> tuples = this->Tuples;
-  const std::size_t bytes = this->Columns.bytes();
-  if (cells > 1 && !this->TooLarge && this->CornersOfCell == 3 && this->Fan.build(this->Corners))
+  const bool isOne = this->Corners.size() <= this->CornersOfCell && !this->TooLarge;
+  if (!isOne && this->MayBeFan && !this->TooLarge && this->Fan.build(this->Corners))
   {
+    const std::span<const std::byte> tuples = this->Tuples;
+    const std::size_t bytes = this->Columns.bytes();
     // All tuples are equal if each equals the one before.
     const bool same =
       std::equal(tuples.begin() + static_cast<std::ptrdiff_t>(bytes), tuples.end(), tuples.begin());
     this->Different += same ? 0 : 1;
     this->write(this->Fan.polygon(), tuples.first(bytes));
+    this->Corners.clear();
+    this->Tuples.clear();
+    return;
   }
-  else
+  // More memory would only help a polygon.
+  this->Large += this->TooLarge && this->MayBeFan ? 1 : 0;
+  this->Split += isOne || (this->TooLarge && this->MayBeFan) ? 0 : 1;
+  this->writeCells();
+}
+
+/** Writes the collected cells as they are. */
+void ElementRestorer::writeCells()
+{
+  const std::size_t bytes = this->Columns.bytes();
+  for (std::size_t cell = 0; cell < this->Corners.size() / this->CornersOfCell; ++cell)
   {
-    this->Split += cells > 1 && !this->TooLarge ? 1 : 0;
-    for (std::size_t cell = 0; cell < cells; ++cell)
-    {
-      this->write(std::span(this->Corners).subspan(cell * this->CornersOfCell, this->CornersOfCell),
-        tuples.subspan(cell * bytes, bytes));
-    }
+    this->write(std::span(this->Corners).subspan(cell * this->CornersOfCell, this->CornersOfCell),
+      std::span(this->Tuples).subspan(cell * bytes, bytes));
   }
   this->Corners.clear();
   this->Tuples.clear();
@@ -134,15 +145,21 @@ std::vector<std::string> ElementRestorer::notes() const
   const std::string cells = this->CornersOfCell == 3 ? "triangles" : "tetrahedra";
   if (this->Split > 0)
   {
-    notes.push_back(std::to_string(this->Split) +
-                    " cells of the original file, which became several " + cells +
-                    " each, are written as these " + cells + ".");
+    notes.push_back(
+      std::to_string(this->Split) +
+      (this->Split == 1
+          ? " cell of the original file, which became several " + cells + ", is"
+          : " cells of the original file, which became several " + cells + " each, are") +
+      " written as these " + cells + ".");
   }
   if (this->Large > 0)
   {
-    notes.push_back(std::to_string(this->Large) + " polygons of more than " +
-                    std::to_string(this->MostCells) +
-                    " corners are written as triangles: allow more memory to keep them.");
+    notes.push_back(
+      std::to_string(this->Large) +
+      (this->Large == 1 ? " polygon of more than " : " polygons of more than ") +
+      std::to_string(this->MostCells) +
+      (this->Large == 1 ? " corners is written as triangles: allow more memory to keep it."
+                        : " corners are written as triangles: allow more memory to keep them."));
   }
   if (this->Different > 0)
   {

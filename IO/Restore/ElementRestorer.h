@@ -46,6 +46,7 @@ public:
 private:
   void take(const RowSort::Row& row);
   void endGroup();
+  void writeCells();
   void write(std::span<const std::uint32_t> corners, std::span<const std::byte> tuples);
 
   Workspace& Space;
@@ -61,6 +62,8 @@ private:
   std::vector<std::uint32_t> Corners;
   std::vector<std::byte> Tuples; ///< of all columns, cell by cell
   bool TooLarge = false;
+  bool MayBeFan = false;  ///< all its cells are triangles that begin with
+  std::uint32_t Apex = 0; ///< this corner
   FanChain Fan;
   std::int64_t Split = 0, Large = 0, Different = 0; ///< elements of that kind
 

@@ -36,7 +36,7 @@ void addResults(const Report& report, nlohmann::ordered_json& out)
   out["balance"] = report.balance;
 }
 
-/** The figures of a smoothing, a blend or a distance. */
+/** The figures of a smoothing, a blend, a distance or a deformation. */
 void addJob(const Report& report, nlohmann::ordered_json& out)
 {
   if (report.volume)
@@ -59,6 +59,16 @@ void addJob(const Report& report, nlohmann::ordered_json& out)
       { "unreached", report.distance->unreached }, { "unsettled", report.distance->unsettled },
       { "mesh_readings", report.distance->mesh_readings }, { "maximum", report.distance->maximum },
       { "mean", report.distance->mean } };
+  }
+  if (report.inverted)
+  {
+    nlohmann::ordered_json& inverted = out["inverted"];
+    inverted = { { "cells", report.inverted->cells }, { "share", report.inverted->share } };
+    if (report.inverted->cells > 0)
+    {
+      inverted["worst"] = { { "cell", report.inverted->worst }, { "ratio", report.inverted->ratio },
+        { "place", report.inverted->place } };
+    }
   }
   if (report.distributed)
   {

@@ -13,6 +13,7 @@ void CellSelection::prepare(const MeshBlock& block, const std::filesystem::path&
   std::vector<std::uint8_t> selected(block.corners.size() / corners);
   this->atCells({ block, 0, block.corners }, selected);
   this->Count += std::ranges::count(selected, 1);
+  this->Tags.add(this->Test.column.in(block), selected);
   if (this->Place != DataPlace::Vertices)
   {
     return;

@@ -3,6 +3,7 @@
 
 #include "Solver/Description/ColumnTest.h"
 #include "Solver/Description/Selection.h"
+#include "Solver/Description/TagValues.h"
 #include "Solver/Description/VertexSetFile.h"
 
 #include <optional>
@@ -39,9 +40,11 @@ protected:
   {
     return (this->Place == DataPlace::Cells ? "" : "is of a cell that ") + this->Test.predicate();
   }
+  std::string instead() const override { return this->Test.value ? this->Tags.text() : ""; }
 
 private:
   ColumnTest Test;
+  TagValues Tags;                        ///< during preparation
   std::optional<VertexSetFile> Vertices; ///< of the selected cells, if requested
   OpenValues<std::uint8_t> Marks;        ///< of open vertices, during preparation
   std::int64_t Marked = 0, Written = 0;  ///< vertices read, and written to the file

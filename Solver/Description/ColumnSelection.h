@@ -3,6 +3,7 @@
 
 #include "Solver/Description/ColumnTest.h"
 #include "Solver/Description/Selection.h"
+#include "Solver/Description/TagValues.h"
 
 namespace smg
 {
@@ -18,6 +19,12 @@ public:
   {
   }
 
+  void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override
+  {
+    this->Selection::prepare(block, scratch);
+    this->Tags.add(this->Test.column.in(block), this->atVertices());
+  }
+
 protected:
   void select(const MeshBlock& block, std::span<std::uint8_t> selected) override
   {
@@ -29,9 +36,11 @@ protected:
     }
   }
   std::string predicate() const override { return this->Test.predicate(); }
+  std::string instead() const override { return this->Test.value ? this->Tags.text() : ""; }
 
 private:
   ColumnTest Test;
+  TagValues Tags; ///< during preparation
 };
 
 } // namespace smg

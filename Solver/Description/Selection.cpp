@@ -143,7 +143,8 @@ void Selection::endPreparing(MeshParts* parts)
                        : this->Place == DataPlace::Cells                ? "cell"
                        : this->Columns.cellType() == CellType::Triangle ? "edge"
                                                                         : "face";
-    this->Columns.fail(this->Key, std::string("no ") + what + " of the mesh " + this->predicate());
+    this->Columns.fail(this->Key, std::string("no ") + what + " of the mesh " + this->predicate() +
+                                    (parts ? "" : this->instead()));
   }
 }
 

@@ -76,6 +76,8 @@ protected:
   virtual void select(const MeshBlock& block, std::span<std::uint8_t> selected) = 0;
   /** The predicate of a selected item for messages, for example "is in this region". */
   virtual std::string predicate() const { return "is selected"; }
+  /** What the mesh, if it is not in parts, has instead, as the end of such a message. */
+  virtual std::string instead() const { return {}; }
 
   const MeshColumns& Columns;
   DataPlace Place;

@@ -101,21 +101,21 @@ void readMesh(
   const StoredMesh& mesh, DistanceSources& sources, ChunkedMesh& chunks, DistanceRun& run)
 {
   const std::unique_ptr<MeshSource> source = sources.read(mesh);
-  StreamCheck check(chunks.plan.cellType);
   ChunkWriter writer(chunks, sources, run.pool);
   std::vector<double> low(3, HUGE_VAL), high(3, -HUGE_VAL);
-  for (MeshBlock block; source->next(block);)
-  {
-    check.add(block);
-    writer.add(block);
-    for (std::size_t i = 0; i < block.positions.size(); ++i)
+  const auto all = static_cast<double>(std::max<std::int64_t>(mesh.info().vertices, 1));
+  const StreamCheck check = forCheckedBlocks(*source,
+    [&](const MeshBlock& block)
     {
-      low[i % 3] = std::min(low[i % 3], block.positions[i]);
-      high[i % 3] = std::max(high[i % 3], block.positions[i]);
-    }
-    const auto all = static_cast<double>(std::max<std::int64_t>(mesh.info().vertices, 1));
-    run.progress.update(FirstReading * static_cast<double>(check.vertices()) / all);
-  }
+      writer.add(block);
+      for (std::size_t i = 0; i < block.positions.size(); ++i)
+      {
+        low[i % 3] = std::min(low[i % 3], block.positions[i]);
+        high[i % 3] = std::max(high[i % 3], block.positions[i]);
+      }
+      const auto read = static_cast<double>(block.firstVertex + block.vertices());
+      run.progress.update(FirstReading * read / all);
+    });
   check.finish(mesh.info());
   writer.finish();
   sources.finish();
@@ -128,11 +128,7 @@ void readMesh(
     throw Error("a distance needs at least one source, but the mesh has no vertex");
   }
   checkExtent(low, high);
-  if (const std::string note = unweldedNote(chunks.plan.cellType, check.vertices(), check.cells());
-      !note.empty())
-  {
-    run.report.notes.push_back(note);
-  }
+  noteUnwelded(chunks.plan.cellType, check.vertices(), check.cells(), run.report);
 }
 
 void march(ChunkedMesh& chunks, DistanceRun& run)

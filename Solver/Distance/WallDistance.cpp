@@ -81,24 +81,19 @@ std::int64_t readWall(const StoredMesh& mesh, const DistanceDescription& descrip
   DistanceSources& sources, ScratchBlocks& to, DistanceRun& run, const std::string& name)
 {
   const std::unique_ptr<MeshSource> source = sources.read(mesh);
-  StreamCheck check(CellType::Tetrahedron);
   WallTriangles wall(to, sources, description.from.empty(), run.pool);
-  for (MeshBlock block; source->next(block);)
-  {
-    check.add(block);
-    wall.add(block);
-    run.report.cells += static_cast<std::int64_t>(block.corners.size() / 4);
-    run.progress.update(0.0);
-  }
+  const StreamCheck check = forCheckedBlocks(*source,
+    [&](const MeshBlock& block)
+    {
+      wall.add(block);
+      run.progress.update(0.0);
+    });
   check.finish(mesh.info());
   wall.finish();
   sources.finish();
   run.report.vertices = check.vertices();
-  if (const std::string note = unweldedNote(CellType::Tetrahedron, check.vertices(), check.cells());
-      !note.empty())
-  {
-    run.report.notes.push_back(note);
-  }
+  run.report.cells = check.cells();
+  noteUnwelded(CellType::Tetrahedron, check.vertices(), check.cells(), run.report);
   if (wall.count() == 0)
   {
     throw Error(name + ": no face of the boundary of the mesh is wall.");

@@ -19,11 +19,7 @@ void reportAssembly(const AssemblyCounts& counts, Report& report)
   report.held = counts.held;
   report.degenerate_cells = counts.degenerateCells;
   report.clamped_weights = counts.clampedWeights;
-  if (const std::string note = unweldedNote(counts.type, counts.vertices, counts.cells);
-      !note.empty())
-  {
-    report.notes.push_back(note);
-  }
+  noteUnwelded(counts.type, counts.vertices, counts.cells, report);
   if (counts.limitedCells > 0)
   {
     report.notes.push_back(std::to_string(counts.limitedCells) +
@@ -69,7 +65,9 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
 
 void addAssemblyNotes(Report& report)
 {
-  if (report.clamped_weights > 0)
+  // A deformation, whose steps have been added, raises weights by default and takes the operator
+  // for no more than a measure of details.
+  if (report.clamped_weights > 0 && report.steps.empty())
   {
     report.notes.push_back(
       std::to_string(report.clamped_weights) +

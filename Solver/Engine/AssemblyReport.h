@@ -29,7 +29,7 @@ SMG_EXPORT void reportAssembly(const AssemblyCounts& counts, Report& report);
 SMG_EXPORT void reportAssembly(
   const Assembly& assembly, const Components& components, Report& report);
 
-/** Adds the notes on the data of reportAssembly(). */
+/** Adds the notes on the data of reportAssembly(), when the steps of a deformation are known. */
 SMG_EXPORT void addAssemblyNotes(Report& report);
 
 } // namespace smg

@@ -189,16 +189,13 @@ void Smoother::holdCurves(Part part)
 /** Triangles that share no edges would be smoothed each for itself, to points. */
 void Smoother::requireWelded(const StreamCheck& check)
 {
-  const std::string note =
-    unweldedNote(this->Mesh.info().cellType, check.vertices(), check.cells());
+  const CellType type = this->Mesh.info().cellType;
+  const std::string note = unweldedNote(type, check.vertices(), check.cells());
   if (!note.empty() && this->movesPoints())
   {
     throw Error(note + ": smoothed each for itself they would shrink.");
   }
-  if (!note.empty())
-  {
-    this->Result->total.notes.push_back(note);
-  }
+  noteUnwelded(type, check.vertices(), check.cells(), this->Result->total);
 }
 
 void Smoother::setSize(const MeshMeasures& measures)
@@ -221,17 +218,15 @@ void Smoother::setSize(const MeshMeasures& measures)
   }
   if (this->Size > measures.diagonal())
   {
+    const std::string sentence = "The size of the details to smooth, " + scientific(this->Size) +
+                                 ", is larger than the mesh, whose diagonal is " +
+                                 scientific(measures.diagonal()) +
+                                 ", and leaves little of its shape. Is it in the unit of the mesh?";
     if (this->movesPoints())
     {
-      throw Error("the size of the details to smooth, " + scientific(this->Size) +
-                  ", is larger than the mesh, whose diagonal is " +
-                  scientific(measures.diagonal()) +
-                  ": nothing of its shape would be left. Is it in the mesh's unit?");
+      throw Error(sentence);
     }
-    this->Result->total.notes.push_back("The size of the details, " + scientific(this->Size) +
-                                        ", is larger than the mesh, whose diagonal is " +
-                                        scientific(measures.diagonal()) +
-                                        ": little of its shape is left. Is it in the mesh's unit?");
+    this->Result->total.notes.push_back(sentence);
   }
 }
 

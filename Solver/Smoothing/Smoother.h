@@ -9,6 +9,7 @@
 #include "Solver/Smoothing/SmoothedValues.h"
 #include "Solver/Smoothing/SmoothingProblem.h"
 #include "Solver/Storage/VertexFile.h"
+#include "Solver/Stream/StreamCheck.h"
 #include "smg/Smooth.h"
 
 #include <cstdint>

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace smg
 {
@@ -97,6 +98,14 @@ std::string unweldedNote(CellType type, std::int64_t vertices, std::int64_t cell
          " with another: " + std::to_string(vertices) + " vertices of " + std::to_string(cells) +
          " cells. If points of equal coordinates are one point, merge them first, with --weld 0 "
          "(ConversionOptions::weld)";
+}
+
+void noteUnwelded(CellType type, std::int64_t vertices, std::int64_t cells, Report& report)
+{
+  if (std::string note = unweldedNote(type, vertices, cells); !note.empty())
+  {
+    report.notes.push_back(std::move(note));
+  }
 }
 
 } // namespace smg

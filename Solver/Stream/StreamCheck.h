@@ -3,9 +3,9 @@
 
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
+#include "smg/Report.h"
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -56,19 +56,26 @@ private:
  */
 SMG_EXPORT std::string unweldedNote(CellType type, std::int64_t vertices, std::int64_t cells);
 
-/** Calls `visit` with each block of the stream, or of a part of a mesh, which is checked before. */
-void forCheckedBlocks(MeshSource& mesh, auto visit)
+/** Adds that note to the report, if there is one. */
+SMG_EXPORT void noteUnwelded(
+  CellType type, std::int64_t vertices, std::int64_t cells, Report& report);
+
+/** Calls `visit` with each block of the stream, or of a part of a mesh, which is checked before.
+ * Returns the check of all blocks, whose finish() is left to the caller. */
+StreamCheck forCheckedBlocks(MeshSource& mesh, auto visit)
 {
-  std::optional<StreamCheck> check;
-  for (MeshBlock block; mesh.next(block);)
+  StreamCheck check(mesh.info().cellType);
+  MeshBlock block;
+  for (bool isFirst = true; mesh.next(block); isFirst = false)
   {
-    if (!check)
+    if (isFirst)
     {
-      check.emplace(mesh.info().cellType, block.firstCell);
+      check = StreamCheck(mesh.info().cellType, block.firstCell);
     }
-    check->add(block);
+    check.add(block);
     visit(std::as_const(block));
   }
+  return check;
 }
 
 } // namespace smg

@@ -274,6 +274,51 @@ def test_solids():
         assert not os.path.exists("new-" + name)
 
 
+def inverted(points, moved, cells):
+    """Of the cells whose volume changes its sign or vanishes, the volumes over those at rest."""
+    def volume(places, cell):
+        a, b, c = ([x - y for x, y in zip(places[k], places[cell[0]])] for k in cell[1:])
+        return (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
+                + a[2] * (b[0] * c[1] - b[1] * c[0]))
+    ratios = {i: volume(moved, cell) / volume(points, cell) for i, cell in enumerate(cells)}
+    return {i: ratio for i, ratio in ratios.items() if ratio <= 0}
+
+
+def test_inverted_cells():
+    """The report counts them in the precision of OUT, and names the worst by its number in IN."""
+    solid_file("solid.mesh")
+    points, cells = tetrahedra(6)
+    bottom = {"region": {"halfspace": [0, 0, -1, 0]}, "fixed": True}
+    top = {"halfspace": [0, 0, 1, 5]}
+    handles(bottom, {"region": top, "translate": [0, 0, 1]})
+    done = deform("solid.mesh", "moved.mesh", "--report", "report.json")
+    assert load("report.json")["inverted"] == {"cells": 0, "share": 0}
+    assert "inverts" not in done.stdout and done.stderr == ""
+    handles(bottom, {"region": top, "translate": [0, 0, -5.5]})
+    done = deform("solid.mesh", "moved.mesh", "--report", "report.json")
+    moved = read_mesh("moved.mesh")
+    expected = inverted(points, moved.points, cells)
+    worst = min(expected, key=expected.get)
+    report = load("report.json")
+    found = report["inverted"]
+    assert found["cells"] == len(expected) > 5
+    assert math.isclose(found["share"], len(expected) / len(cells))
+    assert math.isclose(found["worst"]["ratio"], expected[worst], rel_tol=1e-5)
+    assert math.isclose(expected[found["worst"]["cell"]], expected[worst], rel_tol=1e-5)
+    corners = [moved.points[k] for k in cells[found["worst"]["cell"]]]
+    assert math.dist(found["worst"]["place"], [sum(x) / 4 for x in zip(*corners)]) < 1e-5
+    note = [note for note in report["notes"] if "inverts" in note]
+    assert len(note) == 1 and note[0] in done.stdout
+    assert "%d of %d tetrahedra" % (len(expected), len(cells)) in note[0], note
+    assert "cell %d of the mesh's file" % found["worst"]["cell"] in note[0], note
+    assert "smg: warning: %d of %d cells" % (len(expected), len(cells)) in done.stderr, done.stderr
+    # The report does not depend on threads, the format of OUT or memory.
+    for out in ("moved.vsm", "moved.vtu"):
+        deform("solid.mesh", out, "--report", "again.json", "--threads", 1, "--quiet")
+        again = load("again.json")["inverted"]
+        assert again == found, again
+
+
 def test_normals():
     """No normals are stale: they are those of the deformed mesh, or removed."""
     surface_file("normals.ply", normal=True)
@@ -424,8 +469,8 @@ def test_preview_errors():
 
 for each in (test_rigid_motions, test_report_and_options, test_formats, test_order_of_files,
              test_every_format_keeps_its_order, test_orders_that_cannot_be_kept,
-             test_notes_on_the_order, test_solids, test_normals, test_bad_handles, test_notes_on_handles,
-             test_help, test_errors,
+             test_notes_on_the_order, test_solids, test_inverted_cells, test_normals, test_bad_handles,
+             test_notes_on_handles, test_help, test_errors,
              test_preview, test_preview_of_solids, test_preview_errors):
     each()
     print("passed", each.__name__)

@@ -4,13 +4,14 @@
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
 
 from mesh_files import read_mesh
-from program import SANITIZED, SMG, load, read_vtk_xml, run, write_medit, write_torus
+from program import PROGRESS, SANITIZED, SMG, load, read_vtk_xml, run, write_medit, write_torus
 from small_disk import SmallDisk, can_mount
 from tetrahedra import tetrahedra
 
@@ -27,7 +28,8 @@ def run_on(processes, *arguments, code=0):
     done = subprocess.run([MPIEXEC, "-n", str(processes), SMG, *map(str, arguments), "--no-sync"],
                           capture_output=True, text=True, timeout=2500)
     assert (done.returncode != 0) == (code != 0), (arguments, done.stdout, done.stderr)
-    lines = [line for line in done.stderr.splitlines() if line.startswith("smg: ")]
+    said = re.sub(PROGRESS, "", done.stderr).splitlines()
+    lines = [line for line in said if re.match("smg: (?!warning: )", line)]
     assert len(lines) == (1 if code else 0), done.stderr
     return lines[0] if code else done
 

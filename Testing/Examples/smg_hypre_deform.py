@@ -77,6 +77,9 @@ def check(name, suffix, index, processes, expected, figures):
     for key in ("vertices", "cells", "prescribed", "shared", "components", "free_components"):
         assert report[key] == figures[key], key
     assert report["notes"] == figures["notes"], (report["notes"], figures["notes"])
+    inverted, same = report["inverted"], figures["inverted"]
+    assert (inverted["cells"] > 0) == (name == "solid")
+    assert inverted.get("worst", {}).get("cell") == same.get("worst", {}).get("cell"), name
     parts = [read_vtk_xml(f"pieces/pieces_{p}{suffix}") for p in range(processes)]
     for arrays in ([read_vtk_xml("out" + suffix)], parts):
         assert_equal(by_number("Points", arrays), by_number("Points", [expected]), name)

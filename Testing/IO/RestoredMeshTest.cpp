@@ -192,13 +192,32 @@ TEST_F(RestoredMeshTest, PolygonsTooLargeForTheMemoryAreTriangles)
   mesh.cells = { { 1, 2, 3, 4 }, large, { 5, 6, 7, 8, 9 } };
   mesh.numbers = { 0, 1, 2 };
   std::vector<Corners> back = this->restored(mesh, ".off").cells;
-  EXPECT_TRUE(this->isNoted("1 polygons of more than"));
+  EXPECT_TRUE(this->isNoted("1 polygon of more than"));
   ASSERT_EQ(back.size(), large.size());
   EXPECT_EQ(back.front(), mesh.cells.front());
   EXPECT_EQ(back.back(), mesh.cells.back());
   std::ranges::sort(back.begin() + 1, back.end() - 1);
   const std::vector<Corners> triangles = cutAbove({ large }, 3);
   EXPECT_TRUE(std::equal(triangles.begin(), triangles.end(), back.begin() + 1));
+}
+
+TEST_F(RestoredMeshTest, ALargeStripIsNoPolygonForWhichMoreMemoryWouldHelp)
+{
+  MeshOfFile mesh;
+  constexpr std::int64_t Triangles = 100000;
+  mesh.points.resize(3 * (Triangles + 2));
+  for (std::int64_t i = 0; i < Triangles; ++i)
+  {
+    mesh.cells.push_back(i % 2 == 0 ? Corners{ i, i + 1, i + 2 } : Corners{ i + 1, i, i + 2 });
+  }
+  mesh.numbers.assign(mesh.cells.size(), 0);
+  std::vector<Corners> back = this->restored(mesh, ".off").cells;
+  std::ranges::sort(back);
+  std::ranges::sort(mesh.cells);
+  EXPECT_EQ(back, mesh.cells);
+  EXPECT_TRUE(this->isNoted("1 cell of the original file"));
+  EXPECT_FALSE(this->isNoted("polygon"));
+  EXPECT_FALSE(this->isNoted("memory"));
 }
 
 TEST_F(RestoredMeshTest, RefusesWhatIsNotTheWholeMesh)

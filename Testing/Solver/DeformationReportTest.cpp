@@ -156,6 +156,15 @@ TEST(DeformationReport, CountsHeldAndSharedVertices)
   }
 }
 
+TEST(DeformationReport, RaisesWeightsByDefaultWithoutANote)
+{
+  const StreamMesh mesh = toStream(tetBox(9, 9, 9, 0.2));
+  ArrayHandles handles = endHandles(mesh, {}, anyMotion());
+  const Report report = deformMesh(mesh, handles, byTolerance(1e-3)).report;
+  EXPECT_GT(report.clamped_weights, 0);
+  EXPECT_EQ(report.notes, std::vector<std::string>{});
+}
+
 TEST(DeformationReport, HasTheStepsInJson)
 {
   const StreamMesh mesh = toStream(torus(40, 20));

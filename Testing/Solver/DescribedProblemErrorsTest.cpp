@@ -158,9 +158,10 @@ TEST_F(DescribedErrors, PlacesThatSelectNothing)
 {
   EXPECT_SAYS(this->errorOfDirichlet(Region::Sphere{ { 50, 0, 0 }, 1 }),
     "dirichlet[1]: no vertex of the mesh is in this region");
-  EXPECT_SAYS(this->errorOfDirichlet(ColumnTag{ "mask", 2 }), "no vertex of the mesh has this tag");
+  EXPECT_SAYS(this->errorOfDirichlet(ColumnTag{ "mask", 2 }),
+    "no vertex of the mesh has this tag in 'mask': its values are 0 and 1");
   EXPECT_SAYS(this->errorOfDirichlet(ColumnTag{ "tag", 2 }),
-    "dirichlet[1]: no vertex of the mesh is of a cell that has this tag");
+    "dirichlet[1]: no vertex of the mesh is of a cell that has this tag in 'tag': its values are");
   EXPECT_SAYS(this->errorOfDirichlet(Region::Vertices{ { 3, 99 } }),
     "dirichlet[1].vertices: the mesh has no vertex with the original number 99");
   EXPECT_SAYS(

@@ -237,6 +237,8 @@ TEST(Problem, TheMaximumPrincipleHolds)
   ArrayProblem problem = heldEnds(mesh, 1, Weights::Clamped);
   const Solved solved = solveMesh(mesh, problem, accurate());
   EXPECT_GT(solved.report.clamped_weights, 0);
+  ASSERT_EQ(solved.report.notes.size(), 1U);
+  EXPECT_NE(solved.report.notes[0].find("not that of finite elements"), std::string::npos);
   EXPECT_LE(solved.values.maxCoeff(), 1.0 + 1e-8);
   EXPECT_GE(solved.values.minCoeff(), -1.0 - 1e-8);
 }

@@ -5,9 +5,11 @@
 #include "IO/Files/SinglePrecision.h"
 #include "IO/Formats/Vsm/AttributeNames.h"
 #include "IO/Formats/Vsm/Columns.h"
+#include "IO/Motion/InvertedCells.h"
 #include "IO/Motion/NormalSums.h"
 #include "smg/Deform.h"
 #include "smg/DescribedHandles.h"
+#include "smg/MovedMesh.h"
 
 #include <algorithm>
 #include <optional>
@@ -54,6 +56,26 @@ void addNormals(smg::Team& team, smg::DistributedSolver& solver, const smg::VsmR
   }
 }
 
+/** Adds the cells of all processes that the deformation inverts to the report of the first one. */
+void addInverted(smg::Team& team, const smg::MeshPart& part, const DistributedJob& job,
+  const std::vector<double>& positions, smg::Report& report)
+{
+  team.run(
+    [&]
+    {
+      smg::InvertedCells cells(part.info, job.scratch, smg::NormalsOptions().memory);
+      smg::MeshBlock moved = part.block;
+      moved.positions = positions;
+      cells.add(part.block.positions, moved);
+      const auto found = team.gather(std::vector<smg::Report::Inverted>{ cells.found() });
+      for (int process = 1; team.rank() == 0 && process < team.size(); ++process)
+      {
+        cells.join(found[static_cast<std::size_t>(process)]);
+      }
+      cells.finish(report);
+    });
+}
+
 } // namespace
 
 void deformOn(smg::Team& team, const DistributedJob& job, const DistributedDeformation& task)
@@ -80,6 +102,7 @@ void deformOn(smg::Team& team, const DistributedJob& job, const DistributedDefor
   {
     team.run([&] { roundPositions(on.part, result.positions); });
   }
+  addInverted(team, on.part, job, result.positions, solution.report);
   if (task.normals == smg::MovedNormals::Recompute && info.cellType == smg::CellType::Triangle)
   {
     addNormals(team, solver, *on.mesh, on.part, result);

@@ -47,7 +47,7 @@ smg::StreamInfo infoOfPart(const smg::StreamInfo& mesh)
 }
 
 void readPart(smg::VsmReader& mesh, std::vector<std::string> vertexColumns,
-  const std::vector<std::string>& cellColumns, smg::Team& team, smg::MeshPart& part)
+  std::vector<std::string> cellColumns, smg::Team& team, smg::MeshPart& part)
 {
   // Always with the numbers, which messages name.
   std::erase(vertexColumns, smg::OriginalIdName);
@@ -55,6 +55,11 @@ void readPart(smg::VsmReader& mesh, std::vector<std::string> vertexColumns,
   if (!addsIds)
   {
     vertexColumns.emplace_back(smg::OriginalIdName);
+  }
+  std::erase(cellColumns, smg::OriginalCellIdName);
+  if (smg::findColumn(mesh.info().cellColumns, smg::OriginalCellIdSpec) >= 0)
+  {
+    cellColumns.emplace_back(smg::OriginalCellIdName);
   }
   mesh.selectColumns(vertexColumns, cellColumns);
   smg::MeshPiece piece;

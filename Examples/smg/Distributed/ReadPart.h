@@ -21,4 +21,4 @@ inline std::int64_t firstCellOf(const smg::StreamInfo& mesh, int rank, int piece
 /** Reads the cells of this process, with the columns of these names; `part.info` is that of
  * infoOfPart(). Called on all processes, within Team::run(). Throws smg::Error. */
 void readPart(smg::VsmReader& mesh, std::vector<std::string> vertexColumns,
-  const std::vector<std::string>& cellColumns, smg::Team& team, smg::MeshPart& part);
+  std::vector<std::string> cellColumns, smg::Team& team, smg::MeshPart& part);

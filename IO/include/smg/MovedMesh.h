@@ -4,6 +4,7 @@
 #include "smg/Error.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
+#include "smg/Report.h"
 #include "smg/Solve.h"
 #include "smg/VsmReader.h"
 
@@ -23,7 +24,7 @@ enum class MovedNormals
   Drop ///< left out
 };
 
-/** How normals are computed. */
+/** How normals are computed and cells judged. */
 struct NormalsOptions
 {
   /** Folder for the scratch file; empty: the system's temporary folder. */
@@ -59,8 +60,11 @@ public:
   /**
    * The moved stream, from its first block. The bounds in its StreamInfo are not known (all 0).
    * Reading it throws Error as the constructor does. It must not outlive this.
+   * @param report of the deformation: when the stream has been read to its end, the cells that it
+   * inverts are added, with a note (Report::inverted); null: cells are not judged. Must outlive the
+   * stream.
    */
-  std::unique_ptr<MeshSource> source() const;
+  std::unique_ptr<MeshSource> source(Report* report = nullptr) const;
 
 private:
   struct Implementation;

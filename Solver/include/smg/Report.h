@@ -2,6 +2,7 @@
 #pragma once
 
 #include "smg/Export.h"
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -79,6 +80,23 @@ struct SMG_EXPORT Report
     double mesh_readings = 0;
     double maximum = 0; ///< of the distances that are finite
     double mean = 0;    ///< of the vertices whose distance is finite
+  };
+
+  /** The cells that a deformation inverts, in the precision of the deformed mesh: tetrahedra whose
+   * volume changes its sign or vanishes. A triangle in space has no sign: of a surface those that
+   * collapse, whose smallest stretch is at most 1e-3 of their largest (as singular values of the
+   * linear map). Cells without weight or flat at rest do not count. */
+  struct Inverted
+  {
+    std::int64_t cells = 0; ///< number of these
+    double share = 0;       ///< part of all cells, 0 to 1
+    /** The first cell with the smallest ratio, by its original number if that is known, else its
+     * index in the stream; -1: none. */
+    std::int64_t worst = -1;
+    /** Of this cell: its volume over that at rest, at most 0; of a triangle the smallest over the
+     * largest stretch. */
+    double ratio = 0;
+    std::array<double, 3> place{}; ///< its centre in the deformed mesh
   };
 
   /** What a solve on several processes took. */
@@ -181,6 +199,7 @@ struct SMG_EXPORT Report
    * nothing flows. */
   std::vector<double> balance;
   std::optional<Distance> distance; ///< of a distance; else none
+  std::optional<Inverted> inverted; ///< set when a deformed mesh is read: MovedMesh::source()
   /** Of a solve on several processes; else none. Then the other figures are of all processes, the
    * memory is that of the process that took most, and `cycles` counts iterations. */
   std::optional<Distributed> distributed;
