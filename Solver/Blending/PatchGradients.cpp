@@ -26,10 +26,11 @@ void PatchGradients::add(const MeshBlock& block, const PatchedValues& values)
   std::ranges::fill(this->Sums.append(block.vertices()), 0.0);
   this->Vertices += block.vertices();
   const auto corners = static_cast<std::size_t>(cornersOf(this->Type));
-  for (std::size_t c = 0; c < block.corners.size(); c += corners)
+  const Column* flags = block.flags(); // cells that have them have no weight
+  for (std::size_t c = 0; corners * c < block.corners.size(); ++c)
   {
-    const auto cell = std::span(block.corners).subspan(c, corners);
-    if (values.inOnePatch(cell))
+    const auto cell = std::span(block.corners).subspan(corners * c, corners);
+    if (values.inOnePatch(cell) && (!flags || flags->value(c) == 0))
     {
       this->addCell(cell, values);
     }

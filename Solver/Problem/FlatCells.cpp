@@ -11,7 +11,7 @@ namespace smg
 
 double flatnessFactor(CellType type, const double* const* corners, const CellWeights& cell)
 {
-  constexpr double Limit = 1e9;
+  constexpr double Limit = 1e5;
   double largest = 0.0;
   for (int e = 0; e < edgesOf(type); ++e)
   {

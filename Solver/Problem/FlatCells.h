@@ -23,12 +23,11 @@ inline bool hasRepeatedCorner(const std::int64_t* corners, int count)
 }
 
 /**
- * Weights that are not clamped cancel in the sums of a row, and large ones are kept in double
- * precision. If a cell is so flat that even their rounding would show beside the weights of other
- * cells, all of its weights are scaled down by the same factor, which keeps its stiffness positive
- * semidefinite. Returns the factor for a cell with these finite-element weights for K = 1, which
- * reduces them to at most 1e9 (tetrahedra: times the longest edge), with a rounding of 1e-7; 1 for
- * nearly all cells. It depends neither on the unit of
+ * Weights that are not clamped cancel in the sums of a row. If a cell is so flat that their
+ * rounding to single precision would be as large as the weights of other cells, all of its weights
+ * are scaled down by the same factor, which keeps its stiffness positive semidefinite. Returns the
+ * factor for a cell with these finite-element weights for K = 1, which reduces them to at most 1e5
+ * (tetrahedra: times the longest edge); 1 for nearly all cells. It depends neither on the unit of
  * length nor on that of a conductivity.
  */
 double flatnessFactor(CellType type, const double* const* corners, const CellWeights& cell);
