@@ -29,6 +29,10 @@ inline bool hasRepeatedCorner(const std::int64_t* corners, int count)
  * factor for a cell with these finite-element weights for K = 1, which reduces them to at most 1e5
  * (tetrahedra: times the longest edge); 1 for nearly all cells. It depends neither on the unit of
  * length nor on that of a conductivity.
+ *
+ * Large weights are kept in double precision, so that more would be exact for longer on chains of
+ * needles; but where cells lie flat on the edges of others, as in polygons with collinear corners,
+ * V-cycles grow: a surface of these took 13 with 1e5, 51 with 1e6, 170 with 1e7.
  */
 double flatnessFactor(CellType type, const double* const* corners, const CellWeights& cell);
 

@@ -307,7 +307,7 @@ TEST(ProblemResults, SayByHowMuchFlatCellsMayHaveChangedTheSolution)
     mesh.positions[3 * cell[0] + d] =
       0.5 * (mesh.positions[3 * cell[1] + d] + mesh.positions[3 * cell[2] + d]);
   }
-  mesh.positions[3 * cell[0] + 1] += 1e-10;
+  mesh.positions[3 * cell[0] + 1] += 1e-7;
   ElementProblem problem(mesh);
   problem.DirichletConditions.push_back(
     { below(0, 0.6), columnsOf(1, [](const Point&, int) { return 0.0; }) });
