@@ -16,6 +16,9 @@
 # The tests themselves are built for few seconds of compilation: without full optimization.
 # Stops at the first failing configuration, with the summary of ctest as its last lines.
 #
+#   run.sh random [--cases N] [--first SEED] [--job JOB] [--door DOOR] [--keep FOLDER]
+# runs N random cases of the main configuration instead: see Testing/Random/Check.h.
+#
 # Environment:
 #   SMG_TEST_DATA_DIR   the unpacked archive of test meshes; without it, tests that need it are skipped
 #   SMG_CONFIGURATIONS  the configurations to run; default: "main"
@@ -46,6 +49,10 @@ configure_build_test() {
 }
 
 smg_install "${smg_build_packages[@]}" "${smg_paraview_packages[@]}" "${smg_test_packages[@]}"
+if [ "${1:-}" = random ]; then
+  configure_build release
+  exec build/bin/vtk_random_problems "${@:2}"
+fi
 for configuration in ${SMG_CONFIGURATIONS:-main}; do
   case $configuration in
     main) configure_build_test release ;;

@@ -14,8 +14,9 @@ namespace smg::testing
 using nlohmann::json;
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CaseColumn, name, components, values, isInteger)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CaseRun, blockCells, threads, inCore, coreNodes, blockNodes,
-  sweeps, acceleration, cancelAt, door, order, isBinary)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE_WITH_DEFAULT(CaseRun, blockCells, threads, inCore, coreNodes,
+  blockNodes, sweeps, acceleration, cancelAt, isKilled, memory, door, order, unused, pieces,
+  relation)
 
 namespace
 {
@@ -74,13 +75,14 @@ std::vector<CaseColumn> chosen(
   return to;
 }
 
-void writeColumns(
-  std::ofstream& file, const char* owner, std::int64_t rows, const std::vector<CaseColumn>& columns)
+void writeColumns(std::ofstream& file, const char* owner, std::int64_t rows,
+  const std::vector<CaseColumn>& columns, int unused)
 {
   if (columns.empty() || rows == 0)
   {
     return;
   }
+  rows += unused;
   file << owner << ' ' << rows << "\nFIELD FieldData " << columns.size() << '\n';
   for (const CaseColumn& column : columns)
   {
@@ -89,6 +91,10 @@ void writeColumns(
     for (const double value : column.values)
     {
       file << value << '\n';
+    }
+    for (int k = 0; k < unused * column.components; ++k)
+    {
+      file << "1\n";
     }
   }
 }
@@ -165,11 +171,15 @@ void Case::writeVtk(const std::filesystem::path& path) const
   const int size = cornersOf(this->type);
   const bool isSurface = this->type == CellType::Triangle;
   file << "# vtk DataFile Version 3.0\nrandom\nASCII\nDATASET "
-       << (isSurface ? "POLYDATA" : "UNSTRUCTURED_GRID") << "\nPOINTS " << this->vertices()
-       << " double\n";
+       << (isSurface ? "POLYDATA" : "UNSTRUCTURED_GRID") << "\nPOINTS "
+       << this->vertices() + this->run.unused << " double\n";
   for (std::size_t k = 0; k < this->points.size(); ++k)
   {
     file << this->points[k] << (k % 3 == 2 ? '\n' : ' ');
+  }
+  for (int k = 0; k < this->run.unused; ++k)
+  {
+    file << this->points[0] << ' ' << k << " 0\n";
   }
   file << (isSurface ? "POLYGONS " : "CELLS ") << this->cells() << ' ' << this->cells() * (size + 1)
        << '\n';
@@ -190,8 +200,8 @@ void Case::writeVtk(const std::filesystem::path& path) const
       file << "10\n";
     }
   }
-  writeColumns(file, "POINT_DATA", this->vertices(), this->vertexColumns);
-  writeColumns(file, "CELL_DATA", this->cells(), this->cellColumns);
+  writeColumns(file, "POINT_DATA", this->vertices(), this->vertexColumns, this->run.unused);
+  writeColumns(file, "CELL_DATA", this->cells(), this->cellColumns, 0);
   if (!file.flush())
   {
     throw std::runtime_error("cannot write " + path.string());
@@ -204,8 +214,8 @@ void Case::save(const std::filesystem::path& path) const
     { "points", this->points }, { "corners", this->corners },
     { "vertexColumns", this->vertexColumns }, { "cellColumns", this->cellColumns } };
   std::ofstream file(path);
-  file << json{ { "seed", this->seed }, { "mesh", mesh }, { "problem", this->problem },
-    { "run", this->run } }
+  file << json{ { "seed", this->seed }, { "job", this->job }, { "mesh", mesh },
+    { "problem", this->problem }, { "run", this->run } }
             .dump()
        << '\n';
   if (!file.flush())
@@ -221,6 +231,7 @@ Case Case::load(const std::filesystem::path& path)
   const json& mesh = text.at("mesh");
   Case given;
   given.seed = text.at("seed");
+  given.job = text.value("job", "solve");
   given.type = mesh.at("type") == "triangles" ? CellType::Triangle : CellType::Tetrahedron;
   mesh.at("points").get_to(given.points);
   mesh.at("corners").get_to(given.corners);

@@ -5,8 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -22,7 +24,7 @@ struct CaseColumn
   bool isInteger = false; ///< stored as int32: a tag or a mask
 };
 
-/** How the problem of a case is solved; the result must not depend on most of it. */
+/** How a case is solved; the result must not depend on most of it. */
 struct CaseRun
 {
   std::int64_t blockCells = 1000; ///< cells of a block of the stream
@@ -30,20 +32,35 @@ struct CaseRun
   bool inCore = false;
   std::int64_t coreNodes = 50000, blockNodes = 4096;
   int sweeps = 2;
-  int acceleration = 0;     ///< an AccelerationKind
-  int cancelAt = 0;         ///< the call of the progress that ends a run with a checkpoint; 0: none
-  std::string door = "c++"; ///< or "file": converted, and solved from the .vsm with its results
+  int acceleration = 0;  ///< an AccelerationKind
+  int cancelAt = 0;      ///< the call of the progress that ends a run with a checkpoint; 0: none
+  bool isKilled = false; ///< it ends in a process of its own, which is killed
+  double memory = 0.0;   ///< the limit, as a share of what a run without one takes; 0: none
+  std::string door =
+    "c++"; ///< "file": converted, solved from the .vsm with results; "vtk": a filter
   std::string order = "keep"; ///< of a conversion
-  bool isBinary = true;       ///< the .vtk file of a conversion
+  int unused = 0;             ///< vertices of no cell at the end of the file
+  int pieces = 1;             ///< that the filter pulls
+  std::string relation;       ///< see Relations.h; empty: none
 };
 
 /**
- * A random problem: a mesh, numbered in stream order, the problem as the JSON of a problem file,
- * and a run. Kept in a JSON file, which repeats it.
+ * A random problem: a mesh, numbered in stream order, what is asked as JSON, and a run. Kept in a
+ * JSON file, which repeats it.
+ *
+ *     job         problem
+ *     solve       a problem file
+ *     deform      a handle file
+ *     smooth      { "size": in the unit of the mesh, "steps", "hold": [ WHERE ],
+ *                   "boundary": "smooth" | "fixed" | "free", "keepVolume": bool, "column": name }
+ *     distance    { "from": [ WHERE ], "wall": bool }
+ *     blend       { "patch": name, "columns": [ name ], "hold": [ WHERE ], "anchor",
+ *                   "seam": "zero" | "average" }
  */
 struct Case
 {
   std::uint64_t seed = 0;
+  std::string job = "solve";
   CellType type = CellType::Triangle;
   std::vector<double> points;        ///< x, y, z a vertex
   std::vector<std::int64_t> corners; ///< of the cells
@@ -77,7 +94,57 @@ struct Case
 /** A random mesh of at most about 1500 cells; its cells are in any order. */
 IndexedTestMesh randomMesh(Random& random);
 
-/** The case of a seed. */
+/** The case of a seed: a solve for most of them. */
 Case randomCase(std::uint64_t seed);
+
+/** What makes random problems on a mesh, and its columns. */
+class ProblemMaker
+{
+public:
+  ProblemMaker(Case& to, Random& random);
+
+  /** Names begin with v for vertices and c for cells. */
+  void addColumns();
+  nlohmann::json solve();
+  nlohmann::json deform();
+  nlohmann::json smooth();
+  nlohmann::json distance();
+  nlohmann::json blend();
+
+private:
+  double uniform(double low, double high) { return this->Numbers.uniform(low, high); }
+  bool chance(double probability) { return this->Numbers.uniform() < probability; }
+  double positive() { return std::pow(10, this->uniform(-this->Contrast, this->Contrast)); }
+  std::string oneOf(std::initializer_list<const char*> names)
+  {
+    return names.begin()[this->Numbers.below(static_cast<std::int64_t>(names.size()))];
+  }
+  const double* somePoint()
+  {
+    return &this->To.points[3 * static_cast<std::size_t>(this->Numbers.below(this->To.vertices()))];
+  }
+  /** A length of the mesh: between two of its points. */
+  double someLength();
+
+  void addColumn(bool ofCells, const char* name, int components, bool isInteger, auto make);
+  /** A place, as members of an object; empty: everywhere. */
+  nlohmann::json place(bool mayBeEverywhere);
+  nlohmann::json places();
+  nlohmann::json region();
+  nlohmann::json value(bool mayBeOfCells);
+  nlohmann::json coefficient(bool mayBeOfCells, bool mayBeZero);
+  /** A coefficient or a list of placed ones. */
+  nlohmann::json datum(auto makeValue);
+  nlohmann::json conductivity();
+  nlohmann::json placed(const char* key, const nlohmann::json& value);
+  nlohmann::json motion();
+  void addRobin(nlohmann::json& problem);
+  void addSoft(nlohmann::json& problem);
+
+  Case& To;
+  Random& Numbers;
+  int Columns;
+  double Contrast;
+};
 
 } // namespace smg::testing

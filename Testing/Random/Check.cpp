@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Random/Check.h"
 
-#include "Testing/Random/Oracle.h"
-#include "Testing/Support/MemorySource.h"
+#include "Testing/Random/Doors.h"
+#include "Testing/Random/Evaluation.h"
+#include "Testing/Random/Relations.h"
 #include "Testing/Support/SolveMesh.h"
-#include "Testing/Support/TemporaryFolder.h"
-#include "smg/Convert.h"
-#include "smg/DescribedProblem.h"
-#include "smg/DescriptionFiles.h"
-#include "smg/SolvedMesh.h"
-#include "smg/VsmReader.h"
+#include "smg/Error.h"
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 namespace smg::testing
@@ -23,97 +21,15 @@ namespace
 
 using Eigen::MatrixXd;
 
-/** Weights of the finest level are mostly of single precision, and those of very flat cells are
- * scaled down (flatnessFactor): solutions may differ a little in equations of bad condition, but
- * then their residual is small. Something forgotten or wrong is seen in both. */
-constexpr double MostError = 2e-6, MostResidual = 1e-5, MostResidualOfNeedles = 3e-2;
+/** Weights of the finest level are mostly of single precision: solutions may differ a little in
+ * equations of bad condition, but then their residual is small. Something forgotten or wrong is
+ * seen in both. */
+constexpr double MostError = 2e-6, MostResidual = 1e-5;
 
-/** The least quotient of measure and power of the longest edge: 0.43 or 0.12 of a regular cell. */
-double worstQuality(const Case& given, const Oracle& oracle)
+bool hasNote(const Report& report, const char* part)
 {
-  double worst = 1.0;
-  for (const Eigen::MatrixXd& gradients : oracle.gradients)
-  {
-    if (gradients.size() > 0)
-    {
-      // 1 / the height over the longest edge, up to a factor.
-      double longest = 0.0;
-      const auto cell = &gradients - oracle.gradients.data();
-      for (int i = 0; i < gradients.rows(); ++i)
-      {
-        for (int j = 0; j < i; ++j)
-        {
-          const auto point = [&](int k)
-          { return Eigen::Vector3d::Map(&given.points[3 * given.cell(cell)[k]]); };
-          longest = std::max(longest, (point(i) - point(j)).norm());
-        }
-      }
-      worst = std::min(worst, 1.0 / (longest * gradients.rowwise().norm().maxCoeff()));
-    }
-  }
-  return worst;
-}
-
-SolveOptions optionsOf(const CaseRun& run)
-{
-  SolveOptions options;
-  options.threads = run.threads;
-  options.inCore = run.inCore;
-  options.coreNodes = run.coreNodes;
-  options.blockNodes = run.blockNodes;
-  options.sweeps = run.sweeps;
-  options.acceleration = static_cast<AccelerationKind>(run.acceleration);
-  options.tolerance = 1e-11;
-  options.maxCycles = 400;
-  return options;
-}
-
-/** The run that all others must equal to the last bit. */
-CaseRun plain(const CaseRun& run)
-{
-  CaseRun in = run;
-  in.blockCells = INT64_MAX / 2;
-  in.threads = 1;
-  in.inCore = true;
-  in.cancelAt = 0;
-  in.door = "c++";
-  return in;
-}
-
-struct Result
-{
-  MatrixXd values; ///< vertices of the case x columns
-  bool hasConverged = true;
-};
-
-Result solveInMemory(const Case& given, const CaseRun& run)
-{
-  const ProblemDescription description = readProblemText(given.problem.dump(), "problem");
-  MemorySource source(given.stream(), run.blockCells);
-  DescribedProblem problem(description, source.info());
-  problem.prepare(source);
-  source.rewind(run.blockCells);
-  SolveOptions options = optionsOf(run);
-  const TemporaryFolder folder;
-  options.scratch = folder.path();
-  if (run.cancelAt > 0)
-  {
-    options.checkpoint = { folder / "checkpoint", "mesh", "problem" };
-    int calls = 0;
-    options.progress = [&](double) { return ++calls != run.cancelAt; };
-    try
-    {
-      const Solved solved = solveMesh(source, problem, options);
-      return { solved.values, solved.report.converged };
-    }
-    catch (const Cancelled&)
-    {
-      source.rewind(run.blockCells);
-      options.progress = {};
-    }
-  }
-  const Solved solved = solveMesh(source, problem, options);
-  return { solved.values, solved.report.converged };
+  return std::ranges::any_of(
+    report.notes, [part](const std::string& note) { return note.find(part) != std::string::npos; });
 }
 
 /** Whether the gradients and fluxes of the cells are those of the values. */
@@ -158,58 +74,133 @@ std::string checkGradients(
   return {};
 }
 
-/** By way of files, with results; `failure` is set if these are not those of the solution. */
-Result solveFile(const Case& given, const Oracle& oracle, std::string& failure)
+/** Solves in the way of the run; `failure` is set if there is more to say than of its values. */
+Result solveAsTold(const Case& given, const Oracle& oracle, CheckedCase& to)
 {
   const CaseRun& run = given.run;
-  const TemporaryFolder folder;
-  given.writeVtk(folder / "mesh.vtk");
-  ConversionOptions conversion;
-  conversion.order = run.order == "keep"   ? StreamOrder::Keep
-                     : run.order == "axis" ? StreamOrder::Axis
-                                           : StreamOrder::BreadthFirst;
-  conversion.threads = run.threads;
-  conversion.scratch = folder.path();
-  convert(folder / "mesh.vtk", folder / "mesh.vsm", conversion);
-  const VsmReader mesh(folder / "mesh.vsm");
-  const ProblemDescription description = readProblemText(given.problem.dump(), "problem");
-  DescribedProblem problem(description, mesh.info());
-  const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
-  problem.prepare(*source());
-  SolveOptions options = optionsOf(run);
-  options.scratch = folder.path();
-  const std::unique_ptr<Solution> solution = solve(*source(), problem, options);
-  ResultOptions results;
-  results.gradient = results.flux = true;
-  results.threads = run.threads;
-  SolvedMesh solved(mesh, problem, *solution, results);
-  const StreamMesh result = collect(solved);
-  Report report = solution->report();
-  solved.finish(report);
-  const auto columnOf = [&](const std::string& name) -> const Column&
+  if (run.door == "vtk" && solveByFilter)
   {
-    return *std::ranges::find_if(
-      result.vertexColumns, [&](const Column& column) { return column.spec.name == name; });
-  };
-  Result found{ MatrixXd::Zero(given.vertices(), solution->columns()), report.converged };
-  for (std::int64_t v = 0; v < result.vertices(); ++v)
-  {
-    for (int k = 0; k < solution->columns(); ++k)
-    {
-      found.values(static_cast<std::int64_t>(columnOf(OriginalIdName).value(v)), k) =
-        columnOf("Solution").value(v, k);
-    }
+    return solveByFilter(given);
   }
-  failure = checkGradients(given, oracle, found.values, result);
-  return found;
+  if (run.door == "file")
+  {
+    StreamMesh mesh;
+    Result found = solveFile(given, mesh);
+    to.failure = checkGradients(given, oracle, found.values, mesh);
+    return found;
+  }
+  if (run.memory == 0.0)
+  {
+    return solveInMemory(given, run);
+  }
+  const Result free = solveInMemory(given, run);
+  const auto limit =
+    static_cast<std::int64_t>(run.memory * static_cast<double>(free.report.pool_bytes_peak));
+  try
+  {
+    Result found = solveInMemory(given, run, std::max<std::int64_t>(limit, 1));
+    if (found.report.pool_bytes_peak > limit)
+    {
+      to.failure = "takes more memory than its limit";
+    }
+    return found;
+  }
+  catch (const Error& error)
+  {
+    to.isOutOfMemory = std::string(error.what()).find("memory") != std::string::npos;
+    if (!to.isOutOfMemory)
+    {
+      throw;
+    }
+    return free;
+  }
 }
 
-/** Compares with the oracle. */
-void compare(const Case& given, const Oracle& oracle, const MatrixXd& values, CheckedCase& to)
+/** The answer to the case by way of a related one. */
+void checkRelation(const Case& given, const Oracle& oracle, const Result& expected, CheckedCase& to)
 {
+  const std::optional<Related> by = related(given, given.run.relation);
+  if (!by)
+  {
+    return;
+  }
+  const Result other = solveInMemory(by->other, by->other.run);
+  const MatrixXd values = by->back(other.values);
+  if (by->isExact && !(values.array() == expected.values.array()).all()) // 0 is -0
+  {
+    to.failure = "does not have the bits of the problem that is " + given.run.relation;
+  }
+  else if (!by->isExact && given.problem.value("weights", "") != "clamped")
+  {
+    compare(given, oracle, values, other.report, to, by->size);
+    to.failure = to.failure.empty() ? "" : given.run.relation + ": " + to.failure;
+  }
+}
+
+void checkSolve(const Case& given, CheckedCase& to)
+{
+  const Oracle oracle(given);
+  const Result expected = solveInMemory(given, plain(given.run));
+  const Result found = solveAsTold(given, oracle, to);
+  // Acceleration may have had no room within the limit of memory.
+  const bool isOther = (given.run.door != "c++" && given.run.order != "keep") ||
+                       found.report.acceleration != expected.report.acceleration;
+  if (!to.failure.empty())
+  {
+    return;
+  }
+  if (!isOther && !sameBits(found.values, expected.values))
+  {
+    to.failure = "does not have the bits of the plain run";
+    return;
+  }
+  if (given.problem.value("weights", "") != "clamped")
+  {
+    compare(given, oracle, found.values, found.report, to);
+  }
+  if (to.failure.empty() && !given.run.relation.empty())
+  {
+    checkRelation(given, oracle, expected, to);
+  }
+}
+
+/** Why the oracle refuses the case; empty: it does not. */
+std::string refusalOf(const Case& given)
+{
+  if (given.job == "solve")
+  {
+    return Oracle(given).refusal;
+  }
+  bool isEmpty = false;
+  const Evaluation at(given);
+  for (const char* key : { "hold", "from" })
+  {
+    for (const nlohmann::json& place : given.problem.value(key, nlohmann::json::array()))
+    {
+      at.select(place, given.problem.value("wall", false) ? Of::Facets : Of::Vertices, isEmpty);
+    }
+  }
+  if (given.problem.value("wall", false) && at.walls(given.problem.at("from")).empty())
+  {
+    isEmpty = true;
+  }
+  for (const nlohmann::json& handle : given.problem.value("handles", nlohmann::json::array()))
+  {
+    at.select(handle.at("region"), Of::Vertices, isEmpty);
+  }
+  return isEmpty ? "a place is empty" : "";
+}
+
+} // namespace
+
+void compare(const Case& given, const Oracle& oracle, const MatrixXd& values, const Report& report,
+  CheckedCase& to, double size)
+{
+  to.hasConverged = report.converged;
+  to.isApproximate = hasNote(report, "so flat") || hasNote(report, "lost in rounding");
   const MatrixXd& a = oracle.matrix;
   // Loads that cancel leave their rounding.
-  const double scale = std::max({ oracle.solution.cwiseAbs().maxCoeff(),
+  const double scale = std::max({ size, oracle.solution.cwiseAbs().maxCoeff(),
     oracle.loads.maxCoeff() / a.diagonal().maxCoeff(), std::numeric_limits<double>::min() });
   double residual = 0.0;
   for (std::int64_t v = 0; v < given.vertices(); ++v)
@@ -226,16 +217,13 @@ void compare(const Case& given, const Oracle& oracle, const MatrixXd& values, Ch
         return;
       }
       to.error = std::max(to.error, std::abs(values(v, k) - oracle.solution(v, k)) / scale);
-      const double terms = a.row(v).cwiseAbs() * values.col(k).cwiseAbs();
+      const double terms = a.row(v).cwiseAbs() * (values.col(k).cwiseAbs().array() + size).matrix();
       const double rest = std::abs(a.row(v).dot(values.col(k)) - oracle.rightSide(v, k));
       residual = std::max(residual,
         rest / std::max(terms + oracle.loads(v, k) + std::abs(oracle.rightSide(v, k)), 1e-300));
     }
   }
-  // Equations of bad condition have other solutions within their rounding.
-  const double mostResidual =
-    worstQuality(given, oracle) < 1e-3 ? MostResidualOfNeedles : MostResidual;
-  if (to.hasConverged && to.error > MostError && residual > mostResidual)
+  if (to.hasConverged && !to.isApproximate && to.error > MostError && residual > MostResidual)
   {
     std::ostringstream text;
     text << "differs from the direct solution by " << to.error << ", residual " << residual;
@@ -243,39 +231,21 @@ void compare(const Case& given, const Oracle& oracle, const MatrixXd& values, Ch
   }
 }
 
-} // namespace
-
 CheckedCase check(const Case& given)
 {
+  static const std::map<std::string, void (*)(const Case&, CheckedCase&)> jobs{
+    { "solve", checkSolve }, { "deform", checkDeformation }, { "smooth", checkSmoothing },
+    { "distance", checkDistance }, { "blend", checkBlend }
+  };
   CheckedCase checked;
   std::string refusal;
   try
   {
-    const Oracle oracle(given);
-    refusal = oracle.refusal;
-    const Result expected = solveInMemory(given, plain(given.run));
-    if (!refusal.empty())
+    refusal = refusalOf(given);
+    jobs.at(given.job)(given, checked);
+    if (!refusal.empty() && checked.failure.empty())
     {
-      checked.failure = "is solved although " + refusal;
-      return checked;
-    }
-    checked.hasConverged = expected.hasConverged;
-    const bool isFile = given.run.door == "file";
-    std::string wrongResults;
-    const Result found =
-      isFile ? solveFile(given, oracle, wrongResults) : solveInMemory(given, given.run);
-    if ((!isFile || given.run.order == "keep") && !sameBits(found.values, expected.values))
-    {
-      checked.failure = "does not have the bits of the plain run";
-    }
-    else if (!wrongResults.empty())
-    {
-      checked.failure = wrongResults;
-    }
-    else if (given.problem.value("weights", "") != "clamped")
-    {
-      checked.hasConverged = found.hasConverged;
-      compare(given, oracle, found.values, checked);
+      checked.failure = "is done although " + refusal;
     }
   }
   catch (const Error& error)

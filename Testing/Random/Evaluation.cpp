@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -208,6 +209,24 @@ std::vector<int> Evaluation::last(const std::vector<json>& entries, Of of, bool&
     }
   }
   return result;
+}
+
+std::vector<std::size_t> Evaluation::walls(const json& places) const
+{
+  std::vector<bool> isWall(this->All.size(), places.empty());
+  for (const json& place : places)
+  {
+    bool isEmpty = false;
+    const std::vector<bool> selected = this->select(place, Of::Facets, isEmpty);
+    for (std::size_t f = 0; f < selected.size(); ++f)
+    {
+      isWall[f] = isWall[f] || selected[f];
+    }
+  }
+  std::vector<std::size_t> walls;
+  std::ranges::copy_if(
+    this->Boundary, std::back_inserter(walls), [&](std::size_t f) { return isWall[f]; });
+  return walls;
 }
 
 VectorXd Evaluation::atVertex(const json& value, std::int64_t v) const

@@ -73,6 +73,9 @@ public:
            (entry.contains("tag") && this->cellColumn(entry.at("tag")[0]));
   }
 
+  /** The boundary facets in any of these places; of no place, all of them. */
+  std::vector<std::size_t> walls(const nlohmann::json& places) const;
+
 private:
   std::vector<bool> verticesOf(const nlohmann::json& place) const;
   /** Whether a tag or mask holds in a row of its column. */

@@ -54,6 +54,7 @@ public:
     to.rightSide = to.loads = MatrixXd::Zero(given.vertices(), this->Columns);
     std::iota(this->Part.begin(), this->Part.end(), std::int64_t(0));
     this->addCells();
+    to.mass = this->Mass;
     this->addDensities();
     this->addSoft();
     this->addFacets();

@@ -22,6 +22,7 @@ struct Oracle
   /** Why the problem is refused: an entry selects nothing. Empty: it is not. */
   std::string refusal;
   Eigen::MatrixXd matrix;       ///< L + S, with a row of the identity at a Dirichlet vertex
+  Eigen::VectorXd mass;         ///< area or volume of the cells, lumped at the vertices
   Eigen::MatrixXd rightSide;    ///< vertices x columns
   Eigen::MatrixXd loads;        ///< the sums of the magnitudes of what adds up to rightSide
   Eigen::MatrixXd solution;     ///< vertices x columns

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Random meshes of a few hundred cells: closed and open, of several bodies, not manifold, with
-// needles and slivers, flat, repeated and inverted cells, in orders that are not coherent.
+// needles and slivers, flat, repeated and inverted cells, Delaunay tetrahedra, in orders that are
+// not coherent.
 #include "Testing/Random/Case.h"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -35,15 +39,87 @@ IndexedTestMesh surface(Random& random)
       return sphere(between(random, 0, 2));
     case 2:
       return sliverChains(
-        between(random, 4, 12), between(random, 7, 14), std::pow(10, random.uniform(-4, -1)));
+        between(random, 4, 12), between(random, 7, 14), std::pow(10, random.uniform(-8, -1)));
     default:
       return grid(between(random, 2, 14), between(random, 2, 14),
         chance(random, 0.4) ? 0.0 : random.uniform(0, 0.4), seed);
   }
 }
 
+/** The Delaunay tetrahedra of random points, by insertion (Bowyer 1981, Watson 1981): with slivers,
+ * and flat ones where points lie nearly in a plane. Rounding may let some overlap. */
+IndexedTestMesh delaunay(Random& random)
+{
+  using Eigen::Vector3d;
+  const int count = between(random, 8, 50);
+  const double layer = chance(random, 0.5) ? std::pow(10, random.uniform(-12, -4)) : 1.0;
+  std::vector<Vector3d> points{ { -50, -50, -50 }, { 150, -50, -50 }, { -50, 150, -50 },
+    { -50, -50, 150 } };
+  std::vector<std::array<std::int64_t, 4>> cells{ { 0, 1, 2, 3 } };
+  const auto isInSphere = [&](const std::array<std::int64_t, 4>& cell, const Vector3d& p)
+  {
+    Eigen::Matrix4d lifted;
+    Eigen::Matrix3d edges;
+    for (int k = 0; k < 4; ++k)
+    {
+      const Vector3d to = points[static_cast<std::size_t>(cell[static_cast<std::size_t>(k)])] - p;
+      lifted.row(k) << to.transpose(), to.squaredNorm();
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      edges.row(k) = (lifted.row(k + 1) - lifted.row(0)).head<3>();
+    }
+    return lifted.determinant() * edges.determinant() < 0.0;
+  };
+  for (int n = 0; n < count; ++n)
+  {
+    Vector3d p(random.uniform(0, 4), random.uniform(0, 4), random.uniform(0, 4));
+    p[2] = chance(random, 0.5) ? std::floor(p[2]) + layer * random.uniform() : p[2];
+    std::map<std::array<std::int64_t, 3>, int> faces; // of the cells whose spheres have the point
+    std::erase_if(cells,
+      [&](const std::array<std::int64_t, 4>& cell)
+      {
+        const bool isHit = isInSphere(cell, p);
+        for (std::size_t k = 0; isHit && k < 4; ++k)
+        {
+          std::array<std::int64_t, 3> face{ cell[(k + 1) % 4], cell[(k + 2) % 4],
+            cell[(k + 3) % 4] };
+          std::ranges::sort(face);
+          ++faces[face];
+        }
+        return isHit;
+      });
+    points.push_back(p);
+    for (const auto& [face, times] : faces)
+    {
+      if (times == 1)
+      {
+        cells.push_back({ face[0], face[1], face[2], std::ssize(points) - 1 });
+      }
+    }
+  }
+  IndexedTestMesh mesh;
+  mesh.cellType = CellType::Tetrahedron;
+  for (const Vector3d& p : points)
+  {
+    mesh.positions.insert(mesh.positions.end(), p.begin(), p.end());
+  }
+  for (const std::array<std::int64_t, 4>& cell : cells)
+  {
+    if (std::ranges::min(cell) >= 4)
+    {
+      mesh.corners.insert(mesh.corners.end(), cell.begin(), cell.end());
+    }
+  }
+  return mesh;
+}
+
 IndexedTestMesh solid(Random& random)
 {
+  if (chance(random, 0.25))
+  {
+    return delaunay(random);
+  }
   // Above about 0.2 cells are inverted and overlap: the equations are well defined all the same.
   const double jitter = chance(random, 0.3) ? 0.0 : random.uniform(0, 0.35);
   return tetBox(
@@ -114,7 +190,7 @@ void pinch(IndexedTestMesh& mesh, Random& random)
   const auto size = static_cast<std::int64_t>(cornersOf(mesh.cellType));
   const std::int64_t c = random.below(mesh.cells());
   const std::int64_t a = mesh.corners[c * size], b = mesh.corners[c * size + 1];
-  const double distance = std::pow(10, random.uniform(-3, -0.5));
+  const double distance = std::pow(10, random.uniform(-6, -0.5));
   for (std::int64_t k = 0; k < 3; ++k)
   {
     double& x = mesh.positions[3 * a + k];

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Random problems: each datum in each form, placed by each kind of place, with columns of the
-// vertices and of the cells, several right-hand sides, bodies without any condition; and random
-// runs.
+// vertices and of the cells, several right-hand sides, bodies without any condition.
 #include "Testing/Random/Case.h"
-#include "Testing/Random/Oracle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,56 +9,24 @@
 
 namespace smg::testing
 {
-namespace
-{
 
 using nlohmann::json;
 
-class ProblemMaker
+ProblemMaker::ProblemMaker(Case& to, Random& random)
+  : To(to)
+  , Numbers(random)
+  , Columns(1 + static_cast<int>(random.below(3)))
+  , Contrast(this->chance(0.3) ? 2.0 : 0.3)
 {
-public:
-  ProblemMaker(Case& to, Random& random)
-    : To(to)
-    , Numbers(random)
-    , Columns(1 + static_cast<int>(random.below(3)))
-    , Contrast(this->chance(0.3) ? 2.0 : 0.3)
-  {
-  }
+}
 
-  void addColumns();
-  json problem();
-
-private:
-  double uniform(double low, double high) { return this->Numbers.uniform(low, high); }
-  bool chance(double probability) { return this->Numbers.uniform() < probability; }
-  double positive() { return std::pow(10, this->uniform(-this->Contrast, this->Contrast)); }
-  std::string oneOf(std::initializer_list<const char*> names)
-  {
-    return names.begin()[this->Numbers.below(static_cast<std::int64_t>(names.size()))];
-  }
-  const double* somePoint()
-  {
-    return &this->To.points[3 * static_cast<std::size_t>(this->Numbers.below(this->To.vertices()))];
-  }
-
-  void addColumn(bool ofCells, const char* name, int components, bool isInteger, auto make);
-  /** A place, as members of an object; empty: everywhere. */
-  json place(bool mayBeEverywhere);
-  json region();
-  json value(bool mayBeOfCells);
-  json coefficient(bool mayBeOfCells, bool mayBeZero);
-  /** A coefficient or a list of placed ones. */
-  json datum(auto makeValue);
-  json conductivity();
-  json placed(const char* key, const json& value);
-  void addRobin(json& problem);
-  void addSoft(json& problem);
-
-  Case& To;
-  Random& Numbers;
-  int Columns;
-  double Contrast;
-};
+double ProblemMaker::someLength()
+{
+  const double* p = this->somePoint();
+  const double* q = this->somePoint();
+  const double length = std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+  return length > 0.0 ? length : this->someLength();
+}
 
 void ProblemMaker::addColumn(
   bool ofCells, const char* name, int components, bool isInteger, auto make)
@@ -74,7 +40,6 @@ void ProblemMaker::addColumn(
   (ofCells ? this->To.cellColumns : this->To.vertexColumns).push_back(column);
 }
 
-/** Names begin with v for vertices and c for cells. */
 void ProblemMaker::addColumns()
 {
   for (const bool ofCells : { false, true })
@@ -247,7 +212,7 @@ void ProblemMaker::addSoft(json& problem)
   }
 }
 
-json ProblemMaker::problem()
+json ProblemMaker::solve()
 {
   json problem{ { "columns", this->Columns } };
   const bool isUniform = this->chance(0.08);
@@ -303,56 +268,6 @@ json ProblemMaker::problem()
   }
   problem["outputs"] = { "gradient", "flux" };
   return problem;
-}
-
-CaseRun randomRun(Random& random)
-{
-  const auto oneOf = [&random](std::initializer_list<std::int64_t> numbers)
-  { return numbers.begin()[random.below(static_cast<std::int64_t>(numbers.size()))]; };
-  CaseRun run;
-  run.blockCells = oneOf({ 1, 1, 2, 3, 7, 40, 300, 1000000 });
-  run.threads = static_cast<int>(oneOf({ 1, 2, 3 }));
-  run.inCore = random.uniform() < 0.2;
-  run.coreNodes = oneOf({ 0, 5, 30, 50000 });
-  run.blockNodes = oneOf({ 1, 3, 16, 100, 4096 });
-  run.sweeps = static_cast<int>(oneOf({ 1, 2, 2, 3 }));
-  run.acceleration = static_cast<int>(random.below(4));
-  run.cancelAt =
-    !run.inCore && random.uniform() < 0.15 ? 1 + static_cast<int>(random.below(30)) : 0;
-  run.door = random.uniform() < 0.3 ? "file" : "c++";
-  const char* const orders[] = { "bfs", "keep", "axis" };
-  run.order = orders[random.below(3)];
-  return run;
-}
-
-} // namespace
-
-Case randomCase(std::uint64_t seed)
-{
-  Random random(seed * 2654435761U + 12345);
-  for (int k = 0; k < 3; ++k)
-  {
-    random.bits();
-  }
-  Case made;
-  made.seed = seed;
-  const IndexedTestMesh mesh = randomMesh(random);
-  // Numbered by first use, as in a stream; unused vertices are left out.
-  made.type = mesh.cellType;
-  made.points = mesh.positions;
-  made.corners = mesh.corners;
-  made = made.part(std::vector<std::uint8_t>(static_cast<std::size_t>(made.cells()), 1));
-  ProblemMaker maker(made, random);
-  maker.addColumns();
-  // Some problems select nothing: that is an error, which is tested enough by a few.
-  const double patience = random.uniform(0, 5);
-  int tries = 0;
-  do
-  {
-    made.problem = maker.problem();
-  } while (++tries < patience && !Oracle(made).refusal.empty());
-  made.run = randomRun(random);
-  return made;
 }
 
 } // namespace smg::testing
