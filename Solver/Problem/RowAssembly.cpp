@@ -171,6 +171,34 @@ void RowAssembly::addNeighbours(
     }
     target = target ? target + this->Columns : nullptr;
   }
+  this->sharpen(neighbours);
+}
+
+/** Keeps the weights of a row that nearly cancel in double precision, so that its small diagonal is
+ * that of the problem: the far corner of a needle has such a row. */
+void RowAssembly::sharpen(std::span<const RowNeighbour> neighbours)
+{
+  constexpr double Cancelling = 1e-2;
+  double diagonal = this->Alpha, terms = 0.0;
+  for (const double weight : this->weights())
+  {
+    diagonal += weight;
+    terms += std::fabs(weight);
+  }
+  if (this->Kind != Weights::Cotangent || diagonal >= Cancelling * terms)
+  {
+    return;
+  }
+  std::size_t e = 0;
+  for (const RowNeighbour& neighbour : neighbours)
+  {
+    const bool isUnknown = this->Vertices.dirichlet.at(neighbour.to)[0] < 0;
+    if (isUnknown)
+    {
+      this->Weight[e++] = neighbour.weight;
+    }
+  }
+  this->AnyPrecise = this->Size > 0;
 }
 
 /** Adds the weight of a prescribed neighbour to alpha and b. */

@@ -53,6 +53,7 @@ private:
   void addUnknown(
     std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target);
   void addTarget(double weight, const double* target);
+  void sharpen(std::span<const RowNeighbour> neighbours);
   double excess(std::int64_t i, const RowNeighbour& neighbour) const;
   void raise(std::int64_t i);
   double edgeWeights() const;
