@@ -162,7 +162,7 @@ void checkPaths(const Case& given, const Eigen::MatrixXd& distances, CheckedCase
   }
   const std::vector<std::int64_t> cells = passableCells(given);
   const std::vector<double> longest = dijkstra(given, cells, isSource);
-  // The front of one source is exact. Where those of several meet, a cell may be crossed by a front
+  // The front of one source is exact. Where those of several meet, cells may be crossed by a front
   // between the two, and between sources of a cell lies an edge or a face of sources.
   double slack = 0.0;
   const int size = cornersOf(given.type);
@@ -174,7 +174,7 @@ void checkPaths(const Case& given, const Eigen::MatrixXd& distances, CheckedCase
     {
       for (int j = 0; j < i; ++j)
       {
-        slack = std::max(slack, (pointOf(given, corner[i]) - pointOf(given, corner[j])).norm());
+        slack = std::max(slack, 2 * (pointOf(given, corner[i]) - pointOf(given, corner[j])).norm());
       }
     }
   }

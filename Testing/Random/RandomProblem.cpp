@@ -73,7 +73,8 @@ json ProblemMaker::region()
     {
       const double x = this->uniform(-1, 1), y = this->uniform(-1, 1), z = this->uniform(-1, 1);
       // Not through a vertex, where rounding would decide.
-      const double at = x * p[0] + y * p[1] + z * p[2] + 1e-3 * size * this->uniform(0.1, 1);
+      const double at =
+        x * p[0] + y * p[1] + z * p[2] + 1e-3 * this->someLength() * this->uniform(0.1, 1);
       return { { "halfspace", { x, y, z, at } } };
     }
     case 1:
