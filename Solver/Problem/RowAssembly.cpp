@@ -105,10 +105,10 @@ void RowAssembly::closeKnown(std::int64_t i)
 }
 
 /**
- * By how much a weight exceeds those of regular cells; 0: it does not. Then the rounding of a
- * weight to single precision does not affect the solution: that of the large weights of slivers is
- * of the size of the weights of other cells. It depends only on the edge, so that both of its rows
- * agree and the matrix stays symmetric.
+ * By how much a weight exceeds those of regular cells; 0: it does not, and its rounding to single
+ * precision does not affect the solution. That of the large weights of slivers, some of which
+ * cancel, is of the size of the weights of other cells. It depends only on the edge, so that both
+ * of its rows agree and the matrix stays symmetric.
  */
 inline double RowAssembly::excess(std::int64_t i, const RowNeighbour& neighbour) const
 {

@@ -28,11 +28,31 @@ bool chance(Random& random, double probability)
   return random.uniform() < probability;
 }
 
+/** A strip of obtuse triangles, each vertex nearly between its neighbours. */
+IndexedTestMesh strip(Random& random)
+{
+  const int last = between(random, 4, 40);
+  const double width = std::pow(10, random.uniform(-4, 0));
+  IndexedTestMesh mesh;
+  for (std::int64_t v = 0; v <= last; ++v)
+  {
+    mesh.positions.insert(
+      mesh.positions.end(), { static_cast<double>(v), v % 2 == 0 ? 0.0 : width, 0.0 });
+    if (v >= 2)
+    {
+      mesh.corners.insert(mesh.corners.end(), { v - 2, v - 1, v });
+    }
+  }
+  return mesh;
+}
+
 IndexedTestMesh surface(Random& random)
 {
   const std::uint64_t seed = random.bits();
-  switch (random.below(5))
+  switch (random.below(6))
   {
+    case 5:
+      return strip(random);
     case 0:
       return torus(between(random, 3, 12), between(random, 3, 9), random.uniform(0, 0.2), seed);
     case 1:
