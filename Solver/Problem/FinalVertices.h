@@ -22,6 +22,7 @@ public:
     double alpha;    ///< contribution to the diagonal
     double mass;
     std::int64_t reach; ///< the largest neighbour of this and all earlier vertices
+    float scale;        ///< see OpenVertices
     std::int32_t label; ///< of a component to count the vertex for, if it is an unknown; or -1
   };
 

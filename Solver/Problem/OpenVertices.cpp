@@ -18,6 +18,7 @@ OpenVertices::OpenVertices(Pool& pool, Problem& problem)
   , sources(pool, problem.columns())
   , screening(pool)
   , mass(pool)
+  , scale(pool)
   , Given(problem)
   , Kept(pool)
   , Columns(problem.columns())
@@ -37,6 +38,7 @@ void OpenVertices::add(const MeshBlock& block)
   this->sources.extendRaw(end);
   this->screening.extendRaw(end);
   this->mass.extend(end);
+  this->scale.extend(end);
   const VertexConditions& given = this->Conditions;
   std::copy(block.positions.begin(), block.positions.end(), this->points.at(begin));
   std::copy(given.value.begin(), given.value.end(), this->values.at(begin));
@@ -53,6 +55,7 @@ void OpenVertices::reserve(std::int64_t more)
   this->sources.reserveMore(more);
   this->screening.reserveMore(more);
   this->mass.reserveMore(more);
+  this->scale.reserveMore(more);
 }
 
 void OpenVertices::ask(const MeshBlock& block)
@@ -112,6 +115,7 @@ void OpenVertices::release(std::int64_t done, std::int64_t final)
   this->sources.release(final);
   this->screening.release(final);
   this->mass.release(final);
+  this->scale.release(final);
 }
 
 } // namespace smg

@@ -77,6 +77,7 @@ void RowAssembly::close(const FinalVertices& made, std::size_t k)
   std::copy_n(load, this->Columns, this->B.data());
   std::copy_n(load, this->Columns, this->Constraint.data());
   this->Alpha = vertex.alpha;
+  this->Scale = static_cast<double>(vertex.scale);
   this->addNeighbours(i, std::span(made.neighbours).subspan(begin, vertex.end - begin),
     made.targets.empty() ? nullptr : made.targets.data() + begin * this->Columns);
   this->raise(i);
@@ -105,42 +106,45 @@ void RowAssembly::closeKnown(std::int64_t i)
 }
 
 /**
- * By how much a weight exceeds those of regular cells; 0: it does not, and its rounding to single
- * precision does not affect the solution. That of the large weights of slivers, some of which
- * cancel, is of the size of the weights of other cells. It depends only on the edge, so that both
- * of its rows agree and the matrix stays symmetric.
+ * A bound of the weights of regular cells of the conductivity 1; the large weights of slivers, some
+ * of which cancel, exceed it. Their rounding to single precision would affect the solution, since
+ * it is of the size of the weights of other cells.
  */
-inline double RowAssembly::excess(std::int64_t i, const RowNeighbour& neighbour) const
+inline double RowAssembly::regularWeight(std::int64_t i, const RowNeighbour& neighbour) const
 {
+  return this->Type == CellType::Triangle
+           ? LargeOfTriangles
+           : LargeOfTetrahedra * std::sqrt(squaredDistance(this->Vertices.points.at(i),
+                                   this->Vertices.points.at(neighbour.to)));
+}
+
+/** Adds an edge to the sums of the row, and says whether it is that of a sliver. Whether it is
+ * depends only on the edge, so that both of its rows agree. */
+inline bool RowAssembly::addEdge(std::int64_t i, const RowNeighbour& neighbour, double weight)
+{
+  const double magnitude = std::fabs(weight);
+  this->Edges += magnitude;
   if (this->Kind != Weights::Cotangent)
   {
-    return 0.0;
+    this->Ordinary += magnitude;
+    return false;
   }
-  const double scale = this->Out.weightScale;
-  const double weight = std::fabs(neighbour.weight);
-  if (this->Type == CellType::Triangle)
-  {
-    return std::max(weight - LargeOfTriangles * scale, 0.0);
-  }
-  const double large = LargeOfTetrahedra * scale;
-  const double square =
-    squaredDistance(this->Vertices.points.at(i), this->Vertices.points.at(neighbour.to));
-  return weight * weight > large * large * square ? weight - large * std::sqrt(square) : 0.0;
+  const double regular = this->regularWeight(i, neighbour);
+  this->Ordinary += std::min(magnitude, regular * this->Scale);
+  return std::fabs(neighbour.weight) > regular * this->Out.weightScale;
 }
 
 /** Adds an entry for another neighbour. */
 inline void RowAssembly::addUnknown(
   std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target)
 {
-  const double excess = this->excess(i, neighbour);
-  const bool precise = excess > 0.0;
   const auto stored = static_cast<float>(neighbour.weight);
+  const bool precise = this->addEdge(i, neighbour, static_cast<double>(stored));
   const double weight = precise ? neighbour.weight : static_cast<double>(stored);
   this->Row[this->Size] = { delta, stored };
   this->Weight[static_cast<std::size_t>(this->Size++)] = weight;
   this->Least = std::min(this->Least, stored);
   this->AnyPrecise = this->AnyPrecise || precise;
-  this->Excess += excess;
   if (target)
   {
     this->addTarget(weight, target);
@@ -154,7 +158,7 @@ void RowAssembly::addNeighbours(
   this->Row = this->Out.rows.open(static_cast<std::int64_t>(neighbours.size()));
   this->Weight.resize(std::max(this->Weight.size(), neighbours.size()));
   this->Size = 0;
-  this->Known = this->Excess = 0.0;
+  this->Edges = this->Ordinary = 0.0;
   this->Least = 0.0F;
   this->AnyPrecise = false;
   const std::int32_t* dirichlet = this->Vertices.dirichlet.at(i);
@@ -175,7 +179,8 @@ void RowAssembly::addNeighbours(
 }
 
 /** Keeps the weights of a row that nearly cancel in double precision, so that its small diagonal is
- * that of the problem: the far corner of a needle has such a row. */
+ * that of the problem: the far corner of a needle has such a row. The rows of its neighbours may
+ * have these weights in single precision, which is enough for their diagonals. */
 void RowAssembly::sharpen(std::span<const RowNeighbour> neighbours)
 {
   constexpr double Cancelling = 1e-2;
@@ -208,8 +213,7 @@ void RowAssembly::addKnown(
   const double weight = knownWeight(this->Kind, neighbour);
   const double* value = this->Vertices.values.at(neighbour.to);
   this->Alpha += weight;
-  this->Known += std::fabs(weight);
-  this->Excess += this->excess(i, neighbour);
+  this->addEdge(i, neighbour, weight);
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
     const double term = weight * (value[k] + (target ? target[k] : 0.0));
@@ -253,27 +257,11 @@ void RowAssembly::raise(std::int64_t i)
   }
 }
 
-/** The sum of the magnitudes of the weights of the row's edges, including those to prescribed
- * vertices. */
-double RowAssembly::edgeWeights() const
-{
-  double weights = this->Known;
-  for (std::int64_t e = 0; e < this->Size; ++e)
-  {
-    weights += std::fabs(static_cast<double>(this->Row[e].weight()));
-  }
-  return weights;
-}
-
 /** Adds the row to the sums over all rows and over its component. */
 void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex)
 {
-  double share = 1.0;
-  if (vertex.alpha > 0.0 || this->Excess > 0.0)
-  {
-    const double edges = this->edgeWeights();
-    share = commonShare(vertex.alpha + this->Excess, edges - this->Excess);
-  }
+  const double own = vertex.alpha + (this->Edges - this->Ordinary);
+  const double share = own > 0.0 ? commonShare(own, this->Ordinary) : 1.0;
   const AssembledRow row{ i, this->Row, this->weights(),
     usableDiagonal(
       std::accumulate(this->Weight.begin(), this->Weight.begin() + this->Size, this->Alpha)) };

@@ -54,9 +54,9 @@ private:
     std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target);
   void addTarget(double weight, const double* target);
   void sharpen(std::span<const RowNeighbour> neighbours);
-  double excess(std::int64_t i, const RowNeighbour& neighbour) const;
+  double regularWeight(std::int64_t i, const RowNeighbour& neighbour) const;
+  bool addEdge(std::int64_t i, const RowNeighbour& neighbour, double weight);
   void raise(std::int64_t i);
-  double edgeWeights() const;
   void count(std::int64_t i, const FinalVertices::Vertex& vertex);
   std::span<const double> weights() const
   {
@@ -76,8 +76,8 @@ private:
   RowEntry* Row = nullptr;
   std::int64_t Size = 0;
   double Alpha = 0.0;
-  double Known = 0.0;  // magnitudes of the weights of edges to prescribed vertices
-  double Excess = 0.0; // of the magnitudes of all edges, beyond those of regular cells
+  double Scale = 0.0;                 // of the weights of its cells
+  double Edges = 0.0, Ordinary = 0.0; // magnitudes of weights, and what regular cells may have
   double Raise = 0.0;
   std::vector<double> Weight;     // of the first `Size` entries, rounded like these ...
   bool AnyPrecise = false;        // ... except for some, which the row needs in double precision

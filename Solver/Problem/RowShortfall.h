@@ -14,16 +14,13 @@ namespace smg
  * arithmetic the diagonal is positive, like that of every cell. If the sum is smaller than the
  * rounding of its terms, it carries no information on the problem, and a vertex with this amount
  * added to its diagonal stays near its initial value.
- * `terms` is the sum of the magnitudes of what the diagonal sums up, `rounded` that of the terms in
- * single precision.
+ * `terms` is the sum of the magnitudes of what the diagonal sums up.
  */
-inline double diagonalShortfall(double diagonal, double terms, double rounded = 0.0)
+inline double diagonalShortfall(double diagonal, double terms)
 {
   // Also for double precision: the data derived from the row have single precision.
   constexpr double Rounding = 1e-8;
-  // A tenth of a diagonal may be the rounding of weights, 3e-8 of each.
-  constexpr double SingleRounding = 3e-7;
-  const double least = std::max({ Rounding * terms, SingleRounding * rounded, double(FLT_MIN) });
+  const double least = std::max<double>(Rounding * terms, FLT_MIN);
   return std::max(0.0, least - diagonal);
 }
 
@@ -31,14 +28,13 @@ inline double diagonalShortfall(double diagonal, double terms, double rounded = 
 inline double rowShortfall(std::span<const double> weights, double alpha)
 {
   double terms = std::fabs(alpha);
-  double diagonal = alpha, rounded = 0.0;
+  double diagonal = alpha;
   for (const double weight : weights)
   {
     diagonal += weight;
     terms += std::fabs(weight);
-    rounded += static_cast<double>(static_cast<float>(weight)) == weight ? std::fabs(weight) : 0.0;
   }
-  return diagonalShortfall(diagonal, terms, rounded);
+  return diagonalShortfall(diagonal, terms);
 }
 
 } // namespace smg

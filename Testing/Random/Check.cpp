@@ -78,9 +78,9 @@ std::string checkGradients(
 Result solveAsTold(const Case& given, const Oracle& oracle, CheckedCase& to)
 {
   const CaseRun& run = given.run;
-  if (run.door == "vtk" && solveByFilter)
+  if (run.door == "vtk")
   {
-    return solveByFilter(given);
+    return solveFilter(given);
   }
   if (run.door == "file")
   {

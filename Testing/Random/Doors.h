@@ -52,8 +52,7 @@ std::filesystem::path convertedFile(const Case& given, const std::filesystem::pa
 /** Solves by way of files, with gradients and fluxes; `result` becomes the mesh with these. */
 Result solveFile(const Case& given, StreamMesh& result);
 
-/** Solves by way of a VTK filter, which pulls the mesh in pieces; null in a program without VTK.
- * Set while the program starts. */
-extern Result (*solveByFilter)(const Case& given);
+/** Solves by way of the VTK filter, which pulls the mesh in pieces; without VTK from memory. */
+Result solveFilter(const Case& given);
 
 } // namespace smg::testing

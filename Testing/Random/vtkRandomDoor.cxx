@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The door of VTK: a .vsm file is read in pieces, solved by the filter, and its result pulled in as
 // many pieces.
-#include "Testing/Random/Doors.h"
+#include "Testing/Random/FilterDoor.h"
 
 #include "Filters/vtkStreamingPoisson.h"
 #include "IO/vtkFailures.h"
 #include "IO/vtkStreamingMeshReader.h"
-#include "Testing/Support/TemporaryFolder.h"
 #include "smg/Error.h"
 
 #include "vtkCallbackCommand.h"
@@ -52,32 +51,30 @@ vtkPointSet* pieceOf(vtkAlgorithm* algorithm, int piece, int pieces)
   return isDone && !isFailed(output) ? vtkPointSet::SafeDownCast(output) : nullptr;
 }
 
-Result solvePieces(const Case& given)
+} // namespace
+
+FilterResult solveByFilter(const FilterRun& run)
 {
-  const TemporaryFolder folder;
   vtkNew<vtkStreamingMeshReader> reader;
-  reader->SetFileName(convertedFile(given, folder.path()).c_str());
+  reader->SetFileName(run.mesh.c_str());
   vtkNew<vtkStreamingPoisson> poisson;
   std::string errors;
   collectErrors(reader, errors);
   collectErrors(poisson, errors);
   poisson->SetInputConnection(reader->GetOutputPort());
-  // The filter refuses fluxes where a cell does not know its conductivity by itself.
-  nlohmann::json problem = given.problem;
-  problem.erase("outputs");
-  poisson->SetProblem(problem.dump().c_str());
-  poisson->SetNumberOfPieces(given.run.pieces);
-  poisson->SetNumberOfThreads(given.run.threads);
-  poisson->SetSweeps(given.run.sweeps);
-  poisson->SetAcceleration(given.run.acceleration);
-  poisson->SetInCore(given.run.inCore);
+  poisson->SetProblem(run.problem.c_str());
+  poisson->SetNumberOfPieces(run.pieces);
+  poisson->SetNumberOfThreads(run.threads);
+  poisson->SetSweeps(run.sweeps);
+  poisson->SetAcceleration(run.acceleration);
+  poisson->SetInCore(run.inCore);
   poisson->SetTolerance(1e-11);
   poisson->SetMaximumCycles(400);
-  poisson->SetScratchDirectory(folder.path().c_str());
-  Result found{ Eigen::MatrixXd::Zero(given.vertices(), given.problem.value("columns", 1)), {} };
-  for (int piece = 0; piece < given.run.pieces; ++piece)
+  poisson->SetScratchDirectory(run.scratch.c_str());
+  FilterResult found{ Eigen::MatrixXd::Zero(run.vertices, run.columns), {} };
+  for (int piece = 0; piece < run.pieces; ++piece)
   {
-    vtkPointSet* mesh = pieceOf(poisson, piece, given.run.pieces);
+    vtkPointSet* mesh = pieceOf(poisson, piece, run.pieces);
     if (!mesh)
     {
       throw Error(errors);
@@ -88,24 +85,18 @@ Result solvePieces(const Case& given)
     for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
     {
       const auto v = static_cast<std::int64_t>(ids->GetComponent(i, 0));
-      for (int k = 0; k < solution->GetNumberOfComponents() && v < given.vertices(); ++k)
+      for (int k = 0; k < run.columns && v < run.vertices; ++k)
       {
         found.values(v, k) = solution->GetComponent(i, k);
       }
     }
-    auto* report = vtkStringArray::SafeDownCast(mesh->GetFieldData()->GetAbstractArray("Report"));
-    if (report)
+    vtkAbstractArray* report = mesh->GetFieldData()->GetAbstractArray("Report");
+    if (auto* text = vtkStringArray::SafeDownCast(report))
     {
-      const auto json = nlohmann::json::parse(report->GetValue(0));
-      found.report.converged = json.at("converged");
-      found.report.acceleration = json.at("acceleration");
-      found.report.notes = json.at("notes").get<std::vector<std::string>>();
+      found.report = text->GetValue(0);
     }
   }
   return found;
 }
 
-const bool IsDoor = (solveByFilter = solvePieces) != nullptr;
-
-} // namespace
 } // namespace smg::testing
