@@ -42,7 +42,7 @@ SolveSummary solveInProcesses(vtkPointSet& piece, vtkMultiProcessController* con
       problem.emplace(description, info);
     });
   parts.requireSame("problem", text);
-  solver.prepare(*problem, task.options.scratch);
+  solver.prepare(*problem, task.options.scratch, task.options.memoryLimit);
   DistributedSolution solution = solver.solve(*problem, distributedOptions(task.options, progress));
   solver.evaluate(*problem, solution, { .memoryLimit = INT64_MAX });
   return parts.summarize(solution.report, task.notes, solution.values, solution.columns, values);

@@ -79,8 +79,7 @@ InvertedCells::InvertedCells(
   : Info(info)
   , Rounding(info.doublePositions ? std::numeric_limits<double>::epsilon()
                                   : std::numeric_limits<float>::epsilon())
-  , Scratch(scratch)
-  , Places(this->Scratch.path(), memory)
+  , Places(scratch, memory)
 {
 }
 

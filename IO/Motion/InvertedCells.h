@@ -3,7 +3,6 @@
 
 #include "IO/Formats/Vsm/PagedArray.h"
 #include "Solver/Problem/Vector.h"
-#include "Solver/Storage/ScratchFolder.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 #include "smg/Report.h"
@@ -52,7 +51,6 @@ private:
 
   StreamInfo Info;
   double Rounding; ///< of coordinates, relative
-  ScratchFolder Scratch;
   PagedArray<Place> Places; ///< by stream index
   std::int64_t Cells = 0;   ///< so far
   Report::Inverted Found;

@@ -251,6 +251,7 @@ void HandlesOnMesh::endPreparing(MeshParts* parts)
       handle.where->endPreparing(parts);
     }
   }
+  this->OfMesh.memory().setLimit(INT64_MAX); // that of a deformation counts from now on
 }
 
 std::vector<std::string> HandlesOnMesh::notes(MeshParts* parts) const

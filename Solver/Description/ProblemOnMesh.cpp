@@ -184,6 +184,7 @@ void ProblemOnMesh::endPreparing(MeshParts* parts)
   {
     datum->endPreparing(parts);
   }
+  this->OfMesh.memory().setLimit(INT64_MAX); // that of a solve counts from now on
 }
 
 ConditionCounts ProblemOnMesh::conditionCounts() const

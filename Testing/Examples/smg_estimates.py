@@ -115,6 +115,7 @@ def test_formats():
     for mesh, command, file, suffix, options in cases():
         out = "o." + suffix
         common = [command, file, out, *arguments_of(command, mesh), *options, "--report", "report.json"]
+        remove(out)
         run(*common, "--dry-run")
         assert not os.path.exists(out)
         said = load("report.json")

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,10 @@ struct Tally
 
   void print()
   {
+    if (this->errors.empty())
+    {
+      throw std::runtime_error("none of the cases is of this job and door");
+    }
     std::ranges::sort(this->errors);
     const auto at = [this](double share)
     { return this->errors[static_cast<std::size_t>(share * (this->errors.size() - 1))]; };
