@@ -5,6 +5,7 @@
 #include "IO/AnyFormat/MeshFile.h"
 #include "IO/Conversion/ConversionEstimate.h"
 #include "IO/Files/Suffix.h"
+#include "IO/Formats/MeshPart.h"
 #include "IO/Formats/Vsm/AttributeNames.h"
 #include "IO/Formats/Vsm/VsmFile.h"
 #include "IO/Restore/RestoreBytes.h"
@@ -177,6 +178,7 @@ EstimatedInput::EstimatedInput(const std::filesystem::path& in, const Conversion
   const MeshFileKind kind = kindOfInput(in);
   if (kind == MeshFileKind::Vsm)
   {
+    checkIsWhole({ options.timeStep, options.partition }, in.string());
     const VsmFile file(in, nullptr);
     this->counted = true;
     this->info = file.Info;

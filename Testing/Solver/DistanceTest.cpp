@@ -261,12 +261,17 @@ TEST(Distance, AlongAStripOfNearlyFlatTrianglesIsThatToItsNearerEnd)
   for (const bool edges : { false, true })
   {
     const std::int64_t end = edges ? 1 : 0; // sources are points or edges
-    const Solved solved = measure(mesh, fromVertices({ 0, end, Last - end, Last }));
-    for (std::int64_t v = 0; v <= Last; ++v)
+    // In one window and in several.
+    for (const std::int64_t chunk : { Last + 1, std::int64_t(4), std::int64_t(2) })
     {
-      const double expected =
-        static_cast<double>(std::max<std::int64_t>(0, std::min(v, Last - v) - end));
-      EXPECT_NEAR(solved.values(v, 0), expected, 1.1);
+      const Solved solved =
+        measureInChunks(mesh, fromVertices({ 0, end, Last - end, Last }), chunk);
+      for (std::int64_t v = 0; v <= Last; ++v)
+      {
+        const double expected =
+          static_cast<double>(std::max<std::int64_t>(0, std::min(v, Last - v) - end));
+        EXPECT_NEAR(solved.values(v, 0), expected, 1.1) << chunk;
+      }
     }
   }
 }
