@@ -179,8 +179,8 @@ void Assembly::collectVertex(std::int64_t i)
   }
   // The root depends on which later cells are in the block, the label does not.
   const bool counts = root >= 0 && this->Parts.isFree(root);
-  made.vertices.push_back(
-    { end, alpha, mass, this->Reach[i], open.scale[i], counts ? this->Cells.parts.label(i) : -1 });
+  made.vertices.push_back({ end, alpha, mass, this->Reach[i],
+    this->Cells.policy.own() ? open.scale[i] : 1.0F, counts ? this->Cells.parts.label(i) : -1 });
 }
 
 void Assembly::closeRows()

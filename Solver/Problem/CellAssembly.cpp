@@ -131,9 +131,12 @@ void CellAssembly::connect(const WeighedCell& cell)
   for (int k = 0; k < count; ++k)
   {
     this->vertices.mass[cell.corners[k]] += mass;
+    points[k] = this->vertices.points.at(cell.corners[k]);
+  }
+  for (int k = 0; this->policy.own() && k < count; ++k)
+  {
     float& scale = this->vertices.scale[cell.corners[k]];
     scale = std::max(scale, static_cast<float>(cell.scale));
-    points[k] = this->vertices.points.at(cell.corners[k]);
   }
   this->edges.add(cell.corners, points, cell.weights, cell.scale,
     [](std::int64_t, std::int64_t) { return true; });

@@ -33,7 +33,7 @@ struct OpenVertices
   Ring<double> sources;         ///< `columns` per vertex: density
   Ring<double> screening;       ///< density
   Ring<double> mass;            ///< lumped area or volume; initially zero
-  Ring<float> scale;            ///< the largest WeighedCell::scale of its cells; initially zero
+  Ring<float> scale; ///< the largest of its cells, if the problem has weights of its own; or zero
 
 private:
   void ask(const MeshBlock& block);

@@ -106,30 +106,28 @@ void RowAssembly::closeKnown(std::int64_t i)
 }
 
 /**
- * A bound of the weights of regular cells of the conductivity 1; the large weights of slivers, some
- * of which cancel, exceed it. Their rounding to single precision would affect the solution, since
- * it is of the size of the weights of other cells.
+ * Adds an edge to the sums of the row, and says whether it is that of a sliver: the large weights
+ * of these, some of which cancel, exceed a bound of those of regular cells. Their rounding to
+ * single precision would affect the solution, since it is of the size of the weights of other
+ * cells. Whether it is depends only on the edge, so that both of its rows agree.
  */
-inline double RowAssembly::regularWeight(std::int64_t i, const RowNeighbour& neighbour) const
-{
-  return this->Type == CellType::Triangle
-           ? LargeOfTriangles
-           : LargeOfTetrahedra * std::sqrt(squaredDistance(this->Vertices.points.at(i),
-                                   this->Vertices.points.at(neighbour.to)));
-}
-
-/** Adds an edge to the sums of the row, and says whether it is that of a sliver. Whether it is
- * depends only on the edge, so that both of its rows agree. */
 inline bool RowAssembly::addEdge(std::int64_t i, const RowNeighbour& neighbour, double weight)
 {
   const double magnitude = std::fabs(weight);
   this->Edges += magnitude;
-  if (this->Kind != Weights::Cotangent)
+  double bound = LargeOfTriangles * LargeOfTriangles; // of the square, for the conductivity 1
+  if (this->Type == CellType::Tetrahedron)
+  {
+    bound = LargeOfTetrahedra * LargeOfTetrahedra *
+            squaredDistance(this->Vertices.points.at(i), this->Vertices.points.at(neighbour.to));
+  }
+  const double least = std::min(this->Scale, this->Out.weightScale);
+  if (this->Kind != Weights::Cotangent || magnitude * magnitude <= bound * least * least)
   {
     this->Ordinary += magnitude;
     return false;
   }
-  const double regular = this->regularWeight(i, neighbour);
+  const double regular = std::sqrt(bound);
   this->Ordinary += std::min(magnitude, regular * this->Scale);
   return std::fabs(neighbour.weight) > regular * this->Out.weightScale;
 }

@@ -54,7 +54,6 @@ private:
     std::int64_t i, std::int32_t delta, const RowNeighbour& neighbour, const double* target);
   void addTarget(double weight, const double* target);
   void sharpen(std::span<const RowNeighbour> neighbours);
-  double regularWeight(std::int64_t i, const RowNeighbour& neighbour) const;
   bool addEdge(std::int64_t i, const RowNeighbour& neighbour, double weight);
   void raise(std::int64_t i);
   void count(std::int64_t i, const FinalVertices::Vertex& vertex);
