@@ -50,7 +50,7 @@ private:
   void judge(const Corners& corners, const MeshBlock& block, std::size_t cell);
 
   StreamInfo Info;
-  double Rounding; ///< of coordinates, relative
+  double Rounding;          ///< of coordinates, relative
   PagedArray<Place> Places; ///< by stream index
   std::int64_t Cells = 0;   ///< so far
   Report::Inverted Found;

@@ -174,7 +174,7 @@ Related linear(const Case& given)
 
 Related scaled(const Case& given)
 {
-  Related related{ explicitly(given), [](const Eigen::MatrixXd& x) { return x; }, true };
+  Related related{ explicitly(given), [](const Eigen::MatrixXd& x) { return x; } };
   const double s = std::exp2(static_cast<double>(given.seed % 21) - 10.0);
   Case& other = related.other;
   std::ranges::for_each(other.points, [s](double& x) { x *= s; });
