@@ -115,6 +115,11 @@ inline bool RowAssembly::addEdge(std::int64_t i, const RowNeighbour& neighbour, 
 {
   const double magnitude = std::fabs(weight);
   this->Edges += magnitude;
+  if (this->Kind != Weights::Cotangent)
+  {
+    this->Ordinary += magnitude;
+    return false;
+  }
   double bound = LargeOfTriangles * LargeOfTriangles; // of the square, for the conductivity 1
   if (this->Type == CellType::Tetrahedron)
   {
@@ -122,7 +127,7 @@ inline bool RowAssembly::addEdge(std::int64_t i, const RowNeighbour& neighbour, 
             squaredDistance(this->Vertices.points.at(i), this->Vertices.points.at(neighbour.to));
   }
   const double least = std::min(this->Scale, this->Out.weightScale);
-  if (this->Kind != Weights::Cotangent || magnitude * magnitude <= bound * least * least)
+  if (magnitude * magnitude <= bound * least * least)
   {
     this->Ordinary += magnitude;
     return false;
@@ -181,6 +186,10 @@ void RowAssembly::addNeighbours(
  * have these weights in single precision, which is enough for their diagonals. */
 void RowAssembly::sharpen(std::span<const RowNeighbour> neighbours)
 {
+  if (this->Kind != Weights::Cotangent)
+  {
+    return;
+  }
   constexpr double Cancelling = 1e-2;
   double diagonal = this->Alpha, terms = 0.0;
   for (const double weight : this->weights())
@@ -188,15 +197,14 @@ void RowAssembly::sharpen(std::span<const RowNeighbour> neighbours)
     diagonal += weight;
     terms += std::fabs(weight);
   }
-  if (this->Kind != Weights::Cotangent || diagonal >= Cancelling * terms)
+  if (diagonal >= Cancelling * terms)
   {
     return;
   }
   std::size_t e = 0;
   for (const RowNeighbour& neighbour : neighbours)
   {
-    const bool isUnknown = this->Vertices.dirichlet.at(neighbour.to)[0] < 0;
-    if (isUnknown)
+    if (this->Vertices.dirichlet[neighbour.to] < 0)
     {
       this->Weight[e++] = neighbour.weight;
     }
@@ -258,8 +266,7 @@ void RowAssembly::raise(std::int64_t i)
 /** Adds the row to the sums over all rows and over its component. */
 void RowAssembly::count(std::int64_t i, const FinalVertices::Vertex& vertex)
 {
-  const double own = vertex.alpha + (this->Edges - this->Ordinary);
-  const double share = own > 0.0 ? commonShare(own, this->Ordinary) : 1.0;
+  const double share = commonShare(vertex.alpha + (this->Edges - this->Ordinary), this->Ordinary);
   const AssembledRow row{ i, this->Row, this->weights(),
     usableDiagonal(
       std::accumulate(this->Weight.begin(), this->Weight.begin() + this->Size, this->Alpha)) };
