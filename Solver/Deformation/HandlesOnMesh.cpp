@@ -229,7 +229,8 @@ void HandlesOnMesh::preparePart(
   MeshSource& part, const std::filesystem::path& scratch, std::int64_t memoryLimit)
 {
   this->OfMesh.memory().setLimit(memoryLimit);
-  forCheckedBlocks(part,
+  forCheckedBlocks(
+    part,
     [&](const MeshBlock& block)
     {
       for (Handle& handle : this->All)
@@ -239,7 +240,8 @@ void HandlesOnMesh::preparePart(
           handle.where->prepare(block, scratch);
         }
       }
-    });
+    },
+    true);
 }
 
 void HandlesOnMesh::endPreparing(MeshParts* parts)

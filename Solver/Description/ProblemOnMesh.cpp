@@ -167,14 +167,16 @@ void ProblemOnMesh::preparePart(
     std::ranges::any_of(data, [](const DatumOnMesh* datum) { return datum->selects(); });
   if (selects)
   {
-    forCheckedBlocks(mesh,
+    forCheckedBlocks(
+      mesh,
       [&](const MeshBlock& block)
       {
         for (DatumOnMesh* datum : data)
         {
           datum->prepare(block, scratch);
         }
-      });
+      },
+      true);
   }
 }
 

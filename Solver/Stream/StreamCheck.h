@@ -60,15 +60,16 @@ SMG_EXPORT std::string unweldedNote(CellType type, std::int64_t vertices, std::i
 SMG_EXPORT void noteUnwelded(
   CellType type, std::int64_t vertices, std::int64_t cells, Report& report);
 
-/** Calls `visit` with each block of the stream, or of a part of a mesh, which is checked before.
- * Returns the check of all blocks, whose finish() is left to the caller. */
-StreamCheck forCheckedBlocks(MeshSource& mesh, auto visit)
+/** Calls `visit` with each block of the stream, which is checked before. `isPart`: of a part of a
+ * mesh, which may begin with any cell. Returns the check of all blocks, whose finish() is left to
+ * the caller. */
+StreamCheck forCheckedBlocks(MeshSource& mesh, auto visit, bool isPart = false)
 {
   StreamCheck check(mesh.info().cellType);
   MeshBlock block;
   for (bool isFirst = true; mesh.next(block); isFirst = false)
   {
-    if (isFirst)
+    if (isFirst && isPart)
     {
       check = StreamCheck(mesh.info().cellType, block.firstCell);
     }

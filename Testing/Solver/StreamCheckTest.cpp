@@ -59,6 +59,26 @@ TEST(StreamCheck, NamesWhatIsWrong)
   }
 }
 
+TEST(StreamCheck, OnlyAPartBeginsWithAnyCell)
+{
+  class Later : public MemorySource
+  {
+  public:
+    using MemorySource::MemorySource;
+    bool next(MeshBlock& block) override
+    {
+      const bool isMore = MemorySource::next(block);
+      block.firstCell += 5;
+      return isMore;
+    }
+  };
+  const StreamMesh mesh = toStream(grid(4, 4));
+  const auto visit = [](const MeshBlock&) {};
+  Later whole(mesh), part(mesh);
+  EXPECT_THROW(forCheckedBlocks(whole, visit), Error);
+  EXPECT_EQ(forCheckedBlocks(part, visit, true).cells(), mesh.cells() + 5);
+}
+
 TEST(StreamCheck, NoticesAStreamThatEndsEarly)
 {
   StreamCheck check(CellType::Triangle);
