@@ -2,27 +2,21 @@
 #pragma once
 
 #include "IO/Formats/Vsm/VsmWriter.h"
-#include "IO/vtkFailures.h"
+#include "Testing/IO/vtkPieceRequest.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TestMeshes.h"
 
 #include "vtkAlgorithm.h"
-#include "vtkCallbackCommand.h"
 #include "vtkCell.h"
 #include "vtkCellData.h"
-#include "vtkCommand.h"
 #include "vtkDataArray.h"
-#include "vtkExecutive.h"
 #include "vtkIdTypeArray.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPassInputTypeAlgorithm.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <gtest/gtest.h>
@@ -74,47 +68,6 @@ inline StreamMesh writeVsm(const std::filesystem::path& path, const IndexedTestM
   addColumns(stream);
   writeMesh(path, stream);
   return stream;
-}
-
-/** Collects the errors of an algorithm and of its executive instead of printing them. */
-class Errors
-{
-public:
-  explicit Errors(vtkAlgorithm* algorithm) { this->watch(algorithm); }
-
-  void watch(vtkAlgorithm* algorithm)
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback([](vtkObject*, unsigned long, void* self, void* text)
-      { static_cast<Errors*>(self)->Text += static_cast<const char*>(text); });
-    algorithm->AddObserver(vtkCommand::ErrorEvent, this->Command);
-    algorithm->AddObserver(vtkCommand::WarningEvent, this->Command);
-    algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, this->Command);
-  }
-
-  bool contain(const std::string& words) const
-  {
-    return this->Text.find(words) != std::string::npos;
-  }
-  const std::string& text() const { return this->Text; }
-  void clear() { this->Text.clear(); }
-
-private:
-  vtkNew<vtkCallbackCommand> Command;
-  std::string Text;
-};
-
-/** Requests a piece; returns 0 if it could not be made. */
-inline int updatePiece(vtkAlgorithm* algorithm, int piece, int pieces)
-{
-  auto* executive = vtkStreamingDemandDrivenPipeline::SafeDownCast(algorithm->GetExecutive());
-  vtkNew<vtkInformation> request;
-  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), piece);
-  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), pieces);
-  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  vtkNew<vtkInformationVector> requests;
-  requests->Append(request);
-  return executive->Update(0, requests) && !isFailed(algorithm->GetOutputDataObject(0));
 }
 
 /** The union of pieces: points that are not ghosts by GlobalId, and cells by their ids. */

@@ -4,63 +4,27 @@
 #include "Testing/Random/FilterDoor.h"
 
 #include "Filters/vtkStreamingPoisson.h"
-#include "IO/vtkFailures.h"
 #include "IO/vtkStreamingMeshReader.h"
+#include "Testing/IO/vtkPieceRequest.h"
 #include "smg/Error.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkCommand.h"
 #include "vtkDataArray.h"
-#include "vtkExecutive.h"
 #include "vtkFieldData.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStringArray.h"
 
 namespace smg::testing
 {
-namespace
-{
-
-/** Collects the errors of an algorithm. */
-void collectErrors(vtkAlgorithm* algorithm, std::string& to)
-{
-  vtkNew<vtkCallbackCommand> command;
-  command->SetClientData(&to);
-  command->SetCallback([](vtkObject*, unsigned long, void* text, void* data)
-    { *static_cast<std::string*>(text) += static_cast<const char*>(data); });
-  algorithm->AddObserver(vtkCommand::ErrorEvent, command);
-  algorithm->GetExecutive()->AddObserver(vtkCommand::ErrorEvent, command);
-}
-
-vtkPointSet* pieceOf(vtkAlgorithm* algorithm, int piece, int pieces)
-{
-  vtkNew<vtkInformation> request;
-  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), piece);
-  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), pieces);
-  request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  vtkNew<vtkInformationVector> requests;
-  requests->Append(request);
-  auto* executive = vtkStreamingDemandDrivenPipeline::SafeDownCast(algorithm->GetExecutive());
-  const bool isDone = executive->Update(0, requests) != 0;
-  vtkDataObject* output = algorithm->GetOutputDataObject(0);
-  return isDone && !isFailed(output) ? vtkPointSet::SafeDownCast(output) : nullptr;
-}
-
-} // namespace
 
 FilterResult solveByFilter(const FilterRun& run)
 {
   vtkNew<vtkStreamingMeshReader> reader;
   reader->SetFileName(run.mesh.c_str());
   vtkNew<vtkStreamingPoisson> poisson;
-  std::string errors;
-  collectErrors(reader, errors);
-  collectErrors(poisson, errors);
+  Errors errors(reader);
+  errors.watch(poisson);
   poisson->SetInputConnection(reader->GetOutputPort());
   poisson->SetProblem(run.problem.c_str());
   poisson->SetNumberOfPieces(run.pieces);
@@ -74,11 +38,11 @@ FilterResult solveByFilter(const FilterRun& run)
   FilterResult found{ Eigen::MatrixXd::Zero(run.vertices, run.columns), {} };
   for (int piece = 0; piece < run.pieces; ++piece)
   {
-    vtkPointSet* mesh = pieceOf(poisson, piece, run.pieces);
-    if (!mesh)
+    if (!updatePiece(poisson, piece, run.pieces))
     {
-      throw Error(errors);
+      throw Error(errors.text());
     }
+    auto* mesh = vtkPointSet::SafeDownCast(poisson->GetOutputDataObject(0));
     vtkDataArray* solution = mesh->GetPointData()->GetArray("Solution");
     vtkDataArray* ids = mesh->GetPointData()->GetArray("OriginalId");
     ids = ids ? ids : mesh->GetPointData()->GetGlobalIds();
