@@ -47,7 +47,7 @@ std::string checkGradients(
   for (std::int64_t c = 0; c < result.cells(); ++c)
   {
     const auto original = static_cast<std::int64_t>(ids.value(c));
-    const MatrixXd& shape = oracle.gradients[static_cast<std::size_t>(original)];
+    const MatrixXd& shape = oracle.shapes.gradients[static_cast<std::size_t>(original)];
     for (int column = 0; shape.size() > 0 && column < values.cols(); ++column)
     {
       Eigen::Vector3d expected = Eigen::Vector3d::Zero(), found, flux;

@@ -148,14 +148,7 @@ bool isWellShaped(const Case& given)
 {
   const int size = cornersOf(given.type);
   const MatrixXd points = rowsOf(given.points, 3);
-  const Oracle shapes(
-    [&]
-    {
-      Case bare = given;
-      bare.job = "solve";
-      bare.problem = { { "columns", 1 }, { "source", { 0.0 } } };
-      return bare;
-    }());
+  const Shapes shapes(given);
   for (std::int64_t c = 0; c < given.cells(); ++c)
   {
     const MatrixXd& gradients = shapes.gradients[static_cast<std::size_t>(c)];

@@ -180,7 +180,7 @@ std::vector<std::optional<double>> patchesOf(const Case& given)
 
 /** The gradients that a blend aims at: of each cell, three numbers a component. */
 std::vector<double> gradientsAimedAt(
-  const Case& given, const Oracle& shapes, const MatrixXd& values)
+  const Case& given, const Shapes& shapes, const MatrixXd& values)
 {
   const std::vector<std::optional<double>> patches = patchesOf(given);
   const int size = cornersOf(given.type);
@@ -203,7 +203,6 @@ std::vector<double> gradientsAimedAt(
     }
     return gradient;
   };
-  const MatrixXd points = rowsOf(given.points, 3);
   std::vector<std::pair<double, MatrixXd>> around(
     static_cast<std::size_t>(given.vertices()), { 0.0, MatrixXd::Zero(3, components) });
   for (std::int64_t c = 0; c < given.cells(); ++c)
@@ -212,10 +211,7 @@ std::vector<double> gradientsAimedAt(
     {
       continue;
     }
-    const auto edge = [&](int k) -> Vector3d
-    { return points.row(given.cell(c)[k]) - points.row(given.cell(c)[0]); };
-    const double measure =
-      size == 3 ? edge(1).cross(edge(2)).norm() : std::abs(edge(1).cross(edge(2)).dot(edge(3)));
+    const double measure = shapes.measure[c];
     for (int k = 0; k < size; ++k)
     {
       auto& [sum, gradients] = around[static_cast<std::size_t>(given.cell(c)[k])];
@@ -287,7 +283,7 @@ void checkBlend(const Case& given, CheckedCase& to)
     { "#source", column.components, listOf(screening * values), false });
   solve.problem["source"] = "#source";
   solve.cellColumns.push_back(
-    { "#aim", 3 * column.components, gradientsAimedAt(given, Oracle(solve), values), false });
+    { "#aim", 3 * column.components, gradientsAimedAt(given, Shapes(given), values), false });
   solve.problem["field"] = "#aim";
   compare(solve, Oracle(solve), found.values, found.report, to);
 }

@@ -90,7 +90,7 @@ private:
   Oracle& To;
   Evaluation At;
   int Columns;
-  VectorXd Mass, Reaction, Measure;
+  VectorXd Mass, Reaction;
   std::vector<std::int64_t> Part; ///< connected by cells: the parents of a forest
   bool Empty = false;
 };
@@ -104,8 +104,6 @@ void Equations::addCells()
   const std::vector<int> entry = this->At.last(conductivity, Of::Cells, this->Empty);
   const CaseColumn* field =
     this->isGiven("field") ? find(this->On.cellColumns, this->On.problem.at("field")) : nullptr;
-  this->Measure = VectorXd::Zero(this->On.cells());
-  this->To.gradients.resize(static_cast<std::size_t>(this->On.cells()));
   this->To.conductivity.resize(static_cast<std::size_t>(this->On.cells()));
   for (std::int64_t c = 0; c < this->On.cells(); ++c)
   {
@@ -115,25 +113,16 @@ void Equations::addCells()
       continue;
     }
     const std::int64_t* corner = this->On.cell(c);
-    MatrixXd jacobian(3, size - 1);
     for (int k = 1; k < size; ++k)
     {
-      jacobian.col(k - 1) = this->At.point(corner[k]) - this->At.point(corner[0]);
       this->Part[static_cast<std::size_t>(this->partOf(corner[k]))] = this->partOf(corner[0]);
     }
-    const MatrixXd gradientsOfAll = jacobian.completeOrthogonalDecomposition().pseudoInverse();
-    MatrixXd gradients(size, 3);
-    gradients.bottomRows(size - 1) = gradientsOfAll;
-    gradients.row(0) = -gradientsOfAll.colwise().sum();
-    const double measure = size == 3
-                             ? jacobian.col(0).head<3>().cross(jacobian.col(1).head<3>()).norm() / 2
-                             : std::abs(jacobian.determinant()) / 6;
+    const MatrixXd& gradients = this->To.shapes.gradients[index];
+    const double measure = this->To.shapes.measure[c];
     const Matrix3d k = !conductivity.empty() && entry[index] >= 0
                          ? tensorOf(this->At.inCell(
                              conductivity[static_cast<std::size_t>(entry[index])].at("value"), c))
                          : Matrix3d::Identity();
-    this->Measure[c] = measure;
-    this->To.gradients[index] = gradients;
     this->To.conductivity[index] = k;
     const MatrixXd element = measure * gradients * k * gradients.transpose();
     for (int i = 0; i < size; ++i)
@@ -222,7 +211,8 @@ void Equations::addDensities()
       }
       for (int i = 0; i < size; ++i)
       {
-        add(this->On.cell(number)[i], this->Measure[number] / size, this->At.inCell(value, number));
+        add(this->On.cell(number)[i], this->To.shapes.measure[number] / size,
+          this->At.inCell(value, number));
       }
     }
   }
@@ -427,7 +417,39 @@ void Equations::solve()
 
 } // namespace
 
+Shapes::Shapes(const Case& given)
+  : gradients(static_cast<std::size_t>(given.cells()))
+  , measure(VectorXd::Zero(given.cells()))
+{
+  const std::vector<std::uint8_t> flags = given.flags();
+  const int size = cornersOf(given.type);
+  for (std::int64_t c = 0; c < given.cells(); ++c)
+  {
+    const auto index = static_cast<std::size_t>(c);
+    if (flags[index] != 0)
+    {
+      continue;
+    }
+    const auto point = [&](int k) -> Vector3d
+    { return Vector3d::Map(&given.points[3 * static_cast<std::size_t>(given.cell(c)[k])]); };
+    MatrixXd jacobian(3, size - 1);
+    for (int k = 1; k < size; ++k)
+    {
+      jacobian.col(k - 1) = point(k) - point(0);
+    }
+    const MatrixXd others = jacobian.completeOrthogonalDecomposition().pseudoInverse();
+    MatrixXd& all = this->gradients[index];
+    all.resize(size, 3);
+    all.bottomRows(size - 1) = others;
+    all.row(0) = -others.colwise().sum();
+    this->measure[c] = size == 3
+                         ? jacobian.col(0).head<3>().cross(jacobian.col(1).head<3>()).norm() / 2
+                         : std::abs(jacobian.determinant()) / 6;
+  }
+}
+
 Oracle::Oracle(const Case& given)
+  : shapes(given)
 {
   Equations equations(given, *this);
   equations.solve();

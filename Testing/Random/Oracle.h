@@ -10,6 +10,15 @@
 namespace smg::testing
 {
 
+/** The basis functions of the cells of a case, without area or volume where they have no weight. */
+struct Shapes
+{
+  explicit Shapes(const Case& given);
+
+  std::vector<Eigen::MatrixXd> gradients; ///< of each cell: corners x 3; empty: without weight
+  Eigen::VectorXd measure;                ///< of each cell
+};
+
 /**
  * The answer to a case by a direct solve in double precision. Shares no code with the libraries: it
  * reads the JSON of the problem itself, evaluates places and values on the whole mesh, assembles
@@ -21,13 +30,13 @@ struct Oracle
 
   /** Why the problem is refused: an entry selects nothing. Empty: it is not. */
   std::string refusal;
+  Shapes shapes;
   Eigen::MatrixXd matrix;       ///< L + S, with a row of the identity at a Dirichlet vertex
   Eigen::VectorXd mass;         ///< area or volume of the cells, lumped at the vertices
   Eigen::MatrixXd rightSide;    ///< vertices x columns
   Eigen::MatrixXd loads;        ///< the sums of the magnitudes of what adds up to rightSide
   Eigen::MatrixXd solution;     ///< vertices x columns
   std::vector<bool> determined; ///< whether the equations determine the value of a vertex
-  std::vector<Eigen::MatrixXd> gradients;    ///< of each cell: corners x 3; empty: without weight
   std::vector<Eigen::Matrix3d> conductivity; ///< of each cell
 };
 
