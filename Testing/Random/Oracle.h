@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Testing/Random/Case.h"
+#include "Testing/Random/Shapes.h"
 
 #include <Eigen/Core>
 
@@ -9,15 +10,6 @@
 
 namespace smg::testing
 {
-
-/** The basis functions of the cells of a case, without area or volume where they have no weight. */
-struct Shapes
-{
-  explicit Shapes(const Case& given);
-
-  std::vector<Eigen::MatrixXd> gradients; ///< of each cell: corners x 3; empty: without weight
-  Eigen::VectorXd measure;                ///< of each cell
-};
 
 /**
  * The answer to a case by a direct solve in double precision. Shares no code with the libraries: it
