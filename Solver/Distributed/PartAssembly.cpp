@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace smg
@@ -51,6 +52,7 @@ PartSystem PartAssembly::assemble(std::unique_ptr<HypreMatrix> matrix)
     this->Incomplete = system.matrix.get();
   }
   std::vector<double> sums(static_cast<std::size_t>(this->Vertices.vertices() * this->lanes()));
+  this->joinScales();
   this->addEdges(sums);
   this->Vertices.addToOwners(sums, this->lanes());
   system.components = std::make_unique<SharedComponents>(
@@ -58,6 +60,27 @@ PartSystem PartAssembly::assemble(std::unique_ptr<HypreMatrix> matrix)
   this->close(sums, system);
   this->finish(system);
   return system;
+}
+
+/** Finds the size of the weights of each vertex, whose cells several parts may have. */
+void PartAssembly::joinScales()
+{
+  this->Scales.assign(static_cast<std::size_t>(this->Vertices.vertices()), 1.0F);
+  if (!this->Cells.policy.own())
+  {
+    return;
+  }
+  for (std::int64_t i = 0; i < this->Vertices.vertices(); ++i)
+  {
+    this->Scales[static_cast<std::size_t>(i)] = this->Cells.vertices.scale[i];
+  }
+  this->Vertices.collect<float>(this->Scales,
+    [this](std::int64_t i, float scale)
+    {
+      float& own = this->Scales[static_cast<std::size_t>(i)];
+      own = std::max(own, scale);
+    });
+  this->Vertices.copyFromOwners(std::span(this->Scales), 1);
 }
 
 /** Adds the edges to the matrix and what the part contributes to its vertices to `sums`. */
@@ -105,7 +128,9 @@ void PartAssembly::addRow(std::int64_t i, double* sums)
       sums[Load + k] += neighbour.weight * target[k];
     }
     sums[Diagonal] += neighbour.weight;
-    sums[Terms] += std::fabs(neighbour.weight);
+    const double magnitude = std::fabs(neighbour.weight);
+    sums[Terms] += magnitude;
+    sums[Ordinary] += std::min(magnitude, this->regularWeight(i, neighbour.to));
     sums[Edges] += 1.0;
     if (!this->isKnown(neighbour.to))
     {
@@ -124,6 +149,18 @@ void PartAssembly::addRow(std::int64_t i, double* sums)
     this->Entries += static_cast<std::int64_t>(this->Places.size());
     this->add(this->Vertices.id(i), this->Places, this->Values);
   }
+}
+
+/** The largest weight of the edge that counts in the initial residual of vertex i. */
+double PartAssembly::regularWeight(std::int64_t i, std::int64_t to) const
+{
+  if (this->Kind != Weights::Cotangent)
+  {
+    return std::numeric_limits<double>::infinity();
+  }
+  const Ring<double>& points = this->Cells.vertices.points;
+  return std::sqrt(squaredRegularWeight(this->Part.info.cellType, points.at(i), points.at(to))) *
+         static_cast<double>(this->Scales[static_cast<std::size_t>(i)]);
 }
 
 /** Completes the own vertices. */
@@ -175,7 +212,7 @@ void PartAssembly::closeUnknown(std::int64_t k, const double* sums, PartSystem& 
   this->IsUnknown[row] = 1;
   this->Diagonals[row] = sums[Alpha] + edges + raise;
   system.mass[row] = sums[Mass];
-  system.share[row] = commonShare(sums[Alpha], sums[Terms]);
+  system.share[row] = commonShare(sums[Alpha] + (sums[Terms] - sums[Ordinary]), sums[Ordinary]);
   std::vector<double> x(static_cast<std::size_t>(this->Columns));
   for (std::size_t c = 0; c < x.size(); ++c)
   {

@@ -55,10 +55,12 @@ private:
     Alpha,    ///< the part of the diagonal that no edge has
     Diagonal, ///< of all edges
     Terms,    ///< magnitudes of the weights of all edges
+    Ordinary, ///< likewise of regular cells, see commonShare()
     Edges,    ///< number of these
     Load
   };
 
+  void joinScales();
   void addEdges(std::vector<double>& sums);
   void addRow(std::int64_t i, double* sums);
   void close(const std::vector<double>& sums, PartSystem& system);
@@ -66,6 +68,7 @@ private:
   void finish(PartSystem& system);
   void add(std::int64_t row, std::span<const HYPRE_BigInt> columns, std::span<const double> values);
   void count(PartSystem& system) const;
+  double regularWeight(std::int64_t i, std::int64_t to) const;
   int lanes() const { return Load + this->Columns; }
   bool isKnown(std::int64_t i) const { return this->Cells.vertices.dirichlet[i] >= 0; }
 
@@ -80,6 +83,7 @@ private:
   EdgeTargets Targets;
   HypreMatrix* Incomplete = nullptr; ///< null: the matrix is taken as it is
   std::vector<std::int32_t> LabelOf; ///< of the vertices of the part
+  std::vector<float> Scales;         ///< likewise, see OpenVertices
   std::vector<double> Diagonals;     ///< of own vertices
   std::vector<char> IsUnknown;       ///< likewise
   std::int64_t Prescribed = 0, Held = 0, Raised = 0, Entries = 0;

@@ -15,15 +15,6 @@ namespace smg
 namespace
 {
 
-/**
- * Bounds of large weights compared with those of regular cells: of triangles, and of tetrahedra for
- * an edge of length 1. A chain of slivers with weights w conducts like 1 / w, so the rounding of
- * its weights to single precision may change the solution by 6e-8 w^2 of its range. Smaller weights
- * than these changed it by at most 2e-7 (bunny_tet.mesh, dragon.ply), all weights by 2e-5.
- */
-constexpr double LargeOfTriangles = 3.0;
-constexpr double LargeOfTetrahedra = 4.0;
-
 /** The distance from vertex i to its neighbour j. Throws Error if a row cannot represent it. */
 std::int32_t distance(std::int64_t i, std::int64_t j)
 {
@@ -35,12 +26,6 @@ std::int32_t distance(std::int64_t i, std::int64_t j)
                 "order bfs");
   }
   return static_cast<std::int32_t>(delta);
-}
-
-double squaredDistance(const double* a, const double* b)
-{
-  const double d[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 }
 
 } // namespace
@@ -120,12 +105,8 @@ inline bool RowAssembly::addEdge(std::int64_t i, const RowNeighbour& neighbour, 
     this->Ordinary += magnitude;
     return false;
   }
-  double bound = LargeOfTriangles * LargeOfTriangles; // of the square, for the conductivity 1
-  if (this->Type == CellType::Tetrahedron)
-  {
-    bound = LargeOfTetrahedra * LargeOfTetrahedra *
-            squaredDistance(this->Vertices.points.at(i), this->Vertices.points.at(neighbour.to));
-  }
+  const double bound = squaredRegularWeight(
+    this->Type, this->Vertices.points.at(i), this->Vertices.points.at(neighbour.to));
   const double least = std::min(this->Scale, this->Out.weightScale);
   if (magnitude * magnitude <= bound * least * least)
   {

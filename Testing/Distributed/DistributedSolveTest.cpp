@@ -197,6 +197,33 @@ TEST(DistributedSolve, FreeComponentsKeepTheirMean)
   expectEqual(solveBoth(several, evenCuts(several.cells(), sizeOfTest()), someHeld), "one held");
 }
 
+TEST(DistributedSolve, ANeedleBesideAPrescribedVertexDoesNotEndTheSolveEarly)
+{
+  const StreamMesh mesh = toStream(gridWithNeedle(40, 40, 1e-6));
+  const auto problemOn = [](const StreamMesh& on)
+  {
+    ElementProblem problem(on);
+    problem.Conductivity = [](const Point&)
+    { return Eigen::Matrix3d(1e-3 * Eigen::Matrix3d::Identity()); };
+    const auto isHot = [](const Point& x) { return x[0] == 20.0 && x[1] == 0.0; };
+    problem.DirichletConditions = { { isHot, columnsOf(1, [](const Point&, int) { return 1.0; }) },
+      { above(1, 33.0), columnsOf(1, [](const Point&, int) { return 0.0; }) } };
+    return problem;
+  };
+  const MeshPart part = partOf(mesh, evenCuts(mesh.cells(), sizeOfTest()));
+  const StreamMesh own = meshOf(part);
+  ElementProblem problem = problemOn(own);
+  DistributedSolver solver(MPI_COMM_WORLD, part);
+  DistributedOptions options;
+  options.tolerance = 1e-6;
+  const Eigen::MatrixXd solution = wholeSolution(solver, solver.solve(problem, options));
+  if (rankOfTest() == 0)
+  {
+    ElementProblem whole = problemOn(mesh);
+    EXPECT_LT(distance(solution, DirectElements(whole).solve()), 1e-5);
+  }
+}
+
 TEST(DistributedSolve, EdgesOfSeveralPartsMayHaveManyCells)
 {
   // A fan of triangles around one edge, and a chain of bow ties: edges and vertices that are not

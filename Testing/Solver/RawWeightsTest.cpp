@@ -242,17 +242,9 @@ TEST(RawWeights, FlatCellsDoNotSpoilTheRest)
 
 TEST(RawWeights, ANeedleBesideAPrescribedVertexDoesNotEndTheSolveEarly)
 {
-  // A triangle with the height 1e-6 outside of an edge of the boundary, one end of which is
-  // prescribed: the first residual is that of its weights, a million times all others.
-  IndexedTestMesh indexed = grid(40, 40);
-  const std::int64_t a = 20, b = 21, tip = indexed.vertices();
-  for (std::int64_t k = 0; k < 3; ++k)
-  {
-    indexed.positions.push_back(
-      0.5 * (indexed.positions[3 * a + k] + indexed.positions[3 * b + k]));
-  }
-  indexed.positions[3 * tip + 1] -= 1e-6;
-  indexed.corners.insert(indexed.corners.end(), { b, a, tip });
+  // The first residual at the prescribed end of the needle is that of its weights, a million times
+  // all others.
+  const IndexedTestMesh indexed = gridWithNeedle(40, 40, 1e-6);
   const StreamMesh mesh = toStream(indexed);
   ArrayProblem problem;
   problem.Columns = 1;
@@ -260,7 +252,7 @@ TEST(RawWeights, ANeedleBesideAPrescribedVertexDoesNotEndTheSolveEarly)
   for (std::int64_t v = 0; v < mesh.vertices(); ++v)
   {
     const double* p = &mesh.positions[3 * static_cast<std::size_t>(v)];
-    const bool isHot = p[0] == indexed.positions[3 * a] && p[1] == indexed.positions[3 * a + 1];
+    const bool isHot = p[0] == 20.0 && p[1] == 0.0;
     const bool isCold = p[1] == indexed.positions[3 * 40 * 39 + 1];
     problem.Prescribed.push_back(isHot || isCold);
     problem.Value.push_back(isHot ? 1.0 : 0.0);

@@ -120,6 +120,15 @@ IndexedTestMesh grid(int nx, int ny, double jitter, std::uint64_t seed)
   return mesh;
 }
 
+IndexedTestMesh gridWithNeedle(int nx, int ny, double height)
+{
+  IndexedTestMesh mesh = grid(nx, ny);
+  const std::int64_t a = nx / 2, b = a + 1, tip = mesh.vertices();
+  addPoint(mesh, a + 0.5, -height, 0.0);
+  mesh.corners.insert(mesh.corners.end(), { b, a, tip });
+  return mesh;
+}
+
 IndexedTestMesh sliverChains(int nx, int ny, double height)
 {
   IndexedTestMesh mesh = grid(nx, ny);

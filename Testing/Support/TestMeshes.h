@@ -34,6 +34,10 @@ IndexedTestMesh grid(int nx, int ny, double jitter = 0.0, std::uint64_t seed = 1
  * between the two. */
 IndexedTestMesh sliverChains(int nx, int ny, double height);
 
+/** The grid with a triangle of this height outside of the edge from vertex nx / 2, the last vertex
+ * its tip. */
+IndexedTestMesh gridWithNeedle(int nx, int ny, double height);
+
 /** A torus with radii 2 and 1 of nu x nv vertices (at least 3 x 3), jittered in its parameters. */
 IndexedTestMesh torus(int nu, int nv, double jitter = 0.0, std::uint64_t seed = 1);
 
