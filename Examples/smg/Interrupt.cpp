@@ -17,6 +17,8 @@ void note(int signal)
 
 void catchInterrupts()
 {
+  // Beyond a limit of the size of files, a write fails as it does on a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   struct sigaction action = {};
   action.sa_handler = note;
   action.sa_flags = SA_RESETHAND | SA_RESTART;

@@ -20,15 +20,33 @@ ResultFile::ResultFile(Options options)
     smg::checkOutputPlace(this->Files.out);
     return;
   }
+  const bool hasColumns = !this->Files.columns.empty();
   const bool isFormat = smg::suffixFor(smg::FormatUse::Write, this->Files.out) ||
                         smg::suffixFor(smg::FormatUse::Restore, this->Files.out);
-  if (!this->Files.columns.empty() && isFormat &&
-      !smg::suffixFor(smg::FormatUse::WriteColumns, this->Files.out) && !this->restoresColumns())
+  const smg::FormatUse use = hasColumns ? smg::FormatUse::WriteColumns : smg::FormatUse::Write;
+  if (!smg::suffixFor(use, this->Files.out) && !(hasColumns && this->restoresColumns()))
   {
-    throw smg::Error(this->Files.out.string() + ": this format cannot hold " + this->Files.columns +
-                     ": write it as " + smg::suffixList(smg::FormatUse::WriteColumns, "or") + '.');
+    const std::string why = isFormat && hasColumns
+                              ? "this format cannot hold " + this->Files.columns
+                              : "this is no format of a result";
+    throw smg::Error(
+      this->Files.out.string() + ": " + why + ": write it as " + this->choices() + '.' +
+      (this->Files.welds ? " Formats in the order of the input are not possible with --weld."
+                         : ""));
   }
-  smg::checkOutput(this->Files.out);
+  smg::checkOutputPlace(this->Files.out);
+}
+
+std::string ResultFile::choices(std::optional<smg::CellType> cells) const
+{
+  const bool hasColumns = !this->Files.columns.empty();
+  std::vector<smg::FormatUse> uses{ hasColumns ? smg::FormatUse::WriteColumns
+                                               : smg::FormatUse::Write };
+  if (!this->Files.welds && smg::kindOfInput(this->Files.in) == smg::MeshFileKind::Indexed)
+  {
+    uses.push_back(hasColumns ? smg::FormatUse::RestoreColumns : smg::FormatUse::Restore);
+  }
+  return smg::suffixList(uses, cells, "or");
 }
 
 bool ResultFile::restoresColumns() const
@@ -81,7 +99,7 @@ void ResultFile::chooseOrder(const smg::VsmReader& mesh, const smg::ConversionRe
   if (this->mayRestore() && isNumbered)
   {
     this->Order = smg::WrittenOrder::Restored;
-    smg::checkRestoredPath(this->Files.out, cells);
+    this->checkHolds(smg::FormatUse::Restore, cells);
     return;
   }
   if (!smg::suffixFor(smg::FormatUse::Write, this->Files.out))
@@ -91,7 +109,18 @@ void ResultFile::chooseOrder(const smg::VsmReader& mesh, const smg::ConversionRe
                      ", so that the result can be written in stream order only: choose " +
                      smg::suffixList(smg::FormatUse::Write, cells, "or") + '.');
   }
-  smg::checkOutput(this->Files.out, cells);
+  this->checkHolds(smg::FormatUse::Write, cells);
+}
+
+void ResultFile::checkHolds(smg::FormatUse use, smg::CellType cells) const
+{
+  const smg::FileSuffix& suffix = *smg::suffixFor(use, this->Files.out);
+  if (!suffix.holds(cells))
+  {
+    throw smg::Error(
+      this->Files.out.string() + ": " + smg::holdsNo(suffix, cells, this->choices(cells)));
+  }
+  smg::checkOutputPlace(this->Files.out);
 }
 
 int ResultFile::threads(std::int64_t memory) const

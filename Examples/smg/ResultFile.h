@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/AnyFormat/FormatTable.h"
 #include "IO/Estimate/JobEstimate.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
@@ -9,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +58,10 @@ public:
   smg::WrittenOrder expectedOrder(const smg::StreamInfo& mesh) const;
 
 private:
+  /** The suffixes that OUT may have; `cells`: of the mesh, if they are known. */
+  std::string choices(std::optional<smg::CellType> cells = {}) const;
+  /** Throws smg::Error if the format of OUT does not hold these cells. */
+  void checkHolds(smg::FormatUse use, smg::CellType cells) const;
   /** Whether the format of OUT has places for the columns in the order of its original file. */
   bool restoresColumns() const;
   /** Whether IN can be written again with other positions. */

@@ -122,14 +122,15 @@ std::string listOf(const std::vector<std::string_view>& words, std::string_view 
 }
 
 template <class Test>
-std::string suffixesOf(FormatUse use, std::string_view conjunction, Test&& test)
+std::string suffixesOf(std::span<const FormatUse> uses, std::string_view conjunction, Test&& test)
 {
   std::vector<std::string_view> suffixes;
   for (const Format* format : Formats)
   {
     for (const FileSuffix& suffix : format->suffixes)
     {
-      if (canBeUsed(*format, use) && test(suffix))
+      const auto can = [format](FormatUse use) { return canBeUsed(*format, use); };
+      if (std::ranges::any_of(uses, can) && test(suffix))
       {
         suffixes.push_back(suffix.text);
       }
@@ -218,20 +219,25 @@ std::string suffixList(const Format& format, std::string_view conjunction)
 
 std::string suffixList(FormatUse use, std::string_view conjunction)
 {
-  return suffixesOf(use, conjunction, [](const FileSuffix&) { return true; });
+  return suffixesOf({ &use, 1 }, conjunction, [](const FileSuffix&) { return true; });
 }
 
 std::string suffixList(FormatUse use, CellType cells, std::string_view conjunction)
 {
-  return suffixesOf(
-    use, conjunction, [cells](const FileSuffix& suffix) { return suffix.holds(cells); });
+  return suffixList({ &use, 1 }, cells, conjunction);
 }
 
-std::string holdsNo(const FileSuffix& suffix, CellType cells, FormatUse use)
+std::string suffixList(
+  std::span<const FormatUse> uses, std::optional<CellType> cells, std::string_view conjunction)
+{
+  return suffixesOf(uses, conjunction,
+    [cells](const FileSuffix& suffix) { return !cells || suffix.holds(*cells); });
+}
+
+std::string holdsNo(const FileSuffix& suffix, CellType cells, const std::string& choices)
 {
   return "a " + std::string(suffix.text) + " file holds no " +
-         (cells == CellType::Triangle ? "triangles" : "tetrahedra") + ": choose " +
-         suffixList(use, cells, "or") + '.';
+         (cells == CellType::Triangle ? "triangles" : "tetrahedra") + ": choose " + choices + '.';
 }
 
 } // namespace smg

@@ -59,7 +59,12 @@ SMG_EXPORT std::string suffixList(FormatUse use, std::string_view conjunction);
 /** The suffixes that support the operation for these cells. */
 SMG_EXPORT std::string suffixList(FormatUse use, CellType cells, std::string_view conjunction);
 
-/** The error message for cells that a suffix cannot hold. */
-std::string holdsNo(const FileSuffix& suffix, CellType cells, FormatUse use);
+/** The suffixes that support one of the operations; `cells`: only those for these cells. */
+SMG_EXPORT std::string suffixList(
+  std::span<const FormatUse> uses, std::optional<CellType> cells, std::string_view conjunction);
+
+/** The error message for cells that a suffix cannot hold, with the suffixes to choose from. */
+SMG_EXPORT std::string holdsNo(
+  const FileSuffix& suffix, CellType cells, const std::string& choices);
 
 } // namespace smg

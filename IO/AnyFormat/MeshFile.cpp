@@ -93,7 +93,8 @@ void checkOutput(const std::filesystem::path& path, CellType cellType)
   const FileSuffix& suffix = *suffixFor(FormatUse::Write, path);
   if (!suffix.holds(cellType))
   {
-    throw Error(path.string() + ": " + holdsNo(suffix, cellType, FormatUse::Write));
+    throw Error(path.string() + ": " +
+                holdsNo(suffix, cellType, suffixList(FormatUse::Write, cellType, "or")));
   }
 }
 

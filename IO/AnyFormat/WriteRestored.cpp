@@ -20,7 +20,8 @@ void checkRestoredPath(const std::filesystem::path& path, CellType cellType)
   }
   if (!suffix->holds(cellType))
   {
-    throw Error(path.string() + ": " + holdsNo(*suffix, cellType, FormatUse::Restore));
+    throw Error(path.string() + ": " +
+                holdsNo(*suffix, cellType, suffixList(FormatUse::Restore, cellType, "or")));
   }
 }
 

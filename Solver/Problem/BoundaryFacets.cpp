@@ -23,7 +23,11 @@ void BoundaryFacets::addCells(const MeshBlock& block)
     for (int k = 0; k < corners; ++k)
     {
       const CellFacet facet = facetOf(this->Type, corner, k);
-      this->Open.add(facet.vertex[0], facet.vertex[1], facet.vertex[2], 0);
+      // Of an edge: 1 if the triangle runs along it from the lower vertex, 2 if to it.
+      const std::int32_t direction = (facet.order[0] == 0) != (k == 1) ? 1 : 2;
+      const std::int32_t other =
+        this->Open.add(facet.vertex[0], facet.vertex[1], facet.vertex[2], direction);
+      this->Turned += this->Type == CellType::Triangle && other == direction ? 1 : 0;
     }
   }
 }

@@ -38,6 +38,9 @@ public:
     this->take(this->Vertices, found);
   }
 
+  /** The number of edges of triangles so far that two of them run along in the same direction: they
+   * are wound against each other. */
+  std::int64_t turnedEdges() const { return this->Turned; }
   /** The facets of the cells so far, until their lowest vertex is final. */
   const OpenFacets& open() const { return this->Open; }
 
@@ -57,7 +60,7 @@ private:
 
   CellType Type;
   OpenFacets Open;
-  std::int64_t Vertices = 0, Final = 0;
+  std::int64_t Vertices = 0, Final = 0, Turned = 0;
 };
 
 } // namespace smg

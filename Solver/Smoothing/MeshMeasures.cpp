@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace smg
 {
@@ -14,6 +15,8 @@ namespace smg
 void MeshMeasures::add(const MeshBlock& block)
 {
   this->Points.release(this->Finalized);
+  this->Parts.release(this->Finalized);
+  this->Parts.extend(block.firstVertex + block.vertices());
   this->Finalized = block.finalized;
   if (block.vertices() > 0)
   {
@@ -46,8 +49,39 @@ void MeshMeasures::addCell(const std::int64_t* corners)
   {
     const auto corner = [&](int k)
     { return difference(this->Points.at(corners[k]), this->Origin.data()); };
-    this->Volume += dot(corner(0), cross(corner(1), corner(2)));
+    this->Parts.join(corners, 3);
+    const auto label = static_cast<std::size_t>(this->Parts.label(corners[0]));
+    if (label >= this->Volumes.size())
+    {
+      this->Volumes.resize(label + 1);
+      this->OfVolumes.resize(static_cast<std::int64_t>(this->Volumes.capacity() * sizeof(double)));
+    }
+    this->Volumes[label] += dot(corner(0), cross(corner(1), corner(2)));
   }
+}
+
+std::vector<double> MeshMeasures::bodyVolumes() const
+{
+  std::vector<double> volumes(this->Volumes.size());
+  for (std::size_t label = 0; label < volumes.size(); ++label)
+  {
+    const auto root = static_cast<std::size_t>(this->Bodies.root(static_cast<std::int32_t>(label)));
+    volumes[root] += this->Volumes[label] / 6.0;
+  }
+  return volumes;
+}
+
+double MeshMeasures::volume() const
+{
+  const std::vector<double> volumes = this->bodyVolumes();
+  return std::accumulate(volumes.begin(), volumes.end(), 0.0);
+}
+
+double MeshMeasures::turnedVolume() const
+{
+  const std::vector<double> volumes = this->bodyVolumes();
+  return std::accumulate(volumes.begin(), volumes.end(), 0.0,
+    [](double sum, double volume) { return sum + std::max(0.0, -volume); });
 }
 
 double MeshMeasures::diagonal() const

@@ -1,24 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Problem/ComponentLabels.h"
+#include "Solver/Problem/Components.h"
+#include "Solver/Problem/OpenComponents.h"
+#include "Solver/Storage/Reservation.h"
 #include "Solver/Storage/Ring.h"
 #include "smg/MeshSource.h"
 
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 namespace smg
 {
 
-/** The diagonal, the mean edge and the volume of a mesh, from one reading of its stream. Cells that
- * are flagged or use a vertex twice are left out. */
+/** The diagonal, the mean edge and the volumes of the bodies of a mesh, from one reading of its
+ * stream. Cells that are flagged or use a vertex twice are left out. */
 class MeshMeasures
 {
 public:
   MeshMeasures(Pool& pool, CellType type)
     : Type(type)
     , Points(pool, 3)
+    , Bodies(0, &pool)
+    , Closed(this->Bodies)
+    , Parts(pool, this->Bodies, this->Closed)
+    , OfVolumes(pool)
   {
   }
 
@@ -31,17 +40,26 @@ public:
    * cells. */
   double meanEdge() const;
   /** The volume that triangles enclose if they are closed and their normals point outwards. */
-  double volume() const { return this->Volume / 6.0; }
+  double volume() const;
+  /** The sum of the volumes of the bodies that are wound inside out, or are cavities of others. */
+  double turnedVolume() const;
 
 private:
   void addCell(const std::int64_t* corners);
+  /** Those of the bodies. */
+  std::vector<double> bodyVolumes() const;
 
   CellType Type;
   Ring<double> Points;
+  Components Bodies;
+  ComponentLabels Closed;
+  OpenComponents Parts;
+  std::vector<double> Volumes; ///< six times those of the triangles of each label
+  Reservation OfVolumes;
   std::array<double, 3> Low{ Infinity, Infinity, Infinity };
   std::array<double, 3> High{ -Infinity, -Infinity, -Infinity };
   std::array<double, 3> Origin{}; ///< of volumes: the first vertex
-  double Lengths = 0.0, Volume = 0.0;
+  double Lengths = 0.0;
   std::int64_t Edges = 0;
   std::int64_t Finalized = 0; ///< after the previous block
 

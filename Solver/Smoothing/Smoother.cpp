@@ -117,12 +117,17 @@ void Smoother::survey(Part part)
   MeshMeasures measures(this->Result->memory, type);
   Reservation held(this->Result->memory);
   std::optional<BoundaryFacets> facets;
-  if (this->Curves)
+  if (this->Curves || (this->Options.keepVolume && this->movesPoints()))
   {
     facets.emplace(this->Result->memory, type);
   }
   const auto addEdge = [this](std::int64_t low, std::int64_t high, std::int64_t /*none*/)
-  { this->Curves->add(low, high); };
+  {
+    if (this->Curves)
+    {
+      this->Curves->add(low, high);
+    }
+  };
   this->read(part.of(0.0, 0.8),
     [&](const MeshBlock& block)
     {
@@ -142,6 +147,9 @@ void Smoother::survey(Part part)
   if (facets)
   {
     facets->finish(addEdge);
+  }
+  if (this->Curves)
+  {
     this->Curves->begin(this->Result->values);
     this->holdCurves(part.of(0.8, 1.0));
   }
@@ -151,6 +159,34 @@ void Smoother::survey(Part part)
     const bool isClosed = !this->Held.hasBoundary() && !this->hasCurves();
     this->Result->total.volume = Report::Volume{};
     this->Result->total.volume->before = isClosed ? measures.volume() : std::nan("");
+    if (this->Options.keepVolume)
+    {
+      this->noteWinding(facets->turnedEdges(), isClosed ? &measures : nullptr);
+    }
+  }
+}
+
+/** Notes what makes the volume, and the normals along which it is kept, others than expected.
+ * `closed`: of a surface without boundary. */
+void Smoother::noteWinding(std::int64_t turnedEdges, const MeshMeasures* closed)
+{
+  std::vector<std::string>& notes = this->Result->total.notes;
+  if (turnedEdges > 0)
+  {
+    notes.push_back("The triangles at " + std::to_string(turnedEdges) +
+                    (turnedEdges == 1 ? " edge" : " edges") +
+                    " are wound against each other: there the surface has no sides, so that its "
+                    "volume is not kept. Orient the mesh first, or do not keep the volume");
+    return;
+  }
+  constexpr double Little = 0.01;
+  const double inwards = closed ? closed->turnedVolume() : 0.0;
+  const double outwards = closed ? closed->volume() + inwards : 0.0;
+  if (std::min(inwards, outwards) > Little * std::max(inwards, outwards))
+  {
+    notes.push_back("Some bodies are wound inside out, or are cavities of others: their volume, " +
+                    std::to_string(std::lround(100.0 * inwards / outwards)) +
+                    " % of that of the others, counts as negative, and what is kept is the sum");
   }
 }
 

@@ -52,6 +52,7 @@ private:
   void survey(Part part);
   void keepValues(const MeshBlock& block);
   void requireWelded(const StreamCheck& check);
+  void noteWinding(std::int64_t turnedEdges, const MeshMeasures* closed);
   void setSize(const MeshMeasures& measures);
   void holdCurves(Part part);
 

@@ -4,6 +4,7 @@
 
 import json
 import os
+import resource
 import shutil
 import signal
 import stat
@@ -159,8 +160,18 @@ def test_errors():
     name = problem(dirichlet=[{"sphere": [0, 0, 0, 1.5], "value": [0]}])
     done = run("solve", "torus.vsm", "o2.vsm", "--problem", name, "--memory", 1, code=1)
     assert "1 MiB" in done.stderr, done.stderr
-    assert "cannot hold a solution" in run(
-        "solve", "torus.vsm", "o2.smb", "--problem", name, code=1).stderr
+    error = run("solve", "torus.vsm", "o2.smb", "--problem", name, code=1).stderr
+    assert "cannot hold a solution: write it as .vsm, .ply, .vtp, .vtu" in error, error
+    # Of a file in an order of its own, formats in that order can be written, too.
+    error = run("solve", "torus.obj", "o2.xyz", "--problem", name, code=1).stderr
+    assert ".vsm" in error and ".vtk," in error and ".smb" not in error, error
+    error = run("smooth", "torus.obj", "o2.stl", "--weld", 0.1, code=1).stderr
+    assert "not possible with --weld" in error and ".stl" not in error.split("write it as")[1], error
+    # A limit of the size of files is an error, which leaves nothing.
+    limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (8192, 8192))
+    done = subprocess.run([SMG, "convert", "torus.obj", "o2.vsm"], capture_output=True, text=True,
+                          preexec_fn=limit)
+    assert done.returncode == 1 and "File too large" in done.stderr, done
     # The folder of OUT is checked before anything is read.
     for command in (("convert", "empty.vsm", "nowhere/o.vsm"), ("preview", "empty.vsm", "nowhere/o.vtp"),
                     ("convert", "empty.vsm", "nowhere/o.obj", "--restore-order"),

@@ -64,7 +64,7 @@ TEST_F(WritePly, ComesBackWithItsColumns)
     {
       mesh.positions.assign(mesh.positions.size(), 0.1F);
     }
-    EXPECT_TRUE(this->writeAsPly(mesh, { .single = single }).droppedColumns.empty());
+    EXPECT_TRUE(this->writeAsPly(mesh, { .single = single }).renamedColumns.empty());
     const ReadMesh back = importWhole(this->Folder / "out.ply");
     EXPECT_EQ(back.doublePositions, !single);
     EXPECT_EQ(back.positions, mesh.positions);
@@ -104,24 +104,28 @@ TEST_F(WritePly, NamesPropertiesOfOtherColumns)
   mesh.cellColumns.push_back(
     randomColumn({ "vertex_indices", ScalarType::Int32, 1 }, mesh.cells(), 7));
   const WrittenPly written = this->writeAsPly(mesh);
-  EXPECT_EQ(
-    written.droppedColumns, (std::vector<std::string>{ "x", "two_words_1", "vertex_indices" }));
+  const std::vector<std::pair<std::string, std::string>> renamed{ { "two words", "two_words_1" },
+    { "x", "x_1" }, { "vertex_indices", "vertex_indices_1" } };
+  EXPECT_EQ(written.renamedColumns, renamed);
   EXPECT_TRUE(written.roundedColumns.empty());
   EXPECT_EQ(notesOn(written).size(), 3u);
   const ReadMesh back = importWhole(this->Folder / "out.ply");
-  ASSERT_EQ(back.vertexColumns.size(), 4u);
-  for (int component = 0; component < 2; component++)
+  // Each column has its own values under a name that no other one had.
+  const std::vector<std::pair<std::string, std::pair<int, int>>> expected{
+    { "two_words_1_0", { 0, 0 } }, { "two_words_1_1", { 0, 1 } }, { "x_1", { 1, 0 } },
+    { "Normals", { 2, 0 } }, { "two_words_1", { 3, 0 } }, { "OriginalId", { 4, 0 } }
+  };
+  ASSERT_EQ(back.vertexColumns.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
   {
-    const Column& column = back.vertexColumns[component];
-    EXPECT_EQ(column.spec.name, "two_words_" + std::to_string(component));
+    const auto& [name, of] = expected[i];
+    EXPECT_EQ(back.vertexColumns[i].spec.name, name);
     for (std::int64_t v = 0; v < mesh.vertices(); v++)
     {
-      EXPECT_EQ(column.value(v), mesh.vertexColumns[0].value(v, component));
+      EXPECT_EQ(back.vertexColumns[i].value(v), mesh.vertexColumns[of.first].value(v, of.second));
     }
   }
-  EXPECT_EQ(back.vertexColumns[2].spec.name, "Normals");
-  EXPECT_EQ(back.vertexColumns[3].spec, (ColumnSpec{ "OriginalId", ScalarType::Float64, 1 }));
-  EXPECT_EQ(back.vertexColumns[3].value(7), mesh.vertexColumns[4].value(7));
+  EXPECT_EQ(back.vertexColumns.back().spec.type, ScalarType::Float64);
 }
 
 TEST_F(WritePly, KeepsFormerNumbersUnderAnotherName)

@@ -197,6 +197,37 @@ TEST(Smooth, TheVolumeOfAClosedSurfaceIsKept)
   EXPECT_NEAR(shrunk.report.volume->swept, less - volume, 1e-12 * volume);
 }
 
+TEST(Smooth, ANoteSaysWhereTheVolumeIsNotThatOfTheSurface)
+{
+  const IndexedTestMesh ball = sphere(3);
+  const auto notesFor = [](IndexedTestMesh mesh, auto isTurned)
+  {
+    for (std::int64_t c = 0; c < mesh.cells(); ++c)
+    {
+      if (isTurned(c))
+      {
+        std::swap(mesh.corners[3 * c], mesh.corners[3 * c + 1]);
+      }
+    }
+    SmoothingOptions options;
+    options.size = { 0.5, SmoothingSize::Mesh };
+    return smoothed(toStream(mesh), options).report.notes;
+  };
+  const std::int64_t cells = ball.cells();
+  EXPECT_TRUE(notesFor(ball, [](std::int64_t) { return false; }).empty());
+  EXPECT_TRUE(notesFor(ball, [](std::int64_t) { return true; }).empty());
+  const std::vector<std::string> one = notesFor(ball, [](std::int64_t c) { return c == 7; });
+  ASSERT_EQ(one.size(), 1U);
+  EXPECT_NE(one.front().find("at 3 edges are wound against each other"), std::string::npos);
+  // Two balls, of which one is inside out.
+  const IndexedTestMesh two = disjointUnion(ball, ball, { 5, 0, 0 });
+  EXPECT_TRUE(notesFor(two, [](std::int64_t) { return false; }).empty());
+  const std::vector<std::string> half =
+    notesFor(two, [cells](std::int64_t c) { return c >= cells; });
+  ASSERT_EQ(half.size(), 1U);
+  EXPECT_NE(half.front().find("inside out"), std::string::npos);
+}
+
 TEST(Smooth, AnOpenSurfaceSweepsNoVolume)
 {
   // A dome: smoothing with a fixed boundary flattens it.

@@ -20,24 +20,29 @@ bool isLongInteger(ScalarType type)
   return type == ScalarType::Int64 || type == ScalarType::UInt64;
 }
 
-/** The names of the properties of a column. */
-std::vector<std::string> namesOf(const ColumnSpec& spec)
+/** A name of visible ASCII characters. */
+std::string plyName(std::string name)
 {
-  if (isNormals(spec))
+  std::replace_if(
+    name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c >= 127; }, '_');
+  return name;
+}
+
+/** The names of the properties of a column that has this name in the file. */
+std::vector<std::string> namesOf(const ColumnSpec& spec, const std::string& name)
+{
+  if (isNormals(spec) && name == spec.name)
   {
     return { "nx", "ny", "nz" };
   }
-  if (spec.name == ColorsName && spec.components == 3)
+  if (spec.name == ColorsName && name == spec.name && spec.components == 3)
   {
     return { "red", "green", "blue" };
   }
-  if (spec.name == ColorsName && spec.components == 4)
+  if (spec.name == ColorsName && name == spec.name && spec.components == 4)
   {
     return { "red", "green", "blue", "alpha" };
   }
-  std::string name = spec.name;
-  std::replace_if(
-    name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c >= 127; }, '_');
   if (spec.components == 1)
   {
     return { name };
@@ -77,48 +82,75 @@ void PlyRecords::addPositions(bool isDouble)
   this->DoublePositions = isDouble;
   for (const char* name : { "x", "y", "z" })
   {
-    this->add({ name, isDouble ? ScalarType::Float64 : ScalarType::Float32, 1 });
+    const ScalarType type = isDouble ? ScalarType::Float64 : ScalarType::Float32;
+    this->add(std::string(plyTypeName(type)) + ' ' + name, sizeOf(type));
   }
 }
 
 void PlyRecords::add(const std::vector<ColumnSpec>& columns, WrittenPly& written)
 {
-  for (const ColumnSpec& column : columns)
+  // Columns that can keep their names do so, whatever others would be called.
+  std::vector<std::vector<std::string>> names(columns.size());
+  const auto choose = [&](std::size_t i, const std::string& name)
   {
-    this->Places.push_back(this->add(column));
-    if (this->Places.back() < 0)
+    const std::vector<std::string> chosen = namesOf(columns[i], name);
+    if (!this->areFree(chosen))
     {
-      written.droppedColumns.push_back(column.name);
+      return false;
+    }
+    this->Names.insert(this->Names.end(), chosen.begin(), chosen.end());
+    names[i] = chosen;
+    return true;
+  };
+  for (const bool severalProperties : { false, true })
+  {
+    for (std::size_t i = 0; i < columns.size(); ++i)
+    {
+      const std::string& name = columns[i].name;
+      if ((columns[i].components > 1) == severalProperties && plyName(name) == name)
+      {
+        choose(i, name);
+      }
+    }
+  }
+  for (std::size_t i = 0; i < columns.size(); ++i)
+  {
+    const std::string base = plyName(columns[i].name);
+    std::string name = base;
+    for (int k = 1; names[i].empty() && !choose(i, name); ++k)
+    {
+      name = base + '_' + std::to_string(k);
+    }
+    if (name != columns[i].name)
+    {
+      written.renamedColumns.emplace_back(columns[i].name, name);
+    }
+    const ScalarType type = isLongInteger(columns[i].type) ? ScalarType::Float64 : columns[i].type;
+    this->Places.push_back(static_cast<std::ptrdiff_t>(this->RecordBytes));
+    for (const std::string& property : names[i])
+    {
+      this->addProperty(std::string(plyTypeName(type)) + ' ' + property, sizeOf(type));
     }
   }
 }
 
-/** Returns the position of a column in the record, or -1 if a property already has its name. */
-std::ptrdiff_t PlyRecords::add(const ColumnSpec& spec)
+/** Whether no property has one of these names. */
+bool PlyRecords::areFree(const std::vector<std::string>& names) const
 {
-  const std::vector<std::string> names = namesOf(spec);
-  for (const std::string& name : names)
-  {
-    if (name.empty() ||
-        std::find(this->Names.begin(), this->Names.end(), name) != this->Names.end())
-    {
-      return -1;
-    }
-  }
-  const ScalarType type = isLongInteger(spec.type) ? ScalarType::Float64 : spec.type;
-  const auto place = static_cast<std::ptrdiff_t>(this->RecordBytes);
-  for (const std::string& name : names)
-  {
-    this->add(std::string(plyTypeName(type)) + ' ' + name, sizeOf(type));
-  }
-  return place;
+  return std::ranges::none_of(names, [this](const std::string& name)
+    { return std::ranges::find(this->Names, name) != this->Names.end(); });
+}
+
+void PlyRecords::addProperty(const std::string& property, std::size_t bytes)
+{
+  this->Header += "property " + property + '\n';
+  this->RecordBytes += bytes;
 }
 
 void PlyRecords::add(const std::string& property, std::size_t bytes)
 {
-  this->Header += "property " + property + '\n';
   this->Names.push_back(property.substr(property.rfind(' ') + 1));
-  this->RecordBytes += bytes;
+  this->addProperty(property, bytes);
 }
 
 void PlyRecords::begin(std::size_t count)
@@ -154,7 +186,7 @@ void PlyRecords::fill(const std::vector<Column>& columns, WrittenPly& written)
   for (std::size_t i = 0; i < this->Places.size(); ++i)
   {
     const std::string& name = columns[i].spec.name;
-    if (this->Places[i] >= 0 && this->fill(this->Places[i], columns[i]) &&
+    if (this->fill(this->Places[i], columns[i]) &&
         std::find(rounded.begin(), rounded.end(), name) == rounded.end())
     {
       rounded.push_back(name);

@@ -28,10 +28,7 @@ public:
   void addPositions(bool isDouble);
   /** Adds `bytes` bytes described by the line `property`. */
   void add(const std::string& property, std::size_t bytes);
-  /**
-   * Adds the properties of columns, named as writePly() says. A column of whose names there is a
-   * property already is left out, which is noted.
-   */
+  /** Adds the properties of columns, named as writePly() says. Other names are noted. */
   void add(const std::vector<ColumnSpec>& columns, WrittenPly& written);
 
   const std::string& header() const { return this->Header; }
@@ -48,13 +45,14 @@ public:
   std::span<const std::byte> records() const { return this->Records; }
 
 private:
-  std::ptrdiff_t add(const ColumnSpec& spec);
+  void addProperty(const std::string& property, std::size_t bytes);
+  bool areFree(const std::vector<std::string>& names) const;
   bool fill(std::ptrdiff_t place, const Column& column);
 
   std::string Header;
   std::vector<std::string> Names;
   std::size_t RecordBytes = 0;
-  std::vector<std::ptrdiff_t> Places; ///< of each column in the record; -1: left out
+  std::vector<std::ptrdiff_t> Places; ///< of each column in the record
   bool DoublePositions = true;
   std::vector<std::byte> Records;
   std::vector<float> Single;

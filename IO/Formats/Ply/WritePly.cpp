@@ -93,10 +93,10 @@ private:
 std::vector<std::string> notesOn(const WrittenPly& written)
 {
   std::vector<std::string> notes;
-  for (const std::string& name : written.droppedColumns)
+  for (const auto& [column, name] : written.renamedColumns)
   {
-    notes.push_back("The column " + inQuotes(name) +
-                    " was left out, since PLY has another property of that name.");
+    notes.push_back(
+      "The column " + inQuotes(column) + " is called " + inQuotes(name) + " in the file.");
   }
   for (const std::string& name : written.roundedColumns)
   {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace smg
@@ -15,8 +16,8 @@ namespace smg
 /** The changes to the columns of a mesh written as PLY. */
 struct WrittenPly
 {
-  /** Omitted columns, whose names would give properties that already exist. */
-  std::vector<std::string> droppedColumns;
+  /** Columns with another name in the file, and that name. */
+  std::vector<std::pair<std::string, std::string>> renamedColumns;
   /** Columns of 64-bit integers with values beyond 2^53, which were rounded. */
   std::vector<std::string> roundedColumns;
 };
@@ -30,10 +31,11 @@ struct WrittenPly
  * Columns become properties of the vertices or faces, named so that importMesh() restores the same
  * columns: `Normals` of 3 components nx, ny, nz; `Colors` of 3 or 4 red, green, blue, alpha; a
  * column of one component its own name, and one of several NAME_0, NAME_1 ..., which come back as
- * columns of their own. What is no visible ASCII character in a name becomes an underscore. PLY has
- * no 64-bit integers: they are written, and come back, as double, which is exact up to 2^53. So
- * convert() takes the `OriginalId` of a PLY file for an attribute (see there): its own are the
- * places in the PLY file.
+ * columns of their own. What is no visible ASCII character in a name becomes an underscore, and a
+ * name whose property another column or the mesh has is followed by _1, _2 ...; columns that need
+ * no other name keep theirs. PLY has no 64-bit integers: they are written, and come back, as
+ * double, which is exact up to 2^53. So convert() takes the `OriginalId` of a PLY file for an
+ * attribute (see there): its own are the places in the PLY file.
  * @throws Error if checkPlyVertices() does, the stream has not the counts that it says, or the file
  * cannot be written; Cancelled. Nothing is left of the file then.
  */
