@@ -223,7 +223,7 @@ def test_orders_that_cannot_be_kept():
     done = deform("numbered.vtu", "bad.obj", code=1)
     assert "numbered.vtu has a column OriginalId of its own" in done.stderr, done.stderr
     assert "stream order" in deform("numbered.vtu", "moved.vtu").stdout
-    assert "--restore-order" in deform("surface.ply", "bad.off", "--weld", 0, code=1).stderr
+    assert "with --weld" in deform("surface.ply", "bad.off", "--weld", 0, code=1).stderr
     assert not any(name.startswith("bad") for name in os.listdir("."))
 
 
