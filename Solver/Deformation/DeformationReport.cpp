@@ -21,8 +21,9 @@ void checkMotions(double termSquares)
 {
   if (!std::isfinite(termSquares))
   {
-    throw Error(
-      "the handles move the mesh beyond the range of numbers: use targets that are nearer");
+    throw Error("the deformed mesh leaves the range of numbers: use targets that are nearer, or "
+                "clamped weights "
+                "where cells are badly shaped");
   }
 }
 

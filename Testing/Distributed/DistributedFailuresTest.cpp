@@ -255,7 +255,7 @@ TEST(DistributedFailures, OfHandles)
                            handles.Values.mask[k] = 1;
                            handles.Values.target[3 * k] = 1e200;
                          }),
-    "beyond the range of numbers"));
+    "leaves the range of numbers"));
 }
 
 TEST(DistributedFailures, OfTheMemoryOfADeformation)

@@ -215,7 +215,8 @@ void checkDeformation(const Case& given, CheckedCase& to)
   { return (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm(); };
   const double extent = std::max(diagonal(direct.positions), diagonal(rest));
   to.error = (found.values - direct.positions).rowwise().norm().maxCoeff() / extent;
-  if (to.error > (isWellShaped(given) ? 1e-5 : 1e-4))
+  // Clamped weights are in single precision, which weighs as much as needles are long.
+  if (to.error > (isWellShaped(given) ? 1e-5 : 1e-3))
   {
     to.failure = "differs from the direct deformation by " + std::to_string(to.error);
     return;
