@@ -4,9 +4,9 @@
  * @brief   Creates a coarse mesh from a very large one
  *
  * Requests NumberOfPieces pieces of the input once, in order, and creates a mesh of at most
- * PreviewPoints points by vertex clustering on a uniform grid, from triangles or from the outer
- * surface of tetrahedra. Memory is bounded by the preview and by the window of the stream. The
- * preview is kept until the filter or its input is modified.
+ * PreviewPoints points by collapsing edges of the triangles, or of the outer surface of tetrahedra
+ * (see smg::simplify()). Memory is bounded: 320 MiB suffice for 100,000 points. The preview is kept
+ * until the filter or its input is modified.
  *
  * Every point is a point of the mesh, identified by its GlobalId, with the values of all point
  * arrays. The output has no cell arrays. Its field data are those of a preview of
@@ -35,8 +35,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /** The maximum number of points of the preview, 8 to 1,000,000; it typically has 70 to 100 % of
-   * it. Default: 10,000. */
+  /** The maximum number of points of the preview, 8 to 1,000,000; it usually has as many. Default:
+   * 10,000. */
   void SetPreviewPoints(int points);
   vtkGetMacro(PreviewPoints, int);
   ///@}
@@ -44,8 +44,7 @@ public:
   ///@{
   /**
    * The number of pieces in which the input is requested, 0 to 1,000,000. Default: 0 (at least 64,
-   * and pieces of at most 64 MiB). More pieces need less memory. The preview depends on it, since
-   * the grid of the clusters is fitted to the first piece.
+   * and pieces of at most 64 MiB). More pieces need less memory.
    */
   vtkSetClampMacro(NumberOfPieces, int, 0, 1000000);
   vtkGetMacro(NumberOfPieces, int);

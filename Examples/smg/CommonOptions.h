@@ -92,4 +92,5 @@ void addDeformCommand(CLI::App& program, Action& action);
 void addSmoothCommand(CLI::App& program, Action& action);
 void addBlendCommand(CLI::App& program, Action& action);
 void addDistanceCommand(CLI::App& program, Action& action);
+void addSimplifyCommand(CLI::App& program, Action& action);
 void addPreviewCommand(CLI::App& program, Action& action);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// smg: Poisson problems, deformations, smoothing and distances on meshes of any size.
+// smg: Poisson problems, deformations, smoothing, distances and simplification on meshes of any size.
 //
 //   smg info bunny.ply
 //   smg convert bunny.ply bunny.vsm
@@ -9,6 +9,7 @@
 //   smg smooth scan.ply smooth.ply --size 4edges
 //   smg blend scan.ply blended.ply --patch scan --columns Colors
 //   smg distance bunny.vsm distance.vtp --from '{"vertices": [5]}'
+//   smg simplify scan.ply small.ply --vertices 100000
 //   smg preview bunny.vsm preview.vtp --points 5000
 //
 // Exit status: 0; 1 with one line on standard error; 2 for wrong usage.
@@ -103,7 +104,7 @@ int run(int argc, char** argv)
 {
   CLI::App program(
     "Streaming multigrid for Poisson problems, deformations, smoothing and distances on meshes of "
-    "any size",
+    "any size, and their simplification",
     "smg");
   program.set_version_flag("--version", SMG_VERSION);
   program.require_subcommand(1);
@@ -115,6 +116,7 @@ int run(int argc, char** argv)
   addSmoothCommand(program, action);
   addBlendCommand(program, action);
   addDistanceCommand(program, action);
+  addSimplifyCommand(program, action);
   addPreviewCommand(program, action);
   if (argc < 2 || std::string_view(argv[1]) == "help")
   {

@@ -4,7 +4,11 @@
 #include "IO/Preview/SolidPreview.h"
 #include "IO/Preview/StreamPreview.h"
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
+#include <string>
+#include <vector>
 
 namespace smg
 {
@@ -42,12 +46,16 @@ Column gather(VsmReader& mesh, const ColumnSpec& spec, const std::vector<std::in
 MeshPiece makePreviewPiece(VsmReader& mesh, std::int64_t maximumPoints,
   const ProgressFunction& progress, SolidPreviewCells cells)
 {
+  const std::vector<ColumnSpec>& columns = mesh.info().vertexColumns;
+  if (cells != SolidPreviewCells::Tetrahedra || mesh.info().cellType != CellType::Tetrahedron)
+  {
+    std::vector<std::string> names;
+    std::ranges::transform(columns, std::back_inserter(names), &ColumnSpec::name);
+    return makePreview(*mesh.source(names, {}), maximumPoints, progress);
+  }
   // Most rows are not needed, so the columns are read afterwards.
-  const bool isSolid =
-    cells == SolidPreviewCells::Tetrahedra && mesh.info().cellType == CellType::Tetrahedron;
-  MeshPiece piece = isSolid ? makeSolidPreview(mesh, maximumPoints, progress)
-                            : makePreview(*mesh.source({}, {}), maximumPoints, progress);
-  for (const ColumnSpec& spec : mesh.info().vertexColumns)
+  MeshPiece piece = makeSolidPreview(mesh, maximumPoints, progress);
+  for (const ColumnSpec& spec : columns)
   {
     piece.vertexColumns.push_back(gather(mesh, spec, piece.ids));
   }

@@ -1,239 +1,110 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Preview/StreamPreview.h"
 
-#include "IO/Preview/ClusterGrid.h"
-#include "IO/Preview/KeptRows.h"
-#include "IO/Preview/OpenFaces.h"
+#include "IO/Formats/Vsm/Columns.h"
+#include "IO/Simplification/SolidBoundary.h"
+#include "IO/Simplification/StreamSimplifier.h"
 #include "Solver/Core/Progress.h"
+
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
+#include <cstddef>
+#include <iterator>
 #include <numeric>
-#include <unordered_set>
+#include <vector>
 
 namespace smg
 {
 namespace
 {
 
-/** The vertices that a later cell may use, and their clusters. */
-class PreviewBuilder
+/** Meshes of more cells are simplified on all cores. */
+constexpr std::int64_t CellsOfOneThread = 4000000;
+
+/** Memory with which the preview is simplified as a whole at the end, and with which parts of the
+ * stream have vertices that others do not have. */
+std::int64_t memoryFor(std::int64_t points, const StreamInfo& info)
 {
-public:
-  PreviewBuilder(const StreamInfo& info, ClusterGrid grid)
-    : Type(info.cellType)
-    , Grid(std::move(grid))
-    , Rows(info.vertexColumns)
-  {
-  }
+  constexpr std::int64_t OfPoint = 3500, OfWidth = 10000; // bytes
+  constexpr std::int64_t Least = std::int64_t(32) << 20, Most = std::int64_t(320) << 20;
+  const std::int64_t width = info.width < 0 ? 10000 : info.width;
+  return std::max(OfPoint * points, std::clamp(OfWidth * width, Least, Most));
+}
 
-  void add(const MeshBlock& block)
-  {
-    this->Rows.take(block);
-    for (std::size_t i = 0; i < block.positions.size(); i += 3)
-    {
-      this->Window.push_back(
-        { { block.positions[i], block.positions[i + 1], block.positions[i + 2] }, -1, -1 });
-    }
-    const std::size_t corners = cornersOf(this->Type);
-    for (std::size_t i = 0; i + corners <= block.corners.size(); i += corners)
-    {
-      if (this->Type == CellType::Triangle)
-      {
-        this->triangle({ block.corners[i], block.corners[i + 1], block.corners[i + 2] });
-      }
-      else
-      {
-        this->Faces.add(std::span<const std::int64_t, 4>(block.corners.data() + i, 4));
-      }
-    }
-    // Scanning all open faces is only worthwhile if there are many more of them than last time.
-    if (this->Type == CellType::Triangle || this->Faces.size() > 2 * this->FacesKept + 100000)
-    {
-      this->forgetBelow(block.finalized);
-    }
-  }
+/** Appends a part; vertices that several parts have are repeated. */
+void append(const SurfacePart& from, SurfacePart& to)
+{
+  const auto first = static_cast<std::uint32_t>(to.vertices());
+  to.ids.insert(to.ids.end(), from.ids.begin(), from.ids.end());
+  to.points.insert(to.points.end(), from.points.begin(), from.points.end());
+  to.rows.insert(to.rows.end(), from.rows.begin(), from.rows.end());
+  std::ranges::transform(from.corners, std::back_inserter(to.corners),
+    [first](std::uint32_t corner) { return first + corner; });
+}
 
-  MeshPiece finish()
+/** The normals of the vertices: the means of those of the triangles, weighted by their angles. */
+std::vector<float> normalsOf(const MeshPiece& piece)
+{
+  using Vector = Eigen::Vector3d;
+  const auto point = [&piece](std::int64_t v)
+  { return Eigen::Map<const Vector>(piece.positions.data() + 3 * v); };
+  std::vector<double> sums(piece.positions.size());
+  for (std::size_t i = 0; i < piece.corners.size(); i += 3)
   {
-    this->forgetBelow(this->First + static_cast<std::int64_t>(this->Window.size()));
-    this->Grid.finish();
-    return this->collect();
-  }
-
-private:
-  struct Vertex
-  {
-    std::array<double, 3> point;
-    int cluster;
-    int generation;
-  };
-
-  int clusterOf(std::int64_t id)
-  {
-    Vertex& vertex = this->Window[id - this->First];
-    if (vertex.generation != this->Grid.generation())
-    {
-      vertex.cluster = this->Grid.cluster(id, vertex.point);
-      vertex.generation = this->Grid.generation();
-      if (this->Grid.clusters()[vertex.cluster].id == id)
-      {
-        this->Rows.keep(id);
-        this->thinRows();
-      }
-    }
-    return vertex.cluster;
-  }
-
-  using Vector = std::array<double, 3>;
-
-  /** The area-weighted normal of a triangle. */
-  static Vector normalOf(const Vector& a, const Vector& b, const Vector& c)
-  {
-    const double u[3] = { b[0] - a[0], b[1] - a[1], b[2] - a[2] };
-    const double v[3] = { c[0] - a[0], c[1] - a[1], c[2] - a[2] };
-    return { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0] };
-  }
-  Vector normalOf(const OpenFaces::Face& face) const
-  {
-    const auto point = [&](std::size_t k) -> const Vector&
-    { return this->Window[face[k] - this->First].point; };
-    return normalOf(point(0), point(1), point(2));
-  }
-
-  /** Whether the orientation of the triangle of these clusters is opposite to that of the mesh. */
-  bool isTurned(const std::array<int, 3>& triangle) const
-  {
-    const auto cluster = [&](int k) -> const ClusterGrid::Representative&
-    { return this->Grid.clusters()[triangle[k]]; };
-    const Vector own = normalOf(cluster(0).point, cluster(1).point, cluster(2).point);
-    double along = 0.0;
+    const std::int64_t* c = piece.corners.data() + i;
+    const Vector normal =
+      (point(c[1]) - point(c[0])).cross(point(c[2]) - point(c[0])).stableNormalized();
     for (int k = 0; k < 3; ++k)
     {
-      const Vector& normal = cluster(k).normal;
-      along += std::inner_product(own.begin(), own.end(), normal.begin(), 0.0);
+      const Vector a = (point(c[(k + 1) % 3]) - point(c[k])).stableNormalized();
+      const Vector b = (point(c[(k + 2) % 3]) - point(c[k])).stableNormalized();
+      Eigen::Map<Vector>(sums.data() + 3 * c[k]) +=
+        std::acos(std::clamp(a.dot(b), -1.0, 1.0)) * normal;
     }
-    return along < 0.0;
   }
-
-  void triangle(const OpenFaces::Face& face)
+  std::vector<float> normals(sums.size());
+  for (std::size_t i = 0; i < sums.size(); i += 3)
   {
-    // A corner that coarsens the grid invalidates the clusters of the others.
-    std::array<int, 3> clusters{};
-    for (int generation = -1; generation != this->Grid.generation();)
-    {
-      generation = this->Grid.generation();
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        clusters[k] = this->clusterOf(face[k]);
-      }
-    }
-    this->Grid.addTriangle(clusters[0], clusters[1], clusters[2], this->normalOf(face));
+    const Vector normal = Eigen::Map<const Vector>(sums.data() + i).stableNormalized();
+    Eigen::Map<Eigen::Vector3f>(normals.data() + i) = normal.cast<float>();
   }
+  return normals;
+}
 
-  /** Releases the rows of vertices that no longer represent their cluster, once there are many. */
-  void thinRows()
-  {
-    const auto& clusters = this->Grid.clusters();
-    if (this->Rows.size() < 2 * clusters.size() + 1000)
-    {
-      return;
-    }
-    std::unordered_set<std::int64_t> present;
-    for (const ClusterGrid::Representative& cluster : clusters)
-    {
-      present.insert(cluster.id);
-    }
-    this->Rows.thin([&present](std::int64_t id) { return present.count(id) > 0; });
-  }
-
-  void forgetBelow(std::int64_t finalized)
-  {
-    this->Faces.closeBelow(
-      finalized, [this](const OpenFaces::Face& face) { this->triangle(face); });
-    this->FacesKept = this->Faces.size();
-    const auto forgotten = std::clamp<std::int64_t>(
-      finalized - this->First, 0, static_cast<std::int64_t>(this->Window.size()));
-    this->Window.erase(this->Window.begin(), this->Window.begin() + forgotten);
-    this->First += forgotten;
-    this->Rows.forgetBelow(this->First);
-  }
-
-  /** The clusters that triangles use, by ascending stream index. */
-  MeshPiece collect() const
-  {
-    const auto& clusters = this->Grid.clusters();
-    std::vector<char> isUsed(clusters.size(), 0);
-    for (const auto& triangle : this->Grid.triangles())
-    {
-      for (const int cluster : triangle)
-      {
-        isUsed[cluster] = 1;
-      }
-    }
-    std::vector<int> order;
-    for (std::size_t i = 0; i < clusters.size(); ++i)
-    {
-      if (isUsed[i])
-      {
-        order.push_back(static_cast<int>(i));
-      }
-    }
-    std::sort(order.begin(), order.end(),
-      [&clusters](int a, int b) { return clusters[a].id < clusters[b].id; });
-    MeshPiece preview;
-    std::vector<std::int64_t> number(clusters.size(), -1);
-    for (const int cluster : order)
-    {
-      number[cluster] = static_cast<std::int64_t>(preview.ids.size());
-      preview.ids.push_back(clusters[cluster].id);
-      const auto& point = clusters[cluster].point;
-      preview.positions.insert(preview.positions.end(), point.begin(), point.end());
-      const auto& normal = clusters[cluster].normal;
-      const double length = std::hypot(normal[0], normal[1], normal[2]);
-      for (const double component : normal)
-      {
-        preview.normals.push_back(length > 0.0 ? static_cast<float>(component / length) : 0.0F);
-      }
-    }
-    for (const auto& [a, b, c] : this->Grid.triangles())
-    {
-      // The triangle of the representatives may have the opposite orientation.
-      const bool isTurned = this->isTurned({ a, b, c });
-      preview.corners.insert(
-        preview.corners.end(), { number[a], number[isTurned ? c : b], number[isTurned ? b : c] });
-    }
-    preview.vertexColumns = this->Rows.gather(preview.ids);
-    preview.ghost.assign(preview.ids.size(), 0);
-    preview.finalized.assign(preview.ids.size(), 1);
-    return preview;
-  }
-
-  CellType Type;
-  ClusterGrid Grid;
-  KeptRows Rows;
-  OpenFaces Faces;
-  std::size_t FacesKept = 0;
-  std::deque<Vertex> Window;
-  std::int64_t First = 0; ///< stream index of the window's first vertex
-};
-
-/** The box of the block's vertices. */
-std::array<double, 6> boundsOf(const MeshBlock& block)
+/** The surface with its vertices by ascending stream index, each once. */
+MeshPiece pieceOf(const SurfacePart& surface, const std::vector<ColumnSpec>& columns)
 {
-  std::array<double, 6> bounds{};
-  for (std::size_t axis = 0; axis < 3 && !block.positions.empty(); ++axis)
+  std::vector<std::uint32_t> order(surface.vertices());
+  std::iota(order.begin(), order.end(), 0U);
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t v) { return surface.ids[v]; });
+  MeshPiece piece;
+  piece.vertexColumns = emptyColumns(columns);
+  const std::size_t row = surface.rowBytes();
+  std::vector<std::int64_t> places(order.size());
+  for (const std::uint32_t v : order)
   {
-    double& low = bounds[2 * axis] = block.positions[axis];
-    double& high = bounds[2 * axis + 1] = block.positions[axis];
-    for (std::size_t i = axis; i < block.positions.size(); i += 3)
+    if (piece.ids.empty() || piece.ids.back() != surface.ids[v])
     {
-      low = std::min(low, block.positions[i]);
-      high = std::max(high, block.positions[i]);
+      piece.ids.push_back(surface.ids[v]);
+      const auto point = surface.points.begin() + 3 * static_cast<std::ptrdiff_t>(v);
+      piece.positions.insert(piece.positions.end(), point, point + 3);
+      const std::byte* from = surface.rows.data() + v * row;
+      for (Column& column : piece.vertexColumns)
+      {
+        column.bytes.insert(column.bytes.end(), from, from + column.spec.tupleBytes());
+        from += column.spec.tupleBytes();
+      }
     }
+    places[v] = piece.vertices() - 1;
   }
-  return bounds;
+  std::ranges::transform(surface.corners, std::back_inserter(piece.corners),
+    [&places](std::uint32_t corner) { return places[corner]; });
+  piece.normals = normalsOf(piece);
+  piece.ghost.assign(piece.ids.size(), 0);
+  piece.finalized.assign(piece.ids.size(), 1);
+  return piece;
 }
 
 } // namespace
@@ -242,30 +113,23 @@ MeshPiece makePreview(
   MeshSource& mesh, std::int64_t maximumPoints, const ProgressFunction& progress)
 {
   Progress done(progress);
-  const StreamInfo& info = mesh.info();
-  MeshBlock block;
-  bool isBlock = mesh.next(block);
-  const bool isKnown = info.bounds != std::array<double, 6>{};
-  PreviewBuilder builder(
-    info, ClusterGrid(isKnown ? info.bounds : boundsOf(block), maximumPoints, !isKnown));
-  for (; isBlock; isBlock = mesh.next(block))
+  Workers workers(mesh.info().cells > CellsOfOneThread ? 0 : 1);
+  SolidBoundary triangles(mesh);
+  StreamSimplifier simplifier(triangles, { .vertices = maximumPoints },
+    memoryFor(maximumPoints, mesh.info()), workers, [&done](double share) { done.update(share); });
+  SurfacePart surface;
+  for (StreamSimplifier::Result result; simplifier.next(result);)
   {
-    builder.add(block);
-    if (info.cells > 0)
-    {
-      const double cell =
-        static_cast<double>(block.firstCell) + block.corners.size() / cornersOf(info.cellType);
-      done.update(cell / static_cast<double>(info.cells));
-    }
+    append(result.surface, surface);
   }
   done.update(1.0);
-  return builder.finish();
+  return pieceOf(surface, mesh.info().vertexColumns);
 }
 
 std::string emptyPreview(std::int64_t maximumPoints)
 {
   return "a preview of at most " + std::to_string(maximumPoints) +
-         " points shows nothing of this mesh: every triangle shrinks to an edge or a point.";
+         " points shows nothing of this mesh: no triangle has an area.";
 }
 
 } // namespace smg

@@ -4,7 +4,9 @@
 #include "IO/vtkStreamingMeshReader.h"
 #include "Testing/Filters/vtkEndHandles.h"
 #include "Testing/Filters/vtkHandleTesting.h"
+#include "Testing/Support/MemorySource.h"
 #include "Testing/Support/TemporaryFolder.h"
+#include "smg/WriteMesh.h"
 
 #include "vtkFieldData.h"
 #include "vtkPolyData.h"
@@ -122,9 +124,12 @@ TEST_F(VtkStreamingMeshPreview, SeesTheMeshBehindThePreviewOfTheReader)
 
 TEST_F(VtkStreamingMeshPreview, WarnsThatItShowsNothing)
 {
-  IndexedTestMesh mesh = grid(3, 3);
-  std::fill(mesh.positions.begin(), mesh.positions.end(), 1.0);
-  this->open(mesh);
+  StreamMesh mesh = toStream(grid(3, 3));
+  const std::vector<std::uint8_t> flags(static_cast<std::size_t>(mesh.cells()), DegenerateCell);
+  mesh.cellColumns = { makeColumn<std::uint8_t>(CellFlagsName, flags) };
+  MemorySource source(mesh);
+  writeMesh(source, this->Folder / "flat.vsm");
+  this->Reader->SetFileName((this->Folder / "flat.vsm").c_str());
   Errors warnings(this->Preview);
   ASSERT_TRUE(updatePiece(this->Preview, 0, 1));
   EXPECT_EQ(this->Preview->GetOutput()->GetNumberOfCells(), 0);

@@ -98,10 +98,11 @@ TEST_F(PreviewStreams, OfFewerOrMorePointsThanAllowedAreRefused)
   }
 }
 
-TEST_F(PreviewStreams, OfNothingAreRefused)
+TEST_F(PreviewStreams, OfCellsWithoutAreaAreRefused)
 {
   StreamMesh mesh = toStream(grid(3, 3));
-  std::fill(mesh.positions.begin(), mesh.positions.end(), 1.0);
+  mesh.cellColumns = { makeColumn<std::uint8_t>(CellFlagsName,
+    std::vector<std::uint8_t>(static_cast<std::size_t>(mesh.cells()), DegenerateCell)) };
   expectError([&] { this->previewOf(mesh, 100); }, "mesh.vsm: a preview of at most 100 points");
   VsmReader reader(this->Folder / "mesh.vsm");
   expectError(

@@ -28,8 +28,8 @@ inline constexpr std::int64_t MostPreviewPoints = 1000000;
 inline constexpr const char* StreamIndexName = "StreamIndex";
 
 /**
- * A preview of a mesh as a stream of triangles, in breadth-first order: a small mesh by vertex
- * clustering, of a tetrahedral mesh of its outer surface. Its points are vertices of the mesh, with
+ * A preview of a mesh as a stream of triangles, in breadth-first order: a simplified surface, of a
+ * tetrahedral mesh its outer surface (see simplify()). Its points are vertices of the mesh, with
  * all vertex columns, the column StreamIndex, and OriginalId, which is StreamIndex again if the
  * mesh does not have it. It has no attributes of cells.
  */
@@ -45,8 +45,7 @@ public:
    * @param name what error messages call the mesh; empty: its file name
    * @param scratch folder for scratch files, which only large previews need; empty: the system's
    * temporary folder
-   * @throws Error if the limit is out of range, the mesh cannot be read, or the preview is empty
-   * because the corners of every triangle coincide
+   * @throws Error if the limit is out of range, the mesh cannot be read, or no cell has an area
    * @throws Cancelled if the progress callback returns false
    */
   explicit PreviewSource(VsmReader& mesh, std::int64_t maximumPoints = DefaultPreviewPoints,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "IO/Preview/OpenFaces.h"
+#include "IO/Simplification/OpenFaces.h"
 
 #include <algorithm>
 

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "OneProcess.h"
+#include "OpenInput.h"
+#include "ProgressBar.h"
+
+#include "IO/AnyFormat/FormatTable.h"
+#include "IO/AnyFormat/MeshFile.h"
+#include "IO/Estimate/JobEstimate.h"
+#include "IO/Files/PartialProgress.h"
+#include "IO/Simplification/SimplifyCosts.h"
+#include "smg/Error.h"
+#include "smg/Simplify.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace
+{
+
+struct SimplifyCommand : CommonOptions
+{
+  std::filesystem::path in, out;
+  InputOptions input;
+  smg::SimplifyOptions simplify;
+  bool dryRun = false;
+
+  void run();
+
+private:
+  smg::JobEstimate estimate() const;
+};
+
+/** The costs; without a number of vertices, those of a result as large as IN. */
+smg::JobEstimate SimplifyCommand::estimate() const
+{
+  smg::ConversionOptions conversion = inputOptions(*this, this->input);
+  conversion.scratch = this->scratchPlace();
+  const smg::EstimatedInput mesh(this->in, conversion);
+  smg::EstimatedInput result = mesh;
+  result.parts.clear();
+  result.info.cellType = smg::CellType::Triangle;
+  result.info.cellColumns.clear();
+  if (this->simplify.vertices > 0)
+  {
+    result.info.vertices = std::min(result.info.vertices, this->simplify.vertices);
+    result.info.cells = std::min(result.info.cells, 2 * result.info.vertices);
+  }
+  const smg::Costs costs =
+    smg::simplifyCosts(mesh.info, this->memoryBytes(this->simplify.memoryLimit));
+  smg::JobEstimate estimate(
+    result, { this->out, { { smg::OriginalIdSpec }, {} } }, costs, conversion);
+  estimate.vertices = mesh.info.vertices;
+  estimate.cells = mesh.info.cells;
+  estimate.memory_limit = this->memoryBytes(this->simplify.memoryLimit);
+  return estimate;
+}
+
+void SimplifyCommand::run()
+{
+  requireOneProcess();
+  if (this->simplify.vertices == 0 && this->simplify.error == 0.0)
+  {
+    throw smg::Error("how far to simplify? Give --vertices, --error or both");
+  }
+  smg::checkOutputPlace(this->out);
+  smg::checkIsNotInput(this->in, this->out);
+  this->checkReport({ this->in, this->out });
+  if (this->dryRun)
+  {
+    const smg::JobEstimate costs = this->estimate();
+    this->writeReport(costs.json());
+    printEstimate(costs);
+    return;
+  }
+  smg::SimplifyReport report;
+  {
+    ProgressBar bar("simplifying", this->quiet);
+    const std::unique_ptr<smg::OpenedMesh> mesh = openInput(this->in, *this,
+      smg::partOf(bar.function(), 0.0, 0.5), smg::StreamOrder::BreadthFirst, this->input);
+    this->simplify.memoryLimit = this->memoryBytes(this->simplify.memoryLimit);
+    this->simplify.threads = this->threads;
+    this->simplify.scratch = this->scratch;
+    this->simplify.progress = smg::partOf(bar.function(), mesh->conversion() ? 0.5 : 0.0, 1.0);
+    report = smg::simplify(mesh->reader(), this->out, this->simplify);
+  }
+  this->writeReport(report.json());
+  if (!this->quiet)
+  {
+    std::printf("%lld vertices and %lld triangles of %lld and %lld, error %.3g, %.2f s\n",
+      static_cast<long long>(report.vertices), static_cast<long long>(report.cells),
+      static_cast<long long>(report.vertices_before), static_cast<long long>(report.cells_before),
+      report.error, report.seconds);
+    for (const std::string& note : report.notes)
+    {
+      std::printf("  %s\n", note.c_str());
+    }
+  }
+}
+
+} // namespace
+
+void addSimplifyCommand(CLI::App& program, Action& action)
+{
+  auto options = std::make_shared<SimplifyCommand>();
+  CLI::App* command = program.add_subcommand(
+    "simplify", "Simplify a surface, or that of a solid, by collapsing edges");
+  command->add_option("IN", options->in, "The mesh")->required();
+  command
+    ->add_option("OUT", options->out,
+      "The simplified surface: " +
+        smg::suffixList(smg::FormatUse::WriteColumns, smg::CellType::Triangle, "or") +
+        " with the columns of the vertices of IN, and with OriginalId, the number that each vertex "
+        "has in IN; or any other format of surfaces that is written")
+    ->required();
+  command->add_option("--vertices", options->simplify.vertices, "Maximum number of vertices")
+    ->check(CLI::Range(std::int64_t(4), std::int64_t(1) << 40))
+    ->type_name("N");
+  command->add_option("--error", options->simplify.error, "Largest error, in the unit of the mesh")
+    ->check(CLI::PositiveNumber)
+    ->type_name("LENGTH");
+  command->add_flag(
+    "--dry-run", options->dryRun, "Only estimate the size of the mesh and the costs");
+  options->input.addTo(*command);
+  options->addTo(*command);
+  options->addThreadsTo(*command);
+  command->callback([options, &action] { action = [options] { return options->run(), 0; }; });
+}

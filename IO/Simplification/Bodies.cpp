@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Simplification/Bodies.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace smg
+{
+namespace
+{
+
+/** The bodies of a surface, by union and find on its vertices. */
+class BodyLabels
+{
+public:
+  explicit BodyLabels(const SurfacePart& part)
+    : Parent(part.vertices())
+  {
+    std::iota(this->Parent.begin(), this->Parent.end(), 0U);
+    for (std::size_t i = 0; i + 2 < part.corners.size(); i += 3)
+    {
+      this->join(part.corners[i], part.corners[i + 1]);
+      this->join(part.corners[i], part.corners[i + 2]);
+    }
+  }
+
+  /** The vertex that stands for the body of a vertex: its first one. */
+  std::uint32_t of(std::uint32_t vertex)
+  {
+    while (this->Parent[vertex] != vertex)
+    {
+      vertex = this->Parent[vertex] = this->Parent[this->Parent[vertex]];
+    }
+    return vertex;
+  }
+
+private:
+  void join(std::uint32_t a, std::uint32_t b)
+  {
+    a = this->of(a);
+    b = this->of(b);
+    this->Parent[std::max(a, b)] = std::min(a, b);
+  }
+
+  std::vector<std::uint32_t> Parent;
+};
+
+struct Body
+{
+  std::array<double, 3> low, high;
+  std::size_t triangles = 0;
+  bool isComplete = true;
+
+  double squaredDiagonal() const
+  {
+    double sum = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double side = this->high[axis] - this->low[axis];
+      sum += side * side;
+    }
+    return sum;
+  }
+};
+
+/** The bodies at the vertices that stand for them. */
+std::vector<Body> bodiesOf(
+  const SurfacePart& part, std::span<const std::uint8_t> locked, BodyLabels& labels)
+{
+  constexpr double Far = std::numeric_limits<double>::infinity();
+  std::vector<Body> bodies(part.vertices(), { { Far, Far, Far }, { -Far, -Far, -Far } });
+  for (std::uint32_t v = 0; v < part.vertices(); ++v)
+  {
+    Body& body = bodies[labels.of(v)];
+    body.isComplete = body.isComplete && locked[v] == 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      const double x = part.points[3 * std::size_t(v) + axis];
+      body.low[axis] = std::min(body.low[axis], x);
+      body.high[axis] = std::max(body.high[axis], x);
+    }
+  }
+  for (std::size_t i = 0; i < part.corners.size(); i += 3)
+  {
+    ++bodies[labels.of(part.corners[i])].triangles;
+  }
+  return bodies;
+}
+
+} // namespace
+
+KeptBodies keepLargestBodies(
+  SurfacePart& part, std::span<const std::uint8_t> locked, std::size_t most)
+{
+  BodyLabels labels(part);
+  const std::vector<Body> bodies = bodiesOf(part, locked, labels);
+  std::vector<std::pair<double, std::uint32_t>> complete;
+  for (std::uint32_t v = 0; v < bodies.size(); ++v)
+  {
+    if (labels.of(v) == v && bodies[v].isComplete)
+    {
+      complete.emplace_back(-bodies[v].squaredDiagonal(), v);
+    }
+  }
+  if (complete.size() <= most)
+  {
+    return {};
+  }
+  std::ranges::sort(complete);
+  std::vector<std::uint8_t> drops(part.vertices(), 0);
+  std::size_t dropped = 0;
+  for (std::size_t k = most; k < complete.size(); ++k)
+  {
+    drops[complete[k].second] = 1;
+    dropped += bodies[complete[k].second].triangles;
+  }
+  if (2 * dropped > part.triangles())
+  {
+    return { 0, true };
+  }
+  std::vector<std::uint32_t> kept;
+  for (std::size_t i = 0; i < part.corners.size(); i += 3)
+  {
+    if (drops[labels.of(part.corners[i])] == 0)
+    {
+      kept.insert(kept.end(), { part.corners[i], part.corners[i + 1], part.corners[i + 2] });
+    }
+  }
+  part.corners = std::move(kept);
+  part.dropUnusedVertices();
+  return { complete.size() - most, false };
+}
+
+} // namespace smg

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Simplification/SurfacePart.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace smg
+{
+
+/** What keepLargestBodies() has done. */
+struct KeptBodies
+{
+  std::size_t dropped = 0; ///< bodies
+  /** Whether most triangles belong to bodies that are too many, so that all are still there: a
+   * surface whose triangles do not share their vertices. */
+  bool areFragments = false;
+};
+
+/**
+ * Drops the smallest bodies of a surface, by the diagonals of their bounds, so that at most `most`
+ * are left. Bodies with a locked vertex, which may be parts of larger ones, stay and do not count.
+ */
+KeptBodies keepLargestBodies(
+  SurfacePart& part, std::span<const std::uint8_t> locked, std::size_t most);
+
+} // namespace smg

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Simplification/EdgeCollapse.h"
+
+#include "IO/Simplification/SurfaceTopology.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace smg
+{
+namespace
+{
+
+/** Of edges of equal errors, this share of the squared length decides. */
+constexpr double LengthShare = 1e-3;
+/** The weight of a boundary edge compared with triangles of its length. */
+constexpr double BoundaryWeight = 10.0;
+/** The least cosine of the angle by which a triangle may turn. */
+constexpr double LeastCosine = 0.2;
+
+using Vector = std::array<double, 3>;
+
+Vector minus(const double* a, const double* b)
+{
+  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
+}
+Vector cross(const Vector& a, const Vector& b)
+{
+  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
+}
+double dot(const Vector& a, const Vector& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/** A collapse of `from` onto `to`. */
+struct Collapse
+{
+  std::uint32_t from, to;
+  float rank; ///< squared error, and a little for the length
+};
+
+class Collapser
+{
+public:
+  Collapser(SurfacePart& part, std::span<const std::uint8_t> open)
+    : Part(part)
+    , Surface(part.corners, open)
+  {
+  }
+
+  /** Makes the quadrics of the triangles. */
+  void addPlanes()
+  {
+    const std::vector<std::uint32_t>& corners = this->Part.corners;
+    this->Part.quadrics.assign(this->Part.vertices(), {});
+    for (std::size_t i = 0; i < corners.size(); i += 3)
+    {
+      const std::uint32_t* c = corners.data() + i;
+      const Vector area = cross(
+        minus(this->point(c[1]), this->point(c[0])), minus(this->point(c[2]), this->point(c[0])));
+      this->addPlane({ c, 3 }, area, std::sqrt(dot(area, area)));
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const std::uint32_t ends[2] = { c[k], c[(k + 1) % 3] };
+        if (this->Surface.isBoundary(ends[0], ends[1]))
+        {
+          const Vector edge = minus(this->point(ends[1]), this->point(ends[0]));
+          this->addPlane(ends, cross(edge, area), BoundaryWeight * dot(edge, edge));
+        }
+      }
+    }
+  }
+
+  double run(const CollapseGoal& goal)
+  {
+    bool pinching = false;
+    for (std::size_t left = this->Part.vertices(); left > goal.vertices;)
+    {
+      this->rankEdges(goal.error * goal.error);
+      const std::size_t gone = this->collapse(left - goal.vertices, pinching);
+      left -= gone;
+      this->Surface.endPass();
+      if (gone == 0 && (pinching || !goal.mayPinch))
+      {
+        break;
+      }
+      pinching = pinching || gone == 0;
+      if (pinching)
+      {
+        left = this->Surface.dropFolded();
+      }
+    }
+    this->Part.dropUnusedVertices();
+    return std::sqrt(this->Error);
+  }
+
+private:
+  const double* point(std::uint32_t v) const
+  {
+    return this->Part.points.data() + 3 * std::size_t(v);
+  }
+
+  /** Adds the plane of this normal, of any length, to some vertices in it. */
+  void addPlane(std::span<const std::uint32_t> to, const Vector& normal, double weight)
+  {
+    const double length = std::sqrt(dot(normal, normal));
+    if (!(length > 0.0))
+    {
+      return;
+    }
+    const Vector unit{ normal[0] / length, normal[1] / length, normal[2] / length };
+    const Vector at = minus(this->point(to[0]), this->Part.origin.data());
+    Quadric plane;
+    plane.addPlane(unit.data(), at.data(), weight);
+    for (const std::uint32_t v : to)
+    {
+      this->Part.quadrics[v].add(plane);
+    }
+  }
+
+  /** The squared error of a collapse. */
+  double errorOf(std::uint32_t from, std::uint32_t to) const
+  {
+    const Vector at = minus(this->point(to), this->Part.origin.data());
+    return this->Part.quadrics[from].squaredDistance(at.data());
+  }
+
+  /** Lists the edges with an end that may go within a squared error. */
+  void rankEdges(double limit)
+  {
+    const std::vector<std::uint32_t>& corners = this->Part.corners;
+    this->Edges.clear();
+    for (std::size_t i = 0; i < corners.size(); ++i)
+    {
+      const std::uint32_t a = corners[i], b = corners[i % 3 == 2 ? i - 2 : i + 1];
+      // The second triangle of an edge runs along it in the other direction. Where it does not,
+      // both list the edge.
+      if (a < b || this->Surface.mayBeBoundary(a, b) || this->Surface.isTurned())
+      {
+        this->rank(a, b, limit);
+      }
+    }
+  }
+
+  void rank(std::uint32_t a, std::uint32_t b, double limit)
+  {
+    constexpr double None = std::numeric_limits<double>::infinity();
+    const double ofA = this->Surface.mayGo(a) ? this->errorOf(a, b) : None;
+    const double ofB = this->Surface.mayGo(b) ? this->errorOf(b, a) : None;
+    const double error = std::min(ofA, ofB);
+    if (error <= limit && error < None)
+    {
+      const Vector edge = minus(this->point(a), this->point(b));
+      const auto rank = static_cast<float>(error + LengthShare * dot(edge, edge));
+      this->Edges.push_back(ofA <= ofB ? Collapse{ a, b, rank } : Collapse{ b, a, rank });
+    }
+  }
+
+  /** The edges by ascending rank, those of about the same in their order. */
+  void sortEdges()
+  {
+    constexpr int Dropped = 15; // bits of the number: 8 of the mantissa count
+    const auto keyOf = [](const Collapse& edge)
+    { return std::bit_cast<std::uint32_t>(edge.rank) >> Dropped; };
+    this->Begin.assign((1U << (32 - Dropped)) + 1, 0);
+    for (const Collapse& edge : this->Edges)
+    {
+      ++this->Begin[keyOf(edge) + 1];
+    }
+    std::partial_sum(this->Begin.begin(), this->Begin.end(), this->Begin.begin());
+    this->Order.resize(this->Edges.size());
+    for (std::uint32_t e = 0; e < this->Edges.size(); ++e)
+    {
+      this->Order[this->Begin[keyOf(this->Edges[e])]++] = e;
+    }
+  }
+
+  /** Collapses edges, at most so many; returns their number. */
+  std::size_t collapse(std::size_t most, bool pinching)
+  {
+    this->sortEdges();
+    // Neighbours of a collapse wait for the next pass: this one ends before edges that are much
+    // worse than those that would suffice without such neighbours.
+    constexpr float Worse = 1.5F;
+    const std::size_t enough = std::min(most, this->Edges.size() / 2);
+    std::size_t done = 0;
+    for (std::size_t k = 0; k < this->Order.size() && done < most; ++k)
+    {
+      const auto [from, to, rank] = this->Edges[this->Order[k]];
+      if (k > enough && done > most / 6 && rank > Worse * this->Edges[this->Order[enough]].rank)
+      {
+        break;
+      }
+      if (this->Surface.areUntouched(from, to) && this->Surface.isPossible(from, to, pinching) &&
+          !this->turnsOver(from, to))
+      {
+        this->Error = std::max(this->Error, this->errorOf(from, to));
+        this->Part.quadrics[to].add(this->Part.quadrics[from]);
+        this->Surface.move(from, to);
+        ++done;
+      }
+    }
+    return done;
+  }
+
+  /** Whether a triangle of `from` turns by too much when that vertex goes. */
+  bool turnsOver(std::uint32_t from, std::uint32_t to) const
+  {
+    return std::ranges::any_of(this->Surface.star(from),
+      [&](std::uint32_t triangle)
+      {
+        const auto [a, b] = this->Surface.others(triangle, from);
+        if (a == b || a == to || b == to)
+        {
+          return false;
+        }
+        const Vector edge = minus(this->point(b), this->point(a));
+        const Vector before = cross(edge, minus(this->point(from), this->point(a)));
+        const Vector after = cross(edge, minus(this->point(to), this->point(a)));
+        const double product = dot(before, after), size = dot(before, before);
+        return size > 0.0 && !(product > 0.0 && product * product > LeastCosine * LeastCosine *
+                                                                      size * dot(after, after));
+      });
+  }
+
+  SurfacePart& Part;
+  SurfaceTopology Surface;
+  double Error = 0.0; ///< squared
+  std::vector<Collapse> Edges;
+  std::vector<std::uint32_t> Order, Begin;
+};
+
+} // namespace
+
+double collapseEdges(
+  SurfacePart& part, std::span<const std::uint8_t> open, const CollapseGoal& goal)
+{
+  const bool needsPlanes = part.quadrics.empty();
+  if (part.triangles() == 0 || (!needsPlanes && goal.vertices >= part.vertices()))
+  {
+    return 0.0;
+  }
+  Collapser collapser(part, open);
+  if (needsPlanes)
+  {
+    collapser.addPlanes();
+  }
+  return collapser.run(goal);
+}
+
+} // namespace smg

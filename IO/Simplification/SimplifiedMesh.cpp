@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Simplification/SimplifiedMesh.h"
+
+#include "IO/Formats/Vsm/Columns.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace smg
+{
+
+SimplifiedMesh::SimplifiedMesh(MeshSource& mesh, const SimplificationGoal& goal,
+  std::int64_t memory, Workers& workers, std::function<void(double)> progress)
+  : Surface(mesh)
+  , Simplifier(this->Surface, goal, memory, workers, std::move(progress))
+  , Info(mesh.info())
+{
+  this->Info.cellType = CellType::Triangle;
+  this->Info.vertices = this->Info.cells = 0;
+  this->Info.width = this->Info.span = -1;
+  this->Info.cellColumns.clear();
+  this->AddsIds = std::ranges::none_of(
+    this->Info.vertexColumns, [](const ColumnSpec& spec) { return spec.name == OriginalIdName; });
+  if (this->AddsIds)
+  {
+    this->Info.vertexColumns.push_back(OriginalIdSpec);
+  }
+}
+
+bool SimplifiedMesh::next(MeshBlock& block)
+{
+  MeshBlock made;
+  made.firstVertex = this->Info.vertices;
+  made.firstCell = this->Info.cells;
+  do
+  {
+    if (!this->Simplifier.next(this->Part))
+    {
+      return false;
+    }
+  } while (this->Part.surface.triangles() == 0);
+  made.vertexColumns = emptyColumns(this->Info.vertexColumns);
+  const SurfacePart& surface = this->Part.surface;
+  std::vector<std::int64_t> numbers(surface.vertices(), -1);
+  for (std::size_t v = 0; v < numbers.size(); ++v)
+  {
+    if (const auto known = this->Numbers.find(surface.ids[v]); known != this->Numbers.end())
+    {
+      numbers[v] = known->second;
+    }
+  }
+  for (const std::uint32_t corner : surface.corners)
+  {
+    if (numbers[corner] < 0)
+    {
+      numbers[corner] = this->Info.vertices++;
+      this->addVertex(corner, made);
+    }
+    made.corners.push_back(numbers[corner]);
+  }
+  this->Info.cells += static_cast<std::int64_t>(surface.triangles());
+  for (std::size_t v = 0; v < numbers.size(); ++v)
+  {
+    if (this->Part.isShared[v] != 0)
+    {
+      this->Numbers.emplace(surface.ids[v], numbers[v]);
+    }
+  }
+  for (const std::int64_t id : this->Part.ended)
+  {
+    this->Numbers.erase(id);
+  }
+  made.finalized = this->Info.vertices;
+  for (const auto& [id, number] : this->Numbers)
+  {
+    made.finalized = std::min(made.finalized, number);
+  }
+  block = std::move(made);
+  return true;
+}
+
+/** Appends a vertex of the part with its columns. */
+void SimplifiedMesh::addVertex(std::size_t vertex, MeshBlock& block)
+{
+  const SurfacePart& surface = this->Part.surface;
+  const auto point = surface.points.begin() + 3 * static_cast<std::ptrdiff_t>(vertex);
+  block.positions.insert(block.positions.end(), point, point + 3);
+  const std::size_t row = surface.rowBytes();
+  const std::byte* from = surface.rows.data() + vertex * row;
+  for (Column& column : block.vertexColumns)
+  {
+    const std::size_t bytes = column.spec.tupleBytes();
+    if (this->AddsIds && &column == &block.vertexColumns.back())
+    {
+      from = reinterpret_cast<const std::byte*>(&surface.ids[vertex]);
+    }
+    column.bytes.insert(column.bytes.end(), from, from + bytes);
+    from += bytes;
+  }
+}
+
+} // namespace smg

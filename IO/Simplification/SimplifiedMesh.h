@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Simplification/SolidBoundary.h"
+#include "IO/Simplification/StreamSimplifier.h"
+#include "smg/MeshSource.h"
+
+#include <cstdint>
+#include <functional>
+#include <unordered_map>
+
+namespace smg
+{
+
+/**
+ * A simplified surface as a mesh stream, with the vertex columns of the mesh, and with OriginalId,
+ * the stream index in the mesh, if that has no such column. Its counts are known at its end.
+ */
+class SMG_EXPORT SimplifiedMesh : public MeshSource
+{
+public:
+  /** `mesh` and `workers` must outlive it; see StreamSimplifier. */
+  SimplifiedMesh(MeshSource& mesh, const SimplificationGoal& goal, std::int64_t memory,
+    Workers& workers, std::function<void(double)> progress);
+
+  const StreamInfo& info() const override { return this->Info; }
+  bool next(MeshBlock& block) override;
+
+  const StreamSimplifier& simplifier() const { return this->Simplifier; }
+
+private:
+  void addVertex(std::size_t vertex, MeshBlock& block);
+
+  SolidBoundary Surface;
+  StreamSimplifier Simplifier;
+  StreamInfo Info;
+  bool AddsIds;
+  StreamSimplifier::Result Part;
+  /** Numbers in this stream of vertices that later parts may have. */
+  std::unordered_map<std::int64_t, std::int64_t> Numbers;
+};
+
+} // namespace smg

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "smg/Simplify.h"
+
+#include "IO/AnyFormat/FormatTable.h"
+#include "IO/AnyFormat/MeshFile.h"
+#include "IO/AnyFormat/WriteRestored.h"
+#include "IO/External/Workspace.h"
+#include "IO/Files/PartialProgress.h"
+#include "IO/Formats/Vsm/WriteVsm.h"
+#include "IO/Simplification/SimplifiedMesh.h"
+#include "Solver/Core/Timer.h"
+#include "Solver/Storage/ScratchFolder.h"
+#include "Solver/Stream/AddedColumn.h"
+#include "smg/VsmReader.h"
+#include "smg/WriteMesh.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <span>
+
+namespace smg
+{
+namespace
+{
+
+void check(const SimplifyOptions& options)
+{
+  constexpr std::int64_t LeastVertices = 4, LeastMemory = std::int64_t(16) << 20;
+  if (options.vertices == 0 && options.error == 0.0)
+  {
+    throw Error("a simplification needs the number of vertices or the error of its result");
+  }
+  if (options.vertices != 0 && options.vertices < LeastVertices)
+  {
+    throw Error("a simplified mesh of " + std::to_string(options.vertices) +
+                " vertices is asked for; expected at least " + std::to_string(LeastVertices));
+  }
+  if (!std::isfinite(options.error) || options.error < 0.0)
+  {
+    throw Error("the error of a simplification is " + std::to_string(options.error) +
+                "; expected a length above 0");
+  }
+  if (options.memoryLimit < LeastMemory)
+  {
+    throw Error("the memory limit of a simplification is " + std::to_string(options.memoryLimit) +
+                " bytes; expected at least " + std::to_string(LeastMemory) + " (16 MiB)");
+  }
+}
+
+std::vector<std::string> notesOn(
+  const SimplifyOptions& options, const SimplifyReport& report, const SimplificationCounts& counts)
+{
+  std::vector<std::string> notes;
+  if (counts.dropped > 0)
+  {
+    notes.push_back(std::to_string(counts.dropped) + (counts.dropped == 1 ? " body" : " bodies") +
+                    " too small for so few vertices " + (counts.dropped == 1 ? "is" : "are") +
+                    " left out.");
+  }
+  if (counts.isClustered)
+  {
+    notes.emplace_back(
+      "The edges of this mesh cannot be collapsed, since its triangles do not share their "
+      "vertices, or neighbours are wound differently: vertices near one another were merged "
+      "instead. smg convert --weld 0 joins triangles with the same corners.");
+  }
+  if (options.vertices > 0 && report.vertices > options.vertices)
+  {
+    notes.push_back("The result has more than " + std::to_string(options.vertices) +
+                    " vertices: further collapses would turn triangles over, tear the surface" +
+                    (options.error > 0.0 ? " or exceed the error." : "."));
+  }
+  return notes;
+}
+
+void checkFormat(const std::filesystem::path& path, FormatUse use)
+{
+  constexpr FormatUse Uses[] = { FormatUse::Write, FormatUse::Restore };
+  const std::string choices = suffixList(Uses, CellType::Triangle, "or");
+  const FileSuffix* suffix = suffixFor(use, path);
+  if (!suffix)
+  {
+    throw Error(path.string() + ": this is no format of a surface: write it as " + choices + '.');
+  }
+  if (!suffix->holds(CellType::Triangle))
+  {
+    throw Error(path.string() + ": " + holdsNo(*suffix, CellType::Triangle, choices));
+  }
+  checkOutputPlace(path);
+}
+
+SimplifyReport simplifyToVsm(const StoredMesh& mesh, const std::filesystem::path& vsm,
+  const SimplifyOptions& options, double end)
+{
+  Progress done(partOf(options.progress, 0.0, end));
+  std::vector<std::string> columns;
+  for (const ColumnSpec& spec : mesh.info().vertexColumns)
+  {
+    columns.push_back(spec.name);
+  }
+  Workers workers(options.threads);
+  const auto source = mesh.source(columns, {});
+  SimplificationGoal goal;
+  goal.vertices = options.vertices;
+  goal.error = options.error > 0.0 ? options.error : goal.error;
+  SimplifiedMesh simplified(
+    *source, goal, options.memoryLimit, workers, [&done](double share) { done.update(share); });
+  VsmWriter writer(vsm, simplified.info(), { .codec = options.codec, .scratch = options.scratch });
+  for (MeshBlock block; simplified.next(block);)
+  {
+    writer.append(block);
+  }
+  const StreamInfo written = writer.finish();
+  const SimplificationCounts& counts = simplified.simplifier().counts();
+  SimplifyReport report;
+  report.vertices_before = counts.vertices;
+  report.cells_before = mesh.info().cells;
+  report.vertices = written.vertices;
+  report.cells = written.cells;
+  report.error = counts.error;
+  report.dropped_bodies = counts.dropped;
+  report.pool_bytes_peak = simplified.simplifier().peakMemory();
+  report.notes = notesOn(options, report, counts);
+  done.update(1.0);
+  return report;
+}
+
+/** Writes a format that has an order of its own: that of the stream. */
+std::vector<std::string> writeAsFile(const std::filesystem::path& vsm,
+  const std::filesystem::path& path, const std::filesystem::path& scratch,
+  const SimplifyOptions& options)
+{
+  const VsmReader reader(vsm);
+  std::vector<std::string> columns;
+  for (const ColumnSpec& spec : reader.info().vertexColumns)
+  {
+    if (spec.name != OriginalIdName)
+    {
+      columns.push_back(spec.name);
+    }
+  }
+  const auto number = [](std::int64_t first, std::span<std::int64_t> numbers)
+  { std::iota(numbers.begin(), numbers.end(), first); };
+  AddedColumn ordered(
+    std::make_unique<AddedColumn>(reader.source(columns, {}), AddedColumn::Vertices, OriginalIdSpec,
+      [number](const MeshBlock& block, Column& column)
+      { number(block.firstVertex, column.as<std::int64_t>()); }),
+    AddedColumn::Cells, OriginalCellIdSpec,
+    [number](const MeshBlock& block, Column& column)
+    { number(block.firstCell, column.as<std::int64_t>()); });
+  const std::filesystem::path numbered = scratch / "numbered.vsm";
+  writeVsm(ordered, numbered, { .codec = Codec::Lz4, .scratch = scratch });
+  Workspace space(scratch, options.memoryLimit, partOf(options.progress, 0.95, 1.0));
+  return writeRestored(numbered, path, space);
+}
+
+} // namespace
+
+std::string SimplifyReport::json(int indent) const
+{
+  nlohmann::ordered_json json;
+  json["vertices_before"] = this->vertices_before;
+  json["cells_before"] = this->cells_before;
+  json["vertices"] = this->vertices;
+  json["cells"] = this->cells;
+  json["error"] = this->error;
+  json["dropped_bodies"] = this->dropped_bodies;
+  json["pool_bytes_peak"] = this->pool_bytes_peak;
+  json["rss_bytes_peak"] = this->rss_bytes_peak;
+  json["cpu_seconds"] = this->cpu_seconds;
+  json["seconds"] = { { "total", this->seconds } };
+  json["notes"] = this->notes;
+  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+SimplifyReport simplify(
+  const StoredMesh& mesh, const std::filesystem::path& path, const SimplifyOptions& options)
+{
+  check(options);
+  const bool restores = !suffixFor(FormatUse::Write, path);
+  checkFormat(path, restores ? FormatUse::Restore : FormatUse::Write);
+  const Timer timer;
+  const double cpu = processSeconds();
+  const bool isVsm = kindOfOutput(path) == MeshFileKind::Vsm;
+  const ScratchFolder scratch(options.scratch);
+  const std::filesystem::path vsm = isVsm ? path : scratch / "simplified.vsm";
+  SimplifyReport report = simplifyToVsm(mesh, vsm, options, isVsm ? 1.0 : 0.9);
+  if (!isVsm)
+  {
+    const std::vector<std::string> notes =
+      restores ? writeAsFile(vsm, path, scratch.path(), options)
+               : writeFromVsm(vsm, path, partOf(options.progress, 0.9, 1.0), scratch.path());
+    report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+  }
+  report.rss_bytes_peak = peakResidentBytes();
+  report.cpu_seconds = processSeconds() - cpu;
+  report.seconds = timer.seconds();
+  return report;
+}
+
+} // namespace smg

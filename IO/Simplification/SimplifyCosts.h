@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Estimate/Costs.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
+
+#include <cstdint>
+
+namespace smg
+{
+
+/** The costs of simplify() on a stream, from its counts. */
+SMG_EXPORT Costs simplifyCosts(const StreamInfo& info, std::int64_t memoryLimit);
+
+} // namespace smg

@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Simplification/StreamSimplifier.h"
+
+#include "IO/Formats/RowBytes.h"
+#include "IO/Simplification/Bodies.h"
+#include "IO/Simplification/SimplifyCosts.h"
+#include "IO/Simplification/VertexClustering.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace smg
+{
+namespace
+{
+
+constexpr PoolUse SimplificationMemory{ "the simplification",
+  "raise the memory limit, or convert the mesh with the order bfs" };
+
+/** The least number of triangles of a window. */
+constexpr std::int64_t LeastWindow = 20000;
+/** The least share of its vertices that a part keeps. */
+constexpr double PartShare = 1.0 / 8.0;
+/** The share of the vertices of a result that windows before the last one may deliver. */
+constexpr double Aim = 0.98;
+/** Points of the result for each body. */
+constexpr std::int64_t PointsPerBody = 20;
+/** A window has at least so many triangles for each locked vertex. */
+constexpr std::size_t TrianglesPerLocked = 8;
+
+/** The bytes that a triangle of a surface with such columns takes while its edges collapse. */
+std::int64_t bytesOfTriangle(const StreamInfo& info)
+{
+  const std::int64_t row = rowBytes(info.vertexColumns);
+  // Corners, and half a vertex: its number, position, row and its places in tables.
+  constexpr auto OfVertex = static_cast<std::int64_t>(8 + 24 + 16 + sizeof(Quadric));
+  return CollapseBytes + 12 + (OfVertex + 2 * row) / 2;
+}
+
+/** The number of bodies that so many points may have. */
+std::size_t bodiesFor(std::int64_t points)
+{
+  return static_cast<std::size_t>(std::max<std::int64_t>(1, points / PointsPerBody));
+}
+
+/** The triangles that fit into the memory: half of them in the window. */
+std::size_t windowOf(std::int64_t memory, const StreamInfo& info)
+{
+  return static_cast<std::size_t>(std::max(LeastWindow, memory / 2 / bytesOfTriangle(info)));
+}
+
+} // namespace
+
+Costs simplifyCosts(const StreamInfo& info, std::int64_t memoryLimit)
+{
+  constexpr double SecondsOfCell = 1.3e-6; // on a machine of 2023
+  Costs costs;
+  costs.memory = std::min(memoryLimit, 2 * info.cells * bytesOfTriangle(info));
+  costs.passes = 1;
+  costs.seconds = SecondsOfCell * static_cast<double>(info.cells);
+  return costs;
+}
+
+StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplificationGoal& goal,
+  std::int64_t memory, Workers& workers, std::function<void(double)> progress)
+  : Memory(memory, SimplificationMemory)
+  , Parts(triangles, this->Memory, windowOf(memory, triangles.info()) / 3)
+  , Info(triangles.info())
+  , Goal(goal)
+  , PartTriangles(windowOf(memory, triangles.info()) / 3)
+  , Capacity(3 * this->PartTriangles)
+  , Triangles(2 * goal.vertices)
+  // Three parts are in use at once, by at most as many threads.
+  , Jobs(
+      workers, 3,
+      [](Item& item)
+      {
+        std::vector<std::uint8_t> locked(item.part.surface.vertices());
+        for (std::size_t v = 0; v < locked.size(); ++v)
+        {
+          locked[v] = item.part.isInside(v) ? 0 : 1;
+        }
+        // Of the vertices that other parts have, all are left.
+        const auto inside = static_cast<std::size_t>(std::ranges::count(locked, 0));
+        CollapseGoal goal{ locked.size() - inside, item.error };
+        goal.vertices += static_cast<std::size_t>(item.share * static_cast<double>(inside));
+        item.error = collapseEdges(item.part.surface, locked, goal);
+      },
+      [this](Item& item)
+      {
+        this->Counts.error = std::max(this->Counts.error, item.error);
+        this->append(item.part);
+      })
+  , Progress(std::move(progress))
+{
+  const auto window = static_cast<std::int64_t>(this->Capacity);
+  if (this->Info.cells > 0 && this->Info.vertices > 0)
+  {
+    const double share =
+      static_cast<double>(this->Info.cells) / static_cast<double>(this->Info.vertices);
+    this->Triangles = static_cast<std::int64_t>(share * static_cast<double>(goal.vertices));
+  }
+  const bool isLarge = this->Info.cells > window;
+  this->Streams = isLarge && (this->limitsError() || this->Triangles > window / 3);
+}
+
+double StreamSimplifier::done() const
+{
+  return this->Info.cells > 0
+           ? static_cast<double>(this->TakenCells) / static_cast<double>(this->Info.cells)
+           : 0.0;
+}
+
+bool StreamSimplifier::next(Result& result)
+{
+  while (this->Ready.empty() && !this->IsFinished)
+  {
+    this->step();
+  }
+  if (this->Ready.empty())
+  {
+    return false;
+  }
+  result = std::move(this->Ready.front());
+  this->Ready.pop_front();
+  return true;
+}
+
+void StreamSimplifier::step()
+{
+  Item& item = this->Jobs.next();
+  if (this->Parts.next(item.part))
+  {
+    item.share = this->shareOfPart();
+    item.error = this->Goal.error;
+    this->Jobs.submit();
+    return;
+  }
+  while (this->Jobs.size() > 0)
+  {
+    this->Jobs.takeOldest();
+  }
+  this->finish();
+}
+
+/** The share of its vertices that is left of a part: of a stream that fits into the window, or may
+ * do so, all. */
+double StreamSimplifier::shareOfPart() const
+{
+  const std::int64_t cells = std::max(this->Info.cells, this->Parts.cells());
+  if (cells <= static_cast<std::int64_t>(this->Capacity))
+  {
+    return 1.0;
+  }
+  const double share = this->Goal.vertices == 0
+                         ? 0.0
+                         : 2.0 * static_cast<double>(this->Triangles) / static_cast<double>(cells);
+  return share > 0.5 ? 1.0 : std::max(share, PartShare);
+}
+
+/** Appends a part to the window. */
+void StreamSimplifier::append(const StreamPart& part)
+{
+  const SurfacePart& from = part.surface;
+  SurfacePart& to = this->Window;
+  const std::size_t row = from.rowBytes();
+  std::vector<std::uint32_t> places(from.vertices());
+  to.origin = from.origin;
+  for (std::size_t v = 0; v < from.vertices(); ++v)
+  {
+    const auto place = static_cast<std::uint32_t>(to.vertices());
+    if (!part.isInside(v))
+    {
+      const auto [known, isNew] = this->Open.try_emplace(from.ids[v], place);
+      if (!isNew)
+      {
+        places[v] = known->second;
+        to.quadrics[known->second].add(from.quadrics[v]);
+        continue;
+      }
+    }
+    places[v] = place;
+    to.ids.push_back(from.ids[v]);
+    to.quadrics.push_back(from.quadrics[v]);
+    const auto point = from.points.begin() + 3 * static_cast<std::ptrdiff_t>(v);
+    to.points.insert(to.points.end(), point, point + 3);
+    const auto bytes = from.rows.begin() + static_cast<std::ptrdiff_t>(v * row);
+    to.rows.insert(to.rows.end(), bytes, bytes + static_cast<std::ptrdiff_t>(row));
+  }
+  for (const std::uint32_t corner : from.corners)
+  {
+    to.corners.push_back(places[corner]);
+  }
+  this->End = part.end;
+  this->TakenCells = part.endCell;
+  if (this->Progress)
+  {
+    this->Progress(this->done());
+  }
+  if (to.triangles() >= this->Capacity)
+  {
+    this->makeRoom();
+  }
+}
+
+/** Of each vertex of the window, whether later parts or delivered ones have it. */
+std::vector<std::uint8_t> StreamSimplifier::locked() const
+{
+  std::vector<std::uint8_t> locked(this->Window.vertices());
+  for (std::size_t v = 0; v < locked.size(); ++v)
+  {
+    const std::int64_t id = this->Window.ids[v];
+    locked[v] = id >= this->End || this->Delivered.contains(id) ? 1 : 0;
+  }
+  return locked;
+}
+
+/** Simplifies the full window; a part of a large result leaves it. */
+void StreamSimplifier::makeRoom()
+{
+  if (!this->Streams)
+  {
+    const auto wanted = static_cast<std::size_t>(this->Triangles);
+    this->shrink(std::clamp(wanted, this->Capacity / 8, this->Capacity / 4));
+  }
+  else
+  {
+    const double share = this->done() * Aim * static_cast<double>(this->Goal.vertices);
+    const auto left = static_cast<std::int64_t>(share) - this->DeliveredVertices;
+    this->collapse(left);
+    if (this->Goal.vertices == 0 || this->Window.triangles() > this->Capacity / 2)
+    {
+      this->deliverOlderHalf();
+    }
+  }
+  this->renumber();
+}
+
+/** Collapses edges of the window until it has so many vertices that later parts do not have and
+ * that were not delivered. */
+void StreamSimplifier::collapse(std::int64_t vertices)
+{
+  const std::vector<std::uint8_t> locked = this->locked();
+  CollapseGoal goal{ static_cast<std::size_t>(std::max<std::int64_t>(0, vertices)),
+    this->Goal.error, !this->limitsError() };
+  goal.vertices += static_cast<std::size_t>(std::ranges::count(locked, 1));
+  this->Counts.error = std::max(this->Counts.error, collapseEdges(this->Window, locked, goal));
+}
+
+/** Simplifies a window whose result stays in it to about so many vertices. */
+void StreamSimplifier::shrink(std::size_t vertices)
+{
+  const auto wanted = static_cast<std::int64_t>(vertices);
+  const KeptBodies bodies = keepLargestBodies(this->Window, this->locked(), bodiesFor(wanted));
+  this->Counts.dropped += static_cast<std::int64_t>(bodies.dropped);
+  if (!bodies.areFragments)
+  {
+    this->collapse(wanted);
+  }
+  if (4 * this->Window.triangles() > 3 * this->Capacity)
+  {
+    const std::vector<std::uint8_t> locked = this->locked();
+    const auto fixed = static_cast<std::size_t>(std::ranges::count(locked, 1));
+    if (fixed * TrianglesPerLocked > this->Capacity)
+    {
+      // A larger window has more vertices that may go.
+      const std::size_t capacity = fixed * TrianglesPerLocked * 3 / 2;
+      this->Memory.acquire(
+        static_cast<std::int64_t>(capacity - this->Capacity) * bytesOfTriangle(this->Info));
+      this->Capacity = capacity;
+      return;
+    }
+    clusterVertices(this->Window, this->Capacity / 8);
+    this->Counts.isClustered = true;
+  }
+}
+
+/** The triangles of the window that are older than half of them leave it. */
+void StreamSimplifier::deliverOlderHalf()
+{
+  const SurfacePart& window = this->Window;
+  std::vector<std::int64_t> ages(window.triangles());
+  for (std::size_t t = 0; t < ages.size(); ++t)
+  {
+    const std::uint32_t* c = window.corners.data() + 3 * t;
+    ages[t] = std::max({ window.ids[c[0]], window.ids[c[1]], window.ids[c[2]] });
+  }
+  std::vector<std::int64_t> sorted = ages;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::ranges::nth_element(sorted, middle);
+  std::vector<std::uint32_t> older, rest;
+  for (std::size_t t = 0; t < ages.size(); ++t)
+  {
+    std::vector<std::uint32_t>& to = ages[t] <= *middle ? older : rest;
+    const std::uint32_t* c = window.corners.data() + 3 * t;
+    to.insert(to.end(), c, c + 3);
+  }
+  this->deliver(older, std::move(rest));
+}
+
+/** Moves triangles of the window to the result; the rest stays. */
+void StreamSimplifier::deliver(
+  const std::vector<std::uint32_t>& corners, std::vector<std::uint32_t> rest)
+{
+  std::vector<std::uint8_t> stays(this->Window.vertices(), 0);
+  for (const std::uint32_t corner : rest)
+  {
+    stays[corner] = 1;
+  }
+  Result result{ this->Window.extract(corners), {}, {} };
+  this->DeliveredVertices += std::ranges::count_if(
+    result.surface.ids, [this](std::int64_t id) { return !this->Delivered.contains(id); });
+  std::unordered_set<std::int64_t> staying;
+  for (std::size_t v = 0; v < stays.size(); ++v)
+  {
+    if (stays[v] != 0 || this->Window.ids[v] >= this->End)
+    {
+      staying.insert(this->Window.ids[v]);
+    }
+  }
+  for (const std::int64_t id : result.surface.ids)
+  {
+    const bool isShared = staying.contains(id);
+    result.isShared.push_back(isShared ? 1 : 0);
+    if (isShared)
+    {
+      this->Delivered.insert(id);
+    }
+  }
+  std::erase_if(
+    this->Delivered, [&](std::int64_t id) { return id < this->End && !staying.contains(id); });
+  this->Window.corners = std::move(rest);
+  this->Window.dropUnusedVertices();
+  if (result.surface.triangles() > 0)
+  {
+    this->Ready.push_back(std::move(result));
+  }
+}
+
+/** Finds the vertices of later parts in the window again. */
+void StreamSimplifier::renumber()
+{
+  this->Open.clear();
+  for (std::size_t v = 0; v < this->Window.vertices(); ++v)
+  {
+    if (this->Window.ids[v] >= this->End)
+    {
+      this->Open.emplace(this->Window.ids[v], static_cast<std::uint32_t>(v));
+    }
+  }
+}
+
+void StreamSimplifier::finish()
+{
+  this->IsFinished = true;
+  this->Counts.cells = this->Parts.cells();
+  this->Counts.vertices = this->Parts.vertices();
+  this->End = this->Parts.vertices();
+  const std::int64_t most =
+    std::max<std::int64_t>(0, this->Goal.vertices - this->DeliveredVertices);
+  bool areFragments = false;
+  if (!this->Streams && this->Goal.vertices > 0 && this->remaining() > most)
+  {
+    const KeptBodies bodies = keepLargestBodies(this->Window, this->locked(), bodiesFor(most));
+    this->Counts.dropped += static_cast<std::int64_t>(bodies.dropped);
+    areFragments = bodies.areFragments;
+  }
+  if (!areFragments && (this->Goal.vertices == 0 || this->remaining() > most))
+  {
+    this->collapse(most);
+  }
+  if (!this->Streams && this->Goal.vertices > 0 && this->remaining() > most && !this->limitsError())
+  {
+    clusterVertices(this->Window, static_cast<std::size_t>(most));
+    this->Counts.isClustered = true;
+  }
+  this->deliver(this->Window.corners, {});
+}
+
+/** The vertices of the window that were not delivered yet. */
+std::int64_t StreamSimplifier::remaining() const
+{
+  return std::ranges::count_if(
+    this->Window.ids, [this](std::int64_t id) { return !this->Delivered.contains(id); });
+}
+
+} // namespace smg

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Simplification/EdgeCollapse.h"
+#include "IO/Simplification/SurfaceParts.h"
+#include "Solver/Core/Progress.h"
+#include "Solver/Storage/OrderedJobs.h"
+#include "Solver/Storage/Pool.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
+
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+namespace smg
+{
+
+/** What is left of a surface that is simplified: at most so many vertices, or what an error allows;
+ * both: what comes first. */
+struct SimplificationGoal
+{
+  std::int64_t vertices = 0;                              ///< 0: not limited
+  double error = std::numeric_limits<double>::infinity(); ///< in the unit of the mesh
+};
+
+/** What a simplification has done. */
+struct SimplificationCounts
+{
+  std::int64_t vertices = 0, cells = 0; ///< that were read
+  double error = 0.0;       ///< the largest of a collapse, summed over successive ones, see below
+  std::int64_t dropped = 0; ///< small bodies
+  bool isClustered = false; ///< whether edges of some parts could not be collapsed
+};
+
+/**
+ * Simplifies a stream of triangles by edge collapse in bounded memory.
+ *
+ * Parts of the stream are simplified to an eighth on all threads, with the vertices locked that
+ * other parts have, and appended to a window. When that is full, it is simplified as a whole, with
+ * its vertices locked that later parts have: so no edge between parts remains. A result that fits
+ * into the window stays there until the end, when all of it is simplified to the goal; of a larger
+ * one, the older half leaves the window whenever that is full.
+ *
+ * The small bodies of a surface with very many are dropped, so that at most every twentieth point
+ * is a body of its own.
+ *
+ * The result depends on the memory, but not on blocks (unless larger than parts) or threads.
+ * Every triangle is simplified once in a part, and about twice in the window.
+ */
+class SMG_EXPORT StreamSimplifier
+{
+public:
+  /** A part of the result, in the order of the stream. */
+  struct Result
+  {
+    SurfacePart surface;
+    std::vector<std::uint8_t> isShared; ///< of each vertex: whether later parts may have it
+    std::vector<std::int64_t> ended;    ///< vertices of earlier parts that later ones do not have
+  };
+
+  /** `triangles` and `workers` must outlive it; `progress` receives the share of the stream that
+   * was read, and may throw. A result of more than a quarter of what fits into `memory`, in bytes,
+   * needs the number of cells. */
+  StreamSimplifier(MeshSource& triangles, const SimplificationGoal& goal, std::int64_t memory,
+    Workers& workers, std::function<void(double)> progress);
+
+  /** Replaces `result` by the next part of the result; returns whether there is one. Throws Error
+   * if the memory does not suffice. */
+  bool next(Result& result);
+
+  const SimplificationCounts& counts() const { return this->Counts; }
+  std::int64_t peakMemory() const { return this->Memory.peak(); }
+
+private:
+  struct Item
+  {
+    StreamPart part;
+    double share = 1.0; ///< of its vertices that is left
+    double error = 0.0; ///< that is allowed, and then the largest of a collapse
+  };
+
+  /** The share of the stream that was read; 0 if its cells are not known. */
+  double done() const;
+  bool limitsError() const { return std::isfinite(this->Goal.error); }
+  void step();
+  double shareOfPart() const;
+  void append(const StreamPart& part);
+  std::vector<std::uint8_t> locked() const;
+  void makeRoom();
+  void collapse(std::int64_t vertices);
+  void shrink(std::size_t vertices);
+  void deliverOlderHalf();
+  void deliver(const std::vector<std::uint32_t>& corners, std::vector<std::uint32_t> rest);
+  void finish();
+  std::int64_t remaining() const;
+  void renumber();
+
+  Pool Memory;
+  SurfaceParts Parts;
+  const StreamInfo& Info;
+  SimplificationGoal Goal;
+  std::size_t PartTriangles, Capacity; ///< of a part and of the window
+  std::int64_t Triangles;              ///< of the result, as far as it is known
+  bool Streams;                        ///< whether the result does not fit into the window
+  OrderedJobs<Item> Jobs;
+  SurfacePart Window;
+  std::unordered_map<std::int64_t, std::uint32_t> Open; ///< places of vertices of later parts
+  std::unordered_set<std::int64_t> Delivered;           ///< vertices that the window still uses
+  std::int64_t End = 0; ///< later parts have no new triangles at the vertices below
+  std::int64_t DeliveredVertices = 0;
+  std::int64_t TakenCells = 0;
+  std::function<void(double)> Progress; ///< of the share of the stream that was read
+  std::deque<Result> Ready;
+  bool IsFinished = false;
+  SimplificationCounts Counts;
+};
+
+} // namespace smg

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Simplification/SurfacePart.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace smg
+{
+
+namespace
+{
+
+constexpr std::uint32_t Unused = std::numeric_limits<std::uint32_t>::max();
+
+/** Of each vertex: 0 if a triangle uses it, else Unused. */
+std::vector<std::uint32_t> usedBy(const std::vector<std::uint32_t>& corners, std::size_t vertices)
+{
+  std::vector<std::uint32_t> used(vertices, Unused);
+  for (const std::uint32_t corner : corners)
+  {
+    used[corner] = 0;
+  }
+  return used;
+}
+
+} // namespace
+
+SurfacePart SurfacePart::extract(const std::vector<std::uint32_t>& some) const
+{
+  std::vector<std::uint32_t> place = usedBy(some, this->vertices());
+  SurfacePart part;
+  part.origin = this->origin;
+  const std::size_t stride = this->rowBytes();
+  for (std::size_t v = 0; v < place.size(); ++v)
+  {
+    if (place[v] == Unused)
+    {
+      continue;
+    }
+    place[v] = static_cast<std::uint32_t>(part.vertices());
+    part.ids.push_back(this->ids[v]);
+    const auto point = this->points.begin() + 3 * static_cast<std::ptrdiff_t>(v);
+    part.points.insert(part.points.end(), point, point + 3);
+    const auto row = this->rows.begin() + static_cast<std::ptrdiff_t>(v * stride);
+    part.rows.insert(part.rows.end(), row, row + static_cast<std::ptrdiff_t>(stride));
+  }
+  part.corners.reserve(some.size());
+  for (const std::uint32_t corner : some)
+  {
+    part.corners.push_back(place[corner]);
+  }
+  return part;
+}
+
+void SurfacePart::dropUnusedVertices()
+{
+  std::vector<std::uint32_t> place = usedBy(this->corners, this->vertices());
+  const std::size_t stride = this->rowBytes();
+  std::uint32_t kept = 0;
+  for (std::size_t v = 0; v < place.size(); ++v)
+  {
+    if (place[v] == Unused)
+    {
+      continue;
+    }
+    place[v] = kept;
+    this->ids[kept] = this->ids[v];
+    std::copy_n(this->points.begin() + 3 * static_cast<std::ptrdiff_t>(v), 3,
+      this->points.begin() + 3 * static_cast<std::ptrdiff_t>(kept));
+    this->quadrics[kept] = this->quadrics[v];
+    std::copy_n(this->rows.begin() + static_cast<std::ptrdiff_t>(v * stride), stride,
+      this->rows.begin() + static_cast<std::ptrdiff_t>(kept * stride));
+    ++kept;
+  }
+  this->ids.resize(kept);
+  this->points.resize(3 * std::size_t(kept));
+  this->quadrics.resize(kept);
+  this->rows.resize(kept * stride);
+  for (std::uint32_t& corner : this->corners)
+  {
+    corner = place[corner];
+  }
+}
+
+} // namespace smg

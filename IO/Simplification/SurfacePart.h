@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "IO/Simplification/Quadric.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace smg
+{
+
+/** Triangles of a surface with their vertices, in a numbering of their own. */
+struct SurfacePart
+{
+  std::vector<std::int64_t> ids; ///< stream indices of the vertices, each once
+  std::vector<double> points;    ///< x, y, z of each vertex
+  /** Of each vertex: the planes of the triangles that were there and at vertices that have
+   * collapsed onto it, for points relative to `origin`. */
+  std::vector<Quadric> quadrics;
+  std::array<double, 3> origin{};
+  std::vector<std::byte> rows;        ///< of each vertex, its tuples of all columns one by one
+  std::vector<std::uint32_t> corners; ///< places in `ids`, three a triangle
+
+  std::size_t vertices() const { return this->ids.size(); }
+  std::size_t triangles() const { return this->corners.size() / 3; }
+  /** The bytes of the row of a vertex. */
+  std::size_t rowBytes() const
+  {
+    return this->ids.empty() ? 0 : this->rows.size() / this->vertices();
+  }
+
+  /** Some triangles of this surface with their vertices, without quadrics. */
+  SurfacePart extract(const std::vector<std::uint32_t>& some) const;
+  /** Removes the vertices that no triangle uses; the others keep their order. */
+  void dropUnusedVertices();
+};
+
+} // namespace smg

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "IO/Simplification/SurfaceTopology.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace smg
+{
+
+SurfaceTopology::SurfaceTopology(
+  std::vector<std::uint32_t>& corners, std::span<const std::uint8_t> open)
+  : Corners(corners)
+  , Open(open)
+  , IsFixed(open.size())
+  , IsBoundary(open.size())
+  , Target(open.size())
+  , Touched(open.size())
+  , Seen(open.size(), 0)
+  , Common(open.size(), 0)
+{
+  this->findStars();
+  for (std::uint32_t v = 0; v < open.size(); ++v)
+  {
+    this->classify(v);
+  }
+}
+
+/** Lists the triangles of each vertex. */
+void SurfaceTopology::findStars()
+{
+  this->Begin.assign(this->vertices() + 2, 0);
+  for (const std::uint32_t corner : this->Corners)
+  {
+    ++this->Begin[corner + 2];
+  }
+  std::partial_sum(this->Begin.begin(), this->Begin.end(), this->Begin.begin());
+  this->Stars.resize(this->Corners.size());
+  for (std::size_t i = 0; i < this->Corners.size(); ++i)
+  {
+    // The begin of each vertex is one place behind, and becomes that of the next one.
+    this->Stars[this->Begin[this->Corners[i] + 1]++] = static_cast<std::uint32_t>(i / 3);
+  }
+  std::iota(this->Target.begin(), this->Target.end(), 0U);
+  std::ranges::fill(this->Touched, 0);
+}
+
+/** Finds whether v may go, and whether it is at the boundary. */
+void SurfaceTopology::classify(std::uint32_t v)
+{
+  this->Pairs.clear();
+  for (const std::uint32_t t : this->star(v))
+  {
+    this->Pairs.push_back(this->others(t, v));
+  }
+  // Each neighbour has two triangles, or one at an end of the fan. Each of these comes first in
+  // one of its triangles and last in the other one if both are wound alike.
+  std::size_t neighbours = 0;
+  const std::uint32_t known = ++this->Mark;
+  for (const std::size_t place : { 0, 1 })
+  {
+    ++this->Mark;
+    for (const auto& pair : this->Pairs)
+    {
+      const std::uint32_t w = pair[place];
+      neighbours += this->Seen[w] != known ? 1 : 0;
+      this->Seen[w] = known;
+      this->IsTurned = this->IsTurned || this->Common[w] == this->Mark;
+      this->Common[w] = this->Mark;
+    }
+  }
+  const std::size_t triangles = this->Pairs.size();
+  this->IsBoundary[v] = neighbours != triangles ? 1 : 0;
+  this->IsFixed[v] = this->Open[v] != 0 || neighbours > triangles + 1 || !this->isFan() ? 1 : 0;
+}
+
+/** Whether the triangles with these ends are one fan, with at most two at each end. */
+bool SurfaceTopology::isFan()
+{
+  // Walks along the fan in both directions from the first triangle.
+  std::size_t walked = 1;
+  for (std::uint32_t end : this->Pairs[0])
+  {
+    for (std::size_t k = walked; k < this->Pairs.size(); ++k)
+    {
+      auto& [a, b] = this->Pairs[k];
+      if (a == end || b == end)
+      {
+        end = a == end ? b : a;
+        std::swap(this->Pairs[k], this->Pairs[walked]);
+        k = walked++;
+      }
+    }
+  }
+  if (walked < this->Pairs.size())
+  {
+    return false;
+  }
+  ++this->Mark;
+  for (const auto& pair : this->Pairs)
+  {
+    for (const std::uint32_t w : pair)
+    {
+      if (this->Common[w] == this->Mark)
+      {
+        return false;
+      }
+      (this->Seen[w] == this->Mark ? this->Common : this->Seen)[w] = this->Mark;
+    }
+  }
+  return true;
+}
+
+bool SurfaceTopology::isPossible(std::uint32_t from, std::uint32_t to, bool pinching)
+{
+  ++this->Mark;
+  for (const std::uint32_t t : this->star(to))
+  {
+    for (const std::uint32_t w : this->others(t, to))
+    {
+      this->Seen[w] = this->Mark;
+    }
+  }
+  std::size_t shared = 0, common = 0;
+  std::uint32_t opposite[2] = {};
+  for (const std::uint32_t t : this->star(from))
+  {
+    const auto [a, b] = this->others(t, from);
+    for (const std::uint32_t w : { a, b })
+    {
+      // Two vertices that may have more triangles elsewhere may be neighbours there.
+      const bool isCommon =
+        this->Seen[w] == this->Mark || (this->Open[w] != 0 && this->Open[to] != 0);
+      if (w != to && isCommon && this->Common[w] != this->Mark)
+      {
+        this->Common[w] = this->Mark;
+        ++common;
+      }
+    }
+    if (a != b && (a == to || b == to)) // a == b: collapsed in this pass
+    {
+      opposite[std::min<std::size_t>(shared++, 1)] = a == to ? b : a;
+    }
+  }
+  if (shared == 0 || (this->IsBoundary[from] != 0 && shared != 1))
+  {
+    return false;
+  }
+  if (pinching)
+  {
+    return true;
+  }
+  if (common != shared || shared > 2)
+  {
+    return false;
+  }
+  // At the boundary, a triangle with two boundary edges goes, but not one with three.
+  return shared == 2
+           ? !this->isTetrahedron(from, to, opposite)
+           : this->trianglesAt(from, opposite[0]) != 1 || this->trianglesAt(to, opposite[0]) != 1;
+}
+
+/** The number of triangles at the edge from v to w. */
+std::size_t SurfaceTopology::trianglesAt(std::uint32_t v, std::uint32_t w) const
+{
+  return static_cast<std::size_t>(std::ranges::count_if(this->star(v),
+    [&](std::uint32_t t)
+    {
+      const auto [a, b] = this->others(t, v);
+      return a != b && (a == w || b == w);
+    }));
+}
+
+/** Whether the surface is a tetrahedron: the ends of the edge have a triangle each with both
+ * opposite corners. */
+bool SurfaceTopology::isTetrahedron(
+  std::uint32_t from, std::uint32_t to, const std::uint32_t* opposite) const
+{
+  const auto hasBoth = [&](std::uint32_t v)
+  {
+    return std::ranges::any_of(this->star(v),
+      [&](std::uint32_t t)
+      {
+        const auto [a, b] = this->others(t, v);
+        return (a == opposite[0] && b == opposite[1]) || (a == opposite[1] && b == opposite[0]);
+      });
+  };
+  return hasBoth(from) && hasBoth(to);
+}
+
+void SurfaceTopology::endPass()
+{
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < this->Corners.size(); i += 3)
+  {
+    const std::uint32_t a = this->Target[this->Corners[i]];
+    const std::uint32_t b = this->Target[this->Corners[i + 1]];
+    const std::uint32_t c = this->Target[this->Corners[i + 2]];
+    if (a != b && b != c && c != a)
+    {
+      this->Corners[kept] = a;
+      this->Corners[kept + 1] = b;
+      this->Corners[kept + 2] = c;
+      kept += 3;
+    }
+  }
+  this->Corners.resize(kept);
+  this->findStars();
+}
+
+/** Of each triangle: whether it lies on another one, wound the other way; both in pairs. */
+std::vector<std::uint8_t> SurfaceTopology::foldedTriangles() const
+{
+  using Triangle = std::array<std::uint32_t, 3>;
+  std::map<Triangle, std::size_t> unpaired; // by ascending corners: the place of one
+  std::vector<std::uint8_t> isFolded(this->Corners.size() / 3);
+  for (std::size_t t = 0; t < isFolded.size(); ++t)
+  {
+    const std::uint32_t* c = this->Corners.data() + 3 * t;
+    Triangle sorted{ c[0], c[1], c[2] };
+    std::ranges::sort(sorted);
+    const auto [known, isNew] = unpaired.try_emplace(sorted, t);
+    if (!isNew && this->isTurned(known->second, t))
+    {
+      isFolded[known->second] = isFolded[t] = 1;
+      unpaired.erase(known);
+    }
+  }
+  return isFolded;
+}
+
+std::size_t SurfaceTopology::dropFolded()
+{
+  const std::vector<std::uint8_t> isFolded = this->foldedTriangles();
+  this->KeepsFolded =
+    this->KeepsFolded || (!this->HasDropped && std::ranges::count(isFolded, 1) > 0);
+  this->HasDropped = true;
+  std::vector<std::uint8_t> isUsed(this->vertices(), 0);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < this->Corners.size(); ++i)
+  {
+    if (this->KeepsFolded || isFolded[i / 3] == 0)
+    {
+      isUsed[this->Corners[i]] = 1;
+      this->Corners[kept++] = this->Corners[i];
+    }
+  }
+  this->Corners.resize(kept);
+  this->findStars();
+  return static_cast<std::size_t>(std::ranges::count(isUsed, 1));
+}
+
+/** Whether two triangles with the same corners are wound against each other. */
+bool SurfaceTopology::isTurned(std::size_t one, std::size_t other) const
+{
+  const std::uint32_t* a = this->Corners.data() + 3 * one;
+  const std::uint32_t* b = this->Corners.data() + 3 * other;
+  const auto k = static_cast<std::size_t>(std::find(b, b + 3, a[0]) - b);
+  return b[(k + 1) % 3] == a[2];
+}
+
+} // namespace smg

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace smg
+{
+
+/**
+ * The triangles of a surface whose vertices move onto neighbours, in passes: within a pass no
+ * vertex goes that another one came to, or the other way round, so that the triangles of a vertex
+ * are those at the begin of the pass, with the corners where they have gone.
+ *
+ * A move keeps the topology if the two vertices have no common neighbours but the corners opposite
+ * to their edge, and are not two of the four vertices of a tetrahedron; at the boundary if they
+ * move along it (the link condition of Dey, Edelsbrunner, Guha and Nekhayev, Topology preserving
+ * edge contraction, 1999). Vertices whose triangles are not one fan may not go.
+ */
+class SurfaceTopology
+{
+public:
+  /** `corners`: the triangles, which moves change. `open`: of each vertex, not 0 if it may have
+   * more triangles elsewhere: it does not go. Both must outlive this. */
+  SurfaceTopology(std::vector<std::uint32_t>& corners, std::span<const std::uint8_t> open);
+
+  std::size_t vertices() const { return this->Open.size(); }
+  /** Whether a vertex may go somewhere. */
+  bool mayGo(std::uint32_t v) const { return this->IsFixed[v] == 0; }
+  /** Whether an edge may be that of one triangle; false if its ends certainly have two. */
+  bool mayBeBoundary(std::uint32_t a, std::uint32_t b) const
+  {
+    return this->IsBoundary[a] != 0 && this->IsBoundary[b] != 0;
+  }
+  /** Whether two triangles somewhere run along an edge in the same direction. */
+  bool isTurned() const { return this->IsTurned; }
+  /** Whether an edge has one triangle, here and elsewhere. */
+  bool isBoundary(std::uint32_t a, std::uint32_t b) const
+  {
+    return this->mayBeBoundary(a, b) && !(this->Open[a] != 0 && this->Open[b] != 0) &&
+           this->trianglesAt(a, b) == 1;
+  }
+
+  /** The triangles of a vertex in this pass. */
+  std::span<const std::uint32_t> star(std::uint32_t v) const
+  {
+    return { this->Stars.data() + this->Begin[v], this->Begin[v + 1] - this->Begin[v] };
+  }
+  /** The two corners of a triangle of v that follow it, where they have gone. */
+  std::array<std::uint32_t, 2> others(std::uint32_t triangle, std::uint32_t v) const
+  {
+    const std::uint32_t* c = this->Corners.data() + 3 * std::size_t(triangle);
+    const int k = c[0] == v ? 0 : c[1] == v ? 1 : 2;
+    return { this->Target[c[(k + 1) % 3]], this->Target[c[(k + 2) % 3]] };
+  }
+
+  /** Whether neither vertex has moved, or been moved to, in this pass. */
+  bool areUntouched(std::uint32_t a, std::uint32_t b) const
+  {
+    return (this->Touched[a] | this->Touched[b]) == 0;
+  }
+  /** Whether moving a vertex onto a neighbour is possible. `pinching`: also where it changes the
+   * topology, so that edges may get more than two triangles. */
+  bool isPossible(std::uint32_t from, std::uint32_t to, bool pinching);
+  void move(std::uint32_t from, std::uint32_t to)
+  {
+    this->Target[from] = to;
+    this->Touched[from] = this->Touched[to] = 1;
+  }
+  /** Ends a pass: removes the triangles that have collapsed. */
+  void endPass();
+
+  /** Removes pairs of triangles that lie on each other, which pinching leaves, unless the surface
+   * had any when this was called first. Returns the number of vertices that are left. */
+  std::size_t dropFolded();
+
+private:
+  void findStars();
+  void classify(std::uint32_t v);
+  bool isFan();
+  std::size_t trianglesAt(std::uint32_t v, std::uint32_t w) const;
+  bool isTetrahedron(std::uint32_t from, std::uint32_t to, const std::uint32_t* opposite) const;
+  bool isTurned(std::size_t one, std::size_t other) const;
+  std::vector<std::uint8_t> foldedTriangles() const;
+
+  std::vector<std::uint32_t>& Corners;
+  std::span<const std::uint8_t> Open;
+  std::vector<std::uint8_t> IsFixed, IsBoundary;
+  bool IsTurned = false;
+  bool KeepsFolded = false, HasDropped = false;
+  // Of a pass.
+  std::vector<std::uint32_t> Begin, Stars; ///< the triangles of each vertex
+  std::vector<std::uint32_t> Target;       ///< where a vertex has gone
+  std::vector<std::uint8_t> Touched;
+  // Marks of vertices, valid where they are the last one.
+  std::uint32_t Mark = 0;
+  std::vector<std::uint32_t> Seen, Common;
+  std::vector<std::array<std::uint32_t, 2>> Pairs; ///< the other corners of the triangles of a star
+};
+
+} // namespace smg

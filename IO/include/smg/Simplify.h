@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "smg/Column.h"
+#include "smg/Error.h"
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace smg
+{
+
+/** How far to simplify a surface, and how. */
+struct SimplifyOptions
+{
+  /** The most vertices of the result, at least 4; 0: as many as `error` needs. */
+  std::int64_t vertices = 0;
+  /** The largest error, in the unit of the mesh, more than 0: the distance of what is left from the
+   * planes of the triangles of the mesh that were there, the root of the mean of the squares
+   * weighted by areas (Garland and Heckbert 1997). 0: what `vertices` needs. At least one of the
+   * two is to be given. */
+  double error = 0.0;
+  /** Memory limit in bytes, at least 16 MiB. */
+  std::int64_t memoryLimit = std::int64_t(256) << 20;
+  /** Threads; 0: one per core. The result does not depend on them, but on the memory limit. */
+  int threads = 0;
+  /** Compression of the result. */
+  Codec codec = Codec::Zstd;
+  /** Folder for scratch files; empty: the system's temporary folder. */
+  std::filesystem::path scratch;
+  /** Progress callback; empty: none. */
+  ProgressFunction progress;
+};
+
+/** What a simplification did and what it cost. */
+struct SMG_EXPORT SimplifyReport
+{
+  std::int64_t vertices_before = 0; ///< of the mesh
+  std::int64_t cells_before = 0;    ///< of the mesh
+  std::int64_t vertices = 0;        ///< of the result
+  std::int64_t cells = 0;           ///< triangles of the result
+  double error = 0; ///< the sum of the largest errors of its steps: see SimplifyOptions
+  std::int64_t dropped_bodies = 0;  ///< small bodies that are not in the result
+  std::int64_t pool_bytes_peak = 0; ///< most accounted memory at once, bytes
+  std::int64_t rss_bytes_peak = 0;  ///< largest resident memory of the process, bytes
+  double cpu_seconds = 0;           ///< processor time of all threads of the process
+  double seconds = 0;               ///< wall-clock time
+  std::vector<std::string> notes;   ///< remarks for the user, a sentence each
+
+  /** The report as a JSON object with the names above. */
+  std::string json(int indent = 2) const;
+};
+
+/**
+ * Simplifies a surface, or the outer surface of a solid, by collapsing edges, in a fixed amount of
+ * memory whatever its size. Every vertex of the result is one of the mesh, where it was, with its
+ * columns, and with its stream index in the column OriginalId if the mesh has no column of this
+ * name. Cells have no columns. Boundary curves are kept as such, triangles are wound as they are.
+ *
+ * The topology is that of the mesh: bodies, handles, boundary curves, no edge of more triangles. Of
+ * a result that fits into the memory, edges of the smallest error collapse first, wherever they
+ * are; of a larger one, in each part of the stream for itself. With `vertices` and without `error`,
+ * the smallest bodies are left out where there are fewer than 20 vertices a body, and handles may
+ * be closed where no other collapse is possible.
+ *
+ * @param mesh the mesh, which is read once
+ * @param path the file to write, in the format of its suffix: any that meshes of triangles are
+ * written in, with the columns that it can hold. In the order of the mesh
+ * @param options how far to simplify
+ * @return what was done
+ * @throws Error if an option is out of range, the memory limit too low, or a file fails
+ * @throws Cancelled if the progress callback returns false. No file remains after an exception.
+ */
+SMG_EXPORT SimplifyReport simplify(
+  const StoredMesh& mesh, const std::filesystem::path& path, const SimplifyOptions& options);
+
+} // namespace smg

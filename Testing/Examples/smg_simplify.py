@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""smg simplify as a black box: formats, columns, report, errors."""
+
+import os
+
+from mesh_files import read_mesh
+from program import load, run, write_torus
+
+
+def simplify(*arguments, code=0):
+    return run("simplify", *arguments, "--report", "report.json", code=code)
+
+
+def test_every_format_has_the_same_surface():
+    write_torus("torus.obj", 240, 120)
+    run("convert", "torus.obj", "torus.vsm", "--quiet")
+    done = simplify("torus.vsm", "small.ply", "--vertices", 500)
+    assert "500 vertices and 1000 triangles of 28800 and 57600" in done.stdout, done.stdout
+    report = load("report.json")
+    assert (report["vertices"], report["cells"]) == (500, 1000) and report["dropped_bodies"] == 0
+    assert 0 < report["error"] < 0.1 and report["notes"] == []
+    points, *_ = read_mesh("torus.obj")
+    known = set(map(tuple, points))
+    small, cells, *_ = read_mesh("small.ply")
+    assert len(small) == 500 and len(cells) == 1000
+    assert all(point in known for point in map(tuple, small))
+    for suffix in (".vsm", ".vtp", ".vtu", ".smb", ".obj", ".off", ".stl", ".vtk", ".mesh"):
+        simplify("torus.vsm", "small" + suffix, "--vertices", 500)
+        run("info", "small" + suffix, "--report", "info.json")
+        info = load("info.json")
+        assert (info["vertices"], info["cells"]) == (500, 1000), suffix
+    columns = [column["name"] for column in load("info.json")["columns"]["vertices"]]
+    run("info", "small.vsm", "--report", "info.json")
+    columns = [column["name"] for column in load("info.json")["columns"]["vertices"]]
+    assert columns == ["OriginalId"], columns
+    # A mesh file is simplified as its stream.
+    simplify("torus.obj", "again.ply", "--vertices", 500)
+    assert read_mesh("again.ply")[:2] == (small, cells)
+
+
+def test_an_error_is_kept():
+    counts = []
+    for error in (1e-3, 1e-2):
+        simplify("torus.vsm", "small.vsm", "--error", error)
+        report = load("report.json")
+        assert report["error"] <= error
+        counts.append(report["vertices"])
+    assert 28800 > counts[0] > counts[1] > 50, counts
+    simplify("torus.vsm", "small.vsm", "--error", 1e-2, "--vertices", 2000)
+    assert load("report.json")["vertices"] <= max(2000, counts[1])
+
+
+def test_dry_run():
+    done = run("simplify", "torus.vsm", "none.ply", "--vertices", 500, "--dry-run", "--report", "dry.json")
+    assert "28800 vertices" in done.stdout and not os.path.exists("none.ply"), done.stdout
+    simplify("torus.vsm", "small.ply", "--vertices", 500)
+    estimate, size = load("dry.json"), os.path.getsize("small.ply")
+    assert 0.6 * size < estimate["output_bytes"] < 1.7 * size, (estimate, size)
+
+
+def test_errors():
+    def error(*arguments, code=1):
+        return simplify(*arguments, code=code).stderr
+
+    assert "Give --vertices, --error or both" in error("torus.vsm", "x.ply")
+    assert "this is no format of a surface: write it as .vsm" in error("torus.vsm", "x.xyz", "--vertices", 9)
+    assert "holds no triangles" in error("torus.vsm", "x.sva", "--vertices", 9)
+    assert "there is no folder nowhere" in error("torus.vsm", "nowhere/x.ply", "--vertices", 9)
+    assert "torus.vsm" in error("torus.vsm", "torus.vsm", "--vertices", 9)
+    error("torus.vsm", "x.ply", "--vertices", 3, code=2)
+    error("torus.vsm", "x.ply", "--error", -1, code=2)
+    assert not any(name.startswith("x.") for name in os.listdir("."))
+
+
+test_every_format_has_the_same_surface()
+test_an_error_is_kept()
+test_dry_run()
+test_errors()
+print("passed")

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "smg/Simplify.h"
+
+#include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/MemoryMesh.h"
+#include "Testing/Support/StreamMesh.h"
+#include "Testing/Support/TemporaryFolder.h"
+#include "Testing/Support/TestMeshes.h"
+#include "smg/VsmReader.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <ranges>
+#include <set>
+#include <utility>
+#include <vector>
+
+// What a simplified surface is, in one window and in parts: vertices of the mesh where they were,
+// the topology and the winding of the mesh, an error that is kept, the same bits for all threads.
+
+namespace smg::testing
+{
+namespace
+{
+
+/** A limit with which a window has fewer triangles than the larger meshes. */
+constexpr std::int64_t LittleMemory = std::int64_t(16) << 20;
+
+class Simplify : public ::testing::Test
+{
+protected:
+  /** Simplifies the mesh, in blocks of so many cells. */
+  StreamMesh simplified(
+    const StreamMesh& mesh, const SimplifyOptions& options, std::int64_t blockCells = 1000)
+  {
+    this->Report = simplify(MemoryMesh(mesh, blockCells), this->Folder / "simple.vsm", options);
+    const VsmReader reader(this->Folder / "simple.vsm");
+    EXPECT_EQ(reader.info().vertices, this->Report.vertices);
+    EXPECT_EQ(reader.info().cells, this->Report.cells);
+    EXPECT_EQ(this->Report.cells_before, mesh.cells());
+    EXPECT_EQ(this->Report.vertices_before, mesh.vertices());
+    return collect(*reader.source());
+  }
+
+  TemporaryFolder Folder;
+  SimplifyReport Report;
+};
+
+SimplifyOptions toVertices(std::int64_t vertices, std::int64_t memory = std::int64_t(256) << 20)
+{
+  SimplifyOptions options;
+  options.vertices = vertices;
+  options.memoryLimit = memory;
+  return options;
+}
+
+SimplifyOptions toError(double error, std::int64_t memory = std::int64_t(256) << 20)
+{
+  SimplifyOptions options;
+  options.error = error;
+  options.memoryLimit = memory;
+  return options;
+}
+
+const Column& columnOf(const StreamMesh& mesh, const char* name)
+{
+  return *std::ranges::find(
+    mesh.vertexColumns, name, [](const Column& column) { return column.spec.name; });
+}
+
+/** Each vertex is that of the mesh whose number it has. */
+void expectVerticesOf(const StreamMesh& mesh, const StreamMesh& simple)
+{
+  const Column& ids = columnOf(simple, OriginalIdName);
+  std::set<std::int64_t> seen;
+  for (std::int64_t v = 0; v < simple.vertices(); ++v)
+  {
+    const auto id = static_cast<std::int64_t>(ids.value(static_cast<std::size_t>(v)));
+    ASSERT_TRUE(seen.insert(id).second);
+    for (std::int64_t axis = 0; axis < 3; ++axis)
+    {
+      ASSERT_EQ(simple.positions[3 * v + axis], mesh.positions[3 * id + axis]);
+    }
+  }
+}
+
+/** The mesh with vertices of its own for each triangle. */
+IndexedTestMesh unwelded(const IndexedTestMesh& mesh)
+{
+  IndexedTestMesh soup;
+  for (const std::int64_t corner : mesh.corners)
+  {
+    soup.corners.push_back(soup.vertices());
+    const auto point = mesh.positions.begin() + 3 * corner;
+    soup.positions.insert(soup.positions.end(), point, point + 3);
+  }
+  return soup;
+}
+
+/** What the edges of a surface tell. */
+struct Edges
+{
+  std::int64_t boundary = 0, turned = 0, branching = 0;
+  std::int64_t euler = 0; ///< vertices - edges + triangles
+};
+
+Edges edgesOf(const StreamMesh& mesh)
+{
+  std::map<std::pair<std::int64_t, std::int64_t>, std::pair<int, int>> uses; // along, against
+  for (std::size_t i = 0; i < mesh.corners.size(); i += 3)
+  {
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      const std::int64_t a = mesh.corners[i + k], b = mesh.corners[i + (k + 1) % 3];
+      auto& use = uses[std::minmax(a, b)];
+      ++(a < b ? use.first : use.second);
+    }
+  }
+  Edges edges;
+  for (const auto& [edge, use] : uses)
+  {
+    const auto& [along, against] = use;
+    edges.boundary += along + against == 1 ? 1 : 0;
+    edges.turned += along + against == 2 && along != 1 ? 1 : 0;
+    edges.branching += along + against > 2 ? 1 : 0;
+  }
+  edges.euler = mesh.vertices() - static_cast<std::int64_t>(uses.size()) + mesh.cells();
+  return edges;
+}
+
+/** The boundary, the winding and the handles are those of the mesh. */
+void expectSameTopology(const StreamMesh& mesh, const StreamMesh& simple)
+{
+  const Edges before = edgesOf(mesh), after = edgesOf(simple);
+  EXPECT_EQ(after.euler, before.euler);
+  EXPECT_EQ(after.turned, 0);
+  EXPECT_EQ(after.branching, 0);
+  EXPECT_EQ(after.boundary == 0, before.boundary == 0);
+}
+
+} // namespace
+
+TEST_F(Simplify, KeepsTheTopologyAndHasSoManyVertices)
+{
+  const StreamMesh closed = toStream(torus(220, 150, 0.2)), open = toStream(grid(220, 150, 0.1));
+  for (const StreamMesh* mesh : { &closed, &open })
+  {
+    for (const std::int64_t memory : { std::int64_t(256) << 20, LittleMemory })
+    {
+      for (const std::int64_t vertices : { 100, 3000, 20000 })
+      {
+        const StreamMesh simple = this->simplified(*mesh, toVertices(vertices, memory));
+        EXPECT_LE(simple.vertices(), vertices);
+        EXPECT_GE(simple.vertices(), vertices * 9 / 10) << memory;
+        expectVerticesOf(*mesh, simple);
+        expectSameTopology(*mesh, simple);
+        EXPECT_TRUE(this->Report.notes.empty());
+      }
+    }
+  }
+}
+
+TEST_F(Simplify, GivesTheSameBitsForAllThreadsAndBlocks)
+{
+  const StreamMesh mesh = toStream(torus(220, 150, 0.2));
+  for (const std::int64_t vertices : { 500, 20000 })
+  {
+    SimplifyOptions options = toVertices(vertices, LittleMemory);
+    options.threads = 1;
+    const StreamMesh one = this->simplified(mesh, options);
+    const double error = this->Report.error;
+    for (const int threads : { 2, 3, 8 })
+    {
+      options.threads = threads;
+      const StreamMesh several = this->simplified(mesh, options);
+      EXPECT_EQ(several.corners, one.corners);
+      EXPECT_EQ(several.positions, one.positions);
+      EXPECT_EQ(this->Report.error, error);
+    }
+  }
+}
+
+TEST_F(Simplify, KeepsAnError)
+{
+  // A flat mesh needs its corners only, a sphere more the smaller the error is.
+  const StreamMesh flat = toStream(grid(200, 150));
+  for (const std::int64_t memory : { std::int64_t(256) << 20, LittleMemory })
+  {
+    const StreamMesh few = this->simplified(flat, toError(1e-4, memory));
+    EXPECT_LT(few.vertices(), 1500);
+    EXPECT_LE(this->Report.error, 1e-4);
+  }
+  const StreamMesh ball = toStream(sphere(6));
+  for (const std::int64_t memory : { std::int64_t(256) << 20, LittleMemory })
+  {
+    std::int64_t before = ball.vertices();
+    for (const double error : { 3e-4, 1e-3, 1e-2 })
+    {
+      const StreamMesh simple = this->simplified(ball, toError(error, memory));
+      EXPECT_LT(simple.vertices(), before);
+      EXPECT_LE(this->Report.error, error);
+      EXPECT_GT(this->Report.error, 0.0);
+      expectSameTopology(ball, simple);
+      before = simple.vertices();
+      // The middles of its edges are inside of the sphere by about the error.
+      double deepest = 0.0;
+      for (std::size_t i = 0; i < simple.corners.size(); ++i)
+      {
+        const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
+        double squared = 0.0;
+        for (std::int64_t axis = 0; axis < 3; ++axis)
+        {
+          const double middle = 0.5 * (simple.positions[3 * simple.corners[i] + axis] +
+                                        simple.positions[3 * simple.corners[next] + axis]);
+          squared += middle * middle;
+        }
+        deepest = std::max(deepest, 1.0 - std::sqrt(squared));
+      }
+      EXPECT_LT(deepest, 12.0 * error);
+    }
+  }
+}
+
+TEST_F(Simplify, CarriesTheColumnsOfVertices)
+{
+  StreamMesh mesh = toStream(torus(220, 150, 0.2));
+  std::vector<float> pairs;
+  std::vector<std::int64_t> numbers;
+  for (std::int64_t v = 0; v < mesh.vertices(); ++v)
+  {
+    pairs.insert(pairs.end(), { static_cast<float>(v), 0.5F * static_cast<float>(v) });
+    numbers.push_back(7 * v);
+  }
+  mesh.vertexColumns = { makeColumn<float>("Pairs", pairs, 2),
+    makeColumn<std::int64_t>(OriginalIdName, numbers) };
+  mesh.cellColumns = { makeColumn<float>(
+    "OfCells", std::vector<float>(static_cast<std::size_t>(mesh.cells()))) };
+  for (const std::int64_t vertices : { 500, 20000 })
+  {
+    const StreamMesh simple = this->simplified(mesh, toVertices(vertices, LittleMemory));
+    ASSERT_EQ(simple.vertexColumns.size(), 2U);
+    EXPECT_TRUE(simple.cellColumns.empty());
+    const Column& ids = columnOf(simple, OriginalIdName);
+    for (std::size_t v = 0; v < static_cast<std::size_t>(simple.vertices()); ++v)
+    {
+      const auto id = static_cast<std::int64_t>(ids.value(v)) / 7;
+      ASSERT_EQ(columnOf(simple, "Pairs").value(v, 1), 0.5 * static_cast<double>(id));
+      ASSERT_EQ(simple.positions[3 * v], mesh.positions[3 * static_cast<std::size_t>(id)]);
+    }
+  }
+}
+
+TEST_F(Simplify, OfASolidIsItsBoundary)
+{
+  const StreamMesh solid = toStream(tetBox(30, 25, 20, 0.1));
+  const StreamMesh simple = this->simplified(solid, toVertices(200));
+  EXPECT_LE(simple.vertices(), 200);
+  EXPECT_GE(simple.vertices(), 180);
+  expectVerticesOf(solid, simple);
+  EXPECT_EQ(edgesOf(simple).euler, 2);
+  EXPECT_EQ(edgesOf(simple).boundary, 0);
+}
+
+TEST_F(Simplify, SmallBodiesGoFirstAndAreCounted)
+{
+  IndexedTestMesh mesh = sphere(5);
+  for (int k = 0; k < 100; ++k)
+  {
+    IndexedTestMesh small = sphere(1);
+    for (double& x : small.positions)
+    {
+      x *= 0.01 + 0.0001 * k;
+    }
+    mesh = disjointUnion(mesh, small, { 3.0 + k, 0, 0 });
+  }
+  const StreamMesh simple = this->simplified(toStream(mesh), toVertices(400));
+  EXPECT_LE(simple.vertices(), 400);
+  EXPECT_EQ(this->Report.dropped_bodies, 101 - 400 / 20);
+  EXPECT_EQ(edgesOf(simple).euler, 2 * (400 / 20));
+  // The large one keeps nearly all vertices.
+  const auto large = std::ranges::count_if(std::views::iota(std::int64_t(0), simple.vertices()),
+    [&simple](std::int64_t v) { return simple.positions[3 * v] < 2.0; });
+  EXPECT_GT(large, 200);
+  ASSERT_EQ(this->Report.notes.size(), 1U);
+  EXPECT_NE(this->Report.notes.front().find("81 bodies too small"), std::string::npos);
+}
+
+TEST_F(Simplify, ASmallMeshAndOneOfNothingStayAsTheyAre)
+{
+  const StreamMesh ball = toStream(sphere(2));
+  EXPECT_EQ(this->simplified(ball, toVertices(1000)).corners.size(), ball.corners.size());
+  IndexedTestMesh point;
+  point.positions.assign(9, 1.0);
+  point.corners = { 0, 1, 2 };
+  EXPECT_EQ(this->simplified(toStream(point), toVertices(100)).cells(), 1);
+}
+
+TEST_F(Simplify, OddSurfacesDoNoHarm)
+{
+  // Triangles that share no vertices: their vertices are merged where they are near one another.
+  const StreamMesh soup = toStream(unwelded(sphere(4)));
+  const StreamMesh merged = this->simplified(soup, toVertices(300));
+  EXPECT_LE(merged.vertices(), 300);
+  EXPECT_GT(merged.vertices(), 100);
+  ASSERT_EQ(this->Report.notes.size(), 1U);
+  EXPECT_NE(this->Report.notes.front().find("--weld"), std::string::npos);
+  // Every edge of a fan has three triangles, which are wound against each other.
+  IndexedTestMesh fan = grid(40, 40);
+  const IndexedTestMesh once = fan;
+  for (std::size_t i = 0; i < once.corners.size(); i += 3)
+  {
+    fan.corners.insert(
+      fan.corners.end(), { once.corners[i], once.corners[i + 2], once.corners[i + 1] });
+    fan.corners.insert(fan.corners.end(), { once.corners[i], once.corners[i], once.corners[i] });
+  }
+  EXPECT_LE(this->simplified(toStream(fan), toVertices(200)).vertices(), 200);
+}
+
+TEST_F(Simplify, AWideStreamNeedsMoreMemory)
+{
+  // No vertex is final before the end.
+  StreamMesh mesh = toStream(shuffled(torus(300, 200, 0.2)), TestOrder::Keep);
+  EXPECT_LE(this->simplified(mesh, toVertices(1000, std::int64_t(64) << 20)).vertices(), 1000);
+  expectError([&] { this->simplified(mesh, toVertices(1000, LittleMemory)); },
+    "raise the memory limit, or convert the mesh with the order bfs");
+}
+
+TEST_F(Simplify, RefusesOptionsOutOfRangeAndCanBeCancelled)
+{
+  const StreamMesh mesh = toStream(torus(50, 40));
+  expectError([&] { this->simplified(mesh, {}); }, "needs the number of vertices or the error");
+  expectError([&] { this->simplified(mesh, toVertices(3)); }, "expected at least 4");
+  expectError([&] { this->simplified(mesh, toError(-1.0)); }, "expected a length above 0");
+  expectError([&] { this->simplified(mesh, toError(std::nan(""))); }, "expected a length above 0");
+  expectError([&] { this->simplified(mesh, toVertices(100, 1000)); }, "16 MiB");
+  SimplifyOptions options = toVertices(100);
+  for (const double end : { 0.0, 0.5, 1.0 })
+  {
+    options.progress = [end](double done) { return done < end; };
+    EXPECT_THROW(this->simplified(mesh, options), Cancelled);
+    EXPECT_FALSE(std::filesystem::exists(this->Folder / "simple.vsm"));
+  }
+}
+
+} // namespace smg::testing
