@@ -62,7 +62,7 @@ void SimplifyCommand::run()
   {
     throw smg::Error("how far to simplify? Give --vertices, --error or both");
   }
-  smg::checkOutputPlace(this->out);
+  smg::checkSimplifiedPath(this->out);
   smg::checkIsNotInput(this->in, this->out);
   this->checkReport({ this->in, this->out });
   if (this->dryRun)

@@ -129,7 +129,7 @@ MeshPiece makePreview(
 std::string emptyPreview(std::int64_t maximumPoints)
 {
   return "a preview of at most " + std::to_string(maximumPoints) +
-         " points shows nothing of this mesh: no triangle has an area.";
+         " points shows nothing of this mesh: its cells repeat a corner or one another.";
 }
 
 } // namespace smg

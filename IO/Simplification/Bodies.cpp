@@ -113,13 +113,17 @@ KeptBodies keepLargestBodies(
   }
   std::ranges::sort(complete);
   std::vector<std::uint8_t> drops(part.vertices(), 0);
-  std::size_t dropped = 0;
   for (std::size_t k = most; k < complete.size(); ++k)
   {
     drops[complete[k].second] = 1;
-    dropped += bodies[complete[k].second].triangles;
   }
-  if (2 * dropped > part.triangles())
+  constexpr std::size_t OfFragment = 3; // less than a closed body has
+  std::size_t triangles = 0;
+  for (const auto& [size, body] : complete)
+  {
+    triangles += bodies[body].triangles;
+  }
+  if (triangles <= OfFragment * complete.size())
   {
     return { 0, true };
   }

@@ -14,7 +14,7 @@ namespace smg
 struct KeptBodies
 {
   std::size_t dropped = 0; ///< bodies
-  /** Whether most triangles belong to bodies that are too many, so that all are still there: a
+  /** Whether the bodies have three triangles in the mean, or fewer, so that all are still there: a
    * surface whose triangles do not share their vertices. */
   bool areFragments = false;
 };

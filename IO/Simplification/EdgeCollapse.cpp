@@ -41,7 +41,7 @@ double dot(const Vector& a, const Vector& b)
 struct Collapse
 {
   std::uint32_t from, to;
-  float rank; ///< squared error, and a little for the length
+  float rank; ///< squared error, and a little for the length, in units of the part
 };
 
 class Collapser
@@ -51,6 +51,12 @@ public:
     : Part(part)
     , Surface(part.corners, open)
   {
+    double extent = 0.0;
+    for (std::size_t i = 0; i < part.points.size(); ++i)
+    {
+      extent = std::max(extent, std::fabs(part.points[i] - part.points[i % 3]));
+    }
+    this->InverseSquare = extent > 0.0 ? 1.0 / extent / extent : 1.0;
   }
 
   /** Makes the quadrics of the triangles. */
@@ -58,21 +64,36 @@ public:
   {
     const std::vector<std::uint32_t>& corners = this->Part.corners;
     this->Part.quadrics.assign(this->Part.vertices(), {});
+    this->Part.lacksBoundary.assign(this->Part.vertices(), 1);
     for (std::size_t i = 0; i < corners.size(); i += 3)
     {
       const std::uint32_t* c = corners.data() + i;
       const Vector area = cross(
         minus(this->point(c[1]), this->point(c[0])), minus(this->point(c[2]), this->point(c[0])));
       this->addPlane({ c, 3 }, area, std::sqrt(dot(area, area)));
-      for (std::size_t k = 0; k < 3; ++k)
+    }
+  }
+
+  /** Adds to boundary edges the planes that hold them, of each edge once: as soon as one of its
+   * ends has all its triangles here. */
+  void addBoundary()
+  {
+    const std::vector<std::uint32_t>& corners = this->Part.corners;
+    std::vector<std::uint8_t>& lacks = this->Part.lacksBoundary;
+    for (std::size_t i = 0; i < corners.size(); ++i)
+    {
+      const std::size_t next = i % 3 == 2 ? i - 2 : i + 1, last = i % 3 == 0 ? i + 2 : i - 1;
+      const std::uint32_t ends[2] = { corners[i], corners[next] };
+      if (lacks[ends[0]] && lacks[ends[1]] && this->Surface.isBoundary(ends[0], ends[1]))
       {
-        const std::uint32_t ends[2] = { c[k], c[(k + 1) % 3] };
-        if (this->Surface.isBoundary(ends[0], ends[1]))
-        {
-          const Vector edge = minus(this->point(ends[1]), this->point(ends[0]));
-          this->addPlane(ends, cross(edge, area), BoundaryWeight * dot(edge, edge));
-        }
+        const Vector edge = minus(this->point(ends[1]), this->point(ends[0]));
+        const Vector area = cross(edge, minus(this->point(corners[last]), this->point(ends[0])));
+        this->addPlane(ends, cross(edge, area), BoundaryWeight * dot(edge, edge));
       }
+    }
+    for (std::uint32_t v = 0; v < lacks.size(); ++v)
+    {
+      lacks[v] = lacks[v] != 0 && this->Surface.isOpen(v) ? 1 : 0;
     }
   }
 
@@ -156,7 +177,8 @@ private:
     if (error <= limit && error < None)
     {
       const Vector edge = minus(this->point(a), this->point(b));
-      const auto rank = static_cast<float>(error + LengthShare * dot(edge, edge));
+      const auto rank =
+        static_cast<float>((error + LengthShare * dot(edge, edge)) * this->InverseSquare);
       this->Edges.push_back(ofA <= ofB ? Collapse{ a, b, rank } : Collapse{ b, a, rank });
     }
   }
@@ -230,7 +252,8 @@ private:
 
   SurfacePart& Part;
   SurfaceTopology Surface;
-  double Error = 0.0; ///< squared
+  double InverseSquare = 1.0; ///< of the extent of the part, so that ranks are in single precision
+  double Error = 0.0;         ///< squared
   std::vector<Collapse> Edges;
   std::vector<std::uint32_t> Order, Begin;
 };
@@ -241,7 +264,7 @@ double collapseEdges(
   SurfacePart& part, std::span<const std::uint8_t> open, const CollapseGoal& goal)
 {
   const bool needsPlanes = part.quadrics.empty();
-  if (part.triangles() == 0 || (!needsPlanes && goal.vertices >= part.vertices()))
+  if (part.triangles() == 0)
   {
     return 0.0;
   }
@@ -250,6 +273,7 @@ double collapseEdges(
   {
     collapser.addPlanes();
   }
+  collapser.addBoundary();
   return collapser.run(goal);
 }
 

@@ -8,6 +8,7 @@
 #include "IO/Files/PartialProgress.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Simplification/SimplifiedMesh.h"
+#include "IO/Simplification/SimplifyCosts.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "Solver/Stream/AddedColumn.h"
@@ -74,22 +75,6 @@ std::vector<std::string> notesOn(
                     (options.error > 0.0 ? " or exceed the error." : "."));
   }
   return notes;
-}
-
-void checkFormat(const std::filesystem::path& path, FormatUse use)
-{
-  constexpr FormatUse Uses[] = { FormatUse::Write, FormatUse::Restore };
-  const std::string choices = suffixList(Uses, CellType::Triangle, "or");
-  const FileSuffix* suffix = suffixFor(use, path);
-  if (!suffix)
-  {
-    throw Error(path.string() + ": this is no format of a surface: write it as " + choices + '.');
-  }
-  if (!suffix->holds(CellType::Triangle))
-  {
-    throw Error(path.string() + ": " + holdsNo(*suffix, CellType::Triangle, choices));
-  }
-  checkOutputPlace(path);
 }
 
 SimplifyReport simplifyToVsm(const StoredMesh& mesh, const std::filesystem::path& vsm,
@@ -159,6 +144,23 @@ std::vector<std::string> writeAsFile(const std::filesystem::path& vsm,
 
 } // namespace
 
+void checkSimplifiedPath(const std::filesystem::path& path)
+{
+  const bool restores = !suffixFor(FormatUse::Write, path);
+  constexpr FormatUse Uses[] = { FormatUse::Write, FormatUse::Restore };
+  const std::string choices = suffixList(Uses, CellType::Triangle, "or");
+  const FileSuffix* suffix = suffixFor(restores ? FormatUse::Restore : FormatUse::Write, path);
+  if (!suffix)
+  {
+    throw Error(path.string() + ": this is no format of a surface: write it as " + choices + '.');
+  }
+  if (!suffix->holds(CellType::Triangle))
+  {
+    throw Error(path.string() + ": " + holdsNo(*suffix, CellType::Triangle, choices));
+  }
+  checkOutputPlace(path);
+}
+
 std::string SimplifyReport::json(int indent) const
 {
   nlohmann::ordered_json json;
@@ -181,7 +183,7 @@ SimplifyReport simplify(
 {
   check(options);
   const bool restores = !suffixFor(FormatUse::Write, path);
-  checkFormat(path, restores ? FormatUse::Restore : FormatUse::Write);
+  checkSimplifiedPath(path);
   const Timer timer;
   const double cpu = processSeconds();
   const bool isVsm = kindOfOutput(path) == MeshFileKind::Vsm;

@@ -6,9 +6,13 @@
 #include "smg/MeshSource.h"
 
 #include <cstdint>
+#include <filesystem>
 
 namespace smg
 {
+
+/** Throws Error unless simplify() can write a file of this name. */
+SMG_EXPORT void checkSimplifiedPath(const std::filesystem::path& path);
 
 /** The costs of simplify() on a stream, from its counts. */
 SMG_EXPORT Costs simplifyCosts(const StreamInfo& info, std::int64_t memoryLimit);

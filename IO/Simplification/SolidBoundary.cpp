@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Simplification/SolidBoundary.h"
 
+#include <algorithm>
 #include <span>
+#include <vector>
 
 namespace smg
 {
@@ -21,7 +23,7 @@ SolidBoundary::SolidBoundary(MeshSource& mesh)
 bool SolidBoundary::next(MeshBlock& block)
 {
   const bool isSolid = this->Mesh.info().cellType == CellType::Tetrahedron;
-  if (this->Mesh.next(block))
+  if (!this->IsAtEnd && this->Mesh.next(block))
   {
     if (isSolid)
     {
@@ -36,8 +38,7 @@ bool SolidBoundary::next(MeshBlock& block)
   this->IsAtEnd = true;
   block = {};
   block.firstVertex = block.finalized = this->Vertices;
-  this->Faces.closeBelow(this->Vertices, [&block](const OpenFaces::Face& face)
-    { block.corners.insert(block.corners.end(), face.begin(), face.end()); });
+  this->close(this->Vertices, block);
   return !block.corners.empty();
 }
 
@@ -47,7 +48,7 @@ void SolidBoundary::replaceCells(MeshBlock& block)
   const Column* flags = block.flags();
   for (std::size_t c = 0; c + 3 < block.corners.size(); c += 4)
   {
-    if (!flags || flags->as<std::uint8_t>()[c / 4] == 0)
+    if (!flags || (flags->as<std::uint8_t>()[c / 4] & DuplicateCell) == 0)
     {
       this->Faces.add(std::span<const std::int64_t, 4>(block.corners.data() + c, 4));
     }
@@ -55,15 +56,30 @@ void SolidBoundary::replaceCells(MeshBlock& block)
   block.corners.clear();
   block.cellColumns.clear();
   this->Vertices += block.vertices();
-  // All open faces are looked at, which is worthwhile if they are many more than the last time.
-  if (this->Faces.size() > 2 * this->FacesKept + 100000)
+  // All open faces are looked at, which is worthwhile if there are many more of them, or of the
+  // vertices that they hold, than the last time.
+  const std::size_t usual = this->FacesKept + 20000;
+  if (this->Faces.size() > 2 * usual ||
+      static_cast<std::size_t>(this->Vertices - this->ClosedAt) > usual)
   {
-    this->Final = block.finalized;
-    this->Faces.closeBelow(this->Final, [&block](const OpenFaces::Face& face)
-      { block.corners.insert(block.corners.end(), face.begin(), face.end()); });
+    this->close(block.finalized, block);
     this->FacesKept = this->Faces.size();
+    this->ClosedAt = this->Vertices;
   }
   block.finalized = this->Final;
+}
+
+/** Appends the faces that no later cell has, in the order of their vertices. */
+void SolidBoundary::close(std::int64_t final, MeshBlock& block)
+{
+  std::vector<OpenFaces::Face> faces;
+  this->Final = final;
+  this->Faces.closeBelow(final, [&faces](const OpenFaces::Face& face) { faces.push_back(face); });
+  std::ranges::sort(faces);
+  for (const OpenFaces::Face& face : faces)
+  {
+    block.corners.insert(block.corners.end(), face.begin(), face.end());
+  }
 }
 
 } // namespace smg

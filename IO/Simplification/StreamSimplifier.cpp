@@ -44,10 +44,12 @@ std::size_t bodiesFor(std::int64_t points)
   return static_cast<std::size_t>(std::max<std::int64_t>(1, points / PointsPerBody));
 }
 
-/** The triangles that fit into the memory: half of them in the window. */
+/** The triangles of the window, which has half of the memory that open vertices leave. */
 std::size_t windowOf(std::int64_t memory, const StreamInfo& info)
 {
-  return static_cast<std::size_t>(std::max(LeastWindow, memory / 2 / bytesOfTriangle(info)));
+  constexpr std::int64_t Most = std::int64_t(1) << 29; // their corners have 32 bits
+  const auto share = static_cast<std::int64_t>(0.45 * static_cast<double>(memory));
+  return static_cast<std::size_t>(std::clamp(share / bytesOfTriangle(info), LeastWindow, Most));
 }
 
 } // namespace
@@ -65,7 +67,7 @@ Costs simplifyCosts(const StreamInfo& info, std::int64_t memoryLimit)
 StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplificationGoal& goal,
   std::int64_t memory, Workers& workers, std::function<void(double)> progress)
   : Memory(memory, SimplificationMemory)
-  , Parts(triangles, this->Memory, windowOf(memory, triangles.info()) / 3)
+  , Parts(triangles, this->Memory, windowOf(memory, triangles.info()) / 3, std::move(progress))
   , Info(triangles.info())
   , Goal(goal)
   , PartTriangles(windowOf(memory, triangles.info()) / 3)
@@ -92,7 +94,6 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplificationGo
         this->Counts.error = std::max(this->Counts.error, item.error);
         this->append(item.part);
       })
-  , Progress(std::move(progress))
 {
   const auto window = static_cast<std::int64_t>(this->Capacity);
   if (this->Info.cells > 0 && this->Info.vertices > 0)
@@ -101,15 +102,16 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplificationGo
       static_cast<double>(this->Info.cells) / static_cast<double>(this->Info.vertices);
     this->Triangles = static_cast<std::int64_t>(share * static_cast<double>(goal.vertices));
   }
-  const bool isLarge = this->Info.cells > window;
-  this->Streams = isLarge && (this->limitsError() || this->Triangles > window / 3);
+  // The cells of the boundary of a solid are not known.
+  const bool mayBeLarge = this->Info.cells <= 0 || this->Info.cells > window;
+  this->Streams = mayBeLarge && (this->limitsError() || this->Triangles > window / 3);
+  this->Memory.acquire(2 * window * bytesOfTriangle(this->Info));
 }
 
 double StreamSimplifier::done() const
 {
-  return this->Info.cells > 0
-           ? static_cast<double>(this->TakenCells) / static_cast<double>(this->Info.cells)
-           : 0.0;
+  const double vertices = static_cast<double>(std::max<std::int64_t>(1, this->Info.vertices));
+  return this->Info.vertices > 0 ? static_cast<double>(this->TakenVertices) / vertices : 0.0;
 }
 
 bool StreamSimplifier::next(Result& result)
@@ -177,12 +179,14 @@ void StreamSimplifier::append(const StreamPart& part)
       {
         places[v] = known->second;
         to.quadrics[known->second].add(from.quadrics[v]);
+        to.lacksBoundary[known->second] |= from.lacksBoundary[v];
         continue;
       }
     }
     places[v] = place;
     to.ids.push_back(from.ids[v]);
     to.quadrics.push_back(from.quadrics[v]);
+    to.lacksBoundary.push_back(from.lacksBoundary[v]);
     const auto point = from.points.begin() + 3 * static_cast<std::ptrdiff_t>(v);
     to.points.insert(to.points.end(), point, point + 3);
     const auto bytes = from.rows.begin() + static_cast<std::ptrdiff_t>(v * row);
@@ -193,12 +197,8 @@ void StreamSimplifier::append(const StreamPart& part)
     to.corners.push_back(places[corner]);
   }
   this->End = part.end;
-  this->TakenCells = part.endCell;
-  if (this->Progress)
-  {
-    this->Progress(this->done());
-  }
-  if (to.triangles() >= this->Capacity)
+  this->TakenVertices = part.endVertex;
+  if (to.triangles() > this->Capacity)
   {
     this->makeRoom();
   }
@@ -216,9 +216,29 @@ std::vector<std::uint8_t> StreamSimplifier::locked() const
   return locked;
 }
 
+/** Makes the window larger if too many of its vertices may not go. */
+bool StreamSimplifier::grow()
+{
+  const std::vector<std::uint8_t> locked = this->locked();
+  const auto fixed = static_cast<std::size_t>(std::ranges::count(locked, 1));
+  if (fixed * TrianglesPerLocked <= this->Capacity)
+  {
+    return false;
+  }
+  const std::size_t capacity = fixed * TrianglesPerLocked * 3 / 2;
+  this->Memory.acquire(
+    static_cast<std::int64_t>(capacity - this->Capacity) * bytesOfTriangle(this->Info));
+  this->Capacity = capacity;
+  return true;
+}
+
 /** Simplifies the full window; a part of a large result leaves it. */
 void StreamSimplifier::makeRoom()
 {
+  if (this->grow())
+  {
+    return;
+  }
   if (!this->Streams)
   {
     const auto wanted = static_cast<std::size_t>(this->Triangles);
@@ -260,17 +280,6 @@ void StreamSimplifier::shrink(std::size_t vertices)
   }
   if (4 * this->Window.triangles() > 3 * this->Capacity)
   {
-    const std::vector<std::uint8_t> locked = this->locked();
-    const auto fixed = static_cast<std::size_t>(std::ranges::count(locked, 1));
-    if (fixed * TrianglesPerLocked > this->Capacity)
-    {
-      // A larger window has more vertices that may go.
-      const std::size_t capacity = fixed * TrianglesPerLocked * 3 / 2;
-      this->Memory.acquire(
-        static_cast<std::int64_t>(capacity - this->Capacity) * bytesOfTriangle(this->Info));
-      this->Capacity = capacity;
-      return;
-    }
     clusterVertices(this->Window, this->Capacity / 8);
     this->Counts.isClustered = true;
   }
@@ -328,14 +337,19 @@ void StreamSimplifier::deliver(
       this->Delivered.insert(id);
     }
   }
-  std::erase_if(
-    this->Delivered, [&](std::int64_t id) { return id < this->End && !staying.contains(id); });
+  std::erase_if(this->Delivered,
+    [&](std::int64_t id)
+    {
+      const bool hasEnded = !staying.contains(id) && id < this->End;
+      if (hasEnded)
+      {
+        result.ended.push_back(id);
+      }
+      return hasEnded;
+    });
   this->Window.corners = std::move(rest);
   this->Window.dropUnusedVertices();
-  if (result.surface.triangles() > 0)
-  {
-    this->Ready.push_back(std::move(result));
-  }
+  this->Ready.push_back(std::move(result));
 }
 
 /** Finds the vertices of later parts in the window again. */
@@ -354,13 +368,13 @@ void StreamSimplifier::renumber()
 void StreamSimplifier::finish()
 {
   this->IsFinished = true;
-  this->Counts.cells = this->Parts.cells();
   this->Counts.vertices = this->Parts.vertices();
   this->End = this->Parts.vertices();
   const std::int64_t most =
     std::max<std::int64_t>(0, this->Goal.vertices - this->DeliveredVertices);
+  const bool mayDrop = !this->Streams && !this->limitsError() && this->Goal.vertices > 0;
   bool areFragments = false;
-  if (!this->Streams && this->Goal.vertices > 0 && this->remaining() > most)
+  if (mayDrop && this->remaining() > most)
   {
     const KeptBodies bodies = keepLargestBodies(this->Window, this->locked(), bodiesFor(most));
     this->Counts.dropped += static_cast<std::int64_t>(bodies.dropped);
@@ -370,7 +384,7 @@ void StreamSimplifier::finish()
   {
     this->collapse(most);
   }
-  if (!this->Streams && this->Goal.vertices > 0 && this->remaining() > most && !this->limitsError())
+  if (mayDrop && this->remaining() > most)
   {
     clusterVertices(this->Window, static_cast<std::size_t>(most));
     this->Counts.isClustered = true;

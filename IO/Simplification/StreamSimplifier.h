@@ -32,10 +32,10 @@ struct SimplificationGoal
 /** What a simplification has done. */
 struct SimplificationCounts
 {
-  std::int64_t vertices = 0, cells = 0; ///< that were read
-  double error = 0.0;       ///< the largest of a collapse, summed over successive ones, see below
-  std::int64_t dropped = 0; ///< small bodies
-  bool isClustered = false; ///< whether edges of some parts could not be collapsed
+  std::int64_t vertices = 0; ///< that were read
+  double error = 0.0;        ///< the largest of a collapse, summed over successive ones, see below
+  std::int64_t dropped = 0;  ///< small bodies
+  bool isClustered = false;  ///< whether edges of some parts could not be collapsed
 };
 
 /**
@@ -50,7 +50,7 @@ struct SimplificationCounts
  * The small bodies of a surface with very many are dropped, so that at most every twentieth point
  * is a body of its own.
  *
- * The result depends on the memory, but not on blocks (unless larger than parts) or threads.
+ * The result depends on the memory and on the blocks of the stream, but not on threads.
  * Every triangle is simplified once in a part, and about twice in the window.
  */
 class SMG_EXPORT StreamSimplifier
@@ -65,7 +65,7 @@ public:
   };
 
   /** `triangles` and `workers` must outlive it; `progress` receives the share of the stream that
-   * was read, and may throw. A result of more than a quarter of what fits into `memory`, in bytes,
+   * was read, and may throw. A result of more than a third of what fits into `memory`, in bytes,
    * needs the number of cells. */
   StreamSimplifier(MeshSource& triangles, const SimplificationGoal& goal, std::int64_t memory,
     Workers& workers, std::function<void(double)> progress);
@@ -92,6 +92,7 @@ private:
   double shareOfPart() const;
   void append(const StreamPart& part);
   std::vector<std::uint8_t> locked() const;
+  bool grow();
   void makeRoom();
   void collapse(std::int64_t vertices);
   void shrink(std::size_t vertices);
@@ -114,8 +115,7 @@ private:
   std::unordered_set<std::int64_t> Delivered;           ///< vertices that the window still uses
   std::int64_t End = 0; ///< later parts have no new triangles at the vertices below
   std::int64_t DeliveredVertices = 0;
-  std::int64_t TakenCells = 0;
-  std::function<void(double)> Progress; ///< of the share of the stream that was read
+  std::int64_t TakenVertices = 0; ///< of the parts that were appended
   std::deque<Result> Ready;
   bool IsFinished = false;
   SimplificationCounts Counts;

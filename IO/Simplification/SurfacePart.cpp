@@ -68,6 +68,7 @@ void SurfacePart::dropUnusedVertices()
     std::copy_n(this->points.begin() + 3 * static_cast<std::ptrdiff_t>(v), 3,
       this->points.begin() + 3 * static_cast<std::ptrdiff_t>(kept));
     this->quadrics[kept] = this->quadrics[v];
+    this->lacksBoundary[kept] = this->lacksBoundary[v];
     std::copy_n(this->rows.begin() + static_cast<std::ptrdiff_t>(v * stride), stride,
       this->rows.begin() + static_cast<std::ptrdiff_t>(kept * stride));
     ++kept;
@@ -75,6 +76,7 @@ void SurfacePart::dropUnusedVertices()
   this->ids.resize(kept);
   this->points.resize(3 * std::size_t(kept));
   this->quadrics.resize(kept);
+  this->lacksBoundary.resize(kept);
   this->rows.resize(kept * stride);
   for (std::uint32_t& corner : this->corners)
   {

@@ -20,6 +20,8 @@ struct SurfacePart
    * collapsed onto it, for points relative to `origin`. */
   std::vector<Quadric> quadrics;
   std::array<double, 3> origin{};
+  /** Of each vertex, with quadrics: not 0 if those of its boundary edges may be missing. */
+  std::vector<std::uint8_t> lacksBoundary;
   std::vector<std::byte> rows;        ///< of each vertex, its tuples of all columns one by one
   std::vector<std::uint32_t> corners; ///< places in `ids`, three a triangle
 

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace smg
 {
-SurfaceParts::SurfaceParts(MeshSource& source, Pool& pool, std::size_t triangles)
+SurfaceParts::SurfaceParts(
+  MeshSource& source, Pool& pool, std::size_t triangles, std::function<void(double)> progress)
   : Source(source)
   , Least(triangles)
+  , Progress(std::move(progress))
   , RowBytes(static_cast<std::size_t>(rowBytes(source.info().vertexColumns)))
   , Points(pool, 3)
   , Rows(pool, static_cast<int>(this->RowBytes))
@@ -38,7 +41,7 @@ bool SurfaceParts::next(StreamPart& part)
     }
   }
   part.end = this->Final;
-  part.endCell = this->Cells;
+  part.endVertex = this->Vertices;
   this->localise(part.surface);
   return !this->Corners.empty();
 }
@@ -67,8 +70,8 @@ void SurfaceParts::add(const MeshBlock& block)
   for (std::size_t i = 0; i + 2 < block.corners.size(); i += 3)
   {
     const std::int64_t* c = block.corners.data() + i;
-    const bool isFlagged = flags && flags->as<std::uint8_t>()[i / 3] != 0;
-    if (!isFlagged && c[0] != c[1] && c[1] != c[2] && c[2] != c[0])
+    const bool isRepeated = flags && (flags->as<std::uint8_t>()[i / 3] & DuplicateCell) != 0;
+    if (!isRepeated && c[0] != c[1] && c[1] != c[2] && c[2] != c[0])
     {
       this->Corners.insert(this->Corners.end(), c, c + 3);
     }
@@ -76,6 +79,11 @@ void SurfaceParts::add(const MeshBlock& block)
   this->Vertices += block.vertices();
   this->Cells += static_cast<std::int64_t>(block.corners.size() / 3);
   this->Final = std::max(this->Final, block.finalized);
+  if (this->Progress && this->Source.info().vertices > 0)
+  {
+    this->Progress(
+      static_cast<double>(this->Vertices) / static_cast<double>(this->Source.info().vertices));
+  }
 }
 
 /** Makes the surface of the triangles, with its vertices in the order of the stream. */

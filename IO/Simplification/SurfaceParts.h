@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace smg
@@ -20,7 +21,7 @@ struct StreamPart
   /** Earlier parts may have the vertices below `begin`, later ones those from `end` on, which may
    * be less. */
   std::int64_t begin = 0, end = 0;
-  std::int64_t endCell = 0; ///< the number of cells of this and all earlier parts
+  std::int64_t endVertex = 0; ///< the number of vertices that were read
 
   bool isInside(std::size_t vertex) const
   {
@@ -31,14 +32,16 @@ struct StreamPart
 
 /**
  * Cuts a stream of triangles into parts, with the columns of their vertices. Cells that repeat a
- * corner or have flags (see CellFlag) are left out. The memory is that of a part and of the open
+ * corner, and duplicates (see CellFlag), are left out. The memory is that of a part and of the open
  * vertices of the stream, which `pool` accounts for.
  */
 class SurfaceParts
 {
 public:
-  /** A part has at least so many triangles, the last one fewer, in whole blocks. */
-  SurfaceParts(MeshSource& source, Pool& pool, std::size_t triangles);
+  /** A part has at least so many triangles, the last one fewer, in whole blocks. `progress`
+   * receives the share of the vertices that was read, if their number is known, and may throw. */
+  SurfaceParts(
+    MeshSource& source, Pool& pool, std::size_t triangles, std::function<void(double)> progress);
 
   /** Replaces `part` by the next one; returns whether there is one. */
   bool next(StreamPart& part);
@@ -54,6 +57,7 @@ private:
 
   MeshSource& Source;
   std::size_t Least;
+  std::function<void(double)> Progress;
   std::size_t RowBytes = 0;
   OpenValues<double> Points;
   OpenValues<std::byte> Rows;

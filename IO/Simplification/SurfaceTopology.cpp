@@ -9,6 +9,14 @@
 namespace smg
 {
 
+namespace
+{
+
+/** A vertex of more triangles does not go, and no other one goes to it. */
+constexpr std::size_t MostTriangles = 512;
+
+} // namespace
+
 SurfaceTopology::SurfaceTopology(
   std::vector<std::uint32_t>& corners, std::span<const std::uint8_t> open)
   : Corners(corners)
@@ -72,7 +80,10 @@ void SurfaceTopology::classify(std::uint32_t v)
   }
   const std::size_t triangles = this->Pairs.size();
   this->IsBoundary[v] = neighbours != triangles ? 1 : 0;
-  this->IsFixed[v] = this->Open[v] != 0 || neighbours > triangles + 1 || !this->isFan() ? 1 : 0;
+  // To look at all triangles of a hub for each of its edges would take the square of their number.
+  const bool isHub = triangles > MostTriangles;
+  this->IsFixed[v] =
+    isHub || this->Open[v] != 0 || neighbours > triangles + 1 || !this->isFan() ? 1 : 0;
 }
 
 /** Whether the triangles with these ends are one fan, with at most two at each end. */
@@ -114,6 +125,10 @@ bool SurfaceTopology::isFan()
 
 bool SurfaceTopology::isPossible(std::uint32_t from, std::uint32_t to, bool pinching)
 {
+  if (this->star(to).size() > MostTriangles)
+  {
+    return false;
+  }
   ++this->Mark;
   for (const std::uint32_t t : this->star(to))
   {
@@ -179,6 +194,11 @@ bool SurfaceTopology::isTetrahedron(
 {
   const auto hasBoth = [&](std::uint32_t v)
   {
+    // Three vertices that may have more triangles elsewhere may have one in common there.
+    if (this->Open[v] != 0 && this->Open[opposite[0]] != 0 && this->Open[opposite[1]] != 0)
+    {
+      return true;
+    }
     return std::ranges::any_of(this->star(v),
       [&](std::uint32_t t)
       {

@@ -18,7 +18,8 @@ namespace smg
  * A move keeps the topology if the two vertices have no common neighbours but the corners opposite
  * to their edge, and are not two of the four vertices of a tetrahedron; at the boundary if they
  * move along it (the link condition of Dey, Edelsbrunner, Guha and Nekhayev, Topology preserving
- * edge contraction, 1999). Vertices whose triangles are not one fan may not go.
+ * edge contraction, 1999). Vertices whose triangles are not one fan, and those of
+ * very many, may not go.
  */
 class SurfaceTopology
 {
@@ -28,6 +29,8 @@ public:
   SurfaceTopology(std::vector<std::uint32_t>& corners, std::span<const std::uint8_t> open);
 
   std::size_t vertices() const { return this->Open.size(); }
+  /** Whether a vertex may have more triangles elsewhere. */
+  bool isOpen(std::uint32_t v) const { return this->Open[v] != 0; }
   /** Whether a vertex may go somewhere. */
   bool mayGo(std::uint32_t v) const { return this->IsFixed[v] == 0; }
   /** Whether an edge may be that of one triangle; false if its ends certainly have two. */

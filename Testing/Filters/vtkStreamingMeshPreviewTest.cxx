@@ -125,7 +125,7 @@ TEST_F(VtkStreamingMeshPreview, SeesTheMeshBehindThePreviewOfTheReader)
 TEST_F(VtkStreamingMeshPreview, WarnsThatItShowsNothing)
 {
   StreamMesh mesh = toStream(grid(3, 3));
-  const std::vector<std::uint8_t> flags(static_cast<std::size_t>(mesh.cells()), DegenerateCell);
+  const std::vector<std::uint8_t> flags(static_cast<std::size_t>(mesh.cells()), DuplicateCell);
   mesh.cellColumns = { makeColumn<std::uint8_t>(CellFlagsName, flags) };
   MemorySource source(mesh);
   writeMesh(source, this->Folder / "flat.vsm");

@@ -102,7 +102,7 @@ TEST_F(PreviewStreams, OfCellsWithoutAreaAreRefused)
 {
   StreamMesh mesh = toStream(grid(3, 3));
   mesh.cellColumns = { makeColumn<std::uint8_t>(CellFlagsName,
-    std::vector<std::uint8_t>(static_cast<std::size_t>(mesh.cells()), DegenerateCell)) };
+    std::vector<std::uint8_t>(static_cast<std::size_t>(mesh.cells()), DuplicateCell)) };
   expectError([&] { this->previewOf(mesh, 100); }, "mesh.vsm: a preview of at most 100 points");
   VsmReader reader(this->Folder / "mesh.vsm");
   expectError(

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "smg/Simplify.h"
 
+#include "IO/Simplification/SimplifiedMesh.h"
+#include "Solver/Storage/Workers.h"
+
 #include "Testing/Support/ErrorMessage.h"
 #include "Testing/Support/MemoryMesh.h"
+#include "Testing/Support/MemorySource.h"
 #include "Testing/Support/StreamMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
 #include "Testing/Support/TestMeshes.h"
 #include "smg/VsmReader.h"
 
+#include <Eigen/Dense>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -101,6 +106,18 @@ IndexedTestMesh unwelded(const IndexedTestMesh& mesh)
   return soup;
 }
 
+double areaOf(const StreamMesh& mesh)
+{
+  double area = 0.0;
+  for (std::size_t i = 0; i < mesh.corners.size(); i += 3)
+  {
+    const auto point = [&](std::size_t k)
+    { return Eigen::Map<const Eigen::Vector3d>(&mesh.positions[3 * mesh.corners[i + k]]); };
+    area += 0.5 * (point(1) - point(0)).cross(point(2) - point(0)).norm();
+  }
+  return area;
+}
+
 /** What the edges of a surface tell. */
 struct Edges
 {
@@ -164,7 +181,7 @@ TEST_F(Simplify, KeepsTheTopologyAndHasSoManyVertices)
   }
 }
 
-TEST_F(Simplify, GivesTheSameBitsForAllThreadsAndBlocks)
+TEST_F(Simplify, GivesTheSameBitsForAllThreads)
 {
   const StreamMesh mesh = toStream(torus(220, 150, 0.2));
   for (const std::int64_t vertices : { 500, 20000 })
@@ -318,6 +335,90 @@ TEST_F(Simplify, OddSurfacesDoNoHarm)
     fan.corners.insert(fan.corners.end(), { once.corners[i], once.corners[i], once.corners[i] });
   }
   EXPECT_LE(this->simplified(toStream(fan), toVertices(200)).vertices(), 200);
+}
+
+TEST_F(Simplify, KeepsTheAreaOfAnOpenSurfaceInAnyOrder)
+{
+  for (const TestOrder order : { TestOrder::BreadthFirst, TestOrder::Keep })
+  {
+    const StreamMesh mesh = toStream(shuffled(grid(150, 120)), order);
+    const StreamMesh simple = this->simplified(mesh, toError(0.01, std::int64_t(64) << 20));
+    EXPECT_LT(simple.vertices(), 1200);
+    EXPECT_NEAR(areaOf(simple), areaOf(mesh), 0.002 * areaOf(mesh));
+  }
+}
+
+TEST_F(Simplify, ASolidInLittleMemoryIsThatOfMuch)
+{
+  const StreamMesh solid = toStream(tetBox(45, 40, 35, 0.1));
+  for (const SimplifyOptions& options :
+    { toVertices(4000, LittleMemory), toError(0.02, LittleMemory) })
+  {
+    const StreamMesh simple = this->simplified(solid, options);
+    EXPECT_EQ(edgesOf(simple).euler, 2);
+    EXPECT_EQ(edgesOf(simple).boundary, 0);
+    EXPECT_EQ(edgesOf(simple).branching, 0);
+    EXPECT_TRUE(this->Report.notes.empty());
+    EXPECT_GE(simple.vertices(), options.vertices * 9 / 10);
+  }
+}
+
+TEST_F(Simplify, BodiesOfOneSizeAreBodies)
+{
+  IndexedTestMesh mesh = sphere(2);
+  for (int k = 1; k < 60; ++k)
+  {
+    mesh = disjointUnion(mesh, sphere(2), { 3.0 * k, 0, 0 });
+  }
+  const StreamMesh many = toStream(mesh);
+  EXPECT_EQ(this->simplified(many, toVertices(600)).vertices(), 600);
+  EXPECT_EQ(this->Report.dropped_bodies, 30);
+  // An error keeps all of them.
+  SimplifyOptions both = toVertices(600);
+  both.error = 1e9;
+  const StreamMesh kept = this->simplified(many, both);
+  EXPECT_EQ(this->Report.dropped_bodies, 0);
+  EXPECT_LE(kept.vertices(), 600);
+  EXPECT_EQ(edgesOf(kept).euler, 120);
+}
+
+TEST_F(Simplify, CellsWithoutAreaStayConnected)
+{
+  StreamMesh mesh = toStream(grid(20, 20));
+  std::vector<std::uint8_t> flags(static_cast<std::size_t>(mesh.cells()), 0);
+  flags[300] = DegenerateCell;
+  mesh.cellColumns = { makeColumn<std::uint8_t>(CellFlagsName, flags) };
+  EXPECT_EQ(this->simplified(mesh, toVertices(1000)).cells(), mesh.cells());
+}
+
+TEST_F(Simplify, AHubOfManyTrianglesTakesNoSquareOfTheirNumber)
+{
+  IndexedTestMesh fan;
+  fan.positions = { 0, 0, 0 };
+  constexpr int Rim = 40000;
+  for (int k = 0; k < Rim; ++k)
+  {
+    const double angle = 6.283185307179586 * k / Rim, radius = 1.0 + 0.1 * (k % 2);
+    fan.positions.insert(
+      fan.positions.end(), { radius * std::cos(angle), radius * std::sin(angle), 0.0 });
+    fan.corners.insert(fan.corners.end(), { 0, 1 + k, 1 + (k + 1) % Rim });
+  }
+  EXPECT_LE(this->simplified(toStream(fan), toVertices(2000)).vertices(), 2000);
+}
+
+TEST_F(Simplify, VerticesOfTheStreamBecomeFinal)
+{
+  const StreamMesh mesh = toStream(torus(300, 200, 0.2));
+  MemorySource source(mesh, 1000);
+  Workers workers(1);
+  SimplifiedMesh simple(source, { .vertices = 40000 }, LittleMemory, workers, {});
+  std::int64_t blocks = 0, open = 0;
+  for (MeshBlock block; simple.next(block); ++blocks)
+  {
+    open = std::max(open, simple.info().vertices - block.finalized);
+  }
+  EXPECT_GT(blocks, 3);
+  EXPECT_LT(open, 4000);
 }
 
 TEST_F(Simplify, AWideStreamNeedsMoreMemory)
