@@ -4,6 +4,7 @@
 
 #include "Filters/vtkStreamingSolver.h"
 
+#include "Filters/Streaming/SolutionValues.h"
 #include "Filters/Streaming/vtkBroughtPiece.h"
 #include "Filters/Streaming/vtkInputStamp.h"
 #include "Filters/Streaming/vtkPieceRequest.h"
@@ -13,6 +14,9 @@
 #include "Filters/Streaming/vtkSolveEstimate.h"
 #include "Filters/Streaming/vtkStreamedSolve.h"
 #include "IO/vtkAlgorithmGlue.h"
+#include "IO/vtkMeshPieceData.h"
+#include "IO/vtkOrdinaryMesh.h"
+#include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
 #include "smg/Error.h"
@@ -28,8 +32,13 @@
 #include "vtkStringArray.h"
 #include "vtkTimeStamp.h"
 
+#include <algorithm>
+#include <cmath>
 #include <exception>
+#include <iterator>
+#include <memory>
 #include <string>
+#include <vector>
 
 /** How the filter answers requests, and what it keeps between them. */
 struct vtkStreamingSolver::Internals
@@ -48,8 +57,10 @@ struct vtkStreamingSolver::Internals
     smg::SolutionExchange exchange(this->partners(request, input, inputInfo));
     vtkSmartPointer<vtkPointSet> present;
     exchange.together([&] { present = smg::bring(input, request, exchange); });
+    const bool isOrdinary = !exchange.isParallel() && this->bringWhole(input, request, present);
+    // In memory, filters work on triangles and tetrahedra only.
     const bool isForMemory = exchange.decide(
-      !request.IsStreamed && exchange.isServer() &&
+      !request.IsStreamed && exchange.isServer() && !(isOrdinary && !smg::hasSimplices(*present)) &&
       this->Self.IsForMemory(*present, request.Pieces == 1 && !exchange.isParallel()));
     const bool isForProcesses =
       !isForMemory && this->isForProcesses(request, input, inputInfo, *present, exchange);
@@ -61,13 +72,17 @@ struct vtkStreamingSolver::Internals
     }
     else if (exchange.isServer())
     {
-      this->solve(input, inputInfo, *present, isForMemory ? &values : nullptr);
+      this->solve(input, inputInfo, *present, isOrdinary, isForMemory ? &values : nullptr);
     }
     this->Summary.isCancelled = !this->Summary.error.empty() && this->Self.GetAbortExecute();
     // With the distributed engine every process has a summary, and if one has failed, all have.
     exchange.share(this->Summary, exchange.firstOf(isForProcesses && !this->Summary.error.empty()));
     this->check(exchange.isServer());
-    if (!isForMemory && !isForProcesses)
+    if (isOrdinary && !isForMemory)
+    {
+      values = this->valuesOfPoints();
+    }
+    else if (!isForMemory && !isForProcesses)
     {
       this->fetch(input, request, exchange, present, values);
     }
@@ -80,8 +95,56 @@ struct vtkStreamingSolver::Internals
                            "too: all of a preview must be in process 0.");
         }
         this->deliver(*present, values, *vtkPointSet::GetData(outputInfo));
+        if (isOrdinary && request.Piece > 0)
+        {
+          vtkPointSet::GetData(outputInfo)->Initialize(); // piece 0 is all of it
+        }
       });
     this->Shared.noteAnswer(request, smg::stampOf(this->Self, input, inputInfo));
+  }
+
+  /** Brings all of an ordinary mesh, which is no piece of a mesh stream; returns whether it is one.
+   * What is not for the memory is solved on as on a file. */
+  bool bringWhole(smg::PieceInput& input, const smg::PieceRequest& request,
+    vtkSmartPointer<vtkPointSet>& present) const
+  {
+    if (!smg::isOrdinaryMesh(*present) || smg::isPreview(*present))
+    {
+      return false;
+    }
+    if (request.Pieces > 1)
+    {
+      vtkPointSet* whole = vtkPointSet::SafeDownCast(input.update(0, 1, false));
+      if (smg::isPreview(*whole))
+      {
+        return false; // a filter before this one has lost what belongs to the pieces of the mesh
+      }
+      present = whole;
+    }
+    return true;
+  }
+
+  /** The solution at all points of an ordinary mesh; not a number where no cell is. */
+  std::vector<double> valuesOfPoints()
+  {
+    const std::vector<std::int64_t>& vertices = this->Streamed.vertexOfPoint();
+    const auto columns = static_cast<std::size_t>(this->Summary.columns);
+    std::vector<std::int64_t> known;
+    std::ranges::copy_if(
+      vertices, std::back_inserter(known), [](std::int64_t vertex) { return vertex >= 0; });
+    std::vector<double> found(known.size() * columns);
+    smg::readValues(*this->Streamed.solution(), known, found);
+    std::vector<double> values(vertices.size() * columns, std::nan(""));
+    auto from = found.begin();
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+    {
+      if (vertices[i] >= 0)
+      {
+        std::copy_n(from, columns, values.begin() + static_cast<std::ptrdiff_t>(i * columns));
+        from += static_cast<std::ptrdiff_t>(columns);
+      }
+    }
+    return values;
   }
 
   /** The processes that process the request collectively; nullptr: this process alone. */
@@ -95,7 +158,7 @@ struct vtkStreamingSolver::Internals
 
   /** Solves in memory if there are values to fill, otherwise out of core. */
   void solve(smg::PieceInput& input, vtkInformation* inputInfo, vtkPointSet& present,
-    std::vector<double>* values)
+    bool isOrdinary, std::vector<double>* values)
   {
     if (values)
     {
@@ -103,7 +166,7 @@ struct vtkStreamingSolver::Internals
       this->Summary = this->solveInMemory(present, *values);
       return;
     }
-    this->solveOutOfCore(input, inputInfo, present);
+    this->solveOutOfCore(input, inputInfo, present, isOrdinary);
     this->Summary = this->Streamed.summary();
   }
 
@@ -149,7 +212,8 @@ struct vtkStreamingSolver::Internals
   }
 
   /** Solves out of core unless there is a solution for this input. */
-  void solveOutOfCore(smg::PieceInput& input, vtkInformation* inputInfo, vtkPointSet& present)
+  void solveOutOfCore(
+    smg::PieceInput& input, vtkInformation* inputInfo, vtkPointSet& present, bool isOrdinary)
   {
     if (this->Streamed.isFor(smg::stampOf(this->Self, input, inputInfo)))
     {
@@ -162,8 +226,12 @@ struct vtkStreamingSolver::Internals
         this->Self.NumberOfPieces, std::int64_t(this->Self.MemoryLimit) << 20);
       pulling.scratch = this->Self.ScratchDirectory ? this->Self.ScratchDirectory : "";
       pulling.scratchLimit = std::int64_t(this->Self.ScratchLimit) << 20;
+      pulling.memory = std::int64_t(this->Self.MemoryLimit) << 20;
+      pulling.threads = this->Self.NumberOfThreads;
       smg::Progress progress(smg::progressOf(this->Self));
-      this->Streamed.solve(input, *this->Self.MakeTask(present), pulling, progress);
+      const std::unique_ptr<smg::StreamedTask> task = this->Self.MakeTask(present);
+      isOrdinary ? this->Streamed.solveWhole(present, *task, pulling, progress)
+                 : this->Streamed.solve(input, *task, pulling, progress);
     }
     catch (const std::exception& error)
     {

@@ -12,6 +12,8 @@
 #include "Filters/Streaming/vtkWarnOnce.h"
 #include "IO/Formats/Vsm/ReservedNames.h"
 #include "IO/vtkMeshPieceData.h"
+#include "IO/vtkOrdinaryMesh.h"
+#include "IO/vtkPieceCells.h"
 #include "Solver/Description/ComposeDescriptions.h"
 #include "Solver/Stream/OriginalNumbers.h"
 #include "smg/DescriptionFiles.h"
@@ -139,6 +141,13 @@ struct vtkStreamingPoisson::Internals
     }
     if (!smg::isPreview(piece))
     {
+      if (smg::isOrdinaryMesh(piece) && !smg::hasSimplices(piece))
+      {
+        this->NoCells.warn(
+          "Gradient and Flux are left out, since cells of the input are neither all "
+          "triangles nor all tetrahedra: use Triangulate or Tetrahedralize first.");
+        return;
+      }
       smg::addCellResults(piece, problem, values, output);
       return;
     }

@@ -2,6 +2,8 @@
 #ifndef vtkOrdinaryMesh_h
 #define vtkOrdinaryMesh_h
 
+#include "vtkStreamingMultigridIOModule.h" // For export macro
+
 #include "smg/Convert.h"
 
 #include <filesystem>
@@ -13,11 +15,11 @@ namespace smg
 {
 
 /** Whether the mesh has no point GlobalIds and is therefore not a piece of a mesh stream. */
-bool isOrdinaryMesh(vtkDataObject& data);
+VTKSTREAMINGMULTIGRIDIO_EXPORT bool isOrdinaryMesh(vtkDataObject& data);
 
 /** Writes a whole mesh in memory with its arrays: VTK writes it to a file in the scratch folder,
  * and convert() converts that. Throws like convert(), and Error if VTK cannot write the file. */
-ConversionReport writeOrdinaryMesh(
+VTKSTREAMINGMULTIGRIDIO_EXPORT ConversionReport writeOrdinaryMesh(
   vtkPointSet& mesh, const std::filesystem::path& path, const ConversionOptions& options);
 
 } // namespace smg

@@ -87,6 +87,19 @@ CellType cellTypeOf(vtkPointSet& piece, const std::string& where)
   return CellType::Tetrahedron;
 }
 
+bool hasSimplices(vtkPointSet& piece)
+{
+  try
+  {
+    cellTypeOf(piece, "The input");
+    return true;
+  }
+  catch (const Error&)
+  {
+    return false;
+  }
+}
+
 std::vector<std::int64_t> cellCorners(vtkPointSet& piece, CellType type, const std::string& where)
 {
   vtkCellArray* cells = cellsOf(piece, where);

@@ -22,6 +22,9 @@ namespace smg
  * with `where`, unless they are all triangles or all tetrahedra. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT CellType cellTypeOf(vtkPointSet& piece, const std::string& where);
 
+/** Whether the cells of such a mesh are all triangles or all tetrahedra. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT bool hasSimplices(vtkPointSet& piece);
+
 /** The corners of all cells, as point indices. Throws Error if they are not of type `type`. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<std::int64_t> cellCorners(
   vtkPointSet& piece, CellType type, const std::string& where);

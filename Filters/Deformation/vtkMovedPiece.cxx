@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 #include <string>
 
@@ -38,6 +39,17 @@ vtkSmartPointer<vtkPoints> movedPoints(vtkPointSet& piece, const PieceMotion& mo
 {
   const vtkIdType count = piece.GetNumberOfPoints();
   auto points = vtkSmartPointer<vtkPoints>::New();
+  // Points of no cell stay where they are.
+  const auto moved = [&](vtkIdType i)
+  {
+    std::array<double, 3> to;
+    std::copy_n(motion.values.begin() + i * motion.columns, 3, to.begin());
+    if (std::isnan(to[0]))
+    {
+      piece.GetPoint(i, to.data());
+    }
+    return to;
+  };
   if (piece.GetPoints()->GetDataType() == VTK_FLOAT)
   {
     vtkDataArray* ids = piece.GetPointData()->GetGlobalIds();
@@ -46,7 +58,7 @@ vtkSmartPointer<vtkPoints> movedPoints(vtkPointSet& piece, const PieceMotion& mo
     for (vtkIdType i = 0; i < count; ++i)
     {
       const auto vertex = ids ? static_cast<vtkIdType>(ids->GetTuple1(i)) : i;
-      const std::span<const double, 3> to(motion.values.data() + i * motion.columns, 3);
+      const std::array<double, 3> to = moved(i);
       single->SetTypedTuple(i, singlePrecision(to, vertex, "The moved mesh").data());
     }
     points->SetData(single);
@@ -58,7 +70,7 @@ vtkSmartPointer<vtkPoints> movedPoints(vtkPointSet& piece, const PieceMotion& mo
   array->SetNumberOfTuples(count);
   for (vtkIdType i = 0; i < count; ++i)
   {
-    std::copy_n(motion.values.begin() + i * motion.columns, 3, array->GetPointer(3 * i));
+    array->SetTypedTuple(i, moved(i).data());
   }
   points->SetData(array);
   return points;
@@ -70,7 +82,8 @@ vtkSmartPointer<vtkFloatArray> normalsOfPoints(vtkIdType count, const PieceMotio
   const auto normals = makeTriples(count);
   for (vtkIdType i = 0; i < 3 * count; ++i)
   {
-    normals->SetValue(i, static_cast<float>(motion.values[i / 3 * motion.columns + 3 + i % 3]));
+    const double normal = motion.values[i / 3 * motion.columns + 3 + i % 3];
+    normals->SetValue(i, std::isnan(normal) ? 0.0F : static_cast<float>(normal));
   }
   return normals;
 }
@@ -161,7 +174,7 @@ void movePiece(vtkPointSet& piece, const PieceMotion& motion, vtkPointSet& outpu
   }
   if (findNormals(*piece.GetCellData()))
   {
-    const bool hasTriangles = output.IsA("vtkPolyData");
+    const bool hasTriangles = output.IsA("vtkPolyData") && hasSimplices(output);
     replaceNormals(*output.GetCellData(),
       motion.needsCellNormals && hasTriangles ? normalsOfCells(output).Get() : nullptr);
   }

@@ -60,7 +60,9 @@ std::size_t replaceArray(vtkPointSet& mesh, const std::string& name,
     for (int k = 0; k < after->GetNumberOfComponents(); ++k)
     {
       const std::size_t place = static_cast<std::size_t>(i) * stride + first;
-      after->SetComponent(i, k, rounded(values[place + static_cast<std::size_t>(k)]));
+      const double value = values[place + static_cast<std::size_t>(k)];
+      // Points of no cell keep what they have.
+      after->SetComponent(i, k, std::isnan(value) ? before->GetComponent(i, k) : rounded(value));
     }
   }
   mesh.GetPointData()->AddArray(after);

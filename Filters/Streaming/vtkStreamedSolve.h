@@ -11,7 +11,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <string>
+#include <vector>
+
+class vtkPointSet;
 
 namespace smg
 {
@@ -31,6 +36,8 @@ public:
     PieceCount pieces;
     std::filesystem::path scratch; ///< folder for scratch files; empty: the system's
     std::int64_t scratchLimit = 0; ///< of the bytes of all scratch files at once; 0: none
+    std::int64_t memory = 0;       ///< for the order of an ordinary mesh, bytes
+    int threads = 0;               ///< 0: one per core
   };
 
   /** Whether there is a solution for this stamp. */
@@ -56,6 +63,17 @@ public:
   void solve(
     PieceInput& input, const StreamedTask& task, const Pulling& pulling, Progress& progress);
 
+  /**
+   * The same on a whole ordinary mesh (see isOrdinaryMesh()): it is converted as a file is, so that
+   * polygons, strips and hexahedra become triangles and tetrahedra, and points of no cell are left
+   * out.
+   */
+  void solveWhole(
+    vtkPointSet& mesh, const StreamedTask& task, const Pulling& pulling, Progress& progress);
+
+  /** Of a solution on an ordinary mesh: the vertex of each point, -1 without one. */
+  const std::vector<std::int64_t>& vertexOfPoint() const { return this->VertexOfPoint; }
+
   /** The solution; nullptr before a successful solve. */
   Solution* solution() const { return this->Result.get(); }
 
@@ -67,11 +85,17 @@ public:
 private:
   void release();
   void discard();
-  void pullAndSolve(
-    PieceInput& input, const StreamedTask& task, const Pulling& pulling, Progress& progress);
+  /** Makes the .vsm file of the mesh; returns notes. */
+  using MakeMesh = std::function<std::vector<std::string>(
+    const std::filesystem::path& container, Progress& progress)>;
+  void solveOn(
+    const MakeMesh& make, const StreamedTask& task, const Pulling& pulling, Progress& progress);
+  std::vector<std::string> writeWhole(vtkPointSet& mesh, const Pulling& pulling,
+    const std::filesystem::path& container, Progress& progress);
 
   std::unique_ptr<ScratchFolder> Scratch; ///< of the solution
   std::unique_ptr<Solution> Result;
+  std::vector<std::int64_t> VertexOfPoint;
   InputStamp MadeFor;
   SolveSummary Summary;
 };

@@ -41,12 +41,6 @@ for name, content in {"cut.smb": data[:600000], "empty.smb": b"", "noise.smb": d
     assert name in text, (name, text)
     Delete(reader)
 
-# A source that is not a mesh stream.
-sphere = Sphere()
-poisson = t.make_poisson(t.make_problem(sphere))
-poisson.UpdatePipeline()
-assert "GlobalIds" in said()
-
 # A failure is reported once, however often a view updates, until something changes.
 reader = OpenDataFile(t.BUNNY)
 poisson = StreamingPoisson(Input=reader, Problem='{"dirichlet": [{"sphere": [9, 9, 9, 1], "value": 1}]}')

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkMeshCondition.h"
+#include "Filters/vtkStreamingDistance.h"
+#include "Filters/vtkStreamingPoisson.h"
+#include "Testing/IO/vtkPieceTesting.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSetTriangleFilter.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkPlane.h"
+#include "vtkPlaneSource.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkSphereSource.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+// Meshes of other sources than readers of streams, as they are: any cells, points of no cell, no
+// GlobalIds. A linear function is the solution of the finite elements on each of them.
+
+namespace smg::testing
+{
+namespace
+{
+
+/** The hexahedra of a box with the corners moved by a linear map, and a point of no cell. */
+vtkNew<vtkUnstructuredGrid> hexahedra(int n)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (int z = 0; z <= n; ++z)
+  {
+    for (int y = 0; y <= n; ++y)
+    {
+      for (int x = 0; x <= n; ++x)
+      {
+        points->InsertNextPoint(x + 0.3 * y, y + 0.1 * z, z);
+      }
+    }
+  }
+  vtkNew<vtkUnstructuredGrid> grid;
+  const auto id = [n](int x, int y, int z) { return vtkIdType((z * (n + 1) + y) * (n + 1) + x); };
+  for (int z = 0; z < n; ++z)
+  {
+    for (int y = 0; y < n; ++y)
+    {
+      for (int x = 0; x < n; ++x)
+      {
+        const vtkIdType corners[8] = { id(x, y, z), id(x + 1, y, z), id(x + 1, y + 1, z),
+          id(x, y + 1, z), id(x, y, z + 1), id(x + 1, y, z + 1), id(x + 1, y + 1, z + 1),
+          id(x, y + 1, z + 1) };
+        grid->InsertNextCell(VTK_HEXAHEDRON, 8, corners);
+      }
+    }
+  }
+  points->InsertNextPoint(0.4 * n, 0.5 * n, 0.5 * n);
+  grid->SetPoints(points);
+  return grid;
+}
+
+class VtkOrdinaryMesh : public ::testing::Test
+{
+protected:
+  /** Solves with the point array X, x + 2 y - z, prescribed outside of a ball in the middle. */
+  vtkPointSet* solve(vtkPointSet* mesh)
+  {
+    vtkNew<vtkDoubleArray> linear, mask;
+    linear->SetName("X");
+    mask->SetName("Mask");
+    double box[6], centre[3], sides[3];
+    mesh->GetBounds(box);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      centre[axis] = 0.5 * (box[2 * axis] + box[2 * axis + 1]);
+      sides[axis] = box[2 * axis + 1] - box[2 * axis];
+    }
+    std::sort(sides, sides + 3);
+    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
+    {
+      const double* p = mesh->GetPoint(i);
+      linear->InsertNextValue(p[0] + 2.0 * p[1] - p[2]);
+      const double away = std::hypot(p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]);
+      mask->InsertNextValue(away > 0.3 * sides[1] ? 1.0 : 0.0);
+    }
+    mesh->GetPointData()->AddArray(linear);
+    mesh->GetPointData()->AddArray(mask);
+    this->Poisson->SetInputDataObject(mesh);
+    this->Poisson->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Mask");
+    this->Poisson->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "X");
+    this->Poisson->SetTolerance(1e-10);
+    updatePiece(this->Poisson, 0, 1);
+    return vtkPointSet::SafeDownCast(this->Poisson->GetOutputDataObject(0));
+  }
+
+  /** The output is the input with its arrays, and X is its solution at all points with cells. */
+  void expectLinear(vtkPointSet* mesh, vtkIdType withoutCells)
+  {
+    Errors errors(this->Poisson);
+    vtkPointSet* output = this->solve(mesh);
+    ASSERT_TRUE(errors.text().empty()) << errors.text();
+    EXPECT_EQ(this->Poisson->GetConverged(), 1);
+    EXPECT_EQ(output->GetNumberOfPoints(), mesh->GetNumberOfPoints());
+    EXPECT_EQ(output->GetNumberOfCells(), mesh->GetNumberOfCells());
+    EXPECT_FALSE(output->GetPointData()->GetGlobalIds());
+    EXPECT_FALSE(output->GetPointData()->HasArray("OriginalId"));
+    vtkDataArray* solution = output->GetPointData()->GetArray("Solution");
+    vtkDataArray* linear = output->GetPointData()->GetArray("X");
+    ASSERT_TRUE(solution && linear);
+    vtkIdType missing = 0;
+    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+    {
+      if (std::isnan(solution->GetTuple1(i)))
+      {
+        ++missing;
+      }
+      else
+      {
+        ASSERT_NEAR(solution->GetTuple1(i), linear->GetTuple1(i), 1e-6) << i;
+      }
+    }
+    EXPECT_EQ(missing, withoutCells);
+  }
+
+  vtkNew<vtkStreamingPoisson> Poisson;
+};
+
+} // namespace
+
+TEST_F(VtkOrdinaryMesh, QuadsAreTriangles)
+{
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetResolution(30, 20);
+  plane->SetOrigin(0.0, 0.0, 0.0);
+  plane->SetPoint1(30.0, 0.0, 0.0);
+  plane->SetPoint2(0.0, 20.0, 5.0);
+  plane->Update();
+  this->expectLinear(plane->GetOutput(), 0);
+}
+
+TEST_F(VtkOrdinaryMesh, HexahedraAreTetrahedra)
+{
+  this->expectLinear(hexahedra(8), 1);
+}
+
+TEST_F(VtkOrdinaryMesh, AGridOfTetrahedraHasGradients)
+{
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(9, 8, 7);
+  vtkNew<vtkDataSetTriangleFilter> tetrahedra;
+  tetrahedra->SetInputData(image);
+  tetrahedra->Update();
+  this->Poisson->SetGradient(true);
+  vtkUnstructuredGrid* mesh = tetrahedra->GetOutput();
+  this->expectLinear(mesh, 0);
+  auto* output = vtkPointSet::SafeDownCast(this->Poisson->GetOutputDataObject(0));
+  vtkDataArray* gradient = output->GetCellData()->GetArray("Gradient");
+  ASSERT_TRUE(gradient);
+  for (vtkIdType i = 0; i < gradient->GetNumberOfTuples(); ++i)
+  {
+    ASSERT_NEAR(gradient->GetComponent(i, 0), 1.0, 1e-5);
+    ASSERT_NEAR(gradient->GetComponent(i, 1), 2.0, 1e-5);
+    ASSERT_NEAR(gradient->GetComponent(i, 2), -1.0, 1e-5);
+  }
+}
+
+TEST_F(VtkOrdinaryMesh, GradientsOfOtherCellsAreLeftOutWithAWarning)
+{
+  this->Poisson->SetGradient(true);
+  const Errors warnings(this->Poisson);
+  vtkPointSet* output = this->solve(hexahedra(4));
+  EXPECT_TRUE(warnings.contain("Tetrahedralize first")) << warnings.text();
+  EXPECT_TRUE(output->GetPointData()->HasArray("Solution"));
+  EXPECT_FALSE(output->GetCellData()->HasArray("Gradient"));
+}
+
+TEST_F(VtkOrdinaryMesh, ASphereOfParaViewTakesConditions)
+{
+  vtkNew<vtkSphereSource> sphere;
+  sphere->SetThetaResolution(40);
+  sphere->SetPhiResolution(30);
+  vtkNew<vtkPlane> below, above;
+  below->SetOrigin(0.0, 0.0, -0.4);
+  below->SetNormal(0.0, 0.0, 1.0);
+  above->SetOrigin(0.0, 0.0, 0.4);
+  above->SetNormal(0.0, 0.0, -1.0);
+  vtkNew<vtkMeshCondition> cold, hot;
+  cold->SetInputConnection(sphere->GetOutputPort());
+  cold->SetRegionFunction(below);
+  cold->SetValue(-1.0);
+  hot->SetInputConnection(cold->GetOutputPort());
+  hot->SetRegionFunction(above);
+
+  hot->SetValue(1.0);
+  this->Poisson->SetInputConnection(hot->GetOutputPort());
+  for (const int pieces : { 1, 3 })
+  {
+    Errors errors(this->Poisson);
+    updatePiece(this->Poisson, 0, pieces);
+    ASSERT_TRUE(errors.text().empty()) << errors.text();
+    auto* output = vtkPolyData::SafeDownCast(this->Poisson->GetOutputDataObject(0));
+    ASSERT_EQ(output->GetNumberOfPoints(), 40 * 28 + 2);
+    vtkDataArray* solution = output->GetPointData()->GetArray("Solution");
+    ASSERT_TRUE(solution);
+    double held = 1.0;
+    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+    {
+      const double z = std::fabs(output->GetPoint(i)[2]);
+      held = z >= 0.4 ? std::min(held, z) : held;
+    }
+    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+    {
+      // Between both, the harmonic function of the sphere is an odd one of the height.
+      const double z = output->GetPoint(i)[2];
+      const double height = std::min(std::fabs(z), held);
+      const double expected = std::atanh(2.0 * height) / std::atanh(2.0 * held);
+      EXPECT_NEAR(solution->GetTuple1(i), std::copysign(expected, z), 0.01) << z;
+    }
+  }
+}
+
+TEST_F(VtkOrdinaryMesh, DistancesAreThoseOfAnySize)
+{
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetResolution(40, 40);
+  vtkNew<vtkStreamingDistance> distance;
+  distance->SetInputConnection(plane->GetOutputPort());
+  distance->SetFrom("{\"nearest\": [[-0.5, -0.5, 0]]}");
+  for (const int interactive : { 10, 100000 })
+  {
+    distance->SetInteractivePoints(interactive);
+    Errors errors(distance);
+    updatePiece(distance, 0, 1);
+    ASSERT_TRUE(errors.text().empty()) << errors.text();
+    auto* output = vtkPointSet::SafeDownCast(distance->GetOutputDataObject(0));
+    vtkDataArray* found = output->GetPointData()->GetArray("Distance");
+    ASSERT_TRUE(found);
+    for (vtkIdType i = 0; i < output->GetNumberOfPoints(); ++i)
+    {
+      const double* p = output->GetPoint(i);
+      EXPECT_NEAR(found->GetTuple1(i), std::hypot(p[0] + 0.5, p[1] + 0.5), 0.01);
+    }
+  }
+}
+
+} // namespace smg::testing

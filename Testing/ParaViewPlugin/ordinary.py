@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Meshes of ParaView's own sources in the filters, without any preparation: the answers are those on the same
+mesh read from a file of its own, and the output is the input with arrays.
+
+ordinary.py PLUGIN"""
+
+import os
+import sys
+
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+import smg_testing as t
+from paraview import servermanager
+from paraview.simple import *
+
+LoadPlugin(sys.argv[1], ns=globals())
+t.StreamingPoisson = StreamingPoisson
+folder = t.make_folder()
+
+
+def hot_and_cold(source, low, high):
+    """0 below and 1 above two heights."""
+    cold = MeshCondition(Input=source, RegionFunction="Plane", Condition="Dirichlet", Value=0)
+    cold.RegionFunction.Origin, cold.RegionFunction.Normal = [0, 0, low], [0, 0, 1]
+    hot = MeshCondition(Input=cold, RegionFunction="Plane", Condition="Dirichlet", Value=1)
+    hot.RegionFunction.Origin, hot.RegionFunction.Normal = [0, 0, high], [0, 0, -1]
+    return hot
+
+
+def points_and(source, name):
+    data = servermanager.Fetch(source)
+    return (vtk_to_numpy(data.GetPoints().GetData()).astype(float),
+            vtk_to_numpy(data.GetPointData().GetArray(name)).astype(float), data)
+
+
+def check(name, source):
+    source.UpdatePipeline()
+    bounds = source.GetDataInformation().GetBounds()
+    low, high = bounds[4] + 0.1 * (bounds[5] - bounds[4]), bounds[5] - 0.1 * (bounds[5] - bounds[4])
+    poisson = StreamingPoisson(Input=hot_and_cold(source, low, high), Tolerance=1e-9)
+    points, solution, data = points_and(poisson, "Solution")
+    poisson.UpdatePropertyInformation()
+    assert poisson.GetPropertyValue("Outcome").startswith("Converged"), poisson.GetPropertyValue("Outcome")
+    before = servermanager.Fetch(source)
+    assert (data.GetNumberOfPoints(), data.GetNumberOfCells()) == (
+        before.GetNumberOfPoints(), before.GetNumberOfCells()), name
+    assert not data.GetPointData().GetGlobalIds() and not data.GetPointData().HasArray("StreamFinalized")
+    # The same mesh as a stream of its own.
+    file = os.path.join(folder, name + (".vtp" if data.IsA("vtkPolyData") else ".vtu"))
+    SaveData(file, proxy=source, DataMode="Binary")
+    stream = os.path.join(folder, name + ".vsm")
+    t.run_smg("convert", file, stream)
+    there = StreamingPoisson(Input=hot_and_cold(OpenDataFile(stream), low, high), Tolerance=1e-9)
+    _, found, shown = points_and(there, "Solution")
+    numbers = vtk_to_numpy(shown.GetPointData().GetArray("OriginalId"))
+    known = np.full(len(points), np.nan)
+    known[numbers] = found
+    assert np.array_equal(np.isnan(known), np.isnan(solution)), name
+    difference = np.nanmax(np.abs(known - solution))
+    assert difference < 1e-6 and np.nanmin(solution) > -0.1 and np.nanmax(solution) < 1.1, (name, difference)
+    # What is saved is the mesh with its solution.
+    saved = os.path.join(folder, name + "-solved" + os.path.splitext(file)[1])
+    SaveData(saved, proxy=poisson)
+    assert np.array_equal(points_and(OpenDataFile(saved), "Solution")[1], solution, equal_nan=True), name
+    distance = StreamingDistance(Input=source, From='{"nearest": [[%g, %g, %g]]}' % tuple(points[numbers[0]]))
+    _, away, _ = points_and(distance, "Distance")
+    straight = np.linalg.norm(points - points[numbers[0]], axis=1)
+    reached = np.isfinite(away)
+    assert reached.any() and (away[reached] > straight[reached] * (1 - 1e-6) - 1e-6).all(), name
+
+
+def check_motions(source):
+    """A translation of two handles moves all points; smoothing and blending keep what a plane and constants are."""
+    source.UpdatePipeline()
+    before, _, bounds = *points_and(source, "Elevation")[:2], source.GetDataInformation().GetBounds()
+    up = dict(Motion="Similarity", Translation=[1, 2, 3])
+    first = MeshHandle(Input=source, RegionFunction="Plane", **up)
+    first.RegionFunction.Origin, first.RegionFunction.Normal = [bounds[0] + 0.2, 0, 0], [1, 0, 0]
+    second = MeshHandle(Input=first, RegionFunction="Plane", **up)
+    second.RegionFunction.Origin, second.RegionFunction.Normal = [bounds[1] - 0.2, 0, 0], [-1, 0, 0]
+    deformed = StreamingMeshDeformation(Input=second)
+    points, _, data = points_and(deformed, "Elevation")
+    assert np.abs(points - before - [1, 2, 3]).max() < 1e-4, np.abs(points - before - [1, 2, 3]).max()
+    assert data.GetNumberOfCells() == servermanager.Fetch(source).GetNumberOfCells()
+
+
+wavelet = Wavelet(WholeExtent=[-8, 8, -8, 8, -8, 8])
+tetrahedra = Tetrahedralize(Input=wavelet)
+ply = os.path.join(folder, "ball.ply")
+SaveData(ply, proxy=Sphere(ThetaResolution=50, PhiResolution=40, Radius=100))
+check("sphere", Sphere(ThetaResolution=80, PhiResolution=60))
+check("tetrahedra", tetrahedra)
+check("plane", Plane(Origin=[0, 0, 0], Point1=[3, 0, 0], Point2=[0, 1, 3], XResolution=40, YResolution=30))
+check("contour", Contour(Input=wavelet, ContourBy=["POINTS", "RTData"], Isosurfaces=[150.0]))
+check("clip", Clip(Input=tetrahedra, ClipType="Sphere"))
+check("hexahedra", Threshold(Input=wavelet, Scalars=["POINTS", "RTData"], LowerThreshold=-1e9, UpperThreshold=1e9))
+check("ply", OpenDataFile(ply))
+for grid in (Plane(XResolution=30, YResolution=20, Point1=[5, 0, 0]),
+             Threshold(Input=wavelet, Scalars=["POINTS", "RTData"], LowerThreshold=100, UpperThreshold=1e9)):
+    check_motions(Elevation(Input=grid))
+smooth = StreamingMeshSmoothing(Input=Elevation(Input=Plane(XResolution=30, YResolution=20)), Boundary="Fixed")
+flat, _, _ = points_and(smooth, "Elevation")
+assert np.abs(flat[:, 2]).max() < 1e-6
+print("passed")
