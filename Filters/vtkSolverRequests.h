@@ -246,8 +246,10 @@ struct vtkStreamingSolver::Internals
   {
     try
     {
-      const smg::SolveSummary summary =
+      smg::SolveSummary summary =
         this->Self.SolveInMemory(input, smg::progressOf(this->Self), values);
+      summary.fullPoints = smg::pointsBehind(input);
+      summary.previewPoints = summary.fullPoints > 0 ? input.GetNumberOfPoints() : 0;
       this->warn(summary);
       return summary;
     }

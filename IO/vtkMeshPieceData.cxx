@@ -136,6 +136,14 @@ bool isPreview(vtkPointSet& mesh)
   return mark && mark->GetNumberOfTuples() > 0 && mark->GetComponent(0, 0) != 0.0;
 }
 
+std::int64_t pointsBehind(vtkPointSet& mesh)
+{
+  vtkDataArray* count = mesh.GetFieldData()->GetArray(FullNumberOfPointsName);
+  return isPreview(mesh) && count && count->GetNumberOfTuples() > 0
+           ? static_cast<std::int64_t>(count->GetComponent(0, 0))
+           : 0;
+}
+
 bool isSurfaceOfSolid(vtkPointSet& mesh)
 {
   return isPreview(mesh) && mesh.IsA("vtkUnstructuredGrid") && mesh.GetNumberOfCells() > 0 &&

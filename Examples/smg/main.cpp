@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// smg: Poisson problems, deformations, smoothing, distances and simplification on meshes of any size.
+// smg: Poisson problems, deformations, smoothing, distances and simplification on meshes of any
+// size.
 //
 //   smg info bunny.ply
 //   smg convert bunny.ply bunny.vsm

@@ -7,6 +7,22 @@
 namespace smg
 {
 
+namespace
+{
+
+/** A number with commas between thousands. */
+std::string grouped(std::int64_t number)
+{
+  std::string text = std::to_string(number);
+  for (std::size_t at = text.size(); at > 3; at -= 3)
+  {
+    text.insert(at - 3, ",");
+  }
+  return text;
+}
+
+} // namespace
+
 SolveSummary SolveSummary::of(const Report& report, int columns)
 {
   SolveSummary summary;
@@ -48,6 +64,11 @@ std::string SolveSummary::outcome() const
   }
   constexpr double MiB = 1 << 20;
   std::ostringstream text;
+  if (this->previewPoints > 0)
+  {
+    text << "On the preview only: " << grouped(this->previewPoints) << " of "
+         << grouped(this->fullPoints) << " points. ";
+  }
   text << (this->converged ? "Converged" : "Not converged");
   if (this->cycles > 0)
   {

@@ -16,6 +16,8 @@ struct SolveSummary
   bool isCancelled = false; ///< whether the error is a requested cancellation
   std::string report;
   std::string notes; ///< of the report, one per line
+  /** Of a solve on a preview: the points of that and of the mesh; 0 of others. */
+  std::int64_t previewPoints = 0, fullPoints = 0;
   int columns = 0;
   double residual = 0.0;
   int cycles = 0, passes = 0;

@@ -120,8 +120,9 @@ void SolutionExchange::share(SolveSummary& summary, int from)
   this->shareText(summary.notes, from);
   double numbers[] = { double(summary.columns), summary.residual, double(summary.cycles),
     double(summary.passes), double(summary.converged), double(summary.peakMemory),
-    double(summary.isCancelled), double(summary.processes) };
-  this->Controller->Broadcast(numbers, 8, from);
+    double(summary.isCancelled), double(summary.processes), double(summary.previewPoints),
+    double(summary.fullPoints) };
+  this->Controller->Broadcast(numbers, 10, from);
   summary.columns = static_cast<int>(numbers[0]);
   summary.residual = numbers[1];
   summary.cycles = static_cast<int>(numbers[2]);
@@ -130,6 +131,8 @@ void SolutionExchange::share(SolveSummary& summary, int from)
   summary.peakMemory = static_cast<std::int64_t>(numbers[5]);
   summary.isCancelled = numbers[6] != 0.0;
   summary.processes = static_cast<int>(numbers[7]);
+  summary.previewPoints = static_cast<std::int64_t>(numbers[8]);
+  summary.fullPoints = static_cast<std::int64_t>(numbers[9]);
 }
 
 std::vector<double> SolutionExchange::values(

@@ -19,6 +19,8 @@ namespace
 constexpr double LengthShare = 1e-3;
 /** The weight of a boundary edge compared with triangles of its length. */
 constexpr double BoundaryWeight = 10.0;
+/** Where the topology may change, it does for an error that is four times smaller than others. */
+constexpr float PinchWorth = 16.0F;
 /** The least cosine of the angle by which a triangle may turn. */
 constexpr double LeastCosine = 0.2;
 
@@ -99,21 +101,30 @@ public:
 
   double run(const CollapseGoal& goal)
   {
-    bool pinching = false;
+    this->MayPinch = goal.mayPinch && goal.vertices < this->Part.vertices();
+    if (this->MayPinch)
+    {
+      this->Surface.allowPinching();
+    }
+    float worth = PinchWorth;
     for (std::size_t left = this->Part.vertices(); left > goal.vertices;)
     {
       this->rankEdges(goal.error * goal.error);
-      const std::size_t gone = this->collapse(left - goal.vertices, pinching);
+      this->Pinched = 0;
+      const std::size_t gone = this->collapse(left - goal.vertices, worth);
       left -= gone;
       this->Surface.endPass();
-      if (gone == 0 && (pinching || !goal.mayPinch))
-      {
-        break;
-      }
-      pinching = pinching || gone == 0;
-      if (pinching)
+      if (this->Pinched > 0)
       {
         left = this->Surface.dropFolded();
+      }
+      if (gone == 0)
+      {
+        if (!this->MayPinch || worth == 0.0F)
+        {
+          break;
+        }
+        worth = 0.0F; // no other collapse is possible
       }
     }
     this->Part.dropUnusedVertices();
@@ -202,28 +213,40 @@ private:
     }
   }
 
-  /** Collapses edges, at most so many; returns their number. */
-  std::size_t collapse(std::size_t most, bool pinching)
+  /** Collapses edges, at most so many; returns their number. Those that change the topology must
+   * have a rank `worth` times smaller than the others. */
+  std::size_t collapse(std::size_t most, float worth)
   {
     this->sortEdges();
     // Neighbours of a collapse wait for the next pass: this one ends before edges that are much
     // worse than those that would suffice without such neighbours.
     constexpr float Worse = 1.5F;
     const std::size_t enough = std::min(most, this->Edges.size() / 2);
+    const float usual = this->Order.empty() ? 0.0F : this->Edges[this->Order[enough]].rank;
     std::size_t done = 0;
     for (std::size_t k = 0; k < this->Order.size() && done < most; ++k)
     {
       const auto [from, to, rank] = this->Edges[this->Order[k]];
-      if (k > enough && done > most / 6 && rank > Worse * this->Edges[this->Order[enough]].rank)
+      if (k > enough && done > most / 6 && rank > Worse * usual)
       {
         break;
       }
-      if (this->Surface.areUntouched(from, to) && this->Surface.isPossible(from, to, pinching) &&
-          !this->turnsOver(from, to))
+      if (!this->Surface.areUntouched(from, to))
+      {
+        continue;
+      }
+      const bool pinches = !this->Surface.isPossible(from, to, false);
+      if (pinches &&
+          !(this->MayPinch && worth * rank <= usual && this->Surface.isPossible(from, to, true)))
+      {
+        continue;
+      }
+      if (!this->turnsOver(from, to))
       {
         this->Error = std::max(this->Error, this->errorOf(from, to));
         this->Part.quadrics[to].add(this->Part.quadrics[from]);
         this->Surface.move(from, to);
+        this->Pinched += pinches ? 1 : 0;
         ++done;
       }
     }
@@ -252,6 +275,8 @@ private:
 
   SurfacePart& Part;
   SurfaceTopology Surface;
+  bool MayPinch = false;
+  std::size_t Pinched = 0;    ///< collapses of this pass that changed the topology
   double InverseSquare = 1.0; ///< of the extent of the part, so that ranks are in single precision
   double Error = 0.0;         ///< squared
   std::vector<Collapse> Edges;

@@ -17,8 +17,9 @@ struct CollapseGoal
   std::size_t vertices = 0; ///< so many are left
   /** The largest error of a collapse, see collapseEdges(). */
   double error = std::numeric_limits<double>::infinity();
-  /** Whether collapses may close handles and merge sheets, where no other is possible, so that
-   * edges may get more than two triangles. Triangles that lie on each other then are removed. */
+  /** Whether collapses may close handles and merge sheets, where their error is four times smaller
+   * than that of others or no other is possible, so that edges may get more than two triangles.
+   * Triangles that lie on each other then are removed. */
   bool mayPinch = false;
 };
 

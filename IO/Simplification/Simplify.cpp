@@ -17,6 +17,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -143,6 +144,17 @@ std::vector<std::string> writeAsFile(const std::filesystem::path& vsm,
 }
 
 } // namespace
+
+Costs simplifyCosts(const StreamInfo& info, std::int64_t memoryLimit)
+{
+  constexpr double SecondsOfCell = 1.3e-6; // on a machine of 2023
+  constexpr std::int64_t BytesOfCell = 400;
+  Costs costs;
+  costs.memory = std::min(memoryLimit, BytesOfCell * info.cells);
+  costs.passes = 1;
+  costs.seconds = SecondsOfCell * static_cast<double>(info.cells);
+  return costs;
+}
 
 void checkSimplifiedPath(const std::filesystem::path& path)
 {

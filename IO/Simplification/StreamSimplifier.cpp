@@ -3,7 +3,6 @@
 
 #include "IO/Formats/RowBytes.h"
 #include "IO/Simplification/Bodies.h"
-#include "IO/Simplification/SimplifyCosts.h"
 #include "IO/Simplification/VertexClustering.h"
 
 #include <algorithm>
@@ -53,16 +52,6 @@ std::size_t windowOf(std::int64_t memory, const StreamInfo& info)
 }
 
 } // namespace
-
-Costs simplifyCosts(const StreamInfo& info, std::int64_t memoryLimit)
-{
-  constexpr double SecondsOfCell = 1.3e-6; // on a machine of 2023
-  Costs costs;
-  costs.memory = std::min(memoryLimit, 2 * info.cells * bytesOfTriangle(info));
-  costs.passes = 1;
-  costs.seconds = SecondsOfCell * static_cast<double>(info.cells);
-  return costs;
-}
 
 StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplificationGoal& goal,
   std::int64_t memory, Workers& workers, std::function<void(double)> progress)

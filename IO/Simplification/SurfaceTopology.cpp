@@ -2,7 +2,7 @@
 #include "IO/Simplification/SurfaceTopology.h"
 
 #include <algorithm>
-#include <map>
+#include <compare>
 #include <numeric>
 #include <utility>
 
@@ -232,30 +232,45 @@ void SurfaceTopology::endPass()
 /** Of each triangle: whether it lies on another one, wound the other way; both in pairs. */
 std::vector<std::uint8_t> SurfaceTopology::foldedTriangles() const
 {
-  using Triangle = std::array<std::uint32_t, 3>;
-  std::map<Triangle, std::size_t> unpaired; // by ascending corners: the place of one
-  std::vector<std::uint8_t> isFolded(this->Corners.size() / 3);
-  for (std::size_t t = 0; t < isFolded.size(); ++t)
+  struct Triangle
   {
-    const std::uint32_t* c = this->Corners.data() + 3 * t;
-    Triangle sorted{ c[0], c[1], c[2] };
-    std::ranges::sort(sorted);
-    const auto [known, isNew] = unpaired.try_emplace(sorted, t);
-    if (!isNew && this->isTurned(known->second, t))
+    std::array<std::uint32_t, 3> corners; ///< ascending
+    std::uint32_t place;
+    auto operator<=>(const Triangle&) const = default;
+  };
+  std::vector<Triangle> triangles(this->Corners.size() / 3);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+  {
+    const std::uint32_t* c = this->Corners.data() + 3 * std::size_t(t);
+    triangles[t] = { { c[0], c[1], c[2] }, t };
+    std::ranges::sort(triangles[t].corners);
+  }
+  std::ranges::sort(triangles);
+  std::vector<std::uint8_t> isFolded(triangles.size());
+  for (std::size_t k = 0; k < triangles.size(); ++k)
+  {
+    for (std::size_t j = k + 1; j < triangles.size() && isFolded[triangles[k].place] == 0 &&
+                                triangles[j].corners == triangles[k].corners;
+         ++j)
     {
-      isFolded[known->second] = isFolded[t] = 1;
-      unpaired.erase(known);
+      if (isFolded[triangles[j].place] == 0 &&
+          this->isTurned(triangles[k].place, triangles[j].place))
+      {
+        isFolded[triangles[k].place] = isFolded[triangles[j].place] = 1;
+      }
     }
   }
   return isFolded;
 }
 
+void SurfaceTopology::allowPinching()
+{
+  this->KeepsFolded = std::ranges::count(this->foldedTriangles(), 1) > 0;
+}
+
 std::size_t SurfaceTopology::dropFolded()
 {
   const std::vector<std::uint8_t> isFolded = this->foldedTriangles();
-  this->KeepsFolded =
-    this->KeepsFolded || (!this->HasDropped && std::ranges::count(isFolded, 1) > 0);
-  this->HasDropped = true;
   std::vector<std::uint8_t> isUsed(this->vertices(), 0);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < this->Corners.size(); ++i)

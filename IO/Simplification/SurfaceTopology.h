@@ -76,8 +76,10 @@ public:
   /** Ends a pass: removes the triangles that have collapsed. */
   void endPass();
 
+  /** To be called before the first pinching move. */
+  void allowPinching();
   /** Removes pairs of triangles that lie on each other, which pinching leaves, unless the surface
-   * had any when this was called first. Returns the number of vertices that are left. */
+   * had any before. Returns the number of vertices that are left. */
   std::size_t dropFolded();
 
 private:
@@ -93,7 +95,7 @@ private:
   std::span<const std::uint8_t> Open;
   std::vector<std::uint8_t> IsFixed, IsBoundary;
   bool IsTurned = false;
-  bool KeepsFolded = false, HasDropped = false;
+  bool KeepsFolded = false;
   // Of a pass.
   std::vector<std::uint32_t> Begin, Stars; ///< the triangles of each vertex
   std::vector<std::uint32_t> Target;       ///< where a vertex has gone

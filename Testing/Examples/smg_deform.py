@@ -461,7 +461,7 @@ def test_preview_errors():
     run("preview", "torus.vsm", "p.vsm", "--points", 1000001, code=2)
     run("preview", "torus.vsm", "p.vsm", "--threads", 1, code=2)
     with open("point.obj", "w", encoding="utf-8") as file:
-        file.write("v 1 1 1\n" * 3 + "f 1 2 3\n")
+        file.write("v 1 1 1\nv 2 1 1\nf 1 1 2\n")
     assert "point.obj: a preview" in run("preview", "point.obj", "p.vsm", code=1).stderr
     run("preview", "missing.ply", "p.vsm", code=1)
     assert not any(name.startswith("p.") for name in os.listdir("."))

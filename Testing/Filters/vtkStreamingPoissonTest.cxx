@@ -87,6 +87,10 @@ TEST_F(VtkStreamingPoisson, SolvesOnAPreviewInItsPlace)
   EXPECT_NE(
     std::string(this->Poisson->GetReport()).find("solution on the preview"), std::string::npos);
   EXPECT_EQ(this->Poisson->GetConverged(), 1);
+  EXPECT_EQ(std::string(this->Poisson->GetOutcome())
+              .find("On the preview only: 1,200 of 1,800 points. Converged after "),
+    0U)
+    << this->Poisson->GetOutcome();
   vtkPointSet* preview = this->output();
   auto* ids = preview->GetPointData()->GetGlobalIds();
   auto* solution = preview->GetPointData()->GetArray("Solution");

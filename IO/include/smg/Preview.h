@@ -45,7 +45,8 @@ public:
    * @param name what error messages call the mesh; empty: its file name
    * @param scratch folder for scratch files, which only large previews need; empty: the system's
    * temporary folder
-   * @throws Error if the limit is out of range, the mesh cannot be read, or all cells repeat a corner or another cell
+   * @throws Error if the limit is out of range, the mesh cannot be read, or all cells repeat a
+   * corner or another cell
    * @throws Cancelled if the progress callback returns false
    */
   explicit PreviewSource(VsmReader& mesh, std::int64_t maximumPoints = DefaultPreviewPoints,

@@ -65,7 +65,7 @@ struct SMG_EXPORT SimplifyReport
  * a result that fits into the memory, edges of the smallest error collapse first, wherever they
  * are; of a larger one, in each part of the stream for itself. With `vertices` and without `error`,
  * the smallest bodies are left out where there are fewer than 20 vertices a body, and handles may
- * be closed where no other collapse is possible.
+ * be closed where that changes the surface much less than other collapses.
  *
  * @param mesh the mesh, which is read once
  * @param path the file to write, in the format of its suffix: any that meshes of triangles are
