@@ -25,7 +25,10 @@ bool SurfaceParts::next(StreamPart& part)
 {
   this->Corners.clear();
   this->Points.release(this->Final);
-  this->Rows.release(this->Final);
+  if (this->RowBytes > 0)
+  {
+    this->Rows.release(this->Final);
+  }
   this->Released = this->Final;
   part.begin = this->Vertices;
   while (this->Corners.size() < 3 * this->Least && !this->IsAtEnd)
