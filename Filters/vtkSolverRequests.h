@@ -78,13 +78,15 @@ struct vtkStreamingSolver::Internals
     // With the distributed engine every process has a summary, and if one has failed, all have.
     exchange.share(this->Summary, exchange.firstOf(isForProcesses && !this->Summary.error.empty()));
     this->check(exchange.isServer());
-    if (isOrdinary && !isForMemory)
-    {
-      values = this->valuesOfPoints();
-    }
-    else if (!isForMemory && !isForProcesses)
+    const bool isEmpty = isOrdinary && request.Piece > 0; // piece 0 is all of it
+    const bool isOutOfCore = !isForMemory && !isForProcesses;
+    if (isOutOfCore && !isOrdinary)
     {
       this->fetch(input, request, exchange, present, values);
+    }
+    else if (isOutOfCore && !isEmpty)
+    {
+      values = this->valuesOfPoints();
     }
     exchange.together(
       [&]
@@ -94,11 +96,8 @@ struct vtkStreamingSolver::Internals
           throw smg::Error("The input is a preview in process 0 and has points in another process, "
                            "too: all of a preview must be in process 0.");
         }
-        this->deliver(*present, values, *vtkPointSet::GetData(outputInfo));
-        if (isOrdinary && request.Piece > 0)
-        {
-          vtkPointSet::GetData(outputInfo)->Initialize(); // piece 0 is all of it
-        }
+        vtkPointSet& output = *vtkPointSet::GetData(outputInfo);
+        isEmpty ? output.Initialize() : this->deliver(*present, values, output);
       });
     this->Shared.noteAnswer(request, smg::stampOf(this->Self, input, inputInfo));
   }

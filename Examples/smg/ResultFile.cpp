@@ -99,7 +99,7 @@ void ResultFile::chooseOrder(const smg::VsmReader& mesh, const smg::ConversionRe
   if (this->mayRestore() && isNumbered)
   {
     this->Order = smg::WrittenOrder::Restored;
-    this->checkHolds(smg::FormatUse::Restore, cells);
+    this->check(smg::FormatUse::Restore, cells);
     return;
   }
   if (!smg::suffixFor(smg::FormatUse::Write, this->Files.out))
@@ -109,18 +109,14 @@ void ResultFile::chooseOrder(const smg::VsmReader& mesh, const smg::ConversionRe
                      ", so that the result can be written in stream order only: choose " +
                      smg::suffixList(smg::FormatUse::Write, cells, "or") + '.');
   }
-  this->checkHolds(smg::FormatUse::Write, cells);
+  this->check(smg::FormatUse::Write, cells);
 }
 
-void ResultFile::checkHolds(smg::FormatUse use, smg::CellType cells) const
+void ResultFile::check(smg::FormatUse use, smg::CellType cells) const
 {
-  const smg::FileSuffix& suffix = *smg::suffixFor(use, this->Files.out);
-  if (!suffix.holds(cells))
-  {
-    throw smg::Error(
-      this->Files.out.string() + ": " + smg::holdsNo(suffix, cells, this->choices(cells)));
-  }
-  smg::checkOutputPlace(this->Files.out);
+  const std::filesystem::path& out = this->Files.out;
+  smg::checkHolds(out, *smg::suffixFor(use, out), cells, this->choices(cells));
+  smg::checkOutputPlace(out);
 }
 
 int ResultFile::threads(std::int64_t memory) const

@@ -14,6 +14,7 @@
 #include "IO/Formats/Vsm/VsmFileFormat.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/Formats/VtkHdf/VtkHdfFormat.h"
+#include "smg/Error.h"
 
 #include <algorithm>
 #include <fstream>
@@ -234,10 +235,15 @@ std::string suffixList(
     [cells](const FileSuffix& suffix) { return !cells || suffix.holds(*cells); });
 }
 
-std::string holdsNo(const FileSuffix& suffix, CellType cells, const std::string& choices)
+void checkHolds(const std::filesystem::path& path, const FileSuffix& suffix, CellType cells,
+  const std::string& choices)
 {
-  return "a " + std::string(suffix.text) + " file holds no " +
-         (cells == CellType::Triangle ? "triangles" : "tetrahedra") + ": choose " + choices + '.';
+  if (!suffix.holds(cells))
+  {
+    throw Error(path.string() + ": a " + std::string(suffix.text) + " file holds no " +
+                (cells == CellType::Triangle ? "triangles" : "tetrahedra") + ": choose " + choices +
+                '.');
+  }
 }
 
 } // namespace smg

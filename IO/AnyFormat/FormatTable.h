@@ -63,8 +63,9 @@ SMG_EXPORT std::string suffixList(FormatUse use, CellType cells, std::string_vie
 SMG_EXPORT std::string suffixList(
   std::span<const FormatUse> uses, std::optional<CellType> cells, std::string_view conjunction);
 
-/** The error message for cells that a suffix cannot hold, with the suffixes to choose from. */
-SMG_EXPORT std::string holdsNo(
-  const FileSuffix& suffix, CellType cells, const std::string& choices);
+/** Throws Error unless the suffix of the file holds these cells. `choices`: the suffixes to choose
+ * from. */
+SMG_EXPORT void checkHolds(const std::filesystem::path& path, const FileSuffix& suffix,
+  CellType cells, const std::string& choices);
 
 } // namespace smg

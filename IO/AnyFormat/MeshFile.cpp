@@ -91,11 +91,7 @@ void checkOutput(const std::filesystem::path& path, CellType cellType)
 {
   checkOutput(path);
   const FileSuffix& suffix = *suffixFor(FormatUse::Write, path);
-  if (!suffix.holds(cellType))
-  {
-    throw Error(path.string() + ": " +
-                holdsNo(suffix, cellType, suffixList(FormatUse::Write, cellType, "or")));
-  }
+  checkHolds(path, suffix, cellType, suffixList(FormatUse::Write, cellType, "or"));
 }
 
 void checkOutputPlace(const std::filesystem::path& path)

@@ -18,11 +18,7 @@ void checkRestoredPath(const std::filesystem::path& path, CellType cellType)
                 suffixList(FormatUse::Restore, "and") +
                 " files; a mesh stream has an order of its own.");
   }
-  if (!suffix->holds(cellType))
-  {
-    throw Error(path.string() + ": " +
-                holdsNo(*suffix, cellType, suffixList(FormatUse::Restore, cellType, "or")));
-  }
+  checkHolds(path, *suffix, cellType, suffixList(FormatUse::Restore, cellType, "or"));
 }
 
 std::vector<std::string> writeRestored(

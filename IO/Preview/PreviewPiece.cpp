@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Preview/PreviewPiece.h"
 
+#include "IO/Formats/Vsm/Columns.h"
 #include "IO/Preview/SolidPreview.h"
 #include "IO/Preview/StreamPreview.h"
 
-#include <algorithm>
 #include <cstring>
-#include <iterator>
-#include <string>
-#include <vector>
 
 namespace smg
 {
@@ -49,9 +46,7 @@ MeshPiece makePreviewPiece(VsmReader& mesh, std::int64_t maximumPoints,
   const std::vector<ColumnSpec>& columns = mesh.info().vertexColumns;
   if (cells != SolidPreviewCells::Tetrahedra || mesh.info().cellType != CellType::Tetrahedron)
   {
-    std::vector<std::string> names;
-    std::ranges::transform(columns, std::back_inserter(names), &ColumnSpec::name);
-    return makePreview(*mesh.source(names, {}), maximumPoints, progress);
+    return makePreview(*mesh.source(columnNames(columns), {}), maximumPoints, progress);
   }
   // Most rows are not needed, so the columns are read afterwards.
   MeshPiece piece = makeSolidPreview(mesh, maximumPoints, progress);

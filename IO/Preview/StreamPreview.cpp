@@ -2,15 +2,12 @@
 #include "IO/Preview/StreamPreview.h"
 
 #include "IO/Formats/Vsm/Columns.h"
+#include "IO/Motion/NormalSums.h"
 #include "IO/Simplification/SolidBoundary.h"
 #include "IO/Simplification/StreamSimplifier.h"
 #include "Solver/Core/Progress.h"
 
-#include <Eigen/Dense>
-
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <iterator>
 #include <numeric>
 #include <vector>
@@ -44,35 +41,6 @@ void append(const SurfacePart& from, SurfacePart& to)
     [first](std::uint32_t corner) { return first + corner; });
 }
 
-/** The normals of the vertices: the means of those of the triangles, weighted by their angles. */
-std::vector<float> normalsOf(const MeshPiece& piece)
-{
-  using Vector = Eigen::Vector3d;
-  const auto point = [&piece](std::int64_t v)
-  { return Eigen::Map<const Vector>(piece.positions.data() + 3 * v); };
-  std::vector<double> sums(piece.positions.size());
-  for (std::size_t i = 0; i < piece.corners.size(); i += 3)
-  {
-    const std::int64_t* c = piece.corners.data() + i;
-    const Vector normal =
-      (point(c[1]) - point(c[0])).cross(point(c[2]) - point(c[0])).stableNormalized();
-    for (int k = 0; k < 3; ++k)
-    {
-      const Vector a = (point(c[(k + 1) % 3]) - point(c[k])).stableNormalized();
-      const Vector b = (point(c[(k + 2) % 3]) - point(c[k])).stableNormalized();
-      Eigen::Map<Vector>(sums.data() + 3 * c[k]) +=
-        std::acos(std::clamp(a.dot(b), -1.0, 1.0)) * normal;
-    }
-  }
-  std::vector<float> normals(sums.size());
-  for (std::size_t i = 0; i < sums.size(); i += 3)
-  {
-    const Vector normal = Eigen::Map<const Vector>(sums.data() + i).stableNormalized();
-    Eigen::Map<Eigen::Vector3f>(normals.data() + i) = normal.cast<float>();
-  }
-  return normals;
-}
-
 /** The surface with its vertices by ascending stream index, each once. */
 MeshPiece pieceOf(const SurfacePart& surface, const std::vector<ColumnSpec>& columns)
 {
@@ -81,27 +49,19 @@ MeshPiece pieceOf(const SurfacePart& surface, const std::vector<ColumnSpec>& col
   std::ranges::stable_sort(order, {}, [&](std::uint32_t v) { return surface.ids[v]; });
   MeshPiece piece;
   piece.vertexColumns = emptyColumns(columns);
-  const std::size_t row = surface.rowBytes();
   std::vector<std::int64_t> places(order.size());
   for (const std::uint32_t v : order)
   {
     if (piece.ids.empty() || piece.ids.back() != surface.ids[v])
     {
       piece.ids.push_back(surface.ids[v]);
-      const auto point = surface.points.begin() + 3 * static_cast<std::ptrdiff_t>(v);
-      piece.positions.insert(piece.positions.end(), point, point + 3);
-      const std::byte* from = surface.rows.data() + v * row;
-      for (Column& column : piece.vertexColumns)
-      {
-        column.bytes.insert(column.bytes.end(), from, from + column.spec.tupleBytes());
-        from += column.spec.tupleBytes();
-      }
+      surface.copyVertex(v, piece.positions, piece.vertexColumns);
     }
     places[v] = piece.vertices() - 1;
   }
   std::ranges::transform(surface.corners, std::back_inserter(piece.corners),
     [&places](std::uint32_t corner) { return places[corner]; });
-  piece.normals = normalsOf(piece);
+  piece.normals = unitNormals(normalSums({ piece.positions, piece.corners, {} }));
   piece.ghost.assign(piece.ids.size(), 0);
   piece.finalized.assign(piece.ids.size(), 1);
   return piece;

@@ -2,9 +2,9 @@
 #include "IO/Simplification/EdgeCollapse.h"
 
 #include "IO/Simplification/SurfaceTopology.h"
+#include "Solver/Problem/Vector.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <numeric>
@@ -23,21 +23,6 @@ constexpr double BoundaryWeight = 10.0;
 constexpr float PinchWorth = 16.0F;
 /** The least cosine of the angle by which a triangle may turn. */
 constexpr double LeastCosine = 0.2;
-
-using Vector = std::array<double, 3>;
-
-Vector minus(const double* a, const double* b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-Vector cross(const Vector& a, const Vector& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-double dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /** A collapse of `from` onto `to`. */
 struct Collapse
@@ -70,8 +55,8 @@ public:
     for (std::size_t i = 0; i < corners.size(); i += 3)
     {
       const std::uint32_t* c = corners.data() + i;
-      const Vector area = cross(
-        minus(this->point(c[1]), this->point(c[0])), minus(this->point(c[2]), this->point(c[0])));
+      const Vector area = cross(difference(this->point(c[1]), this->point(c[0])),
+        difference(this->point(c[2]), this->point(c[0])));
       this->addPlane({ c, 3 }, area, std::sqrt(dot(area, area)));
     }
   }
@@ -88,8 +73,9 @@ public:
       const std::uint32_t ends[2] = { corners[i], corners[next] };
       if (lacks[ends[0]] && lacks[ends[1]] && this->Surface.isBoundary(ends[0], ends[1]))
       {
-        const Vector edge = minus(this->point(ends[1]), this->point(ends[0]));
-        const Vector area = cross(edge, minus(this->point(corners[last]), this->point(ends[0])));
+        const Vector edge = difference(this->point(ends[1]), this->point(ends[0]));
+        const Vector area =
+          cross(edge, difference(this->point(corners[last]), this->point(ends[0])));
         this->addPlane(ends, cross(edge, area), BoundaryWeight * dot(edge, edge));
       }
     }
@@ -146,7 +132,7 @@ private:
       return;
     }
     const Vector unit{ normal[0] / length, normal[1] / length, normal[2] / length };
-    const Vector at = minus(this->point(to[0]), this->Part.origin.data());
+    const Vector at = difference(this->point(to[0]), this->Part.origin.data());
     Quadric plane;
     plane.addPlane(unit.data(), at.data(), weight);
     for (const std::uint32_t v : to)
@@ -158,7 +144,7 @@ private:
   /** The squared error of a collapse. */
   double errorOf(std::uint32_t from, std::uint32_t to) const
   {
-    const Vector at = minus(this->point(to), this->Part.origin.data());
+    const Vector at = difference(this->point(to), this->Part.origin.data());
     return this->Part.quadrics[from].squaredDistance(at.data());
   }
 
@@ -187,7 +173,7 @@ private:
     const double error = std::min(ofA, ofB);
     if (error <= limit && error < None)
     {
-      const Vector edge = minus(this->point(a), this->point(b));
+      const Vector edge = difference(this->point(a), this->point(b));
       const auto rank =
         static_cast<float>((error + LengthShare * dot(edge, edge)) * this->InverseSquare);
       this->Edges.push_back(ofA <= ofB ? Collapse{ a, b, rank } : Collapse{ b, a, rank });
@@ -235,13 +221,11 @@ private:
       {
         continue;
       }
-      const bool pinches = !this->Surface.isPossible(from, to, false);
-      if (pinches &&
-          !(this->MayPinch && worth * rank <= usual && this->Surface.isPossible(from, to, true)))
-      {
-        continue;
-      }
-      if (!this->turnsOver(from, to))
+      const SurfaceTopology::Change change = this->Surface.changeBy(from, to);
+      const bool pinches = change == SurfaceTopology::Change::Pinch;
+      const bool isAllowed =
+        pinches ? this->MayPinch && worth * rank <= usual : change == SurfaceTopology::Change::None;
+      if (isAllowed && !this->turnsOver(from, to))
       {
         this->Error = std::max(this->Error, this->errorOf(from, to));
         this->Part.quadrics[to].add(this->Part.quadrics[from]);
@@ -264,9 +248,9 @@ private:
         {
           return false;
         }
-        const Vector edge = minus(this->point(b), this->point(a));
-        const Vector before = cross(edge, minus(this->point(from), this->point(a)));
-        const Vector after = cross(edge, minus(this->point(to), this->point(a)));
+        const Vector edge = difference(this->point(b), this->point(a));
+        const Vector before = cross(edge, difference(this->point(from), this->point(a)));
+        const Vector after = cross(edge, difference(this->point(to), this->point(a)));
         const double product = dot(before, after), size = dot(before, before);
         return size > 0.0 && !(product > 0.0 && product * product > LeastCosine * LeastCosine *
                                                                       size * dot(after, after));

@@ -4,7 +4,8 @@
 #include "IO/Formats/Vsm/Columns.h"
 
 #include <algorithm>
-#include <cstring>
+#include <span>
+#include <utility>
 
 namespace smg
 {
@@ -83,19 +84,13 @@ bool SimplifiedMesh::next(MeshBlock& block)
 void SimplifiedMesh::addVertex(std::size_t vertex, MeshBlock& block)
 {
   const SurfacePart& surface = this->Part.surface;
-  const auto point = surface.points.begin() + 3 * static_cast<std::ptrdiff_t>(vertex);
-  block.positions.insert(block.positions.end(), point, point + 3);
-  const std::size_t row = surface.rowBytes();
-  const std::byte* from = surface.rows.data() + vertex * row;
-  for (Column& column : block.vertexColumns)
+  const std::span<Column> columns(block.vertexColumns);
+  surface.copyVertex(
+    vertex, block.positions, columns.first(columns.size() - (this->AddsIds ? 1 : 0)));
+  if (this->AddsIds)
   {
-    const std::size_t bytes = column.spec.tupleBytes();
-    if (this->AddsIds && &column == &block.vertexColumns.back())
-    {
-      from = reinterpret_cast<const std::byte*>(&surface.ids[vertex]);
-    }
-    column.bytes.insert(column.bytes.end(), from, from + bytes);
-    from += bytes;
+    const auto id = std::as_bytes(std::span(&surface.ids[vertex], 1));
+    columns.back().bytes.insert(columns.back().bytes.end(), id.begin(), id.end());
   }
 }
 

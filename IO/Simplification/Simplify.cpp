@@ -6,6 +6,7 @@
 #include "IO/AnyFormat/WriteRestored.h"
 #include "IO/External/Workspace.h"
 #include "IO/Files/PartialProgress.h"
+#include "IO/Formats/Vsm/Columns.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Simplification/SimplifiedMesh.h"
 #include "IO/Simplification/SimplifyCosts.h"
@@ -82,13 +83,8 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const std::filesystem::path
   const SimplifyOptions& options, double end)
 {
   Progress done(partOf(options.progress, 0.0, end));
-  std::vector<std::string> columns;
-  for (const ColumnSpec& spec : mesh.info().vertexColumns)
-  {
-    columns.push_back(spec.name);
-  }
   Workers workers(options.threads);
-  const auto source = mesh.source(columns, {});
+  const auto source = mesh.source(columnNames(mesh.info().vertexColumns), {});
   SimplificationGoal goal;
   goal.vertices = options.vertices;
   goal.error = options.error > 0.0 ? options.error : goal.error;
@@ -120,14 +116,8 @@ std::vector<std::string> writeAsFile(const std::filesystem::path& vsm,
   const SimplifyOptions& options)
 {
   const VsmReader reader(vsm);
-  std::vector<std::string> columns;
-  for (const ColumnSpec& spec : reader.info().vertexColumns)
-  {
-    if (spec.name != OriginalIdName)
-    {
-      columns.push_back(spec.name);
-    }
-  }
+  std::vector<std::string> columns = columnNames(reader.info().vertexColumns);
+  std::erase(columns, OriginalIdName);
   const auto number = [](std::int64_t first, std::span<std::int64_t> numbers)
   { std::iota(numbers.begin(), numbers.end(), first); };
   AddedColumn ordered(
@@ -166,10 +156,7 @@ void checkSimplifiedPath(const std::filesystem::path& path)
   {
     throw Error(path.string() + ": this is no format of a surface: write it as " + choices + '.');
   }
-  if (!suffix->holds(CellType::Triangle))
-  {
-    throw Error(path.string() + ": " + holdsNo(*suffix, CellType::Triangle, choices));
-  }
+  checkHolds(path, *suffix, CellType::Triangle, choices);
   checkOutputPlace(path);
 }
 

@@ -19,6 +19,8 @@ constexpr PoolUse SimplificationMemory{ "the simplification",
 
 /** The least number of triangles of a window. */
 constexpr std::int64_t LeastWindow = 20000;
+/** The window has the triangles of so many parts. */
+constexpr std::int64_t PartsOfWindow = 3;
 /** The least share of its vertices that a part keeps. */
 constexpr double PartShare = 1.0 / 8.0;
 /** The share of the vertices of a result that windows before the last one may deliver. */
@@ -43,12 +45,14 @@ std::size_t bodiesFor(std::int64_t points)
   return static_cast<std::size_t>(std::max<std::int64_t>(1, points / PointsPerBody));
 }
 
-/** The triangles of the window, which has half of the memory that open vertices leave. */
-std::size_t windowOf(std::int64_t memory, const StreamInfo& info)
+/** The triangles of a part. The window, which has those of three parts, and three parts have the
+ * same share of the memory; the rest is for open vertices. */
+std::size_t partOf(std::int64_t memory, const StreamInfo& info)
 {
-  constexpr std::int64_t Most = std::int64_t(1) << 29; // their corners have 32 bits
+  constexpr std::int64_t Most = std::int64_t(1) << 29; // the corners of a window have 32 bits
   const auto share = static_cast<std::int64_t>(0.45 * static_cast<double>(memory));
-  return static_cast<std::size_t>(std::clamp(share / bytesOfTriangle(info), LeastWindow, Most));
+  return static_cast<std::size_t>(
+    std::clamp(share / bytesOfTriangle(info), LeastWindow, Most) / PartsOfWindow);
 }
 
 } // namespace
@@ -56,15 +60,13 @@ std::size_t windowOf(std::int64_t memory, const StreamInfo& info)
 StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplificationGoal& goal,
   std::int64_t memory, Workers& workers, std::function<void(double)> progress)
   : Memory(memory, SimplificationMemory)
-  , Parts(triangles, this->Memory, windowOf(memory, triangles.info()) / 3, std::move(progress))
+  , Parts(triangles, this->Memory, partOf(memory, triangles.info()), std::move(progress))
   , Info(triangles.info())
   , Goal(goal)
-  , PartTriangles(windowOf(memory, triangles.info()) / 3)
-  , Capacity(3 * this->PartTriangles)
+  , Capacity(PartsOfWindow * partOf(memory, triangles.info()))
   , Triangles(2 * goal.vertices)
-  // Three parts are in use at once, by at most as many threads.
   , Jobs(
-      workers, 3,
+      workers, PartsOfWindow, // parts in use at once
       [](Item& item)
       {
         std::vector<std::uint8_t> locked(item.part.surface.vertices());
@@ -155,7 +157,6 @@ void StreamSimplifier::append(const StreamPart& part)
 {
   const SurfacePart& from = part.surface;
   SurfacePart& to = this->Window;
-  const std::size_t row = from.rowBytes();
   std::vector<std::uint32_t> places(from.vertices());
   to.origin = from.origin;
   for (std::size_t v = 0; v < from.vertices(); ++v)
@@ -173,13 +174,9 @@ void StreamSimplifier::append(const StreamPart& part)
       }
     }
     places[v] = place;
-    to.ids.push_back(from.ids[v]);
+    to.addVertex(from, v);
     to.quadrics.push_back(from.quadrics[v]);
     to.lacksBoundary.push_back(from.lacksBoundary[v]);
-    const auto point = from.points.begin() + 3 * static_cast<std::ptrdiff_t>(v);
-    to.points.insert(to.points.end(), point, point + 3);
-    const auto bytes = from.rows.begin() + static_cast<std::ptrdiff_t>(v * row);
-    to.rows.insert(to.rows.end(), bytes, bytes + static_cast<std::ptrdiff_t>(row));
   }
   for (const std::uint32_t corner : from.corners)
   {

@@ -33,7 +33,7 @@ struct SimplificationGoal
 struct SimplificationCounts
 {
   std::int64_t vertices = 0; ///< that were read
-  double error = 0.0;        ///< the largest of a collapse, summed over successive ones, see below
+  double error = 0.0;        ///< the largest of a collapse, see collapseEdges()
   std::int64_t dropped = 0;  ///< small bodies
   bool isClustered = false;  ///< whether edges of some parts could not be collapsed
 };
@@ -66,7 +66,7 @@ public:
 
   /** `triangles` and `workers` must outlive it; `progress` receives the share of the stream that
    * was read, and may throw. A result of more than a third of what fits into `memory`, in bytes,
-   * needs the number of cells. */
+   * needs the number of vertices. */
   StreamSimplifier(MeshSource& triangles, const SimplificationGoal& goal, std::int64_t memory,
     Workers& workers, std::function<void(double)> progress);
 
@@ -85,7 +85,7 @@ private:
     double error = 0.0; ///< that is allowed, and then the largest of a collapse
   };
 
-  /** The share of the stream that was read; 0 if its cells are not known. */
+  /** The share of the vertices in parts that were appended; 0 if their number is not known. */
   double done() const;
   bool limitsError() const { return std::isfinite(this->Goal.error); }
   void step();
@@ -106,9 +106,9 @@ private:
   SurfaceParts Parts;
   const StreamInfo& Info;
   SimplificationGoal Goal;
-  std::size_t PartTriangles, Capacity; ///< of a part and of the window
-  std::int64_t Triangles;              ///< of the result, as far as it is known
-  bool Streams;                        ///< whether the result does not fit into the window
+  std::size_t Capacity;   ///< of the window, triangles
+  std::int64_t Triangles; ///< of the result, as far as it is known
+  bool Streams;           ///< whether the result does not fit into the window
   OrderedJobs<Item> Jobs;
   SurfacePart Window;
   std::unordered_map<std::int64_t, std::uint32_t> Open; ///< places of vertices of later parts

@@ -25,24 +25,42 @@ std::vector<std::uint32_t> usedBy(const std::vector<std::uint32_t>& corners, std
 
 } // namespace
 
+void SurfacePart::addVertex(const SurfacePart& from, std::size_t vertex)
+{
+  this->ids.push_back(from.ids[vertex]);
+  const auto point = from.points.begin() + 3 * static_cast<std::ptrdiff_t>(vertex);
+  this->points.insert(this->points.end(), point, point + 3);
+  const std::size_t stride = from.rowBytes();
+  const auto row = from.rows.begin() + static_cast<std::ptrdiff_t>(vertex * stride);
+  this->rows.insert(this->rows.end(), row, row + static_cast<std::ptrdiff_t>(stride));
+}
+
+void SurfacePart::copyVertex(
+  std::size_t vertex, std::vector<double>& positions, std::span<Column> columns) const
+{
+  const auto point = this->points.begin() + 3 * static_cast<std::ptrdiff_t>(vertex);
+  positions.insert(positions.end(), point, point + 3);
+  const std::byte* from = this->rows.data() + vertex * this->rowBytes();
+  for (Column& column : columns)
+  {
+    const std::size_t bytes = column.spec.tupleBytes();
+    column.bytes.insert(column.bytes.end(), from, from + bytes);
+    from += bytes;
+  }
+}
+
 SurfacePart SurfacePart::extract(const std::vector<std::uint32_t>& some) const
 {
   std::vector<std::uint32_t> place = usedBy(some, this->vertices());
   SurfacePart part;
   part.origin = this->origin;
-  const std::size_t stride = this->rowBytes();
   for (std::size_t v = 0; v < place.size(); ++v)
   {
-    if (place[v] == Unused)
+    if (place[v] != Unused)
     {
-      continue;
+      place[v] = static_cast<std::uint32_t>(part.vertices());
+      part.addVertex(*this, v);
     }
-    place[v] = static_cast<std::uint32_t>(part.vertices());
-    part.ids.push_back(this->ids[v]);
-    const auto point = this->points.begin() + 3 * static_cast<std::ptrdiff_t>(v);
-    part.points.insert(part.points.end(), point, point + 3);
-    const auto row = this->rows.begin() + static_cast<std::ptrdiff_t>(v * stride);
-    part.rows.insert(part.rows.end(), row, row + static_cast<std::ptrdiff_t>(stride));
   }
   part.corners.reserve(some.size());
   for (const std::uint32_t corner : some)

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "IO/Simplification/Quadric.h"
+#include "smg/Column.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace smg
@@ -33,6 +35,11 @@ struct SurfacePart
     return this->ids.empty() ? 0 : this->rows.size() / this->vertices();
   }
 
+  /** Appends a vertex of another surface, without its quadric. */
+  void addVertex(const SurfacePart& from, std::size_t vertex);
+  /** Appends the position and the tuples of a vertex to these. */
+  void copyVertex(
+    std::size_t vertex, std::vector<double>& positions, std::span<Column> columns) const;
   /** Some triangles of this surface with their vertices, without quadrics. */
   SurfacePart extract(const std::vector<std::uint32_t>& some) const;
   /** Removes the vertices that no triangle uses; the others keep their order. */

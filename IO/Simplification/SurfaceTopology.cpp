@@ -123,11 +123,11 @@ bool SurfaceTopology::isFan()
   return true;
 }
 
-bool SurfaceTopology::isPossible(std::uint32_t from, std::uint32_t to, bool pinching)
+SurfaceTopology::Change SurfaceTopology::changeBy(std::uint32_t from, std::uint32_t to)
 {
   if (this->star(to).size() > MostTriangles)
   {
-    return false;
+    return Change::Impossible;
   }
   ++this->Mark;
   for (const std::uint32_t t : this->star(to))
@@ -160,20 +160,17 @@ bool SurfaceTopology::isPossible(std::uint32_t from, std::uint32_t to, bool pinc
   }
   if (shared == 0 || (this->IsBoundary[from] != 0 && shared != 1))
   {
-    return false;
-  }
-  if (pinching)
-  {
-    return true;
+    return Change::Impossible;
   }
   if (common != shared || shared > 2)
   {
-    return false;
+    return Change::Pinch;
   }
   // At the boundary, a triangle with two boundary edges goes, but not one with three.
-  return shared == 2
-           ? !this->isTetrahedron(from, to, opposite)
-           : this->trianglesAt(from, opposite[0]) != 1 || this->trianglesAt(to, opposite[0]) != 1;
+  const bool isLast = shared == 2 ? this->isTetrahedron(from, to, opposite)
+                                  : this->trianglesAt(from, opposite[0]) == 1 &&
+                                      this->trianglesAt(to, opposite[0]) == 1;
+  return isLast ? Change::Pinch : Change::None;
 }
 
 /** The number of triangles at the edge from v to w. */

@@ -65,9 +65,14 @@ public:
   {
     return (this->Touched[a] | this->Touched[b]) == 0;
   }
-  /** Whether moving a vertex onto a neighbour is possible. `pinching`: also where it changes the
-   * topology, so that edges may get more than two triangles. */
-  bool isPossible(std::uint32_t from, std::uint32_t to, bool pinching);
+  /** What moving a vertex onto a neighbour does to the topology. */
+  enum class Change
+  {
+    None,
+    Pinch,     ///< it changes, so that edges may get more than two triangles
+    Impossible ///< the vertex may not go there
+  };
+  Change changeBy(std::uint32_t from, std::uint32_t to);
   void move(std::uint32_t from, std::uint32_t to)
   {
     this->Target[from] = to;

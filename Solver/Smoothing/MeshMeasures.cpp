@@ -15,8 +15,11 @@ namespace smg
 void MeshMeasures::add(const MeshBlock& block)
 {
   this->Points.release(this->Finalized);
-  this->Parts.release(this->Finalized);
-  this->Parts.extend(block.firstVertex + block.vertices());
+  if (this->Type == CellType::Triangle)
+  {
+    this->Parts.release(this->Finalized);
+    this->Parts.extend(block.firstVertex + block.vertices());
+  }
   this->Finalized = block.finalized;
   if (block.vertices() > 0)
   {

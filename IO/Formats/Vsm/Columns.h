@@ -4,6 +4,7 @@
 #include "smg/Column.h"
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace smg
@@ -20,6 +21,16 @@ inline std::vector<Column> emptyColumns(
     columns.back().bytes.reserve(spec.tupleBytes() * tuples);
   }
   return columns;
+}
+
+inline std::vector<std::string> columnNames(const std::vector<ColumnSpec>& specs)
+{
+  std::vector<std::string> names;
+  for (const ColumnSpec& spec : specs)
+  {
+    names.push_back(spec.name);
+  }
+  return names;
 }
 
 /** Removes all tuples, but keeps the memory. */

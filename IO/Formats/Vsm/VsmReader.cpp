@@ -18,16 +18,6 @@ namespace smg
 namespace
 {
 
-std::vector<std::string> namesOf(const std::vector<ColumnSpec>& columns)
-{
-  std::vector<std::string> names;
-  for (const ColumnSpec& column : columns)
-  {
-    names.push_back(column.name);
-  }
-  return names;
-}
-
 /** The chosen columns of the cells, and always their flags. */
 std::vector<std::string> withFlags(
   std::vector<std::string> chosen, const std::vector<ColumnSpec>& columns)
@@ -144,7 +134,7 @@ std::int64_t VsmReader::plainBytes() const
 std::unique_ptr<MeshSource> VsmReader::source() const
 {
   const StreamInfo& info = this->info();
-  return this->source(namesOf(info.vertexColumns), namesOf(info.cellColumns));
+  return this->source(columnNames(info.vertexColumns), columnNames(info.cellColumns));
 }
 
 std::unique_ptr<MeshSource> VsmReader::source(
@@ -166,7 +156,8 @@ void VsmReader::readPiece(std::int64_t firstCell, std::int64_t endCell, MeshPiec
   Implementation& self = *this->Self;
   if (!self.Pieces)
   {
-    this->selectColumns(namesOf(self.File.Info.vertexColumns), namesOf(self.File.Info.cellColumns));
+    this->selectColumns(
+      columnNames(self.File.Info.vertexColumns), columnNames(self.File.Info.cellColumns));
   }
   self.Pieces->read(firstCell, endCell, piece);
 }
