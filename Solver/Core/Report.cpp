@@ -95,6 +95,11 @@ std::string Report::json(int indent) const
   out["resumed_passes"] = this->resumed_passes;
   out["cycles"] = this->cycles;
   out["residuals"] = this->residuals;
+  for (const Pass& pass : this->by_pass)
+  {
+    out["by_pass"].push_back({ { "residual", pass.residual }, { "seconds", pass.seconds },
+      { "read", pass.read }, { "written", pass.written }, { "pool_bytes", pass.pool_bytes } });
+  }
   out["acceleration"] = this->acceleration;
   out["converged"] = this->converged;
   for (const Step& step : this->steps)

@@ -91,14 +91,14 @@ void DeformationSteps<Relaxation>::solve(const std::function<FirstResidual()>& b
   {
     rotations.convergence = Convergence(this->stopping(), build());
     rotations.convergence.begin(this->Levels.residualNorm());
-    this->Run.saveState();
+    this->Run.endPass(1.0);
   }
   if (!rotated)
   {
     rotations.iteration(true);
     this->beginPositions(rotations, positions);
     rotated = true;
-    this->Run.saveState();
+    this->Run.endPass(rotations.convergence.residuals().back());
   }
   positions.iteration(false);
   this->addStep("position", positions.convergence);

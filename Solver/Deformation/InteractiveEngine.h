@@ -66,6 +66,7 @@ bool InteractiveEngine<Operators>::deformAgain(const VertexHandles& handles)
   r.passes = r.cycles = 0;
   r.seconds = {};
   r.residuals.clear();
+  r.by_pass.clear();
   r.steps.clear();
   r.notes.clear();
   this->First.steps().begin(false);

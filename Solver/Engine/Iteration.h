@@ -70,7 +70,7 @@ void Iteration<Relaxation>::operator()(bool spareLast)
     pass(this->Watched.norm(), { {}, {}, this->History ? &*this->History : nullptr });
     this->Watched.add(this->Levels.residualNorm(), this->Levels.roundingNorm());
     this->Run.progress.endCycle(this->Watched.cycles(), this->Watched.residuals().back());
-    this->Run.saveState();
+    this->Run.endPass(this->Watched.residuals().back());
   }
   if (this->Faster.used() != std::string("none"))
   {

@@ -56,7 +56,7 @@ std::unique_ptr<Solution> PoissonSolver<Operators>::solve(MeshSource& mesh, Prob
     const FirstResidual first = FirstPass(run, this->Levels, this->Set)(mesh, problem);
     convergence = Convergence(stopping, first);
     convergence.begin(this->Levels.residualNorm(), run.components.incompatibility() == 0.0);
-    run.saveState();
+    run.endPass(1.0);
   }
   iteration(false);
   Report& r = run.report;

@@ -21,12 +21,24 @@ struct ReportState
     state.part("report");
     state(r.vertices, r.cells, r.levels, r.passes, r.cycles, r.residuals, r.acceleration);
     this->exchangeSteps(state);
+    this->exchangePasses(state);
     state(r.converged, r.seconds, r.cpu_seconds, r.rss_bytes_peak, r.prescribed, r.shared, r.held,
       r.degenerate_cells, r.clamped_weights, r.components, r.free_components, r.removed_source,
       r.notes);
   }
 
 private:
+  void exchangePasses(State& state)
+  {
+    auto passes = static_cast<std::uint64_t>(this->report.by_pass.size());
+    state(passes);
+    this->report.by_pass.resize(passes);
+    for (Report::Pass& pass : this->report.by_pass)
+    {
+      state(pass.residual, pass.seconds, pass.read, pass.written, pass.pool_bytes);
+    }
+  }
+
   void exchangeSteps(State& state)
   {
     auto steps = static_cast<std::uint8_t>(this->report.steps.size());

@@ -132,8 +132,21 @@ bool SolveRun::resume(std::vector<Checkpoint::Item> subject, Parts kept)
   return true;
 }
 
-void SolveRun::saveState()
+void SolveRun::endPass(double residual)
 {
+  Report::Pass pass{ residual, this->seconds(), 0, 0, this->pool.peak() };
+  for (const auto& [name, level, statistics] : this->traffic.kinds())
+  {
+    pass.read += statistics.bytesRead;
+    pass.written += statistics.bytesWritten;
+  }
+  for (const Report::Pass& before : this->report.by_pass)
+  {
+    pass.seconds -= before.seconds;
+    pass.read -= before.read;
+    pass.written -= before.written;
+  }
+  this->report.by_pass.push_back(pass);
   if (this->checkpoint)
   {
     this->checkpoint->save(this->report.passes, [this](StateWriter& state) { this->save(state); });

@@ -77,13 +77,14 @@ struct SMG_EXPORT SolveRun
     std::function<void(StateReader&)> load;
   };
   /**
-   * To be called before the first pass: with a checkpoint, saveState() saves these parts, and a
+   * To be called before the first pass: with a checkpoint, endPass() saves these parts, and a
    * solve of the same options and `subject` continues from its last state. Returns whether this
    * one does; then the first pass has been.
    */
   bool resume(std::vector<Checkpoint::Item> subject, Parts kept);
-  /** After a pass: saves the state, with a checkpoint. */
-  void saveState();
+  /** After a pass that left this relative residual: reports it, and saves the state, with a
+   * checkpoint. */
+  void endPass(double residual);
 
   /** The error of a part that exceeded the limit, with the memory that suffices as a rule. */
   MemoryLimitError explained(const MemoryLimitError& error) const

@@ -47,6 +47,7 @@ TEST(DeformationReport, KCyclesAStepTakeTwoKPlusOnePasses)
         options.coreNodes = 500;
         const Report report = deformMesh(mesh, handles, options).report;
         EXPECT_EQ(report.passes, 2 * cycles + 1);
+        EXPECT_EQ(std::ssize(report.by_pass), report.passes);
         expectStepsToAgree(report);
         EXPECT_EQ(report.steps[0].cycles, cycles);
         EXPECT_EQ(report.steps[1].cycles, cycles);

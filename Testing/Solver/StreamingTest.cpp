@@ -229,6 +229,27 @@ TEST(Streaming, AsksTheMeshAndTheProblemOnTheThreadThatSolves)
   EXPECT_EQ(solve(source, problem, options)->report().vertices, mesh.vertices());
 }
 
+/** The passes add up to the solve, and each has the residual of its V-cycle. */
+void expectPassesToAgree(const Report& report)
+{
+  ASSERT_EQ(std::ssize(report.by_pass), report.passes);
+  std::int64_t read = 0, written = 0;
+  double seconds = 0.0;
+  for (std::size_t k = 0; k < report.by_pass.size(); ++k)
+  {
+    const Report::Pass& pass = report.by_pass[k];
+    EXPECT_EQ(pass.residual, k == 0 ? 1.0 : report.residuals[k - 1]);
+    EXPECT_GT(pass.seconds, 0.0);
+    EXPECT_LE(pass.pool_bytes, report.pool_bytes_peak);
+    read += pass.read;
+    written += pass.written;
+    seconds += pass.seconds;
+  }
+  EXPECT_LE(seconds, report.seconds.total);
+  EXPECT_EQ(read, report.bytes_read);
+  EXPECT_EQ(written, report.bytes_written);
+}
+
 TEST(Streaming, TellsItsTrafficByKind)
 {
   auto [mesh, problem] = tasks()[0];
@@ -251,6 +272,7 @@ TEST(Streaming, TellsItsTrafficByKind)
     }
     EXPECT_EQ(read, report.bytes_read);
     EXPECT_EQ(written, report.bytes_written);
+    expectPassesToAgree(report);
   }
   const auto& [one, two, three] = reports;
   ASSERT_EQ(one.bytes_by_kind.size(), three.bytes_by_kind.size());

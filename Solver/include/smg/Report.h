@@ -48,6 +48,16 @@ struct SMG_EXPORT Report
     std::int64_t written = 0; ///< bytes
   };
 
+  /** What a pass over the mesh cost. */
+  struct Pass
+  {
+    double residual = 1;      ///< ||b - A x|| / ||b - A x_0|| of the step that the pass belongs to
+    double seconds = 0;       ///< wall-clock time of the pass
+    std::int64_t read = 0;    ///< bytes read from scratch files
+    std::int64_t written = 0; ///< bytes written to scratch files
+    std::int64_t pool_bytes = 0; ///< most accounted memory at once until its end, bytes
+  };
+
   /** One of several problems that are solved one after the other. */
   struct Step
   {
@@ -153,6 +163,9 @@ struct SMG_EXPORT Report
   /** ||b - A x_k|| / ||b - A x_0|| after V-cycle k = 1, 2, ..., x_0 being the initial values; of
    * several steps one after the other. */
   std::vector<double> residuals;
+  /** The passes in which V-cycles were done, one after the other; of a distance and with several
+   * processes: empty. */
+  std::vector<Pass> by_pass;
   /** The acceleration used: "none", "chebyshev" or "cg"; see AccelerationKind. */
   std::string acceleration = "none";
   std::vector<Step> steps;      ///< of a deformation or of smoothing; else empty
