@@ -1,29 +1,67 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkRegionChain.h"
 
+#include "Filters/vtkMeshCondition.h"
 #include "Filters/vtkMeshRegion.h"
+#include "IO/vtkStreamingMeshKeys.h"
+#include "IO/vtkStreamingMeshReader.h"
+
+#include "vtkDataArraySelection.h"
+#include "vtkInformation.h"
+#include "vtkInformationStringKey.h"
+
+#include <algorithm>
 
 namespace smg
 {
+namespace
+{
+
+/** The filter before this one, apart from those that ParaView adds after every filter; null if
+ * there is none. */
+vtkAlgorithm* before(vtkAlgorithm& filter)
+{
+  vtkAlgorithm* at = &filter;
+  do
+  {
+    const bool isConnected =
+      at->GetNumberOfInputPorts() > 0 && at->GetNumberOfInputConnections(0) > 0;
+    at = isConnected ? at->GetInputAlgorithm(0, 0) : nullptr;
+  } while (at && at->IsA("vtkPVPostFilter"));
+  return at;
+}
+
+} // namespace
 
 vtkAlgorithm& firstOfChain(vtkMeshRegion& region)
 {
   vtkAlgorithm* first = &region;
-  vtkAlgorithm* at = &region;
-  while (at->GetNumberOfInputPorts() > 0 && at->GetNumberOfInputConnections(0) > 0)
+  while (vtkAlgorithm* next = vtkMeshRegion::SafeDownCast(before(*first)))
   {
-    at = at->GetInputAlgorithm(0, 0);
-    if (vtkMeshRegion::SafeDownCast(at))
-    {
-      first = at;
-    }
-    // ParaView adds one of these after every filter.
-    else if (!at->IsA("vtkPVPostFilter"))
-    {
-      break;
-    }
+    first = next;
   }
   return *first;
+}
+
+std::filesystem::path unchangedFile(vtkAlgorithm& filter, const std::set<std::string>& names)
+{
+  vtkAlgorithm* at = before(filter);
+  while (at && vtkMeshCondition::SafeDownCast(at))
+  {
+    at = before(*at);
+  }
+  auto* reader = vtkStreamingMeshReader::SafeDownCast(at);
+  const auto isRead = [reader](const std::string& name)
+  {
+    return reader->GetPointDataArraySelection()->ArrayIsEnabled(name.c_str()) ||
+           reader->GetCellDataArraySelection()->ArrayIsEnabled(name.c_str());
+  };
+  if (!reader || !std::ranges::all_of(names, isRead))
+  {
+    return {};
+  }
+  const char* file = reader->GetOutputInformation(0)->Get(vtkStreamingMeshKeys::STREAM_FILE());
+  return file ? file : "";
 }
 
 } // namespace smg

@@ -9,10 +9,12 @@
 #include "Filters/Streaming/vtkInputStamp.h"
 #include "Filters/Streaming/vtkPieceRequest.h"
 #include "Filters/Streaming/vtkPieceSolve.h"
+#include "Filters/Streaming/vtkPreviewDoubt.h"
 #include "Filters/Streaming/vtkSharedRequest.h"
 #include "Filters/Streaming/vtkSolutionExchange.h"
 #include "Filters/Streaming/vtkSolveEstimate.h"
 #include "Filters/Streaming/vtkStreamedSolve.h"
+#include "Filters/vtkRegionChain.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
@@ -32,11 +34,9 @@
 #include "vtkStringArray.h"
 #include "vtkTimeStamp.h"
 
-#include <algorithm>
-#include <cmath>
 #include <exception>
-#include <iterator>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,10 +58,17 @@ struct vtkStreamingSolver::Internals
     vtkSmartPointer<vtkPointSet> present;
     exchange.together([&] { present = smg::bring(input, request, exchange); });
     const bool isOrdinary = !exchange.isParallel() && this->bringWhole(input, request, present);
-    // In memory, filters work on triangles and tetrahedra only.
+    if (isOrdinary && request.Piece > 0)
+    {
+      vtkDataObject::GetData(outputInfo)->Initialize(); // piece 0 is all of it
+      return;
+    }
+    // In memory, filters work on triangles and tetrahedra only. An ordinary mesh is solved on in
+    // the same way whoever asks.
+    const bool isWhole = isOrdinary || (request.Pieces == 1 && !exchange.isParallel());
     const bool isForMemory = exchange.decide(
-      !request.IsStreamed && exchange.isServer() && !(isOrdinary && !smg::hasSimplices(*present)) &&
-      this->Self.IsForMemory(*present, request.Pieces == 1 && !exchange.isParallel()));
+      (isOrdinary || !request.IsStreamed) && exchange.isServer() &&
+      !(isOrdinary && !smg::hasSimplices(*present)) && this->Self.IsForMemory(*present, isWhole));
     const bool isForProcesses =
       !isForMemory && this->isForProcesses(request, input, inputInfo, *present, exchange);
     std::vector<double> values;
@@ -72,21 +79,20 @@ struct vtkStreamingSolver::Internals
     }
     else if (exchange.isServer())
     {
-      this->solve(input, inputInfo, *present, isOrdinary, isForMemory ? &values : nullptr);
+      this->solve(input, inputInfo, present, isOrdinary, isForMemory ? &values : nullptr);
     }
     this->Summary.isCancelled = !this->Summary.error.empty() && this->Self.GetAbortExecute();
     // With the distributed engine every process has a summary, and if one has failed, all have.
     exchange.share(this->Summary, exchange.firstOf(isForProcesses && !this->Summary.error.empty()));
     this->check(exchange.isServer());
-    const bool isEmpty = isOrdinary && request.Piece > 0; // piece 0 is all of it
     const bool isOutOfCore = !isForMemory && !isForProcesses;
     if (isOutOfCore && !isOrdinary)
     {
       this->fetch(input, request, exchange, present, values);
     }
-    else if (isOutOfCore && !isEmpty)
+    else if (isOutOfCore)
     {
-      values = this->valuesOfPoints();
+      values = this->Streamed.valuesOfPoints();
     }
     exchange.together(
       [&]
@@ -96,10 +102,25 @@ struct vtkStreamingSolver::Internals
           throw smg::Error("The input is a preview in process 0 and has points in another process, "
                            "too: all of a preview must be in process 0.");
         }
-        vtkPointSet& output = *vtkPointSet::GetData(outputInfo);
-        isEmpty ? output.Initialize() : this->deliver(*present, values, output);
+        this->deliver(*present, values, *vtkPointSet::GetData(outputInfo));
       });
     this->Shared.noteAnswer(request, smg::stampOf(this->Self, input, inputInfo));
+  }
+
+  /** Whether to solve on the preview that is shown. */
+  bool isForPreview()
+  {
+    constexpr double Long = 20.0; // seconds
+    if (this->Self.Solve != AUTOMATIC_SOLVE)
+    {
+      return this->Self.Solve == ON_PREVIEW;
+    }
+    smg::SolveOptions options;
+    this->Self.FillOptions(options);
+    const std::optional<double> seconds = smg::solveSeconds(
+      this->Self, [this](vtkPointSet& input) { return this->Self.MakeEstimatedTask(input); },
+      options);
+    return !seconds || *seconds > Long;
   }
 
   /** Brings all of an ordinary mesh, which is no piece of a mesh stream; returns whether it is one.
@@ -123,29 +144,6 @@ struct vtkStreamingSolver::Internals
     return true;
   }
 
-  /** The solution at all points of an ordinary mesh; not a number where no cell is. */
-  std::vector<double> valuesOfPoints()
-  {
-    const std::vector<std::int64_t>& vertices = this->Streamed.vertexOfPoint();
-    const auto columns = static_cast<std::size_t>(this->Summary.columns);
-    std::vector<std::int64_t> known;
-    std::ranges::copy_if(
-      vertices, std::back_inserter(known), [](std::int64_t vertex) { return vertex >= 0; });
-    std::vector<double> found(known.size() * columns);
-    smg::readValues(*this->Streamed.solution(), known, found);
-    std::vector<double> values(vertices.size() * columns, std::nan(""));
-    auto from = found.begin();
-    for (std::size_t i = 0; i < vertices.size(); ++i)
-    {
-      if (vertices[i] >= 0)
-      {
-        std::copy_n(from, columns, values.begin() + static_cast<std::ptrdiff_t>(i * columns));
-        from += static_cast<std::ptrdiff_t>(columns);
-      }
-    }
-    return values;
-  }
-
   /** The processes that process the request collectively; nullptr: this process alone. */
   vtkMultiProcessController* partners(
     const smg::PieceRequest& request, smg::PieceInput& input, vtkInformation* inputInfo)
@@ -156,17 +154,31 @@ struct vtkStreamingSolver::Internals
   }
 
   /** Solves in memory if there are values to fill, otherwise out of core. */
-  void solve(smg::PieceInput& input, vtkInformation* inputInfo, vtkPointSet& present,
-    bool isOrdinary, std::vector<double>* values)
+  void solve(smg::PieceInput& input, vtkInformation* inputInfo,
+    vtkSmartPointer<vtkPointSet>& present, bool isOrdinary, std::vector<double>* values)
   {
     if (values)
     {
+      present = this->Self.MeshInMemory(*present);
       this->Streamed.keepOnlyFor(smg::stampOf(this->Self, input, inputInfo));
-      this->Summary = this->solveInMemory(present, *values);
+      this->Summary = this->solveInMemory(*present, *values);
       return;
     }
-    this->solveOutOfCore(input, inputInfo, present, isOrdinary);
+    this->solveOutOfCore(input, inputInfo, *present, isOrdinary);
     this->Summary = this->Streamed.summary();
+    this->Summary.fullPoints = fullPointsOf(input, *present);
+  }
+
+  /** The points of the whole mesh where a preview of it is shown, else 0; `present` is the preview,
+   * or a piece of the mesh. */
+  static std::int64_t fullPointsOf(smg::PieceInput& input, vtkPointSet& present)
+  {
+    if (smg::isPreview(present) || !input.isPreviewed())
+    {
+      return smg::pointsBehind(present);
+    }
+    const std::optional<smg::StreamInfo> mesh = input.meshInfo();
+    return mesh ? mesh->vertices : 0;
   }
 
   /** Whether the processes solve together on their pieces, or have done so for this request. */
@@ -229,8 +241,16 @@ struct vtkStreamingSolver::Internals
       pulling.threads = this->Self.NumberOfThreads;
       smg::Progress progress(smg::progressOf(this->Self));
       const std::unique_ptr<smg::StreamedTask> task = this->Self.MakeTask(present);
-      isOrdinary ? this->Streamed.solveWhole(present, *task, pulling, progress)
-                 : this->Streamed.solve(input, *task, pulling, progress);
+      const std::filesystem::path file = smg::unchangedFile(this->Self, task->columns().required);
+      if (!file.empty())
+      {
+        this->Streamed.solveFile(file, *task, pulling, progress);
+      }
+      else
+      {
+        isOrdinary ? this->Streamed.solveWhole(present, *task, pulling, progress)
+                   : this->Streamed.solve(input, *task, pulling, progress);
+      }
     }
     catch (const std::exception& error)
     {
@@ -245,10 +265,22 @@ struct vtkStreamingSolver::Internals
   {
     try
     {
-      smg::SolveSummary summary =
-        this->Self.SolveInMemory(input, smg::progressOf(this->Self), values);
+      const auto solve = [this](vtkPointSet& mesh, std::vector<double>& found)
+      { return this->Self.SolveInMemory(mesh, smg::progressOf(this->Self), found); };
+      std::optional<smg::PreviewDoubt> doubt;
+      if (smg::isPreview(input) && this->Self.TellsDoubt())
+      {
+        doubt.emplace(input, [&solve](vtkPointSet& mesh, std::vector<double>& found)
+          { return solve(mesh, found).columns; });
+      }
+      smg::SolveSummary summary = solve(input, values);
       summary.fullPoints = smg::pointsBehind(input);
       summary.previewPoints = summary.fullPoints > 0 ? input.GetNumberOfPoints() : 0;
+      if (doubt)
+      {
+        summary.doubt =
+          doubt->of(values, summary.columns, this->Self.ComparedColumns(summary.columns));
+      }
       this->warn(summary);
       return summary;
     }

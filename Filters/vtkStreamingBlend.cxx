@@ -91,11 +91,6 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingBlend::MakeTask(vtkPointSet& /*in
   return this->Internal->task();
 }
 
-bool vtkStreamingBlend::IsForMemory(vtkPointSet& input, bool isWhole)
-{
-  return smg::isPreview(input) || (isWhole && input.GetNumberOfPoints() <= this->InteractivePoints);
-}
-
 smg::SolveSummary vtkStreamingBlend::SolveInMemory(
   vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values)
 {
@@ -134,5 +129,4 @@ void vtkStreamingBlend::PrintSelf(ostream& os, vtkIndent indent)
   os << "\n" << indent << "Hold: " << (this->Hold ? this->Hold : "(none)") << "\n";
   os << indent << "Anchor: " << this->Anchor << "\n";
   os << indent << "SeamGradient: " << (this->SeamGradient == AVERAGE ? "average" : "zero") << "\n";
-  os << indent << "InteractivePoints: " << this->InteractivePoints << "\n";
 }

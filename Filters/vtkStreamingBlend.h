@@ -9,9 +9,8 @@
  *
  * - For streamed requests (see vtkStreamingMeshKeys), those of writers and other streaming filters,
  *   the whole mesh is blended once, out of core, as described at vtkStreamingSolver.
- * - For other requests, if the input is a preview, the preview itself is blended in memory.
- * - Other requests for the whole of a mesh of at most InteractivePoints points are treated like
- *   previews; those for larger meshes, or with several processes, like streamed requests.
+ * - For other requests, if the input is a preview and Solve says so, the preview itself is blended
+ *   in memory.
  *
  * Weights has no effect: those of finite elements are used.
  *
@@ -72,20 +71,12 @@ public:
   vtkGetMacro(SeamGradient, int);
   ///@}
 
-  ///@{
-  /** Meshes of at most this many points are blended in memory. Default: 200,000. 0: only previews.
-   */
-  vtkSetClampMacro(InteractivePoints, vtkIdType, 0, VTK_ID_MAX);
-  vtkGetMacro(InteractivePoints, vtkIdType);
-  ///@}
-
 protected:
   vtkStreamingBlend();
   ~vtkStreamingBlend() override;
 
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
-  bool IsForMemory(vtkPointSet& input, bool isWhole) override;
   smg::SolveSummary SolveInMemory(vtkPointSet& input, const std::function<bool(double)>& progress,
     std::vector<double>& values) override;
 
@@ -99,7 +90,6 @@ private:
   char* Hold = nullptr;
   double Anchor = 0.01;
   int SeamGradient = ZERO;
-  vtkIdType InteractivePoints = 200000;
 
   std::unique_ptr<Internals> Internal;
 };

@@ -61,11 +61,6 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingDistance::MakeTask(vtkPointSet& i
   return this->DescribedTask(input);
 }
 
-bool vtkStreamingDistance::IsForMemory(vtkPointSet& input, bool isWhole)
-{
-  return smg::isPreview(input) || (isWhole && input.GetNumberOfPoints() <= this->InteractivePoints);
-}
-
 smg::SolveSummary vtkStreamingDistance::SolveInMemory(
   vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values)
 {
@@ -118,5 +113,4 @@ void vtkStreamingDistance::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Source: " << this->Source << "\n";
   os << indent << "Direction: " << this->Direction << "\n";
   os << indent << "MaximumPasses: " << this->MaximumPasses << "\n";
-  os << indent << "InteractivePoints: " << this->InteractivePoints << "\n";
 }

@@ -10,9 +10,8 @@
  * - For streamed requests (see vtkStreamingMeshKeys), those of writers and other streaming filters,
  *   the distances of the whole mesh are computed once, out of core, as described at
  *   vtkStreamingSolver.
- * - For other requests, if the input is a preview, those of the preview are computed in memory.
- * - Other requests for the whole of a mesh of at most InteractivePoints points are treated like
- *   previews; those for larger meshes, or with several processes, like streamed requests.
+ * - For other requests, if the input is a preview and Solve says so, the distances of the preview
+ * are computed in memory.
  *
  * Weights, Operators, Sweeps, Tolerance and MaximumCycles have no effect.
  *
@@ -73,20 +72,13 @@ public:
   vtkGetMacro(MaximumPasses, int);
   ///@}
 
-  ///@{
-  /** Distances of meshes of at most this many points are computed in memory. Default: 200,000. 0:
-   * only those of previews. */
-  vtkSetClampMacro(InteractivePoints, vtkIdType, 0, VTK_ID_MAX);
-  vtkGetMacro(InteractivePoints, vtkIdType);
-  ///@}
-
 protected:
   vtkStreamingDistance();
   ~vtkStreamingDistance() override;
 
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
-  bool IsForMemory(vtkPointSet& input, bool isWhole) override;
+  int ComparedColumns(int /*columns*/) override { return 1; } // the distance
   smg::SolveSummary SolveInMemory(vtkPointSet& input, const std::function<bool(double)>& progress,
     std::vector<double>& values) override;
 
@@ -102,7 +94,6 @@ private:
   bool Source = false;
   bool Direction = false;
   int MaximumPasses = 200;
-  vtkIdType InteractivePoints = 200000;
 };
 
 #endif

@@ -2,6 +2,7 @@
 #include "Filters/vtkStreamingMeshDeformation.h"
 
 #include "Filters/Deformation/vtkDeformationTask.h"
+#include "Filters/Deformation/vtkDraggedPreview.h"
 #include "Filters/Deformation/vtkInteractiveMesh.h"
 #include "Filters/Deformation/vtkMovedPiece.h"
 #include "Filters/Handles/vtkHandleArrays.h"
@@ -38,12 +39,14 @@ struct vtkStreamingMeshDeformation::Internals
 
   vtkStreamingMeshDeformation& Self;
   smg::InteractiveMesh Interactive;
+  smg::DraggedPreview Dragged;
 };
 
 vtkStreamingMeshDeformation::vtkStreamingMeshDeformation()
   : Internal(new Internals(*this))
 {
   this->SetWeights(CLAMPED);
+  this->SetSolve(ON_PREVIEW);
 }
 
 vtkStreamingMeshDeformation::~vtkStreamingMeshDeformation() = default;
@@ -72,12 +75,18 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeTask(vtkPoin
 bool vtkStreamingMeshDeformation::IsForMemory(vtkPointSet& input, bool isWhole)
 {
   const bool isSmall = isWhole && input.GetNumberOfPoints() <= this->InteractivePoints;
-  const bool isForMemory = smg::isPreview(input) || (isSmall && this->Engine != DISTRIBUTED);
+  const bool isForMemory = smg::isPreview(input) ? this->Superclass::IsForMemory(input, isWhole)
+                                                 : isSmall && this->Engine != DISTRIBUTED;
   if (!isForMemory)
   {
     this->Internal->Interactive.forget();
   }
   return isForMemory;
+}
+
+vtkSmartPointer<vtkPointSet> vtkStreamingMeshDeformation::MeshInMemory(vtkPointSet& input)
+{
+  return smg::isPreview(input) ? this->Internal->Dragged.of(input, this->DragPoints) : Superclass::MeshInMemory(input);
 }
 
 smg::SolveSummary vtkStreamingMeshDeformation::SolveInMemory(
@@ -149,5 +158,6 @@ void vtkStreamingMeshDeformation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Normals: " << (this->Normals == RECOMPUTE ? "recompute" : "drop") << "\n";
   os << indent << "KeepHandleArrays: " << this->KeepHandleArrays << "\n";
   os << indent << "InteractivePoints: " << this->InteractivePoints << "\n";
+  os << indent << "DragPoints: " << this->DragPoints << "\n";
   os << indent << "NumberOfBuilds: " << this->GetNumberOfBuilds() << "\n";
 }

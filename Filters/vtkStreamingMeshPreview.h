@@ -36,7 +36,7 @@ public:
 
   ///@{
   /** The maximum number of points of the preview, 8 to 1,000,000; it usually has as many. Default:
-   * 10,000. */
+   * 100,000. */
   void SetPreviewPoints(int points);
   vtkGetMacro(PreviewPoints, int);
   ///@}
@@ -74,7 +74,7 @@ private:
 
   struct Internals;
 
-  int PreviewPoints = 10000;
+  int PreviewPoints = 100000;
   int NumberOfPieces = 0;
 
   std::unique_ptr<Internals> Internal;

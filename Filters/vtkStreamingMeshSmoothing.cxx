@@ -85,11 +85,6 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshSmoothing::MakeTask(vtkPointS
   return this->Internal->task(input);
 }
 
-bool vtkStreamingMeshSmoothing::IsForMemory(vtkPointSet& input, bool isWhole)
-{
-  return smg::isPreview(input) || (isWhole && input.GetNumberOfPoints() <= this->InteractivePoints);
-}
-
 smg::SolveSummary vtkStreamingMeshSmoothing::SolveInMemory(
   vtkPointSet& input, const std::function<bool(double)>& progress, std::vector<double>& values)
 {
@@ -102,6 +97,11 @@ smg::SolveSummary vtkStreamingMeshSmoothing::SolveInMemory(
     throw smg::Error("The input has no cells: give it a mesh of triangles or tetrahedra.");
   }
   return this->Internal->task(input)->solveInMemory(input, progress, values);
+}
+
+int vtkStreamingMeshSmoothing::ComparedColumns(int columns)
+{
+  return this->Internal->column().empty() ? 3 : columns;
 }
 
 void vtkStreamingMeshSmoothing::Deliver(
@@ -136,5 +136,4 @@ void vtkStreamingMeshSmoothing::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Hold: " << (this->Hold ? this->Hold : "(none)") << "\n";
   os << indent << "Column: " << (this->Column ? this->Column : "(none)") << "\n";
   os << indent << "Normals: " << (this->Normals == RECOMPUTE ? "recompute" : "drop") << "\n";
-  os << indent << "InteractivePoints: " << this->InteractivePoints << "\n";
 }

@@ -11,10 +11,10 @@
  *
  * - For streamed requests (see vtkStreamingMeshKeys), those of writers and other streaming filters,
  *   the whole mesh is smoothed once, out of core, as described at vtkStreamingSolver.
- * - For other requests, if the input is a preview, the preview itself is smoothed in memory. Its
- *   edges are longer than those of the mesh: a size in mean edges is then larger, too.
- * - Other requests for the whole of a mesh of at most InteractivePoints points are treated like
- *   previews; those for larger meshes, or with several processes, like streamed requests.
+ * - For other requests, if the input is a preview and Solve says so, that is smoothed
+ *   in memory. Its
+ *   edges are longer than those of the mesh: a size in mean edges refers to those of the mesh, as
+ *   far as the numbers of cells tell them.
  *
  * Weights has no effect: the cotangent weights are used.
  *
@@ -122,20 +122,13 @@ public:
   vtkGetMacro(Normals, int);
   ///@}
 
-  ///@{
-  /** Meshes of at most this many points are smoothed in memory. Default: 200,000. 0: only previews.
-   */
-  vtkSetClampMacro(InteractivePoints, vtkIdType, 0, VTK_ID_MAX);
-  vtkGetMacro(InteractivePoints, vtkIdType);
-  ///@}
-
 protected:
   vtkStreamingMeshSmoothing();
   ~vtkStreamingMeshSmoothing() override;
 
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
-  bool IsForMemory(vtkPointSet& input, bool isWhole) override;
+  int ComparedColumns(int columns) override; // without normals
   smg::SolveSummary SolveInMemory(vtkPointSet& input, const std::function<bool(double)>& progress,
     std::vector<double>& values) override;
 
@@ -155,7 +148,6 @@ private:
   char* Hold = nullptr;
   char* Column = nullptr;
   int Normals = RECOMPUTE;
-  vtkIdType InteractivePoints = 200000;
 
   std::unique_ptr<Internals> Internal;
 };

@@ -2,6 +2,7 @@
 #include "Filters/vtkStreamingPoisson.h"
 
 #include "Filters/Conditions/vtkConditionList.h"
+#include "Filters/Mesh/vtkCellParts.h"
 #include "Filters/Mesh/vtkNamedArray.h"
 #include "Filters/Poisson/vtkChosenArrays.h"
 #include "Filters/Poisson/vtkPieceResults.h"
@@ -18,6 +19,7 @@
 #include "Solver/Stream/OriginalNumbers.h"
 #include "smg/DescriptionFiles.h"
 #include "smg/Error.h"
+#include "smg/SolvedMesh.h"
 
 #include "vtkDoubleArray.h"
 #include "vtkNew.h"
@@ -143,9 +145,13 @@ struct vtkStreamingPoisson::Internals
     {
       if (smg::isOrdinaryMesh(piece) && !smg::hasSimplices(piece))
       {
-        this->NoCells.warn(
-          "Gradient and Flux are left out, since cells of the input are neither all "
-          "triangles nor all tetrahedra: use Triangulate or Tetrahedralize first.");
+        const char* scratch = this->Self.GetScratchDirectory();
+        const smg::CellParts parts(piece, scratch ? scratch : "");
+        smg::addCellResults(parts.mesh(), problem, values, parts.mesh());
+        for (const char* name : { smg::GradientName, smg::FluxName })
+        {
+          parts.average(name, output);
+        }
         return;
       }
       smg::addCellResults(piece, problem, values, output);
@@ -241,10 +247,10 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeEstimatedTask(vtkPoi
   return std::make_unique<smg::PoissonTask>(this->Internal->task(input));
 }
 
-bool vtkStreamingPoisson::IsForMemory(vtkPointSet& input, bool)
+bool vtkStreamingPoisson::IsForMemory(vtkPointSet& input, bool isWhole)
 {
   this->Internal->WhyNotOnPreview.clear();
-  if (this->SolveFullMesh || this->Engine == DISTRIBUTED || !smg::isPreview(input))
+  if (this->Engine == DISTRIBUTED || !this->Superclass::IsForMemory(input, isWhole))
   {
     return false;
   }
@@ -316,7 +322,6 @@ void vtkStreamingPoisson::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Flux: " << this->Flux << "\n";
   os << indent << "Acceleration: " << this->Acceleration << "\n";
   os << indent << "InCore: " << this->InCore << "\n";
-  os << indent << "SolveFullMesh: " << this->SolveFullMesh << "\n";
   os << indent << "ResultArrayName: " << text(this->ResultArrayName) << "\n";
   os << indent << "Cycles: " << this->GetSummary().cycles << "\n";
 }

@@ -17,12 +17,11 @@
  * The report includes the flow through each condition (docs/problem.md).
  *
  * vtkStreamingSolver describes how the input is requested, solved and delivered. If the input is
- * the preview of a surface, the filter solves on that preview in memory; this is an approximation,
- * as the report states. Streamed requests return the solution on the mesh itself. With
- * SolveFullMesh all requests do; the preview then has the exact solution at its points. The same
- * applies if the preview lacks data that the problem needs (cell arrays, or a point in a region),
- * if there are boundary conditions (a preview has open edges that the mesh does not have), and for
- * solids, whose preview is their surface and has neither Gradient nor Flux.
+ * the preview of a surface and Solve says so, the filter solves on that preview in memory; this is
+ * an approximation, as the report and GetOutcome() state. Streamed requests return the solution on
+ * the mesh itself. All requests do if the preview lacks data that the problem needs (cell arrays,
+ * or a point in a region), if there are boundary conditions (a preview has open edges that the mesh
+ * does not have), and for solids, whose preview is their surface and has neither Gradient nor Flux.
  *
  * With several processes that have memory for the matrix, Engine solves on all of them together.
  *
@@ -115,14 +114,6 @@ public:
   ///@}
 
   ///@{
-  /** Whether to solve on the full mesh even if only the preview of a surface is requested. Default:
-   * off. */
-  vtkSetMacro(SolveFullMesh, bool);
-  vtkGetMacro(SolveFullMesh, bool);
-  vtkBooleanMacro(SolveFullMesh, bool);
-  ///@}
-
-  ///@{
   /** Name of the point array with the solution. Default: "Solution". */
   vtkSetStringMacro(ResultArrayName);
   vtkGetStringMacro(ResultArrayName);
@@ -162,7 +153,6 @@ private:
   bool Flux = false;
   int Acceleration = AUTOMATIC;
   bool InCore = false;
-  bool SolveFullMesh = false;
   char* ResultArrayName = nullptr;
 
   std::unique_ptr<Internals> Internal;

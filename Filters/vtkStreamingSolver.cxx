@@ -2,6 +2,7 @@
 #include "Filters/vtkStreamingSolver.h"
 
 #include "Filters/Streaming/vtkSolveEstimate.h"
+#include "Filters/Streaming/vtkSolveTables.h"
 #include "Filters/vtkSolverRequests.h"
 
 #include "vtkDemandDrivenPipeline.h"
@@ -13,6 +14,7 @@
 #include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
+#include "vtkTable.h"
 #include "vtkTimeStamp.h"
 
 #include <exception>
@@ -23,6 +25,7 @@ vtkCxxSetObjectMacro(vtkStreamingSolver, Controller, vtkMultiProcessController);
 vtkStreamingSolver::vtkStreamingSolver()
   : Internal(new Internals(*this))
 {
+  this->SetNumberOfOutputPorts(NUMBER_OF_OUTPUT_PORTS);
   this->SetOperators("extended");
   this->SetController(vtkMultiProcessController::GetGlobalController());
 }
@@ -139,9 +142,14 @@ smg::SolveSummary vtkStreamingSolver::SummaryOfNothing(int columns) const
   return summary;
 }
 
-bool vtkStreamingSolver::IsForMemory(vtkPointSet&, bool)
+bool vtkStreamingSolver::IsForMemory(vtkPointSet& input, bool)
 {
-  return false;
+  return smg::isPreview(input) && this->Internal->isForPreview();
+}
+
+vtkSmartPointer<vtkPointSet> vtkStreamingSolver::MeshInMemory(vtkPointSet& input)
+{
+  return &input;
 }
 
 smg::SolveSummary vtkStreamingSolver::SolveInMemory(
@@ -153,6 +161,42 @@ smg::SolveSummary vtkStreamingSolver::SolveInMemory(
 int vtkStreamingSolver::FillInputPortInformation(int, vtkInformation* info)
 {
   smg::acceptMeshes(*info);
+  return 1;
+}
+
+int vtkStreamingSolver::FillOutputPortInformation(int port, vtkInformation* info)
+{
+  if (port == MESH)
+  {
+    return this->Superclass::FillOutputPortInformation(port, info);
+  }
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkTable");
+  return 1;
+}
+
+int vtkStreamingSolver::RequestDataObject(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  vtkDataObject* input = vtkDataObject::GetData(inputVector[0]);
+  vtkInformation* mesh = outputVector->GetInformationObject(MESH);
+  vtkDataObject* present = vtkDataObject::GetData(mesh);
+  if (!input)
+  {
+    return 0;
+  }
+  if (!present || !present->IsA(input->GetClassName()))
+  {
+    mesh->Set(
+      vtkDataObject::DATA_OBJECT(), vtkSmartPointer<vtkDataObject>::Take(input->NewInstance()));
+  }
+  for (const int port : { PASSES, TEXT })
+  {
+    if (!vtkTable::GetData(outputVector, port))
+    {
+      outputVector->GetInformationObject(port)->Set(
+        vtkDataObject::DATA_OBJECT(), vtkNew<vtkTable>());
+    }
+  }
   return 1;
 }
 
@@ -185,19 +229,25 @@ int vtkStreamingSolver::RequestUpdateExtent(
 int vtkStreamingSolver::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
-  return smg::answer(*this, this->Internal->Failures, inputVector, *outputVector,
+  const int answered = smg::answer(*this, this->Internal->Failures, inputVector, *outputVector,
     [&]
     {
-      vtkInformation* info = outputVector->GetInformationObject(0);
+      vtkInformation* info = outputVector->GetInformationObject(MESH);
       this->Internal->answer(
         smg::PieceRequest(info), inputVector[0]->GetInformationObject(0), info);
       this->Internal->AnsweredAt.Modified();
     });
+  const std::int64_t limit = std::int64_t(this->MemoryLimit) << 20;
+  smg::fillPasses(this->GetSummary(), limit, *vtkTable::GetData(outputVector, PASSES));
+  smg::fillText(this->GetSummary(), *vtkTable::GetData(outputVector, TEXT));
+  return answered;
 }
 
 void vtkStreamingSolver::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
+  constexpr const char* places[] = { "automatic", "on the preview", "on the full mesh" };
+  os << indent << "Solve: " << places[this->Solve] << "\n";
   constexpr const char* names[] = { "uniform", "cotangent", "clamped" };
   os << indent << "Weights: " << names[this->Weights] << "\n";
   os << indent << "Operators: " << (this->Operators ? this->Operators : "(none)") << "\n";

@@ -26,6 +26,7 @@
 #define vtkStreamingSolver_h
 
 #include "vtkPassInputTypeAlgorithm.h"
+#include "vtkSmartPointer.h"                    // For vtkSmartPointer
 #include "vtkStreamingMultigridFiltersModule.h" // For export macro
 
 #include <functional> // For std::function
@@ -56,6 +57,33 @@ public:
     COTANGENT = 1, ///< the stiffness of linear finite elements
     CLAMPED = 2    ///< the same, raised to a positive floor: satisfies the maximum principle
   };
+
+  /** The outputs. */
+  enum OutputPorts
+  {
+    MESH = 0,   ///< the mesh with the result
+    PASSES = 1, ///< a vtkTable with a row for each pass: residual, seconds, bytes, memory
+    TEXT = 2,   ///< a vtkTable with one sentence for the view: whether it shows a preview's result
+    NUMBER_OF_OUTPUT_PORTS = 3
+  };
+
+  /** Where to solve while the preview of a mesh is shown. */
+  enum SolveTypes
+  {
+    AUTOMATIC_SOLVE = 0, ///< on the full mesh if the estimate is below 20 s, else on the preview
+    ON_PREVIEW = 1,      ///< on the preview, in memory, as an approximation
+    ON_FULL_MESH = 2     ///< on the full mesh; the preview then has its values
+  };
+
+  ///@{
+  /**
+   * Where to solve while the preview of a mesh is shown: see SolveTypes. What is saved is always
+   * that of the full mesh. GetOutcome() says first which of them it was. Default: AUTOMATIC_SOLVE;
+   * for vtkStreamingMeshDeformation: ON_PREVIEW.
+   */
+  vtkSetClampMacro(Solve, int, AUTOMATIC_SOLVE, ON_FULL_MESH);
+  vtkGetMacro(Solve, int);
+  ///@}
 
   ///@{
   /** The weights of the edges. Default: COTANGENT; for vtkStreamingMeshDeformation: CLAMPED. */
@@ -175,6 +203,9 @@ protected:
   ~vtkStreamingSolver() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
   int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
     vtkInformationVector* outputVector) override;
   int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
@@ -197,9 +228,13 @@ protected:
   /**
    * Whether to solve on `input`, the preview or (`isWhole`) the whole mesh, in memory, instead of
    * on the whole mesh out of core. Called in process 0, for requests that are not streamed.
-   * Default: false.
+   * Default: on the preview, if Solve says so.
    */
   virtual bool IsForMemory(vtkPointSet& input, bool isWhole);
+
+  /** The mesh to solve on and to deliver instead of `input`, which is a preview or a whole mesh, if
+   * it is solved on in memory. Default: `input`. */
+  virtual vtkSmartPointer<vtkPointSet> MeshInMemory(vtkPointSet& input);
 
   /** Solves on `input` in memory and returns the values at all its points. Throws smg::Error. */
   virtual smg::SolveSummary SolveInMemory(
@@ -221,6 +256,13 @@ protected:
    * point; the last summary is kept. */
   smg::SolveSummary SummaryOfNothing(int columns) const;
 
+  /** Whether a solve on a preview is to be compared with one on a coarser preview, to say how far
+   * it may be off. Default: true. */
+  virtual bool TellsDoubt() { return true; }
+  /** How many of the `columns` values of a point that comparison takes as a vector. Default: all.
+   */
+  virtual int ComparedColumns(int columns) { return columns; }
+
   /** Whether to warn if a solve does not reach the tolerance. Default: true. */
   virtual bool IsToConverge() { return true; }
 
@@ -237,6 +279,7 @@ private:
 
   struct Internals;
 
+  int Solve = AUTOMATIC_SOLVE;
   int Weights = COTANGENT;
   char* Operators = nullptr;
   int Sweeps = 2;

@@ -65,6 +65,14 @@ void addCount(vtkFieldData& field, const char* name, std::int64_t count)
   field.AddArray(array);
 }
 
+std::int64_t countBehind(vtkPointSet& mesh, const char* name)
+{
+  vtkDataArray* count = mesh.GetFieldData()->GetArray(name);
+  return isPreview(mesh) && count && count->GetNumberOfTuples() > 0
+           ? static_cast<std::int64_t>(count->GetComponent(0, 0))
+           : 0;
+}
+
 } // namespace
 
 void setPiece(vtkPointSet& mesh, const MeshPiece& piece, const StreamInfo& info)
@@ -138,10 +146,12 @@ bool isPreview(vtkPointSet& mesh)
 
 std::int64_t pointsBehind(vtkPointSet& mesh)
 {
-  vtkDataArray* count = mesh.GetFieldData()->GetArray(FullNumberOfPointsName);
-  return isPreview(mesh) && count && count->GetNumberOfTuples() > 0
-           ? static_cast<std::int64_t>(count->GetComponent(0, 0))
-           : 0;
+  return countBehind(mesh, FullNumberOfPointsName);
+}
+
+std::int64_t cellsBehind(vtkPointSet& mesh)
+{
+  return countBehind(mesh, FullNumberOfCellsName);
 }
 
 bool isSurfaceOfSolid(vtkPointSet& mesh)

@@ -26,8 +26,9 @@ void markAsReaders(vtkPointSet& preview);
 /** Whether the mesh is marked as a preview. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT bool isPreview(vtkPointSet& mesh);
 
-/** Of a preview: the number of points of the mesh; 0 of other data. */
+/** Of a preview: the number of points of the mesh, and of its cells; 0 of other data. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT std::int64_t pointsBehind(vtkPointSet& mesh);
+VTKSTREAMINGMULTIGRIDIO_EXPORT std::int64_t cellsBehind(vtkPointSet& mesh);
 /** Whether the mesh is a preview of tetrahedra that consists of triangles of their surface. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT bool isSurfaceOfSolid(vtkPointSet& mesh);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkOrdinaryMesh.h"
 
+#include "IO/Formats/Vtk/VtkCellParts.h"
 #include "IO/vtkComplaints.h"
 #include "IO/vtkPieceNames.h"
 #include "Solver/Storage/ScratchFolder.h"
@@ -41,6 +42,20 @@ void writeRaw(vtkPointSet& mesh, const std::filesystem::path& path)
   }
 }
 
+/** Of cells of both kinds, the solid ones count. */
+CellChoice cellsOf(vtkPointSet& mesh)
+{
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(&mesh);
+  for (vtkIdType cell = 0; grid && cell < grid->GetNumberOfCells(); ++cell)
+  {
+    if (isSolidOfVtk(grid->GetCellType(cell)))
+    {
+      return CellChoice::Tetrahedra;
+    }
+  }
+  return CellChoice::Triangles;
+}
+
 } // namespace
 
 bool isOrdinaryMesh(vtkDataObject& data)
@@ -61,7 +76,17 @@ ConversionReport writeOrdinaryMesh(
             : writeRaw<vtkXMLUnstructuredGridWriter>(mesh, file);
   try
   {
-    return convert(file, path, options);
+    ConversionOptions given = options;
+    given.cells = cellsOf(mesh);
+    ConversionReport report = convert(file, path, given);
+    if (report.dropped_cells > 0)
+    {
+      report.notes.push_back(
+        std::to_string(report.dropped_cells) +
+        (given.cells == CellChoice::Tetrahedra ? " points, lines and surface cells are left out."
+                                               : " points and lines are left out."));
+    }
+    return report;
   }
   catch (const Cancelled&)
   {

@@ -17,8 +17,9 @@ namespace smg
 /** Whether the mesh has no point GlobalIds and is therefore not a piece of a mesh stream. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT bool isOrdinaryMesh(vtkDataObject& data);
 
-/** Writes a whole mesh in memory with its arrays: VTK writes it to a file in the scratch folder,
- * and convert() converts that. Throws like convert(), and Error if VTK cannot write the file. */
+/** Writes a whole mesh in memory with its arrays, of solids and surfaces the solids: VTK writes it
+ * to a file in the scratch folder, and convert() converts that. Throws like convert(), and Error if
+ * VTK cannot write the file. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT ConversionReport writeOrdinaryMesh(
   vtkPointSet& mesh, const std::filesystem::path& path, const ConversionOptions& options);
 

@@ -35,9 +35,11 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT std::vector<std::int64_t> keepOwnCells(
   vtkPointSet& piece, int cornersOfCell, std::vector<std::int64_t>& corners);
 
 /** The cells with the given corners, `cornersOfCell` each. */
-vtkSmartPointer<vtkCellArray> makeCells(std::span<const std::int64_t> corners, int cornersOfCell);
+VTKSTREAMINGMULTIGRIDIO_EXPORT vtkSmartPointer<vtkCellArray> makeCells(
+  std::span<const std::int64_t> corners, int cornersOfCell);
 
 /** Sets the cells, `cornersOfCell` corners each, of a vtkPolyData or a vtkUnstructuredGrid. */
-void setCells(vtkPointSet& mesh, std::span<const std::int64_t> corners, int cornersOfCell);
+VTKSTREAMINGMULTIGRIDIO_EXPORT void setCells(
+  vtkPointSet& mesh, std::span<const std::int64_t> corners, int cornersOfCell);
 
 } // namespace smg

@@ -72,7 +72,7 @@ public:
   ///@}
 
   ///@{
-  /** The maximum number of points of the preview, 8 to 1,000,000. Default: 10,000. */
+  /** The maximum number of points of the preview, 8 to 1,000,000. Default: 100,000. */
   void SetPreviewPoints(int points);
   vtkGetMacro(PreviewPoints, int);
   ///@}
@@ -136,7 +136,7 @@ private:
   char* FileName = nullptr;
   char* ScratchDirectory = nullptr;
   vtkIdType MaximumPointsInMemory = 2000000;
-  int PreviewPoints = 10000;
+  int PreviewPoints = 100000;
   int PreviewCells = SURFACE;
 
   struct Internals;

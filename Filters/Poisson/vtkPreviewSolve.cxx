@@ -71,7 +71,7 @@ SolveSummary solveOnPreview(
   report.notes.push_back(
     "this is the solution on the preview, a mesh of " + std::to_string(mesh.info().vertices) +
     " vertices: it approximates that on the full mesh, which is solved on when "
-    "it is saved, or with SolveFullMesh");
+    "it is saved, or with Solve: Full Mesh");
   return SolveSummary::of(report, problem.columns());
 }
 

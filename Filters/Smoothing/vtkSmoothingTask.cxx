@@ -12,6 +12,7 @@
 #include "vtkPointSet.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -37,6 +38,12 @@ std::set<std::string> namesIn(const SmoothingOptions& options)
     names.insert(options.column);
   }
   return names;
+}
+
+/** Whether it is a preview with cells of the kind of the mesh. */
+bool hasCellsOfMesh(vtkPointSet& mesh)
+{
+  return cellsBehind(mesh) > 0 && !isSurfaceOfSolid(mesh);
 }
 
 } // namespace
@@ -96,10 +103,11 @@ SolveSummary SmoothingTask::solveInMemory(
   this->check();
   const StoredBlock stored(mesh, namesIn(this->options));
   SmoothingTask task = *this;
-  if (isPreview(mesh) && !task.options.boundary)
+  if (task.options.size.unit == SmoothingSize::MeanEdges && hasCellsOfMesh(mesh))
   {
-    // The rims of the gaps that clustering leaves are no boundary of the mesh.
-    task.options.boundary = SmoothedBoundary::Free;
+    // Those of the mesh: an area of so many more triangles has shorter edges.
+    task.options.size.value *= std::sqrt(
+      static_cast<double>(mesh.GetNumberOfCells()) / static_cast<double>(cellsBehind(mesh)));
   }
   const std::unique_ptr<Solution> solution = task.smoothed(stored, true, progress);
   values.resize(static_cast<std::size_t>(solution->vertices() * solution->columns()));
@@ -109,8 +117,7 @@ SolveSummary SmoothingTask::solveInMemory(
   {
     report.notes.push_back("this is the smoothed preview, a mesh of " +
                            std::to_string(report.vertices) +
-                           " vertices with longer edges than those of the full mesh, which is "
-                           "smoothed when it is saved");
+                           " vertices: the full mesh is smoothed when it is saved");
   }
   return SolveSummary::of(report, solution->columns());
 }

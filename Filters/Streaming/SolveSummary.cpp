@@ -31,6 +31,7 @@ SolveSummary SolveSummary::of(const Report& report, int columns)
   {
     summary.notes += (summary.notes.empty() ? "" : "\n") + note;
   }
+  summary.byPass = report.by_pass;
   summary.columns = columns;
   summary.residual = report.residual();
   summary.cycles = report.cycles;
@@ -64,12 +65,8 @@ std::string SolveSummary::outcome() const
   }
   constexpr double MiB = 1 << 20;
   std::ostringstream text;
-  if (this->previewPoints > 0)
-  {
-    text << "On the preview only: " << grouped(this->previewPoints) << " of "
-         << grouped(this->fullPoints) << " points. ";
-  }
-  text << (this->converged ? "Converged" : "Not converged");
+  const std::string place = this->where();
+  text << place << (place.empty() ? "" : " ") << (this->converged ? "Converged" : "Not converged");
   if (this->cycles > 0)
   {
     text << " after " << this->cycles << (this->processes > 0 ? " iterations" : " V-cycles");
@@ -89,6 +86,20 @@ std::string SolveSummary::outcome() const
   text << std::fixed << std::setprecision(1) << static_cast<double>(this->peakMemory) / MiB
        << " MiB";
   return text.str();
+}
+
+std::string SolveSummary::where() const
+{
+  if (this->fullPoints == 0 || !this->error.empty())
+  {
+    return "";
+  }
+  if (this->previewPoints == 0)
+  {
+    return "On the full mesh of " + grouped(this->fullPoints) + " points.";
+  }
+  return "On the preview only: " + grouped(this->previewPoints) + " of " +
+         grouped(this->fullPoints) + " points" + (this->doubt.empty() ? "." : ", " + this->doubt);
 }
 
 } // namespace smg

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace smg
 {
@@ -16,8 +17,12 @@ struct SolveSummary
   bool isCancelled = false; ///< whether the error is a requested cancellation
   std::string report;
   std::string notes; ///< of the report, one per line
-  /** Of a solve on a preview: the points of that and of the mesh; 0 of others. */
-  std::int64_t previewPoints = 0, fullPoints = 0;
+  /** Where a preview is shown: the points of the whole mesh; else 0. */
+  std::int64_t fullPoints = 0;
+  /** Of a solve on the preview: its points; 0 of others. */
+  std::int64_t previewPoints = 0;
+  std::string doubt; ///< of a solve on the preview: how far off it may be; "": unknown
+  std::vector<Report::Pass> byPass; ///< known to the process that solved
   int columns = 0;
   double residual = 0.0;
   int cycles = 0, passes = 0;
@@ -32,6 +37,9 @@ struct SolveSummary
 
   /** The outcome in one line; empty before a solve. */
   std::string outcome() const;
+  /** Where a preview is shown: whether that or the whole mesh was solved on, in a sentence; else
+   * empty. */
+  std::string where() const;
 };
 
 } // namespace smg

@@ -65,27 +65,54 @@ std::string textOf(const JobEstimate& estimate, std::int64_t scratchLimit)
   return text.str();
 }
 
-} // namespace
-
-std::string solveEstimate(vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options)
+/** The .vsm file that the input of the filter names; empty: none. */
+std::string fileOf(vtkAlgorithm& filter)
 {
   const bool isConnected = filter.GetNumberOfInputConnections(0) > 0;
   vtkInformation* info = isConnected ? filter.GetInputInformation(0, 0) : nullptr;
   const char* file = info ? info->Get(vtkStreamingMeshKeys::STREAM_FILE()) : nullptr;
-  if (!file)
+  return file ? file : "";
+}
+
+JobEstimate estimateFor(vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options)
+{
+  vtkNew<vtkPolyData> nothing;
+  auto* present = vtkPointSet::SafeDownCast(filter.GetInputDataObject(0, 0));
+  return estimateOf(fileOf(filter), *taskOf(present ? *present : *nothing), options);
+}
+
+} // namespace
+
+std::string solveEstimate(vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options)
+{
+  if (fileOf(filter).empty())
   {
     return "Known only for .vsm files that a Streaming Mesh Reader has opened.";
   }
   try
   {
-    vtkNew<vtkPolyData> nothing;
-    auto* present = vtkPointSet::SafeDownCast(filter.GetInputDataObject(0, 0));
-    return textOf(
-      estimateOf(file, *taskOf(present ? *present : *nothing), options), options.scratchLimit);
+    return textOf(estimateFor(filter, taskOf, options), options.scratchLimit);
   }
   catch (const Error& error)
   {
     return "Not known: " + std::string(error.what());
+  }
+}
+
+std::optional<double> solveSeconds(
+  vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options)
+{
+  if (fileOf(filter).empty())
+  {
+    return std::nullopt;
+  }
+  try
+  {
+    return estimateFor(filter, taskOf, options).cpu_seconds;
+  }
+  catch (const Error&)
+  {
+    return std::nullopt;
   }
 }
 

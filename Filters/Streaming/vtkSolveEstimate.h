@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 class vtkAlgorithm;
@@ -23,5 +24,9 @@ using TaskOf = std::function<std::unique_ptr<StreamedTask>(vtkPointSet& input)>;
  * after UpdateInformation(). `options` have the limits and the scratch folder.
  */
 std::string solveEstimate(vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options);
+
+/** The processor time of that, in seconds; none if it is not known. */
+std::optional<double> solveSeconds(
+  vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options);
 
 } // namespace smg

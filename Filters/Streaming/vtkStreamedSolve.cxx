@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Streaming/vtkStreamedSolve.h"
 
+#include "Filters/Streaming/SolutionValues.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceStream.h"
 #include "Solver/Storage/FileDescriptor.h"
 #include "smg/Error.h"
+#include "smg/VsmReader.h"
 
 #include "vtkCellData.h"
 #include "vtkPointData.h"
@@ -14,6 +16,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <optional>
 
 namespace smg
 {
@@ -24,6 +30,46 @@ namespace
 constexpr double PullShare = 0.25;
 /** A conversion needs so much memory. */
 constexpr std::int64_t LeastConversionMemory = std::int64_t(16) << 20;
+
+/** A folder whose files are in memory, as Linux has it. */
+constexpr const char* FolderInMemory = "/dev/shm";
+/** Where to put about so many bytes of scratch files. They take at most half of the memory limit,
+ * and a quarter of what the system has free. */
+std::filesystem::path placeOf(std::int64_t bytes, const StreamedSolve::Pulling& pulling)
+{
+  std::error_code absent;
+  const std::filesystem::space_info space = std::filesystem::space(FolderInMemory, absent);
+  const bool fits = !absent && bytes <= pulling.memory / 2 &&
+                    static_cast<std::uintmax_t>(bytes) <= space.available / 4;
+  return pulling.scratch.empty() && fits ? FolderInMemory : pulling.scratch;
+}
+
+/** The bytes of the scratch files for a mesh of VTK, about: it is written as it is, sorted, and
+ * written in order; a solve has some hundred a point. */
+std::int64_t scratchOf(vtkPointSet& mesh)
+{
+  constexpr std::int64_t OfPoint = 400;
+  return 4 * static_cast<std::int64_t>(mesh.GetActualMemorySize()) * 1024 +
+         OfPoint * mesh.GetNumberOfPoints();
+}
+
+/** The same for a stream: the copy of its pieces, and what the task has. */
+std::int64_t scratchOf(const std::optional<StreamInfo>& mesh, const StreamedTask& task)
+{
+  constexpr std::int64_t OfVertex = 64, OfCell = 32; // bytes of the copy
+  return mesh ? OfVertex * mesh->vertices + OfCell * mesh->cells + task.costs(*mesh).scratch
+              : std::numeric_limits<std::int64_t>::max();
+}
+
+/** A progress function that cannot cancel by itself. */
+ProgressFunction functionOf(Progress& progress)
+{
+  return [&progress](double done)
+  {
+    progress.update(done);
+    return true;
+  };
+}
 
 } // namespace
 
@@ -36,7 +82,7 @@ void StreamedSolve::solve(
     writeContainer(stream, container, true, pulled);
     return std::vector<std::string>();
   };
-  this->solveOn(make, task, pulling, progress);
+  this->solveOn([&] { return scratchOf(input.meshInfo(), task); }, make, task, pulling, progress);
 }
 
 void StreamedSolve::solveWhole(
@@ -44,7 +90,28 @@ void StreamedSolve::solveWhole(
 {
   const auto make = [&](const std::filesystem::path& container, Progress& written)
   { return this->writeWhole(mesh, pulling, container, written); };
-  this->solveOn(make, task, pulling, progress);
+  this->solveOn([&] { return scratchOf(mesh); }, make, task, pulling, progress);
+}
+
+std::vector<double> StreamedSolve::valuesOfPoints()
+{
+  const auto columns = static_cast<std::size_t>(this->Result->columns());
+  std::vector<std::int64_t> known;
+  std::ranges::copy_if(this->VertexOfPoint, std::back_inserter(known),
+    [](std::int64_t vertex) { return vertex >= 0; });
+  std::vector<double> found(known.size() * columns);
+  readValues(*this->Result, known, found);
+  std::vector<double> values(this->VertexOfPoint.size() * columns, std::nan(""));
+  auto from = found.begin();
+  for (std::size_t i = 0; i < this->VertexOfPoint.size(); ++i)
+  {
+    if (this->VertexOfPoint[i] >= 0)
+    {
+      std::copy_n(from, columns, values.begin() + static_cast<std::ptrdiff_t>(i * columns));
+      from += static_cast<std::ptrdiff_t>(columns);
+    }
+  }
+  return values;
 }
 
 /** Removes the solution. Its checkpoint remains: nobody knows here whether the result has been
@@ -72,28 +139,49 @@ void StreamedSolve::fail(const std::string& sentence)
   this->Summary = SolveSummary::failed(sentence);
 }
 
-void StreamedSolve::solveOn(
-  const MakeMesh& make, const StreamedTask& task, const Pulling& pulling, Progress& progress)
+void StreamedSolve::solveFile(const std::filesystem::path& file, const StreamedTask& task,
+  const Pulling& pulling, Progress& progress)
+{
+  try
+  {
+    this->discard();
+    task.check();
+    this->Scratch = std::make_unique<ScratchFolder>(
+      placeOf(task.costs(VsmReader(file).info()).scratch, pulling), pulling.scratchLimit);
+    const Report report = this->solveOnFile(file, task, functionOf(progress));
+    this->Summary = SolveSummary::of(report, this->Result->columns());
+  }
+  catch (const std::exception& error)
+  {
+    this->fail(error.what());
+  }
+}
+
+Report StreamedSolve::solveOnFile(
+  const std::filesystem::path& file, const StreamedTask& task, const ProgressFunction& progress)
+{
+  Report report;
+  this->Result = task.solve(VsmReader(file), this->Scratch->path(), progress, report);
+  return report;
+}
+
+void StreamedSolve::solveOn(const std::function<std::int64_t()>& scratchBytes, const MakeMesh& make,
+  const StreamedTask& task, const Pulling& pulling, Progress& progress)
 {
   try
   {
     this->discard();
     task.check();
     const auto start = std::chrono::steady_clock::now();
-    this->Scratch = std::make_unique<ScratchFolder>(pulling.scratch, pulling.scratchLimit);
+    this->Scratch =
+      std::make_unique<ScratchFolder>(placeOf(scratchBytes(), pulling), pulling.scratchLimit);
     const std::filesystem::path container = *this->Scratch / "mesh.vsm";
-    const ProgressFunction whole = [&progress](double done)
-    {
-      progress.update(done);
-      return true;
-    };
+    const ProgressFunction whole = functionOf(progress);
     Progress made(partOf(whole, 0.0, PullShare));
     const std::vector<std::string> notes = make(container, made);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
 
-    Report report;
-    this->Result = task.solve(
-      VsmReader(container), this->Scratch->path(), partOf(whole, PullShare, 1.0), report);
+    Report report = this->solveOnFile(container, task, partOf(whole, PullShare, 1.0));
     FileDescriptor::removeClosed(container);
     report.seconds.convert = seconds.count();
     report.seconds.total += seconds.count();
@@ -119,11 +207,7 @@ std::vector<std::string> StreamedSolve::writeWhole(vtkPointSet& mesh, const Pull
   options.scratch = this->Scratch->path();
   options.threads = pulling.threads;
   options.codec = Codec::Lz4;
-  options.progress = [&progress](double done)
-  {
-    progress.update(done);
-    return true;
-  };
+  options.progress = functionOf(progress);
   const ConversionReport report = writeOrdinaryMesh(*plain, container, options);
 
   this->VertexOfPoint.assign(static_cast<std::size_t>(mesh.GetNumberOfPoints()), -1);

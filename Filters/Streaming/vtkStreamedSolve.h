@@ -34,9 +34,11 @@ public:
   struct Pulling
   {
     PieceCount pieces;
-    std::filesystem::path scratch; ///< folder for scratch files; empty: the system's
+    /** Folder for scratch files; empty: the memory, if the limit and the system have room for them,
+     * else the system's folder. */
+    std::filesystem::path scratch;
     std::int64_t scratchLimit = 0; ///< of the bytes of all scratch files at once; 0: none
-    std::int64_t memory = 0;       ///< for the order of an ordinary mesh, bytes
+    std::int64_t memory = 0;       ///< limit in bytes
     int threads = 0;               ///< 0: one per core
   };
 
@@ -63,6 +65,10 @@ public:
   void solve(
     PieceInput& input, const StreamedTask& task, const Pulling& pulling, Progress& progress);
 
+  /** The same on a .vsm file, which is only read. */
+  void solveFile(const std::filesystem::path& file, const StreamedTask& task,
+    const Pulling& pulling, Progress& progress);
+
   /**
    * The same on a whole ordinary mesh (see isOrdinaryMesh()): it is converted as a file is, so that
    * polygons, strips and hexahedra become triangles and tetrahedra, and points of no cell are left
@@ -71,8 +77,9 @@ public:
   void solveWhole(
     vtkPointSet& mesh, const StreamedTask& task, const Pulling& pulling, Progress& progress);
 
-  /** Of a solution on an ordinary mesh: the vertex of each point, -1 without one. */
-  const std::vector<std::int64_t>& vertexOfPoint() const { return this->VertexOfPoint; }
+  /** Of a solution on an ordinary mesh: the values at all its points; not a number where no cell
+   * is. */
+  std::vector<double> valuesOfPoints();
 
   /** The solution; nullptr before a successful solve. */
   Solution* solution() const { return this->Result.get(); }
@@ -85,17 +92,19 @@ public:
 private:
   void release();
   void discard();
-  /** Makes the .vsm file of the mesh; returns notes. */
+  /** Makes the .vsm file of the mesh in the scratch folder; returns notes. */
   using MakeMesh = std::function<std::vector<std::string>(
     const std::filesystem::path& container, Progress& progress)>;
-  void solveOn(
-    const MakeMesh& make, const StreamedTask& task, const Pulling& pulling, Progress& progress);
+  void solveOn(const std::function<std::int64_t()>& scratchBytes, const MakeMesh& make,
+    const StreamedTask& task, const Pulling& pulling, Progress& progress);
+  Report solveOnFile(
+    const std::filesystem::path& file, const StreamedTask& task, const ProgressFunction& progress);
   std::vector<std::string> writeWhole(vtkPointSet& mesh, const Pulling& pulling,
     const std::filesystem::path& container, Progress& progress);
 
   std::unique_ptr<ScratchFolder> Scratch; ///< of the solution
   std::unique_ptr<Solution> Result;
-  std::vector<std::int64_t> VertexOfPoint;
+  std::vector<std::int64_t> VertexOfPoint; ///< of an ordinary mesh; -1: it has none
   InputStamp MadeFor;
   SolveSummary Summary;
 };

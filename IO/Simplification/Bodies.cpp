@@ -94,6 +94,12 @@ std::vector<Body> bodiesOf(
 
 } // namespace
 
+std::size_t bodiesFor(std::int64_t vertices)
+{
+  constexpr std::int64_t VerticesOfBody = 20;
+  return static_cast<std::size_t>(std::max<std::int64_t>(1, vertices / VerticesOfBody));
+}
+
 KeptBodies keepLargestBodies(
   SurfacePart& part, std::span<const std::uint8_t> locked, std::size_t most)
 {

@@ -10,6 +10,9 @@
 namespace smg
 {
 
+/** The number of bodies that a simplified surface of so many vertices may have. */
+std::size_t bodiesFor(std::int64_t vertices);
+
 /** What keepLargestBodies() has done. */
 struct KeptBodies
 {

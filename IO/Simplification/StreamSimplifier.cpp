@@ -25,8 +25,6 @@ constexpr std::int64_t PartsOfWindow = 3;
 constexpr double PartShare = 1.0 / 8.0;
 /** The share of the vertices of a result that windows before the last one may deliver. */
 constexpr double Aim = 0.98;
-/** Points of the result for each body. */
-constexpr std::int64_t PointsPerBody = 20;
 /** A window has at least so many triangles for each locked vertex. */
 constexpr std::size_t TrianglesPerLocked = 8;
 
@@ -37,12 +35,6 @@ std::int64_t bytesOfTriangle(const StreamInfo& info)
   // Corners, and half a vertex: its number, position, row and its places in tables.
   constexpr auto OfVertex = static_cast<std::int64_t>(8 + 24 + 16 + sizeof(Quadric));
   return CollapseBytes + 12 + (OfVertex + 2 * row) / 2;
-}
-
-/** The number of bodies that so many points may have. */
-std::size_t bodiesFor(std::int64_t points)
-{
-  return static_cast<std::size_t>(std::max<std::int64_t>(1, points / PointsPerBody));
 }
 
 /** The triangles of a part. The window, which has those of three parts, and three parts have the

@@ -74,6 +74,7 @@ void SurfacePart::dropUnusedVertices()
 {
   std::vector<std::uint32_t> place = usedBy(this->corners, this->vertices());
   const std::size_t stride = this->rowBytes();
+  const bool hasQuadrics = !this->quadrics.empty();
   std::uint32_t kept = 0;
   for (std::size_t v = 0; v < place.size(); ++v)
   {
@@ -85,16 +86,19 @@ void SurfacePart::dropUnusedVertices()
     this->ids[kept] = this->ids[v];
     std::copy_n(this->points.begin() + 3 * static_cast<std::ptrdiff_t>(v), 3,
       this->points.begin() + 3 * static_cast<std::ptrdiff_t>(kept));
-    this->quadrics[kept] = this->quadrics[v];
-    this->lacksBoundary[kept] = this->lacksBoundary[v];
+    if (hasQuadrics)
+    {
+      this->quadrics[kept] = this->quadrics[v];
+      this->lacksBoundary[kept] = this->lacksBoundary[v];
+    }
     std::copy_n(this->rows.begin() + static_cast<std::ptrdiff_t>(v * stride), stride,
       this->rows.begin() + static_cast<std::ptrdiff_t>(kept * stride));
     ++kept;
   }
   this->ids.resize(kept);
   this->points.resize(3 * std::size_t(kept));
-  this->quadrics.resize(kept);
-  this->lacksBoundary.resize(kept);
+  this->quadrics.resize(hasQuadrics ? kept : 0);
+  this->lacksBoundary.resize(hasQuadrics ? kept : 0);
   this->rows.resize(kept * stride);
   for (std::uint32_t& corner : this->corners)
   {

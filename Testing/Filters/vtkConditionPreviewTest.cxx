@@ -32,6 +32,7 @@ TEST_F(VtkConditionPreview, HoldsOnAPreviewWhatItHoldsOnTheMesh)
     EXPECT_EQ(isHeld.back(), (p[0] - 2.5) * (p[0] - 2.5) + p[1] * p[1] + p[2] * p[2] <= 1.44);
   }
   this->Reader->SetMaximumPointsInMemory(100);
+  this->Poisson->SetSolve(vtkStreamingSolver::ON_PREVIEW);
   this->Reader->SetPreviewPoints(500);
   ASSERT_EQ(updatePiece(&condition, 0, 1), 1);
   auto* preview = vtkPointSet::SafeDownCast(condition.GetOutputDataObject(0));
@@ -49,6 +50,7 @@ TEST_F(VtkConditionPreview, AProblemThatAPreviewCannotHoldIsSolvedOnTheMesh)
   const StreamMesh mesh = writeVsm(this->Folder / "torus.vsm", torus(60, 30, 0.2));
   this->Reader->SetFileName((this->Folder / "torus.vsm").c_str());
   this->Reader->SetMaximumPointsInMemory(100);
+  this->Poisson->SetSolve(vtkStreamingSolver::ON_PREVIEW);
   this->Reader->SetPreviewPoints(300);
   const auto solvedOn = [&](const std::string& problem)
   {
@@ -108,6 +110,7 @@ TEST_F(VtkConditionPreview, TheReportOfAPreviewNamesVerticesOfTheFile)
   writeVsm(this->Folder / "torus.vsm", torus(60, 30, 0.2));
   this->Reader->SetFileName((this->Folder / "torus.vsm").c_str());
   this->Reader->SetMaximumPointsInMemory(100);
+  this->Poisson->SetSolve(vtkStreamingSolver::ON_PREVIEW);
   this->Reader->SetPreviewPoints(300);
   this->Poisson->SetProblem(
     R"({"screening": 1, "source": [{"sphere": [3, 0, 0, 1.5], "value": 1}]})");

@@ -3,7 +3,9 @@
 #include "Filters/vtkStreamingDistance.h"
 #include "Filters/vtkStreamingPoisson.h"
 #include "Testing/IO/vtkPieceTesting.h"
+#include "Testing/Support/TemporaryFolder.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataSetTriangleFilter.h"
 #include "vtkDoubleArray.h"
@@ -18,6 +20,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 // Meshes of other sources than readers of streams, as they are: any cells, points of no cell, no
 // GlobalIds. A linear function is the solution of the finite elements on each of them.
@@ -125,6 +129,31 @@ protected:
     EXPECT_EQ(missing, withoutCells);
   }
 
+  /** The arrays Gradient and Flux of the last output are those of X with this gradient; `without`
+   * cells have none. */
+  void expectGradient(double x, double y, double z, vtkIdType without)
+  {
+    vtkCellData& cells =
+      *vtkPointSet::SafeDownCast(this->Poisson->GetOutputDataObject(0))->GetCellData();
+    const double expected[] = { x, y, z };
+    for (const auto& [name, factor] :
+      { std::pair("Gradient", 1.0), std::pair("Flux", -this->Poisson->GetConductivity()) })
+    {
+      vtkDataArray* found = cells.GetArray(name);
+      ASSERT_TRUE(found) << name;
+      vtkIdType missing = 0;
+      for (vtkIdType i = 0; i < found->GetNumberOfTuples(); ++i)
+      {
+        missing += std::isnan(found->GetComponent(i, 0)) ? 1 : 0;
+        for (int k = 0; k < 3 && !std::isnan(found->GetComponent(i, 0)); ++k)
+        {
+          ASSERT_NEAR(found->GetComponent(i, k), factor * expected[k], 1e-5) << name << i;
+        }
+      }
+      EXPECT_EQ(missing, without);
+    }
+  }
+
   vtkNew<vtkStreamingPoisson> Poisson;
 };
 
@@ -167,14 +196,40 @@ TEST_F(VtkOrdinaryMesh, AGridOfTetrahedraHasGradients)
   }
 }
 
-TEST_F(VtkOrdinaryMesh, GradientsOfOtherCellsAreLeftOutWithAWarning)
+TEST_F(VtkOrdinaryMesh, GradientsOfOtherCellsAreMeansOverTheirParts)
 {
   this->Poisson->SetGradient(true);
-  const Errors warnings(this->Poisson);
-  vtkPointSet* output = this->solve(hexahedra(4));
-  EXPECT_TRUE(warnings.contain("Tetrahedralize first")) << warnings.text();
-  EXPECT_TRUE(output->GetPointData()->HasArray("Solution"));
-  EXPECT_FALSE(output->GetCellData()->HasArray("Gradient"));
+  this->Poisson->SetFlux(true);
+  this->Poisson->SetConductivity(3.0);
+  vtkNew<vtkPlaneSource> quads;
+  quads->SetResolution(6, 5);
+  quads->Update();
+  // A plane has no gradient along its normal, z.
+  this->expectLinear(quads->GetOutput(), 0);
+  this->expectGradient(1.0, 2.0, 0.0, 0);
+  // A line among them has none at all, and no part in the problem.
+  vtkNew<vtkPolyData> mixed;
+  mixed->SetPoints(quads->GetOutput()->GetPoints());
+  mixed->SetPolys(quads->GetOutput()->GetPolys());
+  vtkNew<vtkCellArray> line;
+  line->InsertNextCell({ 0, 8 });
+  mixed->SetLines(line);
+  this->expectLinear(mixed, 0);
+  this->expectGradient(1.0, 2.0, 0.0, 1);
+  this->expectLinear(hexahedra(4), 1);
+  this->expectGradient(1.0, 2.0, -1.0, 0);
+}
+
+TEST_F(VtkOrdinaryMesh, OfSolidsAndSurfacesTheSolidsCount)
+{
+  auto grid = hexahedra(4);
+  const vtkIdType face[4] = { 0, 1, 6, 5 };
+  grid->InsertNextCell(VTK_QUAD, 4, face);
+  this->Poisson->SetGradient(true);
+  this->expectLinear(grid, 1);
+  EXPECT_NE(std::string(this->Poisson->GetNotes()).find("1 points, lines and surface cells"),
+    std::string::npos)
+    << this->Poisson->GetNotes();
 }
 
 TEST_F(VtkOrdinaryMesh, ASphereOfParaViewTakesConditions)
@@ -222,16 +277,18 @@ TEST_F(VtkOrdinaryMesh, ASphereOfParaViewTakesConditions)
   }
 }
 
-TEST_F(VtkOrdinaryMesh, DistancesAreThoseOfAnySize)
+TEST_F(VtkOrdinaryMesh, DistancesAreThoseInMemoryAndThroughFiles)
 {
   vtkNew<vtkPlaneSource> plane;
   plane->SetResolution(40, 40);
   vtkNew<vtkStreamingDistance> distance;
   distance->SetInputConnection(plane->GetOutputPort());
   distance->SetFrom("{\"nearest\": [[-0.5, -0.5, 0]]}");
-  for (const int interactive : { 10, 100000 })
+  std::vector<double> inMemory;
+  const TemporaryFolder scratch;
+  for (const std::string& folder : { std::string(), scratch.path().string() })
   {
-    distance->SetInteractivePoints(interactive);
+    distance->SetScratchDirectory(folder.c_str());
     Errors errors(distance);
     updatePiece(distance, 0, 1);
     ASSERT_TRUE(errors.text().empty()) << errors.text();
@@ -242,6 +299,11 @@ TEST_F(VtkOrdinaryMesh, DistancesAreThoseOfAnySize)
     {
       const double* p = output->GetPoint(i);
       EXPECT_NEAR(found->GetTuple1(i), std::hypot(p[0] + 0.5, p[1] + 0.5), 0.01);
+      if (folder.empty())
+      {
+        inMemory.push_back(found->GetTuple1(i));
+      }
+      EXPECT_EQ(found->GetTuple1(i), inMemory[static_cast<std::size_t>(i)]);
     }
   }
 }

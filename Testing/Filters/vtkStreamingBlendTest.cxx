@@ -110,7 +110,6 @@ protected:
 TEST_F(VtkStreamingBlend, EveryWayGivesTheValuesOfTheLibrary)
 {
   this->expectBlended(this->description(), 1);
-  this->Blend->SetInteractivePoints(0);
   for (const int pieces : { 1, 3, 16 })
   {
     this->expectBlended(this->description(), pieces);
@@ -131,9 +130,9 @@ TEST_F(VtkStreamingBlend, EveryPropertyIsAPartOfTheDescription)
   this->Blend->SetAnchor(3.0);
   this->Blend->SetSeamGradient(vtkStreamingBlend::AVERAGE);
   this->Blend->SetHold(R"({"vertices": [7]})");
-  for (const vtkIdType interactive : { 200000, 0 })
+  for (const int pulled : { 0, 3 })
   {
-    this->Blend->SetInteractivePoints(interactive);
+    this->Blend->SetNumberOfPieces(pulled);
     this->expectBlended(description, 2);
   }
   this->Blend->RemoveAllColumns();
@@ -146,6 +145,7 @@ TEST_F(VtkStreamingBlend, EveryPropertyIsAPartOfTheDescription)
 TEST_F(VtkStreamingBlend, WhatIsWrittenIsTheWholeMeshAndAPreviewIsBlendedByItself)
 {
   this->Reader->SetMaximumPointsInMemory(100);
+  this->Blend->SetSolve(vtkStreamingSolver::ON_PREVIEW);
   this->Reader->SetPreviewPoints(300);
   ASSERT_TRUE(updatePiece(this->Blend, 0, 1));
   EXPECT_TRUE(this->output()->GetFieldData()->HasArray("Preview"));
@@ -185,10 +185,10 @@ TEST_F(VtkStreamingBlend, MistakesAreOneErrorEach)
   Errors errors(this->Blend);
   const auto expect = [&](const std::string& words, const std::function<void()>& spoil)
   {
-    for (const vtkIdType interactive : { 200000, 0 })
+    for (const int pulled : { 0, 3 })
     {
       errors.clear();
-      this->Blend->SetInteractivePoints(interactive);
+      this->Blend->SetNumberOfPieces(pulled);
       spoil();
       EXPECT_FALSE(updatePiece(this->Blend, 0, 1));
       EXPECT_TRUE(errors.contain(words)) << errors.text();

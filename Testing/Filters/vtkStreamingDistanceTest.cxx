@@ -99,9 +99,9 @@ TEST_F(VtkStreamingDistance, EveryWayGivesTheValuesOfTheLibrary)
   description.source = description.direction = true;
   this->Distance->SourceOn();
   this->Distance->DirectionOn();
-  for (const vtkIdType interactive : { 200000, 0 })
+  for (const int pulled : { 0, 3 })
   {
-    this->Distance->SetInteractivePoints(interactive);
+    this->Distance->SetNumberOfPieces(pulled);
     for (const int pieces : { 1, 3, 16 })
     {
       this->expectDistances(description, pieces);
@@ -121,9 +121,9 @@ TEST_F(VtkStreamingDistance, WallsOfASolid)
   description.wall = true;
   this->Distance->SetFrom(nullptr);
   this->Distance->WallOn();
-  for (const vtkIdType interactive : { 200000, 0 })
+  for (const int pulled : { 0, 3 })
   {
-    this->Distance->SetInteractivePoints(interactive);
+    this->Distance->SetNumberOfPieces(pulled);
     this->expectDistances(description, 2);
   }
   description.from.emplace_back(Region(Region::HalfSpace{ { 0, 0, -1 }, 0 }));
@@ -134,6 +134,7 @@ TEST_F(VtkStreamingDistance, WallsOfASolid)
 TEST_F(VtkStreamingDistance, WhatIsWrittenIsTheWholeMeshAndAPreviewIsMeasuredByItself)
 {
   this->Reader->SetMaximumPointsInMemory(100);
+  this->Distance->SetSolve(vtkStreamingSolver::ON_PREVIEW);
   this->Reader->SetPreviewPoints(300);
   this->Distance->SetFrom(R"({"sphere": [2, 0, 1, 0.5]})");
   ASSERT_TRUE(updatePiece(this->Distance, 0, 1));
@@ -166,9 +167,9 @@ TEST_F(VtkStreamingDistance, WithoutFromTheSourcesAreTheHandles)
   handle->AddId(500);
   this->Distance->SetInputConnection(handle->GetOutputPort());
   this->Distance->SetFrom(nullptr);
-  for (const vtkIdType interactive : { 200000, 0 })
+  for (const int pulled : { 0, 3 })
   {
-    this->Distance->SetInteractivePoints(interactive);
+    this->Distance->SetNumberOfPieces(pulled);
     this->expectDistances(from(Region(Region::Vertices{ { 7, 500 } })), 3);
   }
 }
@@ -211,10 +212,10 @@ TEST_F(VtkStreamingDistance, MistakesAreOneErrorEach)
   Errors errors(this->Distance);
   const auto expect = [&](const std::string& words, const std::function<void()>& spoil)
   {
-    for (const vtkIdType interactive : { 200000, 0 })
+    for (const int pulled : { 0, 3 })
     {
       errors.clear();
-      this->Distance->SetInteractivePoints(interactive);
+      this->Distance->SetNumberOfPieces(pulled);
       spoil();
       EXPECT_FALSE(updatePiece(this->Distance, 0, 1));
       EXPECT_TRUE(errors.contain(words)) << errors.text();
@@ -226,6 +227,7 @@ TEST_F(VtkStreamingDistance, MistakesAreOneErrorEach)
   expect("From: sphere: must be", [&] { this->Distance->SetFrom(R"({"sphere": [1]})"); });
   expect("from[0]: no vertex", [&] { this->Distance->SetFrom(R"({"sphere": [9, 9, 9, 1]})"); });
   this->Reader->SetMaximumPointsInMemory(100);
+  this->Distance->SetSolve(vtkStreamingSolver::ON_PREVIEW);
   this->Reader->SetPreviewPoints(300);
   expect("This is about the preview", [&] { this->Distance->SetFrom(R"({"vertices": [7000]})"); });
   this->Reader->SetMaximumPointsInMemory(2000000);

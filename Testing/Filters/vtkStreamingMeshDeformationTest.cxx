@@ -85,6 +85,42 @@ TEST_F(VtkStreamingMeshDeformation, StreamedRequestsGetTheWholeMesh)
   EXPECT_EQ(this->Deformation->GetNumberOfBuilds(), 0);
 }
 
+TEST_F(VtkStreamingMeshDeformation, AFinePreviewIsMadeCoarserToBeDragged)
+{
+  constexpr vtkIdType DragPoints = 300;
+  this->Reader->SetMaximumPointsInMemory(100);
+  this->Reader->SetPreviewPoints(1500);
+  this->Deformation->SetDragPoints(DragPoints);
+  ASSERT_TRUE(updatePiece(this->Handles, 0, 1));
+  const vtkIdType fine =
+    vtkPointSet::SafeDownCast(this->Handles->GetOutputDataObject(0))->GetNumberOfPoints();
+  ASSERT_GT(fine, 2 * DragPoints);
+  const StreamMesh full = this->deformed(this->Mesh);
+  for (const double degrees : { 70.0, 20.0, -50.0 })
+  {
+    HandleMotion::Parameters turn = this->Turn;
+    turn.degrees = degrees;
+    this->Handles->move(turn);
+    ASSERT_TRUE(updatePiece(this->Deformation, 0, 1));
+    vtkPointSet* shown = this->output();
+    EXPECT_LE(shown->GetNumberOfPoints(), DragPoints + 128); // and those of small handles
+    EXPECT_TRUE(shown->GetFieldData()->HasArray("Preview"));
+    // Its points are points of the mesh, about where the deformation of that has them.
+    if (degrees == this->Turn.degrees)
+    {
+      vtkDataArray* ids = shown->GetPointData()->GetGlobalIds();
+      for (vtkIdType i = 0; i < shown->GetNumberOfPoints(); ++i)
+      {
+        const auto id = static_cast<std::size_t>(ids->GetTuple1(i));
+        const double* p = shown->GetPoint(i);
+        const double* q = full.positions.data() + 3 * id;
+        EXPECT_LT(std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]), 0.5); // of a radius of 3
+      }
+    }
+  }
+  EXPECT_EQ(this->Deformation->GetNumberOfBuilds(), 1); // kept while only the motion changes
+}
+
 TEST_F(VtkStreamingMeshDeformation, PreviewIsDeformedByItselfAndAtOnce)
 {
   this->Reader->SetMaximumPointsInMemory(100);
@@ -310,6 +346,8 @@ TEST_F(VtkStreamingMeshDeformation, FailureOfAPieceIsAnError)
 TEST_F(VtkStreamingMeshDeformation, CanBeAborted)
 {
   expectCanBeAborted(this->Deformation.Get(), this->Folder);
+  this->Deformation->SetInteractivePoints(0);
+  expectCanBeAborted(this->Deformation.Get(), this->Folder);
 }
 
 TEST_F(VtkStreamingMeshDeformation, PrintsItsProperties)
@@ -317,7 +355,7 @@ TEST_F(VtkStreamingMeshDeformation, PrintsItsProperties)
   std::ostringstream text;
   this->Deformation->Print(text);
   for (const char* name : { "Weights: clamped", "Cycles: 0", "Normals: recompute",
-         "InteractivePoints: 200000", "NumberOfBuilds: 0" })
+         "InteractivePoints: 200000", "DragPoints: 10000", "NumberOfBuilds: 0" })
   {
     EXPECT_NE(text.str().find(name), std::string::npos) << name;
   }

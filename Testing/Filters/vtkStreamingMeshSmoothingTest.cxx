@@ -86,10 +86,9 @@ TEST_F(VtkStreamingMeshSmoothing, EveryWayGivesThePointsOfTheLibrary)
 {
   const StreamMesh expected = this->movedBy({});
   EXPECT_NE(expected.positions, this->Mesh.positions);
-  // ParaView's name of no array. In memory, then out of core.
+  // ParaView's name of no array.
   this->Smoothing->SetColumn("None");
   this->collectPieces(1).expectEqual(expected);
-  this->Smoothing->SetInteractivePoints(0);
   for (const int pieces : { 1, 3, 16 })
   {
     this->collectPieces(pieces).expectEqual(expected);
@@ -116,9 +115,9 @@ TEST_F(VtkStreamingMeshSmoothing, EveryPropertyIsAnOptionOfTheLibrary)
   this->Smoothing->SetEdgeAngle(20.0);
   this->Smoothing->SetBoundary(vtkStreamingMeshSmoothing::FIXED);
   this->Smoothing->SetHold(R"([{"sphere": [3, 0, 0, 1]}, {"vertices": [7]}])");
-  for (const vtkIdType interactive : { 200000, 0 })
+  for (const int pulled : { 0, 3 })
   {
-    this->Smoothing->SetInteractivePoints(interactive);
+    this->Smoothing->SetNumberOfPieces(pulled);
     this->collectPieces(1).expectEqual(this->movedBy(options));
   }
   for (const auto boundary : { SmoothedBoundary::Smooth, SmoothedBoundary::Free })
@@ -138,9 +137,9 @@ TEST_F(VtkStreamingMeshSmoothing, AnArrayIsSmoothedInsteadOfThePoints)
   options.column = "Colours";
   const std::vector<double> expected = this->smoothed(options);
   this->Smoothing->SetColumn("Colours");
-  for (const vtkIdType interactive : { 200000, 0 })
+  for (const int pulled : { 0, 3 })
   {
-    this->Smoothing->SetInteractivePoints(interactive);
+    this->Smoothing->SetNumberOfPieces(pulled);
     this->collectPieces(3).expectEqual(this->Mesh);
     ASSERT_TRUE(updatePiece(this->Smoothing, 0, 1));
     vtkDataArray* array = this->output()->GetPointData()->GetArray("Colours");
@@ -159,6 +158,7 @@ TEST_F(VtkStreamingMeshSmoothing, AnArrayIsSmoothedInsteadOfThePoints)
 TEST_F(VtkStreamingMeshSmoothing, WhatIsWrittenIsTheWholeMeshAndAPreviewIsSmoothedByItself)
 {
   this->Reader->SetMaximumPointsInMemory(100);
+  this->Smoothing->SetSolve(vtkStreamingSolver::ON_PREVIEW);
   this->Reader->SetPreviewPoints(300);
   ASSERT_TRUE(updatePiece(this->Smoothing, 0, 1));
   EXPECT_TRUE(this->output()->GetFieldData()->HasArray("Preview"));
@@ -181,9 +181,9 @@ TEST_F(VtkStreamingMeshSmoothing, NormalsAreThoseOfTheSmoothedSurface)
   writeMesh(this->Folder / "normals.vsm", mesh);
   this->Reader->SetFileName((this->Folder / "normals.vsm").c_str());
   std::vector<std::vector<double>> found;
-  for (const vtkIdType interactive : { 200000, 0 })
+  for (const int pulled : { 0, 3 })
   {
-    this->Smoothing->SetInteractivePoints(interactive);
+    this->Smoothing->SetNumberOfPieces(pulled);
     ASSERT_TRUE(updatePiece(this->Smoothing, 0, 1));
     vtkDataArray* normals = this->output()->GetPointData()->GetArray("Normals");
     ASSERT_TRUE(normals);
@@ -217,10 +217,10 @@ TEST_F(VtkStreamingMeshSmoothing, MistakesAreOneErrorEach)
   Errors errors(this->Smoothing);
   const auto expect = [&](const std::string& words, const std::function<void()>& spoil)
   {
-    for (const vtkIdType interactive : { 200000, 0 })
+    for (const int pulled : { 0, 3 })
     {
       errors.clear();
-      this->Smoothing->SetInteractivePoints(interactive);
+      this->Smoothing->SetNumberOfPieces(pulled);
       spoil();
       EXPECT_FALSE(updatePiece(this->Smoothing, 0, 1));
       EXPECT_TRUE(errors.contain(words)) << errors.text();

@@ -70,7 +70,7 @@ TEST_F(VtkStreamingPoissonErrors, FailureEndsStreaming)
     EXPECT_TRUE(this->Reader->GetOutputDataObject(0)->GetFieldData()->HasArray("Preview"));
   };
   // The input fails, its output is rejected, and the solve fails.
-  this->Poisson->SetSolveFullMesh(true);
+  this->Poisson->SetSolve(vtkStreamingSolver::ON_FULL_MESH);
   this->Poisson->SetNumberOfPieces(1);
   faulty->FailAtPiece = 0;
   EXPECT_FALSE(updatePiece(this->Poisson, 0, 1));

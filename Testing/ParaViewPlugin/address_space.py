@@ -27,9 +27,9 @@ def solve_and_save(plugin, folder, memory, beside, pieces):
     LoadPlugin(plugin, ns=globals())
     t.StreamingPoisson = StreamingPoisson
     reader = OpenDataFile(os.path.join(folder, "mesh.vsm"))
-    reader.MaximumPointsInMemory = 10000
+    reader.MaximumPointsInMemory, reader.PreviewPoints = 10000, 10000
     poisson = t.make_poisson(t.make_problem(reader, "X", -2.5, 2.5))
-    poisson.SolveFullMesh, poisson.NumberOfThreads = 1, 2
+    poisson.Solve, poisson.NumberOfThreads = "Full Mesh", 2
     poisson.MemoryLimit, poisson.NumberOfPieces = memory, pieces
     idle = address_space("VmSize")
     limit = int(idle + memory + beside) << 20

@@ -41,7 +41,7 @@ ColorBy(display, ("POINTS", "Mask"))
 check(calculators, "while it is coloured by another array")
 
 check(MeshCondition(Input=calculators, Region="Everywhere"), "behind a condition")
-reader.MaximumPointsInMemory = 1000
+reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 10000
 reader.UpdatePipeline()
 check(reader, "behind a preview")
 # Its shading is that of the mesh.

@@ -44,7 +44,7 @@ ids = t.vtk_to_numpy(data.GetPointData().GetGlobalIds())
 assert (values(data) == values(whole)[ids]).all(), rank
 
 # All of the preview is in process 0, which blends it alone.
-reader.MaximumPointsInMemory = 1000
+reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 10000
 blend.UpdatePipeline()
 shown = t.client_object(blend).GetOutputDataObject(0)
 assert (shown.GetNumberOfPoints() > 0) == (rank == 0), rank

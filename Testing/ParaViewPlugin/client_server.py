@@ -42,7 +42,7 @@ try:
     assert os.path.getsize(path) > 500000
 
     # Handles and a deformation of the preview; the saved file holds the whole mesh.
-    reader.MaximumPointsInMemory = 1000
+    reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 10000
     handles = d.make_handles(reader, MeshHandle)
     deformation = StreamingMeshDeformation(Input=handles)
     deformation.UpdatePipeline()

@@ -24,7 +24,7 @@ assert converter.MaximumPointsInMemory == 2000000
 
 converter.FileName = ply
 converter.OutputFileName = container
-converter.MaximumPointsInMemory = 1000
+converter.MaximumPointsInMemory, converter.PreviewPoints = 1000, 10000
 converter.PreviewPoints = 2000
 converter.UpdatePipeline()
 converter.UpdatePropertyInformation()

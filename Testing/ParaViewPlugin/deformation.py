@@ -61,7 +61,7 @@ assert [step["name"] for step in report["steps"]] == ["rotation", "position"]
 assert report["passes"] == report["cycles"] + 1 == information("Passes")
 
 # Above the guard only the preview is deformed, repeatedly on one hierarchy.
-reader.MaximumPointsInMemory = 1000
+reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 10000
 reader.PreviewPoints = 10000
 deformation.UpdatePipeline()
 first = t.servermanager.Fetch(deformation)
@@ -102,7 +102,7 @@ assert (t.pull(t.client_object(by_columns), 1)[0][2] == whole[2]).all()
 
 # The filter that makes a preview.
 preview = StreamingMeshPreview(Input=deformation)
-assert preview.PreviewPoints == 10000
+assert preview.PreviewPoints == 100000
 preview.PreviewPoints = 3000
 preview.UpdatePipeline()
 data = t.servermanager.Fetch(preview)

@@ -63,7 +63,7 @@ for shift in (0.01, 0.02):
     assert (t.vtk_to_numpy(again.GetPoints().GetData()) == positions).all()
 
 # All of the preview is in process 0, which deforms it alone.
-reader.MaximumPointsInMemory = 1000
+reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 10000
 for angle in (30.0, 20.0):
     handles.RotationAngle = angle
     deformation.UpdatePipeline()

@@ -44,7 +44,7 @@ for name in ("Distance", "DistanceSource", "DistanceDirection"):
 
 # All of the preview is in process 0, which measures on it alone.
 distance.From = '{"nearest": [[-0.0175, 0.187, -0.02]]}'
-reader.MaximumPointsInMemory = 1000
+reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 10000
 distance.UpdatePipeline()
 shown = t.client_object(distance).GetOutputDataObject(0)
 assert (shown.GetNumberOfPoints() > 0) == (rank == 0), rank

@@ -110,7 +110,7 @@ _, points, normals = check_same(StreamingMeshDeformation(Input=turned), 6.0)
 assert len(points) == 0 or normals is not None
 
 # A preview is deformed in memory, by process 0, as ever.
-reader.MaximumPointsInMemory = 1000
+reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 10000
 deformation.Engine = "Distributed"
 deformation.UpdatePipeline()
 shown = t.client_object(deformation).GetOutputDataObject(0)

@@ -60,7 +60,7 @@ refuse(reader, "Nothing says what to solve")
 refuse(reader, "do not have the same problem",
        Problem=json.dumps({"screening": 1 if rank < ranks - 1 else 2, "source": 1}))
 preview = OpenDataFile(t.BUNNY)
-preview.MaximumPointsInMemory = 0
+preview.MaximumPointsInMemory, preview.PreviewPoints = 0, 10000
 refuse(preview, "is a preview of the mesh", Problem=posed)
 refuse(reader, "no checkpoints", Problem=posed, CheckpointDirectory=t.make_shared_folder())
 

@@ -93,7 +93,7 @@ Delete(condition)
 # Formats that are written by pieces or not at all, so that a preview cannot be mistaken for the
 # mesh.
 folder = t.make_folder()
-reader.MaximumPointsInMemory = 1000
+reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 10000
 calculator = Calculator(Input=reader, Function="coordsX", ResultArrayName="X")
 calculator.UpdatePipeline()
 # Every other writer that ParaView has for it is named in BigMeshWriter.xml.

@@ -19,7 +19,7 @@ reader.UpdatePipeline()
 whole = t.pull(t.client_object(reader), 1)[0]
 points = whole[2].astype(float)
 assert len(points) == t.BUNNY_POINTS and (whole[0] == numpy.arange(len(points))).all()
-reader.MaximumPointsInMemory = 1000
+reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 10000
 reader.PreviewPoints = 2000
 reader.UpdatePipeline()
 

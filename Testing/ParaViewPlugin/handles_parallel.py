@@ -73,7 +73,7 @@ assert len(united(held(handle)[2])) == 1
 controller.Barrier()
 
 # The preview is in process 0, where it is selected.
-reader.MaximumPointsInMemory = 1000
+reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 10000
 handle.Region = "Selection"
 handle.Selection = IDSelectionSource(IDs=[0, 7, 0, 8], FieldType="POINT")
 handle.UpdatePipeline()

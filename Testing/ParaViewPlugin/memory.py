@@ -26,7 +26,7 @@ LoadPlugin(sys.argv[1], ns=globals())
 t.StreamingPoisson = StreamingPoisson
 idle = resident("VmRSS")
 reader = OpenDataFile(container)
-reader.MaximumPointsInMemory = 100000
+reader.MaximumPointsInMemory, reader.PreviewPoints = 100000, 10000
 reader.UpdatePipelineInformation()
 reader.UpdatePipeline()
 bounds = reader.GetDataInformation().GetBounds()

@@ -54,7 +54,7 @@ alone.SetColumn("Light")
 compare("Light")
 
 # All of the preview is in process 0, which smooths it alone.
-reader.MaximumPointsInMemory = 1000
+reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 10000
 smoothing.UpdatePipeline()
 shown = t.client_object(smoothing).GetOutputDataObject(0)
 assert (shown.GetNumberOfPoints() > 0) == (rank == 0), rank

@@ -13,7 +13,7 @@ t.StreamingPoisson = StreamingPoisson
 
 folder = t.make_folder()
 reader = OpenDataFile(t.BUNNY)
-reader.MaximumPointsInMemory = 1000
+reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 10000
 stream = os.path.join(folder, "again.smb")
 SaveData(stream, proxy=reader, NumberOfPieces=9)
 assert filecmp.cmp(stream, t.BUNNY, shallow=False)
@@ -58,7 +58,7 @@ for name in ("whole.ply", "whole.vtp", "whole.vtkhdf", "whole.pvtp"):
         assert name.endswith("ply") or array in whole.PointData.keys(), whole.PointData.keys()
         Delete(whole)
 # A preview that the user requested is saved as a preview.
-preview = StreamingMeshPreview(Input=calculator)
+preview = StreamingMeshPreview(Input=calculator, PreviewPoints=10000)
 SaveData(os.path.join(folder, "preview.stl"), proxy=preview)
 shown = OpenDataFile(os.path.join(folder, "preview.stl"))
 shown.UpdatePipeline()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vtk/VtkCell.h"
 
+#include "IO/Formats/Vtk/VtkCellParts.h"
+
 #include <array>
 #include <cstddef>
 #include <string>
@@ -98,6 +100,12 @@ const TypeOfCell& typeOf(int type)
 bool isPointOrLine(int type)
 {
   return typeOf(type).shape == Shape::PointOrLine;
+}
+
+bool isSolidOfVtk(int type)
+{
+  const Shape shape = typeOf(type).shape;
+  return shape == Shape::Tetrahedron || shape == Shape::Voxel || shape == Shape::Solid;
 }
 
 void takeVtkCell(int type, std::span<const std::int64_t> points, RawMeshBuilder& builder)

@@ -15,7 +15,7 @@ namespace smg
 {
 
 /** Default limit of the number of points of a preview. */
-inline constexpr std::int64_t DefaultPreviewPoints = 10000;
+inline constexpr std::int64_t DefaultPreviewPoints = 100000;
 /** The smallest limit that may be given. */
 inline constexpr std::int64_t LeastPreviewPoints = 8;
 /** The largest limit that may be given. */

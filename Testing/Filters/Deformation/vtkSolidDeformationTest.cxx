@@ -69,6 +69,7 @@ protected:
     EXPECT_TRUE(updatePiece(this->Deformation, 0, 1));
     const Eigen::Matrix3Xd full = pointsOf(*this->output());
     this->Reader->SetMaximumPointsInMemory(100);
+    this->Reader->SetPreviewPoints(10000);
     EXPECT_TRUE(updatePiece(this->Deformation, 0, 1));
     vtkDataArray* ids = this->output()->GetPointData()->GetGlobalIds();
     const Eigen::Matrix3Xd preview = pointsOf(*this->output());

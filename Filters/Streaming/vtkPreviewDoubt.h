@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+class vtkPointSet;
+
+namespace smg
+{
+
+/**
+ * How far the values on a preview may be off, measured: by those on a coarser preview, a quarter of
+ * its points. The error of linear elements falls at least like the length of the edges, so that of
+ * the preview is about the difference between both or less (Richardson's extrapolation).
+ */
+class PreviewDoubt
+{
+public:
+  /** Solves on a mesh: fills the values at its points, and returns how many a point has. Throws
+   * Error. */
+  using Solve = std::function<int(vtkPointSet& mesh, std::vector<double>& values)>;
+
+  /** Solves on a coarser preview of a preview that is a surface. It knows nothing if that fails or
+   * the preview is too small. Throws Cancelled. */
+  PreviewDoubt(vtkPointSet& preview, const Solve& solve);
+
+  /** Says it of the values at the points of the preview, `columns` each, the first `compared` of
+   * which count as a vector; "" if nothing is known. */
+  std::string of(const std::vector<double>& values, int columns, int compared) const;
+
+private:
+  std::vector<std::int64_t> Points; ///< of the preview that the coarser one has
+  std::vector<double> Values;       ///< on the coarser one
+  int Columns = 0;
+};
+
+} // namespace smg

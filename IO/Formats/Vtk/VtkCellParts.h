@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "smg/Export.h"
+#include "smg/MeshSource.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+namespace smg
+{
+
+/** The triangles or tetrahedra of cells of VTK, as a conversion cuts them. */
+struct VtkCellParts
+{
+  CellType type = CellType::Triangle;
+  std::vector<std::int64_t> corners; ///< cornersOf(type) a part
+  std::vector<std::int64_t> cellOf;  ///< the cell of each part
+};
+
+/** Returns the type of a cell of VTK, and its points. */
+using VtkCellAt = std::function<int(std::int64_t cell, std::vector<std::int64_t>& points)>;
+
+/**
+ * Cuts cells in memory: into tetrahedra if there are solid ones, which leaves surfaces out, else
+ * into triangles. Points and lines have no parts.
+ * @param points number of points
+ * @param cells number of cells
+ * @param at the cells
+ * @param scratch folder for scratch files; empty: the system's temporary folder
+ * @throws Error if a cell is of a type that is not supported, or there are no parts
+ */
+SMG_EXPORT VtkCellParts cutVtkCells(std::int64_t points, std::int64_t cells, const VtkCellAt& at,
+  const std::filesystem::path& scratch);
+
+/** Whether a type of VTK is a solid. */
+SMG_EXPORT bool isSolidOfVtk(int type);
+
+} // namespace smg

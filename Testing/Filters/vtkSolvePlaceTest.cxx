@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkStreamingDistance.h"
+#include "Filters/vtkStreamingMeshSmoothing.h"
+#include "Testing/Filters/vtkHandleTesting.h"
+#include "Testing/Filters/vtkPoissonFixture.h"
+
+#include "vtkPassThrough.h"
+#include "vtkStringArray.h"
+#include "vtkTable.h"
+
+#include <string>
+
+// Where a solve happens, and how that is told: what is shown is what was computed.
+
+namespace smg::testing
+{
+namespace
+{
+
+class VtkSolvePlace : public VtkStreamingPoisson
+{
+protected:
+  std::string text()
+  {
+    auto* table =
+      vtkTable::SafeDownCast(this->Poisson->GetOutputDataObject(vtkStreamingSolver::TEXT));
+    EXPECT_EQ(table->GetNumberOfRows(), 1);
+    return vtkStringArray::SafeDownCast(table->GetColumn(0))->GetValue(0);
+  }
+
+  void showPreview(int points)
+  {
+    this->Reader->SetMaximumPointsInMemory(100);
+    this->Reader->SetPreviewPoints(points);
+  }
+
+  /** Whether a text is the beginning of the outcome. */
+  bool outcomeBegins(const std::string& words)
+  {
+    return std::string(this->Poisson->GetOutcome()).starts_with(words);
+  }
+};
+
+} // namespace
+
+TEST_F(VtkSolvePlace, AShortSolveIsThatOfTheFullMeshAndSaysSo)
+{
+  const PieceUnion whole = this->collectPieces(1);
+  EXPECT_EQ(this->text(), ""); // all of the mesh is shown
+  EXPECT_TRUE(this->outcomeBegins("Converged")) << this->Poisson->GetOutcome();
+  this->showPreview(600);
+  ASSERT_TRUE(updatePiece(this->Poisson, 0, 1));
+  EXPECT_TRUE(this->outcomeBegins(this->text() + " Converged")) << this->Poisson->GetOutcome();
+  EXPECT_EQ(this->text(), "On the full mesh of 1,800 points.");
+  vtkPointSet* preview = this->output();
+  ASSERT_LE(preview->GetNumberOfPoints(), 600);
+  for (vtkIdType i = 0; i < preview->GetNumberOfPoints(); ++i)
+  {
+    const auto id =
+      static_cast<std::int64_t>(preview->GetPointData()->GetGlobalIds()->GetTuple1(i));
+    EXPECT_EQ(
+      preview->GetPointData()->GetArray("Solution")->GetComponent(i, 0), whole.values.at(id)[0]);
+  }
+}
+
+TEST_F(VtkSolvePlace, APreviewSaysHowFarItMayBeOff)
+{
+  const PieceUnion whole = this->collectPieces(1);
+  this->showPreview(1200);
+  this->Poisson->SetSolve(vtkStreamingSolver::ON_PREVIEW);
+  ASSERT_TRUE(updatePiece(this->Poisson, 0, 1));
+  const std::string text = this->text();
+  EXPECT_TRUE(this->outcomeBegins(text)) << this->Poisson->GetOutcome();
+  double mean = 0.0, most = 0.0;
+  ASSERT_EQ(std::sscanf(text.c_str(),
+              "On the preview only: 1,200 of 1,800 points, off by about %lg in the mean, %lg",
+              &mean, &most),
+    2)
+    << text;
+  EXPECT_LT(mean, most);
+  vtkPointSet* preview = this->output();
+  double sum = 0.0;
+  for (vtkIdType i = 0; i < preview->GetNumberOfPoints(); ++i)
+  {
+    const auto id =
+      static_cast<std::int64_t>(preview->GetPointData()->GetGlobalIds()->GetTuple1(i));
+    double squares = 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      const double off = preview->GetPointData()->GetArray("Solution")->GetComponent(i, k) -
+                         whole.values.at(id)[static_cast<std::size_t>(k)];
+      squares += off * off;
+    }
+    sum += std::sqrt(squares);
+  }
+  const double truth = sum / static_cast<double>(preview->GetNumberOfPoints());
+  EXPECT_LT(truth, 2.0 * mean);
+  EXPECT_GT(truth, 0.05 * mean);
+  // What is saved is that of the mesh.
+  ASSERT_TRUE(streamPiece(this->Poisson, 0, 1));
+  EXPECT_EQ(this->text(), "On the full mesh of 1,800 points.");
+}
+
+TEST_F(VtkSolvePlace, ThePassesAreATable)
+{
+  ASSERT_TRUE(updatePiece(this->Poisson, 0, 1));
+  auto* table =
+    vtkTable::SafeDownCast(this->Poisson->GetOutputDataObject(vtkStreamingSolver::PASSES));
+  ASSERT_EQ(table->GetNumberOfRows(), this->Poisson->GetPasses());
+  auto* residuals = vtkDataArray::SafeDownCast(table->GetColumnByName("Residual"));
+  EXPECT_EQ(residuals->GetTuple1(0), 1.0);
+  EXPECT_EQ(residuals->GetTuple1(table->GetNumberOfRows() - 1), this->Poisson->GetResidual());
+  this->Poisson->SetTolerance(-1.0);
+  const Errors errors(this->Poisson);
+  updatePiece(this->Poisson, 0, 1);
+  EXPECT_EQ(table->GetNumberOfRows(), 0);
+  EXPECT_EQ(this->text(), "");
+}
+
+/** A filter between the reader and the job makes it pull pieces. */
+TEST_F(VtkSolvePlace, AFileAndItsPiecesGiveTheSameBits)
+{
+  const auto expectSame = [&](vtkStreamingSolver& filter, const char* name)
+  {
+    vtkNew<vtkPassThrough> pieces;
+    pieces->SetInputConnection(this->Reader->GetOutputPort());
+    std::vector<double> values[2];
+    for (const bool isFile : { true, false })
+    {
+      filter.SetInputConnection(isFile ? this->Reader->GetOutputPort() : pieces->GetOutputPort());
+      ASSERT_TRUE(updatePiece(&filter, 0, 1));
+      auto* output = vtkPointSet::SafeDownCast(filter.GetOutputDataObject(0));
+      vtkDataArray* found =
+        name ? output->GetPointData()->GetArray(name) : output->GetPoints()->GetData();
+      for (vtkIdType i = 0; i < found->GetNumberOfValues(); ++i)
+      {
+        values[isFile].push_back(found->GetVariantValue(i).ToDouble());
+      }
+      // The copy of the pieces takes time, the file of the reader none.
+      const bool copies =
+        std::string(filter.GetReport()).find("\"convert\": 0.0,") == std::string::npos;
+      EXPECT_EQ(copies, !isFile) << filter.GetReport();
+    }
+    EXPECT_EQ(values[0], values[1]) << filter.GetClassName();
+  };
+  vtkNew<vtkStreamingPoisson> poisson;
+  poisson->SetProblem(R"({"source": [1], "screening": 1})");
+  expectSame(*poisson, "Solution");
+  vtkNew<vtkStreamingDistance> distance;
+  distance->SetFrom(R"({"vertices": [7]})");
+  expectSame(*distance, "Distance");
+  expectSame(*vtkNew<vtkStreamingMeshSmoothing>(), nullptr);
+}
+
+} // namespace smg::testing
