@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkStreamingMeshSimplification.h"
+
+#include "Filters/Regions/vtkRegionPoints.h"
+#include "Filters/Streaming/vtkInputStamp.h"
+#include "Filters/Streaming/vtkPieceRequest.h"
+#include "Filters/vtkRegionChain.h"
+#include "IO/Files/PartialProgress.h"
+#include "IO/vtkAlgorithmGlue.h"
+#include "IO/vtkMeshPieceData.h"
+#include "IO/vtkOrdinaryMesh.h"
+#include "IO/vtkPieceInput.h"
+#include "IO/vtkPieceStream.h"
+#include "Solver/Storage/ScratchFolder.h"
+#include "smg/Simplify.h"
+#include "smg/VsmReader.h"
+
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+#include <string>
+
+vtkStandardNewMacro(vtkStreamingMeshSimplification);
+
+namespace
+{
+
+/** The share of reading the input in the progress. */
+constexpr double PullShare = 0.5;
+
+std::string sentence(const smg::SimplifyReport& report)
+{
+  std::ostringstream text;
+  text << report.vertices << " points and " << report.cells << " triangles of "
+       << report.vertices_before << " and " << report.cells_before << ", error " << report.error;
+  for (const std::string& note : report.notes)
+  {
+    text << "; " << note;
+  }
+  return text.str();
+}
+
+} // namespace
+
+struct vtkStreamingMeshSimplification::Internals
+{
+  explicit Internals(vtkStreamingMeshSimplification& self)
+    : Self(self)
+  {
+  }
+
+  /** Makes the result unless it exists for this input, whose state is restored. */
+  void make(smg::PieceInput& input, const smg::PieceRequest& request, vtkInformation* inputInfo)
+  {
+    if (this->Result && this->MadeFor == smg::stampOf(this->Self, input, inputInfo))
+    {
+      return;
+    }
+    this->release();
+    try
+    {
+      const char* folder = this->Self.ScratchDirectory;
+      this->Scratch.emplace(folder ? folder : "");
+      const std::filesystem::path result = *this->Scratch / "simplified.vsm";
+      this->Report = smg::simplify(smg::VsmReader(this->fileOf(input)), result,
+        { .vertices = this->Self.NumberOfVertices,
+          .error = this->Self.Error,
+          .memoryLimit = this->memory(),
+          .threads = this->Self.NumberOfThreads,
+          .codec = smg::Codec::Lz4,
+          .scratch = this->Scratch->path(),
+          .progress = smg::partOf(smg::progressOf(this->Self), PullShare, 1.0) });
+      this->Result.emplace(result);
+      this->Outcome = sentence(this->Report);
+    }
+    catch (const std::exception& error)
+    {
+      this->release();
+      this->Outcome = "Failed: " + std::string(error.what());
+      throw;
+    }
+    input.update(request.Piece, request.Pieces, request.IsStreamed);
+    // Requesting pieces may itself have updated modification times of the pipeline.
+    this->MadeFor = smg::stampOf(this->Self, input, inputInfo);
+  }
+
+  std::int64_t memory() const { return std::int64_t(this->Self.MemoryLimit) << 20; }
+
+  void release()
+  {
+    this->Result.reset();
+    this->Scratch.reset();
+    this->Report = {};
+    this->Outcome.clear();
+  }
+
+  /** The mesh as a .vsm file: that of the reader, or a copy in the scratch folder. */
+  std::filesystem::path fileOf(smg::PieceInput& input) const
+  {
+    const std::filesystem::path whole = smg::unchangedFile(this->Self, {});
+    if (!whole.empty())
+    {
+      return whole;
+    }
+    const std::filesystem::path copy = *this->Scratch / "mesh.vsm";
+    const auto progress = smg::partOf(smg::progressOf(this->Self), 0.0, PullShare);
+    vtkPointSet& present = *vtkPointSet::SafeDownCast(input.update(0, 1, false));
+    if (smg::isOrdinaryMesh(present) && !smg::isPreview(present))
+    {
+      smg::ConversionOptions options;
+      options.memoryLimit = std::max(this->memory(), std::int64_t(16) << 20);
+      options.scratch = this->Scratch->path();
+      options.threads = this->Self.NumberOfThreads;
+      options.progress = progress;
+      smg::writeOrdinaryMesh(present, copy, options);
+      return copy;
+    }
+    smg::PieceStream stream(input, { .given = this->Self.NumberOfPieces },
+      { .all = true, .required = {}, .optional = {} });
+    smg::Progress done(progress);
+    smg::writeContainer(stream, copy, true, done);
+    return copy;
+  }
+
+  void deliver(int piece, int pieces, vtkPointSet& output)
+  {
+    const std::int64_t cells = this->Result->info().cells;
+    const auto firstOf = [&](int p)
+    { return static_cast<std::int64_t>(static_cast<__int128>(cells) * p / pieces); };
+    smg::MeshPiece part;
+    this->Result->readPiece(firstOf(piece), firstOf(piece + 1), part);
+    smg::setPiece(output, part, this->Result->info());
+  }
+
+  vtkStreamingMeshSimplification& Self;
+  smg::Failures Failures;
+  std::optional<smg::ScratchFolder> Scratch;
+  std::optional<smg::VsmReader> Result; ///< in the scratch folder
+  smg::SimplifyReport Report;
+  std::string Outcome, Json; ///< storage of the strings that are returned
+  smg::InputStamp MadeFor;
+};
+
+vtkStreamingMeshSimplification::vtkStreamingMeshSimplification()
+  : Internal(new Internals(*this))
+{
+}
+
+vtkStreamingMeshSimplification::~vtkStreamingMeshSimplification()
+{
+  this->SetScratchDirectory(nullptr);
+}
+
+double vtkStreamingMeshSimplification::GetReachedError()
+{
+  return this->Internal->Report.error;
+}
+
+const char* vtkStreamingMeshSimplification::GetOutcome()
+{
+  return this->Internal->Outcome.c_str();
+}
+
+const char* vtkStreamingMeshSimplification::GetReport()
+{
+  this->Internal->Json = this->Internal->Result ? this->Internal->Report.json() : "";
+  return this->Internal->Json.c_str();
+}
+
+int vtkStreamingMeshSimplification::FillInputPortInformation(int, vtkInformation* info)
+{
+  smg::acceptMeshes(*info);
+  return 1;
+}
+
+int vtkStreamingMeshSimplification::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  vtkInformation* output = outputVector->GetInformationObject(0);
+  output->Set(vtkStreamingMeshKeys::PREVIEWED(), 0);
+  output->Remove(vtkStreamingMeshKeys::STREAM_FILE()); // of which no piece follows
+  return smg::offerPieces(*outputVector);
+}
+
+int vtkStreamingMeshSimplification::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  // Pieces are requested with the key later; this request only repeats what the input displays.
+  smg::PieceRequest request(outputVector->GetInformationObject(0));
+  request.IsStreamed = false;
+  request.forwardTo(inputVector[0]->GetInformationObject(0));
+  return 1;
+}
+
+int vtkStreamingMeshSimplification::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  return smg::answer(*this, this->Internal->Failures, inputVector, *outputVector,
+    [&]
+    {
+      smg::PieceRequest request(outputVector->GetInformationObject(0));
+      request.IsStreamed = false;
+      vtkPolyData& output = *vtkPolyData::GetData(outputVector);
+      const bool isParallel = smg::hasSeveralProcesses();
+      if (isParallel && request.Piece > 0)
+      {
+        output.Initialize();
+        return;
+      }
+      smg::PieceInput input(*this, 0);
+      this->Internal->make(input, request, inputVector[0]->GetInformationObject(0));
+      isParallel ? this->Internal->deliver(0, 1, output)
+                 : this->Internal->deliver(request.Piece, request.Pieces, output);
+    });
+}
+
+void vtkStreamingMeshSimplification::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfVertices: " << this->NumberOfVertices << "\n";
+  os << indent << "Error: " << this->Error << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
+  os << indent
+     << "ScratchDirectory: " << (this->ScratchDirectory ? this->ScratchDirectory : "(none)")
+     << "\n";
+  os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "ReachedError: " << this->GetReachedError() << "\n";
+  os << indent << "Outcome: " << this->GetOutcome() << "\n";
+}

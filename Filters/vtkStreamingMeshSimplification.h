@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/**
+ * @class   vtkStreamingMeshSimplification
+ * @brief   Simplifies a very large surface by collapsing edges
+ *
+ * Reads a mesh once, piece by piece and in bounded memory, and collapses edges, those that change
+ * the surface least first, until NumberOfVertices or Error is reached; of a tetrahedral mesh, its
+ * outer surface (see smg::simplify()). Every point of the result is a point of the mesh, with its
+ * point arrays and with `OriginalId`. Bodies, holes and winding stay; the result has no cell
+ * arrays. It is kept in a scratch file until the filter or its input is modified, and delivered as
+ * the pieces of a mesh stream, as those of vtkStreamingMeshReader.
+ *
+ * The input is that of vtkStreamingSolver: pieces, or any vtkPolyData or vtkUnstructuredGrid. With
+ * several processes, process 0 delivers all of the result in its piece.
+ *
+ * @sa vtkStreamingMeshPreview vtkStreamingMeshReader
+ */
+#ifndef vtkStreamingMeshSimplification_h
+#define vtkStreamingMeshSimplification_h
+
+#include "vtkPolyDataAlgorithm.h"
+#include "vtkStreamingMultigridFiltersModule.h" // For export macro
+
+#include <memory> // For std::unique_ptr
+
+class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkStreamingMeshSimplification
+  : public vtkPolyDataAlgorithm
+{
+public:
+  static vtkStreamingMeshSimplification* New();
+  vtkTypeMacro(vtkStreamingMeshSimplification, vtkPolyDataAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /** The most points of the result, at least 4; 0: as many as Error needs. Default: 100,000. */
+  vtkSetClampMacro(NumberOfVertices, vtkIdType, 0, VTK_ID_MAX);
+  vtkGetMacro(NumberOfVertices, vtkIdType);
+  ///@}
+
+  ///@{
+  /** The largest error, in the unit of the mesh: see smg::SimplifyOptions. 0 (default): what
+   * NumberOfVertices needs. With both, what comes first ends the simplification. */
+  vtkSetMacro(Error, double);
+  vtkGetMacro(Error, double);
+  ///@}
+
+  ///@{
+  /** The memory limit in MiB, at least 16. Default: 256. The result depends on it. */
+  vtkSetClampMacro(MemoryLimit, int, 1, VTK_INT_MAX);
+  vtkGetMacro(MemoryLimit, int);
+  ///@}
+
+  ///@{
+  /** The folder for scratch files. Default: none (the system's folder for temporary files). */
+  vtkSetFilePathMacro(ScratchDirectory);
+  vtkGetFilePathMacro(ScratchDirectory);
+  ///@}
+
+  ///@{
+  /** The number of pieces in which the input is requested, 0 to 1,000,000. Default: 0 (at least 64,
+   * and pieces of at most 64 MiB). */
+  vtkSetClampMacro(NumberOfPieces, int, 0, 1000000);
+  vtkGetMacro(NumberOfPieces, int);
+  ///@}
+
+  ///@{
+  /** Compute threads; 0 (default): one per core. The result does not depend on it. */
+  vtkSetClampMacro(NumberOfThreads, int, 0, 4096);
+  vtkGetMacro(NumberOfThreads, int);
+  ///@}
+
+  ///@{
+  /** Of the last result: the largest error, what was done in one line or why it failed, and the
+   * report as JSON; "" before. */
+  double GetReachedError();
+  const char* GetOutcome();
+  const char* GetReport();
+  ///@}
+
+protected:
+  vtkStreamingMeshSimplification();
+  ~vtkStreamingMeshSimplification() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestUpdateExtent(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+  int RequestData(vtkInformation* request, vtkInformationVector** inputVector,
+    vtkInformationVector* outputVector) override;
+
+private:
+  vtkStreamingMeshSimplification(const vtkStreamingMeshSimplification&) = delete;
+  void operator=(const vtkStreamingMeshSimplification&) = delete;
+
+  struct Internals;
+
+  vtkIdType NumberOfVertices = 100000;
+  double Error = 0.0;
+  int MemoryLimit = 256;
+  char* ScratchDirectory = nullptr;
+  int NumberOfPieces = 0;
+  int NumberOfThreads = 0;
+
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif
