@@ -3,18 +3,14 @@
 
 #include "Filters/Conditions/ConditionText.h"
 #include "Filters/Conditions/vtkConditionList.h"
-#include "Filters/Mesh/vtkNamedArray.h"
 #include "Filters/Regions/vtkHeldPoints.h"
-#include "smg/Error.h"
 
-#include "vtkNew.h"
+#include "vtkDataArray.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkUnsignedCharArray.h"
 
-#include <algorithm>
-#include <string>
+#include <cstddef>
 #include <vector>
 
 vtkStandardNewMacro(vtkMeshCondition);
@@ -65,20 +61,7 @@ vtkMeshCondition::vtkMeshCondition()
 {
 }
 
-vtkMeshCondition::~vtkMeshCondition()
-{
-  this->SetTagArray(nullptr);
-}
-
-void vtkMeshCondition::SetRegion(int region)
-{
-  const int clamped = std::clamp<int>(region, FUNCTION, EVERYWHERE);
-  if (this->Region != clamped)
-  {
-    this->Region = clamped;
-    this->Modified();
-  }
-}
+vtkMeshCondition::~vtkMeshCondition() = default;
 
 void vtkMeshCondition::AddValue(double value)
 {
@@ -97,12 +80,17 @@ int vtkMeshCondition::GetNumberOfValues()
   return static_cast<int>(this->Internal->Values.size());
 }
 
+bool vtkMeshCondition::IsElsewhere()
+{
+  return this->Region == BOUNDARY || this->Region == MASK || this->Region == TAG ||
+         (this->Region == EVERYWHERE && this->Internal->condition().mayHoldEverywhere());
+}
+
 void vtkMeshCondition::Check()
 {
-  if (this->Region == TAG &&
-      (!this->TagArray || !*this->TagArray || std::string(this->TagArray) == "None"))
+  if (this->Region == MASK || this->Region == TAG)
   {
-    throw smg::Error("The condition has no tag array: choose TagArray, or another Region.");
+    this->RegionArray();
   }
   this->Internal->condition().text();
 }
@@ -113,21 +101,25 @@ void vtkMeshCondition::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, 
   smg::Condition condition = this->Internal->condition();
   if (this->Region == TAG)
   {
-    condition.tagged = this->TagArray;
-    condition.tag = this->Tag;
+    condition.tagged = this->RegionArray();
+    condition.tag = this->GetTag();
   }
-  else if (this->Region != EVERYWHERE || !condition.mayHoldEverywhere())
+  else if (this->Region == MASK)
   {
-    condition.mask = smg::newMaskName(piece);
-    vtkNew<vtkUnsignedCharArray> mask;
-    mask->SetName(condition.mask.c_str());
-    mask->SetNumberOfTuples(piece.GetNumberOfPoints());
-    mask->Fill(this->Region == EVERYWHERE ? 1.0 : 0.0);
+    condition.mask = this->RegionArray();
+  }
+  else if (this->Region == BOUNDARY)
+  {
+    condition.isOnBoundary = true;
+  }
+  else if (!this->IsElsewhere())
+  {
+    condition.mask = smg::addMask(output);
+    vtkDataArray& mask = *output.GetPointData()->GetArray(condition.mask.c_str());
     for (std::size_t i = 0; i < held.by.size(); ++i)
     {
-      mask->SetValue(static_cast<vtkIdType>(i), held.by[i] >= 0 ? 1 : 0);
+      mask.SetTuple1(static_cast<vtkIdType>(i), held.by[i] >= 0 ? 1 : 0);
     }
-    output.GetPointData()->AddArray(mask);
     // Views show the region of the condition.
     output.GetPointData()->SetActiveScalars(condition.mask.c_str());
   }
@@ -137,8 +129,6 @@ void vtkMeshCondition::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, 
 void vtkMeshCondition::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "TagArray: " << (this->TagArray ? this->TagArray : "(none)") << "\n";
-  os << indent << "Tag: " << this->Tag << "\n";
   os << indent << "Condition: " << this->Condition << "\n";
   os << indent << "Value: " << this->Value << "\n";
   os << indent << "NumberOfValues: " << this->GetNumberOfValues() << "\n";

@@ -8,40 +8,33 @@
  * condition, followed by vtkStreamingPoisson, which solves. Of several conditions of one kind at
  * the same place the last one counts; soft ones add up.
  *
- * In addition to the regions of vtkMeshRegion there are TAG, where the point or cell array TagArray
- * has the value Tag, and EVERYWHERE. Cells and boundary facets are in a region if all their corners
- * are; a cell tag applies to these cells, their points and their facets. FLUX and ROBIN apply to
- * boundary facets only: open edges of a surface, faces of one tetrahedron.
+ * vtkRegionFilter describes the regions. Cells and boundary facets are in a region if all their
+ * corners are; a mask or tag of cells applies to these cells, their points and their facets. FLUX
+ * and ROBIN apply to boundary facets only: open edges of a surface, faces of one tetrahedron.
  *
  * The output is the input with the condition in the field array `MeshConditions`, in the JSON of
  * `smg solve --problem`, and the point array `Condition1`, `Condition2` ... (unsigned char, by the
- * position in the chain), which is 1 in the region and the active scalars of the output. This array
- * is absent, and NumberOfHeldPoints is 0, for TAG and for a source, a conductivity or a screening
- * EVERYWHERE. vtkStreamingPoisson removes the conditions and their arrays.
+ * position in the chain), which is 1 in the region and the active scalars of the output. The solver
+ * itself evaluates BOUNDARY, MASK, TAG, and a source, a conductivity or a screening EVERYWHERE:
+ * then this array is absent, and NumberOfHeldPoints is 0. vtkStreamingPoisson removes the
+ * conditions and their arrays.
  *
- * @sa vtkMeshRegion vtkStreamingPoisson
+ * @sa vtkRegionFilter vtkStreamingPoisson
  */
 #ifndef vtkMeshCondition_h
 #define vtkMeshCondition_h
 
-#include "vtkMeshRegion.h"
+#include "vtkRegionFilter.h"
 #include "vtkStreamingMultigridFiltersModule.h" // For export macro
 
 #include <memory> // For std::unique_ptr
 
-class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkMeshCondition : public vtkMeshRegion
+class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkMeshCondition : public vtkRegionFilter
 {
 public:
   static vtkMeshCondition* New();
-  vtkTypeMacro(vtkMeshCondition, vtkMeshRegion);
+  vtkTypeMacro(vtkMeshCondition, vtkRegionFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  /** Types of regions in addition to RegionTypes. */
-  enum MoreRegionTypes
-  {
-    TAG = 4,
-    EVERYWHERE = 5
-  };
 
   /** Types of conditions; u is the solution, n the outward normal. */
   enum ConditionTypes
@@ -54,17 +47,6 @@ public:
     SCREENING = 5,    ///< s = Value, at least 0
     SOFT = 6          ///< adds Coefficient * (u - Value), a density, to the equations
   };
-
-  /** The type of the region: a RegionTypes, TAG or EVERYWHERE. Default: FUNCTION. */
-  void SetRegion(int region) override;
-
-  ///@{
-  /** The name of the point or cell array of TAG, and its value in the region. Default: none, 0. */
-  vtkSetStringMacro(TagArray);
-  vtkGetStringMacro(TagArray);
-  vtkSetMacro(Tag, double);
-  vtkGetMacro(Tag, double);
-  ///@}
 
   ///@{
   /** The type of the condition. Default: DIRICHLET. */
@@ -104,7 +86,7 @@ protected:
   ~vtkMeshCondition() override;
 
   void Check() override;
-  bool IsElsewhere() override { return this->Region == TAG || this->Region == EVERYWHERE; }
+  bool IsElsewhere() override;
   void Deliver(vtkPointSet& piece, const smg::HeldPoints& held, vtkPointSet& output) override;
 
 private:
@@ -113,8 +95,6 @@ private:
 
   struct Internals;
 
-  char* TagArray = nullptr;
-  double Tag = 0.0;
   int Condition = DIRICHLET;
   double Value = 0.0;
   bool ValueIsPosition = false;

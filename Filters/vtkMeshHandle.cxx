@@ -54,7 +54,7 @@ struct vtkMeshHandle::Internals
   smg::HandleTargets targets() const
   {
     smg::HandleTargets targets{ this->motion(), {} };
-    if (this->Self.Region != FUNCTION)
+    if (this->Self.Region == SELECTION || this->Self.Region == IDS || this->Self.Region == POINTS)
     {
       targets.ofHolders = this->Targets;
     }

@@ -10,29 +10,29 @@
  * handle: if several hold a point, the last one counts.
  *
  * Motion selects how the region moves: not at all (FIXED), by rotation and scale about Center
- * followed by Translation (SIMILARITY), or by a Transform (TRANSFORM). Regions other than FUNCTION
- * may have PointTargets, the target positions of their points; the motion then defines only
+ * followed by Translation (SIMILARITY), or by a Transform (TRANSFORM). A SELECTION, IDS and
+ * POINTS may have PointTargets, the target positions of their points; the motion then defines only
  * rotation and scale.
  *
- * vtkMeshRegion describes the regions and how they are found on a mesh of any size.
+ * vtkRegionFilter describes the regions and how they are found on a mesh of any size.
  *
- * @sa vtkMeshRegion vtkStreamingMeshDeformation vtkStreamingMeshReader
+ * @sa vtkRegionFilter vtkStreamingMeshDeformation vtkStreamingMeshReader
  */
 #ifndef vtkMeshHandle_h
 #define vtkMeshHandle_h
 
-#include "vtkMeshRegion.h"
+#include "vtkRegionFilter.h"
 #include "vtkStreamingMultigridFiltersModule.h" // For export macro
 
 #include <memory> // For std::unique_ptr
 
 class vtkLinearTransform;
 
-class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkMeshHandle : public vtkMeshRegion
+class VTKSTREAMINGMULTIGRIDFILTERS_EXPORT vtkMeshHandle : public vtkRegionFilter
 {
 public:
   static vtkMeshHandle* New();
-  vtkTypeMacro(vtkMeshHandle, vtkMeshRegion);
+  vtkTypeMacro(vtkMeshHandle, vtkRegionFilter);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   /** The motions of the held points. */

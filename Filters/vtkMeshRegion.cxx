@@ -1,280 +1,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkMeshRegion.h"
 
-#include "Filters/Regions/vtkFunctionRegion.h"
-#include "Filters/Regions/vtkHeldCount.h"
-#include "Filters/Regions/vtkPointRegion.h"
-#include "Filters/Regions/vtkRegionPoints.h"
-#include "Filters/Regions/vtkSelectedPoints.h"
-#include "Filters/Streaming/vtkPieceRequest.h"
-#include "Filters/Streaming/vtkWarnOnce.h"
-#include "Filters/vtkRegionChain.h"
-#include "IO/vtkAlgorithmGlue.h"
-#include "IO/vtkMeshPieceData.h"
-#include "IO/vtkPieceInput.h"
+#include "Filters/Regions/vtkHeldPoints.h"
+#include "Filters/Regions/vtkRegionArrays.h"
 #include "smg/Error.h"
 
-#include "vtkImplicitFunction.h"
-#include "vtkInformation.h"
-#include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
+#include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkSelection.h"
 
-#include <algorithm>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
-vtkCxxSetObjectMacro(vtkMeshRegion, RegionFunction, vtkImplicitFunction);
-
-struct vtkMeshRegion::Internals
-{
-  explicit Internals(vtkMeshRegion& self)
-    : Self(self)
-    , FarPoints(self)
-    , NoPoint(self)
-  {
-  }
-
-  smg::PointRegionSettings regionSettings(vtkSelection* selection) const
-  {
-    using Kind = smg::PointRegionSettings::Kind;
-    smg::PointRegionSettings settings;
-    settings.kind = this->Self.Region == SELECTION ? Kind::Selection
-                    : this->Self.Region == IDS     ? Kind::Ids
-                                                   : Kind::Points;
-    settings.ids = this->Ids;
-    settings.areOriginalIds = this->Self.IdType == ORIGINAL_IDS;
-    settings.points = this->Points;
-    settings.radius = this->Self.Radius;
-    settings.rings = this->Self.Rings;
-    settings.pieces = this->Self.NumberOfPieces;
-    if (settings.kind == Kind::Selection && selection)
-    {
-      // GlobalIds refer to points of the mesh, also if a preview is displayed.
-      if (std::optional<std::vector<std::int64_t>> ids = smg::selectedGlobalIds(*selection))
-      {
-        settings.kind = Kind::Ids;
-        settings.ids = std::move(*ids);
-        settings.areOriginalIds = false;
-      }
-    }
-    return settings;
-  }
-
-  /** Updates the input to the requested piece and determines its held points. */
-  vtkPointSet& bring(smg::PieceInput& input, const smg::PieceRequest& request,
-    vtkInformationVector** inputVector, smg::HeldPoints& held)
-  {
-    if (this->Self.IsElsewhere())
-    {
-      return *vtkPointSet::SafeDownCast(
-        input.update(request.Piece, request.Pieces, request.IsStreamed));
-    }
-    if (this->Self.Region == FUNCTION)
-    {
-      auto* piece =
-        vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, request.IsStreamed));
-      held = smg::heldByFunction(this->Self.RegionFunction, this->Self.InsideOut, *piece);
-      return *piece;
-    }
-    vtkSelection* selection = vtkSelection::GetData(inputVector[1]);
-    if (this->Region.set(this->regionSettings(selection)))
-    {
-      this->FarPoints.forget();
-    }
-    // Points are searched upstream of the other handles, so that their motion has no effect.
-    const bool needsArrays = selection && smg::isByValue(*selection);
-    smg::PieceInput mesh(needsArrays ? this->Self : smg::firstOfChain(this->Self), 0);
-    const auto stamp = [&mesh, selection, info = inputVector[0]->GetInformationObject(0)]
-    {
-      return smg::InputStamp{ selection ? selection->GetMTime() : 0, mesh.modifiedTime(),
-        smg::timeOf(info) };
-    };
-    smg::Progress progress(smg::progressOf(this->Self));
-    const auto warn = [this](const std::string& sentence) { this->FarPoints.warn(sentence); };
-    return this->Region.bring(request, { input, mesh, selection, stamp, progress, warn }, held);
-  }
-
-  /** Counts the held points; at the end of the mesh, all requested points must have been found. */
-  void count(vtkPointSet& piece, const smg::HeldPoints& held, const smg::PieceRequest& request)
-  {
-    const bool isWhole = this->Count.add(piece, held, request);
-    if (!isWhole)
-    {
-      return;
-    }
-    if (this->Count.allPoints() == 0)
-    {
-      throw smg::Error("The input has no points, so that the region has nothing to hold: look at "
-                       "what the filter before it delivers.");
-    }
-    if (smg::isPreview(piece))
-    {
-      if (this->Count.points() == 0)
-      {
-        this->NoPoint.warn(
-          "No point of the preview lies in the region, though points of the mesh may.");
-      }
-      else
-      {
-        this->NoPoint.forget();
-      }
-      return;
-    }
-    if (this->Self.Region != FUNCTION)
-    {
-      this->Region.checkHolders(this->Count.isHolding());
-    }
-    if (this->Count.points() == 0)
-    {
-      throw smg::Error("The region holds nothing: no point of the mesh lies in it.");
-    }
-  }
-
-  vtkMeshRegion& Self;
-  smg::Failures Failures;
-  std::vector<std::int64_t> Ids;
-  std::vector<double> Points;
-  smg::PointRegion Region;
-
-  smg::HeldCount Count;
-  smg::WarnOnce FarPoints, NoPoint;
-};
+vtkStandardNewMacro(vtkMeshRegion);
 
 vtkMeshRegion::vtkMeshRegion()
-  : Internal(new Internals(*this))
 {
-  this->SetNumberOfInputPorts(2);
+  this->SetRegionName("Region");
 }
 
 vtkMeshRegion::~vtkMeshRegion()
 {
-  this->SetRegionFunction(nullptr);
+  this->SetRegionName(nullptr);
 }
 
-void vtkMeshRegion::SetSelectionConnection(vtkAlgorithmOutput* selection)
+void vtkMeshRegion::Check()
 {
-  this->SetInputConnection(1, selection);
-}
-
-void vtkMeshRegion::AddId(vtkIdType id)
-{
-  this->Internal->Ids.push_back(id);
-  this->Modified();
-}
-
-void vtkMeshRegion::RemoveAllIds()
-{
-  this->Internal->Ids.clear();
-  this->Modified();
-}
-
-vtkIdType vtkMeshRegion::GetNumberOfIds()
-{
-  return static_cast<vtkIdType>(this->Internal->Ids.size());
-}
-
-vtkIdType vtkMeshRegion::GetId(vtkIdType i)
-{
-  return i >= 0 && i < this->GetNumberOfIds() ? this->Internal->Ids[i] : -1;
-}
-
-void vtkMeshRegion::AddPoint(double x, double y, double z)
-{
-  this->Internal->Points.insert(this->Internal->Points.end(), { x, y, z });
-  this->Modified();
-}
-
-void vtkMeshRegion::RemoveAllPoints()
-{
-  this->Internal->Points.clear();
-  this->Modified();
-}
-
-vtkIdType vtkMeshRegion::GetNumberOfPoints()
-{
-  return static_cast<vtkIdType>(this->Internal->Points.size() / 3);
-}
-
-vtkMTimeType vtkMeshRegion::GetMTime()
-{
-  const vtkMTimeType time = this->Superclass::GetMTime();
-  return this->RegionFunction ? std::max(time, this->RegionFunction->GetMTime()) : time;
-}
-
-int vtkMeshRegion::FillInputPortInformation(int port, vtkInformation* info)
-{
-  if (port == 1)
+  if (!this->RegionName || !*this->RegionName)
   {
-    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
-    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
-    return 1;
+    throw smg::Error("The region has no name: set RegionName, the name of its array.");
   }
-  smg::acceptMeshes(*info);
-  return 1;
 }
 
-int vtkMeshRegion::RequestInformation(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+void vtkMeshRegion::Deliver(vtkPointSet& piece, const smg::HeldPoints& held, vtkPointSet& output)
 {
-  return smg::offerPieces(*outputVector);
-}
-
-int vtkMeshRegion::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  smg::PieceRequest request(outputVector->GetInformationObject(0));
-  request.forwardTo(inputVector[0]->GetInformationObject(0));
-  if (inputVector[1]->GetNumberOfInformationObjects() > 0)
-  {
-    // A displayed selection refers to the data of each process, any other to the whole mesh.
-    if (request.IsStreamed || !smg::hasSeveralProcesses())
-    {
-      request.Piece = 0;
-      request.Pieces = 1;
-    }
-    request.IsStreamed = false;
-    request.forwardTo(inputVector[1]->GetInformationObject(0));
-  }
-  return 1;
-}
-
-int vtkMeshRegion::RequestData(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
-{
-  this->NumberOfHeldPoints = 0;
-  return smg::answer(*this, this->Internal->Failures, inputVector, *outputVector,
-    [&]
-    {
-      const smg::PieceRequest request(outputVector->GetInformationObject(0));
-      this->Check();
-      smg::PieceInput input(*this, 0);
-      smg::HeldPoints held;
-      vtkPointSet& piece = this->Internal->bring(input, request, inputVector, held);
-      const bool holds = !this->IsElsewhere();
-      if (holds)
-      {
-        this->Internal->count(piece, held, request);
-      }
-      this->Deliver(piece, held, *vtkPointSet::GetData(outputVector));
-      this->NumberOfHeldPoints = holds ? static_cast<vtkIdType>(this->Internal->Count.points()) : 0;
-    });
+  output.ShallowCopy(&piece);
+  smg::addToRegion(output, this->RegionName, held);
+  // Views show the region.
+  output.GetPointData()->SetActiveScalars(this->RegionName);
 }
 
 void vtkMeshRegion::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Region: " << this->Region << "\n";
-  os << indent << "RegionFunction: " << this->RegionFunction << "\n";
-  os << indent << "InsideOut: " << this->InsideOut << "\n";
-  os << indent << "IdType: " << this->IdType << "\n";
-  os << indent << "NumberOfIds: " << this->GetNumberOfIds() << "\n";
-  os << indent << "NumberOfPoints: " << this->GetNumberOfPoints() << "\n";
-  os << indent << "Radius: " << this->Radius << "\n";
-  os << indent << "Rings: " << this->Rings << "\n";
-  os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
-  os << indent << "NumberOfHeldPoints: " << this->NumberOfHeldPoints << "\n";
+  os << indent << "RegionName: " << (this->RegionName ? this->RegionName : "(none)") << "\n";
 }

@@ -2,7 +2,7 @@
 #include "Filters/vtkRegionChain.h"
 
 #include "Filters/vtkMeshCondition.h"
-#include "Filters/vtkMeshRegion.h"
+#include "Filters/vtkRegionFilter.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "IO/vtkStreamingMeshReader.h"
 
@@ -33,10 +33,10 @@ vtkAlgorithm* before(vtkAlgorithm& filter)
 
 } // namespace
 
-vtkAlgorithm& firstOfChain(vtkMeshRegion& region)
+vtkAlgorithm& firstOfChain(vtkRegionFilter& region)
 {
   vtkAlgorithm* first = &region;
-  while (vtkAlgorithm* next = vtkMeshRegion::SafeDownCast(before(*first)))
+  while (vtkAlgorithm* next = vtkRegionFilter::SafeDownCast(before(*first)))
   {
     first = next;
   }

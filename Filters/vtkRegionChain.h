@@ -6,13 +6,14 @@
 #include <string>
 
 class vtkAlgorithm;
-class vtkMeshRegion;
+class vtkRegionFilter;
 
 namespace smg
 {
 
-/** The first of the regions, one after the other, of which this is the last. */
-vtkAlgorithm& firstOfChain(vtkMeshRegion& region);
+/** The first of a chain of regions that ends at `region`. Its input has the points of the whole
+ * chain, without the arrays that the regions add. */
+vtkAlgorithm& firstOfChain(vtkRegionFilter& region);
 
 /**
  * The .vsm file of the reader before a filter, if its pieces reach the filter unchanged and have

@@ -2,6 +2,7 @@
 #include "Filters/vtkStreamingDistance.h"
 
 #include "Filters/Distance/vtkDistanceTask.h"
+#include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Streaming/SolveSummary.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceColumns.h"
@@ -15,7 +16,9 @@
 #include "vtkPointSet.h"
 #include "vtkSmartPointer.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -45,13 +48,15 @@ std::unique_ptr<smg::DistanceTask> vtkStreamingDistance::DescribedTask(vtkPointS
   task->description.wall = this->Wall;
   task->description.source = this->Source;
   task->description.direction = this->Direction;
+  std::vector<smg::Where>& from = task->description.from;
+  from = smg::regionsOf(input);
   if (this->From && *this->From)
   {
-    task->description.from = smg::readPlacesText(this->From, "From");
+    std::ranges::move(smg::readPlacesText(this->From, "From"), std::back_inserter(from));
   }
-  else if (!this->Wall && input.GetPointData()->HasArray(smg::HandleMaskName))
+  if (from.empty() && !this->Wall && input.GetPointData()->HasArray(smg::HandleMaskName))
   {
-    task->description.from.emplace_back(smg::ColumnMask{ smg::HandleMaskName });
+    from.emplace_back(smg::ColumnMask{ smg::HandleMaskName });
   }
   return task;
 }

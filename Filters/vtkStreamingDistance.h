@@ -13,9 +13,11 @@
  * - For other requests, if the input is a preview and Solve says so, the distances of the preview
  * are computed in memory.
  *
+ * The sources are the regions that vtkMeshRegion has marked, and From.
+ *
  * Weights, Operators, Sweeps, Tolerance and MaximumCycles have no effect.
  *
- * @sa vtkStreamingSolver vtkStreamingPoisson vtkStreamingMeshReader
+ * @sa vtkStreamingSolver vtkMeshRegion vtkStreamingPoisson vtkStreamingMeshReader
  */
 #ifndef vtkStreamingDistance_h
 #define vtkStreamingDistance_h
@@ -37,8 +39,9 @@ public:
 
   ///@{
   /** Where the distance is 0: WHERE of a problem file in JSON, or a list of these, for example
-   * {"vertices": [5]}. Columns are arrays of the input. None (default): what is held by
-   * vtkMeshHandle, {"mask": "HandleMask"}. With Wall, the wall; none: the whole boundary. */
+   * {"vertices": [5]}, in addition to the regions of vtkMeshRegion before this filter. Columns are
+   * arrays of the input. Default: none. Without any region, that is what vtkMeshHandle holds,
+   * {"mask": "HandleMask"}. With Wall, the wall; without any region the whole boundary. */
   vtkSetStringMacro(From);
   vtkGetStringMacro(From);
   ///@}

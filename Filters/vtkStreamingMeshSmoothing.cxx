@@ -3,6 +3,7 @@
 
 #include "Filters/Deformation/vtkMovedPiece.h"
 #include "Filters/Mesh/vtkReplacedArray.h"
+#include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Smoothing/vtkSmoothingTask.h"
 #include "Filters/Streaming/SolveSummary.h"
 #include "IO/vtkMeshPieceData.h"
@@ -14,6 +15,8 @@
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 
 vtkStandardNewMacro(vtkStreamingMeshSmoothing);
@@ -32,7 +35,7 @@ struct vtkStreamingMeshSmoothing::Internals
     return name == "None" ? "" : name;
   }
 
-  smg::SmoothingOptions options() const
+  smg::SmoothingOptions options(vtkPointSet& input) const
   {
     smg::SmoothingOptions options;
     this->Self.FillOptions(options);
@@ -49,9 +52,11 @@ struct vtkStreamingMeshSmoothing::Internals
     {
       options.boundary = static_cast<smg::SmoothedBoundary>(this->Self.Boundary - SMOOTH);
     }
+    options.hold = smg::regionsOf(input);
     if (this->Self.Hold && *this->Self.Hold)
     {
-      options.hold = smg::readPlacesText(this->Self.Hold, "Hold");
+      std::ranges::move(
+        smg::readPlacesText(this->Self.Hold, "Hold"), std::back_inserter(options.hold));
     }
     return options;
   }
@@ -59,7 +64,7 @@ struct vtkStreamingMeshSmoothing::Internals
   std::unique_ptr<smg::SmoothingTask> task(vtkPointSet& input) const
   {
     auto task = std::make_unique<smg::SmoothingTask>();
-    task->options = this->options();
+    task->options = this->options(input);
     task->needsNormals = this->column().empty() && this->Self.Normals == RECOMPUTE &&
                          vtkPolyData::SafeDownCast(&input) &&
                          smg::findNormals(*input.GetPointData());

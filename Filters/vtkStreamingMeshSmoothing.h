@@ -16,9 +16,11 @@
  *   edges are longer than those of the mesh: a size in mean edges refers to those of the mesh, as
  *   far as the numbers of cells tell them.
  *
+ * Regions that vtkMeshRegion has marked do not change, nor what Hold names.
+ *
  * Weights has no effect: the cotangent weights are used.
  *
- * @sa vtkStreamingSolver vtkStreamingMeshDeformation vtkStreamingMeshReader
+ * @sa vtkStreamingSolver vtkMeshRegion vtkStreamingMeshDeformation vtkStreamingMeshReader
  */
 #ifndef vtkStreamingMeshSmoothing_h
 #define vtkStreamingMeshSmoothing_h
@@ -102,8 +104,9 @@ public:
   ///@}
 
   ///@{
-  /** The parts that do not change: WHERE of a problem file in JSON, or a list of these, for example
-   * {"mask": "HandleMask"} after Mesh Handles. Columns are arrays of the input. Default: none. */
+  /** The parts that do not change, in addition to the regions of vtkMeshRegion before this filter:
+   * WHERE of a problem file in JSON, or a list of these, for example {"sphere": [0, 0, 0, 1]}.
+   * Columns are arrays of the input. Default: none. */
   vtkSetStringMacro(Hold);
   vtkGetStringMacro(Hold);
   ///@}

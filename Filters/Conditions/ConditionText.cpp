@@ -54,6 +54,10 @@ std::string Condition::text() const
     requireFinite({ this->tag }, "tag");
     entry["tag"] = { this->tagged, this->tag };
   }
+  else if (this->isOnBoundary)
+  {
+    entry["boundary"] = true;
+  }
   requireFinite(this->values, "value");
   requireFinite({ this->coefficient }, "coefficient");
   const Json value = this->isPosition ? Json("position") : Json(this->values);

@@ -26,11 +26,13 @@ struct Condition
   std::vector<double> values{ 0.0 };
   bool isPosition = false; ///< the values are the coordinates of the vertex instead
   double coefficient = 1.0;
-  /** The name of a point array that is not 0 in the region; or ... */
+  /** The name of a point or cell array that is not 0 in the region; or ... */
   std::string mask;
-  /** ... of a point or cell array that has the value `tag` there. Both empty: everywhere. */
+  /** ... of a point or cell array that has the value `tag` there; or ... */
   std::string tagged;
   double tag = 0.0;
+  /** ... the boundary. None of them: everywhere. */
+  bool isOnBoundary = false;
 
   /** Whether this kind may hold everywhere. */
   bool mayHoldEverywhere() const

@@ -10,25 +10,37 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
 
 namespace smg
 {
 namespace
 {
 
+vtkStringArray* textsOf(vtkPointSet& mesh, const char* name)
+{
+  return vtkStringArray::SafeDownCast(mesh.GetFieldData()->GetAbstractArray(name));
+}
+
 vtkStringArray* conditionsOf(vtkPointSet& mesh)
 {
-  return vtkStringArray::SafeDownCast(mesh.GetFieldData()->GetAbstractArray(MeshConditionsName));
+  return textsOf(mesh, MeshConditionsName);
 }
 
-ProblemDescription conditionAt(vtkPointSet& mesh, int k, const ProblemDescription& defaults)
+/** Appends to a field array, of which other meshes may have the same. */
+void appendText(vtkPointSet& mesh, const char* name, const std::string& text)
 {
-  return readProblemText(conditionsOf(mesh)->GetValue(k),
-    "condition " + std::to_string(k + 1) + " of the input", defaults);
+  vtkNew<vtkStringArray> texts;
+  if (vtkStringArray* before = textsOf(mesh, name))
+  {
+    texts->DeepCopy(before);
+  }
+  texts->SetName(name);
+  texts->InsertNextValue(text);
+  mesh.GetFieldData()->AddArray(texts);
 }
 
-} // namespace
-
+/** An unused name for the point array of another condition. */
 std::string newMaskName(vtkPointSet& mesh)
 {
   for (int number = countConditions(mesh) + 1;; ++number)
@@ -41,27 +53,39 @@ std::string newMaskName(vtkPointSet& mesh)
   }
 }
 
+ProblemDescription conditionAt(vtkPointSet& mesh, int k, const ProblemDescription& defaults)
+{
+  return readProblemText(conditionsOf(mesh)->GetValue(k),
+    "condition " + std::to_string(k + 1) + " of the input", defaults);
+}
+
+} // namespace
+
+std::string addMask(vtkPointSet& mesh)
+{
+  const std::string name = newMaskName(mesh);
+  vtkNew<vtkUnsignedCharArray> mask;
+  mask->SetName(name.c_str());
+  mask->SetNumberOfTuples(mesh.GetNumberOfPoints());
+  mask->Fill(0.0);
+  mesh.GetPointData()->AddArray(mask);
+  appendText(mesh, MeshConditionArraysName, name);
+  return name;
+}
+
 void addCondition(vtkPointSet& mesh, const std::string& text)
 {
-  vtkNew<vtkStringArray> conditions;
-  if (vtkStringArray* before = conditionsOf(mesh))
-  {
-    conditions->DeepCopy(before);
-  }
-  conditions->SetName(MeshConditionsName);
-  conditions->InsertNextValue(text);
-  mesh.GetFieldData()->AddArray(conditions);
+  appendText(mesh, MeshConditionsName, text);
 }
 
 void removeConditions(vtkPointSet& mesh)
 {
-  for (int k = 0; k < countConditions(mesh); ++k)
+  vtkStringArray* masks = textsOf(mesh, MeshConditionArraysName);
+  for (vtkIdType k = 0; masks && k < masks->GetNumberOfValues(); ++k)
   {
-    for (const std::string& mask : namedMasks(conditionAt(mesh, k, {})))
-    {
-      mesh.GetPointData()->RemoveArray(mask.c_str());
-    }
+    mesh.GetPointData()->RemoveArray(masks->GetValue(k).c_str());
   }
+  mesh.GetFieldData()->RemoveArray(MeshConditionArraysName);
   mesh.GetFieldData()->RemoveArray(MeshConditionsName);
 }
 

@@ -14,13 +14,17 @@ namespace smg
  * in the JSON of a problem file (see smg/DescriptionFiles.h). */
 inline constexpr const char* MeshConditionsName = "MeshConditions";
 
-/** An unused name for the point array of another condition, which is not 0 in its region. */
-std::string newMaskName(vtkPointSet& mesh);
+/** The field array of strings with the names of the point arrays that conditions have added. */
+inline constexpr const char* MeshConditionArraysName = "MeshConditionArrays";
+
+/** Adds the point array of another condition, unsigned char and 0, and returns its name, which was
+ * unused. */
+std::string addMask(vtkPointSet& mesh);
 
 /** Appends a condition to those of the mesh. */
 void addCondition(vtkPointSet& mesh, const std::string& text);
 
-/** Removes all conditions and their mask arrays. */
+/** Removes all conditions and the arrays that they have added. */
 void removeConditions(vtkPointSet& mesh);
 
 /** The number of conditions of the mesh. */

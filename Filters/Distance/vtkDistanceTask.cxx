@@ -44,7 +44,7 @@ std::string hintOnPreview()
 {
   return " This is about the preview, which has few vertices of the mesh: Save Data measures on "
          "the "
-         "mesh itself; {\"nearest\": [[x, y, z]]} and Mesh Handles select sources on both.";
+         "mesh itself; {\"nearest\": [[x, y, z]]} and Mesh Regions select sources on both.";
 }
 
 } // namespace
@@ -54,8 +54,8 @@ void DistanceTask::check() const
   if (this->description.from.empty() && !this->description.wall)
   {
     throw Error(
-      "From must say where the distance is 0, for example {\"vertices\": [5]}; or hold points "
-      "with a Mesh Handle before this filter.");
+      "Nothing says where the distance is 0: put a Mesh Region before this filter, or set From, "
+      "for example {\"vertices\": [5]}.");
   }
 }
 

@@ -15,6 +15,7 @@ bool HeldCount::add(vtkPointSet& piece, const HeldPoints& held, const PieceReque
   if (!isNext)
   {
     this->Points = this->AllPoints = 0;
+    this->Bounds.Reset();
     this->IsHolding.clear();
     this->Pieces = request.IsStreamed && request.Piece == 0 ? request.Pieces : 0;
   }
@@ -34,6 +35,7 @@ bool HeldCount::add(vtkPointSet& piece, const HeldPoints& held, const PieceReque
     if (!held.by.empty() && held.by[i] >= 0)
     {
       ++this->Points;
+      this->Bounds.AddPoint(piece.GetPoint(i));
       this->IsHolding[held.by[i]] = 1;
     }
   }

@@ -4,6 +4,8 @@
 #include "Filters/Regions/vtkHeldPoints.h"
 #include "Filters/Streaming/vtkPieceRequest.h"
 
+#include "vtkBoundingBox.h"
+
 #include <cstdint>
 #include <vector>
 
@@ -27,11 +29,14 @@ public:
   std::int64_t points() const { return this->Points; }
   /** The number of all points, held or not. */
   std::int64_t allPoints() const { return this->AllPoints; }
+  /** The bounds of the held points; not valid if there are none. */
+  const vtkBoundingBox& bounds() const { return this->Bounds; }
   /** The holders that hold points among these. */
   const std::vector<char>& isHolding() const { return this->IsHolding; }
 
 private:
   std::int64_t Points = 0, AllPoints = 0;
+  vtkBoundingBox Bounds;
   std::vector<char> IsHolding;
   int Pieces = 0; ///< streamed in order; 0: none
   int NextPiece = 0;

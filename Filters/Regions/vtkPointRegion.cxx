@@ -4,6 +4,7 @@
 #include "Filters/Regions/vtkRegionPoints.h"
 #include "Filters/Regions/vtkSelectedPoints.h"
 #include "IO/vtkMeshPieceData.h"
+#include "IO/vtkOrdinaryMesh.h"
 
 #include "vtkPointSet.h"
 
@@ -49,7 +50,9 @@ vtkPointSet& PointRegion::bring(
   {
     held = {};
   }
-  else if (isPreview || this->isDisplayed(request, context))
+  // A filter that solves looks at a piece first, and then requests all of an ordinary mesh.
+  else if (isPreview || this->isDisplayed(request, context) ||
+           (request.IsStreamed && isOrdinaryMesh(*piece) && !hasSeveralProcesses()))
   {
     std::vector<double> places;
     if (isPreview && this->Asked.kind == PointRegionSettings::Kind::Ids)

@@ -24,6 +24,7 @@ public:
   bool needsPreparing() const override { return !this->Vertices; }
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
   void endPreparing(MeshParts* parts) override;
+  VertexSetFile* preparedVertices() override { return this->Vertices ? &*this->Vertices : nullptr; }
   /** As endPreparing(), but a mesh without a boundary is no error. Returns the number of vertices.
    */
   std::int64_t finish(MeshParts* parts = nullptr);

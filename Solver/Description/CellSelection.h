@@ -30,6 +30,7 @@ public:
   }
   void prepare(const MeshBlock& block, const std::filesystem::path& scratch) override;
   void endPreparing(MeshParts* parts) override;
+  VertexSetFile* preparedVertices() override { return this->Vertices ? &*this->Vertices : nullptr; }
 
   void atCells(const CellRange& cells, std::span<std::uint8_t> selected) const override;
   void atFacets(const CellRange& cells, std::span<std::uint8_t> selected) const override;

@@ -15,6 +15,8 @@
 namespace smg
 {
 
+class VertexSetFile;
+
 /** The entities of the mesh on which a datum is defined. */
 enum class DataPlace
 {
@@ -53,6 +55,9 @@ public:
   /** Throws Error, which names the place in the description, if nothing is selected. `parts`: those
    * of the mesh, if the stream is only one of them; else null. */
   virtual void endPreparing(MeshParts* parts);
+
+  /** The selected vertices, after endPreparing(), if that has determined them; else null. */
+  virtual VertexSetFile* preparedVertices() { return nullptr; }
 
   /** To be called with each block in order, before the methods below. */
   void startBlock(const MeshBlock& block);

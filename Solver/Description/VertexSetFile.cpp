@@ -46,6 +46,7 @@ void VertexSetFile::rewind()
 {
   this->Stream.startPass(false);
   this->Next = 8 * BlockBytes;
+  this->Loaded = -1;
 }
 
 void VertexSetFile::read(std::span<std::uint8_t> selected)
@@ -61,6 +62,18 @@ void VertexSetFile::read(std::span<std::uint8_t> selected)
       std::to_integer<std::uint8_t>(this->Bits[this->Next / 8] >> (this->Next % 8) & std::byte(1));
     ++this->Next;
   }
+}
+
+bool VertexSetFile::contains(std::int64_t vertex)
+{
+  constexpr auto blockVertices = static_cast<std::int64_t>(8 * BlockBytes);
+  if (const std::int64_t block = vertex / blockVertices; block != this->Loaded)
+  {
+    this->Stream.read(block, this->Bits);
+    this->Loaded = block;
+  }
+  const auto bit = static_cast<std::size_t>(vertex % blockVertices);
+  return std::to_integer<bool>(this->Bits[bit / 8] >> (bit % 8) & std::byte(1));
 }
 
 } // namespace smg

@@ -28,6 +28,9 @@ public:
   void rewind();
   /** Reads the values passed to append() for the next vertices. */
   void read(std::span<std::uint8_t> selected);
+  /** Whether the set has a vertex; fast for vertices close to the one before. rewind() must precede
+   * the next read(). */
+  bool contains(std::int64_t vertex);
 
 private:
   static constexpr std::size_t BlockBytes = std::size_t(64) << 10;
@@ -36,6 +39,7 @@ private:
   ScratchStream Stream;
   std::vector<std::byte> Bits; ///< of the current block
   std::size_t Next = 0;        ///< index of the next vertex in it
+  std::int64_t Loaded = -1;    ///< the block that contains() has read
 };
 
 } // namespace smg

@@ -4,6 +4,7 @@
 #include "Solver/Storage/Buffer.h"
 #include "Solver/Storage/Ring.h"
 #include "Solver/Storage/Slots.h"
+#include "smg/Export.h"
 
 #include <cstdint>
 #include <unordered_map>
@@ -14,7 +15,7 @@ namespace smg
 
 /** The facets of the cells so far, stored with their lowest vertex until this is final: facets of
  * only one cell are then boundary facets. Each facet may have a number of the caller. */
-class OpenFacets
+class SMG_EXPORT OpenFacets
 {
 public:
   explicit OpenFacets(Pool& pool)

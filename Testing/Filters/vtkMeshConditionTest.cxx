@@ -117,7 +117,7 @@ TEST_F(VtkMeshCondition, SaysWhatIsWrongInOneSentence)
   };
   expectError("The region has no implicit function");
   condition.SetRegion(vtkMeshCondition::TAG);
-  expectError("The condition has no tag array");
+  expectError("The region has no tag array");
   condition.SetRegion(vtkMeshCondition::EVERYWHERE);
   condition.RemoveAllValues();
   condition.SetValue(std::nan(""));

@@ -223,7 +223,7 @@ TEST_F(VtkStreamingDistance, MistakesAreOneErrorEach)
       this->Distance->WallOff();
     }
   };
-  expect("From must say", [&] { this->Distance->SetFrom(nullptr); });
+  expect("Nothing says where the distance is 0", [&] { this->Distance->SetFrom(nullptr); });
   expect("From: sphere: must be", [&] { this->Distance->SetFrom(R"({"sphere": [1]})"); });
   expect("from[0]: no vertex", [&] { this->Distance->SetFrom(R"({"sphere": [9, 9, 9, 1]})"); });
   this->Reader->SetMaximumPointsInMemory(100);

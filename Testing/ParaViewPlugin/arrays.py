@@ -25,7 +25,7 @@ def check(source, when):
                 unwanted = {"GlobalIds", "vtkGhostType", "StreamFinalized", "MeshConditions"}
                 assert not offered & unwanted, (when, name, offered)
                 checked += 1
-        assert checked == (7 if proxy.SMProxy.GetXMLName() == "StreamingPoisson" else 1), checked
+        assert checked == (7 if proxy.SMProxy.GetXMLName() == "StreamingPoisson" else 2), checked
 
 
 reader = OpenDataFile(t.BUNNY)

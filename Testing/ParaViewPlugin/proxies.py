@@ -53,8 +53,16 @@ defaults = {"From": "", "Wall": 0, "Source": 0, "Direction": 0, "MaximumPasses":
 for name, value in defaults.items():
     assert distance.GetPropertyValue(name) == value, (name, distance.GetPropertyValue(name))
 
+region = MeshRegion(Input=reader)
+defaults = {"Region": "Function", "RegionName": "Region", "MaskArray": "None", "TagArray": "None", "Tag": 0.0}
+for name, value in defaults.items():
+    assert region.GetPropertyValue(name) == value, (name, region.GetPropertyValue(name))
+kinds = ["Function", "Selection", "Ids", "Points", "Boundary", "Mask", "Tag", "Everywhere"]
+for proxy in (region, MeshHandle(Input=reader), MeshCondition(Input=reader)):
+    assert list(proxy.GetProperty("Region").Available) == kinds, proxy.GetProperty("Region").Available
+
 # A label is the name with spaces, so that the Python name equals the name.
-for proxy in (reader, poisson, smoothing, blend, distance, MeshHandle(Input=reader)):
+for proxy in (reader, poisson, smoothing, blend, distance, region, MeshHandle(Input=reader)):
     iterator = proxy.SMProxy.NewPropertyIterator()
     iterator.Begin()
     while not iterator.IsAtEnd():

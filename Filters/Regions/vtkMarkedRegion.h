@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Filters/Regions/MarkedRegionSettings.h"
+#include "Filters/Regions/vtkHeldPoints.h"
+#include "Filters/Regions/vtkRegionContext.h"
+#include "Filters/Streaming/vtkPieceRequest.h"
+#include "Solver/Description/SelectedVertices.h"
+
+#include <memory>
+#include <optional>
+
+class vtkPointSet;
+
+namespace smg
+{
+
+/** A region of the boundary, or of points or cells marked by an array. An array of the points marks
+ * those of any piece. What an array of the cells marks, and the boundary, cross the pieces of a
+ * streamed mesh: they are found in a pass over all of them. */
+class MarkedRegion
+{
+public:
+  /** Sets the settings; results for other settings are discarded. */
+  void set(const MarkedRegionSettings& settings);
+
+  /**
+   * Updates the input to the requested piece and determines its held points. What requires the
+   * whole mesh is computed first and kept until the settings or the stamp change. Throws Error and
+   * Cancelled.
+   */
+  vtkPointSet& bring(const PieceRequest& request, const RegionContext& context, HeldPoints& held);
+
+private:
+  /** The held points of a mesh that is shown. */
+  struct Shown
+  {
+    InputStamp stamp;
+    int piece = 0, pieces = 1;
+    HeldPoints held;
+  };
+  /** Those of the whole mesh. */
+  struct Found
+  {
+    InputStamp stamp;
+    std::unique_ptr<SelectedVertices> vertices;
+  };
+
+  /** Whether the held points of the piece depend on its own cells alone. Throws Error if those of
+   * other pieces are needed, but the pieces have no common numbers. */
+  bool isByItself(vtkPointSet& piece, const PieceRequest& request) const;
+  HeldPoints holdShown(vtkPointSet& mesh) const;
+  void find(const RegionContext& context);
+
+  MarkedRegionSettings Asked;
+  std::optional<Shown> OnDisplay;
+  std::optional<Found> OnMesh;
+};
+
+} // namespace smg

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/Regions/vtkRegionArrays.h"
+
+#include "IO/vtkMeshPieceData.h"
+#include "smg/Error.h"
+
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkStringArray.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <cstddef>
+
+namespace smg
+{
+namespace
+{
+
+vtkStringArray* namesOf(vtkPointSet& mesh)
+{
+  return vtkStringArray::SafeDownCast(mesh.GetFieldData()->GetAbstractArray(MeshRegionsName));
+}
+
+bool isRegion(vtkPointSet& mesh, const std::string& name)
+{
+  vtkStringArray* names = namesOf(mesh);
+  return names && names->LookupValue(name) >= 0;
+}
+
+/** Appends to the names, which other meshes may share. */
+void appendName(vtkPointSet& mesh, const std::string& name)
+{
+  vtkNew<vtkStringArray> names;
+  if (vtkStringArray* before = namesOf(mesh))
+  {
+    names->DeepCopy(before);
+  }
+  names->SetName(MeshRegionsName);
+  names->InsertNextValue(name);
+  mesh.GetFieldData()->AddArray(names);
+}
+
+} // namespace
+
+void addToRegion(vtkPointSet& mesh, const std::string& name, const HeldPoints& held)
+{
+  vtkPointData& points = *mesh.GetPointData();
+  vtkNew<vtkUnsignedCharArray> region;
+  if (vtkAbstractArray* present = points.GetAbstractArray(name.c_str()))
+  {
+    if (!isRegion(mesh, name) || !vtkUnsignedCharArray::SafeDownCast(present))
+    {
+      throw Error("The input has a point array " + name +
+                  ", which no Mesh Region has made: choose another RegionName.");
+    }
+    region->DeepCopy(present);
+  }
+  else
+  {
+    region->SetNumberOfTuples(mesh.GetNumberOfPoints());
+    region->Fill(0.0);
+  }
+  region->SetName(name.c_str());
+  for (std::size_t i = 0; i < held.by.size(); ++i)
+  {
+    if (held.by[i] >= 0)
+    {
+      region->SetValue(static_cast<vtkIdType>(i), 1);
+    }
+  }
+  points.AddArray(region);
+  if (!isRegion(mesh, name))
+  {
+    appendName(mesh, name);
+  }
+}
+
+std::vector<Where> regionsOf(vtkPointSet& mesh)
+{
+  std::vector<Where> regions;
+  vtkStringArray* names = namesOf(mesh);
+  for (vtkIdType k = 0; names && k < names->GetNumberOfValues(); ++k)
+  {
+    // Filters between may have taken the array away.
+    vtkDataArray* array = mesh.GetPointData()->GetArray(names->GetValue(k).c_str());
+    if (array && (!isPreview(mesh) || array->GetRange()[1] > 0.0))
+    {
+      regions.emplace_back(ColumnMask{ names->GetValue(k) });
+    }
+  }
+  return regions;
+}
+
+} // namespace smg

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Filters/Regions/vtkHeldPoints.h"
+#include "smg/Region.h"
+
+#include <string>
+#include <vector>
+
+class vtkPointSet;
+
+namespace smg
+{
+
+/** The field array of strings with the names of the point arrays that Mesh Regions have added. */
+inline constexpr const char* MeshRegionsName = "MeshRegions";
+
+/** Adds the held points to the region `name` of the mesh, a point array that is 1 in the region.
+ * Throws Error if the mesh has an array of that name which is no region. */
+void addToRegion(vtkPointSet& mesh, const std::string& name, const HeldPoints& held);
+
+/** The regions of the mesh; of a preview, those that have a point of it. */
+std::vector<Where> regionsOf(vtkPointSet& mesh);
+
+} // namespace smg

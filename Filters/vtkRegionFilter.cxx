@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkRegionFilter.h"
+
+#include "Filters/Regions/vtkFunctionRegion.h"
+#include "Filters/Regions/vtkHeldCount.h"
+#include "Filters/Regions/vtkMarkedPoints.h"
+#include "Filters/Regions/vtkMarkedRegion.h"
+#include "Filters/Regions/vtkPointRegion.h"
+#include "Filters/Regions/vtkRegionPoints.h"
+#include "Filters/Regions/vtkSelectedPoints.h"
+#include "Filters/Streaming/vtkPieceRequest.h"
+#include "Filters/Streaming/vtkWarnOnce.h"
+#include "Filters/vtkRegionChain.h"
+#include "IO/vtkAlgorithmGlue.h"
+#include "IO/vtkMeshPieceData.h"
+#include "IO/vtkPieceInput.h"
+#include "smg/Error.h"
+
+#include "vtkImplicitFunction.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
+#include "vtkSelection.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+vtkCxxSetObjectMacro(vtkRegionFilter, RegionFunction, vtkImplicitFunction);
+
+struct vtkRegionFilter::Internals
+{
+  explicit Internals(vtkRegionFilter& self)
+    : Self(self)
+    , FarPoints(self)
+    , NoPoint(self)
+  {
+  }
+
+  smg::PointRegionSettings regionSettings(vtkSelection* selection) const
+  {
+    using Kind = smg::PointRegionSettings::Kind;
+    smg::PointRegionSettings settings;
+    settings.kind = this->Self.Region == SELECTION ? Kind::Selection
+                    : this->Self.Region == IDS     ? Kind::Ids
+                                                   : Kind::Points;
+    settings.ids = this->Ids;
+    settings.areOriginalIds = this->Self.IdType == ORIGINAL_IDS;
+    settings.points = this->Points;
+    settings.radius = this->Self.Radius;
+    settings.rings = this->Self.Rings;
+    settings.pieces = this->Self.NumberOfPieces;
+    if (settings.kind == Kind::Selection && selection)
+    {
+      // GlobalIds refer to points of the mesh, also if a preview is displayed.
+      if (std::optional<std::vector<std::int64_t>> ids = smg::selectedGlobalIds(*selection))
+      {
+        settings.kind = Kind::Ids;
+        settings.ids = std::move(*ids);
+        settings.areOriginalIds = false;
+      }
+    }
+    return settings;
+  }
+
+  smg::MarkedRegionSettings markedSettings() const
+  {
+    smg::MarkedRegionSettings settings;
+    if (this->Self.Region != BOUNDARY)
+    {
+      settings.array = this->Self.RegionArray();
+    }
+    if (this->Self.Region == TAG)
+    {
+      settings.tag = this->Self.Tag;
+    }
+    settings.pieces = this->Self.NumberOfPieces;
+    return settings;
+  }
+
+  /** Whether the region consists of single points. */
+  bool isOfPoints() const
+  {
+    return this->Self.Region == SELECTION || this->Self.Region == IDS ||
+           this->Self.Region == POINTS;
+  }
+
+  /** Updates the input to the requested piece and determines its held points. */
+  vtkPointSet& bring(smg::PieceInput& input, const smg::PieceRequest& request,
+    vtkInformationVector** inputVector, smg::HeldPoints& held)
+  {
+    const bool isElsewhere = this->Self.IsElsewhere();
+    if (!isElsewhere && this->Self.Region != FUNCTION && this->Self.Region != EVERYWHERE)
+    {
+      return this->search(input, request, inputVector, held);
+    }
+    auto* piece =
+      vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, request.IsStreamed));
+    if (!isElsewhere)
+    {
+      held = this->Self.Region == EVERYWHERE
+               ? smg::heldEverywhere(*piece)
+               : smg::heldByFunction(this->Self.RegionFunction, this->Self.InsideOut, *piece);
+    }
+    return *piece;
+  }
+
+  /** The same for a region that may have to be searched on the whole mesh. */
+  vtkPointSet& search(smg::PieceInput& input, const smg::PieceRequest& request,
+    vtkInformationVector** inputVector, smg::HeldPoints& held)
+  {
+    vtkSelection* selection = this->isOfPoints() ? vtkSelection::GetData(inputVector[1]) : nullptr;
+    if (!this->isOfPoints())
+    {
+      this->Marked.set(this->markedSettings());
+    }
+    else if (this->Region.set(this->regionSettings(selection)))
+    {
+      this->FarPoints.forget();
+    }
+    // Upstream of the other region filters, so that changes of these, such as the motion of a
+    // handle, have no effect.
+    const bool needsArrays = selection && smg::isByValue(*selection);
+    smg::PieceInput mesh(needsArrays ? this->Self : smg::firstOfChain(this->Self), 0);
+    const auto stamp = [&mesh, selection, info = inputVector[0]->GetInformationObject(0)]
+    {
+      return smg::InputStamp{ selection ? selection->GetMTime() : 0, mesh.modifiedTime(),
+        smg::timeOf(info) };
+    };
+    smg::Progress progress(smg::progressOf(this->Self));
+    const auto warn = [this](const std::string& sentence) { this->FarPoints.warn(sentence); };
+    const smg::RegionContext context{ input, mesh, selection, stamp, progress, warn };
+    return this->isOfPoints() ? this->Region.bring(request, context, held)
+                              : this->Marked.bring(request, context, held);
+  }
+
+  /** Counts the held points; at the end of the mesh, all requested points must have been found. */
+  void count(vtkPointSet& piece, const smg::HeldPoints& held, const smg::PieceRequest& request)
+  {
+    const bool isWhole = this->Count.add(piece, held, request);
+    if (!isWhole)
+    {
+      return;
+    }
+    if (this->Count.allPoints() == 0)
+    {
+      throw smg::Error("The input has no points, so that the region has nothing to hold: look at "
+                       "what the filter before it delivers.");
+    }
+    if (smg::isPreview(piece))
+    {
+      if (this->Count.points() == 0)
+      {
+        this->NoPoint.warn(
+          "No point of the preview lies in the region, though points of the mesh may.");
+      }
+      else
+      {
+        this->NoPoint.forget();
+      }
+      return;
+    }
+    if (this->isOfPoints())
+    {
+      this->Region.checkHolders(this->Count.isHolding());
+    }
+    if (this->Count.points() == 0)
+    {
+      throw smg::Error("The region holds nothing: no point of the mesh lies in it.");
+    }
+  }
+
+  vtkRegionFilter& Self;
+  smg::Failures Failures;
+  std::vector<std::int64_t> Ids;
+  std::vector<double> Points;
+  smg::PointRegion Region;
+  smg::MarkedRegion Marked;
+
+  smg::HeldCount Count;
+  smg::WarnOnce FarPoints, NoPoint;
+};
+
+vtkRegionFilter::vtkRegionFilter()
+  : Internal(new Internals(*this))
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+vtkRegionFilter::~vtkRegionFilter()
+{
+  this->SetRegionFunction(nullptr);
+  this->SetMaskArray(nullptr);
+  this->SetTagArray(nullptr);
+}
+
+std::string vtkRegionFilter::RegionArray() const
+{
+  const char* array = this->Region == TAG ? this->TagArray : this->MaskArray;
+  const std::string name = array ? array : "";
+  if (name.empty() || name == "None")
+  {
+    throw smg::Error(std::string("The region has no ") + (this->Region == TAG ? "tag" : "mask") +
+                     " array: choose " + (this->Region == TAG ? "TagArray" : "MaskArray") +
+                     ", or another Region.");
+  }
+  return name;
+}
+
+void vtkRegionFilter::SetSelectionConnection(vtkAlgorithmOutput* selection)
+{
+  this->SetInputConnection(1, selection);
+}
+
+void vtkRegionFilter::AddId(vtkIdType id)
+{
+  this->Internal->Ids.push_back(id);
+  this->Modified();
+}
+
+void vtkRegionFilter::RemoveAllIds()
+{
+  this->Internal->Ids.clear();
+  this->Modified();
+}
+
+vtkIdType vtkRegionFilter::GetNumberOfIds()
+{
+  return static_cast<vtkIdType>(this->Internal->Ids.size());
+}
+
+vtkIdType vtkRegionFilter::GetId(vtkIdType i)
+{
+  return i >= 0 && i < this->GetNumberOfIds() ? this->Internal->Ids[i] : -1;
+}
+
+void vtkRegionFilter::AddPoint(double x, double y, double z)
+{
+  this->Internal->Points.insert(this->Internal->Points.end(), { x, y, z });
+  this->Modified();
+}
+
+void vtkRegionFilter::RemoveAllPoints()
+{
+  this->Internal->Points.clear();
+  this->Modified();
+}
+
+vtkIdType vtkRegionFilter::GetNumberOfPoints()
+{
+  return static_cast<vtkIdType>(this->Internal->Points.size() / 3);
+}
+
+double* vtkRegionFilter::GetHeldBounds()
+{
+  std::fill_n(this->HeldBounds, 6, 0.0);
+  const bool isConnected = this->GetNumberOfInputConnections(0) > 0;
+  auto* input = isConnected ? vtkPointSet::SafeDownCast(this->GetInputDataObject(0, 0)) : nullptr;
+  if (this->NumberOfHeldPoints > 0)
+  {
+    this->Internal->Count.bounds().GetBounds(this->HeldBounds);
+  }
+  else if (input && input->GetNumberOfPoints() > 0)
+  {
+    input->GetBounds(this->HeldBounds);
+  }
+  return this->HeldBounds;
+}
+
+vtkMTimeType vtkRegionFilter::GetMTime()
+{
+  const vtkMTimeType time = this->Superclass::GetMTime();
+  return this->RegionFunction ? std::max(time, this->RegionFunction->GetMTime()) : time;
+}
+
+int vtkRegionFilter::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkSelection");
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+    return 1;
+  }
+  smg::acceptMeshes(*info);
+  return 1;
+}
+
+int vtkRegionFilter::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* outputVector)
+{
+  return smg::offerPieces(*outputVector);
+}
+
+int vtkRegionFilter::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  smg::PieceRequest request(outputVector->GetInformationObject(0));
+  request.forwardTo(inputVector[0]->GetInformationObject(0));
+  if (inputVector[1]->GetNumberOfInformationObjects() > 0)
+  {
+    // A displayed selection refers to the data of each process, any other to the whole mesh.
+    if (request.IsStreamed || !smg::hasSeveralProcesses())
+    {
+      request.Piece = 0;
+      request.Pieces = 1;
+    }
+    request.IsStreamed = false;
+    request.forwardTo(inputVector[1]->GetInformationObject(0));
+  }
+  return 1;
+}
+
+int vtkRegionFilter::RequestData(
+  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+{
+  this->NumberOfHeldPoints = 0;
+  return smg::answer(*this, this->Internal->Failures, inputVector, *outputVector,
+    [&]
+    {
+      const smg::PieceRequest request(outputVector->GetInformationObject(0));
+      this->Check();
+      smg::PieceInput input(*this, 0);
+      smg::HeldPoints held;
+      vtkPointSet& piece = this->Internal->bring(input, request, inputVector, held);
+      const bool holds = !this->IsElsewhere();
+      if (holds)
+      {
+        this->Internal->count(piece, held, request);
+      }
+      this->Deliver(piece, held, *vtkPointSet::GetData(outputVector));
+      this->NumberOfHeldPoints = holds ? static_cast<vtkIdType>(this->Internal->Count.points()) : 0;
+    });
+}
+
+void vtkRegionFilter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Region: " << this->Region << "\n";
+  os << indent << "RegionFunction: " << this->RegionFunction << "\n";
+  os << indent << "InsideOut: " << this->InsideOut << "\n";
+  os << indent << "IdType: " << this->IdType << "\n";
+  os << indent << "NumberOfIds: " << this->GetNumberOfIds() << "\n";
+  os << indent << "NumberOfPoints: " << this->GetNumberOfPoints() << "\n";
+  os << indent << "Radius: " << this->Radius << "\n";
+  os << indent << "Rings: " << this->Rings << "\n";
+  os << indent << "MaskArray: " << (this->MaskArray ? this->MaskArray : "(none)") << "\n";
+  os << indent << "TagArray: " << (this->TagArray ? this->TagArray : "(none)") << "\n";
+  os << indent << "Tag: " << this->Tag << "\n";
+  os << indent << "NumberOfPieces: " << this->NumberOfPieces << "\n";
+  os << indent << "NumberOfHeldPoints: " << this->NumberOfHeldPoints << "\n";
+}

@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Regions of all kinds in Mesh Region, Mesh Handle and Mesh Condition: streamed past the guard, in memory, on previews
+and on ordinary meshes. The results are those of the same places in JSON, bit for bit.
+
+regions.py PLUGIN"""
+
+import os
+import sys
+
+import numpy as np
+
+import smg_testing as t
+from paraview import servermanager
+from paraview.simple import *
+
+LoadPlugin(sys.argv[1], ns=globals())
+folder = t.make_folder()
+SINK = os.path.join(os.environ["SMG_SOURCE_DIR"], "Examples", "Data", "heat_sink.vtk")
+EAR = [-0.0175, 0.187, -0.02]
+
+
+def saved(source, *names):
+    """Point arrays of the whole mesh, streamed to a file and read again; "points" are the positions."""
+    path = os.path.join(folder, "saved.vsm")
+    SaveData(path, proxy=source)
+    reader = StreamingMeshReader(FileName=path)
+    data = servermanager.Fetch(reader)
+    arrays = [t.vtk_to_numpy(data.GetPoints().GetData() if name == "points" else data.GetPointData().GetArray(name)).copy()
+              for name in names]
+    Delete(reader)
+    return arrays[0] if len(arrays) == 1 else arrays
+
+
+def shown(source, name):
+    return t.points_of(source, name)[:, 0]
+
+
+def held(handle):
+    handle.UpdatePropertyInformation()
+    return handle.GetPropertyValue("NumberOfHeldPoints")
+
+
+def open_vsm(mesh, name):
+    path = os.path.join(folder, name)
+    t.run_smg("convert", mesh, path)
+    return StreamingMeshReader(FileName=path)
+
+
+def check(reader, kinds):
+    """Each kind of region with the same place in JSON, once in memory and once above the guard."""
+    distances, solutions = {}, {}
+    for guard in (2000000, 500):
+        reader.MaximumPointsInMemory = guard
+        for place, settings in kinds.items():
+            region = MeshRegion(Input=reader, **settings)
+            measured = StreamingDistance(Input=region)
+            marks, distance = saved(measured, "Region", "Distance")
+            if place not in distances:
+                written = StreamingDistance(Input=reader, From=place)
+                distances[place] = saved(written, "Distance")
+                assert np.array_equal(shown(measured, "Distance"), shown(written, "Distance")), place
+                Delete(written)
+            assert np.array_equal(distance, distances[place]), (place, guard)
+            assert marks.dtype == np.uint8 and np.array_equal(marks == 1, distance == 0), (place, guard)
+            assert 0 < marks.sum() and marks.max() == 1, place
+            # A handle and a condition hold the same points.
+            handle = MeshHandle(Input=reader, **settings)
+            assert np.array_equal(saved(handle, "HandleMask"), marks), (place, guard)
+            condition = MeshCondition(Input=reader, Condition="Dirichlet", Value=2, **settings)
+            solution = saved(StreamingPoisson(Input=condition, Problem='{"source": [1]}'), "Solution")
+            if place not in solutions:
+                problem = '{"source": [1], "dirichlet": [{%s, "value": [2]}]}' % place[1:-1]
+                solutions[place] = saved(StreamingPoisson(Input=reader, Problem=problem), "Solution")
+            assert np.array_equal(solution, solutions[place]), (place, guard)
+            if guard == 500:
+                # Some points of the preview are in the region, and the count is that of the preview.
+                preview = shown(region, "Region")
+                assert 0 < preview.sum() == held(region) <= len(preview) <= 10000, place
+            for proxy in (measured, region, handle, condition):
+                Delete(proxy)
+
+
+# A surface.
+reader = open_vsm(t.BUNNY, "bunny.vsm")
+reader.PreviewPoints = 4000
+check(reader, {
+    '{"boundary": true}': {"Region": "Boundary"},
+    '{"nearest": [[-0.0175, 0.187, -0.02]]}': {"Region": "Points", "Points": EAR},
+    '{"vertices": [7, 30000]}': {"Region": "Ids", "Ids": [7, 30000], "IdType": "Original Ids"}})
+
+# Mesh Regions of one name are a union; smoothing holds it, with what Hold names.
+for guard in (2000000, 1000):
+    reader.MaximumPointsInMemory = guard
+    rim = MeshRegion(Input=reader, Region="Boundary", RegionName="Still")
+    ear = MeshRegion(Input=rim, Region="Points", Points=EAR, Radius=0.01, RegionName="Still")
+    points = saved(reader, "points")
+    other = MeshRegion(Input=ear, Region="Points", Points=points[5].tolist(), Radius=0.01)
+    marks = saved(other, "Still")
+    near = ((points.astype(float) - EAR) ** 2).sum(axis=1) <= 0.01 ** 2
+    rim_marks = saved(rim, "Still")
+    assert marks.sum() > rim_marks.sum() and (marks >= rim_marks).all()
+    assert abs(int((marks | (rim_marks == 1)).sum()) - int((near | (rim_marks == 1)).sum())) < 20
+    SaveData(os.path.join(folder, "marked.vsm"), proxy=other)
+    marked = StreamingMeshReader(FileName=os.path.join(folder, "marked.vsm"))
+    marked.MaximumPointsInMemory = guard
+    smoothing = StreamingMeshSmoothing(Input=other, Hold='{"halfspace": [0, 1, 0, 0.17]}')
+    expected = StreamingMeshSmoothing(
+        Input=marked, Hold='[{"mask": "Still"}, {"mask": "Region"}, {"halfspace": [0, 1, 0, 0.17]}]')
+    smooth = saved(smoothing, "points")
+    assert np.array_equal(smooth, saved(expected, "points"))
+    fixed = (smooth == points).all(axis=1)
+    assert fixed[marks == 1].all() and fixed[5] and not fixed.all()
+
+# The array of a region is one of others.
+reader.MaximumPointsInMemory = 1000
+again = MeshHandle(Input=ear, Region="Mask", MaskArray="Still")
+assert np.array_equal(saved(again, "HandleMask"), marks)
+assert np.array_equal(shown(again, "HandleMask"), shown(ear, "Still"))
+tagged = MeshHandle(Input=ear, Region="Tag", TagArray="Still", Tag=0)
+assert np.array_equal(saved(tagged, "HandleMask"), 1 - marks)
+everywhere = MeshHandle(Input=ear, Region="Everywhere")
+assert shown(everywhere, "HandleMask").all() and held(everywhere) == len(shown(ear, "Still"))
+assert saved(everywhere, "HandleMask").all() and held(everywhere) == t.BUNNY_POINTS
+lows, highs = list(everywhere.GetPropertyValue("HeldBounds"))[::2], list(everywhere.GetPropertyValue("HeldBounds"))[1::2]
+assert np.allclose(lows, points.min(axis=0), atol=0.005) and np.allclose(highs, points.max(axis=0), atol=0.005)
+ear.UpdatePipeline()
+ear.UpdatePropertyInformation()
+around = np.array(ear.GetPropertyValue("HeldBounds")).reshape(3, 2)
+assert (around[:, 1] - around[:, 0] <= 0.2).all() and around[0, 0] <= EAR[0] <= around[0, 1]
+# A solve removes the arrays of conditions, and no others.
+condition = MeshCondition(Input=MeshCondition(Input=ear, Region="Mask", MaskArray="Still", Value=1),
+                          Region="Points", Points=points[5].tolist(), Value=0)
+solved = StreamingPoisson(Input=condition)
+assert 0 < saved(solved, "Solution").max() <= 1.001 and np.array_equal(saved(solved, "Still"), marks)
+assert "Condition2" in condition.PointData.keys() and "Condition2" not in solved.PointData.keys()
+
+# A solid: tags of cells, and the boundary.
+sink = open_vsm(SINK, "sink.vsm")
+sink.PreviewPoints = 800
+for cells in ("Surface", "Tetrahedra"):
+    sink.PreviewCells = cells
+    sink.MaximumPointsInMemory = 500
+    region = MeshRegion(Input=sink, Region="Boundary")
+    marks = shown(region, "Region")
+    assert marks.all() if cells == "Surface" else 0 < marks.sum(), (cells, marks.sum(), len(marks))
+check(sink, {'{"tag": ["Material", 1]}': {"Region": "Tag", "TagArray": "Material", "Tag": 1},
+             '{"boundary": true}': {"Region": "Boundary"}})
+print("passed")
