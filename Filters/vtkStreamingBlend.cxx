@@ -30,7 +30,7 @@ struct vtkStreamingBlend::Internals
     // "None" is what ParaView offers for no array.
     const std::string patch = this->Self.Patch ? this->Self.Patch : "";
     task->description.patch = patch == "None" ? "" : patch;
-    task->description.columns = this->Columns;
+    task->description.columns = this->chosen();
     task->description.anchor = this->Self.Anchor;
     task->description.seam =
       this->Self.SeamGradient == AVERAGE ? smg::SeamGradient::Average : smg::SeamGradient::Zero;
@@ -42,7 +42,12 @@ struct vtkStreamingBlend::Internals
   }
 
   vtkStreamingBlend& Self;
-  std::vector<std::string> Columns;
+  const std::vector<std::string>& chosen() const
+  {
+    return this->Arrays.empty() ? this->Columns : this->Arrays;
+  }
+
+  std::vector<std::string> Arrays, Columns;
 };
 
 vtkStreamingBlend::vtkStreamingBlend()
@@ -54,6 +59,36 @@ vtkStreamingBlend::~vtkStreamingBlend()
 {
   this->SetPatch(nullptr);
   this->SetHold(nullptr);
+}
+
+void vtkStreamingBlend::AddArray(const char* name)
+{
+  if (name && *name)
+  {
+    this->Internal->Arrays.emplace_back(name);
+    this->Modified();
+  }
+}
+
+void vtkStreamingBlend::RemoveAllArrays()
+{
+  if (!this->Internal->Arrays.empty())
+  {
+    this->Internal->Arrays.clear();
+    this->Modified();
+  }
+}
+
+int vtkStreamingBlend::GetNumberOfArrays() const
+{
+  return static_cast<int>(this->Internal->Arrays.size());
+}
+
+const char* vtkStreamingBlend::GetArray(int number) const
+{
+  return number >= 0 && number < this->GetNumberOfArrays()
+           ? this->Internal->Arrays[static_cast<std::size_t>(number)].c_str()
+           : nullptr;
 }
 
 void vtkStreamingBlend::AddColumn(const char* name)
@@ -111,7 +146,7 @@ void vtkStreamingBlend::Deliver(
   output.ShallowCopy(&piece);
   const auto stride = static_cast<std::size_t>(this->GetSummary().columns);
   std::size_t first = 0;
-  for (const std::string& column : this->Internal->Columns)
+  for (const std::string& column : this->Internal->chosen())
   {
     first += smg::replaceArray(output, column, values, first, stride);
   }
@@ -121,8 +156,8 @@ void vtkStreamingBlend::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Patch: " << (this->Patch ? this->Patch : "(none)") << "\n";
-  os << indent << "Columns:";
-  for (const std::string& column : this->Internal->Columns)
+  os << indent << "Arrays:";
+  for (const std::string& column : this->Internal->chosen())
   {
     os << ' ' << column;
   }

@@ -38,6 +38,15 @@ public:
 
   ///@{
   /** Names of the point arrays to blend, with at most 64 components together. Default: none. */
+  void AddArray(const char* name);
+  void RemoveAllArrays();
+  int GetNumberOfArrays() const;
+  /** Null if there is no such number. */
+  const char* GetArray(int number) const;
+  ///@}
+
+  ///@{
+  /** The former name of these, which counts if there are none. */
   void AddColumn(const char* name);
   void RemoveAllColumns();
   int GetNumberOfColumns() const;

@@ -31,8 +31,10 @@ struct vtkStreamingMeshSmoothing::Internals
   /** "None" is what ParaView offers for no array. */
   std::string column() const
   {
-    const std::string name = this->Self.Column ? this->Self.Column : "";
-    return name == "None" ? "" : name;
+    const auto named = [](const char* name)
+    { return name && std::string(name) != "None" ? std::string(name) : std::string(); };
+    const std::string array = named(this->Self.Array);
+    return array.empty() ? named(this->Self.Column) : array;
   }
 
   smg::SmoothingOptions options(vtkPointSet& input) const
@@ -82,6 +84,7 @@ vtkStreamingMeshSmoothing::vtkStreamingMeshSmoothing()
 vtkStreamingMeshSmoothing::~vtkStreamingMeshSmoothing()
 {
   this->SetHold(nullptr);
+  this->SetArray(nullptr);
   this->SetColumn(nullptr);
 }
 
@@ -139,6 +142,7 @@ void vtkStreamingMeshSmoothing::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "EdgeAngle: " << this->EdgeAngle << "\n";
   os << indent << "Boundary: " << boundaries[this->Boundary] << "\n";
   os << indent << "Hold: " << (this->Hold ? this->Hold : "(none)") << "\n";
+  os << indent << "Array: " << (this->Array ? this->Array : "(none)") << "\n";
   os << indent << "Column: " << (this->Column ? this->Column : "(none)") << "\n";
   os << indent << "Normals: " << (this->Normals == RECOMPUTE ? "recompute" : "drop") << "\n";
 }

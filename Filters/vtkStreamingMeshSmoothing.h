@@ -4,7 +4,7 @@
  * @brief   Smooths a very large surface, or a point array of any very large mesh
  *
  * Smooths the points of a mesh of triangles by implicit fairing: details below Size vanish, the
- * volume is kept, and any step is stable. With KeepEdges, sharp edges stay sharp. With Column, it
+ * volume is kept, and any step is stable. With KeepEdges, sharp edges stay sharp. With Array, it
  * smooths that point array of a mesh of triangles or tetrahedra instead. The output is the input
  * with its points moved, in their precision, or with the smoothed array, in its type; other arrays
  * are kept, except old normals (see Normals) and active tangents.
@@ -114,6 +114,12 @@ public:
   ///@{
   /** Name of the point array to smooth instead of the points. Empty (default) or "None": the
    * points. */
+  vtkSetStringMacro(Array);
+  vtkGetStringMacro(Array);
+  ///@}
+
+  ///@{
+  /** The former name of Array, which counts if there is none. */
   vtkSetStringMacro(Column);
   vtkGetStringMacro(Column);
   ///@}
@@ -149,6 +155,7 @@ private:
   double EdgeAngle = 30.0;
   int Boundary = AUTOMATIC;
   char* Hold = nullptr;
+  char* Array = nullptr;
   char* Column = nullptr;
   int Normals = RECOMPUTE;
 

@@ -35,7 +35,7 @@ for name in ("Residual", "Cycles", "Passes", "PeakMemory", "Converged", "Estimat
 
 smoothing = StreamingMeshSmoothing(Input=reader)
 defaults = {"Size": 4.0, "SizeUnit": "Mean Edges", "Steps": 1, "KeepVolume": 1, "KeepEdges": 0,
-            "EdgeAngle": 30.0, "Boundary": "Automatic", "Hold": "", "Column": "None"}
+            "EdgeAngle": 30.0, "Boundary": "Automatic", "Hold": "", "Array": "None", "Column": "None"}
 for name, value in defaults.items():
     assert smoothing.GetPropertyValue(name) == value, (name, smoothing.GetPropertyValue(name))
 
@@ -45,8 +45,9 @@ estimate = smoothing.GetPropertyValue("Estimate")
 assert f"over {t.BUNNY_POINTS} points and {t.BUNNY_CELLS} cells" in estimate, estimate
 assert smoothing.GetPropertyValue("Passes") == 0
 
-blend = StreamingBlend(Input=reader, Patch="scan", Columns=["Colors", "Heat"])
-assert list(blend.Columns) == ["Colors", "Heat"] and blend.Anchor == 0.01 and blend.Hold == ""
+# Columns is the former name of Arrays.
+blend = StreamingBlend(Input=reader, Patch="scan", Arrays=["Colors", "Heat"], Columns=["Colors"])
+assert list(blend.Arrays) == ["Colors", "Heat"] and list(blend.Columns) == ["Colors"] and blend.Anchor == 0.01 and blend.Hold == ""
 
 distance = StreamingDistance(Input=reader)
 defaults = {"From": "", "Wall": 0, "Source": 0, "Direction": 0, "MaximumPasses": 200}

@@ -49,8 +49,8 @@ def compare(array=None):
 
 compare()
 # An array instead of the points.
-smoothing.Column = "Light"
-alone.SetColumn("Light")
+smoothing.Array = "Light"
+alone.SetArray("Light")
 compare("Light")
 
 # All of the preview is in process 0, which smooths it alone.

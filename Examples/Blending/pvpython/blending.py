@@ -76,7 +76,7 @@ def main():
                       Function="(coordsX > -0.02) + 2 * (coordsY > 0.1)")
     light = Calculator(Input=scan, ResultArrayName="Light",
                        Function="128 + 512 * coordsZ + 32 * Scan")
-    blend = StreamingBlend(Input=light, Patch="Scan", Columns=["Light"], MemoryLimit=128)
+    blend = StreamingBlend(Input=light, Patch="Scan", Arrays=["Light"], MemoryLimit=128)
 
     # Saving executes the blend. The report is part of the data; its most important numbers are also
     # properties.

@@ -41,7 +41,7 @@ def play(arguments):
     session.save_data(recorded)
     session.filter("StreamingBlend")
     session.choose("Patch", "Scan")
-    columns = f"{PROPERTIES}/Columns/ArraySelectionWidget"
+    columns = f"{PROPERTIES}/Arrays/ArraySelectionWidget"
     session.event(columns, "currentChanged", "/0|0")
     session.event(columns, "key", ord(" "))
     session.apply()
@@ -126,7 +126,7 @@ def report():
 
 def blended():
     notes.blend = GetActiveSource()
-    assert notes.blend.Patch == "Scan" and list(notes.blend.Columns) == ["Light"]
+    assert notes.blend.Patch == "Scan" and list(notes.blend.Arrays) == ["Light"]
     assert report()["vertices"] == 34834 and report()["prescribed"] == 0
     show(notes.blend)
 

@@ -103,7 +103,7 @@ def report():
 def smoothed_by_defaults():
     notes.smoothing = GetActiveSource()
     assert report()["vertices"] == 34834 and len(report()["steps"]) == 1
-    assert notes.smoothing.Column == "None"
+    assert notes.smoothing.Array == "None"
     Render()
 
 
