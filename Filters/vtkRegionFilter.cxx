@@ -270,6 +270,11 @@ double* vtkRegionFilter::GetHeldBounds()
   return this->HeldBounds;
 }
 
+const char* vtkRegionFilter::GetError()
+{
+  return this->Internal->Failures.error().c_str();
+}
+
 vtkMTimeType vtkRegionFilter::GetMTime()
 {
   const vtkMTimeType time = this->Superclass::GetMTime();

@@ -177,6 +177,9 @@ public:
    * delivered last; 0 if that has no points either. */
   double* GetHeldBounds() VTK_SIZEHINT(6);
 
+  /** The reason why the last request failed, of this filter or of one before it; "": it did not. */
+  const char* GetError();
+
   /** Includes the modification time of the function. */
   vtkMTimeType GetMTime() override;
 

@@ -61,6 +61,7 @@ int answer(vtkAlgorithm& algorithm, Failures& failures, vtkInformationVector** i
   vtkInformationVector& outputs, Work work)
 {
   vtkInformation* output = outputs.GetInformationObject(0);
+  failures.begin();
   try
   {
     if (inputs && isFailed(vtkDataObject::GetData(inputs[0])))

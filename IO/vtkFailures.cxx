@@ -18,6 +18,8 @@ namespace
 {
 
 constexpr const char* FailedName = "Failed";
+/** See BigMeshWriter.xml. */
+constexpr int FailedComponents = 19;
 
 void showAllButFailedRequests(vtkObject*, unsigned long, void*, void* text)
 {
@@ -40,7 +42,9 @@ void markAsFailed(vtkDataObject& data)
 {
   vtkNew<vtkUnsignedCharArray> mark;
   mark->SetName(FailedName);
-  mark->InsertNextValue(1);
+  mark->SetNumberOfComponents(FailedComponents);
+  mark->SetNumberOfTuples(1);
+  mark->Fill(1);
   data.GetFieldData()->AddArray(mark);
 }
 
@@ -51,6 +55,7 @@ bool isFailed(vtkDataObject* data)
 
 void Failures::show(vtkAlgorithm& algorithm, const std::string& sentence)
 {
+  this->Error = sentence;
   this->quieten(algorithm);
   const vtkMTimeType now = pipelineTimeOf(algorithm);
   if (this->Last == sentence && this->PipelineTime == now &&
@@ -65,6 +70,7 @@ void Failures::show(vtkAlgorithm& algorithm, const std::string& sentence)
 
 void Failures::showToObservers(vtkAlgorithm& algorithm, const std::string& sentence)
 {
+  this->Error = sentence;
   this->quieten(algorithm);
   if (algorithm.HasObserver(vtkCommand::ErrorEvent))
   {

@@ -24,7 +24,8 @@ public:
   using Error::Error;
 };
 
-/** Marks the data, in their field data, as empty because of a failure; filters pass the mark. */
+/** Marks the data, in their field data, as empty because of a failure; filters pass the mark. The
+ * writers of the plugin know it by the number of its components. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT void markAsFailed(vtkDataObject& data);
 /** Whether the data are marked as failed; false for null. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT bool isFailed(vtkDataObject* data);
@@ -34,6 +35,11 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT bool isFailed(vtkDataObject* data);
 class VTKSTREAMINGMULTIGRIDIO_EXPORT Failures
 {
 public:
+  /** To be called when the algorithm begins: there is no error yet. */
+  void begin() { this->Error.clear(); }
+  /** The sentence of the last failure since then, shown or not; empty: none. */
+  const std::string& error() const { return this->Error; }
+
   /** Reports the sentence as an error of the algorithm, unless it was the last one and the upstream
    * pipeline has not been modified since. Observers of its errors receive all of them. */
   void show(vtkAlgorithm& algorithm, const std::string& sentence);
@@ -45,7 +51,8 @@ public:
   void quieten(vtkAlgorithm& algorithm);
 
 private:
-  std::string Last;
+  std::string Error;
+  std::string Last;              ///< that was shown
   vtkMTimeType PipelineTime = 0; ///< when the last one was shown
   vtkWeakPointer<vtkExecutive> Quiet;
 };

@@ -9,6 +9,7 @@
 #include "IO/Files/Suffix.h"
 #include "IO/Formats/Vtk/VtkFormats.h"
 #include "IO/vtkAlgorithmGlue.h"
+#include "IO/vtkFailures.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceCount.h"
@@ -233,6 +234,11 @@ bool vtkStreamingMeshWriter::WriteFile()
       throw smg::Error("No file is named: set FileName.");
     }
     const std::filesystem::path path = this->FileName;
+    if (smg::isFailed(this->GetInputDataObject(0, 0)))
+    {
+      // Perhaps no longer, if a filter has been modified since.
+      smg::PieceInput(*this, 0).update(0, 1, false);
+    }
     const WriteFunction write = this->RestoreOrder ? writeInOriginalOrder : writerOf(path);
     smg::Progress progress(smg::progressOf(*this));
     smg::PieceInput input(*this, 0);

@@ -108,9 +108,34 @@ for name in ("shown." + suffix for suffix in sorted(set(suffixes) - written)):
 Delete(calculator)
 reader.MaximumPointsInMemory = 2000000
 
+# What a failed filter delivers is saved in no format, and scripts learn why.
+empty = MeshRegion(Input=reader, Region="Mask")
+empty.UpdatePipeline()
+said()
+for name in ("Error", "NumberOfHeldPoints"):
+    empty.UpdatePropertyInformation()
+    assert ("no mask array" in empty.GetPropertyValue(name)) if name == "Error" else not empty.GetPropertyValue(name)
+after = Calculator(Input=empty, Function="coordsX", ResultArrayName="X")
+after.UpdatePipeline()
+said()
+for source in empty, after:
+    for suffix in sorted(set(suffixes) - {"pvd", "vtm"} | {"vtp", "vsm"}):
+        path = os.path.join(folder, "failed." + suffix)
+        SaveData(path, proxy=source)
+        text = said()
+        assert "could not be made" in text and not os.path.exists(path), (suffix, text)
+empty.Region = "Boundary"
+path = os.path.join(folder, "mended.stl")
+SaveData(path, proxy=empty)
+assert os.path.getsize(path) > 1000, said()
+empty.UpdatePropertyInformation()
+assert empty.GetPropertyValue("Error") in ("", None) and not said()
+Delete(after)
+Delete(empty)
+
 # A data set of several blocks.
 blocks = GroupDatasets(Input=[Sphere(), Sphere()])
-for make in (MeshHandle, StreamingMeshDeformation, StreamingMeshPreview, StreamingMeshSmoothing,
+for make in (MeshHandle, MeshRegion, StreamingMeshDeformation, StreamingMeshPreview, StreamingMeshSmoothing,
              StreamingPoisson, StreamingBlend, StreamingDistance):
     refused = make(Input=blocks)
     refused.UpdatePipeline()
