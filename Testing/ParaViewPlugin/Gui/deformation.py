@@ -52,7 +52,7 @@ def play(arguments):
     session.write(WIDGET + "InteractiveSphere/radius", scene["radius"])
     session.choose("Motion", "Similarity")
     session.write_vector("RotationAxis/DoubleLineEdit", "012", (0, 1, 0))
-    session.write("RotationAngle/DoubleRangeWidget/DoubleLineEdit", scene["angle"])
+    session.write("RotationAngle/DoubleLineEdit0", scene["angle"])
     session.write("Scale/DoubleLineEdit0", scene["scale"])
     session.write_vector("InteractiveHandle/worldPosition", "XYZ", scene["center"])
     session.apply()
@@ -155,10 +155,11 @@ def select_handle():
 
 
 def boxed():
-    # Moves the middle of the box to the middle of the view, where the mouse picks it, and its faces
-    # to the sides.
+    # Moves the middle of the box, which lies around the held points, to the middle of the view, where
+    # the mouse picks it, and its faces to the sides.
     view = GetActiveView()
-    middle = [(low + high) / 2 for low, high in zip(notes.bounds[0::2], notes.bounds[1::2])]
+    bounds = list(number(notes.handle, "HeldBounds"))
+    middle = [(low + high) / 2 for low, high in zip(bounds[0::2], bounds[1::2])]
     distance = sum((p - f)**2 for p, f in zip(view.CameraPosition, view.CameraFocalPoint))**0.5
     view.CameraFocalPoint = middle
     view.CameraPosition = [m + distance * d for m, d in zip(middle, (0.4, 0.3, 0.87))]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The steps of Examples/Distance/gui in the real ParaView: opens the bunny, holds the tip of an ear
-with a Mesh Handle, shows the distances from it, names another source while a preview is shown, and
-saves the mesh: the same bits as those of smg distance.
+"""The steps of Examples/Distance/gui in the real ParaView: opens the bunny, marks the tip of an ear
+with a Mesh Region, shows the distances from it, then from the boundary, and from the tip again while a
+preview is shown, and saves the mesh: the same bits as those of smg distance.
 
     distance.py PLUGIN MESH FOLDER [--pictures FOLDER] [--guard POINTS] [--timeout SECONDS]
 
@@ -15,8 +15,8 @@ import sys
 
 from paraview_gui import PROPERTIES, Session, read_arguments
 
-EAR, RADIUS = (-0.0175, 0.187, -0.02), 0.004
-FROM = '{"nearest": [[-0.0175, 0.187, -0.02]]}'
+EAR, RADIUS = (-0.0175, 0.187, -0.02), 0.008
+FROM = '{"sphere": [-0.0175, 0.187, -0.02, 0.008]}'
 WIDGET = "RegionFunction/ProxySelectionWidget/frame/ChosenProxyWidget/InteractiveSphere/"
 
 
@@ -42,19 +42,22 @@ def play(arguments):
     session.open(arguments.mesh)
     session.apply()
     session.checkpoint("opened")
-    session.filter("MeshHandle")
+    session.filter("MeshRegion")
     session.write_vector(WIDGET + "center", "XYZ", EAR)
     session.write(WIDGET + "radius", RADIUS)
     session.event(f"{PROPERTIES}/{WIDGET}show3DWidget", "set_boolean", "false")
     session.apply()
     session.filter("StreamingDistance")
     session.apply()
-    session.checkpoint("measured_from_the_handle")
-    session.picture("distance-handle")
-    session.write("From/From", FROM)
-    session.apply()
     session.checkpoint("measured_from_the_tip")
-    session.picture("distance-from")
+    session.picture("distance-region")
+    session.checkpoint("select_region")
+    session.choose("Region", "Boundary")
+    session.apply()
+    session.checkpoint("measured_from_the_boundary")
+    session.picture("distance-boundary")
+    session.choose("Region", "Function")
+    session.apply()
     session.checkpoint("select_mesh")
     session.write("MaximumPointsInMemory/LineEdit0", arguments.guard)
     session.write("PreviewPoints/LineEdit0", 10000)
@@ -101,8 +104,9 @@ def largest():
     return notes.distance.PointData["Distance"].GetRange()[1]
 
 
-def measured_from_the_handle():
+def measured_from_the_tip():
     notes.distance = GetActiveSource()
+    notes.region = notes.distance.Input
     assert notes.distance.From == ""
     found = report()
     assert found["vertices"] == 34834 and 1 < found["distance"]["sources"] < 500, found
@@ -110,11 +114,16 @@ def measured_from_the_handle():
     Render()
 
 
-def measured_from_the_tip():
-    found = report()
-    assert notes.distance.From == FROM and found["distance"]["sources"] == 1, found
-    assert 0 < largest() - notes.largest < 2 * RADIUS
+def measured_from_the_boundary():
+    Show(notes.distance)
+    Hide(notes.region)
+    notes.distance.UpdatePipeline()
+    assert report()["distance"]["sources"] == 223, report()
     Render()
+
+
+def select_region():
+    SetActiveSource(notes.region)
 
 
 def select_mesh():
@@ -130,13 +139,12 @@ def select_distance():
 
 
 def follow():
-    """The distances of the preview follow their source."""
+    """The distances of the preview follow their region."""
     largest_of = set()
     for step in range(10):
-        notes.distance.From = '{"nearest": [[-0.0175, %g, -0.02]]}' % (0.187 - 0.01 * step)
+        notes.region.RegionFunction.Center = [EAR[0], EAR[1] - 0.001 * step, EAR[2]]
         notes.distance.UpdatePipeline()
-        assert report()["distance"]["sources"] == 1
         largest_of.add(report()["distance"]["maximum"])
     assert len(largest_of) > 5, largest_of
-    notes.distance.From = FROM
+    notes.region.RegionFunction.Center = list(EAR)
     notes.distance.UpdatePipeline()

@@ -59,7 +59,6 @@ def play(arguments):
     session.scroll_panel(0)
     session.checkpoint("select_mesh")
     session.filter("StreamingBlend")
-    session.apply()
     session.picture("blend")
     session.run(arguments.timeout)
     os.write(1, b"passed\n")
@@ -108,6 +107,7 @@ def boxed():
     handle.UpdatePropertyInformation()
     bounds = list(handle.GetPropertyValue("HeldBounds"))
     assert all(abs(b - c) <= RADIUS for b, c in zip(bounds, (EAR[0], EAR[0], EAR[1], EAR[1], EAR[2], EAR[2]))), bounds
-    assert handle.Transform.GetXMLName() == "HandleTransform"
-    print("reference", list(handle.Transform.SMProxy.GetProperty("ReferenceBounds").GetElement(i) for i in range(6)), bounds)
+    assert handle.Transform.GetXMLName() == "HandleTransform", handle.Transform.GetXMLName()
+    reference = handle.Transform.SMProxy.GetProperty("ReferenceBounds")
+    assert [reference.GetElement(i) for i in range(6)] == bounds
     Render()
