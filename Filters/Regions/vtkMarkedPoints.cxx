@@ -205,9 +205,9 @@ HeldPoints heldByCellArray(
     if (settings.isMarked(array.GetTuple1(cell), array.GetDataType() == VTK_FLOAT))
     {
       mesh.GetCellPoints(cell, points);
-      for (const vtkIdType point : *points)
+      for (vtkIdType k = 0; k < points->GetNumberOfIds(); ++k)
       {
-        held.by[static_cast<std::size_t>(point)] = 0;
+        held.by[static_cast<std::size_t>(points->GetId(k))] = 0;
       }
     }
   }

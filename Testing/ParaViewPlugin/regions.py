@@ -145,4 +145,26 @@ for cells in ("Surface", "Tetrahedra"):
     assert marks.all() if cells == "Surface" else 0 < marks.sum(), (cells, marks.sum(), len(marks))
 check(sink, {'{"tag": ["Material", 1]}': {"Region": "Tag", "TagArray": "Material", "Tag": 1},
              '{"boundary": true}': {"Region": "Boundary"}})
+
+# Ordinary meshes, of any cells: in memory, and sorted into a stream.
+plane = Plane(XResolution=5, YResolution=4)
+wavelet = Wavelet(WholeExtent=[-3, 3, -3, 3, -3, 3])
+voxels = Threshold(Input=wavelet, Scalars=["POINTS", "RTData"], LowerThreshold=-1e9, UpperThreshold=1e9)
+half = Sphere(ThetaResolution=40, PhiResolution=30, StartTheta=0, EndTheta=180)
+for mesh, count in ((plane, 18), (Triangulate(Input=plane), 18), (TriangleStrips(Input=Triangulate(Input=plane)), 18),
+                    (voxels, 7**3 - 5**3), (Tetrahedralize(Input=wavelet), 7**3 - 5**3), (half, 58)):
+    region = MeshRegion(Input=mesh, Region="Boundary")
+    for interactive in (200000, 0):
+        measured = StreamingDistance(Input=region, InteractivePoints=interactive)
+        written = StreamingDistance(Input=mesh, From='{"boundary": true}', InteractivePoints=interactive)
+        assert np.array_equal(shown(measured, "Distance"), shown(written, "Distance"), equal_nan=True), mesh
+        assert shown(measured, "Region").sum() == count == (shown(measured, "Distance") == 0).sum(), mesh
+    handle = MeshHandle(Input=region, Region="Mask", MaskArray="Region")
+    assert shown(handle, "HandleMask").sum() == count, mesh
+ids = GenerateIds(Input=plane, CellIdsArrayName="Number", PointIdsArrayName="Other")
+tagged = MeshRegion(Input=ids, Region="Tag", TagArray="Number", Tag=7)
+assert shown(tagged, "Region").sum() == 4
+saved_as_pieces = os.path.join(folder, "ordinary.vsm")
+SaveData(saved_as_pieces, proxy=MeshHandle(Input=half, Region="Boundary"))
+assert shown(StreamingMeshReader(FileName=saved_as_pieces), "HandleMask").sum() == 58
 print("passed")

@@ -29,6 +29,8 @@ def hold(session, height, value, inside_out):
     session.write("Value/DoubleLineEdit0", value)
     session.apply()
     session.checkpoint("held")
+    session.picture(f"condition-{value}")
+    session.checkpoint("show_another")
 
 
 def write_scan(plugin, mesh, path):
@@ -55,7 +57,6 @@ def play(arguments):
     session.checkpoint("opened")
     hold(session, FEET, 0, False)
     hold(session, EARS, 1, True)
-    session.picture("condition")
     session.filter("StreamingPoisson")
     session.choose("Solve", "Preview")
     session.apply()
@@ -102,8 +103,13 @@ def held():
     condition.UpdatePropertyInformation()
     count = condition.GetPropertyValue("NumberOfHeldPoints")
     assert 0 < count < condition.GetDataInformation().GetNumberOfPoints() / 4, count
-    # Another array is shown, and active, when the next filter is made.
-    ColorBy(GetDisplayProperties(condition), ("POINTS", "Condition1"))
+    Render()
+
+
+def show_another():
+    """Another array is shown, and active, when the next filter is made."""
+    ColorBy(GetDisplayProperties(GetActiveSource()), ("POINTS", "Condition1"))
+    HideUnusedScalarBars()
     Render()
 
 
