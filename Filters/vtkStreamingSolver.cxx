@@ -97,6 +97,11 @@ const char* vtkStreamingSolver::GetReport()
   return this->GetSummary().report.c_str();
 }
 
+const char* vtkStreamingSolver::GetError()
+{
+  return this->Internal->Failures.error().c_str();
+}
+
 void vtkStreamingSolver::FillOptions(smg::SolveOptions& options) const
 {
   options.operators = this->Operators ? this->Operators : "";

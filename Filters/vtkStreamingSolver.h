@@ -198,6 +198,9 @@ public:
   const char* GetReport();
   ///@}
 
+  /** Why the last request failed; "": it did not. */
+  const char* GetError();
+
 protected:
   vtkStreamingSolver();
   ~vtkStreamingSolver() override;

@@ -100,15 +100,24 @@ for pieces in (1, 7, 64):
     own = numpy.concatenate([p[0][p[1]] for p in parts])
     assert (numpy.sort(own) == numpy.arange(t.BUNNY_POINTS)).all(), pieces
 
-# With the guard, the whole mesh is a preview, with the true solution if requested.
+# With the guard, the whole mesh is a preview; Outcome and the text for the view say where the solve was.
 reader.MaximumPointsInMemory, reader.PreviewPoints = 1000, 10000
-poisson.Solve = "Full Mesh"
-poisson.UpdatePipeline()
-preview = t.servermanager.Fetch(poisson)
-assert preview.GetFieldData().GetArray("Preview").GetValue(0) == 1
-assert preview.GetFieldData().GetArray("FullNumberOfPoints").GetValue(0) == t.BUNNY_POINTS
-ids = t.vtk_to_numpy(preview.GetPointData().GetGlobalIds())
-assert 100 < len(ids) <= 10000
-values = t.vtk_to_numpy(preview.GetPointData().GetArray("Solution"))
-assert (values == whole[3][ids]).all()
+for place, words in (("Full Mesh", "On the full mesh of 34,834 points."), ("Automatic", "On the full mesh of"),
+                     ("Preview", "On the preview only: ")):
+    poisson.Solve = place
+    poisson.UpdatePipeline()
+    preview = t.servermanager.Fetch(poisson)
+    assert preview.GetFieldData().GetArray("Preview").GetValue(0) == 1
+    assert preview.GetFieldData().GetArray("FullNumberOfPoints").GetValue(0) == t.BUNNY_POINTS
+    poisson.UpdatePropertyInformation()
+    outcome = poisson.GetPropertyValue("Outcome")
+    text = t.servermanager.Fetch(poisson, idx=2).GetColumn(0).GetValue(0)
+    assert outcome.startswith(text) and text.startswith(words), (outcome, text)
+    passes = t.servermanager.Fetch(poisson, idx=1)
+    assert passes.GetNumberOfRows() == poisson.GetPropertyValue("Passes")
+    ids = t.vtk_to_numpy(preview.GetPointData().GetGlobalIds())
+    assert 100 < len(ids) <= 10000
+    values = t.vtk_to_numpy(preview.GetPointData().GetArray("Solution"))
+    assert (values == whole[3][ids]).all() == (place != "Preview")
+assert "off by about" in text, text
 print("passed")

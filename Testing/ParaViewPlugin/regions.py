@@ -154,9 +154,9 @@ half = Sphere(ThetaResolution=40, PhiResolution=30, StartTheta=0, EndTheta=180)
 for mesh, count in ((plane, 18), (Triangulate(Input=plane), 18), (TriangleStrips(Input=Triangulate(Input=plane)), 18),
                     (voxels, 7**3 - 5**3), (Tetrahedralize(Input=wavelet), 7**3 - 5**3), (half, 58)):
     region = MeshRegion(Input=mesh, Region="Boundary")
-    for interactive in (200000, 0):
-        measured = StreamingDistance(Input=region, InteractivePoints=interactive)
-        written = StreamingDistance(Input=mesh, From='{"boundary": true}', InteractivePoints=interactive)
+    for scratch in ("", folder):
+        measured = StreamingDistance(Input=region, ScratchDirectory=scratch)
+        written = StreamingDistance(Input=mesh, From='{"boundary": true}', ScratchDirectory=scratch)
         assert np.array_equal(shown(measured, "Distance"), shown(written, "Distance"), equal_nan=True), mesh
         assert shown(measured, "Region").sum() == count == (shown(measured, "Distance") == 0).sum(), mesh
     handle = MeshHandle(Input=region, Region="Mask", MaskArray="Region")
