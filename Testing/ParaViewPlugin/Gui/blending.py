@@ -58,7 +58,7 @@ def play(arguments):
     session.checkpoint("held")
     session.checkpoint("select_mesh")
     session.write("MaximumPointsInMemory/LineEdit0", arguments.guard)
-    session.write("PreviewPoints/LineEdit0", 10000)
+    session.write("PreviewPoints/IntRangeWidget/LineEdit", 10000)
     session.apply()
     session.checkpoint("select_blend")
     # The preview follows a slider.

@@ -52,7 +52,7 @@ def play(arguments):
     session.name_file("FileName", scan)
     session.name_file("OutputFileName", mesh)
     session.write("MaximumPointsInMemory/LineEdit0", arguments.guard)
-    session.write("PreviewPoints/LineEdit0", 10000)
+    session.write("PreviewPoints/IntRangeWidget/LineEdit", 10000)
     session.apply()
     session.checkpoint("opened")
     hold(session, FEET, 0, False)

@@ -18,7 +18,7 @@ def play(arguments):
     session = Session(arguments.folder, arguments.plugin, __file__, arguments.pictures)
     session.open(os.path.abspath(arguments.mesh))
     session.write("MaximumPointsInMemory/LineEdit0", arguments.guard)
-    session.write("PreviewPoints/LineEdit0", 10000)
+    session.write("PreviewPoints/IntRangeWidget/LineEdit", 10000)
     session.apply()
     session.event(SELECT_POINTS, "activate")
     session.drag((0.25, 0.2), (0.42, 0.45))

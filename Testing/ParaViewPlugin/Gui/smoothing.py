@@ -57,7 +57,7 @@ def play(arguments):
     session.scroll_panel(0)
     session.checkpoint("select_mesh")
     session.write("MaximumPointsInMemory/LineEdit0", arguments.guard)
-    session.write("PreviewPoints/LineEdit0", 10000)
+    session.write("PreviewPoints/IntRangeWidget/LineEdit", 10000)
     session.apply()
     session.checkpoint("select_smoothing")
     session.scroll_panel(400)
