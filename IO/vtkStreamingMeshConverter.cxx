@@ -105,7 +105,7 @@ int vtkStreamingMeshConverter::CanReadFile(const char* name)
 
 const char* vtkStreamingMeshConverter::GetEstimate()
 {
-  this->Estimate.clear();
+  this->Estimate = "Known only for mesh files that are sorted, not for streams and .vsm files.";
   if (const auto estimate = estimateOf(this->GetFileName()))
   {
     std::ostringstream text;

@@ -128,7 +128,7 @@ public:
   int CanReadFile(const char* name);
 
   /** The estimated size of FileName and the memory that reading the whole file would take, in one
-   * line. Empty if it is not a mesh that can be converted. */
+   * line; or when it is known. */
   const char* GetEstimate();
 
   /** The report of the conversion to OutputFileName, as JSON. Empty if this object has not

@@ -116,7 +116,10 @@ assert readers_of(image) == ["LegacyVTKFileReader"], readers_of(image)
 assert readers_of(small) == ["PLYReader"], readers_of(small)
 # Scripts take the first one.
 assert readers_of(large) == ["PLYReader", "streaminglargemesh"], readers_of(large)
-converter = StreamingMeshConverter(FileName=large)
+converter = StreamingMeshConverter()
+converter.UpdatePropertyInformation()
+assert converter.GetPropertyValue("Estimate").startswith("Known only for mesh files"), converter.GetPropertyValue("Estimate")
+converter.FileName = large
 converter.UpdatePropertyInformation()
 estimate = converter.GetPropertyValue("Estimate")
 assert estimate.startswith("About 3.00 million points and 6.00 million cells: "), estimate

@@ -40,6 +40,7 @@ def play(arguments):
     session.picture("blending-recorded")
     session.save_data(recorded)
     session.filter("StreamingBlend")
+    session.choose("Solve", "Preview")
     session.choose("Patch", "Scan")
     columns = f"{PROPERTIES}/Arrays/ArraySelectionWidget"
     session.event(columns, "currentChanged", "/0|0")

@@ -48,6 +48,7 @@ def play(arguments):
     session.event(f"{PROPERTIES}/{WIDGET}show3DWidget", "set_boolean", "false")
     session.apply()
     session.filter("StreamingDistance")
+    session.choose("Solve", "Preview")
     session.apply()
     session.checkpoint("measured_from_the_tip")
     session.picture("distance-region")

@@ -55,6 +55,8 @@ def play(arguments):
     session.scroll_panel(400)
     session.picture("smoothing-outcome")
     session.scroll_panel(0)
+    session.choose("Solve", "Preview")
+    session.apply()
     session.checkpoint("select_mesh")
     session.write("MaximumPointsInMemory/LineEdit0", arguments.guard)
     session.write("PreviewPoints/IntRangeWidget/LineEdit", 10000)
