@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Export.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +14,7 @@ namespace smg
 
 /** Encodes bytes that are passed in parts as one unit of base64 (RFC 4648, with padding, without
  * line breaks). At most two bytes are kept between parts. */
-class Base64Encoder
+class SMG_EXPORT Base64Encoder
 {
 public:
   /** The number of characters of the unit that encodes this many bytes. */

@@ -69,14 +69,15 @@ MeshPiece pieceOf(const SurfacePart& surface, const std::vector<ColumnSpec>& col
 
 } // namespace
 
-MeshPiece makePreview(
-  MeshSource& mesh, std::int64_t maximumPoints, const ProgressFunction& progress)
+MeshPiece makePreview(MeshSource& mesh, std::int64_t maximumPoints,
+  const ProgressFunction& progress, std::int64_t mostMemory)
 {
   Progress done(progress);
   Workers workers(mesh.info().cells > CellsOfOneThread ? 0 : 1);
   SolidBoundary triangles(mesh);
   StreamSimplifier simplifier(triangles, { .vertices = maximumPoints },
-    memoryFor(maximumPoints, mesh.info()), workers, [&done](double share) { done.update(share); });
+    std::min(memoryFor(maximumPoints, mesh.info()), mostMemory), workers,
+    [&done](double share) { done.update(share); });
   SurfacePart surface;
   for (StreamSimplifier::Result result; simplifier.next(result);)
   {

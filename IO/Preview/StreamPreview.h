@@ -6,6 +6,7 @@
 #include "smg/Preview.h"
 
 #include <cstdint>
+#include <limits>
 #include <string>
 
 namespace smg
@@ -20,10 +21,12 @@ namespace smg
  *
  * Where the edges of a mesh cannot be collapsed, vertices near one another are merged instead.
  *
- * Memory is bounded by that of StreamSimplifier. Throws Error and Cancelled.
+ * Memory is bounded by that of StreamSimplifier, which is what the number of points and the width
+ * of the stream ask for, but at most `mostMemory` bytes. Throws Error and Cancelled.
  */
 SMG_EXPORT MeshPiece makePreview(MeshSource& mesh,
-  std::int64_t maximumPoints = DefaultPreviewPoints, const ProgressFunction& progress = {});
+  std::int64_t maximumPoints = DefaultPreviewPoints, const ProgressFunction& progress = {},
+  std::int64_t mostMemory = std::numeric_limits<std::int64_t>::max());
 
 /** The error message for an empty preview of a mesh that is not empty. */
 SMG_EXPORT std::string emptyPreview(std::int64_t maximumPoints);
