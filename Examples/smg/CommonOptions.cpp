@@ -2,6 +2,7 @@
 #include "CommonOptions.h"
 
 #include "IO/Estimate/JobEstimate.h"
+#include "IO/Files/Suffix.h"
 #include "Solver/Storage/Checkpoint.h"
 #include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/ScratchAccount.h"
@@ -59,7 +60,10 @@ std::string toMebibytes(std::string& text)
 void CommonOptions::addTo(CLI::App& command, const std::string& memoryDefault)
 {
   constexpr std::int64_t MostMemory = std::int64_t(1) << 30;
-  command.add_option("--report", this->report, "Write the report to this JSON file")
+  command
+    .add_option("--report", this->report,
+      "Write the report to this file: in JSON, or with the suffix .html as a page with figures and "
+      "a picture of the result, for any browser")
     ->type_name("FILE");
   command.add_option("--memory", this->memory, "Memory limit in MiB, or with a unit as 2GiB")
     ->check(CLI::Range(std::int64_t(1), MostMemory))
@@ -236,13 +240,19 @@ void CommonOptions::checkReport(std::initializer_list<std::filesystem::path> oth
   smg::FileDescriptor::createBeside(this->report); // removed at once
 }
 
-void CommonOptions::writeReport(const std::string& json) const
+bool CommonOptions::reportsPage() const
+{
+  const std::string suffix = smg::lowerSuffix(this->report);
+  return suffix == ".html" || suffix == ".htm";
+}
+
+void CommonOptions::writeReport(const std::string& json, const html::PageFacts& facts) const
 {
   if (this->report.empty())
   {
     return;
   }
-  const std::string text = json + '\n';
+  const std::string text = this->reportsPage() ? html::page(json, facts) : json + '\n';
   if (!isInPlace(this->report))
   {
     smg::writeFile(this->report, text);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "HtmlReport/Page.h"
+
 #include <CLI/CLI.hpp>
 
 #include <cstdint>
@@ -18,7 +20,7 @@ struct JobEstimate;
 /** The options that every command has. */
 struct CommonOptions
 {
-  std::filesystem::path report;     ///< JSON file for the report; empty: none
+  std::filesystem::path report;     ///< file for the report; empty: none
   std::int64_t memory = 0;          ///< MiB; 0: the default of the operation
   int threads = 0;                  ///< 0: one per core
   std::filesystem::path scratch;    ///< empty: the system's temporary folder
@@ -58,8 +60,11 @@ struct CommonOptions
   /** Throws smg::Error if a requested report cannot be written or would overwrite another file of
    * the command. */
   void checkReport(std::initializer_list<std::filesystem::path> others) const;
-  /** Writes the report if one is requested. Throws smg::Error. */
-  void writeReport(const std::string& json) const;
+  /** Whether the report is requested as a page for a person, by the suffix .html or .htm. */
+  bool reportsPage() const;
+  /** Writes the report if one is requested, as it is or as a page with these facts. Throws
+   * smg::Error. */
+  void writeReport(const std::string& json, const html::PageFacts& facts) const;
 };
 
 /** Checks that the value of an option is one of these; the error lists them. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "CommonOptions.h"
+#include "DrawMesh.h"
 #include "InputOptions.h"
 #include "OneProcess.h"
 #include "ProgressBar.h"
@@ -9,6 +10,7 @@
 #include "IO/Estimate/JobEstimate.h"
 #include "smg/Convert.h"
 #include "smg/Error.h"
+#include "smg/VsmReader.h"
 
 #include <cstdio>
 
@@ -104,7 +106,7 @@ struct ConvertOptions : CommonOptions
     {
       options.scratch = this->scratchPlace();
       const smg::JobEstimate estimate(this->in, this->out, options);
-      this->writeReport(estimate.json());
+      this->writeReport(estimate.json(), { this->in });
       printEstimate(estimate);
       return;
     }
@@ -121,7 +123,12 @@ struct ConvertOptions : CommonOptions
     {
       this->endCancelled();
     }
-    this->writeReport(report.json());
+    html::PageFacts facts{ this->in };
+    if (this->reportsPage() && smg::kindOfOutput(this->out) == smg::MeshFileKind::Vsm)
+    {
+      facts.surface = surfaceOf(smg::VsmReader(this->out), this->memoryBytes(DrawingMemory));
+    }
+    this->writeReport(report.json(), facts);
     if (!this->quiet)
     {
       print(report);

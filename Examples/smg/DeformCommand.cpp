@@ -150,6 +150,10 @@ protected:
   }
 
   const smg::SolveOptions& solveOptions() const override { return this->Deform; }
+  double tolerance() const override
+  {
+    return this->Deform.cycles > 0 ? 0.0 : this->Deform.tolerance;
+  }
 
 private:
   smg::MovedNormals movedNormals() const

@@ -77,7 +77,7 @@ void EngineCommand::compute()
   job.report = [this, &bar](smg::Report& report)
   {
     bar.reset();
-    this->writeReport(report.json());
+    this->writeReport(report.json(), this->pageFacts());
     this->tell(report);
   };
   this->computeOn(distributedEngine(), job);

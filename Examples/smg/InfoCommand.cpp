@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DrawMesh.h"
 #include "OpenInput.h"
 #include "ProgressBar.h"
 
@@ -139,7 +140,13 @@ struct InfoOptions : CommonOptions
     {
       report["checked_blocks"] = smg::checkVsm(this->file, bar.function());
     }
-    this->writeReport(report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    html::PageFacts facts{ this->file };
+    if (this->reportsPage())
+    {
+      facts.surface = surfaceOf(mesh->reader(), this->memoryBytes(DrawingMemory));
+    }
+    this->writeReport(
+      report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace), facts);
     if (!this->quiet)
     {
       print(this->file, *mesh);

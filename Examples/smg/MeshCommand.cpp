@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "MeshCommand.h"
 
+#include "DrawMesh.h"
 #include "OneProcess.h"
 #include "OpenInput.h"
 #include "ProgressBar.h"
@@ -134,12 +135,13 @@ void MeshCommand::compute()
   if (this->DryRun)
   {
     const smg::JobEstimate estimate = this->estimate(out);
-    this->writeReport(estimate.json());
+    this->writeReport(estimate.json(), this->pageFacts());
     printEstimate(estimate);
     return;
   }
   this->checkRoom(out);
   smg::Report report;
+  std::optional<html::ResultSurface> drawn;
   {
     ProgressBar bar(this->Title, this->quiet);
     const std::unique_ptr<smg::OpenedMesh> mesh = openInput(this->In, *this,
@@ -151,7 +153,12 @@ void MeshCommand::compute()
     const double convertSeconds = this->Conversion ? secondsSince(this->Start) : 0.0;
     const double begin = this->Conversion ? 0.2 : 0.0;
     out.chooseOrder(mesh->reader(), mesh->conversion());
-    report = this->solveAndWrite(mesh->reader(), out, smg::partOf(bar.function(), begin, 1.0));
+    const double end = this->reportsPage() ? 0.95 : 1.0;
+    report = this->solveAndWrite(mesh->reader(), out, smg::partOf(bar.function(), begin, end));
+    if (this->reportsPage())
+    {
+      drawn = this->draw(mesh->reader(), report, smg::partOf(bar.function(), end, 1.0));
+    }
     if (this->Conversion)
     {
       const std::vector<std::string> more = this->notesOn(*this->Conversion, out);
@@ -161,7 +168,9 @@ void MeshCommand::compute()
     report.seconds.total = secondsSince(this->Start);
     report.scratch_bytes_peak = smg::ScratchAccount::process().peak();
   }
-  this->writeReport(report.json());
+  html::PageFacts facts = this->pageFacts();
+  facts.surface = std::move(drawn);
+  this->writeReport(report.json(), facts);
   this->Solution->removeCheckpoint();
   this->Solution.reset();
   this->tell(report);
@@ -180,6 +189,41 @@ smg::Report MeshCommand::solveAndWrite(
     report, smg::partOf(progress, 0.9, 1.0));
   report.notes.insert(report.notes.end(), notes.begin(), notes.end());
   return report;
+}
+
+const std::string& MeshCommand::text() const
+{
+  static const std::string none;
+  return none;
+}
+
+html::PageFacts MeshCommand::pageFacts() const
+{
+  return { this->In, this->memoryLimit(), this->tolerance(), this->text(), this->File };
+}
+
+html::ResultSurface MeshCommand::draw(
+  const smg::VsmReader& mesh, const smg::Report& report, const smg::ProgressFunction& progress)
+{
+  std::vector<std::string> names;
+  for (const smg::ColumnSpec& column : this->addedTo(mesh.info()).ofVertices)
+  {
+    names.push_back(column.name);
+  }
+  const std::int64_t memory = std::max(this->memoryLimit(), smg::Workspace::LeastMemory);
+  return drawnBy(
+    [&]
+    {
+      html::ResultSurface drawn;
+      // What the stream adds to the report is there already.
+      smg::Report again = report;
+      this->writeResult(
+        mesh, *this->Solution,
+        [&](smg::MeshSource& result, const smg::ProgressFunction& reading)
+        { drawn = html::resultSurface(result, names, memory, reading); },
+        again, progress);
+      return drawn;
+    });
 }
 
 std::int64_t MeshCommand::writerMemory() const

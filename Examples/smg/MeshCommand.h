@@ -82,10 +82,16 @@ protected:
     smg::Report& report, const smg::ProgressFunction& progress) const = 0;
   /** The memory limit of solveOn(), bytes. */
   virtual std::int64_t memoryLimit() const = 0;
+  /** The relative residual to stop at; 0: there is none. */
+  virtual double tolerance() const { return 0.0; }
+  /** What `File` holds; empty: there is none. */
+  virtual const std::string& text() const;
   /** Warns of what the user must know at once. */
   virtual void warn(const smg::Report& /*report*/) const {}
   /** Prints what was found; what it cost follows. */
   virtual void print(const smg::Report& report) const = 0;
+  /** Of a report as a page, without what it draws. */
+  html::PageFacts pageFacts() const;
   /** Bytes for the buffers of a writer while the solution holds its memory. */
   std::int64_t writerMemory() const;
 
@@ -102,6 +108,9 @@ private:
   /** Computes, writes OUT and returns the report. */
   smg::Report solveAndWrite(
     const smg::VsmReader& mesh, const ResultFile& out, const smg::ProgressFunction& progress);
+  /** Reads the mesh with its result once more, for the page of the report. */
+  html::ResultSurface draw(
+    const smg::VsmReader& mesh, const smg::Report& report, const smg::ProgressFunction& progress);
   /** Notes for the user on the conversion of IN. */
   std::vector<std::string> notesOn(
     const smg::ConversionReport& conversion, const ResultFile& out) const;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DrawMesh.h"
 #include "OneProcess.h"
 #include "OpenInput.h"
 #include "ProgressBar.h"
@@ -71,7 +72,12 @@ void PreviewOptions::run() const
     std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   report["seconds"] = { { "total", seconds } };
   report["notes"] = notes;
-  this->writeReport(report.dump(2));
+  html::PageFacts facts{ this->in };
+  if (this->reportsPage())
+  {
+    facts.surface = surfaceOf(this->out, *this);
+  }
+  this->writeReport(report.dump(2), facts);
   if (!this->quiet)
   {
     std::printf("%lld points and %lld triangles of %lld vertices, %.2f s\n",

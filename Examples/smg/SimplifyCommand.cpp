@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "DrawMesh.h"
 #include "OneProcess.h"
 #include "OpenInput.h"
 #include "ProgressBar.h"
@@ -68,7 +69,7 @@ void SimplifyCommand::run()
   if (this->dryRun)
   {
     const smg::JobEstimate costs = this->estimate();
-    this->writeReport(costs.json());
+    this->writeReport(costs.json(), { this->in });
     printEstimate(costs);
     return;
   }
@@ -83,7 +84,12 @@ void SimplifyCommand::run()
     this->simplify.progress = smg::partOf(bar.function(), mesh->conversion() ? 0.5 : 0.0, 1.0);
     report = smg::simplify(mesh->reader(), this->out, this->simplify);
   }
-  this->writeReport(report.json());
+  html::PageFacts facts{ this->in, this->simplify.memoryLimit };
+  if (this->reportsPage())
+  {
+    facts.surface = surfaceOf(this->out, *this);
+  }
+  this->writeReport(report.json(), facts);
   if (!this->quiet)
   {
     std::printf("%lld vertices and %lld triangles of %lld and %lld, error %.3g, %.2f s\n",

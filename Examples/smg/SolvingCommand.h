@@ -31,7 +31,8 @@ protected:
   /** Reads the file that says what to do, once: it may be a pipe. Throws smg::Error. */
   const std::string& readText();
   /** The same, when it has been read. */
-  const std::string& text() const { return this->Text; }
+  const std::string& text() const override { return this->Text; }
+  double tolerance() const override { return this->solveOptions().tolerance; }
   /** Applies --checkpoint, for a solve on this mesh. */
   void applyCheckpoint(smg::SolveOptions& options, const smg::VsmReader& mesh) const;
 

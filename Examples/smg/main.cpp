@@ -16,6 +16,7 @@
 // Exit status: 0; 1 with one line on standard error; 2 for wrong usage.
 
 #include "CommonOptions.h"
+#include "HtmlReport/Page.h"
 #include "Interrupt.h"
 
 #include "Solver/Core/OneLine.h"
@@ -148,6 +149,7 @@ int run(int argc, char** argv)
     return 2;
   }
 
+  html::rememberCommandLine(argc, argv);
   catchInterrupts();
   return succeed(action());
 }

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "CommonOptions.h"
+
+#include "smg/VsmReader.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+/** Memory to draw a mesh with, unless --memory says otherwise. */
+inline constexpr std::int64_t DrawingMemory = std::int64_t(256) << 20;
+
+/** What `draw` returns, for a report as a page. The command has done its work, so that an error is
+ * told there, in place of the surface. */
+html::ResultSurface drawnBy(const std::function<html::ResultSurface()>& draw);
+
+/** The surface of a mesh, likewise. */
+html::ResultSurface surfaceOf(const smg::VsmReader& mesh, std::int64_t memory);
+/** The same of the mesh that a command has written, in any format. */
+html::ResultSurface surfaceOf(const std::filesystem::path& written, const CommonOptions& common);
