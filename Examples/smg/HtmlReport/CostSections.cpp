@@ -45,6 +45,25 @@ std::string memorySection(Entries& report, std::int64_t memoryLimit)
   return section("memory", "Memory", figure(chart));
 }
 
+/** What each pass left and cost. */
+std::string passesTable(Entries& report)
+{
+  const Json passes = report.take("by_pass");
+  if (!passes.is_array() || passes.empty())
+  {
+    return {};
+  }
+  Table rows{ { "pass", "residual", "time", "read", "written", "accounted memory so far" }, {} };
+  for (const Json& pass : passes)
+  {
+    rows.rows.push_back(
+      { std::to_string(rows.rows.size() + 1), valueText("residual", pass.value("residual", Json())),
+        html::seconds(numberOf(pass, "seconds")), bytes(numberOf(pass, "read")),
+        bytes(numberOf(pass, "written")), bytes(numberOf(pass, "pool_bytes")) });
+  }
+  return "<details><summary>By pass</summary>" + table(rows) + "</details>\n";
+}
+
 /** The phases of a report, with the rest up to the total. */
 std::string timeSection(Entries& report)
 {
@@ -101,7 +120,7 @@ std::string timeSection(Entries& report)
     chart.caption += " on " + counted(threads.get<std::int64_t>(), "thread", "threads");
   }
   chart.caption += '.';
-  return section("time", "Time", figure(chart));
+  return section("time", "Time", figure(chart) + passesTable(report));
 }
 
 /** Traffic by kinds, and the table with their levels. */
