@@ -11,6 +11,7 @@
 #include "vtkInformationStringKey.h"
 
 #include <algorithm>
+#include <string>
 
 namespace smg
 {
@@ -31,6 +32,33 @@ vtkAlgorithm* before(vtkAlgorithm& filter)
   return at;
 }
 
+/** Whether the pieces of the reader have the required columns, and no other one is switched off
+ * that counts: the file has that. */
+bool readsAll(vtkStreamingMeshReader& reader, const PieceColumns& columns)
+{
+  vtkDataArraySelection* const sides[] = { reader.GetPointDataArraySelection(),
+    reader.GetCellDataArraySelection() };
+  const auto isRead = [&sides](const std::string& name)
+  {
+    return std::ranges::any_of(
+      sides, [&](vtkDataArraySelection* side) { return side->ArrayIsEnabled(name.c_str()) != 0; });
+  };
+  const auto counts = [&columns](const std::string& name)
+  { return columns.all || columns.required.contains(name) || columns.optional.contains(name); };
+  for (vtkDataArraySelection* side : sides)
+  {
+    for (int k = 0; k < side->GetNumberOfArrays(); ++k)
+    {
+      const char* name = side->GetArrayName(k);
+      if (!side->ArrayIsEnabled(name) && counts(name))
+      {
+        return false;
+      }
+    }
+  }
+  return std::ranges::all_of(columns.required, isRead);
+}
+
 } // namespace
 
 vtkAlgorithm& firstOfChain(vtkRegionFilter& region)
@@ -43,20 +71,15 @@ vtkAlgorithm& firstOfChain(vtkRegionFilter& region)
   return *first;
 }
 
-std::filesystem::path unchangedFile(vtkAlgorithm& filter, const std::set<std::string>& names)
+std::filesystem::path unchangedFile(vtkAlgorithm& filter, const PieceColumns& columns)
 {
   vtkAlgorithm* at = before(filter);
-  while (at && vtkMeshCondition::SafeDownCast(at))
+  while (!columns.all && at && vtkMeshCondition::SafeDownCast(at))
   {
     at = before(*at);
   }
   auto* reader = vtkStreamingMeshReader::SafeDownCast(at);
-  const auto isRead = [reader](const std::string& name)
-  {
-    return reader->GetPointDataArraySelection()->ArrayIsEnabled(name.c_str()) ||
-           reader->GetCellDataArraySelection()->ArrayIsEnabled(name.c_str());
-  };
-  if (!reader || !std::ranges::all_of(names, isRead))
+  if (!reader || !reader->IsFileUnchanged() || !readsAll(*reader, columns))
   {
     return {};
   }

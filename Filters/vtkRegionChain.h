@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "IO/vtkPieceStream.h"
+
 #include <filesystem>
-#include <set>
-#include <string>
 
 class vtkAlgorithm;
 class vtkRegionFilter;
@@ -16,10 +16,11 @@ namespace smg
 vtkAlgorithm& firstOfChain(vtkRegionFilter& region);
 
 /**
- * The .vsm file of the reader before a filter, if its pieces reach the filter unchanged and have
- * the arrays `names`: between the two there are only conditions, which then have no arrays of their
- * own that count. Empty: there is none.
+ * The .vsm file of the reader before a filter, if its pieces reach the filter unchanged with these
+ * columns: between the two there are only conditions, which then have no arrays of their own that
+ * count, or none if all columns are wanted. Empty: there is none, or the file has been replaced
+ * since it was opened.
  */
-std::filesystem::path unchangedFile(vtkAlgorithm& filter, const std::set<std::string>& names);
+std::filesystem::path unchangedFile(vtkAlgorithm& filter, const PieceColumns& columns);
 
 } // namespace smg

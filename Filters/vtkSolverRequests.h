@@ -4,7 +4,6 @@
 
 #include "Filters/vtkStreamingSolver.h"
 
-#include "Filters/Streaming/SolutionValues.h"
 #include "Filters/Streaming/vtkBroughtPiece.h"
 #include "Filters/Streaming/vtkInputStamp.h"
 #include "Filters/Streaming/vtkPieceRequest.h"
@@ -241,7 +240,7 @@ struct vtkStreamingSolver::Internals
       pulling.threads = this->Self.NumberOfThreads;
       smg::Progress progress(smg::progressOf(this->Self));
       const std::unique_ptr<smg::StreamedTask> task = this->Self.MakeTask(present);
-      const std::filesystem::path file = smg::unchangedFile(this->Self, task->columns().required);
+      const std::filesystem::path file = smg::unchangedFile(this->Self, task->columns());
       if (!file.empty())
       {
         this->Streamed.solveFile(file, *task, pulling, progress);

@@ -86,7 +86,8 @@ bool vtkStreamingMeshDeformation::IsForMemory(vtkPointSet& input, bool isWhole)
 
 vtkSmartPointer<vtkPointSet> vtkStreamingMeshDeformation::MeshInMemory(vtkPointSet& input)
 {
-  return smg::isPreview(input) ? this->Internal->Dragged.of(input, this->DragPoints) : Superclass::MeshInMemory(input);
+  return smg::isPreview(input) ? this->Internal->Dragged.of(input, this->DragPoints)
+                               : this->Superclass::MeshInMemory(input);
 }
 
 smg::SolveSummary vtkStreamingMeshDeformation::SolveInMemory(

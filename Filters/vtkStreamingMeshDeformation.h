@@ -12,16 +12,16 @@
  *
  * - For streamed requests (see vtkStreamingMeshKeys), those of writers and other streaming filters,
  *   the whole mesh is deformed once, out of core, as described at vtkStreamingSolver.
- * - For other requests, if the input is a preview, the preview itself is deformed in memory. Its
- *   hierarchy is kept as long as only the motion of the handles changes, so that the preview
- *   follows a dragged handle immediately.
+ * - For other requests, if the input is a preview and Solve says so, that is deformed in memory,
+ *   made coarser to DragPoints. Its hierarchy is kept as long as only the motion of the handles
+ *   changes, so that it follows a dragged handle immediately.
  * - Other requests for the whole of a mesh of at most InteractivePoints points are treated like
  *   previews; those for larger meshes, or with several processes, like streamed requests.
  *
- * In all cases a mesh gets the same points, bit for bit. With several processes that have memory
- * for the matrix, Engine deforms on all of them together, previews excepted, and the points are the
- * same up to Tolerance; Cycles must be 0, then. Any mesh can be deformed in memory; a streamed mesh
- * has to fulfil the contract described at vtkStreamingSolver.
+ * In all cases but previews a mesh gets the same points, bit for bit. With several processes that
+ * have memory for the matrix, Engine deforms on all of them together, previews excepted, and the
+ * points are the same up to Tolerance; Cycles must be 0, then. Any mesh can be deformed in memory;
+ * a streamed mesh has to fulfil the contract described at vtkStreamingSolver.
  *
  * @sa vtkMeshHandle vtkMultiEngineSolver vtkStreamingSolver vtkStreamingMeshPreview
  * vtkStreamingMeshReader

@@ -11,6 +11,7 @@
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
+#include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "smg/Simplify.h"
 #include "smg/VsmReader.h"
@@ -32,6 +33,8 @@ namespace
 
 /** The share of reading the input in the progress. */
 constexpr double PullShare = 0.5;
+/** The scratch file with a copy of the mesh. */
+constexpr const char* Copy = "mesh.vsm";
 
 std::string sentence(const smg::SimplifyReport& report)
 {
@@ -67,14 +70,16 @@ struct vtkStreamingMeshSimplification::Internals
       const char* folder = this->Self.ScratchDirectory;
       this->Scratch.emplace(folder ? folder : "");
       const std::filesystem::path result = *this->Scratch / "simplified.vsm";
-      this->Report = smg::simplify(smg::VsmReader(this->fileOf(input)), result,
+      vtkPointSet& present = *vtkPointSet::GetData(inputInfo);
+      this->Report = smg::simplify(smg::VsmReader(this->fileOf(input, request, present)), result,
         { .vertices = this->Self.NumberOfVertices,
-          .error = this->Self.Error,
+          .error = this->Self.MaximumError,
           .memoryLimit = this->memory(),
           .threads = this->Self.NumberOfThreads,
           .codec = smg::Codec::Lz4,
           .scratch = this->Scratch->path(),
           .progress = smg::partOf(smg::progressOf(this->Self), PullShare, 1.0) });
+      smg::FileDescriptor::removeClosed(*this->Scratch / Copy);
       this->Result.emplace(result);
       this->Outcome = sentence(this->Report);
     }
@@ -99,42 +104,47 @@ struct vtkStreamingMeshSimplification::Internals
     this->Outcome.clear();
   }
 
-  /** The mesh as a .vsm file: that of the reader, or a copy in the scratch folder. */
-  std::filesystem::path fileOf(smg::PieceInput& input) const
+  /** The mesh as a .vsm file: that of the reader, or a copy in the scratch folder. `present` is
+   * what was requested of the input last. */
+  std::filesystem::path fileOf(
+    smg::PieceInput& input, const smg::PieceRequest& request, vtkPointSet& present) const
   {
-    const std::filesystem::path whole = smg::unchangedFile(this->Self, {});
+    const smg::PieceColumns columns{ .all = true, .required = {}, .optional = {} };
+    const std::filesystem::path whole = smg::unchangedFile(this->Self, columns);
     if (!whole.empty())
     {
       return whole;
     }
-    const std::filesystem::path copy = *this->Scratch / "mesh.vsm";
+    const std::filesystem::path copy = *this->Scratch / Copy;
     const auto progress = smg::partOf(smg::progressOf(this->Self), 0.0, PullShare);
-    vtkPointSet& present = *vtkPointSet::SafeDownCast(input.update(0, 1, false));
-    if (smg::isOrdinaryMesh(present) && !smg::isPreview(present))
+    if (!smg::hasSeveralProcesses() && smg::isOrdinaryMesh(present) && !smg::isPreview(present))
     {
+      vtkDataObject* mesh = request.Pieces > 1 ? input.update(0, 1, false) : &present;
       smg::ConversionOptions options;
-      options.memoryLimit = std::max(this->memory(), std::int64_t(16) << 20);
+      options.memoryLimit = this->memory();
       options.scratch = this->Scratch->path();
       options.threads = this->Self.NumberOfThreads;
       options.progress = progress;
-      smg::writeOrdinaryMesh(present, copy, options);
+      smg::writeOrdinaryMesh(*vtkPointSet::SafeDownCast(mesh), copy, options);
       return copy;
     }
-    smg::PieceStream stream(input, { .given = this->Self.NumberOfPieces },
-      { .all = true, .required = {}, .optional = {} });
+    smg::PieceStream stream(input, { .given = this->Self.NumberOfPieces }, columns);
     smg::Progress done(progress);
     smg::writeContainer(stream, copy, true, done);
     return copy;
   }
 
+  /** Piece `piece` of so many; one that does not exist is empty. */
   void deliver(int piece, int pieces, vtkPointSet& output)
   {
     const std::int64_t cells = this->Result->info().cells;
-    const auto firstOf = [&](int p)
-    { return static_cast<std::int64_t>(static_cast<__int128>(cells) * p / pieces); };
-    smg::MeshPiece part;
-    this->Result->readPiece(firstOf(piece), firstOf(piece + 1), part);
-    smg::setPiece(output, part, this->Result->info());
+    const int part = piece < 0 ? pieces : std::min(piece, pieces);
+    const auto firstOf = [&](int p) {
+      return static_cast<std::int64_t>(static_cast<__int128>(cells) * std::min(p, pieces) / pieces);
+    };
+    smg::MeshPiece found;
+    this->Result->readPiece(firstOf(part), firstOf(part + 1), found);
+    smg::setPiece(output, found, this->Result->info());
   }
 
   vtkStreamingMeshSimplification& Self;
@@ -164,6 +174,11 @@ double vtkStreamingMeshSimplification::GetReachedError()
 const char* vtkStreamingMeshSimplification::GetOutcome()
 {
   return this->Internal->Outcome.c_str();
+}
+
+const char* vtkStreamingMeshSimplification::GetError()
+{
+  return this->Internal->Failures.error().c_str();
 }
 
 const char* vtkStreamingMeshSimplification::GetReport()
@@ -223,7 +238,7 @@ void vtkStreamingMeshSimplification::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "NumberOfVertices: " << this->NumberOfVertices << "\n";
-  os << indent << "Error: " << this->Error << "\n";
+  os << indent << "MaximumError: " << this->MaximumError << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent
      << "ScratchDirectory: " << (this->ScratchDirectory ? this->ScratchDirectory : "(none)")

@@ -4,11 +4,11 @@
  * @brief   Simplifies a very large surface by collapsing edges
  *
  * Reads a mesh once, piece by piece and in bounded memory, and collapses edges, those that change
- * the surface least first, until NumberOfVertices or Error is reached; of a tetrahedral mesh, its
- * outer surface (see smg::simplify()). Every point of the result is a point of the mesh, with its
- * point arrays and with `OriginalId`. Bodies, holes and winding stay; the result has no cell
- * arrays. It is kept in a scratch file until the filter or its input is modified, and delivered as
- * the pieces of a mesh stream, as those of vtkStreamingMeshReader.
+ * the surface least first, until NumberOfVertices or MaximumError is reached; of a tetrahedral
+ * mesh, its outer surface (see smg::simplify()). Every point of the result is a point of the mesh,
+ * with its point arrays and with `OriginalId`. Bodies, holes and winding stay; the result has no
+ * cell arrays. It is kept in a scratch file until the filter or its input is modified, and
+ * delivered as the pieces of a mesh stream, as those of vtkStreamingMeshReader.
  *
  * The input is that of vtkStreamingSolver: pieces, or any vtkPolyData or vtkUnstructuredGrid. With
  * several processes, process 0 delivers all of the result in its piece.
@@ -32,7 +32,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /** The most points of the result, at least 4; 0: as many as Error needs. Default: 100,000. */
+  /** The most points of the result, at least 4; 0: as many as MaximumError needs. Default: 100,000.
+   */
   vtkSetClampMacro(NumberOfVertices, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(NumberOfVertices, vtkIdType);
   ///@}
@@ -40,13 +41,13 @@ public:
   ///@{
   /** The largest error, in the unit of the mesh: see smg::SimplifyOptions. 0 (default): what
    * NumberOfVertices needs. With both, what comes first ends the simplification. */
-  vtkSetMacro(Error, double);
-  vtkGetMacro(Error, double);
+  vtkSetMacro(MaximumError, double);
+  vtkGetMacro(MaximumError, double);
   ///@}
 
   ///@{
   /** The memory limit in MiB, at least 16. Default: 256. The result depends on it. */
-  vtkSetClampMacro(MemoryLimit, int, 1, VTK_INT_MAX);
+  vtkSetClampMacro(MemoryLimit, int, 16, VTK_INT_MAX);
   vtkGetMacro(MemoryLimit, int);
   ///@}
 
@@ -77,6 +78,9 @@ public:
   const char* GetReport();
   ///@}
 
+  /** Why the last request failed; "": it did not. */
+  const char* GetError();
+
 protected:
   vtkStreamingMeshSimplification();
   ~vtkStreamingMeshSimplification() override;
@@ -96,7 +100,7 @@ private:
   struct Internals;
 
   vtkIdType NumberOfVertices = 100000;
-  double Error = 0.0;
+  double MaximumError = 0.0;
   int MemoryLimit = 256;
   char* ScratchDirectory = nullptr;
   int NumberOfPieces = 0;

@@ -45,7 +45,7 @@ public:
   /** What becomes of the boundary of a surface. */
   enum BoundaryTypes
   {
-    AUTOMATIC = 0, ///< SMOOTH for points, FREE for an array and on a preview
+    AUTOMATIC = 0, ///< SMOOTH for points, FREE for an array
     SMOOTH = 1,    ///< it is smoothed as curves, by the same size; not for an array
     FIXED = 2,     ///< it does not change
     FREE = 3       ///< it is smoothed with the surface

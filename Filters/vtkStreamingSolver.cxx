@@ -6,6 +6,7 @@
 #include "Filters/vtkSolverRequests.h"
 
 #include "vtkDemandDrivenPipeline.h"
+#include "vtkExecutive.h"
 #include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -212,8 +213,16 @@ int vtkStreamingSolver::RequestInformation(
 }
 
 int vtkStreamingSolver::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
+  vtkInformation* asked, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  // The executive labels all outputs with the piece that is requested of one of them.
+  const int port = asked->Get(vtkExecutive::FROM_OUTPUT_PORT());
+  if (port > MESH)
+  {
+    smg::PieceRequest ofTable(outputVector->GetInformationObject(port));
+    ofTable.IsStreamed = false;
+    ofTable.forwardTo(outputVector->GetInformationObject(MESH));
+  }
   // Not the first piece to solve on: if the executive requested that and the input failed, the
   // streamed request would not be reset.
   const smg::PieceRequest request(outputVector->GetInformationObject(0));
@@ -234,6 +243,7 @@ int vtkStreamingSolver::RequestUpdateExtent(
 int vtkStreamingSolver::RequestData(
   vtkInformation*, vtkInformationVector** inputVector, vtkInformationVector* outputVector)
 {
+  bool isSolved = false;
   const int answered = smg::answer(*this, this->Internal->Failures, inputVector, *outputVector,
     [&]
     {
@@ -241,10 +251,12 @@ int vtkStreamingSolver::RequestData(
       this->Internal->answer(
         smg::PieceRequest(info), inputVector[0]->GetInformationObject(0), info);
       this->Internal->AnsweredAt.Modified();
+      isSolved = true;
     });
   const std::int64_t limit = std::int64_t(this->MemoryLimit) << 20;
-  smg::fillPasses(this->GetSummary(), limit, *vtkTable::GetData(outputVector, PASSES));
-  smg::fillText(this->GetSummary(), *vtkTable::GetData(outputVector, TEXT));
+  const smg::SolveSummary shown = isSolved ? this->GetSummary() : smg::SolveSummary();
+  smg::fillPasses(shown, limit, *vtkTable::GetData(outputVector, PASSES));
+  smg::fillText(shown, *vtkTable::GetData(outputVector, TEXT));
   return answered;
 }
 

@@ -70,9 +70,10 @@ public:
   /** Where to solve while the preview of a mesh is shown. */
   enum SolveTypes
   {
-    AUTOMATIC_SOLVE = 0, ///< on the full mesh if the estimate is below 20 s, else on the preview
-    ON_PREVIEW = 1,      ///< on the preview, in memory, as an approximation
-    ON_FULL_MESH = 2     ///< on the full mesh; the preview then has its values
+    AUTOMATIC_SOLVE =
+      0,             ///< on the full mesh if the estimate is below 20 s of CPU, else the preview
+    ON_PREVIEW = 1,  ///< on the preview, in memory, as an approximation
+    ON_FULL_MESH = 2 ///< on the full mesh; the preview then has its values
   };
 
   ///@{
@@ -120,13 +121,17 @@ public:
 
   ///@{
   /** The memory limit of the solver in MiB, at least 1. Default: 1024. If the mesh needs more, the
-   * solve fails immediately and states how much. */
+   * solve fails immediately and states how much. Scratch files in memory (see ScratchDirectory)
+   * take at most half of it, besides. */
   vtkSetClampMacro(MemoryLimit, int, 1, VTK_INT_MAX);
   vtkGetMacro(MemoryLimit, int);
   ///@}
 
   ///@{
-  /** The folder for scratch files. Default: none (the system's folder for temporary files). */
+  /** The folder for scratch files. Default: none: the system's folder for temporary files; of an
+   * ordinary mesh the system's folder in memory, /dev/shm, if half of MemoryLimit has room for
+   * them.
+   */
   vtkSetFilePathMacro(ScratchDirectory);
   vtkGetFilePathMacro(ScratchDirectory);
   ///@}

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkOrdinaryMesh.h"
 
-#include "IO/Formats/Vtk/VtkCellParts.h"
+#include "IO/Formats/Vtk/VtkCell.h"
 #include "IO/vtkComplaints.h"
 #include "IO/vtkPieceNames.h"
 #include "Solver/Storage/ScratchFolder.h"

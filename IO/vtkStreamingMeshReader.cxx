@@ -260,6 +260,12 @@ vtkMTimeType vtkStreamingMeshReader::GetMTime()
     this->Internal->CellArrays->GetMTime() });
 }
 
+bool vtkStreamingMeshReader::IsFileUnchanged()
+{
+  return this->Internal->Mesh &&
+         Internals::timeOf(this->GetContainerName()) == this->Internal->FileTime;
+}
+
 int vtkStreamingMeshReader::CanReadFile(const char* name)
 {
   try

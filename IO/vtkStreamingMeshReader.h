@@ -105,6 +105,9 @@ public:
    * -1 before. */
   vtkIdType GetWidth();
 
+  /** Whether the opened file has not been changed since; false before one is opened. */
+  bool IsFileUnchanged();
+
   /** Returns 1 if the format of the file, by its content or its suffix, can be read, else 0. */
   static int CanReadFile(const char* name);
 

@@ -2,6 +2,7 @@
 #include "Filters/Distance/vtkDistanceTask.h"
 
 #include "Filters/Mesh/vtkStoredBlock.h"
+#include "Filters/Regions/vtkRegionArrays.h"
 #include "IO/vtkMeshPieceData.h"
 #include "Solver/Description/ComposeDescriptions.h"
 #include "smg/Error.h"
@@ -98,11 +99,21 @@ SolveSummary DistanceTask::solveInMemory(
   }
   DistanceOptions given = this->options;
   given.progress = progress;
-  const StoredBlock stored(mesh, namesInSources(this->description));
+  DistanceDescription asked = this->description;
+  if (isPreview(mesh))
+  {
+    dropEmptyRegions(mesh, asked.from);
+    if (asked.from.empty() && !this->description.from.empty())
+    {
+      throw Error(
+        "No point of the preview lies in the region from which to measure." + hintOnPreview());
+    }
+  }
+  const StoredBlock stored(mesh, namesInSources(asked));
   std::unique_ptr<Solution> solution;
   try
   {
-    solution = distance(stored, this->description, given, "From");
+    solution = distance(stored, asked, given, "From");
   }
   catch (const Cancelled&)
   {

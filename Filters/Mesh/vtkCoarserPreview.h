@@ -2,15 +2,12 @@
 #pragma once
 
 #include "vtkSmartPointer.h"
-#include "vtkType.h"
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-class vtkCellArray;
 class vtkPointSet;
-class vtkPoints;
 
 namespace smg
 {

@@ -14,9 +14,8 @@ namespace smg
 
 /**
  * The reason why a task cannot be solved on the preview of a mesh; empty if it can: the preview is
- * that of a surface, the problem has no boundary conditions, since clustering does not preserve the
- * boundary, and the preview has all arrays that the problem names and a point in each of its
- * regions.
+ * that of a surface, the problem has no boundary conditions, since open edges of a preview are
+ * longer, and the preview has all arrays that the problem names and a point in each of its regions.
  */
 std::string whyNotOn(vtkPointSet& preview, const PoissonTask& task);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Regions/vtkRegionArrays.h"
 
-#include "IO/vtkMeshPieceData.h"
 #include "smg/Error.h"
 
 #include "vtkFieldData.h"
@@ -12,6 +11,7 @@
 #include "vtkUnsignedCharArray.h"
 
 #include <cstddef>
+#include <variant>
 
 namespace smg
 {
@@ -85,12 +85,25 @@ std::vector<Where> regionsOf(vtkPointSet& mesh)
   {
     // Filters between may have taken the array away.
     vtkDataArray* array = mesh.GetPointData()->GetArray(names->GetValue(k).c_str());
-    if (array && (!isPreview(mesh) || array->GetRange()[1] > 0.0))
+    if (array)
     {
       regions.emplace_back(ColumnMask{ names->GetValue(k) });
     }
   }
   return regions;
+}
+
+void dropEmptyRegions(vtkPointSet& preview, std::vector<Where>& places)
+{
+  std::erase_if(places,
+    [&preview](const Where& place)
+    {
+      const auto* mask = std::get_if<ColumnMask>(&place);
+      vtkDataArray* array = mask && isRegion(preview, mask->column)
+                              ? preview.GetPointData()->GetArray(mask->column.c_str())
+                              : nullptr;
+      return array && array->GetRange()[1] == 0.0;
+    });
 }
 
 } // namespace smg

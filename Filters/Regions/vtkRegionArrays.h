@@ -19,7 +19,11 @@ inline constexpr const char* MeshRegionsName = "MeshRegions";
  * Throws Error if the mesh has an array of that name which is no region. */
 void addToRegion(vtkPointSet& mesh, const std::string& name, const HeldPoints& held);
 
-/** The regions of the mesh; of a preview, those that have a point of it. */
+/** The regions of the mesh. */
 std::vector<Where> regionsOf(vtkPointSet& mesh);
+
+/** Takes regions without a point of a preview out of `places`: those of the mesh, which may have
+ * some, lie between its points. */
+void dropEmptyRegions(vtkPointSet& preview, std::vector<Where>& places);
 
 } // namespace smg

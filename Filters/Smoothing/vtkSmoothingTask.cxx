@@ -3,6 +3,7 @@
 
 #include "Filters/Deformation/DeformedVertices.h"
 #include "Filters/Mesh/vtkStoredBlock.h"
+#include "Filters/Regions/vtkRegionArrays.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/vtkMeshPieceData.h"
 #include "Solver/Description/ComposeDescriptions.h"
@@ -101,13 +102,19 @@ SolveSummary SmoothingTask::solveInMemory(
   vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) const
 {
   this->check();
-  const StoredBlock stored(mesh, namesIn(this->options));
   SmoothingTask task = *this;
+  if (isPreview(mesh))
+  {
+    dropEmptyRegions(mesh, task.options.hold);
+  }
+  const StoredBlock stored(mesh, namesIn(task.options));
   if (task.options.size.unit == SmoothingSize::MeanEdges && hasCellsOfMesh(mesh))
   {
-    // Those of the mesh: an area of so many more triangles has shorter edges.
-    task.options.size.value *= std::sqrt(
-      static_cast<double>(mesh.GetNumberOfCells()) / static_cast<double>(cellsBehind(mesh)));
+    // Those of the mesh: an area, or a volume, of so many more cells has shorter edges.
+    const double share =
+      static_cast<double>(mesh.GetNumberOfCells()) / static_cast<double>(cellsBehind(mesh));
+    task.options.size.value *=
+      stored.info().cellType == CellType::Triangle ? std::sqrt(share) : std::cbrt(share);
   }
   const std::unique_ptr<Solution> solution = task.smoothed(stored, true, progress);
   values.resize(static_cast<std::size_t>(solution->vertices() * solution->columns()));

@@ -2,6 +2,8 @@
 #include "Filters/Streaming/vtkPreviewDoubt.h"
 
 #include "Filters/Mesh/vtkCoarserPreview.h"
+#include "Filters/Mesh/vtkSmallPatches.h"
+#include "IO/vtkMeshPieceData.h"
 #include "smg/Error.h"
 
 #include "vtkPointSet.h"
@@ -24,13 +26,15 @@ constexpr std::int64_t Coarsening = 4;
 
 PreviewDoubt::PreviewDoubt(vtkPointSet& preview, const Solve& solve)
 {
-  if (preview.GetNumberOfPoints() < LeastPoints || !CoarserPreview::isPossible(preview))
+  if (preview.GetNumberOfPoints() < LeastPoints || !CoarserPreview::isPossible(preview) ||
+      isSurfaceOfSolid(preview))
   {
     return;
   }
   try
   {
-    const CoarserPreview coarser(preview, preview.GetNumberOfPoints() / Coarsening);
+    const CoarserPreview coarser(
+      preview, preview.GetNumberOfPoints() / Coarsening, smallPatches(preview));
     this->Points = coarser.points();
     this->Columns = solve(*coarser.of(preview), this->Values);
   }

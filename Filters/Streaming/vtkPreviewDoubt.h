@@ -23,7 +23,7 @@ public:
    * Error. */
   using Solve = std::function<int(vtkPointSet& mesh, std::vector<double>& values)>;
 
-  /** Solves on a coarser preview of a preview that is a surface. It knows nothing if that fails or
+  /** Solves on a coarser preview of a preview of a surface. It knows nothing if that fails or
    * the preview is too small. Throws Cancelled. */
   PreviewDoubt(vtkPointSet& preview, const Solve& solve);
 

@@ -18,7 +18,6 @@
 #include <chrono>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <optional>
 
 namespace smg
@@ -33,32 +32,30 @@ constexpr std::int64_t LeastConversionMemory = std::int64_t(16) << 20;
 
 /** A folder whose files are in memory, as Linux has it. */
 constexpr const char* FolderInMemory = "/dev/shm";
-/** Where to put about so many bytes of scratch files. They take at most half of the memory limit,
- * and a quarter of what the system has free. */
-std::filesystem::path placeOf(std::int64_t bytes, const StreamedSolve::Pulling& pulling)
-{
-  std::error_code absent;
-  const std::filesystem::space_info space = std::filesystem::space(FolderInMemory, absent);
-  const bool fits = !absent && bytes <= pulling.memory / 2 &&
-                    static_cast<std::uintmax_t>(bytes) <= space.available / 4;
-  return pulling.scratch.empty() && fits ? FolderInMemory : pulling.scratch;
-}
 
-/** The bytes of the scratch files for a mesh of VTK, about: it is written as it is, sorted, and
- * written in order; a solve has some hundred a point. */
-std::int64_t scratchOf(vtkPointSet& mesh)
+/** A folder for the scratch files of a solve on a mesh that VTK has in memory: there, too, if none
+ * is given and they take at most half of the memory limit and a quarter of what is free. The mesh
+ * is written as it is, sorted, and written in order; a solve has some hundred bytes a point. */
+std::unique_ptr<ScratchFolder> folderFor(vtkPointSet& mesh, const StreamedSolve::Pulling& pulling)
 {
   constexpr std::int64_t OfPoint = 400;
-  return 4 * static_cast<std::int64_t>(mesh.GetActualMemorySize()) * 1024 +
-         OfPoint * mesh.GetNumberOfPoints();
-}
-
-/** The same for a stream: the copy of its pieces, and what the task has. */
-std::int64_t scratchOf(const std::optional<StreamInfo>& mesh, const StreamedTask& task)
-{
-  constexpr std::int64_t OfVertex = 64, OfCell = 32; // bytes of the copy
-  return mesh ? OfVertex * mesh->vertices + OfCell * mesh->cells + task.costs(*mesh).scratch
-              : std::numeric_limits<std::int64_t>::max();
+  const std::int64_t bytes = 4 * static_cast<std::int64_t>(mesh.GetActualMemorySize()) * 1024 +
+                             OfPoint * mesh.GetNumberOfPoints();
+  std::error_code absent;
+  const std::filesystem::space_info space = std::filesystem::space(FolderInMemory, absent);
+  if (pulling.scratch.empty() && !absent && bytes <= pulling.memory / 2 &&
+      static_cast<std::uintmax_t>(bytes) <= space.available / 4)
+  {
+    try
+    {
+      return std::make_unique<ScratchFolder>(FolderInMemory, pulling.scratchLimit);
+    }
+    catch (const Error&)
+    {
+      // Not writable: on the disk, then.
+    }
+  }
+  return std::make_unique<ScratchFolder>(pulling.scratch, pulling.scratchLimit);
 }
 
 /** A progress function that cannot cancel by itself. */
@@ -82,7 +79,9 @@ void StreamedSolve::solve(
     writeContainer(stream, container, true, pulled);
     return std::vector<std::string>();
   };
-  this->solveOn([&] { return scratchOf(input.meshInfo(), task); }, make, task, pulling, progress);
+  const auto folder = [&]
+  { return std::make_unique<ScratchFolder>(pulling.scratch, pulling.scratchLimit); };
+  this->solveOn(folder, make, task, progress);
 }
 
 void StreamedSolve::solveWhole(
@@ -90,7 +89,7 @@ void StreamedSolve::solveWhole(
 {
   const auto make = [&](const std::filesystem::path& container, Progress& written)
   { return this->writeWhole(mesh, pulling, container, written); };
-  this->solveOn([&] { return scratchOf(mesh); }, make, task, pulling, progress);
+  this->solveOn([&] { return folderFor(mesh, pulling); }, make, task, progress);
 }
 
 std::vector<double> StreamedSolve::valuesOfPoints()
@@ -146,8 +145,7 @@ void StreamedSolve::solveFile(const std::filesystem::path& file, const StreamedT
   {
     this->discard();
     task.check();
-    this->Scratch = std::make_unique<ScratchFolder>(
-      placeOf(task.costs(VsmReader(file).info()).scratch, pulling), pulling.scratchLimit);
+    this->Scratch = std::make_unique<ScratchFolder>(pulling.scratch, pulling.scratchLimit);
     const Report report = this->solveOnFile(file, task, functionOf(progress));
     this->Summary = SolveSummary::of(report, this->Result->columns());
   }
@@ -165,16 +163,15 @@ Report StreamedSolve::solveOnFile(
   return report;
 }
 
-void StreamedSolve::solveOn(const std::function<std::int64_t()>& scratchBytes, const MakeMesh& make,
-  const StreamedTask& task, const Pulling& pulling, Progress& progress)
+void StreamedSolve::solveOn(
+  const MakeFolder& folder, const MakeMesh& make, const StreamedTask& task, Progress& progress)
 {
   try
   {
     this->discard();
     task.check();
     const auto start = std::chrono::steady_clock::now();
-    this->Scratch =
-      std::make_unique<ScratchFolder>(placeOf(scratchBytes(), pulling), pulling.scratchLimit);
+    this->Scratch = folder();
     const std::filesystem::path container = *this->Scratch / "mesh.vsm";
     const ProgressFunction whole = functionOf(progress);
     Progress made(partOf(whole, 0.0, PullShare));

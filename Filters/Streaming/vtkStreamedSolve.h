@@ -34,8 +34,7 @@ public:
   struct Pulling
   {
     PieceCount pieces;
-    /** Folder for scratch files; empty: the memory, if the limit and the system have room for them,
-     * else the system's folder. */
+    /** Folder for scratch files; empty: the system's, or of an ordinary mesh the memory. */
     std::filesystem::path scratch;
     std::int64_t scratchLimit = 0; ///< of the bytes of all scratch files at once; 0: none
     std::int64_t memory = 0;       ///< limit in bytes
@@ -95,8 +94,9 @@ private:
   /** Makes the .vsm file of the mesh in the scratch folder; returns notes. */
   using MakeMesh = std::function<std::vector<std::string>(
     const std::filesystem::path& container, Progress& progress)>;
-  void solveOn(const std::function<std::int64_t()>& scratchBytes, const MakeMesh& make,
-    const StreamedTask& task, const Pulling& pulling, Progress& progress);
+  using MakeFolder = std::function<std::unique_ptr<ScratchFolder>()>;
+  void solveOn(
+    const MakeFolder& folder, const MakeMesh& make, const StreamedTask& task, Progress& progress);
   Report solveOnFile(
     const std::filesystem::path& file, const StreamedTask& task, const ProgressFunction& progress);
   std::vector<std::string> writeWhole(vtkPointSet& mesh, const Pulling& pulling,

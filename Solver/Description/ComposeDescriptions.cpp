@@ -68,7 +68,7 @@ void append(ProblemDescription& problem, const ProblemDescription& more)
 
 std::set<std::string> namedColumns(const ProblemDescription& problem)
 {
-  std::set<std::string> names = namedMasks(problem);
+  std::set<std::string> names;
   if (!problem.field.empty())
   {
     names.insert(problem.field);
@@ -81,6 +81,10 @@ std::set<std::string> namedColumns(const ProblemDescription& problem)
       {
         names.insert(tag->column);
       }
+      if (const auto* mask = std::get_if<ColumnMask>(&where))
+      {
+        names.insert(mask->column);
+      }
     },
     [&names](const DataValue& value)
     {
@@ -89,22 +93,6 @@ std::set<std::string> namedColumns(const ProblemDescription& problem)
         names.insert(*value.column());
       }
     });
-  return names;
-}
-
-std::set<std::string> namedMasks(const ProblemDescription& problem)
-{
-  std::set<std::string> names;
-  visit(
-    problem,
-    [&names](const Where& where)
-    {
-      if (const auto* mask = std::get_if<ColumnMask>(&where))
-      {
-        names.insert(mask->column);
-      }
-    },
-    [](const DataValue&) {});
   return names;
 }
 

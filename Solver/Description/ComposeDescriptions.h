@@ -17,9 +17,6 @@ SMG_EXPORT void append(ProblemDescription& problem, const ProblemDescription& mo
 /** The names of all columns of the mesh that a description names. */
 SMG_EXPORT std::set<std::string> namedColumns(const ProblemDescription& problem);
 
-/** The names of the columns that are masks (see ColumnMask) in a description. */
-SMG_EXPORT std::set<std::string> namedMasks(const ProblemDescription& problem);
-
 /** Whether a description poses a problem: data other than conductivity and screening, which alone
  * have the solution 0. */
 SMG_EXPORT bool isPosed(const ProblemDescription& problem);

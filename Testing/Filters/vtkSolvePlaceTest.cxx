@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "Filters/vtkMeshRegion.h"
 #include "Filters/vtkStreamingDistance.h"
 #include "Filters/vtkStreamingMeshSmoothing.h"
 #include "Testing/Filters/vtkHandleTesting.h"
 #include "Testing/Filters/vtkPoissonFixture.h"
 
+#include "vtkBox.h"
+#include "vtkDataArraySelection.h"
 #include "vtkPassThrough.h"
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
+#include <set>
 #include <string>
 
 // Where a solve happens, and how that is told: what is shown is what was computed.
@@ -115,6 +119,85 @@ TEST_F(VtkSolvePlace, ThePassesAreATable)
   updatePiece(this->Poisson, 0, 1);
   EXPECT_EQ(table->GetNumberOfRows(), 0);
   EXPECT_EQ(this->text(), "");
+}
+
+TEST_F(VtkSolvePlace, ATableThatIsAskedForAloneDoesNotChangeTheMesh)
+{
+  const PieceUnion whole = this->collectPieces(1);
+  ASSERT_TRUE(updatePiece(this->Poisson, 3, 4));
+  for (const int port : { vtkStreamingSolver::PASSES, vtkStreamingSolver::TEXT })
+  {
+    this->Poisson->Update(port);
+    auto* table = vtkTable::SafeDownCast(this->Poisson->GetOutputDataObject(port));
+    EXPECT_GT(table->GetNumberOfRows(), 0);
+    EXPECT_EQ(this->collectPieces(1).values, whole.values);
+    ASSERT_TRUE(updatePiece(this->Poisson, 3, 4));
+  }
+}
+
+/** The file has columns that the reader does not deliver. */
+TEST_F(VtkSolvePlace, ColumnsThatAreSwitchedOffDoNotCount)
+{
+  vtkNew<vtkPassThrough> pieces;
+  pieces->SetInputConnection(this->Reader->GetOutputPort());
+  this->Reader->UpdateInformation();
+  this->Reader->GetPointDataArraySelection()->DisableArray("OriginalId");
+  std::vector<double> values[2];
+  for (const bool isDirect : { true, false })
+  {
+    vtkNew<vtkStreamingDistance> distance;
+    distance->SetInputConnection(
+      isDirect ? this->Reader->GetOutputPort() : pieces->GetOutputPort());
+    distance->SetFrom(R"({"vertices": [5]})");
+    ASSERT_TRUE(updatePiece(distance, 0, 1));
+    auto* output = vtkPointSet::SafeDownCast(distance->GetOutputDataObject(0));
+    vtkDataArray* found = output->GetPointData()->GetArray("Distance");
+    for (vtkIdType i = 0; i < found->GetNumberOfTuples(); ++i)
+    {
+      values[isDirect].push_back(found->GetTuple1(i));
+    }
+  }
+  EXPECT_EQ(values[0], values[1]);
+  EXPECT_EQ(values[0][5], 0.0);
+}
+
+/** A region between the points of the preview is one of the mesh. */
+TEST_F(VtkSolvePlace, ARegionWithoutAPointOfThePreviewCounts)
+{
+  this->showPreview(300);
+  ASSERT_TRUE(updatePiece(this->Reader, 0, 1));
+  std::set<vtkIdType> shown;
+  vtkDataArray* ids =
+    vtkPointSet::SafeDownCast(this->Reader->GetOutputDataObject(0))->GetPointData()->GetGlobalIds();
+  for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
+  {
+    shown.insert(static_cast<vtkIdType>(ids->GetTuple1(i)));
+  }
+  vtkIdType hidden = 0;
+  while (shown.contains(hidden))
+  {
+    ++hidden;
+  }
+  vtkNew<vtkMeshRegion> region;
+  region->SetInputConnection(this->Reader->GetOutputPort());
+  vtkNew<vtkBox> box; // around that vertex alone
+  const double* p = this->Mesh.positions.data() + 3 * hidden;
+  box->SetBounds(p[0] - 1e-3, p[0] + 1e-3, p[1] - 1e-3, p[1] + 1e-3, p[2] - 1e-3, p[2] + 1e-3);
+  region->SetRegionFunction(box);
+  for (const int solve : { vtkStreamingSolver::AUTOMATIC_SOLVE, vtkStreamingSolver::ON_FULL_MESH,
+         vtkStreamingSolver::ON_PREVIEW })
+  {
+    vtkNew<vtkStreamingDistance> distance;
+    distance->SetInputConnection(region->GetOutputPort());
+    distance->SetSolve(solve);
+    const Errors errors(distance);
+    EXPECT_EQ(updatePiece(distance, 0, 1), solve != vtkStreamingSolver::ON_PREVIEW);
+    EXPECT_EQ(errors.contain("No point of the preview"), solve == vtkStreamingSolver::ON_PREVIEW)
+      << errors.text();
+    ASSERT_TRUE(streamPiece(distance, 0, 1));
+    auto* output = vtkPointSet::SafeDownCast(distance->GetOutputDataObject(0));
+    EXPECT_EQ(output->GetPointData()->GetArray("Distance")->GetTuple1(hidden), 0.0);
+  }
 }
 
 /** A filter between the reader and the job makes it pull pieces. */

@@ -112,7 +112,7 @@ TEST_F(VtkStreamingMeshSimplification, TakesPiecesAndOrdinaryMeshes)
   sphere->SetPhiResolution(80);
   this->Filter->SetInputConnection(sphere->GetOutputPort());
   this->Filter->SetNumberOfVertices(0);
-  this->Filter->SetError(0.005); // of a radius of 0.5
+  this->Filter->SetMaximumError(0.005); // of a radius of 0.5
   ASSERT_TRUE(updatePiece(this->Filter, 0, 1));
   vtkPolyData* output = this->Filter->GetOutput();
   EXPECT_LT(output->GetNumberOfPoints(), 1500);
@@ -145,9 +145,9 @@ TEST_F(VtkStreamingMeshSimplification, MistakesAreOneErrorEach)
   expect("expected at least 4");
   this->Filter->SetNumberOfVertices(0);
   expect("needs the number of vertices or the error");
-  this->Filter->SetError(-1.0);
+  this->Filter->SetMaximumError(-1.0);
   expect("expected a length above 0");
-  this->Filter->SetError(0.0);
+  this->Filter->SetMaximumError(0.0);
   this->Filter->SetNumberOfVertices(900);
   ASSERT_TRUE(updatePiece(this->Filter, 0, 1));
 }

@@ -76,5 +76,10 @@ for angle in (30.0, 20.0):
 preview = StreamingMeshPreview(Input=deformation, PreviewPoints=2000)
 preview.UpdatePipeline()
 assert (t.client_object(preview).GetOutput().GetNumberOfPoints() > 0) == (rank == 0), rank
+
+# So is a simplified mesh, which process 0 makes of the streamed pieces.
+simplified = StreamingMeshSimplification(Input=deformation, NumberOfVertices=2000)
+simplified.UpdatePipeline()
+assert (t.client_object(simplified).GetOutput().GetNumberOfPoints() > 0) == (rank == 0), rank
 controller.Barrier()
 print("passed in process", rank)

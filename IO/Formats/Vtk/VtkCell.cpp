@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vtk/VtkCell.h"
 
-#include "IO/Formats/Vtk/VtkCellParts.h"
-
 #include <array>
 #include <cstddef>
 #include <string>

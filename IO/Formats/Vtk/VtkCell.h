@@ -2,6 +2,7 @@
 #pragma once
 
 #include "IO/Raw/RawMeshBuilder.h"
+#include "smg/Export.h"
 
 #include <cstdint>
 #include <span>
@@ -11,6 +12,9 @@ namespace smg
 
 /** Whether cells of VTK's type `type` are points or lines, which have no triangles. */
 bool isPointOrLine(int type);
+
+/** Whether cells of VTK's type `type` are solid, and have tetrahedra. */
+SMG_EXPORT bool isSolidOfVtk(int type);
 
 /** Passes a cell of VTK's type `type` to the builder, by its corners, without other points. Throws
  * MeshError if the type is not supported, or the cell has too few points for it. */

@@ -45,14 +45,20 @@ VtkCellParts cutVtkCells(std::int64_t points, std::int64_t cells, const VtkCellA
   {
     builder.vertex(0.0, 0.0, 0.0);
   }
-  std::int64_t cell = 0;
-  try
+  for (std::int64_t cell = 0; cell < cells; ++cell)
   {
-    for (; cell < cells; ++cell)
+    try
     {
       const int type = at(cell, ofCell);
       takeVtkCell(type, ofCell, builder);
     }
+    catch (const MeshError& error)
+    {
+      throw Error("The input: cell " + std::to_string(cell) + ": " + error.what() + '.');
+    }
+  }
+  try
+  {
     RawMesh mesh = builder.finish();
     VtkCellParts parts{ mesh.cellType, numbersIn(mesh.corners), numbersIn(mesh.elements) };
     if (parts.cellOf.empty())
@@ -64,7 +70,7 @@ VtkCellParts cutVtkCells(std::int64_t points, std::int64_t cells, const VtkCellA
   }
   catch (const MeshError& error)
   {
-    throw Error("The input: cell " + std::to_string(cell) + ": " + error.what() + '.');
+    throw Error("The input: " + std::string(error.what()) + '.');
   }
 }
 

@@ -35,7 +35,4 @@ using VtkCellAt = std::function<int(std::int64_t cell, std::vector<std::int64_t>
 SMG_EXPORT VtkCellParts cutVtkCells(std::int64_t points, std::int64_t cells, const VtkCellAt& at,
   const std::filesystem::path& scratch);
 
-/** Whether a type of VTK is a solid. */
-SMG_EXPORT bool isSolidOfVtk(int type);
-
 } // namespace smg
