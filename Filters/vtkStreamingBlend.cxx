@@ -3,6 +3,7 @@
 
 #include "Filters/Blending/vtkBlendTask.h"
 #include "Filters/Mesh/vtkReplacedArray.h"
+#include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Streaming/SolveSummary.h"
 #include "IO/vtkMeshPieceData.h"
 #include "smg/DescriptionFiles.h"
@@ -11,6 +12,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -23,7 +26,7 @@ struct vtkStreamingBlend::Internals
   {
   }
 
-  std::unique_ptr<smg::BlendTask> task() const
+  std::unique_ptr<smg::BlendTask> task(vtkPointSet& input) const
   {
     auto task = std::make_unique<smg::BlendTask>();
     this->Self.FillOptions(task->options);
@@ -34,9 +37,11 @@ struct vtkStreamingBlend::Internals
     task->description.anchor = this->Self.Anchor;
     task->description.seam =
       this->Self.SeamGradient == AVERAGE ? smg::SeamGradient::Average : smg::SeamGradient::Zero;
+    task->description.hold = smg::regionsOf(input);
     if (this->Self.Hold && *this->Self.Hold)
     {
-      task->description.hold = smg::readPlacesText(this->Self.Hold, "Hold");
+      std::ranges::move(
+        smg::readPlacesText(this->Self.Hold, "Hold"), std::back_inserter(task->description.hold));
     }
     return task;
   }
@@ -121,9 +126,9 @@ const char* vtkStreamingBlend::GetColumn(int number) const
            : nullptr;
 }
 
-std::unique_ptr<smg::StreamedTask> vtkStreamingBlend::MakeTask(vtkPointSet& /*input*/)
+std::unique_ptr<smg::StreamedTask> vtkStreamingBlend::MakeTask(vtkPointSet& input)
 {
-  return this->Internal->task();
+  return this->Internal->task(input);
 }
 
 smg::SolveSummary vtkStreamingBlend::SolveInMemory(
@@ -137,7 +142,7 @@ smg::SolveSummary vtkStreamingBlend::SolveInMemory(
     }
     throw smg::Error("The input has no cells: give it a mesh of triangles or tetrahedra.");
   }
-  return this->Internal->task()->solveInMemory(input, progress, values);
+  return this->Internal->task(input)->solveInMemory(input, progress, values);
 }
 
 void vtkStreamingBlend::Deliver(

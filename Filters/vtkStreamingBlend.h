@@ -55,8 +55,9 @@ public:
   ///@}
 
   ///@{
-  /** The parts that keep their values: WHERE of a problem file in JSON, or a list of these, for
-   * example {"sphere": [0, 0, 0, 1]}. Columns are arrays of the input. Default: none. */
+  /** The parts that keep their values, besides what vtkMeshRegion marks: WHERE of a problem file in
+   * JSON, or a list of these, for example {"sphere": [0, 0, 0, 1]}. Columns are arrays of the
+   * input. Default: none. */
   vtkSetStringMacro(Hold);
   vtkGetStringMacro(Hold);
   ///@}

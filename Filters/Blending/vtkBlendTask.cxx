@@ -2,6 +2,7 @@
 #include "Filters/Blending/vtkBlendTask.h"
 
 #include "Filters/Mesh/vtkStoredBlock.h"
+#include "Filters/Regions/vtkRegionArrays.h"
 #include "IO/vtkMeshPieceData.h"
 #include "Solver/Description/ComposeDescriptions.h"
 #include "Solver/Engine/CheckOptions.h"
@@ -80,8 +81,13 @@ SolveSummary BlendTask::solveInMemory(
   SolveOptions given = this->options;
   given.inCore = true;
   given.progress = progress;
-  const StoredBlock stored(mesh, namesInBlend(this->description));
-  const std::unique_ptr<Solution> solution = blend(stored, this->description, given);
+  BlendDescription asked = this->description;
+  if (isPreview(mesh))
+  {
+    dropEmptyRegions(mesh, asked.hold);
+  }
+  const StoredBlock stored(mesh, namesInBlend(asked));
+  const std::unique_ptr<Solution> solution = blend(stored, asked, given);
   values.resize(static_cast<std::size_t>(solution->vertices() * solution->columns()));
   solution->read(0, solution->vertices(), values);
   Report report = solution->report();

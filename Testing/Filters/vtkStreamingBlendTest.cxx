@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/vtkStreamingBlend.h"
+#include "Filters/vtkMeshRegion.h"
 #include "IO/vtkStreamingMeshReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
 #include "Testing/Filters/vtkAbortTesting.h"
@@ -106,6 +107,20 @@ protected:
   vtkNew<vtkStreamingMeshReader> Reader;
   vtkNew<vtkStreamingBlend> Blend;
 };
+
+TEST_F(VtkStreamingBlend, HoldsWhatMeshRegionsMark)
+{
+  vtkNew<vtkMeshRegion> region;
+  region->SetInputConnection(this->Reader->GetOutputPort());
+  region->SetRegion(vtkMeshRegion::IDS);
+  region->SetIdType(vtkMeshRegion::ORIGINAL_IDS);
+  region->AddId(7);
+  this->Blend->SetInputConnection(region->GetOutputPort());
+  this->Blend->SetHold(R"({"vertices": [30]})");
+  BlendDescription description = this->description();
+  description.hold = { Region(Region::Vertices{ { 7 } }), Region(Region::Vertices{ { 30 } }) };
+  this->expectBlended(description, 3);
+}
 
 TEST_F(VtkStreamingBlend, EveryWayGivesTheValuesOfTheLibrary)
 {
