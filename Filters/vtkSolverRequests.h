@@ -84,6 +84,10 @@ struct vtkStreamingSolver::Internals
     // With the distributed engine every process has a summary, and if one has failed, all have.
     exchange.share(this->Summary, exchange.firstOf(isForProcesses && !this->Summary.error.empty()));
     this->check(exchange.isServer());
+    if (!request.IsStreamed)
+    {
+      this->Shown = this->Summary;
+    }
     const bool isOutOfCore = !isForMemory && !isForProcesses;
     if (isOutOfCore && !isOrdinary)
     {
@@ -372,6 +376,7 @@ struct vtkStreamingSolver::Internals
   smg::StreamedSolve Streamed;
   smg::PieceSolve Pieces;
   smg::SolveSummary Summary;     ///< of the last output
+  smg::SolveSummary Shown;       ///< of the last one that was not streamed
   std::string Outcome, Estimate; ///< storage of the strings returned by GetOutcome(), GetEstimate()
   smg::SharedRequest Shared;
 };

@@ -75,8 +75,8 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeTask(vtkPoin
 bool vtkStreamingMeshDeformation::IsForMemory(vtkPointSet& input, bool isWhole)
 {
   const bool isSmall = isWhole && input.GetNumberOfPoints() <= this->InteractivePoints;
-  const bool isForMemory = smg::isPreview(input) ? this->Superclass::IsForMemory(input, isWhole)
-                                                 : isSmall && this->Engine != DISTRIBUTED;
+  const bool isForMemory =
+    smg::isPreview(input) ? this->IsForPreview() : isSmall && this->Engine != DISTRIBUTED;
   if (!isForMemory)
   {
     this->Internal->Interactive.forget();

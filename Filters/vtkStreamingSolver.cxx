@@ -69,9 +69,18 @@ const char* vtkStreamingSolver::GetOutcome()
 {
   const smg::SolveSummary& summary = this->GetSummary();
   const bool isPast = summary.error.empty() && !this->Internal->isUpToDate();
-  this->Internal->Outcome =
-    isPast ? "Not solved: not applied yet, or a filter before this one failed." : summary.outcome();
-  return this->Internal->Outcome.c_str();
+  const smg::SolveSummary& shown = this->Internal->Shown;
+  std::string& text = this->Internal->Outcome;
+  text = summary.outcome();
+  if (isPast)
+  {
+    text = "Not solved: not applied yet, or a filter before this one failed.";
+  }
+  else if (summary.error.empty() && shown.where() != summary.where() && !shown.where().empty())
+  {
+    text = shown.outcome() + ". Streamed, as for a file: " + text; // the view has not changed
+  }
+  return text.c_str();
 }
 
 const char* vtkStreamingSolver::GetEstimate()
@@ -150,7 +159,12 @@ smg::SolveSummary vtkStreamingSolver::SummaryOfNothing(int columns) const
 
 bool vtkStreamingSolver::IsForMemory(vtkPointSet& input, bool)
 {
-  return smg::isPreview(input) && this->Internal->isForPreview();
+  return smg::isPreview(input) && !smg::isSurfaceOfSolid(input) && this->IsForPreview();
+}
+
+bool vtkStreamingSolver::IsForPreview()
+{
+  return this->Internal->isForPreview();
 }
 
 vtkSmartPointer<vtkPointSet> vtkStreamingSolver::MeshInMemory(vtkPointSet& input)
@@ -254,9 +268,10 @@ int vtkStreamingSolver::RequestData(
       isSolved = true;
     });
   const std::int64_t limit = std::int64_t(this->MemoryLimit) << 20;
-  const smg::SolveSummary shown = isSolved ? this->GetSummary() : smg::SolveSummary();
-  smg::fillPasses(shown, limit, *vtkTable::GetData(outputVector, PASSES));
-  smg::fillText(shown, *vtkTable::GetData(outputVector, TEXT));
+  smg::fillPasses(isSolved ? this->GetSummary() : smg::SolveSummary(), limit,
+    *vtkTable::GetData(outputVector, PASSES));
+  smg::fillText(
+    isSolved ? this->Internal->Shown : smg::SolveSummary(), *vtkTable::GetData(outputVector, TEXT));
   return answered;
 }
 

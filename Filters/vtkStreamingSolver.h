@@ -236,9 +236,13 @@ protected:
   /**
    * Whether to solve on `input`, the preview or (`isWhole`) the whole mesh, in memory, instead of
    * on the whole mesh out of core. Called in process 0, for requests that are not streamed.
-   * Default: on the preview, if Solve says so.
+   * Default: on the preview of a surface, or on one of tetrahedra, if Solve says so; the surface of
+   * a solid is another mesh.
    */
   virtual bool IsForMemory(vtkPointSet& input, bool isWhole);
+
+  /** Whether Solve says to solve on the preview that is shown. */
+  bool IsForPreview();
 
   /** The mesh to solve on and to deliver instead of `input`, which is a preview or a whole mesh, if
    * it is solved on in memory. Default: `input`. */

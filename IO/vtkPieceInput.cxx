@@ -20,6 +20,22 @@
 namespace smg
 {
 
+namespace
+{
+
+/** The class of a filter; of one that ParaView adds after it, of the one before. */
+std::string nameOf(vtkAlgorithm& filter)
+{
+  vtkAlgorithm* named = &filter;
+  while (named->IsA("vtkPVPostFilter") && named->GetNumberOfInputConnections(0) > 0)
+  {
+    named = named->GetInputAlgorithm(0, 0);
+  }
+  return named->GetClassName();
+}
+
+} // namespace
+
 PieceInput::PieceInput(vtkAlgorithm& consumer, int port)
 {
   if (consumer.GetNumberOfInputConnections(port) < 1)
@@ -70,7 +86,7 @@ vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed)
   {
     throw InputFailed("Piece " + std::to_string(piece) + " of " + std::to_string(pieces) +
                       " of the input could not be made: see the error that " +
-                      this->Producer->GetClassName() + " or the pipeline before it reported.");
+                      nameOf(*this->Producer) + " or the pipeline before it reported.");
   }
   return data;
 }

@@ -41,7 +41,7 @@ void BlendTask::check() const
   }
   if (this->description.columns.empty())
   {
-    throw Error("Columns must name at least one point array to blend.");
+    throw Error("Arrays must name at least one point array to blend.");
   }
 }
 

@@ -29,15 +29,20 @@ std::set<std::string> namesInSources(const DistanceDescription& description)
 }
 
 /** A remark on the distances of a preview. */
-std::string noteOnPreview(const Report& report, bool isSurface)
+std::string noteOnPreview(const Report& report)
 {
-  const std::string which = "these are distances on the preview, a mesh of " +
-                            std::to_string(report.vertices) + " vertices";
-  return which +
-         (isSurface
-             ? ", along the surface of the solid; those of the full mesh are computed when it "
-               "is saved"
-             : "; those of the full mesh are computed when it is saved");
+  return "these are distances on the preview, a mesh of " + std::to_string(report.vertices) +
+         " vertices; those of the full mesh are computed when it is saved";
+}
+
+/** Says that distances are infinite. */
+void noteUnreached(Report& report)
+{
+  if (report.distance && report.distance->unreached > 0)
+  {
+    report.notes.push_back(std::to_string(report.distance->unreached) +
+                           " vertices are not reached from any source: their distance is infinite");
+  }
 }
 
 /** What to do about sources that a preview does not have. */
@@ -85,6 +90,7 @@ std::unique_ptr<Solution> DistanceTask::solve(const VsmReader& mesh,
   given.progress = progress;
   std::unique_ptr<Solution> solution = distance(mesh, this->description, given, "From");
   report = solution->report();
+  noteUnreached(report);
   return solution;
 }
 
@@ -92,11 +98,6 @@ SolveSummary DistanceTask::solveInMemory(
   vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) const
 {
   this->check();
-  if (isSurfaceOfSolid(mesh) && this->description.wall)
-  {
-    throw Error("The preview is the surface of the solid, which has no distance to its walls: save "
-                "the mesh, or choose tetrahedra as PreviewCells of the reader.");
-  }
   DistanceOptions given = this->options;
   given.progress = progress;
   DistanceDescription asked = this->description;
@@ -130,9 +131,10 @@ SolveSummary DistanceTask::solveInMemory(
   values.resize(static_cast<std::size_t>(solution->vertices() * solution->columns()));
   solution->read(0, solution->vertices(), values);
   Report report = solution->report();
+  noteUnreached(report);
   if (isPreview(mesh))
   {
-    report.notes.push_back(noteOnPreview(report, isSurfaceOfSolid(mesh)));
+    report.notes.push_back(noteOnPreview(report));
   }
   return SolveSummary::of(report, solution->columns());
 }

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Regions/vtkDisplayedRegion.h"
 
+#include "Filters/Mesh/vtkCellParts.h"
 #include "Filters/Mesh/vtkMeshInMemory.h"
 #include "Filters/Regions/vtkPlacesOfIds.h"
 #include "Filters/Regions/vtkRegionPoints.h"
 #include "IO/vtkMeshPieceData.h"
+#include "IO/vtkPieceCells.h"
 
 #include "vtkPointSet.h"
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 namespace smg
 {
@@ -85,7 +88,12 @@ HeldPoints DisplayedRegion::holdIds(vtkPointSet& mesh, const RegionContext& cont
 HeldPoints DisplayedRegion::holdNear(
   vtkPointSet& mesh, const std::vector<double>& places, const RegionContext& context) const
 {
-  const MeshInMemory whole(mesh);
+  std::optional<CellParts> parts; // of the same points
+  if (!hasSimplices(mesh))
+  {
+    parts.emplace(mesh, "");
+  }
+  const MeshInMemory whole(parts ? parts->mesh() : mesh);
   // Edges of a preview are not those of the mesh.
   const int rings = isPreview(mesh) ? 0 : this->Asked.rings;
   PointProjection projection(

@@ -41,12 +41,6 @@ std::set<std::string> namesIn(const SmoothingOptions& options)
   return names;
 }
 
-/** Whether it is a preview with cells of the kind of the mesh. */
-bool hasCellsOfMesh(vtkPointSet& mesh)
-{
-  return cellsBehind(mesh) > 0 && !isSurfaceOfSolid(mesh);
-}
-
 } // namespace
 
 void SmoothingTask::check() const
@@ -108,7 +102,7 @@ SolveSummary SmoothingTask::solveInMemory(
     dropEmptyRegions(mesh, task.options.hold);
   }
   const StoredBlock stored(mesh, namesIn(task.options));
-  if (task.options.size.unit == SmoothingSize::MeanEdges && hasCellsOfMesh(mesh))
+  if (task.options.size.unit == SmoothingSize::MeanEdges && cellsBehind(mesh) > 0)
   {
     // Those of the mesh: an area, or a volume, of so many more cells has shorter edges.
     const double share =

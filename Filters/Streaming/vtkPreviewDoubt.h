@@ -13,8 +13,9 @@ namespace smg
 
 /**
  * How far the values on a preview may be off, measured: by those on a coarser preview, a quarter of
- * its points. The error of linear elements falls at least like the length of the edges, so that of
- * the preview is about the difference between both or less (Richardson's extrapolation).
+ * its points. Where the error falls at least like the length of the edges, that of the preview is
+ * the difference between both or less (Richardson's extrapolation); what no preview shows, as noise
+ * that is smoothed, is in neither.
  */
 class PreviewDoubt
 {

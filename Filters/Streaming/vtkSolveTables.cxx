@@ -6,6 +6,8 @@
 #include "vtkStringArray.h"
 #include "vtkTable.h"
 
+#include <string>
+
 namespace smg
 {
 namespace
@@ -51,7 +53,12 @@ void fillText(const SolveSummary& summary, vtkTable& table)
   table.Initialize();
   vtkNew<vtkStringArray> text;
   text->SetName("Text");
-  text->InsertNextValue(summary.where());
+  std::string sentence = summary.where();
+  if (const std::size_t comma = sentence.find(", the result"); comma != std::string::npos)
+  {
+    sentence[comma + 1] = '\n'; // for narrow views
+  }
+  text->InsertNextValue(sentence);
   table.AddColumn(text);
 }
 

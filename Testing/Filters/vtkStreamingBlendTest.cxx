@@ -219,7 +219,7 @@ TEST_F(VtkStreamingBlend, MistakesAreOneErrorEach)
   expect("Missing", [&] { this->Blend->SetPatch("Missing"); });
   expect("Patch must name", [&] { this->Blend->SetPatch(nullptr); });
   expect("Patch must name", [&] { this->Blend->SetPatch("None"); });
-  expect("Columns must name", [&] { this->Blend->RemoveAllColumns(); });
+  expect("Arrays must name", [&] { this->Blend->RemoveAllColumns(); });
   expect("column of the cells", [&] { this->Blend->AddColumn("cellPatch"); });
   expect("at least 0", [&] { this->Blend->SetAnchor(-1.0); });
 }

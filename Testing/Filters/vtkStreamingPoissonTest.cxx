@@ -89,7 +89,7 @@ TEST_F(VtkStreamingPoisson, SolvesOnAPreviewInItsPlace)
     std::string(this->Poisson->GetReport()).find("solution on the preview"), std::string::npos);
   EXPECT_EQ(this->Poisson->GetConverged(), 1);
   EXPECT_EQ(std::string(this->Poisson->GetOutcome())
-              .find("On the preview only: 1,200 of 1,800 points, off by about "),
+              .find("On the preview only: 1,200 of 1,800 points, the result on "),
     0U)
     << this->Poisson->GetOutcome();
   vtkPointSet* preview = this->output();
