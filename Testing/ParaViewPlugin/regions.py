@@ -159,6 +159,9 @@ for mesh, count in ((plane, 18), (Triangulate(Input=plane), 18), (TriangleStrips
         written = StreamingDistance(Input=mesh, From='{"boundary": true}', ScratchDirectory=scratch)
         assert np.array_equal(shown(measured, "Distance"), shown(written, "Distance"), equal_nan=True), mesh
         assert shown(measured, "Region").sum() == count == (shown(measured, "Distance") == 0).sum(), mesh
+    mesh.UpdatePipeline()
+    near = MeshRegion(Input=mesh, Region="Points", Points=list(servermanager.Fetch(mesh).GetPoint(0)))
+    assert shown(near, "Region").sum() == 1, mesh
     handle = MeshHandle(Input=region, Region="Mask", MaskArray="Region")
     assert shown(handle, "HandleMask").sum() == count, mesh
 ids = GenerateIds(Input=plane, CellIdsArrayName="Number", PointIdsArrayName="Other")
