@@ -169,19 +169,10 @@ struct vtkStreamingSolver::Internals
     }
     this->solveOutOfCore(input, inputInfo, *present, isOrdinary);
     this->Summary = this->Streamed.summary();
-    this->Summary.fullPoints = fullPointsOf(input, *present);
-  }
-
-  /** The points of the whole mesh where a preview of it is shown, else 0; `present` is the preview,
-   * or a piece of the mesh. */
-  static std::int64_t fullPointsOf(smg::PieceInput& input, vtkPointSet& present)
-  {
-    if (smg::isPreview(present) || !input.isPreviewed())
+    if (smg::isPreview(*present) || input.isPreviewed())
     {
-      return smg::pointsBehind(present);
+      this->Summary.fullPoints = this->Summary.vertices;
     }
-    const std::optional<smg::StreamInfo> mesh = input.meshInfo();
-    return mesh ? mesh->vertices : 0;
   }
 
   /** Whether the processes solve together on their pieces, or have done so for this request. */

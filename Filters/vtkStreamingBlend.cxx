@@ -5,7 +5,6 @@
 #include "Filters/Mesh/vtkReplacedArray.h"
 #include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Streaming/SolveSummary.h"
-#include "IO/vtkMeshPieceData.h"
 #include "smg/DescriptionFiles.h"
 #include "smg/Error.h"
 
@@ -46,12 +45,12 @@ struct vtkStreamingBlend::Internals
     return task;
   }
 
-  vtkStreamingBlend& Self;
   const std::vector<std::string>& chosen() const
   {
     return this->Arrays.empty() ? this->Columns : this->Arrays;
   }
 
+  vtkStreamingBlend& Self;
   std::vector<std::string> Arrays, Columns;
 };
 
@@ -136,13 +135,9 @@ smg::SolveSummary vtkStreamingBlend::SolveInMemory(
 {
   if (input.GetNumberOfCells() == 0)
   {
-    if (smg::isPreview(input))
-    {
-      return this->SummaryOfNothing(0);
-    }
-    throw smg::Error("The input has no cells: give it a mesh of triangles or tetrahedra.");
+    return this->SummaryOfNothing(0); // of a preview that is in another process
   }
-  return this->Internal->task(input)->solveInMemory(input, progress, values);
+  return this->Internal->task(input)->solveOnPreview(input, progress, values);
 }
 
 void vtkStreamingBlend::Deliver(

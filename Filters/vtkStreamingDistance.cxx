@@ -4,7 +4,6 @@
 #include "Filters/Distance/vtkDistanceTask.h"
 #include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Streaming/SolveSummary.h"
-#include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceColumns.h"
 #include "smg/Deform.h"
 #include "smg/DescriptionFiles.h"
@@ -71,13 +70,9 @@ smg::SolveSummary vtkStreamingDistance::SolveInMemory(
 {
   if (input.GetNumberOfCells() == 0)
   {
-    if (smg::isPreview(input))
-    {
-      return this->SummaryOfNothing(0);
-    }
-    throw smg::Error("The input has no cells: give it a mesh of triangles or tetrahedra.");
+    return this->SummaryOfNothing(0); // of a preview that is in another process
   }
-  return this->DescribedTask(input)->solveInMemory(input, progress, values);
+  return this->DescribedTask(input)->solveOnPreview(input, progress, values);
 }
 
 void vtkStreamingDistance::Deliver(

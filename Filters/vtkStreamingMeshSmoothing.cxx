@@ -6,7 +6,6 @@
 #include "Filters/Regions/vtkRegionArrays.h"
 #include "Filters/Smoothing/vtkSmoothingTask.h"
 #include "Filters/Streaming/SolveSummary.h"
-#include "IO/vtkMeshPieceData.h"
 #include "smg/DescriptionFiles.h"
 #include "smg/Error.h"
 
@@ -98,13 +97,9 @@ smg::SolveSummary vtkStreamingMeshSmoothing::SolveInMemory(
 {
   if (input.GetNumberOfCells() == 0)
   {
-    if (smg::isPreview(input))
-    {
-      return this->SummaryOfNothing(3);
-    }
-    throw smg::Error("The input has no cells: give it a mesh of triangles or tetrahedra.");
+    return this->SummaryOfNothing(3); // of a preview that is in another process
   }
-  return this->Internal->task(input)->solveInMemory(input, progress, values);
+  return this->Internal->task(input)->solveOnPreview(input, progress, values);
 }
 
 int vtkStreamingMeshSmoothing::ComparedColumns(int columns)

@@ -42,8 +42,9 @@ void writeRaw(vtkPointSet& mesh, const std::filesystem::path& path)
   }
 }
 
-/** Of cells of both kinds, the solid ones count. */
-CellChoice cellsOf(vtkPointSet& mesh)
+} // namespace
+
+CellChoice countingCells(vtkPointSet& mesh)
 {
   auto* grid = vtkUnstructuredGrid::SafeDownCast(&mesh);
   for (vtkIdType cell = 0; grid && cell < grid->GetNumberOfCells(); ++cell)
@@ -55,8 +56,6 @@ CellChoice cellsOf(vtkPointSet& mesh)
   }
   return CellChoice::Triangles;
 }
-
-} // namespace
 
 bool isOrdinaryMesh(vtkDataObject& data)
 {
@@ -77,7 +76,7 @@ ConversionReport writeOrdinaryMesh(
   try
   {
     ConversionOptions given = options;
-    given.cells = cellsOf(mesh);
+    given.cells = countingCells(mesh);
     ConversionReport report = convert(file, path, given);
     if (report.dropped_cells > 0)
     {

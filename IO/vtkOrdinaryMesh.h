@@ -17,6 +17,9 @@ namespace smg
 /** Whether the mesh has no point GlobalIds and is therefore not a piece of a mesh stream. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT bool isOrdinaryMesh(vtkDataObject& data);
 
+/** Which cells of a mesh count: the solid ones, or without these those of surfaces. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT CellChoice countingCells(vtkPointSet& mesh);
+
 /** Writes a whole mesh in memory with its arrays, of solids and surfaces the solids: VTK writes it
  * to a file in the scratch folder, and convert() converts that. Throws like convert(), and Error if
  * VTK cannot write the file. */

@@ -3,7 +3,6 @@
 
 #include "Filters/Mesh/vtkStoredBlock.h"
 #include "Filters/Regions/vtkRegionArrays.h"
-#include "IO/vtkMeshPieceData.h"
 #include "Solver/Description/ComposeDescriptions.h"
 #include "Solver/Engine/CheckOptions.h"
 #include "smg/Error.h"
@@ -74,7 +73,7 @@ std::unique_ptr<Solution> BlendTask::solve(const VsmReader& mesh,
   return solution;
 }
 
-SolveSummary BlendTask::solveInMemory(
+SolveSummary BlendTask::solveOnPreview(
   vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) const
 {
   this->check();
@@ -82,21 +81,15 @@ SolveSummary BlendTask::solveInMemory(
   given.inCore = true;
   given.progress = progress;
   BlendDescription asked = this->description;
-  if (isPreview(mesh))
-  {
-    dropEmptyRegions(mesh, asked.hold);
-  }
+  dropEmptyRegions(mesh, asked.hold);
   const StoredBlock stored(mesh, namesInBlend(asked));
   const std::unique_ptr<Solution> solution = blend(stored, asked, given);
   values.resize(static_cast<std::size_t>(solution->vertices() * solution->columns()));
   solution->read(0, solution->vertices(), values);
   Report report = solution->report();
-  if (isPreview(mesh))
-  {
-    report.notes.push_back("this is the blended preview, a mesh of " +
-                           std::to_string(report.vertices) +
-                           " vertices; the full mesh is blended when it is saved");
-  }
+  report.notes.push_back("this is the blended preview, a mesh of " +
+                         std::to_string(report.vertices) +
+                         " vertices; the full mesh is blended when it is saved");
   return SolveSummary::of(report, solution->columns());
 }
 

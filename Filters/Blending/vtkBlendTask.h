@@ -25,9 +25,9 @@ public:
   std::unique_ptr<Solution> solve(const VsmReader& mesh, const std::filesystem::path& scratch,
     const ProgressFunction& progress, Report& report) const override;
 
-  /** Blends on a mesh in memory, which has cells, and sets the values at its points. Throws Error
-   * and Cancelled. */
-  SolveSummary solveInMemory(
+  /** Blends on the preview of a mesh in memory, which has cells, and sets the values at its points.
+   * Throws Error and Cancelled. */
+  SolveSummary solveOnPreview(
     vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) const;
 };
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Conditions/vtkConditionList.h"
 
+#include "Filters/Mesh/vtkFieldTexts.h"
 #include "Solver/Description/ComposeDescriptions.h"
 #include "smg/DescriptionFiles.h"
 
 #include "vtkCellData.h"
-#include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkPointSet.h"
-#include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 
 namespace smg
@@ -17,27 +15,9 @@ namespace smg
 namespace
 {
 
-vtkStringArray* textsOf(vtkPointSet& mesh, const char* name)
-{
-  return vtkStringArray::SafeDownCast(mesh.GetFieldData()->GetAbstractArray(name));
-}
-
 vtkStringArray* conditionsOf(vtkPointSet& mesh)
 {
-  return textsOf(mesh, MeshConditionsName);
-}
-
-/** Appends to a field array, of which other meshes may have the same. */
-void appendText(vtkPointSet& mesh, const char* name, const std::string& text)
-{
-  vtkNew<vtkStringArray> texts;
-  if (vtkStringArray* before = textsOf(mesh, name))
-  {
-    texts->DeepCopy(before);
-  }
-  texts->SetName(name);
-  texts->InsertNextValue(text);
-  mesh.GetFieldData()->AddArray(texts);
+  return fieldTexts(mesh, MeshConditionsName);
 }
 
 /** An unused name for the point array of another condition. */
@@ -69,18 +49,18 @@ std::string addMask(vtkPointSet& mesh)
   mask->SetNumberOfTuples(mesh.GetNumberOfPoints());
   mask->Fill(0.0);
   mesh.GetPointData()->AddArray(mask);
-  appendText(mesh, MeshConditionArraysName, name);
+  appendFieldText(mesh, MeshConditionArraysName, name);
   return name;
 }
 
 void addCondition(vtkPointSet& mesh, const std::string& text)
 {
-  appendText(mesh, MeshConditionsName, text);
+  appendFieldText(mesh, MeshConditionsName, text);
 }
 
 void removeConditions(vtkPointSet& mesh)
 {
-  vtkStringArray* masks = textsOf(mesh, MeshConditionArraysName);
+  vtkStringArray* masks = fieldTexts(mesh, MeshConditionArraysName);
   for (vtkIdType k = 0; masks && k < masks->GetNumberOfValues(); ++k)
   {
     mesh.GetPointData()->RemoveArray(masks->GetValue(k).c_str());

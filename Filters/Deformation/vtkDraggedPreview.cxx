@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Deformation/vtkDraggedPreview.h"
 
-#include "Filters/Mesh/vtkSmallPatches.h"
-
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 

@@ -3,7 +3,6 @@
 
 #include "Filters/Mesh/vtkStoredBlock.h"
 #include "Filters/Regions/vtkRegionArrays.h"
-#include "IO/vtkMeshPieceData.h"
 #include "Solver/Description/ComposeDescriptions.h"
 #include "smg/Error.h"
 
@@ -94,21 +93,18 @@ std::unique_ptr<Solution> DistanceTask::solve(const VsmReader& mesh,
   return solution;
 }
 
-SolveSummary DistanceTask::solveInMemory(
+SolveSummary DistanceTask::solveOnPreview(
   vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) const
 {
   this->check();
   DistanceOptions given = this->options;
   given.progress = progress;
   DistanceDescription asked = this->description;
-  if (isPreview(mesh))
+  dropEmptyRegions(mesh, asked.from);
+  if (asked.from.empty() && !this->description.from.empty())
   {
-    dropEmptyRegions(mesh, asked.from);
-    if (asked.from.empty() && !this->description.from.empty())
-    {
-      throw Error(
-        "No point of the preview lies in the region from which to measure." + hintOnPreview());
-    }
+    throw Error(
+      "No point of the preview lies in the region from which to measure." + hintOnPreview());
   }
   const StoredBlock stored(mesh, namesInSources(asked));
   std::unique_ptr<Solution> solution;
@@ -122,20 +118,13 @@ SolveSummary DistanceTask::solveInMemory(
   }
   catch (const Error& error)
   {
-    if (isPreview(mesh))
-    {
-      throw Error(error.what() + hintOnPreview());
-    }
-    throw;
+    throw Error(error.what() + hintOnPreview());
   }
   values.resize(static_cast<std::size_t>(solution->vertices() * solution->columns()));
   solution->read(0, solution->vertices(), values);
   Report report = solution->report();
   noteUnreached(report);
-  if (isPreview(mesh))
-  {
-    report.notes.push_back(noteOnPreview(report));
-  }
+  report.notes.push_back(noteOnPreview(report));
   return SolveSummary::of(report, solution->columns());
 }
 

@@ -26,9 +26,9 @@ public:
   std::unique_ptr<Solution> solve(const VsmReader& mesh, const std::filesystem::path& scratch,
     const ProgressFunction& progress, Report& report) const override;
 
-  /** Measures on a mesh in memory, which has cells, and sets the values at its points. Throws Error
-   * and Cancelled. */
-  SolveSummary solveInMemory(
+  /** Measures on the preview of a mesh in memory, which has cells, and sets the values at its
+   * points. Throws Error and Cancelled. */
+  SolveSummary solveOnPreview(
     vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) const;
 };
 

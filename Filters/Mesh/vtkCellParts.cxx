@@ -3,6 +3,7 @@
 
 #include "Filters/Mesh/vtkCopiedRows.h"
 #include "IO/Formats/Vtk/VtkCellParts.h"
+#include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceCells.h"
 
 #include "vtkCellData.h"
@@ -32,8 +33,8 @@ CellParts::CellParts(vtkPointSet& mesh, const std::filesystem::path& scratch)
     points.assign(ids->begin(), ids->end());
     return mesh.GetCellType(cell);
   };
-  VtkCellParts parts =
-    cutVtkCells(mesh.GetNumberOfPoints(), mesh.GetNumberOfCells(), cellAt, scratch);
+  VtkCellParts parts = cutVtkCells(
+    mesh.GetNumberOfPoints(), mesh.GetNumberOfCells(), countingCells(mesh), cellAt, scratch);
   this->Corners = std::move(parts.corners);
   this->CellOf = std::move(parts.cellOf);
   this->CornersOfPart = static_cast<std::size_t>(cornersOf(parts.type));

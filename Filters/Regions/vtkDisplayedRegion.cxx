@@ -38,14 +38,7 @@ void DisplayedRegion::set(const PointRegionSettings& settings)
 const HeldPoints& DisplayedRegion::hold(vtkPointSet& mesh, const PieceRequest& request,
   const std::vector<double>& places, const RegionContext& context)
 {
-  const InputStamp stamp = context.stamp();
-  if (!this->Last || this->Last->stamp != stamp || this->Last->piece != request.Piece ||
-      this->Last->pieces != request.Pieces)
-  {
-    this->Last.reset();
-    this->Last = Found{ stamp, request.Piece, request.Pieces, this->find(mesh, places, context) };
-  }
-  return this->Last->held;
+  return this->Last.of(request, context.stamp(), [&] { return this->find(mesh, places, context); });
 }
 
 HeldPoints DisplayedRegion::find(

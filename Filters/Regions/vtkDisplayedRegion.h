@@ -6,7 +6,6 @@
 #include "Filters/Regions/vtkRegionContext.h"
 #include "Filters/Streaming/vtkPieceRequest.h"
 
-#include <optional>
 #include <vector>
 
 class vtkPointSet;
@@ -27,13 +26,6 @@ public:
     const std::vector<double>& places, const RegionContext& context);
 
 private:
-  struct Found
-  {
-    InputStamp stamp;
-    int piece = 0, pieces = 1;
-    HeldPoints held;
-  };
-
   HeldPoints find(
     vtkPointSet& mesh, const std::vector<double>& places, const RegionContext& context) const;
   HeldPoints holdSelected(vtkPointSet& mesh, const RegionContext& context) const;
@@ -43,7 +35,7 @@ private:
 
   PointRegionSettings Asked;
   SoughtIds Ids;
-  std::optional<Found> Last;
+  KeptHeldPoints Last;
 };
 
 } // namespace smg

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "Filters/Regions/SoughtIds.h"
+#include "Filters/Streaming/vtkInputStamp.h"
+#include "Filters/Streaming/vtkPieceRequest.h"
 #include "Solver/Projection/PointProjection.h"
 
 #include <cstdint>
@@ -21,6 +23,36 @@ struct HeldPoints
   std::int64_t holders = 0;
   /** The position of the mesh point at each holder; empty: each point is its own anchor. */
   std::vector<double> anchors;
+};
+
+/** The held points of a displayed mesh, kept as long as the request and the stamp are the same. */
+class KeptHeldPoints
+{
+public:
+  /** Those that are kept, or else those that `find()` returns. */
+  template <class Find>
+  const HeldPoints& of(const PieceRequest& request, const InputStamp& stamp, Find&& find)
+  {
+    if (!this->IsKept || this->Stamp != stamp || this->Piece != request.Piece ||
+        this->Pieces != request.Pieces)
+    {
+      this->reset(); // find() may throw
+      this->Held = find();
+      this->Stamp = stamp;
+      this->Piece = request.Piece;
+      this->Pieces = request.Pieces;
+      this->IsKept = true;
+    }
+    return this->Held;
+  }
+
+  void reset() { *this = {}; }
+
+private:
+  HeldPoints Held;
+  InputStamp Stamp;
+  int Piece = 0, Pieces = 1;
+  bool IsKept = false;
 };
 
 /** The points of the mesh whose `ids` (one per point) are in the list. */

@@ -69,14 +69,7 @@ vtkPointSet& MarkedRegion::bring(
   }
   else if (this->isByItself(*piece, request))
   {
-    const InputStamp stamp = context.stamp();
-    if (!this->OnDisplay || this->OnDisplay->stamp != stamp ||
-        this->OnDisplay->piece != request.Piece || this->OnDisplay->pieces != request.Pieces)
-    {
-      this->OnDisplay.reset();
-      this->OnDisplay = Shown{ stamp, request.Piece, request.Pieces, this->holdShown(*piece) };
-    }
-    held = this->OnDisplay->held;
+    held = this->OnDisplay.of(request, context.stamp(), [&] { return this->holdShown(*piece); });
   }
   else
   {

@@ -32,14 +32,7 @@ public:
   vtkPointSet& bring(const PieceRequest& request, const RegionContext& context, HeldPoints& held);
 
 private:
-  /** The held points of a mesh that is shown. */
-  struct Shown
-  {
-    InputStamp stamp;
-    int piece = 0, pieces = 1;
-    HeldPoints held;
-  };
-  /** Those of the whole mesh. */
+  /** The held points of the whole mesh. */
   struct Found
   {
     InputStamp stamp;
@@ -53,7 +46,7 @@ private:
   void find(const RegionContext& context);
 
   MarkedRegionSettings Asked;
-  std::optional<Shown> OnDisplay;
+  KeptHeldPoints OnDisplay; ///< of a mesh that is shown
   std::optional<Found> OnMesh;
 };
 

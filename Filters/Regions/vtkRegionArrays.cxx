@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Regions/vtkRegionArrays.h"
 
+#include "Filters/Mesh/vtkFieldTexts.h"
 #include "smg/Error.h"
 
-#include "vtkFieldData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkPointSet.h"
-#include "vtkStringArray.h"
 #include "vtkUnsignedCharArray.h"
 
 #include <cstddef>
@@ -18,28 +16,10 @@ namespace smg
 namespace
 {
 
-vtkStringArray* namesOf(vtkPointSet& mesh)
-{
-  return vtkStringArray::SafeDownCast(mesh.GetFieldData()->GetAbstractArray(MeshRegionsName));
-}
-
 bool isRegion(vtkPointSet& mesh, const std::string& name)
 {
-  vtkStringArray* names = namesOf(mesh);
+  vtkStringArray* names = fieldTexts(mesh, MeshRegionsName);
   return names && names->LookupValue(name) >= 0;
-}
-
-/** Appends to the names, which other meshes may share. */
-void appendName(vtkPointSet& mesh, const std::string& name)
-{
-  vtkNew<vtkStringArray> names;
-  if (vtkStringArray* before = namesOf(mesh))
-  {
-    names->DeepCopy(before);
-  }
-  names->SetName(MeshRegionsName);
-  names->InsertNextValue(name);
-  mesh.GetFieldData()->AddArray(names);
 }
 
 } // namespace
@@ -73,14 +53,14 @@ void addToRegion(vtkPointSet& mesh, const std::string& name, const HeldPoints& h
   points.AddArray(region);
   if (!isRegion(mesh, name))
   {
-    appendName(mesh, name);
+    appendFieldText(mesh, MeshRegionsName, name);
   }
 }
 
 std::vector<Where> regionsOf(vtkPointSet& mesh)
 {
   std::vector<Where> regions;
-  vtkStringArray* names = namesOf(mesh);
+  vtkStringArray* names = fieldTexts(mesh, MeshRegionsName);
   for (vtkIdType k = 0; names && k < names->GetNumberOfValues(); ++k)
   {
     // Filters between may have taken the array away.

@@ -92,15 +92,12 @@ std::unique_ptr<Solution> SmoothingTask::solve(const VsmReader& mesh,
   return solution;
 }
 
-SolveSummary SmoothingTask::solveInMemory(
+SolveSummary SmoothingTask::solveOnPreview(
   vtkPointSet& mesh, const ProgressFunction& progress, std::vector<double>& values) const
 {
   this->check();
   SmoothingTask task = *this;
-  if (isPreview(mesh))
-  {
-    dropEmptyRegions(mesh, task.options.hold);
-  }
+  dropEmptyRegions(mesh, task.options.hold);
   const StoredBlock stored(mesh, namesIn(task.options));
   if (task.options.size.unit == SmoothingSize::MeanEdges && cellsBehind(mesh) > 0)
   {
@@ -114,12 +111,9 @@ SolveSummary SmoothingTask::solveInMemory(
   values.resize(static_cast<std::size_t>(solution->vertices() * solution->columns()));
   solution->read(0, solution->vertices(), values);
   Report report = solution->report();
-  if (isPreview(mesh))
-  {
-    report.notes.push_back("this is the smoothed preview, a mesh of " +
-                           std::to_string(report.vertices) +
-                           " vertices: the full mesh is smoothed when it is saved");
-  }
+  report.notes.push_back("this is the smoothed preview, a mesh of " +
+                         std::to_string(report.vertices) +
+                         " vertices: the full mesh is smoothed when it is saved");
   return SolveSummary::of(report, solution->columns());
 }
 

@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Streaming/SolveSummary.h"
 
+#include "Solver/Core/GroupedDigits.h"
+
 #include <iomanip>
 #include <sstream>
 
 namespace smg
 {
-
-namespace
-{
-
-/** A number with commas between thousands. */
-std::string grouped(std::int64_t number)
-{
-  std::string text = std::to_string(number);
-  for (std::size_t at = text.size(); at > 3; at -= 3)
-  {
-    text.insert(at - 3, ",");
-  }
-  return text;
-}
-
-} // namespace
 
 SolveSummary SolveSummary::of(const Report& report, int columns)
 {
@@ -31,6 +17,7 @@ SolveSummary SolveSummary::of(const Report& report, int columns)
   {
     summary.notes += (summary.notes.empty() ? "" : "\n") + note;
   }
+  summary.vertices = report.vertices;
   summary.byPass = report.by_pass;
   summary.columns = columns;
   summary.residual = report.residual();
@@ -96,10 +83,11 @@ std::string SolveSummary::where() const
   }
   if (this->previewPoints == 0)
   {
-    return "On the full mesh of " + grouped(this->fullPoints) + " points.";
+    return "On the full mesh of " + groupedDigits(this->fullPoints) + " points.";
   }
-  return "On the preview only: " + grouped(this->previewPoints) + " of " +
-         grouped(this->fullPoints) + " points" + (this->doubt.empty() ? "." : ", " + this->doubt);
+  return "On the preview only: " + groupedDigits(this->previewPoints) + " of " +
+         groupedDigits(this->fullPoints) + " points" +
+         (this->doubt.empty() ? "." : ", " + this->doubt);
 }
 
 } // namespace smg

@@ -2,7 +2,6 @@
 #include "Filters/Streaming/vtkPreviewDoubt.h"
 
 #include "Filters/Mesh/vtkCoarserPreview.h"
-#include "Filters/Mesh/vtkSmallPatches.h"
 #include "smg/Error.h"
 
 #include "vtkPointSet.h"

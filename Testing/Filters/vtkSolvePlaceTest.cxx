@@ -15,7 +15,8 @@
 #include <set>
 #include <string>
 
-// Where a solve happens, and how that is told: what is shown is what was computed.
+// Solves on previews, full meshes, files and pieces: their values, and what the outcome says of
+// them.
 
 namespace smg::testing
 {

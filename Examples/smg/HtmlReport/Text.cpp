@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "HtmlReport/Text.h"
 
+#include "Solver/Core/GroupedDigits.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -89,13 +91,7 @@ std::string escape(std::string_view text)
 
 std::string count(std::int64_t number)
 {
-  std::string digits = std::to_string(number);
-  const std::ptrdiff_t first = number < 0 ? 1 : 0;
-  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > first; at -= 3)
-  {
-    digits.insert(static_cast<std::size_t>(at), ",");
-  }
-  return digits;
+  return smg::groupedDigits(number);
 }
 
 std::string number(double value, int digits)

@@ -30,17 +30,12 @@ std::vector<std::int64_t> numbersIn(RecordFile<std::uint32_t>& file)
 
 } // namespace
 
-VtkCellParts cutVtkCells(std::int64_t points, std::int64_t cells, const VtkCellAt& at,
-  const std::filesystem::path& scratch)
+VtkCellParts cutVtkCells(std::int64_t points, std::int64_t cells, CellChoice choice,
+  const VtkCellAt& at, const std::filesystem::path& scratch)
 {
   std::vector<std::int64_t> ofCell;
-  bool hasSolids = false;
-  for (std::int64_t cell = 0; cell < cells && !hasSolids; ++cell)
-  {
-    hasSolids = isSolidOfVtk(at(cell, ofCell));
-  }
   Workspace space(scratch, Memory);
-  RawMeshBuilder builder(space, hasSolids ? CellChoice::Tetrahedra : CellChoice::Triangles);
+  RawMeshBuilder builder(space, choice);
   for (std::int64_t point = 0; point < points; ++point)
   {
     builder.vertex(0.0, 0.0, 0.0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "smg/Convert.h"
 #include "smg/Export.h"
 #include "smg/MeshSource.h"
 
@@ -24,15 +25,16 @@ struct VtkCellParts
 using VtkCellAt = std::function<int(std::int64_t cell, std::vector<std::int64_t>& points)>;
 
 /**
- * Cuts cells in memory: into tetrahedra if there are solid ones, which leaves surfaces out, else
- * into triangles. Points and lines have no parts.
+ * Cuts cells in memory into triangles or tetrahedra. Cells of the other kind, points and lines have
+ * no parts.
  * @param points number of points
  * @param cells number of cells
+ * @param choice which cells are cut
  * @param at the cells
  * @param scratch folder for scratch files; empty: the system's temporary folder
  * @throws Error if a cell is of a type that is not supported, or there are no parts
  */
-SMG_EXPORT VtkCellParts cutVtkCells(std::int64_t points, std::int64_t cells, const VtkCellAt& at,
-  const std::filesystem::path& scratch);
+SMG_EXPORT VtkCellParts cutVtkCells(std::int64_t points, std::int64_t cells, CellChoice choice,
+  const VtkCellAt& at, const std::filesystem::path& scratch);
 
 } // namespace smg
