@@ -29,6 +29,7 @@ struct SimplifyCommand : CommonOptions
 
 private:
   smg::JobEstimate estimate() const;
+  smg::SimplifyReport simplified();
 };
 
 /** The costs; without a number of vertices, those of a result as large as IN. */
@@ -56,6 +57,28 @@ smg::JobEstimate SimplifyCommand::estimate() const
   return estimate;
 }
 
+smg::SimplifyReport SimplifyCommand::simplified()
+{
+  this->announceCheckpoint("part");
+  try
+  {
+    ProgressBar bar("simplifying", this->quiet);
+    const std::unique_ptr<smg::OpenedMesh> mesh = openInput(this->in, *this,
+      smg::partOf(bar.function(), 0.0, 0.5), smg::StreamOrder::BreadthFirst, this->input);
+    this->simplify.memoryLimit = this->memoryBytes(this->simplify.memoryLimit);
+    this->simplify.threads = this->threads;
+    this->simplify.scratch = this->scratch;
+    this->simplify.checkpoint = this->checkpoint;
+    this->simplify.meshIdentity = mesh->reader().fingerprint();
+    this->simplify.progress = smg::partOf(bar.function(), mesh->conversion() ? 0.5 : 0.0, 1.0);
+    return smg::simplify(mesh->reader(), this->out, this->simplify);
+  }
+  catch (const smg::Cancelled&)
+  {
+    this->endCancelled();
+  }
+}
+
 void SimplifyCommand::run()
 {
   requireOneProcess();
@@ -66,6 +89,7 @@ void SimplifyCommand::run()
   smg::checkSimplifiedPath(this->out);
   smg::checkIsNotInput(this->in, this->out);
   this->checkReport({ this->in, this->out });
+  this->checkCheckpoint({ this->out, this->report });
   if (this->dryRun)
   {
     const smg::JobEstimate costs = this->estimate();
@@ -73,17 +97,7 @@ void SimplifyCommand::run()
     printEstimate(costs);
     return;
   }
-  smg::SimplifyReport report;
-  {
-    ProgressBar bar("simplifying", this->quiet);
-    const std::unique_ptr<smg::OpenedMesh> mesh = openInput(this->in, *this,
-      smg::partOf(bar.function(), 0.0, 0.5), smg::StreamOrder::BreadthFirst, this->input);
-    this->simplify.memoryLimit = this->memoryBytes(this->simplify.memoryLimit);
-    this->simplify.threads = this->threads;
-    this->simplify.scratch = this->scratch;
-    this->simplify.progress = smg::partOf(bar.function(), mesh->conversion() ? 0.5 : 0.0, 1.0);
-    report = smg::simplify(mesh->reader(), this->out, this->simplify);
-  }
+  const smg::SimplifyReport report = this->simplified();
   html::PageFacts facts{ this->in, this->simplify.memoryLimit };
   if (this->reportsPage())
   {
@@ -129,5 +143,6 @@ void addSimplifyCommand(CLI::App& program, Action& action)
   options->input.addTo(*command);
   options->addTo(*command);
   options->addThreadsTo(*command);
+  options->addCheckpointTo(*command);
   command->callback([options, &action] { action = [options] { return options->run(), 0; }; });
 }

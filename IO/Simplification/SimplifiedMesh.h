@@ -26,7 +26,7 @@ public:
   const StreamInfo& info() const override { return this->Info; }
   bool next(MeshBlock& block) override;
 
-  const StreamSimplifier& simplifier() const { return this->Simplifier; }
+  StreamSimplifier& simplifier() { return this->Simplifier; }
 
 private:
   void addVertex(std::size_t vertex, MeshBlock& block);

@@ -11,6 +11,7 @@
 #include "IO/Simplification/SimplifiedMesh.h"
 #include "IO/Simplification/SimplifyCosts.h"
 #include "Solver/Core/Timer.h"
+#include "Solver/Storage/Checkpoint.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "Solver/Stream/AddedColumn.h"
 #include "smg/VsmReader.h"
@@ -20,8 +21,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <span>
 
 namespace smg
@@ -51,12 +54,31 @@ void check(const SimplifyOptions& options)
     throw Error("the memory limit of a simplification is " + std::to_string(options.memoryLimit) +
                 " bytes; expected at least " + std::to_string(LeastMemory) + " (16 MiB)");
   }
+  if (!options.checkpoint.empty() && options.meshIdentity.empty())
+  {
+    throw Error("the checkpoint of a simplification needs a text that identifies the mesh");
+  }
+}
+
+/** What the checkpoints of a simplification agree in. */
+std::vector<Checkpoint::Item> subjectOf(const SimplifyOptions& options)
+{
+  char error[32];
+  std::snprintf(error, sizeof(error), "%.17g", options.error);
+  return { { "kind of task", "simplification" }, { "mesh", options.meshIdentity },
+    { "number of vertices", std::to_string(options.vertices) }, { "error", error },
+    { "memory limit", std::to_string(options.memoryLimit) } };
 }
 
 std::vector<std::string> notesOn(
   const SimplifyOptions& options, const SimplifyReport& report, const SimplificationCounts& counts)
 {
   std::vector<std::string> notes;
+  if (counts.resumedAt > 0)
+  {
+    notes.push_back("continued after " + std::to_string(counts.resumedAt) +
+                    " vertices of the mesh, the last state that the checkpoint has");
+  }
   if (counts.dropped > 0)
   {
     notes.push_back(std::to_string(counts.dropped) + (counts.dropped == 1 ? " body" : " bodies") +
@@ -79,8 +101,9 @@ std::vector<std::string> notesOn(
   return notes;
 }
 
+/** `kept` is the folder of the checkpoint, or null. */
 SimplifyReport simplifyToVsm(const StoredMesh& mesh, const std::filesystem::path& vsm,
-  const SimplifyOptions& options, double end)
+  const SimplifyOptions& options, double end, ScratchFolder* kept)
 {
   Progress done(partOf(options.progress, 0.0, end));
   Workers workers(options.threads);
@@ -90,6 +113,10 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const std::filesystem::path
   goal.error = options.error > 0.0 ? options.error : goal.error;
   SimplifiedMesh simplified(
     *source, goal, options.memoryLimit, workers, [&done](double share) { done.update(share); });
+  if (kept)
+  {
+    simplified.simplifier().keepIn(*kept, subjectOf(options));
+  }
   VsmWriter writer(vsm, simplified.info(), { .codec = options.codec, .scratch = options.scratch });
   for (MeshBlock block; simplified.next(block);)
   {
@@ -104,6 +131,7 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const std::filesystem::path
   report.cells = written.cells;
   report.error = counts.error;
   report.dropped_bodies = counts.dropped;
+  report.resumed_vertices = counts.resumedAt;
   report.pool_bytes_peak = simplified.simplifier().peakMemory();
   report.notes = notesOn(options, report, counts);
   done.update(1.0);
@@ -169,6 +197,7 @@ std::string SimplifyReport::json(int indent) const
   json["cells"] = this->cells;
   json["error"] = this->error;
   json["dropped_bodies"] = this->dropped_bodies;
+  json["resumed_vertices"] = this->resumed_vertices;
   json["pool_bytes_peak"] = this->pool_bytes_peak;
   json["rss_bytes_peak"] = this->rss_bytes_peak;
   json["cpu_seconds"] = this->cpu_seconds;
@@ -186,15 +215,24 @@ SimplifyReport simplify(
   const Timer timer;
   const double cpu = processSeconds();
   const bool isVsm = kindOfOutput(path) == MeshFileKind::Vsm;
+  std::optional<ScratchFolder> kept;
+  if (!options.checkpoint.empty())
+  {
+    kept.emplace(KeptFolder(options.checkpoint));
+  }
   const ScratchFolder scratch(options.scratch);
   const std::filesystem::path vsm = isVsm ? path : scratch / "simplified.vsm";
-  SimplifyReport report = simplifyToVsm(mesh, vsm, options, isVsm ? 1.0 : 0.9);
+  SimplifyReport report = simplifyToVsm(mesh, vsm, options, isVsm ? 1.0 : 0.9, kept ? &*kept : nullptr);
   if (!isVsm)
   {
     const std::vector<std::string> notes =
       restores ? writeAsFile(vsm, path, scratch.path(), options)
                : writeFromVsm(vsm, path, partOf(options.progress, 0.9, 1.0), scratch.path());
     report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+  }
+  if (kept)
+  {
+    Checkpoint(*kept, subjectOf(options)).discard();
   }
   report.rss_bytes_peak = peakResidentBytes();
   report.cpu_seconds = processSeconds() - cpu;

@@ -4,6 +4,7 @@
 #include "IO/Simplification/EdgeCollapse.h"
 #include "IO/Simplification/SurfaceParts.h"
 #include "Solver/Core/Progress.h"
+#include "Solver/Storage/Checkpoint.h"
 #include "Solver/Storage/OrderedJobs.h"
 #include "Solver/Storage/Pool.h"
 #include "smg/Export.h"
@@ -14,6 +15,8 @@
 #include <deque>
 #include <functional>
 #include <limits>
+#include <optional>
+#include <string>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -36,6 +39,7 @@ struct SimplificationCounts
   double error = 0.0;        ///< the largest of a collapse, see collapseEdges()
   std::int64_t dropped = 0;  ///< small bodies
   bool isClustered = false;  ///< whether edges of some parts could not be collapsed
+  std::int64_t resumedAt = 0; ///< vertices that an earlier program had simplified, see keepIn()
 };
 
 /**
@@ -62,6 +66,12 @@ public:
     SurfacePart surface;
     std::vector<std::uint8_t> isShared; ///< of each vertex: whether later parts may have it
     std::vector<std::int64_t> ended;    ///< vertices of earlier parts that later ones do not have
+
+    template <class State>
+    void exchange(State& state)
+    {
+      state(this->surface, this->isShared, this->ended);
+    }
   };
 
   /** `triangles` and `workers` must outlive it; `progress` receives the share of the stream that
@@ -69,6 +79,13 @@ public:
    * needs the number of vertices. */
   StreamSimplifier(MeshSource& triangles, const SimplificationGoal& goal, std::int64_t memory,
     Workers& workers, std::function<void(double)> progress);
+
+  /**
+   * To be called before next(): saves the state in a kept folder, which must outlive this, whenever
+   * the window was simplified. A simplification of the same subject that has its state there is
+   * continued: the stream is read from its begin, but not simplified once more.
+   */
+  void keepIn(ScratchFolder& folder, std::vector<Checkpoint::Item> subject);
 
   /** Replaces `result` by the next part of the result; returns whether there is one. Throws Error
    * if the memory does not suffice. */
@@ -101,6 +118,10 @@ private:
   void finish();
   std::int64_t remaining() const;
   void renumber();
+  Checkpoint keptResult(std::int64_t number) const;
+  void save();
+  template <class State>
+  void exchange(State& state);
 
   Pool Memory;
   SurfaceParts Parts;
@@ -116,9 +137,15 @@ private:
   std::int64_t End = 0; ///< later parts have no new triangles at the vertices below
   std::int64_t DeliveredVertices = 0;
   std::int64_t TakenVertices = 0; ///< of the parts that were appended
+  std::int64_t TakenParts = 0, FullWindows = 0;
   std::deque<Result> Ready;
   bool IsFinished = false;
   SimplificationCounts Counts;
+  // Of a checkpoint, which has the parts of the result in states of their own.
+  ScratchFolder* Folder = nullptr;
+  std::vector<Checkpoint::Item> Subject;
+  std::optional<Checkpoint> Kept;
+  std::int64_t KeptResults = 0, ResumedResults = 0, Replayed = 0;
 };
 
 } // namespace smg

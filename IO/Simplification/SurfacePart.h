@@ -44,6 +44,13 @@ struct SurfacePart
   SurfacePart extract(const std::vector<std::uint32_t>& some) const;
   /** Removes the vertices that no triangle uses; the others keep their order. */
   void dropUnusedVertices();
+
+  template <class State>
+  void exchange(State& state)
+  {
+    state(this->ids, this->points, this->quadrics, this->origin, this->lacksBoundary, this->rows,
+      this->corners);
+  }
 };
 
 } // namespace smg

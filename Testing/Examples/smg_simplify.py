@@ -4,6 +4,7 @@
 
 import os
 
+from kills import FOLDER, again, kill_after
 from mesh_files import read_mesh
 from program import load, run, write_torus
 
@@ -72,8 +73,48 @@ def test_errors():
     assert not any(name.startswith("x.") for name in os.listdir("."))
 
 
+def test_a_killed_one_continues():
+    """Killed when a window was full and run again: the same bits, whether the result is one window or
+    parts that were saved; also with the conversion of the mesh."""
+    write_torus("large.obj", 640, 320)
+    run("convert", "large.obj", "large.vsm", "--quiet")
+    for mesh, goal, kills in (("large.vsm", ("--vertices", 500), (1,)),
+                              ("large.vsm", ("--vertices", 60000), (1, 3)),
+                              ("large.vsm", ("--error", 1e-5), (1, 3)),
+                              ("large.obj", ("--vertices", 60000), (2,))):
+        case = ("simplify", mesh, "small.vsm", *goal, "--memory", 16, "--report", "report.json")
+        run(*case)
+        with open("small.vsm", "rb") as file:
+            bits = file.read()
+        report = load("report.json")
+        for least in kills:
+            os.remove("small.vsm")
+            kill_after(case, least)
+            assert not os.path.exists("small.vsm")
+            code, error = again((*case, "--threads", 1))
+            assert code == 0 and "found a checkpoint after part" in error, error
+            with open("small.vsm", "rb") as file:
+                assert file.read() == bits, (case, least)
+            resumed = load("report.json")
+            assert 0 < resumed["resumed_vertices"] < 204800
+            for key in ("vertices", "cells", "error", "dropped_bodies"):
+                assert resumed[key] == report[key], key
+            assert not os.path.exists(FOLDER)
+    case = ("simplify", "large.vsm", "small.vsm", "--vertices", 60000, "--memory", 16)
+    kill_after(case, 1)
+    for word, other in (("mesh", (case[0], "torus.vsm", *case[2:])),
+                        ("vertices", (*case[:4], 59999, *case[5:])), ("memory", (*case[:6], 17)),
+                        ("another error", (*case, "--error", 1)),
+                        ("kind of computation", ("convert", "large.obj", "small.vsm"))):
+        code, error = again((*other, "--quiet"))
+        assert code == 1 and word in error and "remove the folder" in error, (word, error)
+    code, _ = again(case)
+    assert code == 0
+
+
 test_every_format_has_the_same_surface()
 test_an_error_is_kept()
 test_dry_run()
 test_errors()
+test_a_killed_one_continues()
 print("passed")

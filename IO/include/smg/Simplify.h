@@ -32,6 +32,15 @@ struct SimplifyOptions
   Codec codec = Codec::Zstd;
   /** Folder for scratch files; empty: the system's temporary folder. */
   std::filesystem::path scratch;
+  /**
+   * Folder from which the same simplification, with any number of threads, continues if it was
+   * killed: it is made, or must be empty or have the checkpoint, and is removed when the result is
+   * complete. Empty: none.
+   */
+  std::filesystem::path checkpoint;
+  /** A text that is another one if the mesh is, for example VsmReader::fingerprint(). Not empty
+   * with `checkpoint`. */
+  std::string meshIdentity;
   /** Progress callback; empty: none. */
   ProgressFunction progress;
 };
@@ -49,7 +58,10 @@ struct SMG_EXPORT SimplifyReport
   std::int64_t rss_bytes_peak = 0;  ///< largest resident memory of the process, bytes
   double cpu_seconds = 0;           ///< processor time of all threads of the process
   double seconds = 0;               ///< wall-clock time
-  std::vector<std::string> notes;   ///< remarks for the user, a sentence each
+  /** Vertices of the mesh that a killed program had simplified, from whose checkpoint this one
+   * continued. */
+  std::int64_t resumed_vertices = 0;
+  std::vector<std::string> notes; ///< remarks for the user, a sentence each
 
   /** The report as a JSON object with the names above. */
   std::string json(int indent = 2) const;
@@ -73,7 +85,8 @@ struct SMG_EXPORT SimplifyReport
  * @param options how far to simplify
  * @return what was done
  * @throws Error if an option is out of range, the memory limit too low, or a file fails
- * @throws Cancelled if the progress callback returns false. No file remains after an exception.
+ * @throws Cancelled if the progress callback returns false. No file but the checkpoint remains after
+ * an exception.
  */
 SMG_EXPORT SimplifyReport simplify(
   const StoredMesh& mesh, const std::filesystem::path& path, const SimplifyOptions& options);
