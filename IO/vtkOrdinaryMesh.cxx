@@ -3,18 +3,27 @@
 
 #include "IO/Formats/Vtk/VtkCell.h"
 #include "IO/vtkComplaints.h"
+#include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceNames.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "smg/Error.h"
 
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkMultiProcessController.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkXMLPolyDataWriter.h"
 #include "vtkXMLUnstructuredGridWriter.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace smg
 {
@@ -42,6 +51,54 @@ void writeRaw(vtkPointSet& mesh, const std::filesystem::path& path)
   }
 }
 
+/** Whether the points that are no duplicates have consecutive GlobalIds, in any order. */
+bool isNumberedAsPiece(vtkPointSet& mesh, vtkDataArray& ids)
+{
+  vtkUnsignedCharArray* ghosts = mesh.GetPointGhostArray();
+  std::vector<std::int64_t> own;
+  for (vtkIdType i = 0; i < ids.GetNumberOfTuples(); ++i)
+  {
+    if (!ghosts || (ghosts->GetValue(i) & vtkDataSetAttributes::DUPLICATEPOINT) == 0)
+    {
+      own.push_back(static_cast<std::int64_t>(ids.GetComponent(i, 0)));
+    }
+  }
+  if (own.empty())
+  {
+    return true;
+  }
+  const std::int64_t first = *std::ranges::min_element(own);
+  std::vector<bool> isSeen(own.size());
+  for (const std::int64_t id : own)
+  {
+    const auto place = static_cast<std::size_t>(id - first);
+    if (place >= isSeen.size() || isSeen[place])
+    {
+      return false;
+    }
+    isSeen[place] = true;
+  }
+  return true;
+}
+
+bool isOneOfSeveral()
+{
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  return controller && controller->GetNumberOfProcesses() > 1;
+}
+
+/** The mesh without the arrays of pieces, which are those of another mesh. */
+vtkSmartPointer<vtkPointSet> withoutPieceArrays(vtkPointSet& mesh)
+{
+  const auto copy = vtkSmartPointer<vtkPointSet>::Take(mesh.NewInstance());
+  copy->ShallowCopy(&mesh);
+  for (const char* name : { GlobalIdsName, StreamFinalizedName })
+  {
+    copy->GetPointData()->RemoveArray(name);
+  }
+  return copy;
+}
+
 } // namespace
 
 CellChoice countingCells(vtkPointSet& mesh)
@@ -61,8 +118,13 @@ bool isOrdinaryMesh(vtkDataObject& data)
 {
   auto* mesh = vtkPointSet::SafeDownCast(&data);
   const bool isMesh = vtkPolyData::SafeDownCast(mesh) || vtkUnstructuredGrid::SafeDownCast(mesh);
-  return isMesh && mesh->GetNumberOfCells() > 0 && !mesh->GetPointData()->GetGlobalIds() &&
-         !mesh->GetPointData()->HasArray(GlobalIdsName);
+  if (!isMesh || mesh->GetNumberOfCells() == 0)
+  {
+    return false;
+  }
+  vtkDataArray* ids = mesh->GetPointData()->GetGlobalIds();
+  ids = ids ? ids : mesh->GetPointData()->GetArray(GlobalIdsName);
+  return !ids || (!isPreview(*mesh) && !isOneOfSeveral() && !isNumberedAsPiece(*mesh, *ids));
 }
 
 ConversionReport writeOrdinaryMesh(
@@ -71,8 +133,9 @@ ConversionReport writeOrdinaryMesh(
   const ScratchFolder scratch(options.scratch);
   const bool isSurface = vtkPolyData::SafeDownCast(&mesh) != nullptr;
   const std::filesystem::path file = scratch / (isSurface ? "mesh.vtp" : "mesh.vtu");
-  isSurface ? writeRaw<vtkXMLPolyDataWriter>(mesh, file)
-            : writeRaw<vtkXMLUnstructuredGridWriter>(mesh, file);
+  const vtkSmartPointer<vtkPointSet> plain = withoutPieceArrays(mesh);
+  isSurface ? writeRaw<vtkXMLPolyDataWriter>(*plain, file)
+            : writeRaw<vtkXMLUnstructuredGridWriter>(*plain, file);
   try
   {
     ConversionOptions given = options;

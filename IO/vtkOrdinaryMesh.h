@@ -14,7 +14,9 @@ class vtkPointSet;
 namespace smg
 {
 
-/** Whether the mesh has no point GlobalIds and is therefore not a piece of a mesh stream. */
+/** Whether the mesh is not a piece of a mesh stream: it has no point GlobalIds, or, in a program of
+ * one process and not a preview, some that do not number its own points consecutively, as those
+ * behind a filter that has taken points away (Threshold) or joined meshes. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT bool isOrdinaryMesh(vtkDataObject& data);
 
 /** Which cells of a mesh count: the solid ones, or without these those of surfaces. */

@@ -20,22 +20,6 @@
 namespace smg
 {
 
-namespace
-{
-
-/** The class of a filter; of one that ParaView adds after it, of the one before. */
-std::string nameOf(vtkAlgorithm& filter)
-{
-  vtkAlgorithm* named = &filter;
-  while (named->IsA("vtkPVPostFilter") && named->GetNumberOfInputConnections(0) > 0)
-  {
-    named = named->GetInputAlgorithm(0, 0);
-  }
-  return named->GetClassName();
-}
-
-} // namespace
-
 PieceInput::PieceInput(vtkAlgorithm& consumer, int port)
 {
   if (consumer.GetNumberOfInputConnections(port) < 1)
@@ -86,7 +70,7 @@ vtkDataObject* PieceInput::update(int piece, int pieces, bool streamed)
   {
     throw InputFailed("Piece " + std::to_string(piece) + " of " + std::to_string(pieces) +
                       " of the input could not be made: see the error that " +
-                      nameOf(*this->Producer) + " or the pipeline before it reported.");
+                      this->producerName() + " or the pipeline before it reported.");
   }
   return data;
 }
@@ -125,6 +109,17 @@ std::optional<StreamInfo> PieceInput::meshInfo()
     return {};
   }
   return VsmReader(file).info();
+}
+
+std::string PieceInput::producerName() const
+{
+  // ParaView adds filters of this class after every one of the user.
+  vtkAlgorithm* named = this->Producer;
+  while (named->IsA("vtkPVPostFilter") && named->GetNumberOfInputConnections(0) > 0)
+  {
+    named = named->GetInputAlgorithm(0, 0);
+  }
+  return named->GetClassName();
 }
 
 bool PieceInput::isPreviewed() const

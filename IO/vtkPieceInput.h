@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 class vtkAlgorithm;
 class vtkDataObject;
@@ -50,7 +51,8 @@ public:
   /** The value of vtkStreamingMeshKeys::PREVIEWED(), after a piece was requested. */
   bool isPreviewed() const;
 
-  vtkAlgorithm& producer() const { return *this->Producer; }
+  /** The class of the filter that delivers the pieces, for messages. */
+  std::string producerName() const;
 
   /** Whether the input was set as a data object, which is the same for every piece. */
   bool isData() const;

@@ -50,8 +50,7 @@ PieceStream::PieceStream(PieceInput& input, const PieceCount& pieces, PieceColum
   }
   if (!this->First)
   {
-    throw Error(std::string("The input has no cells: look at what ") +
-                this->Input.producer().GetClassName() + " delivers.");
+    throw Error("The input has no cells: look at what " + this->Input.producerName() + " delivers.");
   }
   this->learn(*this->First);
 }

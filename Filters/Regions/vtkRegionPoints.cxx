@@ -4,6 +4,7 @@
 #include "Filters/Regions/EdgeLength.h"
 #include "Filters/Regions/vtkSelectedPoints.h"
 #include "IO/Formats/Streams/StreamConversion.h"
+#include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceStream.h"
 #include "smg/Error.h"
 
@@ -13,6 +14,7 @@
 #include "vtkPointSet.h"
 
 #include <algorithm>
+#include <numeric>
 #include <sstream>
 
 namespace smg
@@ -43,6 +45,12 @@ double meanEdgeLength(const MeshInMemory& mesh)
 
 std::vector<std::int64_t> idsOf(vtkPointSet& mesh, const PointRegionSettings& settings)
 {
+  if (!settings.areOriginalIds && isOrdinaryMesh(mesh) && !hasSeveralProcesses())
+  {
+    std::vector<std::int64_t> places(static_cast<std::size_t>(mesh.GetNumberOfPoints()));
+    std::iota(places.begin(), places.end(), 0);
+    return places;
+  }
   if (!settings.areOriginalIds)
   {
     return globalIdsOf(mesh, "The input");

@@ -2,6 +2,7 @@
 #include "Filters/vtkMeshCondition.h"
 #include "Filters/vtkStreamingDistance.h"
 #include "Filters/vtkStreamingPoisson.h"
+#include "IO/vtkOrdinaryMesh.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/TemporaryFolder.h"
 
@@ -9,6 +10,7 @@
 #include "vtkCellData.h"
 #include "vtkDataSetTriangleFilter.h"
 #include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkPlane.h"
 #include "vtkPlaneSource.h"
@@ -173,6 +175,53 @@ TEST_F(VtkOrdinaryMesh, QuadsAreTriangles)
 TEST_F(VtkOrdinaryMesh, HexahedraAreTetrahedra)
 {
   this->expectLinear(hexahedra(8), 1);
+}
+
+TEST_F(VtkOrdinaryMesh, PiecesWithoutSomeOfTheirPointsAreOrdinary)
+{
+  // As a filter leaves them that takes points away: numbers with gaps, in no order, and those of a
+  // file, which is not this mesh.
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetResolution(30, 20);
+  plane->Update();
+  vtkNew<vtkDataSetTriangleFilter> triangles;
+  triangles->SetInputConnection(plane->GetOutputPort());
+  triangles->Update();
+  vtkPointSet* mesh = triangles->GetOutput();
+  const vtkIdType points = mesh->GetNumberOfPoints();
+  vtkNew<vtkIdTypeArray> ids, original;
+  ids->SetName("GlobalIds");
+  original->SetName("OriginalId");
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    ids->InsertNextValue(3 * ((11 * i) % points) + 5);
+    original->InsertNextValue(points - i);
+  }
+  mesh->GetPointData()->SetGlobalIds(ids);
+  mesh->GetPointData()->AddArray(original);
+  ASSERT_TRUE(isOrdinaryMesh(*mesh));
+  Errors errors(this->Poisson);
+  vtkPointSet* output = this->solve(mesh);
+  ASSERT_TRUE(errors.text().empty()) << errors.text();
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    const double* p = output->GetPoint(i);
+    ASSERT_NEAR(
+      output->GetPointData()->GetArray("Solution")->GetTuple1(i), p[0] + 2.0 * p[1] - p[2], 1e-6);
+    ASSERT_EQ(output->GetPointData()->GetGlobalIds()->GetTuple1(i), ids->GetValue(i));
+    ASSERT_EQ(output->GetPointData()->GetArray("OriginalId")->GetTuple1(i), original->GetValue(i));
+  }
+  // Two pieces that are joined have numbers twice; what only begins later is a piece.
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    ids->SetValue(i, i % (points / 2));
+  }
+  EXPECT_TRUE(isOrdinaryMesh(*mesh));
+  for (vtkIdType i = 0; i < points; ++i)
+  {
+    ids->SetValue(i, 1000 + (11 * i) % points);
+  }
+  EXPECT_FALSE(isOrdinaryMesh(*mesh));
 }
 
 TEST_F(VtkOrdinaryMesh, AGridOfTetrahedraHasGradients)

@@ -31,18 +31,18 @@ struct SimplifyOptions
   /** Compression of the result. */
   Codec codec = Codec::Zstd;
   /** Folder for scratch files; empty: the system's temporary folder. */
-  std::filesystem::path scratch;
+  std::filesystem::path scratch = {};
   /**
    * Folder from which the same simplification, with any number of threads, continues if it was
    * killed: it is made, or must be empty or have the checkpoint, and is removed when the result is
    * complete. Empty: none.
    */
-  std::filesystem::path checkpoint;
+  std::filesystem::path checkpoint = {};
   /** A text that is another one if the mesh is, for example VsmReader::fingerprint(). Not empty
    * with `checkpoint`. */
-  std::string meshIdentity;
+  std::string meshIdentity = {};
   /** Progress callback; empty: none. */
-  ProgressFunction progress;
+  ProgressFunction progress = {};
 };
 
 /** What a simplification did and what it cost. */
