@@ -97,7 +97,7 @@ public:
     {
       this->rankEdges(goal.error * goal.error);
       this->Pinched = 0;
-      const std::size_t gone = this->collapse(left - goal.vertices, worth);
+      const std::size_t gone = this->collapse(left - goal.vertices, left, worth);
       left -= gone;
       this->Surface.endPass();
       if (this->Pinched > 0)
@@ -199,21 +199,23 @@ private:
     }
   }
 
-  /** Collapses edges, at most so many; returns their number. Those that change the topology must
-   * have a rank `worth` times smaller than the others. */
-  std::size_t collapse(std::size_t most, float worth)
+  /** Collapses edges of so many vertices, at most `most`; returns their number. Those that change
+   * the topology must have a rank `worth` times smaller than the others. */
+  std::size_t collapse(std::size_t most, std::size_t vertices, float worth)
   {
     this->sortEdges();
     // Neighbours of a collapse wait for the next pass: this one ends before edges that are much
-    // worse than those that would suffice without such neighbours.
+    // worse than those that would suffice without such neighbours; but not before a thirtieth of
+    // the vertices, for which a pass over all would not pay.
     constexpr float Worse = 1.5F;
+    const std::size_t least = std::max(most / 6, vertices / 30);
     const std::size_t enough = std::min(most, this->Edges.size() / 2);
     const float usual = this->Order.empty() ? 0.0F : this->Edges[this->Order[enough]].rank;
     std::size_t done = 0;
     for (std::size_t k = 0; k < this->Order.size() && done < most; ++k)
     {
       const auto [from, to, rank] = this->Edges[this->Order[k]];
-      if (k > enough && done > most / 6 && rank > Worse * usual)
+      if (k > enough && done > least && rank > Worse * usual)
       {
         break;
       }

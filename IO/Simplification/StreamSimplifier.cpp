@@ -21,8 +21,9 @@ constexpr PoolUse SimplificationMemory{ "the simplification",
 constexpr std::int64_t LeastWindow = 20000;
 /** The window has the triangles of so many parts. */
 constexpr std::int64_t PartsOfWindow = 3;
-/** The least share of its vertices that a part keeps. */
-constexpr double PartShare = 1.0 / 8.0;
+/** The least share of its vertices that a part keeps: more, where that is not many times what is
+ * left of the mesh. */
+constexpr double PartShare = 1.0 / 16.0, SmallGoal = 16.0, UsualShare = 1.0 / 8.0;
 /** The share of the vertices of a result that windows before the last one may deliver. */
 constexpr double Aim = 0.98;
 /** A window has at least so many triangles for each locked vertex. */
@@ -154,7 +155,8 @@ double StreamSimplifier::shareOfPart() const
   const double share = this->Goal.vertices == 0
                          ? 0.0
                          : 2.0 * static_cast<double>(this->Triangles) / static_cast<double>(cells);
-  return share > 0.5 ? 1.0 : std::max(share, PartShare);
+  const double least = std::clamp(0.5 * SmallGoal * share, PartShare, UsualShare);
+  return share > 0.5 ? 1.0 : std::max(share, this->Goal.vertices == 0 ? UsualShare : least);
 }
 
 /** Appends a part to the window. */

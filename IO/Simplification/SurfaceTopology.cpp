@@ -2,7 +2,6 @@
 #include "IO/Simplification/SurfaceTopology.h"
 
 #include <algorithm>
-#include <compare>
 #include <numeric>
 #include <utility>
 
@@ -229,31 +228,35 @@ void SurfaceTopology::endPass()
 /** Of each triangle: whether it lies on another one, wound the other way; both in pairs. */
 std::vector<std::uint8_t> SurfaceTopology::foldedTriangles() const
 {
-  struct Triangle
+  using Triangle = std::array<std::uint32_t, 3>; // its larger corners, ascending, and its place
+  std::vector<Triangle> triangles;               // those with the same least corner
+  std::vector<std::uint8_t> isFolded(this->Corners.size() / 3);
+  const auto areOnEachOther = [&](const Triangle& a, const Triangle& b)
+  { return a[0] == b[0] && a[1] == b[1]; };
+  for (std::uint32_t least = 0; least < this->vertices(); ++least)
   {
-    std::array<std::uint32_t, 3> corners; ///< ascending
-    std::uint32_t place;
-    auto operator<=>(const Triangle&) const = default;
-  };
-  std::vector<Triangle> triangles(this->Corners.size() / 3);
-  for (std::uint32_t t = 0; t < triangles.size(); ++t)
-  {
-    const std::uint32_t* c = this->Corners.data() + 3 * std::size_t(t);
-    triangles[t] = { { c[0], c[1], c[2] }, t };
-    std::ranges::sort(triangles[t].corners);
-  }
-  std::ranges::sort(triangles);
-  std::vector<std::uint8_t> isFolded(triangles.size());
-  for (std::size_t k = 0; k < triangles.size(); ++k)
-  {
-    for (std::size_t j = k + 1; j < triangles.size() && isFolded[triangles[k].place] == 0 &&
-                                triangles[j].corners == triangles[k].corners;
-         ++j)
+    triangles.clear();
+    for (const std::uint32_t t : this->star(least))
     {
-      if (isFolded[triangles[j].place] == 0 &&
-          this->isTurned(triangles[k].place, triangles[j].place))
+      const auto [a, b] = this->others(t, least);
+      if (least < a && least < b)
       {
-        isFolded[triangles[k].place] = isFolded[triangles[j].place] = 1;
+        triangles.push_back({ std::min(a, b), std::max(a, b), t });
+      }
+    }
+    std::ranges::sort(triangles);
+    for (std::size_t k = 0; k < triangles.size(); ++k)
+    {
+      std::uint8_t& isOne = isFolded[triangles[k][2]];
+      for (std::size_t j = k + 1; isOne == 0 && j < triangles.size() &&
+                                  areOnEachOther(triangles[k], triangles[j]);
+           ++j)
+      {
+        std::uint8_t& isOther = isFolded[triangles[j][2]];
+        if (isOther == 0 && this->isTurned(triangles[k][2], triangles[j][2]))
+        {
+          isOne = isOther = 1;
+        }
       }
     }
   }

@@ -1,8 +1,8 @@
 #!/usr/bin/env pvpython
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws a mesh beside its previews of 100,000 and 10,000 points.
+"""Draws meshes beside their previews of 100,000 and 10,000 points, a row each.
 
-xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython previews.py SMG MESH OUT.png [AZIMUTH ELEVATION]"""
+xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython previews.py SMG OUT.png MESH[,AZIMUTH,ELEVATION[,ROLL]]..."""
 
 import os
 import subprocess
@@ -12,33 +12,50 @@ import tempfile
 from paraview.simple import *
 from PIL import Image
 
-smg, mesh, out = sys.argv[1:4]
-azimuth, elevation = (float(angle) for angle in sys.argv[4:] or (30, 10))
-folder = tempfile.mkdtemp()
-pictures = [os.path.join(folder, "mesh.vtp")]
-subprocess.run([smg, "convert", mesh, pictures[0], "--quiet"], check=True)
-for points in (100000, 10000):
-    pictures.append(os.path.join(folder, "%d.vtp" % points))
-    subprocess.run([smg, "preview", mesh, pictures[-1], "--points", str(points), "--quiet"], check=True)
-shots = []
-for place, picture in enumerate(pictures):
+WIDTH, HEIGHT = 440, 400
+smg, out = sys.argv[1:3]
+
+
+def files_of(mesh):
+    """The mesh and its previews as files that ParaView reads."""
+    folder = tempfile.mkdtemp()
+    whole = os.path.join(folder, "mesh.vtu")
+    subprocess.run([smg, "convert", mesh, whole, "--quiet"], check=True)
+    files = [whole]
+    for points in (100000, 10000):
+        files.append(os.path.join(folder, "%d.vtp" % points))
+        subprocess.run([smg, "preview", mesh, files[-1], "--points", str(points), "--quiet"], check=True)
+    return files
+
+
+def shot(file, angles):
     view = CreateView("RenderView")
-    view.ViewSize, view.Background, view.UseColorPaletteForBackground = [560, 640], [0.93, 0.94, 0.96], 0
+    view.ViewSize, view.Background, view.UseColorPaletteForBackground = [WIDTH, HEIGHT], [0.93, 0.94, 0.96], 0
     view.OrientationAxesVisibility = 0
-    shown = Show(OpenDataFile(picture), view)
+    shown = Show(OpenDataFile(file), view)
     shown.ColorArrayName = ["POINTS", ""]
     shown.DiffuseColor, shown.Specular, shown.Interpolation = [0.87, 0.85, 0.8], 0.2, "Flat"
     ResetCamera(view)
     camera = GetActiveCamera()
-    camera.Elevation(-90 + elevation)
+    camera.Elevation(-90 + angles[1])
     camera.SetViewUp(0, 0, 1)
-    camera.Azimuth(azimuth)
+    camera.Azimuth(angles[0])
+    camera.Roll(angles[2])
     camera.Zoom(1.4)
     Render(view)
-    shots.append(os.path.join(folder, "%d.png" % place))
-    SaveScreenshot(shots[-1], view, ImageResolution=[560, 640])
-images = [Image.open(shot) for shot in shots]
-whole = Image.new("RGB", (sum(image.width for image in images), images[0].height))
-for place, image in enumerate(images):
-    whole.paste(image, (place * images[0].width, 0))
+    name = file + ".png"
+    SaveScreenshot(name, view, ImageResolution=[WIDTH, HEIGHT])
+    Delete(view)
+    return Image.open(name)
+
+
+rows = []
+for argument in sys.argv[3:]:
+    mesh, *given = argument.split(",")
+    angles = [float(angle) for angle in given] + [30, 10, 0][len(given):]
+    rows.append([shot(file, angles) for file in files_of(mesh)])
+whole = Image.new("RGB", (3 * WIDTH, len(rows) * HEIGHT))
+for row, images in enumerate(rows):
+    for column, image in enumerate(images):
+        whole.paste(image, (column * WIDTH, row * HEIGHT))
 whole.save(out)
