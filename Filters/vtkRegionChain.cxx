@@ -5,6 +5,7 @@
 #include "Filters/vtkRegionFilter.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "IO/vtkStreamingMeshReader.h"
+#include "smg/Error.h"
 
 #include "vtkDataArraySelection.h"
 #include "vtkInformation.h"
@@ -30,6 +31,30 @@ vtkAlgorithm* before(vtkAlgorithm& filter)
     at = isConnected ? at->GetInputAlgorithm(0, 0) : nullptr;
   } while (at && at->IsA("vtkPVPostFilter"));
   return at;
+}
+
+/** Calls f(connected filter, whether it is one of several at its port) for all before this one. */
+template <class F>
+void visitInputs(vtkAlgorithm& filter, F&& f)
+{
+  for (int port = 0; port < filter.GetNumberOfInputPorts(); ++port)
+  {
+    const int count = filter.GetNumberOfInputConnections(port);
+    for (int k = 0; k < count; ++k)
+    {
+      if (vtkAlgorithm* input = filter.GetInputAlgorithm(port, k))
+      {
+        f(*input, count > 1);
+      }
+    }
+  }
+}
+
+bool hasCondition(vtkAlgorithm& filter)
+{
+  bool has = filter.IsA("vtkMeshCondition");
+  visitInputs(filter, [&has](vtkAlgorithm& input, bool) { has = has || hasCondition(input); });
+  return has;
 }
 
 /** Whether the pieces of the reader have the required columns, and no other one is switched off
@@ -69,6 +94,20 @@ vtkAlgorithm& firstOfChain(vtkRegionFilter& region)
     first = next;
   }
   return *first;
+}
+
+void requireConditionsAfterJoins(vtkAlgorithm& filter)
+{
+  visitInputs(filter,
+    [&filter](vtkAlgorithm& input, bool isOneOfSeveral)
+    {
+      if (isOneOfSeveral && hasCondition(input))
+      {
+        throw Error(std::string("Mesh Conditions do not survive the joining of meshes by ") +
+                    filter.GetClassName() + ": put them behind that filter.");
+      }
+      requireConditionsAfterJoins(input);
+    });
 }
 
 std::filesystem::path unchangedFile(vtkAlgorithm& filter, const PieceColumns& columns)

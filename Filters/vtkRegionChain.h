@@ -15,6 +15,11 @@ namespace smg
  * chain, without the arrays that the regions add. */
 vtkAlgorithm& firstOfChain(vtkRegionFilter& region);
 
+/** Throws Error if a filter before this one joins meshes some of which have conditions: of arrays
+ * and texts with the same names it keeps the first, so that conditions would be mistaken for one
+ * another. */
+void requireConditionsAfterJoins(vtkAlgorithm& filter);
+
 /**
  * The .vsm file of the reader before a filter, if its pieces reach the filter unchanged with these
  * columns: between the two there are only conditions, which then have no arrays of their own that

@@ -13,6 +13,7 @@
 #include "Filters/vtkRegionChain.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshPieceData.h"
+#include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceInput.h"
 #include "smg/Error.h"
 

@@ -56,7 +56,7 @@ struct vtkStreamingSolver::Internals
     smg::SolutionExchange exchange(this->partners(request, input, inputInfo));
     vtkSmartPointer<vtkPointSet> present;
     exchange.together([&] { present = smg::bring(input, request, exchange); });
-    const bool isOrdinary = !exchange.isParallel() && this->bringWhole(input, request, present);
+    const bool isOrdinary = !exchange.isParallel() && this->bringWhole(input, request, inputInfo, present);
     if (isOrdinary && request.Piece > 0)
     {
       vtkDataObject::GetData(outputInfo)->Initialize(); // piece 0 is all of it
@@ -78,7 +78,9 @@ struct vtkStreamingSolver::Internals
     }
     else if (exchange.isServer())
     {
-      this->solve(input, inputInfo, present, isOrdinary, isForMemory ? &values : nullptr);
+      this->solve(input, inputInfo, present, isOrdinary,
+        !exchange.isParallel() && this->asksForWhole(input, request),
+        isForMemory ? &values : nullptr);
     }
     this->Summary.isCancelled = !this->Summary.error.empty() && this->Self.GetAbortExecute();
     // With the distributed engine every process has a summary, and if one has failed, all have.
@@ -126,14 +128,41 @@ struct vtkStreamingSolver::Internals
     return !seconds || *seconds > Long;
   }
 
+  /** Whether the mesh is to be solved on as one piece, since it is in memory as a whole. */
+  bool asksForWhole(const smg::PieceInput& input, const smg::PieceRequest& request) const
+  {
+    const bool isAskedWhole = request.Pieces == 1 && !request.IsStreamed;
+    return this->Self.NumberOfPieces == 0 &&
+           (input.isInMemory() || (isAskedWhole && !input.isPreviewed()));
+  }
+
   /** Brings all of an ordinary mesh, which is no piece of a mesh stream; returns whether it is one.
    * What is not for the memory is solved on as on a file. */
   bool bringWhole(smg::PieceInput& input, const smg::PieceRequest& request,
-    vtkSmartPointer<vtkPointSet>& present) const
+    vtkInformation* inputInfo, vtkSmartPointer<vtkPointSet>& present)
   {
-    if (!smg::isOrdinaryMesh(*present) || smg::isPreview(*present))
+    if (smg::isPreview(*present))
     {
       return false;
+    }
+    if (!smg::isOrdinaryMesh(*present))
+    {
+      // A piece may look like that of a stream where the whole does not.
+      const bool isPart = request.Pieces > 1 && this->asksForWhole(input, request) &&
+                          !(this->StreamStamp == smg::stampOf(this->Self, input, inputInfo));
+      if (!isPart)
+      {
+        return false;
+      }
+      present = vtkPointSet::SafeDownCast(input.update(0, 1, false));
+      const bool isOrdinary = smg::isOrdinaryMesh(*present);
+      if (!isOrdinary)
+      {
+        present =
+          vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, request.IsStreamed));
+        this->StreamStamp = smg::stampOf(this->Self, input, inputInfo);
+      }
+      return isOrdinary;
     }
     if (request.Pieces > 1)
     {
@@ -158,7 +187,8 @@ struct vtkStreamingSolver::Internals
 
   /** Solves in memory if there are values to fill, otherwise out of core. */
   void solve(smg::PieceInput& input, vtkInformation* inputInfo,
-    vtkSmartPointer<vtkPointSet>& present, bool isOrdinary, std::vector<double>* values)
+    vtkSmartPointer<vtkPointSet>& present, bool isOrdinary, bool asWhole,
+    std::vector<double>* values)
   {
     if (values)
     {
@@ -167,7 +197,7 @@ struct vtkStreamingSolver::Internals
       this->Summary = this->solveInMemory(*present, *values);
       return;
     }
-    this->solveOutOfCore(input, inputInfo, *present, isOrdinary);
+    this->solveOutOfCore(input, inputInfo, *present, isOrdinary, asWhole);
     this->Summary = this->Streamed.summary();
     if (smg::isPreview(*present) || input.isPreviewed())
     {
@@ -217,8 +247,8 @@ struct vtkStreamingSolver::Internals
   }
 
   /** Solves out of core unless there is a solution for this input. */
-  void solveOutOfCore(
-    smg::PieceInput& input, vtkInformation* inputInfo, vtkPointSet& present, bool isOrdinary)
+  void solveOutOfCore(smg::PieceInput& input, vtkInformation* inputInfo, vtkPointSet& present,
+    bool isOrdinary, bool asWhole)
   {
     if (this->Streamed.isFor(smg::stampOf(this->Self, input, inputInfo)))
     {
@@ -229,6 +259,10 @@ struct vtkStreamingSolver::Internals
       smg::StreamedSolve::Pulling pulling;
       pulling.pieces = smg::PieceCount::within(
         this->Self.NumberOfPieces, std::int64_t(this->Self.MemoryLimit) << 20);
+      if (asWhole)
+      {
+        pulling.pieces.given = 1;
+      }
       pulling.scratch = this->Self.ScratchDirectory ? this->Self.ScratchDirectory : "";
       pulling.scratchLimit = std::int64_t(this->Self.ScratchLimit) << 20;
       pulling.memory = std::int64_t(this->Self.MemoryLimit) << 20;
@@ -365,6 +399,7 @@ struct vtkStreamingSolver::Internals
   smg::Failures Failures;
   vtkTimeStamp AnsweredAt; ///< includes modifications caused by the request itself
   smg::StreamedSolve Streamed;
+  smg::InputStamp StreamStamp; ///< of an input that as a whole is a mesh stream
   smg::PieceSolve Pieces;
   smg::SolveSummary Summary;     ///< of the last output
   smg::SolveSummary Shown;       ///< of the last one that was not streamed

@@ -128,7 +128,9 @@ struct vtkStreamingMeshSimplification::Internals
       smg::writeOrdinaryMesh(*vtkPointSet::SafeDownCast(mesh), copy, options);
       return copy;
     }
-    smg::PieceStream stream(input, { .given = this->Self.NumberOfPieces }, columns);
+    const int given = this->Self.NumberOfPieces;
+    const bool isWhole = given == 0 && input.isInMemory() && !smg::hasSeveralProcesses();
+    smg::PieceStream stream(input, { .given = isWhole ? 1 : given }, columns);
     smg::Progress done(progress);
     smg::writeContainer(stream, copy, true, done);
     return copy;

@@ -11,6 +11,7 @@
 #include "Filters/Processes/vtkDistributedPoisson.h"
 #include "Filters/Streaming/SolveSummary.h"
 #include "Filters/Streaming/vtkWarnOnce.h"
+#include "Filters/vtkRegionChain.h"
 #include "IO/Formats/Vsm/ReservedNames.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
@@ -73,6 +74,7 @@ struct vtkStreamingPoisson::Internals
     {
       append(problem, smg::readProblemText(text, "Problem", defaults));
     }
+    smg::requireConditionsAfterJoins(this->Self);
     smg::applyConditions(input, problem);
     problem.gradientOutput = problem.gradientOutput || this->Self.Gradient;
     problem.fluxOutput = problem.fluxOutput || this->Self.Flux;
@@ -169,7 +171,7 @@ struct vtkStreamingPoisson::Internals
     catch (const smg::Error& error)
     {
       this->NoCells.warn(
-        "What is saved has Gradient and Flux, but the preview does not show them: " +
+        "What is saved has what was asked for of Gradient and Flux, but the preview does not: " +
         std::string(error.what()));
     }
   }
@@ -233,6 +235,12 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingPoisson::MakeTask(vtkPointSet& in
   {
     task->notes.push_back("the full mesh was solved on, since the preview does not do: " +
                           this->Internal->WhyNotOnPreview);
+  }
+  if (input.GetPointData()->HasArray(name.c_str()))
+  {
+    task->notes.push_back("the array " + name +
+                          " of the input is replaced by the solution: choose another "
+                          "ResultArrayName to keep both");
   }
   if (!this->GetEngineNote().empty())
   {

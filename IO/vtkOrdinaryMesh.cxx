@@ -8,9 +8,12 @@
 #include "Solver/Storage/ScratchFolder.h"
 #include "smg/Error.h"
 
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
+#include "vtkIdList.h"
 #include "vtkMultiProcessController.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
@@ -51,16 +54,41 @@ void writeRaw(vtkPointSet& mesh, const std::filesystem::path& path)
   }
 }
 
-/** Whether the points that are no duplicates have consecutive GlobalIds, in any order. */
-bool isNumberedAsPiece(vtkPointSet& mesh, vtkDataArray& ids)
+/** Whether cells use no point before one that is not a duplicate and has a lower number. */
+bool areUsedInOrder(vtkPointSet& mesh, const std::vector<std::int64_t>& ids, std::int64_t first)
+{
+  std::int64_t used = first;
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType cell = 0; cell < mesh.GetNumberOfCells(); ++cell)
+  {
+    vtkIdType count = 0;
+    const vtkIdType* corner = nullptr;
+    mesh.GetCellPoints(cell, count, corner, corners);
+    for (vtkIdType k = 0; k < count; ++k)
+    {
+      const std::int64_t id = ids[static_cast<std::size_t>(corner[k])];
+      if (id > used)
+      {
+        return false;
+      }
+      used = std::max(used, id + 1);
+    }
+  }
+  return true;
+}
+
+/** Whether the points that are no duplicates have consecutive GlobalIds, in the order in which cells
+ * use them first. */
+bool isNumberedAsPiece(vtkPointSet& mesh, vtkDataArray& array)
 {
   vtkUnsignedCharArray* ghosts = mesh.GetPointGhostArray();
-  std::vector<std::int64_t> own;
-  for (vtkIdType i = 0; i < ids.GetNumberOfTuples(); ++i)
+  std::vector<std::int64_t> ids, own;
+  for (vtkIdType i = 0; i < array.GetNumberOfTuples(); ++i)
   {
+    ids.push_back(static_cast<std::int64_t>(array.GetComponent(i, 0)));
     if (!ghosts || (ghosts->GetValue(i) & vtkDataSetAttributes::DUPLICATEPOINT) == 0)
     {
-      own.push_back(static_cast<std::int64_t>(ids.GetComponent(i, 0)));
+      own.push_back(ids.back());
     }
   }
   if (own.empty())
@@ -78,16 +106,11 @@ bool isNumberedAsPiece(vtkPointSet& mesh, vtkDataArray& ids)
     }
     isSeen[place] = true;
   }
-  return true;
+  return areUsedInOrder(mesh, ids, first);
 }
 
-bool isOneOfSeveral()
-{
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  return controller && controller->GetNumberOfProcesses() > 1;
-}
-
-/** The mesh without the arrays of pieces, which are those of another mesh. */
+/** The mesh without the arrays of pieces, which are those of another mesh, and without arrays of
+ * another length, which some filters of VTK leave (the RegionId of the cells of Connectivity). */
 vtkSmartPointer<vtkPointSet> withoutPieceArrays(vtkPointSet& mesh)
 {
   const auto copy = vtkSmartPointer<vtkPointSet>::Take(mesh.NewInstance());
@@ -96,10 +119,28 @@ vtkSmartPointer<vtkPointSet> withoutPieceArrays(vtkPointSet& mesh)
   {
     copy->GetPointData()->RemoveArray(name);
   }
+  const auto removeOthers = [](vtkDataSetAttributes& arrays, vtkIdType tuples)
+  {
+    for (int k = arrays.GetNumberOfArrays() - 1; k >= 0; --k)
+    {
+      if (arrays.GetAbstractArray(k)->GetNumberOfTuples() != tuples)
+      {
+        arrays.RemoveArray(k);
+      }
+    }
+  };
+  removeOthers(*copy->GetPointData(), copy->GetNumberOfPoints());
+  removeOthers(*copy->GetCellData(), copy->GetNumberOfCells());
   return copy;
 }
 
 } // namespace
+
+bool hasSeveralProcesses()
+{
+  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
+  return controller && controller->GetNumberOfProcesses() > 1;
+}
 
 CellChoice countingCells(vtkPointSet& mesh)
 {
@@ -124,7 +165,7 @@ bool isOrdinaryMesh(vtkDataObject& data)
   }
   vtkDataArray* ids = mesh->GetPointData()->GetGlobalIds();
   ids = ids ? ids : mesh->GetPointData()->GetArray(GlobalIdsName);
-  return !ids || (!isPreview(*mesh) && !isOneOfSeveral() && !isNumberedAsPiece(*mesh, *ids));
+  return !ids || (!isPreview(*mesh) && !hasSeveralProcesses() && !isNumberedAsPiece(*mesh, *ids));
 }
 
 ConversionReport writeOrdinaryMesh(

@@ -122,6 +122,12 @@ std::string PieceInput::producerName() const
   return named->GetClassName();
 }
 
+bool PieceInput::isInMemory() const
+{
+  vtkInformation* info = this->Executive->GetOutputInformation(this->ProducerPort);
+  return info->Has(vtkStreamingMeshKeys::PREVIEWED()) && !this->isPreviewed();
+}
+
 bool PieceInput::isPreviewed() const
 {
   return this->Executive->GetOutputInformation(this->ProducerPort)

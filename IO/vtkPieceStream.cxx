@@ -183,8 +183,8 @@ std::vector<std::int64_t> PieceStream::ownPoints(
       throw Error(this->where() + " has the GlobalId " + std::to_string(id) + " where " +
                   std::to_string(expected) +
                   " comes next: GlobalIds must number the points in the order of their first use. "
-                  "Behind a filter that takes points or cells away, take GlobalIds away, too (Pass "
-                  "Arrays), save the result as .vsm, and open that.");
+                  "Behind a filter that takes points or cells away, raise Maximum Points In Memory "
+                  "of the reader, so that it shows the mesh as a whole.");
     }
   }
   for (std::size_t i = 0; i < ids.size(); ++i)

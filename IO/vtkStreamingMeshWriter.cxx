@@ -63,8 +63,9 @@ Trial tryPiece(smg::PieceInput& input, int given)
     vtkDataObject* piece = input.update(0, trial.pieces, true);
     if (cellsOf(piece) > 0)
     {
-      trial.pieces = count.enough(trial.pieces, *piece);
-      trial.isOrdinary = smg::isOrdinaryMesh(*piece);
+      const bool isWhole = given == 0 && input.isInMemory() && !smg::hasSeveralProcesses();
+      trial.pieces = isWhole ? 1 : count.enough(trial.pieces, *piece);
+      trial.isOrdinary = smg::isOrdinaryMesh(isWhole ? *input.update(0, 1, false) : *piece);
       return trial;
     }
   }

@@ -9,6 +9,7 @@
 #include "IO/Estimate/JobEstimate.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Simplification/SimplifyCosts.h"
+#include "Solver/Core/Timer.h"
 #include "smg/Error.h"
 #include "smg/Simplify.h"
 
@@ -57,8 +58,11 @@ smg::JobEstimate SimplifyCommand::estimate() const
   return estimate;
 }
 
+/** The times are those of the conversion, too. */
 smg::SimplifyReport SimplifyCommand::simplified()
 {
+  const smg::Timer timer;
+  const double cpu = smg::processSeconds();
   this->announceCheckpoint("part");
   try
   {
@@ -71,7 +75,10 @@ smg::SimplifyReport SimplifyCommand::simplified()
     this->simplify.checkpoint = this->checkpoint;
     this->simplify.meshIdentity = mesh->reader().fingerprint();
     this->simplify.progress = smg::partOf(bar.function(), mesh->conversion() ? 0.5 : 0.0, 1.0);
-    return smg::simplify(mesh->reader(), this->out, this->simplify);
+    smg::SimplifyReport report = smg::simplify(mesh->reader(), this->out, this->simplify);
+    report.seconds = timer.seconds();
+    report.cpu_seconds = smg::processSeconds() - cpu;
+    return report;
   }
   catch (const smg::Cancelled&)
   {

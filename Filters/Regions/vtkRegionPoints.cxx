@@ -9,7 +9,6 @@
 #include "smg/Error.h"
 
 #include "vtkDataArray.h"
-#include "vtkMultiProcessController.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 
@@ -19,12 +18,6 @@
 
 namespace smg
 {
-
-bool hasSeveralProcesses()
-{
-  vtkMultiProcessController* controller = vtkMultiProcessController::GetGlobalController();
-  return controller && controller->GetNumberOfProcesses() > 1;
-}
 
 std::vector<double> positionsOf(vtkPointSet& mesh, const std::vector<std::int64_t>& points)
 {

@@ -15,9 +15,6 @@ class vtkPointSet;
 namespace smg
 {
 
-/** Whether there are several processes. */
-bool hasSeveralProcesses();
-
 /** The positions (x, y, z) of points of the mesh. */
 std::vector<double> positionsOf(vtkPointSet& mesh, const std::vector<std::int64_t>& points);
 

@@ -5,6 +5,7 @@
 #include "Filters/Regions/vtkRegionPoints.h"
 #include "Filters/Regions/vtkSelectedPoints.h"
 #include "IO/vtkMeshPieceData.h"
+#include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceStream.h"
 #include "smg/Error.h"
 

@@ -88,9 +88,9 @@ std::vector<std::string> notesOn(
   if (counts.isClustered)
   {
     notes.emplace_back(
-      "The edges of this mesh cannot be collapsed, since its triangles do not share their "
-      "vertices, or neighbours are wound differently: vertices near one another were merged "
-      "instead. smg convert --weld 0 joins triangles with the same corners.");
+      "Collapsing edges alone leaves more vertices: vertices near one another were merged "
+      "instead. If triangles do not share their vertices, smg convert --weld 0 joins those with the "
+      "same corners first.");
   }
   if (options.vertices > 0 && report.vertices > options.vertices)
   {

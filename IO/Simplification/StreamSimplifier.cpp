@@ -255,11 +255,11 @@ void StreamSimplifier::makeRoom()
 
 /** Collapses edges of the window until it has so many vertices that later parts do not have and
  * that were not delivered. */
-void StreamSimplifier::collapse(std::int64_t vertices)
+void StreamSimplifier::collapse(std::int64_t vertices, bool mayPinch)
 {
   const std::vector<std::uint8_t> locked = this->locked();
   CollapseGoal goal{ static_cast<std::size_t>(std::max<std::int64_t>(0, vertices)),
-    this->Goal.error, !this->limitsError() };
+    this->Goal.error, mayPinch && !this->limitsError() };
   goal.vertices += static_cast<std::size_t>(std::ranges::count(locked, 1));
   this->Counts.error = std::max(this->Counts.error, collapseEdges(this->Window, locked, goal));
 }
@@ -441,12 +441,25 @@ void StreamSimplifier::finish()
   }
   if (!areFragments && (this->Goal.vertices == 0 || this->remaining() > most))
   {
+    // The parts, which had the same share of the memory, are gone.
+    SurfacePart before = this->Window;
     this->collapse(most);
+    if (this->Window.triangles() == 0)
+    {
+      // Sheets that were merged are folded away: so few vertices need the topology of the mesh.
+      this->Window = std::move(before);
+      this->collapse(most, false);
+    }
   }
   if (mayDrop && this->remaining() > most)
   {
-    clusterVertices(this->Window, static_cast<std::size_t>(most));
-    this->Counts.isClustered = true;
+    SurfacePart merged = this->Window;
+    clusterVertices(merged, static_cast<std::size_t>(most));
+    if (merged.triangles() > 0)
+    {
+      this->Window = std::move(merged);
+      this->Counts.isClustered = true;
+    }
   }
   this->deliver(this->Window.corners, {});
 }

@@ -111,7 +111,7 @@ private:
   std::vector<std::uint8_t> locked() const;
   bool grow();
   void makeRoom();
-  void collapse(std::int64_t vertices);
+  void collapse(std::int64_t vertices, bool mayPinch = true);
   void shrink(std::size_t vertices);
   void deliverOlderHalf();
   void deliver(const std::vector<std::uint32_t>& corners, std::vector<std::uint32_t> rest);

@@ -51,6 +51,16 @@ def test_an_error_is_kept():
     assert load("report.json")["vertices"] == counts[0] and "exceed the error" in load("report.json")["notes"][0]
 
 
+def test_few_vertices_are_few():
+    """A result of so few vertices that vertices are merged, or that nothing would be left, is one."""
+    for vertices in (4, 5, 8, 12):
+        simplify("torus.vsm", "few.ply", "--vertices", vertices)
+        report = load("report.json")
+        points, cells, *_ = read_mesh("few.ply")
+        assert len(points) == report["vertices"] > 2 and len(cells) == report["cells"] > 0, report
+        assert report["vertices"] <= vertices or "more than" in " ".join(report["notes"]), report
+
+
 def test_dry_run():
     done = run("simplify", "torus.vsm", "none.ply", "--vertices", 500, "--dry-run", "--report", "dry.json")
     assert "28800 vertices" in done.stdout and not os.path.exists("none.ply"), done.stdout
@@ -114,6 +124,7 @@ def test_a_killed_one_continues():
 
 test_every_format_has_the_same_surface()
 test_an_error_is_kept()
+test_few_vertices_are_few()
 test_dry_run()
 test_errors()
 test_a_killed_one_continues()

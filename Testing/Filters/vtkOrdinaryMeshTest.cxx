@@ -6,6 +6,8 @@
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/TemporaryFolder.h"
 
+#include "vtkAppendPolyData.h"
+#include "vtkCell.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataSetTriangleFilter.h"
@@ -211,17 +213,26 @@ TEST_F(VtkOrdinaryMesh, PiecesWithoutSomeOfTheirPointsAreOrdinary)
     ASSERT_EQ(output->GetPointData()->GetGlobalIds()->GetTuple1(i), ids->GetValue(i));
     ASSERT_EQ(output->GetPointData()->GetArray("OriginalId")->GetTuple1(i), original->GetValue(i));
   }
-  // Two pieces that are joined have numbers twice; what only begins later is a piece.
+  // Two pieces that are joined have numbers twice.
   for (vtkIdType i = 0; i < points; ++i)
   {
     ids->SetValue(i, i % (points / 2));
   }
   EXPECT_TRUE(isOrdinaryMesh(*mesh));
-  for (vtkIdType i = 0; i < points; ++i)
+  // Numbers in the order in which cells use the points, from any on.
+  vtkIdType next = 1000;
+  ids->FillComponent(0, -1);
+  for (vtkIdType cell = 0; cell < mesh->GetNumberOfCells(); ++cell)
   {
-    ids->SetValue(i, 1000 + (11 * i) % points);
+    for (int k = 0; k < 3; ++k)
+    {
+      const vtkIdType point = mesh->GetCell(cell)->GetPointId(k);
+      ids->SetValue(point, ids->GetValue(point) < 0 ? next++ : ids->GetValue(point));
+    }
   }
   EXPECT_FALSE(isOrdinaryMesh(*mesh));
+  std::swap(*ids->GetPointer(0), *ids->GetPointer(points - 1));
+  EXPECT_TRUE(isOrdinaryMesh(*mesh));
 }
 
 TEST_F(VtkOrdinaryMesh, AGridOfTetrahedraHasGradients)
@@ -324,6 +335,26 @@ TEST_F(VtkOrdinaryMesh, ASphereOfParaViewTakesConditions)
       EXPECT_NEAR(solution->GetTuple1(i), std::copysign(expected, z), 0.01) << z;
     }
   }
+}
+
+TEST_F(VtkOrdinaryMesh, ConditionsBeforeAJoinAreRefused)
+{
+  vtkNew<vtkAppendPolyData> both;
+  vtkNew<vtkPlane> below;
+  for (const double x : { 0.0, 3.0 })
+  {
+    vtkNew<vtkSphereSource> sphere;
+    sphere->SetCenter(x, 0.0, 0.0);
+    vtkNew<vtkMeshCondition> condition;
+    condition->SetInputConnection(sphere->GetOutputPort());
+    condition->SetRegionFunction(below);
+    condition->SetValue(x);
+    both->AddInputConnection(condition->GetOutputPort());
+  }
+  this->Poisson->SetInputConnection(both->GetOutputPort());
+  Errors errors(this->Poisson);
+  updatePiece(this->Poisson, 0, 1);
+  EXPECT_TRUE(errors.contain("put them behind that filter")) << errors.text();
 }
 
 TEST_F(VtkOrdinaryMesh, DistancesAreThoseInMemoryAndThroughFiles)
