@@ -56,7 +56,8 @@ struct vtkStreamingSolver::Internals
     smg::SolutionExchange exchange(this->partners(request, input, inputInfo));
     vtkSmartPointer<vtkPointSet> present;
     exchange.together([&] { present = smg::bring(input, request, exchange); });
-    const bool isOrdinary = !exchange.isParallel() && this->bringWhole(input, request, inputInfo, present);
+    const bool isOrdinary =
+      !exchange.isParallel() && this->bringWhole(input, request, inputInfo, present);
     if (isOrdinary && request.Piece > 0)
     {
       vtkDataObject::GetData(outputInfo)->Initialize(); // piece 0 is all of it
@@ -158,8 +159,8 @@ struct vtkStreamingSolver::Internals
       const bool isOrdinary = smg::isOrdinaryMesh(*present);
       if (!isOrdinary)
       {
-        present =
-          vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, request.IsStreamed));
+        present = vtkPointSet::SafeDownCast(
+          input.update(request.Piece, request.Pieces, request.IsStreamed));
         this->StreamStamp = smg::stampOf(this->Self, input, inputInfo);
       }
       return isOrdinary;

@@ -77,8 +77,8 @@ bool areUsedInOrder(vtkPointSet& mesh, const std::vector<std::int64_t>& ids, std
   return true;
 }
 
-/** Whether the points that are no duplicates have consecutive GlobalIds, in the order in which cells
- * use them first. */
+/** Whether the points that are no duplicates have consecutive GlobalIds, in the order in which
+ * cells use them first. */
 bool isNumberedAsPiece(vtkPointSet& mesh, vtkDataArray& array)
 {
   vtkUnsignedCharArray* ghosts = mesh.GetPointGhostArray();

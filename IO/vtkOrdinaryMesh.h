@@ -18,9 +18,9 @@ namespace smg
 VTKSTREAMINGMULTIGRIDIO_EXPORT bool hasSeveralProcesses();
 
 /** Whether the mesh is not a piece of a mesh stream: it has no point GlobalIds, or, in a program of
- * one process and not a preview, some that do not number its own points consecutively in the order in which its cells use
- * them first, as those behind a filter that has taken points away (Threshold), joined meshes or
- * given numbers of its own. */
+ * one process and not a preview, some that do not number its own points consecutively in the order
+ * in which its cells use them first, as those behind a filter that has taken points away
+ * (Threshold), joined meshes or given numbers of its own. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT bool isOrdinaryMesh(vtkDataObject& data);
 
 /** Which cells of a mesh count: the solid ones, or without these those of surfaces. */

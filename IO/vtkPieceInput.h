@@ -51,8 +51,8 @@ public:
   /** The value of vtkStreamingMeshKeys::PREVIEWED(), after a piece was requested. */
   bool isPreviewed() const;
 
-  /** Whether a reader of this library says, after a piece was requested, that the mesh is shown as a
-   * whole. Then it is to be requested as one: filters between may compute something of all of the
+  /** Whether a reader of this library says, after a piece was requested, that the mesh is shown as
+   * a whole. Then it is to be requested as one: filters between may compute something of all of the
    * data that they have, or renumber it. */
   bool isInMemory() const;
 

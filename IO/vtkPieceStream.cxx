@@ -50,7 +50,8 @@ PieceStream::PieceStream(PieceInput& input, const PieceCount& pieces, PieceColum
   }
   if (!this->First)
   {
-    throw Error("The input has no cells: look at what " + this->Input.producerName() + " delivers.");
+    throw Error(
+      "The input has no cells: look at what " + this->Input.producerName() + " delivers.");
   }
   this->learn(*this->First);
 }

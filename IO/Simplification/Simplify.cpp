@@ -89,7 +89,8 @@ std::vector<std::string> notesOn(
   {
     notes.emplace_back(
       "Collapsing edges alone leaves more vertices: vertices near one another were merged "
-      "instead. If triangles do not share their vertices, smg convert --weld 0 joins those with the "
+      "instead. If triangles do not share their vertices, smg convert --weld 0 joins those with "
+      "the "
       "same corners first.");
   }
   if (options.vertices > 0 && report.vertices > options.vertices)
@@ -222,7 +223,8 @@ SimplifyReport simplify(
   }
   const ScratchFolder scratch(options.scratch);
   const std::filesystem::path vsm = isVsm ? path : scratch / "simplified.vsm";
-  SimplifyReport report = simplifyToVsm(mesh, vsm, options, isVsm ? 1.0 : 0.9, kept ? &*kept : nullptr);
+  SimplifyReport report =
+    simplifyToVsm(mesh, vsm, options, isVsm ? 1.0 : 0.9, kept ? &*kept : nullptr);
   if (!isVsm)
   {
     const std::vector<std::string> notes =

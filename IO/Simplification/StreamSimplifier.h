@@ -35,10 +35,10 @@ struct SimplificationGoal
 /** What a simplification has done. */
 struct SimplificationCounts
 {
-  std::int64_t vertices = 0; ///< that were read
-  double error = 0.0;        ///< the largest of a collapse, see collapseEdges()
-  std::int64_t dropped = 0;  ///< small bodies
-  bool isClustered = false;  ///< whether edges of some parts could not be collapsed
+  std::int64_t vertices = 0;  ///< that were read
+  double error = 0.0;         ///< the largest of a collapse, see collapseEdges()
+  std::int64_t dropped = 0;   ///< small bodies
+  bool isClustered = false;   ///< whether edges of some parts could not be collapsed
   std::int64_t resumedAt = 0; ///< vertices that an earlier program had simplified, see keepIn()
 };
 

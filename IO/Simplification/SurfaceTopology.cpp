@@ -248,9 +248,8 @@ std::vector<std::uint8_t> SurfaceTopology::foldedTriangles() const
     for (std::size_t k = 0; k < triangles.size(); ++k)
     {
       std::uint8_t& isOne = isFolded[triangles[k][2]];
-      for (std::size_t j = k + 1; isOne == 0 && j < triangles.size() &&
-                                  areOnEachOther(triangles[k], triangles[j]);
-           ++j)
+      for (std::size_t j = k + 1;
+           isOne == 0 && j < triangles.size() && areOnEachOther(triangles[k], triangles[j]); ++j)
       {
         std::uint8_t& isOther = isFolded[triangles[j][2]];
         if (isOther == 0 && this->isTurned(triangles[k][2], triangles[j][2]))

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "IO/vtkOrdinaryMesh.h"
 #include "Filters/vtkMeshCondition.h"
 #include "Filters/vtkStreamingDistance.h"
 #include "Filters/vtkStreamingPoisson.h"
-#include "IO/vtkOrdinaryMesh.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/TemporaryFolder.h"
 

@@ -85,8 +85,8 @@ struct SMG_EXPORT SimplifyReport
  * @param options how far to simplify
  * @return what was done
  * @throws Error if an option is out of range, the memory limit too low, or a file fails
- * @throws Cancelled if the progress callback returns false. No file but the checkpoint remains after
- * an exception.
+ * @throws Cancelled if the progress callback returns false. No file but the checkpoint remains
+ * after an exception.
  */
 SMG_EXPORT SimplifyReport simplify(
   const StoredMesh& mesh, const std::filesystem::path& path, const SimplifyOptions& options);
