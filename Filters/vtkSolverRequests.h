@@ -132,9 +132,8 @@ struct vtkStreamingSolver::Internals
   /** Whether the mesh is to be solved on as one piece, since it is in memory as a whole. */
   bool asksForWhole(const smg::PieceInput& input, const smg::PieceRequest& request) const
   {
-    const bool isAskedWhole = request.Pieces == 1 && !request.IsStreamed;
-    return this->Self.NumberOfPieces == 0 &&
-           (input.isInMemory() || (isAskedWhole && !input.isPreviewed()));
+    const bool isWhole = request.Pieces == 1 && !request.IsStreamed && !input.isPreviewed();
+    return this->Self.NumberOfPieces == 0 && (isWhole || input.isInMemory());
   }
 
   /** Brings all of an ordinary mesh, which is no piece of a mesh stream; returns whether it is one.
@@ -142,39 +141,29 @@ struct vtkStreamingSolver::Internals
   bool bringWhole(smg::PieceInput& input, const smg::PieceRequest& request,
     vtkInformation* inputInfo, vtkSmartPointer<vtkPointSet>& present)
   {
-    if (smg::isPreview(*present))
+    // A piece may look like that of a stream where the whole does not.
+    const bool isOrdinary = smg::isOrdinaryMesh(*present);
+    const bool mayBe =
+      isOrdinary || (this->asksForWhole(input, request) &&
+                      !(this->StreamStamp == smg::stampOf(this->Self, input, inputInfo)));
+    if (smg::isPreview(*present) || !mayBe || request.Pieces == 1)
     {
-      return false;
+      return isOrdinary && !smg::isPreview(*present);
     }
-    if (!smg::isOrdinaryMesh(*present))
+    vtkPointSet* whole = vtkPointSet::SafeDownCast(input.update(0, 1, false));
+    if (smg::isPreview(*whole))
     {
-      // A piece may look like that of a stream where the whole does not.
-      const bool isPart = request.Pieces > 1 && this->asksForWhole(input, request) &&
-                          !(this->StreamStamp == smg::stampOf(this->Self, input, inputInfo));
-      if (!isPart)
-      {
-        return false;
-      }
-      present = vtkPointSet::SafeDownCast(input.update(0, 1, false));
-      const bool isOrdinary = smg::isOrdinaryMesh(*present);
-      if (!isOrdinary)
-      {
-        present = vtkPointSet::SafeDownCast(
-          input.update(request.Piece, request.Pieces, request.IsStreamed));
-        this->StreamStamp = smg::stampOf(this->Self, input, inputInfo);
-      }
-      return isOrdinary;
+      return false; // a filter before this one has lost what belongs to the pieces of the mesh
     }
-    if (request.Pieces > 1)
+    present = whole;
+    if (isOrdinary || smg::isOrdinaryMesh(*whole))
     {
-      vtkPointSet* whole = vtkPointSet::SafeDownCast(input.update(0, 1, false));
-      if (smg::isPreview(*whole))
-      {
-        return false; // a filter before this one has lost what belongs to the pieces of the mesh
-      }
-      present = whole;
+      return true;
     }
-    return true;
+    present =
+      vtkPointSet::SafeDownCast(input.update(request.Piece, request.Pieces, request.IsStreamed));
+    this->StreamStamp = smg::stampOf(this->Self, input, inputInfo);
+    return false;
   }
 
   /** The processes that process the request collectively; nullptr: this process alone. */

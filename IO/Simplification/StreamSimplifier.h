@@ -110,6 +110,7 @@ private:
   void append(const StreamPart& part);
   std::vector<std::uint8_t> locked() const;
   bool grow();
+  void enlarge(std::size_t capacity);
   void makeRoom();
   void collapse(std::int64_t vertices, bool mayPinch = true);
   void shrink(std::size_t vertices);
@@ -120,6 +121,7 @@ private:
   void renumber();
   Checkpoint keptResult(std::int64_t number) const;
   void save();
+  void loadResult(std::int64_t number, Result& result);
   template <class State>
   void exchange(State& state);
 
