@@ -275,16 +275,17 @@ void ExtendedInterpolation::relaxPatch(
 /** The maximum number of entries of row i. */
 int ExtendedInterpolation::entriesOf(const CoarseningData& data, std::int64_t i) const
 {
-  if (this->entries == this->finestEntries || data.fine.childReach(i) >= 0)
+  const auto row = data.fine.row(i);
+  const bool isNextToStiff = std::ranges::any_of(
+    row, [&](const RowEntry& entry) { return data.fine.stiff(i + entry.delta()); });
+  if (isNextToStiff)
   {
-    return this->entries;
+    return RelaxedRow::Most;
   }
-  float terms = 0.0F;
-  for (const RowEntry& entry : data.fine.row(i))
-  {
-    terms += std::fabs(entry.weight());
-  }
-  return terms > this->cancelling * data.patches.diagonal(i) ? this->entries : this->finestEntries;
+  return this->entries == this->finestEntries || data.fine.childReach(i) >= 0 ||
+             this->lifting.isOfSlivers(data, i)
+           ? this->entries
+           : this->finestEntries;
 }
 
 /** Makes row i from the largest of the columns, scaled to this sum. */

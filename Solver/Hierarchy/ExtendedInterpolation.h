@@ -25,7 +25,9 @@ namespace smg
  * Patches) are relaxed together, at its last one: P_b = A_bb^-1 sum over m not in b of w_bm P_m. A
  * row has only columns that occur in P0 of a neighbour, and of these the `entries` with the largest
  * magnitudes. The others are distributed to them in proportion to their magnitudes, so the row
- * keeps its sum. Entries may be negative, which smooth functions across a sliver require.
+ * keeps its sum. Next to a stiff row (see StiffRows), where an error of P costs most, it has
+ * RelaxedRow::Most of them: a chain of slivers that loses one end moves with the other. Entries may
+ * be negative, which smooth functions across a sliver require.
  *
  * Finally weights are rounded to multiples of 1/Quanta, and the largest one takes the remainder.
  */
@@ -33,13 +35,10 @@ class SMG_EXPORT ExtendedInterpolation
 {
 public:
   IndependentSetLifting lifting;
-  /** Entries of a row of the finest level that does not belong to slivers, and of all others, 2 to
-   * RelaxedRow::Most. */
+  /** Entries of a row of the finest level that does not belong to slivers (see
+   * IndependentSetLifting), and of all others, 2 to RelaxedRow::Most. */
   int finestEntries = 4;
   int entries = 4;
-  /** A row belongs to slivers if the sum of the magnitudes of its weights exceeds this multiple of
-   * its diagonal; at least 1. */
-  float cancelling = 1.2F;
   /** Sweeps, at least 1. */
   int sweeps = 2;
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <cmath>
+#include <cstdint>
 
 namespace smg
 {
@@ -18,10 +20,29 @@ struct IndependentSetLifting
 {
   /** An edge of row i is strong when w_ij >= strength * max_k w_ik; in [0, 1). */
   float strength = 0.1F;
+  /** The same where row i belongs to slivers. In a lattice of obtuse triangles the strongest
+   * couplings form lines; a smaller strength leaves whole lines without a coarse node. */
+  float sliverStrength = 0.1F;
+  /** A row belongs to slivers if the sum of the magnitudes of its weights exceeds this multiple of
+   * its diagonal; at least 1. */
+  float cancelling = 1.2F;
+
+  bool isOfSlivers(const CoarseningData& data, std::int64_t i) const
+  {
+    float terms = 0.0F;
+    for (const RowEntry& entry : data.fine.row(i))
+    {
+      terms += std::fabs(entry.weight());
+    }
+    return terms > this->cancelling * data.patches.diagonal(i);
+  }
 
   float threshold(const CoarseningData& data, std::int64_t i) const
   {
-    return std::max(this->strength * data.fine.strongest(i), FLT_MIN);
+    const bool isAlike = this->strength == this->sliverStrength;
+    const float share =
+      !isAlike && this->isOfSlivers(data, i) ? this->sliverStrength : this->strength;
+    return std::max(share * data.fine.strongest(i), FLT_MIN);
   }
 
   /** Whether node i moves so much more than its neighbours that entries of P up to 1 cannot

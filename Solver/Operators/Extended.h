@@ -29,9 +29,10 @@ public:
   explicit Extended(const ExtendedParameters& parameters)
   {
     this->Interpolation.lifting.strength = parameters.strength;
+    this->Interpolation.lifting.sliverStrength = parameters.sliverStrength;
+    this->Interpolation.lifting.cancelling = parameters.cancelling;
     this->Interpolation.finestEntries = parameters.finestEntries;
     this->Interpolation.entries = parameters.entries;
-    this->Interpolation.cancelling = parameters.cancelling;
     this->Interpolation.sweeps = parameters.sweeps;
     this->Product.cancelling = parameters.coarseCancelling;
   }

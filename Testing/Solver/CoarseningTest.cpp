@@ -17,13 +17,12 @@ TEST(Coarsening, LiftedNodesAreAMaximalIndependentSetOfTheStrongEdges)
     std::int64_t next = 0;
     for (std::int64_t i = 0; i < test.level.nodes(); ++i)
     {
-      const float strong = test.operators.strength * test.level.strongest(i);
+      const float strong = test.strong(i);
       bool dependsOnLifted = false;
       for (const RowEntry& entry : test.level.rows[i])
       {
-        dependsOnLifted =
-          dependsOnLifted || (entry.delta() < 0 && entry.weight() >= strong && entry.weight() > 0 &&
-                               lifted[i + entry.delta()] >= 0);
+        dependsOnLifted = dependsOnLifted || (entry.delta() < 0 && entry.weight() >= strong &&
+                                               lifted[i + entry.delta()] >= 0);
       }
       // Next to constrained nodes with negative weights, weights can sum to well over 1.
       const bool exceeds = test.level.alpha[i] < -0.5 * test.level.diagonal(i);

@@ -3,6 +3,9 @@
 
 #include "Testing/Solver/PatchReference.h"
 
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -18,6 +21,20 @@ struct CoarseningCase
   RecordingOperators operators;
   bool free;     ///< without constraints
   bool positive; ///< without negative weights
+
+  /** The least weight of a strong edge of row i. */
+  float strong(std::int64_t i) const
+  {
+    float terms = 0.0F;
+    for (const RowEntry& entry : this->level.rows[i])
+    {
+      terms += std::fabs(entry.weight());
+    }
+    const bool isOfSlivers =
+      terms > IndependentSetLifting().cancelling * static_cast<float>(this->level.diagonal(i));
+    const float share = isOfSlivers ? this->operators.sliverStrength : this->operators.strength;
+    return std::max(share * this->level.strongest(i), FLT_MIN);
+  }
 };
 
 /** Regular and irregular surfaces and tetrahedra, with and without constraints, of all weights. */
@@ -26,7 +43,8 @@ inline std::vector<CoarseningCase> coarseningCases()
   RecordingOperators surface, solid;
   surface.sweeps = 1;
   surface.cancelling = 1.1;
-  solid.strength = 0.0F;
+  surface.sliverStrength = 0.5F;
+  solid.strength = solid.sliverStrength = 0.0F;
   solid.finestEntries = solid.entries = 5;
   const auto uniform = Weights::Uniform;
   const auto clamped = Weights::Clamped;
@@ -42,7 +60,7 @@ inline std::vector<CoarseningCase> coarseningCases()
     { "box, constrained", finestLevel(box, clamped, 13), solid, false, true },
   };
   const std::vector<TestLevel> levels = levelsWithPatches();
-  solid.strength = 0.05F;
+  solid.strength = solid.sliverStrength = 0.05F;
   surface.sweeps = 2;
   cases.push_back({ "flat tetrahedra, constrained", levels[0], solid, false, false });
   cases.push_back({ "flat tetrahedra", levels[1], solid, true, false });

@@ -207,6 +207,7 @@ public:
   static RecordingOperators forCells(CellType) { return {}; }
 
   float strength = 0.1F;
+  float sliverStrength = 0.1F;
   int finestEntries = 4;
   int entries = 4;
   int sweeps = 2;
@@ -217,6 +218,7 @@ public:
   bool lift(const CoarseningData& data, std::int64_t i)
   {
     this->Interpolation.lifting.strength = this->strength;
+    this->Interpolation.lifting.sliverStrength = this->sliverStrength;
     this->Interpolation.finestEntries = this->finestEntries;
     this->Interpolation.entries = this->entries;
     this->Product.cancelling = this->cancelling;

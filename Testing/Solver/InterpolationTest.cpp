@@ -57,9 +57,7 @@ public:
     for (const RowEntry& entry : fine.rows[i])
     {
       const std::int64_t coarse = this->Step.record.lifted[i + entry.delta()];
-      const bool strong =
-        entry.weight() >= this->Test.operators.strength * fine.strongest(i) && entry.weight() > 0;
-      if (coarse >= 0 && strong)
+      if (coarse >= 0 && entry.weight() >= this->Test.strong(i))
       {
         row.weights[coarse] += entry.weight();
       }
@@ -276,7 +274,7 @@ TEST(Interpolation, IsRoundedToQuantaThatKeepTheRowSum)
 /** Rows with cancelling weights (slivers) have as many as on coarse levels. */
 TEST(Interpolation, MayHaveFewerEntriesOnTheFinestLevel)
 {
-  const double cancelling = ExtendedInterpolation().cancelling;
+  const double cancelling = ExtendedInterpolation().lifting.cancelling;
   std::size_t mostOfSlivers = 0;
   for (CoarseningCase& test : coarseningCases())
   {
@@ -303,6 +301,25 @@ TEST(Interpolation, MayHaveFewerEntriesOnTheFinestLevel)
     }
   }
   EXPECT_EQ(mostOfSlivers, 3U);
+}
+
+/** Next to stiff rows they have all that a row may have. */
+TEST(Interpolation, HasMoreEntriesNextToStiffRows)
+{
+  const StiffRows rule(StiffRows::Triangles, 1.0);
+  const TestLevel level = finestLevel(toStream(sliverChains(40, 30, 1e-3)), Weights::Cotangent, 17);
+  RecordingOperators operators;
+  operators.finestEntries = operators.entries = 2;
+  const auto parents = coarsen(level, operators, 50, rule).record.parents;
+  std::size_t most[2] = { 0, 0 };
+  for (std::int64_t i = 0; i < level.nodes(); ++i)
+  {
+    const bool isNext = std::ranges::any_of(level.rows[i],
+      [&](const RowEntry& entry) { return level.least(i + entry.delta()) < StiffRows::Triangles; });
+    most[isNext ? 1 : 0] = std::max(most[isNext ? 1 : 0], parents[i].size());
+  }
+  EXPECT_EQ(most[0], 2U);
+  EXPECT_EQ(most[1], std::size_t(RelaxedRow::Most));
 }
 
 TEST(Interpolation, ReproducesConstantsWhereNothingIsConstrained)
