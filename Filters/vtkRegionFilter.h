@@ -6,8 +6,8 @@
  * The points that Region selects (the held points):
  * - FUNCTION: the points where RegionFunction is at most 0 (with InsideOut: at least 0);
  * - SELECTION: the points, or the points of the cells, of the selection at input port 1;
- * - IDS: the points with the given Ids, which are GlobalIds (stream indices; of an ordinary mesh
- * the numbers of its points, from 0) or values of the array `OriginalId`;
+ * - IDS: the points with the given Ids, which are GlobalIds (stream indices; of a mesh without
+ *   them the numbers of its points, from 0) or values of the array `OriginalId`;
  * - POINTS: the points nearest to the given positions;
  * - BOUNDARY: the points on boundary edges of a surface (those of exactly one triangle), or on
  *   boundary faces of a solid (those of exactly one cell);

@@ -84,7 +84,7 @@ public:
 
   ///@{
   /** A preview of more points is made coarser before it is deformed, so that it follows a dragged
-   * handle; at least 8. Default: 6,000, which answer in about 60 ms. */
+   * handle; at least 8. Default: 10,000, which answer in about 70 ms. */
   vtkSetClampMacro(DragPoints, vtkIdType, 8, VTK_ID_MAX);
   vtkGetMacro(DragPoints, vtkIdType);
   ///@}
@@ -120,7 +120,7 @@ private:
   int Normals = RECOMPUTE;
   bool KeepHandleArrays = false;
   vtkIdType InteractivePoints = 200000;
-  vtkIdType DragPoints = 6000;
+  vtkIdType DragPoints = 10000;
 
   std::unique_ptr<Internals> Internal;
 };

@@ -171,7 +171,7 @@ struct vtkStreamingPoisson::Internals
     catch (const smg::Error& error)
     {
       this->NoCells.warn(
-        "What is saved has what was asked for of Gradient and Flux, but the preview does not: " +
+        "What is saved has Gradient and Flux, but the preview does not show them: " +
         std::string(error.what()));
     }
   }

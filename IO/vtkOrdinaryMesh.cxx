@@ -5,6 +5,7 @@
 #include "IO/vtkComplaints.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkPieceNames.h"
+#include "IO/vtkPieceStream.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "smg/Error.h"
 
@@ -163,8 +164,7 @@ bool isOrdinaryMesh(vtkDataObject& data)
   {
     return false;
   }
-  vtkDataArray* ids = mesh->GetPointData()->GetGlobalIds();
-  ids = ids ? ids : mesh->GetPointData()->GetArray(GlobalIdsName);
+  vtkDataArray* ids = globalIdArray(*mesh);
   return !ids || (!isPreview(*mesh) && !hasSeveralProcesses() && !isNumberedAsPiece(*mesh, *ids));
 }
 

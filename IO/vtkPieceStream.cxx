@@ -297,13 +297,15 @@ void PieceStream::noteFinalized(vtkPointSet& piece, const std::vector<std::int64
   }
 }
 
+vtkDataArray* globalIdArray(vtkPointSet& piece)
+{
+  vtkDataArray* attribute = piece.GetPointData()->GetGlobalIds();
+  return attribute ? attribute : piece.GetPointData()->GetArray(GlobalIdsName);
+}
+
 std::vector<std::int64_t> globalIdsOf(vtkPointSet& piece, const std::string& where)
 {
-  vtkDataArray* array = piece.GetPointData()->GetGlobalIds();
-  if (!array)
-  {
-    array = piece.GetPointData()->GetArray(GlobalIdsName);
-  }
+  vtkDataArray* array = globalIdArray(piece);
   if (!array || array->GetNumberOfComponents() != 1)
   {
     throw Error(

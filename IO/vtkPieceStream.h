@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+class vtkDataArray;
 class vtkPointSet;
 
 namespace smg
@@ -85,6 +86,9 @@ private:
   std::deque<char> IsFinal; ///< from the first vertex that is not final
   std::int64_t Finalized = 0;
 };
+
+/** The array of GlobalIds of the points: the attribute, or else the array of that name; or null. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT vtkDataArray* globalIdArray(vtkPointSet& piece);
 
 /** The GlobalIds of the points of a piece. Throws Error, which begins with `where`, if there are
  * none. */

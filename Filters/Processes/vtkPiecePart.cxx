@@ -96,9 +96,7 @@ std::vector<Column> columnsOf(vtkDataSetAttributes& arrays, const std::vector<Co
 /** Throws Error if the points have no ids. */
 void checkHasGlobalIds(vtkPointSet& piece)
 {
-  vtkPointData& arrays = *piece.GetPointData();
-  vtkDataArray* ids = arrays.GetGlobalIds();
-  ids = ids ? ids : arrays.GetArray(GlobalIdsName);
+  vtkDataArray* ids = globalIdArray(piece);
   if (!ids || ids->GetNumberOfComponents() != 1)
   {
     throw Error("The input has no point GlobalIds, by which the processes know their common "

@@ -38,7 +38,7 @@ double meanEdgeLength(const MeshInMemory& mesh)
 
 std::vector<std::int64_t> idsOf(vtkPointSet& mesh, const PointRegionSettings& settings)
 {
-  if (!settings.areOriginalIds && isOrdinaryMesh(mesh) && !hasSeveralProcesses())
+  if (!settings.areOriginalIds && !globalIdArray(mesh) && !hasSeveralProcesses())
   {
     std::vector<std::int64_t> places(static_cast<std::size_t>(mesh.GetNumberOfPoints()));
     std::iota(places.begin(), places.end(), 0);

@@ -64,7 +64,7 @@ TEST_F(VtkConditionPreview, AProblemThatAPreviewCannotHoldIsSolvedOnTheMesh)
   EXPECT_EQ(solvedOn(R"({"source": [1], "screening": 1,
     "conductivity": [{"tag": ["OriginalCellId", 1000003], "value": 2}]})"),
     mesh.vertices());
-  EXPECT_TRUE(errors.contain("but the preview does not: problem: conductivity[0].tag"))
+  EXPECT_TRUE(errors.contain("but the preview does not show them: problem: conductivity[0].tag"))
     << errors.text();
   EXPECT_NE(std::string(this->Poisson->GetNotes()).find("since the preview does not do: problem: "),
     std::string::npos)

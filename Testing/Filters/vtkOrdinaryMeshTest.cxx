@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkOrdinaryMesh.h"
 #include "Filters/vtkMeshCondition.h"
+#include "Filters/vtkMeshRegion.h"
 #include "Filters/vtkStreamingDistance.h"
 #include "Filters/vtkStreamingPoisson.h"
 #include "Testing/IO/vtkPieceTesting.h"
@@ -212,6 +213,28 @@ TEST_F(VtkOrdinaryMesh, PiecesWithoutSomeOfTheirPointsAreOrdinary)
       output->GetPointData()->GetArray("Solution")->GetTuple1(i), p[0] + 2.0 * p[1] - p[2], 1e-6);
     ASSERT_EQ(output->GetPointData()->GetGlobalIds()->GetTuple1(i), ids->GetValue(i));
     ASSERT_EQ(output->GetPointData()->GetArray("OriginalId")->GetTuple1(i), original->GetValue(i));
+  }
+  // An id is a GlobalId where there are any, and else the number of a point.
+  for (const bool hasIds : { true, false })
+  {
+    vtkNew<vtkMeshRegion> region;
+    const auto input = vtkSmartPointer<vtkPointSet>::Take(mesh->NewInstance());
+    input->ShallowCopy(mesh);
+    if (!hasIds)
+    {
+      input->GetPointData()->RemoveArray("GlobalIds");
+    }
+    region->SetInputDataObject(input);
+    region->SetRegion(vtkMeshRegion::IDS);
+    region->AddId(hasIds ? ids->GetValue(7) : 7);
+    updatePiece(region, 0, 1);
+    vtkDataArray* held =
+      vtkPointSet::SafeDownCast(region->GetOutputDataObject(0))->GetPointData()->GetArray("Region");
+    ASSERT_TRUE(held);
+    for (vtkIdType i = 0; i < points; ++i)
+    {
+      ASSERT_EQ(held->GetTuple1(i), i == 7 ? 1.0 : 0.0) << i << ", " << hasIds;
+    }
   }
   // Two pieces that are joined have numbers twice.
   for (vtkIdType i = 0; i < points; ++i)

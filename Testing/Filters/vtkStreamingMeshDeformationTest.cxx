@@ -355,7 +355,7 @@ TEST_F(VtkStreamingMeshDeformation, PrintsItsProperties)
   std::ostringstream text;
   this->Deformation->Print(text);
   for (const char* name : { "Weights: clamped", "Cycles: 0", "Normals: recompute",
-         "InteractivePoints: 200000", "DragPoints: 6000", "NumberOfBuilds: 0" })
+         "InteractivePoints: 200000", "DragPoints: 10000", "NumberOfBuilds: 0" })
   {
     EXPECT_NE(text.str().find(name), std::string::npos) << name;
   }

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Draws meshes beside their previews of 100,000 and 10,000 points, a row each.
 
-xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython previews.py SMG OUT.png MESH[,AZIMUTH,ELEVATION[,ROLL]]..."""
+xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvpython previews.py SMG OUT.png MESH[,AZIMUTH,ELEVATION]..."""
 
 import os
 import subprocess
@@ -40,7 +40,6 @@ def shot(file, angles):
     camera.Elevation(-90 + angles[1])
     camera.SetViewUp(0, 0, 1)
     camera.Azimuth(angles[0])
-    camera.Roll(angles[2])
     camera.Zoom(1.4)
     Render(view)
     name = file + ".png"
@@ -52,7 +51,7 @@ def shot(file, angles):
 rows = []
 for argument in sys.argv[3:]:
     mesh, *given = argument.split(",")
-    angles = [float(angle) for angle in given] + [30, 10, 0][len(given):]
+    angles = [float(angle) for angle in given] or [30, 10]
     rows.append([shot(file, angles) for file in files_of(mesh)])
 whole = Image.new("RGB", (3 * WIDTH, len(rows) * HEIGHT))
 for row, images in enumerate(rows):

@@ -144,7 +144,7 @@ def turned():
 def deformed():
     notes.deformation = GetActiveSource()
     assert is_preview(notes.deformation)
-    assert 0 < points(notes.deformation) <= points(notes.handle)
+    assert points(notes.deformation) == points(notes.handle)
     assert notes.deformation.GetDataInformation().GetBounds() != notes.bounds
     assert number(notes.deformation, "NumberOfBuilds") == 1
     Render()
