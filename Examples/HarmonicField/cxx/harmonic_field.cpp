@@ -17,8 +17,8 @@ Run it:
 
     harmonic_field ../../Data/bunny.smb isolines.obj
 
-    34834 vertices, 69451 cells: converged after 5 cycles, relative residual 1.68452e-07
-    isolines.obj: 7378 segments of 23 isolines
+    34834 vertices, 69451 cells: converged after 5 cycles, relative residual 1.95679e-07
+    isolines.obj: 7379 segments of 23 isolines
 */
 
 #include <smg/Convert.h>
