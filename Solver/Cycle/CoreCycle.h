@@ -53,7 +53,7 @@ private:
     }
     else if (l == this->Iterated)
     {
-      CoreIteration<Relaxation> iteration(*this->Levels[l]);
+      CoreIteration<Relaxation> iteration(*this->Levels[l], {});
       iteration([this, l] { this->cycle(l); });
     }
     else

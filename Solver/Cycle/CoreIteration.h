@@ -27,9 +27,19 @@ class CoreIteration
 public:
   using CoreLevel = Level<float, Relaxation>;
 
+  /** When the iteration ends. */
+  struct Ending
+  {
+    int mostCycles = 20;
+    /** Ends with the V-cycle that adds at most this share to the squared energy norm of x, of every
+     * column. */
+    double accuracy = 0.001;
+  };
+
   /** For `level`, all of whose nodes are in memory. */
-  explicit CoreIteration(CoreLevel& level)
+  explicit CoreIteration(CoreLevel& level, Ending ending)
     : Of(level)
+    , End(ending)
     , Size(static_cast<std::size_t>(level.window().x().range(0, level.window().nodes()).size()))
     , Lanes(static_cast<std::size_t>(level.window().stride()))
     , Memory(level.window().pool(), Vectors * this->Size * sizeof(float))
@@ -47,7 +57,7 @@ public:
     const std::span<float> image = this->vector(2), residual = this->vector(3);
     std::ranges::fill(this->values(), 0.0F);
     std::vector<double> energy(this->Lanes), reduction(this->Lanes);
-    for (int k = 0; k < MostCycles; ++k)
+    for (int k = 0; k < this->End.mostCycles; ++k)
     {
       cycle();
       this->Of.residualAll(residual.data());
@@ -66,7 +76,7 @@ public:
       {
         const double gain = length[lane] * descent[lane];
         reduction[lane] += gain;
-        isAccurate = isAccurate && gain <= Accuracy * reduction[lane];
+        isAccurate = isAccurate && gain <= this->End.accuracy * reduction[lane];
       }
       for (std::size_t i = 0; i < this->Size; ++i)
       {
@@ -84,10 +94,6 @@ public:
 
 private:
   static constexpr std::size_t Vectors = 4;
-  static constexpr int MostCycles = 20;
-  /** Ends with the V-cycle that adds at most this share to the squared energy norm of x, of every
-   * column. */
-  static constexpr double Accuracy = 0.001;
 
   std::span<float> values()
   {
@@ -119,6 +125,7 @@ private:
   }
 
   CoreLevel& Of;
+  Ending End;
   std::size_t Size;
   std::size_t Lanes;
   Buffer Memory;

@@ -28,6 +28,9 @@
 #             and memory, out of core and in core; table3.md and .json. Meshes as for solve.
 #               --threads N          of each solve (1)
 #   kernels   nanoseconds per node of each kernel. Its own mesh: a torus of 0.25 million vertices.
+#   convergence  V-cycles with and without acceleration, the factors of a V-cycle and of two levels
+#             alone, by level, and at which vertices the slowest error sits. Its own meshes: a torus
+#             and a box of tetrahedra of 0.25 million vertices.
 #   schedule  how much faster a solve becomes with more threads: a model from the times of its stages
 #             on one thread, for 1 to 64 threads. Its own meshes: a torus of 1 million vertices, and a
 #             box of tetrahedra of 0.25 million. Beside it, wall times with the cores of this machine.
@@ -50,7 +53,7 @@
 set -euo pipefail
 part=solve
 case "${1:-}" in
-  solve | convert | scaling | table3 | kernels | schedule | roofline | story)
+  solve | convert | scaling | table3 | kernels | convergence | schedule | roofline | story)
     part=$1
     shift
     ;;
@@ -186,6 +189,17 @@ kernels_part() {
   [ ${#meshes[@]} -gt 0 ] || measure_kernels torus
   for mesh in "${meshes[@]}"; do
     measure_kernels "$(basename "$mesh" .vsm)" "$mesh"
+  done
+}
+
+convergence_part() {
+  local out
+  convert_meshes
+  [ ${#meshes[@]} -gt 0 ] || meshes=("$(made torus 250000)" "$(made box 250000)")
+  for mesh in "${meshes[@]}"; do
+    out=$results/$(basename "$mesh" .vsm)-convergence
+    echo "$(basename "$mesh" .vsm)"
+    "$bin/benchmark_convergence" "$mesh" --json "$out.json" | tee "$out.md"
   done
 }
 

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "Solver/Engine/FirstPass.h"
+#include "Solver/Engine/Hierarchy.h"
+#include "Solver/Engine/SolveRun.h"
+#include "Solver/Operators/Extended.h"
+#include "Testing/Benchmarks/FixedEndsProblem.h"
+#include "Testing/Support/MemorySource.h"
+
+namespace smg::benchmark
+{
+
+/** The levels of a solve in core, between two passes. */
+class LevelsInCore
+{
+public:
+  static constexpr int Columns = 3;
+
+  LevelsInCore(const testing::StreamMesh& mesh, int sweeps)
+    : Run(Columns, options(sweeps))
+    , Levels(this->Run, Columns)
+  {
+    testing::MemorySource source(mesh);
+    FixedEndsProblem problem(source.info());
+    const Extended operators = Extended::forCells(mesh.cellType);
+    FirstPass(this->Run, this->Levels, operators)(source, problem);
+    this->Levels.startPass(false);
+  }
+
+  int count() { return static_cast<int>(this->Levels.levels().sizes.size()); }
+  const Report::Level& size(int l)
+  {
+    return this->Levels.levels().sizes[static_cast<std::size_t>(l)];
+  }
+  Level<double, GaussSeidel>& finest() { return this->Levels.finest(); }
+  /** Level l, from 1 on. */
+  Level<float, GaussSeidel>& coarse(int l)
+  {
+    return *this->Levels.levels().coarse[static_cast<std::size_t>(l - 1)];
+  }
+
+  /** Calls f with level l. */
+  template <class F>
+  void with(int l, F&& f)
+  {
+    l == 0 ? f(this->finest()) : f(this->coarse(l));
+  }
+
+private:
+  static SolveOptions options(int sweeps)
+  {
+    SolveOptions options;
+    options.inCore = true;
+    options.memoryLimit = std::int64_t(1) << 40;
+    options.sweeps = sweeps;
+    options.coreNodes = std::int64_t(1) << 40;
+    options.threads = 1;
+    return options;
+  }
+
+  SolveRun Run;
+  Hierarchy<GaussSeidel> Levels;
+};
+
+} // namespace smg::benchmark
