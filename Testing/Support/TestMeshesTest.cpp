@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Support/CellWeights.h"
+#include "Testing/Support/Isosurface.h"
 #include "Testing/Support/MemorySource.h"
 
 #include <gtest/gtest.h>
@@ -55,6 +56,7 @@ TEST(TestMeshes, AreWhatTheySay)
   EXPECT_EQ(eulerNumber(torus(9, 7)), 0);
   EXPECT_EQ(eulerNumber(sphere(2)), 2);
   EXPECT_EQ(sphere(2).vertices(), 162);
+  EXPECT_LT(eulerNumber(noisyGyroid(24, 0.0)), 0) << "it has handles";
   EXPECT_NEAR(totalSize(sphere(4)), 4 * std::numbers::pi, 0.05);
   EXPECT_NEAR(totalSize(tetBox(4, 3, 5)), 3 * 2 * 4, 1e-12);
   EXPECT_EQ(eulerNumber(disjointUnion(torus(5, 5), sphere(0), { 9, 0, 0 })), 2);

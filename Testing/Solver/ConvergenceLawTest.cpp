@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Testing/Solver/SolveTesting.h"
+#include "Testing/Support/Isosurface.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+// The number of V-cycles does not grow with the mesh: with two refinements by at most one, for
+// surfaces and solids, good ones and noisy ones.
+
+namespace smg::testing
+{
+namespace
+{
+
+/** V-cycles of the default to 1e-6. */
+int cyclesOn(const IndexedTestMesh& indexed)
+{
+  const StreamMesh mesh = toStream(indexed);
+  ArrayProblem problem = heldEnds(mesh, 3, Weights::Cotangent);
+  SolveOptions options;
+  options.threads = 2;
+  const Report report = solveMesh(mesh, problem, options, 20000).report;
+  EXPECT_TRUE(report.converged);
+  return report.cycles;
+}
+
+/** Of meshes with this many times the samples along each axis. */
+void expectNoGrowth(const std::function<IndexedTestMesh(int)>& meshOf)
+{
+  const int before = cyclesOn(meshOf(1)), after = cyclesOn(meshOf(4));
+  EXPECT_LE(after, before + 1);
+}
+
+} // namespace
+
+TEST(ConvergenceLaw, GoodSurfaces)
+{
+  expectNoGrowth([](int times) { return torus(270 * times, 135 * times, 0.2); });
+}
+
+TEST(ConvergenceLaw, NoisySurfaces)
+{
+  expectNoGrowth([](int times) { return noisyGyroid(30 * times, 0.05); });
+}
+
+TEST(ConvergenceLaw, GoodSolids)
+{
+  expectNoGrowth([](int times) { return tetBox(20 * times, 20 * times, 20 * times); });
+}
+
+TEST(ConvergenceLaw, NoisySolids)
+{
+  expectNoGrowth([](int times) { return tetBox(20 * times, 20 * times, 20 * times, 0.19); });
+}
+
+} // namespace smg::testing
