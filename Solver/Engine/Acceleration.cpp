@@ -128,6 +128,20 @@ StepWeights Acceleration::next(const ResidualProducts& products)
   return this->Polynomial ? this->Polynomial->next() : this->Directions.next(products);
 }
 
+void Acceleration::saveMemory()
+{
+  if (this->Kind == AccelerationKind::Chebyshev)
+  {
+    this->giveUp("it would need more than the memory limit");
+    return;
+  }
+  this->Note = "conjugate gradients would need more than the memory limit: Chebyshev polynomials "
+               "accelerate instead";
+  this->Wanted = AccelerationKind::Chebyshev;
+  this->Kind = AccelerationKind::None;
+}
+
+/** Stops the acceleration, for the given reason. */
 void Acceleration::giveUp(const std::string& reason)
 {
   this->Note = std::string("acceleration (") + nameOf(this->Kind) + ") was given up after " +

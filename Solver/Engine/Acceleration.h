@@ -30,8 +30,9 @@ public:
   /** The weights of the next V-cycle if it is accelerated. `products`: of the history of the last
    * one. */
   StepWeights next(const ResidualProducts& products);
-  /** Stops the acceleration, for the given reason. */
-  void giveUp(const std::string& reason);
+  /** The memory limit has no room for what kind() keeps: takes Chebyshev polynomials, which keep
+   * least, from the third V-cycle on, or if there is no room for these either, none. */
+  void saveMemory();
 
   /** "none", or the method that was last used: "chebyshev" or "cg". */
   const char* used() const { return nameOf(this->Used); }
@@ -50,6 +51,7 @@ private:
   bool pays() const;
   void begin();
   void watchPolynomial();
+  void giveUp(const std::string& reason);
 
   const Convergence& Watched;
   AccelerationKind Wanted;

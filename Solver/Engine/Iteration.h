@@ -98,7 +98,7 @@ void Iteration<Relaxation>::addHistory()
       this->emplaceHistory(residuals);
       return;
     }
-    this->Faster.giveUp("it would need more than the memory limit");
+    this->Faster.saveMemory();
   }
   if (this->Faster.kind() == AccelerationKind::None)
   {
@@ -124,7 +124,9 @@ bool Iteration<Relaxation>::hasRoom(KeptResiduals residuals) const
   const bool isOfOneThread = !this->Run.isAmple || expected == 0;
   const std::int64_t first = isOfOneThread ? peak : std::min(peak, expected + expected / 8);
   const std::int64_t sparseness = IterateHistory::sparseness(nodes, residuals);
-  return passBytes(first, sparseness) <= pool.limit();
+  // The steps alone: up to 1.09 times the first pass, on small meshes.
+  const std::int64_t steps = residuals == KeptResiduals::None ? first / 16 : 0;
+  return passBytes(first, sparseness) + steps <= pool.limit();
 }
 
 template <class Relaxation>
