@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// make_mesh torus|scan|box N OUT : writes a mesh of about N vertices to measure with: a jittered
-// torus of triangles, one with bumps of several sizes as a scan has them, or a jittered box of
-// tetrahedra.
+// make_mesh torus|scan|gyroid|box N OUT : writes a mesh of about N vertices to measure with: a
+// jittered torus of triangles, one with bumps of several sizes as a scan has them, a noisy
+// isosurface (see noisyGyroid()), or a jittered box of tetrahedra.
 //
 // make_mesh finer MESH TIMES OUT : refines the mesh of a file (PLY, OBJ, OFF, STL, Medit, Gmsh or
 // VTK): every triangle becomes four, every tetrahedron eight, TIMES times. Each triangle made takes
@@ -18,6 +18,7 @@
 #include "Testing/Benchmarks/IndexedFile.h"
 #include "Testing/Benchmarks/SplitTriangles.h"
 #include "Testing/Support/Bumps.h"
+#include "Testing/Support/Isosurface.h"
 #include "Testing/Support/MemorySource.h"
 #include "Testing/Support/Refinement.h"
 #include "smg/Error.h"
@@ -51,6 +52,11 @@ IndexedTestMesh scan(double vertices)
     mesh = bumpy(refined(mesh), 0.3, seed);
   }
   return mesh;
+}
+
+IndexedTestMesh isosurface(double vertices)
+{
+  return noisyGyroid(static_cast<int>(std::lround(std::sqrt(vertices / 41.5))), 0.02);
 }
 
 IndexedTestMesh jitteredBox(double vertices)
@@ -94,10 +100,11 @@ struct Options
 private:
   IndexedTestMesh smooth(const std::string& shape) const
   {
-    return shape == "torus"  ? jitteredTorus(this->vertices)
-           : shape == "scan" ? scan(this->vertices)
-           : shape == "box"  ? jitteredBox(this->vertices)
-                             : finer(this->mesh, this->times);
+    return shape == "torus"    ? jitteredTorus(this->vertices)
+           : shape == "scan"   ? scan(this->vertices)
+           : shape == "gyroid" ? isosurface(this->vertices)
+           : shape == "box"    ? jitteredBox(this->vertices)
+                               : finer(this->mesh, this->times);
   }
 };
 
@@ -129,9 +136,10 @@ void write(const IndexedTestMesh& mesh, const Options& options)
 
 void addOptions(CLI::App& app, Options& options)
 {
-  for (const auto& [shape, what] : { std::pair("torus", "A jittered torus of triangles"),
-         std::pair("scan", "A torus with bumps of several sizes"),
-         std::pair("box", "A jittered box of tetrahedra") })
+  for (const auto& [shape, what] :
+    { std::pair("torus", "A jittered torus of triangles"),
+      std::pair("scan", "A torus with bumps of several sizes"),
+      std::pair("gyroid", "A noisy isosurface"), std::pair("box", "A jittered box of tetrahedra") })
   {
     app.add_subcommand(shape, what)
       ->add_option("N", options.vertices, "Vertices")

@@ -193,14 +193,10 @@ kernels_part() {
 }
 
 convergence_part() {
-  local out
   convert_meshes
   [ ${#meshes[@]} -gt 0 ] || meshes=("$(made torus 250000)" "$(made box 250000)")
-  for mesh in "${meshes[@]}"; do
-    out=$results/$(basename "$mesh" .vsm)-convergence
-    echo "$(basename "$mesh" .vsm)"
-    "$bin/benchmark_convergence" "$mesh" --json "$out.json" | tee "$out.md"
-  done
+  "$bin/benchmark_convergence" "${meshes[@]}" --json "$results/convergence.json" |
+    tee "$results/convergence.md"
 }
 
 schedule_part() {
