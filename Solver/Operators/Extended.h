@@ -16,8 +16,8 @@ namespace smg
  * The default operator set: the paper's lifting rule on strong edges, extended interpolation, the
  * sparsified Galerkin product and Gauss-Seidel relaxation in stream order. Nodes with stiff rows
  * (see StiffRows) have their own coarse nodes. Unlike the paper's printed equations it converges to
- * the solution. The rate hardly depends on the size of the mesh where cells are well shaped, or noisy
- * but not refined; lattices of slivers, which refinement makes of bad cells, slow it down
+ * the solution. The rate hardly depends on the size of the mesh where cells are well shaped, or
+ * noisy but not refined; lattices of slivers, which refinement makes of bad cells, slow it down
  * (docs/performance.md).
  */
 class Extended
