@@ -37,6 +37,8 @@ public:
   {
   }
 
+  StiffRows(double below, const double&& scale) = delete; // it would be gone
+
   /** Whether any row may be stiff. */
   bool any() const { return this->Scale != nullptr; }
 

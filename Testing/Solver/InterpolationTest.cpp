@@ -306,7 +306,8 @@ TEST(Interpolation, MayHaveFewerEntriesOnTheFinestLevel)
 /** Next to stiff rows they have all that a row may have. */
 TEST(Interpolation, HasMoreEntriesNextToStiffRows)
 {
-  const StiffRows rule(StiffRows::Triangles, 1.0);
+  const double scale = 1.0;
+  const StiffRows rule(StiffRows::Triangles, scale);
   const TestLevel level = finestLevel(toStream(sliverChains(40, 30, 1e-3)), Weights::Cotangent, 17);
   RecordingOperators operators;
   operators.finestEntries = operators.entries = 2;
