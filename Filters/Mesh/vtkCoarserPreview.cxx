@@ -5,6 +5,7 @@
 #include "IO/Preview/CoarserSurface.h"
 #include "IO/vtkPieceCells.h"
 #include "IO/vtkPieceNames.h"
+#include "Solver/Core/DisjointSets.h"
 
 #include "vtkFieldData.h"
 #include "vtkNew.h"
@@ -13,7 +14,7 @@
 #include "vtkPoints.h"
 #include "vtkUnsignedCharArray.h"
 
-#include <numeric>
+#include <cstddef>
 #include <string_view>
 #include <utility>
 
@@ -25,51 +26,31 @@ namespace
 /** A patch of marked points up to this size counts as small. */
 constexpr std::int64_t SmallPatch = 64;
 
-/** Patches of marked points that edges connect: each point leads to the first of its patch. */
-class MarkedPatches
+/** The number of points of the patch of each point: of the marked points that edges connect. */
+std::vector<std::int64_t> patchSizes(
+  const std::vector<std::uint8_t>& marked, const std::vector<std::int64_t>& corners)
 {
-public:
-  MarkedPatches(const std::vector<std::uint8_t>& marked, const std::vector<std::int64_t>& corners)
-    : Up(marked.size())
-    , Sizes(marked.size(), 1)
+  DisjointSets<std::size_t> patches(marked.size());
+  for (std::size_t k = 0; k < corners.size(); ++k)
   {
-    std::iota(this->Up.begin(), this->Up.end(), 0);
-    for (std::size_t k = 0; k < corners.size(); ++k)
+    const auto a = static_cast<std::size_t>(corners[k]);
+    const auto b = static_cast<std::size_t>(corners[k % 3 == 2 ? k - 2 : k + 1]);
+    if (marked[a] && marked[b])
     {
-      const std::size_t next = k % 3 == 2 ? k - 2 : k + 1;
-      const auto a = static_cast<std::size_t>(corners[k]);
-      const auto b = static_cast<std::size_t>(corners[next]);
-      if (marked[a] && marked[b])
-      {
-        this->join(this->first(a), this->first(b));
-      }
+      patches.join(a, b);
     }
   }
-
-  std::int64_t size(std::size_t point) { return this->Sizes[this->first(point)]; }
-
-private:
-  std::size_t first(std::size_t point)
+  std::vector<std::int64_t> sizes(marked.size(), 0);
+  for (std::size_t i = 0; i < sizes.size(); ++i)
   {
-    while (this->Up[point] != point)
-    {
-      point = this->Up[point] = this->Up[this->Up[point]];
-    }
-    return point;
+    ++sizes[patches.first(i)];
   }
-
-  void join(std::size_t a, std::size_t b)
+  for (std::size_t i = 0; i < sizes.size(); ++i)
   {
-    if (a != b)
-    {
-      this->Up[b] = a;
-      this->Sizes[a] += this->Sizes[b];
-    }
+    sizes[i] = sizes[patches.first(i)];
   }
-
-  std::vector<std::size_t> Up;
-  std::vector<std::int64_t> Sizes;
-};
+  return sizes;
+}
 
 /** Marks what a mask is not 0 at; the arrays of pieces are none. */
 void markBy(vtkAbstractArray* array, std::vector<std::uint8_t>& marked)
@@ -96,10 +77,11 @@ std::vector<std::uint8_t> smallPatches(vtkPointSet& surface)
   {
     markBy(surface.GetPointData()->GetAbstractArray(k), marked);
   }
-  MarkedPatches patches(marked, cellCorners(surface, CellType::Triangle, "The preview"));
+  const std::vector<std::int64_t> sizes =
+    patchSizes(marked, cellCorners(surface, CellType::Triangle, "The preview"));
   for (std::size_t i = 0; i < marked.size(); ++i)
   {
-    marked[i] = marked[i] && patches.size(i) <= SmallPatch ? 1 : 0;
+    marked[i] = marked[i] && sizes[i] <= SmallPatch ? 1 : 0;
   }
   return marked;
 }

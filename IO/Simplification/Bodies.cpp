@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Simplification/Bodies.h"
 
+#include "Solver/Core/DisjointSets.h"
+
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -14,41 +15,17 @@ namespace smg
 namespace
 {
 
-/** The bodies of a surface, by union and find on its vertices. */
-class BodyLabels
+/** The bodies of a surface, as sets of its vertices. */
+DisjointSets<std::uint32_t> bodySets(const SurfacePart& part)
 {
-public:
-  explicit BodyLabels(const SurfacePart& part)
-    : Parent(part.vertices())
+  DisjointSets<std::uint32_t> sets(part.vertices());
+  for (std::size_t i = 0; i + 2 < part.corners.size(); i += 3)
   {
-    std::iota(this->Parent.begin(), this->Parent.end(), 0U);
-    for (std::size_t i = 0; i + 2 < part.corners.size(); i += 3)
-    {
-      this->join(part.corners[i], part.corners[i + 1]);
-      this->join(part.corners[i], part.corners[i + 2]);
-    }
+    sets.join(part.corners[i], part.corners[i + 1]);
+    sets.join(part.corners[i], part.corners[i + 2]);
   }
-
-  /** The vertex that stands for the body of a vertex: its first one. */
-  std::uint32_t of(std::uint32_t vertex)
-  {
-    while (this->Parent[vertex] != vertex)
-    {
-      vertex = this->Parent[vertex] = this->Parent[this->Parent[vertex]];
-    }
-    return vertex;
-  }
-
-private:
-  void join(std::uint32_t a, std::uint32_t b)
-  {
-    a = this->of(a);
-    b = this->of(b);
-    this->Parent[std::max(a, b)] = std::min(a, b);
-  }
-
-  std::vector<std::uint32_t> Parent;
-};
+  return sets;
+}
 
 struct Body
 {
@@ -70,13 +47,13 @@ struct Body
 
 /** The bodies at the vertices that stand for them. */
 std::vector<Body> bodiesOf(
-  const SurfacePart& part, std::span<const std::uint8_t> locked, BodyLabels& labels)
+  const SurfacePart& part, std::span<const std::uint8_t> locked, DisjointSets<std::uint32_t>& sets)
 {
   constexpr double Far = std::numeric_limits<double>::infinity();
   std::vector<Body> bodies(part.vertices(), { { Far, Far, Far }, { -Far, -Far, -Far } });
   for (std::uint32_t v = 0; v < part.vertices(); ++v)
   {
-    Body& body = bodies[labels.of(v)];
+    Body& body = bodies[sets.first(v)];
     body.isComplete = body.isComplete && locked[v] == 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
@@ -87,7 +64,7 @@ std::vector<Body> bodiesOf(
   }
   for (std::size_t i = 0; i < part.corners.size(); i += 3)
   {
-    ++bodies[labels.of(part.corners[i])].triangles;
+    ++bodies[sets.first(part.corners[i])].triangles;
   }
   return bodies;
 }
@@ -103,12 +80,12 @@ std::size_t bodiesFor(std::int64_t vertices)
 KeptBodies keepLargestBodies(
   SurfacePart& part, std::span<const std::uint8_t> locked, std::size_t most)
 {
-  BodyLabels labels(part);
-  const std::vector<Body> bodies = bodiesOf(part, locked, labels);
+  DisjointSets<std::uint32_t> sets = bodySets(part);
+  const std::vector<Body> bodies = bodiesOf(part, locked, sets);
   std::vector<std::pair<double, std::uint32_t>> complete;
   for (std::uint32_t v = 0; v < bodies.size(); ++v)
   {
-    if (labels.of(v) == v && bodies[v].isComplete)
+    if (sets.first(v) == v && bodies[v].isComplete)
     {
       complete.emplace_back(-bodies[v].squaredDiagonal(), v);
     }
@@ -136,7 +113,7 @@ KeptBodies keepLargestBodies(
   std::vector<std::uint32_t> kept;
   for (std::size_t i = 0; i < part.corners.size(); i += 3)
   {
-    if (drops[labels.of(part.corners[i])] == 0)
+    if (drops[sets.first(part.corners[i])] == 0)
     {
       kept.insert(kept.end(), { part.corners[i], part.corners[i + 1], part.corners[i + 2] });
     }

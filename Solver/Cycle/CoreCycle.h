@@ -26,7 +26,7 @@ public:
   using CoreLevel = Level<float, Relaxation>;
 
   /** `levels` from the finest core level to the coarsest one; `finest`: the number of nodes of the
-   * finest level. */
+   * finest level; 0: none is iterated. */
   void setLevels(std::vector<CoreLevel*> levels, std::int64_t finest)
   {
     this->Levels = std::move(levels);

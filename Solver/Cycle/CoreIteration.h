@@ -37,7 +37,7 @@ public:
   };
 
   /** For `level`, all of whose nodes are in memory. */
-  explicit CoreIteration(CoreLevel& level, Ending ending)
+  CoreIteration(CoreLevel& level, Ending ending)
     : Of(level)
     , End(ending)
     , Size(static_cast<std::size_t>(level.window().x().range(0, level.window().nodes()).size()))

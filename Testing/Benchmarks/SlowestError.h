@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Cycle/CoarsestSolver.h"
+#include "Solver/Core/DisjointSets.h"
+#include "Solver/Cycle/CoreCycle.h"
 #include "Solver/Cycle/CoreIteration.h"
 #include "Testing/Benchmarks/LevelsInCore.h"
 #include "Testing/Support/TestMeshes.h"
@@ -9,8 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace smg::benchmark
@@ -27,12 +28,17 @@ public:
   explicit SlowestError(LevelsInCore& levels)
     : Levels(levels)
   {
-    this->Coarsest.factorize(levels.coarse(levels.count() - 1).window());
   }
 
   /** The factor of the energy norm in the last of `iterations` V-cycles from level l. */
   double factor(int l, bool isTwoGrid, int iterations)
   {
+    std::vector<Level<float, GaussSeidel>*> below;
+    for (int k = l + 1; k < this->Levels.count(); ++k)
+    {
+      below.push_back(&this->Levels.coarse(k));
+    }
+    this->Below.setLevels(std::move(below), 0);
     double last = 0.0;
     this->Levels.with(
       l, [&](auto& level) { last = this->iterate(level, l, isTwoGrid, iterations); });
@@ -112,20 +118,11 @@ private:
   static void clearFreeBodies(
     const LevelWindow<Real>& window, std::size_t stride, std::vector<Real>& error)
   {
-    std::vector<std::size_t> body(error.size() / stride);
-    std::iota(body.begin(), body.end(), std::size_t(0));
-    const auto first = [&](std::size_t i)
-    {
-      while (body[i] != i)
-      {
-        i = body[i] = body[body[i]];
-      }
-      return i;
-    };
-    std::vector<char> isHeld(body.size(), 0);
+    DisjointSets<std::size_t> bodies(error.size() / stride);
+    std::vector<char> isHeld(error.size() / stride, 0);
     const auto visit = [&](auto&& f)
     {
-      for (std::size_t i = 0; i < body.size(); ++i)
+      for (std::size_t i = 0; i < isHeld.size(); ++i)
       {
         window.visitRow(static_cast<std::int64_t>(i),
           [&](const auto& h, const auto& a, std::int64_t k) { f(i, h, a, k); });
@@ -134,24 +131,21 @@ private:
     visit(
       [&](std::size_t i, const RowBlock::Header& h, const auto& a, std::int64_t k)
       {
-        const auto group = static_cast<std::size_t>(k / RowBlock::Group);
-        const std::int64_t start = h.entryStart[group];
-        const bool isFirst = k % RowBlock::Group == 0;
-        for (std::int64_t e = start + (isFirst ? 0 : a.entryEnd[k - 1]); e < start + a.entryEnd[k];
-             ++e)
+        const BlockRange row = entriesOf(h, a, k);
+        for (std::int64_t e = row.begin; e < row.end; ++e)
         {
-          const auto other = static_cast<std::size_t>(static_cast<std::int64_t>(i) + a.delta[e]);
-          body[std::max(first(i), first(other))] = std::min(first(i), first(other));
+          bodies.join(i, static_cast<std::size_t>(static_cast<std::int64_t>(i) + a.delta[e]));
         }
       });
     visit([&](std::size_t i, const RowBlock::Header& h, const auto& a, std::int64_t k)
-      { isHeld[first(i)] |= RowBlock::alphaOf(h, a, k) != 0.0 ? 1 : 0; });
+      { isHeld[bodies.first(i)] |= RowBlock::alphaOf(h, a, k) != 0.0 ? 1 : 0; });
     for (std::size_t i = 0; i < error.size(); ++i)
     {
-      error[i] = isHeld[first(i / stride)] ? error[i] : Real{};
+      error[i] = isHeld[bodies.first(i / stride)] ? error[i] : Real{};
     }
   }
 
+  /** A V-cycle from level l, or one of two grids. */
   template <class Real>
   void cycle(Level<Real, GaussSeidel>& level, int l, bool isTwoGrid)
   {
@@ -164,26 +158,19 @@ private:
     if (isTwoGrid && l + 2 < this->Levels.count())
     {
       CoreIteration<GaussSeidel> exact(coarse, Exact);
-      exact([&] { this->cycle(coarse, l + 1, false); });
+      exact([this] { this->Below.run(); });
     }
     else
     {
-      this->solve(l + 1);
+      this->Below.run();
     }
     level.prolongAll();
     level.relaxUp();
   }
 
-  void solve(int l)
-  {
-    Level<float, GaussSeidel>& level = this->Levels.coarse(l);
-    l + 1 < this->Levels.count() ? this->cycle(level, l, false)
-                                 : this->Coarsest.solve(level.window());
-  }
-
   LevelsInCore& Levels;
   double Quotient = 0.0;
-  CoarsestSolver Coarsest;
+  CoreCycle<GaussSeidel> Below; ///< the V-cycle of the levels below
   std::vector<double> Squares;
 };
 

@@ -21,9 +21,10 @@
 #include "smg/VsmReader.h"
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -76,36 +77,20 @@ struct Surroundings
   bool isCoarse = false;
 };
 
-using Point = std::array<double, 3>;
-
-Point minus(const Point& a, const Point& b)
-{
-  return { a[0] - b[0], a[1] - b[1], a[2] - b[2] };
-}
-
-double dot(const Point& a, const Point& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+using Point = Eigen::Map<const Eigen::Vector3d>;
 
 /** The angle at a of the triangle a, b, c, in degrees. */
 double angle(const Point& a, const Point& b, const Point& c)
 {
-  const Point u = minus(b, a), v = minus(c, a);
-  const double product = std::sqrt(dot(u, u) * dot(v, v));
-  const double cosine = product > 0.0 ? std::clamp(dot(u, v) / product, -1.0, 1.0) : 1.0;
-  return std::acos(cosine) * 180.0 / std::numbers::pi;
+  const Eigen::Vector3d u = b - a, v = c - a;
+  return std::atan2(u.cross(v).norm(), u.dot(v)) * 180.0 / std::numbers::pi;
 }
 
 std::vector<Surroundings> surroundings(const StreamMesh& mesh)
 {
   std::vector<Surroundings> all(static_cast<std::size_t>(mesh.vertices()));
   const int corners = smg::cornersOf(mesh.cellType);
-  const auto at = [&](std::int64_t vertex)
-  {
-    const double* p = mesh.positions.data() + 3 * vertex;
-    return Point{ p[0], p[1], p[2] };
-  };
+  const auto at = [&](std::int64_t vertex) { return Point(mesh.positions.data() + 3 * vertex); };
   for (std::int64_t cell = 0; cell < mesh.cells(); ++cell)
   {
     const std::int64_t* v = mesh.corners.data() + cell * corners;
@@ -134,9 +119,9 @@ std::vector<Surroundings> surroundings(const StreamMesh& mesh)
       {
         if (i != j)
         {
-          const Point edge = minus(at(v[j]), at(v[i]));
-          s.shortest = std::min(s.shortest, std::sqrt(dot(edge, edge)));
-          s.longest = std::max(s.longest, std::sqrt(dot(edge, edge)));
+          const double edge = (at(v[j]) - at(v[i])).norm();
+          s.shortest = std::min(s.shortest, edge);
+          s.longest = std::max(s.longest, edge);
         }
       }
     }
@@ -151,13 +136,11 @@ void addRows(LevelsInCore& levels, std::vector<Surroundings>& all)
   {
     const auto look = [&](const smg::RowBlock::Header& h, const auto& arrays, std::int64_t k)
     {
-      const auto group = static_cast<std::size_t>(k / smg::RowBlock::Group);
-      const bool isFirst = k % smg::RowBlock::Group == 0;
-      const std::int64_t entries = isFirst ? 0 : arrays.entryEnd[k - 1];
-      const std::int64_t parents = isFirst ? 0 : arrays.parentEnd[k - 1];
-      all[i].edges = static_cast<double>(arrays.entryEnd[k] - entries);
-      all[i].isCoarse = arrays.parentEnd[k] - parents == 1 &&
-                        arrays.parentQuanta[h.parentStart[group] + parents] == smg::Quanta;
+      const smg::BlockRange row = smg::entriesOf(h, arrays, k);
+      const smg::BlockRange parents = smg::parentsOf(h, arrays, k);
+      all[i].edges = static_cast<double>(row.end - row.begin);
+      all[i].isCoarse =
+        parents.end - parents.begin == 1 && arrays.parentQuanta[parents.begin] == smg::Quanta;
     };
     levels.finest().window().visitRow(static_cast<std::int64_t>(i), look);
   }

@@ -56,7 +56,8 @@ IndexedTestMesh scan(double vertices)
 
 IndexedTestMesh isosurface(double vertices)
 {
-  return noisyGyroid(static_cast<int>(std::lround(std::sqrt(vertices / 41.5))), 0.02);
+  constexpr double VerticesOfOne = 41.5; // about so many times the square of the samples an axis
+  return noisyGyroid(static_cast<int>(std::lround(std::sqrt(vertices / VerticesOfOne))), 0.02);
 }
 
 IndexedTestMesh jitteredBox(double vertices)

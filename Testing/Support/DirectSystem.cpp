@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Support/DirectSystem.h"
 
+#include "Solver/Core/DisjointSets.h"
 #include "Testing/Support/AllIndices.h"
 #include "Testing/Support/EdgeWeights.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace smg::testing
@@ -213,27 +213,16 @@ void Assembly::fillRightSide()
 
 void Assembly::findComponents()
 {
-  std::vector<std::int32_t> parent(this->Vertices);
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](std::int32_t v)
-  {
-    while (parent[v] != v)
-    {
-      v = parent[v] = parent[parent[v]];
-    }
-    return v;
-  };
+  DisjointSets<std::int32_t> sets(this->Vertices);
   for (const EdgeWeight& edge : this->Edges.edges())
   {
-    const std::int32_t a = root(edge.from);
-    const std::int32_t b = root(edge.to);
-    parent[std::max(a, b)] = std::min(a, b);
+    sets.join(edge.from, edge.to);
   }
   std::vector<int> number(this->Vertices, -1);
   this->System.component.reserve(this->System.freeVertices.size());
   for (const std::int64_t v : this->System.freeVertices)
   {
-    int& component = number[root(static_cast<std::int32_t>(v))];
+    int& component = number[sets.first(static_cast<std::int32_t>(v))];
     if (component < 0)
     {
       component = static_cast<int>(this->System.isFloating.size());
@@ -243,7 +232,7 @@ void Assembly::findComponents()
   }
   for (std::int64_t v = 0; v < this->Vertices; ++v)
   {
-    const int component = number[root(static_cast<std::int32_t>(v))];
+    const int component = number[sets.first(static_cast<std::int32_t>(v))];
     if (component >= 0 && (this->Prescribed[v] || this->Screening[v] * this->System.mass[v] > 0))
     {
       this->System.isFloating[component] = 0;
