@@ -136,7 +136,7 @@ void Acceleration::saveMemory()
     return;
   }
   this->Note = "conjugate gradients would need more than the memory limit: Chebyshev polynomials "
-               "accelerate instead";
+               "accelerate instead, from the third V-cycle on";
   this->Wanted = AccelerationKind::Chebyshev;
   this->Kind = AccelerationKind::None;
 }

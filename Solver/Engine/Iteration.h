@@ -123,10 +123,7 @@ bool Iteration<Relaxation>::hasRoom(KeptResiduals residuals) const
   const std::int64_t expected = this->Run.expectedBytes, peak = this->Run.firstPassPeak;
   const bool isOfOneThread = !this->Run.isAmple || expected == 0;
   const std::int64_t first = isOfOneThread ? peak : std::min(peak, expected + expected / 8);
-  const std::int64_t sparseness = IterateHistory::sparseness(nodes, residuals);
-  // The steps alone: up to 1.09 times the first pass, on small meshes.
-  const std::int64_t steps = residuals == KeptResiduals::None ? first / 16 : 0;
-  return passBytes(first, sparseness) + steps <= pool.limit();
+  return passBytes(first, IterateHistory::sparseness(nodes, residuals)) <= pool.limit();
 }
 
 template <class Relaxation>

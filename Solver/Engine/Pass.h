@@ -12,18 +12,22 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace smg
 {
 
 /** The bytes of the pool that a pass out of core needs on one thread, given those of the first pass
- * and the sparseness of its history, 0 without one: measured up to 0.86 as many without, 1.02 with
- * a sample of the residuals (surface of 177 million vertices), 1.22 with all of them (dragon). */
-inline std::int64_t passBytes(std::int64_t firstPassPeak, std::int64_t sparseness)
+ * and the sparseness of its history, if any: measured up to 0.86 as many without, 1.09 with steps
+ * alone (sparseness 0; small meshes), 1.02 with a sample of the residuals (surface of 177 million
+ * vertices), 1.22 with all of them (dragon). */
+inline std::int64_t passBytes(std::int64_t firstPassPeak, std::optional<std::int64_t> sparseness)
 {
-  const std::int64_t residuals = sparseness > 0 ? firstPassPeak / 4 / sparseness : 0;
-  return firstPassPeak + firstPassPeak / 16 + residuals;
+  const std::int64_t history = !sparseness        ? 0
+                               : *sparseness == 0 ? firstPassPeak / 16
+                                                  : firstPassPeak / 4 / *sparseness;
+  return firstPassPeak + firstPassPeak / 16 + history;
 }
 
 /** A pass over the levels that finishes a V-cycle and begins the next one. */
@@ -66,7 +70,7 @@ private:
     int chains;
   };
   Schedule schedule(const IterateHistory* history) const;
-  std::int64_t chainsFor(std::int64_t step, std::int64_t sparseness) const;
+  std::int64_t chainsFor(std::int64_t step, std::optional<std::int64_t> sparseness) const;
 
   SolveRun& Run;
   Hierarchy<Relaxation>& Levels;
@@ -172,7 +176,8 @@ auto Pass<Relaxation>::schedule(const IterateHistory* history) const -> Schedule
   const std::int64_t usual = this->Run.options.blockNodes;
   const std::int64_t wanted = Pipeline::chainsFor(this->Run.scheduled);
   const std::int64_t longer = Pipeline::stepFor(this->Run.scheduled, usual);
-  const std::int64_t sparseness = history ? history->sparseness() : 0;
+  const std::optional<std::int64_t> sparseness =
+    history ? std::optional(history->sparseness()) : std::nullopt;
   const std::int64_t step = this->chainsFor(longer, sparseness) < wanted ? usual : longer;
   const std::int64_t chains = this->chainsFor(step, sparseness);
   return { step, static_cast<int>(std::clamp(chains, std::int64_t(1), wanted)) };
@@ -181,7 +186,8 @@ auto Pass<Relaxation>::schedule(const IterateHistory* history) const -> Schedule
 /** The number of chains for which the memory suffices: each takes a step's nodes. In core all nodes
  * are in memory anyway. */
 template <class Relaxation>
-std::int64_t Pass<Relaxation>::chainsFor(std::int64_t step, std::int64_t sparseness) const
+std::int64_t Pass<Relaxation>::chainsFor(
+  std::int64_t step, std::optional<std::int64_t> sparseness) const
 {
   constexpr std::int64_t NodeBytes = 400; // measured, with coarser levels: 220 of surfaces
   if (!this->Run.scratch)

@@ -154,4 +154,25 @@ TEST(Acceleration, WithoutRoomForResidualsIsByPolynomials)
   EXPECT_LE(solved.report.pool_bytes_peak, options.memoryLimit);
 }
 
+TEST(Acceleration, IsGivenUpWithoutRoomForItsVectors)
+{
+  const StreamMesh mesh = toStream(torus(316, 158));
+  ArrayProblem problem = heldEnds(mesh, 3, Weights::Cotangent);
+  SolveOptions options;
+  options.coreNodes = 1000; // otherwise the limit decides which levels are in memory
+  options.threads = 1;
+  options.maxCycles = 4;
+  options.acceleration = AccelerationKind::None;
+  const Solved plain = solveMesh(mesh, problem, options);
+  options.memoryLimit = plain.report.pool_bytes_peak * 103 / 100;
+  for (const AccelerationKind kind : Kinds)
+  {
+    options.acceleration = kind;
+    const Solved solved = solveMesh(mesh, problem, options);
+    EXPECT_TRUE(hasNote(solved.report, "acceleration (chebyshev) was given up"));
+    EXPECT_EQ(solved.report.acceleration, "none");
+    EXPECT_TRUE(sameBits(solved.values, plain.values));
+  }
+}
+
 } // namespace smg::testing
