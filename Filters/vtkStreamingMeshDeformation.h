@@ -84,7 +84,7 @@ public:
 
   ///@{
   /** A preview of more points is made coarser before it is deformed, so that it follows a dragged
-   * handle; at least 8. Default: 10,000, which answer in about 70 ms. */
+   * handle; at least 8. Default: 10,000, which answer in about 40 ms. */
   vtkSetClampMacro(DragPoints, vtkIdType, 8, VTK_ID_MAX);
   vtkGetMacro(DragPoints, vtkIdType);
   ///@}

@@ -90,8 +90,7 @@ std::vector<std::string> notesOn(
     notes.emplace_back(
       "Collapsing edges alone leaves more vertices: vertices near one another were merged "
       "instead. If triangles do not share their vertices, smg convert --weld 0 joins those with "
-      "the "
-      "same corners first.");
+      "the same corners first.");
   }
   if (options.vertices > 0 && report.vertices > options.vertices)
   {
