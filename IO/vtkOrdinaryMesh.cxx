@@ -62,12 +62,10 @@ bool areUsedInOrder(vtkPointSet& mesh, const std::vector<std::int64_t>& ids, std
   vtkNew<vtkIdList> corners;
   for (vtkIdType cell = 0; cell < mesh.GetNumberOfCells(); ++cell)
   {
-    vtkIdType count = 0;
-    const vtkIdType* corner = nullptr;
-    mesh.GetCellPoints(cell, count, corner, corners);
-    for (vtkIdType k = 0; k < count; ++k)
+    mesh.GetCellPoints(cell, corners);
+    for (const vtkIdType corner : *corners)
     {
-      const std::int64_t id = ids[static_cast<std::size_t>(corner[k])];
+      const std::int64_t id = ids[static_cast<std::size_t>(corner)];
       if (id > used)
       {
         return false;
