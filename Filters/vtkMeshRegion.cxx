@@ -13,7 +13,7 @@ vtkStandardNewMacro(vtkMeshRegion);
 
 vtkMeshRegion::vtkMeshRegion()
 {
-  this->SetRegionName("Region");
+  this->SetRegionName("RegionMask");
 }
 
 vtkMeshRegion::~vtkMeshRegion()

@@ -28,7 +28,7 @@ public:
 
   ///@{
   /** The name of the point array. An array of this name that is no region is an error. Default:
-   * "Region". */
+   * "RegionMask". */
   vtkSetStringMacro(RegionName);
   vtkGetStringMacro(RegionName);
   ///@}

@@ -25,6 +25,7 @@ std::string entry(const std::string& array, const std::string& names)
 void colorMasks()
 {
   std::string tables = entry("HandleMask", R"("0", "free", "1", "held", "2", "held by several")");
+  tables += ", " + entry("RegionMask", R"("0", "outside", "1", "inside")");
   for (int k = 1; k < 10; ++k)
   {
     tables += ", " + entry("Condition" + std::to_string(k), R"("0", "outside", "1", "inside")");

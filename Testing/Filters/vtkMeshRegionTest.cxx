@@ -86,7 +86,7 @@ protected:
       for (const int pieces : { 1, 2, 7 })
       {
         const std::vector<double> distances = this->values(measured, pieces, DistanceName);
-        const std::vector<double> region = this->values(this->Last, pieces, "Region");
+        const std::vector<double> region = this->values(this->Last, pieces, "RegionMask");
         for (std::size_t v = 0; v < distances.size(); ++v)
         {
           ASSERT_EQ(distances[v], expected(static_cast<Eigen::Index>(v), 0)) << v;
@@ -166,7 +166,7 @@ TEST_F(VtkMeshRegion, OneNameIsAUnionOfRegions)
   {
     ASSERT_EQ(distances[v], expected(static_cast<Eigen::Index>(v), 0));
   }
-  for (const char* name : { "Region", "Second", "Third" })
+  for (const char* name : { "RegionMask", "Second", "Third" })
   {
     EXPECT_TRUE(pointsOf(measured).HasArray(name)) << name;
   }
@@ -241,7 +241,7 @@ TEST_F(VtkMeshRegion, MistakesAreOneErrorEach)
   set(vtkMeshRegion::EVERYWHERE);
   expect("no Mesh Region has made", [&] { this->Region->SetRegionName("mask"); });
   expect("has no name", [&] { this->Region->SetRegionName(""); });
-  this->Region->SetRegionName("Region");
+  this->Region->SetRegionName("RegionMask");
   expect("holds nothing",
     [&]
     {

@@ -229,7 +229,7 @@ TEST_F(VtkOrdinaryMesh, PiecesWithoutSomeOfTheirPointsAreOrdinary)
     region->AddId(hasIds ? ids->GetValue(7) : 7);
     updatePiece(region, 0, 1);
     vtkDataArray* held =
-      vtkPointSet::SafeDownCast(region->GetOutputDataObject(0))->GetPointData()->GetArray("Region");
+      vtkPointSet::SafeDownCast(region->GetOutputDataObject(0))->GetPointData()->GetArray("RegionMask");
     ASSERT_TRUE(held);
     for (vtkIdType i = 0; i < points; ++i)
     {

@@ -174,7 +174,8 @@ assert (target[[77, 5000]] == [[0, 0, 1], [0, 0, 2]]).all()
 
 # A mask has two named colours, not a continuous legend, unless the user has saved others.
 for name, words in (("HandleMask", ["0", "free", "1", "held", "2", "held by several"]),
-                    ("Condition1", ["0", "outside", "1", "inside"])):
+                    ("Condition1", ["0", "outside", "1", "inside"]),
+                    ("RegionMask", ["0", "outside", "1", "inside"])):
     colors = GetColorTransferFunction(name)
     assert colors.InterpretValuesAsCategories == 1 and list(colors.Annotations) == words, (name, colors.Annotations)
 print("passed")

@@ -63,7 +63,7 @@ for name, value in defaults.items():
     assert distance.GetPropertyValue(name) == value, (name, distance.GetPropertyValue(name))
 
 region = MeshRegion(Input=reader)
-defaults = {"Region": "Function", "RegionName": "Region", "MaskArray": "None", "TagArray": "None", "Tag": 0.0}
+defaults = {"Region": "Function", "RegionName": "RegionMask", "MaskArray": "None", "TagArray": "None", "Tag": 0.0}
 for name, value in defaults.items():
     assert region.GetPropertyValue(name) == value, (name, region.GetPropertyValue(name))
 kinds = ["Function", "Selection", "Ids", "Points", "Boundary", "Mask", "Tag", "Everywhere"]

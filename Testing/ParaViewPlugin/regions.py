@@ -54,7 +54,7 @@ def check(reader, kinds):
         for place, settings in kinds.items():
             region = MeshRegion(Input=reader, **settings)
             measured = StreamingDistance(Input=region)
-            marks, distance = saved(measured, "Region", "Distance")
+            marks, distance = saved(measured, "RegionMask", "Distance")
             if place not in distances:
                 written = StreamingDistance(Input=reader, From=place)
                 distances[place] = saved(written, "Distance")
@@ -74,7 +74,7 @@ def check(reader, kinds):
             assert np.array_equal(solution, solutions[place]), (place, guard)
             if guard == 500:
                 # Some points of the preview are in the region, and the count is that of the preview.
-                preview = shown(region, "Region")
+                preview = shown(region, "RegionMask")
                 assert 0 < preview.sum() == held(region) <= len(preview) <= 10000, place
             for proxy in (measured, region, handle, condition):
                 Delete(proxy)
@@ -105,7 +105,7 @@ for guard in (2000000, 1000):
     marked.MaximumPointsInMemory = guard
     smoothing = StreamingMeshSmoothing(Input=other, Hold='{"halfspace": [0, 1, 0, 0.17]}')
     expected = StreamingMeshSmoothing(
-        Input=marked, Hold='[{"mask": "Still"}, {"mask": "Region"}, {"halfspace": [0, 1, 0, 0.17]}]')
+        Input=marked, Hold='[{"mask": "Still"}, {"mask": "RegionMask"}, {"halfspace": [0, 1, 0, 0.17]}]')
     smooth = saved(smoothing, "points")
     assert np.array_equal(smooth, saved(expected, "points"))
     fixed = (smooth == points).all(axis=1)
@@ -141,7 +141,7 @@ for cells in ("Surface", "Tetrahedra"):
     sink.PreviewCells = cells
     sink.MaximumPointsInMemory = 500
     region = MeshRegion(Input=sink, Region="Boundary")
-    marks = shown(region, "Region")
+    marks = shown(region, "RegionMask")
     assert marks.all() if cells == "Surface" else 0 < marks.sum(), (cells, marks.sum(), len(marks))
 check(sink, {'{"tag": ["Material", 1]}': {"Region": "Tag", "TagArray": "Material", "Tag": 1},
              '{"boundary": true}': {"Region": "Boundary"}})
@@ -158,15 +158,15 @@ for mesh, count in ((plane, 18), (Triangulate(Input=plane), 18), (TriangleStrips
         measured = StreamingDistance(Input=region, ScratchDirectory=scratch)
         written = StreamingDistance(Input=mesh, From='{"boundary": true}', ScratchDirectory=scratch)
         assert np.array_equal(shown(measured, "Distance"), shown(written, "Distance"), equal_nan=True), mesh
-        assert shown(measured, "Region").sum() == count == (shown(measured, "Distance") == 0).sum(), mesh
+        assert shown(measured, "RegionMask").sum() == count == (shown(measured, "Distance") == 0).sum(), mesh
     mesh.UpdatePipeline()
     near = MeshRegion(Input=mesh, Region="Points", Points=list(servermanager.Fetch(mesh).GetPoint(0)))
-    assert shown(near, "Region").sum() == 1, mesh
-    handle = MeshHandle(Input=region, Region="Mask", MaskArray="Region")
+    assert shown(near, "RegionMask").sum() == 1, mesh
+    handle = MeshHandle(Input=region, Region="Mask", MaskArray="RegionMask")
     assert shown(handle, "HandleMask").sum() == count, mesh
 ids = GenerateIds(Input=plane, CellIdsArrayName="Number", PointIdsArrayName="Other")
 tagged = MeshRegion(Input=ids, Region="Tag", TagArray="Number", Tag=7)
-assert shown(tagged, "Region").sum() == 4
+assert shown(tagged, "RegionMask").sum() == 4
 saved_as_pieces = os.path.join(folder, "ordinary.vsm")
 SaveData(saved_as_pieces, proxy=MeshHandle(Input=half, Region="Boundary"))
 assert shown(StreamingMeshReader(FileName=saved_as_pieces), "HandleMask").sum() == 58
