@@ -101,7 +101,7 @@ public:
   std::int64_t finishedUp(std::int64_t end, bool follows) const
   {
     const std::int64_t swept = this->At.postSweep.back().seen(follows);
-    return this->Patched ? this->Window.reachable(end, swept) : swept;
+    return this->endPatched() ? this->Window.reachable(end, swept, true) : swept;
   }
 
   /** Adds the next block of rows while the hierarchy is built. */
@@ -232,17 +232,17 @@ public:
   void relaxDown()
   {
     const std::int64_t nodes = this->Window.nodes();
-    this->sweep<true>(0, nodes, this->Window.down());
+    this->sweep<true>(0, nodes, this->Window.down(), true);
     for (std::size_t s = 1; s < this->At.preSweep.size(); ++s)
     {
-      this->sweep<false>(0, nodes, this->Window.down());
+      this->sweep<false>(0, nodes, this->Window.down(), false);
     }
   }
   void relaxUp()
   {
     for (std::size_t s = 0; s < this->At.postSweep.size(); ++s)
     {
-      this->sweep<false>(0, this->Window.nodes(), this->Window.up());
+      this->sweep<false>(0, this->Window.nodes(), this->Window.up(), s == 0);
     }
   }
   /** Stores b - A x, with the stride of the window. */
@@ -263,7 +263,7 @@ private:
   void writeWindow()
   {
     // An unfinished patch may change nodes before it.
-    this->Window.write((this->Patched ? this->At.restricted : this->At.combined).shown());
+    this->Window.write((this->endPatched() ? this->At.restricted : this->At.combined).shown());
   }
   void writeHistory()
   {
@@ -275,6 +275,15 @@ private:
 
   /** About the time that stages take for a node, relative to a sweep. */
   static constexpr double ProlongCost = 0.8, CombineCost = 0.5, RestrictCost = 1.4;
+
+  /** The end of the nodes from `cursor` on that sweep s of `sweeps` does not touch any more. */
+  std::int64_t reachable(
+    std::int64_t cursor, const std::vector<Cursor>& sweeps, std::size_t s, bool follows) const
+  {
+    return this->Window.reachable(cursor, sweeps[s].seen(follows), s == 0 && this->Patched);
+  }
+  /** Whether the last sweep of each half relaxes patches. */
+  bool endPatched() const { return this->Patched && this->At.preSweep.size() == 1; }
 
   std::size_t lanes() const { return this->Squares.size() / 2; }
 
@@ -299,13 +308,15 @@ private:
 
   using State = typename LevelWindow<Real>::State;
 
-  /** One sweep over nodes [begin, end). */
+  /** One sweep over nodes [begin, end); `patches`: which relaxes the nodes of a patch together. The
+   * first one of each half of a V-cycle does: what a sweep relaxes one by one, the next one need
+   * not wait for longer than for neighbours, so the window is shorter. */
   template <bool LowerOnly>
-  void sweep(std::int64_t begin, std::int64_t end, State& state);
+  void sweep(std::int64_t begin, std::int64_t end, State& state, bool patches);
   /** Processes a special node in a sweep. */
   template <bool LowerOnly, class Arrays>
-  void relaxSpecial(
-    const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node, State& state);
+  void relaxSpecial(const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node,
+    State& state, bool patches);
   template <bool LowerOnly, class Vectors, class Arrays>
   void relaxPatch(const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node,
     State& state, int lane);

@@ -30,16 +30,15 @@ template <class Real, class Relaxation>
 void Level<Real, Relaxation>::preSweep(std::size_t s, bool follows)
 {
   Cursor& cursor = this->At.preSweep[s];
-  const std::int64_t end =
-    s == 0 ? this->firstPreSweepEnd(follows)
-           : this->Window.reachable(cursor, this->At.preSweep[s - 1].seen(follows));
+  const std::int64_t end = s == 0 ? this->firstPreSweepEnd(follows)
+                                  : this->reachable(cursor, this->At.preSweep, s - 1, follows);
   if (s == 0 && this->Fine)
   {
-    this->sweep<true>(cursor, end, this->Window.down());
+    this->sweep<true>(cursor, end, this->Window.down(), true);
   }
   else
   {
-    this->sweep<false>(cursor, end, this->Window.down());
+    this->sweep<false>(cursor, end, this->Window.down(), s == 0);
   }
   cursor = end;
 }
@@ -54,7 +53,7 @@ std::int64_t Level<Real, Relaxation>::firstPreSweepEnd(bool follows)
     return this->First ? this->Window.loaded()
            : this->Window.isApart()
              ? this->At.renewed.seen(follows)
-             : this->Window.reachable(end, this->At.postSweep.back().seen(follows));
+             : this->reachable(end, this->At.postSweep, this->At.postSweep.size() - 1, follows);
   }
   // b must be complete; the upper neighbours are zero, so they need not be loaded.
   const std::int64_t restricted = this->Fine->restricted.seen(follows);
@@ -77,7 +76,8 @@ void Level<Real, Relaxation>::combine(bool follows)
   std::int64_t end = this->At.preSweep.back().seen(follows);
   if (this->History)
   {
-    end = this->Window.reachable(this->At.combined, end);
+    end =
+      this->reachable(this->At.combined, this->At.preSweep, this->At.preSweep.size() - 1, follows);
     this->History->combine(this->Window.x(), this->At.combined, end);
   }
   this->At.combined = end;
@@ -86,8 +86,8 @@ void Level<Real, Relaxation>::combine(bool follows)
 template <class Real, class Relaxation>
 void Level<Real, Relaxation>::restrictDown(bool follows)
 {
-  const std::int64_t limit =
-    this->Window.reachable(this->At.restricted, this->At.combined.seen(follows));
+  const std::int64_t limit = this->Window.reachable(
+    this->At.restricted, this->At.combined.seen(follows), this->endPatched());
   std::int64_t end = this->At.restricted;
   while (end < limit)
   {
@@ -113,7 +113,7 @@ bool Level<Real, Relaxation>::prepare(std::int64_t node)
   {
     const RowBlock::Header& h = this->Window.header(this->At.reset);
     const auto g = LevelWindow<Real>::groupIn(h, this->At.reset);
-    if (this->At.postSweep.back().shown() <= h.neighbourReach[g] ||
+    if (this->At.postSweep.back().shown() <= h.reach(g, this->endPatched()) ||
         this->Fine->prolonged.shown() <= h.childReach[g])
     {
       return false;

@@ -26,7 +26,8 @@ void relaxNodes(
 
 template <class Real, class Relaxation>
 template <bool LowerOnly>
-void Level<Real, Relaxation>::sweep(std::int64_t begin, std::int64_t end, State& state)
+void Level<Real, Relaxation>::sweep(
+  std::int64_t begin, std::int64_t end, State& state, bool patches)
 {
   const int stride = this->Window.stride();
   this->Window.forRange(begin, end, state,
@@ -35,18 +36,19 @@ void Level<Real, Relaxation>::sweep(std::int64_t begin, std::int64_t end, State&
       visitNodes(
         h, a, range,
         [&](BlockRange nodes) { relaxNodes<LowerOnly, Relaxation>(h, a, nodes, stride, x, b); },
-        [&](const RowBlock::Special& node) { this->relaxSpecial<LowerOnly>(h, a, node, state); });
+        [&](const RowBlock::Special& node)
+        { this->relaxSpecial<LowerOnly>(h, a, node, state, patches); });
     });
 }
 
 template <class Real, class Relaxation>
 template <bool LowerOnly, class Arrays>
-void Level<Real, Relaxation>::relaxSpecial(
-  const RowBlock::Header& h, const Arrays& a, const RowBlock::Special& node, State& state)
+void Level<Real, Relaxation>::relaxSpecial(const RowBlock::Header& h, const Arrays& a,
+  const RowBlock::Special& node, State& state, bool patches)
 {
   const int stride = this->Window.stride();
   Real* x = state.x.at(h.first);
-  if (node.size == 1)
+  if (node.size == 1 || !patches)
   {
     const Real* b = state.b.at(h.first);
     visitSpecial<Real>(h, a, node,

@@ -38,18 +38,18 @@ void Level<Real, Relaxation>::load(std::int64_t node)
 
 /**
  * The node that the last sweep of the upward part must reach for x of the loaded nodes 0 .. node to
- * be final: the last node of a patch changes the others, all within a ring. The finest level may
- * defer this to later steps.
+ * be final: if that sweep relaxes patches, the last node of one changes the others. The finest
+ * level may defer this to later steps.
  */
 template <class Real, class Relaxation>
 std::int64_t Level<Real, Relaxation>::finalWith(std::int64_t node) const
 {
-  if (!this->Patched || !this->Fine || this->Core || node < this->Window.first())
+  if (!this->endPatched() || !this->Fine || this->Core || node < this->Window.first())
   {
     return node;
   }
   const RowBlock::Header& h = this->Window.header(node);
-  return h.neighbourReach[LevelWindow<Real>::groupIn(h, node)];
+  return h.reach(LevelWindow<Real>::groupIn(h, node), true);
 }
 
 /** Wants stage `stage` of the upward part to process node `node`, and loads all that it needs. */
@@ -71,7 +71,7 @@ void Level<Real, Relaxation>::load(int stage, std::int64_t node)
   }
   else
   {
-    this->load(stage - 1, h.neighbourReach[g]);
+    this->load(stage - 1, h.reach(g, stage == 2 && this->Patched));
   }
 }
 
@@ -102,10 +102,11 @@ template <class Real, class Relaxation>
 void Level<Real, Relaxation>::postSweep(std::size_t s, bool follows)
 {
   Cursor& cursor = this->At.postSweep[s];
-  const std::int64_t before =
-    (s == 0 ? this->At.prolonged : this->At.postSweep[s - 1]).seen(follows);
-  const std::int64_t end = std::min(this->Window.reachable(cursor, before), this->At.wanted[s + 1]);
-  this->sweep<false>(cursor, end, this->Window.up());
+  const std::int64_t ready =
+    s == 0 ? this->Window.reachable(cursor, this->At.prolonged.seen(follows), false)
+           : this->reachable(cursor, this->At.postSweep, s - 1, follows);
+  const std::int64_t end = std::min(ready, this->At.wanted[s + 1]);
+  this->sweep<false>(cursor, end, this->Window.up(), s == 0);
   cursor = end;
 }
 

@@ -86,13 +86,14 @@ public:
     const std::int64_t group = (node - h.first) / RowBlock::Group;
     return h.first + std::min<std::int64_t>(h.nodes, (group + 1) * RowBlock::Group);
   }
-  /** The end of the nodes from `cursor` on whose neighbours are all below `done`. */
-  std::int64_t reachable(std::int64_t cursor, std::int64_t done) const
+  /** The end of the nodes from `cursor` on whose neighbours, and with `patched` the patches of
+   * these, are all below `done`. */
+  std::int64_t reachable(std::int64_t cursor, std::int64_t done, bool patched) const
   {
     while (cursor < done)
     {
       const RowBlock::Header& h = this->header(cursor);
-      if (h.neighbourReach[groupIn(h, cursor)] >= done)
+      if (h.reach(groupIn(h, cursor), patched) >= done)
       {
         break;
       }

@@ -48,17 +48,25 @@ public:
     std::int32_t values = 0;       ///< of patches that end here
     std::int32_t precise = 0;      ///< weights in double precision
     /**
-     * neighbourReach: the largest node in rows 0 .. end of the group, or the last one of the patch
-     * of such a node, whose value is final only then. childReach, parentReach: the
-     * largest child and parent in these rows.
+     * neighbourReach: the largest node in rows 0 .. end of the group; patchReach: that, or the last
+     * one of the patch of such a node, whose value is final only then after a sweep that relaxes
+     * patches. childReach, parentReach: the largest child and parent in these rows.
      */
-    std::array<std::int64_t, Groups> neighbourReach{}, childReach{}, parentReach{};
+    std::array<std::int64_t, Groups> neighbourReach{}, patchReach{}, childReach{}, parentReach{};
     /** The begins of the entries and the parents of the groups. */
     std::array<std::int32_t, Groups> entryStart{}, parentStart{};
+
+    /** What a stage must have finished for the next one to process the group: `patched`: that stage
+     * relaxes patches. */
+    std::int64_t reach(std::size_t group, bool patched) const
+    {
+      return (patched ? this->patchReach : this->neighbourReach)[group];
+    }
   };
 
   /** A node whose row has double precision, or that belongs to a patch: a few strongly coupled
-   * nodes that are relaxed together when the sweep reaches the last one. */
+   * nodes that the first sweep of each half of a V-cycle relaxes together when it reaches the last
+   * one. */
   struct Special
   {
     std::int16_t node; ///< index in the block

@@ -29,13 +29,14 @@ struct Specials
   /** Whether a row has weights that nearly cancel. */
   bool cancelling = false;
 
-  void find(const LevelRows& rows, const Patches* patches, std::int64_t first, std::int64_t nodes)
+  void find(
+    const LevelRows& rows, const CoarseningData* coarsening, std::int64_t first, std::int64_t nodes)
   {
     const bool finest = rows.childReach(first) < 0;
     this->LeastPivot = finest ? LeastPivotOfDoubles : LeastPivotOfFloats;
     for (std::int64_t i = first; i < first + nodes; ++i)
     {
-      const Patch* patch = patches ? patches->of(i) : nullptr;
+      const Patch* patch = coarsening ? coarsening->patches.of(i) : nullptr;
       const std::span<const double> weights = rows.precise(i);
       this->cancelling = this->cancelling || rows.stiff(i);
       if (!patch && weights.empty())
@@ -51,7 +52,7 @@ struct Specials
       {
         node.size = static_cast<std::int16_t>(patch->size);
         node.value = static_cast<std::int32_t>(this->values.size());
-        this->addValues(*patch);
+        this->addValues(*patch, coarsening->patchMatrix.row(patch->first));
       }
       if (!weights.empty())
       {
@@ -67,16 +68,18 @@ private:
   double LeastPivot = LeastPivotOfDoubles;
 
   /** Adds the values of a patch, at its last node. */
-  void addValues(const Patch& patch)
+  void addValues(const Patch& patch, const double* matrix)
   {
     for (int k = 0; k + 1 < patch.size; ++k)
     {
       this->values.push_back(static_cast<double>(patch.member(k) - patch.last()));
     }
-    PatchMatrix inverse = patch.matrix;
+    const int entries = PatchMatrix::entriesOf(patch.size);
+    PatchMatrix inverse;
+    inverse.order = patch.size;
+    std::copy_n(matrix, entries, inverse.entry);
     inverse.invert(this->LeastPivot);
-    this->values.insert(
-      this->values.end(), inverse.entry, inverse.entry + PatchMatrix::entriesOf(patch.size));
+    this->values.insert(this->values.end(), inverse.entry, inverse.entry + entries);
   }
 };
 
@@ -109,7 +112,8 @@ Header measure(
     {
       h.alphaGroups = static_cast<std::uint16_t>(h.alphaGroups | 1U << group);
     }
-    h.neighbourReach[group] =
+    h.neighbourReach[group] = rows.reach(i);
+    h.patchReach[group] =
       coarsening ? std::max(rows.reach(i), coarsening->settledReach[i]) : rows.reach(i);
     h.childReach[group] = rows.childReach(i);
     h.parentReach[group] = -1;
@@ -204,7 +208,7 @@ RowBlock packRows(SpareBuffers& buffers, const LevelRows& rows, const Coarsening
   std::int64_t first, std::int64_t nodes, bool mayRound)
 {
   Specials specials;
-  specials.find(rows, coarsening ? &coarsening->patches : nullptr, first, nodes);
+  specials.find(rows, coarsening, first, nodes);
   const bool rounds = mayRound && !specials.cancelling;
   Header header = measure(rows, coarsening, first, nodes);
   header.weightBytes = rounds ? sizeof(BFloat16) : sizeof(float);

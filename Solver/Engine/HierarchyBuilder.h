@@ -275,7 +275,7 @@ private:
     const auto k = static_cast<std::size_t>(l);
     const LevelRows& rows = *this->Rows[k];
     Coarsening<Operators>& step = *this->Steps[k];
-    const std::int64_t final = step.interpolated();
+    const std::int64_t final = step.multiplied();
     const bool ended = rows.Ended && final == rows.end();
     std::int64_t& begin = this->Packed[k];
     while (begin + RowBlock::Nodes <= final || (ended && begin < final))

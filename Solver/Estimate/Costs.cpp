@@ -32,8 +32,8 @@ struct Rates
   double spanPower;
 };
 
-constexpr Rates OfTriangles{ .rowBytes = 82,
-  .fewRowBytes = 82,
+constexpr Rates OfTriangles{ .rowBytes = 86,
+  .fewRowBytes = 86,
   .chunkBytes = 40,
   .buildSeconds = 1.3e-6,
   .passSeconds = 0.06e-6,

@@ -143,6 +143,7 @@ struct CoarseningData
     , stiff(stiffRows)
     , lifted(pool)
     , patches(pool)
+    , patchMatrix(pool)
     , initial(pool)
     , initialSum(pool)
     , relaxed(pool)
@@ -192,6 +193,8 @@ struct CoarseningData
     return static_cast<CoarseIndex>(coarse & INT32_MAX);
   }
   Patches patches;
+  /** The matrix of the patch that begins at the node: its lower triangle by rows. */
+  RaggedRing<double> patchMatrix;
   RaggedRing<CoarseEntry> initial;
   Ring<float> initialSum; ///< of the row of `initial`
   Ring<RelaxedRow> relaxed;
@@ -241,6 +244,25 @@ struct CoarseningData
   std::int64_t mostProducts(std::int64_t i) const
   {
     return RelaxedRow::Most * (static_cast<std::int64_t>(this->fine.row(i).size()) + 1);
+  }
+
+  /** Appends the matrix of the patch that begins at node i, if one does: its rows exist. */
+  std::int64_t appendPatchMatrix(std::int64_t i)
+  {
+    const Patch* patch = this->patches.of(i);
+    std::int64_t size = 0;
+    if (patch && patch->first == i)
+    {
+      size = PatchMatrix::entriesOf(patch->size);
+      const PatchMatrix matrix = matrixOf(this->fine, *patch);
+      std::copy_n(matrix.entry, size, this->patchMatrix.open(size));
+    }
+    else
+    {
+      this->patchMatrix.open(0);
+    }
+    this->patchMatrix.close(size);
+    return size;
   }
 
   /** Appends row c to `raw`, the next one. */
@@ -302,6 +324,7 @@ private:
   {
     this->lifted.release(i);
     this->patches.release(i);
+    this->patchMatrix.release(i);
     this->initial.release(i);
     this->initialSum.release(i);
     this->relaxed.release(i);

@@ -186,7 +186,7 @@ void ExtendedInterpolation::relaxNode(CoarseningData& data, std::int64_t i)
 }
 
 void ExtendedInterpolation::gatherOutside(
-  CoarseningData& data, std::int64_t i, const Patch& patch, std::uint8_t inside, Outside& sum)
+  CoarseningData& data, std::int64_t i, const Patch& patch, std::uint32_t inside, Outside& sum)
 {
   const std::int64_t near = data.seenCoarse;
   Slot* slots = data.slots.at(near);
@@ -227,7 +227,7 @@ void ExtendedInterpolation::gatherOutside(
 void ExtendedInterpolation::relaxPatch(
   CoarseningData& data, const Patch& patch, const int* members, int count)
 {
-  PatchMatrix inverse = patch.matrix.part(members, count);
+  PatchMatrix inverse = matrixOf(data.fine, patch).part(members, count);
   if (!inverse.invert(LeastPivot))
   {
     for (int a = 0; a < count; ++a)
@@ -236,10 +236,10 @@ void ExtendedInterpolation::relaxPatch(
     }
     return;
   }
-  std::uint8_t inside = 0;
+  std::uint32_t inside = 0;
   for (int a = 0; a < count; ++a)
   {
-    inside = static_cast<std::uint8_t>(inside | 1U << members[a]);
+    inside = static_cast<std::uint32_t>(inside | 1U << members[a]);
   }
   for (int a = 0; a < count; ++a)
   {

@@ -72,7 +72,7 @@ private:
   void relaxPatch(CoarseningData& data, const Patch& patch, const int* members, int count);
   void gather(const CoarseningData& data, std::int64_t i);
   static void gatherOutside(
-    CoarseningData& data, std::int64_t i, const Patch& patch, std::uint8_t inside, Outside& sum);
+    CoarseningData& data, std::int64_t i, const Patch& patch, std::uint32_t inside, Outside& sum);
   void openPattern(const CoarseningData& data, std::int64_t i, std::uint32_t mark);
   void closePattern(const CoarseningData& data);
   int entriesOf(const CoarseningData& data, std::int64_t i) const;

@@ -10,7 +10,8 @@ namespace smg
 /** A symmetric matrix of the nodes of a patch, of order up to Most: its lower triangle by rows. */
 struct PatchMatrix
 {
-  static constexpr int Most = 4;
+  /** A sliver refined once is a cluster of ten vertices; 8 leave some of them out. */
+  static constexpr int Most = 12;
   static constexpr int Entries = Most * (Most + 1) / 2;
 
   int order = 0;

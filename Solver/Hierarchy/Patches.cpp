@@ -1,8 +1,63 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Hierarchy/Patches.h"
 
+#include <algorithm>
+#include <cmath>
+#include <span>
+
 namespace smg
 {
+namespace
+{
+
+/** The last node that a patch may have which begins at `first`: within two rings, as far as rows
+ * exist. */
+std::int64_t lastOf(const LevelRows& rows, std::int64_t first)
+{
+  const std::int64_t ring = rows.reach(first);
+  return ring < rows.end() ? rows.reach(ring) : ring;
+}
+
+} // namespace
+
+/** Whether row i, with this diagonal, has negative weights that count. */
+bool cancels(const LevelRows& rows, std::int64_t i, double diagonal)
+{
+  constexpr double Least = 1.05;
+  double terms = 0.0;
+  for (const RowEntry& entry : rows.row(i))
+  {
+    terms += std::fabs(static_cast<double>(entry.weight()));
+  }
+  return terms > Least * diagonal;
+}
+
+PatchMatrix matrixOf(const LevelRows& rows, const Patch& patch)
+{
+  PatchMatrix matrix;
+  matrix.order = patch.size;
+  for (int a = 0; a < patch.size; ++a)
+  {
+    const std::int64_t i = patch.member(a);
+    matrix.at(a, a) = rows.diagonal(i);
+    const auto row = rows.row(i);
+    const std::span<const double> precise = rows.precise(i);
+    std::size_t e = 0;
+    for (int b = 0; b < a; ++b)
+    {
+      const auto delta = static_cast<std::int32_t>(patch.member(b) - i);
+      while (e < row.size() && row[e].delta() < delta)
+      {
+        ++e;
+      }
+      if (e < row.size() && row[e].delta() == delta)
+      {
+        matrix.at(a, b) = precise.empty() ? -static_cast<double>(row[e].weight()) : -precise[e];
+      }
+    }
+  }
+  return matrix;
+}
 
 void Patches::add(const LevelRows& rows)
 {
@@ -12,9 +67,9 @@ void Patches::add(const LevelRows& rows)
   const double diagonal = rows.diagonal(j);
   this->Diagonals[j] = static_cast<float>(diagonal);
   const float* diagonals = this->Diagonals.at(j);
-  const std::uint32_t* numbers = this->Number.at(j);
-  double strongest = Strong * Strong * diagonal;
-  std::int64_t partner = -1;
+  // In descending order, as many as a patch has room for.
+  Coupling strongest[Patch::Most];
+  int size = 0;
   for (const RowEntry& entry : rows.row(j))
   {
     const std::int32_t delta = entry.delta();
@@ -23,61 +78,77 @@ void Patches::add(const LevelRows& rows)
       break;
     }
     const double weight = entry.weight();
-    const double coupling = weight * weight / static_cast<double>(diagonals[delta]);
-    if (!(coupling > strongest))
+    const double square = weight * weight / static_cast<double>(diagonals[delta]);
+    if (!(square > Strong * Strong * diagonal) ||
+        (size == Patch::Most && !(square > strongest[size - 1].square)))
     {
       continue;
     }
-    const std::int64_t i = j + delta;
-    const Patch* patch = numbers[delta] == Alone ? nullptr : this->of(i);
-    if (!patch || (patch->size < PatchMatrix::Most && rows.reach(patch->first) >= j))
+    int place = size < Patch::Most ? size++ : size - 1;
+    for (; place > 0 && strongest[place - 1].square < square; --place)
     {
-      strongest = coupling;
-      partner = i;
+      strongest[place] = strongest[place - 1];
     }
+    strongest[place] = { square, j + delta };
   }
-  if (partner >= 0)
+  const bool isOfSlivers = size > 0 && cancels(rows, j, diagonal);
+  for (int k = 0; k < size; ++k)
   {
-    this->join(rows, j, partner);
+    const auto [square, i] = strongest[k];
+    if (square > StrongAlone * StrongAlone * diagonal || isOfSlivers ||
+        cancels(rows, i, static_cast<double>(this->Diagonals[i])))
+    {
+      this->join(rows, j, i);
+    }
   }
 }
 
-/** Adds node j to the patch of node i, which may be alone. */
+/** Makes one patch of those of nodes j, the last one, and i, either of which may be alone, if it
+ * has room and nobody may have read them yet. */
 void Patches::join(const LevelRows& rows, std::int64_t j, std::int64_t i)
 {
-  if (this->Number[i] == Alone)
+  std::uint32_t number = this->Number[i];
+  if (number != Alone && number == this->Number[j])
   {
-    std::int64_t number = this->Of.end();
-    number += static_cast<std::uint32_t>(number) == Alone ? 1 : 0;
-    this->Of.extend(number + 1); // a patch that is left out has no members
-    Patch& patch = this->Of[number];
-    patch.first = i;
-    append(rows, patch, i, rows.diagonal(i));
-    this->Number[i] = static_cast<std::uint32_t>(number);
+    return;
   }
-  this->Number[j] = this->Number[i];
-  append(rows, this->patch(this->Number[i]), j, rows.diagonal(j));
-}
-
-void Patches::append(const LevelRows& rows, Patch& patch, std::int64_t j, double diagonal)
-{
-  const int own = patch.size++;
-  patch.offset[own] = static_cast<std::int32_t>(j - patch.first);
-  patch.matrix.order = patch.size;
-  patch.matrix.at(own, own) = diagonal;
-  const auto row = rows.row(j);
-  const std::span<const double> precise = rows.precise(j);
-  for (int k = 0; k < own; ++k)
+  std::int64_t members[2 * Patch::Most];
+  int size = 0;
+  for (const std::int64_t node : { i, j })
   {
-    const auto delta = static_cast<std::int32_t>(patch.member(k) - j);
-    for (std::size_t e = 0; e < row.size() && row[e].delta() <= delta; ++e)
+    const Patch* patch = this->of(node);
+    for (int k = 0; k < (patch ? patch->size : 1); ++k)
     {
-      if (row[e].delta() == delta)
-      {
-        patch.matrix.at(own, k) =
-          precise.empty() ? -static_cast<double>(row[e].weight()) : -precise[e];
-      }
+      members[size++] = patch ? patch->member(k) : node;
     }
+  }
+  std::sort(members, members + size);
+  if (size > Patch::Most || lastOf(rows, members[0]) < j)
+  {
+    return;
+  }
+  if (number == Alone)
+  {
+    number = this->Number[j];
+  }
+  else if (this->Number[j] != Alone)
+  {
+    this->patch(this->Number[j]).size = 0; // a patch that is left out has no members
+  }
+  if (number == Alone)
+  {
+    std::int64_t next = this->Of.end();
+    next += static_cast<std::uint32_t>(next) == Alone ? 1 : 0;
+    this->Of.extend(next + 1);
+    number = static_cast<std::uint32_t>(next);
+  }
+  Patch& patch = this->patch(number);
+  patch.first = members[0];
+  patch.size = size;
+  for (int k = 0; k < size; ++k)
+  {
+    patch.offset[k] = static_cast<std::int32_t>(members[k] - members[0]);
+    this->Number[members[k]] = number;
   }
 }
 

@@ -18,27 +18,34 @@ namespace smg
  */
 struct Patch
 {
+  static constexpr int Most = PatchMatrix::Most;
+
   std::int64_t first;
   std::int32_t size;
-  std::int32_t offset[PatchMatrix::Most]; ///< of the members from the first one, ascending
-  PatchMatrix matrix;                     ///< the level's matrix on the members
+  std::int32_t offset[Most]; ///< of the members from the first one, ascending
 
   std::int64_t member(int k) const { return this->first + this->offset[k]; }
   std::int64_t last() const { return this->member(this->size - 1); }
 };
 
+/** The level's matrix on the members of a patch, whose rows exist. */
+SMG_EXPORT PatchMatrix matrixOf(const LevelRows& rows, const Patch& patch);
+
 /**
- * Finds the patches of a level as its rows arrive. Node j joins the patch of the lower neighbour i
- * with the largest coupling |a_ij| / sqrt(a_ii a_jj) above Strong whose patch has room and whose
- * first node's row reaches j, so that a patch lies within a ring.
+ * Finds the patches of a level as its rows arrive: with node j, the patches of j and of each lower
+ * neighbour i with a coupling |a_ij| / sqrt(a_ii a_jj) above StrongAlone, or above Strong if the
+ * weights of row i or j cancel, become one, the strongest first, if that has room and lies within
+ * two rings of its first node. What moves together must be in one patch: a cluster of ten vertices
+ * of which two lie in another one converges as slowly as without.
  */
 class SMG_EXPORT Patches
 {
 public:
-  /**
-   * Patches of up to 8 nodes from 0.35 on save a few V-cycles on slivers; pairs alone fail there.
-   */
-  static constexpr double Strong = 0.5;
+  /** From 0.4 on patches of marching tetrahedra lack a vertex, below 0.3 those of refined
+   * tetrahedra are full of others; windows grow as it falls. */
+  static constexpr double Strong = 0.35;
+  /** Without slivers patches save nothing below this, and need up to an eighth more memory. */
+  static constexpr double StrongAlone = 0.5;
 
   explicit Patches(Pool& pool)
     : Number(pool)
@@ -61,7 +68,7 @@ public:
   }
   bool isFull() const { return this->Room >= 0 && this->Of.end() >= this->Room; }
 
-  /** The patch of node i, or null; complete after all nodes that its first row reaches. */
+  /** The patch of node i, or null; complete after all nodes within two rings of its first one. */
   const Patch* of(std::int64_t i) const
   {
     const std::uint32_t number = this->Number[i];
@@ -92,6 +99,14 @@ public:
 
 private:
   static constexpr std::uint32_t Alone = 0;
+
+  /** The square of the coupling of the next node with a lower one, times the next one's diagonal.
+   */
+  struct Coupling
+  {
+    double square;
+    std::int64_t node;
+  };
   static constexpr std::int64_t LeastMorePatches = 256;
 
   /** The patch of a number, given that less than 2^32 patches are in memory. */
@@ -101,7 +116,6 @@ private:
     return this->Of[first + (number - static_cast<std::uint32_t>(first))];
   }
   void join(const LevelRows& rows, std::int64_t j, std::int64_t i);
-  static void append(const LevelRows& rows, Patch& patch, std::int64_t j, double diagonal);
 
   Ring<std::uint32_t> Number; // by node: low 32 bits of the number of its patch, or Alone
   Ring<Patch> Of;             // by number; none whose low 32 bits are Alone

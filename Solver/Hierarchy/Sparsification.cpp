@@ -74,7 +74,7 @@ Sparsification::Candidate Sparsification::strongestCommon(
 /** Marks row k and a lower one as keeping all entries if they are coupled strongly. */
 void Sparsification::keepStronglyCoupled(const CoarseningData& data, std::int64_t k) const
 {
-  constexpr double Strong = Patches::Strong * Patches::Strong;
+  constexpr double Strong = Coupled * Coupled;
   const CoarseEntry* row = data.raw.row(k);
   const float* diagonal = data.rawDiagonal.at(k);
   std::uint8_t* kept = data.rawKept.at(k);

@@ -42,8 +42,8 @@ public:
   }
 
   const CoarseningData& data() const { return this->Data; }
-  /** Rows of P that are final, as the stages from multiply() on see it. */
-  std::int64_t interpolated() const { return this->Seen; }
+  /** Rows with final interpolation and neighbours' patches, as seen by the stages after it. */
+  std::int64_t multiplied() const { return this->SeenProducts; }
   /** Declares that the rows and the interpolation of nodes below `end` have been copied. */
   void packed(std::int64_t end) { this->Packed = end; }
 
@@ -136,11 +136,13 @@ public:
     this->RelaxedDone = rows.unreached(this->RelaxedDone, this->Interpolated);
     this->ReachDone = rows.unreached(this->ReachDone, this->Multiplied);
     this->PatchesDone = rows.unreached(this->PatchesDone, this->Packed);
+    this->MatricesDone = rows.unreached(this->MatricesDone, this->PatchesDone);
     d.lifted.release(this->RelaxedDone);
     d.initial.release(this->RelaxedDone);
     d.initialSum.release(this->RelaxedDone);
     d.relaxed.release(this->RelaxedDone);
     d.patches.release(std::min(this->PatchesDone, this->Multiplied));
+    d.patchMatrix.release(this->MatricesDone);
     while (
       this->ProductDone < this->Multiplied && d.parentReach[this->ProductDone] < this->Gathered)
     {
@@ -157,7 +159,7 @@ public:
     const std::int64_t nextFine =
       this->Gathered < d.coarseNodes ? d.liftedFrom[this->Gathered] : this->Lifted;
     d.fine.release(std::min(this->Multiplied, this->Packed),
-      std::min({ this->RelaxedDone, this->ReachDone, this->PatchesDone, nextFine }));
+      std::min({ this->RelaxedDone, this->ReachDone, this->MatricesDone, nextFine }));
     d.liftedFrom.release(this->Gathered);
     d.firstChild.release(this->Gathered);
     d.lastChild.release(this->Finished);
@@ -216,13 +218,11 @@ private:
     d.patches.reserve(lifts);
     d.interpolation.reserve(rows, RelaxedRow::Most * rows);
     d.rowQuanta.reserve(this->Interpolated + rows - d.rowQuanta.first());
+    d.patchMatrix.reserve(rows, this->PatchEntries.of(rows) + PatchMatrix::Entries);
     d.parentReach.reserve(rows);
-    d.settledReach.reserve(rows);
     d.liftedFrom.reserve(lifts);
-    for (auto* ring : { &d.firstChild, &d.lastChild })
-    {
-      ring->reserve(d.coarseNodes + lifts - ring->first());
-    }
+    d.firstChild.reserve(d.coarseNodes + lifts - d.firstChild.first());
+    d.lastChild.reserve(d.coarseNodes + lifts - d.lastChild.first());
     this->reserveInitial();
     this->reserveProducts();
   }
@@ -249,6 +249,7 @@ private:
     {
       d.product.reserve(rows, this->ProductEntries.of(rows) + d.mostProducts(this->Multiplied));
       d.productSum.reserve(this->Multiplied + rows - d.productSum.first());
+      d.settledReach.reserve(rows);
     }
   }
 
@@ -294,12 +295,13 @@ private:
     CoarseningData& d = this->Data;
     this->Sweeps.advance(this->Set, d, this->SeenInitial);
     this->Limits.interpolate.run(
-      this->Interpolated, this->Sweeps.settled(), [](std::int64_t) { return true; },
+      this->Interpolated, this->Sweeps.settled(),
+      [&](std::int64_t) { return !this->Apart || d.patchMatrix.hasRoom(PatchMatrix::Entries); },
       [&](std::int64_t i)
       {
         d.rowQuanta.extendRaw(i + 1);
         this->Set.interpolate(d, i);
-        d.settledReach.append(d.patches.lastAround(d.fine, i));
+        this->PatchEntries.add(d.appendPatchMatrix(i));
       });
   }
 
@@ -316,6 +318,7 @@ private:
       {
         d.productSum.extendRaw(i + 1);
         this->Set.multiply(d, i);
+        d.settledReach.append(d.patches.lastAround(d.fine, i));
         this->ProductEntries.add(d.product.size(i));
       });
   }
@@ -381,18 +384,17 @@ private:
   StepLimits Limits;
   bool Apart = false; // whether several threads advance the stages
 
-  std::int64_t CoarseBefore = 0;                // coarse nodes a step ago
-  const std::int64_t Begin, CoarseBegin;        // the first nodes
-  std::int64_t Rows = Begin;                    // of the fine level, that stages may read
-  std::int64_t Lifted = Begin, Initial = Begin; // by fine node
+  std::int64_t CoarseBefore = 0;         // coarse nodes a step ago
+  const std::int64_t Begin, CoarseBegin; // the first nodes
+  std::int64_t Rows = Begin;             // of the fine level, that stages may read
+  std::int64_t Lifted = Begin, Initial = Begin, SeenInitial = Begin; // by fine node
   InterpolationSweeps<Operators> Sweeps;
-  std::int64_t SeenInitial = Begin;
   std::int64_t Interpolated = Begin, Seen = Begin, Multiplied = Begin, SeenProducts = Begin;
-  UsualEntries InitialEntries, ProductEntries;
+  UsualEntries InitialEntries, PatchEntries{ 0 }, ProductEntries;
   // By coarse node.
   std::int64_t Gathered = CoarseBegin, Sparsified = CoarseBegin, Finished = CoarseBegin;
-  std::int64_t Packed = Begin;
-  std::int64_t RelaxedDone = Begin, ReachDone = Begin, PatchesDone = Begin, ProductDone = Begin;
+  std::int64_t Packed = Begin, ProductDone = Begin;
+  std::int64_t RelaxedDone = Begin, ReachDone = Begin, PatchesDone = Begin, MatricesDone = Begin;
 };
 
 } // namespace smg

@@ -101,7 +101,7 @@ using TimedStep = Coarsening<TimedOperators<Extended>>;
 /** Packs the final blocks from node `begin` on; returns the end of the last one. */
 std::int64_t pack(Pool& pool, TimedStep& step, const LevelRows& rows, std::int64_t begin)
 {
-  const std::int64_t final = step.interpolated();
+  const std::int64_t final = step.multiplied();
   const bool ended = rows.Ended && final == rows.end();
   SpareBuffers buffers(pool);
   while (begin + RowBlock::Nodes <= final || (ended && begin < final))

@@ -228,8 +228,9 @@ TEST_F(VtkOrdinaryMesh, PiecesWithoutSomeOfTheirPointsAreOrdinary)
     region->SetRegion(vtkMeshRegion::IDS);
     region->AddId(hasIds ? ids->GetValue(7) : 7);
     updatePiece(region, 0, 1);
-    vtkDataArray* held =
-      vtkPointSet::SafeDownCast(region->GetOutputDataObject(0))->GetPointData()->GetArray("RegionMask");
+    vtkDataArray* held = vtkPointSet::SafeDownCast(region->GetOutputDataObject(0))
+                           ->GetPointData()
+                           ->GetArray("RegionMask");
     ASSERT_TRUE(held);
     for (vtkIdType i = 0; i < points; ++i)
     {

@@ -200,7 +200,7 @@ TEST(Coarsening, KeepsAWindowOnly)
         level.append(fine, i, i + 1);
         step.advance();
         step.handOver();
-        step.packed(step.interpolated());
+        step.packed(step.multiplied());
         step.release();
         coarse.release(coarse.end(), coarse.end());
       }

@@ -32,13 +32,13 @@ Eigen::MatrixXd denseCycle(const DenseHierarchy<>& h, int levels, int l, const E
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(b.rows(), b.cols());
   for (int sweep = 0; sweep < Sweeps; ++sweep)
   {
-    denseSweep(a, h.patches(l), b, x);
+    denseSweep(a, sweep == 0 ? h.patches(l) : PatchList{}, b, x);
   }
   const Eigen::MatrixXd p = h.interpolation(l);
   x += p * denseCycle(h, levels, l + 1, p.transpose() * (b - a * x));
   for (int sweep = 0; sweep < Sweeps; ++sweep)
   {
-    denseSweep(a, h.patches(l), b, x);
+    denseSweep(a, sweep == 0 ? h.patches(l) : PatchList{}, b, x);
   }
   return x;
 }

@@ -182,7 +182,8 @@ void setState(Ring<Real>& state, const Eigen::MatrixXd& values)
   }
 }
 
-/** One forward Gauss-Seidel sweep; a patch is solved when its last node is reached. */
+/** One forward Gauss-Seidel sweep; a patch, if there are any, is solved when its last node is
+ * reached. */
 inline void denseSweep(
   const Eigen::MatrixXd& a, const PatchList& patches, const Eigen::MatrixXd& b, Eigen::MatrixXd& x)
 {

@@ -321,7 +321,7 @@ inline CoarsenedLevel coarsen(const TestLevel& fine, RecordingOperators operator
     fineRows.Ended = end == fine.nodes();
     step.advance();
     step.handOver();
-    step.packed(step.interpolated());
+    step.packed(step.multiplied());
     step.release();
     begin = end;
   }

@@ -41,6 +41,7 @@ std::vector<std::byte> relative(const RowBlock& block, const FirstNodes& first)
   {
     const auto g = static_cast<std::size_t>(group);
     h.neighbourReach[g] -= first.fine;
+    h.patchReach[g] -= first.fine;
     h.parentReach[g] -= first.coarse;
   }
   std::vector<std::byte> bytes(block.stored().begin(), block.stored().end());
@@ -101,8 +102,8 @@ Made coarsenFrom(const FirstNodes& first, const TestLevel& level, const Extended
     {
       step.advance();
     }
-    const bool ended = fine.Ended && step.interpolated() == fine.end();
-    while (packed + BlockNodes <= step.interpolated() || (ended && packed < fine.end()))
+    const bool ended = fine.Ended && step.multiplied() == fine.end();
+    while (packed + BlockNodes <= step.multiplied() || (ended && packed < fine.end()))
     {
       const std::int64_t nodes = std::min(BlockNodes, fine.end() - packed);
       made.blocks.push_back(

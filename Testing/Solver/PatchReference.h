@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 #include <vector>
 
 namespace smg::testing
@@ -13,48 +15,67 @@ namespace smg::testing
 /** The nodes of the patch of each node, ascending, including itself. */
 using PatchList = std::vector<std::vector<std::int64_t>>;
 
+/** The last node in rows 0 .. i of a level, by i. */
+inline std::vector<std::int64_t> reachesOf(const TestLevel& level)
+{
+  std::vector<std::int64_t> reach;
+  for (std::int64_t i = 0; i < level.nodes(); ++i)
+  {
+    reach.push_back(std::max(i, i > 0 ? reach.back() : 0));
+    for (const RowEntry& entry : level.rows[i])
+    {
+      reach[i] = std::max(reach[i], i + entry.delta());
+    }
+  }
+  return reach;
+}
+
+/** Whether the weights of row i cancel by 5 %. */
+inline bool cancels(const TestLevel& level, std::int64_t i)
+{
+  double terms = 0.0;
+  for (const RowEntry& entry : level.rows[i])
+  {
+    terms += std::fabs(static_cast<double>(entry.weight()));
+  }
+  return terms > 1.05 * level.diagonal(i);
+}
+
 /** The patches of a level, directly from their definition. */
 inline PatchList patchesOf(const TestLevel& level)
 {
-  const std::int64_t nodes = level.nodes();
-  PatchList patches;
-  std::vector<std::int64_t> patchOf, reach;
-  for (std::int64_t j = 0; j < nodes; ++j)
+  const std::vector<std::int64_t> reach = reachesOf(level);
+  PatchList patchOf;
+  for (std::int64_t j = 0; j < level.nodes(); ++j)
   {
-    double strongest = 0.5;
-    std::int64_t partner = -1;
-    reach.push_back(j > 0 ? std::max(j, reach[j - 1]) : j);
-    for (std::size_t e = 0; e < level.rows[j].size(); ++e)
+    patchOf.push_back({ j });
+    std::vector<std::pair<double, std::int64_t>> couplings;
+    for (const RowEntry& entry : level.rows[j])
     {
-      const std::int64_t i = j + level.rows[j][e].delta();
-      reach[j] = std::max(reach[j], i);
-      if (i > j)
-      {
-        continue;
-      }
+      const std::int64_t i = j + entry.delta();
       const double coupling =
-        std::fabs(level.rows[j][e].weight()) / std::sqrt(level.diagonal(i) * level.diagonal(j));
-      const auto& patch = patches[patchOf[i]];
-      const bool room = patch.size() == 1 || (patch.size() < 4 && reach[patch[0]] >= j);
-      if (coupling > strongest && room)
+        std::fabs(entry.weight()) / std::sqrt(level.diagonal(i) * level.diagonal(j));
+      if (i < j && (coupling > Patches::StrongAlone ||
+                     (coupling > Patches::Strong && (cancels(level, i) || cancels(level, j)))))
       {
-        strongest = coupling;
-        partner = i;
+        couplings.emplace_back(-coupling, i);
       }
     }
-    patchOf.push_back(partner < 0 ? static_cast<std::int64_t>(patches.size()) : patchOf[partner]);
-    if (partner < 0)
+    std::ranges::sort(couplings);
+    for (const auto& [coupling, i] : couplings)
     {
-      patches.emplace_back();
+      std::vector<std::int64_t> both;
+      std::ranges::set_union(patchOf[i], patchOf[j], std::back_inserter(both));
+      if (both.size() <= Patch::Most && reach[reach[both.front()]] >= j)
+      {
+        for (const std::int64_t member : both)
+        {
+          patchOf[member] = both;
+        }
+      }
     }
-    patches[patchOf[j]].push_back(j);
   }
-  PatchList ofNodes;
-  for (const std::int64_t patch : patchOf)
-  {
-    ofNodes.push_back(patches[patch]);
-  }
-  return ofNodes;
+  return patchOf;
 }
 
 /** Rows and columns `nodes` of a matrix. */

@@ -45,12 +45,48 @@ TestLevel path(const std::vector<float>& weights, double alpha)
   return level;
 }
 
+/** Paths of 1, 2, .. 30 strongly coupled nodes, one behind the other, numbered at random. */
+TestLevel shuffledPaths()
+{
+  std::vector<float> weights;
+  for (int nodes = 1; nodes <= 30; ++nodes)
+  {
+    weights.insert(weights.end(), static_cast<std::size_t>(nodes - 1), 1.0F);
+    weights.push_back(1e-3F);
+  }
+  const TestLevel paths = path(weights, -0.1);
+  std::vector<std::int64_t> number(static_cast<std::size_t>(paths.nodes()));
+  std::iota(number.begin(), number.end(), 0);
+  Random random(5);
+  for (std::size_t i = number.size() - 1; i > 0; --i)
+  {
+    std::swap(
+      number[i], number[static_cast<std::size_t>(random.below(static_cast<std::int64_t>(i) + 1))]);
+  }
+  TestLevel level;
+  level.rows.resize(number.size());
+  level.alpha.assign(number.size(), -0.1);
+  for (std::size_t i = 0; i < number.size(); ++i)
+  {
+    auto& row = level.rows[static_cast<std::size_t>(number[i])];
+    for (const RowEntry& entry : paths.rows[i])
+    {
+      const std::int64_t other = number[i + static_cast<std::size_t>(entry.delta())];
+      row.push_back({ static_cast<std::int32_t>(other - number[i]), entry.weight() });
+    }
+    std::ranges::sort(row, {}, [](const RowEntry& entry) { return entry.delta(); });
+  }
+  return level;
+}
+
 } // namespace
 
-TEST(Patches, JoinTheStrongestLowerNeighbourThatHasRoomWithinReach)
+TEST(Patches, JoinThoseOfStrongNeighboursThatHaveRoomWithinTwoRings)
 {
-  std::vector<std::size_t> ofSize(5);
-  for (const TestLevel& level : levelsWithPatches())
+  std::vector<std::size_t> ofSize(Patch::Most + 1);
+  std::vector<TestLevel> levels = levelsWithPatches();
+  levels.push_back(shuffledPaths());
+  for (const TestLevel& level : levels)
   {
     Pool pool(1 << 28);
     LevelRows rows(pool);
@@ -61,34 +97,37 @@ TEST(Patches, JoinTheStrongestLowerNeighbourThatHasRoomWithinReach)
       patches.add(rows);
     }
     const auto expected = patchesOf(level);
+    const auto reach = reachesOf(level);
     const Eigen::MatrixXd a = level.dense();
     for (std::int64_t i = 0; i < level.nodes(); ++i)
     {
       const auto members = membersOf(patches, i);
       ASSERT_EQ(members, expected[i]) << "node " << i;
       EXPECT_EQ(patches.last(i), members.back());
-      EXPECT_LE(members.back(), rows.reach(members.front()));
+      EXPECT_LE(members.back(), reach[reach[members.front()]]);
       EXPECT_EQ(patches.diagonal(i), static_cast<float>(rows.diagonal(i)));
       ++ofSize[members.size()];
       if (members.size() > 1)
       {
-        EXPECT_LE((denseOf(patches.of(i)->matrix) - partOf(a, members)).cwiseAbs().maxCoeff(),
+        EXPECT_LE(
+          (denseOf(matrixOf(rows, *patches.of(i))) - partOf(a, members)).cwiseAbs().maxCoeff(),
           1e-12 * a(i, i));
       }
     }
   }
-  for (const std::size_t size : { 1, 2, 3, 4 })
+  for (std::size_t size = 1; size <= Patch::Most; ++size)
   {
     EXPECT_GE(ofSize[size], size) << size;
   }
 }
 
-TEST(Patches, AreOfCouplingsAboveAHalf)
+TEST(Patches, AreOfCouplingsAboveStrong)
 {
   // With weight 1 and alpha on both nodes the coupling is 1 / (1 + alpha).
   for (const bool strong : { true, false })
   {
-    const TestLevel level = path({ 1.0F }, strong ? 0.99 : 1.0);
+    const TestLevel level =
+      path({ 1.0F }, (strong ? 0.99 : 1.01) * (1.0 / Patches::StrongAlone - 1.0));
     Pool pool(1 << 24);
     LevelRows rows(pool);
     Patches patches(pool);
@@ -115,8 +154,9 @@ TEST(Patches, UseTheWeightsInDoublePrecision)
     patches.add(rows);
   }
   ASSERT_NE(patches.of(0), nullptr);
-  EXPECT_EQ(patches.of(0)->matrix.at(0, 1), -(1.0 + 1e-9));
-  EXPECT_EQ(patches.of(0)->matrix.at(0, 0), 1.5 + 1e-9);
+  const PatchMatrix matrix = matrixOf(rows, *patches.of(0));
+  EXPECT_EQ(matrix.at(0, 1), -(1.0 + 1e-9));
+  EXPECT_EQ(matrix.at(0, 0), 1.5 + 1e-9);
 }
 
 TEST(Patches, LetGoOfNodesKeepThePatchesOfTheOthers)

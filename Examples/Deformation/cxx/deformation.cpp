@@ -21,8 +21,8 @@ Run it:
     deformation ../../Data/bunny.smb ../bunny.json bunny-deformed.vsm
 
     34834 vertices, 69451 cells: converged in 12 passes
-      rotation: 6 cycles, relative residual 4.16723e-08
-      position: 5 cycles, relative residual 1.7581e-07
+      rotation: 6 cycles, relative residual 4.21809e-08
+      position: 5 cycles, relative residual 1.77272e-07
 */
 
 #include <smg/Convert.h>
