@@ -10,12 +10,11 @@ namespace smg
 namespace
 {
 
-/** The last node that a patch may have which begins at `first`: within two rings, as far as rows
- * exist. */
-std::int64_t lastOf(const LevelRows& rows, std::int64_t first)
+/** The last node that a patch may have which begins at `first`, as far as rows exist. */
+std::int64_t lastOf(const LevelRows& rows, std::int64_t first, int rings)
 {
   const std::int64_t ring = rows.reach(first);
-  return ring < rows.end() ? rows.reach(ring) : ring;
+  return rings > 1 && ring < rows.end() ? rows.reach(ring) : ring;
 }
 
 } // namespace
@@ -123,7 +122,7 @@ void Patches::join(const LevelRows& rows, std::int64_t j, std::int64_t i)
     }
   }
   std::sort(members, members + size);
-  if (size > Patch::Most || lastOf(rows, members[0]) < j)
+  if (size > Patch::Most || lastOf(rows, members[0], this->Rings) < j)
   {
     return;
   }

@@ -35,8 +35,8 @@ SMG_EXPORT PatchMatrix matrixOf(const LevelRows& rows, const Patch& patch);
  * Finds the patches of a level as its rows arrive: with node j, the patches of j and of each lower
  * neighbour i with a coupling |a_ij| / sqrt(a_ii a_jj) above StrongAlone, or above Strong if the
  * weights of row i or j cancel, become one, the strongest first, if that has room and lies within
- * two rings of its first node. What moves together must be in one patch: a cluster of ten vertices
- * of which two lie in another one converges as slowly as without.
+ * a ring or two of its first node. What moves together must be in one patch: a cluster of ten
+ * vertices of which two lie in another one converges as slowly as without.
  */
 class SMG_EXPORT Patches
 {
@@ -68,7 +68,11 @@ public:
   }
   bool isFull() const { return this->Room >= 0 && this->Of.end() >= this->Room; }
 
-  /** The patch of node i, or null; complete after all nodes within two rings of its first one. */
+  /** Patches lie within so many rings of their first node: 1 or 2. Clusters of solids need 2; on
+   * surfaces these need up to an eighth more memory for few V-cycles. To be set at the begin. */
+  void setRings(int rings) { this->Rings = rings; }
+
+  /** The patch of node i, or null; complete after all nodes within these rings of its first one. */
   const Patch* of(std::int64_t i) const
   {
     const std::uint32_t number = this->Number[i];
@@ -120,7 +124,8 @@ private:
   Ring<std::uint32_t> Number; // by node: low 32 bits of the number of its patch, or Alone
   Ring<Patch> Of;             // by number; none whose low 32 bits are Alone
   Ring<float> Diagonals;      // by node
-  std::int64_t Room = -1;     // end of the patches for which there is room; -1: not known
+  int Rings = 1;
+  std::int64_t Room = -1; // end of the patches for which there is room; -1: not known
 };
 
 } // namespace smg

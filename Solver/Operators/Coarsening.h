@@ -39,6 +39,7 @@ public:
     , CoarseBegin(coarse.first())
     , Sweeps(this->Set.interpolationSweeps(), this->Begin)
   {
+    this->Data.patches.setRings(patchRingsOf(this->Set));
   }
 
   const CoarseningData& data() const { return this->Data; }
@@ -380,7 +381,6 @@ private:
   Operators Set;
   CoarseningData Data;
   RowBatch Final;
-
   StepLimits Limits;
   bool Apart = false; // whether several threads advance the stages
 

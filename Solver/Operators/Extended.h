@@ -37,6 +37,7 @@ public:
     this->Interpolation.entries = parameters.entries;
     this->Interpolation.sweeps = parameters.sweeps;
     this->Product.cancelling = parameters.coarseCancelling;
+    this->PatchRings = parameters.patchRings;
   }
 
   static Extended forCells(CellType type) { return Extended(ExtendedParameters::forCells(type)); }
@@ -45,6 +46,8 @@ public:
     return Extended(ExtendedParameters::forFewCycles(type));
   }
 
+  /** See Patches::setRings(). */
+  int patchRings() const { return this->PatchRings; }
   bool lift(const CoarseningData& data, std::int64_t i) const
   {
     return this->Interpolation.lifting(data, i);
@@ -70,6 +73,7 @@ private:
   ExtendedInterpolation Interpolation;
   GalerkinProduct Product;
   Sparsification Sparsify;
+  int PatchRings = 1;
 };
 
 static_assert(OperatorSet<Extended> && canRunApart<Extended>);

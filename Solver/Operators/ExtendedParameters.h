@@ -17,6 +17,8 @@ struct ExtendedParameters
   int finestEntries = 3;
   int entries = 4;
   int sweeps = 1;
+  /** Patches::setRings(). */
+  int patchRings = 1;
   /** GalerkinProduct::cancelling. */
   double coarseCancelling = 1.1;
 
@@ -39,6 +41,7 @@ struct ExtendedParameters
     {
       parameters.strength = parameters.sliverStrength = 0.08F;
       parameters.entries = 5;
+      parameters.patchRings = 2;
       parameters.cancelling = 1.5F;
       parameters.coarseCancelling = 1.5;
     }

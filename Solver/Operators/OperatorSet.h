@@ -26,6 +26,7 @@ namespace smg
  *   o.gather(data, c)               row c of P^T A P,
  *   o.sparsify(data, c)             and its sparsification
  *   O::Relaxation                   see Solver/Cycle/Relaxation.h
+ *   o.patchRings()                  optional: see Patches::setRings()
  *   O::Apart                        optional, the type O itself: see canRunApart
  *
  * Restriction is the transpose of interpolation. Coarsening calls each step once for each fine node
@@ -91,5 +92,15 @@ inline constexpr bool canRunApart = requires
 {
   requires std::same_as<typename O::Apart, O>;
 };
+
+template <class O>
+int patchRingsOf(const O& set)
+{
+  if constexpr (requires { set.patchRings(); })
+  {
+    return set.patchRings();
+  }
+  return 1;
+}
 
 } // namespace smg

@@ -43,7 +43,10 @@ TEST(ConvergenceLaw, GoodSurfaces)
 
 TEST(ConvergenceLaw, NoisySurfaces)
 {
-  expectNoGrowth([](int times) { return noisyGyroid(30 * times, 0.05); });
+  for (const double noise : { 0.02, 0.05 })
+  {
+    expectNoGrowth([noise](int times) { return noisyGyroid(30 * times, noise); });
+  }
 }
 
 TEST(ConvergenceLaw, GoodSolids)

@@ -41,8 +41,8 @@ inline bool cancels(const TestLevel& level, std::int64_t i)
   return terms > 1.05 * level.diagonal(i);
 }
 
-/** The patches of a level, directly from their definition. */
-inline PatchList patchesOf(const TestLevel& level)
+/** The patches of a level, directly from their definition: within one or two rings. */
+inline PatchList patchesOf(const TestLevel& level, int rings = 1)
 {
   const std::vector<std::int64_t> reach = reachesOf(level);
   PatchList patchOf;
@@ -66,7 +66,8 @@ inline PatchList patchesOf(const TestLevel& level)
     {
       std::vector<std::int64_t> both;
       std::ranges::set_union(patchOf[i], patchOf[j], std::back_inserter(both));
-      if (both.size() <= Patch::Most && reach[reach[both.front()]] >= j)
+      if (both.size() <= Patch::Most &&
+          (reach[both.front()] >= j || (rings > 1 && reach[reach[both.front()]] >= j)))
       {
         for (const std::int64_t member : both)
         {
