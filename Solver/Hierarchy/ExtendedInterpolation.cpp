@@ -239,7 +239,7 @@ void ExtendedInterpolation::relaxPatch(
   std::uint32_t inside = 0;
   for (int a = 0; a < count; ++a)
   {
-    inside = static_cast<std::uint32_t>(inside | 1U << members[a]);
+    inside |= 1U << members[a];
   }
   for (int a = 0; a < count; ++a)
   {

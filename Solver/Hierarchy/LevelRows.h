@@ -7,6 +7,7 @@
 #include "Solver/Storage/RaggedRing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -90,6 +91,16 @@ public:
   double diagonal(std::int64_t i) const
   {
     return diagonalOf(this->row(i), this->alpha(i), this->precise(i));
+  }
+  /** The sum of the magnitudes of the weights of row i. */
+  float magnitudes(std::int64_t i) const
+  {
+    float sum = 0.0F;
+    for (const RowEntry& entry : this->row(i))
+    {
+      sum += std::fabs(entry.weight());
+    }
+    return sum;
   }
   double alpha(std::int64_t i) const { return this->Alpha[i]; }
   /** The largest weight of row i, 0 if there is none. */

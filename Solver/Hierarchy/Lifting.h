@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cfloat>
-#include <cmath>
 #include <cstdint>
 
 namespace smg
@@ -29,12 +28,7 @@ struct IndependentSetLifting
 
   bool isOfSlivers(const CoarseningData& data, std::int64_t i) const
   {
-    float terms = 0.0F;
-    for (const RowEntry& entry : data.fine.row(i))
-    {
-      terms += std::fabs(entry.weight());
-    }
-    return terms > this->cancelling * data.patches.diagonal(i);
+    return data.fine.magnitudes(i) > this->cancelling * data.patches.diagonal(i);
   }
 
   float threshold(const CoarseningData& data, std::int64_t i) const

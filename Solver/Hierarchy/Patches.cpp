@@ -2,7 +2,6 @@
 #include "Solver/Hierarchy/Patches.h"
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 
 namespace smg
@@ -23,12 +22,7 @@ std::int64_t lastOf(const LevelRows& rows, std::int64_t first, int rings)
 bool cancels(const LevelRows& rows, std::int64_t i, double diagonal)
 {
   constexpr double Least = 1.05;
-  double terms = 0.0;
-  for (const RowEntry& entry : rows.row(i))
-  {
-    terms += std::fabs(static_cast<double>(entry.weight()));
-  }
-  return terms > Least * diagonal;
+  return static_cast<double>(rows.magnitudes(i)) > Least * diagonal;
 }
 
 PatchMatrix matrixOf(const LevelRows& rows, const Patch& patch)

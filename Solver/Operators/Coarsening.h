@@ -390,7 +390,7 @@ private:
   std::int64_t Lifted = Begin, Initial = Begin, SeenInitial = Begin; // by fine node
   InterpolationSweeps<Operators> Sweeps;
   std::int64_t Interpolated = Begin, Seen = Begin, Multiplied = Begin, SeenProducts = Begin;
-  UsualEntries InitialEntries, PatchEntries{ 0 }, ProductEntries;
+  UsualEntries InitialEntries, PatchEntries, ProductEntries;
   // By coarse node.
   std::int64_t Gathered = CoarseBegin, Sparsified = CoarseBegin, Finished = CoarseBegin;
   std::int64_t Packed = Begin, ProductDone = Begin;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 namespace smg
@@ -12,12 +11,6 @@ namespace smg
 class alignas(64) UsualEntries
 {
 public:
-  /** `atFirst`: the entries of a row while none has been noted. */
-  explicit UsualEntries(std::int64_t atFirst = 8)
-    : AtFirst(atFirst)
-  {
-  }
-
   /** Notes a row with so many entries. */
   void add(std::int64_t entries)
   {
@@ -28,13 +21,13 @@ public:
   /** Some more than so many rows had on average so far. */
   std::int64_t of(std::int64_t rows) const
   {
-    const std::int64_t usual = rows * (this->Rows > 0 ? this->Entries : this->AtFirst) /
-                               std::max<std::int64_t>(this->Rows, 1);
+    constexpr std::int64_t AtFirst = 8;
+    const std::int64_t usual = this->Rows > 0 ? rows * this->Entries / this->Rows : AtFirst * rows;
     return usual + usual / 8;
   }
 
 private:
-  std::int64_t AtFirst, Rows = 0, Entries = 0;
+  std::int64_t Rows = 0, Entries = 0;
 };
 
 } // namespace smg
