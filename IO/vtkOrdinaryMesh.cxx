@@ -4,6 +4,7 @@
 #include "IO/Formats/Vtk/VtkCell.h"
 #include "IO/vtkComplaints.h"
 #include "IO/vtkMeshPieceData.h"
+#include "IO/vtkPieceColumns.h"
 #include "IO/vtkPieceNames.h"
 #include "IO/vtkPieceStream.h"
 #include "Solver/Storage/ScratchFolder.h"
@@ -164,6 +165,26 @@ bool isOrdinaryMesh(vtkDataObject& data)
   }
   vtkDataArray* ids = globalIdArray(*mesh);
   return !ids || (!isPreview(*mesh) && !hasSeveralProcesses() && !isNumberedAsPiece(*mesh, *ids));
+}
+
+StreamInfo ordinaryMeshInfo(vtkPointSet& mesh)
+{
+  StreamInfo info;
+  const bool isSolid = countingCells(mesh) == CellChoice::Tetrahedra;
+  info.cellType = isSolid ? CellType::Tetrahedron : CellType::Triangle;
+  info.vertices = mesh.GetNumberOfPoints();
+  vtkNew<vtkIdList> corners;
+  for (vtkIdType cell = 0; cell < mesh.GetNumberOfCells(); ++cell)
+  {
+    const int type = mesh.GetCellType(cell);
+    if (isSolidOfVtk(type) == isSolid)
+    {
+      mesh.GetCellPoints(cell, corners);
+      info.cells += partsOfVtk(type, corners->GetNumberOfIds());
+    }
+  }
+  info.vertexColumns = columnSpecs(*mesh.GetPointData());
+  return info;
 }
 
 ConversionReport writeOrdinaryMesh(

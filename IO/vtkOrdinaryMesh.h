@@ -26,6 +26,10 @@ VTKSTREAMINGMULTIGRIDIO_EXPORT bool isOrdinaryMesh(vtkDataObject& data);
 /** Which cells of a mesh count: the solid ones, or without these those of surfaces. */
 VTKSTREAMINGMULTIGRIDIO_EXPORT CellChoice countingCells(vtkPointSet& mesh);
 
+/** The mesh that writeOrdinaryMesh() makes, before it is made, as far as the counts of points and
+ * cells and the arrays of the points tell; no width and span. */
+VTKSTREAMINGMULTIGRIDIO_EXPORT StreamInfo ordinaryMeshInfo(vtkPointSet& mesh);
+
 /** Writes a whole mesh in memory with its arrays, of solids and surfaces the solids: VTK writes it
  * to a file in the scratch folder, and convert() converts that. Throws like convert(), and Error if
  * VTK cannot write the file. */

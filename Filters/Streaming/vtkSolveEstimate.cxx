@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Streaming/vtkSolveEstimate.h"
 
+#include "IO/vtkMeshPieceData.h"
+#include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Core/ByteText.h"
 #include "smg/Convert.h"
@@ -13,7 +15,9 @@
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <sstream>
 
 namespace smg
@@ -29,20 +33,25 @@ double pullSeconds(CellType cells)
   return cells == CellType::Triangle ? 0.5e-6 : 2e-6;
 }
 
-JobEstimate estimateOf(
-  const std::filesystem::path& file, const StreamedTask& task, const SolveOptions& options)
+ConversionOptions placesOf(const SolveOptions& options)
 {
   ConversionOptions places;
   places.scratch = options.scratch;
-  const EstimatedInput in(file, places);
+  places.memoryLimit = options.memoryLimit;
+  return places;
+}
+
+JobEstimate estimateOf(
+  const EstimatedInput& in, const StreamedTask& task, const SolveOptions& options)
+{
   const Costs costs = task.costs(in.info);
-  JobEstimate estimate(in, { "result.vsm", task.added(in.info) }, costs, places);
+  JobEstimate estimate(in, { "result.vsm", task.added(in.info) }, costs, placesOf(options));
   estimate.memory_limit = options.memoryLimit;
   // The pieces are on a scratch file, of 0.8 to 1.3 times the bytes of their .vsm file on these
   // meshes, while they are solved on. Saving is not part of the solve.
-  estimate.scratch_bytes = in.streamBytes + costs.scratch;
-  estimate.cpu_seconds =
-    costs.seconds + static_cast<double>(in.info.vertices) * pullSeconds(in.info.cellType);
+  estimate.scratch_bytes = std::max(in.conversionScratch, in.streamBytes + costs.scratch);
+  estimate.cpu_seconds = costs.seconds + in.conversionSeconds +
+                         static_cast<double>(in.info.vertices) * pullSeconds(in.info.cellType);
   return estimate;
 }
 
@@ -74,21 +83,29 @@ std::string fileOf(vtkAlgorithm& filter)
   return file ? file : "";
 }
 
+/** What a solve on the input of the filter costs. Throws Error, with a reason. */
 JobEstimate estimateFor(vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options)
 {
   vtkNew<vtkPolyData> nothing;
   auto* present = vtkPointSet::SafeDownCast(filter.GetInputDataObject(0, 0));
-  return estimateOf(fileOf(filter), *taskOf(present ? *present : *nothing), options);
+  const std::unique_ptr<StreamedTask> task = taskOf(present ? *present : *nothing);
+  if (const std::string file = fileOf(filter); !file.empty())
+  {
+    return estimateOf({ file, placesOf(options) }, *task, options);
+  }
+  if (present && isOrdinaryMesh(*present) && !isPreview(*present))
+  {
+    return estimateOf({ ordinaryMeshInfo(*present), placesOf(options) }, *task, options);
+  }
+  throw Error(present && present->GetNumberOfPoints() > 0
+                ? "the input is one piece of a mesh, whose size no file tells."
+                : "the filter before this one has not been applied.");
 }
 
 } // namespace
 
 std::string solveEstimate(vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options)
 {
-  if (fileOf(filter).empty())
-  {
-    return "Known only for .vsm files that a Streaming Mesh Reader has opened.";
-  }
   try
   {
     return textOf(estimateFor(filter, taskOf, options), options.scratchLimit);
@@ -102,10 +119,6 @@ std::string solveEstimate(vtkAlgorithm& filter, const TaskOf& taskOf, const Solv
 std::optional<double> solveSeconds(
   vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options)
 {
-  if (fileOf(filter).empty())
-  {
-    return std::nullopt;
-  }
   try
   {
     return estimateFor(filter, taskOf, options).cpu_seconds;

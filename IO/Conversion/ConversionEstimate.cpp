@@ -117,6 +117,24 @@ StreamInfo converted(StreamInfo mesh)
   return mesh;
 }
 
+/** What does not depend on the file of a mesh. */
+ConversionEstimate estimateParsed(const StreamInfo& mesh, const ConversionOptions& options)
+{
+  ConversionEstimate estimate;
+  estimate.mesh = converted(mesh);
+  estimate.vertices = mesh.vertices;
+  estimate.cells = mesh.cells;
+  estimate.memory_bytes = memoryOf(options);
+  estimate.output_bytes = vsmBytes(estimate.mesh, options.codec);
+  estimate.scratch_free = freeBytes(options.scratch);
+  constexpr double SecondsOfVertex = 1.0e-6;
+  constexpr double SecondsOfCorner = 0.3e-6;
+  const auto corners = static_cast<double>(mesh.cells * cornersOf(mesh.cellType));
+  estimate.cpu_seconds =
+    static_cast<double>(mesh.vertices) * SecondsOfVertex + corners * SecondsOfCorner;
+  return estimate;
+}
+
 } // namespace
 
 std::filesystem::path scratchPlace(const std::filesystem::path& folder)
@@ -177,28 +195,26 @@ ConversionEstimate estimateConversion(
                 std::to_string(mesh.cells) + " cells; at most " + std::to_string(MostNumbers) +
                 " of each can be converted: split it.");
   }
-  ConversionEstimate estimate;
-  estimate.mesh = converted(mesh);
-  estimate.vertices = mesh.vertices;
-  estimate.cells = mesh.cells;
-  estimate.counted = counts.counted;
-  estimate.memory_bytes = memoryOf(options);
-  estimate.output_bytes = vsmBytes(estimate.mesh, options.codec);
-  // Streams are read through a .vsm file, and their order is kept by copying that.
   const MeshFileKind kind = kindOfInput(in);
+  const bool isStream = kind == MeshFileKind::Stream;
+  ConversionEstimate estimate = estimateParsed(mesh, options);
+  estimate.counted = counts.counted;
+  // Streams are read through a .vsm file, and their order is kept by copying that.
   const std::int64_t stream = vsmBytes(estimate.mesh, Codec::Lz4);
   const std::int64_t written = throughVsm ? stream : 0;
-  const bool copies = options.order == StreamOrder::Keep && !options.weld &&
-                      (kind == MeshFileKind::Stream || kind == MeshFileKind::Vsm);
-  const StreamInfo& parsed = kind == MeshFileKind::Stream ? estimate.mesh : mesh;
+  const bool copies =
+    options.order == StreamOrder::Keep && !options.weld && (isStream || kind == MeshFileKind::Vsm);
+  const StreamInfo& parsed = isStream ? estimate.mesh : mesh;
   estimate.scratch_bytes = (copies ? written : scratchBytes(parsed, options, written)) +
-                           (kind == MeshFileKind::Stream ? stream : 0) + counts.inflatedBytes;
-  estimate.scratch_free = freeBytes(options.scratch);
-  constexpr double SecondsOfVertex = 1.0e-6;
-  constexpr double SecondsOfCorner = 0.3e-6;
-  const auto corners = static_cast<double>(mesh.cells * cornersOf(mesh.cellType));
-  estimate.cpu_seconds =
-    static_cast<double>(mesh.vertices) * SecondsOfVertex + corners * SecondsOfCorner;
+                           (isStream ? stream : 0) + counts.inflatedBytes;
+  return estimate;
+}
+
+ConversionEstimate estimateConversion(const StreamInfo& mesh, const ConversionOptions& options)
+{
+  ConversionEstimate estimate = estimateParsed(mesh, options);
+  estimate.counted = true;
+  estimate.scratch_bytes = scratchBytes(mesh, options, estimate.output_bytes);
   return estimate;
 }
 

@@ -37,6 +37,10 @@ struct SMG_EXPORT ConversionEstimate
 SMG_EXPORT ConversionEstimate estimateConversion(
   const std::filesystem::path& in, const ConversionOptions& options = {}, bool throughVsm = false);
 
+/** Estimates the conversion of a mesh with these counts and columns to a .vsm file that is a
+ * scratch file, too. */
+ConversionEstimate estimateConversion(const StreamInfo& mesh, const ConversionOptions& options);
+
 /** The folder for scratch files that an option names; empty: the temporary folder. */
 std::filesystem::path scratchPlace(const std::filesystem::path& folder);
 

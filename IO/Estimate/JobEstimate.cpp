@@ -189,13 +189,24 @@ EstimatedInput::EstimatedInput(const std::filesystem::path& in, const Conversion
   ConversionOptions opening = options;
   opening.order = kind == MeshFileKind::Stream ? StreamOrder::Keep : options.order;
   opening.codec = Codec::Lz4;
-  const ConversionEstimate estimate = estimateConversion(in, opening, true);
-  this->info = estimate.mesh;
-  this->counted = estimate.counted;
-  this->streamBytes = estimate.output_bytes;
-  this->converts = true;
-  this->conversionScratch = estimate.scratch_bytes;
-  this->conversionSeconds = estimate.cpu_seconds;
+  *this = EstimatedInput(estimateConversion(in, opening, true));
+}
+
+EstimatedInput::EstimatedInput(const StreamInfo& mesh, const ConversionOptions& options)
+{
+  ConversionOptions opening = options;
+  opening.codec = Codec::Lz4;
+  *this = EstimatedInput(estimateConversion(mesh, opening));
+}
+
+EstimatedInput::EstimatedInput(const ConversionEstimate& conversion)
+  : info(conversion.mesh)
+  , counted(conversion.counted)
+  , streamBytes(conversion.output_bytes)
+  , converts(true)
+  , conversionScratch(conversion.scratch_bytes)
+  , conversionSeconds(conversion.cpu_seconds)
+{
 }
 
 JobEstimate::JobEstimate(const EstimatedInput& in, const EstimatedResult& result,

@@ -14,9 +14,13 @@
 namespace smg
 {
 
-/** A mesh file on which something is to be computed, before it is read. */
+struct ConversionEstimate;
+
+/** A mesh on which something is to be computed, before it is read. */
 struct SMG_EXPORT EstimatedInput
 {
+  /** Estimates a mesh in memory, which is to be sorted, from its counts and columns. */
+  EstimatedInput(const StreamInfo& mesh, const ConversionOptions& options);
   /** Estimates a mesh file from its header or its size, as estimateConversion(). */
   EstimatedInput(const std::filesystem::path& in, const ConversionOptions& options);
 
@@ -27,6 +31,9 @@ struct SMG_EXPORT EstimatedInput
   bool converts = false;              ///< the file is no .vsm, which is a scratch file then
   std::int64_t conversionScratch = 0; ///< most bytes at once to convert the file, with that file
   double conversionSeconds = 0;       ///< processor time
+
+private:
+  explicit EstimatedInput(const ConversionEstimate& conversion);
 };
 
 /** The values that a computation adds to a mesh, or replaces. */

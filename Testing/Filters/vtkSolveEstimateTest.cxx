@@ -9,9 +9,17 @@
 #include "Testing/Filters/vtkPoissonFixture.h"
 #include "smg/VsmReader.h"
 
-#include "vtkPolyData.h"
+#include "vtkCellType.h"
+#include "vtkCellTypeSource.h"
+#include "vtkPlaneSource.h"
+#include "vtkSphereSource.h"
+#include "vtkStripper.h"
 
+#include <nlohmann/json.hpp>
+
+#include <cstdint>
 #include <string>
+#include <utility>
 
 namespace smg::testing
 {
@@ -44,7 +52,8 @@ protected:
 
 TEST_F(VtkSolveEstimate, IsKnownBeforeAnythingIsRequested)
 {
-  EXPECT_TRUE(std::string(this->Poisson->GetEstimate()).starts_with("Known only for .vsm"));
+  EXPECT_TRUE(
+    std::string(this->Poisson->GetEstimate()).starts_with("Not known: the filter before"));
   this->Poisson->UpdateInformation();
   // The number of components of the values is not known before the filter before has executed.
   this->expectEstimateOf(1);
@@ -92,14 +101,47 @@ TEST_F(VtkSolveEstimate, OfEveryFilter)
   EXPECT_TRUE(std::string(distance->GetEstimate()).starts_with("Not known: "));
 }
 
-TEST_F(VtkSolveEstimate, OfOtherInputsIsNotKnown)
+/** The number before a word of a text. */
+std::int64_t numberBefore(const std::string& text, const std::string& word)
 {
-  vtkNew<vtkPolyData> mesh;
-  vtkNew<vtkStreamingMeshSmoothing> smoothing;
-  EXPECT_TRUE(std::string(smoothing->GetEstimate()).starts_with("Known only for .vsm"));
-  smoothing->SetInputDataObject(mesh);
-  smoothing->UpdateInformation();
-  EXPECT_TRUE(std::string(smoothing->GetEstimate()).starts_with("Known only for .vsm"));
+  const std::size_t end = text.find(' ' + word);
+  const std::size_t begin = end == std::string::npos ? end : text.rfind(' ', end - 1);
+  return begin == std::string::npos ? -1 : std::stoll(text.substr(begin + 1));
+}
+
+TEST(VtkOrdinaryEstimate, HasTheCountsOfTheSolve)
+{
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkPlaneSource> quads;
+  quads->SetResolution(30, 20);
+  vtkNew<vtkStripper> strips;
+  strips->SetInputConnection(sphere->GetOutputPort());
+  vtkNew<vtkCellTypeSource> hexahedra, wedges, pyramids, tetrahedra;
+  const std::pair<vtkCellTypeSource*, int> solids[] = { { hexahedra, VTK_HEXAHEDRON },
+    { wedges, VTK_WEDGE }, { pyramids, VTK_PYRAMID }, { tetrahedra, VTK_TETRA } };
+  for (const auto& [source, type] : solids)
+  {
+    source->SetCellType(type);
+    source->SetBlocksDimensions(5, 4, 3);
+  }
+  for (vtkAlgorithm* source : std::initializer_list<vtkAlgorithm*>{
+         sphere, quads, strips, hexahedra, wedges, pyramids, tetrahedra })
+  {
+    vtkNew<vtkStreamingDistance> distance;
+    distance->SetFrom(R"({"sphere": [0, 0, 0, 0.6]})");
+    distance->SetInputConnection(source->GetOutputPort());
+    EXPECT_TRUE(std::string(distance->GetEstimate()).starts_with("Not known: the filter before"));
+    source->Update();
+    const std::string text = distance->GetEstimate();
+    EXPECT_TRUE(text.starts_with("About ")) << text;
+    distance->SetSolve(vtkStreamingSolver::ON_FULL_MESH);
+    distance->Update();
+    const auto report = nlohmann::json::parse(distance->GetReport());
+    EXPECT_EQ(numberBefore(text, "points"), report["vertices"]) << text;
+    const auto cells = report["cells"].get<std::int64_t>();
+    EXPECT_GE(numberBefore(text, "cells"), cells) << text;
+    EXPECT_LE(numberBefore(text, "cells"), cells * 6 / 5) << text;
+  }
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Formats/Vtk/VtkCell.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -104,6 +105,27 @@ bool isSolidOfVtk(int type)
 {
   const Shape shape = typeOf(type).shape;
   return shape == Shape::Tetrahedron || shape == Shape::Voxel || shape == Shape::Solid;
+}
+
+std::int64_t partsOfVtk(int type, std::int64_t points)
+{
+  const TypeOfCell& cell = typeOf(type);
+  const std::int64_t corners = cell.shape == Shape::QuadraticPolygon ? points / 2
+                               : cell.corners > 0                    ? cell.corners
+                                                                     : points;
+  switch (cell.shape)
+  {
+    case Shape::Unknown:
+    case Shape::PointOrLine:
+      return 0;
+    case Shape::Tetrahedron:
+      return 1;
+    case Shape::Voxel:
+    case Shape::Solid:
+      return corners == 8 ? 6 : corners - 3;
+    default:
+      return std::max<std::int64_t>(corners - 2, 0);
+  }
 }
 
 void takeVtkCell(int type, std::span<const std::int64_t> points, RawMeshBuilder& builder)
