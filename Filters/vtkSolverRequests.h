@@ -4,6 +4,7 @@
 
 #include "Filters/vtkStreamingSolver.h"
 
+#include "Filters/Mesh/vtkCoarserPreview.h"
 #include "Filters/Streaming/vtkBroughtPiece.h"
 #include "Filters/Streaming/vtkInputStamp.h"
 #include "Filters/Streaming/vtkPieceRequest.h"
@@ -279,19 +280,20 @@ struct vtkStreamingSolver::Internals
     this->warn(this->Streamed.summary());
   }
 
-  smg::SolveSummary solveInMemory(vtkPointSet& input, std::vector<double>& values) const
+  smg::SolveSummary solveInMemory(vtkPointSet& input, std::vector<double>& values)
   {
     try
     {
-      const auto solve = [this](vtkPointSet& mesh, std::vector<double>& found)
-      { return this->Self.SolveInMemory(mesh, smg::progressOf(this->Self), found); };
+      const smg::PreviewDoubt::Solve solveCoarser = [this](
+                                                      vtkPointSet& mesh, std::vector<double>& found)
+      { return this->Self.SolveForDoubt(mesh, smg::progressOf(this->Self), found); };
       std::optional<smg::PreviewDoubt> doubt;
-      if (smg::isPreview(input) && this->Self.TellsDoubt())
+      if (smg::isPreview(input))
       {
-        doubt.emplace(input, [&solve](vtkPointSet& mesh, std::vector<double>& found)
-          { return solve(mesh, found).columns; });
+        doubt.emplace(input, this->Coarser, solveCoarser);
       }
-      smg::SolveSummary summary = solve(input, values);
+      smg::SolveSummary summary =
+        this->Self.SolveInMemory(input, smg::progressOf(this->Self), values);
       summary.fullPoints = smg::pointsBehind(input);
       summary.previewPoints = summary.fullPoints > 0 ? input.GetNumberOfPoints() : 0;
       if (doubt)
@@ -389,6 +391,7 @@ struct vtkStreamingSolver::Internals
   smg::Failures Failures;
   vtkTimeStamp AnsweredAt; ///< includes modifications caused by the request itself
   smg::StreamedSolve Streamed;
+  smg::KeptCoarserPreview Coarser;
   smg::InputStamp StreamStamp; ///< of an input that as a whole is a mesh stream
   smg::PieceSolve Pieces;
   smg::SolveSummary Summary;     ///< of the last output

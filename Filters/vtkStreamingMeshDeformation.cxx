@@ -2,10 +2,10 @@
 #include "Filters/vtkStreamingMeshDeformation.h"
 
 #include "Filters/Deformation/vtkDeformationTask.h"
-#include "Filters/Deformation/vtkDraggedPreview.h"
 #include "Filters/Deformation/vtkInteractiveMesh.h"
 #include "Filters/Deformation/vtkMovedPiece.h"
 #include "Filters/Handles/vtkHandleArrays.h"
+#include "Filters/Mesh/vtkCoarserPreview.h"
 #include "Filters/Processes/vtkDistributedDeformation.h"
 #include "Filters/Streaming/SolveSummary.h"
 #include "IO/vtkMeshPieceData.h"
@@ -32,14 +32,23 @@ struct vtkStreamingMeshDeformation::Internals
     return options;
   }
 
+  /** In memory. */
+  smg::DeformOptions options(const std::function<bool(double)>& progress) const
+  {
+    smg::DeformOptions options = this->options();
+    options.progress = progress;
+    options.checkpoint = {};
+    return options;
+  }
+
   bool needsNormals(vtkPointSet& input) const
   {
     return this->Self.Normals == RECOMPUTE && smg::findNormals(*input.GetPointData());
   }
 
   vtkStreamingMeshDeformation& Self;
-  smg::InteractiveMesh Interactive;
-  smg::DraggedPreview Dragged;
+  smg::InteractiveMesh Interactive, ForDoubt; ///< on the mesh, and on a coarser preview of it
+  smg::KeptCoarserPreview Dragged;
 };
 
 vtkStreamingMeshDeformation::vtkStreamingMeshDeformation()
@@ -80,14 +89,24 @@ bool vtkStreamingMeshDeformation::IsForMemory(vtkPointSet& input, bool isWhole)
   if (!isForMemory)
   {
     this->Internal->Interactive.forget();
+    this->Internal->ForDoubt.forget();
   }
   return isForMemory;
 }
 
 vtkSmartPointer<vtkPointSet> vtkStreamingMeshDeformation::MeshInMemory(vtkPointSet& input)
 {
-  return smg::isPreview(input) ? this->Internal->Dragged.of(input, this->DragPoints)
-                               : this->Superclass::MeshInMemory(input);
+  const bool isCoarser = smg::isPreview(input) && input.GetNumberOfPoints() > this->DragPoints &&
+                         smg::CoarserPreview::isPossible(input);
+  return isCoarser ? this->Internal->Dragged.of(input, this->DragPoints).of(input)
+                   : this->Superclass::MeshInMemory(input);
+}
+
+int vtkStreamingMeshDeformation::SolveForDoubt(
+  vtkPointSet& coarser, const std::function<bool(double)>& progress, std::vector<double>& values)
+{
+  values = this->Internal->ForDoubt.deform(coarser, this->Internal->options(progress), false);
+  return this->Internal->ForDoubt.columns();
 }
 
 smg::SolveSummary vtkStreamingMeshDeformation::SolveInMemory(
@@ -97,11 +116,9 @@ smg::SolveSummary vtkStreamingMeshDeformation::SolveInMemory(
   {
     return this->SummaryOfNothing(3);
   }
-  smg::DeformOptions options = this->Internal->options();
-  options.progress = progress;
-  options.checkpoint = {};
   smg::InteractiveMesh& interactive = this->Internal->Interactive;
-  values = interactive.deform(input, options, this->Internal->needsNormals(input));
+  values = interactive.deform(
+    input, this->Internal->options(progress), this->Internal->needsNormals(input));
   smg::Report report = interactive.report();
   if (smg::isPreview(input))
   {

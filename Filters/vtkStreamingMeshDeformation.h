@@ -107,7 +107,9 @@ protected:
     const std::function<bool(double)>& progress, std::vector<double>& values) override;
   std::string WhyStreaming() override;
   int GetUsualColumns() override { return 7; } // of both steps
-  bool TellsDoubt() override { return false; } // the preview is to follow a dragged handle
+  int SolveForDoubt(vtkPointSet& coarser, const std::function<bool(double)>& progress,
+    std::vector<double>& values) override;
+  int ComparedColumns(int /*columns*/) override { return 3; } // without normals
   bool IsToConverge() override { return this->Cycles == 0; }
 
 private:

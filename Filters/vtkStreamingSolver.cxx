@@ -178,6 +178,12 @@ smg::SolveSummary vtkStreamingSolver::SolveInMemory(
   throw smg::Error(std::string(this->GetClassName()) + " does not solve in memory.");
 }
 
+int vtkStreamingSolver::SolveForDoubt(
+  vtkPointSet& coarser, const std::function<bool(double)>& progress, std::vector<double>& values)
+{
+  return this->SolveInMemory(coarser, progress, values).columns;
+}
+
 int vtkStreamingSolver::FillInputPortInformation(int, vtkInformation* info)
 {
   smg::acceptMeshes(*info);

@@ -268,9 +268,10 @@ protected:
    * point; the last summary is kept. */
   smg::SolveSummary SummaryOfNothing(int columns) const;
 
-  /** Whether a solve on a preview is to be compared with one on a coarser preview, to say how far
-   * it may be off. Default: true. */
-  virtual bool TellsDoubt() { return true; }
+  /** Solves on a coarser preview, with which the values on a preview are compared to say how far
+   * they may be off; returns how many a point has. Default: as SolveInMemory(). */
+  virtual int SolveForDoubt(
+    vtkPointSet& coarser, const std::function<bool(double)>& progress, std::vector<double>& values);
   /** How many of the `columns` values of a point that comparison takes as a vector. Default: all.
    */
   virtual int ComparedColumns(int columns) { return columns; }

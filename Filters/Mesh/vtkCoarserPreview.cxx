@@ -8,7 +8,6 @@
 #include "Solver/Core/DisjointSets.h"
 
 #include "vtkFieldData.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
@@ -105,23 +104,39 @@ CoarserPreview::CoarserPreview(
     positions, cellCorners(preview, CellType::Triangle, "The preview"), locked, most);
   this->Points = std::move(surface.vertices);
   this->Corners = std::move(surface.corners);
+  this->Places = vtkSmartPointer<vtkPoints>::New();
+  this->Places->SetDataType(preview.GetPoints()->GetDataType());
+  this->Places->SetNumberOfPoints(static_cast<vtkIdType>(this->Points.size()));
+  for (std::size_t i = 0; i < this->Points.size(); ++i)
+  {
+    this->Places->SetPoint(static_cast<vtkIdType>(i), preview.GetPoint(this->Points[i]));
+  }
 }
 
 vtkSmartPointer<vtkPointSet> CoarserPreview::of(vtkPointSet& preview) const
 {
   auto mesh = vtkSmartPointer<vtkPointSet>::Take(preview.NewInstance());
-  vtkNew<vtkPoints> points;
-  points->SetDataType(preview.GetPoints()->GetDataType());
-  points->SetNumberOfPoints(static_cast<vtkIdType>(this->Points.size()));
-  for (std::size_t i = 0; i < this->Points.size(); ++i)
-  {
-    points->SetPoint(static_cast<vtkIdType>(i), preview.GetPoint(this->Points[i]));
-  }
-  mesh->SetPoints(points);
+  mesh->SetPoints(this->Places);
   setCells(*mesh, this->Corners, cornersOf(CellType::Triangle));
   copyRows(*preview.GetPointData(), this->Points, *mesh->GetPointData());
   mesh->GetFieldData()->ShallowCopy(preview.GetFieldData());
   return mesh;
+}
+
+const CoarserPreview& KeptCoarserPreview::of(vtkPointSet& preview, std::int64_t most)
+{
+  std::vector<std::uint8_t> small = smallPatches(preview);
+  vtkPoints* points = preview.GetPoints();
+  if (!this->Coarser || this->Points != points || this->Time != points->GetMTime() ||
+      this->Small != small || this->Most != most)
+  {
+    this->Coarser.emplace(preview, most, small);
+    this->Points = points;
+    this->Time = points->GetMTime();
+    this->Small = std::move(small);
+    this->Most = most;
+  }
+  return *this->Coarser;
 }
 
 } // namespace smg

@@ -2,12 +2,16 @@
 #pragma once
 
 #include "vtkSmartPointer.h"
+#include "vtkType.h"
+#include "vtkWeakPointer.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 class vtkPointSet;
+class vtkPoints;
 
 namespace smg
 {
@@ -34,6 +38,23 @@ public:
 
 private:
   std::vector<std::int64_t> Points, Corners;
+  vtkSmartPointer<vtkPoints> Places; ///< the same in all meshes, so that these can be recognised
+};
+
+/** A coarser preview with all points of small patches, made once for as long as the points of the
+ * preview and these patches are the same: not whenever the motion of a handle changes. */
+class KeptCoarserPreview
+{
+public:
+  /** Of at most so many points besides those of small patches. */
+  const CoarserPreview& of(vtkPointSet& preview, std::int64_t most);
+
+private:
+  std::optional<CoarserPreview> Coarser;
+  vtkWeakPointer<vtkPoints> Points; ///< of the preview that it is of
+  vtkMTimeType Time = 0;            ///< when they were changed
+  std::vector<std::uint8_t> Small;
+  std::int64_t Most = 0;
 };
 
 } // namespace smg

@@ -22,7 +22,7 @@ constexpr std::int64_t Coarsening = 4;
 
 } // namespace
 
-PreviewDoubt::PreviewDoubt(vtkPointSet& preview, const Solve& solve)
+PreviewDoubt::PreviewDoubt(vtkPointSet& preview, KeptCoarserPreview& kept, const Solve& solve)
 {
   if (preview.GetNumberOfPoints() < LeastPoints || !CoarserPreview::isPossible(preview))
   {
@@ -30,8 +30,7 @@ PreviewDoubt::PreviewDoubt(vtkPointSet& preview, const Solve& solve)
   }
   try
   {
-    const CoarserPreview coarser(
-      preview, preview.GetNumberOfPoints() / Coarsening, smallPatches(preview));
+    const CoarserPreview& coarser = kept.of(preview, preview.GetNumberOfPoints() / Coarsening);
     this->Points = coarser.points();
     this->Columns = solve(*coarser.of(preview), this->Values);
   }
@@ -47,7 +46,7 @@ PreviewDoubt::PreviewDoubt(vtkPointSet& preview, const Solve& solve)
 
 std::string PreviewDoubt::of(const std::vector<double>& values, int columns, int compared) const
 {
-  if (columns != this->Columns)
+  if (this->Columns < compared)
   {
     return "";
   }
@@ -58,7 +57,7 @@ std::string PreviewDoubt::of(const std::vector<double>& values, int columns, int
     for (int k = 0; k < compared; ++k)
     {
       const auto there = static_cast<std::size_t>(this->Points[i] * columns + k);
-      const double difference = values[there] - this->Values[i * std::size_t(columns) + k];
+      const double difference = values[there] - this->Values[i * std::size_t(this->Columns) + k];
       squares += difference * difference;
     }
     if (std::isfinite(squares)) // as where no source is reached

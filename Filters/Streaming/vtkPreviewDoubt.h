@@ -11,6 +11,8 @@ class vtkPointSet;
 namespace smg
 {
 
+class KeptCoarserPreview;
+
 /**
  * How far the values on a preview may be off, measured: by those on a coarser preview, a quarter of
  * its points. Where the error falls at least like the length of the edges, that of the preview is
@@ -24,9 +26,9 @@ public:
    * Error. */
   using Solve = std::function<int(vtkPointSet& mesh, std::vector<double>& values)>;
 
-  /** Solves on a coarser preview of a preview of a surface. It knows nothing if that fails or
-   * the preview is too small. Throws Cancelled. */
-  PreviewDoubt(vtkPointSet& preview, const Solve& solve);
+  /** Solves on a coarser preview of a preview of a surface, kept in `coarser`. It knows nothing if
+   * that fails or the preview is too small. Throws Cancelled. */
+  PreviewDoubt(vtkPointSet& preview, KeptCoarserPreview& coarser, const Solve& solve);
 
   /** Says it of the values at the points of the preview, `columns` each, the first `compared` of
    * which count as a vector; "" if nothing is known. */
