@@ -21,6 +21,7 @@ void checkOptions(const DeformOptions& options)
                 " does not give: use " + Extended::name);
   }
   checkOptions(static_cast<const SolveOptions&>(options));
+  refuseAutomaticTolerance(options, "a deformation");
   checkOperators(options);
   if (options.cycles < 0)
   {

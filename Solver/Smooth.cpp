@@ -30,6 +30,7 @@ void checkOptions(const SmoothingOptions& options)
     "smoothing needs solutions, which the operator set " + options.operators +
       " does not give: use " + Extended::name);
   checkOptions(static_cast<const SolveOptions&>(options));
+  refuseAutomaticTolerance(options, "smoothing");
   requireThat(
     options.checkpoint.folder.empty(), "smoothing has no checkpoints: leave the folder out");
   requireThat(std::isfinite(options.size.value) && options.size.value > 0.0,

@@ -28,7 +28,8 @@ void require(bool holds, const std::string& sentence)
 void checkOptions(const SolveOptions& options)
 {
   require(options.sweeps >= 1 && options.sweeps <= 20, "the number of sweeps must be from 1 to 20");
-  require(options.tolerance > 0.0 && options.tolerance < 1.0,
+  require((options.tolerance > 0.0 && options.tolerance < 1.0) ||
+            options.tolerance == SolveOptions::AutomaticTolerance,
     "the tolerance must lie between 0 and 1, both excluded");
   require(options.maxCycles >= 1, "at least one V-cycle must be allowed");
   require(options.memoryLimit > 0, "the memory limit must be positive");
@@ -41,6 +42,26 @@ void checkOptions(const SolveOptions& options)
   require(checkpoint.folder.empty() || (!checkpoint.mesh.empty() && !checkpoint.problem.empty()),
     "a checkpoint needs texts that identify the mesh and the problem");
   require(options.coreNodes >= 0, "the number of nodes of a core level must not be negative");
+}
+
+void refuseAutomaticTolerance(const SolveOptions& options, const std::string& what)
+{
+  require(options.tolerance != SolveOptions::AutomaticTolerance,
+    what + " has no automatic tolerance: give one between 0 and 1, both excluded");
+}
+
+void checkAutomaticTolerance(const SolveOptions& options, const Problem& problem)
+{
+  if (options.tolerance == SolveOptions::AutomaticTolerance)
+  {
+    require(options.again != nullptr,
+      "an automatic tolerance needs SolveOptions::again, which opens the mesh once more");
+    require(problem.weights() != Weights::Uniform,
+      "uniform weights have no discretisation error: give a tolerance between 0 and 1, both "
+      "excluded");
+    require(!problem.hasEdgeTargets(),
+      "edge targets have no discretisation error: give a tolerance between 0 and 1, both excluded");
+  }
 }
 
 void checkOperators(const SolveOptions& options)
@@ -68,6 +89,7 @@ std::unique_ptr<Solution> solve(MeshSource& mesh, Problem& problem, const SolveO
     return solveWith<Extended>(mesh, problem, options);
   }
   checkOptions(options);
+  refuseAutomaticTolerance(options, std::string("the operator set ") + Shi2006::name);
   checkProblem(problem);
   auto solver = std::make_unique<Shi2006>(problem.columns(), options);
   solver->solve(mesh, problem);

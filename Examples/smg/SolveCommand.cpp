@@ -18,6 +18,9 @@ namespace
 /** In the order of smg::AccelerationKind. */
 const std::vector<std::string> Accelerations{ "automatic", "none", "chebyshev", "cg" };
 
+/** The tolerance that is SolveOptions::AutomaticTolerance. */
+constexpr const char* Automatic = "auto";
+
 /** The help on problem files. */
 std::string problemHelp()
 {
@@ -49,7 +52,20 @@ public:
       this->Solve, { "extended", "shi2006" });
     command.get_option("--operators")
       ->description("Operator set; shi2006: the paper's printed equations, biased, --in-core only");
-    addTolerance(command, this->Solve.tolerance)->capture_default_str();
+    command
+      .add_option_function<std::string>(
+        "--tolerance",
+        [this](const std::string& given)
+        {
+          this->Solve.tolerance =
+            given == Automatic ? smg::SolveOptions::AutomaticTolerance : std::stod(given);
+        },
+        "Relative residual to stop at, between 0 and 1; auto: until the algebraic error is below a "
+        "tenth of the estimated discretisation error")
+      ->check([](const std::string& given)
+        { return given == Automatic ? std::string() : checkTolerance(given); })
+      ->type_name("FLOAT|auto")
+      ->default_str("1e-06");
     this->addCheckpointTo(command);
     command
       .add_option_function<std::string>(
@@ -73,6 +89,10 @@ public:
 protected:
   void computeOn(const DistributedEngine& engine, const DistributedJob& job) override
   {
+    if (this->Solve.tolerance == smg::SolveOptions::AutomaticTolerance)
+    {
+      throw smg::Error("--tolerance auto is for --engine streaming: give a number");
+    }
     DistributedSolve solve;
     solve.read = [this]
     {
@@ -125,6 +145,7 @@ protected:
       return whole;
     }
     this->applyTo(this->Solve, std::move(progress));
+    this->Solve.again = [this, &mesh] { return this->sourceOf(mesh); };
     this->applyCheckpoint(this->Solve, mesh);
     return smg::solve(*this->sourceOf(mesh), *this->Problem, this->Solve);
   }

@@ -19,6 +19,8 @@ protected:
    * `operators` are the available operator sets. */
   void addSolverOptions(CLI::App& command, const std::string& result, smg::SolveOptions& options,
     std::vector<std::string> operators = { "extended" });
+  /** Whether a tolerance is one: "", or what is wrong. */
+  static std::string checkTolerance(const std::string& text);
   /** Adds the option --tolerance. */
   template <class Number>
   static CLI::Option* addTolerance(CLI::App& command, Number& tolerance)
@@ -57,5 +59,4 @@ private:
   std::string Text; ///< of the file that says what to do
 
   /** CLI::Range includes its ends and accepts nan. */
-  static std::string checkTolerance(const std::string& text);
 };

@@ -86,6 +86,7 @@ std::unique_ptr<Solution> PoissonTask::solve(const VsmReader& mesh,
   SolveOptions options = this->options;
   options.scratch = scratch;
   options.progress = partOf(progress, 0.0, SolveShare);
+  options.again = source;
   options.checkpoint.mesh = mesh.fingerprint();
   options.checkpoint.problem = textOf(description);
   std::unique_ptr<Solution> solution = smg::solve(*source(), problem, options);

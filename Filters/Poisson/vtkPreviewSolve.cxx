@@ -53,6 +53,7 @@ SolveSummary solveOnPreview(
   SolveOptions options = task.options;
   options.inCore = true;
   options.checkpoint = {};
+  options.again = [&mesh] { return mesh.source(); };
   const std::unique_ptr<Solution> solution = solve(*mesh.source(), problem, options);
   values.resize(static_cast<std::size_t>(mesh.info().vertices * problem.columns()));
   solution->read(0, mesh.info().vertices, values);

@@ -145,6 +145,12 @@ std::string Report::json(int indent) const
   {
     out["removed_source"] = this->removed_source;
   }
+  if (this->errors)
+  {
+    out["errors"] = { { "algebraic", this->errors->algebraic },
+      { "discretisation", this->errors->discretisation },
+      { "energy_norm", this->errors->energy_norm } };
+  }
   if (!this->mean.empty())
   {
     addResults(*this, out);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Solver/Cycle/IterateEnergy.h"
 #include "Solver/Cycle/IterateHistory.h"
 #include "Solver/Cycle/LevelCursors.h"
 #include "Solver/Cycle/LevelWindow.h"
@@ -50,6 +51,10 @@ public:
     this->History = nullptr;
     this->At.rewind();
     std::fill(this->Squares.begin(), this->Squares.end(), Real{});
+    if (this->Energy)
+    {
+      this->Energy->startPass(first);
+    }
     this->Window.startPass(first);
     if (this->Core)
     {
@@ -95,6 +100,8 @@ public:
 
   /** On the finest level: accelerates the iterates in this pass, which has started. */
   void setHistory(IterateHistory* history) { this->History = history; }
+  /** On the finest level: sums the energies of the iterates there; null: no. */
+  void setEnergy(IterateEnergy* energy) { this->Energy = energy; }
 
   /** The end of the nodes from `end` on whose x is final in the upward part, for a stage that
    * `follows` it. */
@@ -322,6 +329,9 @@ private:
     State& state, int lane);
   void prolongTo(std::int64_t begin, std::int64_t end);
   void restrictTo(std::int64_t end);
+  template <class Vectors, class Arrays>
+  void addEnergy(const RowBlock::Header& h, const Arrays& a, std::int64_t k, const Real* x,
+    const Real* b, const typename Vectors::Vector& r, int lane);
 
   LevelWindow<Real> Window;
   LevelCursors At;
@@ -329,6 +339,7 @@ private:
   CoarseLevel* Coarse = nullptr;
   const LevelCursors* Fine = nullptr;
   IterateHistory* History = nullptr;
+  IterateEnergy* Energy = nullptr;
   Real Scale = 1;
   Real Unscale = 1;
   bool First = true;

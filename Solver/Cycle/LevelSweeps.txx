@@ -168,16 +168,25 @@ void Level<Real, Relaxation>::restrictTo(std::int64_t end)
       Real* terms = squares + stride;
       const auto restrictNodes = [&]<class Residual>(Residual, const auto& arrays, BlockRange nodes)
       {
+        const auto restrictLanes = [&]<int Count>(std::integral_constant<int, Count>, int lane)
+        {
+          using Vectors = Lanes<Real, Count>;
+          ResidualKeeper<Vectors> kept(this->History, h.first, lane);
+          restrictResidual<Residual, Vectors, Lanes<float, Count>>(h, arrays, nodes, stride,
+            x + lane, b + lane, coarse + lane, this->Scale, squares + lane, terms + lane,
+            [&](std::int64_t k, const typename Vectors::Vector& r)
+            {
+              kept(k, r);
+              this->template addEnergy<Vectors>(h, arrays, k, x + lane, b + lane, r, lane);
+            });
+        };
         if (stride == 1)
         {
-          restrictResidual<Residual, One, Lanes<float, 1>>(h, arrays, nodes, 1, x, b, coarse,
-            this->Scale, squares, terms, ResidualKeeper<One>(this->History, h.first, 0));
+          restrictLanes(std::integral_constant<int, 1>(), 0);
         }
         for (int lane = 0; lane + 3 < stride; lane += 4)
         {
-          restrictResidual<Residual, Four, Lanes<float, 4>>(h, arrays, nodes, stride, x + lane,
-            b + lane, coarse + lane, this->Scale, squares + lane, terms + lane,
-            ResidualKeeper<Four>(this->History, h.first, lane));
+          restrictLanes(std::integral_constant<int, 4>(), lane);
         }
       };
       if constexpr (!std::is_same_v<Real, double>)
@@ -197,6 +206,27 @@ void Level<Real, Relaxation>::restrictTo(std::int64_t end)
           });
       }
     });
+}
+
+/** Adds node k of a block, whose residual is r, to the energy of the iterate, if that is wanted. */
+template <class Real, class Relaxation>
+template <class Vectors, class Arrays>
+void Level<Real, Relaxation>::addEnergy(const RowBlock::Header& h, const Arrays& a, std::int64_t k,
+  const Real* x, const Real* b, const typename Vectors::Vector& r, int lane)
+{
+  if constexpr (std::is_same_v<Real, double>)
+  {
+    if (!this->Energy)
+    {
+      return;
+    }
+    const BlockRange row = entriesOf(h, a, k);
+    if (row.begin < row.end) // else prescribed
+    {
+      const std::int64_t at = k * this->Window.stride();
+      this->Energy->template add<Vectors>(x + at, b + at, r, RowBlock::alphaOf(h, a, k), lane);
+    }
+  }
 }
 
 } // namespace smg

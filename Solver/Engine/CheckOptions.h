@@ -5,6 +5,8 @@
 #include "smg/Smooth.h"
 #include "smg/Solve.h"
 
+#include <string>
+
 namespace smg
 {
 
@@ -16,9 +18,14 @@ SMG_EXPORT void checkOptions(const SolveOptions& options);
 SMG_EXPORT void checkOptions(const DeformOptions& options);
 /** The same for the options of smoothing; smooth() does so, too. */
 SMG_EXPORT void checkOptions(const SmoothingOptions& options);
+/** Throws Error, which begins with `what`, if the tolerance is SolveOptions::AutomaticTolerance. */
+SMG_EXPORT void refuseAutomaticTolerance(const SolveOptions& options, const std::string& what);
 /** Throws Error unless the library has an operator set of that name that supports the other
  * options; solve() does so, too. */
 SMG_EXPORT void checkOperators(const SolveOptions& options);
+/** Throws Error if the tolerance is SolveOptions::AutomaticTolerance and the problem or the options
+ * do not allow that; solve() does so, too. */
+SMG_EXPORT void checkAutomaticTolerance(const SolveOptions& options, const Problem& problem);
 /** Throws Error if the problem has no column; solve() does so, too. */
 SMG_EXPORT void checkProblem(const Problem& problem);
 

@@ -42,6 +42,13 @@ public:
    * more than initially. Throws Error if the residual diverges or overflows. */
   void add(double norm, double rounding = 0.0);
 
+  /** The last V-cycle was enough for another reason than its residual. */
+  void end()
+  {
+    this->Done = this->Converged = true;
+    this->Note.clear();
+  }
+
   /** Whether a residual of this norm meets the tolerance. */
   bool meets(double norm) const { return norm <= this->Goal; }
   bool done() const { return this->Done; }

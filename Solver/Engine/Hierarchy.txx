@@ -58,6 +58,7 @@ void Hierarchy<Relaxation>::addFinestLevel()
 {
   this->Built.finest = std::make_unique<FineLevel>(
     this->Run.pool, this->Run.resident, 0, this->Columns, this->Run.options.sweeps);
+  this->finest().setEnergy(this->Run.energy ? &*this->Run.energy : nullptr);
   if (this->Run.scratch)
   {
     this->window().useScratch(*this->Run.scratch, this->Run.traffic);

@@ -3,6 +3,7 @@
 
 #include "Solver/Engine/Acceleration.h"
 #include "Solver/Engine/Convergence.h"
+#include "Solver/Engine/ErrorBalance.h"
 #include "Solver/Engine/Hierarchy.h"
 #include "Solver/Engine/Pass.h"
 #include "Solver/Engine/SolveRun.h"
@@ -22,13 +23,14 @@ template <class Relaxation>
 class Iteration
 {
 public:
-  /** Notes begin with `what`. */
+  /** Notes begin with `what`; `balance`: ends the V-cycles, too, if it is not null. */
   Iteration(SolveRun& run, Hierarchy<Relaxation>& hierarchy, Convergence& convergence,
-    std::string what = "")
+    std::string what = "", ErrorBalance* balance = nullptr)
     : Run(run)
     , Levels(hierarchy)
     , Watched(convergence)
     , What(std::move(what))
+    , Balance(balance)
     , Faster(run.options.acceleration, convergence)
   {
   }
@@ -50,6 +52,7 @@ private:
   Hierarchy<Relaxation>& Levels;
   Convergence& Watched;
   std::string What;
+  ErrorBalance* Balance;
   Acceleration Faster;
   KeptResiduals Kept = KeptResiduals::None; // by the history
   std::optional<IterateHistory> History;
@@ -69,6 +72,11 @@ void Iteration<Relaxation>::operator()(bool spareLast)
     }
     pass(this->Watched.norm(), { {}, {}, this->History ? &*this->History : nullptr });
     this->Watched.add(this->Levels.residualNorm(), this->Levels.roundingNorm());
+    if (this->Balance && this->Balance->add(this->Run.energy->value(),
+                           this->Watched.residuals().back(), this->Watched.factor()))
+    {
+      this->Watched.end();
+    }
     this->Run.progress.endCycle(this->Watched.cycles(), this->Watched.residuals().back());
     this->Run.endPass(this->Watched.residuals().back());
   }

@@ -2,13 +2,17 @@
 #pragma once
 
 #include "Solver/Engine/Convergence.h"
+#include "Solver/Engine/ErrorBalance.h"
 #include "Solver/Engine/FirstPass.h"
 #include "Solver/Engine/Hierarchy.h"
 #include "Solver/Engine/Iteration.h"
 #include "Solver/Engine/SolveRun.h"
 #include "Solver/Engine/StreamedSolution.h"
 
+#include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <utility>
 
 namespace smg
@@ -36,6 +40,8 @@ public:
   SolveRun& run() { return *this->Run; }
 
 private:
+  EnergySquares discretisation(Problem& problem);
+
   Operators Set;
   std::unique_ptr<SolveRun> Run;
   Hierarchy<typename Operators::Relaxation> Levels;
@@ -46,11 +52,25 @@ std::unique_ptr<Solution> PoissonSolver<Operators>::solve(MeshSource& mesh, Prob
 {
   SolveRun& run = *this->Run;
   run.beginReport();
-  const Stopping stopping{ run.options.tolerance, run.options.maxCycles };
-  run.progress.begin(stopping, 0.0, 1.0, true);
+  std::optional<ErrorBalance> balance;
+  if (run.options.tolerance == SolveOptions::AutomaticTolerance)
+  {
+    run.energy.emplace(problem.columns());
+    balance.emplace([&] { return this->discretisation(problem); });
+  }
+  constexpr double Least = 1e-13, Usual = 1e-4; // of automatic tolerances
+  const Stopping stopping{ balance ? Least : run.options.tolerance, run.options.maxCycles };
+  run.progress.begin({ balance ? Usual : stopping.tolerance, stopping.maxCycles }, 0.0, 1.0, true);
   Convergence convergence(stopping, {});
-  Iteration iteration(run, this->Levels, convergence);
-  const auto exchange = [&](auto& state) { state(this->Levels, convergence, iteration); };
+  Iteration iteration(run, this->Levels, convergence, "", balance ? &*balance : nullptr);
+  const auto exchange = [&](auto& state)
+  {
+    state(this->Levels, convergence, iteration);
+    if (balance)
+    {
+      state(*run.energy, *balance);
+    }
+  };
   if (!run.resume({ { "kind of task", "solve" } }, { exchange, exchange }))
   {
     const FirstResidual first = FirstPass(run, this->Levels, this->Set)(mesh, problem);
@@ -64,6 +84,10 @@ std::unique_ptr<Solution> PoissonSolver<Operators>::solve(MeshSource& mesh, Prob
   r.residuals = convergence.residuals();
   r.converged = convergence.converged();
   convergence.addNotes(r.notes, "");
+  if (balance)
+  {
+    balance->report(r);
+  }
   run.free.fixMeans(this->Levels.window(), r.notes);
   r.seconds.solve = run.seconds() - r.seconds.build;
   run.finishReport();
@@ -71,6 +95,23 @@ std::unique_ptr<Solution> PoissonSolver<Operators>::solve(MeshSource& mesh, Prob
     std::make_unique<StreamedSolution>(std::move(this->Run), this->Levels.takeWindow());
   run.progress.finish();
   return solution;
+}
+
+/** Reads the mesh once more to estimate the error of its finite elements, with the iterate of the
+ * last pass. */
+template <OperatorSet Operators>
+EnergySquares PoissonSolver<Operators>::discretisation(Problem& problem)
+{
+  const std::unique_ptr<MeshSource> mesh = this->Run->options.again();
+  DiscretisationError error(this->Run->pool, mesh->info(), problem,
+    [this](std::int64_t first, std::int64_t count, std::span<double> values)
+    { this->Levels.window().readX(first, count, values.data()); });
+  for (MeshBlock block; mesh->next(block);)
+  {
+    error.add(block);
+    this->Run->progress.update(1.0); // may cancel
+  }
+  return error.finish();
 }
 
 } // namespace smg

@@ -4,6 +4,7 @@
 #include "Solver/Core/LongestFirst.h"
 #include "Solver/Core/RunAll.h"
 #include "Solver/Core/Timer.h"
+#include "Solver/Cycle/IterateEnergy.h"
 #include "Solver/Cycle/LevelCursors.h"
 #include "Solver/Engine/FreeComponents.h"
 #include "Solver/Engine/SolveProgress.h"
@@ -108,6 +109,7 @@ struct SMG_EXPORT SolveRun
   Components components;
   ComponentLabels labels;
   FreeComponents free;
+  std::optional<IterateEnergy> energy; ///< of the iterates, if the solve is to have it
   /** The number of threads that a pass is scheduled for; there may be fewer. */
   int scheduled;
   tbb::task_arena threads;

@@ -30,42 +30,53 @@ void OpenFacets::extend(std::int64_t vertices)
 std::int32_t OpenFacets::add(
   std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data)
 {
-  const Facet added{ static_cast<std::uint32_t>(middle), static_cast<std::uint32_t>(high), 0,
-    data };
+  const Found found = this->findOrAdd(
+    low, { static_cast<std::uint32_t>(middle), static_cast<std::uint32_t>(high), 0, data });
+  return found.isNew ? Fresh : this->Facets[found.slot].share();
+}
+
+std::int32_t OpenFacets::join(
+  std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data)
+{
+  const Found found = this->findOrAdd(
+    low, { static_cast<std::uint32_t>(middle), static_cast<std::uint32_t>(high), 0, data });
+  return this->Facets[found.slot].data;
+}
+
+OpenFacets::Found OpenFacets::findOrAdd(std::int64_t low, const Facet& facet)
+{
   std::int32_t last = 0;
   int walked = 0;
-  for (std::int32_t slot = this->Heads[low]; slot != 0;)
+  for (std::int32_t slot = this->Heads[low]; slot != 0; slot = this->Facets[slot].next)
   {
-    Facet& facet = this->Facets[slot];
-    if (facet.isSame(added))
+    if (this->Facets[slot].isSame(facet))
     {
-      return facet.share();
+      return { slot, false };
     }
     if (++walked == MostWalked)
     {
-      return this->addToHub(low, added);
+      return this->findInHub(low, facet);
     }
     last = slot;
-    slot = facet.next;
   }
   const std::int32_t slot = this->Facets.take();
-  this->Facets[slot] = added;
+  this->Facets[slot] = facet;
   (last == 0 ? this->Heads[low] : this->Facets[last].next) = slot;
-  return Fresh;
+  return { slot, true };
 }
 
-std::int32_t OpenFacets::addToHub(std::int64_t low, const Facet& facet)
+OpenFacets::Found OpenFacets::findInHub(std::int64_t low, const Facet& facet)
 {
   Hub& hub = this->hubOf(low);
   if (const std::int32_t known = *this->place(hub, facet); known != 0)
   {
-    return this->Facets[known].share();
+    return { known, false };
   }
   const std::int32_t slot = this->Facets.take();
   this->Facets[slot] = facet;
   this->Facets[hub.last].next = slot;
   this->append(hub, slot);
-  return Fresh;
+  return { slot, true };
 }
 
 OpenFacets::Hub& OpenFacets::hubOf(std::int64_t low)

@@ -39,6 +39,10 @@ public:
    */
   std::int32_t add(std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data);
 
+  /** Instead of add(), where all cells of a facet count: stores `data` with the facet unless it is
+   * known, and returns its data. take() then finds facets of any number of cells. */
+  std::int32_t join(std::int64_t low, std::int64_t middle, std::int64_t high, std::int32_t data);
+
   /** Calls visit(middle, high, shared) for each facet with the lowest corner `low`; `shared`: it
    * has several cells. `high` is not set for an edge. */
   template <class Visit>
@@ -103,7 +107,14 @@ private:
     std::int32_t last = 0, facets = 0;
   };
 
-  std::int32_t addToHub(std::int64_t low, const Facet& facet);
+  struct Found
+  {
+    std::int32_t slot;
+    bool isNew;
+  };
+
+  Found findOrAdd(std::int64_t low, const Facet& facet);
+  Found findInHub(std::int64_t low, const Facet& facet);
   Hub& hubOf(std::int64_t low);
   std::int32_t* place(const Hub& hub, const Facet& facet) const;
   void append(Hub& hub, std::int32_t slot);

@@ -110,6 +110,20 @@ TEST(SolveCheckpoint, FlatTetrahedraInPartsHaveTheSameBits)
   expectSameInParts(mesh, heldEnds(mesh, 1, Weights::Cotangent), streamed(folder / "ck"));
 }
 
+TEST(SolveCheckpoint, AnAutomaticToleranceInPartsHasTheSameBits)
+{
+  const TemporaryFolder folder;
+  const StreamMesh mesh = toStream(shuffled(tetBox(18, 18, 17, 0.33)), TestOrder::BreadthFirst);
+  SolveOptions options = streamed(folder / "ck");
+  options.tolerance = SolveOptions::AutomaticTolerance;
+  options.again = [&mesh] { return std::make_unique<MemorySource>(mesh); };
+  options.acceleration = AccelerationKind::None;
+  options.sweeps = 1;
+  ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
+  problem.Source.assign(static_cast<std::size_t>(mesh.vertices()), 1.0);
+  expectSameInParts(mesh, problem, options);
+}
+
 TEST(SolveCheckpoint, NeedsWhatItIsOf)
 {
   const TemporaryFolder folder;

@@ -109,6 +109,15 @@ struct SMG_EXPORT Report
     std::array<double, 3> place{}; ///< its centre in the deformed mesh
   };
 
+  /** The errors of a solution in the energy norm, estimated: the root of the integral of
+   * grad e . K grad e, of all columns together. */
+  struct Errors
+  {
+    double algebraic = 0;      ///< against the solution of the equations on the mesh
+    double discretisation = 0; ///< of that against the solution of the continuous problem
+    double energy_norm = 0;    ///< of the solution itself
+  };
+
   /** What a solve on several processes took. */
   struct Distributed
   {
@@ -198,6 +207,7 @@ struct SMG_EXPORT Report
   /** Of a blend or a smoothed column: values that become the smallest or largest number of the
    * integer type of their column, since they are beyond it. */
   std::int64_t clipped = 0;
+  std::optional<Errors> errors;      ///< with SolveOptions::AutomaticTolerance; else none
   std::vector<Condition> conditions; ///< of the problem: Dirichlet, flux, then Robin
   /** Per column: 1/2 the integral of grad u . K grad u + s u^2 over the piecewise linear u, s u^2
    * lumped at the vertices. */

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -66,8 +67,18 @@ struct SolveOptions
   /** Gauss-Seidel sweeps before and after each coarse-level correction, 1 to 20. */
   int sweeps = 2;
   /** The solve stops when ||b - A x|| <= tolerance * ||b - A x_0||, x_0 being the initial values;
-   * between 0 and 1, both excluded. */
+   * between 0 and 1, both excluded, or AutomaticTolerance. */
   double tolerance = 1e-6;
+  /**
+   * Of solve() alone: it stops when the algebraic error is below a tenth of the discretisation
+   * error of linear finite elements on the mesh, both estimated in the energy norm (see
+   * Report::errors), or at a residual of 1e-13. More V-cycles would not bring the result nearer to
+   * the solution of the continuous problem. Needs `again`; not for Weights::Uniform.
+   */
+  static constexpr double AutomaticTolerance = 0.0;
+  /** Opens the mesh that is solved on once more, from its first block. With AutomaticTolerance it
+   * is read, and the problem is asked, once or twice after some V-cycles. */
+  std::function<std::unique_ptr<MeshSource>()> again;
   /** Largest number of V-cycles, at least 1. */
   int maxCycles = 50;
   /** How V-cycles are accelerated. */

@@ -34,6 +34,7 @@ std::unique_ptr<Solution> solveWith(
 {
   checkOptions(options);
   checkProblem(problem);
+  checkAutomaticTolerance(options, problem);
   PoissonSolver<Operators> solver(
     Operators::forCells(mesh.info().cellType), problem.columns(), options);
   return solver.solve(mesh, problem);
