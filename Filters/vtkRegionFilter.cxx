@@ -170,7 +170,9 @@ struct vtkRegionFilter::Internals
     }
     if (this->Count.points() == 0)
     {
-      throw smg::Error("The region holds nothing: no point of the mesh lies in it.");
+      throw smg::Error(this->Self.Region == BOUNDARY
+                         ? "The region holds nothing: the mesh is closed, without a boundary."
+                         : "The region holds nothing: no point of the mesh lies in it.");
     }
   }
 

@@ -338,8 +338,15 @@ struct vtkStreamingSolver::Internals
   /** Warns, in process 0, of a solve that did not converge. */
   void warn(const smg::SolveSummary& summary) const
   {
-    if (smg::SolutionExchange(this->Self.Controller).isServer() && summary.error.empty() &&
-        !summary.converged && this->Self.IsToConverge())
+    if (!smg::SolutionExchange(this->Self.Controller).isServer() || !summary.error.empty())
+    {
+      return;
+    }
+    for (const std::string& warning : summary.warnings)
+    {
+      vtkWarningWithObjectMacro(&this->Self, << warning << '.');
+    }
+    if (!summary.converged && this->Self.IsToConverge())
     {
       vtkWarningWithObjectMacro(
         &this->Self, << "The solve did not converge: after " << summary.cycles

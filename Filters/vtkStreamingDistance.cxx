@@ -16,6 +16,7 @@
 #include "vtkSmartPointer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <span>
@@ -90,13 +91,18 @@ void vtkStreamingDistance::Deliver(
     smg::Column column{ spec, {} };
     column.resize(points);
     const auto components = static_cast<std::size_t>(spec.components);
+    // As points that are not reached.
+    const double ofNoCell = spec.name == smg::DistanceName         ? HUGE_VAL
+                            : spec.name == smg::DistanceSourceName ? -1.0
+                                                                   : 0.0;
     smg::dispatch(spec.type,
       [&]<class T>(T)
       {
         const std::span<T> to = column.as<T>();
         for (std::size_t i = 0; i < to.size(); ++i)
         {
-          to[i] = static_cast<T>(values[i / components * stride + first + i % components]);
+          const double value = values[i / components * stride + first + i % components];
+          to[i] = static_cast<T>(std::isnan(value) ? ofNoCell : value);
         }
       });
     output.GetPointData()->AddArray(smg::makeArray(column));

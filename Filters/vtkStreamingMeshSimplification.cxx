@@ -11,6 +11,7 @@
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceInput.h"
 #include "IO/vtkPieceStream.h"
+#include "Solver/Core/GroupedDigits.h"
 #include "Solver/Storage/FileDescriptor.h"
 #include "Solver/Storage/ScratchFolder.h"
 #include "smg/Simplify.h"
@@ -22,6 +23,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -39,8 +41,13 @@ constexpr const char* Copy = "mesh.vsm";
 std::string sentence(const smg::SimplifyReport& report)
 {
   std::ostringstream text;
-  text << report.vertices << " points and " << report.cells << " triangles of "
-       << report.vertices_before << " and " << report.cells_before << ", error " << report.error;
+  text << smg::groupedDigits(report.vertices) << " points and " << smg::groupedDigits(report.cells)
+       << " triangles of " << smg::groupedDigits(report.vertices_before) << " and "
+       << smg::groupedDigits(report.cells_before);
+  if (!std::isnan(report.error))
+  {
+    text << ", error " << report.error << (report.dropped_bodies > 0 ? " of what is left" : "");
+  }
   for (const std::string& note : report.notes)
   {
     text << "; " << note;
@@ -131,6 +138,10 @@ struct vtkStreamingMeshSimplification::Internals
     const int given = this->Self.NumberOfPieces;
     const bool isWhole = given == 0 && input.isInMemory() && !smg::hasSeveralProcesses();
     smg::PieceStream stream(input, { .given = isWhole ? 1 : given }, columns);
+    if (const std::string note = input.noteOnNeighbours(); stream.pieces() > 1 && !note.empty())
+    {
+      vtkWarningWithObjectMacro(&this->Self, << note << '.');
+    }
     smg::Progress done(progress);
     smg::writeContainer(stream, copy, true, done);
     return copy;

@@ -28,6 +28,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace smg
@@ -216,11 +217,17 @@ ConversionReport writeOrdinaryMesh(
   }
   catch (const Error& error)
   {
-    // The temporary file is unknown to the user.
+    // The temporary file is unknown to the user, and which cells count is no choice here.
     std::string message = error.what();
-    for (std::size_t at; (at = message.find(file.string())) != std::string::npos;)
+    const std::pair<std::string, std::string> words[] = { { file.string() + ": the file",
+                                                            "The input" },
+      { file.string(), "The input" }, { " (option --cells)", "" } };
+    for (const auto& [from, to] : words)
     {
-      message.replace(at, file.string().size(), "The input");
+      for (std::size_t at; (at = message.find(from)) != std::string::npos;)
+      {
+        message.replace(at, from.size(), to);
+      }
     }
     throw Error(message);
   }

@@ -74,6 +74,10 @@ bool copyPlain(vtkDataArray& numbers, std::vector<std::int64_t>& to)
 
 CellType cellTypeOf(vtkPointSet& piece, const std::string& where)
 {
+  if (piece.GetNumberOfCells() == 0)
+  {
+    throw Error(where + " has points, but no cells: triangulate it first.");
+  }
   vtkCellArray* cells = cellsOf(piece, where);
   const vtkIdType corners = cells ? cells->IsHomogeneous() : 0;
   if (corners == 3 && areAllOf(piece, VTK_TRIANGLE))

@@ -17,8 +17,26 @@
 #include "vtkNew.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
+
 namespace smg
 {
+namespace
+{
+
+/** Filters of VTK that keep points and cells, but compute from neighbours or from the whole. */
+constexpr const char* OfNeighbours[] = { "vtkBoundaryMeshQuality", "vtkCellDataToPointData",
+  "vtkConnectivityFilter", "vtkCurvatures", "vtkGradientFilter", "vtkPolyDataConnectivityFilter",
+  "vtkPolyDataNormals", "vtkSmoothPolyDataFilter", "vtkTriangleMeshPointNormals",
+  "vtkWindowedSincPolyDataFilter" };
+
+bool needsNeighbours(vtkAlgorithm& filter)
+{
+  return std::ranges::any_of(
+    OfNeighbours, [&filter](const char* known) { return filter.IsA(known) != 0; });
+}
+
+} // namespace
 
 PieceInput::PieceInput(vtkAlgorithm& consumer, int port)
 {
@@ -120,6 +138,26 @@ std::string PieceInput::producerName() const
     named = named->GetInputAlgorithm(0, 0);
   }
   return named->GetClassName();
+}
+
+std::string PieceInput::noteOnNeighbours() const
+{
+  std::string between;
+  vtkAlgorithm* filter = this->Producer;
+  while (filter->GetNumberOfInputPorts() > 0 && filter->GetNumberOfInputConnections(0) > 0)
+  {
+    if (needsNeighbours(*filter))
+    {
+      between = filter->GetClassName() + (between.empty() ? "" : ", " + between);
+    }
+    filter = filter->GetInputAlgorithm(0, 0);
+  }
+  const bool isStream = filter->IsA("vtkStreamingMeshReader");
+  return between.empty() || !isStream
+           ? std::string()
+           : PiecesNote + between +
+               ": what that computes from neighbours, as curvature, normals or smoothed positions, "
+               "is wrong at the borders of pieces";
 }
 
 bool PieceInput::isInMemory() const

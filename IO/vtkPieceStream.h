@@ -58,6 +58,7 @@ public:
    */
   vtkPointSet* nextPiece(MeshBlock& block);
 
+  int pieces() const { return this->Pieces; }
   /** The fraction of the pieces that have been read, 0 to 1. */
   double fraction() const { return double(this->NextPiece) / this->Pieces; }
 

@@ -246,9 +246,14 @@ bool vtkStreamingMeshWriter::WriteFile()
     const Trial trial = tryPiece(input, this->NumberOfStreamedPieces);
     const std::filesystem::path streamFile = this->StreamFileName ? this->StreamFileName : "";
     const Job job{ input, trial.pieces, path, streamFile, progress };
-    const Notes notes = trial.isOrdinary && write != writeIndexedPieces
-                          ? writeOrdinary(job, this->RestoreOrder)
-                          : write(job);
+    Notes notes = trial.isOrdinary && write != writeIndexedPieces
+                    ? writeOrdinary(job, this->RestoreOrder)
+                    : write(job);
+    if (const std::string note = input.noteOnNeighbours();
+        !trial.isOrdinary && trial.pieces > 1 && !note.empty())
+    {
+      notes.push_back(note);
+    }
     for (const std::string& note : notes)
     {
       vtkWarningMacro(<< path.string() << ": " << note);

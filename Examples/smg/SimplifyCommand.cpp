@@ -14,7 +14,9 @@
 #include "smg/Simplify.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace
 {
@@ -113,10 +115,14 @@ void SimplifyCommand::run()
   this->writeReport(report.json(), facts);
   if (!this->quiet)
   {
-    std::printf("%lld vertices and %lld triangles of %lld and %lld, error %.3g, %.2f s\n",
+    std::printf("%lld vertices and %lld triangles of %lld and %lld, ",
       static_cast<long long>(report.vertices), static_cast<long long>(report.cells),
-      static_cast<long long>(report.vertices_before), static_cast<long long>(report.cells_before),
-      report.error, report.seconds);
+      static_cast<long long>(report.vertices_before), static_cast<long long>(report.cells_before));
+    if (!std::isnan(report.error))
+    {
+      std::printf("error %.3g, ", report.error);
+    }
+    std::printf("%.2f s\n", report.seconds);
     for (const std::string& note : report.notes)
     {
       std::printf("  %s\n", note.c_str());
@@ -143,7 +149,13 @@ void addSimplifyCommand(CLI::App& program, Action& action)
     ->check(CLI::Range(std::int64_t(4), std::int64_t(1) << 40))
     ->type_name("N");
   command->add_option("--error", options->simplify.error, "Largest error, in the unit of the mesh")
-    ->check(CLI::PositiveNumber)
+    ->check(
+      [](const std::string& given)
+      {
+        char* end = nullptr;
+        const bool isLength = std::strtod(given.c_str(), &end) > 0.0 && *end == '\0';
+        return isLength ? std::string() : '\'' + given + "' is no number above 0";
+      })
     ->type_name("LENGTH");
   command->add_flag(
     "--dry-run", options->dryRun, "Only estimate the size of the mesh and the costs");

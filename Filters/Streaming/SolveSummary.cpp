@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Streaming/SolveSummary.h"
 
+#include "IO/vtkPieceInput.h"
 #include "Solver/Core/GroupedDigits.h"
 
 #include <iomanip>
@@ -16,6 +17,10 @@ SolveSummary SolveSummary::of(const Report& report, int columns)
   for (const std::string& note : report.notes)
   {
     summary.notes += (summary.notes.empty() ? "" : "\n") + note;
+    if (note.find(" has no effect") != std::string::npos || note.starts_with(PiecesNote))
+    {
+      summary.warnings.push_back(note);
+    }
   }
   summary.vertices = report.vertices;
   summary.byPass = report.by_pass;
@@ -56,7 +61,8 @@ std::string SolveSummary::outcome() const
   text << place << (place.empty() ? "" : " ") << (this->converged ? "Converged" : "Not converged");
   if (this->cycles > 0)
   {
-    text << " after " << this->cycles << (this->processes > 0 ? " iterations" : " V-cycles");
+    text << " after " << this->cycles << (this->processes > 0 ? " iteration" : " V-cycle")
+         << (this->cycles == 1 ? "" : "s");
   }
   if (this->processes > 0)
   {

@@ -16,7 +16,8 @@ struct SolveSummary
   std::string error;        ///< empty: the solve succeeded
   bool isCancelled = false; ///< whether the error is a requested cancellation
   std::string report;
-  std::string notes;         ///< of the report, one per line
+  std::string notes;                 ///< of the report, one per line
+  std::vector<std::string> warnings; ///< those of the notes that a user must not miss
   std::int64_t vertices = 0; ///< of the mesh that was solved on; known to the process that solved
   /** Where a preview is shown: the points of the whole mesh; else 0. */
   std::int64_t fullPoints = 0;

@@ -2,6 +2,7 @@
 #include "Filters/Streaming/vtkPreviewDoubt.h"
 
 #include "Filters/Mesh/vtkCoarserPreview.h"
+#include "Solver/Core/GroupedDigits.h"
 #include "smg/Error.h"
 
 #include "vtkPointSet.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <numeric>
 
 namespace smg
@@ -19,6 +21,20 @@ namespace
 /** A preview of fewer points is known well enough by eye. */
 constexpr std::int64_t LeastPoints = 400;
 constexpr std::int64_t Coarsening = 4;
+
+/** Two digits count, as in 0.0095, 12 or 4,400. */
+std::string twoDigits(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.1e", value);
+  const double rounded = std::strtod(text, nullptr);
+  if (rounded >= 10.0 && rounded < 1e15)
+  {
+    return groupedDigits(std::llround(rounded));
+  }
+  std::snprintf(text, sizeof(text), "%.2g", rounded);
+  return text;
+}
 
 } // namespace
 
@@ -74,10 +90,8 @@ std::string PreviewDoubt::of(const std::vector<double>& values, int columns, int
   const auto most =
     differences.begin() + static_cast<std::ptrdiff_t>(differences.size() * 99 / 100);
   std::ranges::nth_element(differences, most);
-  char text[96];
-  std::snprintf(text, sizeof(text),
-    "the result on a quarter of which differs by %.2g in the mean, %.2g at 99 %%.", mean, *most);
-  return text;
+  return "the result on a quarter of which differs by " + twoDigits(mean) + " in the mean, " +
+         twoDigits(*most) + " at 99 %.";
 }
 
 } // namespace smg

@@ -77,7 +77,12 @@ void StreamedSolve::solve(
   {
     PieceStream stream(input, pulling.pieces, task.columns());
     writeContainer(stream, container, true, pulled);
-    return std::vector<std::string>();
+    std::vector<std::string> notes;
+    if (std::string note = input.noteOnNeighbours(); stream.pieces() > 1 && !note.empty())
+    {
+      notes.push_back(std::move(note));
+    }
+    return notes;
   };
   const auto folder = [&]
   { return std::make_unique<ScratchFolder>(pulling.scratch, pulling.scratchLimit); };

@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -89,8 +90,10 @@ std::vector<std::string> notesOn(
   {
     notes.emplace_back(
       "Collapsing edges alone leaves more vertices: vertices near one another were merged "
-      "instead. If triangles do not share their vertices, smg convert --weld 0 joins those with "
-      "the same corners first.");
+      "instead, by an error that is not known. If triangles do not share their vertices, join "
+      "those "
+      "with the same coordinates first: on the command line with --weld 0, in ParaView by the "
+      "filter Clean.");
   }
   if (options.vertices > 0 && report.vertices > options.vertices)
   {
@@ -129,7 +132,7 @@ SimplifyReport simplifyToVsm(const StoredMesh& mesh, const std::filesystem::path
   report.cells_before = mesh.info().cells;
   report.vertices = written.vertices;
   report.cells = written.cells;
-  report.error = counts.error;
+  report.error = counts.isClustered ? std::numeric_limits<double>::quiet_NaN() : counts.error;
   report.dropped_bodies = counts.dropped;
   report.resumed_vertices = counts.resumedAt;
   report.pool_bytes_peak = simplified.simplifier().peakMemory();

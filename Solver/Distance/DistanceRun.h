@@ -27,6 +27,11 @@ struct DistanceRun
   {
   }
 
+  /** Before the first pass: what was until then is of none. */
+  void beginPasses() { this->Before = this->now(); }
+  /** Adds a pass to the report; `unsettled` is the share of the vertices that have changes to pass
+   * on. */
+  void endPass(double unsettled);
   /** Adds memory, scratch files and times to the report. */
   void finishReport();
 
@@ -38,6 +43,14 @@ struct DistanceRun
   Report report;
 
 private:
+  /** What has been until now, as of one pass. */
+  Report::Pass now() const
+  {
+    return { 0.0, this->Wall.seconds(), this->traffic.bytesRead(), this->traffic.bytesWritten(),
+      this->pool.peak() };
+  }
+
+  Report::Pass Before;
   Timer Wall;
   double CpuAtStart = processSeconds();
 };

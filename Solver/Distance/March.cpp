@@ -19,15 +19,18 @@ constexpr double Perpendicular = 1e-6;
 
 } // namespace
 
-int March::run(int maxPasses, Progress& progress, double begin)
+int March::run(int maxPasses, Progress& progress, double begin,
+  const std::function<void(std::int64_t unsettled)>& passed)
 {
   int passes = 0;
-  for (; passes<maxPasses&& this->unsettled()> 0; ++passes)
+  for (std::int64_t left = this->unsettled(); passes < maxPasses && left > 0; ++passes)
   {
     // How many passes are to come is not known.
     const double end = begin + 0.5 * (1 - begin);
     this->pass(passes % 2 == 0, progress, begin, end);
     begin = end;
+    left = this->unsettled();
+    passed(left);
   }
   this->Window.flush();
   return passes;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 
 namespace smg
 {
@@ -40,9 +41,10 @@ public:
            MarchQueue::bytes(std::min(plan.window(), vertices));
   }
 
-  /** Makes passes until nothing changes, but at most so many; reports progress from `begin` to 1.
-   * Returns their number. */
-  int run(int maxPasses, Progress& progress, double begin);
+  /** Makes passes until nothing changes, but at most so many; reports progress from `begin` to 1,
+   * and each pass with the number of unsettled vertices to `passed`. Returns their number. */
+  int run(int maxPasses, Progress& progress, double begin,
+    const std::function<void(std::int64_t unsettled)>& passed);
 
   /** How often the mesh was read: chunks that were read over their number. */
   double meshReadings() const

@@ -135,7 +135,10 @@ void march(ChunkedMesh& chunks, DistanceRun& run)
 {
   March march(chunks, run.pool);
   Report& report = run.report;
-  report.passes = march.run(run.options.maxPasses, run.progress, FirstReading);
+  run.beginPasses();
+  report.passes = march.run(run.options.maxPasses, run.progress, FirstReading,
+    [&](std::int64_t unsettled)
+    { run.endPass(static_cast<double>(unsettled) / static_cast<double>(chunks.vertices)); });
   report.peak_nodes = std::min(chunks.plan.window(), chunks.vertices);
   report.distance->mesh_readings = march.meshReadings();
   report.distance->unsettled = march.unsettled();

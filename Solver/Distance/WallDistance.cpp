@@ -172,6 +172,7 @@ std::unique_ptr<Solution> wallDistance(const StoredMesh& mesh,
   report.threads = threads.max_concurrency();
   const std::int64_t length = partLength(triangles, run->pool);
   const WallValues values{ files->values, description.source, description.direction };
+  run->beginPasses();
   for (std::int64_t first = 0; first < triangles; first += length)
   {
     const auto share = [&](std::int64_t done)
@@ -182,6 +183,7 @@ std::unique_ptr<Solution> wallDistance(const StoredMesh& mesh,
     WallPass pass(part.points(), part.numbers(), first == 0, values, run->pool);
     lowerAll(mesh, pass, *run, threads, share(first), share(first + count));
     ++report.passes;
+    run->endPass(1.0 - static_cast<double>(first + count) / static_cast<double>(triangles));
   }
   report.converged = true;
   report.distance->mesh_readings = report.passes;

@@ -134,12 +134,8 @@ bool SolveRun::resume(std::vector<Checkpoint::Item> subject, Parts kept)
 
 void SolveRun::endPass(double residual)
 {
-  Report::Pass pass{ residual, this->seconds(), 0, 0, this->pool.peak() };
-  for (const auto& [name, level, statistics] : this->traffic.kinds())
-  {
-    pass.read += statistics.bytesRead;
-    pass.written += statistics.bytesWritten;
-  }
+  Report::Pass pass{ residual, this->seconds(), this->traffic.bytesRead(),
+    this->traffic.bytesWritten(), this->pool.peak() };
   for (const Report::Pass& before : this->report.by_pass)
   {
     pass.seconds -= before.seconds;

@@ -44,18 +44,26 @@ public:
 
   const std::deque<Kind>& kinds() const { return this->Kinds; }
 
+  std::int64_t bytesRead() const { return this->sum(&IoStatistics::bytesRead); }
+  std::int64_t bytesWritten() const { return this->sum(&IoStatistics::bytesWritten); }
   /** Seconds in which the callers of all files have waited for the disk, summed over threads. */
   double waitSeconds() const
   {
-    std::int64_t nanoseconds = 0;
-    for (const Kind& kind : this->Kinds)
-    {
-      nanoseconds += kind.statistics.waitNanoseconds;
-    }
-    return 1e-9 * static_cast<double>(nanoseconds);
+    return 1e-9 * static_cast<double>(this->sum(&IoStatistics::waitNanoseconds));
   }
 
 private:
+  template <class Count>
+  std::int64_t sum(Count IoStatistics::*count) const
+  {
+    std::int64_t all = 0;
+    for (const Kind& kind : this->Kinds)
+    {
+      all += kind.statistics.*count;
+    }
+    return all;
+  }
+
   std::deque<Kind> Kinds;
 };
 

@@ -13,11 +13,18 @@
 #include "smg/Distance.h"
 #include "smg/VsmReader.h"
 
+#include "vtkCellArray.h"
 #include "vtkCommand.h"
+#include "vtkCurvatures.h"
+#include "vtkElevationFilter.h"
 #include "vtkFieldData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
 
 #include <cmath>
 #include <functional>
+#include <utility>
 
 namespace smg::testing
 {
@@ -205,6 +212,63 @@ TEST_F(VtkStreamingDistance, PointsOfNoCellAreNotReached)
         spec.name == DistanceName ? HUGE_VAL : -1);
     }
   }
+}
+
+TEST_F(VtkStreamingDistance, PointsOfNoCellOfAnOrdinaryMeshAreNotReached)
+{
+  vtkNew<vtkPolyData> mesh;
+  const vtkNew<vtkPoints> points;
+  const vtkNew<vtkCellArray> triangles;
+  for (const auto& [x, y] : { std::pair(9.0, 9.0), { 0.0, 0.0 }, { 1.0, 0.0 }, { 0.0, 1.0 } })
+  {
+    points->InsertNextPoint(x, y, 0.0);
+  }
+  const vtkIdType corners[] = { 1, 2, 3 };
+  triangles->InsertNextCell(3, corners);
+  mesh->SetPoints(points);
+  mesh->SetPolys(triangles);
+  this->Distance->SetInputData(mesh);
+  this->Distance->SetFrom(R"({"nearest": [[0, 0, 0]]})");
+  this->Distance->SourceOn();
+  this->Distance->DirectionOn();
+  ASSERT_TRUE(updatePiece(this->Distance, 0, 1));
+  vtkPointData* found = this->output()->GetPointData();
+  EXPECT_EQ(found->GetArray(DistanceName)->GetComponent(0, 0), HUGE_VAL);
+  EXPECT_EQ(found->GetArray(DistanceSourceName)->GetComponent(0, 0), -1.0);
+  EXPECT_EQ(found->GetArray(DistanceDirectionName)->GetComponent(0, 0), 0.0);
+  EXPECT_EQ(found->GetArray(DistanceName)->GetComponent(2, 0), 1.0);
+}
+
+TEST_F(VtkStreamingDistance, ThePassesAreATable)
+{
+  ASSERT_TRUE(updatePiece(this->Distance, 0, 1));
+  auto* table = vtkTable::SafeDownCast(this->Distance->GetOutputDataObject(1));
+  ASSERT_TRUE(table);
+  ASSERT_GT(this->Distance->GetPasses(), 0);
+  ASSERT_EQ(table->GetNumberOfRows(), this->Distance->GetPasses());
+  EXPECT_EQ(
+    table->GetValueByName(table->GetNumberOfRows() - 1, "Residual").ToDouble(), 0.0); // settled
+}
+
+/** A filter between that computes from neighbours does not have them at the borders of pieces. */
+TEST_F(VtkStreamingDistance, SaysThatAFilterBetweenLacksNeighbours)
+{
+  this->Reader->SetMaximumPointsInMemory(100);
+  this->Distance->SetSolve(vtkStreamingSolver::ON_FULL_MESH);
+  const vtkNew<vtkElevationFilter> byPoint;
+  const vtkNew<vtkCurvatures> byNeighbours;
+  Errors warnings(this->Distance);
+  const auto notes = [&](vtkAlgorithm* between)
+  {
+    between->SetInputConnection(this->Reader->GetOutputPort());
+    this->Distance->SetInputConnection(between->GetOutputPort());
+    EXPECT_TRUE(streamPiece(this->Distance, 0, 1));
+    return std::string(this->Distance->GetNotes());
+  };
+  EXPECT_EQ(notes(byPoint).find("vtkElevationFilter"), std::string::npos);
+  EXPECT_EQ(warnings.text(), "");
+  EXPECT_NE(notes(byNeighbours).find("in pieces through vtkCurvatures: "), std::string::npos);
+  EXPECT_NE(warnings.text().find("in pieces through vtkCurvatures: "), std::string::npos);
 }
 
 TEST_F(VtkStreamingDistance, MistakesAreOneErrorEach)

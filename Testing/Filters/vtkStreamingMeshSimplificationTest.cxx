@@ -83,7 +83,7 @@ TEST_F(VtkStreamingMeshSimplification, IsThatOfTheLibraryInAnyPieces)
   }
   EXPECT_EQ(this->Filter->GetReachedError(), report.error);
   EXPECT_EQ(
-    std::string(this->Filter->GetOutcome()).find("900 points and 1800 triangles of 7200"), 0U)
+    std::string(this->Filter->GetOutcome()).find("900 points and 1,800 triangles of 7,200"), 0U)
     << this->Filter->GetOutcome();
   // Points keep their own values.
   vtkPolyData* output = this->Filter->GetOutput();

@@ -122,7 +122,7 @@ TEST_F(VtkStreamingPoissonErrors, WhatIsWrongFromTheStartIsToldBeforePulling)
   this->Poisson->SetOperators("nonsense");
   expectError("no operator set 'nonsense'");
   this->Poisson->SetOperators("extended");
-  for (const double tolerance : { 0.0, 1.0, std::nan("") })
+  for (const double tolerance : { -1.0, 1.0, std::nan("") })
   {
     this->Poisson->SetTolerance(tolerance);
     expectError("between 0 and 1");

@@ -178,4 +178,6 @@ for name, words in (("HandleMask", ["0", "free", "1", "held", "2", "held by seve
                     ("RegionMask", ["0", "outside", "1", "inside"])):
     colors = GetColorTransferFunction(name)
     assert colors.InterpretValuesAsCategories == 1 and list(colors.Annotations) == words, (name, colors.Annotations)
+# What no source reaches is not coloured as the farthest point.
+assert GetColorTransferFunction("Distance").UseAboveRangeColor == 1
 print("passed")

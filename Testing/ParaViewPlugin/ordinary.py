@@ -120,6 +120,16 @@ def check(name, source):
     assert reached.any() and (away[reached] > straight[reached] * (1 - 1e-6) - 1e-6).all(), name
 
 
+def check_outcome():
+    """The panel shows the Outcome of the last update, which is after its properties are applied."""
+    poisson = StreamingPoisson(Input=hot_and_cold(Sphere(), -0.4, 0.4))
+    shown = poisson.SMProxy.GetProperty("Outcome")
+    for tolerance, words in ((1e-6, "Converged"), (-1.0, "Failed: the tolerance"), (1e-3, "Converged")):
+        poisson.Tolerance = tolerance
+        poisson.UpdatePipeline()
+        assert shown.GetElement(0).startswith(words), (tolerance, shown.GetElement(0))
+
+
 def check_motions(source):
     """A translation of two handles moves all points; smoothing and blending keep what a plane and constants are."""
     source.UpdatePipeline()
@@ -150,6 +160,7 @@ check("ply", OpenDataFile(ply))
 for grid in (Plane(XResolution=30, YResolution=20, Point1=[5, 0, 0]),
              Threshold(Input=wavelet, Scalars=["POINTS", "RTData"], LowerThreshold=100, UpperThreshold=1e9)):
     check_motions(Elevation(Input=grid))
+check_outcome()
 smooth = StreamingMeshSmoothing(Input=Elevation(Input=Plane(XResolution=30, YResolution=20)), Boundary="Fixed")
 flat, _, _ = points_and(smooth, "Elevation")
 assert np.abs(flat[:, 2]).max() < 1e-6

@@ -52,7 +52,9 @@ struct SMG_EXPORT SimplifyReport
   std::int64_t cells_before = 0;    ///< of the mesh
   std::int64_t vertices = 0;        ///< of the result
   std::int64_t cells = 0;           ///< triangles of the result
-  double error = 0; ///< the sum of the largest errors of its steps: see SimplifyOptions
+  /** The sum of the largest errors of its steps, see SimplifyOptions; NaN where vertices were
+   * merged instead, since that is not measured. */
+  double error = 0;
   std::int64_t dropped_bodies = 0;  ///< small bodies that are not in the result
   std::int64_t pool_bytes_peak = 0; ///< most accounted memory at once, bytes
   std::int64_t rss_bytes_peak = 0;  ///< largest resident memory of the process, bytes

@@ -51,10 +51,12 @@ struct SMG_EXPORT Report
   /** What a pass over the mesh cost. */
   struct Pass
   {
-    double residual = 1;      ///< ||b - A x|| / ||b - A x_0|| of the step that the pass belongs to
-    double seconds = 0;       ///< wall-clock time of the pass
-    std::int64_t read = 0;    ///< bytes read from scratch files
-    std::int64_t written = 0; ///< bytes written to scratch files
+    /** ||b - A x|| / ||b - A x_0|| of the step that the pass belongs to; of a distance the share of
+     * the vertices that have changes to pass on, or of the walls that are to come. */
+    double residual = 1;
+    double seconds = 0;          ///< wall-clock time of the pass
+    std::int64_t read = 0;       ///< bytes read from scratch files
+    std::int64_t written = 0;    ///< bytes written to scratch files
     std::int64_t pool_bytes = 0; ///< most accounted memory at once until its end, bytes
   };
 
@@ -172,8 +174,8 @@ struct SMG_EXPORT Report
   /** ||b - A x_k|| / ||b - A x_0|| after V-cycle k = 1, 2, ..., x_0 being the initial values; of
    * several steps one after the other. */
   std::vector<double> residuals;
-  /** The passes in which V-cycles were done, one after the other; of a distance and with several
-   * processes: empty. */
+  /** The passes in which V-cycles, or the marches of a distance, were done, one after the other;
+   * with several processes: empty. */
   std::vector<Pass> by_pass;
   /** The acceleration used: "none", "chebyshev" or "cg"; see AccelerationKind. */
   std::string acceleration = "none";

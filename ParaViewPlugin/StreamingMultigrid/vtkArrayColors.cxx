@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "vtkMaskColors.h"
+#include "vtkArrayColors.h"
 
 #include "vtkSMSettings.h"
 
@@ -22,7 +22,7 @@ std::string entry(const std::string& array, const std::string& names)
 
 } // namespace
 
-void colorMasks()
+void colorArrays()
 {
   std::string tables = entry("HandleMask", R"("0", "free", "1", "held", "2", "held by several")");
   tables += ", " + entry("RegionMask", R"("0", "outside", "1", "inside")");
@@ -30,6 +30,9 @@ void colorMasks()
   {
     tables += ", " + entry("Condition" + std::to_string(k), R"("0", "outside", "1", "inside")");
   }
+  // The range of colours is that of the finite numbers.
+  tables +=
+    R"(, "Distance": {"PVLookupTable": {"UseAboveRangeColor": 1, "AboveRangeColor": [0.4, 0.4, 0.4]}})";
   vtkSMSettings::GetInstance()->AddCollectionFromString(
     R"({"array_lookup_tables": {)" + tables + "}}", Priority);
 }
