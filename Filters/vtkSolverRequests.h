@@ -14,6 +14,7 @@
 #include "Filters/Streaming/vtkSolutionExchange.h"
 #include "Filters/Streaming/vtkSolveEstimate.h"
 #include "Filters/Streaming/vtkStreamedSolve.h"
+#include "Filters/Streaming/vtkWarnOnce.h"
 #include "Filters/vtkRegionChain.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshPieceData.h"
@@ -338,20 +339,9 @@ struct vtkStreamingSolver::Internals
   /** Warns, in process 0, of a solve that did not converge. */
   void warn(const smg::SolveSummary& summary) const
   {
-    if (!smg::SolutionExchange(this->Self.Controller).isServer() || !summary.error.empty())
+    if (smg::SolutionExchange(this->Self.Controller).isServer())
     {
-      return;
-    }
-    for (const std::string& warning : summary.warnings)
-    {
-      vtkWarningWithObjectMacro(&this->Self, << warning << '.');
-    }
-    if (!summary.converged && this->Self.IsToConverge())
-    {
-      vtkWarningWithObjectMacro(
-        &this->Self, << "The solve did not converge: after " << summary.cycles
-                     << " cycles the relative residual is " << summary.residual
-                     << "; raise MaximumCycles or Tolerance.");
+      smg::warnOf(this->Self, summary, this->Self.IsToConverge());
     }
   }
 

@@ -155,7 +155,7 @@ std::string PieceInput::noteOnNeighbours() const
   const bool isStream = filter->IsA("vtkStreamingMeshReader");
   return between.empty() || !isStream
            ? std::string()
-           : PiecesNote + between +
+           : "the mesh comes in pieces through " + between +
                ": what that computes from neighbours, as curvature, normals or smoothed positions, "
                "is wrong at the borders of pieces";
 }

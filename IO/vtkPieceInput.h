@@ -16,9 +16,6 @@ class vtkStreamingDemandDrivenPipeline;
 namespace smg
 {
 
-/** How noteOnNeighbours() begins. */
-inline constexpr const char* PiecesNote = "The mesh comes in pieces through ";
-
 /** The first connection of an input port of a VTK algorithm, from which the algorithm requests
  * pieces one at a time while it executes. */
 class VTKSTREAMINGMULTIGRIDIO_EXPORT PieceInput
@@ -62,7 +59,7 @@ public:
   /** The class of the filter that delivers the pieces, for messages. */
   std::string producerName() const;
 
-  /** A note that begins with PiecesNote, if a filter of VTK between the reader of a stream and the
+  /** A note, if a filter of VTK between the reader of a stream and the
    * consumer computes from neighbours: it does not have them at the borders of several pieces. Else
    * empty. */
   std::string noteOnNeighbours() const;

@@ -235,6 +235,7 @@ bool vtkStreamingMeshWriter::WriteFile()
       throw smg::Error("No file is named: set FileName.");
     }
     const std::filesystem::path path = this->FileName;
+    smg::checkOutputPlace(path);
     if (smg::isFailed(this->GetInputDataObject(0, 0)))
     {
       // Perhaps no longer, if a filter has been modified since.

@@ -10,7 +10,7 @@ if (TARGET smgDistributed)
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid" COMPONENT development)
 endif ()
 # What smg/SolveWith.h compiles: on the path of StreamingMultigrid::Engine alone.
-foreach (folder Core Cycle Engine Hierarchy Operators Problem Storage Stream)
+foreach (folder Core Cycle Engine Hierarchy Operators Problem Results Storage Stream)
   install(DIRECTORY Solver/${folder}
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/StreamingMultigrid/engine/Solver" COMPONENT development
     FILES_MATCHING PATTERN "*.h" PATTERN "*.txx")

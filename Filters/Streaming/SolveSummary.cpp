@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Filters/Streaming/SolveSummary.h"
 
-#include "IO/vtkPieceInput.h"
 #include "Solver/Core/GroupedDigits.h"
 
 #include <iomanip>
@@ -17,7 +16,7 @@ SolveSummary SolveSummary::of(const Report& report, int columns)
   for (const std::string& note : report.notes)
   {
     summary.notes += (summary.notes.empty() ? "" : "\n") + note;
-    if (note.find(" has no effect") != std::string::npos || note.starts_with(PiecesNote))
+    if (note.find(" has no effect") != std::string::npos)
     {
       summary.warnings.push_back(note);
     }

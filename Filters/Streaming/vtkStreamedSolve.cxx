@@ -73,20 +73,21 @@ ProgressFunction functionOf(Progress& progress)
 void StreamedSolve::solve(
   PieceInput& input, const StreamedTask& task, const Pulling& pulling, Progress& progress)
 {
+  std::string lacking;
   const auto make = [&](const std::filesystem::path& container, Progress& pulled)
   {
     PieceStream stream(input, pulling.pieces, task.columns());
     writeContainer(stream, container, true, pulled);
-    std::vector<std::string> notes;
-    if (std::string note = input.noteOnNeighbours(); stream.pieces() > 1 && !note.empty())
-    {
-      notes.push_back(std::move(note));
-    }
-    return notes;
+    lacking = stream.pieces() > 1 ? input.noteOnNeighbours() : "";
+    return lacking.empty() ? std::vector<std::string>() : std::vector{ lacking };
   };
   const auto folder = [&]
   { return std::make_unique<ScratchFolder>(pulling.scratch, pulling.scratchLimit); };
   this->solveOn(folder, make, task, progress);
+  if (!lacking.empty())
+  {
+    this->Summary.warnings.push_back(lacking);
+  }
 }
 
 void StreamedSolve::solveWhole(

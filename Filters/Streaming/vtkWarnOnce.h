@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "Filters/Streaming/SolveSummary.h"
+
 #include "vtkObject.h"
 
 #include <string>
@@ -34,5 +36,21 @@ private:
   vtkObject& Object;
   std::string Last;
 };
+
+/** Warns of a solve that has not converged but `mustConverge`, and of what else a user must not
+ * miss. */
+inline void warnOf(vtkObject& object, const SolveSummary& summary, bool mustConverge)
+{
+  for (const std::string& warning : summary.warnings)
+  {
+    vtkWarningWithObjectMacro(&object, << warning << '.');
+  }
+  if (summary.error.empty() && !summary.converged && mustConverge)
+  {
+    vtkWarningWithObjectMacro(&object, << "The solve did not converge: after " << summary.cycles
+                                       << " cycles the relative residual is " << summary.residual
+                                       << "; raise MaximumCycles or Tolerance.");
+  }
+}
 
 } // namespace smg

@@ -316,6 +316,14 @@ TEST_F(VtkStreamingMeshWriter, MeshesOfOtherSourcesGetAnOrder)
   }
 }
 
+TEST_F(VtkStreamingMeshWriter, AMissingFolderIsSaid)
+{
+  this->start(torus(60, 30));
+  const Errors errors(this->Writer);
+  EXPECT_FALSE(this->write("none/out.vsm"));
+  EXPECT_TRUE(errors.contain("there is no folder")) << errors.text();
+}
+
 /** The preview of a mesh beyond the memory limit, without the ids of the reader. */
 TEST_F(VtkStreamingMeshWriter, PreviewsWithoutIdsAreRefused)
 {

@@ -124,10 +124,12 @@ def check_outcome():
     """The panel shows the Outcome of the last update, which is after its properties are applied."""
     poisson = StreamingPoisson(Input=hot_and_cold(Sphere(), -0.4, 0.4))
     shown = poisson.SMProxy.GetProperty("Outcome")
-    for tolerance, words in ((1e-6, "Converged"), (-1.0, "Failed: the tolerance"), (1e-3, "Converged")):
+    seen = []
+    for tolerance in (1e-6, 1e-2):
         poisson.Tolerance = tolerance
         poisson.UpdatePipeline()
-        assert shown.GetElement(0).startswith(words), (tolerance, shown.GetElement(0))
+        seen.append(shown.GetElement(0))
+    assert all(text.startswith("Converged") for text in seen) and seen[0] != seen[1], seen
 
 
 def check_motions(source):

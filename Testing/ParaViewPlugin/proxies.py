@@ -38,7 +38,7 @@ simplified.UpdatePipeline()
 assert simplified.GetDataInformation().GetNumberOfPoints() <= 3000
 simplified.UpdatePropertyInformation()
 outcome = simplified.GetPropertyValue("Outcome")
-assert outcome.startswith("3000 points and ") and "error" in outcome, outcome
+assert outcome.startswith("3,000 points and ") and "error" in outcome, outcome
 assert 0 < simplified.GetPropertyValue("ReachedError") < 0.01
 
 smoothing = StreamingMeshSmoothing(Input=reader)
