@@ -10,6 +10,7 @@
 #include "Solver/Storage/ScratchFolder.h"
 #include "smg/Error.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetAttributes.h"
@@ -174,14 +175,20 @@ StreamInfo ordinaryMeshInfo(vtkPointSet& mesh)
   const bool isSolid = countingCells(mesh) == CellChoice::Tetrahedra;
   info.cellType = isSolid ? CellType::Tetrahedron : CellType::Triangle;
   info.vertices = mesh.GetNumberOfPoints();
-  vtkNew<vtkIdList> corners;
-  for (vtkIdType cell = 0; cell < mesh.GetNumberOfCells(); ++cell)
+  if (auto* surface = vtkPolyData::SafeDownCast(&mesh))
   {
-    const int type = mesh.GetCellType(cell);
+    for (vtkCellArray* cells : { surface->GetPolys(), surface->GetStrips() })
+    {
+      info.cells += cells->GetNumberOfConnectivityIds() - 2 * cells->GetNumberOfCells();
+    }
+  }
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(&mesh);
+  for (vtkIdType cell = 0; grid && cell < grid->GetNumberOfCells(); ++cell)
+  {
+    const int type = grid->GetCellType(cell);
     if (isSolidOfVtk(type) == isSolid)
     {
-      mesh.GetCellPoints(cell, corners);
-      info.cells += partsOfVtk(type, corners->GetNumberOfIds());
+      info.cells += partsOfVtk(type, grid->GetCells()->GetCellSize(cell));
     }
   }
   info.vertexColumns = columnSpecs(*mesh.GetPointData());

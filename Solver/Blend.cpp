@@ -123,6 +123,7 @@ std::unique_ptr<Solution> blend(
   const Timer wall;
   const double cpuAtStart = processSeconds();
   checkOptions(given);
+  refuseAutomaticTolerance(given, "a blend");
   if (!given.checkpoint.folder.empty())
   {
     throw Error("a blend has no checkpoints: leave the folder out");

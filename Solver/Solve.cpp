@@ -50,18 +50,21 @@ void refuseAutomaticTolerance(const SolveOptions& options, const std::string& wh
     what + " has no automatic tolerance: give one between 0 and 1, both excluded");
 }
 
+void checkAutomaticTolerance(const SolveOptions& options, Weights weights)
+{
+  require(options.tolerance != SolveOptions::AutomaticTolerance || weights != Weights::Uniform,
+    "uniform weights have no discretisation error: give a tolerance between 0 and 1, both "
+    "excluded");
+}
+
 void checkAutomaticTolerance(const SolveOptions& options, const Problem& problem)
 {
-  if (options.tolerance == SolveOptions::AutomaticTolerance)
-  {
-    require(options.again != nullptr,
-      "an automatic tolerance needs SolveOptions::again, which opens the mesh once more");
-    require(problem.weights() != Weights::Uniform,
-      "uniform weights have no discretisation error: give a tolerance between 0 and 1, both "
-      "excluded");
-    require(!problem.hasEdgeTargets(),
-      "edge targets have no discretisation error: give a tolerance between 0 and 1, both excluded");
-  }
+  checkAutomaticTolerance(options, problem.weights());
+  const bool isAutomatic = options.tolerance == SolveOptions::AutomaticTolerance;
+  require(!isAutomatic || options.again,
+    "an automatic tolerance needs SolveOptions::again, which opens the mesh once more");
+  require(!isAutomatic || !problem.hasEdgeTargets(),
+    "edge targets have no discretisation error: give a tolerance between 0 and 1, both excluded");
 }
 
 void checkOperators(const SolveOptions& options)

@@ -116,6 +116,7 @@ protected:
                        ": says nothing to solve for: give it dirichlet, source, flux, robin, soft, "
                        "field or initial.");
     }
+    smg::checkAutomaticTolerance(this->Solve, this->Description.weights);
     this->announceCheckpoint("pass");
   }
 

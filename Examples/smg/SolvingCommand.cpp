@@ -72,16 +72,27 @@ const char* iterations(const smg::Report& report, int count)
                             : (count == 1 ? "V-cycle" : "V-cycles");
 }
 
+/** "1e-06" */
+std::string shortText(double value)
+{
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.3g", value);
+  return text;
+}
+
 } // namespace
 
 void SolvingCommand::warn(const smg::Report& report) const
 {
   const auto warning = [&](const std::string& what, double residual, int cycles)
   {
+    const double tolerance = this->solveOptions().tolerance;
     std::fprintf(stderr,
-      "smg: warning: %snot converged: the relative residual is %.3g after %d %s, the tolerance "
-      "%.3g\n",
-      what.c_str(), residual, cycles, iterations(report, cycles), this->solveOptions().tolerance);
+      "smg: warning: %snot converged: the relative residual is %.3g after %d %s%s\n", what.c_str(),
+      residual, cycles, iterations(report, cycles),
+      tolerance == smg::SolveOptions::AutomaticTolerance
+        ? ""
+        : (", the tolerance " + shortText(tolerance)).c_str());
   };
   for (const smg::Report::Step& step : report.steps)
   {

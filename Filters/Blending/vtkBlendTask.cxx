@@ -34,6 +34,7 @@ std::set<std::string> namesInBlend(const BlendDescription& description)
 void BlendTask::check() const
 {
   checkOptions(this->options);
+  refuseAutomaticTolerance(this->options, "a blend");
   if (this->description.patch.empty())
   {
     throw Error("Patch must name the array with the patch of each point or cell.");

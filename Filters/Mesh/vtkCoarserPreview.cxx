@@ -128,11 +128,12 @@ const CoarserPreview& KeptCoarserPreview::of(vtkPointSet& preview, std::int64_t 
   std::vector<std::uint8_t> small = smallPatches(preview);
   vtkPoints* points = preview.GetPoints();
   if (!this->Coarser || this->Points != points || this->Time != points->GetMTime() ||
-      this->Small != small || this->Most != most)
+      this->Cells != preview.GetNumberOfCells() || this->Small != small || this->Most != most)
   {
     this->Coarser.emplace(preview, most, small);
     this->Points = points;
     this->Time = points->GetMTime();
+    this->Cells = preview.GetNumberOfCells();
     this->Small = std::move(small);
     this->Most = most;
   }

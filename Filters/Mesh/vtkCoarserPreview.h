@@ -41,8 +41,9 @@ private:
   vtkSmartPointer<vtkPoints> Places; ///< the same in all meshes, so that these can be recognised
 };
 
-/** A coarser preview with all points of small patches, made once for as long as the points of the
- * preview and these patches are the same: not whenever the motion of a handle changes. */
+/** A coarser preview with all points of small patches, made once for as long as the points and the
+ * number of cells of the preview and these patches are the same: not whenever the motion of a
+ * handle changes. */
 class KeptCoarserPreview
 {
 public:
@@ -53,6 +54,7 @@ private:
   std::optional<CoarserPreview> Coarser;
   vtkWeakPointer<vtkPoints> Points; ///< of the preview that it is of
   vtkMTimeType Time = 0;            ///< when they were changed
+  vtkIdType Cells = 0;              ///< of the preview
   std::vector<std::uint8_t> Small;
   std::int64_t Most = 0;
 };

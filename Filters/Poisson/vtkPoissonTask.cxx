@@ -33,6 +33,7 @@ void PoissonTask::check() const
   }
   checkCellResults(this->problem);
   checkOptions(this->options);
+  checkAutomaticTolerance(this->options, this->problem.weights);
   checkOperators(this->options);
 }
 

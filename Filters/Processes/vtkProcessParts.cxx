@@ -91,6 +91,7 @@ DistributedOptions distributedOptions(const SolveOptions& options, const Progres
 
 void checkForProcesses(const SolveOptions& options)
 {
+  refuseAutomaticTolerance(options, "the distributed engine");
   if (!options.checkpoint.folder.empty())
   {
     throw Error("The distributed engine has no checkpoints: leave CheckpointDirectory empty, or "

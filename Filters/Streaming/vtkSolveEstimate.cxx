@@ -99,7 +99,7 @@ JobEstimate estimateFor(vtkAlgorithm& filter, const TaskOf& taskOf, const SolveO
   }
   throw Error(present && present->GetNumberOfPoints() > 0
                 ? "the input is one piece of a mesh, whose size no file tells."
-                : "the filter before this one has not been applied.");
+                : "the filter before this one has not been applied, or has no mesh.");
 }
 
 } // namespace

@@ -17,7 +17,14 @@ namespace
 /** After an update of a proxy. */
 void refresh(vtkObject* caller, unsigned long, void*, void*)
 {
-  vtkSMProxy::SafeDownCast(caller)->UpdatePropertyInformation();
+  auto* proxy = vtkSMProxy::SafeDownCast(caller);
+  for (const char* name : { "Outcome", "Notes", "Error" })
+  {
+    if (vtkSMProperty* property = proxy->GetProperty(name))
+    {
+      proxy->UpdatePropertyInformation(property);
+    }
+  }
 }
 
 /** After a proxy is made. */

@@ -19,14 +19,14 @@ namespace smg
  * So that a large mean of the solution does not drown this in rounding, x is counted from a number
  * c of each column: with alpha the row sums of A, -1/2 (x - c).(b - c alpha + r) differs from J by
  * a constant. c is the mean of b / alpha, weighted with |alpha|, which the first pass finds: near
- * what is prescribed.
+ * what is prescribed. Where all alpha are 0, it is the mean of x.
  */
 class IterateEnergy
 {
 public:
   explicit IterateEnergy(int columns)
     : Stride(static_cast<std::size_t>(strideOf(columns)))
-    , Numbers(3 * this->Stride)
+    , Numbers(5 * this->Stride)
   {
   }
 
@@ -37,8 +37,12 @@ public:
       this->HasCentre = true;
       for (std::size_t k = 0; k < this->Stride; ++k)
       {
-        const double weight = this->Numbers[2 * this->Stride + k];
-        this->Numbers[k] = weight > 0.0 ? this->Numbers[this->Stride + k] / weight : 0.0;
+        const auto mean = [&](std::size_t sum, std::size_t weights) {
+          return this->Numbers[sum * this->Stride + k] / this->Numbers[weights * this->Stride + k];
+        };
+        const bool isHeld = this->Numbers[2 * this->Stride + k] > 0.0;
+        const bool hasNodes = this->Numbers[4 * this->Stride + k] > 0.0;
+        this->Numbers[k] = isHeld ? mean(1, 2) : hasNodes ? mean(3, 4) : 0.0;
       }
     }
     std::fill(
@@ -57,6 +61,9 @@ public:
       const double sign = weight > 0.0 ? std::copysign(1.0, alpha) : 0.0;
       Vectors::store(sum, Vectors::load(sum) + sign * Vectors::load(b));
       Vectors::store(sum + this->Stride, Vectors::load(sum + this->Stride) + weight);
+      double* plain = sum + 2 * this->Stride;
+      Vectors::store(plain, Vectors::load(plain) + Vectors::load(x));
+      Vectors::store(plain + this->Stride, Vectors::load(plain + this->Stride) + 1.0);
       return;
     }
     const Vector c = Vectors::load(centre);
@@ -84,7 +91,7 @@ public:
 
 private:
   std::size_t Stride;
-  std::vector<double> Numbers; ///< c; sums of the energy, or of +-b; sums of |alpha|
+  std::vector<double> Numbers; ///< c; sums of the energy, or of +-b; of |alpha|, of x, of 1
   bool HasCentre = false;
 };
 

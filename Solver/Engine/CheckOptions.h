@@ -23,8 +23,10 @@ SMG_EXPORT void refuseAutomaticTolerance(const SolveOptions& options, const std:
 /** Throws Error unless the library has an operator set of that name that supports the other
  * options; solve() does so, too. */
 SMG_EXPORT void checkOperators(const SolveOptions& options);
-/** Throws Error if the tolerance is SolveOptions::AutomaticTolerance and the problem or the options
- * do not allow that; solve() does so, too. */
+/** Throws Error if the tolerance is SolveOptions::AutomaticTolerance and these weights have no
+ * discretisation error; solve() does so, too. */
+SMG_EXPORT void checkAutomaticTolerance(const SolveOptions& options, Weights weights);
+/** The same, and if the problem or the options do not allow that; solve() does so, too. */
 SMG_EXPORT void checkAutomaticTolerance(const SolveOptions& options, const Problem& problem);
 /** Throws Error if the problem has no column; solve() does so, too. */
 SMG_EXPORT void checkProblem(const Problem& problem);

@@ -14,8 +14,11 @@ namespace
 constexpr double Enough = 0.1;
 /** The residual from which on it pays to estimate that of the discretisation. */
 constexpr double Promising = 1e-3;
+/** How often that is estimated: where it is not much larger than the algebraic error for long, it
+ * is nothing to stop by. */
+constexpr int MostMeasures = 6;
 /** The share up to which an algebraic error does not disturb that estimate. */
-constexpr double Undisturbing = 0.25;
+constexpr double Undisturbing = 0.5;
 
 } // namespace
 
@@ -38,11 +41,17 @@ bool ErrorBalance::add(double energy, double residual, double factor)
   {
     return false;
   }
-  if (this->AtMeasure > Undisturbing * Undisturbing * this->Mesh.error)
+  if (this->isDisturbed() && this->Measures < MostMeasures)
   {
     this->measure();
   }
-  return this->isBelow(Enough);
+  return this->isBelow(Enough) && !this->isDisturbed();
+}
+
+/** Whether the algebraic error was too large when that of the discretisation was estimated. */
+bool ErrorBalance::isDisturbed() const
+{
+  return this->AtMeasure > Undisturbing * Undisturbing * this->Mesh.error;
 }
 
 void ErrorBalance::estimate(double energy, double factor)
@@ -65,7 +74,7 @@ void ErrorBalance::estimate(double energy, double factor)
   }
   if (fall > 0.0 && q < 1.0)
   {
-    this->Algebraic = fall * q / (1.0 - q);
+    this->Algebraic = this->Known = fall * q / (1.0 - q);
   }
 }
 
@@ -73,6 +82,7 @@ void ErrorBalance::measure()
 {
   this->Mesh = this->Estimate();
   this->AtMeasure = this->Algebraic;
+  ++this->Measures;
 }
 
 bool ErrorBalance::isBelow(double share) const
@@ -82,19 +92,27 @@ bool ErrorBalance::isBelow(double share) const
 
 void ErrorBalance::report(Report& report) const
 {
-  if (this->Algebraic == Unknown || this->AtMeasure == Unknown)
+  if (this->Measures == 0)
   {
-    report.notes.push_back("the V-cycles ended before the discretisation error could be estimated");
+    if (!this->Energies.empty())
+    {
+      report.notes.push_back(
+        "the V-cycles ended before the discretisation error could be estimated");
+    }
     return;
   }
-  report.errors = { std::sqrt(this->Algebraic), std::sqrt(this->Mesh.error),
-    std::sqrt(this->Mesh.solution) };
-  char text[160];
+  const auto root = [](double square) { return std::sqrt(std::max(0.0, square)); };
+  report.errors = { root(this->Known), root(this->Mesh.error), root(this->Mesh.solution) };
+  const Report::Errors& found = *report.errors;
+  const bool isRelative = found.energy_norm > 0.0;
+  const double unit = isRelative ? found.energy_norm / 100.0 : 1.0;
+  char text[200];
   std::snprintf(text, sizeof(text),
-    "estimated errors, of the energy norm of the solution: %.2g %% since the equations are solved "
-    "approximately, %.2g %% since the mesh is no finer",
-    100.0 * report.errors->algebraic / report.errors->energy_norm,
-    100.0 * report.errors->discretisation / report.errors->energy_norm);
+    "estimated errors, %s: %.2g%s since the equations are solved approximately, %.2g%s since the "
+    "mesh is no finer",
+    isRelative ? "of the energy norm of the solution" : "in the energy norm",
+    found.algebraic / unit, isRelative ? " %" : "", found.discretisation / unit,
+    isRelative ? " %" : "");
   report.notes.emplace_back(text);
 }
 

@@ -23,8 +23,8 @@ namespace smg
  * f_k q / (1 - q). For q the larger one of f_k / f_{k-1} and the squared factors of the last two
  * residuals is taken. The discretisation error is estimated on the mesh, which is read again for
  * that, with the iterate. That costs about two V-cycles: so it is done once the residual is small
- * enough that as a rule few V-cycles are left, and again only if the algebraic error of that time
- * turns out not to have been small beside it.
+ * enough that as a rule few V-cycles are left, and again, up to five times, if the algebraic error
+ * of that time turns out not to have been small beside it.
  */
 class SMG_EXPORT ErrorBalance
 {
@@ -48,8 +48,8 @@ public:
   void exchange(State& state)
   {
     state.part("errors");
-    state(this->Energies, this->Factor, this->Algebraic, this->Mesh.error, this->Mesh.solution,
-      this->AtMeasure);
+    state(this->Energies, this->Factor, this->Algebraic, this->Known, this->Mesh.error,
+      this->Mesh.solution, this->AtMeasure, this->Measures);
   }
 
 private:
@@ -58,13 +58,16 @@ private:
   void estimate(double energy, double factor);
   void measure();
   bool isBelow(double share) const;
+  bool isDisturbed() const;
 
   Measure Estimate;
   std::vector<double> Energies; ///< after each V-cycle
   double Factor = 1.0;          ///< of the last residual
-  double Algebraic = Unknown;   ///< squared
+  double Algebraic = Unknown;   ///< squared, after the last V-cycle
+  double Known = Unknown;       ///< the last one that was not unknown
   EnergySquares Mesh;
   double AtMeasure = Unknown; ///< Algebraic when Mesh was estimated
+  int Measures = 0;           ///< how often it was
 };
 
 } // namespace smg

@@ -103,15 +103,22 @@ template <OperatorSet Operators>
 EnergySquares PoissonSolver<Operators>::discretisation(Problem& problem)
 {
   const std::unique_ptr<MeshSource> mesh = this->Run->options.again();
-  DiscretisationError error(this->Run->pool, mesh->info(), problem,
-    [this](std::int64_t first, std::int64_t count, std::span<double> values)
-    { this->Levels.window().readX(first, count, values.data()); });
-  for (MeshBlock block; mesh->next(block);)
+  try
   {
-    error.add(block);
-    this->Run->progress.update(1.0); // may cancel
+    DiscretisationError error(this->Run->pool, mesh->info(), problem,
+      [this](std::int64_t first, std::int64_t count, std::span<double> values)
+      { this->Levels.window().readX(first, count, values.data()); });
+    for (MeshBlock block; mesh->next(block);)
+    {
+      error.add(block);
+      this->Run->progress.update(1.0); // may cancel
+    }
+    return error.finish();
   }
-  return error.finish();
+  catch (const MemoryLimitError& error)
+  {
+    throw this->Run->explained(error);
+  }
 }
 
 } // namespace smg

@@ -142,7 +142,7 @@ void DiscretisationError::addFluxes(
   }
   for (int k = 0; k < count; ++k)
   {
-    terms[k][this->Columns] += conductance[k] > 0.0 ? 1.0 / conductance[k] : 0.0;
+    terms[k][this->Columns] += std::max(0.0, conductance[k]);
     terms[k][this->Columns + 1] += 1.0;
   }
   const double* field = this->Own ? this->Own->field() : nullptr;
@@ -239,7 +239,8 @@ void DiscretisationError::finalize(std::int64_t end)
         const double cells = terms[this->Columns + 1];
         if (cells > 1.0 || (cells > 0.0 && !this->isPrescribed(this->Final, middle, high)))
         {
-          const double resistance = terms[this->Columns] / cells;
+          const double sum = terms[this->Columns];
+          const double resistance = sum > 0.0 ? cells / sum : 0.0;
           for (std::size_t k = 0; k < this->Columns; ++k)
           {
             this->Sums.error += dimension / 12.0 * resistance * terms[k] * terms[k];

@@ -37,12 +37,14 @@ struct EnergySquares
  * the cells; s_k = sum_j w_kj is the conductance across the facet. So neither gradients nor tensors
  * are needed, and conormals of surfaces need no plane:
  *
- *     error^2 = d / 12 * sum over facets of (sum over its cells of R)^2 * (mean over these of 1/s),
+ *     error^2 = d / 12 * sum over facets of (sum over its cells of R)^2 / (mean over these of s),
  *
- * which is exact where only one coordinate counts. On the boundary, R is reduced by the prescribed
- * inflow; facets with prescribed corners do not count. Against true errors of smooth solutions it
- * is within 0.75 and 1.35 (Testing/Solver/DiscretisationErrorTest.cpp). What it does not see: the
- * shape of a curved surface, data that change within a cell.
+ * which is exact where only one coordinate counts and all s are equal. The mean is that of s, not
+ * of 1/s, so that beside a poor conductor the flux counts by the good one that it is in (Petzoldt
+ * 2002). On the boundary, R is reduced by the prescribed inflow; facets with prescribed corners do
+ * not count. Against true errors it is within 0.7 and 1.35, of smooth solutions and with a
+ * conductivity that jumps (Testing/Solver/DiscretisationErrorTest.cpp). What it does not see: the
+ * shape of a curved surface, and data, sources and screening that change within a cell.
  *
  * In memory are the open vertices and facets. The sums are in the order of the vertices, so they do
  * not depend on blocks.
@@ -80,7 +82,7 @@ private:
   std::optional<ProblemCells> Own;
   std::optional<ProblemFacets> Conditions;
   OpenFacets Facets;
-  /** Of each facet the sum of R, `columns` numbers, the sum of 1/s, and the number of cells. */
+  /** Of each facet the sum of R, `columns` numbers, that of s, and the number of cells. */
   Slots<double> Terms;
   std::vector<double> Values;
   EnergySquares Sums;

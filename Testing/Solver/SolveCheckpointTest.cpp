@@ -121,6 +121,9 @@ TEST(SolveCheckpoint, AnAutomaticToleranceInPartsHasTheSameBits)
   options.sweeps = 1;
   ArrayProblem problem = heldEnds(mesh, 1, Weights::Cotangent);
   problem.Source.assign(static_cast<std::size_t>(mesh.vertices()), 1.0);
+  const Report whole = withoutCheckpoint(mesh, problem, options).report;
+  ASSERT_TRUE(whole.errors); // which ended it
+  ASSERT_GT(whole.residual(), 1e-11);
   expectSameInParts(mesh, problem, options);
 }
 

@@ -115,7 +115,9 @@ struct SMG_EXPORT Report
    * grad e . K grad e, of all columns together. */
   struct Errors
   {
-    double algebraic = 0;      ///< against the solution of the equations on the mesh
+    /** Against the solution of the equations on the mesh; with the screening and the heat transfer
+     * of these, too. */
+    double algebraic = 0;
     double discretisation = 0; ///< of that against the solution of the continuous problem
     double energy_norm = 0;    ///< of the solution itself
   };

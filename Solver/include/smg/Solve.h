@@ -77,7 +77,7 @@ struct SolveOptions
    */
   static constexpr double AutomaticTolerance = 0.0;
   /** Opens the mesh that is solved on once more, from its first block. With AutomaticTolerance it
-   * is read, and the problem is asked, once or twice after some V-cycles. */
+   * is read, and the problem is asked, once to six times after some V-cycles. */
   std::function<std::unique_ptr<MeshSource>()> again;
   /** Largest number of V-cycles, at least 1. */
   int maxCycles = 50;
