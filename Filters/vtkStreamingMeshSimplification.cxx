@@ -138,7 +138,7 @@ struct vtkStreamingMeshSimplification::Internals
     const int given = this->Self.NumberOfPieces;
     const bool isWhole = given == 0 && input.isInMemory() && !smg::hasSeveralProcesses();
     smg::PieceStream stream(input, { .given = isWhole ? 1 : given }, columns);
-    if (const std::string note = input.noteOnNeighbours(); stream.pieces() > 1 && !note.empty())
+    if (const std::string note = input.noteOnNeighbours(stream.pieces()); !note.empty())
     {
       vtkWarningWithObjectMacro(&this->Self, << note << '.');
     }

@@ -140,7 +140,7 @@ std::string PieceInput::producerName() const
   return named->GetClassName();
 }
 
-std::string PieceInput::noteOnNeighbours() const
+std::string PieceInput::noteOnNeighbours(int pieces) const
 {
   std::string between;
   vtkAlgorithm* filter = this->Producer;
@@ -152,8 +152,8 @@ std::string PieceInput::noteOnNeighbours() const
     }
     filter = filter->GetInputAlgorithm(0, 0);
   }
-  const bool isStream = filter->IsA("vtkStreamingMeshReader");
-  return between.empty() || !isStream
+  const bool isInParts = pieces > 1 && filter->IsA("vtkStreamingMeshReader");
+  return between.empty() || !isInParts
            ? std::string()
            : "the mesh comes in pieces through " + between +
                ": what that computes from neighbours, as curvature, normals or smoothed positions, "

@@ -59,10 +59,9 @@ public:
   /** The class of the filter that delivers the pieces, for messages. */
   std::string producerName() const;
 
-  /** A note, if a filter of VTK between the reader of a stream and the
-   * consumer computes from neighbours: it does not have them at the borders of several pieces. Else
-   * empty. */
-  std::string noteOnNeighbours() const;
+  /** A note, if a filter of VTK between the reader of a stream and the consumer computes from
+   * neighbours, which it does not have at the borders of so many pieces; else empty. */
+  std::string noteOnNeighbours(int pieces) const;
 
   /** Whether the input was set as a data object, which is the same for every piece. */
   bool isData() const;

@@ -250,8 +250,8 @@ bool vtkStreamingMeshWriter::WriteFile()
     Notes notes = trial.isOrdinary && write != writeIndexedPieces
                     ? writeOrdinary(job, this->RestoreOrder)
                     : write(job);
-    if (const std::string note = input.noteOnNeighbours();
-        !trial.isOrdinary && trial.pieces > 1 && !note.empty())
+    if (const std::string note = input.noteOnNeighbours(trial.isOrdinary ? 1 : trial.pieces);
+        !note.empty())
     {
       notes.push_back(note);
     }

@@ -293,13 +293,19 @@ std::string wholeNumber(const std::string& value)
   return isValid ? std::string() : '\'' + value + "' is not a whole number from 0 on";
 }
 
-std::string numberFromZero(const std::string& value)
+std::optional<double> numberOf(const std::string& text)
 {
   char* end = nullptr;
-  const double number = std::strtod(value.c_str(), &end);
-  const bool isValid =
-    end != value.c_str() && *end == '\0' && std::isfinite(number) && number >= 0.0;
-  return isValid ? std::string() : '\'' + value + "' is no finite number of at least 0";
+  const double number = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == '\0' ? std::optional(number) : std::nullopt;
+}
+
+std::string numberFromZero(const std::string& value)
+{
+  const std::optional<double> number = numberOf(value);
+  return number && std::isfinite(*number) && *number >= 0.0
+           ? std::string()
+           : '\'' + value + "' is no finite number of at least 0";
 }
 
 std::vector<std::string> splitAtCommas(const std::string& list)

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,8 @@ struct CommonOptions
 std::function<std::string(const std::string&)> oneOf(std::vector<std::string> values);
 /** Checks that the value of an option is a whole number from 0 on. */
 std::string wholeNumber(const std::string& value);
+/** The number that the whole text is; none if it is none. */
+std::optional<double> numberOf(const std::string& text);
 /** Checks that the value of an option is a finite number of at least 0. */
 std::string numberFromZero(const std::string& value);
 

@@ -4,7 +4,6 @@
 #include "CommonOptions.h"
 
 #include <cmath>
-#include <cstdlib>
 
 namespace
 {
@@ -12,10 +11,10 @@ namespace
 /** Checks that the value of an option is a distance: finite and not negative. */
 std::string distance(const std::string& value)
 {
-  char* rest = nullptr;
-  const double number = std::strtod(value.c_str(), &rest);
-  const bool isValid = !value.empty() && *rest == '\0' && std::isfinite(number) && number >= 0.0;
-  return isValid ? std::string() : '\'' + value + "' is not a finite distance from 0 on";
+  const std::optional<double> number = numberOf(value);
+  return number && std::isfinite(*number) && *number >= 0.0
+           ? std::string()
+           : '\'' + value + "' is not a finite distance from 0 on";
 }
 
 } // namespace

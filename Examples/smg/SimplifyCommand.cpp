@@ -16,7 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <optional>
 
 namespace
 {
@@ -152,9 +152,8 @@ void addSimplifyCommand(CLI::App& program, Action& action)
     ->check(
       [](const std::string& given)
       {
-        char* end = nullptr;
-        const bool isLength = std::strtod(given.c_str(), &end) > 0.0 && *end == '\0';
-        return isLength ? std::string() : '\'' + given + "' is no number above 0";
+        const std::optional<double> length = numberOf(given);
+        return length && *length > 0.0 ? std::string() : '\'' + given + "' is no number above 0";
       })
     ->type_name("LENGTH");
   command->add_flag(

@@ -5,15 +5,13 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <optional>
 #include <utility>
 
 std::string SolvingCommand::checkTolerance(const std::string& text)
 {
-  char* end = nullptr;
-  const double tolerance = std::strtod(text.c_str(), &end);
-  const bool isNumber = !text.empty() && *end == '\0';
-  return isNumber && tolerance > 0.0 && tolerance < 1.0
+  const std::optional<double> tolerance = numberOf(text);
+  return tolerance && *tolerance > 0.0 && *tolerance < 1.0
            ? std::string()
            : '\'' + text + "' is no number between 0 and 1, both excluded";
 }
@@ -72,27 +70,20 @@ const char* iterations(const smg::Report& report, int count)
                             : (count == 1 ? "V-cycle" : "V-cycles");
 }
 
-/** "1e-06" */
-std::string shortText(double value)
-{
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.3g", value);
-  return text;
-}
-
 } // namespace
 
 void SolvingCommand::warn(const smg::Report& report) const
 {
   const auto warning = [&](const std::string& what, double residual, int cycles)
   {
+    std::fprintf(stderr, "smg: warning: %snot converged: the relative residual is %.3g after %d %s",
+      what.c_str(), residual, cycles, iterations(report, cycles));
     const double tolerance = this->solveOptions().tolerance;
-    std::fprintf(stderr,
-      "smg: warning: %snot converged: the relative residual is %.3g after %d %s%s\n", what.c_str(),
-      residual, cycles, iterations(report, cycles),
-      tolerance == smg::SolveOptions::AutomaticTolerance
-        ? ""
-        : (", the tolerance " + shortText(tolerance)).c_str());
+    if (tolerance != smg::SolveOptions::AutomaticTolerance)
+    {
+      std::fprintf(stderr, ", the tolerance %.3g", tolerance);
+    }
+    std::fputc('\n', stderr);
   };
   for (const smg::Report::Step& step : report.steps)
   {

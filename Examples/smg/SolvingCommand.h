@@ -19,7 +19,9 @@ protected:
    * `operators` are the available operator sets. */
   void addSolverOptions(CLI::App& command, const std::string& result, smg::SolveOptions& options,
     std::vector<std::string> operators = { "extended" });
-  /** Whether a tolerance is one: "", or what is wrong. */
+  /** Whether a tolerance is one: "", or what is wrong. CLI::Range includes its ends and accepts
+   * nan.
+   */
   static std::string checkTolerance(const std::string& text);
   /** Adds the option --tolerance. */
   template <class Number>
@@ -57,6 +59,4 @@ protected:
 
 private:
   std::string Text; ///< of the file that says what to do
-
-  /** CLI::Range includes its ends and accepts nan. */
 };

@@ -78,7 +78,7 @@ void StreamedSolve::solve(
   {
     PieceStream stream(input, pulling.pieces, task.columns());
     writeContainer(stream, container, true, pulled);
-    lacking = stream.pieces() > 1 ? input.noteOnNeighbours() : "";
+    lacking = input.noteOnNeighbours(stream.pieces());
     return lacking.empty() ? std::vector<std::string>() : std::vector{ lacking };
   };
   const auto folder = [&]

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace smg
 {
@@ -29,7 +30,7 @@ bool ErrorBalance::add(double energy, double residual, double factor)
   {
     return false;
   }
-  if (this->AtMeasure == Unknown)
+  if (this->Measures == 0)
   {
     if (residual > Promising)
     {
@@ -37,15 +38,11 @@ bool ErrorBalance::add(double energy, double residual, double factor)
     }
     this->measure();
   }
-  if (!this->isBelow(Enough))
-  {
-    return false;
-  }
-  if (this->isDisturbed() && this->Measures < MostMeasures)
+  if (this->isEnough() && this->isDisturbed() && this->Measures < MostMeasures)
   {
     this->measure();
   }
-  return this->isBelow(Enough) && !this->isDisturbed();
+  return this->isEnough() && !this->isDisturbed();
 }
 
 /** Whether the algebraic error was too large when that of the discretisation was estimated. */
@@ -57,8 +54,7 @@ bool ErrorBalance::isDisturbed() const
 void ErrorBalance::estimate(double energy, double factor)
 {
   this->Energies.push_back(energy);
-  const double slower = std::max(factor, this->Factor);
-  this->Factor = factor;
+  const double before = std::exchange(this->Factor, factor);
   this->Algebraic = Unknown;
   const std::size_t n = this->Energies.size();
   if (n < 2)
@@ -67,7 +63,8 @@ void ErrorBalance::estimate(double energy, double factor)
   }
   const double* last = this->Energies.data() + n - 1;
   const double fall = 2.0 * (last[-1] - last[0]);
-  double q = (n == 2 ? factor : slower) * (n == 2 ? factor : slower);
+  const double slower = n == 2 ? factor : std::max(factor, before);
+  double q = slower * slower;
   if (n > 2 && last[-2] > last[-1])
   {
     q = std::max(q, fall / (2.0 * (last[-2] - last[-1])));
@@ -85,9 +82,9 @@ void ErrorBalance::measure()
   ++this->Measures;
 }
 
-bool ErrorBalance::isBelow(double share) const
+bool ErrorBalance::isEnough() const
 {
-  return this->Algebraic <= share * share * this->Mesh.error;
+  return this->Algebraic <= Enough * Enough * this->Mesh.error;
 }
 
 void ErrorBalance::report(Report& report) const

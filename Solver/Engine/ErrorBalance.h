@@ -32,6 +32,9 @@ public:
   /** Estimates the discretisation error with the present iterate. */
   using Measure = std::function<EnergySquares()>;
 
+  /** The relative residual at which they end as a rule. */
+  static constexpr double UsualResidual = 1e-4;
+
   explicit ErrorBalance(Measure measure)
     : Estimate(std::move(measure))
   {
@@ -57,7 +60,7 @@ private:
 
   void estimate(double energy, double factor);
   void measure();
-  bool isBelow(double share) const;
+  bool isEnough() const;
   bool isDisturbed() const;
 
   Measure Estimate;

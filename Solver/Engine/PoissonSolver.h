@@ -58,9 +58,11 @@ std::unique_ptr<Solution> PoissonSolver<Operators>::solve(MeshSource& mesh, Prob
     run.energy.emplace(problem.columns());
     balance.emplace([&] { return this->discretisation(problem); });
   }
-  constexpr double Least = 1e-13, Usual = 1e-4; // of automatic tolerances
+  constexpr double Least = 1e-13; // of an automatic tolerance
   const Stopping stopping{ balance ? Least : run.options.tolerance, run.options.maxCycles };
-  run.progress.begin({ balance ? Usual : stopping.tolerance, stopping.maxCycles }, 0.0, 1.0, true);
+  run.progress.begin(
+    { balance ? ErrorBalance::UsualResidual : stopping.tolerance, stopping.maxCycles }, 0.0, 1.0,
+    true);
   Convergence convergence(stopping, {});
   Iteration iteration(run, this->Levels, convergence, "", balance ? &*balance : nullptr);
   const auto exchange = [&](auto& state)

@@ -65,13 +65,12 @@ void SolveRun::finishReport()
   r.pool_bytes_peak = this->pool.peak();
   r.rss_bytes_peak = std::max(r.rss_bytes_peak, peakResidentBytes());
   r.scratch_bytes_peak = this->scratch ? this->scratch->account().peak() : 0;
-  r.bytes_read = r.bytes_written = 0;
+  r.bytes_read = this->traffic.bytesRead();
+  r.bytes_written = this->traffic.bytesWritten();
   r.bytes_by_kind.clear();
   for (const auto& [name, level, statistics] : this->traffic.kinds())
   {
     r.bytes_by_kind.push_back({ name, level, statistics.bytesRead, statistics.bytesWritten });
-    r.bytes_read += statistics.bytesRead;
-    r.bytes_written += statistics.bytesWritten;
   }
   r.seconds.io_wait = this->traffic.waitSeconds();
   r.seconds.total = this->seconds();

@@ -2,6 +2,7 @@
 #include "Solver/Estimate/Costs.h"
 
 #include "Solver/Cycle/Lanes.h"
+#include "Solver/Engine/ErrorBalance.h"
 #include "Solver/Engine/MemoryEstimate.h"
 
 #include <algorithm>
@@ -71,9 +72,9 @@ std::int64_t bytesOf(const StreamInfo& info, double ofVertex)
 int expectedCycles(const Rates& rates, const SolveOptions& options, double ease = 1.0)
 {
   const bool isPlain = options.acceleration == AccelerationKind::None;
-  constexpr double UsualAutomatic = 1e-4;
-  const double tolerance =
-    options.tolerance == SolveOptions::AutomaticTolerance ? UsualAutomatic : options.tolerance;
+  const double tolerance = options.tolerance == SolveOptions::AutomaticTolerance
+                             ? ErrorBalance::UsualResidual
+                             : options.tolerance;
   const double cycles =
     -std::log10(tolerance) * rates.decadeCycles * (isPlain ? rates.plainSlowdown : 1.0) * ease;
   return std::clamp(static_cast<int>(std::ceil(cycles)), 1, options.maxCycles);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/ProblemCells.h"
 
+#include "Solver/Problem/CellGradients.h"
 #include "Solver/Problem/FlatCells.h"
 #include "Solver/Stream/OriginalNumbers.h"
 #include "smg/Error.h"
@@ -144,6 +145,34 @@ void ProblemCells::requireFinite(std::size_t k, const MeshBlock& block, std::siz
       !allFinite(this->Field.data() + 3 * k * this->Columns, 3 * this->Columns))
   {
     throw Error("the source or the field of " + nameOf(block, c) + " is not a finite number");
+  }
+}
+
+double flatnessOf(Weights kind, const std::optional<ProblemCells>& own, CellType type,
+  const double* const* points, const CellWeights& cell)
+{
+  return kind != Weights::Cotangent ? 1.0
+         : own                      ? own->flatness()
+                                    : flatnessFactor(type, points, cell);
+}
+
+void addFieldLoads(const ProblemCells& own, CellType type, const double* const* points, int columns,
+  double* const* load)
+{
+  const double* field = own.field();
+  if (std::all_of(field, field + 3 * columns, [](double q) { return q == 0.0; }))
+  {
+    return;
+  }
+  const double weight = own.flatness() * own.weights().measure;
+  const CellGradients gradients(type, points);
+  for (int c = 0; c < cornersOf(type); ++c)
+  {
+    for (int k = 0; k < columns; ++k)
+    {
+      load[c][k] +=
+        weight * dot({ field[3 * k], field[3 * k + 1], field[3 * k + 2] }, gradients[c]);
+    }
   }
 }
 

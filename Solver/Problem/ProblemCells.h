@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace smg
@@ -70,5 +71,16 @@ private:
   std::vector<Cell> Cells; // of the batch
   std::vector<double> Points, Weight, Measure, Screening, Source, Field, Conductivity;
 };
+
+/** The factor by which a solve with these weights reduces those of a cell: that of the prepared
+ * cell of the problem, if it has cells of its own. See flatnessFactor(). */
+double flatnessOf(Weights kind, const std::optional<ProblemCells>& own, CellType type,
+  const double* const* points, const CellWeights& cell);
+
+/** Adds the integral of q . grad phi_c over the prepared cell, which has these corners, to
+ * `load[c]`, `columns` numbers for each corner c; scaled like the stiffness of the cell, so that
+ * the field K grad g yields g. */
+void addFieldLoads(const ProblemCells& own, CellType type, const double* const* points, int columns,
+  double* const* load);
 
 } // namespace smg

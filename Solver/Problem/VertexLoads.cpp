@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Solver/Problem/VertexLoads.h"
 
-#include "Solver/Problem/CellGradients.h"
-
-#include <algorithm>
-
 namespace smg
 {
 
@@ -41,31 +37,17 @@ void VertexLoads::add(
   const double measure = cells.weights().measure;
   const double mass = measure / count;
   const double* source = cells.source();
+  double* loads[4] = {};
   for (int c = 0; c < count; ++c)
   {
     this->Alpha[corners[c]] += mass * cells.screening();
-    double* load = this->Load.at(corners[c]);
+    loads[c] = this->Load.at(corners[c]);
     for (int k = 0; k < this->Columns; ++k)
     {
-      load[k] += mass * source[k];
+      loads[c][k] += mass * source[k];
     }
   }
-  const double* field = cells.field();
-  if (std::all_of(field, field + 3 * this->Columns, [](double q) { return q == 0.0; }))
-  {
-    return;
-  }
-  // Scaled like the stiffness of the cell, so that the field K grad g still yields g.
-  const double weight = cells.flatness() * measure;
-  const CellGradients gradients(this->Type, points);
-  for (int c = 0; c < count; ++c)
-  {
-    double* load = this->Load.at(corners[c]);
-    for (int k = 0; k < this->Columns; ++k)
-    {
-      load[k] += weight * dot({ field[3 * k], field[3 * k + 1], field[3 * k + 2] }, gradients[c]);
-    }
-  }
+  addFieldLoads(cells, this->Type, points, this->Columns, loads);
 }
 
 void VertexLoads::add(const BoundaryFacet& facet, double area)

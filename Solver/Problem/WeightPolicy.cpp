@@ -42,8 +42,7 @@ CellWeights WeightPolicy::weigh(
     this->Scale = this->Own->scale();
     this->Scaled = true;
   }
-  const double flatness =
-    this->Own ? this->Own->flatness() : flatnessFactor(this->Type, points, cell);
+  const double flatness = flatnessOf(this->Kind, this->Own, this->Type, points, cell);
   return flatness < 1.0 ? this->limited(cell, flatness) : cell;
 }
 

@@ -2,7 +2,6 @@
 #include "Solver/Results/DiscretisationError.h"
 
 #include "Solver/Problem/CellFacets.h"
-#include "Solver/Problem/CellGradients.h"
 #include "Solver/Problem/FlatCells.h"
 
 #include <algorithm>
@@ -74,45 +73,23 @@ void DiscretisationError::addCells(const MeshBlock& block)
     {
       continue;
     }
-    if (this->Own)
-    {
-      this->addCell(corners, this->Own->weights(), this->Own->flatness());
-      continue;
-    }
     const double* points[4] = {};
     for (std::size_t k = 0; k < count; ++k)
     {
       points[k] = this->Vertices.points.at(corners[k]);
     }
-    const CellWeights weights = cellWeights(this->Type, points);
-    this->addCell(corners, weights,
-      this->Kind == Weights::Cotangent ? flatnessFactor(this->Type, points, weights) : 1.0);
-  }
-}
-
-void DiscretisationError::addCell(
-  const std::int64_t* corners, const CellWeights& weights, double flatness)
-{
-  if (weights.measure == 0.0)
-  {
-    return;
-  }
-  for (int e = 0; e < edgesOf(this->Type); ++e)
-  {
-    const int* ends = edgeCorners(this->Type, e);
-    const double* a = this->Vertices.values.at(corners[ends[0]]);
-    const double* b = this->Vertices.values.at(corners[ends[1]]);
-    for (std::size_t k = 0; k < this->Columns; ++k)
+    const CellWeights weights = this->Own ? this->Own->weights() : cellWeights(this->Type, points);
+    if (weights.measure > 0.0)
     {
-      this->Sums.solution += flatness * weights.weight[e] * (a[k] - b[k]) * (a[k] - b[k]);
+      this->addCell(
+        corners, points, weights, flatnessOf(this->Kind, this->Own, this->Type, points, weights));
     }
   }
-  this->addFluxes(corners, weights, flatness);
 }
 
-/** Adds what a cell contributes to each of its facets. */
-void DiscretisationError::addFluxes(
-  const std::int64_t* corners, const CellWeights& weights, double flatness)
+/** Adds the energy in a cell, and what it contributes to each of its facets. */
+void DiscretisationError::addCell(const std::int64_t* corners, const double* const* points,
+  const CellWeights& weights, double flatness)
 {
   const int count = cornersOf(this->Type);
   std::int32_t slots[4] = {};
@@ -128,7 +105,7 @@ void DiscretisationError::addFluxes(
   }
   for (int e = 0; e < edgesOf(this->Type); ++e)
   {
-    const auto [i, j] = std::pair(edgeCorners(this->Type, e)[0], edgeCorners(this->Type, e)[1]);
+    const int i = edgeCorners(this->Type, e)[0], j = edgeCorners(this->Type, e)[1];
     const double weight = flatness * weights.weight[e];
     conductance[i] += weight;
     conductance[j] += weight;
@@ -136,8 +113,10 @@ void DiscretisationError::addFluxes(
     const double* b = this->Vertices.values.at(corners[j]);
     for (std::size_t k = 0; k < this->Columns; ++k)
     {
-      terms[i][k] += weight * (b[k] - a[k]);
-      terms[j][k] += weight * (a[k] - b[k]);
+      const double step = b[k] - a[k];
+      this->Sums.solution += weight * step * step;
+      terms[i][k] += weight * step;
+      terms[j][k] -= weight * step;
     }
   }
   for (int k = 0; k < count; ++k)
@@ -145,24 +124,9 @@ void DiscretisationError::addFluxes(
     terms[k][this->Columns] += std::max(0.0, conductance[k]);
     terms[k][this->Columns + 1] += 1.0;
   }
-  const double* field = this->Own ? this->Own->field() : nullptr;
-  if (!field || std::all_of(field, field + 3 * this->Columns, [](double q) { return q == 0.0; }))
+  if (this->Own)
   {
-    return;
-  }
-  const double* points[4] = {};
-  for (int k = 0; k < count; ++k)
-  {
-    points[k] = this->Vertices.points.at(corners[k]);
-  }
-  const CellGradients gradients(this->Type, points);
-  for (int c = 0; c < count; ++c)
-  {
-    for (std::size_t k = 0; k < this->Columns; ++k)
-    {
-      terms[c][k] += flatness * weights.measure *
-                     dot({ field[3 * k], field[3 * k + 1], field[3 * k + 2] }, gradients[c]);
-    }
+    addFieldLoads(*this->Own, this->Type, points, static_cast<int>(this->Columns), terms);
   }
 }
 

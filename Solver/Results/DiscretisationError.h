@@ -66,8 +66,8 @@ public:
 private:
   void addVertices(const MeshBlock& block);
   void addCells(const MeshBlock& block);
-  void addCell(const std::int64_t* corners, const CellWeights& weights, double flatness);
-  void addFluxes(const std::int64_t* corners, const CellWeights& weights, double flatness);
+  void addCell(const std::int64_t* corners, const double* const* points, const CellWeights& weights,
+    double flatness);
   std::int32_t termsOf(const std::int64_t* corners);
   void finalize(std::int64_t end);
   void addInflows(std::int64_t vertex);

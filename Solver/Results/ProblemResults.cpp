@@ -138,9 +138,7 @@ void ProblemResults::addCell(std::size_t c, const std::int64_t* corners, unsigne
     }
     return;
   }
-  const double flatness = this->Kind != Weights::Cotangent ? 1.0
-                          : this->Own                      ? this->Own->flatness()
-                                      : flatnessFactor(this->Type, points, cell);
+  const double flatness = flatnessOf(this->Kind, this->Own, this->Type, points, cell);
   this->Cells.add(
     c, points, values, cell, flatness, this->Own ? this->Own->conductivity() : nullptr);
   for (int k = 0; k < count; ++k)
