@@ -145,7 +145,7 @@ struct CoarseningData
     , patches(pool)
     , patchMatrix(pool)
     , initial(pool)
-    , initialSum(pool)
+    , initialTotal(pool)
     , relaxed(pool)
     , interpolation(pool)
     , rowQuanta(pool)
@@ -196,7 +196,7 @@ struct CoarseningData
   /** The matrix of the patch that begins at the node: its lower triangle by rows. */
   RaggedRing<double> patchMatrix;
   RaggedRing<CoarseEntry> initial;
-  Ring<float> initialSum; ///< of the row of `initial`
+  Ring<float> initialTotal; ///< Z of the row of `initial`: its weights were divided by it
   Ring<RelaxedRow> relaxed;
   RaggedRing<InterpolationEntry> interpolation;
   Ring<std::int16_t> rowQuanta; ///< sum of the row of P
@@ -244,6 +244,14 @@ struct CoarseningData
   std::int64_t mostProducts(std::int64_t i) const
   {
     return RelaxedRow::Most * (static_cast<std::int64_t>(this->fine.row(i).size()) + 1);
+  }
+
+  /** The sum of row i of the initial P. */
+  float initialSum(std::int64_t i) const
+  {
+    const auto alpha = static_cast<float>(std::max(0.0, this->fine.alpha(i)));
+    const float total = this->initialTotal[i];
+    return this->lifted[i] != Retained ? 1.0F : total > alpha ? (total - alpha) / total : 0.0F;
   }
 
   /** Appends the matrix of the patch that begins at node i, if one does: its rows exist. */
@@ -326,7 +334,7 @@ private:
     this->patches.release(i);
     this->patchMatrix.release(i);
     this->initial.release(i);
-    this->initialSum.release(i);
+    this->initialTotal.release(i);
     this->relaxed.release(i);
     this->interpolation.release(i);
     this->rowQuanta.release(i);

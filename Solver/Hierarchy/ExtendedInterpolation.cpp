@@ -13,7 +13,18 @@ namespace
 /** A patch whose matrix is this close to singular is relaxed node by node. */
 constexpr double LeastPivot = 1e-6;
 
-/** The current rows of P near row i, which has been extended for: relaxed, or the initial ones. */
+/** Row i is solved for together with what its neighbours take from it while this share of its
+ * diagonal remains: below it, the neighbours are so strongly coupled among themselves that each
+ * would count for several. */
+constexpr float LeastShare = 0.3F;
+
+/**
+ * The current rows of P near row i, relaxed or the initial ones, as row i sees them: a retained
+ * neighbour k with w_ik > 0 follows row i.
+ *
+ *   not relaxed yet: P_k = (Z_k P0_k + w_ik P_i) / (Z_k + w_ik)
+ *   relaxed:         P_k + w_ik / A_kk (P_i - the current P_i), with which it was relaxed
+ */
 class NewestRows
 {
 public:
@@ -21,32 +32,119 @@ public:
   {
     std::span<const CoarseEntry> entries;
     float sum;
+    float weight;   ///< of the row, in row i
+    float ofItself; ///< weight of P_i
+    float ofOld;    ///< weight of - the current P_i
   };
 
   NewestRows(const CoarseningData& data, std::int64_t i)
-    : Initial(data.initial.near(i))
-    , InitialSum(data.initialSum.at(i))
+    : Data(data)
+    , I(i)
+    , Initial(data.initial.near(i))
+    , Total(data.initialTotal.at(i))
+    , Lifted(data.lifted.at(i))
     , Relaxed(data.relaxed.at(i))
     , RelaxedEnd(data.relaxed.end() - i)
   {
   }
 
-  Row operator[](std::int32_t distance) const
+  Row operator[](const RowEntry& entry) const
   {
-    if (distance < this->RelaxedEnd && this->Relaxed[distance].size != RelaxedRow::Pending)
+    const std::int32_t distance = entry.delta();
+    const float w = entry.weight();
+    const bool follows = w > 0.0F && this->Lifted[distance] == CoarseningData::Retained;
+    if (this->isRelaxed(distance))
     {
-      const RelaxedRow& row = this->Relaxed[distance];
-      return { { row.entry, static_cast<std::size_t>(row.size) }, row.sum };
+      // Where weights of row k are negative, its diagonal may be less than w.
+      const float back =
+        follows ? w * std::min(1.0F, w / this->Data.patches.diagonal(this->I + distance)) : 0.0F;
+      return { this->entries(distance), this->sum(distance), w, back, back };
     }
-    return { this->Initial[distance], this->InitialSum[distance] };
+    const float back = follows ? w * (w / (this->Total[distance] + w)) : 0.0F;
+    return { this->entries(distance), this->sum(distance), w - back, back, 0.0F };
+  }
+
+  /** The row of the node at this distance, and its sum. */
+  std::span<const CoarseEntry> entries(std::int32_t distance) const
+  {
+    const RelaxedRow* row = this->Relaxed + distance;
+    return this->isRelaxed(distance) ? std::span(row->entry, static_cast<std::size_t>(row->size))
+                                     : this->Initial[distance];
+  }
+  float sum(std::int32_t distance) const
+  {
+    if (this->isRelaxed(distance))
+    {
+      return this->Relaxed[distance].sum;
+    }
+    return this->Data.initialSum(this->I + distance);
   }
 
 private:
+  bool isRelaxed(std::int32_t distance) const
+  {
+    return distance < this->RelaxedEnd && this->Relaxed[distance].size != RelaxedRow::Pending;
+  }
+
+  const CoarseningData& Data;
+  std::int64_t I;
   RaggedRing<CoarseEntry>::Near Initial;
-  const float* InitialSum;
+  const float* Total;
+  const CoarseIndex* Lifted;
   const RelaxedRow* Relaxed;
   std::int64_t RelaxedEnd; // distance
 };
+
+/** An equation diagonal * P_i = what has been added, whose row sums lack so much of the diagonal.
+ */
+struct RowEquation
+{
+  float diagonal;
+  double lacking;
+};
+
+/** The equation of row i from its neighbours for which this is true: add(distance of the coarse
+ * node from seenCoarse, weight). */
+template <class Counts, class Add>
+RowEquation equationOf(const CoarseningData& data, std::int64_t i, Counts counts, Add add)
+{
+  const std::int64_t near = data.seenCoarse;
+  const NewestRows newest(data, i);
+  const float diagonal = data.patches.diagonal(i);
+  float ofItself = 0.0F, ofOld = 0.0F;
+  for (const RowEntry& entry : data.fine.row(i))
+  {
+    if (counts(entry))
+    {
+      const NewestRows::Row row = newest[entry];
+      ofItself += row.ofItself;
+      ofOld += row.ofOld;
+    }
+  }
+  const bool follow = diagonal - ofItself > LeastShare * diagonal;
+  RowEquation equation{ follow ? diagonal - ofItself : diagonal, data.fine.alpha(i) };
+  const auto addRow = [&](std::span<const CoarseEntry> row, float sum, float weight)
+  {
+    equation.lacking += static_cast<double>(weight) * (1.0F - sum);
+    for (const CoarseEntry& p : row)
+    {
+      add(p.offset(near), weight * p.value());
+    }
+  };
+  for (const RowEntry& entry : data.fine.row(i))
+  {
+    if (counts(entry))
+    {
+      const NewestRows::Row row = newest[entry];
+      addRow(row.entries, row.sum, follow ? row.weight : entry.weight());
+    }
+  }
+  if (follow && ofOld > 0.0F)
+  {
+    addRow(newest.entries(0), newest.sum(0), -ofOld);
+  }
+  return equation;
+}
 
 /** std::lround() of a number of a few digits, without a call: the sum is exact. */
 int nearest(float value)
@@ -59,13 +157,13 @@ int nearest(float value)
 void ExtendedInterpolation::initial(CoarseningData& data, std::int64_t i) const
 {
   constexpr CoarseIndex Retained = CoarseningData::Retained;
-  data.initialSum.extendRaw(i + 1);
+  data.initialTotal.extendRaw(i + 1);
   const CoarseIndex* lifted = data.lifted.at(i);
   if (*lifted != Retained)
   {
     *data.initial.open(1) = { *lifted, 1.0F };
     data.initial.close(1);
-    data.initialSum[i] = 1.0F;
+    data.initialTotal[i] = 1.0F;
     return;
   }
   const auto row = data.fine.row(i);
@@ -88,7 +186,7 @@ void ExtendedInterpolation::initial(CoarseningData& data, std::int64_t i) const
     out[e].setValue(out[e].value() / sum);
   }
   data.initial.close(size);
-  data.initialSum[i] = size > 0 ? (sum - alpha) / sum : 0.0F;
+  data.initialTotal[i] = sum;
 }
 
 void ExtendedInterpolation::relax(CoarseningData& data, std::int64_t i)
@@ -148,75 +246,62 @@ void ExtendedInterpolation::openPattern(
   this->Row.resize(size);
 }
 
-/** The weights of the columns. */
-void ExtendedInterpolation::closePattern(const CoarseningData& data)
+/** The weights of the columns, times this factor. */
+void ExtendedInterpolation::closePattern(const CoarseningData& data, float factor)
 {
   const Slot* slots = data.slots.at(data.seenCoarse);
   for (Candidate& candidate : this->Row)
   {
-    candidate.weight = slots[candidate.distance].value;
+    candidate.weight = factor * slots[candidate.distance].value;
   }
 }
 
 void ExtendedInterpolation::relaxNode(CoarseningData& data, std::int64_t i)
 {
-  const std::int64_t near = data.seenCoarse;
-  Slot* slots = data.slots.at(near);
+  Slot* slots = data.slots.at(data.seenCoarse);
   const std::uint32_t mark = data.slots.freshMark();
   this->openPattern(data, i, mark);
-  const float inverse = 1.0F / data.patches.diagonal(i);
-  double lacking = data.fine.alpha(i);
-  const NewestRows newest(data, i);
-  for (const RowEntry& entry : data.fine.row(i))
-  {
-    const NewestRows::Row row = newest[entry.delta()];
-    const float weight = entry.weight() * inverse;
-    lacking += static_cast<double>(entry.weight()) * (1.0F - row.sum);
-    for (const CoarseEntry& p : row.entries)
+  const RowEquation equation = equationOf(
+    data, i, [](const RowEntry&) { return true; },
+    [slots, mark](std::int32_t distance, float value)
     {
-      Slot& slot = slots[p.offset(near)];
+      Slot& slot = slots[distance];
       if (slot.mark == mark)
       {
-        slot.value += weight * p.value();
+        slot.value += value;
       }
-    }
-  }
-  this->closePattern(data);
-  this->store(data, i, 1.0 - lacking * static_cast<double>(inverse));
+    });
+  const float inverse = 1.0F / equation.diagonal;
+  this->closePattern(data, inverse);
+  this->store(data, i, 1.0 - equation.lacking * static_cast<double>(inverse));
 }
 
 void ExtendedInterpolation::gatherOutside(
   CoarseningData& data, std::int64_t i, const Patch& patch, std::uint32_t inside, Outside& sum)
 {
-  const std::int64_t near = data.seenCoarse;
-  Slot* slots = data.slots.at(near);
+  Slot* slots = data.slots.at(data.seenCoarse);
   const std::uint32_t mark = data.slots.freshMark();
   sum.weights.clear();
-  sum.lacking = data.fine.alpha(i);
-  const NewestRows newest(data, i);
-  for (const RowEntry& entry : data.fine.row(i))
-  {
-    const std::int64_t m = i + entry.delta();
-    bool outside = true;
-    for (int k = 0; k < patch.size; ++k)
+  const RowEquation equation = equationOf(
+    data, i,
+    [&](const RowEntry& entry)
     {
-      outside = outside && !((inside >> k & 1) != 0 && patch.member(k) == m);
-    }
-    if (!outside)
+      bool outside = true;
+      for (int k = 0; k < patch.size; ++k)
+      {
+        outside = outside && !((inside >> k & 1) != 0 && patch.member(k) == i + entry.delta());
+      }
+      return outside;
+    },
+    [&](std::int32_t distance, float value)
     {
-      continue;
-    }
-    const NewestRows::Row row = newest[entry.delta()];
-    sum.lacking += static_cast<double>(entry.weight()) * (1.0F - row.sum);
-    for (const CoarseEntry& p : row.entries)
-    {
-      const std::int32_t distance = p.offset(near);
-      if (slots[distance].add(mark, entry.weight() * p.value()))
+      if (slots[distance].add(mark, value))
       {
         sum.weights.push_back({ distance, 0.0F });
       }
-    }
-  }
+    });
+  sum.lacking = equation.lacking;
+  sum.ofItself = data.patches.diagonal(i) - equation.diagonal;
   for (Candidate& candidate : sum.weights)
   {
     candidate.weight = slots[candidate.distance].value;
@@ -227,7 +312,18 @@ void ExtendedInterpolation::gatherOutside(
 void ExtendedInterpolation::relaxPatch(
   CoarseningData& data, const Patch& patch, const int* members, int count)
 {
+  std::uint32_t inside = 0;
+  for (int a = 0; a < count; ++a)
+  {
+    inside |= 1U << members[a];
+  }
   PatchMatrix inverse = matrixOf(data.fine, patch).part(members, count);
+  for (int a = 0; a < count; ++a)
+  {
+    Outside& sum = this->Of[static_cast<std::size_t>(a)];
+    gatherOutside(data, patch.member(members[a]), patch, inside, sum);
+    inverse.at(a, a) -= static_cast<double>(sum.ofItself);
+  }
   if (!inverse.invert(LeastPivot))
   {
     for (int a = 0; a < count; ++a)
@@ -235,16 +331,6 @@ void ExtendedInterpolation::relaxPatch(
       this->relaxNode(data, patch.member(members[a]));
     }
     return;
-  }
-  std::uint32_t inside = 0;
-  for (int a = 0; a < count; ++a)
-  {
-    inside |= 1U << members[a];
-  }
-  for (int a = 0; a < count; ++a)
-  {
-    gatherOutside(
-      data, patch.member(members[a]), patch, inside, this->Of[static_cast<std::size_t>(a)]);
   }
   Slot* slots = data.slots.at(data.seenCoarse);
   for (int a = 0; a < count; ++a)
@@ -267,7 +353,7 @@ void ExtendedInterpolation::relaxPatch(
         }
       }
     }
-    this->closePattern(data);
+    this->closePattern(data, 1.0F);
     this->store(data, i, 1.0 - lacking);
   }
 }

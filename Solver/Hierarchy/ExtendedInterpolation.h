@@ -17,9 +17,15 @@ namespace smg
  *
  *   P0_jk = w_jk / Z_j,  Z_j = alpha_j + sum of the w_jk,   k the strong lifted neighbours.
  *
- * Then one or several sweeps over the rows, in stream order and in place, replace the row by
+ * Then one or several sweeps over the rows, in stream order and in place, solve row j for P_j
  *
- *   P_j = sum over all neighbours m of w_jm P_m, divided by A_jj,
+ *   A_jj P_j = sum over all neighbours m of w_jm P_m,
+ *
+ * together with what retained neighbours with w_jm > 0 take from it ("extended+i": De Sterck,
+ * Falgout, Nolting, Yang, Distance-two interpolation for parallel algebraic multigrid, 2008):
+ *
+ *   P_m = (Z_m P0_m + w_jm P_j) / (Z_m + w_jm)  before m is relaxed,
+ *   P_m + w_jm / A_mm (P_j - the P_j before)    afterwards,
  *
  * where the rows of lower neighbours are those of this sweep; the retained nodes of a patch b (see
  * Patches) are relaxed together, at its last one: P_b = A_bb^-1 sum over m not in b of w_bm P_m. A
@@ -66,15 +72,15 @@ private:
   {
     Candidates weights;
     double lacking;
+    float ofItself; ///< what the neighbours take from it
   };
 
   void relaxNode(CoarseningData& data, std::int64_t i);
   void relaxPatch(CoarseningData& data, const Patch& patch, const int* members, int count);
-  void gather(const CoarseningData& data, std::int64_t i);
   static void gatherOutside(
     CoarseningData& data, std::int64_t i, const Patch& patch, std::uint32_t inside, Outside& sum);
   void openPattern(const CoarseningData& data, std::int64_t i, std::uint32_t mark);
-  void closePattern(const CoarseningData& data);
+  void closePattern(const CoarseningData& data, float factor);
   int entriesOf(const CoarseningData& data, std::int64_t i) const;
   void store(CoarseningData& data, std::int64_t i, double sum);
 

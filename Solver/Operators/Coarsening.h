@@ -140,7 +140,7 @@ public:
     this->MatricesDone = rows.unreached(this->MatricesDone, this->PatchesDone);
     d.lifted.release(this->RelaxedDone);
     d.initial.release(this->RelaxedDone);
-    d.initialSum.release(this->RelaxedDone);
+    d.initialTotal.release(this->RelaxedDone);
     d.relaxed.release(this->RelaxedDone);
     d.patches.release(std::min(this->PatchesDone, this->Multiplied));
     d.patchMatrix.release(this->MatricesDone);
@@ -236,7 +236,7 @@ private:
     if (rows > 0)
     {
       d.initial.reserve(rows, this->InitialEntries.of(rows) + d.mostInitial(this->Initial));
-      d.initialSum.reserve(this->Initial + rows - d.initialSum.first());
+      d.initialTotal.reserve(this->Initial + rows - d.initialTotal.first());
     }
   }
 

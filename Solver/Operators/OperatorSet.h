@@ -36,7 +36,7 @@ namespace smg
  * - `lift` may read row i and `lifted` of the nodes below, and returns the decision. A node whose
  *   row is stiff (see StiffRows) should be lifted.
  * - `interpolateInitial` may read row i and `lifted` of its neighbours, and appends row i of
- *   `initial` and its `initialSum`.
+ *   `initial` and its `initialTotal`.
  * - `relaxInterpolation` may read row i, and of i and its neighbours `lifted`, `initial` and
  *   `relaxed`, which is Pending before the first sweep. It sets `relaxed` of i; for the nodes of a
  *   patch, all of which it may then read in this way, when called for the last node.

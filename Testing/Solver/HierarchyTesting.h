@@ -230,7 +230,7 @@ public:
   void interpolateInitial(CoarseningData& data, std::int64_t i)
   {
     this->Interpolation.initial(data, i);
-    this->keep(data, data.initial.row(i), data.initial.size(i), data.initialSum[i], 0, i);
+    this->keep(data, data.initial.row(i), data.initial.size(i), data.initialSum(i), 0, i);
   }
   int interpolationSweeps() const { return this->sweeps; }
   void relaxInterpolation(CoarseningData& data, std::int64_t i)
