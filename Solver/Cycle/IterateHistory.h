@@ -39,6 +39,7 @@ struct ResidualProducts
 enum class KeptResiduals
 {
   None,
+  Few, ///< one of as many groups as possible, where memory is short
   Sampled,
   All ///< for bad cells, which make the residuals of few nodes dominant
 };
@@ -81,9 +82,10 @@ public:
   /** Of how many groups of nodes one keeps residuals; 0: none does. */
   static std::int64_t sparseness(std::int64_t nodes, KeptResiduals residuals)
   {
-    return residuals == KeptResiduals::Sampled ? sparsenessFor(nodes)
-           : residuals == KeptResiduals::All   ? 1
-                                               : 0;
+    return residuals == KeptResiduals::Few       ? RowBlock::Groups
+           : residuals == KeptResiduals::Sampled ? sparsenessFor(nodes)
+           : residuals == KeptResiduals::All     ? 1
+                                                 : 0;
   }
   std::int64_t sparseness() const { return this->Every; }
 

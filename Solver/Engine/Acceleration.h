@@ -30,6 +30,7 @@ public:
   /** The weights of the next V-cycle if it is accelerated. `products`: of the history of the last
    * one. */
   StepWeights next(const ResidualProducts& products);
+  bool isWanted() const { return this->Wanted != AccelerationKind::None; }
   /** The memory limit has no room for what kind() keeps: takes Chebyshev polynomials, which keep
    * least, from the third V-cycle on, or if there is no room for these either, none. */
   void saveMemory();

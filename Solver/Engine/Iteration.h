@@ -45,6 +45,8 @@ public:
 
 private:
   void addHistory();
+  void emplaceHistoryWithRoom();
+  bool measuresMemory();
   bool hasRoom(KeptResiduals residuals) const;
   void emplaceHistory(KeptResiduals residuals);
 
@@ -64,13 +66,22 @@ void Iteration<Relaxation>::operator()(bool spareLast)
   Pass<Relaxation> pass(this->Run, this->Levels);
   while (!this->Watched.done() && !(spareLast && this->Watched.isLast()))
   {
-    this->Faster.decide();
-    this->addHistory();
+    const bool measures = this->measuresMemory();
+    if (!measures)
+    {
+      this->Faster.decide();
+      this->addHistory();
+    }
     if (this->History)
     {
       this->History->startPass(this->Faster.next(this->History->products()));
     }
-    pass(this->Watched.norm(), { {}, {}, this->History ? &*this->History : nullptr });
+    pass(this->Watched.norm(), { {}, {}, this->History ? &*this->History : nullptr, measures });
+    if (measures)
+    {
+      this->Run.plainPassPeak = this->Run.pool.recentPeak();
+      this->Run.valueNodes = this->Levels.window().x().capacity();
+    }
     this->Watched.add(this->Levels.residualNorm(), this->Levels.roundingNorm());
     if (this->Balance && this->Balance->add(this->Run.energy->value(),
                            this->Watched.residuals().back(), this->Watched.factor()))
@@ -88,29 +99,56 @@ void Iteration<Relaxation>::operator()(bool spareLast)
   this->History.reset();
 }
 
+/** Whether the next pass is to find out what passes need, since less than the first one, on which
+ * it depends whether there is room for acceleration: only before the first of them, as the memory
+ * of windows grows with several chains. */
+template <class Relaxation>
+bool Iteration<Relaxation>::measuresMemory()
+{
+  if (!this->Run.scratch || this->Run.valueNodes > 0)
+  {
+    return false;
+  }
+  this->Run.valueNodes = this->Levels.window().x().capacity();
+  this->Run.pool.restartPeak();
+  return this->Faster.isWanted() && !this->hasRoom(KeptResiduals::All);
+}
+
 /** Creates the history that the next V-cycle needs, or releases one that it does not need. */
 template <class Relaxation>
 void Iteration<Relaxation>::addHistory()
 {
   if (this->Faster.kind() != AccelerationKind::None && !this->History)
   {
-    // The slowest errors may be local to some vertices of slivers, too few of which are in a
-    // sample: so on dragon.ply, where 0.7 % of the rows are stiff; with a tenth of that a sample is
-    // sufficient.
-    const KeptResiduals residuals = this->Faster.kind() != AccelerationKind::ConjugateGradients
-                                      ? KeptResiduals::None
-                                    : this->Levels.slowestAtSlivers() ? KeptResiduals::All
-                                                                      : KeptResiduals::Sampled;
-    if (this->hasRoom(residuals))
-    {
-      this->emplaceHistory(residuals);
-      return;
-    }
-    this->Faster.saveMemory();
+    this->emplaceHistoryWithRoom();
   }
   if (this->Faster.kind() == AccelerationKind::None)
   {
     this->History.reset();
+  }
+}
+
+template <class Relaxation>
+void Iteration<Relaxation>::emplaceHistoryWithRoom()
+{
+  // The slowest errors may be local to some vertices of slivers, too few of which are in a sample:
+  // so on dragon.ply, where 0.7 % of the rows are stiff; with a tenth of that a sample is
+  // sufficient.
+  const KeptResiduals residuals = this->Faster.kind() != AccelerationKind::ConjugateGradients
+                                    ? KeptResiduals::None
+                                  : this->Levels.slowestAtSlivers() ? KeptResiduals::All
+                                                                    : KeptResiduals::Sampled;
+  if (this->hasRoom(residuals))
+  {
+    this->emplaceHistory(residuals);
+  }
+  else if (residuals != KeptResiduals::None && this->hasRoom(KeptResiduals::Few))
+  {
+    this->emplaceHistory(KeptResiduals::Few);
+  }
+  else
+  {
+    this->Faster.saveMemory();
   }
 }
 
@@ -128,10 +166,12 @@ bool Iteration<Relaxation>::hasRoom(KeptResiduals residuals) const
     const std::int64_t need = nodes * IterateHistory::nodeBytes(window.stride(), residuals);
     return pool.used() + need + need / 4 + Pages <= pool.limit();
   }
-  const std::int64_t expected = this->Run.expectedBytes, peak = this->Run.firstPassPeak;
-  const bool isOfOneThread = !this->Run.isAmple || expected == 0;
-  const std::int64_t first = isOfOneThread ? peak : std::min(peak, expected + expected / 8);
-  return passBytes(first, IterateHistory::sparseness(nodes, residuals)) <= pool.limit();
+  if (this->Run.isAmple && this->Run.expectedBytes > 0)
+  {
+    return true; // the first pass is not of one thread
+  }
+  return passBytes(this->Run, window.stride(), IterateHistory::sparseness(nodes, residuals)) <=
+         pool.limit();
 }
 
 template <class Relaxation>

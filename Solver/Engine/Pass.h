@@ -18,16 +18,23 @@
 namespace smg
 {
 
-/** The bytes of the pool that a pass out of core needs on one thread, given those of the first pass
- * and the sparseness of its history, if any: measured up to 0.86 as many without, 1.09 with steps
- * alone (sparseness 0; small meshes), 1.02 with a sample of the residuals (surface of 177 million
- * vertices), 1.22 (dragon) to 1.3 (torus of 50 thousand) with all of them. */
-inline std::int64_t passBytes(std::int64_t firstPassPeak, std::optional<std::int64_t> sparseness)
+/** The bytes of the pool that a pass out of core needs in one chain, with a history of this
+ * sparseness (0: of steps alone) or without one, if there are `stride` values a node: bounds of
+ * what surfaces, solids and scans of 50 thousand to 2.8 million vertices needed. Most passes need
+ * less than the first one, down to a third of it; on slivers they need up to 1.1 times as much. */
+inline std::int64_t passBytes(
+  const SolveRun& run, int stride, std::optional<std::int64_t> sparseness)
 {
-  const std::int64_t history = !sparseness        ? 0
-                               : *sparseness == 0 ? firstPassPeak / 16
-                                                  : firstPassPeak * 2 / 7 / *sparseness;
-  return firstPassPeak + firstPassPeak / 16 + history;
+  std::int64_t bytes = run.plainPassPeak > 0 ? run.plainPassPeak + run.plainPassPeak / 10
+                                             : run.firstPassPeak + run.firstPassPeak / 8;
+  if (sparseness)
+  {
+    // In the window, and blocks that are read ahead and written behind.
+    const std::int64_t nodes = run.valueNodes + 6 * RowBlock::Nodes;
+    const std::int64_t values = nodes * stride * std::int64_t(sizeof(double));
+    bytes += values * 5 / 4 + (*sparseness > 0 ? values * 7 / 4 / *sparseness : 0);
+  }
+  return bytes;
 }
 
 /** A pass over the levels that finishes a V-cycle and begins the next one. */
@@ -44,6 +51,8 @@ public:
     Pipeline::Advance beforeDown;
     /** Accelerates. */
     IterateHistory* history = nullptr;
+    /** Takes as little memory as it can. */
+    bool inOneChain = false;
   };
 
   Pass(SolveRun& run, Hierarchy<Relaxation>& hierarchy)
@@ -69,8 +78,8 @@ private:
     std::int64_t step; ///< nodes of the finest level
     int chains;
   };
-  Schedule schedule(const IterateHistory* history) const;
-  std::int64_t chainsFor(std::int64_t step, std::optional<std::int64_t> sparseness) const;
+  Schedule schedule(const Further& further) const;
+  std::int64_t chainsFor(std::int64_t step, const IterateHistory* history) const;
 
   SolveRun& Run;
   Hierarchy<Relaxation>& Levels;
@@ -106,7 +115,7 @@ template <class Relaxation>
 void Pass<Relaxation>::stream(const Further& further)
 {
   auto& finest = this->Levels.finest();
-  const Schedule schedule = this->schedule(further.history);
+  const Schedule schedule = this->schedule(further);
   const std::int64_t step = schedule.step;
   const Pipeline stages = this->stages(further, schedule.chains);
   std::vector<std::function<void()>> files;
@@ -171,30 +180,34 @@ Pipeline Pass<Relaxation>::stages(const Further& further, int chains)
 /** The length of the steps and the number of chains that the threads need, as far as the memory
  * suffices. */
 template <class Relaxation>
-auto Pass<Relaxation>::schedule(const IterateHistory* history) const -> Schedule
+auto Pass<Relaxation>::schedule(const Further& further) const -> Schedule
 {
   const std::int64_t usual = this->Run.options.blockNodes;
+  if (further.inOneChain)
+  {
+    return { usual, 1 };
+  }
   const std::int64_t wanted = Pipeline::chainsFor(this->Run.scheduled);
   const std::int64_t longer = Pipeline::stepFor(this->Run.scheduled, usual);
-  const std::optional<std::int64_t> sparseness =
-    history ? std::optional(history->sparseness()) : std::nullopt;
-  const std::int64_t step = this->chainsFor(longer, sparseness) < wanted ? usual : longer;
-  const std::int64_t chains = this->chainsFor(step, sparseness);
+  const std::int64_t step = this->chainsFor(longer, further.history) < wanted ? usual : longer;
+  const std::int64_t chains = this->chainsFor(step, further.history);
   return { step, static_cast<int>(std::clamp(chains, std::int64_t(1), wanted)) };
 }
 
 /** The number of chains for which the memory suffices: each takes a step's nodes. In core all nodes
  * are in memory anyway. */
 template <class Relaxation>
-std::int64_t Pass<Relaxation>::chainsFor(
-  std::int64_t step, std::optional<std::int64_t> sparseness) const
+std::int64_t Pass<Relaxation>::chainsFor(std::int64_t step, const IterateHistory* history) const
 {
   constexpr std::int64_t NodeBytes = 400; // measured, with coarser levels: 220 of surfaces
   if (!this->Run.scratch)
   {
     return std::numeric_limits<std::int64_t>::max();
   }
-  const std::int64_t room = this->Run.pool.limit() - passBytes(this->Run.firstPassPeak, sparseness);
+  const std::optional<std::int64_t> sparseness =
+    history ? std::optional(history->sparseness()) : std::nullopt;
+  const std::int64_t room =
+    this->Run.pool.limit() - passBytes(this->Run, this->Levels.window().stride(), sparseness);
   return room / (NodeBytes * std::min(step, this->Levels.window().nodes()));
 }
 

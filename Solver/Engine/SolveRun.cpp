@@ -157,8 +157,8 @@ void SolveRun::save(StateWriter& state)
   ReportState<StateWriter> reported{ r };
   const std::int64_t peak = this->pool.peak();
   state.part("run");
-  state(reported, peak, this->expectedBytes, this->isAmple, this->firstPassPeak, this->components,
-    this->labels);
+  state(reported, peak, this->expectedBytes, this->isAmple, this->firstPassPeak,
+    this->plainPassPeak, this->valueNodes, this->components, this->labels);
   this->Kept.save(state);
   state.part("counts");
   const std::uint64_t kinds = this->traffic.kinds().size();
@@ -177,8 +177,8 @@ void SolveRun::load(StateReader& state)
   std::int64_t peak = 0;
   this->labels.useScratch(*this->scratch, this->traffic.add("labels"));
   state.part("run");
-  state(reported, peak, this->expectedBytes, this->isAmple, this->firstPassPeak, this->components,
-    this->labels);
+  state(reported, peak, this->expectedBytes, this->isAmple, this->firstPassPeak,
+    this->plainPassPeak, this->valueNodes, this->components, this->labels);
   this->pool.raisePeak(peak);
   this->SecondsBefore = this->report.seconds.total;
   this->CpuAtStart -= this->report.cpu_seconds;

@@ -32,6 +32,7 @@ void Pool::acquire(std::int64_t bytes)
   }
   this->Used += bytes;
   this->Peak = std::max(this->Peak, this->Used);
+  this->Recent = std::max(this->Recent, this->Used);
 }
 
 void Pool::release(std::int64_t bytes)
@@ -50,6 +51,18 @@ std::int64_t Pool::peak() const
 {
   const std::lock_guard lock(this->Mutex);
   return this->Peak;
+}
+
+std::int64_t Pool::recentPeak() const
+{
+  const std::lock_guard lock(this->Mutex);
+  return this->Recent;
+}
+
+void Pool::restartPeak()
+{
+  const std::lock_guard lock(this->Mutex);
+  this->Recent = this->Used;
 }
 
 void Pool::raisePeak(std::int64_t bytes)

@@ -42,6 +42,9 @@ public:
 
   std::int64_t used() const;
   std::int64_t peak() const;
+  /** The peak since it was last restarted. */
+  std::int64_t recentPeak() const;
+  void restartPeak();
   /** Counts an earlier use of so many bytes. */
   void raisePeak(std::int64_t bytes);
   std::int64_t limit() const { return this->Limit; }
@@ -53,7 +56,7 @@ private:
   std::int64_t Limit;
   mutable std::mutex Mutex;
   std::int64_t Used = 0;
-  std::int64_t Peak = 0;
+  std::int64_t Peak = 0, Recent = 0;
 };
 
 /** "the solve needs at least ... MiB of memory but the limit is ... MiB: ..."; with `usual` bytes,

@@ -34,6 +34,8 @@ public:
   std::int64_t first() const { return this->First; }
   std::int64_t end() const { return this->End; }
   int lanes() const { return this->Lanes; }
+  /** The items for which there is memory. */
+  std::int64_t capacity() const { return this->Capacity; }
 
   /** The first value of item `i`, first() <= i <= end(). */
   T* at(std::int64_t i) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Testing/Solver/MemoryGrowth.h"
 #include "Testing/Solver/SolveTesting.h"
+#include "Testing/Support/Isosurface.h"
 
 #include <gtest/gtest.h>
 
@@ -74,11 +75,14 @@ TEST(MemoryLaw, TheErrorOfALowLimitNamesOneThatSuffices)
 }
 
 /** Later passes leave out what is not necessary, several threads, the residuals of an acceleration
- * and at last its polynomials, too, where a limit has room for the first pass and little else; how
- * they are accelerated, and so the solution, does not depend on the threads. */
+ * and at last its polynomials, too, where a limit has room for the first pass and little else,
+ * which only small meshes and slivers need; how they are accelerated, and so the solution, does not
+ * depend on the threads. */
 TEST(MemoryLaw, ALimitThatSufficesForTheFirstPassSufficesForAll)
 {
-  for (const StreamMesh& mesh : { toStream(torus(316, 158)), toStream(tetBox(40, 40, 40)) })
+  const std::pair<StreamMesh, int> cases[] = { { toStream(torus(316, 158)), 109 },
+    { toStream(tetBox(40, 40, 40)), 103 }, { toStream(noisyGyroid(50, 0.02)), 103 } };
+  for (const auto& [mesh, accelerated] : cases)
   {
     ArrayProblem problem = heldEnds(mesh, 3, Weights::Cotangent);
     SolveOptions options;
@@ -99,7 +103,7 @@ TEST(MemoryLaw, ALimitThatSufficesForTheFirstPassSufficesForAll)
       const Report ofMany = solveMesh(mesh, problem, options).report;
       EXPECT_LE(ofMany.pool_bytes_peak, options.memoryLimit);
       EXPECT_EQ(ofMany.acceleration, last.acceleration) << percent << " %";
-      EXPECT_TRUE(percent < 114 || last.acceleration != "none") << percent << " %";
+      EXPECT_TRUE(percent < accelerated || last.acceleration == "cg") << percent << " %";
       EXPECT_EQ(ofMany.residuals, last.residuals) << percent << " %";
     }
     EXPECT_EQ(last.acceleration, "cg");

@@ -20,10 +20,10 @@ Run it:
 
     custom_operators ../../Data/bunny.smb
 
-    sheet, extended: converged after 8 cycles, relative residual 4.13789e-11
-    sheet, over-relaxed: converged after 8 cycles, relative residual 2.05515e-11
-    wires, extended: converged after 7 cycles, relative residual 9.34364e-11
-    wires, over-relaxed: converged after 7 cycles, relative residual 2.74128e-11
+    sheet, extended: converged after 8 cycles, relative residual 2.74882e-11
+    sheet, over-relaxed: converged after 8 cycles, relative residual 9.97187e-12
+    wires, extended: converged after 7 cycles, relative residual 6.56338e-11
+    wires, over-relaxed: converged after 7 cycles, relative residual 3.41856e-11
 */
 
 #include <smg/Convert.h>

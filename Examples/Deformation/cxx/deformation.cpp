@@ -20,9 +20,9 @@ Run it:
 
     deformation ../../Data/bunny.smb ../bunny.json bunny-deformed.vsm
 
-    34834 vertices, 69451 cells: converged in 12 passes
-      rotation: 6 cycles, relative residual 4.21809e-08
-      position: 5 cycles, relative residual 1.77272e-07
+    34834 vertices, 69451 cells: converged in 11 passes
+      rotation: 5 cycles, relative residual 1.89328e-07
+      position: 5 cycles, relative residual 8.73883e-08
 */
 
 #include <smg/Convert.h>
