@@ -72,6 +72,7 @@ FirstResidual FirstPass<Operators>::operator()(
   {
     const FirstResidual residual = this->run(mesh, problem, listener, furtherCoreBytes);
     this->Run.firstPassPeak = this->Run.pool.peak();
+    this->Run.valueNodes = this->Built.window().x().capacity();
     return residual;
   }
   catch (const MemoryLimitError& error)

@@ -99,17 +99,17 @@ void Iteration<Relaxation>::operator()(bool spareLast)
   this->History.reset();
 }
 
-/** Whether the next pass is to find out what passes need, since less than the first one, on which
- * it depends whether there is room for acceleration: only before the first of them, as the memory
- * of windows grows with several chains. */
+/** Whether the next pass measures what later passes need, usually less than the first one; this
+ * decides whether acceleration fits. Only the first later pass does, since windows grow with
+ * several chains, and none with checkpoints, since a solve that continues has less memory left
+ * over. */
 template <class Relaxation>
 bool Iteration<Relaxation>::measuresMemory()
 {
-  if (!this->Run.scratch || this->Run.valueNodes > 0)
+  if (!this->Run.scratch || this->Run.checkpoint || this->Run.report.passes != 1)
   {
     return false;
   }
-  this->Run.valueNodes = this->Levels.window().x().capacity();
   this->Run.pool.restartPeak();
   return this->Faster.isWanted() && !this->hasRoom(KeptResiduals::All);
 }

@@ -99,7 +99,7 @@ bool permitsTasks(const StreamInfo& info, const Problem& problem, const SolveOpt
   SolveOptions several = options;
   several.threads = 2;
   const std::int64_t expected = expectedMemory(info, problem.columns(), problem.weights(), several);
-  // Slivers need up to twice as much as expected, and acceleration a fifth of that.
+  // Slivers need up to twice as much as expected, and acceleration a fifth more.
   return options.memoryLimit > expected / 2 * 5;
 }
 

@@ -206,8 +206,11 @@ std::int64_t Pass<Relaxation>::chainsFor(std::int64_t step, const IterateHistory
   }
   const std::optional<std::int64_t> sparseness =
     history ? std::optional(history->sparseness()) : std::nullopt;
-  const std::int64_t room =
-    this->Run.pool.limit() - passBytes(this->Run, this->Levels.window().stride(), sparseness);
+  // The pass that two problems share has the values of both.
+  const std::int64_t first = this->Run.firstPassPeak;
+  const std::int64_t need =
+    std::max(first + first / 16, passBytes(this->Run, this->Levels.window().stride(), sparseness));
+  const std::int64_t room = this->Run.pool.limit() - need;
   return room / (NodeBytes * std::min(step, this->Levels.window().nodes()));
 }
 

@@ -102,9 +102,11 @@ struct SMG_EXPORT SolveRun
   bool isAmple = false;
   /** The most bytes of the pool in the first pass. */
   std::int64_t firstPassPeak = 0;
-  /** Those in a later pass in one chain without acceleration, 0 if none has been measured; and the
-   * nodes of the finest level for whose values there was memory then, or in the first pass. */
-  std::int64_t plainPassPeak = 0, valueNodes = 0;
+  /** The most bytes in a later pass without acceleration and in one chain; 0: not measured. */
+  std::int64_t plainPassPeak = 0;
+  /** The nodes of the finest level for whose values there was memory in that pass, or in the first.
+   */
+  std::int64_t valueNodes = 0;
   ResidentNodes resident;
   std::optional<ScratchFolder> scratch; ///< none in core
   std::optional<Checkpoint> checkpoint; ///< in the scratch folder

@@ -23,7 +23,7 @@ constexpr float LeastShare = 0.3F;
  * neighbour k with w_ik > 0 follows row i.
  *
  *   not relaxed yet: P_k = (Z_k P0_k + w_ik P_i) / (Z_k + w_ik)
- *   relaxed:         P_k + w_ik / A_kk (P_i - the current P_i), with which it was relaxed
+ *   relaxed:         P_k + w_ik / A_kk (P_i - the current P_i), about the one it was relaxed with
  */
 class NewestRows
 {
@@ -95,16 +95,16 @@ private:
   std::int64_t RelaxedEnd; // distance
 };
 
-/** An equation diagonal * P_i = what has been added, whose row sums lack so much of the diagonal.
- */
+/** The equation (A_ii - ofItself) P_i = what has been added; lacking = (A_ii - ofItself) (1 - the
+ * sum of P_i). */
 struct RowEquation
 {
-  float diagonal;
+  float ofItself; ///< weight of P_i in the rows of the neighbours
   double lacking;
 };
 
-/** The equation of row i from its neighbours for which this is true: add(distance of the coarse
- * node from seenCoarse, weight). */
+/** The equation of row i from its neighbours for which counts(entry) is true: add(distance of the
+ * coarse node from seenCoarse, weight). */
 template <class Counts, class Add>
 RowEquation equationOf(const CoarseningData& data, std::int64_t i, Counts counts, Add add)
 {
@@ -122,7 +122,7 @@ RowEquation equationOf(const CoarseningData& data, std::int64_t i, Counts counts
     }
   }
   const bool follow = diagonal - ofItself > LeastShare * diagonal;
-  RowEquation equation{ follow ? diagonal - ofItself : diagonal, data.fine.alpha(i) };
+  RowEquation equation{ follow ? ofItself : 0.0F, data.fine.alpha(i) };
   const auto addRow = [&](std::span<const CoarseEntry> row, float sum, float weight)
   {
     equation.lacking += static_cast<double>(weight) * (1.0F - sum);
@@ -271,7 +271,7 @@ void ExtendedInterpolation::relaxNode(CoarseningData& data, std::int64_t i)
         slot.value += value;
       }
     });
-  const float inverse = 1.0F / equation.diagonal;
+  const float inverse = 1.0F / (data.patches.diagonal(i) - equation.ofItself);
   this->closePattern(data, inverse);
   this->store(data, i, 1.0 - equation.lacking * static_cast<double>(inverse));
 }
@@ -301,7 +301,7 @@ void ExtendedInterpolation::gatherOutside(
       }
     });
   sum.lacking = equation.lacking;
-  sum.ofItself = data.patches.diagonal(i) - equation.diagonal;
+  sum.ofItself = equation.ofItself;
   for (Candidate& candidate : sum.weights)
   {
     candidate.weight = slots[candidate.distance].value;
