@@ -46,7 +46,7 @@ public:
 private:
   void addHistory();
   void emplaceHistoryWithRoom();
-  bool measuresMemory();
+  bool measuresMemory() const;
   bool hasRoom(KeptResiduals residuals) const;
   void emplaceHistory(KeptResiduals residuals);
 
@@ -76,6 +76,7 @@ void Iteration<Relaxation>::operator()(bool spareLast)
     {
       this->History->startPass(this->Faster.next(this->History->products()));
     }
+    this->Run.pool.restartPeak();
     pass(this->Watched.norm(), { {}, {}, this->History ? &*this->History : nullptr, measures });
     if (measures)
     {
@@ -104,13 +105,12 @@ void Iteration<Relaxation>::operator()(bool spareLast)
  * several chains, and none with checkpoints, since a solve that continues has less memory left
  * over. */
 template <class Relaxation>
-bool Iteration<Relaxation>::measuresMemory()
+bool Iteration<Relaxation>::measuresMemory() const
 {
   if (!this->Run.scratch || this->Run.checkpoint || this->Run.report.passes != 1)
   {
     return false;
   }
-  this->Run.pool.restartPeak();
   return this->Faster.isWanted() && !this->hasRoom(KeptResiduals::All);
 }
 

@@ -79,13 +79,16 @@ TEST(Convergence, MoreSweepsReduceTheErrorMore)
 {
   const StreamMesh mesh = toStream(torus(120, 60, 0.3));
   ArrayProblem problem = fixedEnds(mesh);
+  int cycles = 1000;
   double before = 1.0;
   for (const int sweeps : { 1, 2, 4, 8 })
   {
-    SolveOptions options = accurate(1e-11);
+    SolveOptions options = accurate(1e-13);
     options.sweeps = sweeps;
     const Report report = solveMesh(mesh, problem, options).report;
     EXPECT_TRUE(report.converged);
+    EXPECT_LE(report.cycles, cycles);
+    cycles = report.cycles;
     EXPECT_LT(rateOf(report), before) << sweeps << " sweeps";
     before = rateOf(report);
   }

@@ -75,9 +75,9 @@ TEST(MemoryLaw, TheErrorOfALowLimitNamesOneThatSuffices)
 }
 
 /** Later passes leave out what is not necessary, several threads, the residuals of an acceleration
- * and at last its polynomials, too, where a limit has room for the first pass and little else,
- * which only small meshes and slivers need; how they are accelerated, and so the solution, does not
- * depend on the threads. */
+ * and at last its polynomials, too, where a limit has room for the first pass and little else;
+ * only small meshes have to do without conjugate gradients. How they are accelerated, and so the
+ * solution, does not depend on the threads. */
 TEST(MemoryLaw, ALimitThatSufficesForTheFirstPassSufficesForAll)
 {
   const std::pair<StreamMesh, int> cases[] = { { toStream(torus(316, 158)), 109 },

@@ -5,7 +5,7 @@
 #   cycles   no cyclic dependencies between the folders of Solver, IO and Filters
 #   format   C++ is formatted according to .clang-format (skipped without clang-format 14)
 #   licence  every source file begins with its SPDX line
-#   sizes    no file above 2 MB, no source file above 500 lines, no
+#   sizes    no file above 2 MB, no source file above 400 lines (tests: 450), no
 #            function above 80
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
@@ -102,8 +102,12 @@ sizes() {
   [ -z "$found" ] || fail "files above 2 MB:
 $found"
   found=$(files '*.h' '*.cpp' '*.cxx' '*.txx' '*.hxx' | while read -r file; do
+    case $file in
+      Testing/*) most=450 ;;
+      *) most=400 ;;
+    esac
     lines=$(wc -l < "$file")
-    [ "$lines" -le 500 ] || echo "$file: $lines lines, 500 are allowed"
+    [ "$lines" -le "$most" ] || echo "$file: $lines lines, $most are allowed"
   done)
   [ -z "$found" ] || fail "source files that are too long:
 $found"
