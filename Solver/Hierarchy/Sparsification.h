@@ -14,16 +14,19 @@ namespace smg
 /**
  * Removes small entries of a coarse operator without changing its row sums: an edge (c,k) with
  * |w| < tolerance * min(strongest_c, strongest_k) moves its weight to the two edges (c,m) and (m,k)
- * of the strongest common neighbour m, both large, and if w is negative larger than 2 |w|. If there
- * is none, it is dropped if negative and stays if positive. No entry is removed of a row that is
- * stiff, whose weights cancel, or whose coupling (see Patches) to a row before or after it is above
- * Coupled: small entries decide its soft modes. Of a row m that comes later only what those of c
- * and k say counts, and of couplings those to rows that have come.
+ * of the strongest common neighbour m, both large, and if w is negative larger than 2 |w|; without
+ * such an m it stays, unless dropsNegative. No entry is removed of a row that is stiff, whose
+ * weights cancel, or whose coupling (see Patches) to a row before or after it is above Coupled:
+ * small entries decide its soft modes. Of a row m that comes later only what those of c and k say
+ * counts, and of couplings those to rows that have come.
  */
 struct SMG_EXPORT Sparsification
 {
   /** 0 (nothing is removed) to 0.1; above 0.1 V-cycles diverge. */
   float tolerance = 0.1F;
+  /** Whether negative weights without an m are removed. That makes the operator stiffer: a cluster
+   * that small weights of either sign hold may be held several times as strongly. */
+  bool dropsNegative = false;
   static constexpr double Coupled = 0.5;
 
   /** Processes the pairs (c,k), c < k, as soon as row k exists. */

@@ -37,6 +37,7 @@ public:
     this->Interpolation.entries = parameters.entries;
     this->Interpolation.sweeps = parameters.sweeps;
     this->Product.cancelling = parameters.coarseCancelling;
+    this->Sparsify.dropsNegative = parameters.dropsNegative;
     this->PatchRings = parameters.patchRings;
   }
 

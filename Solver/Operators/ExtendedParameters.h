@@ -21,6 +21,8 @@ struct ExtendedParameters
   int patchRings = 1;
   /** GalerkinProduct::cancelling. */
   double coarseCancelling = 1.1;
+  /** Sparsification::dropsNegative. */
+  bool dropsNegative = false;
 
   /**
    * The parameters that were best in experiments. A strength of 0.2 instead of 0.1 on surfaces
@@ -28,7 +30,7 @@ struct ExtendedParameters
    * scans. Of slivers alone, 0.5 costs nothing and saves a sixth to a half of the V-cycles on
    * lattices of obtuse triangles. On tetrahedra 0 treats the small weights of slivers as strong,
    * and values above 0.1 cost more memory than they save V-cycles. Keeping rows that cancel little
-   * pays off only on surfaces.
+   * and all negative weights pays off only on surfaces.
    *
    * Most of the set-up is the product from the finest level to the next one. Fewer entries there
    * save some of it where slivers do not need them. A second sweep of the interpolation saves at
@@ -44,6 +46,7 @@ struct ExtendedParameters
       parameters.patchRings = 2;
       parameters.cancelling = 1.5F;
       parameters.coarseCancelling = 1.5;
+      parameters.dropsNegative = true;
     }
     return parameters;
   }

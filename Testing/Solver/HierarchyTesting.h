@@ -213,6 +213,7 @@ public:
   int sweeps = 2;
   double cancelling = 1.5;
   float tolerance = 0.1F; ///< of sparsification; 0: the raw product
+  bool dropsNegative = false;
   std::shared_ptr<CoarseningRecord> record = std::make_shared<CoarseningRecord>();
 
   bool lift(const CoarseningData& data, std::int64_t i)
@@ -271,7 +272,7 @@ public:
     }
     this->record->raw.alpha.push_back(data.rawAlpha[c]);
     this->record->rawStiff.push_back(data.rawStrongest[c].stiff());
-    Sparsification{ this->tolerance }(data, c);
+    Sparsification{ this->tolerance, this->dropsNegative }(data, c);
   }
 
 private:

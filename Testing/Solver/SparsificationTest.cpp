@@ -19,6 +19,7 @@ public:
   DenseSparsification(const CoarseningRecord& record, const RecordingOperators& operators)
     : Raw(record.raw)
     , Tolerance(operators.tolerance)
+    , DropsNegative(operators.dropsNegative)
     , Before(Eigen::MatrixXf::Zero(Raw.nodes(), Raw.nodes()))
     , After(Before)
   {
@@ -71,7 +72,7 @@ private:
         continue;
       }
       const std::int64_t middle = this->middle(c, k, std::max(0.0F, -2.0F * weight));
-      if (middle < 0 && weight > 0.0F)
+      if (middle < 0 && !(this->DropsNegative && weight < 0.0F))
       {
         continue;
       }
@@ -118,6 +119,7 @@ private:
 
   const TestLevel& Raw;
   float Tolerance;
+  bool DropsNegative;
   Eigen::MatrixXf Before, After;
   std::vector<bool> Kept;
 };
@@ -126,32 +128,37 @@ private:
 
 TEST(Sparsification, FollowsItsRuleToTheBit)
 {
-  std::int64_t moved = 0, dropped = 0, kept = 0;
-  for (const CoarseningCase& test : coarseningCases())
+  for (const bool dropsNegative : { false, true })
   {
-    const CoarsenedLevel step = coarsen(test.level, test.operators);
-    const DenseSparsification expected(step.record, test.operators);
-    for (std::int64_t c = 0; c < step.coarse.nodes(); ++c)
+    std::int64_t moved = 0, dropped = 0, kept = 0;
+    for (const CoarseningCase& test : coarseningCases())
     {
-      std::vector<float> row(step.coarse.nodes());
-      for (const RowEntry& entry : step.coarse.rows[c])
+      RecordingOperators operators = test.operators;
+      operators.dropsNegative = dropsNegative;
+      const CoarsenedLevel step = coarsen(test.level, operators);
+      const DenseSparsification expected(step.record, operators);
+      for (std::int64_t c = 0; c < step.coarse.nodes(); ++c)
       {
-        row[c + entry.delta()] = entry.weight();
+        std::vector<float> row(step.coarse.nodes());
+        for (const RowEntry& entry : step.coarse.rows[c])
+        {
+          row[c + entry.delta()] = entry.weight();
+        }
+        for (std::int64_t k = 0; k < step.coarse.nodes(); ++k)
+        {
+          ASSERT_EQ(row[k], k == c ? 0.0F : expected.weight(c, k))
+            << test.name << ", " << c << ", " << k;
+        }
+        kept += expected.kept(c) ? 1 : 0;
       }
-      for (std::int64_t k = 0; k < step.coarse.nodes(); ++k)
-      {
-        ASSERT_EQ(row[k], k == c ? 0.0F : expected.weight(c, k))
-          << test.name << ", " << c << ", " << k;
-      }
-      kept += expected.kept(c) ? 1 : 0;
+      EXPECT_TRUE(!test.positive || expected.removed > step.coarse.nodes() / 4) << test.name;
+      moved += expected.moved;
+      dropped += expected.dropped;
     }
-    EXPECT_TRUE(!test.positive || expected.removed > step.coarse.nodes() / 4) << test.name;
-    moved += expected.moved;
-    dropped += expected.dropped;
+    EXPECT_GT(moved, 20);
+    EXPECT_TRUE(dropsNegative ? dropped > 20 : dropped == 0) << dropped;
+    EXPECT_GT(kept, 20);
   }
-  EXPECT_GT(moved, 20);
-  EXPECT_GT(dropped, 20);
-  EXPECT_GT(kept, 20);
 }
 
 TEST(Sparsification, KeepsSymmetryAndRowSums)

@@ -21,7 +21,7 @@ Run it:
     blending ../../Data/bunny.smb bunny-blended.vsm
 
     34834 vertices: converged in 8 passes
-      Light: the largest step between scans was 64.7098 and is 0.968207
+      Light: the largest step between scans was 64.7098 and is 0.968208
 */
 
 #include <smg/Blend.h>

@@ -20,7 +20,7 @@ Run it:
     smoothing ../../Data/bunny.smb bunny-smooth.vsm
 
     34834 vertices, 6155 held: converged in 15 passes
-      step 1: 3 cycles, relative residual 8.08185e-07
+      step 1: 3 cycles, relative residual 8.08179e-07
       step 2: 4 cycles, relative residual 2.26324e-08
 */
 
