@@ -4,8 +4,10 @@
 #include "Filters/Regions/vtkRegionPoints.h"
 #include "Filters/Streaming/vtkInputStamp.h"
 #include "Filters/Streaming/vtkPieceRequest.h"
+#include "Filters/Streaming/vtkSolveEstimate.h"
 #include "Filters/vtkRegionChain.h"
 #include "IO/Files/PartialProgress.h"
+#include "IO/Simplification/SimplifyCosts.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
@@ -37,6 +39,8 @@ namespace
 constexpr double PullShare = 0.5;
 /** The scratch file with a copy of the mesh. */
 constexpr const char* Copy = "mesh.vsm";
+/** Of the input: all that it has. */
+const smg::PieceColumns AllColumns{ .all = true, .required = {}, .optional = {} };
 
 std::string sentence(const smg::SimplifyReport& report)
 {
@@ -101,6 +105,23 @@ struct vtkStreamingMeshSimplification::Internals
     this->MadeFor = smg::stampOf(this->Self, input, inputInfo);
   }
 
+  std::string estimate() const
+  {
+    smg::ConversionOptions places;
+    places.scratch = this->Self.ScratchDirectory ? this->Self.ScratchDirectory : "";
+    places.memoryLimit = this->memory();
+    return smg::estimateText(this->Self, places,
+      [&](const smg::EstimatedInput& mesh, vtkPointSet&)
+      {
+        smg::JobEstimate estimate = smg::simplifyEstimate(mesh, "simplified.vsm",
+          { .vertices = this->Self.NumberOfVertices, .memoryLimit = this->memory() }, places);
+        const bool isCopied = smg::unchangedFile(this->Self, AllColumns).empty();
+        estimate.scratch_bytes =
+          std::max(mesh.conversionScratch, isCopied ? mesh.streamBytes : 0) + estimate.output_bytes;
+        return estimate;
+      });
+  }
+
   std::int64_t memory() const { return std::int64_t(this->Self.MemoryLimit) << 20; }
 
   void release()
@@ -116,8 +137,7 @@ struct vtkStreamingMeshSimplification::Internals
   std::filesystem::path fileOf(
     smg::PieceInput& input, const smg::PieceRequest& request, vtkPointSet& present) const
   {
-    const smg::PieceColumns columns{ .all = true, .required = {}, .optional = {} };
-    const std::filesystem::path whole = smg::unchangedFile(this->Self, columns);
+    const std::filesystem::path whole = smg::unchangedFile(this->Self, AllColumns);
     if (!whole.empty())
     {
       return whole;
@@ -137,7 +157,7 @@ struct vtkStreamingMeshSimplification::Internals
     }
     const int given = this->Self.NumberOfPieces;
     const bool isWhole = given == 0 && input.isInMemory() && !smg::hasSeveralProcesses();
-    smg::PieceStream stream(input, { .given = isWhole ? 1 : given }, columns);
+    smg::PieceStream stream(input, { .given = isWhole ? 1 : given }, AllColumns);
     if (const std::string note = input.noteOnNeighbours(stream.pieces()); !note.empty())
     {
       vtkWarningWithObjectMacro(&this->Self, << note << '.');
@@ -165,7 +185,7 @@ struct vtkStreamingMeshSimplification::Internals
   std::optional<smg::ScratchFolder> Scratch;
   std::optional<smg::VsmReader> Result; ///< in the scratch folder
   smg::SimplifyReport Report;
-  std::string Outcome, Json; ///< storage of the strings that are returned
+  std::string Outcome, Json, Estimate; ///< storage of the strings that are returned
   smg::InputStamp MadeFor;
 };
 
@@ -182,6 +202,12 @@ vtkStreamingMeshSimplification::~vtkStreamingMeshSimplification()
 double vtkStreamingMeshSimplification::GetReachedError()
 {
   return this->Internal->Report.error;
+}
+
+const char* vtkStreamingMeshSimplification::GetEstimate()
+{
+  this->Internal->Estimate = this->Internal->estimate();
+  return this->Internal->Estimate.c_str();
 }
 
 const char* vtkStreamingMeshSimplification::GetOutcome()

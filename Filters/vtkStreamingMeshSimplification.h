@@ -70,6 +70,11 @@ public:
   vtkGetMacro(NumberOfThreads, int);
   ///@}
 
+  /** What a simplification of the whole mesh is expected to cost, in one line: memory, scratch
+   * files, processor time and the size of the result; or why that is not known. Requests nothing
+   * from the input. */
+  const char* GetEstimate();
+
   ///@{
   /** Of the last result: the largest error, what was done in one line or why it failed, and the
    * report as JSON; "" before. */

@@ -6,7 +6,6 @@
 
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
-#include "IO/Estimate/JobEstimate.h"
 #include "IO/Files/PartialProgress.h"
 #include "IO/Simplification/SimplifyCosts.h"
 #include "Solver/Core/Timer.h"
@@ -35,29 +34,13 @@ private:
   smg::SimplifyReport simplified();
 };
 
-/** The costs; without a number of vertices, those of a result as large as IN. */
 smg::JobEstimate SimplifyCommand::estimate() const
 {
   smg::ConversionOptions conversion = inputOptions(*this, this->input);
   conversion.scratch = this->scratchPlace();
-  const smg::EstimatedInput mesh(this->in, conversion);
-  smg::EstimatedInput result = mesh;
-  result.parts.clear();
-  result.info.cellType = smg::CellType::Triangle;
-  result.info.cellColumns.clear();
-  if (this->simplify.vertices > 0)
-  {
-    result.info.vertices = std::min(result.info.vertices, this->simplify.vertices);
-    result.info.cells = std::min(result.info.cells, 2 * result.info.vertices);
-  }
-  const smg::Costs costs =
-    smg::simplifyCosts(mesh.info, this->memoryBytes(this->simplify.memoryLimit));
-  smg::JobEstimate estimate(
-    result, { this->out, { { smg::OriginalIdSpec }, {} } }, costs, conversion);
-  estimate.vertices = mesh.info.vertices;
-  estimate.cells = mesh.info.cells;
-  estimate.memory_limit = this->memoryBytes(this->simplify.memoryLimit);
-  return estimate;
+  smg::SimplifyOptions options = this->simplify;
+  options.memoryLimit = this->memoryBytes(options.memoryLimit);
+  return smg::simplifyEstimate({ this->in, conversion }, this->out, options, conversion);
 }
 
 /** The times are those of the conversion, too. */

@@ -41,20 +41,6 @@ ConversionOptions placesOf(const SolveOptions& options)
   return places;
 }
 
-JobEstimate estimateOf(
-  const EstimatedInput& in, const StreamedTask& task, const SolveOptions& options)
-{
-  const Costs costs = task.costs(in.info);
-  JobEstimate estimate(in, { "result.vsm", task.added(in.info) }, costs, placesOf(options));
-  estimate.memory_limit = options.memoryLimit;
-  // The pieces are on a scratch file, of 0.8 to 1.3 times the bytes of their .vsm file on these
-  // meshes, while they are solved on. Saving is not part of the solve.
-  estimate.scratch_bytes = std::max(in.conversionScratch, in.streamBytes + costs.scratch);
-  estimate.cpu_seconds = costs.seconds + in.conversionSeconds +
-                         static_cast<double>(in.info.vertices) * pullSeconds(in.info.cellType);
-  return estimate;
-}
-
 /** As "About 96 MiB of memory (the limit is 1024 MiB), ...". */
 std::string textOf(const JobEstimate& estimate, std::int64_t scratchLimit)
 {
@@ -83,32 +69,51 @@ std::string fileOf(vtkAlgorithm& filter)
   return file ? file : "";
 }
 
-/** What a solve on the input of the filter costs. Throws Error, with a reason. */
-JobEstimate estimateFor(vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options)
+/** What a computation on the input of the filter costs. Throws Error, with a reason. */
+JobEstimate estimateFor(
+  vtkAlgorithm& filter, const ConversionOptions& places, const EstimateOf& estimateOf)
 {
   vtkNew<vtkPolyData> nothing;
   auto* present = vtkPointSet::SafeDownCast(filter.GetInputDataObject(0, 0));
-  const std::unique_ptr<StreamedTask> task = taskOf(present ? *present : *nothing);
   if (const std::string file = fileOf(filter); !file.empty())
   {
-    return estimateOf({ file, placesOf(options) }, *task, options);
+    return estimateOf({ file, places }, present ? *present : *nothing);
   }
   if (present && isOrdinaryMesh(*present) && !isPreview(*present))
   {
-    return estimateOf({ ordinaryMeshInfo(*present), placesOf(options) }, *task, options);
+    return estimateOf({ ordinaryMeshInfo(*present), places }, *present);
   }
   throw Error(present && present->GetNumberOfPoints() > 0
                 ? "the input is one piece of a mesh, whose size no file tells."
                 : "the filter before this one has not been applied, or has no mesh.");
 }
 
+/** Of a solve. */
+EstimateOf estimateOf(const TaskOf& taskOf, const SolveOptions& options)
+{
+  return [&taskOf, &options](const EstimatedInput& in, vtkPointSet& present)
+  {
+    const std::unique_ptr<StreamedTask> task = taskOf(present);
+    const Costs costs = task->costs(in.info);
+    JobEstimate estimate(in, { "result.vsm", task->added(in.info) }, costs, placesOf(options));
+    estimate.memory_limit = options.memoryLimit;
+    // The pieces are on a scratch file, of 0.8 to 1.3 times the bytes of their .vsm file on these
+    // meshes, while they are solved on. Saving is not part of the solve.
+    estimate.scratch_bytes = std::max(in.conversionScratch, in.streamBytes + costs.scratch);
+    estimate.cpu_seconds = costs.seconds + in.conversionSeconds +
+                           static_cast<double>(in.info.vertices) * pullSeconds(in.info.cellType);
+    return estimate;
+  };
+}
+
 } // namespace
 
-std::string solveEstimate(vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options)
+std::string estimateText(vtkAlgorithm& filter, const ConversionOptions& places,
+  const EstimateOf& estimateOf, std::int64_t scratchLimit)
 {
   try
   {
-    return textOf(estimateFor(filter, taskOf, options), options.scratchLimit);
+    return textOf(estimateFor(filter, places, estimateOf), scratchLimit);
   }
   catch (const Error& error)
   {
@@ -116,12 +121,17 @@ std::string solveEstimate(vtkAlgorithm& filter, const TaskOf& taskOf, const Solv
   }
 }
 
+std::string solveEstimate(vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options)
+{
+  return estimateText(filter, placesOf(options), estimateOf(taskOf, options), options.scratchLimit);
+}
+
 std::optional<double> solveSeconds(
   vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options)
 {
   try
   {
-    return estimateFor(filter, taskOf, options).cpu_seconds;
+    return estimateFor(filter, placesOf(options), estimateOf(taskOf, options)).cpu_seconds;
   }
   catch (const Error&)
   {

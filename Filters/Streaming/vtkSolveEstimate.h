@@ -2,8 +2,10 @@
 #pragma once
 
 #include "Filters/Streaming/vtkStreamedTask.h"
+#include "IO/Estimate/JobEstimate.h"
 #include "smg/Solve.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,6 +19,17 @@ namespace smg
 
 /** Makes the task of a filter from what its input delivered last, which may be nothing. */
 using TaskOf = std::function<std::unique_ptr<StreamedTask>(vtkPointSet& input)>;
+
+/** Estimates a computation on a mesh; `present` is what the input delivered last. Throws Error,
+ * with a reason. */
+using EstimateOf = std::function<JobEstimate(const EstimatedInput& mesh, vtkPointSet& present)>;
+
+/**
+ * What a computation of a filter on the whole mesh is expected to cost, in one line, or why that is
+ * not known. Requests nothing from the input, as below. `places` has the folder for scratch files.
+ */
+std::string estimateText(vtkAlgorithm& filter, const ConversionOptions& places,
+  const EstimateOf& estimateOf, std::int64_t scratchLimit = 0);
 
 /**
  * What the solve of a filter on the whole mesh is expected to cost, in one line, or why that is not

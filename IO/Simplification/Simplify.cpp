@@ -166,15 +166,29 @@ std::vector<std::string> writeAsFile(const std::filesystem::path& vsm,
 
 } // namespace
 
-Costs simplifyCosts(const StreamInfo& info, std::int64_t memoryLimit)
+JobEstimate simplifyEstimate(const EstimatedInput& mesh, const std::filesystem::path& out,
+  const SimplifyOptions& options, const ConversionOptions& conversion)
 {
   constexpr double SecondsOfCell = 1.3e-6; // on a machine of 2023
   constexpr std::int64_t BytesOfCell = 400;
   Costs costs;
-  costs.memory = std::min(memoryLimit, BytesOfCell * info.cells);
+  costs.memory = std::min(options.memoryLimit, BytesOfCell * mesh.info.cells);
   costs.passes = 1;
-  costs.seconds = SecondsOfCell * static_cast<double>(info.cells);
-  return costs;
+  costs.seconds = SecondsOfCell * static_cast<double>(mesh.info.cells);
+  EstimatedInput result = mesh;
+  result.parts.clear();
+  result.info.cellType = CellType::Triangle;
+  result.info.cellColumns.clear();
+  if (options.vertices > 0)
+  {
+    result.info.vertices = std::min(result.info.vertices, options.vertices);
+    result.info.cells = std::min(result.info.cells, 2 * result.info.vertices);
+  }
+  JobEstimate estimate(result, { out, { { OriginalIdSpec }, {} } }, costs, conversion);
+  estimate.vertices = mesh.info.vertices;
+  estimate.cells = mesh.info.cells;
+  estimate.memory_limit = options.memoryLimit;
+  return estimate;
 }
 
 void checkSimplifiedPath(const std::filesystem::path& path)

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "Solver/Estimate/Costs.h"
+#include "IO/Estimate/JobEstimate.h"
 #include "smg/Export.h"
-#include "smg/MeshSource.h"
+#include "smg/Simplify.h"
 
-#include <cstdint>
 #include <filesystem>
 
 namespace smg
@@ -14,7 +13,10 @@ namespace smg
 /** Throws Error unless simplify() can write a file of this name. */
 SMG_EXPORT void checkSimplifiedPath(const std::filesystem::path& path);
 
-/** The costs of simplify() on a stream, from its counts. */
-SMG_EXPORT Costs simplifyCosts(const StreamInfo& info, std::int64_t memoryLimit);
+/** What simplify() of `mesh` to the file `out` is expected to cost; without a number of vertices,
+ * for a result as large as the mesh. Of `conversion` the folder for scratch files counts. */
+SMG_EXPORT JobEstimate simplifyEstimate(const EstimatedInput& mesh,
+  const std::filesystem::path& out, const SimplifyOptions& options,
+  const ConversionOptions& conversion);
 
 } // namespace smg

@@ -34,6 +34,9 @@ for name in ("Residual", "Cycles", "Passes", "PeakMemory", "Converged", "Estimat
     assert is_shown == (name in ("Estimate", "Outcome", "Notes")), name
 
 simplified = StreamingMeshSimplification(Input=reader, NumberOfVertices=3000)
+simplified.UpdatePropertyInformation()
+estimate = simplified.GetPropertyValue("Estimate")
+assert f"over {t.BUNNY_POINTS} points and {t.BUNNY_CELLS} cells" in estimate, estimate
 simplified.UpdatePipeline()
 assert simplified.GetDataInformation().GetNumberOfPoints() <= 3000
 simplified.UpdatePropertyInformation()
