@@ -7,7 +7,7 @@
 #include "Filters/Streaming/vtkSolveEstimate.h"
 #include "Filters/vtkRegionChain.h"
 #include "IO/Files/PartialProgress.h"
-#include "IO/Simplification/SimplifyCosts.h"
+#include "IO/Simplification/SimplifyEstimate.h"
 #include "IO/vtkAlgorithmGlue.h"
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
@@ -114,10 +114,16 @@ struct vtkStreamingMeshSimplification::Internals
       [&](const smg::EstimatedInput& mesh, vtkPointSet&)
       {
         smg::JobEstimate estimate = smg::simplifyEstimate(mesh, "simplified.vsm",
-          { .vertices = this->Self.NumberOfVertices, .memoryLimit = this->memory() }, places);
+          { .vertices = this->Self.NumberOfVertices,
+            .error = this->Self.MaximumError,
+            .memoryLimit = this->memory() },
+          places);
         const bool isCopied = smg::unchangedFile(this->Self, AllColumns).empty();
-        estimate.scratch_bytes =
-          std::max(mesh.conversionScratch, isCopied ? mesh.streamBytes : 0) + estimate.output_bytes;
+        estimate.cpu_seconds += isCopied ? smg::pullSeconds(mesh.info) : 0.0;
+        // The copy and the result are compressed less than a file that is saved, see
+        // solveEstimate().
+        estimate.scratch_bytes = std::max(
+          mesh.conversionScratch, (isCopied ? mesh.streamBytes : 0) + estimate.output_bytes);
         return estimate;
       });
   }

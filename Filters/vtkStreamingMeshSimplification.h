@@ -71,8 +71,9 @@ public:
   ///@}
 
   /** What a simplification of the whole mesh is expected to cost, in one line: memory, scratch
-   * files, processor time and the size of the result; or why that is not known. Requests nothing
-   * from the input. */
+   * files, processor time and the size of the result, which with MaximumError alone is that of the
+   * mesh at most; or why that is not known. Requests nothing from the input: after
+   * UpdateInformation(), the counts are those of the .vsm file of its reader. */
   const char* GetEstimate();
 
   ///@{

@@ -6,13 +6,13 @@
 
 #include "IO/AnyFormat/FormatTable.h"
 #include "IO/AnyFormat/MeshFile.h"
+#include "IO/Estimate/JobEstimate.h"
 #include "IO/Files/PartialProgress.h"
-#include "IO/Simplification/SimplifyCosts.h"
+#include "IO/Simplification/SimplifyEstimate.h"
 #include "Solver/Core/Timer.h"
 #include "smg/Error.h"
 #include "smg/Simplify.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>

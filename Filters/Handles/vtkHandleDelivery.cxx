@@ -68,7 +68,6 @@ void deliverHandle(
   }
   output.ShallowCopy(&piece);
   arrays.addTo(*output.GetPointData());
-  output.GetPointData()->SetActiveScalars(HandleMaskName); // views show what is held
 }
 
 } // namespace smg

@@ -25,14 +25,6 @@ namespace smg
 namespace
 {
 
-/** Processor time for a vertex whose piece is read and written to a scratch file, with its cells:
- * that of pvpython besides the solve, on surfaces of 168 and 720 thousand vertices and on
- * tetrahedra of 59 thousand; on an AMD EPYC as the times in Solver/Estimate/Costs.cpp. */
-double pullSeconds(CellType cells)
-{
-  return cells == CellType::Triangle ? 0.5e-6 : 2e-6;
-}
-
 ConversionOptions placesOf(const SolveOptions& options)
 {
   ConversionOptions places;
@@ -79,7 +71,7 @@ JobEstimate estimateFor(
   {
     return estimateOf({ file, places }, present ? *present : *nothing);
   }
-  if (present && isOrdinaryMesh(*present) && !isPreview(*present))
+  if (present && isOrdinaryMesh(*present) && !isPreview(*present) && !hasSeveralProcesses())
   {
     return estimateOf({ ordinaryMeshInfo(*present), places }, *present);
   }
@@ -89,7 +81,7 @@ JobEstimate estimateFor(
 }
 
 /** Of a solve. */
-EstimateOf estimateOf(const TaskOf& taskOf, const SolveOptions& options)
+EstimateOf estimateOfSolve(const TaskOf& taskOf, const SolveOptions& options)
 {
   return [&taskOf, &options](const EstimatedInput& in, vtkPointSet& present)
   {
@@ -100,13 +92,20 @@ EstimateOf estimateOf(const TaskOf& taskOf, const SolveOptions& options)
     // The pieces are on a scratch file, of 0.8 to 1.3 times the bytes of their .vsm file on these
     // meshes, while they are solved on. Saving is not part of the solve.
     estimate.scratch_bytes = std::max(in.conversionScratch, in.streamBytes + costs.scratch);
-    estimate.cpu_seconds = costs.seconds + in.conversionSeconds +
-                           static_cast<double>(in.info.vertices) * pullSeconds(in.info.cellType);
+    estimate.cpu_seconds = costs.seconds + in.conversionSeconds + pullSeconds(in.info);
     return estimate;
   };
 }
 
 } // namespace
+
+double pullSeconds(const StreamInfo& mesh)
+{
+  // That of pvpython besides the solve, on surfaces of 168 and 720 thousand vertices and on
+  // tetrahedra of 59 thousand; on an AMD EPYC as the times in Solver/Estimate/Costs.cpp.
+  const double ofVertex = mesh.cellType == CellType::Triangle ? 0.5e-6 : 2e-6;
+  return ofVertex * static_cast<double>(mesh.vertices);
+}
 
 std::string estimateText(vtkAlgorithm& filter, const ConversionOptions& places,
   const EstimateOf& estimateOf, std::int64_t scratchLimit)
@@ -123,7 +122,8 @@ std::string estimateText(vtkAlgorithm& filter, const ConversionOptions& places,
 
 std::string solveEstimate(vtkAlgorithm& filter, const TaskOf& taskOf, const SolveOptions& options)
 {
-  return estimateText(filter, placesOf(options), estimateOf(taskOf, options), options.scratchLimit);
+  return estimateText(
+    filter, placesOf(options), estimateOfSolve(taskOf, options), options.scratchLimit);
 }
 
 std::optional<double> solveSeconds(
@@ -131,7 +131,7 @@ std::optional<double> solveSeconds(
 {
   try
   {
-    return estimateFor(filter, placesOf(options), estimateOf(taskOf, options)).cpu_seconds;
+    return estimateFor(filter, placesOf(options), estimateOfSolve(taskOf, options)).cpu_seconds;
   }
   catch (const Error&)
   {

@@ -24,9 +24,13 @@ using TaskOf = std::function<std::unique_ptr<StreamedTask>(vtkPointSet& input)>;
  * with a reason. */
 using EstimateOf = std::function<JobEstimate(const EstimatedInput& mesh, vtkPointSet& present)>;
 
+/** Processor time for a mesh whose pieces are requested and written to a scratch file. */
+double pullSeconds(const StreamInfo& mesh);
+
 /**
  * What a computation of a filter on the whole mesh is expected to cost, in one line, or why that is
- * not known. Requests nothing from the input, as below. `places` has the folder for scratch files.
+ * not known. Requests nothing from the input, as below. `places` has the folder for scratch files
+ * and the memory limit.
  */
 std::string estimateText(vtkAlgorithm& filter, const ConversionOptions& places,
   const EstimateOf& estimateOf, std::int64_t scratchLimit = 0);

@@ -9,7 +9,7 @@
 #include "IO/Formats/Vsm/Columns.h"
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Simplification/SimplifiedMesh.h"
-#include "IO/Simplification/SimplifyCosts.h"
+#include "IO/Simplification/SimplifyEstimate.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Storage/Checkpoint.h"
 #include "Solver/Storage/ScratchFolder.h"
@@ -169,6 +169,7 @@ std::vector<std::string> writeAsFile(const std::filesystem::path& vsm,
 JobEstimate simplifyEstimate(const EstimatedInput& mesh, const std::filesystem::path& out,
   const SimplifyOptions& options, const ConversionOptions& conversion)
 {
+  check(options);
   constexpr double SecondsOfCell = 1.3e-6; // on a machine of 2023
   constexpr std::int64_t BytesOfCell = 400;
   Costs costs;

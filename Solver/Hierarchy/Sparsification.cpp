@@ -134,7 +134,7 @@ void Sparsification::operator()(CoarseningData& data, std::int64_t k) const
       continue;
     }
     const Candidate middle = this->strongestCommon(data, c, mark, std::max(0.0F, -2.0F * weight));
-    if (middle.node < 0 && (this->dropsNegative ? weight > 0.0F : weight != 0.0F))
+    if (middle.node < 0 && weight != 0.0F && !(this->dropsNegative && weight < 0.0F))
     {
       continue;
     }

@@ -15,10 +15,10 @@ namespace smg
  * Removes small entries of a coarse operator without changing its row sums: an edge (c,k) with
  * |w| < tolerance * min(strongest_c, strongest_k) moves its weight to the two edges (c,m) and (m,k)
  * of the strongest common neighbour m, both large, and if w is negative larger than 2 |w|; without
- * such an m it stays, unless dropsNegative. No entry is removed of a row that is stiff, whose
- * weights cancel, or whose coupling (see Patches) to a row before or after it is above Coupled:
- * small entries decide its soft modes. Of a row m that comes later only what those of c and k say
- * counts, and of couplings those to rows that have come.
+ * such an m it stays; with dropsNegative only if it is positive. No entry is removed of a row that
+ * is stiff, whose weights cancel, or whose coupling (see Patches) to a row before or after it is
+ * above Coupled: small entries decide its soft modes. Of a row m that comes later only what those
+ * of c and k say counts, and of couplings those to rows that have come.
  */
 struct SMG_EXPORT Sparsification
 {

@@ -29,8 +29,8 @@ struct ExtendedParameters
    * costs 5 to 10 % of memory and time per V-cycle and saves up to a third of the V-cycles on real
    * scans. Of slivers alone, 0.5 costs nothing and saves a sixth to a half of the V-cycles on
    * lattices of obtuse triangles. On tetrahedra 0 treats the small weights of slivers as strong,
-   * and values above 0.1 cost more memory than they save V-cycles. Keeping rows that cancel little
-   * and all negative weights pays off only on surfaces.
+   * and values above 0.1 cost more memory than they save V-cycles. Keeping rows that cancel little,
+   * and negative weights without a common neighbour, pays off only on surfaces.
    *
    * Most of the set-up is the product from the finest level to the next one. Fewer entries there
    * save some of it where slivers do not need them. A second sweep of the interpolation saves at

@@ -2,8 +2,10 @@
 #include "Filters/vtkStreamingBlend.h"
 #include "Filters/vtkStreamingDistance.h"
 #include "Filters/vtkStreamingMeshDeformation.h"
+#include "Filters/vtkStreamingMeshSimplification.h"
 #include "Filters/vtkStreamingMeshSmoothing.h"
 #include "IO/Estimate/JobEstimate.h"
+#include "IO/Simplification/SimplifyEstimate.h"
 #include "Solver/Core/ByteText.h"
 #include "Solver/Estimate/Costs.h"
 #include "Testing/Filters/vtkPoissonFixture.h"
@@ -99,6 +101,30 @@ TEST_F(VtkSolveEstimate, OfEveryFilter)
   EXPECT_EQ(this->Ends->Executions, 0);
   distance->SetFrom("nowhere");
   EXPECT_TRUE(std::string(distance->GetEstimate()).starts_with("Not known: "));
+}
+
+TEST_F(VtkSolveEstimate, OfASimplification)
+{
+  vtkNew<vtkStreamingMeshSimplification> filter;
+  filter->SetInputConnection(this->Ends->GetOutputPort());
+  const auto text = [&filter] { return std::string(filter->GetEstimate()); };
+  EXPECT_TRUE(text().starts_with("Not known: the filter before")) << text();
+  filter->UpdateInformation();
+  EXPECT_NE(text().find("1 pass over 40000 points and 80000 cells"), std::string::npos) << text();
+  // The filter before changes the mesh, so that it is copied.
+  const VsmReader mesh(this->Folder / "mesh.vsm");
+  const SimplifyOptions options{ .vertices = 1000, .memoryLimit = std::int64_t(256) << 20 };
+  const JobEstimate expected =
+    simplifyEstimate(EstimatedInput(mesh.path(), {}), "simplified.vsm", options, {});
+  filter->SetNumberOfVertices(1000);
+  EXPECT_TRUE(text().ends_with("saved as .vsm " + mebibytes(expected.output_bytes))) << text();
+  EXPECT_NE(
+    text().find(", " + mebibytes(mesh.storedBytes() + expected.output_bytes) + " of scratch files"),
+    std::string::npos)
+    << text();
+  filter->SetNumberOfVertices(0);
+  EXPECT_TRUE(text().starts_with("Not known: a simplification needs ")) << text();
+  EXPECT_EQ(this->Ends->Executions, 0);
 }
 
 /** The number before a word of a text. */

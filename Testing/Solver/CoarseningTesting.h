@@ -46,6 +46,7 @@ inline std::vector<CoarseningCase> coarseningCases()
   surface.sliverStrength = 0.5F;
   solid.strength = solid.sliverStrength = 0.0F;
   solid.finestEntries = solid.entries = 5;
+  solid.dropsNegative = true;
   const auto uniform = Weights::Uniform;
   const auto clamped = Weights::Clamped;
   const StreamMesh patch = toStream(shuffled(grid(24, 19, 0.3)));
