@@ -9,6 +9,7 @@
 #include "Filters/Processes/vtkDistributedDeformation.h"
 #include "Filters/Streaming/SolveSummary.h"
 #include "IO/vtkMeshPieceData.h"
+#include "IO/vtkOrdinaryMesh.h"
 
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -39,6 +40,14 @@ struct vtkStreamingMeshDeformation::Internals
     options.progress = progress;
     options.checkpoint = {};
     return options;
+  }
+
+  /** Whether a whole mesh is deformed in memory: if that needs no more than the limit. */
+  bool isInteractive(vtkPointSet& mesh) const
+  {
+    const std::int64_t points = mesh.GetNumberOfPoints();
+    return points <= this->Self.InteractivePoints && this->Self.Engine != DISTRIBUTED &&
+           points * smg::DeformationTask::BytesInMemory <= this->options().memoryLimit;
   }
 
   bool needsNormals(vtkPointSet& input) const
@@ -81,11 +90,20 @@ std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeTask(vtkPoin
   return task;
 }
 
+std::unique_ptr<smg::StreamedTask> vtkStreamingMeshDeformation::MakeEstimatedTask(
+  vtkPointSet& input)
+{
+  std::unique_ptr<smg::StreamedTask> task = this->MakeTask(input);
+  const bool isWhole = smg::isOrdinaryMesh(input) && !smg::isPreview(input);
+  static_cast<smg::DeformationTask&>(*task).options.inCore =
+    isWhole && this->Internal->isInteractive(input);
+  return task;
+}
+
 bool vtkStreamingMeshDeformation::IsForMemory(vtkPointSet& input, bool isWhole)
 {
-  const bool isSmall = isWhole && input.GetNumberOfPoints() <= this->InteractivePoints;
   const bool isForMemory =
-    smg::isPreview(input) ? this->IsForPreview() : isSmall && this->Engine != DISTRIBUTED;
+    smg::isPreview(input) ? this->IsForPreview() : isWhole && this->Internal->isInteractive(input);
   if (!isForMemory)
   {
     this->Internal->Interactive.forget();

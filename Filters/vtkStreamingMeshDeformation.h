@@ -15,10 +15,12 @@
  * - For other requests, if the input is a preview and Solve says so, that is deformed in memory,
  *   made coarser to DragPoints. Its hierarchy is kept as long as only the motion of the handles
  *   changes, so that it follows a dragged handle immediately.
- * - Other requests for the whole of a mesh of at most InteractivePoints points are treated like
- *   previews; those for larger meshes, or with several processes, like streamed requests.
+ * - Other requests for the whole of a mesh of at most InteractivePoints points, which needs no more
+ *   than MemoryLimit in memory, are treated like previews; those for larger meshes, or with several
+ *   processes, like streamed requests.
  *
- * In all cases but previews a mesh gets the same points, bit for bit. With several processes that
+ * In all cases but previews a stream gets the same points, bit for bit, and any other mesh, which
+ * is ordered out of core, the same ones up to Tolerance. With several processes that
  * have memory for the matrix, Engine deforms on all of them together, previews excepted, and the
  * points are the same up to Tolerance; Cycles must be 0, then. Any mesh can be deformed in memory;
  * a streamed mesh has to fulfil the contract described at vtkStreamingSolver.
@@ -97,6 +99,7 @@ protected:
   vtkStreamingMeshDeformation();
   ~vtkStreamingMeshDeformation() override;
 
+  std::unique_ptr<smg::StreamedTask> MakeEstimatedTask(vtkPointSet& input) override;
   std::unique_ptr<smg::StreamedTask> MakeTask(vtkPointSet& input) override;
   void Deliver(vtkPointSet& piece, const std::vector<double>& values, vtkPointSet& output) override;
   bool IsForMemory(vtkPointSet& input, bool isWhole) override;

@@ -103,7 +103,8 @@ void SimplifyCommand::run()
       static_cast<long long>(report.vertices_before), static_cast<long long>(report.cells_before));
     if (!std::isnan(report.error))
     {
-      std::printf("error %.3g, ", report.error);
+      std::printf(
+        "error %.3g%s, ", report.error, report.dropped_bodies > 0 ? " of what is left" : "");
     }
     std::printf("%.2f s\n", report.seconds);
     for (const std::string& note : report.notes)

@@ -40,7 +40,12 @@ PieceColumns DeformationTask::columns() const
 
 Costs DeformationTask::costs(const StreamInfo& info) const
 {
-  return deformCosts(info, this->options);
+  Costs costs = deformCosts(info, this->options);
+  if (this->options.inCore)
+  {
+    costs.memory = BytesInMemory * info.vertices;
+  }
+  return costs;
 }
 
 std::unique_ptr<Solution> DeformationTask::solve(const VsmReader& mesh,

@@ -91,7 +91,8 @@ EstimateOf estimateOfSolve(const TaskOf& taskOf, const SolveOptions& options)
     estimate.memory_limit = options.memoryLimit;
     // The pieces are on a scratch file, of 0.8 to 1.3 times the bytes of their .vsm file on these
     // meshes, while they are solved on. Saving is not part of the solve.
-    estimate.scratch_bytes = std::max(in.conversionScratch, in.streamBytes + costs.scratch);
+    estimate.scratch_bytes =
+      task->isInMemory() ? 0 : std::max(in.conversionScratch, in.streamBytes + costs.scratch);
     estimate.cpu_seconds = costs.seconds + in.conversionSeconds + pullSeconds(in.info);
     return estimate;
   };

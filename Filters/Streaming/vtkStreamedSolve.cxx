@@ -186,6 +186,13 @@ void StreamedSolve::solveOn(
 
     Report report = this->solveOnFile(container, task, partOf(whole, PullShare, 1.0));
     FileDescriptor::removeClosed(container);
+    if (const auto loose = std::ranges::count(this->VertexOfPoint, -1); loose > 0)
+    {
+      report.notes.push_back(std::to_string(loose) +
+                             (loose == 1 ? " point belongs" : " points belong") +
+                             " to no cell: a solution is not a number there, and what moves stays "
+                             "where it is");
+    }
     report.seconds.convert = seconds.count();
     report.seconds.total += seconds.count();
     report.notes.insert(report.notes.end(), notes.begin(), notes.end());

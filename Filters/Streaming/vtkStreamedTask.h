@@ -27,6 +27,9 @@ public:
   /** What it is expected to cost on a mesh whose counts and span are known. */
   virtual Costs costs(const StreamInfo& info) const = 0;
 
+  /** Whether the costs are those of a computation in memory, without scratch files. */
+  virtual bool isInMemory() const { return false; }
+
   /** The values that its result has besides that mesh. */
   virtual AddedValues added(const StreamInfo& /*info*/) const { return {}; }
 

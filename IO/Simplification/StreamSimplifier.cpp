@@ -89,7 +89,8 @@ StreamSimplifier::StreamSimplifier(MeshSource& triangles, const SimplificationGo
   // The cells of the boundary of a solid are not known.
   const bool mayBeLarge = this->Info.cells <= 0 || this->Info.cells > window;
   this->Streams = mayBeLarge && (this->limitsError() || this->Triangles > window / 3);
-  this->Memory.acquire(2 * window * bytesOfTriangle(this->Info));
+  const std::int64_t used = this->Info.cells > 0 ? std::min(window, this->Info.cells) : window;
+  this->Memory.acquire(2 * used * bytesOfTriangle(this->Info));
 }
 
 double StreamSimplifier::done() const

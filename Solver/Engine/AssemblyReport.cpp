@@ -76,8 +76,12 @@ void addAssemblyNotes(Report& report)
   }
   if (report.held > 0)
   {
-    report.notes.push_back(std::to_string(report.held) +
-                           " vertices belong to no cell that has a weight: they stay as they are");
+    const bool isOne = report.held == 1;
+    report.notes.push_back(
+      std::to_string(report.held) + (isOne ? " vertex belongs" : " vertices belong") +
+      " to no cell that has a weight: values there are not solved for but stay as they were. "
+      "Cells without area or volume join coincident points, where the mesh is open: merge these "
+      "(Clean to Grid of ParaView; smg convert --weld)");
   }
 }
 

@@ -27,7 +27,14 @@ void BoundaryFacets::addCells(const MeshBlock& block)
       const std::int32_t direction = (facet.order[0] == 0) != (k == 1) ? 1 : 2;
       const std::int32_t other =
         this->Open.add(facet.vertex[0], facet.vertex[1], facet.vertex[2], direction);
-      this->Turned += this->Type == CellType::Triangle && other == direction ? 1 : 0;
+      if (this->Type == CellType::Triangle && other == direction)
+      {
+        this->MaybeTurned.emplace(facet.vertex[0], facet.vertex[1]);
+      }
+      else if (other == 0 && !this->MaybeTurned.empty()) // a third triangle
+      {
+        this->MaybeTurned.erase({ facet.vertex[0], facet.vertex[1] });
+      }
     }
   }
 }

@@ -5,6 +5,9 @@
 #include "smg/MeshSource.h"
 
 #include <cstdint>
+#include <iterator>
+#include <set>
+#include <utility>
 
 namespace smg
 {
@@ -38,9 +41,12 @@ public:
     this->take(this->Vertices, found);
   }
 
-  /** The number of edges of triangles so far that two of them run along in the same direction: they
-   * are wound against each other. */
-  std::int64_t turnedEdges() const { return this->Turned; }
+  /** The number of edges of triangles so far that have two of them, which run along in the same
+   * direction: they are wound against each other. */
+  std::int64_t turnedEdges() const
+  {
+    return this->Turned + static_cast<std::int64_t>(this->MaybeTurned.size());
+  }
   /** The facets of the cells so far, until their lowest vertex is final. */
   const OpenFacets& open() const { return this->Open; }
 
@@ -56,11 +62,17 @@ private:
         { found(this->Final, middle, this->Type == CellType::Triangle ? 0 : high); });
     }
     this->Open.release(this->Final);
+    const auto known = this->MaybeTurned.lower_bound({ this->Final, 0 });
+    this->Turned += std::distance(this->MaybeTurned.begin(), known);
+    this->MaybeTurned.erase(this->MaybeTurned.begin(), known);
   }
 
   CellType Type;
   OpenFacets Open;
   std::int64_t Vertices = 0, Final = 0, Turned = 0;
+  /** Edges with two triangles so far, wound against each other, until they are final: with more
+   * triangles an edge has no two sides. */
+  std::set<std::pair<std::int64_t, std::int64_t>> MaybeTurned;
 };
 
 } // namespace smg

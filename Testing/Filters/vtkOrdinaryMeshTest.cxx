@@ -175,6 +175,27 @@ TEST_F(VtkOrdinaryMesh, QuadsAreTriangles)
   this->expectLinear(plane->GetOutput(), 0);
 }
 
+TEST_F(VtkOrdinaryMesh, PointsOfCellsWithoutAreaAreWarnedOf)
+{
+  // As a clip through points of the mesh leaves them: a coincident point, of a flat cell.
+  vtkNew<vtkPlaneSource> plane;
+  plane->SetResolution(30, 20);
+  plane->Update();
+  vtkPolyData* mesh = plane->GetOutput();
+  const vtkIdType middle = mesh->GetNumberOfPoints() / 2;
+  const vtkIdType flat[] = { middle, mesh->GetPoints()->InsertNextPoint(mesh->GetPoint(middle)),
+    middle + 1 };
+  mesh->GetPolys()->InsertNextCell(3, flat);
+  mesh->GetPointData()->Initialize();
+  mesh->DeleteCells();
+  Errors errors(this->Poisson);
+  vtkDataArray* solution = this->solve(mesh)->GetPointData()->GetArray("Solution");
+  EXPECT_EQ(solution->GetTuple1(flat[1]), 0.0); // where it starts from
+  EXPECT_NE(errors.text().find("1 vertex belongs to no cell that has a weight"), std::string::npos)
+    << errors.text();
+  EXPECT_NE(errors.text().find("merge these"), std::string::npos) << errors.text();
+}
+
 TEST_F(VtkOrdinaryMesh, HexahedraAreTetrahedra)
 {
   this->expectLinear(hexahedra(8), 1);

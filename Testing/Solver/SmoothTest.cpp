@@ -219,6 +219,16 @@ TEST(Smooth, ANoteSaysWhereTheVolumeIsNotThatOfTheSurface)
   const std::vector<std::string> one = notesFor(ball, [](std::int64_t c) { return c == 7; });
   ASSERT_EQ(one.size(), 1U);
   EXPECT_NE(one.front().find("at 3 edges are wound against each other"), std::string::npos);
+  // Three triangles at an edge: no two sides to be wound against.
+  StreamMesh fins;
+  fins.positions = { 0, 0, 0, 0, 0, 1, 1, 0, 0, -1, 1, 0, -1, -1, 0 };
+  fins.corners = { 0, 1, 2, 0, 1, 3, 1, 0, 4 };
+  SmoothingOptions options;
+  options.size = { 0.1, SmoothingSize::Mesh };
+  for (const std::string& note : smoothed(fins, options).report.notes)
+  {
+    EXPECT_EQ(note.find("wound"), std::string::npos) << note;
+  }
   // Two balls, of which one is inside out.
   const IndexedTestMesh two = disjointUnion(ball, ball, { 5, 0, 0 });
   EXPECT_TRUE(notesFor(two, [](std::int64_t) { return false; }).empty());
