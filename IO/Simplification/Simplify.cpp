@@ -10,6 +10,7 @@
 #include "IO/Formats/Vsm/WriteVsm.h"
 #include "IO/Simplification/SimplifiedMesh.h"
 #include "IO/Simplification/SimplifyEstimate.h"
+#include "Solver/Core/ByteText.h"
 #include "Solver/Core/Timer.h"
 #include "Solver/Storage/Checkpoint.h"
 #include "Solver/Storage/ScratchFolder.h"
@@ -52,8 +53,8 @@ void check(const SimplifyOptions& options)
   }
   if (options.memoryLimit < LeastMemory)
   {
-    throw Error("the memory limit of a simplification is " + std::to_string(options.memoryLimit) +
-                " bytes; expected at least " + std::to_string(LeastMemory) + " (16 MiB)");
+    throw Error("the memory limit of a simplification is " + mebibytes(options.memoryLimit) +
+                "; expected at least " + mebibytes(LeastMemory));
   }
   if (!options.checkpoint.empty() && options.meshIdentity.empty())
   {
