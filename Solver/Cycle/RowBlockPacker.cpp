@@ -52,7 +52,7 @@ struct Specials
       {
         node.size = static_cast<std::int16_t>(patch->size);
         node.value = static_cast<std::int32_t>(this->values.size());
-        this->addValues(*patch, coarsening->patchMatrix.row(patch->first));
+        this->addValues(*patch, coarsening->patchMatrices.of(*patch));
       }
       if (!weights.empty())
       {

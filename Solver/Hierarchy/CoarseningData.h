@@ -143,7 +143,7 @@ struct CoarseningData
     , stiff(stiffRows)
     , lifted(pool)
     , patches(pool)
-    , patchMatrix(pool)
+    , patchMatrices(pool)
     , initial(pool)
     , initialTotal(pool)
     , relaxed(pool)
@@ -193,8 +193,7 @@ struct CoarseningData
     return static_cast<CoarseIndex>(coarse & INT32_MAX);
   }
   Patches patches;
-  /** The matrix of the patch that begins at the node: its lower triangle by rows. */
-  RaggedRing<double> patchMatrix;
+  PatchMatrices patchMatrices; ///< by patch
   RaggedRing<CoarseEntry> initial;
   Ring<float> initialTotal; ///< Z of the row of `initial`: its weights were divided by it
   Ring<RelaxedRow> relaxed;
@@ -254,23 +253,12 @@ struct CoarseningData
     return this->lifted[i] != Retained ? 1.0F : total > alpha ? (total - alpha) / total : 0.0F;
   }
 
-  /** Appends the matrix of the patch that begins at node i, if one does: its rows exist. */
+  /** Appends the matrix of the patch that begins at node i, if one does, whose rows exist; returns
+   * its entries. */
   std::int64_t appendPatchMatrix(std::int64_t i)
   {
-    const Patch* patch = this->patches.of(i);
-    std::int64_t size = 0;
-    if (patch && patch->first == i)
-    {
-      size = PatchMatrix::entriesOf(patch->size);
-      const PatchMatrix matrix = matrixOf(this->fine, *patch);
-      std::copy_n(matrix.entry, size, this->patchMatrix.open(size));
-    }
-    else
-    {
-      this->patchMatrix.open(0);
-    }
-    this->patchMatrix.close(size);
-    return size;
+    Patch* patch = this->patches.beginningAt(i);
+    return patch ? this->patchMatrices.append(this->fine, *patch) : 0;
   }
 
   /** Appends row c to `raw`, the next one. */
@@ -332,7 +320,6 @@ private:
   {
     this->lifted.release(i);
     this->patches.release(i);
-    this->patchMatrix.release(i);
     this->initial.release(i);
     this->initialTotal.release(i);
     this->relaxed.release(i);

@@ -3,6 +3,7 @@
 
 #include "Solver/Hierarchy/LevelRows.h"
 #include "Solver/Hierarchy/PatchMatrix.h"
+#include "Solver/Storage/RaggedRing.h"
 #include "Solver/Storage/Ring.h"
 #include "smg/Export.h"
 
@@ -23,6 +24,7 @@ struct Patch
   std::int64_t first;
   std::int32_t size;
   std::int32_t offset[Most]; ///< of the members from the first one, ascending
+  std::uint32_t matrix;      ///< low 32 bits of the number of its matrix in PatchMatrices
 
   std::int64_t member(int k) const { return this->first + this->offset[k]; }
   std::int64_t last() const { return this->member(this->size - 1); }
@@ -30,6 +32,68 @@ struct Patch
 
 /** The level's matrix on the members of a patch, whose rows exist. */
 SMG_EXPORT PatchMatrix matrixOf(const LevelRows& rows, const Patch& patch);
+
+/** The matrices of complete patches, by ascending first nodes. */
+class PatchMatrices
+{
+public:
+  explicit PatchMatrices(Pool& pool)
+    : Triangles(pool)
+    , First(pool)
+  {
+  }
+
+  /** Appends the matrix of a patch, whose rows exist; returns its entries. */
+  std::int64_t append(const LevelRows& rows, Patch& patch)
+  {
+    const std::int64_t size = PatchMatrix::entriesOf(patch.size);
+    const std::int64_t number = this->Triangles.end();
+    std::copy_n(matrixOf(rows, patch).entry, size, this->Triangles.open(size));
+    this->Triangles.close(size);
+    this->First.extendRaw(number + 1);
+    this->First[number] = patch.first;
+    patch.matrix = static_cast<std::uint32_t>(number);
+    return size;
+  }
+
+  /** The lower triangle, by rows, of the matrix of a patch. */
+  const double* of(const Patch& patch) const
+  {
+    const std::int64_t first = this->Triangles.first();
+    return this->Triangles.row(first + (patch.matrix - static_cast<std::uint32_t>(first)));
+  }
+
+  /** Provides room for matrices of so many entries in all: other threads may read earlier ones
+   * while matrices are appended, until isFull(). */
+  void reserve(std::int64_t entries)
+  {
+    const std::int64_t most = entries / PatchMatrix::entriesOf(2) + 1;
+    this->Triangles.reserve(most, entries);
+    this->First.reserveMore(most);
+    this->Room = this->Triangles.end() + most;
+  }
+  bool isFull()
+  {
+    return this->Triangles.end() >= this->Room || !this->Triangles.hasRoom(PatchMatrix::Entries);
+  }
+
+  /** Releases the matrices of patches whose first node is below `node`. */
+  void release(std::int64_t node)
+  {
+    std::int64_t number = this->First.first();
+    while (number < this->First.end() && this->First[number] < node)
+    {
+      ++number;
+    }
+    this->First.release(number);
+    this->Triangles.release(number);
+  }
+
+private:
+  RaggedRing<double> Triangles;
+  Ring<std::int64_t> First; ///< the first nodes
+  std::int64_t Room = 0;    ///< end of the matrices for which there is room
+};
 
 /**
  * Finds the patches of a level as its rows arrive: with node j, the patches of j and of each lower
@@ -77,6 +141,13 @@ public:
   {
     const std::uint32_t number = this->Number[i];
     return number == Alone ? nullptr : &this->patch(number);
+  }
+  /** The patch that begins at node i, complete, or null. */
+  Patch* beginningAt(std::int64_t i)
+  {
+    const std::uint32_t number = this->Number[i];
+    Patch* patch = number == Alone ? nullptr : &this->patch(number);
+    return patch && patch->first == i ? patch : nullptr;
   }
   /** The last node of the patch of node i, or i. */
   std::int64_t last(std::int64_t i) const

@@ -143,7 +143,7 @@ public:
     d.initialTotal.release(this->RelaxedDone);
     d.relaxed.release(this->RelaxedDone);
     d.patches.release(std::min(this->PatchesDone, this->Multiplied));
-    d.patchMatrix.release(this->MatricesDone);
+    d.patchMatrices.release(this->MatricesDone);
     while (
       this->ProductDone < this->Multiplied && d.parentReach[this->ProductDone] < this->Gathered)
     {
@@ -219,7 +219,7 @@ private:
     d.patches.reserve(lifts);
     d.interpolation.reserve(rows, RelaxedRow::Most * rows);
     d.rowQuanta.reserve(this->Interpolated + rows - d.rowQuanta.first());
-    d.patchMatrix.reserve(rows, this->PatchEntries.of(rows) + PatchMatrix::Entries);
+    d.patchMatrices.reserve(this->PatchEntries.of(rows) + PatchMatrix::Entries);
     d.parentReach.reserve(rows);
     d.liftedFrom.reserve(lifts);
     d.firstChild.reserve(d.coarseNodes + lifts - d.firstChild.first());
@@ -297,7 +297,7 @@ private:
     this->Sweeps.advance(this->Set, d, this->SeenInitial);
     this->Limits.interpolate.run(
       this->Interpolated, this->Sweeps.settled(),
-      [&](std::int64_t) { return !this->Apart || d.patchMatrix.hasRoom(PatchMatrix::Entries); },
+      [&](std::int64_t) { return !(this->Apart && d.patchMatrices.isFull()); },
       [&](std::int64_t i)
       {
         d.rowQuanta.extendRaw(i + 1);
