@@ -30,7 +30,8 @@ void printCosts(const smg::Report& report)
     inMebibytes(report.rss_bytes_peak), inMebibytes(report.scratch_bytes_peak));
   for (const std::string& note : report.notes)
   {
-    std::printf("%s\n", note.c_str());
+    const bool isWarning = std::ranges::count(report.warnings, note) > 0;
+    std::printf("%s%s\n", isWarning ? "Warning: " : "", note.c_str());
   }
 }
 

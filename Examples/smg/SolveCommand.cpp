@@ -166,7 +166,7 @@ protected:
 
   std::string fateOfIsolated(std::int64_t vertices, bool ordered) const override
   {
-    return ordered ? vertices == 1 ? "has the Solution 0." : "have the Solution 0."
+    return ordered ? vertices == 1 ? "has no Solution (NaN)." : "have no Solution (NaN)."
                    : this->SolvingCommand::fateOfIsolated(vertices, ordered);
   }
 

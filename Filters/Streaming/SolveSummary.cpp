@@ -16,12 +16,8 @@ SolveSummary SolveSummary::of(const Report& report, int columns)
   for (const std::string& note : report.notes)
   {
     summary.notes += (summary.notes.empty() ? "" : "\n") + note;
-    if (note.find(" has no effect") != std::string::npos ||
-        note.find("are not solved for") != std::string::npos)
-    {
-      summary.warnings.push_back(note);
-    }
   }
+  summary.warnings = report.warnings;
   summary.vertices = report.vertices;
   summary.byPass = report.by_pass;
   summary.columns = columns;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -56,7 +57,8 @@ struct SolvedMesh::Implementation
     {
       std::erase_if(*specs, [](const ColumnSpec& spec) { return isOfSolve(spec.name); });
     }
-    this->info.vertexColumns.push_back({ SolutionName, ScalarType::Float64, columns, 0 });
+    constexpr double NoSolution = std::numeric_limits<double>::quiet_NaN();
+    this->info.vertexColumns.push_back({ SolutionName, ScalarType::Float64, columns, NoSolution });
     if (options.gradient)
     {
       this->info.cellColumns.push_back({ GradientName, ScalarType::Float64, 3 * columns });

@@ -157,6 +157,7 @@ std::string Report::json(int indent) const
   }
   addJob(*this, out);
   out["notes"] = this->notes;
+  out["warnings"] = this->warnings;
   return out.dump(indent);
 }
 

@@ -4,6 +4,7 @@
 #include "smg/Error.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace smg
 {
@@ -47,6 +48,8 @@ void ProblemOnMesh::setValues(const MeshBlock& block, VertexConditions& conditio
     this->Entry[i] = conditions.dirichlet[i] >= 0 ? -1 : this->Entry[i];
   }
   this->Initial.valuesAtVertices(block, this->Entry, conditions.value.data(), this->Columns);
+  std::ranges::replace_if(
+    conditions.value, [](double value) { return std::isnan(value); }, 0.0);
   this->Dirichlet.valuesAtVertices(
     block, conditions.dirichlet, conditions.value.data(), this->Columns);
 }

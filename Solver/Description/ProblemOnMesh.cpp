@@ -24,6 +24,14 @@ ValueRules valueRules(int columns)
   return { .components = { columns }, .positions = columns == 3 };
 }
 
+/** A solution, whose values may be missing, is an initial value of another solve. */
+ValueRules initialRules(int columns)
+{
+  ValueRules rules = valueRules(columns);
+  rules.missing = true;
+  return rules;
+}
+
 const ValueRules CoefficientRules{ .components = { 1 }, .range = ValueRange::NotNegative };
 const ValueRules ConductivityRules{ .components = { 1, 3, 6 },
   .range = ValueRange::PositiveDefinite,
@@ -59,7 +67,7 @@ ProblemOnMesh::ProblemOnMesh(
   , Screening(this->OfMesh, this->ScreeningPlace, CoefficientRules)
   , Source(this->OfMesh, this->SourcePlace, valueRules(description.columns))
   , Field(this->OfMesh, DataPlace::Cells, fieldRules(description.columns))
-  , Initial(this->OfMesh, DataPlace::Vertices, valueRules(description.columns))
+  , Initial(this->OfMesh, DataPlace::Vertices, initialRules(description.columns))
   , Dirichlet(this->OfMesh, DataPlace::Vertices, valueRules(description.columns))
   , Flux(this->OfMesh, DataPlace::Facets, valueRules(description.columns))
   , Ambient(this->OfMesh, DataPlace::Facets, valueRules(description.columns))

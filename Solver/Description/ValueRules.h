@@ -24,6 +24,7 @@ struct SMG_EXPORT ValueRules
   std::vector<int> components; ///< the admissible numbers of components
   ValueRange range = ValueRange::Any;
   bool positions = false;                        ///< whether it may be the position
+  bool missing = false;                          ///< whether not a number (NaN) stands for no value
   ColumnOwner preferred = ColumnOwner::Vertices; ///< owner of the column if both have one
 
   /** The error of invalid numbers, for example "must be finite"; null if valid. */

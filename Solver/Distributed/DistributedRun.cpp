@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <sstream>
 #include <utility>
@@ -148,6 +149,19 @@ Convergence DistributedRun::solveColumn(std::size_t column, double begin, double
   };
   method.solve(system.b[column], system.x[column], convergence, iterated);
   return convergence;
+}
+
+void DistributedRun::fix(const Problem& problem)
+{
+  this->fixMeans();
+  for (const std::int64_t k : this->System.undetermined)
+  {
+    for (std::vector<double>& x : this->System.x)
+    {
+      double& value = x[static_cast<std::size_t>(k)];
+      value = problem.keepsUndetermined() ? value : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
 }
 
 void DistributedRun::fixMeans()

@@ -38,8 +38,9 @@ public:
    * @return the iterations, the largest residual of the columns, and whether all converged
    */
   Report::Step iterate(const std::string& what = {}, double begin = 0.0, double end = 1.0);
-  /** Makes components without constraint keep the mean of their initial values. */
-  void fixMeans();
+  /** Makes components without constraint keep the mean of their initial values, and what nothing
+   * determines not a number, if the problem does. */
+  void fix(const Problem& problem);
   /** The solution at all vertices of the part, a number for each column. */
   std::vector<double> values() const;
   /** Adds the notes on the assembly and what the run cost. */
@@ -49,6 +50,7 @@ public:
   Report report;
 
 private:
+  void fixMeans();
   void requireSameOptions(const Problem& problem);
   Convergence solveColumn(std::size_t column, double begin, double end);
 

@@ -63,7 +63,7 @@ DistributedSolution DistributedSolver::Implementation::solve(
   DistributedRun run(*this->vertices, this->part, options, problem.columns());
   run.assemble(problem);
   run.iterate();
-  run.fixMeans();
+  run.fix(problem);
   DistributedSolution solution;
   solution.columns = problem.columns();
   solution.values = run.values();

@@ -188,7 +188,10 @@ void PartAssembly::close(const std::vector<double>& sums, PartSystem& system)
     const bool isKnown = this->isKnown(i);
     const bool isHeld = !isKnown && of[Edges] == 0.0 && of[Alpha] == 0.0;
     this->Prescribed += isKnown ? 1 : 0;
-    this->Held += isHeld ? 1 : 0;
+    if (isHeld)
+    {
+      system.undetermined.push_back(static_cast<std::int64_t>(k));
+    }
     if (place.components && (isKnown || isHeld || of[Alpha] > 0.0))
     {
       place.components->anchor(place.label);
@@ -290,9 +293,9 @@ void PartAssembly::count(PartSystem& system) const
   const auto cells = static_cast<std::int64_t>(this->Part.block.corners.size()) /
                      cornersOf(this->Part.info.cellType);
   const std::int64_t unknowns = std::ranges::count(this->IsUnknown, 1);
-  std::int64_t counts[] = { cells, this->Prescribed, this->Held, this->Raised,
-    policy.degenerateCells(), this->Cells.edges.clamped(), policy.limitedCells(), unknowns,
-    this->Entries + unknowns };
+  std::int64_t counts[] = { cells, this->Prescribed,
+    static_cast<std::int64_t>(system.undetermined.size()), this->Raised, policy.degenerateCells(),
+    this->Cells.edges.clamped(), policy.limitedCells(), unknowns, this->Entries + unknowns };
   team.sum(counts);
   double flatness = policy.leastFlatness();
   team.least({ &flatness, 1 });

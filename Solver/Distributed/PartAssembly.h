@@ -25,7 +25,8 @@ struct PartSystem
   std::vector<std::vector<double>> x, b; ///< by column: initial values, right-hand side
   std::vector<double> share;             ///< see commonShare()
   std::vector<double> mass;
-  std::vector<double> termSquares; ///< by column, of all processes: see InitialResidual
+  std::vector<std::int64_t> undetermined; ///< own vertices, from 0, that nothing determines
+  std::vector<double> termSquares;        ///< by column, of all processes: see InitialResidual
   std::unique_ptr<SharedComponents> components;
   AssemblyCounts counts;     ///< of all processes
   std::int64_t unknowns = 0; ///< of all processes
@@ -86,7 +87,7 @@ private:
   std::vector<float> Scales;         ///< likewise, see OpenVertices
   std::vector<double> Diagonals;     ///< of own vertices
   std::vector<char> IsUnknown;       ///< likewise
-  std::int64_t Prescribed = 0, Held = 0, Raised = 0, Entries = 0;
+  std::int64_t Prescribed = 0, Raised = 0, Entries = 0;
   // A row.
   std::vector<RowNeighbour> Neighbours;
   std::vector<HYPRE_BigInt> Places;

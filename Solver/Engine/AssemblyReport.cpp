@@ -77,11 +77,12 @@ void addAssemblyNotes(Report& report)
   if (report.held > 0)
   {
     const bool isOne = report.held == 1;
-    report.notes.push_back(
+    report.warn(
       std::to_string(report.held) + (isOne ? " vertex belongs" : " vertices belong") +
-      " to no cell that has a weight: values there are not solved for but stay as they were. "
-      "Cells without area or volume join coincident points, where the mesh is open: merge these "
-      "(Clean to Grid of ParaView; smg convert --weld)");
+      " to no cell that has a weight, so that nothing determines what is there: not a number in a "
+      "solution, what was there in a moved or blended mesh. Cells without area or volume join "
+      "coincident points, where the mesh is open: merge these (Clean to Grid of ParaView; smg "
+      "convert --weld)");
   }
 }
 

@@ -2,6 +2,7 @@
 #include "Solver/Engine/FreeComponents.h"
 
 #include <cstdio>
+#include <limits>
 
 namespace smg
 {
@@ -20,18 +21,23 @@ std::string freeComponentsNote(std::int64_t free, std::int64_t all)
          " components have no prescribed value: they keep the mean of their initial values";
 }
 
-void FreeComponents::shift(std::int64_t first, std::int64_t count, std::span<double> values)
+void FreeComponents::complete(std::int64_t first, std::int64_t count, std::span<double> values)
 {
   const auto columns = static_cast<std::size_t>(this->Columns);
-  for (std::int64_t i = 0; !this->MeanShifts.empty() && i < count; ++i)
+  const bool shifts = !this->MeanShifts.empty();
+  for (std::int64_t i = 0; (shifts || this->LeavesOpen) && i < count; ++i)
   {
     const std::int64_t vertex = first + i;
     const std::int32_t label =
       this->Labels.block(vertex / Block).labels[static_cast<std::size_t>(vertex % Block)];
-    for (std::size_t k = 0; label >= 0 && k < columns; ++k)
+    const auto of = values.subspan(static_cast<std::size_t>(i) * columns, columns);
+    if (label == ComponentLabels::Undetermined && this->LeavesOpen)
     {
-      values[static_cast<std::size_t>(i) * columns + k] -=
-        this->MeanShifts[static_cast<std::size_t>(this->Parts.root(label)) * columns + k];
+      std::ranges::fill(of, std::numeric_limits<double>::quiet_NaN());
+    }
+    for (std::size_t k = 0; label >= 0 && shifts && k < columns; ++k)
+    {
+      of[k] -= this->MeanShifts[static_cast<std::size_t>(this->Parts.root(label)) * columns + k];
     }
   }
 }

@@ -4,6 +4,7 @@
 #include "Solver/Problem/ComponentLabels.h"
 #include "Solver/Problem/Components.h"
 #include "smg/Export.h"
+#include "smg/Problem.h"
 #include "smg/Report.h"
 
 #include <algorithm>
@@ -22,9 +23,11 @@ SMG_EXPORT std::string incompatibilityNote(double share);
 SMG_EXPORT std::string freeComponentsNote(std::int64_t free, std::int64_t all);
 
 /**
- * Makes the solution of components without constraint unique: subtracts the mean of their sources,
- * and keeps the mean of their initial values, both weighted with the lumped masses. A State of the
- * finest level provides nodes(), rewriteB() and readX(), like LevelWindow.
+ * What the equations leave open. Makes the solution of components without constraint unique:
+ * subtracts the mean of their sources, and keeps the mean of their initial values, both weighted
+ * with the lumped masses. Values that nothing determines keep the initial value or become not a
+ * number, as the problem wants. A State of the finest level provides nodes(), rewriteB() and
+ * readX(), like LevelWindow.
  */
 class SMG_EXPORT FreeComponents
 {
@@ -41,12 +44,17 @@ public:
   template <class State>
   void projectRightSide(State& level, Report& report);
 
-  /** After the solve: computes what shift() subtracts from the values. Adds a note. */
+  /** After the solve: prepares complete(). `report` has the counts of the assembly, and gets notes.
+   */
   template <class State>
-  void fixMeans(State& level, std::vector<std::string>& notes);
+  void fix(State& level, const Problem& problem, Report& report)
+  {
+    this->fixMeans(level, report.notes);
+    this->LeavesOpen = report.held > 0 && !problem.keepsUndetermined();
+  }
 
-  /** Shifts the values of vertices [first, first + count). */
-  void shift(std::int64_t first, std::int64_t count, std::span<double> values);
+  /** Completes the values of vertices [first, first + count). */
+  void complete(std::int64_t first, std::int64_t count, std::span<double> values);
 
 private:
   static constexpr auto Block = static_cast<std::int64_t>(ComponentLabels::Block);
@@ -55,11 +63,14 @@ private:
    * `place`: index in the block, `weight`: that in its means. */
   template <class F>
   void forFree(std::int64_t block, F&& f);
+  template <class State>
+  void fixMeans(State& level, std::vector<std::string>& notes);
 
   Components& Parts;
   ComponentLabels& Labels;
   int Columns;
-  std::vector<double> MeanShifts;
+  std::vector<double> MeanShifts; ///< of free components; empty if there is none
+  bool LeavesOpen = false;        ///< whether what nothing determines becomes not a number
 };
 
 template <class F>
@@ -102,6 +113,7 @@ void FreeComponents::projectRightSide(State& level, Report& report)
   report.notes.push_back(incompatibilityNote(share));
 }
 
+/** Computes by how much the values of free components are to be shifted. */
 template <class State>
 void FreeComponents::fixMeans(State& level, std::vector<std::string>& notes)
 {

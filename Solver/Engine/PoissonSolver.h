@@ -90,7 +90,7 @@ std::unique_ptr<Solution> PoissonSolver<Operators>::solve(MeshSource& mesh, Prob
   {
     balance->report(r);
   }
-  run.free.fixMeans(this->Levels.window(), r.notes);
+  run.free.fix(this->Levels.window(), problem, r);
   r.seconds.solve = run.seconds() - r.seconds.build;
   run.finishReport();
   auto solution =

@@ -19,7 +19,7 @@ void StreamedSolution::read(std::int64_t first, std::int64_t count, std::span<do
   checkVertexRange(
     first, count, values.size() / static_cast<std::size_t>(this->columns()), this->vertices());
   this->Window.readX(first, count, values.data());
-  this->Run->free.shift(first, count, values);
+  this->Run->free.complete(first, count, values);
 }
 
 void StreamedSolution::removeCheckpoint()

@@ -171,9 +171,11 @@ void Assembly::collectVertex(std::int64_t i)
   const double* load = this->Cells.loads.load();
   made.loads.insert(made.loads.end(), load, load + open.values.lanes());
   const double mass = open.mass[i];
-  const std::int32_t root = this->Cells.parts.close(i, mass);
+  const bool isKnown = RowAssembly::isKnown(open.dirichlet[i], end - before, alpha);
   // A vertex with only flat cells has no component, but may have a facet.
-  if (root >= 0 && (alpha > 0.0 || RowAssembly::isKnown(open.dirichlet[i], end - before, alpha)))
+  const bool isDetermined = open.dirichlet[i] >= 0 || !isKnown;
+  const std::int32_t root = this->Cells.parts.close(i, mass, isDetermined);
+  if (root >= 0 && (alpha > 0.0 || isKnown))
   {
     this->Parts.anchor(root);
   }

@@ -128,8 +128,8 @@ void ComponentLabels::load(StateReader& state)
     state.require(record.size() == one || record.size() == count * one ||
                   record.size() == one + masses || record.size() == count * one + masses);
     this->decode(record, count);
-    state.require(std::ranges::all_of(this->Labels,
-      [this](std::int32_t label) { return label >= -1 && label < this->Parts.labels(); }));
+    state.require(std::ranges::all_of(this->Labels, [this](std::int32_t label)
+      { return label >= Undetermined && label < this->Parts.labels(); }));
   };
   constexpr auto Vertices = static_cast<std::int64_t>(Block);
   this->Scratch->load(state, (this->Count - 1) / Vertices + 1, check);

@@ -21,6 +21,8 @@ class SMG_EXPORT ComponentLabels
 public:
   /** The number of vertices of a block; the last one may be shorter. */
   static constexpr std::size_t Block = 1024;
+  // Instead of a label: a vertex of no component, and one of no component that nothing determines.
+  static constexpr std::int32_t None = -1, Undetermined = -2;
 
   /** The data of the vertices of a block. */
   struct Entries
@@ -38,7 +40,7 @@ public:
   /** Keeps the labels in a scratch file; otherwise they stay in memory. */
   void useScratch(const ScratchFolder& folder, IoStatistics& statistics);
 
-  /** Appends the next vertices: their labels (-1: no component) and lumped masses. */
+  /** Appends the next vertices: their labels, None or Undetermined, and lumped masses. */
   void append(std::span<const std::int32_t> labels, std::span<const double> masses);
   void finish();
 

@@ -36,10 +36,12 @@ void OpenComponents::joinOthers(const std::int64_t* corners, int count)
   }
 }
 
-std::int32_t OpenComponents::close(std::int64_t i, double mass)
+std::int32_t OpenComponents::close(std::int64_t i, double mass, bool determined)
 {
-  const std::int32_t label = this->Labels[i] < 0 ? -1 : this->Parts.root(this->Labels[i]);
-  this->LabelBatch.push_back(label);
+  const std::int32_t label =
+    this->Labels[i] < 0 ? ComponentLabels::None : this->Parts.root(this->Labels[i]);
+  const bool isOpen = label == ComponentLabels::None && !determined;
+  this->LabelBatch.push_back(isOpen ? ComponentLabels::Undetermined : label);
   this->MassBatch.push_back(mass);
   return label;
 }

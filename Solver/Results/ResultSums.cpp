@@ -46,6 +46,10 @@ ResultSums::ResultSums(CellType type, Problem& problem)
 
 void ResultSums::add(VertexTerms terms, const double* u, std::int32_t dirichlet)
 {
+  if (std::isnan(u[0]))
+  {
+    return; // nothing determines it, and it has no share in any cell
+  }
   this->Mass += terms.mass();
   for (std::size_t k = 0; k < this->Columns; ++k)
   {
@@ -132,13 +136,12 @@ void ResultSums::noteConditionsWithoutEffect(Report& report)
     const bool isDirichlet = condition.name.starts_with("dirichlet");
     if (isDirichlet && std::isnan(condition.mean.front()))
     {
-      report.notes.push_back(condition.name + " has no effect: others hold wherever it does");
+      report.warn(condition.name + " has no effect: others hold wherever it does");
     }
     if (condition.area == 0.0 && !isDirichlet)
     {
-      report.notes.push_back(
-        condition.name + " has no effect: " +
-        "no facet of the boundary is where it holds, or later ones hold there");
+      report.warn(condition.name + " has no effect: " +
+                  "no facet of the boundary is where it holds, or later ones hold there");
     }
   }
 }

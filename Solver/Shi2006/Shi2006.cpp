@@ -75,7 +75,7 @@ void Shi2006::solve(MeshSource& mesh, Problem& problem)
   const Timer solving;
   this->iterate(cycle, finest);
   FinestState state{ finest };
-  this->Free.fixMeans(state, r.notes);
+  this->Free.fix(state, problem, r);
   r.seconds.solve = solving.seconds();
   this->Values = std::move(finest.value);
   addAssemblyNotes(r);
@@ -197,7 +197,7 @@ void Shi2006::read(std::int64_t first, std::int64_t count, std::span<double> val
   checkVertexRange(
     first, count, values.size() / static_cast<std::size_t>(this->Columns), this->Result.vertices);
   std::copy_n(this->Values.at(first), count * this->Columns, values.data());
-  this->Free.shift(first, count, values);
+  this->Free.complete(first, count, values);
 }
 
 } // namespace smg

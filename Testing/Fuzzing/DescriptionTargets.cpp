@@ -59,7 +59,11 @@ bool runProblem(std::string_view bytes, CellChoice cells)
     {
       DescribedProblem problem(problemOf(bytes, path.string()), mesh.info(), path.string());
       problem.prepare(*sourceOf(mesh, problem), place.workspace().folder());
-      ofFile(path, [&] { checkSolution(*solve(*sourceOf(mesh, problem), problem, smallSolve())); });
+      ofFile(path,
+        [&] {
+          checkSolution(
+            *solve(*sourceOf(mesh, problem), problem, smallSolve()), Missing::Undetermined);
+        });
     });
 }
 
@@ -97,8 +101,10 @@ bool runPlaces(std::string_view bytes, CellChoice cells)
       options.memoryLimit = Workspace::LeastMemory;
       options.threads = 1;
       options.scratch = place.workspace().folder();
-      ofFile(
-        path, [&] { checkSolution(*distance(mesh, description, options, path.string()), true); });
+      ofFile(path,
+        [&] {
+          checkSolution(*distance(mesh, description, options, path.string()), Missing::Unreached);
+        });
     });
 }
 

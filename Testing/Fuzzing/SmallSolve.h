@@ -39,15 +39,27 @@ inline std::vector<double> valuesOf(Solution& solution)
   return values;
 }
 
-/** Throws Finding unless the memory was within the limit and no number is NaN; `mayBeInfinite`:
- * some may be infinite. */
-inline void checkSolution(Solution& solution, bool mayBeInfinite = false)
+/** What values that are not finite stand for. */
+enum class Missing
 {
-  mustHold(solution.report().pool_bytes_peak <= Workspace::LeastMemory,
-    "more memory was used than the limit");
-  mustHold(std::ranges::all_of(valuesOf(solution), [&](double value)
-             { return mayBeInfinite ? !std::isnan(value) : std::isfinite(value); }),
-    "a value of the solution is no number");
+  None,
+  Undetermined, ///< NaN: what nothing determines, as the report counts it
+  Unreached     ///< infinity
+};
+
+/** Throws Finding unless the memory was within the limit and only such values are not finite. */
+inline void checkSolution(Solution& solution, Missing missing = Missing::None)
+{
+  const Report& report = solution.report();
+  mustHold(report.pool_bytes_peak <= Workspace::LeastMemory, "more memory was used than the limit");
+  const std::vector<double> values = valuesOf(solution);
+  const auto count = [&](auto&& which) { return std::ranges::count_if(values, which); };
+  mustHold(count([](double value) { return std::isnan(value); }) ==
+             (missing == Missing::Undetermined ? report.held * solution.columns() : 0),
+    "a value of the solution is no number, or one that nothing determines is");
+  mustHold(
+    missing == Missing::Unreached || count([](double value) { return std::isinf(value); }) == 0,
+    "a value of the solution is infinite");
 }
 
 /** Calls compute(), whose errors do not know the file: its caller names it. */

@@ -35,7 +35,7 @@ void solveOn(const VsmReader& mesh, Weights weights)
   const auto source = [&] { return mesh.source(problem.vertexColumns(), problem.cellColumns()); };
   problem.prepare(*source(), FuzzPlace::instance().workspace().folder());
   const std::unique_ptr<Solution> solution = solve(*source(), problem, smallSolve());
-  checkSolution(*solution);
+  checkSolution(*solution, Missing::Undetermined);
   SolvedMesh solved(mesh, problem, *solution, { true, true, Workspace::LeastMemory, 1 });
   for (MeshBlock block; solved.next(block);)
   {
@@ -55,7 +55,7 @@ void measureOn(const VsmReader& mesh)
   options.threads = 1;
   options.maxPasses = 3;
   options.scratch = FuzzPlace::instance().workspace().folder();
-  checkSolution(*distance(mesh, description, options), true);
+  checkSolution(*distance(mesh, description, options), Missing::Unreached);
 }
 
 void previewOf(VsmReader& mesh)

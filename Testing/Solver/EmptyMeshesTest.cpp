@@ -2,10 +2,12 @@
 #include "Solver/Deformation/InteractiveDeformation.h"
 #include "Testing/Solver/DeformationTesting.h"
 #include "Testing/Support/ErrorMessage.h"
+#include "smg/DescribedProblem.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -142,6 +144,43 @@ TEST(EmptyMeshes, VerticesWithoutCellsKeepTheirValues)
         EXPECT_EQ(solved.report.held, hasCell ? vertices - 3 : vertices - 1);
       }
     }
+  }
+}
+
+/** The solution with vertices 0 and 5 prescribed, in a triangle, and a flat cell or no cell. */
+Solved solveWithoutWeights(bool hasFlatCell, SolveOptions options)
+{
+  StreamMesh mesh = rowOf(6, true);
+  if (hasFlatCell)
+  {
+    std::copy_n(mesh.positions.begin() + 9, 3, mesh.positions.begin() + 12);
+    mesh.corners.insert(mesh.corners.end(), { 2, 3, 4 });
+  }
+  ProblemDescription description;
+  description.dirichlet = { { Region(Region::Vertices{ { 0, 5 } }), 2.0 } };
+  DescribedProblem problem(description, MemorySource(mesh).info());
+  return solveMesh(mesh, problem, options);
+}
+
+TEST(EmptyMeshes, ADescribedSolutionIsNotANumberWhereNothingDeterminesIt)
+{
+  for (const bool hasFlatCell : { false, true })
+  {
+    SolveOptions streamed = accurate(), inCore = accurate(), paper = accurate();
+    inCore.inCore = paper.inCore = true;
+    paper.operators = "shi2006";
+    const Solved first = solveWithoutWeights(hasFlatCell, streamed);
+    for (int v = 0; v < 6; ++v)
+    {
+      const bool isDetermined = v < 3 || v == 5;
+      EXPECT_EQ(std::isnan(first.values(v, 0)), !isDetermined) << v;
+      EXPECT_TRUE(!isDetermined || std::fabs(first.values(v, 0) - 2.0) < 1e-9) << v;
+    }
+    EXPECT_EQ(first.report.held, 2);
+    EXPECT_EQ(first.report.warnings.size(), 1U);
+    EXPECT_TRUE(sameBits(first.values, solveWithoutWeights(hasFlatCell, inCore).values));
+    EXPECT_TRUE(solveWithoutWeights(hasFlatCell, paper).values.array().isNaN().matrix() ==
+                first.values.array().isNaN().matrix());
   }
 }
 

@@ -72,6 +72,8 @@ public:
   int columns() const override;
   Weights weights() const override;
   ConditionCounts conditionCounts() const override;
+  /** False: nothing says what the value is there. */
+  bool keepsUndetermined() const override { return false; }
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
   bool hasCells() const override;
   void cells(CellBatch& batch) override;

@@ -184,6 +184,12 @@ public:
   virtual bool connectsFlatCells() const { return false; }
 
   /**
+   * Whether a vertex that nothing determines, since it belongs to no cell that has a weight, keeps
+   * its initial value; true by default. Otherwise its solution is not a number (NaN).
+   */
+  virtual bool keepsUndetermined() const { return true; }
+
+  /**
    * Sets the data at the vertices of a block.
    * @param block the next block of the stream
    * @param conditions the block's vertices; the solve throws Error if a number is not finite, a

@@ -198,10 +198,10 @@ struct SMG_EXPORT Report
   int threads = 1;                     ///< compute threads
   std::int64_t prescribed = 0;         ///< vertices with a Dirichlet value, or held by a handle
   std::int64_t shared = 0;             ///< of a deformation: vertices that several handles hold
-  std::int64_t held = 0;               ///< vertices without a weighted cell: they keep their value
-  std::int64_t degenerate_cells = 0;   ///< cells without weight
-  std::int64_t clamped_weights = 0;    ///< edges whose weight was raised to the floor
-  std::int64_t components = 0;         ///< connected components of the mesh
+  std::int64_t held = 0; ///< vertices that nothing determines: no cell there has a weight
+  std::int64_t degenerate_cells = 0; ///< cells without weight
+  std::int64_t clamped_weights = 0;  ///< edges whose weight was raised to the floor
+  std::int64_t components = 0;       ///< connected components of the mesh
   /** Components without any prescribed vertex, screening, soft constraint or Robin condition. */
   std::int64_t free_components = 0;
   /** Per column: the total that was taken from the sources of free components, so that their mean
@@ -233,6 +233,15 @@ struct SMG_EXPORT Report
   /** Remarks for the user, a sentence each: how free components were treated, why the solve did not
    * converge ... */
   std::vector<std::string> notes;
+  /** Those of the notes after which the result may not be what was meant. */
+  std::vector<std::string> warnings;
+
+  /** Adds a note that is a warning. */
+  void warn(const std::string& sentence)
+  {
+    this->notes.push_back(sentence);
+    this->warnings.push_back(sentence);
+  }
 
   /** The last of the residuals; 0 if no V-cycle was needed. */
   double residual() const { return this->residuals.empty() ? 0.0 : this->residuals.back(); }
