@@ -92,7 +92,7 @@ void PartAssembly::addEdges(std::vector<double>& sums)
     of[Alpha] = this->Cells.loads.close(i);
     of[Mass] = this->Cells.vertices.mass[i];
     std::copy_n(this->Cells.loads.load(), this->Columns, of + Load);
-    this->LabelOf.push_back(this->Cells.parts.close(i, of[Mass]));
+    this->LabelOf.push_back(this->Cells.parts.close(i, of[Mass], true));
     this->addRow(i, of);
   }
 }
