@@ -197,6 +197,39 @@ TEST(DistributedSolve, FreeComponentsKeepTheirMean)
   expectEqual(solveBoth(several, evenCuts(several.cells(), sizeOfTest()), someHeld), "one held");
 }
 
+TEST(DistributedSolve, WhatNothingDeterminesIsAsInAStream)
+{
+  IndexedTestMesh flat = grid(14, 12, 0.2);
+  // A coincident vertex, as a clip makes it, of flat cells alone.
+  const std::int64_t added = flat.vertices();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    flat.positions.push_back(flat.positions[static_cast<std::size_t>(3 * 40 + axis)]);
+  }
+  flat.corners.insert(flat.corners.end(), { 40, 41, added, 40, added, 55 });
+  const StreamMesh mesh = toStream(shuffled(flat));
+  for (const bool keeps : { false, true })
+  {
+    const Solutions both = solveBoth(mesh, evenCuts(mesh.cells(), sizeOfTest()),
+      [keeps](ElementProblem& p)
+      {
+        p.DirichletConditions.push_back({ below(0, 0.6), columnsOf(WaveColumns, wave) });
+        p.Initial = columnsOf(WaveColumns, wave);
+        p.KeepsUndetermined = keeps;
+      });
+    EXPECT_EQ(both.report.held, 1);
+    if (rankOfTest() == 0)
+    {
+      const auto missing = [](const Eigen::MatrixXd& x) { return x.array().isNaN(); };
+      EXPECT_EQ(missing(both.streamed).count(), keeps ? 0 : WaveColumns);
+      EXPECT_TRUE((missing(both.distributed) == missing(both.streamed)).all());
+      const auto present = [&](const Eigen::MatrixXd& x) -> Eigen::MatrixXd
+      { return missing(x).select(0.0, x); };
+      EXPECT_LT(distance(present(both.distributed), present(both.streamed)), Tolerance);
+    }
+  }
+}
+
 TEST(DistributedSolve, ANeedleBesideAPrescribedVertexDoesNotEndTheSolveEarly)
 {
   const StreamMesh mesh = toStream(gridWithNeedle(40, 40, 1e-6));

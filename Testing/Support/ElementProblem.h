@@ -62,6 +62,7 @@ public:
   std::vector<Dirichlet> DirichletConditions;
   std::vector<Flux> FluxConditions;
   std::vector<Robin> RobinConditions;
+  bool KeepsUndetermined = true;
 
   const StreamMesh& mesh() const { return this->Mesh; }
   Point vertex(std::int64_t v) const { return Point::Map(&this->Mesh.positions[3 * v]); }
@@ -74,6 +75,7 @@ public:
 
   int columns() const override { return this->Columns; }
   Weights weights() const override { return this->EdgeWeights; }
+  bool keepsUndetermined() const override { return this->KeepsUndetermined; }
   bool hasCells() const override;
   void cells(CellBatch& batch) override;
   bool hasFacets() const override
