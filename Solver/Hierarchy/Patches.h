@@ -63,19 +63,14 @@ public:
     return this->Triangles.row(first + (patch.matrix - static_cast<std::uint32_t>(first)));
   }
 
-  /** Provides room for matrices of so many entries in all: other threads may read earlier ones
-   * while matrices are appended, until isFull(). */
-  void reserve(std::int64_t entries)
+  /** Provides room for so many matrices of so many entries in all: until they are appended, or
+   * isFull(), other threads may read earlier ones. */
+  void reserve(std::int64_t matrices, std::int64_t entries)
   {
-    const std::int64_t most = entries / PatchMatrix::entriesOf(2) + 1;
-    this->Triangles.reserve(most, entries);
-    this->First.reserveMore(most);
-    this->Room = this->Triangles.end() + most;
+    this->Triangles.reserve(matrices, entries);
+    this->First.reserveMore(matrices);
   }
-  bool isFull()
-  {
-    return this->Triangles.end() >= this->Room || !this->Triangles.hasRoom(PatchMatrix::Entries);
-  }
+  bool isFull() { return !this->Triangles.hasRoom(PatchMatrix::Entries); }
 
   /** Releases the matrices of patches whose first node is below `node`. */
   void release(std::int64_t node)
@@ -92,7 +87,6 @@ public:
 private:
   RaggedRing<double> Triangles;
   Ring<std::int64_t> First; ///< the first nodes
-  std::int64_t Room = 0;    ///< end of the matrices for which there is room
 };
 
 /**

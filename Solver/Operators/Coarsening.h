@@ -219,7 +219,7 @@ private:
     d.patches.reserve(lifts);
     d.interpolation.reserve(rows, RelaxedRow::Most * rows);
     d.rowQuanta.reserve(this->Interpolated + rows - d.rowQuanta.first());
-    d.patchMatrices.reserve(this->PatchEntries.of(rows) + PatchMatrix::Entries);
+    d.patchMatrices.reserve(rows, this->PatchEntries.of(rows) + PatchMatrix::Entries);
     d.parentReach.reserve(rows);
     d.liftedFrom.reserve(lifts);
     d.firstChild.reserve(d.coarseNodes + lifts - d.firstChild.first());

@@ -188,6 +188,62 @@ TEST(Patches, LetGoOfNodesKeepThePatchesOfTheOthers)
   }
 }
 
+TEST(PatchMatrices, AreThoseOfThePatchesUntilTheirFirstNodeIsReleased)
+{
+  const TestLevel level = levelsWithPatches()[0];
+  Pool pool(1 << 28);
+  LevelRows rows(pool);
+  level.append(rows, 0, level.nodes());
+  Patches patches(pool);
+  for (std::int64_t i = 0; i < level.nodes(); ++i)
+  {
+    patches.add(rows);
+  }
+  PatchMatrices matrices(pool);
+  constexpr std::int64_t Lag = 70;
+  std::int64_t compared = 0;
+  for (std::int64_t i = 0; i < level.nodes(); ++i)
+  {
+    if (Patch* patch = patches.beginningAt(i))
+    {
+      EXPECT_EQ(matrices.append(rows, *patch), PatchMatrix::entriesOf(patch->size));
+    }
+    matrices.release(i - Lag);
+    for (std::int64_t first = std::max<std::int64_t>(0, i - Lag); first <= i; ++first)
+    {
+      if (const Patch* patch = patches.beginningAt(first))
+      {
+        const PatchMatrix expected = matrixOf(rows, *patch);
+        const int entries = PatchMatrix::entriesOf(patch->size);
+        ASSERT_TRUE(std::equal(expected.entry, expected.entry + entries, matrices.of(*patch)));
+        ++compared;
+      }
+    }
+  }
+  EXPECT_GT(compared, Lag);
+}
+
+/** However unevenly patches are spread: their stage must not fall behind the others. */
+TEST(PatchMatrices, HaveRoomForOneOfEachNodeOfAStep)
+{
+  const TestLevel level = path(std::vector<float>(4000, 1.0F), -0.1);
+  Pool pool(1 << 28);
+  LevelRows rows(pool);
+  level.append(rows, 0, level.nodes());
+  Patch patch{ 0, 2, { 0, 1 }, 0 };
+  PatchMatrices matrices(pool);
+  for (std::int64_t step = 0; step < 10; ++step)
+  {
+    matrices.reserve(300, 3 * 300 + PatchMatrix::Entries);
+    for (int k = 0; k < 300; ++k, patch.first += 1)
+    {
+      EXPECT_FALSE(matrices.isFull()) << step << ", " << k;
+      matrices.append(rows, patch);
+    }
+    matrices.release(patch.first - 100);
+  }
+}
+
 TEST(PatchMatrix, InvertsAsEigenDoes)
 {
   for (int order = 1; order <= PatchMatrix::Most; ++order)
