@@ -146,6 +146,11 @@ void vtkStreamingMeshPreview::SetPreviewPoints(int points)
   }
 }
 
+const char* vtkStreamingMeshPreview::GetError()
+{
+  return this->Internal->Failures.error().c_str();
+}
+
 vtkIdType vtkStreamingMeshPreview::GetFullNumberOfPoints()
 {
   return this->Internal->Full.vertices;

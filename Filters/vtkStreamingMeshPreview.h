@@ -54,6 +54,11 @@ public:
   /** Points and cells of the mesh that the preview represents; 0 before it has been created. */
   vtkIdType GetFullNumberOfPoints();
   vtkIdType GetFullNumberOfCells();
+
+  /** The sentence of the last failure, of this or of an algorithm before it; empty: it did not
+   * fail.
+   */
+  const char* GetError();
   ///@}
 
 protected:

@@ -15,14 +15,15 @@
 #include "smg/VsmReader.h"
 
 #include "vtkDataArraySelection.h"
+#include "vtkDataObjectTypes.h"
 #include "vtkInformation.h"
 #include "vtkInformationStringKey.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkPolyData.h"
+#include "vtkPointSet.h"
+#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -121,16 +122,8 @@ struct vtkStreamingMeshReader::Internals
     vtkDataObject* present = vtkDataObject::GetData(&info);
     if (!present || !present->IsA(type))
     {
-      vtkSmartPointer<vtkPointSet> output;
-      if (isSurface)
-      {
-        output = vtkSmartPointer<vtkPolyData>::New();
-      }
-      else
-      {
-        output = vtkSmartPointer<vtkUnstructuredGrid>::New();
-      }
-      info.Set(vtkDataObject::DATA_OBJECT(), output);
+      info.Set(vtkDataObject::DATA_OBJECT(),
+        vtkSmartPointer<vtkDataObject>::Take(vtkDataObjectTypes::NewDataObject(type)));
     }
   }
 
@@ -239,6 +232,11 @@ vtkDataArraySelection* vtkStreamingMeshReader::GetCellDataArraySelection()
   return this->Internal->CellArrays;
 }
 
+const char* vtkStreamingMeshReader::GetError()
+{
+  return this->Internal->Failures.error().c_str();
+}
+
 vtkIdType vtkStreamingMeshReader::GetFullNumberOfPoints()
 {
   return this->Internal->Mesh ? this->Internal->Mesh->reader().info().vertices : -1;
@@ -314,6 +312,7 @@ int vtkStreamingMeshReader::RequestDataObject(
   {
     return 0;
   }
+  this->Internal->Failures.begin();
   try
   {
     const smg::VsmReader& reader = this->Internal->open(*this);

@@ -99,6 +99,11 @@ public:
   /** Counts of the whole mesh, after UpdateInformation(); -1 before. */
   vtkIdType GetFullNumberOfPoints();
   vtkIdType GetFullNumberOfCells();
+
+  /** The sentence of the last failure, of this or of an algorithm before it; empty: it did not
+   * fail.
+   */
+  const char* GetError();
   ///@}
 
   /** The maximum number of simultaneously active vertices of the stream, after UpdateInformation();

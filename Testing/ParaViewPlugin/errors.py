@@ -39,6 +39,12 @@ for name, content in {"cut.smb": data[:600000], "empty.smb": b"", "noise.smb": d
         pass
     text = said()
     assert name in text, (name, text)
+    reader.UpdatePropertyInformation()
+    assert name in reader.GetPropertyValue("Error"), reader.GetPropertyValue("Error")
+    reader.FileName = t.BUNNY
+    reader.UpdatePipeline()
+    reader.UpdatePropertyInformation()
+    assert reader.GetPropertyValue("Error") in ("", None) and not said()
     Delete(reader)
 
 # A failure is reported once, however often a view updates, until something changes.
