@@ -74,10 +74,6 @@ smg::SimplifyReport SimplifyCommand::simplified()
 void SimplifyCommand::run()
 {
   requireOneProcess();
-  if (this->simplify.vertices == 0 && this->simplify.error == 0.0)
-  {
-    throw smg::Error("how far to simplify? Give --vertices, --error or both");
-  }
   smg::checkSimplifiedPath(this->out);
   smg::checkIsNotInput(this->in, this->out);
   this->checkReport({ this->in, this->out });
@@ -146,5 +142,13 @@ void addSimplifyCommand(CLI::App& program, Action& action)
   options->addTo(*command);
   options->addThreadsTo(*command);
   options->addCheckpointTo(*command);
-  command->callback([options, &action] { action = [options] { return options->run(), 0; }; });
+  command->callback(
+    [options, &action]
+    {
+      if (options->simplify.vertices == 0 && options->simplify.error == 0.0)
+      {
+        throw CLI::RequiredError("--vertices, --error or both");
+      }
+      action = [options] { return options->run(), 0; };
+    });
 }

@@ -73,7 +73,7 @@ def test_errors():
     def error(*arguments, code=1):
         return simplify(*arguments, code=code).stderr
 
-    assert "Give --vertices, --error or both" in error("torus.vsm", "x.ply")
+    assert "--vertices, --error or both is required" in error("torus.vsm", "x.ply", code=2)
     assert "this is no format of a surface: write it as .vsm" in error("torus.vsm", "x.xyz", "--vertices", 9, "--dry-run")
     assert "holds no triangles" in error("torus.vsm", "x.sva", "--vertices", 9)
     assert "there is no folder nowhere" in error("torus.vsm", "nowhere/x.ply", "--vertices", 9)
