@@ -16,6 +16,7 @@
 #include "IO/vtkMeshPieceData.h"
 #include "IO/vtkOrdinaryMesh.h"
 #include "IO/vtkPieceCells.h"
+#include "IO/vtkStreamingMeshKeys.h"
 #include "Solver/Description/ComposeDescriptions.h"
 #include "Solver/Stream/OriginalNumbers.h"
 #include "smg/DescriptionFiles.h"
@@ -23,12 +24,15 @@
 #include "smg/SolvedMesh.h"
 
 #include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVariantKey.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -308,6 +312,7 @@ void vtkStreamingPoisson::Deliver(
   solution->SetName(this->Internal->resultName());
   solution->SetNumberOfComponents(this->GetSummary().columns);
   solution->SetNumberOfTuples(piece.GetNumberOfPoints());
+  solution->GetInformation()->Set(vtkStreamingMeshKeys::ISOLATED_VALUE(), std::nan(""));
   std::copy(values.begin(), values.end(), solution->GetPointer(0));
   output.GetPointData()->AddArray(solution);
   output.GetPointData()->SetActiveScalars(solution->GetName());

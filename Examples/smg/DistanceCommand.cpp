@@ -106,6 +106,7 @@ protected:
 
   void warn(const smg::Report& report) const override
   {
+    this->MeshCommand::warn(report);
     if (!report.converged)
     {
       std::fprintf(stderr,

@@ -20,7 +20,7 @@
 namespace
 {
 
-/** Prints time and memory, and the notes. */
+/** Prints time and memory, and the notes that are no warnings. */
 void printCosts(const smg::Report& report)
 {
   std::printf(
@@ -30,8 +30,10 @@ void printCosts(const smg::Report& report)
     inMebibytes(report.rss_bytes_peak), inMebibytes(report.scratch_bytes_peak));
   for (const std::string& note : report.notes)
   {
-    const bool isWarning = std::ranges::count(report.warnings, note) > 0;
-    std::printf("%s%s\n", isWarning ? "Warning: " : "", note.c_str());
+    if (std::ranges::count(report.warnings, note) == 0)
+    {
+      std::printf("%s\n", note.c_str());
+    }
   }
 }
 
@@ -115,6 +117,14 @@ ResultFile MeshCommand::checkFiles()
   this->checkCheckpoint({ this->Out, this->report });
   this->readTask();
   return out;
+}
+
+void MeshCommand::warn(const smg::Report& report) const
+{
+  for (const std::string& warning : report.warnings)
+  {
+    std::fprintf(stderr, "smg: warning: %s\n", warning.c_str());
+  }
 }
 
 void MeshCommand::tell(const smg::Report& report)

@@ -87,7 +87,7 @@ protected:
   /** What `File` holds; empty: there is none. */
   virtual const std::string& text() const;
   /** Warns of what the user must know at once. */
-  virtual void warn(const smg::Report& /*report*/) const {}
+  virtual void warn(const smg::Report& report) const;
   /** Prints what was found; what it cost follows. */
   virtual void print(const smg::Report& report) const = 0;
   /** Of a report as a page, without what it draws. */

@@ -74,6 +74,7 @@ const char* iterations(const smg::Report& report, int count)
 
 void SolvingCommand::warn(const smg::Report& report) const
 {
+  this->MeshCommand::warn(report);
   const auto warning = [&](const std::string& what, double residual, int cycles)
   {
     std::fprintf(stderr, "smg: warning: %snot converged: the relative residual is %.3g after %d %s",

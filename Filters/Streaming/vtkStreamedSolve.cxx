@@ -73,28 +73,34 @@ ProgressFunction functionOf(Progress& progress)
 void StreamedSolve::solve(
   PieceInput& input, const StreamedTask& task, const Pulling& pulling, Progress& progress)
 {
-  std::string lacking;
-  const auto make = [&](const std::filesystem::path& container, Progress& pulled)
+  const auto make = [&](const std::filesystem::path& container, Progress& pulled, Report& notes)
   {
     PieceStream stream(input, pulling.pieces, task.columns());
     writeContainer(stream, container, true, pulled);
-    lacking = input.noteOnNeighbours(stream.pieces());
-    return lacking.empty() ? std::vector<std::string>() : std::vector{ lacking };
+    if (const std::string lacking = input.noteOnNeighbours(stream.pieces()); !lacking.empty())
+    {
+      notes.warn(lacking);
+    }
   };
   const auto folder = [&]
   { return std::make_unique<ScratchFolder>(pulling.scratch, pulling.scratchLimit); };
   this->solveOn(folder, make, task, progress);
-  if (!lacking.empty())
-  {
-    this->Summary.warnings.push_back(lacking);
-  }
 }
 
 void StreamedSolve::solveWhole(
   vtkPointSet& mesh, const StreamedTask& task, const Pulling& pulling, Progress& progress)
 {
-  const auto make = [&](const std::filesystem::path& container, Progress& written)
-  { return this->writeWhole(mesh, pulling, container, written); };
+  const auto make = [&](const std::filesystem::path& container, Progress& written, Report& notes)
+  {
+    const ConversionReport converted = this->writeWhole(mesh, pulling, container, written);
+    notes.notes = converted.notes;
+    if (converted.higher_order_cells > 0)
+    {
+      notes.warn(std::to_string(converted.higher_order_cells) +
+                 " cells of higher order count by their corners alone: their other points have no "
+                 "result (Tessellate of ParaView makes linear cells of them)");
+    }
+  };
   this->solveOn([&] { return folderFor(mesh, pulling); }, make, task, progress);
 }
 
@@ -181,7 +187,8 @@ void StreamedSolve::solveOn(
     const std::filesystem::path container = *this->Scratch / "mesh.vsm";
     const ProgressFunction whole = functionOf(progress);
     Progress made(partOf(whole, 0.0, PullShare));
-    const std::vector<std::string> notes = make(container, made);
+    Report ofMesh;
+    make(container, made, ofMesh);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
 
     Report report = this->solveOnFile(container, task, partOf(whole, PullShare, 1.0));
@@ -189,13 +196,15 @@ void StreamedSolve::solveOn(
     if (const auto loose = std::ranges::count(this->VertexOfPoint, -1); loose > 0)
     {
       report.notes.push_back(std::to_string(loose) +
-                             (loose == 1 ? " point belongs" : " points belong") +
-                             " to no cell: a solution is not a number there, and what moves stays "
-                             "where it is");
+                             (loose == 1 ? " point is a corner" : " points are corners") +
+                             " of no cell: there is no solution (NaN) and no distance there, and "
+                             "what is smoothed, moved or "
+                             "blended stays as it was");
     }
     report.seconds.convert = seconds.count();
     report.seconds.total += seconds.count();
-    report.notes.insert(report.notes.end(), notes.begin(), notes.end());
+    report.notes.insert(report.notes.end(), ofMesh.notes.begin(), ofMesh.notes.end());
+    report.warnings.insert(report.warnings.end(), ofMesh.warnings.begin(), ofMesh.warnings.end());
     this->Summary = SolveSummary::of(report, this->Result->columns());
   }
   catch (const std::exception& error)
@@ -204,7 +213,7 @@ void StreamedSolve::solveOn(
   }
 }
 
-std::vector<std::string> StreamedSolve::writeWhole(vtkPointSet& mesh, const Pulling& pulling,
+ConversionReport StreamedSolve::writeWhole(vtkPointSet& mesh, const Pulling& pulling,
   const std::filesystem::path& container, Progress& progress)
 {
   // Its own numbers would be taken for those of the points.
@@ -234,7 +243,7 @@ std::vector<std::string> StreamedSolve::writeWhole(vtkPointSet& mesh, const Pull
       this->VertexOfPoint[static_cast<std::size_t>(point)] = vertex++;
     }
   }
-  return report.notes;
+  return report;
 }
 
 } // namespace smg

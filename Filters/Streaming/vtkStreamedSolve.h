@@ -8,6 +8,8 @@
 #include "IO/vtkPieceInput.h"
 #include "Solver/Core/Progress.h"
 #include "Solver/Storage/ScratchFolder.h"
+#include "smg/Convert.h"
+#include "smg/Report.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -91,15 +93,15 @@ public:
 private:
   void release();
   void discard();
-  /** Makes the .vsm file of the mesh in the scratch folder; returns notes. */
-  using MakeMesh = std::function<std::vector<std::string>(
-    const std::filesystem::path& container, Progress& progress)>;
+  /** Makes the .vsm file of the mesh in the scratch folder; the report gets notes. */
+  using MakeMesh =
+    std::function<void(const std::filesystem::path& container, Progress& progress, Report& notes)>;
   using MakeFolder = std::function<std::unique_ptr<ScratchFolder>()>;
   void solveOn(
     const MakeFolder& folder, const MakeMesh& make, const StreamedTask& task, Progress& progress);
   Report solveOnFile(
     const std::filesystem::path& file, const StreamedTask& task, const ProgressFunction& progress);
-  std::vector<std::string> writeWhole(vtkPointSet& mesh, const Pulling& pulling,
+  ConversionReport writeWhole(vtkPointSet& mesh, const Pulling& pulling,
     const std::filesystem::path& container, Progress& progress);
 
   std::unique_ptr<ScratchFolder> Scratch; ///< of the solution

@@ -138,6 +138,7 @@ std::string Report::json(int indent) const
   }
   out["held"] = this->held;
   out["degenerate_cells"] = this->degenerate_cells;
+  out["coincident_cells"] = this->coincident_cells;
   out["clamped_weights"] = this->clamped_weights;
   out["components"] = this->components;
   out["free_components"] = this->free_components;

@@ -69,6 +69,7 @@ bool InteractiveEngine<Operators>::deformAgain(const VertexHandles& handles)
   r.by_pass.clear();
   r.steps.clear();
   r.notes.clear();
+  r.warnings.clear();
   this->First.steps().begin(false);
   this->First.steps().solve(
     [&]

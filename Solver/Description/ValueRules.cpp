@@ -26,13 +26,9 @@ std::array<double, 6> tensorOf(const double* numbers, int count)
 
 const char* ValueRules::complaint(const double* numbers, int count) const
 {
-  if (this->missing &&
-      std::all_of(numbers, numbers + count, [](double number) { return std::isnan(number); }))
-  {
-    return nullptr;
-  }
-  const bool isFinite =
-    std::all_of(numbers, numbers + count, [](double number) { return std::isfinite(number); });
+  const bool isFinite = std::all_of(numbers, numbers + count,
+    [this](double number)
+    { return std::isfinite(number) || (this->missing && std::isnan(number)); });
   if (isFinite && std::any_of(numbers, numbers + count,
                     [](double number) { return std::abs(number) > MostMagnitude; }))
   {

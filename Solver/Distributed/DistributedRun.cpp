@@ -154,12 +154,13 @@ Convergence DistributedRun::solveColumn(std::size_t column, double begin, double
 void DistributedRun::fix(const Problem& problem)
 {
   this->fixMeans();
-  for (const std::int64_t k : this->System.undetermined)
+  this->LeavesUndetermined = !problem.keepsUndetermined();
+  for (std::vector<double>& x : this->System.x)
   {
-    for (std::vector<double>& x : this->System.x)
+    for (std::size_t k = 0; this->LeavesUndetermined && k < this->System.undetermined.size(); ++k)
     {
-      double& value = x[static_cast<std::size_t>(k)];
-      value = problem.keepsUndetermined() ? value : std::numeric_limits<double>::quiet_NaN();
+      x[static_cast<std::size_t>(this->System.undetermined[k])] =
+        std::numeric_limits<double>::quiet_NaN();
     }
   }
 }
@@ -187,8 +188,7 @@ void DistributedRun::fixMeans()
       value(k, c) -= shifts(place, columns, c);
     }
   }
-  this->report.notes.push_back(
-    freeComponentsNote(this->report.free_components, this->report.components));
+  noteFreeComponents(this->report);
 }
 
 std::vector<double> DistributedRun::values() const
@@ -211,7 +211,7 @@ std::vector<double> DistributedRun::values() const
 void DistributedRun::finish()
 {
   Report& r = this->report;
-  addAssemblyNotes(r);
+  addAssemblyNotes(r, this->LeavesUndetermined);
   r.seconds.total = this->Wall.seconds();
   Team& team = this->Processes;
   std::array<double, 2> seconds{ r.seconds.build, r.seconds.total };

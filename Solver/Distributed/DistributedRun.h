@@ -65,6 +65,7 @@ private:
   PartSystem System;
   std::optional<ConjugateGradients> Method; ///< of the matrix
   Report::Distributed Costs;
+  bool LeavesUndetermined = false;
 };
 
 } // namespace smg

@@ -92,7 +92,7 @@ void PartAssembly::addEdges(std::vector<double>& sums)
     of[Alpha] = this->Cells.loads.close(i);
     of[Mass] = this->Cells.vertices.mass[i];
     std::copy_n(this->Cells.loads.load(), this->Columns, of + Load);
-    this->LabelOf.push_back(this->Cells.parts.close(i, of[Mass], true));
+    this->LabelOf.push_back(this->Cells.parts.close(i, of[Mass]));
     this->addRow(i, of);
   }
 }
@@ -295,7 +295,8 @@ void PartAssembly::count(PartSystem& system) const
   const std::int64_t unknowns = std::ranges::count(this->IsUnknown, 1);
   std::int64_t counts[] = { cells, this->Prescribed,
     static_cast<std::int64_t>(system.undetermined.size()), this->Raised, policy.degenerateCells(),
-    this->Cells.edges.clamped(), policy.limitedCells(), unknowns, this->Entries + unknowns };
+    this->Cells.edges.clamped(), policy.limitedCells(), unknowns, this->Entries + unknowns,
+    policy.coincidentCells() };
   team.sum(counts);
   double flatness = policy.leastFlatness();
   team.least({ &flatness, 1 });
@@ -308,6 +309,7 @@ void PartAssembly::count(PartSystem& system) const
   all.held = counts[2];
   all.raisedRows = counts[3];
   all.degenerateCells = counts[4];
+  all.coincidentCells = counts[9];
   all.clampedWeights = counts[5];
   all.limitedCells = counts[6];
   all.leastFlatness = flatness;

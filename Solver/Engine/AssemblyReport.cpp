@@ -18,6 +18,7 @@ void reportAssembly(const AssemblyCounts& counts, Report& report)
   report.prescribed = counts.prescribed;
   report.held = counts.held;
   report.degenerate_cells = counts.degenerateCells;
+  report.coincident_cells = counts.coincidentCells;
   report.clamped_weights = counts.clampedWeights;
   noteUnwelded(counts.type, counts.vertices, counts.cells, report);
   if (counts.limitedCells > 0)
@@ -53,6 +54,7 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
   counts.prescribed = assembly.prescribed();
   counts.held = assembly.held();
   counts.degenerateCells = assembly.weights().degenerateCells();
+  counts.coincidentCells = assembly.weights().coincidentCells();
   counts.clampedWeights = assembly.clampedWeights();
   counts.limitedCells = assembly.weights().limitedCells();
   counts.leastFlatness = assembly.weights().leastFlatness();
@@ -63,7 +65,7 @@ void reportAssembly(const Assembly& assembly, const Components& components, Repo
   reportAssembly(counts, report);
 }
 
-void addAssemblyNotes(Report& report)
+void addAssemblyNotes(Report& report, bool leavesUndetermined)
 {
   // A deformation, whose steps have been added, raises weights by default and takes the operator
   // for no more than a measure of details.
@@ -74,15 +76,21 @@ void addAssemblyNotes(Report& report)
       " weights were below the floor and were raised to it: there the operator is "
       "not that of finite elements");
   }
+  if (report.coincident_cells > 0)
+  {
+    report.warn(std::to_string(report.coincident_cells) +
+                (report.coincident_cells == 1 ? " cell without area or volume joins"
+                                              : " cells without area or volume join") +
+                " coincident points, as a clip through points of a mesh leaves them: the mesh is "
+                "open there, unless these are merged (Clean to Grid of ParaView; smg convert "
+                "--weld)");
+  }
   if (report.held > 0)
   {
-    const bool isOne = report.held == 1;
     report.warn(
-      std::to_string(report.held) + (isOne ? " vertex belongs" : " vertices belong") +
-      " to no cell that has a weight, so that nothing determines what is there: not a number in a "
-      "solution, what was there in a moved or blended mesh. Cells without area or volume join "
-      "coincident points, where the mesh is open: merge these (Clean to Grid of ParaView; smg "
-      "convert --weld)");
+      std::to_string(report.held) + (report.held == 1 ? " vertex belongs" : " vertices belong") +
+      " to no cell that has a weight, so that nothing determines the values there: they " +
+      (leavesUndetermined ? "are not numbers" : "stay as they were"));
   }
 }
 

@@ -15,7 +15,7 @@ struct AssemblyCounts
 {
   CellType type = CellType::Triangle;
   std::int64_t vertices = 0, cells = 0, prescribed = 0, held = 0;
-  std::int64_t degenerateCells = 0, clampedWeights = 0;
+  std::int64_t degenerateCells = 0, coincidentCells = 0, clampedWeights = 0;
   std::int64_t limitedCells = 0; ///< see WeightPolicy
   double leastFlatness = 1.0;    ///< of these
   std::int64_t raisedRows = 0;   ///< see Assembly
@@ -29,7 +29,8 @@ SMG_EXPORT void reportAssembly(const AssemblyCounts& counts, Report& report);
 SMG_EXPORT void reportAssembly(
   const Assembly& assembly, const Components& components, Report& report);
 
-/** Adds the notes on the data of reportAssembly(), when the steps of a deformation are known. */
-SMG_EXPORT void addAssemblyNotes(Report& report);
+/** Adds the notes on the data of reportAssembly(), when the steps of a deformation are known;
+ * `leavesUndetermined`: see FreeComponents. */
+SMG_EXPORT void addAssemblyNotes(Report& report, bool leavesUndetermined);
 
 } // namespace smg

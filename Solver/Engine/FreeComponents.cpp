@@ -15,23 +15,30 @@ std::string incompatibilityNote(double share)
          std::string(text) + " % of their size, was taken from them";
 }
 
-std::string freeComponentsNote(std::int64_t free, std::int64_t all)
+void noteFreeComponents(Report& report)
 {
-  return std::to_string(free) + " of " + std::to_string(all) +
-         " components have no prescribed value: they keep the mean of their initial values";
+  const std::string note =
+    std::to_string(report.free_components) + " of " + std::to_string(report.components) +
+    " components have no prescribed value: they keep the mean of their initial values";
+  if (report.free_components < report.components)
+  {
+    report.warn(note);
+    return;
+  }
+  report.notes.push_back(note);
 }
 
 void FreeComponents::complete(std::int64_t first, std::int64_t count, std::span<double> values)
 {
   const auto columns = static_cast<std::size_t>(this->Columns);
   const bool shifts = !this->MeanShifts.empty();
-  for (std::int64_t i = 0; (shifts || this->LeavesOpen) && i < count; ++i)
+  for (std::int64_t i = 0; (shifts || this->LeavesUndetermined) && i < count; ++i)
   {
     const std::int64_t vertex = first + i;
     const std::int32_t label =
       this->Labels.block(vertex / Block).labels[static_cast<std::size_t>(vertex % Block)];
     const auto of = values.subspan(static_cast<std::size_t>(i) * columns, columns);
-    if (label == ComponentLabels::Undetermined && this->LeavesOpen)
+    if (label == ComponentLabels::Undetermined && this->LeavesUndetermined)
     {
       std::ranges::fill(of, std::numeric_limits<double>::quiet_NaN());
     }

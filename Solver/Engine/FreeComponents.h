@@ -19,8 +19,8 @@ namespace smg
 /** The note that the sources of free components do not sum to zero; `share`: see
  * Components::incompatibility(). */
 SMG_EXPORT std::string incompatibilityNote(double share);
-/** The note that so many components of all are free. */
-SMG_EXPORT std::string freeComponentsNote(std::int64_t free, std::int64_t all);
+/** Notes how many components are free, as a warning if others are not. */
+SMG_EXPORT void noteFreeComponents(Report& report);
 
 /**
  * What the equations leave open. Makes the solution of components without constraint unique:
@@ -49,9 +49,12 @@ public:
   template <class State>
   void fix(State& level, const Problem& problem, Report& report)
   {
-    this->fixMeans(level, report.notes);
-    this->LeavesOpen = report.held > 0 && !problem.keepsUndetermined();
+    this->fixMeans(level, report);
+    this->LeavesUndetermined = report.held > 0 && !problem.keepsUndetermined();
   }
+
+  /** Whether values that nothing determines become not a number. */
+  bool leavesUndetermined() const { return this->LeavesUndetermined; }
 
   /** Completes the values of vertices [first, first + count). */
   void complete(std::int64_t first, std::int64_t count, std::span<double> values);
@@ -64,13 +67,13 @@ private:
   template <class F>
   void forFree(std::int64_t block, F&& f);
   template <class State>
-  void fixMeans(State& level, std::vector<std::string>& notes);
+  void fixMeans(State& level, Report& report);
 
   Components& Parts;
   ComponentLabels& Labels;
   int Columns;
   std::vector<double> MeanShifts; ///< of free components; empty if there is none
-  bool LeavesOpen = false;        ///< whether what nothing determines becomes not a number
+  bool LeavesUndetermined = false;
 };
 
 template <class F>
@@ -115,10 +118,9 @@ void FreeComponents::projectRightSide(State& level, Report& report)
 
 /** Computes by how much the values of free components are to be shifted. */
 template <class State>
-void FreeComponents::fixMeans(State& level, std::vector<std::string>& notes)
+void FreeComponents::fixMeans(State& level, Report& report)
 {
-  const std::int64_t components = this->Parts.freeComponents();
-  if (components == 0)
+  if (report.free_components == 0)
   {
     return;
   }
@@ -138,7 +140,7 @@ void FreeComponents::fixMeans(State& level, std::vector<std::string>& notes)
       });
   }
   this->MeanShifts = this->Parts.meanShifts(sums);
-  notes.push_back(freeComponentsNote(components, this->Parts.components()));
+  noteFreeComponents(report);
 }
 
 } // namespace smg

@@ -23,8 +23,8 @@ struct ReportState
     this->exchangeSteps(state);
     this->exchangePasses(state);
     state(r.converged, r.seconds, r.cpu_seconds, r.rss_bytes_peak, r.prescribed, r.shared, r.held,
-      r.degenerate_cells, r.clamped_weights, r.components, r.free_components, r.removed_source,
-      r.notes, r.warnings);
+      r.degenerate_cells, r.coincident_cells, r.clamped_weights, r.components, r.free_components,
+      r.removed_source, r.notes, r.warnings);
   }
 
 private:

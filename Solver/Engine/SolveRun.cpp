@@ -60,7 +60,7 @@ void SolveRun::beginReport()
 void SolveRun::finishReport()
 {
   Report& r = this->report;
-  addAssemblyNotes(r);
+  addAssemblyNotes(r, this->free.leavesUndetermined());
   r.peak_nodes = this->resident.peak;
   r.pool_bytes_peak = this->pool.peak();
   r.rss_bytes_peak = std::max(r.rss_bytes_peak, peakResidentBytes());

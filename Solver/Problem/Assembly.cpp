@@ -172,9 +172,10 @@ void Assembly::collectVertex(std::int64_t i)
   made.loads.insert(made.loads.end(), load, load + open.values.lanes());
   const double mass = open.mass[i];
   const bool isKnown = RowAssembly::isKnown(open.dirichlet[i], end - before, alpha);
+  const bool isUndetermined = isKnown && open.dirichlet[i] < 0;
   // A vertex with only flat cells has no component, but may have a facet.
-  const bool isDetermined = open.dirichlet[i] >= 0 || !isKnown;
-  const std::int32_t root = this->Cells.parts.close(i, mass, isDetermined);
+  const std::int32_t root =
+    isUndetermined ? this->Cells.parts.closeUndetermined(i) : this->Cells.parts.close(i, mass);
   if (root >= 0 && (alpha > 0.0 || isKnown))
   {
     this->Parts.anchor(root);

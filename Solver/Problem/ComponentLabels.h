@@ -21,7 +21,7 @@ class SMG_EXPORT ComponentLabels
 public:
   /** The number of vertices of a block; the last one may be shorter. */
   static constexpr std::size_t Block = 1024;
-  // Instead of a label: a vertex of no component, and one of no component that nothing determines.
+  // Instead of a label: a vertex of no component, and one that nothing determines.
   static constexpr std::int32_t None = -1, Undetermined = -2;
 
   /** The data of the vertices of a block. */

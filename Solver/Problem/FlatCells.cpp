@@ -5,9 +5,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace smg
 {
+
+bool hasCoincidentCorners(const double* const* corners, int count)
+{
+  constexpr double Rounding = 1e-7; // of coordinates in single precision
+  double shortest = std::numeric_limits<double>::max(), longest = 0.0;
+  for (int a = 1; a < count; ++a)
+  {
+    for (int b = 0; b < a; ++b)
+    {
+      const Vector edge = difference(corners[a], corners[b]);
+      shortest = std::min(shortest, dot(edge, edge));
+      longest = std::max(longest, dot(edge, edge));
+    }
+  }
+  return shortest <= Rounding * Rounding * longest;
+}
 
 double flatnessFactor(CellType type, const double* const* corners, const CellWeights& cell)
 {

@@ -22,6 +22,9 @@ inline bool hasRepeatedCorner(const std::int64_t* corners, int count)
   return false;
 }
 
+/** Whether two corners of a cell of several vertices lie at the same place, up to rounding. */
+bool hasCoincidentCorners(const double* const* corners, int count);
+
 /**
  * Weights that are not clamped cancel in the sums of a row. If a cell is so flat that their
  * rounding to single precision would be as large as the weights of other cells, all of its weights

@@ -36,13 +36,19 @@ void OpenComponents::joinOthers(const std::int64_t* corners, int count)
   }
 }
 
-std::int32_t OpenComponents::close(std::int64_t i, double mass, bool determined)
+std::int32_t OpenComponents::close(std::int64_t i, double mass)
 {
   const std::int32_t label =
     this->Labels[i] < 0 ? ComponentLabels::None : this->Parts.root(this->Labels[i]);
-  const bool isOpen = label == ComponentLabels::None && !determined;
-  this->LabelBatch.push_back(isOpen ? ComponentLabels::Undetermined : label);
+  this->LabelBatch.push_back(label);
   this->MassBatch.push_back(mass);
+  return label;
+}
+
+std::int32_t OpenComponents::closeUndetermined(std::int64_t i)
+{
+  const std::int32_t label = this->close(i, 0.0);
+  this->LabelBatch.back() = ComponentLabels::Undetermined;
   return label;
 }
 

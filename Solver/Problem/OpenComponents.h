@@ -44,9 +44,10 @@ public:
   /** A label of the component of an open vertex, which depends on its cells and those before them
    * only; -1: none. */
   std::int32_t label(std::int64_t i) const { return this->Labels[i]; }
-  /** Closes vertex i, the next one, with this mass; returns the root of its component, or -1.
-   * `determined`: whether anything determines the value at a vertex of no component. */
-  std::int32_t close(std::int64_t i, double mass, bool determined);
+  /** Closes vertex i, the next one, with this mass; returns the root of its component, or -1. */
+  std::int32_t close(std::int64_t i, double mass);
+  /** The same of a vertex that nothing determines. */
+  std::int32_t closeUndetermined(std::int64_t i);
   /** Passes on the closed vertices. */
   void flush();
 

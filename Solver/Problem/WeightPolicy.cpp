@@ -24,13 +24,17 @@ CellWeights WeightPolicy::weigh(
   const std::int64_t* corners, const double* const* points, unsigned flags)
 {
   CellWeights cell;
-  if (flags == 0 && !hasRepeatedCorner(corners, cornersOf(this->Type)))
+  const int count = cornersOf(this->Type);
+  const bool repeated = hasRepeatedCorner(corners, count);
+  if (flags == 0 && !repeated)
   {
     cell = this->Own ? this->Own->weights() : cellWeights(this->Type, points);
   }
   if (cell.measure == 0.0)
   {
     ++this->Degenerate;
+    const bool counts = !repeated && (flags & DuplicateCell) == 0;
+    this->Coincident += counts && hasCoincidentCorners(points, count) ? 1 : 0;
     return cell;
   }
   if (this->Kind != Weights::Cotangent)

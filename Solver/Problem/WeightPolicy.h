@@ -44,6 +44,8 @@ public:
   const std::optional<ProblemCells>& own() const { return this->Own; }
 
   std::int64_t degenerateCells() const { return this->Degenerate; }
+  /** Those of which corners coincide. */
+  std::int64_t coincidentCells() const { return this->Coincident; }
   /** With cotangent weights: the number of cells whose stiffness was scaled down, and the least
    * factor. */
   std::int64_t limitedCells() const { return this->Limited; }
@@ -58,7 +60,7 @@ private:
   std::optional<ProblemCells> Own;
   double& Scale;
   bool Scaled = false; // Scale is known
-  std::int64_t Degenerate = 0, Limited = 0;
+  std::int64_t Degenerate = 0, Coincident = 0, Limited = 0;
   double LeastFlatness = 1.0;
 };
 

@@ -9,6 +9,16 @@
 
 namespace smg
 {
+namespace
+{
+
+/** Whether nothing determines these values of a vertex, which has no share in the equations. */
+bool isUndetermined(const double* value)
+{
+  return std::isnan(value[0]);
+}
+
+} // namespace
 
 ConditionSums::ConditionSums(CellType type, const ConditionCounts& counts, int columns)
   : Corners(BoundaryFacet::cornersOf(type))
@@ -43,7 +53,9 @@ void ConditionSums::add(const BoundaryFacet& facet, double area, const OpenVerti
     this->addMean(sums, facet, area, vertices);
     for (std::size_t e = 0; e < static_cast<std::size_t>(this->Corners) * this->Columns; ++e)
     {
-      this->addFlux(sums, e % this->Columns, share * facet.fluxValue[e]);
+      const std::int64_t corner = facet.corners[e / this->Columns];
+      const double weight = isUndetermined(vertices.values.at(corner)) ? 0.0 : share;
+      this->addFlux(sums, e % this->Columns, weight * facet.fluxValue[e]);
     }
   }
   if (facet.robin < 0)
@@ -52,15 +64,15 @@ void ConditionSums::add(const BoundaryFacet& facet, double area, const OpenVerti
   }
   Sums& sums = this->Robin[static_cast<std::size_t>(facet.robin)];
   this->addMean(sums, facet, area, vertices);
-  const double* ambient = facet.ambient;
   for (int c = 0; c < this->Corners; ++c)
   {
     const double* value = vertices.values.at(facet.corners[c]);
-    for (std::size_t k = 0; k < this->Columns; ++k)
+    const double factor = isUndetermined(value) ? 0.0 : share * facet.coefficient[c];
+    for (std::size_t k = 0; factor > 0.0 && k < this->Columns; ++k)
     {
-      const double factor = share * facet.coefficient[c];
-      this->addFlux(sums, k, factor * (*ambient - value[k]));
-      this->RobinTerms[k] += factor * (std::fabs(*ambient++) + std::fabs(value[k]));
+      const double ambient = facet.ambient[static_cast<std::size_t>(c) * this->Columns + k];
+      this->addFlux(sums, k, factor * (ambient - value[k]));
+      this->RobinTerms[k] += factor * (std::fabs(ambient) + std::fabs(value[k]));
     }
   }
 }
@@ -79,15 +91,18 @@ void ConditionSums::add(std::int32_t dirichlet, const double* value, const doubl
 void ConditionSums::addMean(
   Sums& sums, const BoundaryFacet& facet, double area, const OpenVertices& vertices)
 {
-  sums.area += area;
+  const double share = area / this->Corners;
+  int determined = 0;
   for (int c = 0; c < this->Corners; ++c)
   {
     const double* value = vertices.values.at(facet.corners[c]);
-    for (std::size_t k = 0; k < this->Columns; ++k)
+    determined += isUndetermined(value) ? 0 : 1;
+    for (std::size_t k = 0; !isUndetermined(value) && k < this->Columns; ++k)
     {
-      sums.value[k] += area / this->Corners * value[k];
+      sums.value[k] += share * value[k];
     }
   }
+  sums.area += determined == this->Corners ? area : share * determined;
 }
 
 void ConditionSums::addFlux(Sums& sums, std::size_t column, double flux)

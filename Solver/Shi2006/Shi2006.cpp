@@ -78,7 +78,7 @@ void Shi2006::solve(MeshSource& mesh, Problem& problem)
   this->Free.fix(state, problem, r);
   r.seconds.solve = solving.seconds();
   this->Values = std::move(finest.value);
-  addAssemblyNotes(r);
+  addAssemblyNotes(r, this->Free.leavesUndetermined());
   r.pool_bytes_peak = this->Memory.peak();
   r.rss_bytes_peak = peakResidentBytes();
   r.seconds.total = wall.seconds();

@@ -63,12 +63,17 @@ void addStep(Report& total, const Report& step, const std::string& name)
   total.prescribed = step.prescribed;
   total.held = step.held;
   total.degenerate_cells = step.degenerate_cells;
+  total.coincident_cells = step.coincident_cells;
   total.clamped_weights = step.clamped_weights;
   total.components = step.components;
   total.free_components = step.free_components;
   for (const std::string& note : step.notes)
   {
     addNote(total.notes, note);
+  }
+  for (const std::string& warning : step.warnings)
+  {
+    addNote(total.warnings, warning);
   }
 }
 

@@ -84,23 +84,35 @@ class PlyBinary:
         return value
 
 
-def read_ply(data):
+def ply_rows(data):
+    """(element, {property: value}) of each row of the elements."""
     head, _, body = data.partition(b"end_header\n")
     header = head.decode("latin-1").splitlines()
     form = next(line.split()[1] for line in header if line.startswith("format"))
     source = PlyText(body) if form == "ascii" else PlyBinary(
         body, "<" if form == "binary_little_endian" else ">")
-    points, cells, single = [], [], False
     for name, count, properties in ply_elements(header):
-        single = single or (name == "vertex" and ("x", "f", None) in properties)
         for _ in range(count):
-            row = {key: source.take(code) if length is None else
-                   tuple([source.take(code) for _ in range(source.take(length))])
-                   for key, code, length in properties}
-            if name == "vertex":
-                points.append((row["x"], row["y"], row["z"]))
-            elif name == "face":
-                cells.append(row.get("vertex_indices") or row["vertex_index"])
+            yield name, {key: source.take(code) if length is None else
+                         tuple([source.take(code) for _ in range(source.take(length))])
+                         for key, code, length in properties}
+
+
+def ply_vertices(data):
+    """{property: value} of each vertex."""
+    return [row for name, row in ply_rows(data) if name == "vertex"]
+
+
+def read_ply(data):
+    header = data.partition(b"end_header\n")[0].decode("latin-1").splitlines()
+    single = any(name == "vertex" and ("x", "f", None) in properties
+                 for name, _, properties in ply_elements(header))
+    points, cells = [], []
+    for name, row in ply_rows(data):
+        if name == "vertex":
+            points.append((row["x"], row["y"], row["z"]))
+        elif name == "face":
+            cells.append(row.get("vertex_indices") or row["vertex_index"])
     return mesh(points, cells, single)
 
 

@@ -4,6 +4,7 @@
 #include "Filters/vtkMeshRegion.h"
 #include "Filters/vtkStreamingDistance.h"
 #include "Filters/vtkStreamingPoisson.h"
+#include "Testing/Filters/vtkLinearSolution.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/TemporaryFolder.h"
 
@@ -74,36 +75,7 @@ vtkNew<vtkUnstructuredGrid> hexahedra(int n)
 class VtkOrdinaryMesh : public ::testing::Test
 {
 protected:
-  /** Solves with the point array X, x + 2 y - z, prescribed outside of a ball in the middle. */
-  vtkPointSet* solve(vtkPointSet* mesh)
-  {
-    vtkNew<vtkDoubleArray> linear, mask;
-    linear->SetName("X");
-    mask->SetName("Mask");
-    double box[6], centre[3], sides[3];
-    mesh->GetBounds(box);
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      centre[axis] = 0.5 * (box[2 * axis] + box[2 * axis + 1]);
-      sides[axis] = box[2 * axis + 1] - box[2 * axis];
-    }
-    std::sort(sides, sides + 3);
-    for (vtkIdType i = 0; i < mesh->GetNumberOfPoints(); ++i)
-    {
-      const double* p = mesh->GetPoint(i);
-      linear->InsertNextValue(p[0] + 2.0 * p[1] - p[2]);
-      const double away = std::hypot(p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]);
-      mask->InsertNextValue(away > 0.3 * sides[1] ? 1.0 : 0.0);
-    }
-    mesh->GetPointData()->AddArray(linear);
-    mesh->GetPointData()->AddArray(mask);
-    this->Poisson->SetInputDataObject(mesh);
-    this->Poisson->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Mask");
-    this->Poisson->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "X");
-    this->Poisson->SetTolerance(1e-10);
-    updatePiece(this->Poisson, 0, 1);
-    return vtkPointSet::SafeDownCast(this->Poisson->GetOutputDataObject(0));
-  }
+  vtkPointSet* solve(vtkPointSet* mesh) { return solveLinear(*this->Poisson, mesh); }
 
   /** The output is the input with its arrays, and X is its solution at all points with cells. */
   void expectLinear(vtkPointSet* mesh, vtkIdType withoutCells)
@@ -173,28 +145,6 @@ TEST_F(VtkOrdinaryMesh, QuadsAreTriangles)
   plane->SetPoint2(0.0, 20.0, 5.0);
   plane->Update();
   this->expectLinear(plane->GetOutput(), 0);
-}
-
-TEST_F(VtkOrdinaryMesh, PointsOfCellsWithoutAreaAreWarnedOf)
-{
-  // As a clip through points of the mesh leaves them: a coincident point, of a flat cell.
-  vtkNew<vtkPlaneSource> plane;
-  plane->SetResolution(30, 20);
-  plane->Update();
-  vtkPolyData* mesh = plane->GetOutput();
-  const vtkIdType middle = mesh->GetNumberOfPoints() / 2;
-  const vtkIdType flat[] = { middle, mesh->GetPoints()->InsertNextPoint(mesh->GetPoint(middle)),
-    middle + 1 };
-  mesh->GetPolys()->InsertNextCell(3, flat);
-  mesh->GetPointData()->Initialize();
-  mesh->DeleteCells();
-  Errors errors(this->Poisson);
-  vtkDataArray* solution = this->solve(mesh)->GetPointData()->GetArray("Solution");
-  EXPECT_TRUE(std::isnan(solution->GetTuple1(flat[1])));
-  EXPECT_FALSE(std::isnan(solution->GetTuple1(flat[0])));
-  EXPECT_NE(errors.text().find("1 vertex belongs to no cell that has a weight"), std::string::npos)
-    << errors.text();
-  EXPECT_NE(errors.text().find("merge these"), std::string::npos) << errors.text();
 }
 
 TEST_F(VtkOrdinaryMesh, HexahedraAreTetrahedra)

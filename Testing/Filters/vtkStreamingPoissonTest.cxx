@@ -2,14 +2,17 @@
 #include "IO/vtkStreamingMeshWriter.h"
 #include "Testing/Filters/vtkHandleTesting.h"
 #include "Testing/Filters/vtkPoissonFixture.h"
+#include "Testing/IO/MeshText.h"
 #include "Testing/Support/ArrayProblem.h"
 #include "Testing/Support/SolveMesh.h"
+#include "smg/Convert.h"
 #include "smg/VsmReader.h"
 
 #include "vtkFieldData.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace smg::testing
@@ -43,6 +46,27 @@ TEST_F(VtkStreamingPoisson, ServesAnyPieceOfTheSameSolution)
     }
     EXPECT_LE(std::abs(value[0]), 3.0 + 1e-6);
   }
+}
+
+TEST_F(VtkStreamingPoisson, PointsOfNoCellHaveNoSolution)
+{
+  IndexedTestMesh mesh = grid(6, 6);
+  mesh.positions.insert(mesh.positions.end(), { 1, 2, 3, 4, 5, 6 });
+  writeBytes(this->Folder / "loose.off", meshText(mesh));
+  convert(this->Folder / "loose.off", this->Folder / "loose.vsm");
+  this->Reader->SetFileName((this->Folder / "loose.vsm").c_str());
+  const vtkNew<vtkStreamingMeshWriter> writer;
+  writer->SetInputConnection(this->Poisson->GetOutputPort());
+  writer->SetFileName((this->Folder / "out.vsm").c_str());
+  ASSERT_TRUE(writer->Write());
+  VsmReader written(this->Folder / "out.vsm");
+  IsolatedVertices loose;
+  written.readIsolated(0, written.isolatedVertices(), loose);
+  ASSERT_EQ(loose.ids.size(), 2U);
+  const auto solution = std::ranges::find(
+    loose.columns, "Solution", [](const Column& column) { return column.spec.name; });
+  ASSERT_NE(solution, loose.columns.end());
+  EXPECT_TRUE(std::isnan(solution->value(0)) && std::isnan(solution->value(1)));
 }
 
 TEST_F(VtkStreamingPoisson, NumberOfPiecesAndInCoreDoNotMatter)

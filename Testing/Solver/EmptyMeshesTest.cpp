@@ -2,7 +2,9 @@
 #include "Solver/Deformation/InteractiveDeformation.h"
 #include "Testing/Solver/DeformationTesting.h"
 #include "Testing/Support/ErrorMessage.h"
+#include "Testing/Support/MemoryMesh.h"
 #include "smg/DescribedProblem.h"
+#include "smg/Smooth.h"
 
 #include <gtest/gtest.h>
 
@@ -147,8 +149,8 @@ TEST(EmptyMeshes, VerticesWithoutCellsKeepTheirValues)
   }
 }
 
-/** The solution with vertices 0 and 5 prescribed, in a triangle, and a flat cell or no cell. */
-Solved solveWithoutWeights(bool hasFlatCell, SolveOptions options)
+/** A triangle, and vertices 3, 4 and 5 of a flat cell or no cell. */
+StreamMesh withoutWeights(bool hasFlatCell)
 {
   StreamMesh mesh = rowOf(6, true);
   if (hasFlatCell)
@@ -156,6 +158,13 @@ Solved solveWithoutWeights(bool hasFlatCell, SolveOptions options)
     std::copy_n(mesh.positions.begin() + 9, 3, mesh.positions.begin() + 12);
     mesh.corners.insert(mesh.corners.end(), { 2, 3, 4 });
   }
+  return mesh;
+}
+
+/** The solution on that with vertices 0 and 5 prescribed. */
+Solved solveWithoutWeights(bool hasFlatCell, SolveOptions options)
+{
+  const StreamMesh mesh = withoutWeights(hasFlatCell);
   ProblemDescription description;
   description.dirichlet = { { Region(Region::Vertices{ { 0, 5 } }), 2.0 } };
   DescribedProblem problem(description, MemorySource(mesh).info());
@@ -177,10 +186,36 @@ TEST(EmptyMeshes, ADescribedSolutionIsNotANumberWhereNothingDeterminesIt)
       EXPECT_TRUE(!isDetermined || std::fabs(first.values(v, 0) - 2.0) < 1e-9) << v;
     }
     EXPECT_EQ(first.report.held, 2);
-    EXPECT_EQ(first.report.warnings.size(), 1U);
+    EXPECT_EQ(first.report.warnings.size(), hasFlatCell ? 2U : 1U);
     EXPECT_TRUE(sameBits(first.values, solveWithoutWeights(hasFlatCell, inCore).values));
     EXPECT_TRUE(solveWithoutWeights(hasFlatCell, paper).values.array().isNaN().matrix() ==
                 first.values.array().isNaN().matrix());
+  }
+}
+
+TEST(EmptyMeshes, WhatMovesKeepsWhatNothingDeterminesAndWarnsOnce)
+{
+  const StreamMesh mesh = withoutWeights(true);
+  SmoothingOptions smoothing;
+  smoothing.boundary = SmoothedBoundary::Free;
+  smoothing.steps = 2;
+  const MemoryMesh whole(mesh);
+  const std::unique_ptr<Solution> smoothed = smooth(whole, smoothing);
+  const Eigen::MatrixXd values = valuesOf(*smoothed);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_EQ(values(4, axis), mesh.positions[static_cast<std::size_t>(3 * 4 + axis)]);
+  }
+  EXPECT_EQ(smoothed->report().warnings.size(), 2U);
+  ArrayHandles handles = holding(mesh, { 0 }, quarterTurn());
+  MemorySource source(mesh);
+  InteractiveDeformation deformation(source, handles, withCycles(2));
+  const std::size_t warnings = deformation.report().warnings.size();
+  EXPECT_GE(warnings, 2U);
+  for (int k = 0; k < 3; ++k)
+  {
+    EXPECT_EQ(deformation.report().warnings.size(), warnings);
+    ASSERT_TRUE(deformation.update(handles.Values));
   }
 }
 

@@ -216,7 +216,7 @@ private:
       const double* load = this->Cells.loads.load();
       made.loads.insert(made.loads.end(), load, load + this->Asked.columns());
       made.vertices.push_back(
-        { made.neighbours.size(), alpha, mass, i, this->Cells.parts.close(i, mass, true) });
+        { made.neighbours.size(), alpha, mass, i, this->Cells.parts.close(i, mass) });
       this->Assembled.close(made, made.vertices.size() - 1);
     }
     this->Cells.parts.flush();

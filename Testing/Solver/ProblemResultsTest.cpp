@@ -227,6 +227,44 @@ TEST(ProblemResults, BalanceWhereNothingFlows)
   }
 }
 
+/** The rim of a flat cell, as a clip leaves it, whose vertex nothing determines. */
+TEST(ProblemResults, ConditionsWhereNothingIsDeterminedAreFinite)
+{
+  IndexedTestMesh flat = grid(14, 12, 0.2);
+  flat.positions.insert(
+    flat.positions.end(), flat.positions.begin() + 3 * 40, flat.positions.begin() + 3 * 41);
+  const std::int64_t added = flat.vertices() - 1;
+  flat.corners.insert(flat.corners.end(), { 40, 41, added });
+  const StreamMesh mesh = toStream(flat);
+  const auto everywhere = [](const Point&) { return true; };
+  const auto one = columnsOf(1, [](const Point&, int) { return 1.0; });
+  for (const double coefficient : { 0.0, 2.0 })
+  {
+    ElementProblem problem(mesh);
+    problem.KeepsUndetermined = false;
+    problem.DirichletConditions.push_back({ below(0, 0.6), one });
+    problem.FluxConditions.push_back({ everywhere, one });
+    problem.RobinConditions.push_back(
+      { everywhere, [=](const Point&) { return coefficient; }, one });
+    const Told told = resultsOf(mesh, problem, accurate(1e-12));
+    // What a Robin condition takes from the rim determines the vertex.
+    const bool isDetermined = coefficient > 0.0;
+    EXPECT_EQ(told.values.array().isNaN().count(), isDetermined ? 0 : 1);
+    for (const Report::Condition& condition : told.report.conditions)
+    {
+      EXPECT_TRUE(std::isfinite(condition.mean[0])) << condition.name;
+      EXPECT_TRUE(std::isfinite(condition.flux[0])) << condition.name;
+    }
+    EXPECT_GT(told.report.conditions[1].flux[0], 1.0);
+    EXPECT_NEAR(told.report.balance[0], 0.0, 1e-9);
+    EXPECT_TRUE(std::isfinite(told.report.mean[0]));
+    EXPECT_EQ(told.report.coincident_cells, 1);
+    EXPECT_EQ(told.report.held, isDetermined ? 0 : 1);
+    ASSERT_EQ(told.report.warnings.size(), isDetermined ? 1U : 2U);
+    EXPECT_EQ(told.report.warnings.front().find("1 cell without area or volume joins"), 0U);
+  }
+}
+
 TEST(ProblemResults, AConditionThatOthersHideIsNoted)
 {
   const StreamMesh mesh = meshesOfResults().front();
@@ -236,8 +274,9 @@ TEST(ProblemResults, AConditionThatOthersHideIsNoted)
   problem.DirichletConditions.push_back({ above(0, 1.0), one });
   problem.DirichletConditions.push_back({ above(0, 2.0), one });
   const Report report = resultsOf(mesh, problem, accurate()).report;
-  EXPECT_TRUE(std::ranges::any_of(report.notes, [](const std::string& note)
-    { return note.ends_with("has no effect: others hold wherever it does"); }));
+  ASSERT_EQ(report.warnings.size(), 1U);
+  EXPECT_TRUE(report.warnings[0].ends_with("has no effect: others hold wherever it does"));
+  EXPECT_EQ(std::ranges::count(report.notes, report.warnings[0]), 1);
 }
 
 TEST(ProblemResults, WhatIsTakenFromTheSourcesIsPartOfTheBalance)

@@ -103,6 +103,29 @@ TEST(SolveCheckpoint, FreeComponentsInPartsHaveTheSameBits)
   expectSameInParts(mesh, problem, options);
 }
 
+TEST(SolveCheckpoint, WhatNothingDeterminesInPartsIsNoNumber)
+{
+  const TemporaryFolder folder;
+  IndexedTestMesh torn = torus(110, 60, 0.4);
+  for (std::int64_t v = 0; v < 6000; v += 1000)
+  {
+    const std::int64_t added = torn.vertices();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      torn.positions.push_back(torn.positions[static_cast<std::size_t>(3 * v + axis)]);
+    }
+    torn.corners.insert(torn.corners.end(), { v, added, v + 1 });
+  }
+  const StreamMesh mesh = toStream(shuffled(torn), TestOrder::BreadthFirst);
+  ArrayProblem problem = heldEnds(mesh, 3, Weights::Cotangent);
+  problem.KeepsUndetermined = false;
+  const SolveOptions options = streamed(folder / "ck");
+  const Solved whole = withoutCheckpoint(mesh, problem, options);
+  EXPECT_GE(whole.report.held, 3); // of those that are not prescribed
+  EXPECT_EQ(whole.values.array().isNaN().count(), 3 * whole.report.held);
+  expectSameInParts(mesh, problem, options);
+}
+
 TEST(SolveCheckpoint, FlatTetrahedraInPartsHaveTheSameBits)
 {
   const TemporaryFolder folder;

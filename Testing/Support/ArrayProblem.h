@@ -25,9 +25,11 @@ public:
   std::vector<double> Value;            ///< `Columns` per vertex
   std::vector<double> Source;           ///< `Columns` per vertex
   EdgeTarget Target;
+  bool KeepsUndetermined = true;
 
   int columns() const override { return this->Columns; }
   Weights weights() const override { return this->EdgeWeights; }
+  bool keepsUndetermined() const override { return this->KeepsUndetermined; }
   void conditions(const MeshBlock& block, VertexConditions& conditions) override;
   bool hasEdgeTargets() const override { return static_cast<bool>(this->Target); }
   void edgeTargets(EdgeBatch& batch) override;

@@ -209,10 +209,13 @@ std::string solutionSection(Entries& report)
 std::string notesSection(Entries& report)
 {
   const Json notes = report.take("notes");
+  const Json warnings = report.take("warnings");
   std::string list;
   for (const Json& note : notes)
   {
-    list += "<li>" + escape(note.is_string() ? note.get<std::string>() : note.dump()) + "</li>\n";
+    const bool isWarning = std::ranges::count(warnings, note) > 0;
+    list += (isWarning ? "<li><strong>Warning:</strong> " : "<li>") +
+            escape(note.is_string() ? note.get<std::string>() : note.dump()) + "</li>\n";
   }
   return section("notes", "Notes", list.empty() ? "" : "<ul>\n" + list + "</ul>\n", "wide");
 }

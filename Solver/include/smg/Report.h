@@ -138,7 +138,7 @@ struct SMG_EXPORT Report
     std::string name; ///< "dirichlet[0]", "flux[0]" or "robin[0]", with its number in the problem
     std::int64_t vertices = 0; ///< of a Dirichlet condition: vertices it prescribes; else 0
     /** Length (of open edges of a surface) or area of its boundary facets; of a Dirichlet condition
-     * those whose corners it all prescribes. */
+     * those whose corners it all prescribes. Without the shares of undetermined vertices. */
     double area = 0;
     /** Per column: the mean of u over these facets; without any the mean over the vertices of a
      * Dirichlet condition, and NaN for other conditions. */
@@ -200,8 +200,10 @@ struct SMG_EXPORT Report
   std::int64_t shared = 0;             ///< of a deformation: vertices that several handles hold
   std::int64_t held = 0; ///< vertices that nothing determines: no cell there has a weight
   std::int64_t degenerate_cells = 0; ///< cells without weight
-  std::int64_t clamped_weights = 0;  ///< edges whose weight was raised to the floor
-  std::int64_t components = 0;       ///< connected components of the mesh
+  /** Of these, cells of which corners coincide: the mesh is open there, unless they are merged. */
+  std::int64_t coincident_cells = 0;
+  std::int64_t clamped_weights = 0; ///< edges whose weight was raised to the floor
+  std::int64_t components = 0;      ///< connected components of the mesh
   /** Components without any prescribed vertex, screening, soft constraint or Robin condition. */
   std::int64_t free_components = 0;
   /** Per column: the total that was taken from the sources of free components, so that their mean
