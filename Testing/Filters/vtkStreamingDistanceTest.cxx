@@ -4,12 +4,12 @@
 #include "IO/vtkStreamingMeshReader.h"
 #include "IO/vtkStreamingMeshWriter.h"
 #include "Testing/Filters/vtkAbortTesting.h"
-#include "Testing/IO/MeshText.h"
+#include "Testing/Filters/vtkHandleTesting.h"
+#include "Testing/Filters/vtkLooseMesh.h"
 #include "Testing/IO/vtkPieceTesting.h"
 #include "Testing/Support/MemoryMesh.h"
 #include "Testing/Support/SolveMesh.h"
 #include "Testing/Support/TemporaryFolder.h"
-#include "smg/Convert.h"
 #include "smg/Distance.h"
 #include "smg/VsmReader.h"
 
@@ -188,20 +188,8 @@ TEST_F(VtkStreamingDistance, CanBeAborted)
 
 TEST_F(VtkStreamingDistance, PointsOfNoCellAreNotReached)
 {
-  IndexedTestMesh mesh = grid(6, 6);
-  mesh.positions.insert(mesh.positions.end(), { 1, 2, 3, 4, 5, 6 });
-  writeBytes(this->Folder / "loose.off", meshText(mesh));
-  convert(this->Folder / "loose.off", this->Folder / "loose.vsm");
-  this->Reader->SetFileName((this->Folder / "loose.vsm").c_str());
   this->Distance->SourceOn();
-  const vtkNew<vtkStreamingMeshWriter> writer;
-  writer->SetInputConnection(this->Distance->GetOutputPort());
-  writer->SetFileName((this->Folder / "out.vsm").c_str());
-  ASSERT_TRUE(writer->Write());
-  VsmReader written(this->Folder / "out.vsm");
-  IsolatedVertices loose;
-  written.readIsolated(0, written.isolatedVertices(), loose);
-  ASSERT_EQ(loose.ids.size(), 2U);
+  const IsolatedVertices loose = writtenAtLoosePoints(this->Folder, *this->Reader, *this->Distance);
   for (const ColumnSpec& spec : distanceColumns({ .from = {}, .source = true }))
   {
     const std::ptrdiff_t column = findColumn(loose.columns, spec);

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/vtkStreamingMeshWriter.h"
 #include "Testing/Filters/vtkHandleTesting.h"
+#include "Testing/Filters/vtkLooseMesh.h"
 #include "Testing/Filters/vtkPoissonFixture.h"
-#include "Testing/IO/MeshText.h"
 #include "Testing/Support/ArrayProblem.h"
 #include "Testing/Support/SolveMesh.h"
-#include "smg/Convert.h"
 #include "smg/VsmReader.h"
 
 #include "vtkFieldData.h"
@@ -50,19 +49,7 @@ TEST_F(VtkStreamingPoisson, ServesAnyPieceOfTheSameSolution)
 
 TEST_F(VtkStreamingPoisson, PointsOfNoCellHaveNoSolution)
 {
-  IndexedTestMesh mesh = grid(6, 6);
-  mesh.positions.insert(mesh.positions.end(), { 1, 2, 3, 4, 5, 6 });
-  writeBytes(this->Folder / "loose.off", meshText(mesh));
-  convert(this->Folder / "loose.off", this->Folder / "loose.vsm");
-  this->Reader->SetFileName((this->Folder / "loose.vsm").c_str());
-  const vtkNew<vtkStreamingMeshWriter> writer;
-  writer->SetInputConnection(this->Poisson->GetOutputPort());
-  writer->SetFileName((this->Folder / "out.vsm").c_str());
-  ASSERT_TRUE(writer->Write());
-  VsmReader written(this->Folder / "out.vsm");
-  IsolatedVertices loose;
-  written.readIsolated(0, written.isolatedVertices(), loose);
-  ASSERT_EQ(loose.ids.size(), 2U);
+  const IsolatedVertices loose = writtenAtLoosePoints(this->Folder, *this->Reader, *this->Poisson);
   const auto solution = std::ranges::find(
     loose.columns, "Solution", [](const Column& column) { return column.spec.name; });
   ASSERT_NE(solution, loose.columns.end());

@@ -79,6 +79,23 @@ TestLevel shuffledPaths()
   return level;
 }
 
+/** The rows of a level in memory, and its patches. */
+struct PatchedLevel
+{
+  explicit PatchedLevel(const TestLevel& level)
+  {
+    level.append(this->rows, 0, level.nodes());
+    for (std::int64_t i = 0; i < level.nodes(); ++i)
+    {
+      this->patches.add(this->rows);
+    }
+  }
+
+  Pool pool{ 1 << 28 };
+  LevelRows rows{ pool };
+  Patches patches{ pool };
+};
+
 } // namespace
 
 TEST(Patches, JoinThoseOfStrongNeighboursThatHaveRoomWithinTheRings)
@@ -170,14 +187,8 @@ TEST(Patches, LetGoOfNodesKeepThePatchesOfTheOthers)
 {
   const TestLevel level = levelsWithPatches()[0];
   const auto expected = patchesOf(level);
-  Pool pool(1 << 28);
-  LevelRows rows(pool);
-  level.append(rows, 0, level.nodes());
-  Patches all(pool);
-  for (std::int64_t i = 0; i < level.nodes(); ++i)
-  {
-    all.add(rows);
-  }
+  PatchedLevel made(level);
+  Patches& all = made.patches;
   for (std::int64_t first = 0; first < level.nodes(); first += 100)
   {
     all.release(first);
@@ -191,14 +202,8 @@ TEST(Patches, LetGoOfNodesKeepThePatchesOfTheOthers)
 TEST(PatchMatrices, AreThoseOfThePatchesUntilTheirFirstNodeIsReleased)
 {
   const TestLevel level = levelsWithPatches()[0];
-  Pool pool(1 << 28);
-  LevelRows rows(pool);
-  level.append(rows, 0, level.nodes());
-  Patches patches(pool);
-  for (std::int64_t i = 0; i < level.nodes(); ++i)
-  {
-    patches.add(rows);
-  }
+  PatchedLevel made(level);
+  auto& [pool, rows, patches] = made;
   PatchMatrices matrices(pool);
   constexpr std::int64_t Lag = 70;
   std::int64_t compared = 0;
