@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -99,6 +100,12 @@ FirstResidual FirstPass<Operators>::run(
   this->Built.open(mesh.info().vertices);
   const FirstResidual residual = this->build(mesh, problem, listener);
   this->Run.free.projectRightSide(this->Built.window(), this->Run.report);
+  if (this->Run.components.incompatibility() > 0.0)
+  {
+    // The coarse levels have the right-hand side before that, of a problem without a solution:
+    // dividing by this scale leaves out their first correction.
+    this->Built.finest().setScale(std::numeric_limits<double>::infinity());
+  }
   this->Run.report.seconds.build = building.seconds();
   this->Run.report.seconds.build_io_wait = this->Run.traffic.waitSeconds();
   return residual;
