@@ -93,3 +93,16 @@ def write_medit(name, points, cells, triangles=()):
                 file.write("%s\n%d\n" % (section, len(rows)))
                 file.writelines(" ".join(str(i + 1) for i in row) + " 0\n" for row in rows)
         file.write("End\n")
+
+
+def write_ply(name, points, cells, columns=(), kind="double"):
+    """A surface as an ASCII PLY file; `columns`: {name: (PLY type, a number for each point)}."""
+    columns = dict(columns)
+    with open(name, "w", encoding="utf-8") as file:
+        file.write("ply\nformat ascii 1.0\nelement vertex %d\n" % len(points))
+        file.writelines("property %s %s\n" % (kind, axis) for axis in "xyz")
+        file.writelines("property %s %s\n" % (of, column) for column, (of, _) in columns.items())
+        file.write("element face %d\nproperty list uchar int vertex_indices\nend_header\n" % len(cells))
+        for row in zip(points, *(values for _, values in columns.values())):
+            file.write(" ".join(map(repr, (*row[0], *row[1:]))) + "\n")
+        file.writelines(" ".join(map(str, (len(cell), *cell))) + "\n" for cell in cells)

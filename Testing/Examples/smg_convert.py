@@ -9,7 +9,7 @@ import sys
 
 from mesh_files import ply_vertices, read_mesh, same_points
 from odd_mesh import fans, odd_solid, odd_surface
-from program import load, run, write_medit, write_torus
+from program import load, run, write_medit, write_ply, write_torus
 from tetrahedra import tetrahedra
 
 ORDERS = ("bfs", "spectral", "axis", "keep")
@@ -17,14 +17,8 @@ SURFACES = (".ply", ".vtp", ".vtu", ".vtk", ".obj", ".off", ".stl", ".mesh", ".m
 SOLIDS = (".vtu", ".vtk", ".mesh", ".msh")
 
 
-def write_ply(name, points, cells, kind="double"):
-    with open(name, "w", encoding="utf-8") as file:
-        file.write("ply\nformat ascii 1.0\nelement vertex %d\n" % len(points))
-        file.writelines("property %s %s\n" % (kind, axis) for axis in "xyz")
-        file.write("property int tag\nelement face %d\n" % len(cells))
-        file.write("property list uchar int vertex_indices\nend_header\n")
-        file.writelines("%r %r %r %d\n" % (*point, i) for i, point in enumerate(points))
-        file.writelines(" ".join(map(str, (len(cell), *cell))) + "\n" for cell in cells)
+def write_tagged_ply(name, points, cells, kind="double"):
+    write_ply(name, points, cells, {"tag": ("int", range(len(points)))}, kind)
 
 
 def convert(name, out, *arguments):
@@ -53,14 +47,14 @@ def check_restored(vsm, suffix, points, cells):
 def test_restored_order():
     """Each format preserves points and cells when written and read."""
     points, cells = odd_surface()
-    write_ply("odd.ply", points, cells)
+    write_tagged_ply("odd.ply", points, cells)
     convert("odd.ply", "odd.vsm")
     assert "vertex 'tag'" in convert("odd.vsm", "odd.sma")["notes"][0]
     run("info", "odd.vsm", "--report", "info.json")
     assert load("info.json")["isolated_vertices"] == 9
     assert "isolated    9," in run("info", "odd.vsm").stdout
     few_points, few_cells = odd_surface(36, 18, largest=4)
-    write_ply("few.ply", few_points, few_cells, "float")
+    write_tagged_ply("few.ply", few_points, few_cells, "float")
     for order in ORDERS:
         convert("odd.ply", "odd.vsm", "--order", order)
         for suffix in SURFACES[:6]:
@@ -109,7 +103,7 @@ def test_restored_is_the_same_file():
 def test_moved_meshes_keep_their_order():
     """The results of deform and solve on a .vsm file are restored as well, with isolated points."""
     points, cells = odd_surface(48, 24)
-    write_ply("odd.ply", points, cells)
+    write_tagged_ply("odd.ply", points, cells)
     convert("odd.ply", "odd.vsm")
     with open("handles.json", "w", encoding="utf-8") as file:
         json.dump({"handles": [
@@ -207,7 +201,7 @@ def test_weld():
     for name, distance, weld in (("soup.ply", 0.0, 0), ("loose.ply", 1e-5, 1e-3)):
         soup = [tuple(x + distance * k for x in mesh.points[cell[k]])
                 for cell in triangles for k in range(3)]
-        write_ply(name, soup, [(i, i + 1, i + 2) for i in range(0, len(soup), 3)])
+        write_tagged_ply(name, soup, [(i, i + 1, i + 2) for i in range(0, len(soup), 3)])
         report = convert(name, "soup.vsm")
         assert report["vertices"] == 3 * 3600 and report["components"] == 3600
         for order in ORDERS:
