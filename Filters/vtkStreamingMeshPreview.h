@@ -55,9 +55,7 @@ public:
   vtkIdType GetFullNumberOfPoints();
   vtkIdType GetFullNumberOfCells();
 
-  /** The sentence of the last failure, of this or of an algorithm before it; empty: it did not
-   * fail.
-   */
+  /** Why it failed, by itself or by an algorithm before it; empty: it did not. */
   const char* GetError();
   ///@}
 

@@ -198,8 +198,7 @@ void StreamedSolve::solveOn(
       report.notes.push_back(std::to_string(loose) +
                              (loose == 1 ? " point is a corner" : " points are corners") +
                              " of no cell: there is no solution (NaN) and no distance there, and "
-                             "what is smoothed, moved or "
-                             "blended stays as it was");
+                             "what is smoothed, moved or blended stays as it was");
     }
     report.seconds.convert = seconds.count();
     report.seconds.total += seconds.count();

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 
 namespace smg
@@ -93,6 +94,10 @@ public:
     this->Unscale = 1 / this->Scale;
     this->Scale = scale;
   }
+
+  /** The next prolongation adds nothing: the coarse levels have been given another right-hand side.
+   */
+  void leaveOutCorrection() { this->Scale = std::numeric_limits<Real>::infinity(); }
 
   /** In a pass after LevelWindow::renew(), on the finest level: the state of the downward part is
    * complete for nodes below `end`. */

@@ -55,7 +55,7 @@ void ChunkWriter::add(const MeshBlock& block)
     const std::int64_t* cell = block.corners.data() + c * corners;
     // Those without area or volume take part: the surface may hang together by them alone.
     const unsigned flag = flags ? flags->as<std::uint8_t>()[c] : 0U;
-    if ((flag & DuplicateCell) != 0 || hasRepeatedCorner(cell, static_cast<int>(corners)))
+    if (!isDistinctCell(cell, static_cast<int>(corners), flag))
     {
       ++this->Skipped;
     }

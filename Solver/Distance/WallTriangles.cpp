@@ -49,7 +49,7 @@ void WallTriangles::addCells(const MeshBlock& block)
   {
     const std::int64_t* corner = block.corners.data() + c * Corners;
     const unsigned flag = flags ? flags->as<std::uint8_t>()[c] : 0U;
-    if ((flag & DuplicateCell) != 0 || hasRepeatedCorner(corner, Corners))
+    if (!isDistinctCell(corner, Corners, flag))
     {
       continue;
     }

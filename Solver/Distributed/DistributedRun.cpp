@@ -155,12 +155,15 @@ void DistributedRun::fix(const Problem& problem)
 {
   this->fixMeans();
   this->LeavesUndetermined = !problem.keepsUndetermined();
+  if (!this->LeavesUndetermined)
+  {
+    return;
+  }
   for (std::vector<double>& x : this->System.x)
   {
-    for (std::size_t k = 0; this->LeavesUndetermined && k < this->System.undetermined.size(); ++k)
+    for (const std::int64_t k : this->System.undetermined)
     {
-      x[static_cast<std::size_t>(this->System.undetermined[k])] =
-        std::numeric_limits<double>::quiet_NaN();
+      x[static_cast<std::size_t>(k)] = std::numeric_limits<double>::quiet_NaN();
     }
   }
 }

@@ -18,7 +18,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -99,12 +98,10 @@ FirstResidual FirstPass<Operators>::run(
   }
   this->Built.open(mesh.info().vertices);
   const FirstResidual residual = this->build(mesh, problem, listener);
-  this->Run.free.projectRightSide(this->Built.window(), this->Run.report);
-  if (this->Run.components.incompatibility() > 0.0)
+  if (this->Run.free.projectRightSide(this->Built.window(), this->Run.report))
   {
-    // The coarse levels have the right-hand side before that, of a problem without a solution:
-    // dividing by this scale leaves out their first correction.
-    this->Built.finest().setScale(std::numeric_limits<double>::infinity());
+    // The coarse levels have the right-hand side before that, of a problem without a solution.
+    this->Built.finest().leaveOutCorrection();
   }
   this->Run.report.seconds.build = building.seconds();
   this->Run.report.seconds.build_io_wait = this->Run.traffic.waitSeconds();

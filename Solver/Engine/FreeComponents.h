@@ -40,9 +40,9 @@ public:
   }
 
   /** A component without constraint has a solution only if its right-hand side sums to zero:
-   * otherwise subtracts the mean of the source and notes this in the report. */
+   * otherwise subtracts the mean of the source, notes this in the report and returns true. */
   template <class State>
-  void projectRightSide(State& level, Report& report);
+  bool projectRightSide(State& level, Report& report);
 
   /** After the solve: prepares complete(). `report` has the counts of the assembly, and gets notes.
    */
@@ -91,12 +91,12 @@ void FreeComponents::forFree(std::int64_t block, F&& f)
 }
 
 template <class State>
-void FreeComponents::projectRightSide(State& level, Report& report)
+bool FreeComponents::projectRightSide(State& level, Report& report)
 {
   const double share = this->Parts.incompatibility();
   if (share == 0.0)
   {
-    return;
+    return false;
   }
   const std::vector<double> shifts = this->Parts.rightSideShifts();
   const auto columns = static_cast<std::size_t>(this->Columns);
@@ -114,6 +114,7 @@ void FreeComponents::projectRightSide(State& level, Report& report)
     });
   report.removed_source = this->Parts.shiftedSums();
   report.notes.push_back(incompatibilityNote(share));
+  return true;
 }
 
 /** Computes by how much the values of free components are to be shifted. */

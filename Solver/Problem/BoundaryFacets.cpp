@@ -16,7 +16,7 @@ void BoundaryFacets::addCells(const MeshBlock& block)
   {
     const std::int64_t* corner = block.corners.data() + c * static_cast<std::size_t>(corners);
     const unsigned flag = flags ? static_cast<unsigned>(flags->value(c)) : 0;
-    if ((flag & DuplicateCell) != 0 || hasRepeatedCorner(corner, corners))
+    if (!isDistinctCell(corner, corners, flag))
     {
       continue;
     }

@@ -22,6 +22,13 @@ inline bool hasRepeatedCorner(const std::int64_t* corners, int count)
   return false;
 }
 
+/** Whether a cell with these flags (CellFlag) neither repeats another one nor uses a vertex twice.
+ */
+inline bool isDistinctCell(const std::int64_t* corners, int count, unsigned flags)
+{
+  return (flags & DuplicateCell) == 0 && !hasRepeatedCorner(corners, count);
+}
+
 /** Whether two corners of a cell of several vertices lie at the same place, up to rounding. */
 bool hasCoincidentCorners(const double* const* corners, int count);
 

@@ -25,16 +25,15 @@ CellWeights WeightPolicy::weigh(
 {
   CellWeights cell;
   const int count = cornersOf(this->Type);
-  const bool repeated = hasRepeatedCorner(corners, count);
-  if (flags == 0 && !repeated)
+  if (flags == 0 && !hasRepeatedCorner(corners, count))
   {
     cell = this->Own ? this->Own->weights() : cellWeights(this->Type, points);
   }
   if (cell.measure == 0.0)
   {
     ++this->Degenerate;
-    const bool counts = !repeated && (flags & DuplicateCell) == 0;
-    this->Coincident += counts && hasCoincidentCorners(points, count) ? 1 : 0;
+    const bool joins = isDistinctCell(corners, count, flags) && hasCoincidentCorners(points, count);
+    this->Coincident += joins ? 1 : 0;
     return cell;
   }
   if (this->Kind != Weights::Cotangent)
@@ -63,8 +62,7 @@ CellWeights WeightPolicy::limited(CellWeights cell, double flatness)
 
 bool WeightPolicy::connectsFlat(const std::int64_t* corners, unsigned flags) const
 {
-  return this->ConnectsFlat && (flags & DuplicateCell) == 0 &&
-         !hasRepeatedCorner(corners, cornersOf(this->Type));
+  return this->ConnectsFlat && isDistinctCell(corners, cornersOf(this->Type), flags);
 }
 
 } // namespace smg

@@ -9,16 +9,6 @@
 
 namespace smg
 {
-namespace
-{
-
-/** Whether nothing determines these values of a vertex, which has no share in the equations. */
-bool isUndetermined(const double* value)
-{
-  return std::isnan(value[0]);
-}
-
-} // namespace
 
 ConditionSums::ConditionSums(CellType type, const ConditionCounts& counts, int columns)
   : Corners(BoundaryFacet::cornersOf(type))

@@ -5,12 +5,19 @@
 #include "Solver/Problem/OpenVertices.h"
 #include "smg/Report.h"
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace smg
 {
+
+/** Whether nothing determines these values of a vertex, which has no share in the equations. */
+inline bool isUndetermined(const double* value)
+{
+  return std::isnan(value[0]);
+}
 
 /** Sums the data of Report::Condition over facets and vertices. */
 class ConditionSums

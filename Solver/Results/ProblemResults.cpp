@@ -124,15 +124,14 @@ void ProblemResults::addCell(std::size_t c, const std::int64_t* corners, unsigne
     points[k] = this->Vertices.points.at(corners[k]);
     values[k] = this->Vertices.values.at(corners[k]);
   }
-  const bool repeated = hasRepeatedCorner(corners, count);
   CellWeights cell;
-  if (!repeated && flags == 0)
+  if (flags == 0 && !hasRepeatedCorner(corners, count))
   {
     cell = this->Own ? this->Own->weights() : cellWeights(this->Type, points);
   }
   if (cell.measure == 0.0)
   {
-    if (this->Given.connectsFlatCells() && !repeated && (flags & DuplicateCell) == 0)
+    if (this->Given.connectsFlatCells() && isDistinctCell(corners, count, flags))
     {
       this->connect(corners, points, cell);
     }

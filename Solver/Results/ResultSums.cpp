@@ -46,9 +46,9 @@ ResultSums::ResultSums(CellType type, Problem& problem)
 
 void ResultSums::add(VertexTerms terms, const double* u, std::int32_t dirichlet)
 {
-  if (std::isnan(u[0]))
+  if (isUndetermined(u))
   {
-    return; // nothing determines it, and it has no share in any cell
+    return;
   }
   this->Mass += terms.mass();
   for (std::size_t k = 0; k < this->Columns; ++k)

@@ -23,11 +23,15 @@ void addTraffic(std::vector<Report::Traffic>& total, const Report::Traffic& more
   same->written += more.written;
 }
 
-void addNote(std::vector<std::string>& notes, const std::string& note)
+/** Adds those that are not there yet. */
+void addNotes(std::vector<std::string>& notes, const std::vector<std::string>& more)
 {
-  if (std::ranges::find(notes, note) == notes.end())
+  for (const std::string& note : more)
   {
-    notes.push_back(note);
+    if (std::ranges::find(notes, note) == notes.end())
+    {
+      notes.push_back(note);
+    }
   }
 }
 
@@ -67,14 +71,8 @@ void addStep(Report& total, const Report& step, const std::string& name)
   total.clamped_weights = step.clamped_weights;
   total.components = step.components;
   total.free_components = step.free_components;
-  for (const std::string& note : step.notes)
-  {
-    addNote(total.notes, note);
-  }
-  for (const std::string& warning : step.warnings)
-  {
-    addNote(total.warnings, warning);
-  }
+  addNotes(total.notes, step.notes);
+  addNotes(total.warnings, step.warnings);
 }
 
 } // namespace smg

@@ -83,8 +83,7 @@ class Golden:
 
     def make(self, command, source, out, *options):
         """The checksum of what a command writes; the file stays. It may end without convergence."""
-        code, said = self.run(command, source, out, *options, "--quiet", "--no-sync" if command not in
-                              ("preview", "simplify") else "--memory=256")
+        code, said = self.run(command, source, out, *options, "--quiet", "--no-sync")
         assert code in (0, 3), (command, source, out, options, said)
         content = b""
         for name in [out] if not out.endswith(".node") else [out, out[:-5] + ".ele"]:
@@ -95,7 +94,7 @@ class Golden:
 
 
 def make_meshes(golden):
-    """The meshes of the jobs: name, suffix, and the suffixes that hold it."""
+    """Writes the meshes of the jobs; returns the formats in which each can be restored."""
     from odd_mesh import odd_solid, odd_surface
     from program import write_medit, write_ply, write_torus
     from tetrahedra import tetrahedra
