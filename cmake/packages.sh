@@ -10,7 +10,8 @@ smg_build_packages=(
   libeigen3-dev libsuitesparse-dev libtbb-dev libzstd-dev liblz4-dev libxxhash-dev zlib1g-dev
   liblzma-dev libhdf5-dev
   nlohmann-json3-dev libcli11-dev libfast-float-dev libmeshoptimizer-dev)
-# paraview-dev needs python3-paraview, libopenmpi-dev and libpython3-dev without declaring it.
+# paraview-dev needs python3-paraview, libopenmpi-dev and libpython3-dev without declaring it; see also
+# smg_install.
 smg_paraview_packages=(
   paraview paraview-dev python3-paraview libopenmpi-dev libpython3-dev xvfb xauth
   "qt6-svg-plugins|libqt5svg5")
@@ -89,15 +90,16 @@ smg_shorten() {
 # smg_install PACKAGE... : installs missing packages; never removes one. If none is missing, neither apt
 # nor the network is used.
 smg_install() {
-  local names package missing
+  local names needs package missing
   local lists_are_new=
   while :; do
     missing=() names=("$@")
-    # A ParaView based on the VTK of the release also needs its headers, which paraview-dev does not
-    # declare.
-    if [[ " $* " == *" paraview-dev "* &&
-      $(apt-cache depends paraview 2> /dev/null) == *"Depends: libvtk"* ]]; then
-      names+=(libvtk9-dev)
+    # paraview-dev does not declare the headers of ParaView's Qt, nor those of VTK if ParaView uses that
+    # of the release.
+    if [[ " $* " == *" paraview-dev "* ]]; then
+      needs=$(apt-cache depends paraview 2> /dev/null || true)
+      [[ $needs == *"Depends: libqt6"* ]] && names+=(qt6-base-dev) || names+=(qtbase5-dev)
+      [[ $needs != *"Depends: libvtk"* ]] || names+=(libvtk9-dev)
     fi
     for package in "${names[@]}"; do
       package=$(smg_choose "$package")

@@ -51,8 +51,8 @@ def play(arguments):
     session.scroll_panel(400)
     session.picture("blending-outcome")
     # What the filter says cannot be overwritten.
-    session.check("Outcome/ExpressionWidget", "enabled", "false")
-    session.check("Notes/ExpressionWidget", "enabled", "false")
+    session.check("Outcome/Text", "wordWrap", "true")
+    session.check("MemoryLimit/Unit", "text", "MiB")
     session.scroll_panel(0)
     session.write("Hold/Hold", HOLD)
     session.apply()
