@@ -64,6 +64,7 @@ vtkStreamingMeshDeformation::vtkStreamingMeshDeformation()
   : Internal(new Internals(*this))
 {
   this->SetWeights(CLAMPED);
+  this->SetTolerance(smg::DeformOptions().tolerance);
   this->SetSolve(ON_PREVIEW);
 }
 

@@ -59,6 +59,7 @@ json solved(const StreamMesh& mesh, smg::AccelerationKind acceleration, int most
   smg::testing::MemorySource source(mesh);
   smg::benchmark::FixedEndsProblem problem(source.info());
   smg::SolveOptions options;
+  options.tolerance = 1e-6;
   options.acceleration = acceleration;
   options.maxCycles = mostCycles;
   options.memoryLimit = std::int64_t(1) << 40;

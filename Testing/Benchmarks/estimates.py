@@ -28,15 +28,16 @@ def cases(folder, is_surface):
     one = file("one.json", PROBLEM % ("0", "1", ""))
     three = file("three.json", PROBLEM % ("[0, 0, 0]", "[1, 2, 3]", ', "columns": 3'))
     handles = file("handles.json", HANDLES)
-    yield "solve", ["--problem", one]
-    yield "solve 3", ["--problem", three]
+    digits = ["--tolerance", "1e-6"]
+    yield "solve", ["--problem", one, *digits]
+    yield "solve 3", ["--problem", three, *digits]
     yield "solve 1e-10", ["--problem", one, "--tolerance", "1e-10"]
-    yield "solve plain", ["--problem", one, "--acceleration", "none"]
+    yield "solve plain", ["--problem", one, *digits, "--acceleration", "none"]
     yield "deform", ["--handles", handles, "--cycles", "3"]
     yield "deform 1e-6", ["--handles", handles]
     if is_surface:
-        yield "smooth", []
-        yield "smooth edges", ["--keep-edges", "30", "--steps", "2"]
+        yield "smooth", digits
+        yield "smooth edges", ["--keep-edges", "30", "--steps", "2", *digits]
     else:
         yield "distance wall", ["--wall"]
     yield "distance", ["--from", PLACES[0]]

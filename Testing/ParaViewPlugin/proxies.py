@@ -17,7 +17,7 @@ assert reader.SMProxy.GetXMLName() == "StreamingMeshReader"
 assert reader.MaximumPointsInMemory == 2000000
 assert reader.PointArrayStatus == ["OriginalId"], reader.PointArrayStatus
 poisson = StreamingPoisson(Input=reader)
-defaults = {"Solve": "Automatic", "Weights": "Cotangent", "Sweeps": 2, "Tolerance": 1e-6,
+defaults = {"Solve": "Automatic", "Weights": "Cotangent", "Sweeps": 2, "Tolerance": 1e-8,
             "MaximumCycles": 50, "MemoryLimit": 1024, "ScratchDirectory": "", "ScratchLimit": 0,
             "NumberOfPieces": 0,
             "NumberOfThreads": 0, "Screening": 0.0, "InCore": 0, "ResultArrayName": "Solution",
@@ -32,6 +32,8 @@ for name in ("Residual", "Cycles", "Passes", "PeakMemory", "Converged", "Estimat
     # The panel shows the summary line and the notes.
     is_shown = poisson.SMProxy.GetProperty(name).GetPanelVisibility() == "default"
     assert is_shown == (name in ("Estimate", "Outcome", "Notes")), name
+
+assert StreamingMeshDeformation(Input=reader).Tolerance == 1e-6
 
 simplified = StreamingMeshSimplification(Input=reader, NumberOfVertices=3000)
 simplified.UpdatePropertyInformation()

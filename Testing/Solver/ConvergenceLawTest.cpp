@@ -21,6 +21,7 @@ int cyclesOn(const IndexedTestMesh& indexed)
   const StreamMesh mesh = toStream(indexed);
   ArrayProblem problem = heldEnds(mesh, 3, Weights::Cotangent);
   SolveOptions options;
+  options.tolerance = 1e-6;
   options.threads = 2;
   const Report report = solveMesh(mesh, problem, options, 20000).report;
   EXPECT_TRUE(report.converged);

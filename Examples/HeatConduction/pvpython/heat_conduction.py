@@ -18,7 +18,7 @@ Run it under a display, or under xvfb-run:
 
     xvfb-run -a pvpython heat_conduction.py --output .
 
-    2116 vertices, 6822 cells: converged after 6 cycles, relative residual 8.4e-07
+    2116 vertices, 6822 cells: converged after 8 cycles, relative residual 7.2e-09
     peak: 67.8414 degrees at vertex 36 of the file
     flux[0]: 19.6 W into the body through 196 mm^2 of 67.2205 degrees
     robin[0]: -19.6 W into the body through 5476 mm^2 of 55.7925 degrees

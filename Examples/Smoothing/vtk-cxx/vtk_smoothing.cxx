@@ -15,7 +15,7 @@ Run it:
 
     vtk_smoothing ../../Data/bunny.smb bunny-smooth.vsm
 
-    34834 points: converged in 15 passes, relative residual 2.26324e-08
+    34834 points: converged in 18 passes, relative residual 4.20471e-10
 */
 
 #include "vtkStreamingMeshReader.h"

@@ -65,6 +65,9 @@ public:
  */
 struct DeformOptions : SolveOptions
 {
+  /** `tolerance` is 1e-6 by default: positions have no use for more digits. */
+  DeformOptions() { this->tolerance = 1e-6; }
+
   /** Weights of the edges, in both steps. */
   Weights weights = Weights::Clamped;
   /** V-cycles of each step, whatever the residual; 0: as many as `tolerance` takes, `maxCycles`

@@ -47,7 +47,7 @@ struct MeshPart
 struct DistributedOptions
 {
   /** As SolveOptions::tolerance, for each right-hand side. */
-  double tolerance = 1e-6;
+  double tolerance = 1e-8;
   /** Largest number of iterations for each right-hand side, at least 1. */
   int maxIterations = 200;
   /** Limit of the memory of each process, bytes. That of the assembly of its part is accounted; the
