@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Motion/CellNormals.h"
 
+#include "Solver/Problem/Vector.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,18 +12,6 @@ namespace smg
 namespace
 {
 
-using Vector = std::array<double, 3>;
-
-double dot(const Vector& a, const Vector& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector cross(const Vector& a, const Vector& b)
-{
-  return { a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0] };
-}
-
 double length(const Vector& a)
 {
   return std::sqrt(dot(a, a));
@@ -30,7 +20,7 @@ double length(const Vector& a)
 /** The unit vector from a to b; zero if they are equal. */
 Vector direction(std::span<const double, 3> a, std::span<const double, 3> b)
 {
-  Vector edge{ b[0] - a[0], b[1] - a[1], b[2] - a[2] };
+  Vector edge = difference(b.data(), a.data());
   // Squares of the smallest and the largest numbers underflow and overflow.
   const double scale = std::max({ std::abs(edge[0]), std::abs(edge[1]), std::abs(edge[2]) });
   if (!(scale > 0.0))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Order/CellShape.h"
 
+#include "Solver/Problem/Vector.h"
 #include "smg/CellWeights.h"
 
 namespace smg
@@ -28,15 +29,8 @@ bool isDegenerate(
 
 double orientedVolume(const std::array<std::array<double, 3>, 4>& p)
 {
-  std::array<double, 3> a{}, b{}, c{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    a[axis] = p[1][axis] - p[0][axis];
-    b[axis] = p[2][axis] - p[0][axis];
-    c[axis] = p[3][axis] - p[0][axis];
-  }
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-         a[2] * (b[0] * c[1] - b[1] * c[0]);
+  const auto edge = [&p](std::size_t k) { return difference(p[k].data(), p[0].data()); };
+  return dot(edge(1), cross(edge(2), edge(3)));
 }
 
 } // namespace smg

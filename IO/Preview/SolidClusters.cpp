@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "IO/Preview/SolidClusters.h"
 
+#include "Solver/Problem/Vector.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -23,13 +25,8 @@ constexpr std::size_t AroundAPoint = 24;
 double signedVolume(
   const SolidPoint& a, const SolidPoint& b, const SolidPoint& c, const SolidPoint& d)
 {
-  const auto edge = [&a](const SolidPoint& p) {
-    return SolidPoint{ p[0] - a[0], p[1] - a[1], p[2] - a[2] };
-  };
-  const SolidPoint u = edge(b), v = edge(c), w = edge(d);
-  return (u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-           u[2] * (v[0] * w[1] - v[1] * w[0])) /
-         6.0;
+  const auto edge = [&a](const SolidPoint& p) { return difference(p.data(), a.data()); };
+  return dot(edge(b), cross(edge(c), edge(d))) / 6.0;
 }
 
 /** Sorts the clusters. Returns 1 if the permutation is even, -1 if it is odd. */

@@ -6,6 +6,7 @@
 #include "IO/Formats/Stl/StlFormat.h"
 #include "IO/Restore/PlacedColumns.h"
 #include "IO/Restore/RestoredMesh.h"
+#include "Solver/Problem/Vector.h"
 #include "smg/Error.h"
 
 #include <algorithm>
@@ -80,15 +81,8 @@ private:
 /** The unit normal; zero if the triangle has no area. */
 std::array<float, 3> normalOf(const Triangle& t)
 {
-  Position u{};
-  Position v{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-  {
-    u[axis] = t[1][axis] - t[0][axis];
-    v[axis] = t[2][axis] - t[0][axis];
-  }
-  const Position n{ u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-    u[0] * v[1] - u[1] * v[0] };
+  const Vector n =
+    cross(difference(t[1].data(), t[0].data()), difference(t[2].data(), t[0].data()));
   const double length = std::hypot(n[0], n[1], n[2]);
   if (!(length > 0) || !std::isfinite(length))
   {
